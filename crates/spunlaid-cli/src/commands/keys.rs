@@ -154,7 +154,12 @@ by its number: `layer.2.line.filaments_per_metre`, `line.rows.1.pitch`.
 fn markdown(found: &[KeyEntry], head: &str, tables: &[&str]) -> String {
     let mut text = head.to_owned();
     for table in tables {
-        let mut rows = found.iter().filter_map(|key| Some((key, key.within(table)?))).peekable();
+        // A key of a table that stands in this one is shown there, if that table has a section of its own.
+        let is_deeper = |key: &KeyEntry| {
+            tables.iter().any(|inner| inner.len() > table.len() && key.within(inner).is_some())
+        };
+        let here = found.iter().filter(|key| !is_deeper(key));
+        let mut rows = here.filter_map(|key| Some((key, key.within(table)?))).peekable();
         if rows.peek().is_none() {
             continue;
         }

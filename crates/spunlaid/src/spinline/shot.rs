@@ -55,7 +55,7 @@ pub(super) fn shoot(thread: &Thread<'_>, die: State) -> Shot {
                 if wanted >= left { left } else { wanted.min(0.5 * left).max(wanted.min(left) * 0.6) };
             let mut step = stepper.step(s, length, &state);
             wanted = step.next_length();
-            if !(step.error <= 1.0) {
+            if step.error > 1.0 || step.error.is_nan() {
                 if stepper.is_elastic_wave && wanted < 1e-9 * end {
                     shot.outcome = Outcome::ElasticWave;
                     return shot;

@@ -59,7 +59,7 @@ pub(super) fn figure(prefix: &str, influences: &[Influence]) -> Figure {
     ];
     let panels: Vec<Panel<'_>> = panels.into_iter().filter(|panel| !panel.influences.is_empty()).collect();
     let title = "What decides the diameter";
-    let names = influences.iter().map(|influence| width(&influence.label, SIZE));
+    let names = influences.iter().map(|influence| width(influence.label, SIZE));
     let left = names.fold(120.0, f64::max).min(0.55 * WIDTH) + 22.0;
     let mut svg = Svg::new(WIDTH, panels.iter().map(Panel::height).sum(), title);
     let mut top = 0.0;
@@ -102,7 +102,7 @@ fn draw(svg: &mut Svg, panel: &Panel<'_>, left: f64) {
     for (row, influence) in panel.influences.iter().enumerate() {
         let y = ABOVE + ROW * (row as f64 + 0.5);
         let name = Text { size: SIZE, colour: INK, anchor: Anchor::End, upright: true };
-        svg.text((left - 10.0, y + 4.5), &influence.label, name);
+        svg.text((left - 10.0, y + 4.5), influence.label, name);
         let (from, to, value) = (along(0.0), along(value(influence)), value(influence));
         let colour = if value < 0.0 { BLUE } else { VERMILION };
         svg.rectangles(&[((from.min(to), y - 0.5 * BAR), (from.max(to), y + 0.5 * BAR))], colour);
