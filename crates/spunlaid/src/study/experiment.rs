@@ -14,7 +14,7 @@ pub enum Experiment {
     /// Each replicate is such a web, with a seed of its own.
     Web(WebSpec),
     /// A spinline. Nothing of it is by chance, so one replicate is enough.
-    Spinline(SpinSpec),
+    Spinline(Box<SpinSpec>),
 }
 
 impl From<Case> for Experiment {
@@ -70,7 +70,7 @@ impl Experiment {
     pub(super) fn enter(&self, sum: &mut crc32fast::Hasher) {
         match self {
             Self::Case(case) => enter_keys(sum, case),
-            Self::Spinline(spec) => enter_keys(sum, &Case::from(spec)),
+            Self::Spinline(spec) => enter_keys(sum, &Case::from(&**spec)),
             Self::Web(web) => {
                 for number in 0..web.layers.len() {
                     let alone = web.alone(number);
