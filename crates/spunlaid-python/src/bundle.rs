@@ -52,7 +52,7 @@ pub(crate) fn parts(points: &[Point], batches: &[Batch]) -> Vec<BundlePart> {
 fn anywhere(experiment: &Experiment) -> Experiment {
     match experiment {
         Experiment::Case(case) => Experiment::Case(crate::state::absolute(case)),
-        Experiment::Spinline(spec) => Experiment::Spinline(crate::state::absolute_spinline(spec)),
+        Experiment::Spinline(spec) => Experiment::Spinline(Box::new(crate::state::absolute_spinline(spec))),
         Experiment::Web(web) => {
             let mut web = web.clone();
             for (number, layer) in web.layers.iter_mut().enumerate() {
@@ -90,7 +90,7 @@ fn read(text: &str, cases: &Cases) -> Result<Experiment, Error> {
     let Some(cases) = cases else {
         // A case has a fibre; a spinline alone has none.
         if !text.contains("\n[fibre]\n") {
-            return Ok(Experiment::Spinline(parse_spinline(text, "spinline.toml", &[])?.spec));
+            return Ok(Experiment::Spinline(Box::new(parse_spinline(text, "spinline.toml", &[])?.spec)));
         }
         return Ok(Experiment::Case(parse_case(text, "case.toml", &[])?.0));
     };

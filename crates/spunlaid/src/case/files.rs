@@ -1,7 +1,7 @@
 //! The files that a case names.
 
 use super::Case;
-use crate::air::{Air, FromFile};
+use crate::air::FromFile;
 use crate::spinline::{PolymerSource, SpinSpec, Spinline, Surroundings};
 use std::path::{Path, PathBuf};
 
@@ -22,12 +22,12 @@ impl Case {
 impl SpinSpec {
     /// The files that it was read from, each with the parts that it names, relative to its folder.
     pub fn files(&self) -> Vec<(&Path, &[PathBuf])> {
-        self.air.iter().flat_map(Air::files).chain(self.spinline.files()).collect()
+        self.air.iter().flat_map(|air| air.files()).chain(self.spinline.files()).collect()
     }
 
     /// The same spinline with its files at other paths.
     pub fn with_files_at(&self, place: impl Fn(&Path) -> PathBuf) -> Self {
-        let air = self.air.as_ref().map(|air| air.with_files_at(&place));
+        let air = self.air.as_ref().map(|air| Box::new(air.with_files_at(&place)));
         Self { spinline: self.spinline.with_files_at(&place), drag: self.drag, air }
     }
 }

@@ -12,7 +12,7 @@ impl From<&SpinSpec> for Case {
     /// A case with nothing but a spinline, its drag laws and its field of air, whose keys can be read and set.
     fn from(spec: &SpinSpec) -> Self {
         let unset = Self::unset();
-        let air = spec.air.clone().unwrap_or_else(|| unset.air.clone());
+        let air = spec.air.as_ref().map_or_else(|| unset.air.clone(), |air| (**air).clone());
         Self { spinline: Some(Box::new(spec.spinline.clone())), drag: spec.drag, air, ..unset }
     }
 }

@@ -117,7 +117,7 @@ impl SpinFile {
         notes.extend(case.unusual_in(&TABLES).into_iter().map(|note| written.placed(note)));
         let spinline = case.spinline.map_or(Spinline::UNKNOWN, |spinline| *spinline);
         let takes_field = matches!(spinline.air, Surroundings::Field { .. });
-        let air = takes_field.then_some(case.air);
+        let air = takes_field.then(|| Box::new(case.air));
         Self { spec: SpinSpec { spinline, drag: case.drag, air }, notes, written }
     }
 
@@ -125,7 +125,7 @@ impl SpinFile {
     pub fn of_case(case: &Case) -> Option<Self> {
         let (spinline, written) = (case.spinline.as_deref()?.clone(), WrittenValues::new(Place::Code));
         let takes_field = matches!(spinline.air, Surroundings::Field { .. });
-        let air = takes_field.then(|| case.air.clone());
+        let air = takes_field.then(|| Box::new(case.air.clone()));
         Some(Self { spec: SpinSpec { spinline, drag: case.drag, air }, notes: Vec::new(), written })
     }
 

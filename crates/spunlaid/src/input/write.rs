@@ -14,7 +14,9 @@ pub fn write_case(case: &Case) -> String {
     let mut text = format!("version = {FORMAT_VERSION}\n");
     for table in keys::TABLES {
         let lines = lines(&keys::CASE, table, case, |key, value| tidy(case, key, value));
-        text += &format!("\n[{table}]\n{}", in_lines(&lines));
+        if !lines.is_empty() {
+            text += &format!("\n[{table}]\n{}", in_lines(&lines));
+        }
     }
     text
 }

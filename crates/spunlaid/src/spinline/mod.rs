@@ -82,7 +82,7 @@ pub struct SpinSpec {
     /// The drag laws.
     pub drag: Drag,
     /// The air of the case, if the line takes its velocity from a CFD field.
-    pub air: Option<Air>,
+    pub air: Option<Box<Air>>,
 }
 
 impl SpinSpec {

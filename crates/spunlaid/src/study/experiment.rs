@@ -6,6 +6,7 @@ use crate::spinline::SpinSpec;
 
 /// What a point repeats, with its seed.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "the points of a study are all of one kind")]
 pub enum Experiment {
     /// Each replicate is a fibre of this case, in turbulence of its own. The case has the largest number of replicates
     /// that may be flown.
@@ -13,7 +14,7 @@ pub enum Experiment {
     /// Each replicate is such a web, with a seed of its own.
     Web(WebSpec),
     /// A spinline. Nothing of it is by chance, so one replicate is enough.
-    Spinline(SpinSpec),
+    Spinline(Box<SpinSpec>),
 }
 
 impl From<Case> for Experiment {
@@ -69,7 +70,7 @@ impl Experiment {
     pub(super) fn enter(&self, sum: &mut crc32fast::Hasher) {
         match self {
             Self::Case(case) => enter_keys(sum, case),
-            Self::Spinline(spec) => enter_keys(sum, &Case::from(spec)),
+            Self::Spinline(spec) => enter_keys(sum, &Case::from(&**spec)),
             Self::Web(web) => {
                 for number in 0..web.layers.len() {
                     let alone = web.alone(number);

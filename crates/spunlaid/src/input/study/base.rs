@@ -84,7 +84,10 @@ impl Base for CaseBase {
         match self.kind {
             FileKind::Spinline => {
                 let spec = SpinSpec { spinline: Spinline::UNKNOWN, drag: self.open.case.drag, air: None };
-                Study::quantities_of(&[Point { values: Vec::new(), experiment: Experiment::Spinline(spec) }])
+                Study::quantities_of(&[Point {
+                    values: Vec::new(),
+                    experiment: Experiment::Spinline(Box::new(spec)),
+                }])
             }
             _ => Study::quantities_of(&[]),
         }
@@ -118,7 +121,7 @@ impl Base for CaseBase {
             let (opened, unneeded) = self.open(written, values);
             let SpinFile { spec, mut notes, .. } = SpinFile::of(opened?);
             notes.extend(unneeded.into_iter().map(|note| Note { place: at.clone(), ..note }));
-            return Ok((Experiment::Spinline(spec), notes));
+            return Ok((Experiment::Spinline(Box::new(spec)), notes));
         }
         for (name, value) in [("run.seed", seed), ("run.replicates", plan.replicates.at_most)] {
             if let Some(key) = keys::find(name) {
