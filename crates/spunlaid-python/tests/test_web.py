@@ -46,6 +46,8 @@ def test_analytic_basis_weight(web: spunlaid.Web) -> None:
     if np.isclose(web.patches["patch_m"][first], web.cell):
         np.testing.assert_allclose(web.patches["cv"][first], cv, rtol=1e-3)
     assert "iframe" in web._repr_html_()
+    # Independent filaments have no neighbours.
+    assert [len(numbers) for numbers in web.neighbours.values()] == [0] * 5
 
 
 def test_a_dict_is_a_web(web: spunlaid.Web) -> None:

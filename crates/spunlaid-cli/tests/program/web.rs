@@ -217,12 +217,25 @@ fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
         assert!(number("cv") > number("cv_independent"), "{summary}");
         assert_eq!(number("cv_independent"), number("cv_one_fibre"));
     }
+    // Filaments at a pitch of 2 mm, in summary and table alike, nearer ones more alike.
+    let neighbours = summary["neighbours"]["cd"].as_array().unwrap();
+    let csv = String::from_utf8(desk.read("w/figures/web_neighbours.csv")).unwrap();
+    for (neighbour, wanted) in neighbours.iter().zip([2e-3, 4e-3, 10e-3]) {
+        let number = |name: &str| neighbour[name].as_f64().unwrap();
+        assert!((number("distance_m") - wanted).abs() < 1e-9, "{neighbour}");
+        assert_eq!(neighbour["layer"], "1");
+        assert!(number("correlation_cd") > 0.0 && number("correlation_cd") < 1.0, "{neighbour}");
+        assert!(neighbour.get("correlation_md_se").is_some(), "{neighbour}");
+        assert!(csv.contains(&number("correlation_md").to_string()[..8]), "{neighbour} {csv}");
+    }
+    assert!(neighbours[0]["correlation_cd"].as_f64() > neighbours[2]["correlation_cd"].as_f64());
     let [flights, parallel] =
         ["flights_s", "flights_in_parallel_s"].map(|name| summary["performance"][name].as_f64().unwrap());
     assert!(0.0 < parallel && parallel <= flights, "{flights} {parallel}");
     let page = String::from_utf8(desk.read("w/report.html")).unwrap();
     assert!(page.contains("In airs of their own the same filaments would give"), "no headline sentence");
     assert!(page.contains("the same filaments in airs of their own"), "no curve of them");
+    assert!(page.contains("Correlation of neighbours"), "no figure of neighbours");
     let lines = String::from_utf8(desk.read("w/fibres.vtp")).unwrap_or_default();
     assert!(lines.contains("NumberOfLines") && !lines.contains("NumberOfLines=\"0\""), "single fibres");
 
@@ -238,5 +251,7 @@ fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
     );
     let page = String::from_utf8(desk.read("d/report.html")).unwrap();
     assert!(page.contains("lower bound") && page.contains("shared-air"), "nothing of a lower bound");
-    assert!(desk.summary("d")["web"]["patches"][0].get("cv_independent").is_none());
+    let independent = desk.summary("d");
+    assert!(independent["web"]["patches"][0].get("cv_independent").is_none());
+    assert!(independent.get("neighbours").is_none());
 }

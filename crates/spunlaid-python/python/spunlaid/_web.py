@@ -52,6 +52,18 @@ class Web:
         return self._laid.patches
 
     @property
+    def neighbours(self) -> dict[str, NDArray[np.float64]]:
+        """How the filaments of a web in one air come down together, a number for each distance `distance_m` of two inlets in
+        cross direction [m]: `correlation_md` and `correlation_cd` of the places where both come down at equal fed length, each with
+        its standard error, `correlation_md_se` and `correlation_cd_se`. One layer follows the other. Empty arrays for independent
+        filaments; an error that is not known is NaN."""
+        import numpy as np
+
+        entries = self.summary.get("neighbours", {}).get("cd", [])
+        names = ["distance_m", "correlation_md", "correlation_md_se", "correlation_cd", "correlation_cd_se"]
+        return {name: np.array([entry[name] for entry in entries], dtype=float) for name in names}
+
+    @property
     def notes(self) -> list[str]:
         """Notes and warnings."""
         return self._laid.notes

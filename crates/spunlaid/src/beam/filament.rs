@@ -96,6 +96,9 @@ pub(super) struct Filament {
     pub(super) place: Place,
     /// The last point that was drawn, and those after it.
     waiting: Vec<LaidPoint>,
+    /// Deviations of the points after the start from the straight trace of a filament that comes down at one place, in machine and
+    /// in cross direction [m].
+    pub(super) deviations: Vec<[f64; 2]>,
     /// All points, if they are kept.
     pub(super) kept: Option<Vec<LaidPoint>>,
     /// Its parts in the window; the last one goes on if `enters`.
@@ -108,7 +111,8 @@ pub(super) struct Filament {
 impl Filament {
     pub(super) fn new(number: usize, place: Place, kept: bool) -> Self {
         let kept = kept.then(Vec::new);
-        Self { number, place, waiting: Vec::new(), kept, strands: Vec::new(), enters: false, lost: None }
+        let (waiting, deviations, strands) = (Vec::new(), Vec::new(), Vec::new());
+        Self { number, place, waiting, deviations, kept, strands, enters: false, lost: None }
     }
 
     /// Takes points that it has laid, and draws its pieces on the sheet as soon as it is known where that is.
@@ -124,6 +128,8 @@ impl Filament {
             reach.ahead = reach.ahead.max(md + stretch.belt_ratio * point.fed);
             if point.fed < stretch.start {
                 reach.start = reach.start.min(md);
+            } else {
+                self.deviations.push([point.md + stretch.belt_ratio * point.fed, point.cd]);
             }
         }
         if let Some(kept) = &mut self.kept {

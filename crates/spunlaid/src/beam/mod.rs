@@ -15,6 +15,7 @@
 
 mod air;
 mod filament;
+mod neighbours;
 mod pack;
 
 use crate::air::EddyField;
@@ -24,9 +25,10 @@ use crate::fibre::Place;
 use crate::flight::LaidPoint;
 use crate::lanes::Isa;
 use crate::threads::try_each;
-use crate::web::{Canvas, LaidWeb, Sheet, Spent, Strand, Together, Window};
+use crate::web::{Canvas, LaidWeb, NeighbourCorrelation, Sheet, Spent, Strand, Together, Window};
 use air::SharedField;
 use filament::{Reach, Stretch};
+use neighbours::Neighbours;
 use pack::Pack;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -82,6 +84,8 @@ pub struct Flown {
     pub kept: Vec<(usize, Vec<LaidPoint>)>,
     /// The parts of all filaments in a window of the sheet.
     pub strands: Vec<Strand>,
+    /// How filaments come down together, over their distance.
+    pub neighbours: Vec<NeighbourCorrelation>,
     /// The filaments that were lost, by their numbers across the web, each with the reason.
     pub lost: Vec<(usize, Error)>,
     /// Time that was flown [s].
@@ -164,6 +168,7 @@ impl Beam<'_> {
         drop(start);
         let spun_up = line.feed_speed * self.case.run.spin_up();
         let (mut stretch, mut reach) = (Stretch::before(&line, spun_up, window, sheet), Reach::default());
+        let mut together = Neighbours::new(self, sheet);
         let mut done = 0;
         while !stretch.is_laid(&reach) {
             let field = air_during(&mut shared, done..done + steps, &mut making);
@@ -183,9 +188,15 @@ impl Beam<'_> {
             if reach.lost as f64 > MOST_LOST * self.places.len() as f64 {
                 break;
             }
+            (0..packs.len()).for_each(|i| locked(i).iter_mut().for_each(|pack| pack.compare(&mut together)));
+            together.add();
             stretch.settle(&reach);
         }
-        let mut flown = Flown { time: done as f64 * self.case.run.time_step, ..Flown::default() };
+        let mut flown = Flown {
+            neighbours: together.correlations(),
+            time: done as f64 * self.case.run.time_step,
+            ..Flown::default()
+        };
         for pack in packs {
             let pack = pack.into_inner().unwrap_or_else(PoisonError::into_inner);
             pack.into_iter().for_each(|pack| pack.finish(&mut flown));
@@ -217,8 +228,14 @@ impl Beam<'_> {
 impl Flown {
     /// What is to be known of the web; its single fibres are taken.
     pub(crate) fn together(&mut self) -> Together {
-        let Self { strands, lost, time, spent, .. } = self;
-        Together { strands: std::mem::take(strands), lost: lost.len() as u64, time: *time, spent: *spent }
+        let Self { strands, neighbours, lost, time, spent, .. } = self;
+        Together {
+            strands: std::mem::take(strands),
+            neighbours: neighbours.clone(),
+            lost: lost.len() as u64,
+            time: *time,
+            spent: *spent,
+        }
     }
 
     /// Puts what packs have given into the order across the web.

@@ -1,6 +1,7 @@
 //! Eight neighbours of a beam, in one flight.
 
 use super::filament::{Filament, Reach, Stretch};
+use super::neighbours::Neighbours;
 use super::{Beam, Flown};
 use crate::air::EddyField;
 use crate::error::Error;
@@ -88,6 +89,16 @@ impl Pack {
             }
         }
         reach
+    }
+
+    /// Hands over where its filaments have come down since the last time.
+    pub(super) fn compare(&mut self, neighbours: &mut Neighbours) {
+        for filament in &mut self.filaments {
+            match filament.lost {
+                Some(_) => neighbours.lose(filament.number),
+                None => neighbours.lay(filament.number, &mut filament.deviations),
+            }
+        }
     }
 
     /// Hands over what its filaments have done.

@@ -3,6 +3,7 @@
 use super::canvas::too_full;
 use super::curves::Stretches;
 use super::map::Map;
+use super::neighbours::NeighbourCorrelation;
 use super::raster::{Draw, Pens};
 use super::strands::Strand;
 use super::strip::Strip;
@@ -56,6 +57,8 @@ pub struct Spent {
 pub struct Together {
     /// Single fibres of a window.
     pub strands: Vec<Strand>,
+    /// How filaments of each layer come down together, over their distance.
+    pub neighbours: Vec<NeighbourCorrelation>,
     /// Filaments that were lost: they are missing on the web from then on.
     pub lost: u64,
     /// Length of time that was flown, of the layer that took the longest [s].
@@ -68,6 +71,8 @@ impl Together {
     /// Adds what is known of another layer.
     pub(crate) fn add(&mut self, layer: usize, other: Self) {
         self.strands.extend(other.strands.into_iter().map(|strand| Strand { layer, ..strand }));
+        let neighbours = other.neighbours.into_iter();
+        self.neighbours.extend(neighbours.map(|neighbour| NeighbourCorrelation { layer, ..neighbour }));
         self.lost += other.lost;
         self.time = self.time.max(other.time);
         self.spent.whole += other.spent.whole;

@@ -12,6 +12,7 @@ mod curves;
 mod findings;
 mod lay;
 mod map;
+mod neighbours;
 mod one_fibre;
 mod orientation;
 mod raster;
@@ -29,6 +30,7 @@ pub use findings::{Findings, PatchFindings, find, find_laid, measure, measure_la
 pub(crate) use lay::inlets;
 pub use lay::{LaidWeb, Laying, Spent, Together, lay, pieces};
 pub use map::Map;
+pub use neighbours::{Correlation, NeighbourCorrelation};
 pub use one_fibre::{Alone, OneFibre, one_fibre, straight_fibres};
 pub use orientation::{Orientation, orientation};
 pub use sensitivity::{Lever, Sensitivity, Source, sensitivities};

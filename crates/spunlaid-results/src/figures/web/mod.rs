@@ -1,6 +1,7 @@
 //! The figures of a web's report.
 
 mod clouds;
+mod neighbours;
 mod unevenness;
 
 pub use clouds::SEEN;
@@ -39,6 +40,8 @@ pub fn web_figures(web: &Web, findings: &Findings) -> Vec<Figure> {
         unevenness::histogram(&findings.within(), GRAMS),
         profiles(map, GRAMS, STREAKS, findings.margins),
     ];
+    let together = findings.laid.together.as_ref();
+    figures.extend(together.and_then(|together| neighbours::figure(&together.neighbours)));
     figures.extend(clouds::figures(findings.clouds.as_ref(), &findings.autocorrelation, map.cell));
     figures.push(directions(findings));
     figures

@@ -9,7 +9,7 @@ use spunlaid::observe::{OF_SCANNED_PATCHES, OF_SCANS, ScanMeasure};
 use spunlaid::scan;
 use spunlaid::statistics::{Estimate, interval_of_deviation};
 use spunlaid::web::uniformity::Unevenness;
-use spunlaid::web::{Clouds, Edges, Findings, Map, Web};
+use spunlaid::web::{Clouds, Edges, Findings, Map, NeighbourCorrelation, Web};
 
 /// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
 const SCHEMA_VERSION: u32 = 2;
@@ -22,6 +22,8 @@ pub struct Summary<'a> {
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     layers: &'a [Layer],
     web: WebSummary,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    neighbours: Option<NeighboursSummary<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     scan: Option<InOrder<Json>>,
     performance: Performance,
@@ -158,6 +160,40 @@ struct Octave {
     standard_error: Option<f64>,
 }
 
+/// How filaments that hang side by side in one air come down together.
+#[derive(Debug, Serialize)]
+struct NeighboursSummary<'a> {
+    cd: Vec<NeighbourSummary<'a>>,
+}
+
+/// The correlations of the places where two filaments at a distance come down, under the names that they have for the companions of a case.
+#[derive(Debug, Serialize)]
+struct NeighbourSummary<'a> {
+    /// Name of the layer.
+    layer: &'a str,
+    distance_m: f64,
+    correlation_md: f64,
+    correlation_md_se: Option<f64>,
+    correlation_cd: f64,
+    correlation_cd_se: Option<f64>,
+}
+
+impl<'a> NeighboursSummary<'a> {
+    /// None of a web of independent filaments.
+    fn of(findings: &Findings, layers: &'a [Layer]) -> Option<Self> {
+        let entry = |neighbour: &NeighbourCorrelation| NeighbourSummary {
+            layer: layers.get(neighbour.layer).map_or("", |layer| layer.name.as_str()),
+            distance_m: neighbour.distance,
+            correlation_md: neighbour.md.value,
+            correlation_md_se: neighbour.md.standard_error,
+            correlation_cd: neighbour.cd.value,
+            correlation_cd_se: neighbour.cd.standard_error,
+        };
+        let neighbours = &findings.laid.together.as_ref()?.neighbours;
+        (!neighbours.is_empty()).then(|| Self { cd: neighbours.iter().map(entry).collect() })
+    }
+}
+
 /// Per cent of the CV for one per cent of a number.
 #[derive(Debug, Serialize)]
 struct Levers {
@@ -289,6 +325,7 @@ impl<'a> Summary<'a> {
                 sensitivities: levers.collect(),
                 ..WebSummary::of_map(&findings.laid.map, findings.clouds.as_ref(), patches.collect())
             },
+            neighbours: NeighboursSummary::of(findings, layers),
             scan: None,
             performance,
             notes,
@@ -328,6 +365,7 @@ impl<'a> Summary<'a> {
             spunlaid_version: env!("CARGO_PKG_VERSION"),
             layers: &[],
             web: WebSummary { basis_weight_kg_m2, ..web },
+            neighbours: None,
             scan: Some(InOrder(scan.collect())),
             performance,
             notes,

@@ -1,0 +1,48 @@
+//! How filaments that hang side by side in one air come down together.
+
+use super::MM;
+use spunlaid::web::{Correlation, NeighbourCorrelation};
+use spunlaid_charts::{
+    Axis, Chart, Figure, Series,
+    palette::{BLUE, GREEN, ORANGE, VERMILION},
+};
+
+/// Colours in machine and in cross direction, of the first layer and of the others.
+const COLOURS: [[&str; 2]; 2] = [[BLUE, VERMILION], [GREEN, ORANGE]];
+
+/// The correlation of the places where two filaments come down, over the distance of their inlets; none of filaments that have no
+/// neighbours.
+pub(super) fn figure(neighbours: &[NeighbourCorrelation]) -> Option<Figure> {
+    let last = neighbours.last()?.layer;
+    let mut chart = Chart::new(
+        "web_neighbours",
+        "Correlation of neighbours",
+        Axis::logarithmic("Distance in cross direction (mm)").in_column("distance_mm"),
+        Axis::linear("Correlation").zero_based().in_column("correlation"),
+    );
+    for layer in 0..=last {
+        let of_layer = || neighbours.iter().filter(|neighbour| neighbour.layer == layer);
+        let directions: [(&str, fn(&NeighbourCorrelation) -> Correlation); 2] =
+            [("machine direction", |neighbour| neighbour.md), ("cross direction", |neighbour| neighbour.cd)];
+        for ((name, correlation), colour) in directions.into_iter().zip(COLOURS[layer.min(1)]) {
+            let name = if last == 0 { name.to_owned() } else { format!("layer {}, {name}", layer + 1) };
+            let point = |neighbour: &NeighbourCorrelation| {
+                let Correlation { value, standard_error } = correlation(neighbour);
+                (neighbour.distance * MM, value, standard_error)
+            };
+            let points: Vec<_> = of_layer().map(point).collect();
+            let line: Vec<(f64, f64)> =
+                points.iter().map(|(distance, value, _)| (*distance, *value)).collect();
+            chart = chart
+                .line(Series::new("", colour).unlabelled().adorning().width(1.0), &line)
+                .scatter(Series::spots(&name, colour), &points);
+        }
+    }
+    Some(Figure::new(
+        &chart,
+        "Correlation of the places where two filaments of the web come down at equal fed length, over the distance of their inlets in \
+         cross direction: one if they come down beside each other all the time, zero if they know nothing of each other. Filaments of one \
+         row are compared with those of the same row, those in a slot wherever they hang in its depth. Bars are one standard error, from \
+         the scatter between stretches of the fibre.",
+    ))
+}

@@ -1,0 +1,250 @@
+//! The correlation of neighbours: how two filaments at a distance across come down together, at equal fed length.
+//!
+//! ```text
+//! points of a block → deviations from the straight trace → sums over each pair and stretch of fed length → correlation
+//!                                                            └ the scatter of the stretches is its error
+//! ```
+//!
+//! Nothing but the sums is kept, so the memory does not grow with the points.
+
+use super::Beam;
+use crate::fibre::Place;
+use crate::web::{Correlation, Edges, NeighbourCorrelation, Sheet};
+use std::collections::BTreeMap;
+
+/// Farthest neighbours, in parts of the distance after which the air repeats itself at least, which is ten length scales.
+const FARTHEST: f64 = 0.5;
+/// Least length of a stretch, in ways from inlet to belt: eddies that were near the belt at its start are forgotten at its end.
+const STRETCH: f64 = 2.0;
+/// Most stretches, about.
+const STRETCHES: f64 = 32.0;
+/// Fewest stretches whose scatter is told as an error.
+const FEWEST: usize = 4;
+
+/// The pairs of a beam and their sums.
+#[derive(Debug)]
+pub(super) struct Neighbours {
+    distances: Vec<Distance>,
+    /// Deviations of each filament that the others have not reached yet, in machine and in cross direction [m].
+    waiting: Vec<Vec<[f64; 2]>>,
+    lost: Vec<bool>,
+    stretches: Vec<Sums>,
+    /// Points of each filament in a stretch.
+    points: u64,
+}
+
+/// Pairs at one distance.
+#[derive(Debug)]
+struct Distance {
+    /// [m]
+    distance: f64,
+    pairs: Vec<[usize; 2]>,
+}
+
+/// Sums over the points of a stretch of fed length, for both directions.
+#[derive(Debug)]
+struct Sums {
+    points: u64,
+    /// Of the deviations and their squares, for each filament.
+    filaments: Vec<[[f64; 2]; 2]>,
+    /// Of the products, for each pair of each distance.
+    products: Vec<Vec<[f64; 2]>>,
+}
+
+/// Sums over pairs of products and squares of deviations from the mean of each filament.
+#[derive(Clone, Copy, Debug, Default)]
+struct Moments {
+    product: f64,
+    squares: [f64; 2],
+}
+
+impl Neighbours {
+    pub(super) fn new(beam: &Beam<'_>, sheet: &Sheet) -> Self {
+        let (case, count) = (beam.case, beam.places.len());
+        let spacing = case.fibre.rest_length();
+        let (way, feed_speed) = case.line.map_or((0.0, 0.0), |line| (line.distance, line.feed_speed));
+        let time = beam.steps(sheet) as f64 / count.max(1) as f64 * case.run.time_step;
+        let stretch = (STRETCH * way).max(feed_speed * time / STRETCHES);
+        let farthest = FARTHEST * case.extent_of_air().z;
+        Self {
+            distances: distances(beam.places, farthest, sheet),
+            waiting: vec![Vec::new(); count],
+            lost: vec![false; count],
+            stretches: Vec::new(),
+            points: (stretch / spacing).ceil().max(1.0) as u64,
+        }
+    }
+
+    /// Takes what a filament has laid since the last time.
+    pub(super) fn lay(&mut self, filament: usize, deviations: &mut Vec<[f64; 2]>) {
+        self.waiting[filament].append(deviations);
+    }
+
+    /// Leaves a filament out, with all that it has laid: the last of it may be wrong.
+    pub(super) fn lose(&mut self, filament: usize) {
+        self.lost[filament] = true;
+        self.waiting[filament].clear();
+    }
+
+    /// Adds the points that all filaments have reached to the sums.
+    pub(super) fn add(&mut self) {
+        let alive = || self.waiting.iter().zip(&self.lost).filter(|(_, lost)| !**lost);
+        let common = alive().map(|(waiting, _)| waiting.len()).min().unwrap_or(0);
+        if common == 0 {
+            return;
+        }
+        if self.stretches.last().is_none_or(|sums| sums.points >= self.points) {
+            self.stretches.push(Sums::new(self.waiting.len(), &self.distances));
+        }
+        let Some(sums) = self.stretches.last_mut() else { return };
+        sums.points += common as u64;
+        for (sums, waiting) in sums.filaments.iter_mut().zip(&self.waiting) {
+            for (direction, [sum, squares]) in sums.iter_mut().enumerate() {
+                for point in waiting.iter().take(common) {
+                    *sum += point[direction];
+                    *squares += point[direction] * point[direction];
+                }
+            }
+        }
+        for (sums, Distance { pairs, .. }) in sums.products.iter_mut().zip(&self.distances) {
+            for (sums, pair) in sums.iter_mut().zip(pairs) {
+                let [a, b] = pair.map(|filament| self.waiting[filament].iter().take(common));
+                for (a, b) in a.zip(b) {
+                    sums[0] += a[0] * b[0];
+                    sums[1] += a[1] * b[1];
+                }
+            }
+        }
+        for waiting in &mut self.waiting {
+            waiting.drain(..common.min(waiting.len()));
+        }
+    }
+
+    /// The correlations, from the nearest neighbours on.
+    pub(super) fn correlations(&self) -> Vec<NeighbourCorrelation> {
+        let means = self.means();
+        let correlation = |(number, distance): (usize, &Distance)| NeighbourCorrelation {
+            layer: 0,
+            distance: distance.distance,
+            md: self.correlation(number, 0, &means),
+            cd: self.correlation(number, 1, &means),
+        };
+        let all = self.distances.iter().enumerate().map(correlation);
+        all.filter(|neighbour| neighbour.md.value.is_finite() && neighbour.cd.value.is_finite()).collect()
+    }
+
+    /// The mean deviation of each filament.
+    fn means(&self) -> Vec<[f64; 2]> {
+        let points = self.stretches.iter().map(|sums| sums.points).sum::<u64>() as f64;
+        let mean = |filament: usize| {
+            [0, 1].map(|direction| {
+                let sums = self.stretches.iter().map(|sums| sums.filaments[filament][direction][0]);
+                sums.sum::<f64>() / points
+            })
+        };
+        (0..self.waiting.len()).map(mean).collect()
+    }
+
+    /// Over all pairs at a distance; its error by the jackknife over the stretches.
+    fn correlation(&self, distance: usize, direction: usize, means: &[[f64; 2]]) -> Correlation {
+        let pairs = self.distances[distance].pairs.iter().enumerate();
+        let pairs: Vec<_> = pairs.filter(|(_, pair)| pair.iter().all(|i| !self.lost[*i])).collect();
+        let moments = |sums: &Sums| {
+            let mut moments = Moments::default();
+            for (number, pair) in &pairs {
+                let points = sums.points as f64;
+                let [a, b] = pair.map(|i| (means[i][direction], sums.filaments[i][direction]));
+                let product = sums.products[distance][*number][direction];
+                moments.product += product - a.0 * b.1[0] - b.0 * a.1[0] + points * a.0 * b.0;
+                for (squares, (mean, [sum, of])) in moments.squares.iter_mut().zip([a, b]) {
+                    *squares += of - 2.0 * mean * sum + points * mean * mean;
+                }
+            }
+            moments
+        };
+        let moments: Vec<Moments> = self.stretches.iter().map(moments).collect();
+        let without = |left_out: usize| {
+            let kept = moments.iter().enumerate().filter(|(number, _)| *number != left_out);
+            kept.fold(Moments::default(), |all, (_, moments)| all.with(*moments)).correlation()
+        };
+        let value = moments.iter().fold(Moments::default(), |all, of| all.with(*of)).correlation();
+        let count = moments.len() as f64;
+        let squares = (0..moments.len()).map(|left_out| (without(left_out) - value).powi(2)).sum::<f64>();
+        let standard_error = (moments.len() >= FEWEST).then(|| ((count - 1.0) / count * squares).sqrt());
+        Correlation { value, standard_error }
+    }
+}
+
+impl Sums {
+    fn new(filaments: usize, distances: &[Distance]) -> Self {
+        let products = distances.iter().map(|distance| vec![[0.0; 2]; distance.pairs.len()]).collect();
+        Self { points: 0, filaments: vec![[[0.0; 2]; 2]; filaments], products }
+    }
+}
+
+impl Moments {
+    fn with(self, other: Self) -> Self {
+        let squares = [0, 1].map(|i| self.squares[i] + other.squares[i]);
+        Self { product: self.product + other.product, squares }
+    }
+
+    fn correlation(self) -> f64 {
+        self.product / (self.squares[0] * self.squares[1]).sqrt()
+    }
+}
+
+/// The pairs at some distances: once, twice, five, ten, twenty, forty … times the pitch.
+///
+/// * `farthest` – largest distance [m]
+fn distances(places: &[Place], farthest: f64, sheet: &Sheet) -> Vec<Distance> {
+    let rows = rows(places);
+    let turn = (sheet.edges == Edges::Periodic).then_some(sheet.width);
+    let width = rows.iter().filter_map(|row| Some(places[*row.last()?].z - places[*row.first()?].z));
+    let (width, gaps) = (width.fold(0.0, f64::max), rows.iter().map(Vec::len).max().unwrap_or(0));
+    let pitch = width / gaps.saturating_sub(1).max(1) as f64;
+    let farthest = farthest.min(turn.map_or(width, |turn| 0.5 * turn)) + 0.5 * pitch;
+    let multiples = [1.0, 2.0].into_iter().chain((0..).map(|doubled| 5.0 * f64::from(doubled).exp2()));
+    let wanted = multiples.map(|multiple| multiple * pitch);
+    // Filaments at one place have no pitch.
+    let wanted = wanted.take_while(|distance| pitch > 0.0 && *distance < farthest);
+    let found = wanted.filter_map(|wanted| {
+        let mut pairs = Vec::new();
+        for row in &rows {
+            let z: Vec<f64> = row.iter().map(|filament| places[*filament].z).collect();
+            let partner = |filament: usize| nearest(&z, z[filament] + wanted, turn);
+            let of_row = (0..row.len()).filter_map(|i| Some((i, partner(i)?)));
+            let near = of_row.filter(|(_, (_, off))| off.abs() < 0.5 * pitch);
+            pairs.extend(near.map(|(i, (other, off))| ([row[i], row[other]], wanted + off)));
+        }
+        let distance = pairs.iter().map(|(_, distance)| distance).sum::<f64>() / pairs.len() as f64;
+        let pairs: Vec<_> = pairs.into_iter().map(|(pair, _)| pair).collect();
+        (!pairs.is_empty()).then_some(Distance { distance, pairs })
+    });
+    found.collect()
+}
+
+/// The filaments of each row across, at equal places in machine direction. Those in a slot, at places of their own, count as one.
+fn rows(places: &[Place]) -> Vec<Vec<usize>> {
+    let mut rows: BTreeMap<u64, Vec<usize>> = BTreeMap::new();
+    for (filament, place) in places.iter().enumerate() {
+        rows.entry(place.y.to_bits()).or_default().push(filament);
+    }
+    match rows.values().any(|row| row.len() == 1) {
+        true => vec![(0..places.len()).collect()],
+        false => rows.into_values().collect(),
+    }
+}
+
+/// Which of some places in order is nearest to a place, and how far beyond it that one is.
+///
+/// * `turn` – distance after which the places repeat themselves [m]
+fn nearest(places: &[f64], place: f64, turn: Option<f64>) -> Option<(usize, f64)> {
+    let first = *places.first()?;
+    let turns = turn.map_or(0.0, |turn| turn * ((place - first) / turn).floor());
+    let place = place - turns;
+    let after = places.partition_point(|other| *other < place);
+    let around = [after.checked_sub(1), (after < places.len()).then_some(after)].into_iter().flatten();
+    let around = around.map(|i| (i, places[i] - place));
+    let again = turn.map(|turn| (0, first + turn - place));
+    around.chain(again).min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
+}

@@ -1,0 +1,23 @@
+//! How filaments that hang side by side in one air come down together.
+
+/// The correlation of the places where two filaments of a layer come down, at equal fed length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NeighbourCorrelation {
+    /// Index of the layer.
+    pub layer: usize,
+    /// Distance of their inlets in cross direction [m].
+    pub distance: f64,
+    /// Of the places in machine direction.
+    pub md: Correlation,
+    /// Of the places in cross direction.
+    pub cd: Correlation,
+}
+
+/// A correlation coefficient.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Correlation {
+    /// Its value.
+    pub value: f64,
+    /// Its standard error; None if too little was laid to know it.
+    pub standard_error: Option<f64>,
+}

@@ -1,0 +1,112 @@
+//! The correlation of neighbours in a web whose filaments fly together.
+
+use super::beam::{case_in, lay_by, row, sheet};
+use spunlaid::beam::{Airs, Flown};
+use spunlaid::ensemble::{Computing, Keep, Results, fly};
+use spunlaid::error::Error;
+use spunlaid::fibre::Place;
+use spunlaid::lanes::Isa;
+use spunlaid::web::{Correlation, Edges, NeighbourCorrelation, Row, Sheet};
+use std::sync::atomic::{AtomicBool, AtomicU64};
+
+fn flown(lateral: &str, sheet: &Sheet, places: &[Place], airs: Airs, threads: usize) -> Flown {
+    lay_by((&case_in(lateral), sheet), places, airs, Isa::detect(), threads).1
+}
+
+fn both(neighbour: &NeighbourCorrelation) -> [Correlation; 2] {
+    [neighbour.md, neighbour.cd]
+}
+
+/// In an air that is the same for all, neighbours come down at the same place beside each other, at whatever distance.
+#[test]
+fn limit_neighbours_in_the_same_air_have_a_correlation_of_one() {
+    let sheet = sheet(24, 200);
+    let flown = flown("uniform", &sheet, &row(&sheet, 24), Airs::Shared, 2);
+    let distances: Vec<f64> = flown.neighbours.iter().map(|neighbour| neighbour.distance).collect();
+    // Once, twice, five and ten times the pitch of a millimetre, up to half of the width.
+    assert_eq!(distances.len(), 4);
+    for (found, wanted) in distances.iter().zip([1e-3, 2e-3, 5e-3, 10e-3]) {
+        assert!((found - wanted).abs() < 1e-9, "{found} {wanted}");
+    }
+    for correlation in flown.neighbours.iter().flat_map(both) {
+        assert!((correlation.value - 1.0).abs() < 1e-9, "{correlation:?}");
+    }
+}
+
+/// In airs of their own they are independent: the correlation is zero within its error, which is small.
+#[test]
+fn stat_neighbours_in_airs_of_their_own_have_none() {
+    let sheet = sheet(32, 2000);
+    let flown = flown("uniform", &sheet, &row(&sheet, 16), Airs::Own, 2);
+    assert!(flown.neighbours.len() >= 2);
+    for correlation in flown.neighbours.iter().flat_map(both) {
+        let error = correlation.standard_error.unwrap();
+        assert!(error > 1e-4 && error < 0.05, "{correlation:?}");
+        assert!(correlation.value.abs() < 4.0 * error, "{correlation:?}");
+    }
+}
+
+/// Two rows of the same pitch: each filament is compared with those of its own row.
+#[test]
+fn analytic_rows_have_neighbours_of_their_own() {
+    let sheet = sheet(24, 100);
+    let rows = [Row::new(0.5e-3, 2e-3, 12), Row { md: -5e-3, ..Row::new(1.5e-3, 2e-3, 12) }];
+    let place = |row: &Row, i: u64| Place { y: row.md, z: row.offset + i as f64 * row.pitch };
+    let mut places: Vec<Place> =
+        rows.iter().flat_map(|row| (0..row.filaments).map(move |i| place(row, i))).collect();
+    places.sort_by(|a, b| a.z.total_cmp(&b.z));
+    let flown = flown("uniform", &sheet, &places, Airs::Shared, 2);
+    let distances: Vec<f64> = flown.neighbours.iter().map(|neighbour| 1e3 * neighbour.distance).collect();
+    assert_eq!(distances.len(), 3, "{distances:?}");
+    assert!((distances[0] - 2.0).abs() < 1e-9 && (distances[2] - 10.0).abs() < 1e-9, "{distances:?}");
+    // A single filament has none.
+    assert!(self::flown("uniform", &sheet, &places[..1], Airs::Shared, 2).neighbours.is_empty());
+}
+
+/// The filaments of a web are correlated as the companions of a case, whose correlation is computed for pairs that fly by themselves.
+#[test]
+fn stat_the_neighbours_of_a_web_are_the_companions_of_a_case() {
+    let mut case = case_in("von-karman");
+    case.neighbours.cd = vec![2e-3, 4e-3, 10e-3];
+    (case.run.replicates, case.run.seed) = (16, 5);
+    let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
+    let computing =
+        Computing { threads: 2, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, recorder: None };
+    let mut collector = Results::collector(0);
+    fly::<Error>(&case, Keep::CURVES, computing, |trajectory| {
+        collector.take(trajectory);
+        Ok(())
+    })
+    .unwrap();
+    let results = collector.finish();
+    let companions =
+        ["md", "cd"].map(|direction| results.curve(&format!("neighbours_cd_correlation_{direction}")));
+
+    let sheet = Sheet { edges: Edges::Cut, ..sheet(40, 1200) };
+    let web = flown("von-karman", &sheet, &row(&sheet, 20), Airs::Shared, 2).neighbours;
+    for (number, distance) in case.neighbours.cd.iter().enumerate() {
+        let neighbour = web.iter().find(|found| (found.distance - distance).abs() < 1e-9).unwrap();
+        for (found, companions) in both(neighbour).iter().zip(&companions) {
+            let wanted = &companions[number];
+            assert!((wanted.at - distance).abs() < 1e-12);
+            let error = found.standard_error.unwrap().hypot(wanted.standard_error.unwrap());
+            assert!(error < 0.05, "{error}");
+            let (value, wanted) = (found.value, wanted.mean);
+            assert!((value - wanted).abs() < 4.0 * error, "{distance}: {value} {wanted} {error}");
+            assert!(value > 0.2, "{distance}: {value}");
+        }
+    }
+    let near_and_far: Vec<f64> = web.iter().map(|neighbour| neighbour.md.value).collect();
+    assert!(near_and_far.is_sorted_by(|a, b| a > b), "{near_and_far:?}");
+}
+
+#[test]
+fn identical_neighbours_on_any_threads() {
+    let sheet = sheet(24, 64);
+    let places = row(&sheet, 12);
+    let of = |threads| flown("von-karman", &sheet, &places, Airs::Shared, threads).neighbours;
+    let one = of(1);
+    assert!(!one.is_empty());
+    assert_eq!(of(2), one);
+    assert_eq!(of(3), one);
+}
