@@ -18,6 +18,8 @@ const FARTHEST: f64 = 0.5;
 const STRETCH: f64 = 2.0;
 /// Most stretches, about.
 const STRETCHES: f64 = 32.0;
+/// In a metre.
+const NANOMETRES: f64 = 1e9;
 /// Fewest stretches whose scatter is told as an error.
 const FEWEST: usize = 4;
 
@@ -217,6 +219,8 @@ fn distances(places: &[Place], farthest: f64, sheet: &Sheet) -> Vec<Distance> {
             pairs.extend(near.map(|(i, (other, off))| ([row[i], row[other]], wanted + off)));
         }
         let distance = pairs.iter().map(|(_, distance)| distance).sum::<f64>() / pairs.len() as f64;
+        // Without the rounding of sums.
+        let distance = (distance * NANOMETRES).round() / NANOMETRES;
         let pairs: Vec<_> = pairs.into_iter().map(|(pair, _)| pair).collect();
         (!pairs.is_empty()).then_some(Distance { distance, pairs })
     });

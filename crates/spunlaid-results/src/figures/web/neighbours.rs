@@ -10,6 +10,14 @@ use spunlaid_charts::{
 /// Colours in machine and in cross direction, of the first layer and of the others.
 const COLOURS: [[&str; 2]; 2] = [[BLUE, VERMILION], [GREEN, ORANGE]];
 
+/// What it is called, which correlation it has, and with which sign it is drawn.
+type Direction = (&'static str, fn(&NeighbourCorrelation) -> Correlation, fn(&str) -> Series);
+
+const DIRECTIONS: [Direction; 2] = [
+    ("machine direction", |neighbour| neighbour.md, Series::circles),
+    ("cross direction", |neighbour| neighbour.cd, Series::triangles),
+];
+
 /// The correlation of the places where two filaments come down, over the distance of their inlets; none of filaments that have no
 /// neighbours.
 pub(super) fn figure(neighbours: &[NeighbourCorrelation]) -> Option<Figure> {
@@ -22,9 +30,7 @@ pub(super) fn figure(neighbours: &[NeighbourCorrelation]) -> Option<Figure> {
     );
     for layer in 0..=last {
         let of_layer = || neighbours.iter().filter(|neighbour| neighbour.layer == layer);
-        let directions: [(&str, fn(&NeighbourCorrelation) -> Correlation); 2] =
-            [("machine direction", |neighbour| neighbour.md), ("cross direction", |neighbour| neighbour.cd)];
-        for ((name, correlation), colour) in directions.into_iter().zip(COLOURS[layer.min(1)]) {
+        for ((name, correlation, sign), colour) in DIRECTIONS.into_iter().zip(COLOURS[layer.min(1)]) {
             let name = if last == 0 { name.to_owned() } else { format!("layer {}, {name}", layer + 1) };
             let point = |neighbour: &NeighbourCorrelation| {
                 let Correlation { value, standard_error } = correlation(neighbour);
@@ -35,7 +41,7 @@ pub(super) fn figure(neighbours: &[NeighbourCorrelation]) -> Option<Figure> {
                 points.iter().map(|(distance, value, _)| (*distance, *value)).collect();
             chart = chart
                 .line(Series::new("", colour).unlabelled().adorning().width(1.0), &line)
-                .scatter(Series::spots(&name, colour), &points);
+                .scatter(Series { colour, ..sign(&name) }, &points);
         }
     }
     Some(Figure::new(
