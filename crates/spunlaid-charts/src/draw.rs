@@ -105,7 +105,9 @@ fn lay_out(chart: &Chart, xs: &[f64], ys: &[f64]) -> Plot {
     let right = w - maps(chart).next().map_or(18.0, |_| KEY);
     let entries = if xs.is_empty() { Vec::new() } else { legend::entries(chart) };
     let factors = if y.exponent != 0 { 20.0 } else { 0.0 };
-    let top = 12.0 + legend::height(&entries, right - left) + factors;
+    // The key of a map has its label above it.
+    let above = if maps(chart).next().is_some() { f64::max(factors, 14.0) } else { factors };
+    let top = 12.0 + legend::height(&entries, right - left) + above;
     let bottom = h - 28.0 - words;
     if chart.equal {
         let (per_x, per_y) = ((x.ends.1 - x.ends.0) / (right - left), (y.ends.1 - y.ends.0) / (bottom - top));

@@ -19,6 +19,18 @@ pub struct Map {
     pub range: (f64, f64),
     /// What they are.
     pub label: String,
+    /// Which colours they have.
+    pub shades: Shades,
+}
+
+/// The colours of a [`Map`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shades {
+    /// From a light to a dark blue.
+    #[default]
+    Amount,
+    /// From brown for the lowest value over a light grey to blue for the highest, where the middle means nothing.
+    Signed,
 }
 
 /// Room for the key [px].
@@ -70,7 +82,7 @@ impl Map {
             }
         }
         for (level, rectangles) in shades.iter().enumerate().filter(|(_, some)| !some.is_empty()) {
-            svg.rectangles(rectangles, &colour(level));
+            svg.rectangles(rectangles, &self.shades.colour(level));
         }
     }
 
@@ -81,7 +93,7 @@ impl Map {
         let (l, r) = (left + 14.0, left + 28.0);
         for level in 0..LEVELS {
             let (b, t) = (at(level as f64 / LEVELS as f64), at((level + 1) as f64 / LEVELS as f64));
-            svg.rectangles(&[((l, b), (r, t))], &colour(level));
+            svg.rectangles(&[((l, b), (r, t))], &self.shades.colour(level));
         }
         let stroke = Stroke::solid(INK, 0.9);
         svg.path(&[(l, bottom), (r, bottom), (r, top), (l, top), (l, bottom)], &stroke);
@@ -97,50 +109,83 @@ impl Map {
     }
 }
 
-/// From a light to a dark blue, in even steps of lightness.
-fn colour(level: usize) -> String {
-    const STOPS: [[f64; 3]; 5] = [
-        [226.0, 238.0, 248.0],
-        [189.0, 215.0, 236.0],
-        [112.0, 169.0, 213.0],
-        [45.0, 113.0, 177.0],
-        [9.0, 54.0, 112.0],
-    ];
-    let place = level as f64 / (LEVELS - 1) as f64 * (STOPS.len() - 1) as f64;
-    let below = (place as usize).min(STOPS.len() - 2);
-    let mix = |i: usize| STOPS[below][i] + (place - below as f64) * (STOPS[below + 1][i] - STOPS[below][i]);
-    format!("#{:02x}{:02x}{:02x}", mix(0) as u8, mix(1) as u8, mix(2) as u8)
+/// In even steps of lightness.
+const AMOUNT: [[f64; 3]; 5] = [
+    [226.0, 238.0, 248.0],
+    [189.0, 215.0, 236.0],
+    [112.0, 169.0, 213.0],
+    [45.0, 113.0, 177.0],
+    [9.0, 54.0, 112.0],
+];
+/// As dark at one end as at the other.
+const SIGNED: [[f64; 3]; 5] = [
+    [128.0, 56.0, 8.0],
+    [224.0, 148.0, 84.0],
+    [244.0, 243.0, 240.0],
+    [112.0, 169.0, 213.0],
+    [9.0, 54.0, 112.0],
+];
+
+impl Shades {
+    fn colour(self, level: usize) -> String {
+        let stops = match self {
+            Self::Amount => AMOUNT,
+            Self::Signed => SIGNED,
+        };
+        let place = level as f64 / (LEVELS - 1) as f64 * (stops.len() - 1) as f64;
+        let below = (place as usize).min(stops.len() - 2);
+        let mix =
+            |i: usize| stops[below][i] + (place - below as f64) * (stops[below + 1][i] - stops[below][i]);
+        format!("#{:02x}{:02x}{:02x}", mix(0) as u8, mix(1) as u8, mix(2) as u8)
+    }
+}
+
+/// Every colour of a map.
+pub(crate) fn colours() -> impl Iterator<Item = String> {
+    let of = |shades: Shades| (0..LEVELS).map(move |level| shades.colour(level));
+    of(Shades::Amount).chain(of(Shades::Signed))
+}
+
+/// Red, green and blue of a colour.
+pub(crate) fn parts(colour: &str) -> [u8; 3] {
+    [1, 3, 5].map(|i| colour.get(i..i + 2).and_then(|two| u8::from_str_radix(two, 16).ok()).unwrap_or(0))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{LEVELS, Map, OUTSIDE, colour};
+    use super::{LEVELS, Map, OUTSIDE, Shades, parts};
     use crate::svg::Svg;
 
     #[test]
     fn zero_and_outside_look_different() {
         let values = vec![0.0, f64::NAN, 1.0, 1.0];
-        let map =
-            Map { x: (0.0, 1.0), y: (0.0, 1.0), columns: 2, values, range: (0.0, 1.0), label: "".into() };
+        let map = Map {
+            x: (0.0, 1.0),
+            y: (0.0, 1.0),
+            columns: 2,
+            values,
+            range: (0.0, 1.0),
+            label: "".into(),
+            shades: Shades::Amount,
+        };
         let mut svg = Svg::new(100.0, 100.0, "");
         map.draw(&mut svg, |(x, y)| (100.0 * x, 100.0 * (1.0 - y)));
         let svg = svg.finish();
         let shade = |fill: &str| svg.split("<path ").filter(|path| path.contains(fill)).collect::<String>();
         // Below everything the grey of outside, then a quarter for zero and the upper half for one.
         assert!(shade(OUTSIDE).contains("M0 100H100V0H0Z"), "{svg}");
-        assert!(shade(&colour(0)).contains("M0 100H50V50H0Z"), "{svg}");
-        assert!(shade(&colour(LEVELS - 1)).contains("M0 50H100V0H0Z"), "{svg}");
+        assert!(shade(&Shades::Amount.colour(0)).contains("M0 100H50V50H0Z"), "{svg}");
+        assert!(shade(&Shades::Amount.colour(LEVELS - 1)).contains("M0 50H100V0H0Z"), "{svg}");
     }
 
     #[test]
     fn neighbouring_shades_cannot_be_told_apart() {
-        let parts = |level| {
-            let text = colour(level);
-            [1, 3, 5].map(|i| i32::from_str_radix(&text[i..i + 2], 16).unwrap_or(-999))
-        };
         for level in 1..LEVELS {
-            let steps = parts(level).into_iter().zip(parts(level - 1)).map(|(a, b)| (a - b).abs());
-            assert!(steps.max() <= Some(6), "{level}");
+            for (shades, most) in [(Shades::Amount, 6), (Shades::Signed, 12)] {
+                let [a, b] = [level, level - 1].map(|level| parts(&shades.colour(level)));
+                let steps = a.into_iter().zip(b).map(|(a, b)| a.abs_diff(b));
+                assert!(steps.max() <= Some(most), "{shades:?} {level}");
+            }
         }
     }
 }

@@ -16,7 +16,7 @@ pub enum PngError {
     #[error("a picture of {0} × {1} pixels cannot be drawn")]
     Size(u32, u32),
     /// The pixels could not be written.
-    #[error("the figure cannot be written as PNG: {0}")]
+    #[error("the figure cannot be written as PNG or GIF: {0}")]
     Encoding(String),
 }
 
@@ -25,14 +25,21 @@ pub enum PngError {
 /// # Errors
 /// A string that is not an SVG picture or has no size.
 pub fn png(svg: &str) -> Result<Vec<u8>, PngError> {
+    drawn(svg, SCALE)?.encode_png().map_err(|e| PngError::Encoding(e.to_string()))
+}
+
+/// The picture on white.
+///
+/// * `scale` – pixels per pixel of the SVG
+pub(crate) fn drawn(svg: &str, scale: f32) -> Result<tiny_skia::Pixmap, PngError> {
     let svg = outlined(svg).map_err(usvg::Error::ParsingFailed)?;
     let tree = usvg::Tree::from_str(&svg, &usvg::Options::default())?;
-    let pixels = |length: f32| (length * SCALE).round() as u32;
+    let pixels = |length: f32| (length * scale).round() as u32;
     let (width, height) = (pixels(tree.size().width()), pixels(tree.size().height()));
     let mut pixmap = tiny_skia::Pixmap::new(width, height).ok_or(PngError::Size(width, height))?;
     pixmap.fill(tiny_skia::Color::WHITE);
-    resvg::render(&tree, tiny_skia::Transform::from_scale(SCALE, SCALE), &mut pixmap.as_mut());
-    pixmap.encode_png().map_err(|e| PngError::Encoding(e.to_string()))
+    resvg::render(&tree, tiny_skia::Transform::from_scale(scale, scale), &mut pixmap.as_mut());
+    Ok(pixmap)
 }
 
 #[cfg(test)]

@@ -4,12 +4,13 @@
 //! ```text
 //! failure   errors as exceptions        value     values of Python as those of keys
 //! watched   work without the lock of the interpreter, with Ctrl-C and progress
-//! case, run, flight, spinline, study, web, record, keys     the classes and functions
+//! case, run, flight, air, spinline, study, web, record, keys     the classes and functions
 //! ```
 
 // Names such as CaseError are those of Python; units are written in brackets, [m/s].
 #![allow(rustdoc::broken_intra_doc_links)]
 
+mod air;
 mod failure;
 mod value;
 mod watched;
@@ -36,6 +37,8 @@ use pyo3::prelude::*;
 /// The compiled part of spunlaid. Use the package `spunlaid`.
 #[pymodule]
 mod _spunlaid {
+    #[pymodule_export]
+    use super::air::LookedAtAir;
     #[pymodule_export]
     use super::bundle::fly_bundle;
     #[pymodule_export]

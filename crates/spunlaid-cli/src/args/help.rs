@@ -104,6 +104,15 @@ Examples:
   spunlaid sweep cases/studies/velocity.toml --replicates 16       adds replicates to the same
   spunlaid sweep my_study.toml --print-point 7 > point7.toml && spunlaid run point7.toml";
 
+pub(super) const AIR_HELP: &str = "\
+The air is the field of eddies that neighbouring fibres share (air.lateral = \"von-karman\"). A case whose air is the same
+everywhere across is shown as if it had this key.
+
+Examples:
+  spunlaid air cases/spunbond_slot.toml                    open report.html in the folder that it names
+  spunlaid air cases/spunbond.toml --duration \"5 ms\"      slower
+  paraview results/spunbond_slot_air/along.pvd             all three components of the velocity";
+
 pub(super) const SPIN_HELP: &str = "\
 A spinline is a table of a small text file, or of a case, where it takes the place of feed.speed and
 fibre.diameter:

@@ -8,8 +8,8 @@ pub(crate) use analyse::{Analyse, Direction, LightName};
 use clap::{Args, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
 use help::{
-    ANALYSE_HELP, CHECK_HELP, COMPARE_HELP, EXAMPLES, KEYS_HELP, LIVE_HELP, REPRODUCE_HELP, RUN_HELP,
-    SPIN_HELP, SWEEP_HELP, WEB_HELP,
+    AIR_HELP, ANALYSE_HELP, CHECK_HELP, COMPARE_HELP, EXAMPLES, KEYS_HELP, LIVE_HELP, REPRODUCE_HELP,
+    RUN_HELP, SPIN_HELP, SWEEP_HELP, WEB_HELP,
 };
 use spunlaid::case::{Case, Note};
 use spunlaid::error::Error;
@@ -40,6 +40,9 @@ pub(crate) enum Command {
     /// Lay a web of many filaments: map of its basis weight, how uneven it is, directions
     #[command(after_help = WEB_HELP)]
     Web(Web),
+    /// Look at the turbulent air of a case: moving pictures of its gusts, slices for ParaView
+    #[command(after_help = AIR_HELP)]
+    Air(Air),
     /// Open a page on which eight fibres fly, and change while you look: real or slowed time
     #[command(after_help = LIVE_HELP)]
     Live(Live),
@@ -192,6 +195,33 @@ pub(crate) struct Spin {
     /// Print summary.json instead of the table; without --out, write no files
     #[arg(long)]
     pub(crate) json: bool,
+    /// Replace the results in the output folder
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Air {
+    #[command(flatten)]
+    pub(crate) source: CaseSource,
+    /// Folder for the results [default: results/<name of the case>_air]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub(crate) out: Option<PathBuf>,
+    /// The replicate whose air it is, as they are numbered in a run
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=u64::from(u32::MAX)))]
+    pub(crate) replicate: u64,
+    /// Number of pictures
+    #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u64).range(1..=200))]
+    pub(crate) frames: u64,
+    /// Time from the first picture to the last, as "20 ms" [default: as long as the air needs for the way]
+    #[arg(long, value_name = "TIME", value_parser = |t: &str| quantity(Dimension::Time, t))]
+    pub(crate) duration: Option<f64>,
+    /// Number of threads [default: all cores]; it does not change the results
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) threads: Option<u16>,
+    /// No progress bar; warnings and errors are still shown
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
     /// Replace the results in the output folder
     #[arg(long)]
     pub(crate) force: bool,

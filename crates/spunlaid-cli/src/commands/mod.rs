@@ -1,5 +1,6 @@
 //! The commands of the program.
 
+mod air;
 mod analyse;
 mod check;
 mod compare;
@@ -15,6 +16,7 @@ mod spin;
 mod sweep;
 mod web;
 
+pub(crate) use air::air;
 pub(crate) use analyse::analyse;
 pub(crate) use check::check;
 pub(crate) use compare::compare;

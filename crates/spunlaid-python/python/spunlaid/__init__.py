@@ -31,12 +31,14 @@ from ._run import Curve, Measure, Run, Shapes, load, run
 from ._spunlaid import Case, Flight, __version__
 
 if TYPE_CHECKING:
+    from ._air import Air
     from ._analysis import Analysis, analyse
     from ._spinline import Spinline, spin
     from ._study import Study, sweep
     from ._web import Web, web
 
 __all__ = [
+    "Air",
     "Analysis",
     "Case",
     "CaseError",
@@ -69,6 +71,7 @@ __all__ = [
 ]
 
 _LATER = {
+    "Air": "_air",
     "Analysis": "_analysis",
     "analyse": "_analysis",
     "Spinline": "_spinline",

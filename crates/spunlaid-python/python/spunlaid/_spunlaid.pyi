@@ -81,6 +81,13 @@ class Case:
         """The limits on the time step [s] and what sets them."""
 
 @final
+class LookedAtAir:
+    def __new__(cls, case: Case, replicate: int) -> LookedAtAir: ...
+    def velocities(self, times: list[float], places: _Floats) -> _Floats: ...
+    @property
+    def extent(self) -> tuple[float, float]: ...
+
+@final
 class Flight:
     """Fibres in flight, which you step."""
 

@@ -1,5 +1,6 @@
 //! The files of a results folder.
 
+pub mod air;
 pub mod analysis;
 pub mod beside;
 pub mod comparison;

@@ -4,6 +4,7 @@
 //! Results → words (headline, numbers), table (rows), frames (the moving fibre) → page (assets/report.html)
 //! ```
 
+mod air;
 mod analysis;
 mod comparison;
 mod frames;
@@ -18,6 +19,7 @@ mod tests;
 mod web;
 mod words;
 
+pub use air::{AirReport, air_html};
 pub use analysis::{AnalysisReport, analysis_html};
 pub use comparison::{ComparisonReport, comparison_html};
 pub use paper::{PaperReport, paper_html};

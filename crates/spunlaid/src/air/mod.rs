@@ -8,6 +8,7 @@
 //! ```
 
 mod at_elements;
+mod at_places;
 mod atmosphere;
 mod dry_air;
 mod eddies;
@@ -26,6 +27,7 @@ mod stations;
 mod surroundings;
 mod wind;
 
+pub use at_places::AirAtPlaces;
 pub use atmosphere::Atmosphere;
 pub(crate) use atmosphere::{Instant, Velocities, VelocityAt, VelocityTask, misfit};
 pub use dry_air::{SUTHERLAND_RANGE, density_at, kinematic_viscosity_at};

@@ -19,10 +19,13 @@ pub use note::{Note, Remark};
 pub use step::{ERROR_TOLERANCE, StepChoice};
 pub(crate) use usual::unusual;
 
-use crate::air::{Air, Eddies, EddyTurbulence, Extent, StationGrid, time_between_looks};
+use crate::air::{
+    Air, AirAtPlaces, Eddies, EddyTurbulence, Extent, StationGrid, StreamKey, time_between_looks,
+};
 use crate::chain::Strand;
 use crate::chain::schemes::Scheme;
 use crate::drag::Drag;
+use crate::error::Error;
 use crate::fibre::Fibre;
 use crate::field::Hint;
 use crate::line::Line;
@@ -214,13 +217,13 @@ impl Case {
 
     /// Length of the way along which the air is described, from the root to the belt or a little beyond the end of a fibre of
     /// fixed length [m].
-    pub(crate) fn way_of_air(&self) -> f64 {
+    pub fn way_of_air(&self) -> f64 {
         self.line.map_or(1.1 * self.fibre.length, |line| line.distance)
     }
 
     /// After what distances a field of eddies in space repeats itself: ten times the largest length scale on the way, and four
     /// times the largest distance of a companion.
-    pub(crate) fn extent_of_air(&self) -> Extent {
+    pub fn extent_of_air(&self) -> Extent {
         const PLACES: usize = 64;
         let mut hint = Hint::default();
         let x = |i: usize| self.way_of_air() * i as f64 / PLACES as f64;
@@ -229,6 +232,32 @@ impl Case {
         let farthest = |distances: &[f64]| distances.last().map_or(0.0, |distance| 4.0 * distance);
         let Neighbours { cd, md } = &self.neighbours;
         Extent { y: side.max(farthest(md)), z: side.max(farthest(cd)) }
+    }
+
+    /// The time that the mean flow takes from the start of the way to its end [s]; one second in still air.
+    pub fn travel_of_air(&self) -> f64 {
+        const PIECES: usize = 256;
+        let mut hint = Hint::default();
+        let piece = self.way_of_air() / PIECES as f64;
+        let speed = |i: usize| {
+            let x = piece * (i as f64 + 0.5);
+            self.air.local(Vec3::new(x, 0.0, 0.0), &mut hint).velocity.x
+        };
+        let travel: f64 =
+            (0..PIECES).map(speed).map(|speed| piece / speed.max(1e-3 * self.air.velocity)).sum();
+        if travel.is_finite() { travel } else { 1.0 }
+    }
+
+    /// The air in which a replicate of the case flies, to be looked at wherever one likes.
+    ///
+    /// * `replicate` – from 0
+    /// * `threads` – that make its turbulence; they do not change it
+    ///
+    /// # Errors
+    /// If the turbulence is the same everywhere across, see [`crate::air::Lateral`].
+    pub fn air_at_places(&self, replicate: u64, threads: usize) -> Result<AirAtPlaces, Error> {
+        let key = StreamKey { seed: self.run.seed, replicate };
+        AirAtPlaces::new(&self.air, self.way_of_air(), self.extent_of_air(), key, threads)
     }
 
     /// The eddies along the fibre.

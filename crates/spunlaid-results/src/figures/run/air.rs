@@ -8,7 +8,7 @@ use spunlaid::ensemble::Results;
 use spunlaid::field::Hint;
 use spunlaid::vec3::Vec3;
 use spunlaid_charts::{
-    Axis, Chart, Figure, Map, Series,
+    Axis, Chart, Figure, Map, Series, Shades,
     palette::{GREEN, VERMILION},
 };
 
@@ -99,6 +99,7 @@ pub(super) fn slices(case: &Case, results: &Results) -> Option<Figure> {
             values,
             range: (0.0, 1.0),
             label: "|*U*| (m/s)".to_owned(),
+            shades: Shades::Amount,
         }
     });
     let fastest =

@@ -7,7 +7,7 @@ use spunlaid::case::Case;
 use spunlaid::ensemble::{Results, Trajectory};
 use spunlaid::flight::LaidPoint;
 use spunlaid_charts::{
-    Axis, Chart, Figure, Map, Series, Table,
+    Axis, Chart, Figure, Map, Series, Shades, Table,
     palette::{GREY, INK, VERMILION},
     svg::{Anchor, Stroke, Svg, Text},
 };
@@ -166,6 +166,7 @@ fn footprint(case: &Case, results: &Results) -> Figure {
         values,
         range: (0.0, largest),
         label: "%/cm^{2}".to_owned(),
+        shades: Shades::Amount,
     };
     let ellipse = |times: f64| -> Vec<(f64, f64)> {
         let at = |k: u32| TAU * f64::from(k) / 180.0;

@@ -1,0 +1,50 @@
+//! `spunlaid air`: the turbulent air of a case, looked at while it passes.
+
+use super::interrupt::stop_on_ctrl_c;
+use super::{stem, threads};
+use crate::args::Air;
+use crate::failure::Failure;
+use crate::{progress, say};
+use spunlaid::air::Lateral;
+use spunlaid::case::Note;
+use spunlaid_results::folders::air::AirFolder;
+use spunlaid_results::output::air::{ENTRIES, Looks, Slices};
+use spunlaid_results::output::folder::Staging;
+use std::sync::atomic::AtomicU64;
+
+/// What a reader is told of a case whose fibres have turbulence of their own.
+const UNIFORM: &str = "the case has air.lateral = \"uniform\": each of its fibres flies in turbulence of its own, which is the same \
+                       across. What is shown is its air with air.lateral = \"von-karman\", as neighbours share it";
+
+pub(crate) fn air(air: &Air) -> Result<(), Failure> {
+    let (mut case, mut notes) = air.source.read(&[])?;
+    let is_uniform = case.air.lateral == Lateral::Uniform;
+    if is_uniform {
+        (case, notes) = air.source.read(&[("air.lateral", "von-karman".to_owned())])?;
+    }
+    notes.iter().for_each(say::note);
+    let mut told = Note::of_results(&notes);
+    if is_uniform {
+        say::remark(false, &UNIFORM);
+        told.push(UNIFORM.to_owned());
+    }
+    let name = stem(&air.source.case, "case").to_string_lossy().into_owned();
+    let folder = super::folder(air.out.as_ref(), format!("{name}_air"));
+    let stop = stop_on_ctrl_c();
+    let staging = Staging::new(&folder, ENTRIES, air.force, stop)?;
+    let replicate = air.replicate - 1;
+    let looks =
+        Looks { replicate, frames: air.frames, duration: air.duration, threads: threads(air.threads) };
+    let done = AtomicU64::new(0);
+    let slices = progress::follow(&done, air.frames, "the air passes", air.quiet, || {
+        Slices::new(&case, &looks, &done, stop)
+    })?;
+    let results = AirFolder { name: &name, case: &case, slices: &slices, replicate, notes: &told };
+    results.write(&staging)?;
+    staging.publish()?;
+    if !air.quiet {
+        say::line(&results.headline());
+        say::line(&format!("open {}", folder.join("report.html").display()));
+    }
+    Ok(())
+}

@@ -1,0 +1,57 @@
+"""The air of a case, looked at."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import spunlaid
+from spunlaid import Air, Case
+
+
+@pytest.fixture
+def shared(short: Case) -> Case:
+    return short.with_({"air.lateral": "von-karman", "air.lateral_cutoff": 6, "air.eddies": "convected"})
+
+
+def test_has_the_mean_and_the_rms_of_the_case(shared: Case) -> None:
+    air = Air(shared)
+    t = np.linspace(0.0, 4.0, 400)
+    y, z = air.extent
+    v = air.at(t[:, None], 0.1, np.linspace(0, y, 7, endpoint=False), 0.3 * z)
+    assert v.shape == (400, 7, 3)
+    speed = shared["air.velocity"]
+    np.testing.assert_allclose(v.mean(axis=(0, 1)), [speed, 0, 0], atol=0.02 * speed)
+    np.testing.assert_allclose(v.std(axis=(0, 1)), shared["air.turbulence_intensity"] * speed, rtol=0.1)
+
+
+def test_is_carried_by_the_flow(shared: Case) -> None:
+    air = Air(shared.with_({"air.decay_time": "1000 s"}))
+    later = 0.1 / shared["air.velocity"]
+    here, there = air.at(1.0, 0.1, 0.01, 0.0), air.at(1.0 + later, 0.2, 0.01, 0.0)
+    np.testing.assert_allclose(here, there, atol=0.02)
+    assert abs(here - air.at(1.0, 0.2, 0.01, 0.0)).max() > 0.05
+
+
+def test_does_not_depend_on_the_order(shared: Case) -> None:
+    t = np.array([0.3, 0.0, 0.7, 0.3])
+    all_at_once = Air(shared).at(t, 0.1, 0.0, 0.0)
+    air = Air(shared)
+    for time, velocity in zip(t, all_at_once):
+        np.testing.assert_array_equal(air.at(time, 0.1, 0.0, 0.0), velocity)
+    assert (Air(shared, replicate=2).at(0.3, 0.1, 0.0, 0.0) != all_at_once[0]).any()
+    assert (Air(shared, seed=99).at(0.3, 0.1, 0.0, 0.0) != all_at_once[0]).any()
+
+
+def test_refuses_what_it_does_not_know(shared: Case, short: Case) -> None:
+    with pytest.raises(spunlaid.FlightError, match="von-karman"):
+        Air(short)
+    with pytest.raises(ValueError, match="replicate"):
+        Air(shared, replicate=0)
+    air = Air(shared)
+    for t, x in ((-1.0, 0.0), (np.nan, 0.0), (0.0, np.inf)):
+        with pytest.raises(spunlaid.FlightError):
+            air.at(t, x, 0.0, 0.0)
+    with pytest.raises(ValueError):
+        air.at([0.0, 1.0], [0.0, 1.0, 2.0], 0.0, 0.0)
+    assert air.at([], 0.0, 0.0, 0.0).shape == (0, 3)

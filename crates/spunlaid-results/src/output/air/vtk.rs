@@ -1,0 +1,54 @@
+//! The instants of the planes as VTK images for ParaView: `along.pvd` and `across.pvd` open the whole series.
+
+use super::{Plane, Slices};
+use crate::Failure;
+use crate::output::folder::Staging;
+use spunlaid::vec3::Vec3;
+use std::fmt::Write;
+
+/// Writes each instant of each plane, and the collections with their times.
+pub fn write_vtk(staging: &Staging<'_>, slices: &Slices) -> Result<(), Failure> {
+    let digits = slices.times.len().to_string().len();
+    for ((name, plane), velocities) in ["along", "across"].iter().zip(&slices.planes).zip(&slices.velocities)
+    {
+        let mut collection = String::from(
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n",
+        );
+        for (number, (time, velocities)) in slices.times.iter().zip(velocities).enumerate() {
+            let file = format!("slices/{name}_{number:0digits$}.vts");
+            staging.write(&file, structured_grid(plane, velocities))?;
+            let _ = writeln!(collection, "<DataSet timestep=\"{time:?}\" part=\"0\" file=\"{file}\"/>");
+        }
+        collection.push_str("</Collection>\n</VTKFile>\n");
+        staging.write(&format!("{name}.pvd"), collection)?;
+    }
+    Ok(())
+}
+
+/// VTK XML StructuredGrid of a plane in space, with single numbers behind the text.
+fn structured_grid(plane: &Plane, velocities: &[Vec3<f64>]) -> Vec<u8> {
+    let places = plane.places();
+    let vectors = |all: &[Vec3<f64>]| -> Vec<u8> {
+        all.iter().flat_map(|v| [v.x, v.y, v.z]).flat_map(|x| (x as f32).to_le_bytes()).collect()
+    };
+    let (velocities, points) = (vectors(velocities), vectors(&places));
+    let [columns, rows] = plane.points.map(|points| points - 1);
+    let mut file = format!(
+        "<?xml version=\"1.0\"?>\n\
+         <VTKFile type=\"StructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
+         <StructuredGrid WholeExtent=\"0 {columns} 0 {rows} 0 0\">\n<Piece Extent=\"0 {columns} 0 {rows} 0 0\">\n\
+         <PointData Vectors=\"velocity_m_s\">\n\
+         <DataArray type=\"Float32\" Name=\"velocity_m_s\" NumberOfComponents=\"3\" format=\"appended\" offset=\"0\"/>\n\
+         </PointData>\n<Points>\n\
+         <DataArray type=\"Float32\" Name=\"Points\" NumberOfComponents=\"3\" format=\"appended\" offset=\"{}\"/>\n\
+         </Points>\n</Piece>\n</StructuredGrid>\n<AppendedData encoding=\"raw\">\n_",
+        size_of::<u64>() + velocities.len()
+    )
+    .into_bytes();
+    for block in [velocities, points] {
+        file.extend((block.len() as u64).to_le_bytes());
+        file.extend(block);
+    }
+    file.extend(b"\n</AppendedData>\n</VTKFile>\n");
+    file
+}
