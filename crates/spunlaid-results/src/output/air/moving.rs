@@ -104,7 +104,7 @@ fn figure(case: &Case, slices: &Slices, (i, frame): (usize, usize), range: f64) 
     let chart = Chart::new(
         PLANES[i],
         &title,
-        Axis::linear(axis).tight(),
+        Axis::linear(&axis).tight(),
         Axis::linear("*y*, machine direction (mm)").tight(),
     )
     .sized(WIDTH, (WIDTH * aspect).clamp(240.0, 620.0))
