@@ -11,9 +11,9 @@ from scipy.special import beta, gamma
 
 CASE = Path(__file__).parent / "air.toml"
 
-# The grid: eight points in a length scale, a box of 128 × 16 × 16.
+# The grid: eight points in a length scale, a box of 64 × 16 × 16.
 STEP = 1 / 8
-POINTS = (1024, 128, 128)
+POINTS = (512, 128, 128)
 
 # Mann's energy spectrum is α ε^(2/3) L^(5/3) (kL)⁴ / (1 + (kL)²)^(17/6). Von Kármán's has the same form with 1/k_e in place of L,
 # and an integral length scale L_T = √π Γ(5/6) / (Γ(1/3) k_e).

@@ -19,9 +19,9 @@ ACROSS = [(0.0, 0.0)]
 for r in SEPARATIONS:
     ACROSS += [(r, 0.0), (0.0, r), (r / np.sqrt(2), 0.0), (0.0, r / np.sqrt(2)), (r / np.sqrt(2), r / np.sqrt(2))]
 
-# A record is half as long as the box, and three of them overlap.
-RECORD = POINTS[0] // 2
-K1 = 2 * np.pi * np.fft.rfftfreq(RECORD, STEP)
+K1 = 2 * np.pi * np.fft.rfftfreq(POINTS[0], STEP)
+# Ends of the box along the flow are faded: one of the two fields does not repeat itself there.
+WINDOW = np.hanning(POINTS[0] + 1)[:-1]
 # Each wave number has a twin of the other sign, except zero.
 COUNTED = np.where(K1 == 0, 0.5, 1.0) * (K1 < CUTOFF)
 K2, K3 = (2 * np.pi * np.fft.fftfreq(points, STEP) for points in POINTS[1:])
@@ -30,22 +30,15 @@ K2, K3 = (2 * np.pi * np.fft.fftfreq(points, STEP) for points in POINTS[1:])
 def cross_spectra(box, cutoff=None):
     """`out[pair, across, k₁]`: two-sided cross-spectra of two components at two places over the wave number along the flow, their sum
     over all wave numbers being the covariance. With a cut-off without the waves that are shorter across."""
-    window = np.hanning(RECORD + 1)[:-1, None, None]
-    weight = RECORD * np.sum(window**2)
     kept = np.ones(POINTS[1:], dtype=bool) if cutoff is None else np.hypot(K2[:, None], K3[None, :]) <= cutoff
     k2, k3 = (k[kept] for k in np.meshgrid(K2, K3, indexing="ij"))
     phases = np.exp(1j * np.array([k2 * y + k3 * z for y, z in ACROSS])).astype(np.complex64)
-    starts = range(0, POINTS[0] - RECORD + 1, RECORD // 2)
-    out = np.zeros((len(PAIRS), len(ACROSS), len(K1)), dtype=complex)
-    for start in starts:
-        waves = []
-        for component in box[:, start : start + RECORD]:
-            along = np.fft.rfft(component * window.astype(np.float32), axis=0).astype(np.complex64)
-            waves.append(np.fft.fft2(along)[:, kept].astype(np.complex64) / (POINTS[1] * POINTS[2]))
-        for pair, (i, j) in enumerate(PAIRS):
-            product = np.conj(waves[COMPONENTS.index(i)]) * waves[COMPONENTS.index(j)]
-            out[pair] += phases @ product.T / weight
-    return out / len(starts)
+    waves = []
+    for component in box:
+        along = np.fft.rfft(component * WINDOW[:, None, None].astype(np.float32), axis=0).astype(np.complex64)
+        waves.append(np.fft.fft2(along)[:, kept].astype(np.complex64) / (POINTS[1] * POINTS[2]))
+    products = [np.conj(waves[COMPONENTS.index(i)]) * waves[COMPONENTS.index(j)] for i, j in PAIRS]
+    return np.array([phases @ product.T for product in products]) / (POINTS[0] * np.sum(WINDOW**2))
 
 
 def spectra(cross):
@@ -114,9 +107,8 @@ def correlations(cross, weights=None, windowed=True):
 
 def window_overlap(distance):
     """What the window leaves of a correlation at a distance along the flow."""
-    window = np.hanning(RECORD + 1)[:-1]
-    k = 2 * np.pi * np.fft.fftfreq(RECORD, STEP)
-    power = np.abs(np.fft.fft(window)) ** 2
+    k = 2 * np.pi * np.fft.fftfreq(POINTS[0], STEP)
+    power = np.abs(np.fft.fft(WINDOW)) ** 2
     return (power * np.cos(k * distance)).sum() / power.sum()
 
 

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 __all__ = [
     "Case",
     "Flight",
+    "LookedAtAir",
     "RunResults",
     "LaidWeb",
     "SolvedSpinline",
