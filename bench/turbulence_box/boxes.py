@@ -14,6 +14,8 @@ CASE = Path(__file__).parent / "air.toml"
 # The grid: eight points in a length scale, a box of 64 × 16 × 16.
 STEP = 1 / 8
 POINTS = (512, 128, 128)
+# Its multiples are spread evenly between whole numbers.
+GOLDEN = (np.sqrt(5) - 1) / 2
 
 # Mann's energy spectrum is α ε^(2/3) L^(5/3) (kL)⁴ / (1 + (kL)²)^(17/6). Von Kármán's has the same form with 1/k_e in place of L,
 # and an integral length scale L_T = √π Γ(5/6) / (Γ(1/3) k_e).
@@ -62,8 +64,12 @@ class Spunlaid:
         width = tuple(points * STEP * length for points in POINTS[1:])
         assert np.allclose(air.extent, width), f"the field repeats itself after {air.extent} m, the box after {width} m"
         y, z = (STEP * length * np.arange(points) for points in POINTS[1:])
+        # The sums over harmonics that make the field last a window each, and begin three quarters of one apart. A box sees some three
+        # of them, and boxes that all began with a window would see the harmonics as lines. So each begins elsewhere.
+        window = 64 / air.case["air.cutoff_frequency"]
+        start = (GOLDEN * seed) % 1 * 0.75 * window
         box = np.empty((3, *POINTS), dtype=np.float32)
         for i in range(POINTS[0]):
-            velocity = air.at(i * STEP * length / speed, 0.0, y[:, None], z[None, :])
+            velocity = air.at(start + i * STEP * length / speed, 0.0, y[:, None], z[None, :])
             box[:, -1 - i] = np.moveaxis((velocity - [speed, 0, 0]) / rms, -1, 0)
         return box

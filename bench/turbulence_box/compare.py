@@ -11,7 +11,6 @@ from pathlib import Path
 
 import numpy as np
 from boxes import Hipersim, Spunlaid
-from picture import draw
 from measures import (
     BANDS,
     CORRELATIONS,
@@ -25,7 +24,9 @@ from measures import (
     von_karman,
     von_karman_cross_spectra,
     von_karman_spectra,
+    weighted,
 )
+from picture import draw
 
 WAYS = ("u, along y", "u, along z", "v, along y", "w, along z", "w, along y", "v, along z")
 
@@ -51,8 +52,8 @@ def expected():
     return [spectra(cross), coherences(cross), correlations(cross, windowed=False)]
 
 
-def numbers(cross, weights=None):
-    return [spectra(cross), coherences(cross), correlations(cross, weights)]
+def numbers(cross):
+    return [spectra(cross), coherences(cross), correlations(cross)]
 
 
 def mean_and_error(boxes):
@@ -80,12 +81,10 @@ def main(folder, seeds):
     folder.mkdir(parents=True, exist_ok=True)
     ours, theirs = (list(measured(generator, seeds, folder)) for generator in (Spunlaid, Hipersim))
     formulas = expected()
-    # Waves without power beyond the cut-offs are left out; what they had is given to the others, frequency by frequency.
-    weights = von_karman_spectra(K1)
     found = {
         "spunlaid": mean_and_error(numbers(box["whole"]) for box in ours),
         "hipersim": mean_and_error(numbers(box["whole"]) for box in theirs),
-        "hipersim, cut": mean_and_error(numbers(box["cut"], weights) for box in theirs),
+        "hipersim, cut": mean_and_error(numbers(weighted(box["cut"], von_karman_spectra(K1))) for box in theirs),
     }
     write_numbers(folder / "numbers.csv", formulas, found)
     table = write_table(formulas, found, seeds)
@@ -108,7 +107,10 @@ def write_numbers(path, formulas, found):
 
 def write_table(formulas, found, seeds):
     lines = [f"{seeds} boxes of each. Differences of spunlaid; correlations and coherences as they are, spectra in per cent.", ""]
-    lines += ["| | against | largest difference | where | largest, standard errors | rms, standard errors |", "|---|---|---|---|---|---|"]
+    lines += [
+        "| | numbers | against | largest difference | where | largest, standard errors | rms, standard errors |",
+        "|---|---|---|---|---|---|---|",
+    ]
     for kind, rows in enumerate(names()):
         ours = found["spunlaid"][kind]
         for name in ("hipersim, cut", "hipersim", "von Kármán"):
@@ -118,8 +120,14 @@ def write_table(formulas, found, seeds):
             off, where, largest, rms = deviation(ours, other, kind == 0)
             off = f"{100 * off:+.1f} %" if kind == 0 else f"{off:+.4f}"
             place = ", ".join(str(part) for part in rows[where][1:] if part != "")
-            lines.append(f"| {rows[0][0]} | {name} | {off} | {place} | {largest:.1f} | {rms:.2f} |")
-    lines += ["", "Correlations", "", "| | r / L | f, g | sum of the waves | spunlaid | hipersim, cut as spunlaid | hipersim |", "|---|---|---|---|---|---|---|"]
+            lines.append(f"| {rows[0][0]} | {len(rows)} | {name} | {off} | {place} | {largest:.1f} | {rms:.2f} |")
+    lines += [
+        "",
+        "Correlations",
+        "",
+        "| | r / L | f, g | sum of the waves | spunlaid | hipersim, cut as spunlaid | hipersim |",
+        "|---|---|---|---|---|---|---|",
+    ]
     for i, (_, kind, _, r) in enumerate(list(names())[2]):
         values = [f"{values[2][0].flat[i]:.3f} ± {values[2][1].flat[i]:.3f}" for name, values in in_order(found)]
         formula = CORRELATIONS[i % len(CORRELATIONS)][-1](*von_karman(r))
@@ -128,7 +136,10 @@ def write_table(formulas, found, seeds):
     lines += ["| | k₁ L | von Kármán | spunlaid, over it | hipersim, over it |", "|---|---|---|---|---|"]
     for i, (_, component, band, _) in enumerate(next(names())):
         formula = formulas[0].flat[i]
-        values = [f"{found[name][0][0].flat[i] / formula:.3f} ± {found[name][0][1].flat[i] / formula:.3f}" for name in ("spunlaid", "hipersim")]
+        values = [
+            f"{found[name][0][0].flat[i] / formula:.3f} ± {found[name][0][1].flat[i] / formula:.3f}"
+            for name in ("spunlaid", "hipersim")
+        ]
         lines.append(f"| {component} | {band} | {formula:.3g} | " + " | ".join(values) + " |")
     return "\n".join(lines) + "\n"
 

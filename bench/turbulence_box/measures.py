@@ -86,15 +86,15 @@ CORRELATIONS = (
 )
 
 
-def correlations(cross, weights=None, windowed=True):
-    """Correlations at one instant: separations × kinds. With weights, spectra of u, v, w over k₁, each wave number counts with them
-    in place of its own power."""
-    own = cross[:3, 0].real
-    if weights is not None:
-        scale = np.sqrt(np.divide(weights, own, out=np.zeros_like(own), where=own > 0))
-        cross = cross * np.array([scale[COMPONENTS.index(i)] * scale[COMPONENTS.index(j)] for i, j in PAIRS])[:, None]
-        own = weights
-    variance = dict(zip(COMPONENTS, own @ COUNTED))
+def weighted(cross, power):
+    """With these one-point spectra of u, v, w in place of its own."""
+    scale = np.sqrt(power / cross[:3, 0].real)
+    return cross * np.array([scale[COMPONENTS.index(i)] * scale[COMPONENTS.index(j)] for i, j in PAIRS])[:, None]
+
+
+def correlations(cross, windowed=True):
+    """Correlations at one instant: separations × kinds."""
+    variance = dict(zip(COMPONENTS, cross[:3, 0].real @ COUNTED))
     out = np.empty((len(SEPARATIONS), len(CORRELATIONS)))
     for at, r in enumerate(SEPARATIONS):
         for kind, (_, pair, across, along, _) in enumerate(CORRELATIONS):
@@ -137,5 +137,4 @@ def von_karman_cross_spectra():
     for pair, (i, j) in enumerate((COMPONENTS.index(i), COMPONENTS.index(j)) for i, j in PAIRS):
         power = ((i == j) * square - k[i] * k[j]) * (square + WAVE_NUMBER**2) ** (-17 / 6)
         out[pair] = phases @ power.T
-    scale = np.sqrt(von_karman_spectra(K1) / out[:3, 0].real)
-    return out * np.array([scale[COMPONENTS.index(i)] * scale[COMPONENTS.index(j)] for i, j in PAIRS])[:, None]
+    return weighted(out, von_karman_spectra(K1))

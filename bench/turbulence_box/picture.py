@@ -7,8 +7,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 from measures import BANDS, CORRELATIONS, SEPARATIONS, von_karman_spectra
 
-SHOWN = {"spunlaid": dict(marker="o", color="#1b6ca8"), "hipersim": dict(marker="s", color="#c8553d", mfc="none")}
-GREY = dict(color="0.45", lw=1, zorder=0)
+SHOWN = {"spunlaid": {"marker": "o", "color": "#1b6ca8"}, "hipersim": {"marker": "s", "color": "#c8553d", "mfc": "none"}}
+GREY = {"color": "0.45", "lw": 1, "zorder": 0}
 
 
 def draw(path, formulas, found):

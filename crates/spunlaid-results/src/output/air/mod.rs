@@ -103,7 +103,7 @@ impl Slices {
         let mut velocities = [Vec::new(), Vec::new()];
         for time in &times {
             if stop.load(Ordering::Relaxed) {
-                return Err(spunlaid::error::Error::Interrupted.into());
+                return Err(spunlaid::error::Error::Interrupted);
             }
             for (velocities, places) in velocities.iter_mut().zip(&places) {
                 velocities.push(air.velocities(*time, places)?);

@@ -103,7 +103,7 @@ fn figure(case: &Case, slices: &Slices, (i, frame): (usize, usize), range: f64) 
     let aspect = (y.1 - y.0) / (x.1 - x.0);
     let chart = Chart::new(
         PLANES[i],
-        &title,
+        title,
         Axis::linear(&axis).tight(),
         Axis::linear("*y*, machine direction (mm)").tight(),
     )
