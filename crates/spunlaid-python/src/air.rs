@@ -23,7 +23,7 @@ impl LookedAtAir {
     #[new]
     fn new(py: Python<'_>, case: &Case, replicate: u64) -> PyResult<Self> {
         let description = &*case.case;
-        let air = guarded(py, || Ok::<_, Failure>(description.air_at_places(replicate, threads(None))?))?;
+        let air = guarded(py, || description.air_at_places(replicate, threads(None)))?;
         Ok(Self { air: Mutex::new(air) })
     }
 
