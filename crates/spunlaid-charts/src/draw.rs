@@ -104,7 +104,7 @@ fn lay_out(chart: &Chart, xs: &[f64], ys: &[f64]) -> Plot {
     let left = 34.0 + y_label_width(&y);
     let right = w - maps(chart).next().map_or(18.0, |_| KEY);
     let entries = if xs.is_empty() { Vec::new() } else { legend::entries(chart) };
-    let factors = if y.exponent != 0 { 20.0 } else { 0.0 };
+    let factors: f64 = if y.exponent != 0 { 20.0 } else { 0.0 };
     // The key of a map has its label above it.
     let above = if maps(chart).next().is_some() { f64::max(factors, 14.0) } else { factors };
     let top = 12.0 + legend::height(&entries, right - left) + above;

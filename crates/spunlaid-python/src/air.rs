@@ -2,7 +2,7 @@
 
 use crate::case::Case;
 use crate::watched::{guarded, threads};
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use spunlaid::air::AirAtPlaces;
@@ -23,7 +23,7 @@ impl LookedAtAir {
     #[new]
     fn new(py: Python<'_>, case: &Case, replicate: u64) -> PyResult<Self> {
         let description = &*case.case;
-        let air = guarded(py, || Ok::<_, Failure>(description.air_at_places(replicate, threads(None))?))?;
+        let air = guarded(py, || description.air_at_places(replicate, threads(None)))?;
         Ok(Self { air: Mutex::new(air) })
     }
 
@@ -31,9 +31,10 @@ impl LookedAtAir {
     fn velocities<'py>(
         &self,
         py: Python<'py>,
-        times: Vec<f64>,
+        times: PyReadonlyArray1<'py, f64>,
         places: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let times: Vec<f64> = times.as_array().iter().copied().collect();
         let places = places.as_array();
         if places.shape() != [times.len(), 3] {
             return Err(PyValueError::new_err(

@@ -39,7 +39,7 @@ class Air:
         """
         t, x, y, z = np.broadcast_arrays(*(np.asarray(values, dtype=np.float64) for values in (t, x, y, z)))
         places = np.stack([x.ravel(), y.ravel(), z.ravel()], axis=1)
-        return self._air.velocities(t.ravel().tolist(), places).reshape(*t.shape, 3)
+        return self._air.velocities(t.ravel(), places).reshape(*t.shape, 3)
 
     @property
     def extent(self) -> tuple[float, float]:

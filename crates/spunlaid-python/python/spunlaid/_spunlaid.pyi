@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 __all__ = [
     "Case",
     "Flight",
+    "LookedAtAir",
     "RunResults",
     "LaidWeb",
     "SolvedSpinline",
@@ -83,7 +84,7 @@ class Case:
 @final
 class LookedAtAir:
     def __new__(cls, case: Case, replicate: int) -> LookedAtAir: ...
-    def velocities(self, times: list[float], places: _Floats) -> _Floats: ...
+    def velocities(self, times: _Floats, places: _Floats) -> _Floats: ...
     @property
     def extent(self) -> tuple[float, float]: ...
 
