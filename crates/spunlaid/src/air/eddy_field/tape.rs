@@ -162,6 +162,11 @@ impl Tape {
 
 impl Windows {
     /// Joins two windows to what the ones before have left, along one line: the samples of each block, and what is left.
+    ///
+    /// Both come from one transform, as its real and its imaginary part. At equal times these have nothing in common, but at unequal
+    /// ones they do. So the second window begins where the fade of the first one does, and the two are joined at equal times: the
+    /// variance is one in the joint too. Where it has come to the end of the period it goes on from the start, with the other sign,
+    /// because its frequencies are half-odd.
     fn join(self, points: usize, [one, other]: Line, rest: &Rest) -> (Vec<Box<[f32]>>, Rest) {
         let row = (points + REPEATED) * 3;
         let total = 2 * self.hop;
@@ -169,8 +174,9 @@ impl Windows {
         if !rest.last.is_empty() {
             samples[..REPEATED * row].copy_from_slice(&rest.last);
         }
-        let mut add = |sample: usize, window: &[f32], m: usize, factor: f32| {
+        let mut add = |sample: usize, window: &[f32], at: usize, factor: f32| {
             let into = &mut samples[(REPEATED + sample) * row..][..row];
+            let (m, factor) = if at < self.period { (at, factor) } else { (at - self.period, -factor) };
             for component in 0..3 {
                 let values = &window[(component * self.period + m) * points..][..points];
                 for (z, value) in values.iter().enumerate() {
@@ -179,13 +185,14 @@ impl Windows {
             }
         };
         for (start, window) in [(0, &one), (self.hop, &other)] {
+            // `start` is also where the window begins in its period.
             for m in 0..self.period {
                 let factor = match m {
                     m if m < self.fade => self.factors(m)[1],
                     m if m < self.hop => 1.0,
                     m => self.factors(m - self.hop)[0],
                 };
-                add(start + m, window, m, factor);
+                add(start + m, window, start + m, factor);
             }
         }
         for (sample, fading) in samples[REPEATED * row..].iter_mut().zip(&rest.fading) {
