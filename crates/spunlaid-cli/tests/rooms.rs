@@ -23,7 +23,7 @@ const CHARTS: &[&[&str]] = &[
     &["decimate", "glyphs", "numbers", "palette"],
     &["png", "svg"],
     &["table", "map"],
-    &["scale"],
+    &["gif", "scale"],
     &["chart"],
     &["legend"],
     &["draw"],
