@@ -126,8 +126,15 @@ impl Case {
                     dict.set_item(key.short(), to_python(py, key.get(&self.case))?)?;
                 }
             }
-            if !dict.is_empty() {
-                all.set_item(table, dict)?;
+            if dict.is_empty() {
+                continue;
+            }
+            // A table within a table, as spinline.material.
+            let outer =
+                table.split_once('.').map(|(outer, name)| Ok::<_, PyErr>((all.get_item(outer)?, name)));
+            match outer.transpose()? {
+                Some((Some(outer), name)) => outer.set_item(name, dict)?,
+                _ => all.set_item(table, dict)?,
             }
         }
         Ok(all)
