@@ -294,3 +294,14 @@ fn a_study_of_a_spinline_continues_and_runs_again_to_the_same_bits() {
     assert!(desk.read("a/results.csv") == desk.read("b/results.csv"));
     success(&mut desk.spunlaid("sweep study.toml --out a --quiet"));
 }
+
+#[test]
+fn a_study_says_why_a_point_has_no_steady_state() {
+    let desk = desk();
+    let study =
+        "spinline = \"line.toml\"\ndesign = \"grid\"\n[vary]\n\"spinline.length\" = [\"20 mm\", \"1 m\"]\n";
+    fs::write(desk.path("study.toml"), study).unwrap();
+    let said = refusal(&mut desk.spunlaid("sweep study.toml --out a --quiet"), 2);
+    assert!(said.contains("1 of 2 spinlines has no steady state; all others are in the results"), "{said}");
+    assert!(said.contains("point 1: spinline.length = 20 mm is too short"), "{said}");
+}

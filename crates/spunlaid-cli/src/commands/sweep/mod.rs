@@ -8,10 +8,12 @@ use super::{plural, stem, threads};
 use crate::args::Sweep;
 use crate::failure::Failure;
 use crate::say;
+use spunlaid::case::keys;
 use spunlaid::ensemble::Computing;
 use spunlaid::error::{Error, Fault};
 use spunlaid::input::{Overrides, StudyChanges, StudyFile, read_changed_study, write_experiment};
 use spunlaid::lanes::Isa;
+use spunlaid::spinline::{self, SpinSpec};
 use spunlaid::study::{Journal, Landing, Progress, Study, run};
 use spunlaid_results::folders::study::{State, StudyFolder, StudyResults};
 use spunlaid_results::numbers::lost_of;
@@ -168,6 +170,10 @@ fn lost(study: &Study, journal: &mut Journal, fibres: u64) -> Result<(), Failure
                 lost += 1;
                 if lost <= LOST_LISTED {
                     let number = index + 1;
+                    if let Some(Err(failure)) = point.experiment.spinline().map(SpinSpec::solve) {
+                        first.push_str(&format!("\npoint {number}: {}", no_steady_state(&failure)));
+                        continue;
+                    }
                     let cause = point.experiment.case().map(|case| case.likely_cause_of_divergence());
                     let cause = cause.unwrap_or_default();
                     let replicate = record.replicate + 1;
@@ -181,8 +187,21 @@ fn lost(study: &Study, journal: &mut Journal, fibres: u64) -> Result<(), Failure
     if lost == 0 {
         return Ok(());
     }
-    let lost = format!("{}; all others are in the results{first}", lost_of(lost, fibres));
+    let what = match study.noun() {
+        "spinline" if lost == 1 => format!("1 of {fibres} spinlines has no steady state"),
+        "spinline" => format!("{lost} of {fibres} spinlines have no steady state"),
+        _ => lost_of(lost, fibres),
+    };
+    let lost = format!("{what}; all others are in the results{first}");
     Err(Failure::FibresLost { lost })
+}
+
+/// Why a spinline has no steady state: `spinline.length = 20 mm is too short…`.
+fn no_steady_state(failure: &spinline::Failure) -> String {
+    let dimension = keys::find(failure.key).and_then(|key| key.dimension());
+    let value =
+        failure.value.zip(dimension).map(|(value, dimension)| format!(" = {}", dimension.pretty(value)));
+    format!("{}{} {}", failure.key, value.unwrap_or_default(), failure.fault)
 }
 
 /// The study has fewer points.
