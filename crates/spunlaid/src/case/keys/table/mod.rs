@@ -11,17 +11,17 @@ mod spinline;
 
 use super::Key;
 
-/// The tables of a case file and their keys.
-const TABLES: [(&str, &[Key]); 9] = [
+/// The tables of a case file and their keys, in one or several parts.
+const TABLES: [(&str, &[&[Key]]); 9] = [
     ("spinline", spinline::KEYS),
     ("spinline.material", spinline::MATERIAL),
-    ("fibre", fibre::KEYS),
-    ("feed", feed::KEYS),
-    ("belt", belt::KEYS),
-    ("air", air::KEYS),
-    ("drag", drag::KEYS),
-    ("neighbours", neighbours::KEYS),
-    ("run", run::KEYS),
+    ("fibre", &[fibre::KEYS]),
+    ("feed", &[feed::KEYS]),
+    ("belt", &[belt::KEYS]),
+    ("air", &[air::KEYS]),
+    ("drag", &[drag::KEYS]),
+    ("neighbours", &[neighbours::KEYS]),
+    ("run", &[run::KEYS]),
 ];
 
 /// The names of the tables.
@@ -37,20 +37,28 @@ pub(super) const NAMES: [&str; TABLES.len()] = {
 const COUNT: usize = {
     let (mut count, mut i) = (0, 0);
     while i < TABLES.len() {
-        count += TABLES[i].1.len();
+        let (parts, mut j) = (TABLES[i].1, 0);
+        while j < parts.len() {
+            count += parts[j].len();
+            j += 1;
+        }
         i += 1;
     }
     count
 };
 
 pub(super) static KEYS: [Key; COUNT] = {
-    let mut all = [TABLES[0].1[0]; COUNT];
+    let mut all = [TABLES[0].1[0][0]; COUNT];
     let (mut count, mut i) = (0, 0);
     while i < TABLES.len() {
-        let (keys, mut j) = (TABLES[i].1, 0);
-        while j < keys.len() {
-            all[count] = keys[j];
-            count += 1;
+        let (parts, mut j) = (TABLES[i].1, 0);
+        while j < parts.len() {
+            let (keys, mut k) = (parts[j], 0);
+            while k < keys.len() {
+                all[count] = keys[k];
+                count += 1;
+                k += 1;
+            }
             j += 1;
         }
         i += 1;
