@@ -15,7 +15,7 @@ mod table;
 mod value;
 
 pub use key_table::KeyTable;
-pub(crate) use key_table::TableList;
+pub(crate) use key_table::{Alternatives, TableList};
 pub(crate) use nearest::nearest_word;
 pub use value::{Content, FileKind, Kind, Sign, Value};
 
@@ -27,14 +27,23 @@ use crate::units::Dimension;
 pub const TABLES: [&str; table::NAMES.len()] = table::NAMES;
 
 /// The keys of a case.
-pub static CASE: KeyTable =
-    KeyTable { rows: &table::KEYS, tables: &TABLES, lists: &[], noun: "a case", file: "a case file" };
+pub static CASE: KeyTable = KeyTable {
+    rows: &table::KEYS,
+    tables: &TABLES,
+    lists: &[],
+    alternatives: &[],
+    noun: "a case",
+    file: "a case file",
+};
 
 /// The text that a case file may give as cut-off frequency: Taylor's hypothesis.
 pub(crate) const TAYLOR: &str = "taylor";
 
 /// The text that a case file may give as tension at the end of the spinline: that of the flown fibre.
 pub(crate) const FLOWN: &str = "flown";
+
+/// The text that a web may give as pitch of a row: that of nozzles over the whole width.
+pub(crate) const EVEN: &str = "even";
 
 /// What applies if a case leaves a key out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
