@@ -5,8 +5,8 @@ use crate::value::{overrides, to_python};
 use crate::watched::guarded;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict, PyTuple, PyType};
-use spunlaid::case::keys::{self, TABLES};
+use pyo3::types::{PyBytes, PyDict, PyIterator, PyList, PyMapping, PyTuple, PyType};
+use spunlaid::case::keys::{self, Key, Value};
 use spunlaid::case::{self, Note};
 use spunlaid::error::FileKind;
 use spunlaid::input::{Overrides, parse_case, read_text, starter_case, starter_case_of_fed, write_case};
@@ -20,8 +20,9 @@ const NAME: &str = "Case";
 /// A fibre, the air around it and how its flight is computed: a case file, read and checked, that can be run.
 ///
 /// Make one with Case.read(path), Case.from_dict({...}), Case.from_text(text) or Case.starter(). It does not change;
-/// with_() returns another one. case["air.velocity"] is the value of a key in SI units.
-#[pyclass(frozen, module = "spunlaid", name = "Case")]
+/// with_() returns another one. case["air.velocity"] is the value of a key in SI units, and a case is a Mapping of its keys:
+/// dict(case) has them all, and Case.from_dict(dict(case)) is the same case.
+#[pyclass(frozen, mapping, module = "spunlaid", name = "Case")]
 #[derive(Debug)]
 pub(crate) struct Case {
     pub(crate) case: Arc<case::Case>,
@@ -33,6 +34,17 @@ pub(crate) struct Case {
 }
 
 impl Case {
+    /// What stands for a case: a case, the path of its file, or a dict.
+    pub(crate) fn meant<'py>(case: &Bound<'py, PyAny>) -> PyResult<Bound<'py, Self>> {
+        let made = case.py().import("spunlaid._case")?.getattr("case_of")?.call1((case,))?;
+        Ok(made.cast_into()?)
+    }
+
+    /// Makes cases Mappings of Python.
+    pub(crate) fn register(py: Python<'_>) -> PyResult<()> {
+        PyMapping::register::<Self>(py)
+    }
+
     fn parsed(
         py: Python<'_>,
         text: Arc<str>,
@@ -48,6 +60,22 @@ impl Case {
     pub(crate) fn stem(&self) -> String {
         let path = Path::new(&self.file);
         path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+    }
+
+    /// Whether values differ from those of its text.
+    pub(crate) fn is_changed(&self) -> bool {
+        !self.changes.is_empty()
+    }
+
+    /// The keys that have a meaning for it and that no file of it gives, in the order of a case file.
+    fn own_keys(&self) -> impl Iterator<Item = (&'static Key, Value)> {
+        let all = keys::all().iter().filter(|key| !key.is_told(&self.case));
+        all.filter_map(|key| Some((key, key.get(&self.case)?)))
+    }
+
+    /// A view of `collections.abc`: `KeysView`, `ValuesView` or `ItemsView`.
+    fn view<'py>(this: &Bound<'py, Self>, kind: &str) -> PyResult<Bound<'py, PyAny>> {
+        this.py().import("collections.abc")?.getattr(kind)?.call1((this,))
     }
 
     /// Text and name of a case file with all changes, for a study of this case.
@@ -114,30 +142,55 @@ impl Case {
     /// The values of all keys by table, in SI units, without those that have no meaning for this case or that a file of
     /// the case gives. Case.from_dict() takes it.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let (all, text) = (PyDict::new(py), write_case(&self.case));
-        for table in TABLES {
-            let dict = PyDict::new(py);
-            let head = format!("\n[{table}]\n");
-            let written = text.split_once(&head).map_or("", |(_, rest)| rest);
-            let written = written.split_once("\n[").map_or(written, |(own, _)| own);
-            for key in keys::of_table(table) {
-                let start = format!("{} = ", key.short());
-                if written.lines().any(|line| line.starts_with(&start)) {
-                    dict.set_item(key.short(), to_python(py, key.get(&self.case))?)?;
-                }
+        let all = PyDict::new(py);
+        for (key, value) in self.own_keys() {
+            let mut dict = all.clone();
+            // A table may stand within a table, as spinline.material.
+            for name in key.table().split('.') {
+                let inner = dict.call_method1("setdefault", (name, PyDict::new(py)))?;
+                dict = inner.cast_into()?;
             }
-            if dict.is_empty() {
-                continue;
-            }
-            // A table within a table, as spinline.material.
-            let outer =
-                table.split_once('.').map(|(outer, name)| Ok::<_, PyErr>((all.get_item(outer)?, name)));
-            match outer.transpose()? {
-                Some((Some(outer), name)) => outer.set_item(name, dict)?,
-                _ => all.set_item(table, dict)?,
-            }
+            dict.set_item(key.short(), to_python(py, Some(value))?)?;
         }
         Ok(all)
+    }
+
+    fn __len__(&self) -> usize {
+        self.own_keys().count()
+    }
+
+    fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyIterator>> {
+        PyList::new(py, self.own_keys().map(|(key, _)| key.name))?.try_iter()
+    }
+
+    fn __contains__(&self, key: &Bound<'_, PyAny>) -> bool {
+        key.extract::<String>().is_ok_and(|name| self.own_keys().any(|(key, _)| key.name == name))
+    }
+
+    /// The value of a key in SI units, or `default` if there is no such key or it has no meaning for this case.
+    #[pyo3(signature = (key, default = None))]
+    fn get(&self, py: Python<'_>, key: &Bound<'_, PyAny>, default: Option<Py<PyAny>>) -> PyResult<Py<PyAny>> {
+        let name: Option<String> = key.extract().ok();
+        let value = name.and_then(|name| keys::find(&name)?.get(&self.case));
+        match (value, default) {
+            (None, Some(default)) => Ok(default),
+            (value, _) => to_python(py, value),
+        }
+    }
+
+    /// The keys of this case: those that have a meaning for it and that no file of it gives, as `to_dict` has them.
+    fn keys<'py>(this: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        Self::view(this, "KeysView")
+    }
+
+    /// The values of these keys, in SI units.
+    fn values<'py>(this: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        Self::view(this, "ValuesView")
+    }
+
+    /// These keys with their values, in SI units.
+    fn items<'py>(this: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        Self::view(this, "ItemsView")
     }
 
     /// The case as a case file with every key, in SI units: reading it gives the same case to the last bit.

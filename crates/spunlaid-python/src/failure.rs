@@ -2,7 +2,8 @@
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use spunlaid::error::{Error, Place, Problem};
+use spunlaid::error::{Error, Place, Position, Problem};
+use spunlaid::input::StudyFile;
 use std::any::Any;
 
 /// An error as the exception that a Python user gets.
@@ -20,6 +21,29 @@ pub(crate) fn raised(py: Python<'_>, error: impl Into<Error>) -> PyErr {
         _ => instance(py, "FolderError", (text,)),
     };
     made.unwrap_or_else(|error| error)
+}
+
+/// What was read of texts that this package has made of dicts, under these names. The user did not write their lines, so no error
+/// and no note tells one.
+pub(crate) fn without_lines(read: Result<StudyFile, Error>, made: &[&str]) -> Result<StudyFile, Error> {
+    let clear = |place: &mut Place| {
+        if let Place::File { file, position, .. } = place
+            && made.contains(&file.as_str())
+        {
+            *position = Position::Whole;
+        }
+    };
+    match read {
+        Ok(mut study) => {
+            study.notes.iter_mut().for_each(|remark| clear(&mut remark.note.place));
+            Ok(study)
+        }
+        Err(Error::Rejected(mut problems)) => {
+            problems.iter_mut().for_each(|problem| clear(&mut problem.place));
+            Err(Error::Rejected(problems))
+        }
+        Err(other) => Err(other),
+    }
 }
 
 /// A panic, which is a fault of the library: an exception too, so that no session is lost.

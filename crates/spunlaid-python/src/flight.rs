@@ -2,7 +2,7 @@
 
 use crate::case::Case;
 use crate::failure::raised_as;
-use crate::value::value_of;
+use crate::value::{seconds, value_of};
 use crate::watched::{Watch, guarded, watched};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
@@ -24,7 +24,7 @@ const MOST_STEPS: f64 = 9e15;
 
 /// Fibres in flight, which you step: Flight(case, replicates=8).
 ///
-/// step(0.01) advances them by 10 ms, set(key, value) changes the case while they fly, positions is an array of fibres x
+/// step("10 ms") advances them, set(key, value) changes the case while they fly, positions is an array of fibres x
 /// nodes x 3. The fibres are the first replicates of the case, to the same bits as in a run. Several threads of Python
 /// may use one flight.
 #[pyclass(frozen, module = "spunlaid", name = "Flight")]
@@ -42,8 +42,9 @@ type VectorField = fn(&Snapshot) -> &[Vec3<spunlaid::lanes::Lanes>];
 impl Flight {
     #[new]
     #[pyo3(signature = (case, replicates = None))]
-    fn new(py: Python<'_>, case: &Case, replicates: Option<u64>) -> PyResult<Self> {
-        let description = &*case.case;
+    fn new(py: Python<'_>, case: &Bound<'_, PyAny>, replicates: Option<u64>) -> PyResult<Self> {
+        let case = Case::meant(case)?;
+        let description = &*case.get().case;
         let fibres = replicates.unwrap_or_else(|| description.run.replicates.min(WIDTH as u64));
         if !(1..=MOST).contains(&fibres) {
             return Err(PyValueError::new_err(format!("replicates must be 1 to {MOST}, not {fibres}")));
@@ -61,31 +62,16 @@ impl Flight {
         Ok(Self { packs: Mutex::new(packs), fibres })
     }
 
-    /// Advances all fibres by a time [s], to the nearest whole step.
-    fn step(&self, py: Python<'_>, duration: f64) -> PyResult<()> {
+    /// Advances all fibres by a time, to the nearest whole step: step("10 ms"), or step(0.01) in seconds.
+    fn step(&self, py: Python<'_>, duration: &Bound<'_, PyAny>) -> PyResult<()> {
+        let duration = seconds(duration)?;
         let now = self.time(py)?;
-        self.step_to(py, now + duration)
+        self.fly_to(py, now + duration)
     }
 
-    /// Advances all fibres to a time [s], to the nearest whole step. Ctrl-C stops them at a step in between.
-    fn step_to(&self, py: Python<'_>, time: f64) -> PyResult<()> {
-        let watch = Watch::default();
-        let stop = &watch.stop;
-        watched(py, &watch, None, || {
-            let mut packs = self.lock();
-            let Some(first) = packs.first() else { return Ok(()) };
-            let (mut now, slice) = (first.time(), STEPS * first.time_step());
-            // Slices for a time that can be reached; any other goes to the library, which says what is wrong with it.
-            let is_far = time / first.time_step() < MOST_STEPS && time > now + slice;
-            loop {
-                let next = if is_far && time > now + slice { now + slice } else { time };
-                packs.iter_mut().try_for_each(|pack| pack.step_to(next))?;
-                now = next;
-                if next == time || stop.load(Ordering::Relaxed) {
-                    return Ok(());
-                }
-            }
-        })
+    /// Advances all fibres to a time, "10 ms" or in seconds, to the nearest whole step. Ctrl-C stops them at a step in between.
+    fn step_to(&self, py: Python<'_>, time: &Bound<'_, PyAny>) -> PyResult<()> {
+        self.fly_to(py, seconds(time)?)
     }
 
     /// Changes a key while the fibres fly: set("air.velocity", 12.0) in SI units, or "12 m/s". keys() says which keys
@@ -200,6 +186,26 @@ impl Flight {
 impl Flight {
     fn lock(&self) -> MutexGuard<'_, Vec<flight::Flight>> {
         self.packs.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn fly_to(&self, py: Python<'_>, time: f64) -> PyResult<()> {
+        let watch = Watch::default();
+        let stop = &watch.stop;
+        watched(py, &watch, None, || {
+            let mut packs = self.lock();
+            let Some(first) = packs.first() else { return Ok(()) };
+            let (mut now, slice) = (first.time(), STEPS * first.time_step());
+            // Slices for a time that can be reached; any other goes to the library, which says what is wrong with it.
+            let is_far = time / first.time_step() < MOST_STEPS && time > now + slice;
+            loop {
+                let next = if is_far && time > now + slice { now + slice } else { time };
+                packs.iter_mut().try_for_each(|pack| pack.step_to(next))?;
+                now = next;
+                if next == time || stop.load(Ordering::Relaxed) {
+                    return Ok(());
+                }
+            }
+        })
     }
 
     fn snapshots(&self, py: Python<'_>) -> PyResult<Vec<Snapshot>> {

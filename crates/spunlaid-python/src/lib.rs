@@ -24,6 +24,7 @@ mod flight;
 mod results;
 mod run;
 mod samples;
+mod scale;
 mod state;
 
 mod bundle;
@@ -67,6 +68,7 @@ mod _spunlaid {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        super::case::Case::register(module.py())?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

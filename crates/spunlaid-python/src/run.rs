@@ -4,6 +4,7 @@ use crate::case::Case;
 use crate::flight::laid_columns;
 use crate::results::RunResults;
 use crate::samples::{Collected, locked};
+use crate::scale::scale;
 use crate::watched::{Watch, threads, watched};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -16,6 +17,7 @@ use spunlaid::ensemble::{
 use spunlaid::error::Error;
 use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid::observe::{MEASURES, Measure};
+use spunlaid_results::figures::Scale;
 use spunlaid_results::folders::run::{self as folder, POSITIONS};
 use spunlaid_results::output::folder::{ENTRIES, Staging};
 use spunlaid_results::output::tables::{TableRecorder, Tables};
@@ -290,7 +292,7 @@ fn differences<'py>(py: Python<'py>, check: &FinerCheck) -> PyResult<Bound<'py, 
     Ok(dict)
 }
 
-/// Name, unit and meaning of a measure.
+/// Name and meaning of a measure, and the scales of its axes: of a curve along and up.
 fn described<'py>(py: Python<'py>, measure: &Measure) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
     dict.set_item("column", measure.column)?;
@@ -298,8 +300,11 @@ fn described<'py>(py: Python<'py>, measure: &Measure) -> PyResult<Bound<'py, PyD
     dict.set_item("label", measure.label)?;
     dict.set_item("meaning", measure.meaning)?;
     dict.set_item("group", measure.group.name)?;
-    dict.set_item("unit", measure.unit.shown)?;
-    dict.set_item("per_si", measure.unit.per_si)?;
+    let scales = match Scale::of_curve(measure) {
+        Some(scales) => scales.map(scale).to_vec(),
+        None => vec![scale(Scale::of_quantity(measure.label, measure.unit))],
+    };
+    dict.set_item("scales", scales)?;
     Ok(dict)
 }
 

@@ -2,7 +2,8 @@
 
 use crate::bundle::{BundlePart, parts, records};
 use crate::case::Case;
-use crate::failure::raised_as;
+use crate::failure::{raised_as, without_lines};
+use crate::scale::{AxisScale, scale};
 use crate::value::overrides;
 use crate::watched::{Watch, guarded, threads, watched};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray2};
@@ -18,6 +19,7 @@ use spunlaid::study::{
     Bundles, Experiment, Journal, Landing, Progress, Rounds, rankings, results_of_point, run, unsynced,
 };
 use spunlaid_results::Failure;
+use spunlaid_results::figures::Scale;
 use spunlaid_results::folders::study::StudyFolder;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -25,6 +27,9 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Writing the files of a study is never stopped.
 static NEVER: AtomicBool = AtomicBool::new(false);
+
+/// What messages and results call a study that is given as a dict.
+const STUDY: &str = "study";
 
 /// A study: its points, its journal and, once it has been flown, its results. spunlaid.sweep makes and flies one.
 #[pyclass(frozen, module = "spunlaid._spunlaid")]
@@ -59,32 +64,30 @@ impl Study {
         set: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let changed = set.map_or_else(|| Ok(Vec::new()), overrides)?;
+        let set = Overrides { values: &changed, word: "sweep:" };
+        let changes = StudyChanges { points, replicates, set };
         let (name, file) = match (case, path) {
             (None, Some(path)) => {
                 let text: String = study.extract()?;
-                let set = Overrides { values: &changed, word: "sweep:" };
-                let changes = StudyChanges { points, replicates, set };
                 let file = guarded(py, || {
                     let base = |_: &str, kind| Ok((read_text(&path, kind)?, path.display().to_string()));
-                    parse_changed_study(&text, "study", &changes, base)
+                    without_lines(parse_changed_study(&text, STUDY, &changes, base), &[STUDY])
                 })?;
-                ("study".to_owned(), file)
+                (STUDY.to_owned(), file)
             }
             (Some(case), _) => {
                 let text: String = study.extract()?;
                 let (case_text, case_name) = case.source();
-                let set = Overrides { values: &changed, word: "sweep:" };
-                let changes = StudyChanges { points, replicates, set };
+                let made = [STUDY, case_name];
+                let made = if case.is_changed() { &made[..] } else { &made[..1] };
                 let file = guarded(py, || {
                     let named = (case_text, case_name.to_owned());
-                    parse_changed_study(&text, "study", &changes, |_, _| Ok(named))
+                    without_lines(parse_changed_study(&text, STUDY, &changes, |_, _| Ok(named)), made)
                 })?;
-                ("study".to_owned(), file)
+                (STUDY.to_owned(), file)
             }
             (None, None) => {
                 let path: PathBuf = study.extract()?;
-                let set = Overrides { values: &changed, word: "sweep:" };
-                let changes = StudyChanges { points, replicates, set };
                 let file = guarded(py, || read_changed_study(&path, &changes))?;
                 (path.file_stem().unwrap_or_default().to_string_lossy().into_owned(), file)
             }
@@ -217,7 +220,7 @@ impl Study {
         self.file.study.points.iter().map(|point| cost(&point.experiment)).fold(0.0, f64::max)
     }
 
-    /// The keys that differ between points: name, SI unit, whether a factor, its words, its values at the points.
+    /// The keys that differ between points: name, SI unit, whether a factor, the scale of its axis, its values at the points.
     #[getter]
     fn inputs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         let (all, study) = (PyList::empty(py), &self.file.study);
@@ -226,7 +229,9 @@ impl Study {
             dict.set_item("key", input.key)?;
             dict.set_item("column", input.column())?;
             dict.set_item("unit", input.dimension.si_unit())?;
-            dict.set_item("factor", index < study.factors.len())?;
+            let is_factor = index < study.factors.len();
+            dict.set_item("factor", is_factor)?;
+            dict.set_item("scale", is_factor.then(|| scale(Scale::of_factor(study, index))))?;
             let values =
                 study.points.iter().map(|point| point.values.get(index).copied().unwrap_or(f64::NAN));
             if input.words.is_empty() {
@@ -387,11 +392,15 @@ impl Study {
         self.file.notes.iter().map(ToString::to_string).collect()
     }
 
-    /// The measures: column, name, label, meaning.
+    /// The measures: column, name, label, meaning, and the scale of their axis.
     #[getter]
-    fn measures(&self) -> Vec<(&str, &str, &str, &'static str)> {
-        let all = &self.file.study.quantities;
-        all.iter().map(|column| (&*column.column, &*column.name, &*column.label, column.meaning)).collect()
+    fn measures(&self) -> Vec<(&str, &str, &str, &'static str, AxisScale)> {
+        let all = self.file.study.quantities.iter();
+        all.map(|of| {
+            let axis = scale(Scale::of_quantity(&of.label, of.unit));
+            (&*of.column, &*of.name, &*of.label, of.meaning, axis)
+        })
+        .collect()
     }
 }
 

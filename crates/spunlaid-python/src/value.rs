@@ -1,9 +1,11 @@
 //! Values of Python as those of keys, and back.
 
+use crate::failure::raised;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyMapping, PyString};
 use spunlaid::case::keys::{self, Kind, Value};
+use spunlaid::error::{Error, Fault};
 use spunlaid::layers::web_key;
 use spunlaid::units::Dimension;
 use spunlaid::vec3::Vec3;
@@ -220,6 +222,24 @@ pub(crate) fn value_of(value: &Bound<'_, PyAny>) -> PyResult<Value> {
         [x, y, z] => Value::Vector(Vec3::new(x, y, z)),
         _ => Value::Numbers(parts),
     })
+}
+
+/// A time [s]: a text with its unit, or a number in seconds.
+pub(crate) fn seconds(value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    if let Ok(text) = value.extract::<String>() {
+        let read = Dimension::Time.parse(&text);
+        return read.map_err(|fault| {
+            let message = format!("{} {}", quoted(&text), fault.message);
+            raised(value.py(), Error::Flight(Fault::new(message, fault.remedy)))
+        });
+    }
+    match number(value)?.filter(|_| !value.is_instance_of::<PyBool>()) {
+        Some(number) => Ok(number.float()),
+        None => Err(PyTypeError::new_err(format!(
+            "a time is a text with its unit, \"10 ms\", or a number in seconds, not {}",
+            type_name(value)
+        ))),
+    }
 }
 
 /// The value of a key for Python, in SI units.

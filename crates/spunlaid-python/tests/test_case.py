@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -40,6 +41,20 @@ def test_numbers_are_in_si_units_and_texts_have_units() -> None:
     # Without a value the default applies.
     damped = changed.with_({"run.damping": 3.0})
     assert damped != changed and damped.with_({"run.damping": None}) == changed
+
+
+def test_a_case_is_a_mapping_of_its_keys() -> None:
+    case = Case.starter()
+    assert isinstance(case, Mapping) and len(case) == len(dict(case)) == len(list(case.items()))
+    assert Case.from_dict(dict(case)) == Case.from_dict(case) == case
+    assert case.keys() >= {"air.velocity", "fibre.diameter"} and 10.0 in case.values()
+    nested = [f"{table}.{key}" for table, keys in case.to_dict().items() for key in keys]
+    assert list(case) == nested
+    # A known key without a meaning for this case is None; it is not one of its keys.
+    assert case["feed.speed"] is None and "feed.speed" not in case and case.get("feed.speed", 3.0) == 3.0
+    assert case.get("air.velocty") is None and case.get("air.velocity", 3.0) == 10.0 and 3 not in case
+    record = Case.read(CASES / "record.toml")
+    assert "air.record" in record and Case.from_dict(dict(record)) == record
 
 
 def test_what_follows_from_a_key_follows_anew() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 import threading
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -22,6 +23,24 @@ def test_identical_to_a_run(short: Case) -> None:
             np.testing.assert_array_equal(ends[:, axis], run.end_node[column][:, instant])
         np.testing.assert_array_equal(flight.energies["kinetic_j"], run.energy["kinetic_j"][:, instant])
     assert flight.velocities.shape == flight.positions.shape == (11, flight.tensions.shape[1] + 1, 3)
+
+
+def test_times_may_have_units_and_cases_may_be_paths_or_dicts(short: Case, tmp_path: Path) -> None:
+    (tmp_path / "case.toml").write_text(short.to_toml())
+    flights = [Flight(case, 2) for case in (short, short.to_dict(), tmp_path / "case.toml", str(tmp_path / "case.toml"))]
+    for flight, first, last in zip(flights, (0.002, "2 ms", "2000 us", np.float32(0.002)), (0.004, "4 ms", 4e-3, "0.004 s")):
+        flight.step(first)
+        flight.step_to(last)
+        np.testing.assert_array_equal(flight.positions, flights[0].positions)
+    for bad, error, words in (
+        ("3 parsec", spunlaid.FlightError, "unknown unit"),
+        ("3", spunlaid.FlightError, "no unit"),
+        ("3 m", spunlaid.FlightError, "is a length"),
+        (True, TypeError, "bool"),
+        (None, TypeError, "NoneType"),
+    ):
+        with pytest.raises(error, match=words):
+            flights[0].step(bad)  # type: ignore[arg-type]
 
 
 def test_no_step_takes_a_fibre_apart(short: Case) -> None:

@@ -53,6 +53,36 @@ def test_shapes_of_the_arrays(short: Case) -> None:
     assert run.laid == []
 
 
+def test_a_path_or_a_dict_is_a_case(short: Case, tmp_path: Path) -> None:
+    (tmp_path / "case.toml").write_text(Case.starter().to_toml())
+    changes = {key: value for key, value in short.items() if Case.starter()[key] != value}
+    runs = [
+        spunlaid.run(short),
+        spunlaid.run(short.to_dict()),
+        spunlaid.run(dict(short)),
+        spunlaid.run(tmp_path / "case.toml", set=changes),
+        spunlaid.run(str(tmp_path / "case.toml"), short["run.replicates"], set=changes | {"run.replicates": 99}),
+    ]
+    for run in runs[1:]:
+        np.testing.assert_array_equal(run.end_node["y_m"], runs[0].end_node["y_m"])
+    with pytest.raises(spunlaid.FileError, match="nowhere"):
+        spunlaid.run("nowhere.toml")
+    with pytest.raises(spunlaid.CaseError, match=r"fibre\.diameter is missing") as caught:
+        spunlaid.run({"fibre": {"length": 1.0}})
+    assert {problem.line for problem in caught.value.problems} == {None}
+
+
+def test_measures_are_numbers_and_a_frame(short: Case) -> None:
+    run = spunlaid.run(short, 8)
+    table = run.measures.to_pandas()
+    assert list(table.index) == list(run.measures) and (table["n"] == [np.isfinite(m.values).sum() for m in run.measures.values()]).all()
+    for column, measure in run.measures.items():
+        assert float(measure) == table.loc[column, "mean"] == measure.mean
+    assert 2 * float(run.measures["amplitude_y_m"]) > 0
+    single = spunlaid.run(short, 1).measures.to_pandas()
+    assert single["standard_error"].isna().all() and single["standard_error"].dtype == float
+
+
 def test_measures_are_those_of_the_arrays(short: Case) -> None:
     run = spunlaid.run(short, 8)
     amplitude = run.measures["amplitude_y_m"]
@@ -221,7 +251,7 @@ def test_rejects_bad_arguments(short: Case) -> None:
     with pytest.raises(TypeError):
         spunlaid.run(short, threads=1.5)  # type: ignore[arg-type]
     with pytest.raises(TypeError):
-        spunlaid.run("case.toml")  # type: ignore[arg-type]
+        spunlaid.run(3)  # type: ignore[arg-type]
     with pytest.raises(spunlaid.CaseError, match=r"run\.replicates"):
         spunlaid.run(short, 0)
     lost = short.with_({"run.scheme": "semi-implicit-euler", "run.time_step": "1 us"})

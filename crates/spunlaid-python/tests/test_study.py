@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 from pathlib import Path
 
@@ -72,6 +73,35 @@ def test_another_study_is_not_mixed_in(study: dict[str, object], tmp_path: Path)
 
 
 @pytest.mark.parametrize(
+    ("said", "key"),
+    [
+        ({"vary": {"air.velocty": [1.0]}}, "air.velocty"),
+        ({"vary": {"air.velocity": [1.0]}, "replicate": 3}, "replicate"),
+        ({"vary": {"air.velocity": [1.0]}, "replicates": "many"}, "replicates"),
+        ({"vary": {"air.velocity": [1.0]}, "set": {"air.velocty": 2.0}}, "air.velocty"),
+        # The case has changes, so that the text that is read of it is not one that the user wrote.
+        ({"vary": {"air.velocity": [1.0]}, "set": {"feed.speed": "1 m/s"}}, "fibre.length"),
+    ],
+)
+def test_messages_about_a_dict_name_the_key_and_no_line(said: dict[str, object], key: str, short: Case) -> None:
+    leapfrog = short.with_({"run.scheme": "leapfrog", "run.time_step": "1 us"})
+    for case in (leapfrog, leapfrog.to_dict(), dict(leapfrog)):
+        with pytest.raises(spunlaid.CaseError, match=key.replace(".", r"\.")) as caught:
+            spunlaid.sweep({"case": case, **said})
+        assert key in [problem.key for problem in caught.value.problems]
+        assert {problem.line for problem in caught.value.problems} == {None} and not re.search(r":\d+:", str(caught.value))
+
+
+def test_a_file_keeps_its_lines(short: Case, tmp_path: Path) -> None:
+    text = short.with_({"run.scheme": "leapfrog", "run.time_step": "1 us"}).to_toml()
+    (tmp_path / "case.toml").write_text(text)
+    with pytest.raises(spunlaid.CaseError) as caught:
+        spunlaid.sweep({"case": tmp_path / "case.toml", "set": {"feed.speed": "1 m/s"}, "vary": {"air.velocity": [1.0]}})
+    line = 1 + text.split("\nlength")[0].count("\n") + 1
+    assert ("fibre.length", line) in [(problem.key, problem.line) for problem in caught.value.problems]
+
+
+@pytest.mark.parametrize(
     ("study", "error"),
     [
         ({}, ValueError),
@@ -80,6 +110,7 @@ def test_another_study_is_not_mixed_in(study: dict[str, object], tmp_path: Path)
         ({"case": Case.starter(), "vary": {"air.velocty": [1]}}, spunlaid.CaseError),
         ({"case": Case.starter(), "vary": {"air.velocity": [object()]}}, TypeError),
         ({"case": Case.starter(), "vary": {3: [1]}}, TypeError),
+        ({"case": Case.starter(), "vary": {"air.velocity": None}}, TypeError),
         ({"case": Case.starter(), "vary": {"air.velocity": []}}, spunlaid.CaseError),
         ({"case": Case.starter(), "design": "star", "vary": {"air.velocity": [1.0]}}, spunlaid.CaseError),
         ("nowhere.toml", spunlaid.FileError),
@@ -89,3 +120,9 @@ def test_another_study_is_not_mixed_in(study: dict[str, object], tmp_path: Path)
 def test_rejects_what_is_no_study(study: object, error: type[Exception]) -> None:
     with pytest.raises(error):
         spunlaid.sweep(study)  # type: ignore[arg-type]
+
+
+def test_a_value_of_no_use_is_told_with_its_key(short: Case) -> None:
+    for said in ({"vary": {"air.velocity": [object()]}}, {"vary": {"air.velocity": {"from": 1.0, "to": b"2"}}}, {"set": {"air.velocity": None}}):
+        with pytest.raises(TypeError, match=r"air\.velocity takes"):
+            spunlaid.sweep({"case": short, **said})

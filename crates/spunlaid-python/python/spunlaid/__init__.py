@@ -27,7 +27,7 @@ from ._errors import (
     Problem,
 )
 from ._keys import Key, keys
-from ._run import Curve, Measure, Run, Shapes, load, run
+from ._run import Curve, Measure, Measures, Run, Shapes, load, run
 from ._spunlaid import Case, Flight, __version__
 
 if TYPE_CHECKING:
@@ -54,6 +54,7 @@ __all__ = [
     "Interrupted",
     "Key",
     "Measure",
+    "Measures",
     "Problem",
     "Run",
     "Shapes",

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from . import _spunlaid
+from ._case import CaseLike, case_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -22,9 +23,10 @@ class Air:
         v = air.at(0.01, 0.2, y, 0.0)[:, 1]        # velocity along y on a line across the flow [m/s]
     """
 
-    def __init__(self, case: _spunlaid.Case, seed: int | None = None, replicate: int = 1) -> None:
+    def __init__(self, case: CaseLike, seed: int | None = None, replicate: int = 1) -> None:
         if isinstance(replicate, bool) or not isinstance(replicate, (int, np.integer)) or replicate < 1:
             raise ValueError(f"replicate must be a whole number from 1, not {replicate!r}")
+        case = case_of(case)
         self._case = case if seed is None else case.with_({"run.seed": seed})
         self._air = _spunlaid.LookedAtAir(self._case, int(replicate) - 1)
 

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _spunlaid
 from ._errors import ClusterError
+from ._optional import needed
 
 if TYPE_CHECKING:
     import numpy as np
@@ -54,11 +55,7 @@ def fly(
 
     flights: number of flights of up to eight fibres in a task; by default about ten seconds of work
     """
-    try:
-        from distributed import Client
-    except ImportError as error:
-        raise ImportError('a cluster needs dask: pip install "spunlaid[dask]"') from error
-    if not isinstance(client, Client):
+    if not isinstance(client, needed("distributed", "dask", "a cluster").Client):
         raise TypeError(f"client must be a dask.distributed.Client, not {type(client).__name__}")
     if client.asynchronous:
         raise TypeError("client must not be asynchronous; make it without asynchronous=True")

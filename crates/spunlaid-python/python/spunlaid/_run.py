@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from . import _spunlaid
+from ._case import CaseLike, case_of
+from ._optional import needed
 from ._progress import Progress, shown
 
 if TYPE_CHECKING:
     import pandas
     import xarray
+    from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
     from ._spunlaid import Case
@@ -36,6 +39,9 @@ class Measure(NamedTuple):
     """What stands for all replicates in reports: the mean, the median or the largest value."""
     values: NDArray[np.float64]
     """The value of each replicate; NaN where it is not defined."""
+
+    def __float__(self) -> float:
+        return self.mean
 
     def __repr__(self) -> str:
         error = "" if self.standard_error is None else f" ± {self.standard_error:.2g}"
@@ -95,9 +101,9 @@ class Run:
         return dict(self._keep("summary", lambda: json.loads(self._flown.summary)))
 
     @property
-    def measures(self) -> Mapping[str, Measure]:
+    def measures(self) -> Measures:
         """The measures that are numbers, by column: `run.measures["amplitude_y_m"].mean`."""
-        return self._keep("measures", lambda: _Named(Measure, self._flown.numbers))  # type: ignore[no-any-return]
+        return self._keep("measures", lambda: Measures(Measure, self._flown.numbers))  # type: ignore[no-any-return]
 
     @property
     def curves(self) -> Mapping[str, Curve]:
@@ -159,8 +165,7 @@ class Run:
 
     def to_pandas(self) -> pandas.DataFrame:
         """A row for each replicate and recorded instant: the free end and the energies."""
-        import pandas as pd
-
+        pd = needed("pandas", "pandas", "to_pandas()")
         columns = {**self.end_node, **self.energy}
         times = columns.pop("time_s")
         replicates = len(next(iter(columns.values())))
@@ -169,8 +174,7 @@ class Run:
 
     def to_xarray(self) -> xarray.Dataset:
         """The same with dimensions `replicate` and `time_s`, and the measures over `replicate`."""
-        import xarray as xr
-
+        xr = needed("xarray", "xarray", "to_xarray()")
         columns = {**self.end_node, **self.energy}
         times = columns.pop("time_s")
         data: dict[str, Any] = {name: (("replicate", "time_s"), values) for name, values in columns.items()}
@@ -178,6 +182,23 @@ class Run:
             data[name] = ("replicate", measure.values, {"long_name": measure.label, "description": measure.meaning})
         replicates = len(next(iter(columns.values())))
         return xr.Dataset(data, {"replicate": np.arange(1, replicates + 1), "time_s": times})
+
+    def plot(self, column: str | None = None, *, ax: Axes | None = None) -> Axes:
+        """Draws with matplotlib, and returns the axes.
+
+        column: a curve, drawn with its standard error; or a number, drawn for each replicate with its mean. By default the motion
+            of the free ends over time, of up to eight replicates; of a fed fibre, a piece of what the first one laid
+        ax: the axes to draw on; new ones by default
+        """
+        from ._plot import of_run
+
+        return of_run(self, column, ax)
+
+    def scales(self, column: str) -> list[tuple[str, float, float, bool]]:
+        """How a measure stands on axes: label with unit, zero in SI units, factor from SI units, whether logarithmic. Of a curve
+        first along, then up."""
+        described = self._keep("described", lambda: [*self._flown.numbers, *self._flown.curves])
+        return next(list(measure["scales"]) for measure in described if measure["column"] == column)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Run, (self._case, self._flown)
@@ -198,8 +219,18 @@ class Run:
 _FIRST = ("amplitude_y_m", "amplitude_z_m", "frequency_y_hz", "frequency_z_hz", "sigma_md_m", "sigma_cd_m")
 
 
+def unknown_measure(column: str, known: Iterable[str]) -> KeyError:
+    """The error of a measure that is not there."""
+    from difflib import get_close_matches
+
+    known = list(known)
+    near = get_close_matches(str(column), known, n=1)
+    hint = f"did you mean {near[0]!r}?" if near else "there are " + ", ".join(known)
+    return KeyError(f"no measure {column!r} here; {hint}")
+
+
 class _Named(Mapping[str, Any]):
-    """Measures by their columns."""
+    """Numbers or curves by their columns."""
 
     def __init__(self, kind: Any, described: list[dict[str, Any]]) -> None:
         self._of = {of["column"]: kind(**{name: of[name] for name in kind._fields}) for of in described}
@@ -208,11 +239,7 @@ class _Named(Mapping[str, Any]):
         try:
             return self._of[column]
         except KeyError:
-            from difflib import get_close_matches
-
-            near = get_close_matches(str(column), self._of, n=1)
-            hint = f"did you mean {near[0]!r}?" if near else "there are " + ", ".join(self._of)
-            raise KeyError(f"no measure {column!r} here; {hint}") from None
+            raise unknown_measure(column, self._of) from None
 
     def __iter__(self) -> Any:
         return iter(self._of)
@@ -224,10 +251,27 @@ class _Named(Mapping[str, Any]):
         return "\n".join(map(repr, self._of.values()))
 
 
+class Measures(_Named):
+    """The measures of a run that are numbers, by column."""
+
+    def __getitem__(self, column: str) -> Measure:
+        return super().__getitem__(column)  # type: ignore[no-any-return]
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A row for each measure, by column, in SI units: `label`, `mean`, `standard_error`, `shown`, which stands for all
+        replicates in reports, the number `n` of replicates in which it is defined, and its `meaning`."""
+        pd = needed("pandas", "pandas", "to_pandas()")
+        rows = [(m.label, m.mean, m.standard_error, m.shown, np.isfinite(m.values).sum(), m.meaning) for m in self.values()]
+        columns = ["label", "mean", "standard_error", "shown", "n", "meaning"]
+        table = pd.DataFrame(rows, columns=columns, index=pd.Index(list(self), name="measure"))
+        return table.astype({"standard_error": float})
+
+
 def run(
-    case: Case,
+    case: CaseLike,
     replicates: int | None = None,
     *,
+    set: Mapping[str, Any] | None = None,  # noqa: A002 - the word of the program
     seed: int | None = None,
     threads: int | None = None,
     progress: Progress = None,
@@ -237,6 +281,8 @@ def run(
 ) -> Run:
     """Flies a case: the same bits as `spunlaid run`.
 
+    case: a Case, the path of a case file, or a dict of its tables, with texts that have a unit and numbers in SI units
+    set: keys that replace those of the case, `{"air.velocity": "20 m/s"}`
     replicates, seed: number of fibres, and the seed of their turbulence; as the case says by default
     threads: number of threads, by default one for each processor; the results do not depend on it
     progress: None, True, False, or a function that gets the steps done and their number
@@ -246,7 +292,8 @@ def run(
 
     Ctrl-C stops it. Raises FibreLost if a fibre's positions become infinite.
     """
-    changes: dict[str, Any] = {}
+    case = case_of(case)
+    changes = dict(set or {})
     if replicates is not None:
         changes["run.replicates"] = replicates
     if seed is not None:

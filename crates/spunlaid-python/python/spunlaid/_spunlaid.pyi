@@ -1,7 +1,7 @@
 """The compiled part of spunlaid."""
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, ItemsView, Iterator, KeysView, Mapping, Sequence, ValuesView
 from typing import Any, final
 
 import numpy as np
@@ -31,10 +31,11 @@ __version__: str
 
 _Floats = NDArray[np.float64]
 _Progress = Callable[[int, int], object] | None
+_Scale = tuple[str, float, float, bool]
 _Part = tuple[int, str, list[tuple[int, str]] | None, int, int, int]
 
 @final
-class Case:
+class Case(Mapping[str, Any]):
     """A fibre, the air around it and how its flight is computed: a case file, read and checked, that can be run."""
 
     @classmethod
@@ -58,6 +59,21 @@ class Case:
 
     def __getitem__(self, key: str, /) -> Any:
         """The value of a key in SI units."""
+
+    def __len__(self) -> int: ...
+    def __iter__(self) -> Iterator[str]: ...
+    def __contains__(self, key: object, /) -> bool: ...
+    def get(self, key: str, default: Any = None) -> Any:
+        """The value of a key in SI units, or `default`."""
+
+    def keys(self) -> KeysView[str]:
+        """The keys of this case."""
+
+    def values(self) -> ValuesView[Any]:
+        """Their values."""
+
+    def items(self) -> ItemsView[str, Any]:
+        """The keys with their values."""
 
     def to_dict(self) -> dict[str, dict[str, Any]]:
         """The values of all keys by table, in SI units."""
@@ -92,12 +108,14 @@ class LookedAtAir:
 class Flight:
     """Fibres in flight, which you step."""
 
-    def __new__(cls, case: Case, replicates: int | None = None) -> Flight: ...
-    def step(self, duration: float) -> None:
-        """Advances all fibres by a time [s], to the nearest whole step."""
+    def __new__(
+        cls, case: Case | str | os.PathLike[str] | Mapping[str, Any], replicates: int | None = None
+    ) -> Flight: ...
+    def step(self, duration: str | float) -> None:
+        """Advances all fibres by a time, "10 ms" or in seconds, to the nearest whole step."""
 
-    def step_to(self, time: float) -> None:
-        """Advances all fibres to a time [s], to the nearest whole step."""
+    def step_to(self, time: str | float) -> None:
+        """Advances all fibres to a time, "10 ms" or in seconds, to the nearest whole step."""
 
     def set(self, key: str, value: str | float | Sequence[float]) -> None:
         """Changes a key while the fibres fly."""
@@ -206,7 +224,7 @@ class Study:
     @property
     def notes(self) -> list[str]: ...
     @property
-    def measures(self) -> list[tuple[str, str, str, str]]: ...
+    def measures(self) -> list[tuple[str, str, str, str, _Scale]]: ...
 
 @final
 class LaidWeb:

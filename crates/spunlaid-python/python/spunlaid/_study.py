@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _spunlaid
+from ._case import case_of
+from ._optional import needed
 from ._progress import Progress, shown
 from ._run import _threads
 from ._spunlaid import Case
@@ -17,7 +19,10 @@ from ._toml import study_toml
 if TYPE_CHECKING:
     import pandas
     import xarray
+    from matplotlib.axes import Axes
     from numpy.typing import NDArray
+
+    from ._plot import Axis
 
 
 class Study:
@@ -98,8 +103,7 @@ class Study:
 
     def replicates(self) -> pandas.DataFrame:
         """A row for each fibre or web: `point` and `replicate`, both counted from 1, whether it was `lost`, and its measures."""
-        import pandas as pd
-
+        pd = needed("pandas", "pandas", "replicates()")
         columns = ["point", "replicate", "lost"] + [of[0] for of in self._study.measures]
         table = pd.DataFrame(self._study.replicates(), columns=columns).dropna(axis="columns", how="all")
         table[["point", "replicate"]] = table[["point", "replicate"]].astype(int) + 1
@@ -107,8 +111,7 @@ class Study:
 
     def to_pandas(self) -> pandas.DataFrame:
         """A row for each point, as `results.csv` has it: seed, inputs, numbers of fibres, means and standard errors (`_se`)."""
-        import pandas as pd
-
+        pd = needed("pandas", "pandas", "to_pandas()")
         columns: dict[str, Any] = {"seed": self._results["seed"]}
         columns |= {of["column"]: np.asarray(of["values"]) for of in self._study.inputs}
         columns |= {"n": self.n, "lost": self.lost}
@@ -119,6 +122,7 @@ class Study:
 
     def to_xarray(self) -> xarray.Dataset:
         """The same with the factors as coordinates: a dimension for each factor of a grid, `point` for other designs."""
+        needed("xarray", "xarray", "to_xarray()")
         table = self.to_pandas()
         factors = {of["key"]: of["column"] for of in self._study.inputs if of["factor"]}
         if self.design == "grid" and factors:
@@ -130,12 +134,52 @@ class Study:
         data = table.to_xarray()
         return data.set_coords(list(factors.values())).rename({column: key for key, column in factors.items()})
 
+    def plot(self, column: str | None = None, *, along: str | None = None, ax: Axes | None = None) -> Axes:
+        """Draws a measure over a factor with matplotlib, with standard errors, and returns the axes. In a grid, each line has the
+        other factors in common.
+
+        column: the measure, `amplitude_y_m`; by default the amplitude, the width of the lay-down, the unevenness or the diameter,
+            whichever the study has
+        along: the key that is varied along the axis; the first factor by default
+        ax: the axes to draw on; new ones by default
+        """
+        from ._plot import of_study
+
+        measured, factors = self.mean, self.factors
+        if column is None:
+            column = next((name for name in _FIRST if name in measured), next(iter(measured), ""))
+        if along is None:
+            along = next(iter(factors), "")
+        for name, known, what in ((column, list(measured), "measure"), (along, factors, "factor")):
+            if name not in known:
+                raise KeyError(f"no {what} {name!r} in this study; there are {', '.join(known) or 'none'}")
+        return of_study(self, column, along, ax)
+
+    def scale_of_factor(self, key: str) -> Axis:
+        """How the values of a factor stand on an axis."""
+        from ._plot import Axis
+
+        return next(Axis(*of["scale"]) for of in self._study.inputs if of["key"] == key and of["factor"])
+
+    def scale_of_measure(self, column: str) -> Axis:
+        """How the values of a measure stand on an axis."""
+        from ._plot import Axis
+
+        return next(Axis(*scale) for name, _, _, _, scale in self._study.measures if name == column)
+
     def __repr__(self) -> str:
         factors = ", ".join(self.factors) or "no factors"
         return f"<Study {self._study.name}: {len(self)} points of {factors}, {int(self.n.sum())} {self.noun}s>"
 
-    def _repr_html_(self) -> str:
-        return self.to_pandas().to_html(max_rows=20)  # type: ignore[no-any-return]
+    def _repr_html_(self) -> str | None:
+        try:
+            return self.to_pandas().to_html(max_rows=20)  # type: ignore[no-any-return]
+        except ImportError:
+            # Without pandas a notebook shows the text.
+            return None
+
+
+_FIRST = ("amplitude_y_m", "sigma_cd_m", "cv_10_mm", "final_diameter_m")
 
 
 def sweep(
@@ -194,10 +238,5 @@ def _begin(
                     path = os.fspath(study[name])
                     return _spunlaid.Study(study_toml(study), None, path, out, force, points, replicates, changes)
             raise ValueError('a study needs a case: {"case": spunlaid.Case.starter(), "vary": {...}}')
-        case = study["case"]
-        if isinstance(case, Mapping):
-            case = Case.from_dict(case)
-        elif not isinstance(case, Case):
-            case = Case.read(case)
-        return _spunlaid.Study(study_toml(study), case, None, out, force, points, replicates, changes)
+        return _spunlaid.Study(study_toml(study), case_of(study["case"]), None, out, force, points, replicates, changes)
     return _spunlaid.Study(os.fspath(study), None, None, out, force, points, replicates, changes)

@@ -23,9 +23,9 @@ def study_toml(study: Mapping[str, Any]) -> str:
         elif isinstance(value, Mapping) and name in ("vary", "link", "set"):
             tables.append(f"\n[{name}]")
             for key, of in value.items():
-                tables.append(f"{_text(key)} = {_value(of, known.get(_plain(key)))}")
+                tables.append(f"{_text(key)} = {_value(key, of, known.get(_plain(key)))}")
         else:
-            lines.append(f"{_text(name)} = {_value(value, None)}")
+            lines.append(f"{_text(name)} = {_value(name, value, None)}")
     return "\n".join(lines + tables) + "\n"
 
 
@@ -40,7 +40,12 @@ def _text(text: Any) -> str:
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
-def _value(value: Any, key: Key | None) -> str:
+def _value(name: str, value: Any, key: Key | None) -> str:
+    """A value as TOML.
+
+    name: what a message calls it
+    key: the key of a case or a web that it belongs to
+    """
     if isinstance(value, str):
         return _text(value)
     if isinstance(value, (bool, np.bool_)):
@@ -51,8 +56,8 @@ def _value(value: Any, key: Key | None) -> str:
         return str(int(value)) if isinstance(value, (int, np.integer)) else repr(float(value))
     if isinstance(value, Mapping):
         # The number of levels of a range has no unit.
-        parts = (f"{_text(name)} = {_value(of, None if name == 'steps' else key)}" for name, of in value.items())
+        parts = (f"{_text(part)} = {_value(name, of, None if part == 'steps' else key)}" for part, of in value.items())
         return "{ " + ", ".join(parts) + " }"
     if isinstance(value, (list, tuple, np.ndarray, range)):
-        return "[" + ", ".join(_value(part, key) for part in value) + "]"
-    raise TypeError(f"a study takes texts, numbers, lists and dicts, not {type(value).__name__}")
+        return "[" + ", ".join(_value(name, part, key) for part in value) + "]"
+    raise TypeError(f"{name} takes texts, numbers, lists and dicts, not {type(value).__name__}")

@@ -13,6 +13,7 @@ from ._run import _threads
 
 if TYPE_CHECKING:
     import numpy as np
+    from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
 
@@ -67,6 +68,17 @@ class Web:
     def notes(self) -> list[str]:
         """Notes and warnings."""
         return self._laid.notes
+
+    def plot(self, what: str = "map", *, ax: Axes | None = None) -> Axes:
+        """Draws with matplotlib, and returns the axes.
+
+        what: `map`, the basis weight of every cell; or `cv`, how uneven the web is over the size of the patches, with intervals of
+            95 % by chance
+        ax: the axes to draw on; new ones by default
+        """
+        from ._plot import of_web
+
+        return of_web(self, what, ax)
 
     def save(self, path: str | os.PathLike[str], *, force: bool = False) -> None:
         """Writes the folder that `spunlaid web` writes.

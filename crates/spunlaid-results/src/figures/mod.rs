@@ -10,6 +10,7 @@ pub mod record_sample;
 mod run;
 #[cfg(test)]
 pub mod sample;
+mod scales;
 mod spinline;
 #[cfg(test)]
 pub mod spinline_sample;
@@ -21,6 +22,7 @@ mod web;
 pub use compare::{CurvePoint, Curves, MOST as MOST_COMPARED, overlaid_figures};
 pub use record::record_figures;
 pub use run::{run_figures, swing_frequency};
+pub use scales::Scale;
 pub use spinline::{SPINLINE, spinline_figures};
 pub use spunlaid::web::uniformity::Unevenness;
 pub use study::{name_of_key, study_figures};

@@ -12,6 +12,7 @@ use quantity::Group;
 use spunlaid::study::{Design, PointResults, Ranking, Study};
 use spunlaid_charts::Figure;
 
+pub(super) use quantity::Along;
 pub use quantity::name_of_key;
 
 /// Largest number of values of a factor that are drawn as curves; more are drawn as a map.

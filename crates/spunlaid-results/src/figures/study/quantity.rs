@@ -108,11 +108,11 @@ pub fn name_of_key(key: &str) -> String {
 
 /// The axis of a factor.
 #[derive(Clone, Debug)]
-pub(super) struct Along {
-    pub(super) axis: Axis,
+pub struct Along {
+    pub(in crate::figures) axis: Axis,
     /// Where the units of the axis begin, in SI units, and what converts from there.
-    zero: f64,
-    scale: f64,
+    pub(in crate::figures) zero: f64,
+    pub(in crate::figures) scale: f64,
     pub(super) unit: &'static str,
     /// The values of a factor of words, in the order of the axis.
     words: Vec<f64>,
@@ -146,7 +146,7 @@ impl Along {
     }
 
     /// The axis of a factor of a study.
-    pub(super) fn of_study(study: &Study, factor: usize) -> Self {
+    pub(in crate::figures) fn of_study(study: &Study, factor: usize) -> Self {
         let base = study.points.first().filter(|_| study.design == Design::OneAtATime);
         Self::new(&study.factors[factor], base.map(|point| point.values[factor]))
     }

@@ -3,7 +3,7 @@
 mod formulas;
 mod statistics;
 
-use super::{EddyField, Extent};
+use super::{EddyField, EddyFields, Extent};
 use crate::air::{Air, EddyModel, SpectrumShape, StreamKey};
 use crate::lanes::{Isa, Plain, Register, Task, WIDTH};
 use crate::vec3::Vec3;
@@ -31,7 +31,7 @@ fn at(field: &EddyField, time: f64, place: [f64; 3]) -> [f64; 3] {
 #[inline(always)]
 fn look<S: Register>(field: &EddyField, time: f64, [x, y, z]: [f64; 3]) -> [f64; 3] {
     let Vec3 { x, y, z } =
-        EddyField::fluctuations::<S>([field; WIDTH], time, &Vec3::splat(Vec3::new(x, y, z)));
+        EddyFields::new([field; WIDTH]).fluctuations::<S>(time, &Vec3::splat(Vec3::new(x, y, z)));
     [x.0[5], y.0[5], z.0[5]]
 }
 
