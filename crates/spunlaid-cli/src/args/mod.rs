@@ -2,14 +2,16 @@
 
 mod analyse;
 mod help;
+mod new;
 
 pub(crate) use analyse::{Analyse, Direction, LightName};
+pub(crate) use new::{LineNumbers, New, polymer, titre};
 
 use clap::{Args, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
 use help::{
-    AIR_HELP, ANALYSE_HELP, CHECK_HELP, COMPARE_HELP, EXAMPLES, KEYS_HELP, LIVE_HELP, REPRODUCE_HELP,
-    RUN_HELP, SPIN_HELP, SWEEP_HELP, WEB_HELP,
+    AIR_HELP, ANALYSE_HELP, CHECK_HELP, COMPARE_HELP, EXAMPLES, KEYS_HELP, LIVE_HELP, NEW_HELP,
+    REPRODUCE_HELP, RUN_HELP, SPIN_HELP, SWEEP_HELP, WEB_HELP,
 };
 use spunlaid::case::{Case, Note};
 use spunlaid::error::Error;
@@ -55,15 +57,14 @@ pub(crate) enum Command {
     /// Compare the results of runs or of webs: differences, whether they are beyond chance, curves in one picture
     #[command(after_help = COMPARE_HELP)]
     Compare(Compare),
-    /// Show a case with all defaults, its mesh, limits and expected cost, without flying it
+    /// Show a case, a web or a study with all defaults, and what it means, without flying it
     #[command(after_help = CHECK_HELP)]
     Check(Check),
     /// Explain the keys of a case or of a web: meaning, allowed values, default
     #[command(after_help = KEYS_HELP)]
     Keys(Keys),
-    /// Write a commented case file to start from
-    #[command(after_help = "Examples:\n  spunlaid new my.toml && spunlaid run my.toml\n  \
-        spunlaid new --fed line.toml        a fibre that is fed and laid on a moving belt")]
+    /// Write a commented case file to start from, or the file of a web from the numbers of a line
+    #[command(after_help = NEW_HELP)]
     New(New),
     /// Print a script that completes commands and options in your shell
     #[command(
@@ -301,7 +302,7 @@ pub(crate) enum SchemeName {
     ImplicitTension,
 }
 
-fn quantity(dimension: Dimension, text: &str) -> Result<f64, String> {
+pub(crate) fn quantity(dimension: Dimension, text: &str) -> Result<f64, String> {
     let value = dimension.parse(text).map_err(|fault| fault.to_string())?;
     let signed = dimension == Dimension::Velocity;
     if value > 0.0 || (signed && value < 0.0) { Ok(value) } else { Err("is not above zero".to_owned()) }
@@ -337,7 +338,7 @@ pub(crate) struct Check {
 
 #[derive(Debug, Args)]
 pub(crate) struct Keys {
-    /// Show only keys with this word in their name or meaning
+    /// Show only keys with this word in their name, their meaning or other words for them, or with this unit
     pub(crate) pattern: Option<String>,
     /// Print Markdown; docs/keys.md is made this way
     #[arg(long)]
@@ -345,16 +346,6 @@ pub(crate) struct Keys {
     /// Show the keys of the file of a web in place of those of a case
     #[arg(long)]
     pub(crate) web: bool,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct New {
-    /// File to write; it must not exist yet
-    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub(crate) file: PathBuf,
-    /// A fibre that is fed at an inlet and laid on a moving belt, in place of one of fixed length
-    #[arg(long)]
-    pub(crate) fed: bool,
 }
 
 #[derive(Debug, Args)]

@@ -66,6 +66,8 @@ pub struct Key<T: 'static = Case> {
     pub left_out: LeftOut,
     /// Its meaning, in one or two sentences.
     pub meaning: &'static str,
+    /// Other words for it, by which it is searched.
+    pub synonyms: &'static [&'static str],
     /// The label of an axis in figures, with its symbol: `Mean velocity *U*`.
     pub label: &'static str,
     /// Whether a study may vary it.
@@ -203,6 +205,13 @@ impl<T> Key<T> {
     /// Whether a flow or a file gives the value, so that a case file leaves it out.
     pub fn is_told(&self, input: &T) -> bool {
         (self.told)(input)
+    }
+
+    /// Whether it is found by this word: in its name, its meaning or its synonyms, or as one of its units.
+    pub fn has_word(&self, word: &str) -> bool {
+        let has = |text: &str| text.to_lowercase().contains(&word.to_lowercase());
+        [self.name, self.meaning].into_iter().chain(self.synonyms.iter().copied()).any(has)
+            || self.dimension().is_some_and(|dimension| dimension.has_unit(word))
     }
 
     /// An example line of a case file.
