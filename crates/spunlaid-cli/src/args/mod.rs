@@ -12,10 +12,11 @@ use help::{
     RUN_HELP, SPIN_HELP, SWEEP_HELP, WEB_HELP,
 };
 use spunlaid::case::{Case, Note};
-use spunlaid::error::Error;
-use spunlaid::input::{Overrides, read_case};
+use spunlaid::error::{Error, Fault, Problem};
+use spunlaid::input::{LARGEST_FILE, Overrides, parse_case, read_case};
 use spunlaid::units::Dimension;
-use std::path::PathBuf;
+use std::io::Read;
+use std::path::{Path, PathBuf};
 
 /// Simulate fibres from the die to the web: how the melt is drawn, how fibres swing in turbulent air, how even they lie
 #[derive(Debug, Parser)]
@@ -63,19 +64,24 @@ pub(crate) enum Command {
     Keys(Keys),
     /// Write a commented case file to start from
     #[command(after_help = "Examples:\n  spunlaid new my.toml && spunlaid run my.toml\n  \
-        spunlaid new --fed line.toml        a fibre that is fed and laid on a moving belt")]
+        spunlaid new --fed line.toml        a fibre that is fed and laid on a moving belt\n  \
+        spunlaid new --study my.toml && spunlaid sweep my_study.toml\n  \
+        spunlaid new - | grep -v '#'        on standard output")]
     New(New),
-    /// Print a script that completes commands and options in your shell
+    /// Print a script that completes commands, options and keys in your shell
     #[command(
         after_help = "Example:\n  spunlaid completions bash > ~/.local/share/bash-completion/completions/spunlaid"
     )]
     Completions(Completions),
+    /// Write the manual pages of all commands
+    #[command(after_help = "Example:\n  spunlaid man ~/.local/share/man/man1 && man spunlaid-run")]
+    Man(Man),
 }
 
 /// A case and changes to it.
 #[derive(Debug, Args)]
 pub(crate) struct CaseSource {
-    /// Case file (TOML)
+    /// Case file (TOML). A single - is standard input
     #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
     pub(crate) case: PathBuf,
     /// Set a key of the case for this run, as air.velocity="20 m/s"; can be repeated
@@ -88,7 +94,11 @@ impl CaseSource {
     pub(crate) fn read(&self, more: &[(&str, String)]) -> Result<(Case, Vec<Note>), Error> {
         let more = more.iter().map(|(key, value)| ((*key).to_owned(), value.clone()));
         let values: Vec<_> = self.set.iter().cloned().chain(more).collect();
-        read_case(&self.case, Overrides { values: &values, word: "--set" })
+        let overrides = Overrides { values: &values, word: "--set" };
+        if is_standard(&self.case) {
+            return parse_case(&standard_input()?, STANDARD_INPUT, overrides);
+        }
+        read_case(&self.case, overrides)
     }
 
     /// The same as arguments of a command line.
@@ -96,6 +106,31 @@ impl CaseSource {
         let set = self.set.iter().map(|(key, value)| format!(" --set {}", quoted(&format!("{key}={value}"))));
         quoted(&self.case.to_string_lossy()) + &set.collect::<String>()
     }
+}
+
+/// Whether a path means standard input or output.
+pub(crate) fn is_standard(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// What messages call it.
+const STANDARD_INPUT: &str = "standard input";
+
+/// The text on standard input, which is no longer than that of a file.
+fn standard_input() -> Result<String, Error> {
+    let mut text = String::new();
+    let refused = |fault| Error::File(Box::new(Problem::with_path(Path::new(STANDARD_INPUT), fault)));
+    let most = LARGEST_FILE + 1;
+    std::io::stdin().lock().take(most).read_to_string(&mut text).map_err(|error| {
+        refused(Fault::new(format!("cannot be read as UTF-8 text: {error}"), "name the file of a case"))
+    })?;
+    if text.len() as u64 == most {
+        return Err(refused(Fault::new(
+            format!("is longer than {LARGEST_FILE} bytes"),
+            "name the file of a case",
+        )));
+    }
+    Ok(text)
 }
 
 /// A word of a command line, in quotes if the shell would not take it as one word. It stays in its line.
@@ -121,10 +156,10 @@ pub(crate) struct Run {
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub(crate) out: Option<PathBuf>,
     /// Number of fibres, each in its own turbulence; replaces run.replicates
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = |text: &str| whole(0, text))]
     pub(crate) replicates: Option<u64>,
     /// Seed of the turbulence; replaces run.seed
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", value_parser = |text: &str| whole(0, text))]
     pub(crate) seed: Option<u64>,
     /// Fly a finished run again for longer, to this time, as "20 s"; CASE is its results folder
     #[arg(long, value_name = "TIME", value_parser = |t: &str| quantity(Dimension::Time, t),
@@ -139,7 +174,7 @@ pub(crate) struct Run {
     /// Print summary.json instead of the table; without --out or --until, write no files
     #[arg(long)]
     pub(crate) json: bool,
-    /// Replace the results in the output folder
+    /// Replace any results in the output folder; those of the same command are replaced without it
     #[arg(long)]
     pub(crate) force: bool,
 }
@@ -165,16 +200,16 @@ pub(crate) struct Sweep {
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
     pub(crate) set: Vec<(String, String)>,
     /// Fibres or webs at each point, in place of the study's; with more than before, a finished study goes on
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", value_parser = |text: &str| whole(1, text))]
     pub(crate) replicates: Option<u64>,
     /// Print results.json instead of the table
     #[arg(long)]
     pub(crate) json: bool,
     /// Confirm the number of points; needed above 10000 points
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = |text: &str| whole(0, text))]
     pub(crate) points: Option<u64>,
     /// Print the case or the web of point K, counted from 1, and fly nothing
-    #[arg(long, value_name = "K")]
+    #[arg(long, value_name = "K", value_parser = |text: &str| whole(0, text))]
     pub(crate) print_point: Option<u64>,
 }
 
@@ -195,7 +230,7 @@ pub(crate) struct Spin {
     /// Print summary.json instead of the table; without --out, write no files
     #[arg(long)]
     pub(crate) json: bool,
-    /// Replace the results in the output folder
+    /// Replace any results in the output folder; those of the same command are replaced without it
     #[arg(long)]
     pub(crate) force: bool,
 }
@@ -247,7 +282,7 @@ pub(crate) struct Web {
     /// Print summary.json instead of the table; without --out, write no files
     #[arg(long)]
     pub(crate) json: bool,
-    /// Replace the results in the output folder
+    /// Replace any results in the output folder; those of the same command are replaced without it
     #[arg(long)]
     pub(crate) force: bool,
 }
@@ -274,7 +309,7 @@ pub(crate) struct Reproduce {
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub(crate) figures: Vec<String>,
     /// Fibres at each point; the paper has ten
-    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = |text: &str| whole(1, text))]
     pub(crate) replicates: u64,
     /// Time integration: the paper's with 1 µs, or another with a suitable step
     #[arg(long, value_enum, default_value = "semi-implicit-euler")]
@@ -299,6 +334,12 @@ pub(crate) enum SchemeName {
     Leapfrog,
     /// Long steps, hundreds of times faster
     ImplicitTension,
+}
+
+/// A whole number from `least`.
+fn whole(least: u64, text: &str) -> Result<u64, String> {
+    let number = text.trim().parse().ok().filter(|number| *number >= least);
+    number.ok_or_else(|| format!("write a whole number from {least} in digits, like 1000"))
 }
 
 fn quantity(dimension: Dimension, text: &str) -> Result<f64, String> {
@@ -349,12 +390,22 @@ pub(crate) struct Keys {
 
 #[derive(Debug, Args)]
 pub(crate) struct New {
-    /// File to write; it must not exist yet
+    /// File to write; it must not exist yet. A single - is standard output
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) file: PathBuf,
     /// A fibre that is fed at an inlet and laid on a moving belt, in place of one of fixed length
     #[arg(long)]
     pub(crate) fed: bool,
+    /// Write FILE_study.toml beside FILE, a study of this case, web or spinline; a case that does not exist yet is written too
+    #[arg(long)]
+    pub(crate) study: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Man {
+    /// Folder to write to; it is made if it does not exist
+    #[arg(value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub(crate) folder: PathBuf,
 }
 
 #[derive(Debug, Args)]

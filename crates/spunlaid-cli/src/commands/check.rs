@@ -9,7 +9,8 @@ use serde_json::Value as Json;
 use spunlaid::air::{Air, Flow};
 use spunlaid::case::{Case, INSTANT_ON_DISK, Note, StepLimit};
 use spunlaid::ensemble::{FinerPlans, KeepShapes, pace};
-use spunlaid::input::{Overrides, holds_spinline_alone, read_spinline, write_case, write_spinline};
+use spunlaid::error::FileKind;
+use spunlaid::input::{Overrides, kind_of, read_spinline, write_case, write_spinline};
 use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid::line::Line;
 use spunlaid::units::Dimension;
@@ -24,7 +25,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 pub(crate) fn check(check: &Check) -> Result<(), Failure> {
-    if holds_spinline_alone(&check.source.case) {
+    if kind_of(&check.source.case) == FileKind::Spinline {
         return check_spinline(check);
     }
     let started = Instant::now();
