@@ -2,21 +2,22 @@
 
 mod analyse;
 mod help;
+mod new;
+mod source;
 
 pub(crate) use analyse::{Analyse, Direction, LightName};
+pub(crate) use new::{LineNumbers, New, polymer, titre};
+pub(crate) use source::{CaseSource, is_standard, quoted};
 
 use clap::{Args, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
 use help::{
-    AIR_HELP, ANALYSE_HELP, CHECK_HELP, COMPARE_HELP, EXAMPLES, KEYS_HELP, LIVE_HELP, REPRODUCE_HELP,
-    RUN_HELP, SPIN_HELP, SWEEP_HELP, WEB_HELP,
+    AIR_HELP, ANALYSE_HELP, CHECK_HELP, COMPARE_HELP, EXAMPLES, KEYS_HELP, LIVE_HELP, NEW_HELP,
+    REPRODUCE_HELP, RUN_HELP, SPIN_HELP, SWEEP_HELP, WEB_HELP,
 };
-use spunlaid::case::{Case, Note};
-use spunlaid::error::{Error, Fault, Problem};
-use spunlaid::input::{LARGEST_FILE, Overrides, parse_case, read_case};
+use source::key_and_value;
 use spunlaid::units::Dimension;
-use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Simulate fibres from the die to the web: how the melt is drawn, how fibres swing in turbulent air, how even they lie
 #[derive(Debug, Parser)]
@@ -56,17 +57,14 @@ pub(crate) enum Command {
     /// Compare the results of runs or of webs: differences, whether they are beyond chance, curves in one picture
     #[command(after_help = COMPARE_HELP)]
     Compare(Compare),
-    /// Show a case with all defaults, its mesh, limits and expected cost, without flying it
+    /// Show a case, a web or a study with all defaults, and what it means, without flying it
     #[command(after_help = CHECK_HELP)]
     Check(Check),
     /// Explain the keys of a case or of a web: meaning, allowed values, default
     #[command(after_help = KEYS_HELP)]
     Keys(Keys),
-    /// Write a commented case file to start from
-    #[command(after_help = "Examples:\n  spunlaid new my.toml && spunlaid run my.toml\n  \
-        spunlaid new --fed line.toml        a fibre that is fed and laid on a moving belt\n  \
-        spunlaid new --study my.toml && spunlaid sweep my_study.toml\n  \
-        spunlaid new - | grep -v '#'        on standard output")]
+    /// Write a commented case file to start from, or the file of a web from the numbers of a line
+    #[command(after_help = NEW_HELP)]
     New(New),
     /// Print a script that completes commands, options and keys in your shell
     #[command(
@@ -76,76 +74,6 @@ pub(crate) enum Command {
     /// Write the manual pages of all commands
     #[command(after_help = "Example:\n  spunlaid man ~/.local/share/man/man1 && man spunlaid-run")]
     Man(Man),
-}
-
-/// A case and changes to it.
-#[derive(Debug, Args)]
-pub(crate) struct CaseSource {
-    /// Case file (TOML). A single - is standard input
-    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
-    pub(crate) case: PathBuf,
-    /// Set a key of the case for this run, as air.velocity="20 m/s"; can be repeated
-    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
-    pub(crate) set: Vec<(String, String)>,
-}
-
-impl CaseSource {
-    /// Reads the case with the values of `--set` and these.
-    pub(crate) fn read(&self, more: &[(&str, String)]) -> Result<(Case, Vec<Note>), Error> {
-        let more = more.iter().map(|(key, value)| ((*key).to_owned(), value.clone()));
-        let values: Vec<_> = self.set.iter().cloned().chain(more).collect();
-        let overrides = Overrides { values: &values, word: "--set" };
-        if is_standard(&self.case) {
-            return parse_case(&standard_input()?, STANDARD_INPUT, overrides);
-        }
-        read_case(&self.case, overrides)
-    }
-
-    /// The same as arguments of a command line.
-    pub(crate) fn words(&self) -> String {
-        let set = self.set.iter().map(|(key, value)| format!(" --set {}", quoted(&format!("{key}={value}"))));
-        quoted(&self.case.to_string_lossy()) + &set.collect::<String>()
-    }
-}
-
-/// Whether a path means standard input or output.
-pub(crate) fn is_standard(path: &Path) -> bool {
-    path.as_os_str() == "-"
-}
-
-/// What messages call it.
-const STANDARD_INPUT: &str = "standard input";
-
-/// The text on standard input, which is no longer than that of a file.
-fn standard_input() -> Result<String, Error> {
-    let mut text = String::new();
-    let refused = |fault| Error::File(Box::new(Problem::with_path(Path::new(STANDARD_INPUT), fault)));
-    let most = LARGEST_FILE + 1;
-    std::io::stdin().lock().take(most).read_to_string(&mut text).map_err(|error| {
-        refused(Fault::new(format!("cannot be read as UTF-8 text: {error}"), "name the file of a case"))
-    })?;
-    if text.len() as u64 == most {
-        return Err(refused(Fault::new(
-            format!("is longer than {LARGEST_FILE} bytes"),
-            "name the file of a case",
-        )));
-    }
-    Ok(text)
-}
-
-/// A word of a command line, in quotes if the shell would not take it as one word. It stays in its line.
-pub(crate) fn quoted(word: &str) -> String {
-    if word.chars().all(|c| c.is_alphanumeric() || "-_./=:,+%".contains(c)) {
-        return word.to_owned();
-    }
-    format!("'{}'", word.replace(char::is_control, "?").replace('\'', "'\\''"))
-}
-
-fn key_and_value(text: &str) -> Result<(String, String), String> {
-    match text.split_once('=').map(|(key, value)| (key.trim(), value.trim())) {
-        Some((key, value)) if !key.is_empty() => Ok((key.to_owned(), value.to_owned())),
-        _ => Err("write a key and a value, as air.velocity=\"20 m/s\"".to_owned()),
-    }
 }
 
 #[derive(Debug, Args)]
@@ -342,7 +270,7 @@ fn whole(least: u64, text: &str) -> Result<u64, String> {
     number.ok_or_else(|| format!("write a whole number from {least} in digits, like 1000"))
 }
 
-fn quantity(dimension: Dimension, text: &str) -> Result<f64, String> {
+pub(crate) fn quantity(dimension: Dimension, text: &str) -> Result<f64, String> {
     let value = dimension.parse(text).map_err(|fault| fault.to_string())?;
     let signed = dimension == Dimension::Velocity;
     if value > 0.0 || (signed && value < 0.0) { Ok(value) } else { Err("is not above zero".to_owned()) }
@@ -378,7 +306,7 @@ pub(crate) struct Check {
 
 #[derive(Debug, Args)]
 pub(crate) struct Keys {
-    /// Show only keys with this word in their name or meaning
+    /// Show only keys with this word in their name, their meaning or other words for them, or with this unit
     pub(crate) pattern: Option<String>,
     /// Print Markdown; docs/keys.md is made this way
     #[arg(long)]
@@ -386,19 +314,6 @@ pub(crate) struct Keys {
     /// Show the keys of the file of a web in place of those of a case
     #[arg(long)]
     pub(crate) web: bool,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct New {
-    /// File to write; it must not exist yet. A single - is standard output
-    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub(crate) file: PathBuf,
-    /// A fibre that is fed at an inlet and laid on a moving belt, in place of one of fixed length
-    #[arg(long)]
-    pub(crate) fed: bool,
-    /// Write FILE_study.toml beside FILE, a study of this case, web or spinline; a case that does not exist yet is written too
-    #[arg(long)]
-    pub(crate) study: bool,
 }
 
 #[derive(Debug, Args)]

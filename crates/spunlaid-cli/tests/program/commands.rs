@@ -1,8 +1,6 @@
 //! The commands beside `run`: `check`, `new`, `completions`, and help.
 
-use crate::desk::{Desk, names, refusal, success};
-use std::fs;
-use std::process::Command;
+use crate::desk::{Desk, FED, names, refusal, success};
 
 #[test]
 fn check_prints_a_case_that_can_be_read_again() {
@@ -44,6 +42,95 @@ fn check_remarks_on_rounded_elements_and_extrapolated_drag_once() {
         1
     );
     assert_eq!(said.lines().count(), 2, "{said}");
+}
+
+/// The numbers of a line: what is told is what the file says, and what follows from it.
+#[test]
+fn analytic_check_tells_the_numbers_of_a_web() {
+    let desk = Desk::new();
+    let web = "[fibre]\nlinear_density = \"2 dtex\"\ndensity = \"910 kg/m³\"\n[laydown]\nsigma_md = \"18 mm\"\nsigma_cd = \"18 mm\"\n\
+               noise = \"12 m^-0.5\"\n[line]\nthroughput = \"0.5 g/min\"\nbasis_weight = \"20 g/m²\"\nfilaments_per_metre = 5000\n\
+               [web]\nwidth = \"0.5 m\"\nlength = \"0.5 m\"\n";
+    std::fs::write(desk.path("web.toml"), web).unwrap();
+    let said = success(&mut desk.spunlaid("check web.toml"));
+    for part in [
+        // 5000 × 0.5 g/min; 2500 g/min over 20 g/m²; 0.5 g/min over 2 dtex.
+        "#   20 g/m² on a belt of 2.083 m/s: 150 kg/h from each metre of width\n",
+        "#   5000 holes per metre of width, each with 0.5 g/min: filaments of 2 dtex, 16.73 µm, fed at 41.67 m/s; 20 m of filament on \
+         each metre of belt\n",
+        "#   500 mm wide and 500 mm long, 1000 × 1000 cells of 500 µm; 2500 filaments cross it\n",
+        "#   nothing is flown: the spread and the noise are given\n",
+        "#   the filaments are independent of each other, which gives a lower bound of the unevenness\n",
+        "# ready: spunlaid web web.toml\n",
+        "basis_weight = \"0.02 kg/m²\"\n",
+    ] {
+        assert!(said.contains(part), "{part}\n{said}");
+    }
+    // What it prints is a web that says the same.
+    std::fs::write(desk.path("printed.toml"), &said).unwrap();
+    assert_eq!(
+        success(&mut desk.spunlaid("check printed.toml")),
+        said.replace("web web.toml", "web printed.toml")
+    );
+    let json: serde_json::Value =
+        serde_json::from_str(&success(&mut desk.spunlaid("check web.toml --json"))).unwrap();
+    for (path, wanted) in [
+        ("/basis_weight_kg_m2", 20e-3),
+        ("/belt_speed_m_s", 2500.0 / 60.0 / 20.0),
+        ("/mass_flow_kg_s_m", 150.0 / 3600.0),
+        ("/layers/0/throughput_kg_s", 0.5e-3 / 60.0),
+        ("/layers/0/linear_density_kg_m", 2e-7),
+        ("/layers/0/filaments_per_m", 5000.0),
+    ] {
+        let found = json.pointer(path).and_then(serde_json::Value::as_f64).unwrap();
+        assert!((found / wanted - 1.0).abs() < 1e-12, "{path} {found} {wanted}");
+    }
+
+    // Each point of a study has numbers of its own.
+    let study = "web = 'web.toml'\ndesign = 'grid'\nreplicates = 2\n[vary]\n'line.basis_weight' = ['10 g/m²', '20 g/m²']\n";
+    std::fs::write(desk.path("study.toml"), study).unwrap();
+    let said = success(&mut desk.spunlaid("check study.toml"));
+    assert!(said.contains("# 2 points of web.toml, each with 2 webs\n"), "{said}");
+    let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
+    let lines: Vec<String> = said.lines().map(words).collect();
+    for line in [
+        "# 1 10 g/m² 10 g/m² 4.167 m/s 150 kg/h",
+        "# 2 20 g/m² 20 g/m² 2.083 m/s 150 kg/h",
+        "# ready: spunlaid sweep study.toml",
+    ] {
+        assert!(lines.iter().any(|said| said == line), "{line}\n{said}");
+    }
+    let json = success(&mut desk.spunlaid("check study.toml --json"));
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["points"][1]["line.basis_weight_kg_m2"], 0.02);
+}
+
+/// Whether the air of the case is the same everywhere, and how all filaments fly in one.
+#[test]
+fn check_tells_in_which_air_the_filaments_of_a_web_hang() {
+    let desk = Desk::with_case(FED);
+    let web = "[laydown]\ncase = \"brief.toml\"\n[line]\nfilaments_per_metre = 1000\n[web]\nwidth = \"0.5 m\"\nlength = \"0.5 m\"\n";
+    std::fs::write(desk.path("web.toml"), web).unwrap();
+    let uniform = success(&mut desk.spunlaid("check web.toml"));
+    for part in [
+        "#   brief.toml: its air is the same everywhere across the flow (air.lateral = \"uniform\")\n",
+        "to fly them in one air, as in a line: --set web.method=shared-air --set line.depth=\"20 mm\"",
+        "fed at 50 m/s; 16.7 m of filament on each metre of belt",
+    ] {
+        assert!(uniform.contains(part), "{part}\n{uniform}");
+    }
+    let together =
+        desk.with("check web.toml", &["web.method=shared-air", "line.depth=20 mm"]).output().unwrap();
+    let said = String::from_utf8(together.stdout).unwrap();
+    assert!(
+        said.contains(
+            "#   all filaments fly in one field of eddies, so that neighbours come down together\n"
+        ),
+        "{said}"
+    );
+    // The notes about the case are told, as `spunlaid web` tells them.
+    let notes = String::from_utf8(together.stderr).unwrap();
+    assert!(notes.contains("note:") && notes.contains("web.method"), "{notes}");
 }
 
 #[test]
@@ -125,6 +212,120 @@ fn new_writes_a_fed_fibre_that_can_be_run() {
     assert_eq!(resolved("all.toml"), resolved("line.toml"));
 }
 
+/// The numbers of a line as options.
+const LINE: [&str; 12] = [
+    "--polymer",
+    "pp",
+    "--throughput",
+    "0.5 g/min",
+    "--dtex",
+    "2",
+    "--basis-weight",
+    "20 g/m²",
+    "--holes-per-metre",
+    "1000",
+    "--air-speed",
+    "60 m/s",
+];
+
+/// Throughput, titre, holes and basis weight give both speeds; the files can be checked and laid as they are.
+#[test]
+fn analytic_new_writes_a_web_from_the_numbers_of_a_line() {
+    let desk = Desk::new();
+    let said = success(desk.spunlaid("new --web line.toml").args(LINE));
+    assert_eq!(
+        said,
+        "wrote line.toml, line_filament.toml and line_air.csv; change them, then: spunlaid check line.toml, spunlaid web line.toml\n"
+    );
+    let text = |name: &str| String::from_utf8(desk.read(name)).unwrap();
+    let (web, case) = (text("line.toml"), text("line_filament.toml"));
+    // 0.5 g/min / 2 dtex; 1000 × 0.5 g/min / 20 g/m²; √(4 × 2 dtex / π / 905 kg/m³).
+    for part in [
+        "throughput = \"0.5 g/min\"   # of each hole: 0.5 g/min / 2 dtex = fed at 41.67 m/s\n",
+        "basis_weight = \"20 g/m²\"   # of the whole web: 1000 holes/m × 0.5 g/min / 20 g/m² = a belt of 0.4167 m/s\n",
+        "filaments_per_metre = 1000   # 30 kg/h from each metre of width, 30 kg/h in all\n",
+    ] {
+        assert!(web.contains(part), "{part}\n{web}");
+    }
+    for part in
+        ["linear_density = \"2 dtex\"   # of 16.77 µm", "speed = \"41.67 m/s\"", "speed = \"0.4167 m/s\""]
+    {
+        assert!(case.contains(part), "{part}\n{case}");
+    }
+    let said = success(&mut desk.spunlaid("check line.toml"));
+    assert!(
+        said.contains("#   20 g/m² on a belt of 0.4167 m/s: 30 kg/h from each metre of width\n"),
+        "{said}"
+    );
+    assert!(said.contains(
+        "1000 holes per metre of width, each with 0.5 g/min: filaments of 2 dtex, 16.77 µm, fed at 41.67 m/s"
+    ));
+    let small = ["web.width=0.4 m", "web.length=0.4 m", "web.cell=1 mm", "line.basis_weight=2 g/m²"];
+    std::fs::write(desk.path("line_filament.toml"), case.replace("\"1 s\"", "\"0.15 s\"")).unwrap();
+    success(&mut desk.with("web line.toml --out w --quiet", &small));
+    let weight = desk.summary("w")["web"]["basis_weight_kg_m2"].as_f64().unwrap();
+    assert!((weight / 2e-3 - 1.0).abs() < 1e-6, "{weight}");
+    // Nothing is overwritten, and nothing is written beside what is there.
+    std::fs::remove_file(desk.path("line.toml")).unwrap();
+    let said = refusal(desk.spunlaid("new --web line.toml").args(LINE), 1);
+    assert_eq!(said, "error: line_air.csv: exists already and is not overwritten; name another file\n");
+    assert!(!desk.path("line.toml").exists());
+}
+
+#[test]
+fn new_writes_beams_from_a_diameter_and_all_holes() {
+    let desk = Desk::new();
+    let options = "new --web two.toml --polymer pet --holes 9000 --beams 2";
+    let more =
+        ["--width", "4.5 m", "--throughput", "0.6 g/min", "--diameter", "16 µm", "--basis-weight", "15 gsm"];
+    let mut command = desk.spunlaid(options);
+    let output = command.args(more).args(["--air-speed", "30 m/s"]).output().unwrap();
+    assert!(output.status.success());
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.contains("warning: the air of 30 m/s is not faster than the filament, 37.12 m/s"), "{said}");
+    let said = success(&mut desk.spunlaid("check two.toml"));
+    // 2 × 2000 × 0.6 g/min / 15 g/m², and π/4 (16 µm)² × 1340 kg/m³.
+    for part in [
+        "#   15 g/m² on a belt of 2.667 m/s: 144 kg/h from each metre of width\n",
+        "#   layer \"beam 2\": 2000 holes per metre of width, each with 0.6 g/min: filaments of 2.694 dtex, 16 µm",
+        "18000 filaments cross it",
+    ] {
+        assert!(said.contains(part), "{part}\n{said}");
+    }
+}
+
+#[test]
+fn rejects_a_line_that_is_not_whole_or_cannot_run() {
+    let desk = Desk::new();
+    assert_eq!(
+        refusal(&mut desk.spunlaid("new --web line.toml --polymer pp --dtex 2 --holes-per-metre 5000"), 1),
+        "error: the numbers of the line are incomplete: --throughput, --basis-weight and --air-speed are missing; give them, or \
+         call the command in a terminal, where it asks; `spunlaid new --help` has examples\n"
+    );
+    let other = |more: &[&str]| refusal(desk.spunlaid("new --web line.toml").args(&LINE[..6]).args(more), 1);
+    let said = other(&["--basis-weight", "0.01 g/m²", "--holes-per-metre", "1000", "--air-speed", "60 m/s"]);
+    assert!(
+        said.contains(
+            "line.basis_weight = \"0.01 g/m²\" takes a belt of 833.3 m/s, which is more than line.feed_speed"
+        ),
+        "{said}"
+    );
+    let said = other(&[
+        "--width",
+        "3.2173 m",
+        "--basis-weight",
+        "10 g/m²",
+        "--holes-per-metre",
+        "1000",
+        "--air-speed",
+        "60 m/s",
+    ]);
+    assert!(said.contains("web.width = \"3.2173 m\" is not a whole number of cells"), "{said}");
+    assert_eq!(desk.entries(""), names(&["brief.toml"]), "nothing is left");
+    let said = refusal(&mut desk.spunlaid("new line.toml --dtex 2"), 1);
+    assert!(said.contains("--web"), "{said}");
+}
+
 #[test]
 fn completions_name_every_command_and_option() {
     let desk = Desk::new();
@@ -135,100 +336,6 @@ fn completions_name_every_command_and_option() {
         }
     }
     assert!(refusal(&mut desk.spunlaid("completions tcsh"), 1).contains("possible values: bash"));
-}
-
-#[test]
-fn completions_name_the_keys_of_each_command() {
-    let desk = Desk::new();
-    fs::write(desk.path("spunlaid.bash"), success(&mut desk.spunlaid("completions bash"))).unwrap();
-    // What Bash offers for the last word of a line, as it splits the line.
-    let offers = |words: &[&str]| -> Vec<String> {
-        let line: Vec<String> = words.iter().map(|word| format!("'{word}'")).collect();
-        let ask = format!(
-            "compopt() {{ :; }}; source ./spunlaid.bash; COMP_WORDS=(spunlaid {}); COMP_CWORD={}; \
-             _spunlaid_and_keys spunlaid '{}' '{}'; printf '%s\\n' \"${{COMPREPLY[@]}}\"",
-            line.join(" "),
-            words.len(),
-            words[words.len() - 1],
-            words.get(words.len().wrapping_sub(2)).unwrap_or(&"spunlaid"),
-        );
-        let output = Command::new("bash").args(["-c", &ask]).current_dir(desk.path("")).output().unwrap();
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        String::from_utf8(output.stdout).unwrap().lines().map(str::to_owned).collect()
-    };
-    assert_eq!(offers(&["run", "my.toml", "--set", "air.record_m"]), ["air.record_max_gap="]);
-    assert_eq!(offers(&["web", "my.toml", "--set", "line.belt_"]), ["line.belt_speed="]);
-    assert_eq!(offers(&["spin", "my.toml", "--set", "air.vel"]), [""]);
-    assert_eq!(offers(&["keys", "belt.sp"]), ["belt.speed"]);
-    // A key that is no completion is taken all the same.
-    assert!(success(&mut desk.spunlaid("keys stiff")).contains("fibre.youngs_modulus"));
-    success(&mut desk.with("check brief.toml", &["air.velocity=20 m/s"]));
-}
-
-#[test]
-fn manual_pages_are_written_for_every_command() {
-    let desk = Desk::new();
-    let said = success(&mut desk.spunlaid("man pages/man1"));
-    assert_eq!(said, "wrote the manual pages to pages/man1; man spunlaid shows the first\n");
-    let pages = desk.entries("pages/man1");
-    for name in ["spunlaid.1", "spunlaid-run.1", "spunlaid-sweep.1", "spunlaid-man.1"] {
-        assert!(pages.contains(name), "{pages:?}");
-    }
-    let run = String::from_utf8(desk.read("pages/man1/spunlaid-run.1")).unwrap();
-    assert!(run.contains(".TH") && run.contains("replicates") && run.contains("origin.toml"), "{run}");
-    // Again they are renewed.
-    success(&mut desk.spunlaid("man pages/man1"));
-    fs::write(desk.path("file"), "mine").unwrap();
-    assert!(refusal(&mut desk.spunlaid("man file"), 2).contains("file: cannot be written"));
-}
-
-#[test]
-fn a_case_may_come_from_standard_input() {
-    let desk = Desk::new();
-    let piped = |arguments: &str, text: &[u8]| {
-        fs::write(desk.path("input"), text).unwrap();
-        let input = fs::File::open(desk.path("input")).unwrap();
-        desk.spunlaid(arguments).stdin(input).output().unwrap()
-    };
-    let case = desk.read("brief.toml");
-    assert!(piped("run - --quiet", &case).status.success());
-    assert!(desk.entries("results/case").contains("summary.json"));
-    success(&mut desk.spunlaid("run brief.toml --out r"));
-    assert!(desk.read("r/end_node.parquet") == desk.read("results/case/end_node.parquet"));
-    // What came from there before is unknown, so nothing is replaced.
-    let refused = piped("run -", &case);
-    assert_eq!(refused.status.code(), Some(1));
-    assert!(String::from_utf8_lossy(&refused.stderr).contains("results/case: holds results already"));
-    let summary = piped("run - --json --quiet --set air.velocity=20m/s", &case);
-    assert!(String::from_utf8_lossy(&summary.stdout).contains("\"velocity_m_s\": 20.0"));
-    assert!(piped("check -", &case).status.success());
-    let wrong = [
-        (&b"[fibre]\nlength = 3\n"[..], "standard input:2: fibre.length"),
-        (b"\xff", "standard input: cannot be read as UTF-8"),
-    ];
-    for (text, words) in wrong {
-        let refused = piped("run -", text);
-        let said = String::from_utf8(refused.stderr).unwrap();
-        assert!(refused.status.code() == Some(1) && said.contains(words), "{said}");
-    }
-}
-
-#[test]
-fn numbers_of_options_are_asked_for_in_plain_words() {
-    let desk = Desk::new();
-    for (arguments, option) in [
-        ("run brief.toml --replicates 1e9", "--replicates <N>"),
-        ("run brief.toml --seed x", "--seed <S>"),
-        ("sweep study.toml --replicates 0", "--replicates <N>"),
-        ("sweep study.toml --points 1.5", "--points <N>"),
-    ] {
-        let said = refusal(&mut desk.spunlaid(arguments), 1);
-        let least = u8::from(arguments.ends_with(" 0"));
-        let wanted = format!("for '{option}': write a whole number from {least} in digits, like 1000");
-        assert!(said.contains(&wanted), "{said}");
-    }
-    let hours = success(&mut desk.with("check brief.toml", &["run.duration=1 h", "run.spin_up=30 min"]));
-    assert!(hours.contains("duration = \"3600 s\"") && hours.contains("spin_up = \"1800 s\""), "{hours}");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! The air at any place and time, as fibres in a field of eddies meet it.
 
+use super::eddy_field::EddyFields;
 use super::{Air, EddyField, Extent, StreamKey};
 use crate::error::Error;
 use crate::field::Hint;
@@ -100,6 +101,7 @@ impl Task for Look<'_> {
     #[inline(always)]
     fn call<S: Register>(self) -> Self::Output {
         let mut all = Vec::with_capacity(self.places.len());
+        let fields = EddyFields::new([self.field; WIDTH]);
         for eight in self.places.chunks(WIDTH) {
             let coordinate = |of: fn(&Vec3<f64>) -> f64| {
                 let mut lanes = Lanes::ZERO;
@@ -107,7 +109,7 @@ impl Task for Look<'_> {
                 lanes
             };
             let at = Vec3::new(coordinate(|p| p.x), coordinate(|p| p.y), coordinate(|p| p.z));
-            let Vec3 { x, y, z } = EddyField::fluctuations::<S>([self.field; WIDTH], self.time, &at);
+            let Vec3 { x, y, z } = fields.fluctuations::<S>(self.time, &at);
             all.extend((0..eight.len()).map(|lane| Vec3::new(x.0[lane], y.0[lane], z.0[lane])));
         }
         all

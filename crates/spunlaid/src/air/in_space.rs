@@ -6,6 +6,7 @@
 //! ```
 
 use super::at_elements::{AirAtElements, OnTheWay};
+use super::eddy_field::EddyFields;
 use super::{Air, EddyField, Surroundings};
 use crate::company::PerLane;
 use crate::fibre::Place;
@@ -178,14 +179,14 @@ impl AirInSpace {
         }
         let per_step = self.elements.per_step();
         let half = Wide::<S>::splat(0.5);
-        let fields: [&EddyField; WIDTH] = from_fn(|lane| &*self.fields.of(lane).field);
+        let fields = EddyFields::new(from_fn(|lane| &*self.fields.of(lane).field));
         let means: [&MeanAlong; WIDTH] = from_fn(|lane| self.means.of(lane));
         let places =
             Vec3::new(Lanes::ZERO, self.places.lanes(|place| place.y), self.places.lanes(|place| place.z));
         for (j, (ends, element)) in position.windows(2).zip(self.elements.each()).enumerate() {
             let centre = ((Vec3::load(&ends[0]) + Vec3::load(&ends[1])) * half).store();
             let at = centre + places;
-            let fluctuation = EddyField::fluctuations::<S>(fields, t, &at);
+            let fluctuation = fields.fluctuations::<S>(t, &at);
             let (mut mean, mut rms) = (Vec3::ZERO, Lanes::ZERO);
             for (lane, means) in means.iter().enumerate() {
                 let [speed, widening, strength] = means.at(at.x.0[lane]);

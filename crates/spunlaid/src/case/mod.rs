@@ -20,7 +20,7 @@ pub use step::{ERROR_TOLERANCE, StepChoice};
 pub(crate) use usual::unusual;
 
 use crate::air::{
-    Air, AirAtPlaces, Eddies, EddyTurbulence, Extent, StationGrid, StreamKey, time_between_looks,
+    Air, AirAtPlaces, Eddies, EddyField, EddyTurbulence, Extent, StationGrid, StreamKey, time_between_looks,
 };
 use crate::chain::Strand;
 use crate::chain::schemes::Scheme;
@@ -268,6 +268,9 @@ impl Case {
     /// Steps from one look at the flow around the fibre to the next, see [`Air::time_between_looks`].
     pub fn steps_between_looks(&self) -> u64 {
         let time = match self.line {
+            Some(line) if self.air.field_cutoff().is_some() => {
+                EddyField::time_between_looks(&self.air, self.way_of_air(), line.feed_speed)
+            }
             Some(line) => time_between_looks(&self.air, line.feed_speed),
             None => self.air.time_between_looks(self.along()),
         };

@@ -336,6 +336,18 @@ pub enum Remark {
         /// Path of the case.
         case: String,
     },
+    /// A key of a web in place of a number of its case, which has another.
+    #[error("is laid with {of_case} = {used} in place of the {own} of {case}")]
+    CaseChanged {
+        /// The key of the case.
+        of_case: &'static str,
+        /// Its value for the web.
+        used: String,
+        /// Its own value.
+        own: String,
+        /// Path of the case.
+        case: String,
+    },
     /// Elements that are shorter than the diameter.
     #[error("is larger than the element length, {}; use longer elements", Dimension::Length.pretty(*element_length))]
     ElementsStubby {

@@ -4,7 +4,7 @@ use super::document::Document;
 use super::entry::Entry;
 use super::source::fit;
 use crate::case::keys::TableList;
-use crate::error::Fault;
+use crate::error::{Fault, Place};
 
 /// The value of an override that removes a key, so that its default applies.
 pub(super) const AUTO: &str = "auto";
@@ -23,11 +23,20 @@ impl<'a, T> Document<'a, T> {
                 if is_known && text.trim().trim_matches('"') == AUTO {
                     self.remove(&format!("{before}{name}"));
                 } else {
+                    self.leave_out_alternative(&before, &path, &entry.place);
                     self.take(&before, table, name, entry);
                 }
             }
             Err(what) => self.written.problems.push(entry.problem(key, what)),
         }
+    }
+
+    /// Leaves out the key whose number an override gives in other words, unless it is one of the same overrides.
+    fn leave_out_alternative(&mut self, before: &str, path: &str, place: &Place) {
+        let Some((other, of_all_layers)) = self.keys.alternative(path) else { return };
+        self.entries.retain(|full, (key, entry)| {
+            key.name != other || !(of_all_layers || full.starts_with(before)) || entry.place == *place
+        });
     }
 
     /// Where a key stands.

@@ -109,6 +109,27 @@ pub(crate) fn indices<S: Register>(whole: Wide<S>) -> [usize; WIDTH] {
     indices
 }
 
+/// Whole numbers within ±2⁵¹ as integers.
+#[inline(always)]
+pub(crate) fn integers<S: Register>(whole: Wide<S>) -> [i64; WIDTH] {
+    let mut integers = [0; WIDTH];
+    // From one number to the next the bits of 1.5·2⁵² + integer grow by one.
+    for (integer, lane) in integers.iter_mut().zip((whole + Wide::splat(ROUND)).store().0) {
+        *integer = lane.to_bits().wrapping_sub(ROUND.to_bits()) as i64;
+    }
+    integers
+}
+
+/// Numbers rounded to single precision.
+#[inline(always)]
+pub(crate) fn singles<S: Register>(numbers: Wide<S>) -> [f32; WIDTH] {
+    let mut singles = [0.0; WIDTH];
+    for (single, lane) in singles.iter_mut().zip(numbers.store().0) {
+        *single = lane as f32;
+    }
+    singles
+}
+
 /// `x^exponent` for `x ≥ 0` and exponents between 0 and ½, to 1e-7 relative; tends to 0 with `x`.
 #[inline(always)]
 pub(crate) fn power<S: Simd>(x: Wide<S>, exponent: Wide<S>) -> Wide<S> {

@@ -5,7 +5,7 @@
 pub enum Isa {
     /// x86-64 with AVX-512 F, DQ and VL: eight lanes in one register.
     Avx512,
-    /// x86-64 with AVX2 and FMA: eight lanes in two registers.
+    /// x86-64 with AVX2, FMA and F16C: eight lanes in two registers.
     Avx2,
     /// The instructions that every machine of the target has, in one plain kernel. On x86-64 it is compiled for size, and
     /// fused multiply-add is computed in software, exactly but slowly.
@@ -26,9 +26,13 @@ impl Isa {
                 is_x86_feature_detected!("avx512f")
                     && is_x86_feature_detected!("avx512dq")
                     && is_x86_feature_detected!("avx512vl")
-                    && is_x86_feature_detected!("fma")
+                    && Self::Avx2.is_available()
             }
-            Self::Avx2 => is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma"),
+            Self::Avx2 => {
+                is_x86_feature_detected!("avx2")
+                    && is_x86_feature_detected!("fma")
+                    && is_x86_feature_detected!("f16c")
+            }
             Self::Baseline => true,
         }
         #[cfg(not(target_arch = "x86_64"))]

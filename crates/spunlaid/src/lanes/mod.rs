@@ -14,7 +14,7 @@ mod simd;
 mod task;
 mod wide;
 
-pub(crate) use functions::{bend_ratio, cos_sin_turn, exp2, indices, log2, power};
+pub(crate) use functions::{bend_ratio, cos_sin_turn, exp2, indices, integers, log2, power, singles};
 pub use isa::Isa;
 pub(crate) use simd::{Plain, Register, Simd, Singles};
 pub(crate) use task::Task;

@@ -38,12 +38,12 @@ mod x86 {
     use super::Task;
     use crate::lanes::simd::{Avx2, Avx512};
 
-    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma,f16c")]
     pub(super) fn avx512<T: Task>(task: T) -> T::Output {
         task.call::<Avx512>()
     }
 
-    #[target_feature(enable = "avx2,fma")]
+    #[target_feature(enable = "avx2,fma,f16c")]
     pub(super) fn avx2<T: Task>(task: T) -> T::Output {
         task.call::<Avx2>()
     }

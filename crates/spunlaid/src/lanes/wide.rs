@@ -63,6 +63,12 @@ impl<S: Simd> Wide<S> {
         Self(self.0.max(other.0))
     }
 
+    /// The smaller of the two; `other` if one of them is NaN.
+    #[inline(always)]
+    pub(crate) fn min(self, other: Self) -> Self {
+        Self::select_less(self, other, self, other)
+    }
+
     /// `a < b ? yes : no`.
     #[inline(always)]
     pub(crate) fn select_less(a: Self, b: Self, yes: Self, no: Self) -> Self {

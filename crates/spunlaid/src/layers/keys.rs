@@ -4,11 +4,11 @@
 
 use super::{LaydownSource, LayerSpec, Method, WebSpec};
 use crate::case::keys::row::{AccessTo, choose, key, named, number, quantity, read_with_case, text, whole};
-use crate::case::keys::{self, Key, KeyTable, Kind, Sign, TableList, Value};
+use crate::case::keys::{self, Alternatives, EVEN, Key, KeyTable, Kind, Sign, TableList, Value};
 use crate::error::Fault;
 use crate::surrogate::Surrogate;
 use crate::units::Dimension;
-use crate::web::{Edges, Filaments};
+use crate::web::{Edges, Filaments, Row};
 use std::path::Path;
 
 /// A key of a web.
@@ -37,6 +37,11 @@ pub static WEB: KeyTable<WebSpec> = KeyTable {
             wanted: "a list of rows, like [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }]",
         },
     ],
+    alternatives: &[
+        Alternatives { keys: ["fibre.diameter", "fibre.linear_density"], of_all_layers: false },
+        Alternatives { keys: ["line.feed_speed", "line.throughput"], of_all_layers: false },
+        Alternatives { keys: ["line.belt_speed", "line.basis_weight"], of_all_layers: true },
+    ],
     noun: "a web",
     file: "a web file",
 };
@@ -49,20 +54,6 @@ pub(crate) const METHODS: [&str; 3] = ["surrogate", "dynamics", "shared-air"];
 pub(crate) const ALL_METHODS: [Method; 3] = [Method::Surrogate, Method::Dynamics, Method::SharedAir];
 /// What becomes of fibre beyond the edges.
 pub(crate) const EDGES: [&str; 2] = ["periodic", "cut"];
-
-/// Access to a number of the layer.
-macro_rules! of_layer {
-    ($field:ident) => {
-        Access {
-            get: |web| Some(layer(web)?.$field.into()),
-            set: |web, value| {
-                let number = number(value)?;
-                layer_mut(web)?.$field = number;
-                Ok(())
-            },
-        }
-    };
-}
 
 /// Access to a known number of the surrogate.
 macro_rules! of_surrogate {
@@ -96,23 +87,18 @@ macro_rules! of_path {
     };
 }
 
-/// Access to a number of the first row of nozzles.
+/// Access to a length of the first row of nozzles.
 macro_rules! of_row {
-    ($field:ident, $read:ident) => {
+    ($field:ident) => {
         Access {
             get: |web| match &layer(web)?.filaments {
                 Filaments::Rows(rows) => Some(rows.first()?.$field.into()),
                 Filaments::AtRandom { .. } | Filaments::Slot { .. } => None,
             },
-            set: |web, value| match &mut layer_mut(web)?.filaments {
-                Filaments::Rows(rows) => {
-                    let value = $read(value)?;
-                    rows.iter_mut().take(1).for_each(|row| row.$field = value);
-                    Ok(())
-                }
-                Filaments::AtRandom { .. } | Filaments::Slot { .. } => {
-                    Err(Fault::needs("line.rows", "leave it out"))
-                }
+            set: |web, value| {
+                let length = number(value)?;
+                first_row(web)?.iter_mut().for_each(|row| row.$field = length);
+                Ok(())
             },
         }
     };
@@ -155,23 +141,34 @@ pub const WEB_KEYS: &[WebKey] = &[
         "Name of a layer. A web of several layers has a `[[layer]]` for each beam, with its own `[layer.fibre]`, \
          `[layer.laydown]` and `[layer.line]` in place of the three tables below; their basis weights add up.",
     ),
-    positive("fibre.diameter", Dimension::Length, of_layer!(diameter))
+    positive("fibre.diameter", Dimension::Length, Access {
+        get: |web| layer(web).filter(|layer| layer.titre.is_none()).map(|layer| layer.diameter.into()),
+        set: |web, value| {
+            let layer = layer_mut(web)?;
+            (layer.diameter, layer.titre) = (number(value)?, None);
+            Ok(())
+        },
+    })
         .told(is_flown)
         .required("18 µm")
         .meaning("Diameter of the round filaments. With `laydown.case` or `laydown.results` it is that of the case.")
         .label("Fibre diameter *d*"),
-    positive("fibre.density", Dimension::Density, of_layer!(density))
+    positive("fibre.density", Dimension::Density, Access {
+        get: |web| Some(layer(web)?.density.into()),
+        set: |web, value| {
+            layer_mut(web)?.density = number(value)?;
+            Ok(())
+        },
+    })
         .told(is_flown)
         .required("910 kg/m³")
         .meaning("Density of the polymer. With `laydown.case` or `laydown.results` it is that of the case.")
         .label("Fibre density"),
     positive("fibre.linear_density", Dimension::LinearDensity, Access {
-        // The diameter stands for it.
-        get: |_| None,
+        get: |web| layer(web)?.titre.map(Value::Number),
         set: |web, value| {
-            let density = number(value)?;
-            let layer = layer_mut(web)?;
-            layer.diameter = diameter(density, layer.density);
+            let (titre, layer) = (number(value)?, layer_mut(web)?);
+            (layer.diameter, layer.titre) = (diameter(titre, layer.density), Some(titre));
             Ok(())
         },
     })
@@ -201,19 +198,69 @@ pub const WEB_KEYS: &[WebKey] = &[
         .meaning("Strength A of the noise in the direction of the surrogate.")
         .label("Noise of the direction *A*")
         .usual(0.1, 1e4),
-    positive("line.feed_speed", Dimension::Velocity, of_layer!(feed_speed))
+    positive("line.feed_speed", Dimension::Velocity, Access {
+        get: |web| layer(web).filter(|layer| layer.throughput.is_none()).map(|layer| layer.feed_speed.into()),
+        set: |web, value| {
+            let layer = layer_mut(web)?;
+            (layer.feed_speed, layer.throughput) = (number(value)?, None);
+            Ok(())
+        },
+    })
         .told(is_flown)
         .required("50 m/s")
         .meaning(
             "Speed at which each filament is fed: the spinning speed. With `laydown.case` or `laydown.results` it is that of the case.",
         )
         .label("Feed speed"),
-    positive("line.belt_speed", Dimension::Velocity, of_layer!(belt_speed))
+    positive("line.throughput", Dimension::MassFlow, Access {
+        get: |web| layer(web)?.throughput.map(Value::Number),
+        set: |web, value| {
+            let (throughput, layer) = (number(value)?, layer_mut(web)?);
+            (layer.feed_speed, layer.throughput) = (throughput / layer.linear_density(), Some(throughput));
+            Ok(())
+        },
+    })
+    .follows("`feed_speed` and the filament give it")
+    .usual(1e-8, 1e-3)
+    .meaning(
+        "Mass flow of a hole, which may be written instead of `line.feed_speed`: the feed speed is the throughput over the linear density. \
+         With `laydown.case` the case is flown with this throughput, whatever it has itself.",
+    )
+    .synonyms(&["output per hole", "mass flow", "grams per minute"])
+.label("Throughput of a hole"),
+    positive("line.belt_speed", Dimension::Velocity, Access {
+        get: |web| layer(web).filter(|_| web.basis_weight.is_none()).map(|layer| layer.belt_speed.into()),
+        set: |web, value| {
+            let belt_speed = number(value)?;
+            layer_mut(web)?;
+            web.layers.iter_mut().for_each(|layer| layer.belt_speed = belt_speed);
+            web.basis_weight = None;
+            Ok(())
+        },
+    })
         .told(is_flown)
         .required("3 m/s")
         .meaning("Speed of the belt. It is written once, in any of the layers, because all lie on one belt. With `laydown.case` or \
              `laydown.results` it is that of the case.")
         .label("Belt speed"),
+    positive("line.basis_weight", Dimension::BasisWeight, Access {
+        get: |web| layer(web).and(web.basis_weight).map(Value::Number),
+        set: |web, value| {
+            let basis_weight = number(value)?;
+            let belt_speed = web.belt_speed_for(basis_weight);
+            web.layers.iter_mut().for_each(|layer| layer.belt_speed = belt_speed);
+            web.basis_weight = Some(basis_weight);
+            Ok(())
+        },
+    })
+    .follows("`belt_speed` and the filaments give it")
+    .usual(1e-3, 2.0)
+    .meaning(
+        "Mass of the web per area, that of all layers together, which may be written instead of `line.belt_speed`, in any of the layers: the \
+         belt is as fast as it takes to lay it. With `laydown.case` the case is flown above this belt, whatever it has itself.",
+    )
+    .synonyms(&["grammage", "mass per area", "surface weight"])
+.label("Basis weight"),
     key("line.filaments_per_metre", Kind::Whole(1, MOST_FILAMENTS), Access {
         get: |web| match layer(web)?.filaments {
             Filaments::AtRandom { per_metre } | Filaments::Slot { per_metre, .. } => {
@@ -237,7 +284,8 @@ pub const WEB_KEYS: &[WebKey] = &[
         "Number of filaments per metre of width, which come down at random places, or with `depth` at an even pitch. The nearest whole \
          number is laid.",
     )
-    .label("Filaments per metre"),
+    .synonyms(&["holes per metre", "capillaries per metre"])
+.label("Filaments per metre"),
     quantity("line.depth", Dimension::Length, Sign::NotNegative, Access {
         get: |web| match layer(web)?.filaments {
             Filaments::Slot { depth, .. } => Some(depth.into()),
@@ -262,7 +310,7 @@ pub const WEB_KEYS: &[WebKey] = &[
     )
     .label("Depth of the slot")
     .usual(1e-4, 1.0),
-    quantity("line.rows.offset", Dimension::Length, Sign::Any, of_row!(offset, number))
+    quantity("line.rows.offset", Dimension::Length, Sign::Any, of_row!(offset))
         .value("0 mm")
         .meaning(
             "In place of `filaments_per_metre`: `rows = [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }, …]`, the rows of \
@@ -270,17 +318,51 @@ pub const WEB_KEYS: &[WebKey] = &[
         )
         .label("Place of the first nozzle")
         .usual(1e-6, 30.0),
-    positive("line.rows.pitch", Dimension::Length, of_row!(pitch, number))
+    positive("line.rows.pitch", Dimension::Length, Access {
+        get: |web| match &layer(web)?.filaments {
+            Filaments::Rows(rows) => {
+                rows.first().map(|row| if row.is_even { EVEN.into() } else { row.pitch.into() })
+            }
+            Filaments::AtRandom { .. } | Filaments::Slot { .. } => None,
+        },
+        set: |web, value| {
+            let (is_even, width) = (matches!(value, Value::Text(word) if word == EVEN), web.sheet.width);
+            for row in first_row(web)? {
+                row.is_even = is_even;
+                row.pitch = if is_even { width / row.filaments as f64 } else { number(value)? };
+            }
+            Ok(())
+        },
+    })
         .required("0.2 mm")
-        .meaning("Distance from nozzle to nozzle in a row. With periodic edges, pitch times filaments is the width of the web.")
+        .meaning(
+            "Distance from nozzle to nozzle in a row, or `\"even\"` for the width of the web over the number of filaments. With periodic edges, \
+             pitch times filaments is the width of the web.",
+        )
         .label("Distance of the nozzles")
         .usual(1e-6, 1.0),
-    key("line.rows.filaments", Kind::Whole(1, MOST_FILAMENTS), of_row!(filaments, whole))
+    key("line.rows.filaments", Kind::Whole(1, MOST_FILAMENTS), Access {
+        get: |web| match &layer(web)?.filaments {
+            Filaments::Rows(rows) => Some(rows.first()?.filaments.into()),
+            Filaments::AtRandom { .. } | Filaments::Slot { .. } => None,
+        },
+        set: |web, value| {
+            let (filaments, width) = (whole(value)?, web.sheet.width);
+            for row in first_row(web)? {
+                row.filaments = filaments;
+                if row.is_even {
+                    row.pitch = width / filaments as f64;
+                }
+            }
+            Ok(())
+        },
+    })
         .required("5000")
         .varies()
         .meaning("Number of nozzles in a row.")
-        .label("Nozzles of a row"),
-    quantity("line.rows.md", Dimension::Length, Sign::Any, of_row!(md, number))
+        .synonyms(&["holes", "nozzles", "capillaries"])
+.label("Nozzles of a row"),
+    quantity("line.rows.md", Dimension::Length, Sign::Any, of_row!(md))
         .value("0 mm")
         .meaning(
             "Place of the row in machine direction at the inlet, from the middle of the slot. It changes a web in one air \
@@ -291,7 +373,8 @@ pub const WEB_KEYS: &[WebKey] = &[
     positive("web.width", Dimension::Length, of_sheet!(sheet.width))
         .required("1 m")
         .meaning("Size of the web in cross direction, a whole number of cells.")
-        .label("Width of the web")
+        .synonyms(&["working width"])
+.label("Width of the web")
         .usual(1e-3, 30.0),
     positive("web.length", Dimension::Length, of_sheet!(sheet.length))
         .required("1 m")
@@ -317,7 +400,8 @@ pub const WEB_KEYS: &[WebKey] = &[
     positive("web.cell", Dimension::Length, of_sheet!(sheet.cell))
         .follows("the smallest of 0.5, 1, 2, 5 and 10 mm that makes at most ten million cells and divides the web")
         .meaning("Side of the square cells of the map of the basis weight.")
-        .label("Cell of the map")
+        .synonyms(&["test area"])
+.label("Cell of the map")
         .usual(1e-6, 0.1),
     key("web.seed", Kind::Whole(0, u64::MAX), Access {
         get: |web| Some(web.seed.into()),
@@ -398,6 +482,14 @@ fn layer_mut(web: &mut WebSpec) -> Result<&mut LayerSpec, Fault> {
     web.layers.first_mut().ok_or_else(|| Fault::needs("[line]", "write the tables of a layer"))
 }
 
+/// The first row of nozzles.
+fn first_row(web: &mut WebSpec) -> Result<&mut [Row], Fault> {
+    match &mut layer_mut(web)?.filaments {
+        Filaments::Rows(rows) => Ok(rows.get_mut(..1).unwrap_or_default()),
+        Filaments::AtRandom { .. } | Filaments::Slot { .. } => Err(Fault::needs("line.rows", "leave it out")),
+    }
+}
+
 fn written(path: &Path) -> Value {
     Value::Text(path.to_string_lossy().into_owned())
 }
@@ -413,6 +505,15 @@ pub fn web_key(full: &str) -> Option<&'static WebKey> {
     let in_layer = || name.strip_prefix("layer.");
     let in_named_layer = || in_layer()?.split_once('.').map(|(_, rest)| rest);
     WEB.find(&name).or_else(|| WEB.find(in_layer()?)).or_else(|| WEB.find(in_named_layer()?))
+}
+
+/// Whether either of two keys gives the number of the other, by their full names.
+pub(crate) fn is_alternative(one: &str, other: &str) -> bool {
+    let [Some(key), Some(found)] = [one, other].map(web_key) else { return false };
+    let before = |full: &str, key: &WebKey| full.strip_suffix(key.name).map(ToOwned::to_owned);
+    WEB.alternative(key.name).is_some_and(|(name, of_all_layers)| {
+        name == found.name && (of_all_layers || before(one, key) == before(other, found))
+    })
 }
 
 /// The full name of a key that a user has named, with the number of its layer in place of the layer's name.
@@ -483,6 +584,12 @@ impl WebKey {
             "line.belt_speed" => "belt.speed",
             name => name,
         })
+    }
+
+    /// Other words for it: with those of the same key of a case, where there is one.
+    pub fn all_synonyms(&self) -> Vec<&'static str> {
+        let of_case = self.of_case().map_or(&[][..], |key| key.synonyms);
+        self.synonyms.iter().chain(of_case).copied().collect()
     }
 
     /// Outside of these a value, unless it is zero, is most likely a slip, in SI units: as for the same key of a case, where

@@ -40,6 +40,8 @@ pub struct WebSpec {
     pub window: f64,
     /// Most memory that the air of a web in one air may take [B].
     pub memory_limit: f64,
+    /// Mass of all layers per area, if it is given in place of the speed of the belt, which follows from it [kg/m²].
+    pub basis_weight: Option<f64>,
 }
 
 /// What a web is laid of.
@@ -60,12 +62,16 @@ pub struct LayerSpec {
     pub name: Option<String>,
     /// Diameter of a filament [m].
     pub diameter: f64,
+    /// Mass per length of a filament, if it is given in place of the diameter, which follows from it [kg/m].
+    pub titre: Option<f64>,
     /// Density of the polymer [kg/m³].
     pub density: f64,
     /// How the filaments lie, or what tells it.
     pub source: LaydownSource,
     /// Speed at which each filament is fed [m/s].
     pub feed_speed: f64,
+    /// Mass flow of a hole, if it is given in place of the feed speed, which follows from it [kg/s].
+    pub throughput: Option<f64>,
     /// Speed of the belt [m/s].
     pub belt_speed: f64,
     /// Where the filaments come down.
@@ -121,7 +127,8 @@ impl LayerSpec {
         let nan = f64::NAN;
         let (diameter, density, feed_speed, belt_speed) = (nan, nan, nan, nan);
         let filaments = Filaments::AtRandom { per_metre: nan };
-        Self { name: None, diameter, density, source, feed_speed, belt_speed, filaments }
+        let (name, titre, throughput) = (None, None, None);
+        Self { name, diameter, titre, density, source, feed_speed, throughput, belt_speed, filaments }
     }
 
     /// Mass per length of a filament [kg/m].
@@ -147,7 +154,28 @@ impl WebSpec {
     pub(crate) const fn unknown() -> Self {
         let nan = f64::NAN;
         let sheet = Sheet { width: nan, length: nan, cell: nan, patches: Vec::new(), edges: Edges::Periodic };
-        Self { sheet, layers: Vec::new(), seed: 0, method: Method::Surrogate, window: nan, memory_limit: nan }
+        Self {
+            sheet,
+            layers: Vec::new(),
+            seed: 0,
+            method: Method::Surrogate,
+            window: nan,
+            memory_limit: nan,
+            basis_weight: None,
+        }
+    }
+
+    /// Mass of all filaments that is fed per time over the width of the sheet [kg/(m s)].
+    pub fn mass_flow(&self) -> f64 {
+        let of = |layer: &LayerSpec| {
+            layer.linear_density() * layer.feed_speed * layer.filaments.count(&self.sheet) as f64
+        };
+        self.layers.iter().map(of).sum::<f64>() / self.sheet.width
+    }
+
+    /// The speed of a belt on which all layers together have this mass per area [m/s].
+    pub fn belt_speed_for(&self, basis_weight: f64) -> f64 {
+        self.mass_flow() / basis_weight
     }
 
     /// The web of one of its layers alone.

@@ -30,7 +30,7 @@ pub use findings::{Findings, PatchFindings, find, find_laid, measure, measure_la
 pub(crate) use lay::inlets;
 pub use lay::{LaidWeb, Laying, Spent, Together, lay, pieces};
 pub use map::Map;
-pub use neighbours::{Correlation, NeighbourCorrelation};
+pub use neighbours::{Correlation, NeighbourCorrelation, SharedVariance};
 pub use one_fibre::{Alone, OneFibre, one_fibre, straight_fibres};
 pub use orientation::{Orientation, orientation};
 pub use sensitivity::{Lever, Sensitivity, Source, sensitivities};
@@ -150,6 +150,8 @@ pub struct Row {
     pub filaments: u64,
     /// Place of the row in machine direction, from the middle of the slot [m].
     pub md: f64,
+    /// Whether the pitch is the width of the sheet over the number of nozzles.
+    pub is_even: bool,
 }
 
 impl Row {
@@ -158,7 +160,7 @@ impl Row {
     /// * `offset` – place of the first nozzle [m]
     /// * `pitch` – distance from nozzle to nozzle [m]
     pub const fn new(offset: f64, pitch: f64, filaments: u64) -> Self {
-        Self { offset, pitch, filaments, md: 0.0 }
+        Self { offset, pitch, filaments, md: 0.0, is_even: false }
     }
 }
 

@@ -106,7 +106,13 @@ fn pair(key: &WebKey, web: &WebSpec) -> [String; 2] {
         return [first, other].map(|word| format!("'{word}'"));
     }
     let there = key.get(web).and_then(|value| value.number()).filter(|number| *number != 0.0);
-    let there = there.unwrap_or(if key.name == "fibre.linear_density" { 2e-7 } else { 2.0 });
+    let there = there.unwrap_or(match key.name {
+        "fibre.diameter" => 2e-5,
+        "fibre.linear_density" => 2e-7,
+        "line.throughput" => 5e-6,
+        "line.basis_weight" => 5e-4,
+        _ => 2.0,
+    });
     let written = |value: f64| match key.dimension() {
         Some(Dimension::Ratio) | None => format!("{value:.0}"),
         Some(dimension) => format!("'{}'", dimension.exact(value)),
@@ -187,9 +193,14 @@ fn identical_alone_and_in_a_study_for_every_key_of_a_web() {
             wrong.push(format!("no web of this test varies {}; add one", key.name));
         }
     }
-    for full in
-        ["layer.2.fibre.diameter", "layer.2.line.filaments_per_metre", "line.rows.2.offset", "web.method"]
-    {
+    for full in [
+        "layer.2.fibre.diameter",
+        "layer.2.line.filaments_per_metre",
+        "line.rows.2.offset",
+        "web.method",
+        "line.throughput",
+        "layer.2.line.basis_weight",
+    ] {
         assert!(varied.contains(full), "{full}: {varied:?}");
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));

@@ -107,6 +107,65 @@ fn keys_of_the_case_that_is_flown_vary_too() {
     assert_eq!(belts, [3.0, 2.0, 4.0]);
 }
 
+/// A study goes on from its own folder, where the web is written with every default, to the same points: what follows from what
+/// varies must not be written as a number of its own.
+#[test]
+fn identical_points_again_where_numbers_follow_from_others() {
+    let known = WEB
+        .replace("diameter = \"18 µm\"", "linear_density = \"2 dtex\"")
+        .replace(
+            "feed_speed = \"50 m/s\"\nbelt_speed = \"5 m/s\"",
+            "throughput = \"0.5 g/min\"\nbasis_weight = \"2 g/m²\"",
+        )
+        .replace("filaments_per_metre = 200", "rows = [{ pitch = \"even\", filaments = 50 }]");
+    let flown = "[laydown]\ncase = 'spunbond.toml'\n[line]\nfilaments_per_metre = 5000\nbasis_weight = '20 g/m²'\n\
+                 [web]\nwidth = '1 m'\nlength = '1 m'\n";
+    for (web, key, values) in [
+        (&*known, "line.throughput", "['0.4 g/min', '0.6 g/min']"),
+        (&known, "line.feed_speed", "['40 m/s', '60 m/s']"),
+        (&known, "line.basis_weight", "['1 g/m²', '4 g/m²']"),
+        (&known, "line.belt_speed", "['3 m/s', '4 m/s']"),
+        (&known, "fibre.linear_density", "['1 dtex', '4 dtex']"),
+        (&known, "fibre.density", "['905 kg/m³', '1340 kg/m³']"),
+        (&known, "line.rows.1.filaments", "[40, 80]"),
+        (&known, "web.width", "['250 mm', '500 mm']"),
+        (flown, "line.throughput", "['0.4 g/min', '0.6 g/min']"),
+        (flown, "line.basis_weight", "['15 g/m²', '30 g/m²']"),
+        (flown, "belt.speed", "['3 m/s', '5 m/s']"),
+        (flown, "feed.speed", "['40 m/s', '60 m/s']"),
+    ] {
+        let text = format!("web = 'web.toml'\ndesign = 'grid'\n[vary]\n'{key}' = {values}\n");
+        let file = study_of(web, &text, &[]).unwrap_or_else(|error| panic!("{key}: {error}"));
+        let [a, b] = &file.study.points[..] else { panic!("two points") };
+        assert_ne!(a.experiment, b.experiment, "{key}");
+        let again =
+            study_of(&file.base_text, &file.text, &[]).unwrap_or_else(|error| panic!("{key}: {error}"));
+        for (point, again) in file.study.points.iter().zip(&again.study.points) {
+            assert_eq!(write_experiment(&again.experiment), write_experiment(&point.experiment), "{key}");
+        }
+        assert_eq!(again.study.identity(), file.study.identity(), "{key}");
+    }
+    // A basis weight that the study varies decides the belt of the case, and a belt that it varies the basis weight.
+    let belts = |key: &str, values: &str| -> Vec<f64> {
+        let text = format!("web = 'web.toml'\ndesign = 'grid'\n[vary]\n'{key}' = {values}\n");
+        let points = study_of(flown, &text, &[]).unwrap().study.points;
+        points.iter().map(|point| layer(point).source.case().unwrap().line.unwrap().belt_speed).collect()
+    };
+    let [thin, thick] = belts("line.basis_weight", "['15 g/m²', '30 g/m²']")[..] else {
+        panic!("two points")
+    };
+    assert!((thin / thick - 2.0).abs() < 1e-12, "{thin} {thick}");
+    assert_eq!(belts("belt.speed", "['3 m/s', '5 m/s']"), [3.0, 5.0]);
+    let set = "web = 'web.toml'\ndesign = 'grid'\n[set]\n'line.basis_weight' = '20 g/m²'\n[vary]\n";
+    let said = |vary: &str| study_of(flown, &format!("{set}{vary}\n"), &[]).unwrap_err().to_string();
+    assert!(
+        said("'belt.speed' = ['3 m/s']")
+            .contains("cannot be combined with belt.speed; either gives the other")
+    );
+    let said = study(&format!("{set}'line.belt_speed' = ['3 m/s']\n")).unwrap_err().to_string();
+    assert!(said.contains("line.belt_speed is set to one value for all points, and varied"), "{said}");
+}
+
 /// A web of two layers, in which the belt speed is written once.
 const LAYERS: &str = r#"
 [web]

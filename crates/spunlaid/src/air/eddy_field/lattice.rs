@@ -1,6 +1,5 @@
-//! The lattice on which a field is kept, across the way and in time, and the weights of its interpolation.
+//! The lattice on which a field is kept, across the way and in time.
 
-use crate::lanes::WIDTH;
 use std::f64::consts::{PI, TAU};
 
 /// Share of the highest wave number that a lattice can carry.
@@ -76,17 +75,6 @@ pub(super) fn samples(harmonics: usize) -> usize {
 pub(super) fn left(turn: f64) -> f64 {
     let cos = |times: f64| libm::cos(times * turn);
     ((2416.0 + 2382.0 * cos(1.0) + 240.0 * cos(2.0) + 2.0 * cos(3.0)) / 5040.0).sqrt()
-}
-
-/// Weights of the four points around places between the second and the third of them.
-///
-/// * `shares` – of the way from the second to the third
-#[inline(always)]
-pub(super) fn weights(shares: [f32; WIDTH]) -> [[f32; WIDTH]; 4] {
-    let cubed = |share: f32| share * share * share * (1.0 / 6.0);
-    let middle = |share: f32| (4.0 - share * share * (6.0 - 3.0 * share)) * (1.0 / 6.0);
-    let rests = shares.map(|share| 1.0 - share);
-    [rests.map(cubed), shares.map(middle), rests.map(middle), shares.map(cubed)]
 }
 
 /// The smallest number without other factors than 2, 3 and 5 that is not below `least`.

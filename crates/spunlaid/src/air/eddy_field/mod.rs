@@ -6,12 +6,12 @@
 //!
 //! ```text
 //! way        travel time and age along the way; where the generations are
-//! lattice    the points across, and the weights of the interpolation
+//! lattice    the points across
 //! plan       the shape of the turbulence in each generation
 //! synthesis  random modes → two windows of a generation
 //! transform  Fourier transforms of sixteen signals abreast
 //! tape       windows joined to endless samples, made and forgotten block by block
-//! look       the fluctuation at a time and a place
+//! look       the fluctuation at a time and eight places
 //! ```
 
 mod lattice;
@@ -25,14 +25,19 @@ mod transform;
 mod way;
 
 pub use lattice::Extent;
+pub(crate) use look::EddyFields;
 
 use self::plan::Plan;
 use self::synthesis::Synthesis;
 use self::tape::{BEFORE, NEEDED, Tape};
+use self::way::WayOfEddies;
 use super::{Air, StreamKey};
 use crate::lanes::Isa;
 use std::ops::Range;
 use std::sync::Arc;
+
+/// Looks in the shortest period that a fibre feels.
+const LOOKS_IN_PERIOD: f64 = 8.0;
 
 /// A field of eddies with the mean zero and the rms one, as far as it has been made. Clones share what has been made.
 ///
@@ -90,6 +95,18 @@ impl EddyField {
     /// * as of [`EddyField::new`]
     pub fn memory(fields: u64, air: &Air, distance: f64, extent: Extent, cutoff: f64) -> f64 {
         Plan::memory(fields, air, distance, extent, cutoff)
+    }
+
+    /// Longest time between two looks at the air around a fibre that is fed [s]: an eighth of the shortest period that it feels, and no
+    /// longer than fibre and air take to pass a length scale. With seven looks in that period the fibres of a web spread 0.3 % more than
+    /// with twenty, with ten 0.1 %; CV stays the same.
+    ///
+    /// * `distance` – as of [`EddyField::new`]
+    /// * `feed_speed` – [m/s]
+    pub(crate) fn time_between_looks(air: &Air, distance: f64, feed_speed: f64) -> f64 {
+        let way = WayOfEddies::new(air, distance);
+        let passing = air.length_scale / air.velocity.abs().max(feed_speed);
+        passing.min(1.0 / (LOOKS_IN_PERIOD * way.highest_frequency_at(feed_speed)))
     }
 
     /// A good length of the blocks of time for which the field is made [s].

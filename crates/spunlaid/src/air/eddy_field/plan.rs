@@ -34,6 +34,8 @@ pub(super) struct Generation {
     pub(super) travel: f64,
     /// Samples in a repeat time.
     pub(super) samples: usize,
+    /// Samples per time [1/s].
+    pub(super) samples_per_time: f64,
     /// Of each harmonic.
     pub(super) harmonics: Vec<Harmonic>,
 }
@@ -74,12 +76,6 @@ impl Plan {
     /// Time from sample to sample of a generation [s].
     pub(super) fn spacing(&self, generation: usize) -> f64 {
         self.repeat_time / self.generations[generation].samples as f64
-    }
-
-    /// Samples of a generation per time [1/s].
-    #[inline(always)]
-    pub(super) fn samples_per_time(&self, generation: usize) -> f64 {
-        self.generations[generation].samples as f64 / self.repeat_time
     }
 
     /// A good length of the blocks of time for which a field is made [s].
@@ -176,7 +172,8 @@ impl Shape {
             Harmonic { wave_number, scale: [0, 1, 2].map(|i| scale(i) as f32), amplitudes: of_modes }
         };
         let harmonics = (0..amplitudes[0].len()).map(harmonic).collect();
-        Self { generation: Generation { travel: stage.travel, samples, harmonics }, modes }
+        let samples_per_time = samples as f64 / repeat_time;
+        Self { generation: Generation { travel: stage.travel, samples, samples_per_time, harmonics }, modes }
     }
 
     /// Correlation of two shapes with the same random phases, of each component.                    theory.md (81)

@@ -15,15 +15,6 @@ const MOST: usize = 1000;
 /// Slowest air that carries eddies, over the fastest.
 const SLOWEST: f64 = 1e-3;
 
-/// The place of an eddy among the generations.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Passage {
-    /// Number of the generation before it and, as its fraction, the way to the next.
-    pub(super) generation: f64,
-    /// Time that the air has travelled since the inlet [s]; the label of air is the time less this.
-    pub(super) travel: f64,
-}
-
 /// The air where a generation is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stage {
@@ -41,8 +32,9 @@ pub(super) struct Stage {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct WayOfEddies {
     pieces_per_length: f64,
-    /// At the ends of the pieces.
-    passages: Vec<Passage>,
+    /// At the ends of the pieces: the number of the generation before it and, as its fraction, the way to the next; and the time that the air
+    /// has travelled since the inlet [s]. The label of air is the time less this.
+    passages: Vec<[f64; 2]>,
     pub(super) stages: Vec<Stage>,
     /// Age from one generation to the next, in decay times; zero for a frozen pattern, infinite for independent eddies.
     pub(super) ageing: f64,
@@ -80,7 +72,7 @@ impl WayOfEddies {
         }
         let pieces_per_length = 1.0 / piece;
         let EddyModel::Convected { decay_time } = air.eddies else {
-            let passages = lengths.iter().map(|&generation| Passage { generation, travel: 0.0 }).collect();
+            let passages = lengths.iter().map(|&generation| [generation, 0.0]).collect();
             let eddies = lengths[PIECES].ceil().clamp(1.0, MOST as f64) as usize;
             let stages = (0..eddies)
                 .map(|eddy| Stage { travel: 0.0, ..at(&stages, &lengths, eddy as f64 + 0.5) })
@@ -90,9 +82,7 @@ impl WayOfEddies {
         let whole = travels[PIECES];
         let steps = steps(&stages, &travels, whole / decay_time);
         let travel = if steps == 0 { 0.0 } else { whole / steps as f64 };
-        let passages = travels
-            .iter()
-            .map(|&time| Passage { generation: if steps == 0 { 0.0 } else { time / travel }, travel: time });
+        let passages = travels.iter().map(|&time| [if steps == 0 { 0.0 } else { time / travel }, time]);
         Self {
             pieces_per_length,
             passages: passages.collect(),
@@ -106,9 +96,15 @@ impl WayOfEddies {
         self.ageing.is_finite()
     }
 
+    /// The highest frequency that is felt by a fibre which moves along the way at a speed [m/s], in places more slowly [Hz].
+    pub(super) fn highest_frequency_at(&self, speed: f64) -> f64 {
+        let felt = |stage: &Stage| stage.cutoff_frequency * (1.0 - speed / stage.speed).abs().max(0.5);
+        self.stages.iter().map(felt).fold(0.0, f64::max)
+    }
+
     /// Travel time of the air at the end of the way [s].
     pub(super) fn longest_travel(&self) -> f64 {
-        self.passages[PIECES].travel
+        self.passages[PIECES][1]
     }
 
     /// Travel times of the youngest and the oldest air that is looked at in a generation [s].
@@ -121,18 +117,22 @@ impl WayOfEddies {
         }
     }
 
-    /// The passage of the air at a distance `x` [m] from the inlet.
+    /// Pieces of the way per length [1/m].
     #[inline(always)]
-    pub(super) fn passage(&self, x: f64) -> Passage {
-        let place = x * self.pieces_per_length;
-        // A fibre that is lost may be nowhere, which is then at the inlet.
-        let place = if place > 0.0 { place.min(PIECES as f64) } else { 0.0 };
+    pub(super) fn pieces_per_length(&self) -> f64 {
+        self.pieces_per_length
+    }
+
+    /// Generation and travel time [s] of the air at the start and at the end of a piece of the way, and the share of the piece that lies
+    /// before a place.
+    ///
+    /// * `place` – distance from the inlet in pieces, zero or above
+    #[inline(always)]
+    pub(super) fn piece(&self, place: f64) -> (&[f64; 4], f64) {
+        let place = place.min(PIECES as f64);
         let piece = (place as usize).min(PIECES - 1);
-        let (start, end, share) = (self.passages[piece], self.passages[piece + 1], place - piece as f64);
-        Passage {
-            generation: start.generation + share * (end.generation - start.generation),
-            travel: start.travel + share * (end.travel - start.travel),
-        }
+        let ends = self.passages.as_flattened()[2 * piece..].first_chunk();
+        (ends.unwrap_or(&[0.0; 4]), place - piece as f64)
     }
 }
 

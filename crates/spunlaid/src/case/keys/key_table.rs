@@ -13,6 +13,8 @@ pub struct KeyTable<T: 'static = Case> {
     pub tables: &'static [&'static str],
     /// Its lists of tables.
     pub(crate) lists: &'static [TableList],
+    /// Keys that stand in place of others.
+    pub(crate) alternatives: &'static [Alternatives],
     /// The input in words, `a case`.
     pub(crate) noun: &'static str,
     /// Its file in words, `a case file`.
@@ -32,7 +34,25 @@ pub(crate) struct TableList {
     pub(crate) wanted: &'static str,
 }
 
+/// Two keys of which either gives the number of the other, so that an override of one replaces the other.
+#[derive(Debug)]
+pub(crate) struct Alternatives {
+    /// Their names.
+    pub(crate) keys: [&'static str; 2],
+    /// Whether one of any layer stands for the other of all layers.
+    pub(crate) of_all_layers: bool,
+}
+
 impl<T> KeyTable<T> {
+    /// The key that one can stand in place of, and whether it does so for all layers.
+    pub(crate) fn alternative(&self, name: &str) -> Option<(&'static str, bool)> {
+        self.alternatives.iter().find_map(|Alternatives { keys: [one, other], of_all_layers }| match name {
+            _ if name == *one => Some((*other, *of_all_layers)),
+            _ if name == *other => Some((*one, *of_all_layers)),
+            _ => None,
+        })
+    }
+
     /// The key with this full name, `air.velocity`.
     pub fn find(&self, name: &str) -> Option<&'static Key<T>> {
         self.rows.iter().find(|key| key.name == name)
@@ -55,11 +75,18 @@ impl<T> KeyTable<T> {
         only(&|key| !of_spinline(key)).or_else(|| only(&of_spinline))
     }
 
-    /// The keys of any table that are similar to one written in `table`, the most similar first.
+    /// The keys of any table that are similar to one written in `table`, or that have such a synonym, the most similar first.
     pub(crate) fn like(&self, table: &str, key: &str) -> Vec<&'static Key<T>> {
         // Of equally similar keys, prefer the one of the same table.
         let bonus = |home: &str| if home == table { 0.05 } else { 0.0 };
-        by_similarity(key, self.rows.iter().map(|known| (known, known.short(), bonus(known.table()))))
+        let spellings = |known: &'static Key<T>| {
+            let words = std::iter::once(known.short()).chain(known.synonyms.iter().copied());
+            words.map(move |word| (known, word, bonus(known.table())))
+        };
+        let mut like = by_similarity(key, self.rows.iter().flat_map(spellings));
+        let mut names = std::collections::BTreeSet::new();
+        like.retain(|key| names.insert(key.name));
+        like
     }
 
     /// The list with this name.

@@ -15,7 +15,7 @@ mod table;
 mod value;
 
 pub use key_table::KeyTable;
-pub(crate) use key_table::TableList;
+pub(crate) use key_table::{Alternatives, TableList};
 pub(crate) use nearest::nearest_word;
 pub use value::{Content, FileKind, Kind, Sign, Value};
 
@@ -27,14 +27,23 @@ use crate::units::Dimension;
 pub const TABLES: [&str; table::NAMES.len()] = table::NAMES;
 
 /// The keys of a case.
-pub static CASE: KeyTable =
-    KeyTable { rows: &table::KEYS, tables: &TABLES, lists: &[], noun: "a case", file: "a case file" };
+pub static CASE: KeyTable = KeyTable {
+    rows: &table::KEYS,
+    tables: &TABLES,
+    lists: &[],
+    alternatives: &[],
+    noun: "a case",
+    file: "a case file",
+};
 
 /// The text that a case file may give as cut-off frequency: Taylor's hypothesis.
 pub(crate) const TAYLOR: &str = "taylor";
 
 /// The text that a case file may give as tension at the end of the spinline: that of the flown fibre.
 pub(crate) const FLOWN: &str = "flown";
+
+/// The text that a web may give as pitch of a row: that of nozzles over the whole width.
+pub(crate) const EVEN: &str = "even";
 
 /// What applies if a case leaves a key out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,6 +66,8 @@ pub struct Key<T: 'static = Case> {
     pub left_out: LeftOut,
     /// Its meaning, in one or two sentences.
     pub meaning: &'static str,
+    /// Other words for it, by which it is searched.
+    pub synonyms: &'static [&'static str],
     /// The label of an axis in figures, with its symbol: `Mean velocity *U*`.
     pub label: &'static str,
     /// Whether a study may vary it.
@@ -194,6 +205,13 @@ impl<T> Key<T> {
     /// Whether a flow or a file gives the value, so that a case file leaves it out.
     pub fn is_told(&self, input: &T) -> bool {
         (self.told)(input)
+    }
+
+    /// Whether it is found by this word: in its name, its meaning or its synonyms, or as one of its units.
+    pub fn has_word(&self, word: &str) -> bool {
+        let has = |text: &str| text.to_lowercase().contains(&word.to_lowercase());
+        [self.name, self.meaning].into_iter().chain(self.synonyms.iter().copied()).any(has)
+            || self.dimension().is_some_and(|dimension| dimension.has_unit(word))
     }
 
     /// An example line of a case file.

@@ -9,6 +9,7 @@ use super::replicates::MOST_REPLICATES;
 use super::{Base, StudyChanges, base, links};
 use crate::case::keys::{self, Kind};
 use crate::error::{Fault, FileKind};
+use crate::layers::keys::is_alternative;
 use crate::study::{Design, Factor, Link, Point, Quantity, Replicates, Study};
 use toml::de::DeValue;
 
@@ -120,7 +121,7 @@ impl<'a> Reader<'a> {
         let full = |name: &str| base.varied(name).map_or_else(|_| name.to_owned(), |key| key.name);
         let set: Vec<String> = set.iter().map(|(name, _)| full(name)).collect();
         let varied = factors.iter().map(|factor| &factor.key).chain(links.iter().map(|link| &link.key));
-        for key in varied.filter(|key| set.contains(key)) {
+        for key in varied.filter(|key| set.iter().any(|set| set == *key || is_alternative(set, key))) {
             self.reject_whole(key, set_twice());
         }
     }

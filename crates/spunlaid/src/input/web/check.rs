@@ -4,7 +4,7 @@ use super::read::{BELT_SPEED, Reading, SAME};
 use crate::air::Lateral;
 use crate::case::{Note, Remark};
 use crate::error::{Fault, Place};
-use crate::layers::keys::{METHODS, WEB, without_numbers};
+use crate::layers::keys::{METHODS, WEB};
 use crate::layers::{LaydownSource, LayerSpec, WebKey, WebSpec, too_small};
 use crate::units::Dimension;
 use crate::web::{Edges, Filaments, Row, Sheet};
@@ -27,52 +27,6 @@ impl Reading<'_> {
                     self.written.reject(&key, fault);
                 }
                 None => drop(seen.insert(name, i)),
-            }
-        }
-    }
-
-    /// Gives every layer the speed of the belt, which is written in one layer or is that of a flown case.
-    pub(super) fn settle_belt(&mut self, prefixes: &[String], layers: &mut [LayerSpec]) {
-        let keys: Vec<String> = prefixes.iter().map(|prefix| format!("{prefix}{BELT_SPEED}")).collect();
-        // Flown fibres come first, because they would lie otherwise on another belt.
-        let known = (0..layers.len()).filter(|&layer| !layers[layer].belt_speed.is_nan());
-        let Some(first) = known.min_by_key(|&layer| layers[layer].source.case().is_none()) else {
-            let is_there = |key: &String| self.is_written(key) || self.written.is_excused(key);
-            if let Some(key) = keys.first().filter(|_| !keys.iter().any(is_there)) {
-                let table = without_numbers(key.trim_end_matches(".belt_speed"));
-                self.written.reject(key, Fault::missing(&table, "belt_speed = \"3 m/s\""));
-            }
-            return;
-        };
-        let LayerSpec { belt_speed: belt, source, .. } = layers[first].clone();
-        for ((layer, prefix), key) in layers.iter_mut().zip(prefixes).zip(&keys) {
-            let is_written = self.is_written(key);
-            if layer.belt_speed.is_nan() && !is_written {
-                layer.belt_speed = belt;
-            }
-            let [own, feed, first_belt] =
-                [layer.belt_speed, layer.feed_speed, belt].map(|speed| Dimension::Velocity.pretty(speed));
-            if (layer.belt_speed / belt - 1.0).abs() > SAME {
-                let whose =
-                    if is_written { String::new() } else { format!("has belt.speed = {own}, which ") };
-                let message = format!(
-                    "{whose}differs from the belt speed of layer {}, {first_belt}, and all layers lie on one belt",
-                    first + 1
-                );
-                let remedy = match source.case() {
-                    _ if !is_written => "give all cases the same belt.speed".to_owned(),
-                    Some(_) => {
-                        format!("leave it out here, and set belt.speed in {}", source.path().display())
-                    }
-                    None => "write it in one layer and leave it out of the others".to_owned(),
-                };
-                let ways = ["case", "results"].map(|way| format!("{prefix}laydown.{way}"));
-                let way = ways.iter().find(|way| self.is_written(way)).filter(|_| !is_written);
-                self.written.reject(way.unwrap_or(key), Fault::new(message, remedy));
-            }
-            if layer.belt_speed > layer.feed_speed {
-                let message = format!("is more than line.feed_speed = {feed}, which would tear the fibre");
-                self.refuse(key, own, Fault::new(message, "slow the belt, or feed faster"));
             }
         }
     }
@@ -148,12 +102,14 @@ impl Reading<'_> {
             let fault = Fault::degenerate("the mass per length", density);
             self.written.reject(&format!("{prefix}fibre.diameter"), fault);
         }
-        if !fed.is_finite() {
-            let fault = Fault::new(
-                "is so small that a filament would lay an infinite length on the web",
-                "write a higher speed",
-            );
-            self.written.reject(&format!("{prefix}line.belt_speed"), fault);
+        // A belt whose speed is not known has been reported.
+        if fed.is_infinite() {
+            let (key, how, remedy) = match web.basis_weight {
+                Some(_) => (self.basis_weight_key.clone(), "large", "write a lower weight"),
+                None => (format!("{prefix}{BELT_SPEED}"), "small", "write a higher speed"),
+            };
+            let message = format!("is so {how} that a filament would lay an infinite length on the web");
+            self.written.reject(&key, Fault::new(message, remedy));
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::super::data::DataFiles;
 use super::super::{Overrides, file, parse_with};
-use super::read::Reading;
+use super::read::{Reading, THROUGHPUT};
 use crate::case::keys::Value;
 use crate::case::{Case, Note};
 use crate::error::{Error, Fault, FileKind, Place};
@@ -44,7 +44,7 @@ impl Reading<'_> {
                 self.written.reject(&format!("{prefix}laydown"), fault);
                 Ok(None)
             }
-            [CASE] => self.case(&format!("{prefix}{CASE}")),
+            [CASE] => self.case(prefix),
             [RESULTS] => self.results(&format!("{prefix}{RESULTS}")),
             [_] => Ok(Some(self.numbers(prefix))),
             [other, ref more @ ..] => {
@@ -69,9 +69,31 @@ impl Reading<'_> {
         LaydownSource::UNKNOWN
     }
 
-    fn case(&mut self, key: &str) -> Result<Option<LaydownSource>, Error> {
-        let Some(path) = self.path(key) else { return Ok(None) };
-        let case = self.fed_case(key, &path, self.of_case)?;
+    fn case(&mut self, prefix: &str) -> Result<Option<LaydownSource>, Error> {
+        let key = format!("{prefix}{CASE}");
+        let Some(path) = self.path(&key) else { return Ok(None) };
+        let read = self.read_case(&path, self.of_case);
+        let change = match &read {
+            Ok((case, _)) => self.of_throughput(prefix, case, &path),
+            Err(_) => None,
+        };
+        let read = match change {
+            None => read,
+            Some(change) => {
+                let change = Overrides { values: &[change], word: "line.throughput as" };
+                let read = self.read_case(&path, &[self.of_case, &[change]].concat());
+                if let Err(Error::Rejected(_)) = &read {
+                    let message = format!(
+                        "cannot be flown by {} (the message about that file says why)",
+                        path.display()
+                    );
+                    let fault = Fault::new(message, "write another throughput, or change the case");
+                    self.written.reject(&format!("{prefix}{THROUGHPUT}"), fault);
+                }
+                read
+            }
+        };
+        let case = self.fed_case(&key, read)?;
         Ok(case.map(|case| LaydownSource::Case { path, case }))
     }
 
@@ -87,7 +109,8 @@ impl Reading<'_> {
             self.written.reject(key, fault);
             return Ok(None);
         }
-        let case = self.fed_case(key, &folder.join(CASE_OF_RESULTS), &[])?;
+        let read = self.read_case(&folder.join(CASE_OF_RESULTS), &[]);
+        let case = self.fed_case(key, read)?;
         Ok(case.map(|case| LaydownSource::Results { folder, case }))
     }
 
@@ -101,19 +124,21 @@ impl Reading<'_> {
         })
     }
 
-    /// A case whose fibres are laid down on a moving belt.
-    fn fed_case(
-        &mut self,
-        key: &str,
-        path: &Path,
-        changes: &[Overrides<'_>],
-    ) -> Result<Option<Arc<Case>>, Error> {
+    fn read_case(&self, path: &Path, changes: &[Overrides<'_>]) -> Result<(Case, Vec<Note>), Error> {
         let text = match self.cases.iter().find(|(of, _)| of == path) {
             Some((_, text)) => Ok(text.clone()),
             None => file::read(path, FileKind::Case),
         };
         let name = path.display().to_string();
-        let read = text.and_then(|text| parse_with(&DataFiles::default(), &text, &name, changes));
+        text.and_then(|text| parse_with(&DataFiles::default(), &text, &name, changes))
+    }
+
+    /// A case whose fibres are laid down on a moving belt.
+    fn fed_case(
+        &mut self,
+        key: &str,
+        read: Result<(Case, Vec<Note>), Error>,
+    ) -> Result<Option<Arc<Case>>, Error> {
         let (case, notes) = match read {
             Ok(read) => read,
             Err(Error::File(error)) => {

@@ -4,6 +4,7 @@ mod check;
 mod laydown;
 mod read;
 mod sheet;
+mod speeds;
 mod write;
 
 pub use write::write_web;

@@ -14,8 +14,13 @@ use std::path::{Path, PathBuf};
 
 /// The key of the only thing that all layers have in common.
 pub(super) const BELT_SPEED: &str = "line.belt_speed";
+/// The keys that stand in place of the speeds.
+pub(super) const BASIS_WEIGHT: &str = "line.basis_weight";
+pub(super) const THROUGHPUT: &str = "line.throughput";
 /// Relative difference up to which two written numbers are the same.
 pub(super) const SAME: f64 = 1e-9;
+/// Relative difference up to which two numbers agree if one is rounded to three digits and the other follows from such numbers.
+pub(super) const ROUNDED: f64 = 5e-3;
 
 /// A file while it is read.
 pub(super) struct Reading<'a> {
@@ -27,6 +32,8 @@ pub(super) struct Reading<'a> {
     /// Texts of cases that are no files.
     pub(super) cases: &'a [(PathBuf, String)],
     notes: Vec<Note>,
+    /// The full name of the key that gives the basis weight, of one of the layers; empty if there is none.
+    pub(super) basis_weight_key: String,
 }
 
 /// The web that is written, and notes about its cases.
@@ -39,8 +46,10 @@ pub(super) fn spec(
     (of_case, cases): (&[Overrides<'_>], &[(PathBuf, String)]),
 ) -> Result<(WebSpec, Vec<Note>), Error> {
     let folder = Path::new(name).parent().unwrap_or(Path::new("")).to_owned();
-    let mut reading = Reading { written, folder, of_case, cases, notes: Vec::new() };
+    let (notes, basis_weight_key) = (Vec::new(), String::new());
+    let mut reading = Reading { written, folder, of_case, cases, notes, basis_weight_key };
     let (mut web, prefixes) = (WebSpec::unknown(), reading.prefixes());
+    reading.leave_to_case(&prefixes);
     for prefix in &prefixes {
         let layer = reading.layer(prefix)?;
         web.layers.push(layer);
@@ -49,7 +58,7 @@ pub(super) fn spec(
     reading.check_names(&prefixes);
     reading.complete_sheet(&mut web);
     reading.check_method(&prefixes, &web);
-    reading.settle_belt(&prefixes, &mut web.layers);
+    reading.settle_belt(&prefixes, &mut web);
     for (number, prefix) in prefixes.iter().enumerate() {
         reading.check_layer(prefix, &web.alone(number));
     }
@@ -139,6 +148,8 @@ impl Reading<'_> {
             };
             let set = match (self.written.get(&full).map(|written| written.value.clone()), key.left_out) {
                 (Some(None), _) => Ok(()),
+                // They are settled when all else is known.
+                (Some(Some(_)), _) if [THROUGHPUT, BASIS_WEIGHT].contains(&key.name) => Ok(()),
                 (Some(Some(value)), _) => match rival(key.name, is_there) {
                     Some((other, remedy)) => Err(Fault::excludes(other, remedy)),
                     None => key.apply(web, &value),
@@ -147,7 +158,7 @@ impl Reading<'_> {
                 (None, LeftOut::Required(_)) => {
                     let is_given = flown(web, key).is_some()
                         || key.name == BELT_SPEED
-                        || key.name == "fibre.diameter" && is_there("fibre.linear_density");
+                        || WEB.alternative(key.name).is_some_and(|(other, _)| is_there(other));
                     let table = without_numbers(before);
                     if is_given { Ok(()) } else { Err(Fault::missing(&table, &key.example())) }
                 }
@@ -180,6 +191,7 @@ impl Reading<'_> {
                 self.fill(web, table, &format!("{prefix}{table}."));
             }
             self.take_flown(web, prefix);
+            self.settle_throughput(web, prefix);
         });
         let rows = self.rows(&format!("{prefix}line."));
         if !rows.is_empty() {
@@ -193,12 +205,11 @@ impl Reading<'_> {
         for key in WEB.rows {
             let Some((of_case, value)) = flown(web, key) else { continue };
             let numbers = (key.get(web).and_then(|here| here.number()), value.number());
+            // A titre is rounded more often than a diameter.
+            let apart = if of_case.name == "fibre.linear_density" { ROUNDED } else { SAME };
             if let (Some(here), Some(there)) = numbers
-                && (here / there - 1.0).abs() > SAME
+                && (here / there - 1.0).abs() > apart
             {
-                let linear = format!("{prefix}fibre.linear_density");
-                let by_linear = key.name == "fibre.diameter" && self.is_written(&linear);
-                let full = if by_linear { linear } else { format!("{prefix}{}", key.name) };
                 let path = web.layers.first().map_or(Path::new(""), |layer| layer.source.path()).display();
                 let message = format!(
                     "differs from {} = {} of {path}, with which the fibres are flown, and they would lie otherwise",
@@ -206,10 +217,14 @@ impl Reading<'_> {
                     of_case.kind.pretty(&value)
                 );
                 let remedy = "leave it out here, and set it in the case";
-                self.written.reject(&full, Fault::new(message, remedy));
+                self.written.reject(&format!("{prefix}{}", key.name), Fault::new(message, remedy));
             }
-            // The kinds of both keys are the same.
-            drop(key.apply(web, &value));
+        }
+        for key in WEB.rows.iter().filter(|key| key.name != "fibre.linear_density") {
+            if let Some((_, value)) = flown(web, key) {
+                // The kinds of both keys are the same.
+                drop(key.apply(web, &value));
+            }
         }
     }
 
@@ -241,7 +256,10 @@ impl Reading<'_> {
                 filaments: Filaments::Rows(vec![row]),
                 ..LayerSpec::unknown(LaydownSource::UNKNOWN)
             };
-            as_web(&mut layer, |web| self.fill(web, "line.rows", &format!("{rows}.{number}.")));
+            as_web(&mut layer, |web| {
+                web.sheet.width = self.written.number("web.width").unwrap_or(f64::NAN);
+                self.fill(web, "line.rows", &format!("{rows}.{number}."));
+            });
             match layer.filaments {
                 Filaments::Rows(rows) => rows.first().copied(),
                 Filaments::AtRandom { .. } | Filaments::Slot { .. } => None,
@@ -275,6 +293,8 @@ impl Reading<'_> {
 
 /// What the case of a layer's flown fibres gives for a key of the web: the key of the case, and its value.
 fn flown(web: &WebSpec, key: &WebKey) -> Option<(&'static Key, Value)> {
-    let of_case = key.of_case()?;
-    Some((of_case, of_case.get(web.layers.first()?.source.case()?)?))
+    let (of_case, case) = (key.of_case()?, web.layers.first()?.source.case()?);
+    // The diameter of a case stands for it.
+    let titre = (of_case.name == "fibre.linear_density").then(|| case.linear_density().into());
+    Some((of_case, titre.or_else(|| of_case.get(case))?))
 }

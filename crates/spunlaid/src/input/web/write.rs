@@ -22,6 +22,7 @@ pub fn write_web(spec: &WebSpec) -> String {
             let header = if layered { format!("layer.{table}") } else { table.to_owned() };
             let mut lines = of_table(&alone, table);
             lines.retain(|line| !(no_belt && line.starts_with("belt_speed = ")));
+            lines.retain(|line| !(number > 0 && line.starts_with("basis_weight = ")));
             text += &format!("\n[{header}]\n{}", in_lines(&lines));
         }
         if let Filaments::Rows(rows) = &layer.filaments {

@@ -1,10 +1,11 @@
-//! AVX2 and FMA.
+//! AVX2, FMA and F16C.
 //!
 //! SAFETY of every block here: the instructions were found on the machine before [`super::super::Isa::run`] picked the
 //! type, and loads and stores go through references.
 
 use super::{Register, Simd, Singles};
 use crate::lanes::{Isa, Lanes, WIDTH};
+use half::f16;
 use std::arch::x86_64::*;
 
 /// Two 256-bit registers.
@@ -227,10 +228,13 @@ impl Singles for Avx2Singles {
     }
 
     #[inline(always)]
-    fn add_weighted(self, row: &[f32; 12], weight: f32) -> Self {
+    fn add_weighted(self, row: &[f16; 16], weight: f32) -> Self {
         unsafe {
-            let large = _mm256_mul_ps(_mm256_loadu_ps(row.as_ptr()), _mm256_set1_ps(weight));
-            let small = _mm_mul_ps(_mm_loadu_ps(row.as_ptr().add(8)), _mm_set1_ps(weight));
+            let start = row.as_ptr();
+            let large = _mm256_cvtph_ps(_mm_loadu_si128(start.cast()));
+            let small = _mm_cvtph_ps(_mm_loadl_epi64(start.add(8).cast()));
+            let large = _mm256_mul_ps(large, _mm256_set1_ps(weight));
+            let small = _mm_mul_ps(small, _mm_set1_ps(weight));
             Self(_mm256_add_ps(self.0, large), _mm_add_ps(self.1, small))
         }
     }
@@ -241,8 +245,8 @@ impl Singles for Avx2Singles {
     }
 
     #[inline(always)]
-    fn store(self) -> [f32; 12] {
-        let mut row = [0.0; 12];
+    fn store(self) -> [f32; 16] {
+        let mut row = [0.0; 16];
         unsafe {
             _mm256_storeu_ps(row.as_mut_ptr(), self.0);
             _mm_storeu_ps(row.as_mut_ptr().add(8), self.1);

@@ -6,6 +6,7 @@
 use super::avx2::columns;
 use super::{Register, Simd, Singles};
 use crate::lanes::{Isa, Lanes, WIDTH};
+use half::f16;
 use std::arch::x86_64::*;
 
 /// One 512-bit register.
@@ -139,9 +140,6 @@ impl Simd for Avx512 {
     }
 }
 
-/// The first twelve numbers of a register.
-const TWELVE: __mmask16 = 0x0fff;
-
 /// Twelve numbers in one register.
 #[derive(Clone, Copy)]
 pub(crate) struct Avx512Singles(__m512);
@@ -153,9 +151,9 @@ impl Singles for Avx512Singles {
     }
 
     #[inline(always)]
-    fn add_weighted(self, row: &[f32; 12], weight: f32) -> Self {
+    fn add_weighted(self, row: &[f16; 16], weight: f32) -> Self {
         unsafe {
-            let row = _mm512_maskz_loadu_ps(TWELVE, row.as_ptr());
+            let row = _mm512_cvtph_ps(_mm256_loadu_si256(row.as_ptr().cast()));
             Self(_mm512_add_ps(self.0, _mm512_mul_ps(row, _mm512_set1_ps(weight))))
         }
     }
@@ -166,9 +164,9 @@ impl Singles for Avx512Singles {
     }
 
     #[inline(always)]
-    fn store(self) -> [f32; 12] {
-        let mut row = [0.0; 12];
-        unsafe { _mm512_mask_storeu_ps(row.as_mut_ptr(), TWELVE, self.0) };
+    fn store(self) -> [f32; 16] {
+        let mut row = [0.0; 16];
+        unsafe { _mm512_storeu_ps(row.as_mut_ptr(), self.0) };
         row
     }
 }

@@ -4,7 +4,7 @@
 //!
 //! ```text
 //! plain    plain Rust, for any machine
-//! avx2     AVX2 and FMA
+//! avx2     AVX2, FMA and F16C
 //! avx512   AVX-512 F, DQ and VL
 //! ```
 
@@ -21,6 +21,7 @@ pub(crate) use avx512::Avx512;
 pub(crate) use plain::Plain;
 
 use super::{Isa, Lanes, WIDTH};
+use half::f16;
 
 /// Eight numbers in registers, or several times eight, with the operations that the kernel needs.
 ///
@@ -57,13 +58,14 @@ pub(crate) trait Simd: Copy {
     fn shift_left<const N: u32>(self) -> Self;
 }
 
-/// Twelve numbers of single precision in registers: four neighbouring points of a field with three components.
+/// Twelve sums of single precision in registers: of four neighbouring points of a field with three components.
 pub(crate) trait Singles: Copy {
     fn zero() -> Self;
-    /// `self + row · weight`, rounded after the product and after the sum.
-    fn add_weighted(self, row: &[f32; 12], weight: f32) -> Self;
+    /// `self + row · weight` for the first twelve numbers of a row, rounded after the product and after the sum.
+    fn add_weighted(self, row: &[f16; 16], weight: f32) -> Self;
     fn add(self, other: Self) -> Self;
-    fn store(self) -> [f32; 12];
+    /// The sums, and what stands behind them.
+    fn store(self) -> [f32; 16];
 }
 
 /// [`Simd`] of exactly the eight lanes of a flight.

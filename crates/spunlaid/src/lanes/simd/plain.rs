@@ -5,6 +5,7 @@
 
 use super::{Register, Simd, Singles};
 use crate::lanes::{Isa, Lanes, WIDTH};
+use half::f16;
 
 /// Plain Rust.
 #[derive(Clone, Copy)]
@@ -138,8 +139,8 @@ impl Singles for [f32; 12] {
     }
 
     #[inline(always)]
-    fn add_weighted(self, row: &[f32; 12], weight: f32) -> Self {
-        std::array::from_fn(|i| self[i] + row[i] * weight)
+    fn add_weighted(self, row: &[f16; 16], weight: f32) -> Self {
+        std::array::from_fn(|i| self[i] + row[i].to_f32() * weight)
     }
 
     #[inline(always)]
@@ -148,7 +149,9 @@ impl Singles for [f32; 12] {
     }
 
     #[inline(always)]
-    fn store(self) -> [f32; 12] {
-        self
+    fn store(self) -> [f32; 16] {
+        let mut row = [0.0; 16];
+        row[..self.len()].copy_from_slice(&self);
+        row
     }
 }

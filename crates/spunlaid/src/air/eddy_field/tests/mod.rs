@@ -3,9 +3,9 @@
 mod formulas;
 mod statistics;
 
-use super::{EddyField, Extent};
+use super::{EddyField, EddyFields, Extent};
 use crate::air::{Air, EddyModel, SpectrumShape, StreamKey};
-use crate::lanes::{Isa, Plain, Register, Task, WIDTH};
+use crate::lanes::{Isa, Register, Task, WIDTH};
 use crate::vec3::Vec3;
 
 const SPEED: f64 = 25.0;
@@ -25,13 +25,28 @@ fn frozen(spectrum: SpectrumShape, cutoff_frequency: f64) -> EddyField {
 }
 
 fn at(field: &EddyField, time: f64, place: [f64; 3]) -> [f64; 3] {
-    look::<Plain>(field, time, place)
+    Isa::detect().run(LookOnce { field, time, place })
+}
+
+struct LookOnce<'a> {
+    field: &'a EddyField,
+    time: f64,
+    place: [f64; 3],
+}
+
+impl Task for LookOnce<'_> {
+    type Output = [f64; 3];
+
+    #[inline(always)]
+    fn call<S: Register>(self) -> [f64; 3] {
+        look::<S>(self.field, self.time, self.place)
+    }
 }
 
 #[inline(always)]
 fn look<S: Register>(field: &EddyField, time: f64, [x, y, z]: [f64; 3]) -> [f64; 3] {
     let Vec3 { x, y, z } =
-        EddyField::fluctuations::<S>([field; WIDTH], time, &Vec3::splat(Vec3::new(x, y, z)));
+        EddyFields::new([field; WIDTH]).fluctuations::<S>(time, &Vec3::splat(Vec3::new(x, y, z)));
     [x.0[5], y.0[5], z.0[5]]
 }
 
