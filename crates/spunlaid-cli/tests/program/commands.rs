@@ -29,6 +29,31 @@ fn check_prints_a_case_that_can_be_read_again() {
 }
 
 #[test]
+fn check_tells_what_was_read_of_a_field_and_the_axis_of_its_air() {
+    let desk = Desk::new();
+    // A duct along y.
+    let rows = "x_m,y_m,z_m,u_m_s,v_m_s,w_m_s,k_m2_s2,epsilon_m2_s3\n";
+    let corner = |i: usize| format!("{},{},{},0,-8,{},1,100\n", i % 2, i / 2 % 2, i / 4, i % 2);
+    std::fs::write(desk.path("duct.csv"), rows.to_owned() + &(0..8).map(corner).collect::<String>()).unwrap();
+    let case = "version = 1\n[fibre]\nlength = \"0.5 m\"\ndiameter = \"20 um\"\ndensity = \"950 kg/m3\"\n\
+                youngs_modulus = \"2 GPa\"\nelement_length = \"10 mm\"\n[air]\nfield = \"duct.csv\"\nfield_axis = \"-y\"\n\
+                [run]\nduration = \"10 ms\"\n";
+    std::fs::write(desk.path("duct.toml"), case).unwrap();
+    let said = success(&mut desk.spunlaid("check duct.toml"));
+    for part in [
+        "#   a lattice of 2 × 2 × 2 points",
+        "#     x from 0 m to 1 m",
+        "#   velocity 8 to 8.06 m/s, 8.03 m/s on average",
+        "#   k 1 to 1 m²/s², 1 m²/s² on average",
+        "#   the air flows along -y of the field (1 of its mean velocity), as the fibre hangs",
+    ] {
+        assert!(said.contains(part), "{part}\n{said}");
+    }
+    let said = success(&mut desk.with("check duct.toml", &["air.field_axis=z"]));
+    assert!(said.contains("but the fibre hangs along z; write air.field_axis = \"-y\""), "{said}");
+}
+
+#[test]
 fn check_remarks_on_rounded_elements_and_extrapolated_drag_once() {
     let desk = Desk::new();
     let mut command = desk.with("check brief.toml", &["fibre.element_length=33 mm", "fibre.diameter=5 um"]);

@@ -133,6 +133,15 @@ impl PlacedField {
         (Vec3::new(x0, y0, z0), Vec3::new(x1, y1, z1))
     }
 
+    /// The direction of the field along which most of the air flows, and the share of the mean velocity that goes there.
+    pub fn main_direction(&self) -> (Axis, f64) {
+        let mean = self.field.overview().velocity;
+        let along = |axis: Axis| axis.to_fibre(mean).x / mean.norm();
+        let shares = Axis::ALL.map(|axis| (axis, along(axis)));
+        let most = |a: (Axis, f64), b: (Axis, f64)| if b.1 > a.1 { b } else { a };
+        shares.into_iter().reduce(most).unwrap_or((self.axis, f64::NAN))
+    }
+
     /// The middle of the side where x enters the field's box [m]. This is the default place of the root.
     pub fn middle_of_inlet(field: &Field, axis: Axis, unit: f64) -> Vec3<f64> {
         let (low, high) = field.bounds();

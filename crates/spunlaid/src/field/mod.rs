@@ -47,6 +47,7 @@ mod fault;
 mod lattice;
 mod mesh;
 mod node;
+mod overview;
 mod points;
 mod read;
 mod tree;
@@ -54,6 +55,7 @@ mod values;
 
 pub use bricks::Around;
 pub use mesh::cells::{Cells, Shape};
+pub use overview::{Overview, Spread};
 pub use values::Values;
 
 pub(crate) use read::ReadField;

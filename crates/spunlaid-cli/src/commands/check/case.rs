@@ -6,9 +6,10 @@ use crate::failure::Failure;
 use crate::say;
 use serde::Serialize;
 use serde_json::Value as Json;
-use spunlaid::air::{Air, Flow};
+use spunlaid::air::{Air, Flow, PlacedField};
 use spunlaid::case::{Case, INSTANT_ON_DISK, Note, StepLimit};
 use spunlaid::ensemble::{FinerPlans, KeepShapes, pace};
+use spunlaid::field::Spread;
 use spunlaid::input::{Overrides, read_spinline, write_case, write_spinline};
 use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid::line::Line;
@@ -37,6 +38,9 @@ pub(super) fn case(check: &Check) -> Result<(), Failure> {
     say::line("# the case with every default");
     say::text(&write_case(&case));
     say::line("");
+    if let Flow::Field(placed) = &case.air.flow {
+        field(placed);
+    }
     mesh(&case);
     error_of_mesh(&case);
     limits(&case);
@@ -108,6 +112,46 @@ fn json(case: &Case, expected: Expected, notes: Vec<String>) -> String {
         expected,
         notes,
     })
+}
+
+/// What was read from a CFD solution, and whether the fibre hangs along the air.
+fn field(placed: &PlacedField) {
+    let overview = placed.field.overview();
+    let (low, high) = placed.extent();
+    let spread = |Spread { least, mean, largest }: Spread| {
+        format!(
+            "{} to {}, {} on average",
+            significant(least, 3),
+            significant(largest, 3),
+            significant(mean, 3)
+        )
+    };
+    say::line("# field");
+    say::line(&format!("#   {}, around the root:", placed.field.describe()));
+    for (name, low, high) in [("x", low.x, high.x), ("y", low.y, high.y), ("z", low.z, high.z)] {
+        // Without the sign of a zero.
+        let [low, high] = [low, high].map(|end| Dimension::Length.pretty_to(end + 0.0, 3));
+        say::line(&format!("#     {name} from {low} to {high}"));
+    }
+    say::line(&format!("#   velocity {}", spread(overview.speed, "m/s")));
+    if placed.field.has_turbulence() {
+        say::line(&format!("#   k {}", spread(overview.k, "m²/s²")));
+        say::line(&format!("#   ε {}", spread(overview.epsilon, "m²/s³")));
+    }
+    let (axis, share) = placed.main_direction();
+    let along = format!(
+        "#   the air flows along {} of the field ({} of its mean velocity)",
+        axis.name(),
+        significant(share, 2)
+    );
+    match axis == placed.axis || share.is_nan() {
+        true => say::line(&format!("{along}, as the fibre hangs")),
+        false => say::line(&format!(
+            "{along}, but the fibre hangs along {}; write air.field_axis = \"{}\" if it hangs along the air",
+            placed.axis.name(),
+            axis.name()
+        )),
+    }
 }
 
 fn mesh(case: &Case) {
