@@ -272,6 +272,37 @@ fn analytic_new_writes_a_web_from_the_numbers_of_a_line() {
     assert!(!desk.path("line.toml").exists());
 }
 
+/// The commands of docs/line.md write and print what the page shows.
+#[test]
+fn the_page_of_a_line_shows_what_its_commands_do() {
+    let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/line.md");
+    let page = std::fs::read_to_string(page).unwrap();
+    let blocks: Vec<Vec<&str>> = page
+        .split("\n\n")
+        .filter(|block| block.starts_with("    "))
+        .map(|block| block.lines().map(str::trim).collect())
+        .collect();
+    let [commands, file, checked, ..] = &blocks[..] else { panic!("{page}") };
+    let command = commands.join(" ").replace('\\', "");
+    let (new, check) = command.split_once("spunlaid check").unwrap();
+    assert!(check.starts_with(" line.toml spunlaid web line.toml"), "{check}");
+    // Every other part between quotes is one word.
+    let words = new.split('"').enumerate().flat_map(|(i, part)| match i % 2 {
+        0 => part.split_whitespace().collect::<Vec<_>>(),
+        _ => vec![part],
+    });
+    let desk = Desk::new();
+    success(desk.spunlaid("").args(words.skip(1)));
+    let written = String::from_utf8(desk.read("line.toml")).unwrap();
+    let said = success(&mut desk.spunlaid("check line.toml"));
+    for (lines, text) in [(file, written), (checked, said)] {
+        assert!(lines.len() > 4);
+        for line in lines {
+            assert!(text.lines().any(|one| one == *line), "{line}\n{text}");
+        }
+    }
+}
+
 #[test]
 fn new_writes_beams_from_a_diameter_and_all_holes() {
     let desk = Desk::new();

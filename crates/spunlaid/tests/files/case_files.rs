@@ -125,6 +125,9 @@ fn linear_density_and_taylors_cutoff_give_what_they_stand_for() {
     assert!((case.fibre.diameter / 4.9996e-5 - 1.0).abs() < 1e-4, "{}", case.fibre.diameter);
     let (denier, _) = changed(&[("fibre.diameter", "auto"), ("fibre.linear_density", "16.785 den")]);
     assert!((denier.fibre.diameter / case.fibre.diameter - 1.0).abs() < 1e-12);
+    // An override stands in place of what the case says in other words.
+    let (replaced, _) = changed(&[("fibre.linear_density", "16.785 den")]);
+    assert_eq!(replaced.fibre.diameter, denier.fibre.diameter);
     // 20 m/s over four eddies of 50 mm.
     let (case, _) = changed(&[("air.cutoff_frequency", "taylor"), ("air.velocity", "20 m/s")]);
     assert_eq!(case.air.cutoff_frequency, 100.0);

@@ -137,12 +137,13 @@ impl Line {
                 significant(flow / beams as f64 * 3600.0, 4),
                 significant(flow / beams as f64 * width * 3600.0, 4),
             );
-            text += "# depth = \"20 mm\"   # of the slot: the filaments then come at an even pitch, each at a random depth\n";
+            text += "depth = \"20 mm\"   # of the slot, a guess: the filaments come at an even pitch, each at a random depth\n";
         }
         text + &format!(
             "\n[web]\nwidth = \"{}\"\nlength = \"1 m\"   # of the stretch that is looked at\n\
-             # edges = \"cut\"   # if the edges of the web are to be seen; without, it is a part of a wide web\n\
-             # method = \"shared-air\"   # all filaments in one air, as in the line: some minutes, with depth and a width of 0.5 m\n",
+             method = \"dynamics\"   # the curves of the flown filaments, independent of each other: a lower bound\n\
+             # method = \"shared-air\"   # all filaments in one air, as in the line: some minutes, with a width of 0.5 m\n\
+             # edges = \"cut\"   # if the edges of the web are to be seen; without, it is a part of a wide web\n",
             given(Dimension::Length, width)
         )
     }

@@ -38,7 +38,7 @@ impl SpinResults {
     /// # Errors
     /// If it has no steady state that a line could run in.
     pub fn new(file: &SpinFile) -> Result<Self, Error> {
-        Ok(Self { rows: file.solve()?, influences: file.influences()? })
+        Ok(Self { rows: file.solve()?, influences: file.influences() })
     }
 
     /// The spinline from which a case is fed, solved again, which takes milliseconds; `None` if the case has none.

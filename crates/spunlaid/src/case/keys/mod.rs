@@ -31,7 +31,13 @@ pub static CASE: KeyTable = KeyTable {
     rows: &table::KEYS,
     tables: &TABLES,
     lists: &[],
-    alternatives: &[],
+    alternatives: &[
+        Alternatives { keys: ["fibre.diameter", "fibre.linear_density"], of_all_layers: false },
+        Alternatives {
+            keys: ["spinline.melt_flow_rate", "spinline.material.viscosity"],
+            of_all_layers: false,
+        },
+    ],
     noun: "a case",
     file: "a case file",
 };
