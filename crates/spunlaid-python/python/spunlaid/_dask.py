@@ -47,7 +47,8 @@ def fly_bundle(packed: bytes, version: str, all_threads: bool) -> NDArray[np.flo
             "bits and are not mixed. Install the same version everywhere"
         )
     threads = get_worker().state.nthreads if all_threads else 1
-    return _spunlaid.fly_bundle(*pickle.loads(zlib.decompress(packed)), threads)
+    parts, sides = pickle.loads(zlib.decompress(packed))
+    return _spunlaid.fly_bundle(parts, sides, threads)
 
 
 def fly(

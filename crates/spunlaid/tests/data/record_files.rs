@@ -248,11 +248,11 @@ fn rejects_with_line_column_and_way_out() {
         ),
         (
             &format!("{head}1e12,4\n"),
-            "a.csv:5: column time_s: 999999999997 samples in a row are missing up to here, more than the 10 that are filled in; cut the record here, or fill in the missing samples",
+            "a.csv:5: column time_s: 999999999997 samples in a row are missing up to here, more than the 10 that are filled in; cut the record here, fill in the missing samples, or allow longer gaps (air.record_max_gap in a case)",
         ),
         (
             &format!("{head}{}20,5\n", (3..20).map(|i| format!("{i},\n")).collect::<String>()),
-            "a.csv:22: column u_m_s: 17 samples in a row are missing up to here, more than the 10 that are filled in; cut the record here, or fill in the missing samples",
+            "a.csv:22: column u_m_s: 17 samples in a row are missing up to here, more than the 10 that are filled in; cut the record here, fill in the missing samples, or allow longer gaps (air.record_max_gap in a case)",
         ),
         (
             "time_s;u_m_s\n0,1;1,5\n0,2;1.5\n",
