@@ -52,6 +52,7 @@ The results folder holds
   report.html          for the browser: the moving fibre, figures, table; works offline
   summary.json         every result with mean, standard error and the replicates' values
   case.toml            the case with every default; running it gives the same bits
+  origin.toml          the command and the file; the same command replaces these results when it runs again
   case_files/          copies of the files that the case names
   end_node.parquet     the free end over time      energy.parquet   both energy ledgers over time
   shape.pvd, shape/    the fibre over time, for ParaView (open shape.pvd)
@@ -139,6 +140,7 @@ fibre.diameter:
   spinline.parquet   the thread and the air around it from the die to the end
   figures/           every figure as SVG, PNG and CSV
   spinline.toml      the spinline with every default; solving it again gives the same bits
+  origin.toml        the command and the file; the same command replaces these results when it runs again
   case_files/        copies of the files that it names
 
 If no steady state exists, as where the filament is not solid at the end, the message says why and
@@ -176,6 +178,7 @@ Several beams are [[layer]] tables, each with its own [layer.laydown], [layer.li
   fibres.vtp     the single fibres of a window, for ParaView
   figures/       every figure as SVG, PNG and CSV
   web.toml       the file with every default; laying it again gives the same bits
+  origin.toml    the command and the file; the same command replaces these results when it runs again
 
 Examples:
   spunlaid web cases/web.toml
@@ -264,6 +267,8 @@ says how.
 Examples:
   spunlaid new my.toml && spunlaid run my.toml
   spunlaid new --fed line.toml        a fibre that is fed and laid on a moving belt
+  spunlaid new --study my.toml && spunlaid sweep my_study.toml
+  spunlaid new - | grep -v '#'        on standard output
   spunlaid new --web line.toml        asks for the numbers of the line
   spunlaid new --web line.toml --polymer pp --throughput \"0.5 g/min\" --dtex 2 \\
     --basis-weight \"20 g/m²\" --holes-per-metre 5000 --air-speed \"60 m/s\"

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(crate) struct New {
-    /// File to write; it must not exist yet
+    /// File to write; it must not exist yet. A single - is standard output
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) file: PathBuf,
     /// A fibre that is fed at an inlet and laid on a moving belt, in place of one of fixed length
@@ -17,6 +17,9 @@ pub(crate) struct New {
     /// The file of a web, with the case of its filament and a table of the air beside it
     #[arg(long)]
     pub(crate) web: bool,
+    /// Write FILE_study.toml beside FILE, a study of this case, web or spinline; a case that does not exist yet is written too
+    #[arg(long, conflicts_with = "web")]
+    pub(crate) study: bool,
     #[command(flatten)]
     pub(crate) line: LineNumbers,
 }

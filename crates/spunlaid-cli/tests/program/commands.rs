@@ -146,9 +146,36 @@ fn new_writes_a_case_that_can_be_run_and_overwrites_nothing() {
         "error: my.toml: exists already and is not overwritten; name another file\n"
     );
     assert!(desk.read("my.toml") == written);
+    // On standard output the same.
+    assert_eq!(success(&mut desk.spunlaid("new -")).as_bytes(), written);
+    assert!(success(&mut desk.spunlaid("new - --fed")).contains("[belt]") && !desk.path("-").exists());
     let said = refusal(&mut desk.spunlaid("new no/such/folder/my.toml"), 2);
     assert!(said.starts_with("error: no/such/folder/my.toml: cannot be written: "), "{said}");
     assert!(said.ends_with("; name another file\n"), "{said}");
+}
+
+#[test]
+fn new_writes_a_study_beside_its_case() {
+    let desk = Desk::new();
+    let said = success(&mut desk.spunlaid("new --study brief.toml"));
+    let wanted =
+        "wrote brief_study.toml, which varies brief.toml; change it, then: spunlaid sweep brief_study.toml\n";
+    assert_eq!(said, wanted);
+    let said = success(&mut desk.spunlaid("sweep brief_study.toml"));
+    assert!(said.contains("9 points"), "{said}");
+    assert_eq!(
+        refusal(&mut desk.spunlaid("new --study brief.toml"), 1),
+        "error: brief_study.toml: exists already and is not overwritten; name another file\n"
+    );
+    // Without a case, that is written too.
+    let said = success(&mut desk.spunlaid("new --study --fed line.toml"));
+    assert!(said.starts_with("wrote line.toml\nwrote line_study.toml, which varies line.toml;"), "{said}");
+    assert!(success(&mut desk.spunlaid("sweep line_study.toml --print-point 1")).contains("[belt]"));
+    let said = refusal(&mut desk.spunlaid("new --study line_study.toml"), 1);
+    assert!(said.contains("line_study.toml: is a study already"), "{said}");
+    assert!(refusal(&mut desk.spunlaid("new --study -"), 1).contains("name a file"));
+    std::fs::write(desk.path("bad.toml"), "[fibre]\nlength = 3\n").unwrap();
+    assert!(refusal(&mut desk.spunlaid("new --study bad.toml"), 1).starts_with("error: bad.toml:"));
 }
 
 #[test]
@@ -345,7 +372,7 @@ fn completions_name_every_command_and_option() {
 #[test]
 fn help_teaches_with_examples() {
     let desk = Desk::new();
-    for command in ["", "run", "sweep", "check", "new", "completions"] {
+    for command in ["", "run", "sweep", "check", "new", "completions", "man"] {
         let help = success(&mut desk.spunlaid(&format!("{command} --help")));
         assert!(help.contains("Example") && help.contains(&format!("spunlaid {command}")), "{help}");
         assert!(!help.contains('\u{1b}'), "colour without a terminal");

@@ -37,7 +37,7 @@ fn keys_are_explained_by_a_word_in_their_name_or_meaning() {
         "{one}"
     );
     assert!(
-        one.contains("    takes      a time, zero or above; in s, ms, µs, ns or min; usually 1 ns to"),
+        one.contains("    takes      a time, zero or above; in s, ms, µs, ns, min or h; usually 1 ns to"),
         "{one}"
     );
     assert!(one.contains("    default    0 s\n"), "{one}");

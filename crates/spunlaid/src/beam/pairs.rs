@@ -4,7 +4,7 @@
 //! points of a block → products of pairs at some distances and lags → correlations → the part of CV² that neighbours make
 //! ```
 //!
-//! It is told by pairs alone and so checks the map, in which thousands of filaments lie.              theory.md (83)
+//! It is told by pairs alone and so checks the map, in which thousands of filaments lie.              theory.md (83a)
 
 use super::Beam;
 use crate::fibre::Place;

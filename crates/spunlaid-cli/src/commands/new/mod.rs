@@ -2,8 +2,9 @@
 
 mod ask;
 mod line;
+mod study;
 
-use crate::args::New;
+use crate::args::{New, is_standard};
 use crate::failure::Failure;
 use crate::say;
 use ask::complete;
@@ -19,7 +20,15 @@ pub(crate) fn new(new: &New) -> Result<(), Failure> {
     if new.web {
         return web(new);
     }
-    write(path, if new.fed { starter_case_of_fed() } else { starter_case() })?;
+    let case = if new.fed { starter_case_of_fed() } else { starter_case() };
+    if new.study {
+        return study::study(path, case);
+    }
+    if is_standard(path) {
+        say::text(case);
+        return Ok(());
+    }
+    write(path, case)?;
     say::line(&format!("wrote {}; change it, then: spunlaid run {}", path.display(), path.display()));
     Ok(())
 }
@@ -30,6 +39,11 @@ fn web(new: &New) -> Result<(), Failure> {
     let mut answers = is_terminal.then(|| stdin().lock());
     let line = Line::new(&complete(new.line.clone(), answers.as_mut())?);
     let path = &new.file;
+    if is_standard(path) {
+        let fault =
+            Fault::new("is standard output, and a web is written with two files beside it", "name a file");
+        return Err(Error::folder(path, fault).into());
+    }
     let name = super::stem(path, "line").to_string_lossy().into_owned();
     let [case, air] = [format!("{name}_filament.toml"), format!("{name}_air.csv")];
     let files = [

@@ -16,6 +16,8 @@ use crate::units::Dimension;
 
 /// Most lines that are skipped at the start of a record.
 const MOST_SKIPPED: u64 = 1_000_000;
+/// Largest gap of a record that may be filled in [samples].
+const MOST_MISSING: u64 = 1_000_000;
 
 pub(super) const KEYS: &[Key] = &[
     quantity("air.velocity", Dimension::Velocity, Any, Access {
@@ -281,6 +283,9 @@ pub(super) const KEYS: &[Key] = &[
     key("air.record_velocity_unit", Kind::Text("m/s"), of_record!(velocity_unit, Value::Text, text))
         .follows("the unit in the header of the record")
         .meaning("Unit of the velocities of a record whose header has none."),
+    key("air.record_max_gap", Kind::Whole(0, MOST_MISSING), of_record!(max_gap, Value::Whole, whole))
+        .follows("10")
+        .meaning("Largest number of missing samples in a row of a record that are interpolated."),
     choose("air.eddies", || vec!["independent", "convected"], Access {
         get: |case| Some(case.air.eddies.name().into()),
         set: |case, value| {
