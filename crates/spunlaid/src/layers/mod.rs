@@ -5,12 +5,14 @@
 //! ```
 
 mod flown;
+pub(crate) mod full_names;
 pub(crate) mod keys;
 mod laid;
 mod shared_air;
 
 pub use flown::{Flights, FlownFibres, FlownWeb, Flyer, Follow, OfLayer};
-pub use keys::{WEB, WEB_KEYS, WEB_TABLES, WebKey, place_in_web, web_key};
+pub use full_names::{place_in_web, web_key};
+pub use keys::{WEB, WEB_KEYS, WEB_TABLES, WebKey};
 pub use laid::{LAID, read as read_laid};
 
 use crate::case::Case;

@@ -9,7 +9,7 @@ use super::replicates::MOST_REPLICATES;
 use super::{Base, StudyChanges, base, links};
 use crate::case::keys::{self, Kind};
 use crate::error::{Fault, FileKind};
-use crate::layers::keys::is_alternative;
+use crate::layers::full_names::is_alternative;
 use crate::study::{Design, Factor, Link, Point, Quantity, Replicates, Study};
 use toml::de::DeValue;
 

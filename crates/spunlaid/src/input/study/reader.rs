@@ -6,7 +6,7 @@ use super::super::values::integer;
 use crate::case::keys::{TABLES, nearest_word};
 use crate::error::{Error, Fault, Finding, Problem};
 use crate::layers::WEB_TABLES;
-use crate::layers::keys::without_numbers;
+use crate::layers::full_names::without_numbers;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use toml::Spanned;

@@ -8,7 +8,8 @@ use super::reader::not_varied;
 use super::{Base, MadeExperiment, VariedKey, level};
 use crate::case::keys::{self, Value, nearest_word};
 use crate::error::{Error, Place, Problem};
-use crate::layers::keys::{WEB, full_name, value, web_key, without_numbers};
+use crate::layers::full_names::{full_name, value, web_key, without_numbers};
+use crate::layers::keys::WEB;
 use crate::layers::{LaydownSource, WEB_KEYS, WebSpec};
 use crate::study::{Experiment, Point, Quantity, Study};
 

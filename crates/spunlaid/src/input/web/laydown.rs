@@ -7,7 +7,7 @@ use crate::case::keys::Value;
 use crate::case::{Case, Note};
 use crate::error::{Error, Fault, FileKind, Place};
 use crate::layers::LaydownSource;
-use crate::layers::keys::without_numbers;
+use crate::layers::full_names::without_numbers;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 

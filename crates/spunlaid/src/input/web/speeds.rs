@@ -4,7 +4,7 @@ use super::read::{BASIS_WEIGHT, BELT_SPEED, ROUNDED, Reading, SAME, THROUGHPUT};
 use crate::case::keys::{self, Value};
 use crate::case::{Case, Note, Remark};
 use crate::error::{Fault, Place};
-use crate::layers::keys::without_numbers;
+use crate::layers::full_names::without_numbers;
 use crate::layers::{LaydownSource, LayerSpec, WebSpec};
 use crate::units::Dimension;
 use std::path::Path;
