@@ -38,6 +38,7 @@ fn main() -> ExitCode {
         Command::Keys(keys) => commands::keys(&keys),
         Command::New(new) => commands::new(&new),
         Command::Completions(completions) => commands::completions(&completions),
+        Command::Man(man) => commands::man(&man),
     });
     let done = done.and_then(|()| say::lost().map_or(Ok(()), |why| Err(unheard(why))));
     match done {

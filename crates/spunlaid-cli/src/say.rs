@@ -48,6 +48,13 @@ pub(crate) fn remark(is_warning: bool, what: &impl Display) {
     aside(&format!("{style}{word}:{style:#} {what}"));
 }
 
+/// A question on standard error, without an end of line.
+pub(crate) fn prompt(question: &str) {
+    let mut out = anstream::stderr();
+    // If standard error cannot be written, there is no other place for a message.
+    let _ = write!(out, "{question}").and_then(|()| out.flush());
+}
+
 /// A line on standard error.
 pub(crate) fn aside(text: &str) {
     // If standard error cannot be written, there is no other place for a message.

@@ -29,6 +29,7 @@ fn about<'py, T>(py: Python<'py>, key: &Key<T>) -> PyResult<Bound<'py, PyDict>> 
     let (LeftOut::Required(text) | LeftOut::Value(text) | LeftOut::Follows(text)) = key.left_out;
     dict.set_item("left_out", text)?;
     dict.set_item("meaning", key.meaning)?;
+    dict.set_item("synonyms", key.synonyms)?;
     dict.set_item("label", key.label)?;
     dict.set_item("varies", key.varies)?;
     dict.set_item("in_flight", key.in_flight)?;

@@ -15,6 +15,7 @@ use spunlaid::input::{
     Overrides, StudyChanges, StudyFile, parse_changed_study, read_changed_study, read_text, write_experiment,
 };
 use spunlaid::lanes::Isa;
+use spunlaid::layers::{Method, WebSpec};
 use spunlaid::study::{
     Bundles, Experiment, Journal, Landing, Progress, Rounds, rankings, results_of_point, run, unsynced,
 };
@@ -218,6 +219,14 @@ impl Study {
             Experiment::Spinline(_) => 0.0,
         };
         self.file.study.points.iter().map(|point| cost(&point.experiment)).fold(0.0, f64::max)
+    }
+
+    /// Whether every bundle of webs is one web, whose filaments all fly in one air: it takes minutes and much memory, and uses all
+    /// threads of a machine.
+    #[getter]
+    fn one_web_a_machine(&self) -> bool {
+        let shares_air = |web: &WebSpec| web.method == Method::SharedAir;
+        self.file.study.points.iter().any(|point| point.experiment.web().is_some_and(shares_air))
     }
 
     /// The keys that differ between points: name, SI unit, whether a factor, the scale of its axis, its values at the points.

@@ -131,3 +131,4 @@ def test_the_keys_say_what_they_mean() -> None:
     assert keys["air.velocity"].unit == "m/s" and keys["air.velocity"].in_flight and keys["air.velocity"].varies
     assert keys["fibre.root"].words and keys["run.replicates"].unit is None
     assert all(key.meaning and key.allowed for key in keys.values())
+    assert "titre" in keys["fibre.linear_density"].synonyms

@@ -105,6 +105,39 @@ def test_identical_webs_on_a_cluster(cluster: Any, tmp_path: Path) -> None:
         assert found.noun == "web" and (found.mean["cv_10_mm"] > 0.0).all()
 
 
+def test_each_worker_has_one_web_in_one_air(tmp_path: Path) -> None:
+    cases = Path(__file__).parents[3] / "cases"
+    short = {"belt.distance": "0.1 m", "run.duration": "0.1 s", "run.spin_up": "10 ms", "fibre.element_length": "5 mm"}
+    eddies = {"air.lateral": "von-karman", "air.lateral_cutoff": 6}
+    (tmp_path / "short.toml").write_text(Case.read(cases / "spunbond.toml").with_(short | eddies).to_toml())
+    (tmp_path / "web.toml").write_text(
+        """
+        version = 1
+        laydown.case = "short.toml"
+        line = { filaments_per_metre = 300, depth = "10 mm" }
+        web = { width = "0.1 m", length = "40 mm", patches = ["2 mm", "5 mm"], method = "shared-air" }
+        """
+    )
+    study = {"web": tmp_path / "web.toml", "replicates": 2, "vary": {"line.depth": ["0 mm", "5 mm"]}}
+    most: list[int] = []
+    with (
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=3, processes=True, dashboard_address=None, local_directory=tmp_path
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+
+        def look(done: int, of: int) -> None:
+            most.append(max(len(tasks) for tasks in client.processing().values()))
+
+        found = spunlaid.sweep(study, client=client, out=tmp_path / "there", progress=look)
+    # A web is a bundle, though six threads could have taken all of them.
+    assert len(most) == 4 and max(most) <= 1
+    spunlaid.sweep(study, out=tmp_path / "here")
+    assert_same(tmp_path / "here", tmp_path / "there")
+    assert (found.n == 2).all() and found.mean["cv_5_mm"][0] != found.mean["cv_5_mm"][1]
+
+
 def test_rounds_are_those_of_one_machine(cluster: Any) -> None:
     case = Case.starter().with_({"run.duration": 0.02, "run.time_step": "20 us", "run.output_interval": "1 ms", "run.spin_up": 0})
     until = {"at_least": 6, "at_most": 64, "until": {"amplitude_y": "15 %"}}

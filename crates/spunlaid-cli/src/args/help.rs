@@ -4,6 +4,7 @@ pub(super) const EXAMPLES: &str = "\
 Examples:
   spunlaid new my.toml                              write a commented case to start from
   spunlaid new --fed line.toml                      one of a fibre that is laid on a moving belt
+  spunlaid new --web line.toml                      a web from the numbers of a line: g/min, dtex, g/m²
   spunlaid keys field                               explain the keys about a field
   spunlaid check my.toml                            show mesh, limits, expected time and memory
   spunlaid run my.toml                              fly it; then open results/my/report.html
@@ -30,6 +31,7 @@ Examples:
   spunlaid keys                        every key
   spunlaid keys field                  the keys with this word in their name or meaning
   spunlaid keys run.spin_up            one of them
+  spunlaid keys dtex                   the keys with this unit; titre, gsm, MFR find theirs too
   spunlaid keys --markdown > keys.md   the same as a Markdown document
   spunlaid keys --web                  the keys of the file of a web";
 
@@ -50,6 +52,7 @@ The results folder holds
   report.html          for the browser: the moving fibre, figures, table; works offline
   summary.json         every result with mean, standard error and the replicates' values
   case.toml            the case with every default; running it gives the same bits
+  origin.toml          the command and the file; the same command replaces these results when it runs again
   case_files/          copies of the files that the case names
   end_node.parquet     the free end over time      energy.parquet   both energy ledgers over time
   shape.pvd, shape/    the fibre over time, for ParaView (open shape.pvd)
@@ -137,6 +140,7 @@ fibre.diameter:
   spinline.parquet   the thread and the air around it from the die to the end
   figures/           every figure as SVG, PNG and CSV
   spinline.toml      the spinline with every default; solving it again gives the same bits
+  origin.toml        the command and the file; the same command replaces these results when it runs again
   case_files/        copies of the files that it names
 
 If no steady state exists, as where the filament is not solid at the end, the message says why and
@@ -174,6 +178,7 @@ Several beams are [[layer]] tables, each with its own [layer.laydown], [layer.li
   fibres.vtp     the single fibres of a window, for ParaView
   figures/       every figure as SVG, PNG and CSV
   web.toml       the file with every default; laying it again gives the same bits
+  origin.toml    the command and the file; the same command replaces these results when it runs again
 
 Examples:
   spunlaid web cases/web.toml
@@ -242,8 +247,30 @@ Examples:
   spunlaid compare results/web results/scan";
 
 pub(super) const CHECK_HELP: &str = "\
-Prints the case with every default, the mesh, the limits of the time step, and the expected time,
-memory and size of the results. The output is itself a case file.
+Of a case it prints every default, the mesh, the limits of the time step, and the expected time,
+memory and size of the results. Of a web it prints the numbers of its line: grams per minute and
+hole, dtex, holes per metre, g/m², the speed of the belt, kg/h from each metre of width, and in which
+air the filaments hang. Of a study it prints its points. The output is itself such a file.
 
-Example:
-  spunlaid check cases/table1.toml --set fibre.element_length=\"5 mm\"";
+Examples:
+  spunlaid check cases/table1.toml --set fibre.element_length=\"5 mm\"
+  spunlaid check cases/web_known.toml --set line.basis_weight=\"20 g/m²\"
+  spunlaid check cases/studies/web_evenness.toml";
+
+pub(super) const NEW_HELP: &str = "\
+Without --fed and --web it is the case of Table 1 of the paper. With --web it is the file of a web, from
+the numbers by which a line is known; in a terminal it asks for those that are not given. Beside it
+stand the case of the filament and a table of the air between slot and belt, so FILE line.toml makes
+line.toml, line_filament.toml and line_air.csv. Each number that follows from others has a comment that
+says how.
+
+Examples:
+  spunlaid new my.toml && spunlaid run my.toml
+  spunlaid new --fed line.toml        a fibre that is fed and laid on a moving belt
+  spunlaid new --study my.toml && spunlaid sweep my_study.toml
+  spunlaid new - | grep -v '#'        on standard output
+  spunlaid new --web line.toml        asks for the numbers of the line
+  spunlaid new --web line.toml --polymer pp --throughput \"0.5 g/min\" --dtex 2 \\
+    --basis-weight \"20 g/m²\" --holes-per-metre 5000 --air-speed \"60 m/s\"
+  spunlaid new --web two.toml --polymer pp --throughput \"0.4 g/min\" --diameter \"16 µm\" \\
+    --basis-weight \"15 g/m²\" --holes 22500 --width \"4.5 m\" --beams 2 --air-speed \"70 m/s\"";

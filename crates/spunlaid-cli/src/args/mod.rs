@@ -2,18 +2,20 @@
 
 mod analyse;
 mod help;
+mod new;
+mod source;
 
 pub(crate) use analyse::{Analyse, Direction, LightName};
+pub(crate) use new::{LineNumbers, New, polymer, titre};
+pub(crate) use source::{CaseSource, is_standard, quoted};
 
 use clap::{Args, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
 use help::{
-    AIR_HELP, ANALYSE_HELP, CHECK_HELP, COMPARE_HELP, EXAMPLES, KEYS_HELP, LIVE_HELP, REPRODUCE_HELP,
-    RUN_HELP, SPIN_HELP, SWEEP_HELP, WEB_HELP,
+    AIR_HELP, ANALYSE_HELP, CHECK_HELP, COMPARE_HELP, EXAMPLES, KEYS_HELP, LIVE_HELP, NEW_HELP,
+    REPRODUCE_HELP, RUN_HELP, SPIN_HELP, SWEEP_HELP, WEB_HELP,
 };
-use spunlaid::case::{Case, Note};
-use spunlaid::error::Error;
-use spunlaid::input::{Overrides, read_case};
+use source::key_and_value;
 use spunlaid::units::Dimension;
 use std::path::PathBuf;
 
@@ -55,62 +57,23 @@ pub(crate) enum Command {
     /// Compare the results of runs or of webs: differences, whether they are beyond chance, curves in one picture
     #[command(after_help = COMPARE_HELP)]
     Compare(Compare),
-    /// Show a case with all defaults, its mesh, limits and expected cost, without flying it
+    /// Show a case, a web or a study with all defaults, and what it means, without flying it
     #[command(after_help = CHECK_HELP)]
     Check(Check),
     /// Explain the keys of a case or of a web: meaning, allowed values, default
     #[command(after_help = KEYS_HELP)]
     Keys(Keys),
-    /// Write a commented case file to start from
-    #[command(after_help = "Examples:\n  spunlaid new my.toml && spunlaid run my.toml\n  \
-        spunlaid new --fed line.toml        a fibre that is fed and laid on a moving belt")]
+    /// Write a commented case file to start from, or the file of a web from the numbers of a line
+    #[command(after_help = NEW_HELP)]
     New(New),
-    /// Print a script that completes commands and options in your shell
+    /// Print a script that completes commands, options and keys in your shell
     #[command(
         after_help = "Example:\n  spunlaid completions bash > ~/.local/share/bash-completion/completions/spunlaid"
     )]
     Completions(Completions),
-}
-
-/// A case and changes to it.
-#[derive(Debug, Args)]
-pub(crate) struct CaseSource {
-    /// Case file (TOML)
-    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
-    pub(crate) case: PathBuf,
-    /// Set a key of the case for this run, as air.velocity="20 m/s"; can be repeated
-    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
-    pub(crate) set: Vec<(String, String)>,
-}
-
-impl CaseSource {
-    /// Reads the case with the values of `--set` and these.
-    pub(crate) fn read(&self, more: &[(&str, String)]) -> Result<(Case, Vec<Note>), Error> {
-        let more = more.iter().map(|(key, value)| ((*key).to_owned(), value.clone()));
-        let values: Vec<_> = self.set.iter().cloned().chain(more).collect();
-        read_case(&self.case, Overrides { values: &values, word: "--set" })
-    }
-
-    /// The same as arguments of a command line.
-    pub(crate) fn words(&self) -> String {
-        let set = self.set.iter().map(|(key, value)| format!(" --set {}", quoted(&format!("{key}={value}"))));
-        quoted(&self.case.to_string_lossy()) + &set.collect::<String>()
-    }
-}
-
-/// A word of a command line, in quotes if the shell would not take it as one word. It stays in its line.
-pub(crate) fn quoted(word: &str) -> String {
-    if word.chars().all(|c| c.is_alphanumeric() || "-_./=:,+%".contains(c)) {
-        return word.to_owned();
-    }
-    format!("'{}'", word.replace(char::is_control, "?").replace('\'', "'\\''"))
-}
-
-fn key_and_value(text: &str) -> Result<(String, String), String> {
-    match text.split_once('=').map(|(key, value)| (key.trim(), value.trim())) {
-        Some((key, value)) if !key.is_empty() => Ok((key.to_owned(), value.to_owned())),
-        _ => Err("write a key and a value, as air.velocity=\"20 m/s\"".to_owned()),
-    }
+    /// Write the manual pages of all commands
+    #[command(after_help = "Example:\n  spunlaid man ~/.local/share/man/man1 && man spunlaid-run")]
+    Man(Man),
 }
 
 #[derive(Debug, Args)]
@@ -121,10 +84,10 @@ pub(crate) struct Run {
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub(crate) out: Option<PathBuf>,
     /// Number of fibres, each in its own turbulence; replaces run.replicates
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = |text: &str| whole(0, text))]
     pub(crate) replicates: Option<u64>,
     /// Seed of the turbulence; replaces run.seed
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", value_parser = |text: &str| whole(0, text))]
     pub(crate) seed: Option<u64>,
     /// Fly a finished run again for longer, to this time, as "20 s"; CASE is its results folder
     #[arg(long, value_name = "TIME", value_parser = |t: &str| quantity(Dimension::Time, t),
@@ -139,7 +102,7 @@ pub(crate) struct Run {
     /// Print summary.json instead of the table; without --out or --until, write no files
     #[arg(long)]
     pub(crate) json: bool,
-    /// Replace the results in the output folder
+    /// Replace any results in the output folder; those of the same command are replaced without it
     #[arg(long)]
     pub(crate) force: bool,
 }
@@ -165,16 +128,16 @@ pub(crate) struct Sweep {
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
     pub(crate) set: Vec<(String, String)>,
     /// Fibres or webs at each point, in place of the study's; with more than before, a finished study goes on
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", value_parser = |text: &str| whole(1, text))]
     pub(crate) replicates: Option<u64>,
     /// Print results.json instead of the table
     #[arg(long)]
     pub(crate) json: bool,
     /// Confirm the number of points; needed above 10000 points
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = |text: &str| whole(0, text))]
     pub(crate) points: Option<u64>,
     /// Print the case or the web of point K, counted from 1, and fly nothing
-    #[arg(long, value_name = "K")]
+    #[arg(long, value_name = "K", value_parser = |text: &str| whole(0, text))]
     pub(crate) print_point: Option<u64>,
 }
 
@@ -195,7 +158,7 @@ pub(crate) struct Spin {
     /// Print summary.json instead of the table; without --out, write no files
     #[arg(long)]
     pub(crate) json: bool,
-    /// Replace the results in the output folder
+    /// Replace any results in the output folder; those of the same command are replaced without it
     #[arg(long)]
     pub(crate) force: bool,
 }
@@ -247,7 +210,7 @@ pub(crate) struct Web {
     /// Print summary.json instead of the table; without --out, write no files
     #[arg(long)]
     pub(crate) json: bool,
-    /// Replace the results in the output folder
+    /// Replace any results in the output folder; those of the same command are replaced without it
     #[arg(long)]
     pub(crate) force: bool,
 }
@@ -274,7 +237,7 @@ pub(crate) struct Reproduce {
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub(crate) figures: Vec<String>,
     /// Fibres at each point; the paper has ten
-    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = |text: &str| whole(1, text))]
     pub(crate) replicates: u64,
     /// Time integration: the paper's with 1 µs, or another with a suitable step
     #[arg(long, value_enum, default_value = "semi-implicit-euler")]
@@ -301,7 +264,13 @@ pub(crate) enum SchemeName {
     ImplicitTension,
 }
 
-fn quantity(dimension: Dimension, text: &str) -> Result<f64, String> {
+/// A whole number from `least`.
+fn whole(least: u64, text: &str) -> Result<u64, String> {
+    let number = text.trim().parse().ok().filter(|number| *number >= least);
+    number.ok_or_else(|| format!("write a whole number from {least} in digits, like 1000"))
+}
+
+pub(crate) fn quantity(dimension: Dimension, text: &str) -> Result<f64, String> {
     let value = dimension.parse(text).map_err(|fault| fault.to_string())?;
     let signed = dimension == Dimension::Velocity;
     if value > 0.0 || (signed && value < 0.0) { Ok(value) } else { Err("is not above zero".to_owned()) }
@@ -337,7 +306,7 @@ pub(crate) struct Check {
 
 #[derive(Debug, Args)]
 pub(crate) struct Keys {
-    /// Show only keys with this word in their name or meaning
+    /// Show only keys with this word in their name, their meaning or other words for them, or with this unit
     pub(crate) pattern: Option<String>,
     /// Print Markdown; docs/keys.md is made this way
     #[arg(long)]
@@ -348,13 +317,10 @@ pub(crate) struct Keys {
 }
 
 #[derive(Debug, Args)]
-pub(crate) struct New {
-    /// File to write; it must not exist yet
-    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub(crate) file: PathBuf,
-    /// A fibre that is fed at an inlet and laid on a moving belt, in place of one of fixed length
-    #[arg(long)]
-    pub(crate) fed: bool,
+pub(crate) struct Man {
+    /// Folder to write to; it is made if it does not exist
+    #[arg(value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub(crate) folder: PathBuf,
 }
 
 #[derive(Debug, Args)]

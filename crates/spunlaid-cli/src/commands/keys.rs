@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::say;
 use spunlaid::case::keys::{self, Key, Kind, LeftOut, TABLES};
 use spunlaid::error::Fault;
-use spunlaid::layers::{WEB_KEYS, WEB_TABLES};
+use spunlaid::layers::{WEB_KEYS, WEB_TABLES, WebKey};
 use spunlaid::units::{Dimension, UnitAdvice};
 use std::fmt::Write;
 
@@ -20,6 +20,9 @@ struct KeyEntry {
     kind: Kind,
     left_out: LeftOut,
     meaning: &'static str,
+    synonyms: Vec<&'static str>,
+    /// The file in which it stands, if it is not that of a case.
+    file: &'static str,
     /// Outside of these a value is warned of, in SI units.
     usual: Option<(f64, f64)>,
     /// Whether it may change in a study, and during a flight.
@@ -27,9 +30,14 @@ struct KeyEntry {
 }
 
 impl KeyEntry {
-    fn new<T>(key: &Key<T>, usual: Option<(f64, f64)>) -> Self {
-        let Key { name, kind, left_out, meaning, varies, in_flight, .. } = *key;
-        Self { name, kind, left_out, meaning, usual, may_change: [varies, in_flight] }
+    fn new<T>(key: &Key<T>) -> Self {
+        let Key { name, kind, left_out, meaning, usual, varies, in_flight, .. } = *key;
+        let synonyms = key.synonyms.to_vec();
+        Self { name, kind, left_out, meaning, synonyms, file: "", usual, may_change: [varies, in_flight] }
+    }
+
+    fn of_web(key: &WebKey) -> Self {
+        Self { synonyms: key.all_synonyms(), usual: key.usual_range(), ..Self::new(key) }
     }
 
     /// Its name within a table, if it belongs there.
@@ -41,13 +49,19 @@ impl KeyEntry {
 pub(crate) fn keys(arguments: &Keys) -> Result<(), Failure> {
     let pattern = arguments.pattern.clone().unwrap_or_default();
     let word = pattern.trim().to_lowercase();
-    let all: Vec<KeyEntry> = if arguments.web {
-        WEB_KEYS.iter().map(|key| KeyEntry::new(key, key.usual_range())).collect()
-    } else {
-        keys::all().iter().map(|key| KeyEntry::new(key, key.usual)).collect()
+    let is_of_web =
+        |key: &&WebKey| key.has_word(&word) || key.of_case().is_some_and(|key| key.has_word(&word));
+    let of_web = || WEB_KEYS.iter().filter(is_of_web).map(KeyEntry::of_web);
+    let of_case = || keys::all().iter().filter(|key| key.has_word(&word)).map(KeyEntry::new);
+    let found: Vec<KeyEntry> = match arguments {
+        Keys { web: true, .. } => of_web().collect(),
+        _ if word.is_empty() || arguments.markdown => of_case().collect(),
+        // Who searches a word need not know whose key it is.
+        _ => {
+            let of_web = of_web().filter(|key| keys::find(key.name).is_none());
+            of_case().chain(of_web.map(|key| KeyEntry { file: "  (of a web file)", ..key })).collect()
+        }
     };
-    let has = |text: &str| text.to_lowercase().contains(&word);
-    let found: Vec<KeyEntry> = all.into_iter().filter(|key| has(key.name) || has(key.meaning)).collect();
     if found.is_empty() {
         let nearest = if arguments.web { Vec::new() } else { keys::like(&word) };
         let nearest: Vec<&str> = nearest.iter().take(MOST_NEAREST).map(|key| key.name).collect();
@@ -71,7 +85,7 @@ pub(crate) fn keys(arguments: &Keys) -> Result<(), Failure> {
 
 /// The description of a key for the terminal.
 fn reference(key: &KeyEntry) -> String {
-    let mut text = format!("{}\n", key.name);
+    let mut text = format!("{}{}\n", key.name, key.file);
     let default = match key.left_out {
         LeftOut::Required(example) => format!("none; the key is required, like {example}"),
         LeftOut::Value(words) | LeftOut::Follows(words) => words.to_owned(),
@@ -79,6 +93,7 @@ fn reference(key: &KeyEntry) -> String {
     for (title, words) in [
         ("", key.meaning.replace('`', "\"")),
         ("takes     ", takes(key)),
+        ("also      ", key.synonyms.join(", ")),
         ("default   ", default),
         ("may change", may_change(key)),
     ] {
@@ -132,7 +147,7 @@ fn may_change(key: &KeyEntry) -> String {
 const HEAD: &str = "# The keys of a case
 
 This page is made by `spunlaid keys --markdown > docs/keys.md`. `spunlaid keys WORD` shows the keys with a word in their
-name or meaning.
+name or meaning, or among the other words for them, or with this unit: `spunlaid keys dtex`.
 
 A quantity is written with its unit, in quotes: `diameter = \"50 µm\"`. `um` is the same as `µm`, and `kg/m^3` is the same
 as `kg/m³`. Each key can also be set for one run, `--set air.velocity=\"20 m/s\"`. `spunlaid sweep` can vary keys marked
@@ -142,7 +157,7 @@ most likely a slip of the unit: it is warned of, and used.
 const WEB_HEAD: &str = "# The keys of a web
 
 This page is made by `spunlaid keys --web --markdown > docs/web_keys.md`. `spunlaid keys --web WORD` shows the keys with a
-word in their name or meaning.
+word in their name or meaning, or among the other words for them, or with this unit: `spunlaid keys --web gsm`.
 
 A quantity is written with its unit, in quotes, as in a case ([keys.md](keys.md)). Each key can also be set for one web,
 `--set line.belt_speed=\"6 m/s\"`; of a file with `[[layer]]`, `--set layer.2.line.filaments_per_metre=4000`, or with the
@@ -179,9 +194,14 @@ fn markdown(found: &[KeyEntry], head: &str, tables: &[&str]) -> String {
             let marks: Vec<&str> = marks.filter(|(is, _)| *is).map(|(_, mark)| mark).collect();
             let _ = writeln!(
                 text,
-                "| `{short}` | {} | {left_out} | {} | {} |",
+                "| `{short}` | {} | {left_out} | {}{} | {} |",
                 takes(key),
                 key.meaning,
+                if key.synonyms.is_empty() {
+                    String::new()
+                } else {
+                    format!(" Also: {}.", key.synonyms.join(", "))
+                },
                 marks.join(", ")
             );
         }

@@ -4,14 +4,16 @@ mod air;
 mod analyse;
 mod check;
 mod compare;
+mod completions;
 mod finished;
 mod interrupt;
 mod keys;
 mod live;
+mod man;
+mod new;
 mod reproduce;
 mod run;
 mod scan;
-mod small;
 mod spin;
 mod sweep;
 mod web;
@@ -20,15 +22,23 @@ pub(crate) use air::air;
 pub(crate) use analyse::analyse;
 pub(crate) use check::check;
 pub(crate) use compare::compare;
+pub(crate) use completions::completions;
 pub(crate) use keys::keys;
 pub(crate) use live::live;
+pub(crate) use man::man;
+pub(crate) use new::new;
 pub(crate) use reproduce::reproduce;
 pub(crate) use run::run;
-pub(crate) use small::{completions, new};
 pub(crate) use spin::spin;
 pub(crate) use sweep::sweep;
 pub(crate) use web::web;
 
+use crate::args::is_standard;
+use crate::failure::Failure;
+use crate::say;
+use interrupt::stop_on_ctrl_c;
+use spunlaid_results::output::folder::Staging;
+use spunlaid_results::output::origin::Origin;
 use std::ffi::OsStr;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -40,12 +50,29 @@ fn threads(count: Option<u16>) -> usize {
 
 /// The name of a file without its extension.
 fn stem<'a>(file: &'a Path, otherwise: &'a str) -> &'a OsStr {
-    file.file_stem().unwrap_or(otherwise.as_ref())
+    file.file_stem().filter(|_| !is_standard(file)).unwrap_or(otherwise.as_ref())
 }
 
 /// The requested folder, or `results/NAME`.
 fn folder(out: Option<&PathBuf>, name: impl AsRef<Path>) -> PathBuf {
     out.cloned().unwrap_or_else(|| Path::new("results").join(name))
+}
+
+/// Collects the results of a command. What the same command wrote before is replaced, and a note says so.
+fn staged(
+    folder: &Path,
+    entries: &'static [&'static str],
+    force: bool,
+    origin: Origin,
+    quiet: bool,
+) -> Result<Staging<'static>, Failure> {
+    let staging = Staging::with_origin(folder, entries, force, origin, stop_on_ctrl_c())?;
+    if staging.replaces_own() && !quiet {
+        let replaced =
+            format!("{}: holds earlier results of this command, which are replaced", folder.display());
+        say::remark(false, &replaced);
+    }
+    Ok(staging)
 }
 
 /// `1 fibre`, `2 fibres`.

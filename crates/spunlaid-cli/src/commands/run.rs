@@ -2,8 +2,8 @@
 
 use super::finished::continued;
 use super::interrupt::stop_on_ctrl_c;
-use super::{plural, stem, threads};
-use crate::args::Run;
+use super::{plural, staged, stem, threads};
+use crate::args::{Run, is_standard};
 use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::case::Note;
@@ -11,7 +11,9 @@ use spunlaid::ensemble::{Computing, FinerPlans};
 use spunlaid::lanes::Isa;
 use spunlaid_results::folders::run as files;
 use spunlaid_results::output::folder::{ENTRIES, Staging};
+use spunlaid_results::output::origin::Origin;
 use spunlaid_results::output::{finer, table};
+use std::path::Path;
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
@@ -30,9 +32,7 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
         _ => (run.out.is_some() || !run.json).then(|| super::folder(run.out.as_ref(), &name)),
     };
     let stop = stop_on_ctrl_c();
-    // A continued run replaces its own results.
-    let replace = run.force || run.until.is_some() && run.out.is_none();
-    let staging = folder.as_ref().map(|folder| Staging::new(folder, ENTRIES, replace, stop)).transpose()?;
+    let staging = folder.as_ref().map(|folder| staging(run, folder)).transpose()?;
 
     let fibre_steps = AtomicU64::new(0);
     let computing = Computing {
@@ -95,11 +95,24 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
     lost.map_or(Ok(()), |lost| Err(Failure::FibresLost { lost }))
 }
 
+/// Collects the results. A continued run replaces its own ones. It took longer, so that the run from which it began does not replace
+/// it.
+fn staging(run: &Run, folder: &Path) -> Result<Staging<'static>, Failure> {
+    if run.until.is_some() || is_standard(&run.source.case) {
+        let replace = run.force || run.until.is_some() && run.out.is_none();
+        return Ok(Staging::new(folder, ENTRIES, replace, stop_on_ctrl_c())?);
+    }
+    let own = overrides(run).into_iter().map(|(key, value)| (key.to_owned(), value));
+    let changes: Vec<_> = run.source.set.iter().cloned().chain(own).collect();
+    let origin = Origin::new("run", &run.source.case, &changes, folder);
+    staged(folder, ENTRIES, run.force, origin, run.quiet)
+}
+
 /// What the results are called: as the case file, or as the folder of a run that is continued.
 fn name(run: &Run) -> String {
     let case = &run.source.case;
     let folder = run.until.and_then(|_| Some(case.canonicalize().ok()?.file_name()?.to_owned()));
-    folder.as_deref().unwrap_or_else(|| stem(case, "run")).to_string_lossy().into_owned()
+    folder.as_deref().unwrap_or_else(|| stem(case, "case")).to_string_lossy().into_owned()
 }
 
 /// The changes to the case on the command line.

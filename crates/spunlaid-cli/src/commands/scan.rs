@@ -19,7 +19,8 @@ use std::time::Instant;
 /// Whether a file is the scan of a web by its name.
 pub(super) fn is_picture(file: &Path) -> bool {
     let extension = file.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    matches!(extension.as_str(), "png" | "tif" | "tiff" | "npy")
+    // Pictures that cannot be used are refused with the reason.
+    matches!(extension.as_str(), "png" | "tif" | "tiff" | "npy" | "jpg" | "jpeg" | "gif" | "bmp" | "pdf")
 }
 
 pub(super) fn scan(arguments: &Analyse) -> Result<(), Failure> {

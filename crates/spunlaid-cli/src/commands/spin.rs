@@ -1,14 +1,13 @@
 //! `spunlaid spin`: solves a spinline, from the hole of the spinneret to the solid filament.
 
-use super::interrupt::stop_on_ctrl_c;
-use super::stem;
+use super::{staged, stem};
 use crate::args::Spin;
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::case::Note;
 use spunlaid::input::{Overrides, read_spinline};
 use spunlaid_results::folders::spinline::SpinFolder;
-use spunlaid_results::output::folder::Staging;
+use spunlaid_results::output::origin::Origin;
 use spunlaid_results::output::spinline::{ENTRIES, SpinResults, remarks, text};
 
 pub(crate) fn spin(spin: &Spin) -> Result<(), Failure> {
@@ -21,7 +20,8 @@ pub(crate) fn spin(spin: &Spin) -> Result<(), Failure> {
     let written = SpinFolder { name: &name, file: &file, results: &results, notes: &notes };
     let folder = (spin.out.is_some() || !spin.json).then(|| super::folder(spin.out.as_ref(), &name));
     if let Some(folder) = &folder {
-        let staging = Staging::new(folder, ENTRIES, spin.force, stop_on_ctrl_c())?;
+        let origin = Origin::new("spin", &spin.file, &spin.set, folder);
+        let staging = staged(folder, ENTRIES, spin.force, origin, spin.quiet)?;
         written.write(&staging)?;
         staging.publish()?;
     }

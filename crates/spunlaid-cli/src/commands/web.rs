@@ -1,7 +1,7 @@
 //! `spunlaid web`: lays a web of many filaments and says how even it is.
 
 use super::interrupt::stop_on_ctrl_c;
-use super::{aligned, plural, stem, threads};
+use super::{aligned, plural, staged, stem, threads};
 use crate::args;
 use crate::failure::Failure;
 use crate::{progress, say};
@@ -13,8 +13,9 @@ use spunlaid::web::{Findings, Laying, PatchFindings};
 use spunlaid_results::folders;
 use spunlaid_results::folders::web::WebFolder;
 use spunlaid_results::numbers::{plus_minus, significant};
-use spunlaid_results::output::folder::Staging;
+use spunlaid_results::output::origin::Origin;
 use spunlaid_results::output::web::{ENTRIES, Performance};
+use std::path::PathBuf;
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
@@ -24,8 +25,11 @@ pub(crate) fn web(asked: &args::Web) -> Result<(), Failure> {
     let name = stem(&asked.file, "web").to_string_lossy().into_owned();
     let folder = (asked.out.is_some() || !asked.json).then(|| super::folder(asked.out.as_ref(), &name));
     let stop = stop_on_ctrl_c();
-    let staging =
-        folder.as_ref().map(|folder| Staging::new(folder, ENTRIES, asked.force, stop)).transpose()?;
+    let staged = |folder: &PathBuf| {
+        let origin = Origin::new("web", &asked.file, &asked.set, folder);
+        staged(folder, ENTRIES, asked.force, origin, asked.quiet)
+    };
+    let staging = folder.as_ref().map(staged).transpose()?;
 
     let started = Instant::now();
     let follow = flying(asked.quiet);

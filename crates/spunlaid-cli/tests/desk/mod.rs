@@ -64,16 +64,24 @@ replicates = 3
 "#;
 
 /// What a results folder holds.
-pub const ENTRIES: [&str; 8] = [
+pub const ENTRIES: [&str; 9] = [
     "case.toml",
     "end_node.parquet",
     "energy.parquet",
     "figures",
+    "origin.toml",
     "report.html",
     "shape",
     "shape.pvd",
     "summary.json",
 ];
+
+/// What the folder of a continued run holds.
+pub fn entries_without_origin() -> BTreeSet<String> {
+    let mut entries = names(&ENTRIES);
+    entries.remove("origin.toml");
+    entries
+}
 
 /// A folder with a case in it, `brief.toml`, where the program is called.
 pub struct Desk {

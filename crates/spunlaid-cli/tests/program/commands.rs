@@ -1,6 +1,6 @@
 //! The commands beside `run`: `check`, `new`, `completions`, and help.
 
-use crate::desk::{Desk, names, refusal, success};
+use crate::desk::{Desk, FED, names, refusal, success};
 
 #[test]
 fn check_prints_a_case_that_can_be_read_again() {
@@ -44,6 +44,95 @@ fn check_remarks_on_rounded_elements_and_extrapolated_drag_once() {
     assert_eq!(said.lines().count(), 2, "{said}");
 }
 
+/// The numbers of a line: what is told is what the file says, and what follows from it.
+#[test]
+fn analytic_check_tells_the_numbers_of_a_web() {
+    let desk = Desk::new();
+    let web = "[fibre]\nlinear_density = \"2 dtex\"\ndensity = \"910 kg/m³\"\n[laydown]\nsigma_md = \"18 mm\"\nsigma_cd = \"18 mm\"\n\
+               noise = \"12 m^-0.5\"\n[line]\nthroughput = \"0.5 g/min\"\nbasis_weight = \"20 g/m²\"\nfilaments_per_metre = 5000\n\
+               [web]\nwidth = \"0.5 m\"\nlength = \"0.5 m\"\n";
+    std::fs::write(desk.path("web.toml"), web).unwrap();
+    let said = success(&mut desk.spunlaid("check web.toml"));
+    for part in [
+        // 5000 × 0.5 g/min; 2500 g/min over 20 g/m²; 0.5 g/min over 2 dtex.
+        "#   20 g/m² on a belt of 2.083 m/s: 150 kg/h from each metre of width\n",
+        "#   5000 holes per metre of width, each with 0.5 g/min: filaments of 2 dtex, 16.73 µm, fed at 41.67 m/s; 20 m of filament on \
+         each metre of belt\n",
+        "#   500 mm wide and 500 mm long, 1000 × 1000 cells of 500 µm; 2500 filaments cross it\n",
+        "#   nothing is flown: the spread and the noise are given\n",
+        "#   the filaments are independent of each other, which gives a lower bound of the unevenness\n",
+        "# ready: spunlaid web web.toml\n",
+        "basis_weight = \"0.02 kg/m²\"\n",
+    ] {
+        assert!(said.contains(part), "{part}\n{said}");
+    }
+    // What it prints is a web that says the same.
+    std::fs::write(desk.path("printed.toml"), &said).unwrap();
+    assert_eq!(
+        success(&mut desk.spunlaid("check printed.toml")),
+        said.replace("web web.toml", "web printed.toml")
+    );
+    let json: serde_json::Value =
+        serde_json::from_str(&success(&mut desk.spunlaid("check web.toml --json"))).unwrap();
+    for (path, wanted) in [
+        ("/basis_weight_kg_m2", 20e-3),
+        ("/belt_speed_m_s", 2500.0 / 60.0 / 20.0),
+        ("/mass_flow_kg_s_m", 150.0 / 3600.0),
+        ("/layers/0/throughput_kg_s", 0.5e-3 / 60.0),
+        ("/layers/0/linear_density_kg_m", 2e-7),
+        ("/layers/0/filaments_per_m", 5000.0),
+    ] {
+        let found = json.pointer(path).and_then(serde_json::Value::as_f64).unwrap();
+        assert!((found / wanted - 1.0).abs() < 1e-12, "{path} {found} {wanted}");
+    }
+
+    // Each point of a study has numbers of its own.
+    let study = "web = 'web.toml'\ndesign = 'grid'\nreplicates = 2\n[vary]\n'line.basis_weight' = ['10 g/m²', '20 g/m²']\n";
+    std::fs::write(desk.path("study.toml"), study).unwrap();
+    let said = success(&mut desk.spunlaid("check study.toml"));
+    assert!(said.contains("# 2 points of web.toml, each with 2 webs\n"), "{said}");
+    let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
+    let lines: Vec<String> = said.lines().map(words).collect();
+    for line in [
+        "# 1 10 g/m² 10 g/m² 4.167 m/s 150 kg/h",
+        "# 2 20 g/m² 20 g/m² 2.083 m/s 150 kg/h",
+        "# ready: spunlaid sweep study.toml",
+    ] {
+        assert!(lines.iter().any(|said| said == line), "{line}\n{said}");
+    }
+    let json = success(&mut desk.spunlaid("check study.toml --json"));
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["points"][1]["line.basis_weight_kg_m2"], 0.02);
+}
+
+/// Whether the air of the case is the same everywhere, and how all filaments fly in one.
+#[test]
+fn check_tells_in_which_air_the_filaments_of_a_web_hang() {
+    let desk = Desk::with_case(FED);
+    let web = "[laydown]\ncase = \"brief.toml\"\n[line]\nfilaments_per_metre = 1000\n[web]\nwidth = \"0.5 m\"\nlength = \"0.5 m\"\n";
+    std::fs::write(desk.path("web.toml"), web).unwrap();
+    let uniform = success(&mut desk.spunlaid("check web.toml"));
+    for part in [
+        "#   brief.toml: its air is the same everywhere across the flow (air.lateral = \"uniform\")\n",
+        "to fly them in one air, as in a line: --set web.method=shared-air --set line.depth=\"20 mm\"",
+        "fed at 50 m/s; 16.7 m of filament on each metre of belt",
+    ] {
+        assert!(uniform.contains(part), "{part}\n{uniform}");
+    }
+    let together =
+        desk.with("check web.toml", &["web.method=shared-air", "line.depth=20 mm"]).output().unwrap();
+    let said = String::from_utf8(together.stdout).unwrap();
+    assert!(
+        said.contains(
+            "#   all filaments fly in one field of eddies, so that neighbours come down together\n"
+        ),
+        "{said}"
+    );
+    // The notes about the case are told, as `spunlaid web` tells them.
+    let notes = String::from_utf8(together.stderr).unwrap();
+    assert!(notes.contains("note:") && notes.contains("web.method"), "{notes}");
+}
+
 #[test]
 fn new_writes_a_case_that_can_be_run_and_overwrites_nothing() {
     let desk = Desk::new();
@@ -57,9 +146,36 @@ fn new_writes_a_case_that_can_be_run_and_overwrites_nothing() {
         "error: my.toml: exists already and is not overwritten; name another file\n"
     );
     assert!(desk.read("my.toml") == written);
+    // On standard output the same.
+    assert_eq!(success(&mut desk.spunlaid("new -")).as_bytes(), written);
+    assert!(success(&mut desk.spunlaid("new - --fed")).contains("[belt]") && !desk.path("-").exists());
     let said = refusal(&mut desk.spunlaid("new no/such/folder/my.toml"), 2);
     assert!(said.starts_with("error: no/such/folder/my.toml: cannot be written: "), "{said}");
     assert!(said.ends_with("; name another file\n"), "{said}");
+}
+
+#[test]
+fn new_writes_a_study_beside_its_case() {
+    let desk = Desk::new();
+    let said = success(&mut desk.spunlaid("new --study brief.toml"));
+    let wanted =
+        "wrote brief_study.toml, which varies brief.toml; change it, then: spunlaid sweep brief_study.toml\n";
+    assert_eq!(said, wanted);
+    let said = success(&mut desk.spunlaid("sweep brief_study.toml"));
+    assert!(said.contains("9 points"), "{said}");
+    assert_eq!(
+        refusal(&mut desk.spunlaid("new --study brief.toml"), 1),
+        "error: brief_study.toml: exists already and is not overwritten; name another file\n"
+    );
+    // Without a case, that is written too.
+    let said = success(&mut desk.spunlaid("new --study --fed line.toml"));
+    assert!(said.starts_with("wrote line.toml\nwrote line_study.toml, which varies line.toml;"), "{said}");
+    assert!(success(&mut desk.spunlaid("sweep line_study.toml --print-point 1")).contains("[belt]"));
+    let said = refusal(&mut desk.spunlaid("new --study line_study.toml"), 1);
+    assert!(said.contains("line_study.toml: is a study already"), "{said}");
+    assert!(refusal(&mut desk.spunlaid("new --study -"), 1).contains("name a file"));
+    std::fs::write(desk.path("bad.toml"), "[fibre]\nlength = 3\n").unwrap();
+    assert!(refusal(&mut desk.spunlaid("new --study bad.toml"), 1).starts_with("error: bad.toml:"));
 }
 
 #[test]
@@ -96,6 +212,151 @@ fn new_writes_a_fed_fibre_that_can_be_run() {
     assert_eq!(resolved("all.toml"), resolved("line.toml"));
 }
 
+/// The numbers of a line as options.
+const LINE: [&str; 12] = [
+    "--polymer",
+    "pp",
+    "--throughput",
+    "0.5 g/min",
+    "--dtex",
+    "2",
+    "--basis-weight",
+    "20 g/m²",
+    "--holes-per-metre",
+    "1000",
+    "--air-speed",
+    "60 m/s",
+];
+
+/// Throughput, titre, holes and basis weight give both speeds; the files can be checked and laid as they are.
+#[test]
+fn analytic_new_writes_a_web_from_the_numbers_of_a_line() {
+    let desk = Desk::new();
+    let said = success(desk.spunlaid("new --web line.toml").args(LINE));
+    assert_eq!(
+        said,
+        "wrote line.toml, line_filament.toml and line_air.csv; change them, then: spunlaid check line.toml, spunlaid web line.toml\n"
+    );
+    let text = |name: &str| String::from_utf8(desk.read(name)).unwrap();
+    let (web, case) = (text("line.toml"), text("line_filament.toml"));
+    // 0.5 g/min / 2 dtex; 1000 × 0.5 g/min / 20 g/m²; √(4 × 2 dtex / π / 905 kg/m³).
+    for part in [
+        "throughput = \"0.5 g/min\"   # of each hole: 0.5 g/min / 2 dtex = fed at 41.67 m/s\n",
+        "basis_weight = \"20 g/m²\"   # of the whole web: 1000 holes/m × 0.5 g/min / 20 g/m² = a belt of 0.4167 m/s\n",
+        "filaments_per_metre = 1000   # 30 kg/h from each metre of width, 30 kg/h in all\n",
+    ] {
+        assert!(web.contains(part), "{part}\n{web}");
+    }
+    for part in
+        ["linear_density = \"2 dtex\"   # of 16.77 µm", "speed = \"41.67 m/s\"", "speed = \"0.4167 m/s\""]
+    {
+        assert!(case.contains(part), "{part}\n{case}");
+    }
+    let said = success(&mut desk.spunlaid("check line.toml"));
+    assert!(
+        said.contains("#   20 g/m² on a belt of 0.4167 m/s: 30 kg/h from each metre of width\n"),
+        "{said}"
+    );
+    assert!(said.contains(
+        "1000 holes per metre of width, each with 0.5 g/min: filaments of 2 dtex, 16.77 µm, fed at 41.67 m/s"
+    ));
+    let small = ["web.width=0.4 m", "web.length=0.4 m", "web.cell=1 mm", "line.basis_weight=2 g/m²"];
+    std::fs::write(desk.path("line_filament.toml"), case.replace("\"1 s\"", "\"0.15 s\"")).unwrap();
+    success(&mut desk.with("web line.toml --out w --quiet", &small));
+    let weight = desk.summary("w")["web"]["basis_weight_kg_m2"].as_f64().unwrap();
+    assert!((weight / 2e-3 - 1.0).abs() < 1e-6, "{weight}");
+    // Nothing is overwritten, and nothing is written beside what is there.
+    std::fs::remove_file(desk.path("line.toml")).unwrap();
+    let said = refusal(desk.spunlaid("new --web line.toml").args(LINE), 1);
+    assert_eq!(said, "error: line_air.csv: exists already and is not overwritten; name another file\n");
+    assert!(!desk.path("line.toml").exists());
+}
+
+/// The commands of docs/line.md write and print what the page shows.
+#[test]
+fn the_page_of_a_line_shows_what_its_commands_do() {
+    let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/line.md");
+    let page = std::fs::read_to_string(page).unwrap();
+    let blocks: Vec<Vec<&str>> = page
+        .split("\n\n")
+        .filter(|block| block.starts_with("    "))
+        .map(|block| block.lines().map(str::trim).collect())
+        .collect();
+    let [commands, file, checked, ..] = &blocks[..] else { panic!("{page}") };
+    let command = commands.join(" ").replace('\\', "");
+    let (new, check) = command.split_once("spunlaid check").unwrap();
+    assert!(check.starts_with(" line.toml spunlaid web line.toml"), "{check}");
+    // Every other part between quotes is one word.
+    let words = new.split('"').enumerate().flat_map(|(i, part)| match i % 2 {
+        0 => part.split_whitespace().collect::<Vec<_>>(),
+        _ => vec![part],
+    });
+    let desk = Desk::new();
+    success(desk.spunlaid("").args(words.skip(1)));
+    let written = String::from_utf8(desk.read("line.toml")).unwrap();
+    let said = success(&mut desk.spunlaid("check line.toml"));
+    for (lines, text) in [(file, written), (checked, said)] {
+        assert!(lines.len() > 4);
+        for line in lines {
+            assert!(text.lines().any(|one| one == *line), "{line}\n{text}");
+        }
+    }
+}
+
+#[test]
+fn new_writes_beams_from_a_diameter_and_all_holes() {
+    let desk = Desk::new();
+    let options = "new --web two.toml --polymer pet --holes 9000 --beams 2";
+    let more =
+        ["--width", "4.5 m", "--throughput", "0.6 g/min", "--diameter", "16 µm", "--basis-weight", "15 gsm"];
+    let mut command = desk.spunlaid(options);
+    let output = command.args(more).args(["--air-speed", "30 m/s"]).output().unwrap();
+    assert!(output.status.success());
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.contains("warning: the air of 30 m/s is not faster than the filament, 37.12 m/s"), "{said}");
+    let said = success(&mut desk.spunlaid("check two.toml"));
+    // 2 × 2000 × 0.6 g/min / 15 g/m², and π/4 (16 µm)² × 1340 kg/m³.
+    for part in [
+        "#   15 g/m² on a belt of 2.667 m/s: 144 kg/h from each metre of width\n",
+        "#   layer \"beam 2\": 2000 holes per metre of width, each with 0.6 g/min: filaments of 2.694 dtex, 16 µm",
+        "18000 filaments cross it",
+    ] {
+        assert!(said.contains(part), "{part}\n{said}");
+    }
+}
+
+#[test]
+fn rejects_a_line_that_is_not_whole_or_cannot_run() {
+    let desk = Desk::new();
+    assert_eq!(
+        refusal(&mut desk.spunlaid("new --web line.toml --polymer pp --dtex 2 --holes-per-metre 5000"), 1),
+        "error: the numbers of the line are incomplete: --throughput, --basis-weight and --air-speed are missing; give them, or \
+         call the command in a terminal, where it asks; `spunlaid new --help` has examples\n"
+    );
+    let other = |more: &[&str]| refusal(desk.spunlaid("new --web line.toml").args(&LINE[..6]).args(more), 1);
+    let said = other(&["--basis-weight", "0.01 g/m²", "--holes-per-metre", "1000", "--air-speed", "60 m/s"]);
+    assert!(
+        said.contains(
+            "line.basis_weight = \"0.01 g/m²\" takes a belt of 833.3 m/s, which is more than line.feed_speed"
+        ),
+        "{said}"
+    );
+    let said = other(&[
+        "--width",
+        "3.2173 m",
+        "--basis-weight",
+        "10 g/m²",
+        "--holes-per-metre",
+        "1000",
+        "--air-speed",
+        "60 m/s",
+    ]);
+    assert!(said.contains("web.width = \"3.2173 m\" is not a whole number of cells"), "{said}");
+    assert_eq!(desk.entries(""), names(&["brief.toml"]), "nothing is left");
+    let said = refusal(&mut desk.spunlaid("new line.toml --dtex 2"), 1);
+    assert!(said.contains("--web"), "{said}");
+}
+
 #[test]
 fn completions_name_every_command_and_option() {
     let desk = Desk::new();
@@ -111,7 +372,7 @@ fn completions_name_every_command_and_option() {
 #[test]
 fn help_teaches_with_examples() {
     let desk = Desk::new();
-    for command in ["", "run", "sweep", "check", "new", "completions"] {
+    for command in ["", "run", "sweep", "check", "new", "completions", "man"] {
         let help = success(&mut desk.spunlaid(&format!("{command} --help")));
         assert!(help.contains("Example") && help.contains(&format!("spunlaid {command}")), "{help}");
         assert!(!help.contains('\u{1b}'), "colour without a terminal");

@@ -54,6 +54,13 @@ fn runs_in_the_same_turbulence_are_compared_pair_by_pair() {
     // Only the means are drawn of the energy errors, not the area up to the largest.
     let page = String::from_utf8(desk.read("c/report.html")).unwrap();
     assert!(page.contains("Errors of the energy checks over time.") && !page.contains("shaded area"));
+    // The title says how much differs, as the table does.
+    let all =
+        one["measures"].as_object().unwrap().values().filter(|measure| !measure["beyond_chance"].is_null());
+    let all: Vec<bool> = all.map(|measure| measure["beyond_chance"].as_bool().unwrap()).collect();
+    let (beyond, all) = (all.iter().filter(|is| **is).count(), all.len());
+    let title = format!("<h1>b against a: {beyond} of {all} measures differ, most clearly “");
+    assert!(beyond > 0 && page.contains(&title), "{title}");
     let page = String::from_utf8(desk.read("a/report.html")).unwrap();
     assert!(page.contains("the shaded area reaches to the largest of any replicate"));
 }

@@ -17,6 +17,7 @@ mod lost;
 mod refusals;
 mod results;
 mod scan;
+mod shell;
 mod signals;
 mod spin;
 mod sweep;

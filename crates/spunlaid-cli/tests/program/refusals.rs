@@ -125,6 +125,38 @@ fn refuses_results_that_are_there_without_force() {
 }
 
 #[test]
+fn the_same_command_replaces_its_results_after_an_edit_and_says_so() {
+    let desk = Desk::new();
+    let said = desk.spunlaid("run brief.toml --out r").output().unwrap();
+    assert!(said.status.success() && !String::from_utf8_lossy(&said.stderr).contains("replaced"));
+    fs::write(desk.path("r/thesis.tex"), "mine").unwrap();
+    let edited = String::from_utf8(desk.read("brief.toml")).unwrap().replace("10 m/s", "12 m/s");
+    fs::write(desk.path("brief.toml"), &edited).unwrap();
+    let said = desk.spunlaid("run brief.toml --out r").output().unwrap();
+    let notes = String::from_utf8(said.stderr).unwrap();
+    assert!(said.status.success(), "{notes}");
+    assert!(notes.contains("note: r: holds earlier results of this command, which are replaced"), "{notes}");
+    assert_eq!(desk.summary("r")["case"]["air"]["velocity_m_s"], 12.0);
+    assert_eq!(desk.read("r/thesis.tex"), b"mine");
+    // The folder and the case may be moved together.
+    fs::create_dir(desk.path("moved")).unwrap();
+    for name in ["brief.toml", "r"] {
+        fs::rename(desk.path(name), desk.path(&format!("moved/{name}"))).unwrap();
+    }
+    success(&mut desk.spunlaid("run moved/brief.toml --out moved/r"));
+    // What another command, another case, other changes or a longer run would replace stays.
+    fs::write(desk.path("other.toml"), &edited).unwrap();
+    for arguments in ["run other.toml --out moved/r", "run moved/brief.toml --out moved/r --seed 8"] {
+        let refused = refusal(&mut desk.spunlaid(arguments), 1);
+        assert!(refused.contains("moved/r: holds results already"), "{refused}");
+    }
+    success(&mut desk.spunlaid("run moved/r --until 20ms"));
+    let refused = refusal(&mut desk.spunlaid("run moved/brief.toml --out moved/r"), 1);
+    assert!(refused.contains("holds results already"), "{refused}");
+    assert_eq!(desk.summary("moved/r")["case"]["run"]["duration_s"], 0.02);
+}
+
+#[test]
 fn force_replaces_results_and_keeps_what_others_put_there() {
     let desk = Desk::new();
     success(&mut desk.with("run brief.toml --out r", &["run.output_interval=0.5 ms"]));

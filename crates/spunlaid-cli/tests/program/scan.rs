@@ -190,6 +190,12 @@ fn a_map_is_read_as_basis_weights() {
 #[test]
 fn rejects_scans_with_the_option_that_helps() {
     let desk = desk();
+    // A picture that cannot be used is known by its name, too.
+    std::fs::write(desk.path("photo.JPG"), b"\xff\xd8\xff\xe0\0\x10JFIF").unwrap();
+    let said = refusal(&mut desk.spunlaid("analyse photo.JPG"), 1);
+    let reason = "photo.JPG: is a JPEG picture, which loses the fine structure; save the scan as PNG or TIFF";
+    assert!(said.contains(reason), "{said}");
+    std::fs::remove_file(desk.path("photo.JPG")).unwrap();
     scan(&desk, "scan.png", 40, &(0..1600).map(|i| 1.0 + f64::from(i * i % 7)).collect::<Vec<_>>());
     scan(&desk, "other.png", 20, &(0..1600).map(|i| 1.0 + f64::from(i * i % 7)).collect::<Vec<_>>());
     fs::write(desk.path("photo.png"), b"\xff\xd8\xff\xe0").unwrap();

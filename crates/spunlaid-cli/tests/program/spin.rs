@@ -23,7 +23,8 @@ const TOO_SHORT: [&str; 3] =
     ["spinline.end=take-up", "spinline.take_up_speed=20 m/s", "spinline.length=50 mm"];
 
 /// What the folder of a spinline holds, if it names no files.
-const FOLDER: [&str; 5] = ["figures", "report.html", "spinline.parquet", "spinline.toml", "summary.json"];
+const FOLDER: [&str; 6] =
+    ["figures", "origin.toml", "report.html", "spinline.parquet", "spinline.toml", "summary.json"];
 
 fn desk() -> Desk {
     let desk = Desk::new();
@@ -155,9 +156,10 @@ fn json_is_the_summary_and_writes_nothing_unless_asked() {
     assert!(first["key"].as_str().unwrap().starts_with("spinline."), "{first}");
     assert!(first["diameter"].is_f64() && first["speed"].is_f64() && first["change"].is_string(), "{first}");
     assert!(summary["spinline"]["model_error"].as_str().unwrap().contains("not known"));
-    let said = refusal(&mut desk.spunlaid("spin line.toml"), 1);
+    let said = refusal(&mut desk.with("spin line.toml", &["spinline.throughput=0.4 g/min"]), 1);
     assert!(said.contains("holds results already"), "{said}");
-    success(&mut desk.spunlaid("spin line.toml --quiet --force"));
+    success(&mut desk.spunlaid("spin line.toml --quiet"));
+    success(&mut desk.with("spin line.toml --quiet --force", &["spinline.throughput=0.4 g/min"]));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 The client keeps the journal. It cuts what the journal lacks into bundles of whole flights, or of the webs of a point, hands out a few more of them
 than the cluster has threads, and writes down what comes back before it hands out more. So neither it nor the scheduler
-ever holds more than that, whatever the size of the study.
+ever holds more than that, whatever the size of the study. Of webs in one air, each worker has one at a time and gives it all its threads.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ import pickle
 import time
 import zlib
 from collections.abc import Callable
+from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING, Any
 
 from . import _spunlaid
@@ -30,18 +31,23 @@ _WIDTH = 8
 _AHEAD = 3
 """Bundles handed out for each thread of the cluster."""
 _LEAST_AHEAD = 16
+_LOOK_S = 2.0
+"""Time between two looks whether workers have joined [s]."""
 _RETRIES = 3
 """How often a bundle that failed on a worker is tried again."""
 
 
-def fly_bundle(packed: bytes, version: str) -> NDArray[np.float64]:
+def fly_bundle(packed: bytes, version: str, all_threads: bool) -> NDArray[np.float64]:
     """Flies a bundle; a worker calls it. The records of its fibres."""
+    from distributed import get_worker
+
     if version != _spunlaid.__version__:
         raise ClusterError(
             f"this worker has spunlaid {_spunlaid.__version__} and the client {version}; their numbers may differ in the last "
             "bits and are not mixed. Install the same version everywhere"
         )
-    return _spunlaid.fly_bundle(*pickle.loads(zlib.decompress(packed)))
+    threads = get_worker().state.nthreads if all_threads else 1
+    return _spunlaid.fly_bundle(*pickle.loads(zlib.decompress(packed)), threads)
 
 
 def fly(
@@ -69,13 +75,12 @@ def fly(
 
 
 def _round(study: _spunlaid.Study, client: Any, show: Callable[[int, int], object] | None, flights: int) -> None:
-    from distributed import as_completed
-
     left = iter(range(study.begin_round(flights)))
     done, of = study.fibres
-    flying: Any = as_completed()
+    finished: SimpleQueue[Any] = SimpleQueue()
     under_way: set[Any] = set()
-    ahead = _Ahead(client)
+    one_each = study.one_web_a_machine
+    ahead = _Ahead(client, one_each)
 
     def hand_out() -> None:
         while len(under_way) < ahead.count():
@@ -83,14 +88,19 @@ def _round(study: _spunlaid.Study, client: Any, show: Callable[[int, int], objec
             if number is None:
                 return
             packed = zlib.compress(pickle.dumps(study.bundle(number)), 1)
-            future = client.submit(fly_bundle, packed, _spunlaid.__version__, pure=False, retries=_RETRIES)
+            future = client.submit(fly_bundle, packed, _spunlaid.__version__, one_each, pure=False, retries=_RETRIES)
             under_way.add(future)
-            flying.add(future)
+            future.add_done_callback(finished.put)
 
     try:
         hand_out()
         while under_way:
-            future = next(flying)
+            try:
+                future = finished.get(timeout=_LOOK_S)
+            except Empty:
+                # A worker may have joined.
+                hand_out()
+                continue
             rows = _result(future)
             done += study.add(rows)
             under_way.discard(future)
@@ -118,15 +128,21 @@ def _result(future: Any) -> NDArray[np.float64]:
 
 
 class _Ahead:
-    """How many bundles are handed out at once. Workers may join and leave."""
+    """How many bundles are handed out at once. Workers may join and leave.
 
-    def __init__(self, client: Any) -> None:
+    one_each: whether each worker has one at a time
+    """
+
+    def __init__(self, client: Any, one_each: bool) -> None:
         self.client = client
+        self.one_each = one_each
         self.asked = -1e9
-        self.threads = 0
+        self.threads: list[int] = []
 
     def count(self) -> int:
         now = time.monotonic()
-        if now > self.asked + 2.0:
-            self.threads, self.asked = sum(self.client.nthreads().values()), now
-        return max(_AHEAD * self.threads, _LEAST_AHEAD)
+        if now > self.asked + _LOOK_S:
+            self.threads, self.asked = list(self.client.nthreads().values()), now
+        if self.one_each:
+            return max(len(self.threads), 1)
+        return max(_AHEAD * sum(self.threads), _LEAST_AHEAD)

@@ -24,6 +24,8 @@ class Key(NamedTuple):
     """The default, or what it follows from; an example for a required key."""
     meaning: str
     """Its meaning."""
+    synonyms: list[str]
+    """Other words for it."""
     label: str
     """Its label in figures."""
     varies: bool

@@ -2,6 +2,7 @@
 
 use super::beside::CASE_FILES;
 use super::leftovers::{self, Claim};
+use super::origin::{ORIGIN, Origin};
 use crate::Failure;
 use crate::failure::{holds_results, not_a_folder};
 use std::fs;
@@ -10,6 +11,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The contents of a results folder of `run`, `analyse` or `reproduce`. The last entry marks it as complete.
 pub const ENTRIES: &[&str] = &[
+    ORIGIN,
     "case.toml",
     CASE_FILES,
     "end_node.parquet",
@@ -43,6 +45,8 @@ pub struct Staging<'a> {
     /// The entries that are moved to the results folder, in this order.
     entries: &'static [&'static str],
     replace: bool,
+    /// What the results are made from, if the same command may replace them.
+    origin: Option<Origin>,
     /// A lock that shows other runs that this one is alive.
     claim: Option<Claim>,
     /// Parent folders that were created for it, the deepest first. They are removed if nothing is published.
@@ -54,6 +58,7 @@ impl<'a> Staging<'a> {
     /// Prepares to write results to `folder`, and checks now whether this is possible.
     ///
     /// * `entries` – the possible files and folders of these results, in the order in which they are moved
+    /// * `replace` – whether results that the folder holds are replaced
     /// * `stop` – if this is set, nothing more is written
     pub fn new(
         folder: &Path,
@@ -61,11 +66,35 @@ impl<'a> Staging<'a> {
         replace: bool,
         stop: &'a AtomicBool,
     ) -> Result<Self, Failure> {
+        Self::prepare(folder, entries, replace, None, stop)
+    }
+
+    /// [`Staging::new`]. Results of the same origin are replaced in any case; `entries` have [`ORIGIN`].
+    pub fn with_origin(
+        folder: &Path,
+        entries: &'static [&'static str],
+        replace: bool,
+        origin: Origin,
+        stop: &'a AtomicBool,
+    ) -> Result<Self, Failure> {
+        let staging = Self::prepare(folder, entries, replace, Some(origin), stop)?;
+        let text = staging.origin.as_ref().map_or("", Origin::text);
+        staging.write(ORIGIN, text)?;
+        Ok(staging)
+    }
+
+    fn prepare(
+        folder: &Path,
+        entries: &'static [&'static str],
+        replace: bool,
+        origin: Option<Origin>,
+        stop: &'a AtomicBool,
+    ) -> Result<Self, Failure> {
         let exists = folder.symlink_metadata().is_ok();
         if exists && !folder.is_dir() {
             return Err(not_a_folder(folder));
         }
-        refuse_results(folder, entries, replace)?;
+        refuse_results(folder, entries, replace, origin.as_ref())?;
         let unwritable = Failure::unwritable(folder);
         let above = match folder.parent() {
             Some(above) if above.as_os_str().is_empty() => Path::new("."),
@@ -85,9 +114,15 @@ impl<'a> Staging<'a> {
             .inspect_err(|_| remove_empty(&made))
             .map_err(&unwritable)?;
         let claim = Claim::on(&staging);
-        let staging = Self { folder: folder.to_owned(), staging, entries, replace, claim, made, stop };
+        let staging =
+            Self { folder: folder.to_owned(), staging, entries, replace, origin, claim, made, stop };
         fs::create_dir(staging.staging.join(NEW)).map_err(&unwritable)?;
         Ok(staging)
+    }
+
+    /// Whether the folder holds results of the same origin, which will be replaced.
+    pub fn replaces_own(&self) -> bool {
+        self.origin.as_ref().is_some_and(|origin| origin.is_of(&self.folder))
     }
 
     /// The present and the final path of a file of the results.
@@ -115,7 +150,7 @@ impl<'a> Staging<'a> {
     pub fn publish(mut self) -> Result<(), Failure> {
         self.go_on()?;
         // Another run may have written results in the meantime.
-        refuse_results(&self.folder, self.entries, self.replace)?;
+        refuse_results(&self.folder, self.entries, self.replace, self.origin.as_ref())?;
         let (new, folder) = (self.staging.join(NEW), self.folder.clone());
         let moved = if folder.exists() { self.swap(&new, &folder) } else { fs::rename(&new, &folder) };
         moved.map_err(Failure::unwritable(&folder))?;
@@ -167,12 +202,20 @@ impl Drop for Staging<'_> {
     }
 }
 
-/// Rejects a folder that contains any part of results, unless these may be replaced.
-fn refuse_results(folder: &Path, entries: &[&str], replace: bool) -> Result<(), Failure> {
+/// Rejects a folder that contains any part of results, unless these may be replaced or have the same origin.
+fn refuse_results(
+    folder: &Path,
+    entries: &[&str],
+    replace: bool,
+    origin: Option<&Origin>,
+) -> Result<(), Failure> {
+    if replace || origin.is_some_and(|origin| origin.is_of(folder)) {
+        return Ok(());
+    }
     let holds = |entry: &&&str| folder.join(entry).symlink_metadata().is_ok();
     match entries.iter().find(holds) {
-        Some(found) if !replace => Err(holds_results(folder, found)),
-        _ => Ok(()),
+        Some(found) => Err(holds_results(folder, found)),
+        None => Ok(()),
     }
 }
 

@@ -9,6 +9,7 @@ pub mod folder;
 pub mod in_order;
 pub mod leftovers;
 mod neighbours;
+pub mod origin;
 pub mod paraview;
 mod parquet;
 pub mod pictures;

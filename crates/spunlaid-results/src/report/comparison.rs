@@ -3,6 +3,7 @@
 use super::rendered;
 use crate::output::comparison::{Compared, Comparison};
 use askama::Template;
+use spunlaid::statistics::Difference;
 use spunlaid_charts::Figure;
 
 /// Content of the report.
@@ -50,16 +51,44 @@ fn row(compared: &Compared) -> MeasureRow<'_> {
     }
 }
 
+/// What is compared, how much of it differs, and what most clearly.
+fn title(comparisons: &[Comparison]) -> String {
+    let first = comparisons.first().map_or("", |comparison| comparison.against.as_str());
+    let differing = |comparison: &Comparison| match comparison.beyond_chance() {
+        (_, 0) => "too few data to tell what differs".to_owned(),
+        (0, all) => format!("none of {all} measures differs beyond chance"),
+        (beyond, all) => {
+            format!("{beyond} of {all} measures differ{}", clearest(comparison).unwrap_or_default())
+        }
+    };
+    match comparisons {
+        [one] => format!("{} against {first}: {}", one.run, differing(one)),
+        all => {
+            let each: Vec<String> =
+                all.iter().map(|one| format!("{}, {}", one.run, differing(one))).collect();
+            format!("Against {first}: {}", each.join("; "))
+        }
+    }
+}
+
+/// The measure whose difference is the most of its interval.
+fn clearest(comparison: &Comparison) -> Option<String> {
+    let beyond = comparison.measures.iter().filter_map(|measure| Some((measure, measure.difference?)));
+    let beyond = beyond.filter(|(_, difference)| difference.is_beyond_chance());
+    let clear = |difference: &Difference| difference.value.abs() / difference.half_width();
+    let (measure, _) = beyond.max_by(|a, b| clear(&a.1).total_cmp(&clear(&b.1)))?;
+    let [.., difference, _] = measure.cells();
+    Some(format!(", most clearly “{}”: {difference} {}", measure.label, measure.unit).trim_end().to_owned())
+}
+
 /// The report as one HTML file.
 pub fn comparison_html(input: &ComparisonReport<'_>) -> String {
     let tables = input.comparisons.iter().map(|comparison| {
         let (beyond, all) = comparison.beyond_chance();
         PairTable { comparison, rows: comparison.measures.iter().map(row).collect(), beyond, all }
     });
-    let first = input.comparisons.first().map_or("", |comparison| comparison.against.as_str());
-    let others: Vec<&str> = input.comparisons.iter().map(|comparison| comparison.run.as_str()).collect();
     let page = ComparisonPage {
-        title: format!("{} against {first}", others.join(", ")),
+        title: title(input.comparisons),
         tables: tables.collect(),
         figures: input.figures,
         version: input.version,

@@ -42,7 +42,7 @@ pub struct StudyReport<'a> {
 #[template(path = "study.html")]
 struct StudyPage<'a> {
     name: &'a str,
-    question: String,
+    title: String,
     summary: String,
     phases: &'static str,
     intervals: &'static str,
@@ -83,10 +83,16 @@ struct EffectCell {
 pub fn study_html(input: &StudyReport<'_>) -> String {
     let study = input.study;
     let shown = if study.factors.len() > 1 { input.rankings } else { &[] };
+    let question = question(study);
+    // The title is the answer, where there is one; the question then begins the text.
+    let (title, asked) = match answer(study, input.rankings) {
+        Some(answer) => (answer, format!("{question} ")),
+        None => (question, String::new()),
+    };
     let page = StudyPage {
         name: input.name,
-        question: question(study),
-        summary: summary(study, input.results),
+        title,
+        summary: format!("{asked}{}", summary(study, input.results)),
         phases: phases(study),
         intervals: intervals(study),
         notes: input.notes,
@@ -131,6 +137,45 @@ fn question(study: &Study) -> String {
             format!("Which matters most for the {what}: the {} or the {last}?", first.join(", the "))
         }
     }
+}
+
+/// What matters most for the first quantity of the tables, and by how much; that nothing does beyond chance; or none if the study does
+/// not tell.
+fn answer(study: &Study, rankings: &[Ranking]) -> Option<String> {
+    let quantity = shown::quantities(study).into_iter().find(|i| ranking_of(rankings, *i).is_some())?;
+    let effects = &ranking_of(rankings, quantity)?.effects;
+    let result = &study.quantities[quantity];
+    let label = &result.label;
+    let known = effects.iter().filter(|effect| effect.half_width.is_some_and(f64::is_finite));
+    let size = |effect: &&Effect| effect.change.abs();
+    let largest = known.filter(|effect| !is_by_chance(effect)).max_by(|a, b| size(a).total_cmp(&size(b)));
+    let Some(effect) = largest else {
+        let told = effects.iter().all(|effect| effect.half_width.is_some_and(f64::is_finite));
+        return told.then(|| format!("{label} does not change beyond chance"));
+    };
+    let factor = &study.factors[effect.factor];
+    let name = name_of_key(&factor.key);
+    let [from, to] = [effect.from, effect.to].map(|value| factor.input().pretty(value));
+    let sign = if effect.change > 0.0 { "+" } else { "" };
+    let change = shown::in_unit(result, effect.change, effect.half_width);
+    let unit = Some(result.unit.shown)
+        .filter(|unit| !unit.is_empty())
+        .map_or(String::new(), |unit| format!("{THIN}{unit}"));
+    let over = if factor.words.is_empty() {
+        format!("from {from} to {to}")
+    } else {
+        format!("with {to} instead of {from}")
+    };
+    Some(if study.factors.len() == 1 {
+        format!("{label}: {sign}{change}{unit} {over} of the {name}")
+    } else {
+        format!("{label}: the {name} matters most, {sign}{change}{unit} {over}")
+    })
+}
+
+/// Whether the interval of an effect contains zero.
+fn is_by_chance(effect: &Effect) -> bool {
+    effect.half_width.is_none_or(|half| half.is_nan() || half >= effect.change.abs())
 }
 
 fn summary(study: &Study, results: &[PointResults]) -> String {
@@ -287,11 +332,8 @@ fn cell((study, rankings): (&Study, &[Ranking]), quantity: usize, head: &Effect)
     effect.map_or_else(
         || EffectCell { text: "–".to_owned(), faint: true },
         |effect| {
-            let faint = effect.half_width.is_none_or(|half| half.is_nan() || half >= effect.change.abs());
-            EffectCell {
-                text: shown::in_unit(&study.quantities[quantity], effect.change, effect.half_width),
-                faint,
-            }
+            let text = shown::in_unit(&study.quantities[quantity], effect.change, effect.half_width);
+            EffectCell { text, faint: is_by_chance(effect) }
         },
     )
 }

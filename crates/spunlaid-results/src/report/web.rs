@@ -356,7 +356,10 @@ type Column = (&'static str, fn(&PatchFindings) -> Option<(f64, f64)>);
 /// The expected CVs that are known.
 fn sources(findings: &Findings) -> Vec<Column> {
     if findings.laid.together.is_some() {
-        return vec![("CV of the same filaments in airs of their own", |patch| patch.independent)];
+        return vec![
+            ("CV of the same filaments in airs of their own", |patch| patch.independent),
+            ("CV expected, from pairs of filaments", |patch| Some((patch.pairs?, f64::NAN))),
+        ];
     }
     let all: [Column; 2] = [
         ("CV expected, from the surrogate", |patch| patch.surrogate),
@@ -387,7 +390,8 @@ fn patches(findings: &Findings, has_flown: bool, sources: &[Column]) -> Vec<Vec<
         }
         let expected = sources.iter().map(|(_, cv)| cv(patch));
         cells.extend(expected.map(|estimate| {
-            estimate.map_or_else(|| "–".to_owned(), |(cv, error)| per_cent(cv, Some(error)))
+            let known = |error: f64| error.is_finite().then_some(error);
+            estimate.map_or_else(|| "–".to_owned(), |(cv, error)| per_cent(cv, known(error)))
         }));
         cells.push(format!("{}{THIN}%", significant(patch.straight_fibres * PER_CENT, 3)));
         cells

@@ -2,7 +2,7 @@
 //!
 //!     cargo bench -p spunlaid                       # all of it, two minutes
 //!     cargo bench -p spunlaid -- kernel threads     # parts: kernel, growth, fed, web, spinline, wind, field,
-//!                                                   # ensemble, threads, accuracy
+//!                                                   # eddies, ensemble, threads, accuracy
 //!
 //! Processor time, the least of many short repetitions taken in turn; absolute figures wander with the
 //! machine's clock, ratios within a run hold. What the figures were, and the least they could be, is in
@@ -14,6 +14,7 @@
 mod accuracy;
 #[path = "../../tests/common/mod.rs"]
 mod common;
+mod eddies;
 mod ensemble;
 mod fed;
 mod field;
@@ -26,7 +27,7 @@ mod wind;
 
 fn main() {
     let asked: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
-    let parts: [(&str, fn()); 10] = [
+    let parts: [(&str, fn()); 11] = [
         ("kernel", kernel::instruction_sets),
         ("growth", kernel::growth),
         ("fed", fed::against_fixed),
@@ -34,6 +35,7 @@ fn main() {
         ("spinline", spinline::costs),
         ("wind", wind::costs),
         ("field", field::costs),
+        ("eddies", eddies::looks),
         ("ensemble", ensemble::costs),
         ("threads", ensemble::threads),
         ("accuracy", accuracy::of_steps),

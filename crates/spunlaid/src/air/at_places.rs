@@ -21,6 +21,7 @@ pub struct AirAtPlaces {
     /// None in still air.
     field: Option<EddyField>,
     threads: usize,
+    isa: Isa,
 }
 
 impl AirAtPlaces {
@@ -44,7 +45,13 @@ impl AirAtPlaces {
             ));
         }
         let field = air.field_cutoff().map(|cutoff| EddyField::new(air, distance, extent, cutoff, key));
-        Ok(Self { air: air.clone(), extent, field, threads })
+        Ok(Self { air: air.clone(), extent, field, threads, isa: Isa::detect() })
+    }
+
+    /// Looks with another instruction set. The velocities do not depend on it.
+    #[must_use]
+    pub fn with_instructions(self, isa: Isa) -> Self {
+        Self { isa, ..self }
     }
 
     /// After what distances the turbulence repeats itself across.
@@ -76,7 +83,7 @@ impl AirAtPlaces {
             field.make(time..time + field.block(), self.threads);
         }
         let fluctuations = match &self.field {
-            Some(field) => Isa::detect().run(Look { field, time, places }),
+            Some(field) => self.isa.run(Look { field, time, places }),
             None => vec![Vec3::new(0.0, 0.0, 0.0); places.len()],
         };
         let mut hint = Hint::default();

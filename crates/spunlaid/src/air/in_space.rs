@@ -76,7 +76,7 @@ impl AirInSpace {
         every: u64,
     ) -> Self {
         let fields: Vec<&Arc<EddyField>> = lanes.iter().map(|(_, _, field, _)| field).collect();
-        let mut lane = 0;
+        let (mut lane, mut last) = (0, None::<(Arc<EddyField>, MeanAlong)>);
         let in_field = lanes.of(0).0.flow.is_field();
         Self {
             fields: lanes.map(|(_, _, field, _)| {
@@ -85,7 +85,12 @@ impl AirInSpace {
                 Field { field: Arc::clone(field), same_as }
             }),
             places: lanes.map(|(_, place, _, _)| *place),
-            means: lanes.map(|(air, _, _, distance)| MeanAlong::new(air, *distance)),
+            means: lanes.map(|(air, _, field, distance)| {
+                let known = last.take().filter(|(of, _)| of.has_air_of(field)).map(|(_, means)| means);
+                let means = known.unwrap_or_else(|| MeanAlong::new(air, *distance));
+                last = Some((Arc::clone(field), means.clone()));
+                means
+            }),
             elements: AirAtElements::new(elements, every),
             surroundings: in_field.then(|| {
                 let airs = lanes.map(|(air, place, _, _)| (air.clone(), *place));

@@ -29,6 +29,8 @@ pub struct RecordLayout {
     pub columns: Option<String>,
     /// Unit of the velocities: `m/s`.
     pub velocity_unit: Option<String>,
+    /// Largest number of missing samples in a row that are interpolated.
+    pub max_gap: Option<u64>,
 }
 
 /// What a record says about the air. A record without its mean gives only the numbers that do not need it.

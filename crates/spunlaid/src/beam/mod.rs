@@ -17,6 +17,7 @@ mod air;
 mod filament;
 mod neighbours;
 mod pack;
+mod pairs;
 
 use crate::air::EddyField;
 use crate::case::Case;
@@ -25,7 +26,9 @@ use crate::fibre::Place;
 use crate::flight::LaidPoint;
 use crate::lanes::Isa;
 use crate::threads::try_each;
-use crate::web::{Canvas, LaidWeb, NeighbourCorrelation, Sheet, Spent, Strand, Together, Window};
+use crate::web::{
+    Canvas, LaidWeb, NeighbourCorrelation, SharedVariance, Sheet, Spent, Strand, Together, Window,
+};
 use air::SharedField;
 use filament::{Reach, Stretch};
 use neighbours::Neighbours;
@@ -86,6 +89,8 @@ pub struct Flown {
     pub strands: Vec<Strand>,
     /// How filaments come down together, over their distance.
     pub neighbours: Vec<NeighbourCorrelation>,
+    /// The part of CV² that neighbours make together, over patches of each side of the sheet; empty if pairs do not tell it.
+    pub pairs: Vec<SharedVariance>,
     /// The filaments that were lost, by their numbers across the web, each with the reason.
     pub lost: Vec<(usize, Error)>,
     /// Time that was flown [s].
@@ -194,6 +199,7 @@ impl Beam<'_> {
         }
         let mut flown = Flown {
             neighbours: together.correlations(),
+            pairs: together.variances(self, sheet, by.threads),
             time: done as f64 * self.case.run.time_step,
             ..Flown::default()
         };
@@ -228,10 +234,11 @@ impl Beam<'_> {
 impl Flown {
     /// What is to be known of the web; its single fibres are taken.
     pub(crate) fn together(&mut self) -> Together {
-        let Self { strands, neighbours, lost, time, spent, .. } = self;
+        let Self { strands, neighbours, pairs, lost, time, spent, .. } = self;
         Together {
             strands: std::mem::take(strands),
             neighbours: neighbours.clone(),
+            pairs: pairs.clone(),
             lost: lost.len() as u64,
             time: *time,
             spent: *spent,

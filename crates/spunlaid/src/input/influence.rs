@@ -3,7 +3,6 @@
 use super::spinline::SpinFile;
 use crate::case::Case;
 use crate::case::keys::{self, Key, Kind, Sign, Value};
-use crate::error::Error;
 use crate::spinline::{Failure, Solution};
 use crate::units::Dimension;
 
@@ -43,11 +42,7 @@ impl SpinFile {
     /// of the friction law is among them. Numbers without influence are left out.
     ///
     /// A number whose change leaves no steady state is left out too.
-    ///
-    /// # Errors
-    /// As [`SpinFile::solve`].
-    pub fn influences(&self) -> Result<Vec<Influence>, Error> {
-        self.solve()?;
+    pub fn influences(&self) -> Vec<Influence> {
         let carrier = Case::from(&self.spec);
         let mut found = Vec::new();
         let tables = ["spinline", "spinline.material", "drag"];
@@ -66,7 +61,7 @@ impl SpinFile {
             }
         }
         found.sort_by(|a, b| b.diameter.abs().total_cmp(&a.diameter.abs()));
-        Ok(found)
+        found
     }
 }
 

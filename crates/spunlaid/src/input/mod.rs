@@ -10,6 +10,7 @@ mod entry;
 mod file;
 mod flown;
 mod influence;
+mod kind;
 mod open;
 mod overrides;
 mod source;
@@ -22,10 +23,11 @@ mod written;
 
 pub use crate::layers::{LaydownSource, LayerSpec, Method, WEB_KEYS, WEB_TABLES, WebKey, WebSpec};
 pub use influence::{Change, Influence};
-pub use spinline::{SpinFile, holds_spinline_alone, parse_spinline, read_spinline, write_spinline};
+pub use kind::kind_of;
+pub use spinline::{SpinFile, parse_spinline, read_spinline, write_spinline};
 pub use study::{
     MOST_POINTS_UNASKED, StudyChanges, StudyFile, StudyNote, differences, parse_changed_study, parse_study,
-    read_changed_study, read_study,
+    read_changed_study, read_study, starter_study,
 };
 pub use web::{WebFile, parse_web, parse_web_and_cases, read_web, write_web};
 pub use write::write_case;

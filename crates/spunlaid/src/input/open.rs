@@ -216,14 +216,16 @@ const fn missed_with(kind: FileKind) -> &'static str {
 
 /// What the case says of the files of its records.
 fn layout(written: &WrittenValues) -> RecordLayout {
+    let whole = |key: &str| match written.get(key).and_then(|written| written.value.as_ref()) {
+        Some(Value::Whole(number)) => Some(*number),
+        _ => None,
+    };
     RecordLayout {
         rate: written.number("air.record_rate"),
-        skip: match written.get("air.record_skip").and_then(|said| said.value.as_ref()) {
-            Some(Value::Whole(lines)) => Some(*lines),
-            _ => None,
-        },
+        skip: whole("air.record_skip"),
         columns: written.text("air.record_columns"),
         velocity_unit: written.text("air.record_velocity_unit"),
+        max_gap: whole("air.record_max_gap"),
     }
 }
 

@@ -34,8 +34,10 @@ impl<'a, T> Document<'a, T> {
     /// Leaves out the key whose number an override gives in other words, unless it is one of the same overrides.
     fn leave_out_alternative(&mut self, before: &str, path: &str, place: &Place) {
         let Some((other, of_all_layers)) = self.keys.alternative(path) else { return };
+        // What comes before the two names without the tables that both have.
+        let layer = before.strip_suffix(&path[..path.rfind('.').map_or(0, |dot| dot + 1)]).unwrap_or(before);
         self.entries.retain(|full, (key, entry)| {
-            key.name != other || !(of_all_layers || full.starts_with(before)) || entry.place == *place
+            key.name != other || !(of_all_layers || full.starts_with(layer)) || entry.place == *place
         });
     }
 

@@ -81,12 +81,6 @@ fn is_of_field(key: &str) -> bool {
     key.starts_with("air.field") || key == "air.speed_factor"
 }
 
-/// Whether a file describes a spinline and no fibre that flies. False if it cannot be read.
-pub fn holds_spinline_alone(path: &Path) -> bool {
-    let Ok(text) = file::read(path, FileKind::Case) else { return false };
-    document::read(&keys::CASE, &text, "", &[]).is_ok_and(|written| is_spinline_alone(&written))
-}
-
 /// Whether a spinline is written, and nothing of a fibre that flies.
 pub(super) fn is_spinline_alone(written: &WrittenValues) -> bool {
     const OF_FLIGHTS: [&str; 5] = ["fibre", "feed", "belt", "air", "run"];

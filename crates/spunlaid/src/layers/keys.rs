@@ -226,7 +226,8 @@ pub const WEB_KEYS: &[WebKey] = &[
         "Mass flow of a hole, which may be written instead of `line.feed_speed`: the feed speed is the throughput over the linear density. \
          With `laydown.case` the case is flown with this throughput, whatever it has itself.",
     )
-    .label("Throughput of a hole"),
+    .synonyms(&["output per hole", "mass flow", "grams per minute"])
+.label("Throughput of a hole"),
     positive("line.belt_speed", Dimension::Velocity, Access {
         get: |web| layer(web).filter(|_| web.basis_weight.is_none()).map(|layer| layer.belt_speed.into()),
         set: |web, value| {
@@ -258,7 +259,8 @@ pub const WEB_KEYS: &[WebKey] = &[
         "Mass of the web per area, that of all layers together, which may be written instead of `line.belt_speed`, in any of the layers: the \
          belt is as fast as it takes to lay it. With `laydown.case` the case is flown above this belt, whatever it has itself.",
     )
-    .label("Basis weight"),
+    .synonyms(&["grammage", "mass per area", "surface weight"])
+.label("Basis weight"),
     key("line.filaments_per_metre", Kind::Whole(1, MOST_FILAMENTS), Access {
         get: |web| match layer(web)?.filaments {
             Filaments::AtRandom { per_metre } | Filaments::Slot { per_metre, .. } => {
@@ -282,7 +284,8 @@ pub const WEB_KEYS: &[WebKey] = &[
         "Number of filaments per metre of width, which come down at random places, or with `depth` at an even pitch. The nearest whole \
          number is laid.",
     )
-    .label("Filaments per metre"),
+    .synonyms(&["holes per metre", "capillaries per metre"])
+.label("Filaments per metre"),
     quantity("line.depth", Dimension::Length, Sign::NotNegative, Access {
         get: |web| match layer(web)?.filaments {
             Filaments::Slot { depth, .. } => Some(depth.into()),
@@ -357,7 +360,8 @@ pub const WEB_KEYS: &[WebKey] = &[
         .required("5000")
         .varies()
         .meaning("Number of nozzles in a row.")
-        .label("Nozzles of a row"),
+        .synonyms(&["holes", "nozzles", "capillaries"])
+.label("Nozzles of a row"),
     quantity("line.rows.md", Dimension::Length, Sign::Any, of_row!(md))
         .value("0 mm")
         .meaning(
@@ -369,7 +373,8 @@ pub const WEB_KEYS: &[WebKey] = &[
     positive("web.width", Dimension::Length, of_sheet!(sheet.width))
         .required("1 m")
         .meaning("Size of the web in cross direction, a whole number of cells.")
-        .label("Width of the web")
+        .synonyms(&["working width"])
+.label("Width of the web")
         .usual(1e-3, 30.0),
     positive("web.length", Dimension::Length, of_sheet!(sheet.length))
         .required("1 m")
@@ -395,7 +400,8 @@ pub const WEB_KEYS: &[WebKey] = &[
     positive("web.cell", Dimension::Length, of_sheet!(sheet.cell))
         .follows("the smallest of 0.5, 1, 2, 5 and 10 mm that makes at most ten million cells and divides the web")
         .meaning("Side of the square cells of the map of the basis weight.")
-        .label("Cell of the map")
+        .synonyms(&["test area"])
+.label("Cell of the map")
         .usual(1e-6, 0.1),
     key("web.seed", Kind::Whole(0, u64::MAX), Access {
         get: |web| Some(web.seed.into()),
@@ -578,6 +584,12 @@ impl WebKey {
             "line.belt_speed" => "belt.speed",
             name => name,
         })
+    }
+
+    /// Other words for it: with those of the same key of a case, where there is one.
+    pub fn all_synonyms(&self) -> Vec<&'static str> {
+        let of_case = self.of_case().map_or(&[][..], |key| key.synonyms);
+        self.synonyms.iter().chain(of_case).copied().collect()
     }
 
     /// Outside of these a value, unless it is zero, is most likely a slip, in SI units: as for the same key of a case, where

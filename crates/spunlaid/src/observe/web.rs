@@ -81,6 +81,20 @@ pub const OF_PATCHES: &[PatchMeasure] = &[
     },
     PatchMeasure {
         measure: Measure {
+            name: "cv_#_mm_pairs",
+            column: "cv_#_mm_pairs",
+            label: "CV from pairs of filaments, # mm",
+            meaning: "coefficient of variation that is expected for a web in one air from the correlations of pairs of filaments",
+            figure: &PAIRS,
+            series: "# mm",
+            ..SHARE
+        },
+        number: |patch| patch.pairs.unwrap_or(f64::NAN),
+        error: None,
+        causes: &[],
+    },
+    PatchMeasure {
+        measure: Measure {
             name: "cv_#_mm_flown",
             column: "cv_#_mm_flown",
             label: "CV from the flown curves, # mm",
@@ -263,6 +277,7 @@ const CV: Figure = figure("cv", "Unevenness of the web, CV", "CV of the web");
 const ONE_FIBRE: Figure = figure("cv_one_fibre", "CV expected from single fibres", "expected CV");
 const INDEPENDENT: Figure =
     figure("cv_independent", "CV of the same filaments in airs of their own", "CV in airs of their own");
+const PAIRS: Figure = figure("cv_pairs", "CV expected from pairs of filaments", "CV from pairs of filaments");
 const FLOWN: Figure = figure("cv_flown", "CV expected from the flown curves", "CV of the flown curves");
 const STRAIGHT: Figure = figure("cv_straight_fibres", "CV of straight fibres", "CV of straight fibres");
 

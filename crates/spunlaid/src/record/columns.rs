@@ -25,6 +25,8 @@ pub(super) struct Column {
     pub(super) name: String,
     /// Factor from the unit of the file to SI.
     pub(super) factor: f64,
+    /// Whether it holds time stamps in place of numbers.
+    pub(super) stamped: bool,
 }
 
 /// The columns of a file by their use.
@@ -38,11 +40,18 @@ pub(super) struct Roles {
 /// Finds the use of each column.
 ///
 /// * `named` – whether the file names its columns
-pub(super) fn roles(heads: &[Head], named: bool, layout: &Layout) -> Result<Roles, FileError> {
+/// * `stamped` – whether each column holds time stamps
+pub(super) fn roles(
+    heads: &[Head],
+    named: bool,
+    stamped: &[bool],
+    layout: &Layout,
+) -> Result<Roles, FileError> {
+    let is_stamped = |i: usize| stamped.get(i) == Some(&true);
     if let Some(rate) = layout.rate.filter(|rate| !(rate.is_finite() && *rate > 0.0)) {
         return Err(super::limits::rate_fault(rate).into());
     }
-    let time = find_time(heads, named, layout)?;
+    let time = find_time(heads, named, stamped, layout)?;
     let mut chosen = if layout.columns.is_empty() {
         find_velocities(heads, named, time)
     } else {
@@ -77,8 +86,11 @@ pub(super) fn roles(heads: &[Head], named: bool, layout: &Layout) -> Result<Role
         chosen.sort_by_key(|&i| !ALONG.contains(&heads[i].name.to_lowercase().as_str()));
     }
     let column = |index: usize, name: &str, dimension, asked: &Option<String>| {
-        let factor = factor(&heads[index], dimension, asked.as_deref())?;
-        Ok::<_, FileError>(Column { index, header: heads[index].text.clone(), name: name.to_owned(), factor })
+        // A time stamp says its unit itself.
+        let stamped = dimension == Dimension::Time && is_stamped(index);
+        let factor = if stamped { 1.0 } else { factor(&heads[index], dimension, asked.as_deref())? };
+        let (header, name) = (heads[index].text.clone(), name.to_owned());
+        Ok::<_, FileError>(Column { index, header, name, factor, stamped })
     };
     let mut components = Vec::new();
     for (&i, letter) in chosen.iter().zip(["u", "v", "w"]) {
@@ -98,7 +110,12 @@ fn shown<'a>(heads: impl IntoIterator<Item = &'a Head>) -> Vec<String> {
     heads.into_iter().map(|head| excerpt(&head.text, 40)).collect()
 }
 
-fn find_time(heads: &[Head], named: bool, layout: &Layout) -> Result<Option<usize>, FileError> {
+fn find_time(
+    heads: &[Head],
+    named: bool,
+    stamped: &[bool],
+    layout: &Layout,
+) -> Result<Option<usize>, FileError> {
     if let Some(asked) = &layout.time_column {
         return find(heads, asked).map(Some);
     }
@@ -106,12 +123,12 @@ fn find_time(heads: &[Head], named: bool, layout: &Layout) -> Result<Option<usiz
     let found = match heads.iter().position(is_time) {
         // Without names the first column is the time, unless a rate is given.
         None if !named && layout.rate.is_none() && heads.len() > 1 => Some(0),
-        found => found,
+        found => found.or_else(|| stamped.iter().position(|stamped| *stamped)),
     };
     if found.is_none() && layout.rate.is_none() {
         return Err(Fault::new(
             format!("has no column of time (it has {})", listed(&shown(heads))),
-            "name it like time_s, or give the sampling rate",
+            "name it like time_s, write time stamps in it, or give the sampling rate",
         )
         .option("--rate")
         .into());
@@ -171,7 +188,7 @@ mod tests {
     #[test]
     fn the_component_along_the_flow_comes_first() {
         let heads = ["w_m_s", "t_s", "T_degC", "u_cm_s"].map(Head::new);
-        let roles = roles(&heads, true, &Layout::default()).unwrap();
+        let roles = roles(&heads, true, &[], &Layout::default()).unwrap();
         let names: Vec<_> = roles.components.iter().map(|c| (c.name.as_str(), c.factor)).collect();
         assert_eq!(names, [("u", 0.01), ("w", 1.0)]);
         assert_eq!(roles.unused, ["T_degC"]);

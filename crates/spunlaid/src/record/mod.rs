@@ -3,7 +3,7 @@
 //! file (CSV, Parquet) → [`Record`] (evenly sampled, SI) → [`analyse`] → [`Analysis`]
 //!
 //! **The input** is the velocity at a point over time: a row for each sample, a column of time, and one to three columns
-//! of velocity. The header gives the units: `time_ms`, `u [m/s]`. A [`Layout`] gives what the file does not: sampling
+//! of velocity. The header gives the units: `time_ms`, `u [m/s]`; times may also be stamps, ISO or German. A [`Layout`] gives what the file does not: sampling
 //! rate, units, columns to use.
 //!
 //! | format | what is read |

@@ -39,7 +39,7 @@ fn read(source: Bytes, layout: &Layout) -> Result<Record, FileError> {
     let metadata = ParquetMetaDataReader::new().parse_and_finish(&source).map_err(undecodable)?;
     let schema = metadata.file_metadata().schema_descr();
     let heads: Vec<Head> = schema.columns().iter().map(|column| Head::new(&column.path().string())).collect();
-    let roles = roles(&heads, true, layout)?;
+    let roles = roles(&heads, true, &[], layout)?;
     let used: Vec<Column> = roles.time.iter().chain(&roles.components).cloned().collect();
     let timed = roles.time.is_some();
     let mut rows = Rows::new(roles, layout);

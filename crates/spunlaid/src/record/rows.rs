@@ -206,7 +206,7 @@ fn gap_too_long(missing: f64, most: usize) -> Fault {
     let missing = shortest(missing);
     Fault::new(
         format!("{missing} samples in a row are missing up to here, more than the {most} that are filled in"),
-        "cut the record here, or fill in the missing samples",
+        "cut the record here, fill in the missing samples, or allow longer gaps (air.record_max_gap in a case)",
     )
-    .option("or allow longer gaps with --max-gap")
+    .option("--max-gap")
 }

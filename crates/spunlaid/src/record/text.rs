@@ -3,8 +3,9 @@
 use super::columns::{Column, roles};
 use super::rows::Rows;
 use super::{Layout, Record};
-use crate::error::{FileError, FileKind};
-use crate::table::Table;
+use crate::error::{Fault, FileError, FileKind};
+use crate::table::{Stamp, Table};
+use crate::units::excerpt;
 use std::io::Read;
 
 /// Reads a record from text; messages call it `name`.
@@ -21,8 +22,9 @@ pub fn parse_csv(source: impl Read, name: &str, layout: &Layout) -> Result<Recor
 
 fn read(source: impl Read, layout: &Layout) -> Result<Record, FileError> {
     let mut table = Table::open(source, FileKind::Record, layout.skip_lines)?;
-    let roles = roles(table.heads(), table.named(), layout)?;
-    let time = roles.time.as_ref().map(|column| column.index);
+    let roles = roles(table.heads(), table.named(), &table.stamped_columns(), layout)?;
+    let time = roles.time.as_ref().map(|column| (column.index, column.stamped));
+    let mut clock = Clock::default();
     let components: Vec<usize> = roles.components.iter().map(|column: &Column| column.index).collect();
     let mut rows = Rows::new(roles, layout);
     let mut values = vec![f64::NAN; components.len()];
@@ -33,7 +35,8 @@ fn read(source: impl Read, layout: &Layout) -> Result<Record, FileError> {
             rows.push(table.place(), (f64::NAN, f64::NAN), &[])?;
         }
         let time = match time {
-            Some(column) => (table.number(column)?, table.last_place(column)),
+            Some((column, true)) => clock.read(&mut table, column)?,
+            Some((column, false)) => (table.number(column)?, table.last_place(column)),
             None => (f64::NAN, f64::INFINITY),
         };
         for (value, column) in values.iter_mut().zip(&components) {
@@ -42,6 +45,31 @@ fn read(source: impl Read, layout: &Layout) -> Result<Record, FileError> {
         rows.push(table.place(), time, &values)?;
     }
     rows.finish()
+}
+
+/// The time since the first of the stamps of a column.
+#[derive(Default)]
+struct Clock {
+    last: Option<Stamp>,
+    elapsed: f64,
+}
+
+impl Clock {
+    /// Time of a row and unit of its last digit [s]; NaN if it is missing.
+    fn read<R: Read>(&mut self, table: &mut Table<R>, column: usize) -> Result<(f64, f64), FileError> {
+        if let Some(stamp) = table.stamp(column) {
+            self.elapsed += self.last.map_or(0.0, |last| stamp.since(last));
+            self.last = Some(stamp);
+            return Ok((self.elapsed, stamp.last_place));
+        }
+        if table.number(column).is_ok_and(f64::is_nan) {
+            return Ok((f64::NAN, f64::INFINITY));
+        }
+        let message =
+            format!("\"{}\" is not a time stamp as in the rows above", excerpt(table.text(column), 40));
+        let remedy = "write it as 2024-03-05 12:00:00.125, 05.03.2024 12:00:00,125 or 12:00:00.125";
+        Err(table.blame(column, Fault::new(message, remedy)))
+    }
 }
 
 /// Computes the checksum of what is read.

@@ -6,6 +6,7 @@ use crate::ensemble::{Computing, Job, Keep, Trajectory, fly_each, in_order};
 use crate::error::Error;
 use crate::flight::Common;
 use crate::lanes::WIDTH;
+use crate::layers::Method;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -21,11 +22,21 @@ pub struct Batch {
 /// A fibre that was lost: point, replicate and error.
 pub(super) type Lost = (usize, u64, Error);
 
+/// Batches that may fly together.
+#[derive(Debug)]
+struct Group {
+    /// Work of one flight, to compare it with others.
+    work: f64,
+    /// Most jobs of a flight.
+    width: usize,
+    /// Each batch with the number of jobs before it.
+    members: Vec<(u64, Batch)>,
+}
+
 /// Jobs distributed to flights; some webs of a point count as one.
 #[derive(Debug, Default)]
 struct Packing {
-    /// Batches that may fly together, each with the number of jobs before it.
-    groups: Vec<Vec<(u64, Batch)>>,
+    groups: Vec<Group>,
     /// Index of the first flight of each group.
     first_flight: Vec<usize>,
     count: usize,
@@ -34,33 +45,37 @@ struct Packing {
 impl Packing {
     fn new(points: &[Point], batches: &[Batch]) -> Self {
         let mut group_of = BTreeMap::new();
-        let mut groups: Vec<(f64, Vec<(u64, Batch)>)> = Vec::new();
+        let mut groups: Vec<Group> = Vec::new();
         for batch in batches.iter().filter(|batch| !batch.replicates.is_empty()) {
-            let (alike, work) = match &points[batch.point].experiment {
+            let (alike, work, width) = match &points[batch.point].experiment {
                 Experiment::Case(case) => {
-                    (Ok(Common::of(case)), case.run.steps as f64 * case.fibre.elements as f64)
+                    (Ok(Common::of(case)), case.run.steps as f64 * case.fibre.elements as f64, WIDTH)
                 }
                 // Spinlines take milliseconds, so that many make a bundle.
-                Experiment::Spinline(_) => (Err(batch.point / 64), 0.0),
+                Experiment::Spinline(_) => (Err(batch.point / 64), 0.0, WIDTH),
+                // All filaments fly for each web, which takes minutes.
+                Experiment::Web(web) if web.method == Method::SharedAir => {
+                    (Err(batch.point), f64::INFINITY, 1)
+                }
                 // The webs of a point are laid of the same fibres.
-                Experiment::Web(_) => (Err(batch.point), 0.0),
+                Experiment::Web(_) => (Err(batch.point), 0.0, WIDTH),
             };
             let group = *group_of.entry(alike).or_insert(groups.len());
             if group == groups.len() {
-                groups.push((work, Vec::new()));
+                groups.push(Group { work, width, members: Vec::new() });
             }
-            let members = &mut groups[group].1;
+            let members = &mut groups[group].members;
             let before = members.last().map_or(0, |(before, batch)| before + length(batch));
             members.push((before, batch.clone()));
         }
         // The longest flights come first, so that no thread is busy alone at the end.
-        groups.sort_by(|a, b| b.0.total_cmp(&a.0));
+        groups.sort_by(|a, b| b.work.total_cmp(&a.work));
         let mut packing = Self::default();
-        for (_, members) in groups {
-            let jobs = members.last().map_or(0, |(before, batch)| before + length(batch));
+        for group in groups {
+            let jobs = group.members.last().map_or(0, |(before, batch)| before + length(batch));
             packing.first_flight.push(packing.count);
-            packing.count += jobs.div_ceil(WIDTH as u64) as usize;
-            packing.groups.push(members);
+            packing.count += jobs.div_ceil(group.width as u64) as usize;
+            packing.groups.push(group);
         }
         packing
     }
@@ -68,15 +83,15 @@ impl Packing {
     /// The jobs of a flight: point and replicate.
     fn jobs(&self, flight: usize) -> Vec<(usize, u64)> {
         let group = self.first_flight.partition_point(|first| *first <= flight).saturating_sub(1);
-        let members = &self.groups[group];
-        let first = (flight - self.first_flight[group]) as u64 * WIDTH as u64;
+        let Group { width, members, .. } = &self.groups[group];
+        let first = (flight - self.first_flight[group]) as u64 * *width as u64;
         let start = members.partition_point(|(before, _)| *before <= first).saturating_sub(1);
-        let mut jobs = Vec::with_capacity(WIDTH);
+        let mut jobs = Vec::with_capacity(*width);
         for (before, batch) in &members[start..] {
             let skip = first.saturating_sub(*before);
             let replicates = batch.replicates.start + skip..batch.replicates.end;
-            jobs.extend(replicates.take(WIDTH - jobs.len()).map(|replicate| (batch.point, replicate)));
-            if jobs.len() == WIDTH {
+            jobs.extend(replicates.take(width - jobs.len()).map(|replicate| (batch.point, replicate)));
+            if jobs.len() == *width {
                 break;
             }
         }
@@ -181,6 +196,7 @@ mod tests {
     use super::*;
     use crate::case::Case;
     use crate::drag::{FrictionLaw, NormalLaw};
+    use crate::layers::WebSpec;
     use crate::study::tests::table1;
 
     fn points(velocities: &[f64], lengths: &[f64]) -> Vec<Point> {
@@ -247,6 +263,26 @@ mod tests {
             assert_eq!(jobs, all);
             assert!(bundles.batches(bundles.count()).is_empty());
         }
+    }
+
+    #[test]
+    fn each_web_in_one_air_is_a_bundle() {
+        let of_method = |method| {
+            let experiment = Experiment::Web(WebSpec { method, ..WebSpec::unknown() });
+            Point { values: Vec::new(), experiment }
+        };
+        let points = [Method::Surrogate, Method::SharedAir, Method::SharedAir].map(of_method);
+        let batches: Vec<Batch> = (0..3).map(|point| Batch { point, replicates: 2..5 }).collect();
+        let bundles = Bundles::of(&points, &batches, 1);
+        let mut all: Vec<Vec<Batch>> = (0..bundles.count()).map(|bundle| bundles.batches(bundle)).collect();
+        // Those that take minutes come first.
+        assert!(all[..6].iter().all(|bundle| bundle[0].point > 0));
+        all.sort_by_key(|bundle| (bundle[0].point, bundle[0].replicates.start));
+        let one = |point, replicate| vec![Batch { point, replicates: replicate..replicate + 1 }];
+        let mut expected = vec![vec![Batch { point: 0, replicates: 2..5 }]];
+        expected
+            .extend([1, 2].into_iter().flat_map(|point| (2..5).map(move |replicate| one(point, replicate))));
+        assert_eq!(all, expected);
     }
 
     #[test]

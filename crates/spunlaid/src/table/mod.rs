@@ -7,7 +7,7 @@
 //!   the fourth line of TOA5 files. Lines above the header are recognised and skipped. Units may also be
 //!   part of the names: `u_m_s`, `u [m/s]`, `u (m/s)`.
 //! * **Comments** begin with `#`, `%` or `//`. A comment just above the numbers may be the header.
-//! * **Columns of text** are allowed; only reading a number from one is an error.
+//! * **Columns of text** are allowed; only reading a number from one is an error. One may hold time stamps, ISO or German.
 //! * **Encoding** is UTF-8; a line that is not valid UTF-8 is read as Latin-1.
 //!
 //! Memory is bounded: a line has at most [`LONGEST_LINE`] bytes, and the header is looked for in the first
@@ -35,9 +35,11 @@
 
 mod cells;
 mod head;
+mod stamp;
 mod start;
 
 pub use head::{Head, scale};
+pub(crate) use stamp::Stamp;
 
 use crate::error::{Fault, FileError, FileKind, Position};
 use cells::{Parting, number};
@@ -186,6 +188,18 @@ impl<R: Read> Table<R> {
         let number = number(self.text(column), self.parting, &mut decimals);
         self.decimals = decimals;
         number.map_err(|fault| self.blame(column, fault))
+    }
+
+    /// The time stamp in a column of the row, if there is one.
+    pub(crate) fn stamp(&self, column: usize) -> Option<Stamp> {
+        Stamp::parse(self.text(column))
+    }
+
+    /// Whether the first row has a time stamp in each column. Only before it is read.
+    pub(crate) fn stamped_columns(&self) -> Vec<bool> {
+        let first = self.ahead.iter().find(|line| !cells::is_comment(&line.text));
+        let cells = first.map_or_else(Vec::new, |line| self.parting.cells(&line.text));
+        cells.into_iter().map(|cell| Stamp::parse(cell).is_some()).collect()
     }
 
     /// Whether a column of the row holds a finite number, with whatever decimal sign, or says that it is missing.

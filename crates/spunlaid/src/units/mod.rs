@@ -164,6 +164,12 @@ impl Dimension {
         self.units().first().map_or("", |unit| unit.shown)
     }
 
+    /// Whether this is one of its units, however it is spelt.
+    pub fn has_unit(self, unit: &str) -> bool {
+        let plain = |unit: &str| plain_spelling(unit.trim()).to_lowercase();
+        !unit.trim().is_empty() && self.units().iter().any(|one| plain(one.plain) == plain(unit))
+    }
+
     /// The SI unit as the ending of a column's name, `_m_s2`. Empty for a ratio.
     pub fn suffix(self) -> String {
         match self.si_unit() {

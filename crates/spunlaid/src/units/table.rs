@@ -54,6 +54,7 @@ const TIME: &[Unit] = &[
     unit("µs", "us", Ten(-6)),
     unit("ns", "ns", Ten(-9)),
     also("min", "min", Times(60.0)),
+    also("h", "h", Times(3600.0)),
 ];
 const FREQUENCY: &[Unit] = &[unit("Hz", "Hz", Ten(0)), unit("kHz", "kHz", Ten(3))];
 const RATE: &[Unit] = &[unit("1/s", "1/s", Ten(0)), also("s⁻¹", "s-1", Ten(0))];

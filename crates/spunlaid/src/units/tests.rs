@@ -71,7 +71,7 @@ fn rejects_what_is_no_quantity() {
             "is not a finite number; write a plain number like 0.1, or a percentage like \"10 %\"",
         ),
         (Dimension::Length, "1e400 m", "is too large; write a length with its unit: m, cm, mm, µm or nm"),
-        (Dimension::Time, "1e308 min", "is too large; write a time with its unit: s, ms, µs, ns or min"),
+        (Dimension::Time, "1e308 min", "is too large; write a time with its unit: s, ms, µs, ns, min or h"),
         (
             Dimension::Length,
             "1,5 m",

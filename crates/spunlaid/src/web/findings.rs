@@ -1,7 +1,7 @@
 //! Everything that is found out about a web.
 
 use super::clouds::{Clouds, autocorrelation};
-use super::lay::{LaidWeb, Laying, lay, places};
+use super::lay::{LaidWeb, Laying, Together, lay, places};
 use super::map::Map;
 use super::one_fibre::{Alone, OneFibre, one_fibre, straight_fibres};
 use super::orientation::{Orientation, orientation};
@@ -61,6 +61,9 @@ pub struct PatchFindings {
     /// What the same filaments would give in airs of their own, with its standard error: [`PatchFindings::one_fibre`] where they were flown in one air; None if they
     /// are independent as they are.
     pub independent: Option<(f64, f64)>,
+    /// What is expected of filaments in one air from those in airs of their own and from the correlations of pairs; it checks the map. None if the
+    /// filaments are independent or if pairs do not tell it.
+    pub pairs: Option<f64>,
 }
 
 /// Fibres that are laid alone.
@@ -171,7 +174,9 @@ pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: Laying<'_>) -> Result<
         let surrogate = the_one(|fibres| matches!(fibres, Fibres::Surrogate(_)), i);
         let (one_fibre, straight_fibres) = (alone[i].cv, alone[i].straight_fibres);
         let independent = is_shared.then_some(one_fibre);
-        patches.push(PatchFindings { map, one_fibre, flown, surrogate, straight_fibres, independent });
+        let pairs =
+            laid.together.as_ref().and_then(|together| with_pairs(web, together, one_fibre.0, map.patch));
+        patches.push(PatchFindings { map, one_fibre, flown, surrogate, straight_fibres, independent, pairs });
     }
     let lags = ((LAG / sheet.cell).round() as usize + 1).min(LAGS);
     let clouds = Clouds::at(&map, &places, by.threads);
@@ -179,6 +184,18 @@ pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: Laying<'_>) -> Result<
     let orientation = orientation(web, by)?;
     drop(map);
     Ok(Findings { orientation, clouds, autocorrelation, sensitivities: Vec::new(), patches, margins, laid })
+}
+
+/// CV over patches from that of independent filaments and from what pairs have in common.
+fn with_pairs(web: &Web, together: &Together, independent: f64, patch: f64) -> Option<f64> {
+    let weights = || web.layers.iter().map(|layer| layer.basis_weight(&web.sheet));
+    let whole: f64 = weights().sum();
+    let of_layer = |(number, weight): (usize, f64)| {
+        let known = together.pairs.iter().find(|pair| pair.layer == number && pair.patch == patch)?;
+        Some((weight / whole).powi(2) * known.variance)
+    };
+    let shared: Option<f64> = weights().enumerate().map(of_layer).sum();
+    Some((independent * independent + shared?).max(0.0).sqrt())
 }
 
 /// Spreads σ_CD of a filament beyond its place that count as the edge of a web: less than 0.14 % of its fibre lies further out.

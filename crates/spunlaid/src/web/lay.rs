@@ -3,7 +3,7 @@
 use super::canvas::too_full;
 use super::curves::Stretches;
 use super::map::Map;
-use super::neighbours::NeighbourCorrelation;
+use super::neighbours::{NeighbourCorrelation, SharedVariance};
 use super::raster::{Draw, Pens};
 use super::strands::Strand;
 use super::strip::Strip;
@@ -59,6 +59,8 @@ pub struct Together {
     pub strands: Vec<Strand>,
     /// How filaments of each layer come down together, over their distance.
     pub neighbours: Vec<NeighbourCorrelation>,
+    /// The part of CV² that neighbours make together, of each layer over patches of each side; empty if it is not known.
+    pub pairs: Vec<SharedVariance>,
     /// Filaments that were lost: they are missing on the web from then on.
     pub lost: u64,
     /// Length of time that was flown, of the layer that took the longest [s].
@@ -73,6 +75,7 @@ impl Together {
         self.strands.extend(other.strands.into_iter().map(|strand| Strand { layer, ..strand }));
         let neighbours = other.neighbours.into_iter();
         self.neighbours.extend(neighbours.map(|neighbour| NeighbourCorrelation { layer, ..neighbour }));
+        self.pairs.extend(other.pairs.into_iter().map(|pair| SharedVariance { layer, ..pair }));
         self.lost += other.lost;
         self.time = self.time.max(other.time);
         self.spent.whole += other.spent.whole;

@@ -30,7 +30,7 @@ pub use findings::{Findings, PatchFindings, find, find_laid, measure, measure_la
 pub(crate) use lay::inlets;
 pub use lay::{LaidWeb, Laying, Spent, Together, lay, pieces};
 pub use map::Map;
-pub use neighbours::{Correlation, NeighbourCorrelation};
+pub use neighbours::{Correlation, NeighbourCorrelation, SharedVariance};
 pub use one_fibre::{Alone, OneFibre, one_fibre, straight_fibres};
 pub use orientation::{Orientation, orientation};
 pub use sensitivity::{Lever, Sensitivity, Source, sensitivities};

@@ -100,6 +100,62 @@ fn loggers_of_many_kinds_are_read() {
 }
 
 #[test]
+fn time_stamps_of_loggers_tell_the_spacing() {
+    for (text, interval) in [
+        // ISO, with and without a zone, and across midnight.
+        (
+            "timestamp,u_m_s\n2024-03-05T23:59:59.750Z,1\n2024-03-06T00:00:00.000Z,2\n2024-03-06T00:00:00.250Z,3\n",
+            0.25,
+        ),
+        ("time,u_m_s\n2024-03-05 12:00:00.00,1\n2024-03-05 12:00:00.02,2\n2024-03-05 12:00:00.04,3\n", 0.02),
+        // German, with decimal commas; a name that says nothing of time.
+        (
+            "Zeit;u [m/s]\n05.03.2024 12:00:00,1;1,0\n05.03.2024 12:00:00,2;2,0\n05.03.2024 12:00:00,3;3,0\n",
+            0.1,
+        ),
+        ("Datum/Uhrzeit\tu [m/s]\n5.3.24 9:00:00\t1\n5.3.24 9:00:01\t2\n5.3.24 9:00:02\t3\n", 1.0),
+        // Date and time apart, past midnight.
+        (
+            "Datum;Uhrzeit;u [m/s]\n05.03.2024;23:59:59,5;1\n06.03.2024;00:00:00,0;2\n06.03.2024;00:00:00,5;3\n",
+            0.5,
+        ),
+        ("12:00:00.5 1\n12:00:01.0 2\n12:00:01.5 3\n", 0.5),
+    ] {
+        let layout = Layout { velocity_unit: Some("m/s".to_owned()), ..Layout::default() };
+        let record =
+            parse_csv(text.as_bytes(), "a.csv", &layout).unwrap_or_else(|error| panic!("{text}{error}"));
+        assert_eq!(record.components[0].values, [1.0, 2.0, 3.0], "{text}");
+        assert!(
+            (record.interval / interval - 1.0).abs() < 1e-9 && record.reading.timed,
+            "{text}{}",
+            record.interval
+        );
+    }
+    // Numbers are more exact than stamps, and a rate replaces both.
+    let both = "stamp,time_s,u_m_s\n12:00:00,0,1\n12:00:00,0.1,2\n12:00:01,0.2,3\n";
+    assert!((read(both).interval - 0.1).abs() < 1e-12);
+    let rate = Layout { rate: Some(50.0), ..Layout::default() };
+    assert_eq!(parse_csv(both.as_bytes(), "a.csv", &rate).unwrap().interval, 0.02);
+    // A row that is missing by its stamp, and one without a stamp.
+    let gaps = read("time,u_m_s\n12:00:00,1\n12:00:01,2\n,3\n12:00:03,4\n12:00:05,6\n12:00:06,7\n");
+    assert_eq!(numbers(&gaps), [("u", &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0][..])]);
+    for (rows, said) in [
+        (
+            "12:00:02,3\n12:00:02,4\n",
+            "a.csv:5: column time: time goes from 2 s to 2 s; rows must be in order of time.",
+        ),
+        (
+            "noon,3\n",
+            "a.csv:4: column time: \"noon\" is not a time stamp as in the rows above; write it as 2024-03-05 12:00:00.125,",
+        ),
+        ("12:00:02.4,3\n", "a.csv:4: column time: the time step changes from 1 s to 1.4 s"),
+    ] {
+        let found = refused(format!("time,u_m_s\n12:00:00.0,1\n12:00:01.0,2\n{rows}"), &Layout::default());
+        assert!(found.starts_with(said), "{found}");
+    }
+}
+
+#[test]
 fn the_checksum_is_that_of_the_whole_file() {
     let text = "time_s,u_m_s\n0,1\n1,2\n\n";
     assert_eq!(read(text).reading.checksum, crc32fast::hash(text.as_bytes()));
@@ -147,7 +203,7 @@ fn rejects_with_line_column_and_way_out() {
         ),
         (
             "u_m_s\n1\n2\n",
-            "a.csv: has no column of time (it has u_m_s); name it like time_s, or give the sampling rate",
+            "a.csv: has no column of time (it has u_m_s); name it like time_s, write time stamps in it, or give the sampling rate",
         ),
         (
             "time,u_m_s\n0,1\n",

@@ -125,6 +125,9 @@ fn linear_density_and_taylors_cutoff_give_what_they_stand_for() {
     assert!((case.fibre.diameter / 4.9996e-5 - 1.0).abs() < 1e-4, "{}", case.fibre.diameter);
     let (denier, _) = changed(&[("fibre.diameter", "auto"), ("fibre.linear_density", "16.785 den")]);
     assert!((denier.fibre.diameter / case.fibre.diameter - 1.0).abs() < 1e-12);
+    // An override stands in place of what the case says in other words.
+    let (replaced, _) = changed(&[("fibre.linear_density", "16.785 den")]);
+    assert_eq!(replaced.fibre.diameter, denier.fibre.diameter);
     // 20 m/s over four eddies of 50 mm.
     let (case, _) = changed(&[("air.cutoff_frequency", "taylor"), ("air.velocity", "20 m/s")]);
     assert_eq!(case.air.cutoff_frequency, 100.0);
@@ -186,4 +189,34 @@ fn identical_records_however_a_case_says_how_to_read_them() {
     assert!((case.air.velocity * 3.6 / 10.0 - 1.0).abs() < 0.05, "{}", case.air.velocity);
     assert_eq!(bits(&read_again(&case)), bits(&case));
     std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn a_case_says_how_long_a_gap_of_its_record_may_be() {
+    let probe = std::fs::read_to_string("../../cases/records/probe.csv").unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let record = folder.path().join("gap.csv");
+    // Twelve rows are missing.
+    let rows: Vec<&str> =
+        probe.lines().enumerate().filter(|(i, _)| !(500..512).contains(i)).map(|(_, row)| row).collect();
+    std::fs::write(&record, rows.join("\n")).unwrap();
+    let set = |gap: Option<&str>| -> Vec<(String, String)> {
+        let record = ("air.record".to_owned(), record.display().to_string());
+        std::iter::once(record)
+            .chain(gap.map(|gap| ("air.record_max_gap".to_owned(), gap.to_owned())))
+            .collect()
+    };
+    for gap in [None, Some("11")] {
+        let refused = parse_case(starter_case(), "starter.toml", &set(gap)).unwrap_err().to_string();
+        let most = gap.unwrap_or("10");
+        let wanted = format!(
+            "gap.csv:501: column time_s: 12 samples in a row are missing up to here, more than the {most} that are filled in"
+        );
+        assert!(refused.contains(&wanted) && refused.contains("air.record_max_gap"), "{refused}");
+    }
+    let (case, _) = parse_case(starter_case(), "starter.toml", &set(Some("12"))).unwrap();
+    assert_eq!(bits(&read_again(&case)), bits(&case));
+    let refused =
+        parse_case(starter_case(), "starter.toml", &set(Some("12"))[1..].to_vec()).unwrap_err().to_string();
+    assert!(refused.contains("air.record_max_gap = 12 has no effect without air.record"), "{refused}");
 }

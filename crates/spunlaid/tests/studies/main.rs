@@ -12,6 +12,7 @@ mod effects;
 mod ensembles;
 mod finer_checks;
 mod paper;
+mod starters;
 mod studies;
 mod web_keys;
 mod web_studies;

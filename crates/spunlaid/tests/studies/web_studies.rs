@@ -132,6 +132,7 @@ fn identical_points_again_where_numbers_follow_from_others() {
         (flown, "line.throughput", "['0.4 g/min', '0.6 g/min']"),
         (flown, "line.basis_weight", "['15 g/m²', '30 g/m²']"),
         (flown, "belt.speed", "['3 m/s', '5 m/s']"),
+        (flown, "fibre.linear_density", "['1 dtex', '4 dtex']"),
         (flown, "feed.speed", "['40 m/s', '60 m/s']"),
     ] {
         let text = format!("web = 'web.toml'\ndesign = 'grid'\n[vary]\n'{key}' = {values}\n");

@@ -13,6 +13,7 @@ pub use table::text;
 pub use words::{MODEL_ERROR, filament, freezing, influence, numerical_error, remarks};
 
 use super::beside::CASE_FILES;
+use super::origin::ORIGIN;
 use spunlaid::case::Case;
 use spunlaid::error::Error;
 use spunlaid::input::{Influence, SpinFile};
@@ -20,7 +21,7 @@ use spunlaid::spinline::Solution;
 
 /// The contents of the folder of `spin`. The last entry marks it as complete.
 pub const ENTRIES: &[&str] =
-    &["spinline.toml", CASE_FILES, STATIONS, "figures", "report.html", "summary.json"];
+    &[ORIGIN, "spinline.toml", CASE_FILES, STATIONS, "figures", "report.html", "summary.json"];
 
 /// A solved spinline, and what decides its diameter.
 #[derive(Clone, Debug)]
@@ -37,7 +38,7 @@ impl SpinResults {
     /// # Errors
     /// If it has no steady state that a line could run in.
     pub fn new(file: &SpinFile) -> Result<Self, Error> {
-        Ok(Self { rows: file.solve()?, influences: file.influences()? })
+        Ok(Self { rows: file.solve()?, influences: file.influences() })
     }
 
     /// The spinline from which a case is fed, solved again, which takes milliseconds; `None` if the case has none.

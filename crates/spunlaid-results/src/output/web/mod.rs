@@ -8,12 +8,14 @@ pub use map::light_table;
 pub use summary::{Layer, Performance, Summary};
 
 use super::folder::Staging;
+use super::origin::ORIGIN;
 use super::spinline::STATIONS;
 use crate::Failure;
 use spunlaid::web::{Map, Strand};
 
 /// The contents of the folder. The last entry marks it as complete.
 pub const ENTRIES: &[&str] = &[
+    ORIGIN,
     "web.toml",
     "map.npy",
     "map.png",

@@ -289,6 +289,7 @@ impl<'a> Summary<'a> {
                 ("cv_one_fibre", Some(patch.one_fibre.0)),
                 ("cv_one_fibre_standard_error", Some(patch.one_fibre.1)),
                 ("cv_flown", patch.flown.map(|cv| cv.0)),
+                ("cv_pairs", patch.pairs),
                 ("cv_flown_standard_error", patch.flown.map(|cv| cv.1)),
                 ("cv_surrogate", patch.surrogate.map(|cv| cv.0)),
                 ("cv_surrogate_standard_error", patch.surrogate.map(|cv| cv.1)),

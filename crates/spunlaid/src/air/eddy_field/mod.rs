@@ -76,6 +76,11 @@ impl EddyField {
         }
     }
 
+    /// Whether both are fields of the same air.
+    pub(crate) fn has_air_of(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.plan, &other.plan)
+    }
+
     /// The same field, of which nothing has been made.
     #[must_use]
     pub(crate) fn unmade(&self) -> Self {

@@ -68,6 +68,13 @@ impl Block {
     }
 }
 
+/// Numbers rounded to half precision.
+fn halves(numbers: &[f32]) -> Vec<f16> {
+    let mut halves = vec![f16::ZERO; numbers.len()];
+    halves.convert_from_f32_slice(numbers);
+    halves
+}
+
 /// A line of a block, made of samples `[sample][z][component]`.
 fn bricks(samples: &[f32], points: usize) -> Box<[f16]> {
     let count = samples.len() / (3 * points);
@@ -104,8 +111,8 @@ pub(super) struct Tape {
 /// What a pair of windows leaves to the next, along one line.
 #[derive(Clone, Debug, Default)]
 struct Rest {
-    fading: Vec<f32>,
-    last: Vec<f32>,
+    fading: Vec<f16>,
+    last: Vec<f16>,
 }
 
 /// How windows follow each other, in samples.
@@ -158,9 +165,9 @@ pub(super) fn memory_while_joining(lattice: &Lattice, period: usize) -> f64 {
     memory_of_rest(lattice, period) + samples as f64 * memory_of_sample(lattice) / lattice.points[0] as f64
 }
 
-/// Memory of what a pair of windows leaves to the next [bytes].
+/// Memory of what a pair of windows leaves to the next, in half precision [bytes].
 fn memory_of_rest(lattice: &Lattice, period: usize) -> f64 {
-    (Windows::new(period).fade + REPEATED) as f64 * memory_of_sample(lattice)
+    0.5 * (Windows::new(period).fade + REPEATED) as f64 * memory_of_sample(lattice)
 }
 
 /// Memory of a sample of all points, before it is stored in bricks [bytes].
@@ -240,7 +247,7 @@ impl Windows {
         let total = 2 * self.hop;
         let mut samples = vec![0.0_f32; (REPEATED + total + self.fade) * row];
         if !rest.last.is_empty() {
-            samples[..REPEATED * row].copy_from_slice(&rest.last);
+            rest.last.convert_to_f32_slice(&mut samples[..REPEATED * row]);
         }
         let mut add = |sample: usize, window: &[f32], at: usize, factor: f32| {
             let into = &mut samples[(REPEATED + sample) * row..][..row];
@@ -263,11 +270,11 @@ impl Windows {
                 add(start + m, window, start + m, factor);
             }
         }
-        for (sample, fading) in samples[REPEATED * row..].iter_mut().zip(&rest.fading) {
+        for (sample, fading) in samples[REPEATED * row..].iter_mut().zip(rest.fading.to_f32_vec()) {
             *sample += fading;
         }
-        let fading = samples[(REPEATED + total) * row..].to_vec();
-        let last = samples[total * row..][..REPEATED * row].to_vec();
+        let fading = halves(&samples[(REPEATED + total) * row..]);
+        let last = halves(&samples[total * row..][..REPEATED * row]);
         let each = total.div_ceil(BLOCKS);
         let blocks = (0..BLOCKS).map(|number| {
             let first = number * each;

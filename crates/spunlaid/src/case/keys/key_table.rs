@@ -75,11 +75,18 @@ impl<T> KeyTable<T> {
         only(&|key| !of_spinline(key)).or_else(|| only(&of_spinline))
     }
 
-    /// The keys of any table that are similar to one written in `table`, the most similar first.
+    /// The keys of any table that are similar to one written in `table`, or that have such a synonym, the most similar first.
     pub(crate) fn like(&self, table: &str, key: &str) -> Vec<&'static Key<T>> {
         // Of equally similar keys, prefer the one of the same table.
         let bonus = |home: &str| if home == table { 0.05 } else { 0.0 };
-        by_similarity(key, self.rows.iter().map(|known| (known, known.short(), bonus(known.table()))))
+        let spellings = |known: &'static Key<T>| {
+            let words = std::iter::once(known.short()).chain(known.synonyms.iter().copied());
+            words.map(move |word| (known, word, bonus(known.table())))
+        };
+        let mut like = by_similarity(key, self.rows.iter().flat_map(spellings));
+        let mut names = std::collections::BTreeSet::new();
+        like.retain(|key| names.insert(key.name));
+        like
     }
 
     /// The list with this name.

@@ -31,7 +31,13 @@ pub static CASE: KeyTable = KeyTable {
     rows: &table::KEYS,
     tables: &TABLES,
     lists: &[],
-    alternatives: &[],
+    alternatives: &[
+        Alternatives { keys: ["fibre.diameter", "fibre.linear_density"], of_all_layers: false },
+        Alternatives {
+            keys: ["spinline.melt_flow_rate", "spinline.material.viscosity"],
+            of_all_layers: false,
+        },
+    ],
     noun: "a case",
     file: "a case file",
 };
@@ -66,6 +72,8 @@ pub struct Key<T: 'static = Case> {
     pub left_out: LeftOut,
     /// Its meaning, in one or two sentences.
     pub meaning: &'static str,
+    /// Other words for it, by which it is searched.
+    pub synonyms: &'static [&'static str],
     /// The label of an axis in figures, with its symbol: `Mean velocity *U*`.
     pub label: &'static str,
     /// Whether a study may vary it.
@@ -203,6 +211,13 @@ impl<T> Key<T> {
     /// Whether a flow or a file gives the value, so that a case file leaves it out.
     pub fn is_told(&self, input: &T) -> bool {
         (self.told)(input)
+    }
+
+    /// Whether it is found by this word: in its name, its meaning or its synonyms, or as one of its units.
+    pub fn has_word(&self, word: &str) -> bool {
+        let has = |text: &str| text.to_lowercase().contains(&word.to_lowercase());
+        [self.name, self.meaning].into_iter().chain(self.synonyms.iter().copied()).any(has)
+            || self.dimension().is_some_and(|dimension| dimension.has_unit(word))
     }
 
     /// An example line of a case file.

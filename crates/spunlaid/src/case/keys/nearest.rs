@@ -15,7 +15,7 @@ pub(super) fn by_similarity<'a, T>(word: &str, known: impl Iterator<Item = (T, &
     }
     let word = word.to_lowercase().replace(['-', ' '], "_");
     let similarity = |known: &str| {
-        let known = known.replace('-', "_");
+        let known = known.to_lowercase().replace(['-', ' '], "_");
         let part = word.len() >= 4 && (known.contains(&word) || word.contains(&known));
         strsim::normalized_damerau_levenshtein(&word, &known).max(if part { 0.7 } else { 0.0 })
     };

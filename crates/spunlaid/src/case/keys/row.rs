@@ -163,6 +163,7 @@ pub(crate) const fn key<T>(name: &'static str, kind: Kind, access: AccessTo<T>) 
         kind,
         left_out: LeftOut::Follows(""),
         meaning: "",
+        synonyms: &[],
         label: name,
         varies: false,
         in_flight: false,
@@ -213,6 +214,10 @@ impl<T> Key<T> {
 
     pub(crate) const fn meaning(self, meaning: &'static str) -> Self {
         Self { meaning, ..self }
+    }
+
+    pub(crate) const fn synonyms(self, synonyms: &'static [&'static str]) -> Self {
+        Self { synonyms, ..self }
     }
 
     pub(crate) const fn label(self, label: &'static str) -> Self {

@@ -7,7 +7,7 @@ use crate::air::{FromFile, Measured, Profile, RecordLayout, RecordNumbers, Spect
 use crate::error::{Fault, FileError, FileKind};
 use crate::field::{Field, ReadField};
 use crate::file;
-use crate::record::{Interval, Layout, Record, Settings, analyse_fluctuation, read_record};
+use crate::record::{Interval, LONGEST_GAP, Layout, Record, Settings, analyse_fluctuation, read_record};
 use crate::spinline::{AirTable, PolymerFile};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -87,6 +87,7 @@ impl DataFiles {
                 skip_lines: said.skip.unwrap_or(0),
                 columns: columns.map(|column| column.trim().to_owned()).collect(),
                 velocity_unit: said.velocity_unit.clone(),
+                longest_gap: said.max_gap.map_or(LONGEST_GAP, |samples| samples as usize),
                 ..Layout::default()
             };
             let record = read_record(path, &layout)?;

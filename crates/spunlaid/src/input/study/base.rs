@@ -102,6 +102,12 @@ impl Base for CaseBase {
     ) -> MadeExperiment {
         let (mut written, mut faults) = (self.open.written.clone(), Vec::new());
         for (key, value) in values {
+            // What says the same in other words, unless it varies too.
+            if let Some((other, _)) = keys::CASE.alternative(&key.name)
+                && values.iter().all(|(key, _)| key.name != other)
+            {
+                written.remove(other);
+            }
             let shown = Some(key.pretty(*value));
             match value_of(key, *value) {
                 Ok(value) => {

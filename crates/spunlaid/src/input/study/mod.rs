@@ -9,11 +9,13 @@ mod plan;
 mod points;
 mod reader;
 mod replicates;
+mod starter;
 mod web;
 mod write;
 
 pub use differences::differences;
 pub use points::StudyNote;
+pub use starter::starter_study;
 
 use super::{Overrides, file};
 use crate::case::keys::{Kind, Value};
@@ -138,11 +140,7 @@ pub fn parse_changed_study(
     let word = format!("{name}: [set]");
     let of_file: Vec<_> = set.iter().filter(|(key, _)| !changes.sets(key)).cloned().collect();
     let set_by = [Overrides { values: &of_file, word: &word }, changes.set];
-    let base: Box<dyn Base> = if kind == FileKind::Web {
-        Box::new(web::WebBase::new(base_text, base_name.clone(), set_by)?)
-    } else {
-        Box::new(base::CaseBase::new(base_text, &base_name, &set_by, kind)?)
-    };
+    let base = open_base(kind, base_text, &base_name, set_by)?;
     let plan = reader.plan(&*base, &set, changes);
     let Some(plan) = plan else {
         return Err(reader.rejected());
@@ -159,6 +157,22 @@ pub fn parse_changed_study(
     let study = plan.study(resolved);
     let text = write::write_study(&study, &base.set_beside(set));
     Ok(StudyFile { study, notes, base_path: PathBuf::from(base_name), base_text: base.text(), text })
+}
+
+/// What a study varies, read.
+///
+/// * `name` – of its file
+/// * `set` – keys that are the same at all points: those of the study file, and those that replace them
+fn open_base(
+    kind: FileKind,
+    text: String,
+    name: &str,
+    set: [Overrides<'_>; 2],
+) -> Result<Box<dyn Base>, Error> {
+    Ok(match kind {
+        FileKind::Web => Box::new(web::WebBase::new(text, name.to_owned(), set)?),
+        _ => Box::new(base::CaseBase::new(text, name, &set, kind)?),
+    })
 }
 
 /// What a study varies: a case, or a web.

@@ -78,7 +78,13 @@ impl WebBase {
             LaydownSource::Case { case, .. } => Some(&**case),
             _ => None,
         });
-        keys::find(name)?.get(case?)
+        let case = case?;
+        // The diameter of a case stands for its titre.
+        if name == "fibre.linear_density" {
+            Some(case.linear_density().into())
+        } else {
+            keys::find(name)?.get(case)
+        }
     }
 }
 

@@ -16,6 +16,8 @@ use crate::units::Dimension;
 
 /// Most lines that are skipped at the start of a record.
 const MOST_SKIPPED: u64 = 1_000_000;
+/// Largest gap of a record that may be filled in [samples].
+const MOST_MISSING: u64 = 1_000_000;
 
 pub(super) const KEYS: &[Key] = &[
     quantity("air.velocity", Dimension::Velocity, Any, Access {
@@ -40,7 +42,8 @@ pub(super) const KEYS: &[Key] = &[
     // Up to the speed of sound.
     .usual(1e-3, 340.0)
     .meaning("Mean velocity of the air along x. A record, a profile or a field gives it instead.")
-    .label("Mean velocity *U*")
+    .synonyms(&["air speed", "wind"])
+.label("Mean velocity *U*")
     .slider(0.0, 60.0)
     .in_flight(),
     file("air.profile", FileKind::Profile, Access {
@@ -161,7 +164,8 @@ pub(super) const KEYS: &[Key] = &[
         .required("0.1")
         .usual(1e-5, 1.0)
     .meaning("Rms of each fluctuating velocity component, divided by the mean velocity. A record, a profile or a field may give it instead.")
-        .label("Turbulence intensity *Tu*")
+        .synonyms(&["turbulence level", "degree of turbulence"])
+.label("Turbulence intensity *Tu*")
         .slider(0.0, 0.5)
         .in_flight(),
     quantity("air.length_scale", Dimension::Length, Positive, of_air!(length_scale))
@@ -169,7 +173,8 @@ pub(super) const KEYS: &[Key] = &[
         .required("50 mm")
         .usual(1e-5, 10.0)
     .meaning("Length of an eddy. Within this length the fluctuation is the same along the fibre. A record, a profile or a field may give it instead.")
-        .label("Length of the eddies *L*_{T}")
+        .synonyms(&["eddy size", "integral length scale"])
+.label("Length of the eddies *L*_{T}")
         .slider(5e-3, 0.2),
     quantity("air.cutoff_frequency", Dimension::Frequency, Positive, of_air!(cutoff_frequency))
         .told(|case| case.air.from_flow.cutoff_frequency)
@@ -278,6 +283,9 @@ pub(super) const KEYS: &[Key] = &[
     key("air.record_velocity_unit", Kind::Text("m/s"), of_record!(velocity_unit, Value::Text, text))
         .follows("the unit in the header of the record")
         .meaning("Unit of the velocities of a record whose header has none."),
+    key("air.record_max_gap", Kind::Whole(0, MOST_MISSING), of_record!(max_gap, Value::Whole, whole))
+        .follows("10")
+        .meaning("Largest number of missing samples in a row of a record that are interpolated."),
     choose("air.eddies", || vec!["independent", "convected"], Access {
         get: |case| Some(case.air.eddies.name().into()),
         set: |case, value| {

@@ -26,13 +26,15 @@ pub(super) const KEYS: &[Key] = &[
     .follows("a fibre of fixed length")
     .usual(0.001, 10.0)
     .meaning("Distance from the inlet to the belt, along x. The belt is perpendicular to x.")
-    .label("Distance to the belt *H*")
+    .synonyms(&["DCD", "die-to-collector distance"])
+.label("Distance to the belt *H*")
     .slider(0.1, 2.0),
     quantity("belt.speed", Dimension::Velocity, NotNegative, of_line!(belt_speed))
         .follows("a fibre of fixed length")
         .usual(0.0001, 50.0)
     .meaning("Speed of the belt, along y, the machine direction.")
-        .label("Belt speed *v*_{b}")
+        .synonyms(&["line speed", "conveyor speed"])
+.label("Belt speed *v*_{b}")
         .slider(0.0, 10.0),
     choose("belt.contact", || Contact::ALL.map(|contact| contact.name()).to_vec(), Access {
         get: |case| Some(case.line?.contact.name().into()),

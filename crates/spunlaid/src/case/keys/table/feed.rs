@@ -20,6 +20,7 @@ pub(super) const KEYS: &[Key] = &[
         // From coiling threads to the fastest spinning.
     .usual(1e-3, 200.0)
     .meaning("Speed at which the fibre is fed at the inlet, along its direction: the spinning speed. The fibre is then laid down on a belt.")
-        .label("Feed speed *v*_{f}")
+        .synonyms(&["filament speed", "draw-off speed"])
+.label("Feed speed *v*_{f}")
         .slider(1.0, 100.0),
 ];

@@ -71,7 +71,8 @@ pub(super) const KEYS: &[Key] = &[
     .follows("diameter and density give it")
     .usual(1e-11, 0.03)
     .meaning("Mass per length of the fibre, which may be written instead of `fibre.diameter`; the diameter follows with the density.")
-    .label("Linear density")
+    .synonyms(&["titre", "titer", "denier", "count of the yarn", "fineness"])
+.label("Linear density")
     .slider(1e-8, 2e-5),
     quantity("fibre.youngs_modulus", Dimension::Pressure, Positive, Access {
         get: |case| Some(Value::Number(case.fibre.youngs_modulus)),
@@ -88,7 +89,8 @@ pub(super) const KEYS: &[Key] = &[
         // From rubber to the stiffest carbon fibres.
     .usual(1e7, 9e11)
     .meaning("Young's modulus of the polymer along the fibre. The fibre is elastic.")
-        .label("Young’s modulus *E*")
+        .synonyms(&["stiffness", "E modulus"])
+.label("Young’s modulus *E*")
         .slider(1e7, 1e10)
         .in_flight(),
     quantity(

@@ -40,7 +40,8 @@ pub(super) const KEYS: &[Key] = &[
     .follows("one filament in the air as it is given")
     .usual(1.0, 1e5)
     .meaning("Filaments per metre of width in each row of holes.")
-    .label("Filaments per metre and row"),
+    .synonyms(&["holes per metre"])
+.label("Filaments per metre and row"),
 ];
 
 fn curtain(case: &mut Case) -> Result<&mut Curtain, Fault> {

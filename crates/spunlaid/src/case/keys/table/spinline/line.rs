@@ -52,7 +52,8 @@ pub(super) const KEYS: &[Key] = &[
         "Melt flow rate of the grade in g/10 min, load 2.16 kg, at `spinline.material.viscosity_temperature`. It gives the \
          viscosity, within some 20 %; `spinline.material.viscosity` may be written instead.",
     )
-    .label("Melt flow rate [g/10 min]")
+    .synonyms(&["MFR", "MFI", "melt flow index"])
+.label("Melt flow rate [g/10 min]")
     .slider(5.0, 100.0),
     quantity("spinline.die_temperature", Dimension::Temperature, Positive, of_spinline!(die_temperature))
         .required("230 °C")
@@ -66,7 +67,8 @@ pub(super) const KEYS: &[Key] = &[
         .told(no_spinline)
         .usual(5e-5, 3e-3)
         .meaning("Diameter of the hole of the spinneret.")
-        .label("Hole diameter"),
+        .synonyms(&["capillary", "nozzle diameter"])
+.label("Hole diameter"),
     quantity("spinline.die_swell", Dimension::Ratio, Positive, of_spinline!(die_swell))
         .value("1.0")
         .usual(0.8, 3.0)
@@ -77,7 +79,8 @@ pub(super) const KEYS: &[Key] = &[
         .told(no_spinline)
         .usual(1e-8, 1e-3)
         .meaning("Mass flow of a hole: g/min, kg/h, g/s or kg/s.")
-        .label("Throughput of a hole")
+        .synonyms(&["output per hole", "mass flow", "grams per minute"])
+.label("Throughput of a hole")
         .slider(1e-6, 3e-5),
     quantity("spinline.length", Dimension::Length, Positive, of_spinline!(length))
         .required("1.6 m")

@@ -1,7 +1,7 @@
-//! `spunlaid check`: shows a case with all defaults, its mesh, limits and expected cost.
+//! A case with all defaults, its mesh, limits and expected cost; a spinline alone.
 
-use super::threads;
 use crate::args::{CaseSource, Check};
+use crate::commands::threads;
 use crate::failure::Failure;
 use crate::say;
 use serde::Serialize;
@@ -9,7 +9,7 @@ use serde_json::Value as Json;
 use spunlaid::air::{Air, Flow};
 use spunlaid::case::{Case, INSTANT_ON_DISK, Note, StepLimit};
 use spunlaid::ensemble::{FinerPlans, KeepShapes, pace};
-use spunlaid::input::{Overrides, holds_spinline_alone, read_spinline, write_case, write_spinline};
+use spunlaid::input::{Overrides, read_spinline, write_case, write_spinline};
 use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid::line::Line;
 use spunlaid::units::Dimension;
@@ -23,10 +23,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-pub(crate) fn check(check: &Check) -> Result<(), Failure> {
-    if holds_spinline_alone(&check.source.case) {
-        return check_spinline(check);
-    }
+/// Checks a case.
+pub(super) fn case(check: &Check) -> Result<(), Failure> {
     let started = Instant::now();
     let (case, notes) = check.source.read(&[])?;
     notes.iter().for_each(say::note);
@@ -55,7 +53,7 @@ pub(crate) fn check(check: &Check) -> Result<(), Failure> {
 }
 
 /// Checks a file that describes a spinline and no fibre that flies.
-fn check_spinline(check: &Check) -> Result<(), Failure> {
+pub(super) fn spinline_alone(check: &Check) -> Result<(), Failure> {
     let CaseSource { case: path, set } = &check.source;
     let file = read_spinline(path, Overrides { values: set, word: "--set" })?;
     file.notes.iter().for_each(say::note);

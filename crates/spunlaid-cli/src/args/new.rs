@@ -1,0 +1,82 @@
+//! `spunlaid new`: a file to start from, and the numbers of a line for one of a web.
+
+use super::quantity;
+use clap::{Args, ValueHint};
+use spunlaid::spinline::Polymer;
+use spunlaid::units::Dimension;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub(crate) struct New {
+    /// File to write; it must not exist yet. A single - is standard output
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) file: PathBuf,
+    /// A fibre that is fed at an inlet and laid on a moving belt, in place of one of fixed length
+    #[arg(long, conflicts_with = "web")]
+    pub(crate) fed: bool,
+    /// The file of a web, with the case of its filament and a table of the air beside it
+    #[arg(long)]
+    pub(crate) web: bool,
+    /// Write FILE_study.toml beside FILE, a study of this case, web or spinline; a case that does not exist yet is written too
+    #[arg(long, conflicts_with = "web")]
+    pub(crate) study: bool,
+    #[command(flatten)]
+    pub(crate) line: LineNumbers,
+}
+
+/// The numbers by which a line is known.
+#[derive(Clone, Debug, Default, Args)]
+#[command(next_help_heading = "Numbers of the line, with --web")]
+pub(crate) struct LineNumbers {
+    /// Polymer: pp, pet, pa6 or pla
+    #[arg(long, value_name = "NAME", requires = "web", value_parser = polymer)]
+    pub(crate) polymer: Option<Polymer>,
+    /// Throughput of a hole, as "0.5 g/min"
+    #[arg(long, value_name = "FLOW", requires = "web", value_parser = |t: &str| quantity(Dimension::MassFlow, t))]
+    pub(crate) throughput: Option<f64>,
+    /// Titre of a filament in dtex, or with its unit, as "1.8 den"
+    #[arg(long, value_name = "TITRE", requires = "web", conflicts_with = "diameter", value_parser = titre)]
+    pub(crate) dtex: Option<f64>,
+    /// Diameter of a filament in place of the titre, as "16 µm"
+    #[arg(long, value_name = "LENGTH", requires = "web", value_parser = |t: &str| quantity(Dimension::Length, t))]
+    pub(crate) diameter: Option<f64>,
+    /// Basis weight of the web, of all beams together, as "20 g/m²" or "20 gsm"
+    #[arg(long, value_name = "WEIGHT", requires = "web", value_parser = |t: &str| quantity(Dimension::BasisWeight, t))]
+    pub(crate) basis_weight: Option<f64>,
+    /// Holes of a beam per metre of width
+    #[arg(long, value_name = "N", requires = "web", value_parser = holes())]
+    pub(crate) holes_per_metre: Option<u64>,
+    /// Holes of a beam in all, in place of those per metre; needs --width
+    #[arg(long, value_name = "N", requires_all = ["web", "width"], conflicts_with = "holes_per_metre", value_parser = holes())]
+    pub(crate) holes: Option<u64>,
+    /// Speed of the air at the end of the slot, as "60 m/s"
+    #[arg(long, value_name = "SPEED", requires = "web", value_parser = |t: &str| quantity(Dimension::Velocity, t))]
+    pub(crate) air_speed: Option<f64>,
+    /// Width of the web [default: "1 m"]
+    #[arg(long, value_name = "LENGTH", requires = "web", value_parser = |t: &str| quantity(Dimension::Length, t))]
+    pub(crate) width: Option<f64>,
+    /// Distance from the slot to the belt [default: "0.5 m"]
+    #[arg(long, value_name = "LENGTH", requires = "web", value_parser = |t: &str| quantity(Dimension::Length, t))]
+    pub(crate) distance: Option<f64>,
+    /// Number of equal beams, one behind the other [default: 1]
+    #[arg(long, value_name = "N", requires = "web", value_parser = clap::value_parser!(u64).range(1..=20))]
+    pub(crate) beams: Option<u64>,
+}
+
+fn holes() -> impl clap::builder::TypedValueParser<Value = u64> {
+    clap::value_parser!(u64).range(1..=10_000_000)
+}
+
+pub(crate) fn polymer(name: &str) -> Result<Polymer, String> {
+    let known = Polymer::ALL.into_iter().find(|polymer| polymer.name() == name.trim());
+    known.ok_or_else(|| format!("write one of {}", Polymer::ALL.map(Polymer::name).join(", ")))
+}
+
+/// A titre [kg/m]; a number without a unit is one in dtex.
+pub(crate) fn titre(text: &str) -> Result<f64, String> {
+    let with_unit = match text.trim().parse::<f64>() {
+        Ok(_) => format!("{} dtex", text.trim()),
+        Err(_) => text.to_owned(),
+    };
+    quantity(Dimension::LinearDensity, &with_unit)
+}

@@ -1,0 +1,78 @@
+//! The case that a command reads, with the changes to it.
+
+use clap::{Args, ValueHint};
+use spunlaid::case::{Case, Note};
+use spunlaid::error::{Error, Fault, Problem};
+use spunlaid::input::{LARGEST_FILE, Overrides, parse_case, read_case};
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+/// A case and changes to it.
+#[derive(Debug, Args)]
+pub(crate) struct CaseSource {
+    /// Case file (TOML). A single - is standard input
+    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    pub(crate) case: PathBuf,
+    /// Set a key of the case for this run, as air.velocity="20 m/s"; can be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
+    pub(crate) set: Vec<(String, String)>,
+}
+
+impl CaseSource {
+    /// Reads the case with the values of `--set` and these.
+    pub(crate) fn read(&self, more: &[(&str, String)]) -> Result<(Case, Vec<Note>), Error> {
+        let more = more.iter().map(|(key, value)| ((*key).to_owned(), value.clone()));
+        let values: Vec<_> = self.set.iter().cloned().chain(more).collect();
+        let overrides = Overrides { values: &values, word: "--set" };
+        if is_standard(&self.case) {
+            return parse_case(&standard_input()?, STANDARD_INPUT, overrides);
+        }
+        read_case(&self.case, overrides)
+    }
+
+    /// The same as arguments of a command line.
+    pub(crate) fn words(&self) -> String {
+        let set = self.set.iter().map(|(key, value)| format!(" --set {}", quoted(&format!("{key}={value}"))));
+        quoted(&self.case.to_string_lossy()) + &set.collect::<String>()
+    }
+}
+
+/// Whether a path means standard input or output.
+pub(crate) fn is_standard(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// What messages call it.
+const STANDARD_INPUT: &str = "standard input";
+
+/// The text on standard input, which is no longer than that of a file.
+fn standard_input() -> Result<String, Error> {
+    let mut text = String::new();
+    let refused = |fault| Error::File(Box::new(Problem::with_path(Path::new(STANDARD_INPUT), fault)));
+    let most = LARGEST_FILE + 1;
+    std::io::stdin().lock().take(most).read_to_string(&mut text).map_err(|error| {
+        refused(Fault::new(format!("cannot be read as UTF-8 text: {error}"), "name the file of a case"))
+    })?;
+    if text.len() as u64 == most {
+        return Err(refused(Fault::new(
+            format!("is longer than {LARGEST_FILE} bytes"),
+            "name the file of a case",
+        )));
+    }
+    Ok(text)
+}
+
+/// A word of a command line, in quotes if the shell would not take it as one word. It stays in its line.
+pub(crate) fn quoted(word: &str) -> String {
+    if word.chars().all(|c| c.is_alphanumeric() || "-_./=:,+%".contains(c)) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace(char::is_control, "?").replace('\'', "'\\''"))
+}
+
+pub(super) fn key_and_value(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=').map(|(key, value)| (key.trim(), value.trim())) {
+        Some((key, value)) if !key.is_empty() => Ok((key.to_owned(), value.to_owned())),
+        _ => Err("write a key and a value, as air.velocity=\"20 m/s\"".to_owned()),
+    }
+}

@@ -1,0 +1,96 @@
+//! A study with all defaults, and its points.
+
+use super::web::numbers;
+use crate::args::Check;
+use crate::commands::{aligned, plural};
+use crate::failure::Failure;
+use crate::say;
+use serde::Serialize;
+use serde_json::Value as Json;
+use spunlaid::input::{Overrides, StudyChanges, StudyFile, StudyNote, read_changed_study};
+use spunlaid::study::{Point, Study};
+use spunlaid_results::output::in_order::InOrder;
+use spunlaid_results::output::json_text;
+
+/// Largest number of points that are listed.
+const LISTED: usize = 24;
+
+/// Checks the file of a study.
+pub(super) fn study(check: &Check) -> Result<(), Failure> {
+    let set = Overrides { values: &check.source.set, word: "--set" };
+    let file = read_changed_study(&check.source.case, &StudyChanges { set, ..StudyChanges::points(None) })?;
+    file.notes.iter().for_each(say::study_note);
+    if check.json {
+        say::text(&json(&file));
+        return Ok(());
+    }
+    // All remarks are comments, so that the output is the file of a study.
+    say::line("# the study with every default");
+    say::text(&file.text);
+    let study = &file.study;
+    let replicates = &study.replicates;
+    let each = match (replicates.at_least, replicates.at_most) {
+        (least, most) if least == most => plural(most, study.noun()),
+        (least, most) => format!("{least} to {}", plural(most, study.noun())),
+    };
+    say::line("");
+    say::line(&format!(
+        "# {} of {}, each with {each}",
+        plural(study.points.len() as u64, "point"),
+        file.base_path.display()
+    ));
+    for line in points(study).lines() {
+        say::line(&format!("# {line}"));
+    }
+    say::line(&format!("# ready: spunlaid sweep {}", check.source.words()));
+    Ok(())
+}
+
+/// A line for each point: the values that vary, and the numbers of the line of a web.
+fn points(study: &Study) -> String {
+    let mut heads = vec!["point".to_owned()];
+    heads.extend(study.inputs().map(|input| input.key.to_owned()));
+    if study.noun() == "web" {
+        heads.extend(["basis weight", "belt", "from each metre"].map(str::to_owned));
+    }
+    let row = |(number, point): (usize, &Point)| {
+        let values = point.values.iter().zip(study.inputs()).map(|(value, input)| input.pretty(*value));
+        let of_web = point.experiment.web().map(numbers).into_iter().flatten();
+        std::iter::once((number + 1).to_string()).chain(values).chain(of_web).collect()
+    };
+    let rows = study.points.iter().enumerate().take(LISTED).map(row);
+    let mut text = aligned(&std::iter::once(heads).chain(rows).collect::<Vec<_>>());
+    if study.points.len() > LISTED {
+        text += &format!("  and {} more points\n", study.points.len() - LISTED);
+    }
+    text
+}
+
+/// The same as JSON.
+fn json(file: &StudyFile) -> String {
+    #[derive(Serialize)]
+    struct Checked {
+        schema_version: u32,
+        spunlaid_version: &'static str,
+        design: &'static str,
+        replicates: [u64; 2],
+        points: Vec<InOrder<Json>>,
+        notes: Vec<String>,
+    }
+    let study = &file.study;
+    let point = |point: &Point| {
+        let values = point.values.iter().zip(study.inputs());
+        let value = |(value, input): (&f64, spunlaid::study::Input<'_>)| {
+            (input.column(), input.word(*value).map_or_else(|| Json::from(*value), Json::from))
+        };
+        InOrder(values.map(value).collect())
+    };
+    json_text(&Checked {
+        schema_version: 1,
+        spunlaid_version: env!("CARGO_PKG_VERSION"),
+        design: study.design.name(),
+        replicates: [study.replicates.at_least, study.replicates.at_most],
+        points: study.points.iter().map(point).collect(),
+        notes: file.notes.iter().map(StudyNote::to_string).collect(),
+    })
+}

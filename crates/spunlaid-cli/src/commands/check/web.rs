@@ -1,0 +1,195 @@
+//! A web with all defaults, and the numbers of its line.
+
+use crate::args::Check;
+use crate::commands::plural;
+use crate::failure::Failure;
+use crate::say;
+use serde::Serialize;
+use spunlaid::air::Lateral;
+use spunlaid::case::Note;
+use spunlaid::input::{LaydownSource, LayerSpec, Method, Overrides, WebSpec, read_web};
+use spunlaid::units::Dimension;
+use spunlaid::web::Filaments;
+use spunlaid_results::numbers::significant;
+use spunlaid_results::output::json_text;
+use spunlaid_results::output::spinline::SpinSummary;
+
+/// Checks the file of a web.
+pub(super) fn web(check: &Check) -> Result<(), Failure> {
+    let set = Overrides { values: &check.source.set, word: "--set" };
+    let file = read_web(&check.source.case, set)?;
+    file.notes.iter().for_each(say::note);
+    let notes: Vec<String> = file.notes.iter().map(Note::to_string).collect();
+    if check.json {
+        say::text(&json_text(&Checked::new(&file.spec, notes)));
+        return Ok(());
+    }
+    // All remarks are comments, so that the output is the file of a web.
+    say::line("# the web with every default");
+    say::text(&file.text);
+    say::line("");
+    for line in line(&file.spec).into_iter().chain(sheet(&file.spec)).chain(air(&file.spec)) {
+        say::line(&format!("# {line}"));
+    }
+    say::line(&format!("# ready: spunlaid web {}", check.source.words()));
+    Ok(())
+}
+
+/// The same as JSON.
+#[derive(Serialize)]
+struct Checked {
+    schema_version: u32,
+    spunlaid_version: &'static str,
+    basis_weight_kg_m2: f64,
+    belt_speed_m_s: Option<f64>,
+    /// From each metre of width.
+    mass_flow_kg_s_m: f64,
+    layers: Vec<CheckedLayer>,
+    notes: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct CheckedLayer {
+    name: Option<String>,
+    diameter_m: f64,
+    linear_density_kg_m: f64,
+    feed_speed_m_s: f64,
+    /// Of each hole.
+    throughput_kg_s: f64,
+    filaments: u64,
+    filaments_per_m: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    spinline: Option<SpinSummary>,
+}
+
+impl Checked {
+    fn new(spec: &WebSpec, notes: Vec<String>) -> Self {
+        let layer = |layer: &LayerSpec| {
+            let filaments = layer.filaments.count(&spec.sheet);
+            CheckedLayer {
+                name: layer.name.clone(),
+                diameter_m: layer.diameter,
+                linear_density_kg_m: layer.linear_density(),
+                feed_speed_m_s: layer.feed_speed,
+                throughput_kg_s: layer.linear_density() * layer.feed_speed,
+                filaments,
+                filaments_per_m: filaments as f64 / spec.sheet.width,
+                spinline: layer.source.case().and_then(SpinSummary::of_case),
+            }
+        };
+        Self {
+            schema_version: 1,
+            spunlaid_version: env!("CARGO_PKG_VERSION"),
+            basis_weight_kg_m2: weight(spec),
+            belt_speed_m_s: belt(spec),
+            mass_flow_kg_s_m: spec.mass_flow(),
+            layers: spec.layers.iter().map(layer).collect(),
+            notes,
+        }
+    }
+}
+
+/// The speed of the belt, on which all layers lie [m/s].
+fn belt(spec: &WebSpec) -> Option<f64> {
+    spec.layers.first().map(|layer| layer.belt_speed)
+}
+
+/// Mass of the web per area [kg/m²].
+fn weight(spec: &WebSpec) -> f64 {
+    belt(spec).map_or(f64::NAN, |belt| spec.mass_flow() / belt)
+}
+
+/// The numbers by which a line is known: `20 g/m² on a belt of 2.083 m/s`, `150 kg/h`.
+pub(super) fn numbers(spec: &WebSpec) -> [String; 3] {
+    [
+        format!("{} g/m²", significant(weight(spec) * 1e3, 4)),
+        Dimension::Velocity.pretty(belt(spec).unwrap_or(f64::NAN)),
+        format!("{} kg/h", significant(spec.mass_flow() * 3600.0, 4)),
+    ]
+}
+
+/// The numbers of the line, and those of each layer.
+fn line(spec: &WebSpec) -> Vec<String> {
+    let [weight, belt, flow] = numbers(spec);
+    let whole = format!("  {weight} on a belt of {belt}: {flow} from each metre of width");
+    let several = spec.layers.len() > 1;
+    let layer = |(number, layer): (usize, &LayerSpec)| {
+        let name = layer.name.as_ref().map_or_else(|| (number + 1).to_string(), |name| format!("\"{name}\""));
+        let filaments = layer.filaments.count(&spec.sheet);
+        let alone = spec.alone(number).mass_flow() / layer.belt_speed;
+        format!(
+            "  {}{} holes per metre of width, each with {} g/min: filaments of {} dtex, {}, fed at {}; {} of filament on each metre of \
+             belt{}",
+            if several { format!("layer {name}: ") } else { String::new() },
+            significant(filaments as f64 / spec.sheet.width, 4),
+            significant(layer.linear_density() * layer.feed_speed * 6e4, 4),
+            significant(layer.linear_density() * 1e7, 4),
+            Dimension::Length.pretty(layer.diameter),
+            Dimension::Velocity.pretty(layer.feed_speed),
+            Dimension::Length.pretty_to(layer.feed_speed / layer.belt_speed, 3),
+            if several { format!("; {} g/m²", significant(alone * 1e3, 4)) } else { String::new() },
+        )
+    };
+    ["line".to_owned(), whole].into_iter().chain(spec.layers.iter().enumerate().map(layer)).collect()
+}
+
+fn sheet(spec: &WebSpec) -> [String; 2] {
+    let size = |size: f64| Dimension::Length.pretty(size);
+    let [columns, rows] = spec.sheet.cells();
+    let filaments: u64 = spec.layers.iter().map(|layer| layer.filaments.count(&spec.sheet)).sum();
+    let whole = format!(
+        "  {} wide and {} long, {columns} × {rows} cells of {}; {} cross it",
+        size(spec.sheet.width),
+        size(spec.sheet.length),
+        size(spec.sheet.cell),
+        plural(filaments, "filament"),
+    );
+    ["sheet".to_owned(), whole]
+}
+
+/// In which air the filaments hang, and what that means for the CV.
+fn air(spec: &WebSpec) -> Vec<String> {
+    let flown = |layer: &LayerSpec| {
+        let path = layer.source.path().display();
+        match &layer.source {
+            LaydownSource::Surrogate(_) => {
+                "  nothing is flown: the spread and the noise are given".to_owned()
+            }
+            LaydownSource::Results { .. } => {
+                format!("  the filaments are those of {path}, which were flown before")
+            }
+            LaydownSource::Case { case, .. } => format!(
+                "  {path}: {}",
+                match case.air.lateral {
+                    Lateral::Uniform =>
+                        "its air is the same everywhere across the flow (air.lateral = \"uniform\")",
+                    Lateral::VonKarman { .. } => "its eddies lie in space (air.lateral = \"von-karman\")",
+                }
+            ),
+        }
+    };
+    let mut lines = vec!["air".to_owned()];
+    for line in spec.layers.iter().map(flown) {
+        if !lines.contains(&line) {
+            lines.push(line);
+        }
+    }
+    let flies = spec.layers.iter().all(|layer| matches!(layer.source, LaydownSource::Case { .. }));
+    let is_at_random = matches!(&spec.layers[..], [LayerSpec { filaments: Filaments::AtRandom { .. }, .. }]);
+    lines.extend(match (spec.method, flies) {
+        (Method::SharedAir, _) => {
+            vec!["  all filaments fly in one field of eddies, so that neighbours come down together".to_owned()]
+        }
+        (_, flies) => vec![
+            "  the filaments are independent of each other, which gives a lower bound of the unevenness".to_owned(),
+            match (flies, is_at_random) {
+                (false, _) => "  to fly them in one air, as in a line: name a case in laydown.case".to_owned(),
+                (true, false) => "  to fly them in one air, as in a line: --set web.method=shared-air".to_owned(),
+                (true, true) => "  to fly them in one air, as in a line: --set web.method=shared-air --set line.depth=\"20 mm\" (the \
+                                  depth of the slot)"
+                    .to_owned(),
+            },
+        ],
+    });
+    lines
+}

@@ -1,0 +1,123 @@
+//! Asks for the numbers of a line that are not given.
+
+use crate::args::{LineNumbers, polymer, quantity, titre};
+use crate::failure::Failure;
+use crate::say;
+use spunlaid::error::Fault;
+use spunlaid::units::Dimension;
+use std::io::BufRead;
+
+/// The numbers with those that were missing, from a person's answers; without one to ask, those that cannot be missing are
+/// refused.
+///
+/// * `answers` – lines that a person types
+pub(super) fn complete(
+    mut of: LineNumbers,
+    mut answers: Option<&mut impl BufRead>,
+) -> Result<LineNumbers, Failure> {
+    let Some(answers) = &mut answers else {
+        let missing = missing(&of);
+        if missing.is_empty() {
+            return Ok(of);
+        }
+        let message = format!("the numbers of the line are incomplete: {} missing", is_or_are(&missing));
+        let remedy =
+            "give them, or call the command in a terminal, where it asks; `spunlaid new --help` has examples";
+        return Err(Fault::new(message, remedy).into());
+    };
+    let holes = |text: &str| match text.parse() {
+        Ok(number @ 1..=10_000_000) => Ok(number),
+        _ => Err("write a whole number from 1 to 10000000".to_owned()),
+    };
+    let beams = |text: &str| match text.parse() {
+        Ok(number @ 1..=20) => Ok(number),
+        _ => Err("write a whole number from 1 to 20".to_owned()),
+    };
+    ask(answers, &mut of.polymer, "Polymer: pp, pet, pa6 or pla", "pp", polymer)?;
+    ask(answers, &mut of.throughput, "Throughput of a hole", "0.5 g/min", |t| {
+        quantity(Dimension::MassFlow, t)
+    })?;
+    if of.diameter.is_none() {
+        ask(answers, &mut of.dtex, "Titre of a filament", "2 dtex", titre)?;
+    }
+    ask(answers, &mut of.basis_weight, "Basis weight of the web", "20 g/m²", |t| {
+        quantity(Dimension::BasisWeight, t)
+    })?;
+    ask(answers, &mut of.width, "Width of the web", "1 m", |t| quantity(Dimension::Length, t))?;
+    if of.holes.is_none() {
+        ask(answers, &mut of.holes_per_metre, "Holes of a beam per metre of width", "5000", holes)?;
+    }
+    ask(answers, &mut of.beams, "Number of equal beams", "1", beams)?;
+    ask(answers, &mut of.air_speed, "Speed of the air at the end of the slot", "60 m/s", |t| {
+        quantity(Dimension::Velocity, t)
+    })?;
+    ask(answers, &mut of.distance, "Distance from the slot to the belt", "0.5 m", |t| {
+        quantity(Dimension::Length, t)
+    })?;
+    Ok(of)
+}
+
+/// The options without which there is no line.
+fn missing(of: &LineNumbers) -> Vec<&'static str> {
+    let needed = [
+        (of.polymer.is_some(), "--polymer"),
+        (of.throughput.is_some(), "--throughput"),
+        (of.dtex.is_some() || of.diameter.is_some(), "--dtex (or --diameter)"),
+        (of.basis_weight.is_some(), "--basis-weight"),
+        (of.holes_per_metre.is_some() || of.holes.is_some(), "--holes-per-metre (or --holes)"),
+        (of.air_speed.is_some(), "--air-speed"),
+    ];
+    needed.into_iter().filter(|(is_there, _)| !is_there).map(|(_, option)| option).collect()
+}
+
+/// `--dtex is`, `--dtex and --polymer are`.
+fn is_or_are(options: &[&str]) -> String {
+    match options {
+        [one] => format!("{one} is"),
+        [more @ .., last] => format!("{} and {last} are", more.join(", ")),
+        [] => String::new(),
+    }
+}
+
+/// Asks for a value that is not there, again and again until the answer can be read. An empty answer is the usual value.
+fn ask<T>(
+    answers: &mut impl BufRead,
+    value: &mut Option<T>,
+    question: &str,
+    usual: &str,
+    read: impl Fn(&str) -> Result<T, String>,
+) -> Result<(), Failure> {
+    while value.is_none() {
+        say::prompt(&format!("{question} [{usual}]: "));
+        let mut answer = String::new();
+        let is_there = answers.read_line(&mut answer).is_ok_and(|bytes| bytes > 0);
+        if !is_there {
+            return Err(Fault::new("the answers end too early", "answer each question").into());
+        }
+        let answer = if answer.trim().is_empty() { usual } else { answer.trim() };
+        match read(answer) {
+            Ok(found) => *value = Some(found),
+            Err(why) => say::aside(&format!("\"{answer}\" {why}")),
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn asks_for_what_is_missing_until_it_can_be_read() {
+        let given = LineNumbers { throughput: Some(1e-5), diameter: Some(16e-6), ..LineNumbers::default() };
+        // Polymer, basis weight with two answers that cannot be read, width, holes, beams, air, distance.
+        let mut answers = "pet\ntwenty\n15\n15 gsm\n4.5 m\n\n2\n70 m/s\n\n".as_bytes();
+        let of = complete(given, Some(&mut answers)).unwrap_or_default();
+        assert_eq!(of.polymer.map(spunlaid::spinline::Polymer::name), Some("pet"));
+        assert_eq!((of.throughput, of.diameter, of.dtex), (Some(1e-5), Some(16e-6), None));
+        assert_eq!((of.basis_weight, of.width, of.holes_per_metre), (Some(0.015), Some(4.5), Some(5000)));
+        assert_eq!((of.beams, of.air_speed, of.distance), (Some(2), Some(70.0), Some(0.5)));
+        let said = complete(LineNumbers::default(), Some(&mut "pp\n".as_bytes())).unwrap_err().to_string();
+        assert!(said.contains("the answers end too early"), "{said}");
+    }
+}

@@ -1,0 +1,224 @@
+//! The files of a line: its web, the case of its filament, and the air between slot and belt.
+
+use crate::args::LineNumbers;
+use spunlaid::spinline::Polymer;
+use spunlaid::units::Dimension;
+use spunlaid_results::numbers::significant;
+use std::f64::consts::PI;
+
+/// What a line has if it is not said.
+const WIDTH: f64 = 1.0;
+const DISTANCE: f64 = 0.5;
+/// Turbulence of the air between slot and belt, of the usual size: intensity, length of an eddy [m], and the velocity at the belt
+/// over that at the slot.
+const INTENSITY: f64 = 0.1;
+const EDDY: f64 = 16e-3;
+const SLOWED: f64 = 1.0 / 6.0;
+
+/// Digits with which a number that was given is written.
+const GIVEN: usize = 9;
+
+/// The numbers of a line, in SI units.
+pub(super) struct Line {
+    polymer: Polymer,
+    throughput: f64,
+    /// As it was given: a titre, or a diameter.
+    size: Size,
+    basis_weight: f64,
+    holes_per_metre: u64,
+    holes: Option<u64>,
+    beams: u64,
+    width: f64,
+    distance: f64,
+    air_speed: f64,
+}
+
+/// How fine a filament is.
+#[derive(Clone, Copy)]
+enum Size {
+    /// [kg/m]
+    Titre(f64),
+    /// [m]
+    Diameter(f64),
+}
+
+impl Line {
+    /// The line of complete numbers.
+    pub(super) fn new(of: &LineNumbers) -> Self {
+        let nan = f64::NAN;
+        let width = of.width.unwrap_or(WIDTH);
+        let in_all = of.holes.map(|holes| (holes as f64 / width).round().max(1.0) as u64);
+        Self {
+            polymer: of.polymer.unwrap_or(Polymer::Pp),
+            throughput: of.throughput.unwrap_or(nan),
+            size: of.diameter.map_or(Size::Titre(of.dtex.unwrap_or(nan)), Size::Diameter),
+            basis_weight: of.basis_weight.unwrap_or(nan),
+            holes_per_metre: of.holes_per_metre.or(in_all).unwrap_or(1),
+            holes: of.holes,
+            beams: of.beams.unwrap_or(1),
+            width,
+            distance: of.distance.unwrap_or(DISTANCE),
+            air_speed: of.air_speed.unwrap_or(nan),
+        }
+    }
+
+    fn density(&self) -> f64 {
+        self.polymer.material(false).solid_density
+    }
+
+    /// Mass per length of a filament [kg/m].
+    fn titre(&self) -> f64 {
+        match self.size {
+            Size::Titre(titre) => titre,
+            Size::Diameter(diameter) => 0.25 * PI * diameter * diameter * self.density(),
+        }
+    }
+
+    fn feed_speed(&self) -> f64 {
+        self.throughput / self.titre()
+    }
+
+    /// Mass flow from each metre of width, of all beams [kg/(m s)].
+    fn mass_flow(&self) -> f64 {
+        (self.beams * self.holes_per_metre) as f64 * self.throughput
+    }
+
+    fn belt_speed(&self) -> f64 {
+        self.mass_flow() / self.basis_weight
+    }
+
+    /// What is odd about these numbers.
+    pub(super) fn warnings(&self) -> Vec<String> {
+        let [air, feed] = [self.air_speed, self.feed_speed()].map(speed);
+        let slow = format!(
+            "the air of {air} is not faster than the filament, {feed}, and cannot draw it: check air speed, throughput and titre"
+        );
+        (self.air_speed <= self.feed_speed()).then_some(slow).into_iter().collect()
+    }
+
+    /// The file of the web.
+    pub(super) fn web(&self, name: &str, case: &str) -> String {
+        let Self { throughput, basis_weight, holes_per_metre, beams, width, .. } = *self;
+        let flow = self.mass_flow();
+        let times_beams = if beams > 1 { format!("{beams} beams × ") } else { String::new() };
+        let holes = match self.holes {
+            Some(holes) => format!("{holes} holes / {}; ", given(Dimension::Length, width)),
+            None => String::new(),
+        };
+        let mut text = format!(
+            "# A spunbond line in its own words; the speeds follow. Each comment says how.\n\
+             #\n\
+             #     spunlaid check {name}.toml     # these numbers, and those that follow from them\n\
+             #     spunlaid web {name}.toml       # flies some filaments, lays the web and says how even it is\n\
+             version = 1\n"
+        );
+        for number in 1..=beams {
+            let (header, prefix) = match beams {
+                1 => (String::new(), ""),
+                _ => (format!("\n[[layer]]\nname = \"beam {number}\"\n"), "layer."),
+            };
+            text += &header;
+            let weight = format!(
+                "basis_weight = \"{}\"   # of the whole web: {times_beams}{holes_per_metre} holes/m × {} / {} = a belt of {}\n",
+                given(Dimension::BasisWeight, basis_weight),
+                flow_of_hole(throughput),
+                Dimension::BasisWeight.pretty(basis_weight),
+                speed(self.belt_speed()),
+            );
+            text += &format!(
+                "\n[{prefix}laydown]\ncase = \"{case}\"   # the filament, its air and the way to the belt\n\n\
+                 [{prefix}line]\nthroughput = \"{}\"   # of each hole: {} / {} dtex = fed at {}\n{}\
+                 filaments_per_metre = {holes_per_metre}   # {holes}{} kg/h from each metre of width, {} kg/h in all\n",
+                given(Dimension::MassFlow, throughput),
+                flow_of_hole(throughput),
+                significant(self.titre() * 1e7, 4),
+                speed(self.feed_speed()),
+                if number == 1 { weight } else { String::new() },
+                significant(flow / beams as f64 * 3600.0, 4),
+                significant(flow / beams as f64 * width * 3600.0, 4),
+            );
+            text += "depth = \"20 mm\"   # of the slot, a guess: the filaments come at an even pitch, each at a random depth\n";
+        }
+        text + &format!(
+            "\n[web]\nwidth = \"{}\"\nlength = \"1 m\"   # of the stretch that is looked at\n\
+             method = \"dynamics\"   # the curves of the flown filaments, independent of each other: a lower bound\n\
+             # method = \"shared-air\"   # all filaments in one air, as in the line: some minutes, with a width of 0.5 m\n\
+             # edges = \"cut\"   # if the edges of the web are to be seen; without, it is a part of a wide web\n",
+            given(Dimension::Length, width)
+        )
+    }
+
+    /// The case of the filament.
+    pub(super) fn case(&self, name: &str, air: &str) -> String {
+        let density = self.density();
+        let size = match self.size {
+            Size::Titre(titre) => format!(
+                "linear_density = \"{} dtex\"   # of {}: √(4 × titre / (π × density))",
+                significant(titre * 1e7, GIVEN as i32),
+                length((4.0 * titre / (PI * density)).sqrt())
+            ),
+            Size::Diameter(diameter) => format!(
+                "diameter = \"{}\"   # {} dtex: π/4 × diameter² × density",
+                given(Dimension::Length, diameter),
+                significant(self.titre() * 1e7, 4)
+            ),
+        };
+        // A filament as spun is oriented somewhat.
+        let modulus = 1.5 * self.polymer.material(false).unoriented_modulus;
+        format!(
+            "# The filament of {name}.toml, from the end of the slot to the belt.\n\
+             # The speeds are those of the line. {name}.toml sets them anew from its throughput and basis weight.\n\
+             version = 1\n\n\
+             [fibre]\n{size}\ndensity = \"{}\"   # of solid {}\n\
+             youngs_modulus = \"{}\"   # half as much again as without orientation, a guess: the lay-down hardly depends on it\n\
+             root = \"clamped\"   # the filament leaves the slot straight down\n\n\
+             [feed]\nspeed = \"{}\"   # {} / {} dtex\n\n\
+             [belt]\ndistance = \"{}\"   # from the slot to the belt\nspeed = \"{}\"   # {} / {}\n\n\
+             [air]\nprofile = \"{air}\"   # made up, of the usual shape: replace it by measured or computed air (docs/air.md)\n\
+             widening = \"md\"   # the air slows down because it widens along the belt\n\n\
+             [drag]\nacross = \"marheineke-wegener\"   # agrees with measurements\n\n\
+             [run]\nduration = \"1 s\"   # longer, or with more replicates: smaller errors\nreplicates = 8\n",
+            Dimension::Density.pretty(density),
+            self.polymer.name(),
+            Dimension::Pressure.pretty_to(modulus, 2),
+            speed(self.feed_speed()),
+            flow_of_hole(self.throughput),
+            significant(self.titre() * 1e7, 4),
+            given(Dimension::Length, self.distance),
+            speed(self.belt_speed()),
+            format_args!("{} kg/h and metre", significant(self.mass_flow() * 3600.0, 4)),
+            Dimension::BasisWeight.pretty(self.basis_weight),
+        )
+    }
+
+    /// The air between slot and belt: it slows down evenly.
+    pub(super) fn air(&self) -> String {
+        let row = |[place, velocity]: [f64; 2]| {
+            let cutoff = velocity / (4.0 * EDDY);
+            format!("{},{},{INTENSITY},{},{}\n", place * 1e3, velocity, EDDY * 1e3, significant(cutoff, 4))
+        };
+        let rows = [[0.0, self.air_speed], [self.distance, SLOWED * self.air_speed]].map(row);
+        format!(
+            "# Air between the slot and the belt: made up, of the usual shape and size (cut-off = velocity / 4 / length scale).\n\
+             x_mm,velocity_m_s,turbulence_intensity,length_scale_mm,cutoff_frequency_hz\n{}",
+            rows.concat()
+        )
+    }
+}
+
+/// A number that was given, with all its digits.
+fn given(dimension: Dimension, value: f64) -> String {
+    dimension.pretty_to(value, GIVEN)
+}
+
+fn length(metres: f64) -> String {
+    Dimension::Length.pretty(metres)
+}
+
+fn speed(metres_per_second: f64) -> String {
+    Dimension::Velocity.pretty(metres_per_second)
+}
+
+fn flow_of_hole(kilograms_per_second: f64) -> String {
+    Dimension::MassFlow.pretty(kilograms_per_second)
+}

@@ -1,0 +1,92 @@
+//! `spunlaid new`: writes a file to start from. It never overwrites one.
+
+mod ask;
+mod line;
+mod study;
+
+use crate::args::{New, is_standard};
+use crate::failure::Failure;
+use crate::say;
+use ask::complete;
+use line::Line;
+use spunlaid::error::{Error, Fault};
+use spunlaid::input::{read_web, starter_case, starter_case_of_fed};
+use std::fs::{OpenOptions, remove_file};
+use std::io::{ErrorKind, IsTerminal, Write, stderr, stdin};
+use std::path::{Path, PathBuf};
+
+pub(crate) fn new(new: &New) -> Result<(), Failure> {
+    let path = &new.file;
+    if new.web {
+        return web(new);
+    }
+    let case = if new.fed { starter_case_of_fed() } else { starter_case() };
+    if new.study {
+        return study::study(path, case);
+    }
+    if is_standard(path) {
+        say::text(case);
+        return Ok(());
+    }
+    write(path, case)?;
+    say::line(&format!("wrote {}; change it, then: spunlaid run {}", path.display(), path.display()));
+    Ok(())
+}
+
+/// Writes the file of a web, the case of its filament and the table of the air.
+fn web(new: &New) -> Result<(), Failure> {
+    let is_terminal = stdin().is_terminal() && stderr().is_terminal();
+    let mut answers = is_terminal.then(|| stdin().lock());
+    let line = Line::new(&complete(new.line.clone(), answers.as_mut())?);
+    let path = &new.file;
+    if is_standard(path) {
+        let fault =
+            Fault::new("is standard output, and a web is written with two files beside it", "name a file");
+        return Err(Error::folder(path, fault).into());
+    }
+    let name = super::stem(path, "line").to_string_lossy().into_owned();
+    let [case, air] = [format!("{name}_filament.toml"), format!("{name}_air.csv")];
+    let files = [
+        (path.with_file_name(&air), line.air()),
+        (path.with_file_name(&case), line.case(&name, &air)),
+        (path.clone(), line.web(&name, &case)),
+    ];
+    let mut written: Vec<&PathBuf> = Vec::new();
+    let done = files.iter().try_for_each(|(path, text)| {
+        write(path, text)?;
+        written.push(path);
+        Ok(())
+    });
+    // What is written can be laid, or nothing is written.
+    let read = done.and_then(|()| read_web(path, &[]).map_err(Failure::from));
+    if let Err(failure) = read {
+        for path in written {
+            let _ = remove_file(path);
+        }
+        return Err(failure);
+    }
+    line.warnings().iter().for_each(|warning| say::warning(warning));
+    let path = path.display();
+    say::line(&format!(
+        "wrote {path}, {case} and {air}; change them, then: spunlaid check {path}, spunlaid web {path}"
+    ));
+    Ok(())
+}
+
+/// Writes a file that does not exist yet.
+fn write(path: &Path, text: &str) -> Result<(), Failure> {
+    let written = OpenOptions::new().write(true).create_new(true).open(path).and_then(|mut file| {
+        file.write_all(text.as_bytes()).inspect_err(|_| {
+            let _ = remove_file(path);
+        })
+    });
+    written.map_err(|error| {
+        if error.kind() == ErrorKind::AlreadyExists {
+            let fault = Fault::new("exists already and is not overwritten", "name another file");
+            Error::folder(path, fault).into()
+        } else {
+            let fault = Fault::new(format!("cannot be written: {error}"), "name another file");
+            Error::system(path, fault).into()
+        }
+    })
+}

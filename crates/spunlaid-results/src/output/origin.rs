@@ -1,0 +1,95 @@
+//! What results were made from, as it stands in their folder.
+
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+
+/// The file in a results folder.
+pub const ORIGIN: &str = "origin.toml";
+
+/// The command that makes results: its file and the values that it changes. The same command may replace what it wrote before.
+#[derive(Clone, Debug)]
+pub struct Origin {
+    text: String,
+}
+
+impl Origin {
+    /// * `command` – its name, `run`
+    /// * `file` – the file that it reads
+    /// * `changes` – keys with the values that replace those of the file
+    /// * `folder` – of the results
+    pub fn new(command: &str, file: &Path, changes: &[(String, String)], folder: &Path) -> Self {
+        let changes: Vec<String> =
+            changes.iter().map(|(key, value)| format!("{:?}", format!("{key}={value}"))).collect();
+        let file = relative(&whole(folder), &whole(file));
+        let text = format!(
+            "# `spunlaid {command}` of this file, seen from this folder, replaces these results when it runs again with the same changes.\n\
+             command = \"{command}\"\nfile = {:?}\nchanges = [{}]\n",
+            file.to_string_lossy(),
+            changes.join(", ")
+        );
+        Self { text }
+    }
+
+    /// The text of the file.
+    pub(super) fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Whether the results in a folder were made by this command.
+    pub(super) fn is_of(&self, folder: &Path) -> bool {
+        fs::read_to_string(folder.join(ORIGIN)).is_ok_and(|text| text == self.text)
+    }
+}
+
+/// The whole path of a file or folder, of which the last parts may not exist yet.
+fn whole(path: &Path) -> PathBuf {
+    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let known = path.ancestors().find_map(|above| Some((above.canonicalize().ok()?, above)));
+    known.map_or_else(
+        || path.clone(),
+        |(canonical, above)| canonical.join(path.strip_prefix(above).unwrap_or(Path::new(""))),
+    )
+}
+
+/// A path as it is seen from a folder. Both are whole.
+fn relative(folder: &Path, path: &Path) -> PathBuf {
+    let common = folder.components().zip(path.components()).take_while(|(a, b)| a == b).count();
+    if common == 0 {
+        return path.to_owned();
+    }
+    let up = folder.components().skip(common).map(|_| Component::ParentDir);
+    up.chain(path.components().skip(common)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_seen_from_the_folder() {
+        let seen = |folder: &str, file: &str| relative(Path::new(folder), Path::new(file));
+        assert_eq!(seen("/a/results/my", "/a/my.toml"), Path::new("../../my.toml"));
+        assert_eq!(seen("/a/my", "/a/my/case.toml"), Path::new("case.toml"));
+        assert_eq!(seen("/a", "/b/c/my.toml"), Path::new("../b/c/my.toml"));
+    }
+
+    #[test]
+    fn only_the_same_command_file_and_changes_are_the_same_origin() {
+        let place = tempfile::tempdir().unwrap();
+        let folder = place.path().join("results/my");
+        let file = place.path().join("my.toml");
+        let change = [("air.velocity".to_owned(), "20 m/s".to_owned())];
+        let first = Origin::new("run", &file, &change, &folder);
+        fs::create_dir_all(&folder).unwrap();
+        assert!(!first.is_of(&folder), "an empty folder is of nothing");
+        fs::write(folder.join(ORIGIN), first.text()).unwrap();
+        // The folder exists now, which changes nothing.
+        assert!(Origin::new("run", &file, &change, &folder).is_of(&folder));
+        let others = [
+            Origin::new("web", &file, &change, &folder),
+            Origin::new("run", &place.path().join("other.toml"), &change, &folder),
+            Origin::new("run", &file, &[], &folder),
+        ];
+        assert!(others.iter().all(|other| !other.is_of(&folder)));
+    }
+}
