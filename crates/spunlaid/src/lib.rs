@@ -61,7 +61,7 @@ pub mod units;
 
 pub mod error;
 
-mod threads;
+pub mod threads;
 
 mod company;
 

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Does pieces of work on some threads; the results are in the order of the pieces.
 ///
 /// * `work` – does the piece of a number
-pub(crate) fn each<T: Send>(threads: usize, pieces: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
+pub fn each<T: Send>(threads: usize, pieces: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let Ok(done) = share(threads, pieces, |piece| Ok::<_, Infallible>(work(piece)));
     done
 }

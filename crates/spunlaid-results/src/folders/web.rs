@@ -48,6 +48,16 @@ impl WebFolder<'_> {
     /// # Errors
     /// If a file cannot be written, or the computation is interrupted.
     pub fn write(&self, staging: &Staging<'_>, laying: Laying<'_>) -> Result<(), Failure> {
+        // The map is packed while everything else is made.
+        std::thread::scope(|scope| {
+            let map = scope.spawn(|| web::write_map(staging, &self.findings.laid.map));
+            let others = self.write_others(staging, laying);
+            map.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)).and(others)
+        })
+    }
+
+    /// Writes all files but those of the map.
+    fn write_others(&self, staging: &Staging<'_>, laying: Laying<'_>) -> Result<(), Failure> {
         let window = self.file.spec.window();
         let strands = match &self.findings.laid.together {
             Some(together) => Cow::Borrowed(&together.strands[..]),
@@ -65,27 +75,26 @@ impl WebFolder<'_> {
         }
         let all: Vec<&Figure> =
             figures.iter().chain(spinlines.iter().flat_map(|spinline| &spinline.figures)).collect();
-        // The map is packed while the figures are drawn.
-        let (files, drawn) = std::thread::scope(|scope| {
-            let files = scope.spawn(|| web::write(staging, self.findings, &strands));
-            let draw = |name, content: &[u8]| staging.write(&format!("figures/{name}"), content);
-            let drawn = pictures::write(&all, draw);
-            (files.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), drawn)
-        });
-        files.and(drawn)?;
-        let report = web_html(&WebReport {
-            name: self.name,
-            web: self.web,
-            findings: self.findings,
-            layers: &rows(&self.file.spec, self.web, self.layers),
-            strands: &strands,
-            window,
-            diameter: self.file.spec.layers.first().map_or(0.0, |layer| layer.diameter),
-            figures: &figures,
-            spinlines: &spinlines,
-            notes: self.notes,
-            toml: &self.file.text,
-            performance: self.performance,
+        let report = std::thread::scope(|scope| {
+            let others = scope.spawn(|| {
+                pictures::write(&all, |name, content| staging.write(&format!("figures/{name}"), content))?;
+                web::write_strands(staging, &strands)
+            });
+            let report = web_html(&WebReport {
+                name: self.name,
+                web: self.web,
+                findings: self.findings,
+                layers: &rows(&self.file.spec, self.web, self.layers),
+                strands: &strands,
+                window,
+                diameter: self.file.spec.layers.first().map_or(0.0, |layer| layer.diameter),
+                figures: &figures,
+                spinlines: &spinlines,
+                notes: self.notes,
+                toml: &self.file.text,
+                performance: self.performance,
+            });
+            others.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)).and(report)
         })?;
         staging.write("web.toml", &self.file.text)?;
         staging.write("report.html", report)?;

@@ -1,16 +1,23 @@
 //! Writes Parquet tables in groups of rows.
 
 use crate::{Failure, failure};
+use bytes::Bytes;
 use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as PhysicalType};
+use parquet::column::writer::{ColumnCloseResult, get_column_writer, get_typed_column_writer_mut as typed};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
-use parquet::file::properties::WriterProperties;
-use parquet::file::writer::SerializedFileWriter;
-use parquet::schema::types::Type;
+use parquet::file::properties::{WriterProperties, WriterPropertiesPtr};
+use parquet::file::writer::{SerializedFileWriter, SerializedPageWriter, TrackedWrite};
+use parquet::schema::types::{ColumnDescPtr, Type};
+use spunlaid::threads::each;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::thread::available_parallelism;
+
+/// Rows of a group that are packed faster than threads begin.
+const FEW: usize = 1 << 12;
 
 /// A column of a table.
 #[derive(Clone, Debug)]
@@ -162,20 +169,40 @@ impl Parquet {
         Ok(())
     }
 
+    /// Writes a group of rows, each column of which is packed on a thread.
     fn write_group(&mut self) -> Result<(), ParquetError> {
+        let threads = if self.rows < FEW { 1 } else { available_parallelism().map_or(1, usize::from) };
+        let (schema, properties) = (self.writer.schema_descr(), self.writer.properties());
+        let columns = &self.columns;
+        let packed = each(threads, columns.len(), |i| columns[i].pack(schema.column(i), properties.clone()));
         let mut group = self.writer.next_row_group()?;
-        for gathered in &self.columns {
-            let Some(mut column) = group.next_column()? else { break };
-            match gathered {
-                Gathered::Whole(values) => column.typed::<Int64Type>().write_batch(values, None, None)?,
-                Gathered::Text(values) => column.typed::<ByteArrayType>().write_batch(values, None, None)?,
-                Gathered::Number(values) => column.typed::<DoubleType>().write_batch(values, None, None)?,
-                Gathered::Optional(values, known) => {
-                    column.typed::<DoubleType>().write_batch(values, Some(known), None)?
-                }
-            };
-            column.close()?;
+        for column in packed {
+            let (bytes, closed) = column?;
+            group.append_column(&bytes, closed)?;
         }
         group.close().map(drop)
+    }
+}
+
+impl Gathered {
+    /// The values as a table holds them, and what the table must know of them.
+    fn pack(
+        &self,
+        column: ColumnDescPtr,
+        properties: WriterPropertiesPtr,
+    ) -> Result<(Bytes, ColumnCloseResult), ParquetError> {
+        let mut packed = TrackedWrite::new(Vec::new());
+        let pages = Box::new(SerializedPageWriter::new(&mut packed));
+        let mut writer = get_column_writer(column, properties, pages);
+        match self {
+            Self::Whole(values) => typed::<Int64Type>(&mut writer).write_batch(values, None, None)?,
+            Self::Text(values) => typed::<ByteArrayType>(&mut writer).write_batch(values, None, None)?,
+            Self::Number(values) => typed::<DoubleType>(&mut writer).write_batch(values, None, None)?,
+            Self::Optional(values, known) => {
+                typed::<DoubleType>(&mut writer).write_batch(values, Some(known), None)?
+            }
+        };
+        let closed = writer.close()?;
+        Ok((packed.into_inner()?.into(), closed))
     }
 }

@@ -124,7 +124,7 @@ fn of_kind(web: &Web) {
         for (side, found) in SIDES.iter().zip(&mut found) {
             found.push(unevenness_at(&map, *side, &places).expect("an unevenness"));
         }
-        let of = Clouds::at(&map, &places).expect("clouds");
+        let of = Clouds::at(&map, &places, 2).expect("clouds");
         let octaves_of = of.octaves();
         names = vec![[5e-3, 50e-3]];
         names.extend(octaves_of.iter().map(|(band, _)| *band).filter(|band| band[0] > 7e-3));

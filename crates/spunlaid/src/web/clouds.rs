@@ -4,6 +4,7 @@ use super::map::Map;
 use super::uniformity::DEGREES;
 use super::waves::{Parts, Places, Powers};
 use crate::statistics::Estimate;
+use crate::threads::each;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -30,6 +31,34 @@ pub struct Clouds {
     longest: f64,
 }
 
+/// The waves of a tile.
+struct Tile {
+    powers: Powers,
+    /// As an entry of [`Clouds::tiles`] and of [`Clouds::along`].
+    radial: Vec<f64>,
+    along: f64,
+}
+
+impl Tile {
+    fn of(powers: Powers, side: usize) -> Self {
+        let mut radial = vec![0.0; side];
+        let (mut short, mut along) = (0.0, 0.0);
+        for (j, i) in powers.numbers().chain([(0, 0)]) {
+            let variance = powers.at(j, i);
+            let (md, cd) = (i.unsigned_abs() as usize, j.unsigned_abs() as usize);
+            let squared = (md * md + cd * cd) as f64;
+            radial[(squared.sqrt() as usize).min(side - 1)] += variance;
+            // Waves of four to sixteen cells show the directions of fibres; shorter ones those of the lattice.
+            let waves = squared.sqrt() / side as f64;
+            if (1.0 / 16.0..0.25).contains(&waves) {
+                short += variance;
+                along += variance * (cd * cd) as f64 / squared;
+            }
+        }
+        Self { powers, radial, along: along / short }
+    }
+}
+
 /// The waves of a whole sheet.
 #[derive(Clone, Debug)]
 struct Sheet {
@@ -52,6 +81,8 @@ const MOST: usize = 256;
 /// Most parts of a sheet across, and in all, of which the long waves are made; a power of two.
 const ACROSS: usize = 1024;
 const PARTS: usize = 1 << 21;
+/// Rows of cells whose parts are summed up at once, so that they take little memory.
+const AT_ONCE: usize = 512;
 /// Shortest long wave [parts]: where parts cut across cells, 0.1 % of the power of such a wave comes from other waves of the lattice, and more of shorter ones.
 const SHORT: f64 = 6.0;
 /// The longest wave over the shorter side of the sheet.
@@ -67,13 +98,14 @@ fn hann(at: usize, of: usize) -> f64 {
 impl Clouds {
     /// [`Clouds::at`] of filaments at places of which nothing is known.
     pub fn of(map: &Map) -> Option<Self> {
-        Self::at(map, &Places::Unknown)
+        Self::at(map, &Places::Unknown, 1)
     }
 
     /// The spectrum of a map. None if it is smaller than 16 cells either way, or holds nothing.
     ///
     /// * `places` – what is known of the places of the filaments
-    pub fn at(map: &Map, places: &Places) -> Option<Self> {
+    /// * `threads` – that find it; they do not change it
+    pub fn at(map: &Map, places: &Places, threads: usize) -> Option<Self> {
         let shorter = map.columns.min(map.rows);
         let side = (shorter / WANTED + 1).next_power_of_two() / 2;
         let side = side.clamp(SMALLEST, LARGEST);
@@ -84,7 +116,7 @@ impl Clouds {
         let mean = total as f64 / map.cells.len() as f64;
         let [across, along] = [map.columns / side, map.rows / side];
         let stride = (across * along).div_ceil(MOST);
-        let (sheet, shortest) = Sheet::of(map, mean, places);
+        let (sheet, shortest) = Sheet::of(map, mean, places, threads);
         // The border of a ring of the tiles, so that none is missing and none counts twice.
         let tile = side as f64 * map.cell;
         let from = tile / (tile / shortest).floor().max(1.0);
@@ -99,38 +131,31 @@ impl Clouds {
             longest: LONG * shorter as f64 * map.cell,
         };
         let window: Vec<f64> = (0..side).map(|i| hann(i, side)).collect();
-        for tile in (0..across * along).step_by(stride) {
+        let tiles: Vec<usize> = (0..across * along).step_by(stride).collect();
+        let tile = |tile: usize| {
             let (row, column) = (tile / across * side, tile % across * side);
             let value = |i: usize, j: usize| {
                 (f64::from(map.row(row + i)[column + j]) / mean - 1.0) * window[i] * window[j]
             };
-            clouds.add(&Powers::of(side, side, value));
+            Tile::of(Powers::of(side, side, 1, value), side)
+        };
+        // As many at a time as there are threads, because a tile takes megabytes.
+        for some in tiles.chunks(threads.max(1)) {
+            each(threads, some.len(), |i| tile(some[i])).into_iter().for_each(|tile| clouds.add(tile));
         }
         let count = clouds.tiles.len() as f64;
         clouds.directions.iter_mut().flatten().for_each(|part| *part /= count);
         Some(clouds)
     }
 
-    fn add(&mut self, powers: &Powers) {
-        let side = self.side;
-        let mut radial = vec![0.0; side];
-        let (mut short, mut along) = (0.0, 0.0);
-        for (j, i) in powers.numbers().chain([(0, 0)]) {
-            let variance = powers.at(j, i);
-            let (md, cd) = (i.unsigned_abs() as usize, j.unsigned_abs() as usize);
-            let squared = (md * md + cd * cd) as f64;
-            radial[(squared.sqrt() as usize).min(side - 1)] += variance;
-            self.directions[0][cd] += variance;
-            self.directions[1][md] += variance;
-            // Waves of four to sixteen cells show the directions of fibres; shorter ones those of the lattice.
-            let waves = squared.sqrt() / side as f64;
-            if (1.0 / 16.0..0.25).contains(&waves) {
-                short += variance;
-                along += variance * (cd * cd) as f64 / squared;
-            }
+    fn add(&mut self, tile: Tile) {
+        for (j, i) in tile.powers.numbers().chain([(0, 0)]) {
+            let variance = tile.powers.at(j, i);
+            self.directions[0][j.unsigned_abs() as usize] += variance;
+            self.directions[1][i.unsigned_abs() as usize] += variance;
         }
-        self.tiles.push(radial);
-        self.along.push(along / short);
+        self.tiles.push(tile.radial);
+        self.along.push(tile.along);
     }
 
     /// Longest wave that is told of: a quarter of the sheet's shorter side [m].
@@ -200,30 +225,35 @@ impl Clouds {
 
 impl Sheet {
     /// The waves of a sheet, and the shortest of them that counts [m].
-    fn of(map: &Map, mean: f64, places: &Places) -> (Self, f64) {
+    fn of(map: &Map, mean: f64, places: &Places, threads: usize) -> (Self, f64) {
         let columns = map.columns.next_power_of_two().min(ACROSS);
         let rows = map.rows.next_power_of_two().min(PARTS / columns);
         let across = Split::new(map.columns, columns);
         let along = Split::new(map.rows, rows);
         // A part gets of each cell what lies in it.
         let mut sums = vec![0.0; columns * rows];
-        let mut row_sums = vec![0.0; columns];
-        for row in 0..map.rows {
-            row_sums.fill(0.0);
+        let of_row = |row: usize| {
+            let mut row_sums = vec![0.0; columns];
             for (column, quanta) in map.row(row).iter().enumerate() {
                 across.give(column, f64::from(*quanta), |part, share| row_sums[part] += share);
             }
-            along.give(row, 1.0, |part, share| {
-                let into = &mut sums[part * columns..][..columns];
-                into.iter_mut().zip(&row_sums).for_each(|(into, sum)| *into += share * sum);
-            });
+            row_sums
+        };
+        for first in (0..map.rows).step_by(AT_ONCE) {
+            let rows_sums = each(threads, AT_ONCE.min(map.rows - first), |i| of_row(first + i));
+            for (row, row_sums) in (first..).zip(rows_sums) {
+                along.give(row, 1.0, |part, share| {
+                    let into = &mut sums[part * columns..][..columns];
+                    into.iter_mut().zip(&row_sums).for_each(|(into, sum)| *into += share * sum);
+                });
+            }
         }
-        let each = mean * map.cells.len() as f64 / (columns * rows) as f64;
+        let of_part = mean * map.cells.len() as f64 / (columns * rows) as f64;
         let open = map.closed.map(|closed| !closed);
         let window = |open: bool, at: usize, of: usize| if open { hann(at, of) } else { 1.0 };
         let across: Vec<f64> = (0..columns).map(|column| window(open[0], column, columns)).collect();
-        let powers = Powers::of(columns, rows, |row, column| {
-            (sums[row * columns + column] / each - 1.0) * across[column] * window(open[1], row, rows)
+        let powers = Powers::of(columns, rows, threads, |row, column| {
+            (sums[row * columns + column] / of_part - 1.0) * across[column] * window(open[1], row, rows)
         });
         let sides = [map.columns, map.rows].map(|cells| cells as f64 * map.cell);
         let from = SHORT * (sides[0] / columns as f64).max(sides[1] / rows as f64);
@@ -289,7 +319,8 @@ impl Split {
 /// Autocorrelation coefficients of the basis weight in cross and in machine direction, from lag zero, cell by cell.
 ///
 /// * `lags` – number of lags, lag zero included; fewer are given where the sheet is shorter
-pub fn autocorrelation(map: &Map, lags: usize) -> [Vec<f64>; 2] {
+/// * `threads` – that find them; they do not change them
+pub fn autocorrelation(map: &Map, lags: usize, threads: usize) -> [Vec<f64>; 2] {
     let mean = map.total() as f64 / map.cells.len() as f64;
     // About a million products for each lag say enough.
     let stride = (map.cells.len() >> 20).max(1);
@@ -304,7 +335,7 @@ pub fn autocorrelation(map: &Map, lags: usize) -> [Vec<f64>; 2] {
         sum / count as f64
     };
     [([1, 0], map.columns), ([0, 1], map.rows)].map(|(step, size)| {
-        let products: Vec<f64> = (0..lags.min(size)).map(|lag| product(lag, step)).collect();
+        let products = each(threads, lags.min(size), |lag| product(lag, step));
         let variance = products.first().copied().unwrap_or(f64::NAN);
         products.iter().map(|product| product / variance).collect()
     })

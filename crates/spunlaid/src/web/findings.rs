@@ -179,7 +179,8 @@ pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: Laying<'_>) -> Result<
         patches.push(PatchFindings { map, one_fibre, flown, surrogate, straight_fibres, independent, pairs });
     }
     let lags = ((LAG / sheet.cell).round() as usize + 1).min(LAGS);
-    let (clouds, autocorrelation) = (Clouds::at(&map, &places), autocorrelation(&map, lags));
+    let clouds = Clouds::at(&map, &places, by.threads);
+    let autocorrelation = autocorrelation(&map, lags, by.threads);
     let orientation = orientation(web, by)?;
     drop(map);
     Ok(Findings { orientation, clouds, autocorrelation, sensitivities: Vec::new(), patches, margins, laid })

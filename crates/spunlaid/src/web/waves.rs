@@ -3,6 +3,7 @@
 use super::clouds::HANN;
 use crate::fft::{Complex, InverseTransform};
 use crate::lanes::{Lanes, WIDTH};
+use crate::threads::each;
 
 /// What is known of the places at which the filaments of a sheet come down.
 ///
@@ -62,24 +63,26 @@ pub(super) const FEWEST: usize = WIDTH;
 impl Powers {
     /// * `columns`, `rows` – powers of two, at least [`FEWEST`]
     /// * `value` – of a row and a column
-    pub(super) fn of(columns: usize, rows: usize, value: impl Fn(usize, usize) -> f64) -> Self {
+    pub(super) fn of(
+        columns: usize,
+        rows: usize,
+        threads: usize,
+        value: impl Fn(usize, usize) -> f64 + Sync,
+    ) -> Self {
         let mut transform = InverseTransform::new(columns);
         // Eight rows at a time, then eight columns.
-        let transformed: Vec<Vec<Complex>> = (0..rows / WIDTH)
-            .map(|group| {
-                let of = |column| Complex {
-                    re: Lanes::from_fn(|lane| value(group * WIDTH + lane, column)),
-                    im: Lanes::ZERO,
-                };
-                let mut data: Vec<Complex> = (0..columns).map(of).collect();
-                transform.run(&mut data);
-                data
-            })
-            .collect();
+        let transformed: Vec<Vec<Complex>> = each(threads, rows / WIDTH, |group| {
+            let of = |column| Complex {
+                re: Lanes::from_fn(|lane| value(group * WIDTH + lane, column)),
+                im: Lanes::ZERO,
+            };
+            let mut data: Vec<Complex> = (0..columns).map(of).collect();
+            transform.run(&mut data);
+            data
+        });
         transform = InverseTransform::new(rows);
         let scale = ((columns * rows) as f64).powi(-2);
-        let mut values = vec![0.0; columns * rows];
-        for group in 0..columns / WIDTH {
+        let groups: Vec<Vec<f64>> = each(threads, columns / WIDTH, |group| {
             let of = |row: usize| {
                 let part = |of: fn(&Complex) -> &Lanes| {
                     Lanes::from_fn(|lane| of(&transformed[row / WIDTH][group * WIDTH + lane]).0[row % WIDTH])
@@ -88,12 +91,12 @@ impl Powers {
             };
             let mut data: Vec<Complex> = (0..rows).map(of).collect();
             transform.run(&mut data);
-            for (row, z) in data.iter().enumerate() {
-                for lane in 0..WIDTH {
-                    let squared = z.re.0[lane] * z.re.0[lane] + z.im.0[lane] * z.im.0[lane];
-                    values[row * columns + group * WIDTH + lane] = squared * scale;
-                }
-            }
+            let power = |z: &Complex, lane: usize| z.re.0[lane] * z.re.0[lane] + z.im.0[lane] * z.im.0[lane];
+            data.iter().flat_map(|z| (0..WIDTH).map(move |lane| power(z, lane) * scale)).collect()
+        });
+        let mut values = Vec::with_capacity(columns * rows);
+        for row in 0..rows {
+            groups.iter().for_each(|group| values.extend(&group[row * WIDTH..][..WIDTH]));
         }
         Self { columns, rows, values }
     }

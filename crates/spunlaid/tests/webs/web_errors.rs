@@ -85,7 +85,7 @@ fn stat_intervals_of_cv_and_clouds_hold_for_webs_of_each_kind() {
                 let of = unevenness_at(&map, *side, &places).expect("an unevenness");
                 found.extend(of.standard_error.map(|error| (of.cv, error)));
             }
-            let (index, error) = Clouds::at(&map, &places).expect("clouds").cloudiness(BAND[0], BAND[1]);
+            let (index, error) = Clouds::at(&map, &places, 1).expect("clouds").cloudiness(BAND[0], BAND[1]);
             found[SIDES.len()].extend(error.map(|error| (index, error)));
         }
         let names = SIDES.map(|side| format!("{name}, {side} cells")).into_iter();

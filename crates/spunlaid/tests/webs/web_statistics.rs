@@ -84,7 +84,7 @@ fn a_wave_is_found_at_its_length_and_direction() {
     assert!((peak.0 - 16e-3).abs() < 1e-9, "{peak:?}");
     // The crests lie across the machine; the window spreads a third of a wave to its neighbours, at 1/17 of the square.
     assert!((clouds.texture_md().mean - 1.0 / 51.0).abs() < 0.01, "{:?}", clouds.texture_md());
-    let [cd, md] = autocorrelation(&waves, 17);
+    let [cd, md] = autocorrelation(&waves, 17, 2);
     assert!(
         (md[8] + 1.0).abs() < 1e-3 && (md[16] - 1.0).abs() < 1e-3 && (cd[8] - 1.0).abs() < 1e-3,
         "{md:?}"

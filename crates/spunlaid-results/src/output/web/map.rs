@@ -9,17 +9,23 @@ use spunlaid::scan::{CELL, WEIGHT_OF_BLACK};
 use spunlaid::web::Map;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
+use std::panic::resume_unwind;
 
 /// Number of rows in a row group.
 const ROWS: usize = 1 << 18;
 
 pub(super) fn write(staging: &Staging<'_>, map: &Map) -> Result<(), Failure> {
-    write_array(staging, map)?;
     if map.cells.len() > MOST_CELLS {
-        return Ok(());
+        return write_array(staging, map);
     }
-    staging.write("map.png", picture(map).map_err(|reason| undrawable("map", &reason))?)?;
-    table(staging, map)
+    std::thread::scope(|scope| {
+        let table = scope.spawn(|| table(staging, map));
+        let array = scope.spawn(|| write_array(staging, map));
+        let picture = picture(map).map_err(|reason| undrawable("map", &reason));
+        let pictured = picture.and_then(|picture| staging.write("map.png", picture));
+        let written = [array, table].map(|files| files.join().unwrap_or_else(|panic| resume_unwind(panic)));
+        written.into_iter().fold(pictured, Result::and)
+    })
 }
 
 /// `map.npy`.

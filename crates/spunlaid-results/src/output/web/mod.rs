@@ -11,7 +11,7 @@ use super::folder::Staging;
 use super::origin::ORIGIN;
 use super::spinline::STATIONS;
 use crate::Failure;
-use spunlaid::web::{Findings, Map, Strand};
+use spunlaid::web::{Map, Strand};
 
 /// The contents of the folder. The last entry marks it as complete.
 pub const ENTRIES: &[&str] = &[
@@ -30,9 +30,13 @@ pub const ENTRIES: &[&str] = &[
 /// Most cells that are written as a table and as a picture; the array holds all.
 pub const MOST_CELLS: usize = 20_000_000;
 
-/// Writes the map and the fibres of the window.
-pub fn write(staging: &Staging<'_>, findings: &Findings, strands: &[Strand]) -> Result<(), Failure> {
-    map::write(staging, &findings.laid.map)?;
+/// Writes the map as array, table and picture, each on a thread.
+pub fn write_map(staging: &Staging<'_>, map: &Map) -> Result<(), Failure> {
+    map::write(staging, map)
+}
+
+/// Writes the fibres of the window.
+pub fn write_strands(staging: &Staging<'_>, strands: &[Strand]) -> Result<(), Failure> {
     strands::write(staging, strands)
 }
 
