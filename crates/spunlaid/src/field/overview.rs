@@ -46,7 +46,7 @@ impl Field {
         let (mut sum, mut spreads) = (Vec3::new(0.0, 0.0, 0.0), [Spread::NOTHING; 3]);
         self.support.points_in_box(low, high, |_, [u, v, w, k, epsilon]| {
             let velocity = Vec3::new(*u, *v, *w);
-            sum = sum + velocity;
+            sum += velocity;
             let values = [velocity.norm(), k.max(0.0), epsilon.max(0.0)];
             spreads.iter_mut().zip(values).for_each(|(spread, value)| spread.add(value));
             count += 1.0;

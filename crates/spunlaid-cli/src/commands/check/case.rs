@@ -118,13 +118,9 @@ fn json(case: &Case, expected: Expected, notes: Vec<String>) -> String {
 fn field(placed: &PlacedField) {
     let overview = placed.field.overview();
     let (low, high) = placed.extent();
-    let spread = |Spread { least, mean, largest }: Spread| {
-        format!(
-            "{} to {}, {} on average",
-            significant(least, 3),
-            significant(largest, 3),
-            significant(mean, 3)
-        )
+    let spread = |Spread { least, mean, largest }: Spread, unit: &str| {
+        let [least, mean, largest] = [least, mean, largest].map(|value| significant(value, 3));
+        format!("{least} to {largest} {unit}, {mean} {unit} on average")
     };
     say::line("# field");
     say::line(&format!("#   {}, around the root:", placed.field.describe()));
