@@ -16,7 +16,9 @@ impl<T: Copy> Nodes<T> {
     pub(crate) fn push_root(&mut self, entry: T) {
         if self.first == 0 {
             // What the end has left free is used again.
-            let (entries, room) = (self.buffer.len(), self.buffer.len() + 64);
+            let (entries, room) = (self.buffer.len(), self.buffer.len() / 4 + 64);
+            // Thousands of chains fly at once, so no more than that.
+            self.buffer.reserve_exact(room);
             self.buffer.resize(entries + room, entry);
             self.buffer.copy_within(..entries, room);
             self.first = room;
