@@ -1,126 +1,27 @@
-//! The keys of a web: one row for each, in the order of its file. A row says what its values are and where a web has it.
-//!
-//! A key of a layer is one of the first layer: [`WebSpec::alone`] makes a web of any layer.
+//! The rows of the keys of a web, in the order of its file. A row says what its values are and where a web has it.
 
-use super::{LaydownSource, LayerSpec, Method, WebSpec};
-use crate::case::keys::row::{AccessTo, choose, key, named, number, quantity, read_with_case, text, whole};
-use crate::case::keys::{self, Alternatives, EVEN, Key, KeyTable, Kind, Sign, TableList, Value};
-use crate::error::Fault;
+use super::access::{
+    Access, WebKey, diameter, first_row, flown, in_rows, is_flown, layer, layer_mut, written,
+};
+use super::access::{of_path, of_row, of_sheet, of_surrogate};
+use crate::case::keys::row::{choose, key, named, number, quantity, read_with_case, text, whole};
+use crate::case::keys::{EVEN, Kind, Sign, Value};
+use crate::layers::{LaydownSource, Method};
 use crate::surrogate::Surrogate;
 use crate::units::Dimension;
-use crate::web::{Edges, Filaments, Row};
-use std::path::Path;
-
-/// A key of a web.
-pub type WebKey = Key<WebSpec>;
-/// Access to a web.
-type Access = AccessTo<WebSpec>;
-
-/// The tables of the file of a web, in order. A file with several layers has the first three in each `[[layer]]`.
-pub const WEB_TABLES: [&str; 5] = ["layer", "fibre", "laydown", "line", "web"];
-
-/// The keys of a web.
-pub static WEB: KeyTable<WebSpec> = KeyTable {
-    rows: WEB_KEYS,
-    tables: &WEB_TABLES,
-    lists: &[
-        TableList {
-            name: "layer",
-            tables: &["fibre", "laydown", "line"],
-            entry: "a layer",
-            wanted: "a list of tables: [[layer]], and below it [layer.fibre], [layer.laydown] and [layer.line]",
-        },
-        TableList {
-            name: "line.rows",
-            tables: &[],
-            entry: "a row of nozzles",
-            wanted: "a list of rows, like [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }]",
-        },
-    ],
-    alternatives: &[
-        Alternatives { keys: ["fibre.diameter", "fibre.linear_density"], of_all_layers: false },
-        Alternatives { keys: ["line.feed_speed", "line.throughput"], of_all_layers: false },
-        Alternatives { keys: ["line.belt_speed", "line.basis_weight"], of_all_layers: true },
-    ],
-    noun: "a web",
-    file: "a web file",
-};
+use crate::web::{Edges, Filaments};
 
 /// Most filaments of a row, and per metre.
 const MOST_FILAMENTS: u64 = 10_000_000;
 /// How a web can be laid.
 pub(crate) const METHODS: [&str; 3] = ["surrogate", "dynamics", "shared-air"];
 /// The values of [`METHODS`].
-pub(crate) const ALL_METHODS: [Method; 3] = [Method::Surrogate, Method::Dynamics, Method::SharedAir];
+const ALL_METHODS: [Method; 3] = [Method::Surrogate, Method::Dynamics, Method::SharedAir];
 /// What becomes of fibre beyond the edges.
-pub(crate) const EDGES: [&str; 2] = ["periodic", "cut"];
+const EDGES: [&str; 2] = ["periodic", "cut"];
 
-/// Access to a known number of the surrogate.
-macro_rules! of_surrogate {
-    ($field:ident) => {
-        Access {
-            get: |web| match &layer(web)?.source {
-                LaydownSource::Surrogate(Surrogate { $field, .. }) => Some((*$field).into()),
-                _ => None,
-            },
-            set: |web, value| match &mut layer_mut(web)?.source {
-                LaydownSource::Surrogate(surrogate) => {
-                    surrogate.$field = number(value)?;
-                    Ok(())
-                }
-                _ => Err(flown()),
-            },
-        }
-    };
-}
-
-/// Access to the path from which the fibres come.
-macro_rules! of_path {
-    ($variant:ident, $path:ident) => {
-        Access {
-            get: |web| match &layer(web)?.source {
-                LaydownSource::$variant { $path, .. } => Some(written($path)),
-                _ => None,
-            },
-            set: |_, _| Err(read_with_case()),
-        }
-    };
-}
-
-/// Access to a length of the first row of nozzles.
-macro_rules! of_row {
-    ($field:ident) => {
-        Access {
-            get: |web| match &layer(web)?.filaments {
-                Filaments::Rows(rows) => Some(rows.first()?.$field.into()),
-                Filaments::AtRandom { .. } | Filaments::Slot { .. } => None,
-            },
-            set: |web, value| {
-                let length = number(value)?;
-                first_row(web)?.iter_mut().for_each(|row| row.$field = length);
-                Ok(())
-            },
-        }
-    };
-}
-
-/// Access to a number of the sheet.
-macro_rules! of_sheet {
-    ($($field:ident).+) => {
-        Access {
-            get: |web| Some(web.$($field).+.into()),
-            set: |web, value| {
-                web.$($field).+ = number(value)?;
-                Ok(())
-            },
-        }
-    };
-}
-
-/// A number of a surrogate that follows from flights.
-fn flown() -> Fault {
-    Fault::needs("laydown without a case or results", "leave it out, or leave these out")
-}
+/// Where the numbers of a surrogate come from if they are left out.
+const IDENTIFIED: &str = "identified in what the fibres of the case have laid";
 
 /// A length, speed or other quantity above zero, which a study may vary.
 const fn positive(name: &'static str, dimension: Dimension, access: Access) -> WebKey {
@@ -457,67 +358,3 @@ pub const WEB_KEYS: &[WebKey] = &[
         .label("Window")
         .usual(1e-5, 10.0),
 ];
-
-/// The fault of a depth beside rows.
-pub(crate) fn in_rows() -> Fault {
-    Fault::excludes(
-        "line.rows",
-        "rows have places in machine direction of their own, rows.md; keep one of them",
-    )
-}
-
-/// Where the numbers of a surrogate come from if they are left out.
-const IDENTIFIED: &str = "identified in what the fibres of the case have laid";
-
-/// Whether the case of flown fibres gives the value.
-fn is_flown(web: &WebSpec) -> bool {
-    layer(web).is_some_and(|layer| layer.source.case().is_some())
-}
-
-fn layer(web: &WebSpec) -> Option<&LayerSpec> {
-    web.layers.first()
-}
-
-fn layer_mut(web: &mut WebSpec) -> Result<&mut LayerSpec, Fault> {
-    web.layers.first_mut().ok_or_else(|| Fault::needs("[line]", "write the tables of a layer"))
-}
-
-/// The first row of nozzles.
-fn first_row(web: &mut WebSpec) -> Result<&mut [Row], Fault> {
-    match &mut layer_mut(web)?.filaments {
-        Filaments::Rows(rows) => Ok(rows.get_mut(..1).unwrap_or_default()),
-        Filaments::AtRandom { .. } | Filaments::Slot { .. } => Err(Fault::needs("line.rows", "leave it out")),
-    }
-}
-
-fn written(path: &Path) -> Value {
-    Value::Text(path.to_string_lossy().into_owned())
-}
-
-/// Diameter of a filament of this linear density [kg/m] and density [kg/m³].
-pub(crate) fn diameter(linear_density: f64, density: f64) -> f64 {
-    (4.0 * linear_density / (std::f64::consts::PI * density)).sqrt()
-}
-
-impl WebKey {
-    /// The key of a case that means the same, if there is one.
-    pub fn of_case(&self) -> Option<&'static Key> {
-        keys::find(match self.name {
-            "line.feed_speed" => "feed.speed",
-            "line.belt_speed" => "belt.speed",
-            name => name,
-        })
-    }
-
-    /// Other words for it: with those of the same key of a case, where there is one.
-    pub fn all_synonyms(&self) -> Vec<&'static str> {
-        let of_case = self.of_case().map_or(&[][..], |key| key.synonyms);
-        self.synonyms.iter().chain(of_case).copied().collect()
-    }
-
-    /// Outside of these a value, unless it is zero, is most likely a slip, in SI units: as for the same key of a case, where
-    /// there is one.
-    pub fn usual_range(&self) -> Option<(f64, f64)> {
-        self.of_case().map_or(self.usual, |key| key.usual)
-    }
-}

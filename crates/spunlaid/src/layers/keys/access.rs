@@ -1,0 +1,120 @@
+//! How keys read and change a web.
+
+use crate::case::keys::row::AccessTo;
+use crate::case::keys::{Key, Value};
+use crate::error::Fault;
+use crate::layers::{LayerSpec, WebSpec};
+use crate::web::{Filaments, Row};
+use std::path::Path;
+
+/// A key of a web.
+pub type WebKey = Key<WebSpec>;
+/// Access to a web.
+pub(super) type Access = AccessTo<WebSpec>;
+
+/// Access to a known number of the surrogate.
+macro_rules! of_surrogate {
+    ($field:ident) => {
+        $crate::case::keys::row::AccessTo {
+            get: |web| match &layer(web)?.source {
+                LaydownSource::Surrogate(Surrogate { $field, .. }) => Some((*$field).into()),
+                _ => None,
+            },
+            set: |web, value| match &mut layer_mut(web)?.source {
+                LaydownSource::Surrogate(surrogate) => {
+                    surrogate.$field = number(value)?;
+                    Ok(())
+                }
+                _ => Err(flown()),
+            },
+        }
+    };
+}
+
+/// Access to the path from which the fibres come.
+macro_rules! of_path {
+    ($variant:ident, $path:ident) => {
+        $crate::case::keys::row::AccessTo {
+            get: |web| match &layer(web)?.source {
+                LaydownSource::$variant { $path, .. } => Some(written($path)),
+                _ => None,
+            },
+            set: |_, _| Err(read_with_case()),
+        }
+    };
+}
+
+/// Access to a length of the first row of nozzles.
+macro_rules! of_row {
+    ($field:ident) => {
+        $crate::case::keys::row::AccessTo {
+            get: |web| match &layer(web)?.filaments {
+                Filaments::Rows(rows) => Some(rows.first()?.$field.into()),
+                Filaments::AtRandom { .. } | Filaments::Slot { .. } => None,
+            },
+            set: |web, value| {
+                let length = number(value)?;
+                first_row(web)?.iter_mut().for_each(|row| row.$field = length);
+                Ok(())
+            },
+        }
+    };
+}
+
+/// Access to a number of the sheet.
+macro_rules! of_sheet {
+    ($($field:ident).+) => {
+        $crate::case::keys::row::AccessTo {
+            get: |web| Some(web.$($field).+.into()),
+            set: |web, value| {
+                web.$($field).+ = number(value)?;
+                Ok(())
+            },
+        }
+    };
+}
+
+pub(super) use {of_path, of_row, of_sheet, of_surrogate};
+
+/// A number of a surrogate that follows from flights.
+pub(super) fn flown() -> Fault {
+    Fault::needs("laydown without a case or results", "leave it out, or leave these out")
+}
+
+/// The fault of a depth beside rows.
+pub(crate) fn in_rows() -> Fault {
+    Fault::excludes(
+        "line.rows",
+        "rows have places in machine direction of their own, rows.md; keep one of them",
+    )
+}
+
+/// Whether the case of flown fibres gives the value.
+pub(super) fn is_flown(web: &WebSpec) -> bool {
+    layer(web).is_some_and(|layer| layer.source.case().is_some())
+}
+
+pub(super) fn layer(web: &WebSpec) -> Option<&LayerSpec> {
+    web.layers.first()
+}
+
+pub(super) fn layer_mut(web: &mut WebSpec) -> Result<&mut LayerSpec, Fault> {
+    web.layers.first_mut().ok_or_else(|| Fault::needs("[line]", "write the tables of a layer"))
+}
+
+/// The first row of nozzles.
+pub(super) fn first_row(web: &mut WebSpec) -> Result<&mut [Row], Fault> {
+    match &mut layer_mut(web)?.filaments {
+        Filaments::Rows(rows) => Ok(rows.get_mut(..1).unwrap_or_default()),
+        Filaments::AtRandom { .. } | Filaments::Slot { .. } => Err(Fault::needs("line.rows", "leave it out")),
+    }
+}
+
+pub(super) fn written(path: &Path) -> Value {
+    Value::Text(path.to_string_lossy().into_owned())
+}
+
+/// Diameter of a filament of this linear density [kg/m] and density [kg/m³].
+pub(super) fn diameter(linear_density: f64, density: f64) -> f64 {
+    (4.0 * linear_density / (std::f64::consts::PI * density)).sqrt()
+}

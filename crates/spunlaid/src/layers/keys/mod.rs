@@ -1,0 +1,72 @@
+//! The keys of a web.
+//!
+//! A key of a layer is one of the first layer: [`super::WebSpec::alone`] makes a web of any layer.
+//!
+//! ```text
+//! access   where a web has what a key names
+//! rows     one row for each key: its values, its meaning and its access
+//! ```
+
+mod access;
+mod rows;
+
+pub use access::WebKey;
+pub(crate) use access::in_rows;
+pub(crate) use rows::METHODS;
+pub use rows::WEB_KEYS;
+
+use super::WebSpec;
+use crate::case::keys::{self, Alternatives, Key, KeyTable, TableList};
+
+/// The tables of the file of a web, in order. A file with several layers has the first three in each `[[layer]]`.
+pub const WEB_TABLES: [&str; 5] = ["layer", "fibre", "laydown", "line", "web"];
+
+/// The keys of a web.
+pub static WEB: KeyTable<WebSpec> = KeyTable {
+    rows: WEB_KEYS,
+    tables: &WEB_TABLES,
+    lists: &[
+        TableList {
+            name: "layer",
+            tables: &["fibre", "laydown", "line"],
+            entry: "a layer",
+            wanted: "a list of tables: [[layer]], and below it [layer.fibre], [layer.laydown] and [layer.line]",
+        },
+        TableList {
+            name: "line.rows",
+            tables: &[],
+            entry: "a row of nozzles",
+            wanted: "a list of rows, like [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }]",
+        },
+    ],
+    alternatives: &[
+        Alternatives { keys: ["fibre.diameter", "fibre.linear_density"], of_all_layers: false },
+        Alternatives { keys: ["line.feed_speed", "line.throughput"], of_all_layers: false },
+        Alternatives { keys: ["line.belt_speed", "line.basis_weight"], of_all_layers: true },
+    ],
+    noun: "a web",
+    file: "a web file",
+};
+
+impl WebKey {
+    /// The key of a case that means the same, if there is one.
+    pub fn of_case(&self) -> Option<&'static Key> {
+        keys::find(match self.name {
+            "line.feed_speed" => "feed.speed",
+            "line.belt_speed" => "belt.speed",
+            name => name,
+        })
+    }
+
+    /// Other words for it: with those of the same key of a case, where there is one.
+    pub fn all_synonyms(&self) -> Vec<&'static str> {
+        let of_case = self.of_case().map_or(&[][..], |key| key.synonyms);
+        self.synonyms.iter().chain(of_case).copied().collect()
+    }
+
+    /// Outside of these a value, unless it is zero, is most likely a slip, in SI units: as for the same key of a case, where
+    /// there is one.
+    pub fn usual_range(&self) -> Option<(f64, f64)> {
+        self.of_case().map_or(self.usual, |key| key.usual)
+    }
+}
