@@ -7,6 +7,7 @@
 mod air;
 mod analysis;
 mod comparison;
+mod fit;
 mod frames;
 mod page;
 mod paper;
@@ -22,6 +23,7 @@ mod words;
 pub use air::{AirReport, air_html};
 pub use analysis::{AnalysisReport, analysis_html};
 pub use comparison::{ComparisonReport, comparison_html};
+pub use fit::{FitReport, fit_html};
 pub use paper::{PaperReport, paper_html};
 pub use scan::{ScanReport, scan_html};
 pub use spinline::{LayerSpinline, SpinReport, spinline_html};

@@ -96,6 +96,7 @@ fn found(picture: &Picture, settings: &Settings) -> Result<Findings, Fault> {
         white,
         density,
         shading,
+        noise: settings.noise,
         pixels,
         guess,
         aside,

@@ -62,4 +62,5 @@ pub use doubt::Doubt;
 pub use findings::{Findings, PatchFindings, Settings};
 pub use picture::{Format, Picture};
 pub use read::{CELL, LEAST_SIDE, MOST_PIXELS, WEIGHT_OF_BLACK, parse, read};
+pub use shading::flattened;
 pub use weigh::{Light, Pixels};

@@ -202,7 +202,7 @@ fn with_pairs(web: &Web, together: &Together, independent: f64, patch: f64) -> O
 const EDGE: f64 = 3.0;
 
 /// The columns of the sheet that are not edges, where filaments are missing beyond the outermost place.
-fn within(web: &Web) -> Range<usize> {
+pub fn within(web: &Web) -> Range<usize> {
     let sheet = &web.sheet;
     let columns = sheet.cells()[0];
     if sheet.edges == Edges::Periodic {
