@@ -21,7 +21,7 @@ mod words;
 
 pub use air::{AirReport, air_html};
 pub use analysis::{AnalysisReport, analysis_html};
-pub use comparison::{ComparisonReport, comparison_html};
+pub use comparison::{ComparedPictures, ComparisonReport, comparison_html};
 pub use paper::{PaperReport, paper_html};
 pub use scan::{ScanReport, scan_html};
 pub use spinline::{LayerSpinline, SpinReport, spinline_html};

@@ -2,10 +2,11 @@
 
 mod clouds;
 mod neighbours;
+mod overlaid;
 mod unevenness;
 
 pub use clouds::SEEN;
-pub use unevenness::overlaid_webs;
+pub use overlaid::{ComparedPatch, ComparedSpectrum, overlaid_spectra, overlaid_webs};
 
 use spunlaid::scan;
 use spunlaid::web::{Findings, Map, Web};
