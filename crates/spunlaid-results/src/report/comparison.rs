@@ -1,7 +1,7 @@
 //! `report.html` of a comparison: a table for each pair of runs, their curves in one picture each, and webs beside each other.
 
 use super::rendered;
-use super::web::{metres, millimetres};
+use super::words::{metres, millimetres};
 use crate::numbers::{THIN, significant};
 use crate::output::comparison::{Compared, Comparison};
 use crate::output::web::Pictures;

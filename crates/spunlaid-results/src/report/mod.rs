@@ -8,6 +8,7 @@ mod air;
 mod analysis;
 mod comparison;
 mod frames;
+mod light_table;
 mod page;
 mod paper;
 mod scan;

@@ -11,6 +11,8 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::panic::resume_unwind;
 
+/// Longest side of a picture that browsers show [px].
+const LONGEST_SIDE: usize = 16_000;
 /// Number of rows in a row group.
 const ROWS: usize = 1 << 18;
 
@@ -94,9 +96,10 @@ fn picture(map: &Map) -> Result<Vec<u8>, String> {
     png([map.columns, map.rows], png::BitDepth::Sixteen, &levels, &words, Some(per_metre))
 }
 
-/// The web as on a light table, at most so many pixels either way: 8-bit grey, and the sides of a pixel [cells].
+/// The web as on a light table, in at most so many pixels: 8-bit grey, and the sides of a pixel [cells].
 pub fn light_table(map: &Map, most: usize) -> Result<(Vec<u8>, usize), String> {
-    let each = map.columns.max(map.rows).div_ceil(most).max(1);
+    let each = (map.cells.len() as f64 / most as f64).sqrt().ceil() as usize;
+    let each = each.max(map.columns.max(map.rows).div_ceil(LONGEST_SIDE)).clamp(1, map.columns.min(map.rows));
     let [width, height] = [map.columns, map.rows].map(|size| size / each);
     let mut sums = vec![0u64; width * height];
     for row in 0..height * each {
