@@ -260,17 +260,18 @@ fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
 #[test]
 fn the_page_tells_how_wide_the_web_is_and_where_it_ends() {
     let desk = desk();
-    let row = "rows = [{ offset = \"100 mm\", pitch = \"1 mm\", filaments = 1000 }]";
-    let web = format!(
-        "[fibre]\ndiameter = \"18 µm\"\ndensity = \"910 kg/m³\"\n[laydown]\nsigma_md = \"9 mm\"\nsigma_cd = \"8 mm\"\n\
-         noise = \"15 m^-0.5\"\n[line]\nfeed_speed = \"50 m/s\"\nbelt_speed = \"5 m/s\"\n{row}\n[web]\nwidth = \"1.2 m\"\n\
-         length = \"300 mm\"\ncell = \"2 mm\"\npatches = [\"10 mm\"]\n"
-    );
-    fs::write(desk.path("wide.toml"), web).unwrap();
-    for (edges, label, ends) in
-        [("cut", "edge of the web", [76.0, 1123.0]), ("periodic", "edge of the sheet", [0.0, 1200.0])]
-    {
-        success(&mut desk.with("web wide.toml --out w --force --quiet", &[&format!("web.edges={edges}")]));
+    for (edges, pitch, label, ends) in [
+        ("cut", "1 mm", "edge of the web", [76.0, 1123.0]),
+        ("periodic", "1.2 mm", "edge of the sheet", [0.0, 1200.0]),
+    ] {
+        let web = format!(
+            "[fibre]\ndiameter = \"18 µm\"\ndensity = \"910 kg/m³\"\n[laydown]\nsigma_md = \"9 mm\"\nsigma_cd = \"8 mm\"\n\
+             noise = \"15 m^-0.5\"\n[line]\nfeed_speed = \"50 m/s\"\nbelt_speed = \"5 m/s\"\n\
+             rows = [{{ offset = \"100 mm\", pitch = \"{pitch}\", filaments = 1000 }}]\n[web]\nwidth = \"1.2 m\"\n\
+             length = \"300 mm\"\ncell = \"2 mm\"\npatches = [\"10 mm\"]\nedges = \"{edges}\"\n"
+        );
+        fs::write(desk.path("wide.toml"), web).unwrap();
+        success(&mut desk.spunlaid("web wide.toml --out w --force --quiet"));
         let page = String::from_utf8(desk.read("w/report.html")).unwrap();
         assert!(page.contains("The web is 1,200 mm wide and 300 mm long."));
         // Without scripts the picture stands there, and buttons that would do nothing do not.
