@@ -12,7 +12,7 @@ use spunlaid::web::{Map, Strand, Window};
 
 const MM: f64 = 1e3;
 /// Most pixels of the picture of the web: a page of some megabytes.
-const PIXELS: usize = 1400 * 1400;
+const PIXELS: usize = 3_000_000;
 /// Most points of fibres in the page.
 const POINTS: usize = 150_000;
 

@@ -173,7 +173,8 @@ mod tests {
         // The other way round as well.
         let difference = compared([b.clone(), a.clone()]).difference.unwrap();
         assert!((difference.half_width() - 5.0).abs() < 1e-6 && difference.is_beyond_chance());
-        let doubtful = WebNumber { doubt: Some("below the blur".to_owned()), ..a };
+        let mut doubtful = a;
+        doubtful.doubt = Some("below the blur".to_owned());
         let found = compared([doubtful, b]);
         assert_eq!((found.difference, found.cells()[3].as_str()), (None, "below the blur"));
     }
