@@ -78,6 +78,7 @@ fn a_scan_and_a_web_are_seen_at_one_scale_and_in_one_chart_in_either_order() {
             ("cv_0.25_mm", "smaller than a cell of the map (laid)"),
             ("cv_2_mm", "below the blur of the scan (scan)"),
             ("cv_30_mm", "the sheet holds too few such patches (scan)"),
+            ("cloudiness", "waves of 5 mm are below the blur of the scan (scan)"),
             ("texture_md", "in waves of 4 to 16 cells, and the cells are"),
         ] {
             let measure = &measures[column];

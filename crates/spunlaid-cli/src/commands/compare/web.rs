@@ -21,6 +21,8 @@ pub(super) struct Web {
     pub(super) clouds: [Option<WebNumber>; 2],
     /// Whether it comes from a camera or a gauge, which blurs.
     pub(super) is_scan: bool,
+    /// Side of a cell of its map, if it is known [m].
+    pub(super) cell: Option<f64>,
     /// Its map, or why there is none.
     pub(super) map: Result<MapFile, String>,
 }
@@ -83,6 +85,7 @@ impl Web {
             flown: patches(["cv_flown", "cv_flown_standard_error", ""]),
             clouds,
             is_scan: summary.get("scan").is_some(),
+            cell: web["cell_m"].as_f64(),
             map: MapFile::new(folder, web),
         })
     }

@@ -6,8 +6,9 @@ use super::results::Results;
 use super::web::{Patch, Web, WebNumber, are_alike, at};
 use crate::failure::Failure;
 use spunlaid::error::{Error, Fault};
+use spunlaid::scan::shortest_sharp_wave;
 use spunlaid::statistics::{Difference, Estimate};
-use spunlaid_results::figures::{ComparedPatch, overlaid_webs};
+use spunlaid_results::figures::{ComparedPatch, SEEN, overlaid_webs};
 use spunlaid_results::numbers::significant;
 use spunlaid_results::output::comparison::{Compared, Comparison};
 use std::path::PathBuf;
@@ -90,8 +91,16 @@ fn against(first: &Web, other: &Web) -> Result<Comparison, Failure> {
             measures.push(measure(label.to_owned(), column.to_owned(), unit, [Ok(a), Ok(b)]));
         }
     }
-    if let Some(texture) = measures.last_mut().filter(|measure| measure.column == "texture_md") {
-        about_cells(first, other, texture);
+    for measure in &mut measures {
+        let doubt = match measure.column.as_str() {
+            "cloudiness" => below_blur([first, other]),
+            "texture_md" => in_other_waves(first, other),
+            _ => None,
+        };
+        if let Some(doubt) = doubt {
+            measure.difference = None;
+            measure.doubt = Some(doubt);
+        }
     }
     let weight = |web: &Web| {
         web.weight
@@ -113,15 +122,23 @@ fn against(first: &Web, other: &Web) -> Result<Comparison, Failure> {
     })
 }
 
-/// The texture is that of waves of four to sixteen cells, and says nothing about other waves.
-fn about_cells(first: &Web, other: &Web, texture: &mut Compared) {
-    if let (Ok(a), Ok(b)) = (&first.map, &other.map)
-        && !are_alike(a.cell, b.cell)
-    {
-        let [a, b] = [a, b].map(|map| significant(map.cell * 1e3, 3));
-        texture.difference = None;
-        texture.doubt = Some(format!("in waves of 4 to 16 cells, and the cells are {a} and {b} mm wide"));
-    }
+/// Why the cloudiness of webs cannot be compared, if blur has lowered the shortest of its waves.
+fn below_blur(webs: [&Web; 2]) -> Option<String> {
+    let blurred =
+        |web: &&Web| web.is_scan && web.map.as_ref().is_ok_and(|map| SEEN[0] < shortest_sharp_wave(map.cell));
+    let names: Vec<&str> = webs.iter().filter(|web| blurred(web)).map(|web| web.name.as_str()).collect();
+    let wave = significant(SEEN[0] * 1e3, 3);
+    (!names.is_empty())
+        .then(|| format!("waves of {wave} mm are below the blur of the scan ({})", names.join(", ")))
+}
+
+/// Why the texture of two webs cannot be compared: it is that of waves of four to sixteen cells, and says nothing about other waves.
+fn in_other_waves(first: &Web, other: &Web) -> Option<String> {
+    let [a, b] = [first.map.as_ref().ok()?.cell, other.map.as_ref().ok()?.cell];
+    let shown = |cell: f64| significant(cell * 1e3, 3);
+    (!are_alike(a, b)).then(|| {
+        format!("in waves of 4 to 16 cells, and the cells are {} and {} mm wide", shown(a), shown(b))
+    })
 }
 
 fn measure(
