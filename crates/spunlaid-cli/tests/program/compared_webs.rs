@@ -131,6 +131,9 @@ fn a_folder_without_its_map_is_compared_without_a_picture() {
     let note = "laid has neither picture nor spectrum here: its folder has no map.npy";
     assert!(found["notes"][0].as_str().unwrap().starts_with(note), "{found}");
     assert!(page(&desk).contains(note));
+    // What the blur forbids does not need the map.
+    let cloudiness = &found["comparisons"][0]["measures"]["cloudiness"]["no_verdict"];
+    assert_eq!(cloudiness, "waves of 5 mm are below the blur of the scan (scan)");
     // That of the other is still there.
     let figures = ["web_cv", "web_spectrum"]
         .into_iter()

@@ -124,9 +124,9 @@ fn against(first: &Web, other: &Web) -> Result<Comparison, Failure> {
 
 /// Why the cloudiness of webs cannot be compared, if blur has lowered the shortest of its waves.
 fn below_blur(webs: [&Web; 2]) -> Option<String> {
-    let blurred =
-        |web: &&Web| web.is_scan && web.map.as_ref().is_ok_and(|map| SEEN[0] < shortest_sharp_wave(map.cell));
-    let names: Vec<&str> = webs.iter().filter(|web| blurred(web)).map(|web| web.name.as_str()).collect();
+    let is_below = |cell: f64| SEEN[0] < shortest_sharp_wave(cell);
+    let blurred = webs.iter().filter(|web| web.is_scan && web.cell.is_some_and(is_below));
+    let names: Vec<&str> = blurred.map(|web| web.name.as_str()).collect();
     let wave = significant(SEEN[0] * 1e3, 3);
     (!names.is_empty())
         .then(|| format!("waves of {wave} mm are below the blur of the scan ({})", names.join(", ")))
@@ -134,7 +134,7 @@ fn below_blur(webs: [&Web; 2]) -> Option<String> {
 
 /// Why the texture of two webs cannot be compared: it is that of waves of four to sixteen cells, and says nothing about other waves.
 fn in_other_waves(first: &Web, other: &Web) -> Option<String> {
-    let [a, b] = [first.map.as_ref().ok()?.cell, other.map.as_ref().ok()?.cell];
+    let (a, b) = (first.cell?, other.cell?);
     let shown = |cell: f64| significant(cell * 1e3, 3);
     (!are_alike(a, b)).then(|| {
         format!("in waves of 4 to 16 cells, and the cells are {} and {} mm wide", shown(a), shown(b))
