@@ -131,9 +131,6 @@ fn a_folder_without_its_map_is_compared_without_a_picture() {
     let note = "laid has neither picture nor spectrum here: its folder has no map.npy";
     assert!(found["notes"][0].as_str().unwrap().starts_with(note), "{found}");
     assert!(page(&desk).contains(note));
-    // What the blur forbids does not need the map.
-    let cloudiness = &found["comparisons"][0]["measures"]["cloudiness"]["no_verdict"];
-    assert_eq!(cloudiness, "waves of 5 mm are below the blur of the scan (scan)");
     // That of the other is still there.
     let figures = ["web_cv", "web_spectrum"]
         .into_iter()
@@ -146,4 +143,13 @@ fn a_folder_without_its_map_is_compared_without_a_picture() {
     let found = compared(&desk, "laid scan");
     let notes = found["notes"].to_string();
     assert!(notes.contains("laid: its map.npy is not the map of 200 × 300 cells"), "{notes}");
+    // Without any map there are no pictures, and what the blur forbids stays forbidden.
+    for folder in ["laid", "scan"] {
+        fs::remove_file(desk.path(&format!("{folder}/map.npy"))).unwrap();
+    }
+    let found = compared(&desk, "laid scan");
+    assert_eq!(desk.entries("both/figures"), names(&["web_cv.csv", "web_cv.png", "web_cv.svg"]));
+    assert!(!page(&desk).contains("Beside each other") && found["notes"].as_array().unwrap().len() == 2);
+    let cloudiness = &found["comparisons"][0]["measures"]["cloudiness"]["no_verdict"];
+    assert_eq!(cloudiness, "waves of 5 mm are below the blur of the scan (scan)");
 }
