@@ -28,7 +28,9 @@ pub use scales::Scale;
 pub use spinline::{SPINLINE, spinline_figures};
 pub use spunlaid::web::uniformity::Unevenness;
 pub use study::{name_of_key, study_figures};
-pub use web::{SEEN, overlaid_webs, scan_figures, web_figures};
+pub use web::{
+    ComparedPatch, ComparedSpectrum, SEEN, overlaid_spectra, overlaid_webs, scan_figures, web_figures,
+};
 
 /// Label of an axis: `Length laid (m)`.
 fn with_unit(label: &str, unit: &str) -> String {

@@ -9,6 +9,7 @@ mod analysis;
 mod comparison;
 mod fit;
 mod frames;
+mod light_table;
 mod page;
 mod paper;
 mod scan;
@@ -22,7 +23,7 @@ mod words;
 
 pub use air::{AirReport, air_html};
 pub use analysis::{AnalysisReport, analysis_html};
-pub use comparison::{ComparisonReport, comparison_html};
+pub use comparison::{ComparedPictures, ComparisonReport, comparison_html};
 pub use fit::{FitReport, fit_html};
 pub use paper::{PaperReport, paper_html};
 pub use scan::{ScanReport, scan_html};

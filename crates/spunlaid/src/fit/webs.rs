@@ -6,7 +6,7 @@ use super::weights::mean_of;
 use crate::error::{Error, Fault};
 use crate::layers::{Flyer, WebSpec};
 use crate::study::{Journal, Landing, Record, seed_of_point};
-use crate::web::{Laying, within};
+use crate::web::{Laying, inner_columns};
 
 /// A trial: values of the keys, and the numbers of the webs that were laid with them.
 #[derive(Clone, Debug)]
@@ -121,7 +121,7 @@ impl Webs<'_> {
 
     fn web(&mut self, spec: &WebSpec) -> Result<Vec<f64>, Error> {
         let mut flown = self.flyer.web(spec)?;
-        let inner = within(&flown.web);
+        let inner = inner_columns(&flown.web);
         let map = flown.map(self.by)?;
         self.target.logarithms_of(&map, inner, self.by.threads).ok_or_else(|| {
             Error::Flight(Fault::new(
