@@ -11,6 +11,7 @@ mod cases;
 mod commands;
 mod compare;
 mod continued;
+mod figures;
 mod gusts;
 mod keys;
 mod lost;

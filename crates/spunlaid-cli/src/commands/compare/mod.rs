@@ -15,7 +15,6 @@ use spunlaid_charts::Figure;
 use spunlaid_results::figures::{MOST_COMPARED, overlaid_figures};
 use spunlaid_results::output::comparison::{self, Compared, Comparison};
 use spunlaid_results::output::folder::Staging;
-use spunlaid_results::output::pictures;
 use spunlaid_results::report::{ComparisonReport, comparison_html};
 use std::path::{Path, PathBuf};
 
@@ -55,8 +54,9 @@ pub(crate) fn compare(compare: &Compare) -> Result<(), Failure> {
         None => of_runs(&compare.runs, names)?,
     };
     let json = comparison::json(&comparisons);
-    if let Some(staging) = files {
-        pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
+    if let Some(mut staging) = files {
+        staging.set_figures(&compare.figures.files());
+        staging.write_figures(&figures)?;
         let version = env!("CARGO_PKG_VERSION");
         let report =
             comparison_html(&ComparisonReport { comparisons: &comparisons, figures: &figures, version });
