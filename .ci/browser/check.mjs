@@ -49,6 +49,8 @@ const browser = await chromium.launchPersistentContext(process.env.PROFILE, {
   viewport: { width: 1280, height: 900 },
 });
 
+await browser.grantPermissions(["clipboard-read", "clipboard-write"]);
+
 /** Everything the page says is wrong, and everything it asks the network for. */
 function listen(page, where) {
   page.on("pageerror", (error) => failures.push(`${where}: script error: ${error.message}`));
@@ -140,6 +142,19 @@ async function checkTable(page, where, shot) {
   expect(await changes(page, () => page.keyboard.press("ArrowLeft")), `${where}: the arrow keys do not move the web`);
 }
 
+/** The paragraph of methods is there, and its button copies all of it. */
+async function checkMethods(page, where, shot) {
+  const text = await page.locator("#methods-text").innerText();
+  expect(/spunlaid \d/.test(text) && /The spunlaid authors/.test(text), `${where}: the methods do not name the program: ${text}`);
+  const button = page.locator('[data-copy="methods-text"]');
+  await button.scrollIntoViewIfNeeded();
+  await shot("methods", false);
+  await button.click();
+  await page.waitForFunction((b) => b.textContent !== "Copy", await button.elementHandle());
+  const copied = (await button.innerText()) === "Copied" ? await page.evaluate(() => navigator.clipboard.readText()) : await page.evaluate(() => `${getSelection()}`);
+  expect(copied.trim() === text.trim(), `${where}: copied is not what the methods say: ${copied}`);
+}
+
 async function check(scheme, width) {
   const where = `${scheme}, ${width} px`;
   const page = await browser.newPage();
@@ -177,6 +192,7 @@ async function check(scheme, width) {
   const [table, file] = options.web ? ["#verdict", "#file code"] : options.spin ? ["#results", "#file pre"] : ["#results", "#case-toml"];
   expect((await page.locator(`${table} tbody tr`).count()) >= 5, `${where}: the table of results is missing`);
   expect((await page.locator(file).innerText()).trim() !== "", `${where}: the case is missing`);
+  await checkMethods(page, where, shot);
   const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
   expect(overflow <= 1, `${where}: the page is ${overflow} px wider than the window`);
   await page.close();

@@ -78,6 +78,7 @@ pub(crate) fn reproduce(arguments: &Reproduce) -> Result<(), Failure> {
         figures: &figures,
         choices: &choices,
         how: &how,
+        case: &base,
         case_toml: &case_toml,
         version: env!("CARGO_PKG_VERSION"),
     });

@@ -62,7 +62,7 @@ fn figures_have_the_formats_and_the_width_that_are_asked_for() {
 }
 
 #[test]
-fn every_command_that_draws_figures_writes_pdf() {
+fn every_command_that_draws_figures_writes_pdf_and_a_paragraph_of_methods() {
     let desk = Desk::new();
     let pdf = ["--figures", "pdf", "--figure-width", "two-columns"];
     let run = |command: &str, arguments: &[&str]| {
@@ -82,6 +82,15 @@ fn every_command_that_draws_figures_writes_pdf() {
     for folder in ["a", "compare", "spin", "sweep", "web", "air", "analyse", "scan"] {
         let files = desk.entries(&format!("{folder}/figures"));
         let of = |ending: &str| files.iter().filter(|file| file.ends_with(ending)).count();
+        let html = String::from_utf8(desk.read(&format!("{folder}/report.html"))).unwrap();
+        let methods = html.split("<div id=\"methods-text\">").nth(1).unwrap().split("</div>").next().unwrap();
+        assert!(html.contains("data-copy=\"methods-text\""), "{folder}");
+        for words in
+            [concat!("spunlaid ", env!("CARGO_PKG_VERSION")), "The spunlaid authors: spunlaid: a simulator"]
+        {
+            assert!(methods.contains(words), "{folder}: {methods}");
+        }
+        assert!(!methods.contains("NaN") && !methods.contains("  "), "{folder}: {methods}");
         assert!(
             of(".pdf") > 0 && of(".pdf") == of(".csv") && of(".svg") + of(".png") == 0,
             "{folder}: {files:?}"

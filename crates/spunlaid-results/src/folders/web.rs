@@ -81,6 +81,7 @@ impl WebFolder<'_> {
             });
             let report = web_html(&WebReport {
                 name: self.name,
+                spec: &self.file.spec,
                 web: self.web,
                 findings: self.findings,
                 layers: &rows(&self.file.spec, self.web, self.layers),

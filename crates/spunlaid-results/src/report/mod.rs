@@ -8,6 +8,7 @@ mod air;
 mod analysis;
 mod comparison;
 mod frames;
+mod methods;
 mod page;
 mod paper;
 mod scan;

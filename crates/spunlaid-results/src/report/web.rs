@@ -1,5 +1,6 @@
 //! `report.html` of a web: the web on a light table, what makes it uneven, and the figures.
 
+use super::methods::{Methods, web_account};
 use super::rendered;
 use super::spinline::{self, LayerSpinline, SpinSection};
 use super::words::{count, time};
@@ -11,6 +12,7 @@ use askama::Template;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
+use spunlaid::layers::WebSpec;
 use spunlaid::statistics::Estimate;
 use spunlaid::web::uniformity::Unevenness;
 use spunlaid::web::{Clouds, Findings, Lever, Map, PatchFindings, Sensitivity, Source, Strand, Web, Window};
@@ -30,6 +32,8 @@ const SEEN: f64 = 10e-3;
 pub struct WebReport<'a> {
     /// What the web is called.
     pub name: &'a str,
+    /// What is said of the web.
+    pub spec: &'a WebSpec,
     /// The web.
     pub web: &'a Web,
     /// What was found.
@@ -77,6 +81,7 @@ pub(super) struct WebPage<'a> {
     pub(super) levers: Vec<(String, Vec<String>)>,
     pub(super) figures: &'a [Figure],
     pub(super) spinlines: Vec<SpinSection<'a>>,
+    pub(super) methods_paragraph: Methods,
     pub(super) file: File<'a>,
     pub(super) cost: String,
     pub(super) version: &'static str,
@@ -127,13 +132,17 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
     let sources = sources(findings);
     heads.extend(sources.iter().map(|(head, _)| *head));
     heads.push("Straight fibres");
+    let headline = headline(
+        Some(findings.within().basis_weight()),
+        headline_patch(findings).map(|i| whole(&findings.patches[i])).as_ref(),
+    );
+    let cvs = findings.patches.iter().map(whole).collect::<Vec<_>>();
+    let found = [headline.clone(), unevenness(&cvs), about_the_error(findings)];
     let page = WebPage {
         command: "web",
         name: input.name,
-        headline: headline(
-            Some(findings.within().basis_weight()),
-            headline_patch(findings).map(|i| whole(&findings.patches[i])).as_ref(),
-        ),
+        methods_paragraph: Methods::new("web", web_account(input.spec), found),
+        headline,
         summary: [summary(input.web), about_the_air(findings), about_the_error(findings)].join(" "),
         notes: input.notes,
         caption: caption(input, pixel),
@@ -228,6 +237,18 @@ pub(super) fn headline(weight: Option<f64>, patch: Option<&Unevenness>) -> Strin
         ),
         None => format!("{web}."),
     }
+}
+
+/// The CV over each size of patches, in a sentence.
+pub(super) fn unevenness(patches: &[Unevenness]) -> String {
+    let one = |patch: &Unevenness| {
+        format!("{} over patches of {}", per_cent(patch.cv, patch.standard_error), millimetres(patch.patch))
+    };
+    let all: Vec<String> = patches.iter().map(one).collect();
+    format!(
+        "Its CV (standard deviation over mean of the basis weight) is {}, ± one standard error.",
+        all.join(", ")
+    )
 }
 
 pub(super) fn per_cent(cv: f64, error: Option<f64>) -> String {
