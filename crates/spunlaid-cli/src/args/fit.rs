@@ -1,5 +1,6 @@
 //! The arguments of `spunlaid fit`.
 
+use super::figures::Figures;
 use super::source::key_and_value;
 use clap::{Args, ValueHint};
 use spunlaid::fit::{FEWEST_WEBS, USUAL_WEBS};
@@ -37,6 +38,8 @@ pub(crate) struct Fit {
     /// Print fit.json instead of the table
     #[arg(long)]
     pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) figures: Figures,
     /// Start again; deletes the fit in the output folder
     #[arg(long)]
     pub(crate) force: bool,

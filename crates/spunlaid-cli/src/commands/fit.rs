@@ -38,12 +38,13 @@ pub(crate) fn fit(asked: &args::Fit) -> Result<(), Failure> {
         notes: &notes,
     };
     let path = super::folder(asked.out.as_ref(), format!("{name}_fit"));
-    let (folder, mut journal, state) = FitFolder::open(&path, &input, asked.force, stop_on_ctrl_c())?;
+    let (mut folder, mut journal, state) = FitFolder::open(&path, &input, asked.force, stop_on_ctrl_c())?;
     report_found(asked, state);
     let found = search(asked, &file, &target, &mut journal).map_err(|error| match error {
         Error::Interrupted => Failure::Paused { done: journal.total(), what: "webs", total: None },
         other => other.into(),
     })?;
+    folder.figures = asked.figures.files();
     folder.write(&input, &found)?;
     if asked.json {
         say::text(&fit_json(&found, &target, input.paths, &notes));

@@ -7,7 +7,7 @@ use crate::output::beside::{self, CASE_FILES};
 use crate::output::fit::{fit_json, trials_csv};
 use crate::output::folder::Staging;
 use crate::output::leftovers;
-use crate::output::pictures;
+use crate::output::pictures::FigureFiles;
 use crate::report::{FitReport, fit_html};
 use spunlaid::error::Fault;
 use spunlaid::fit::{Fit, MOST_TRIALS, Target, identity, numbers_of_record};
@@ -29,6 +29,8 @@ const OF_OTHERS: &[&str] = &["summary.json", "results.csv", "analysis.json", "co
 pub struct FitFolder<'a> {
     path: PathBuf,
     stop: &'a AtomicBool,
+    /// How figures are written.
+    pub figures: FigureFiles,
 }
 
 /// What is fitted to what.
@@ -97,7 +99,7 @@ impl<'a> FitFolder<'a> {
             }
             Some(_) => Some(journal.go_on(MOST_TRIALS, input.webs, numbers)?),
         };
-        Ok((Self { path: path.to_owned(), stop }, journal, state))
+        Ok((Self { path: path.to_owned(), stop, figures: FigureFiles::default() }, journal, state))
     }
 
     /// Writes the values, the figures, the report and the web with the values that were found.
@@ -105,14 +107,24 @@ impl<'a> FitFolder<'a> {
     /// # Errors
     /// If a file cannot be written.
     pub fn write(&self, input: &FitInput<'_>, fit: &Fit) -> Result<(), Failure> {
-        let staging = Staging::new(&self.path, FILES, true, self.stop)?;
+        let mut staging = Staging::new(&self.path, FILES, true, self.stop)?;
+        staging.set_figures(&self.figures);
         let values: Vec<f64> = fit.keys.iter().map(|key| key.value).collect();
-        let toml = write_found(&staging, input.file.web(&values)?.spec)?;
+        let spec = input.file.web(&values)?.spec;
+        let toml = write_found(&staging, spec.clone())?;
         let figures = fit_figures(fit);
-        pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
-        let FitInput { name, paths, target, notes, .. } = *input;
-        let report =
-            fit_html(&FitReport { name, scan: paths[1], fit, target, figures: &figures, notes, toml: &toml });
+        staging.write_figures(&figures)?;
+        let (FitInput { name, paths, target, notes, .. }, spec) = (*input, &spec);
+        let report = fit_html(&FitReport {
+            name,
+            scan: paths[1],
+            fit,
+            target,
+            spec,
+            figures: &figures,
+            notes,
+            toml: &toml,
+        });
         staging.write("web.toml", toml)?;
         staging.write("trials.csv", trials_csv(fit))?;
         staging.write("report.html", report)?;

@@ -1,10 +1,12 @@
 //! `report.html` of a fit: the values, what they are worth, the figures.
 
+use super::methods::{MOMENTS, Methods, web_account};
 use super::rendered;
 use crate::numbers::significant;
-use crate::output::fit::{doubt, pretty, sentences, value_and_interval};
+use crate::output::fit::{doubt, pretty, sentences as sentences_of, value_and_interval};
 use askama::Template;
 use spunlaid::fit::{Fit, FittedKey, FittedNumber, Target, Texture};
+use spunlaid::layers::WebSpec;
 use spunlaid::units::Dimension;
 use spunlaid_charts::Figure;
 
@@ -19,6 +21,8 @@ pub struct FitReport<'a> {
     pub fit: &'a Fit,
     /// What it was compared with.
     pub target: &'a Target,
+    /// The web with the values that were found.
+    pub spec: &'a WebSpec,
     /// The figures.
     pub figures: &'a [Figure],
     /// Notes for the reader.
@@ -40,6 +44,7 @@ struct FitPage<'a> {
     correlation_heads: Vec<String>,
     correlations: Vec<(String, Vec<String>)>,
     numbers: Vec<[String; 5]>,
+    methods_paragraph: Methods,
     trials: usize,
     webs: u64,
     figures: &'a [Figure],
@@ -62,7 +67,7 @@ pub fn fit_html(input: &FitReport<'_>) -> String {
             input.scan, fit.webs
         ),
         notes: input.notes,
-        sentences: sentences(fit),
+        sentences: sentences_of(fit),
         keys: fit.keys.iter().map(row).collect(),
         correlation_heads: fit.keys.iter().filter(|_| several).map(head).collect(),
         correlations: correlations
@@ -71,6 +76,7 @@ pub fn fit_html(input: &FitReport<'_>) -> String {
             })
             .collect(),
         numbers: fit.numbers.iter().map(number).collect(),
+        methods_paragraph: methods(input),
         trials: fit.trials.len(),
         webs: fit.webs,
         figures: input.figures,
@@ -78,6 +84,29 @@ pub fn fit_html(input: &FitReport<'_>) -> String {
         version: env!("CARGO_PKG_VERSION"),
     };
     rendered(&page)
+}
+
+/// The paragraph for a paper.
+fn methods(input: &FitReport<'_>) -> Methods {
+    let fit = input.fit;
+    let (mut sentences, mut cited) = web_account(input.spec);
+    let [width, length] = input.target.sides().map(|side| Dimension::Length.pretty(side));
+    sentences.push(format!(
+        "These values were found by a simulated method of moments ({}): the logarithms of {} numbers (CV over square patches{}) of a piece of {width} × {length} \
+         were compared with the mean of {} simulated webs, weighted by the inverse of their covariance from web to web.",
+        MOMENTS.short,
+        fit.numbers.len(),
+        if fit.numbers.iter().any(|number| matches!(number.texture, Texture::Band { .. })) {
+            ", variance of octaves of the spectrum"
+        } else {
+            ""
+        },
+        fit.webs,
+    ));
+    cited.push(MOMENTS);
+    let found =
+        std::iter::once(format!("Values with 95 % intervals: {}.", title(fit))).chain(sentences_of(fit));
+    Methods::new("fit", (sentences, cited), found)
 }
 
 /// The answer.

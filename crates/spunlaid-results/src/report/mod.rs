@@ -10,6 +10,7 @@ mod comparison;
 mod fit;
 mod frames;
 mod light_table;
+mod methods;
 mod page;
 mod paper;
 mod scan;
