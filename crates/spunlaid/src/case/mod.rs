@@ -3,6 +3,7 @@
 mod check;
 mod files;
 pub mod keys;
+mod limits;
 mod memory;
 mod neighbours;
 mod note;
@@ -12,7 +13,8 @@ mod unset;
 mod usual;
 
 pub(crate) use check::too_many_steps;
-pub use check::{INSTANT_ON_DISK, MOST_INSTANTS, MOST_REPLICATES, MOST_SHAPES, MOST_STEPS};
+pub(crate) use limits::whole_parts;
+pub use limits::{INSTANT_ON_DISK, MOST_INSTANTS, MOST_REPLICATES, MOST_SHAPES, MOST_STEPS};
 pub use memory::{FLIGHT_MEMORY_LIMIT, FlightMemory};
 pub use neighbours::Neighbours;
 pub use note::{Note, Remark};
@@ -366,12 +368,4 @@ impl Case {
             None => cause,
         }
     }
-}
-
-/// How many times `part` fits into `whole`, rounded to a whole number, and whether it fits exactly (apart from
-/// floating-point rounding).
-pub(crate) fn whole_parts(whole: f64, part: f64) -> (u64, bool) {
-    let ratio = whole / part;
-    let nearest = ratio.round();
-    (nearest as u64, (ratio - nearest).abs() <= 8.0 * f64::EPSILON * ratio)
 }

@@ -1,10 +1,13 @@
 //! Everything that is found out about a web.
 
 use super::clouds::{Clouds, autocorrelation};
-use super::lay::{LaidWeb, Laying, Together, lay, places};
+use super::laid::{LaidWeb, Together};
+use super::lay::lay;
+use super::laying::Laying;
 use super::map::Map;
 use super::one_fibre::{Alone, OneFibre, one_fibre, straight_fibres};
 use super::orientation::{Orientation, orientation};
+use super::plan::places;
 use super::sensitivity::{Sensitivity, Source, sensitivities};
 use super::uniformity::{Unevenness, unevenness_at};
 use super::waves::Places;

@@ -1,5 +1,6 @@
 //! Study files: reads a file to a [`Study`] with all its points, and writes it back.
 
+mod advice;
 mod base;
 mod design;
 mod differences;

@@ -2,7 +2,7 @@
 
 use super::super::web::{WebFile, parse_web_of_case, write_web};
 use super::super::{Overrides, document};
-use super::base::TAKE_A_NUMBER;
+use super::advice::TAKE_A_NUMBER;
 use super::plan::Plan;
 use super::reader::not_varied;
 use super::{Base, MadeExperiment, VariedKey, level};
