@@ -1,5 +1,5 @@
-// What a reader must see in a report: a fibre that is drawn and moves, or a web on its light table; every figure, also of a
-// spinline; and no script errors.
+// What a reader must see in a report: a fibre that is drawn and moves, a web on its light table, or webs beside each other; every figure,
+// also of a spinline; every number of every table, also on a phone; and no script errors.
 // Started by `check`, which says where Chromium and playwright-core are.
 
 import { createRequire } from "node:module";
@@ -16,6 +16,7 @@ const { values: options, positionals } = parseArgs({
     "without-turbulence": { type: "boolean" },
     web: { type: "boolean" },
     spin: { type: "boolean" },
+    compare: { type: "boolean" },
     screenshots: { type: "string" },
   },
 });
@@ -24,7 +25,10 @@ const OF_RUN = ["end_node_history", "end_node_path", "amplitude_along_fibre", "m
 if (!options["without-turbulence"]) OF_RUN.push("turbulence_spectrum");
 const OF_WEB = ["cv", "histogram", "profiles", "clouds", "spectrum", "autocorrelation", "directions"].map((n) => `web_${n}`);
 const OF_SPINLINE = ["speed_and_diameter", "temperature", "tension_and_stress", "strain_rate", "influences"].map((n) => `spinline_${n}`);
-const FIGURES = options.spin ? OF_SPINLINE : options.web ? OF_WEB : OF_RUN;
+const OF_COMPARISON = ["web_cv", "web_spectrum"];
+const FIGURES = options.compare ? OF_COMPARISON : options.spin ? OF_SPINLINE : options.web ? OF_WEB : OF_RUN;
+/** What is drawn where the light table shows no web. */
+const BARE_TABLE = [0xe9, 0xe5, 0xd8];
 // The captions of the moving fibre show a running clock.
 const CANVAS = options.web ? { id: "table", top: 0 } : { id: "fibre", top: 110 };
 
@@ -33,7 +37,7 @@ const expect = (holds, message) => {
   if (!holds) failures.push(message);
 };
 
-const browser = await chromium.launchPersistentContext(process.env.PROFILE, {
+const LAUNCH = {
   executablePath: process.env.CHROMIUM,
   headless: false, // the flag below asks for the new headless mode
   args: [
@@ -47,7 +51,8 @@ const browser = await chromium.launchPersistentContext(process.env.PROFILE, {
     "--disable-sync",
   ],
   viewport: { width: 1280, height: 900 },
-});
+};
+const browser = await chromium.launchPersistentContext(process.env.PROFILE, { ...LAUNCH, hasTouch: true });
 
 await browser.grantPermissions(["clipboard-read", "clipboard-write"]);
 
@@ -120,26 +125,110 @@ async function checkMotion(page, where, shot) {
   expect(await changes(page, () => page.keyboard.press("ArrowLeft")), `${where}: the arrow keys do not turn the picture`);
 }
 
-/** The light table shows single fibres, can be moved, and goes back to the whole web. */
+/** How much of the light table shows no web. */
+function bareShare(page) {
+  return page.evaluate((bare) => {
+    const canvas = document.querySelector("canvas#table");
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    let count = 0;
+    for (let i = 0; i < data.length; i += 4) if (bare.every((part, k) => data[i + k] === part)) count++;
+    return (4 * count) / data.length;
+  }, BARE_TABLE);
+}
+
+/** Two fingers on the light table, from some distance apart to another [px]. */
+async function pinch(page, [x, y], from, to) {
+  const client = await page.context().newCDPSession(page);
+  const touch = (type, apart) =>
+    client.send("Input.dispatchTouchEvent", {
+      type,
+      touchPoints: apart === null ? [] : [{ x: x - apart / 2, y, id: 0 }, { x: x + apart / 2, y, id: 1 }],
+    });
+  await touch("touchStart", from);
+  for (let step = 1; step <= 5; step++) await touch("touchMove", from + ((to - from) * step) / 5);
+  await touch("touchEnd", null);
+  await client.detach();
+}
+
+/** The light table is full of web, shows single fibres, can be moved, and goes back to the whole web; its words are those of the web. */
 async function checkTable(page, where, shot) {
   const canvas = page.locator("#table");
   await canvas.scrollIntoViewIfNeeded();
+  const bare = await bareShare(page);
+  expect(bare < 0.005, `${where}: the web leaves ${(100 * bare).toFixed(1)} % of its frame empty`);
+  const words = await page.locator("figure.view").innerText();
+  const told = Number(/is ([\d,.]+) mm wide/.exec(words)?.[1].replace(/,/g, ""));
+  const width = await page.evaluate(() => JSON.parse(document.getElementById("web-data").textContent).width);
+  expect(Math.abs(told / width - 1) < 0.01, `${where}: the web is ${width} mm wide, and the page says ${told} mm`);
   for (const id of ["fibres", "farther", "whole", "closer"]) {
     expect(await changes(page, () => page.locator(`#${id}`).click()), `${where}: the button ${id} does nothing`);
     await shot(id, false);
   }
   const box = await canvas.boundingBox();
   const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
-  const dragged = await changes(page, async () => {
+  const drag = async (right, down) => {
     await page.mouse.move(x, y);
     await page.mouse.down();
-    await page.mouse.move(x + 60, y + 40, { steps: 4 });
+    await page.mouse.move(x + right, y + down, { steps: 4 });
     await page.mouse.up();
-  });
-  expect(dragged, `${where}: dragging does not move the web`);
+  };
+  expect(await changes(page, () => drag(60, 40)), `${where}: dragging does not move the web`);
   expect(await changes(page, () => page.mouse.wheel(0, -300)), `${where}: the wheel does not zoom`);
+  expect(await changes(page, () => pinch(page, [x, y], 60, 120)), `${where}: two fingers do not zoom`);
   await canvas.focus();
   expect(await changes(page, () => page.keyboard.press("ArrowLeft")), `${where}: the arrow keys do not move the web`);
+  for (let i = 0; i < 12; i++) await drag(box.width / 2 - 5, box.height / 2 - 5);
+  await page.waitForTimeout(200);
+  expect((await bareShare(page)) < 0.005, `${where}: dragging moves the web out of its frame`);
+  await shot("corner", false);
+  expect(await changes(page, () => page.keyboard.press("0")), `${where}: the key 0 does not show the whole web`);
+  expect((await page.locator("figure.view").innerText()) === words, `${where}: words of the light table change with the view`);
+}
+
+/** The pictures of all webs have one size, on the screen and in pixels, so one scale. */
+async function checkPictures(page, where) {
+  const sizes = await page.locator(".beside img").evaluateAll((pictures) =>
+    pictures.map((one) => {
+      const { width, height } = one.getBoundingClientRect();
+      return [Math.round(width), Math.round(height), one.naturalWidth, one.naturalHeight];
+    }),
+  );
+  expect(sizes.length >= 2 && sizes[0][0] > 100, `${where}: there are no two pictures (${JSON.stringify(sizes)})`);
+  if (sizes.length === 0) return;
+  expect(sizes.every((size) => `${size}` === `${sizes[0]}`), `${where}: the pictures have different scales (${JSON.stringify(sizes)})`);
+  const [width, height, columns, rows] = sizes[0];
+  expect(Math.abs((width * rows) / (height * columns) - 1) < 0.02, `${where}: the pictures are stretched (${sizes[0]})`);
+  const bars = await page.locator(".beside .bar").evaluateAll((bars) => bars.map((bar) => Math.round(bar.getBoundingClientRect().width)));
+  expect(bars.length === sizes.length && bars.every((bar) => bar === bars[0] && bar > 20), `${where}: the scales differ (${bars})`);
+}
+
+/** Every number of every table can be seen: in the window, or by scrolling in a frame that says so. */
+async function checkTables(page, where) {
+  const hidden = await page.evaluate(() => {
+    document.querySelectorAll("details").forEach((details) => (details.open = true));
+    const cut = [];
+    for (const cell of document.querySelectorAll("main td, main tbody th")) {
+      const frame = cell.closest(".points");
+      const says = frame?.previousElementSibling?.textContent.includes("Scroll inside the table");
+      const { left, right, width } = cell.getBoundingClientRect();
+      const room = (cell.closest(".wide") ?? document.body).getBoundingClientRect();
+      const isCut = width > 0 && (left < room.left - 1 || right > room.right + 1);
+      if (cell.textContent.trim() !== "" && !says && isCut) cut.push(cell.textContent.trim());
+    }
+    return cut;
+  });
+  expect(hidden.length === 0, `${where}: ${hidden.length} cells of tables are cut off: ${hidden.slice(0, 3).join("; ")}`);
+}
+
+/** Without scripts the web is a picture, and nothing stands there that does nothing. */
+async function checkWithoutScripts() {
+  const plain = await chromium.launchPersistentContext(`${process.env.PROFILE}-plain`, { ...LAUNCH, javaScriptEnabled: false });
+  const page = await plain.newPage();
+  await page.goto(report, { waitUntil: "load" });
+  const [picture, frame] = [await page.locator("#sheet").boundingBox(), await page.locator("figure.view").boundingBox()];
+  expect(picture && picture.width > frame.width - 4 && picture.height > 50, "without scripts: there is no picture of the web");
+  expect(!(await page.locator("#closer").isVisible()), "without scripts: there are buttons that do nothing");
+  await plain.close();
 }
 
 /** The paragraph of methods is there, and its button copies all of it. */
@@ -170,7 +259,11 @@ async function check(scheme, width) {
   };
   await shot("page", true);
 
-  if (!options.spin) {
+  await checkTables(page, where);
+  const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+  expect(overflow <= 1, `${where}: the page is ${overflow} px wider than the window`);
+  if (options.compare) await checkPictures(page, where);
+  if (!options.spin && !options.compare) {
     const drawn = await pixels(page);
     expect(drawn !== null, `${where}: there is no canvas`);
     if (drawn === null) return page.close();
@@ -189,12 +282,14 @@ async function check(scheme, width) {
     expect((await svg.locator("path, circle").count()) > 10, `${where}: the figure ${name} is empty`);
     expect(!/NaN|Infinity/.test(await svg.innerHTML()), `${where}: the figure ${name} holds numbers that are none`);
   }
+  if (options.compare) {
+    expect((await page.locator("table tbody tr").count()) >= 5, `${where}: the table of differences is missing`);
+    return page.close();
+  }
   const [table, file] = options.web ? ["#verdict", "#file code"] : options.spin ? ["#results", "#file pre"] : ["#results", "#case-toml"];
   expect((await page.locator(`${table} tbody tr`).count()) >= 5, `${where}: the table of results is missing`);
   expect((await page.locator(file).innerText()).trim() !== "", `${where}: the case is missing`);
   await checkMethods(page, where, shot);
-  const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
-  expect(overflow <= 1, `${where}: the page is ${overflow} px wider than the window`);
   await page.close();
 }
 
@@ -202,6 +297,8 @@ try {
   await check("light", 1280);
   await check("dark", 1280);
   await check("light", 390);
+  await check("dark", 390);
+  if (options.web) await checkWithoutScripts();
 } catch (error) {
   failures.push(`the check itself: ${error.message}`);
 } finally {
@@ -211,5 +308,5 @@ if (failures.length > 0) {
   console.error(`${positionals[0]}:\n${failures.map((f) => `  ${f}`).join("\n")}`);
   process.exit(1);
 }
-const seen = options.spin ? "the spinline is shown" : options.web ? "the web lies on its table" : "the fibre is drawn and moves";
+const seen = options.compare ? "the webs lie beside each other" : options.spin ? "the spinline is shown" : options.web ? "the web lies on its table" : "the fibre is drawn and moves";
 console.log(`${positionals[0]}: ${seen}, ${FIGURES.length} figures, no script errors`);

@@ -11,15 +11,17 @@ function readStrands(window) {
   return window.counts.map((count) => numbers.subarray(at, (at += 2 * count)));
 }
 
-function startTable(canvas, data) {
-  const image = new Image();
+/** Shows the picture on the canvas, where it can be moved; without a script the picture stands alone. */
+function startTable(canvas, image, data) {
   const strands = readStrands(data.window);
   const pen = canvas.getContext("2d");
   const byId = (id) => document.getElementById(id);
   // Middle of the view [mm] and pixels per mm.
   const view = { x: 0, y: 0, scale: 1 };
   const size = () => [canvas.clientWidth, canvas.clientHeight];
-  const fit = (width, length) => Math.min(size()[0] / width, size()[1] / length);
+  /** Scales at which the whole web is in the frame, and at which it fills the frame. */
+  const whole = () => Math.min(size()[0] / data.width, size()[1] / data.length);
+  const full = () => Math.max(size()[0] / data.width, size()[1] / data.length);
 
   function drawFibres() {
     if (!data.window) return;
@@ -77,17 +79,21 @@ function startTable(canvas, data) {
     pen.fillRect(0, 0, width, height);
     const x = width / 2 - view.x * view.scale;
     const y = height / 2 - view.y * view.scale;
-    if (image.complete) pen.drawImage(image, x, y, data.width * view.scale, data.length * view.scale);
+    const pixel = data.pixel * view.scale;
+    pen.drawImage(image, x, y, image.naturalWidth * pixel, image.naturalHeight * pixel);
     drawFibres();
     drawScale();
-    byId("width-shown").textContent = `${Number((width / view.scale).toPrecision(3))} mm wide`;
   }
 
+  const within = (scale) => Math.min(Math.max(scale, whole()), 2000);
+
+  /** Shows a place of the web in the middle of the frame, or as near to it as the web reaches. */
   function show(x, y, scale) {
-    const least = 0.8 * fit(data.width, data.length);
-    view.scale = Math.min(Math.max(scale, least), 2000);
-    view.x = Math.min(Math.max(x, 0), data.width);
-    view.y = Math.min(Math.max(y, 0), data.length);
+    view.scale = within(scale);
+    const place = (at, side, shown) => (side <= shown ? side / 2 : Math.min(Math.max(at, shown / 2), side - shown / 2));
+    const [width, height] = size();
+    view.x = place(x, data.width, width / view.scale);
+    view.y = place(y, data.length, height / view.scale);
     requestAnimationFrame(draw);
   }
 
@@ -95,18 +101,18 @@ function startTable(canvas, data) {
   function zoom(factor, px = size()[0] / 2, py = size()[1] / 2) {
     const [dx, dy] = [px - size()[0] / 2, py - size()[1] / 2];
     const before = view.scale;
-    const after = Math.min(Math.max(before * factor, 0.8 * fit(data.width, data.length)), 2000);
+    const after = within(before * factor);
     show(view.x + dx / before - dx / after, view.y + dy / before - dy / after, after);
   }
 
-  const whole = () => show(data.width / 2, data.length / 2, 0.97 * fit(data.width, data.length));
+  const showWhole = () => show(data.width / 2, data.length / 2, whole());
   const fibres = () => {
     const { corner, sides } = data.window;
     show(corner[0] + sides[0] / 2, corner[1] + sides[1] / 2, 1.02 * Math.max(size()[0] / sides[0], size()[1] / sides[1]));
   };
   byId("closer").addEventListener("click", () => zoom(1.6));
   byId("farther").addEventListener("click", () => zoom(1 / 1.6));
-  byId("whole").addEventListener("click", whole);
+  byId("whole").addEventListener("click", showWhole);
   byId("fibres")?.addEventListener("click", fibres);
   canvas.addEventListener("wheel", (e) => {
     e.preventDefault();
@@ -141,10 +147,22 @@ function startTable(canvas, data) {
     if (moves[e.key]) show(view.x + moves[e.key][0], view.y + moves[e.key][1], view.scale);
     else if (e.key === "+" || e.key === "=") zoom(1.3);
     else if (e.key === "-") zoom(1 / 1.3);
+    else if (e.key === "0") showWhole();
     else return;
     e.preventDefault();
   });
-  new ResizeObserver(() => show(view.x, view.y, view.scale)).observe(canvas);
-  image.onload = whole;
-  image.src = `data:image/png;base64,${data.image}`;
+  const start = () => {
+    image.hidden = true;
+    canvas.hidden = byId("moves").hidden = false;
+    show(data.width / 2, data.length / 2, full());
+    // A frame of another width shows the same part of the web.
+    let before = size()[0];
+    new ResizeObserver(() => {
+      const now = size()[0];
+      if (now > 0) show(view.x, view.y, (view.scale * now) / before);
+      before = now || before;
+    }).observe(canvas);
+  };
+  if (image.complete) start();
+  else image.addEventListener("load", start);
 }

@@ -2,12 +2,14 @@
 
 mod analyse;
 mod figures;
+mod fit;
 mod help;
 mod new;
 mod source;
 
 pub(crate) use analyse::{Analyse, Direction, LightName};
 pub(crate) use figures::{Figures, format};
+pub(crate) use fit::Fit;
 pub(crate) use new::{LineNumbers, New, polymer, titre};
 pub(crate) use source::{CaseSource, is_standard, quoted};
 
@@ -15,7 +17,7 @@ use clap::{Args, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
 use figures::FigureWidth;
 use help::{
-    AIR_HELP, ANALYSE_HELP, CHECK_HELP, COMPARE_HELP, EXAMPLES, KEYS_HELP, LIVE_HELP, NEW_HELP,
+    AIR_HELP, ANALYSE_HELP, CHECK_HELP, COMPARE_HELP, EXAMPLES, FIT_HELP, KEYS_HELP, LIVE_HELP, NEW_HELP,
     REPRODUCE_HELP, RUN_HELP, SPIN_HELP, SWEEP_HELP, WEB_HELP,
 };
 use source::key_and_value;
@@ -45,6 +47,9 @@ pub(crate) enum Command {
     /// Lay a web of many filaments: map of its basis weight, how uneven it is, directions
     #[command(after_help = WEB_HELP)]
     Web(Web),
+    /// Find the settings whose webs are as uneven as a scanned one, with their intervals
+    #[command(after_help = FIT_HELP)]
+    Fit(Fit),
     /// Look at the turbulent air of a case: moving pictures of its gusts, slices for ParaView
     #[command(after_help = AIR_HELP)]
     Air(Air),

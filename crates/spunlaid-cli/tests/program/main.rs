@@ -10,6 +10,7 @@ mod air;
 mod cases;
 mod commands;
 mod compare;
+mod compared_webs;
 mod continued;
 mod figures;
 mod gusts;

@@ -29,21 +29,21 @@ cell = "0.5 mm"
 patches = ["2 mm", "4 mm", "10 mm"]
 "#;
 
-fn desk() -> Desk {
+pub(crate) fn desk() -> Desk {
     let desk = Desk::new();
     fs::write(desk.path("web.toml"), WEB).unwrap();
     desk
 }
 
 /// The numbers of a map, a row after the other, from `map.npy`.
-fn map(desk: &Desk, folder: &str) -> Vec<f64> {
+pub(crate) fn map(desk: &Desk, folder: &str) -> Vec<f64> {
     let bytes = desk.read(&format!("{folder}/map.npy"));
     let start = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
     bytes[start..].chunks_exact(4).map(|x| f64::from(f32::from_le_bytes(x.try_into().unwrap()))).collect()
 }
 
 /// Writes a scan in transmitted light of 16 bits, with an optical density of 0.4 on average and a lamp of 60000.
-fn scan(desk: &Desk, name: &str, columns: usize, weights: &[f64]) {
+pub(crate) fn scan(desk: &Desk, name: &str, columns: usize, weights: &[f64]) {
     let mean = weights.iter().sum::<f64>() / weights.len() as f64;
     let level = |weight: &f64| (60_000.0 * (-0.4 * weight / mean).exp()).round() as u16;
     let bytes: Vec<u8> = weights.iter().flat_map(|weight| level(weight).to_be_bytes()).collect();
@@ -54,7 +54,7 @@ fn scan(desk: &Desk, name: &str, columns: usize, weights: &[f64]) {
     encoder.write_header().unwrap().write_image_data(&bytes).unwrap();
 }
 
-fn number(value: &Value) -> f64 {
+pub(crate) fn number(value: &Value) -> f64 {
     value.as_f64().unwrap()
 }
 

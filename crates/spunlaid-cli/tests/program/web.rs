@@ -1,7 +1,7 @@
 //! `spunlaid web`: what it refuses, and how.
 
 use crate::desk;
-use crate::desk::{Desk, FED, refusal};
+use crate::desk::{Desk, FED, refusal, success};
 use std::fs;
 
 const WEB: &str = "[laydown]\ncase = \"brief.toml\"\n[line]\nfilaments_per_metre = 500\n[web]\nwidth = \"1 m\"\nlength = \"1 m\"\n";
@@ -255,4 +255,37 @@ fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
     let independent = desk.summary("d");
     assert!(independent["web"]["patches"][0].get("cv_independent").is_none());
     assert!(independent.get("neighbours").is_none());
+}
+
+#[test]
+fn the_page_tells_how_wide_the_web_is_and_where_it_ends() {
+    let desk = desk();
+    for (edges, pitch, label, ends) in [
+        ("cut", "1 mm", "edge of the web", [76.0, 1123.0]),
+        ("periodic", "1.2 mm", "edge of the sheet", [0.0, 1200.0]),
+    ] {
+        let web = format!(
+            "[fibre]\ndiameter = \"18 µm\"\ndensity = \"910 kg/m³\"\n[laydown]\nsigma_md = \"9 mm\"\nsigma_cd = \"8 mm\"\n\
+             noise = \"15 m^-0.5\"\n[line]\nfeed_speed = \"50 m/s\"\nbelt_speed = \"5 m/s\"\n\
+             rows = [{{ offset = \"100 mm\", pitch = \"{pitch}\", filaments = 1000 }}]\n[web]\nwidth = \"1.2 m\"\n\
+             length = \"300 mm\"\ncell = \"2 mm\"\npatches = [\"10 mm\"]\nedges = \"{edges}\"\n"
+        );
+        fs::write(desk.path("wide.toml"), web).unwrap();
+        success(&mut desk.spunlaid("web wide.toml --out w --force --quiet"));
+        let page = String::from_utf8(desk.read("w/report.html")).unwrap();
+        assert!(page.contains("The web is 1,200 mm wide and 300 mm long."));
+        // Without scripts the picture stands there, and buttons that would do nothing do not.
+        assert!(page.contains("<img id=\"sheet\" src=\"data:image/png;base64,iVBOR"));
+        assert!(page.contains("<canvas id=\"table\" hidden") && page.contains("id=\"moves\" hidden"));
+        // 3 σ_CD beyond the first and the last filament.
+        let profile = String::from_utf8(desk.read("w/figures/web_profiles.csv")).unwrap();
+        let lines =
+            profile.lines().filter_map(|line| line.strip_prefix(label)?.split(',').nth(1)?.parse().ok());
+        let found: Vec<f64> = lines.collect();
+        assert!(
+            found.len() == 2 && found.iter().zip(ends).all(|(a, b)| (a - b).abs() < 1e-6),
+            "{edges}: {found:?}"
+        );
+        assert_eq!(page.contains("thinner, not counted"), edges == "cut");
+    }
 }

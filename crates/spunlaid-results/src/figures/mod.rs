@@ -1,8 +1,9 @@
-//! The figures of a run, a spinline, a study, a record and the paper, drawn with `spunlaid-charts`.
+//! The figures of a run, a spinline, a study, a fit, a record and the paper, drawn with `spunlaid-charts`.
 
 mod compare;
 #[cfg(test)]
 mod drag_laws;
+mod fit;
 pub mod paper;
 mod record;
 #[cfg(test)]
@@ -20,13 +21,16 @@ mod tests;
 mod web;
 
 pub use compare::{CurvePoint, Curves, MOST as MOST_COMPARED, overlaid_figures};
+pub use fit::fit_figures;
 pub use record::record_figures;
 pub use run::{run_figures, swing_frequency};
 pub use scales::Scale;
 pub use spinline::{SPINLINE, spinline_figures};
 pub use spunlaid::web::uniformity::Unevenness;
 pub use study::{name_of_key, study_figures};
-pub use web::{SEEN, overlaid_webs, scan_figures, web_figures};
+pub use web::{
+    ComparedPatch, ComparedSpectrum, SEEN, overlaid_spectra, overlaid_webs, scan_figures, web_figures,
+};
 
 /// Label of an axis: `Length laid (m)`.
 fn with_unit(label: &str, unit: &str) -> String {

@@ -37,7 +37,7 @@ pub struct Compared {
     pub unit: &'static str,
     /// Factor from SI to the unit that is shown.
     pub per_si: f64,
-    /// Of the run that is compared with, and of the other.
+    /// Of the run that is compared with, and of the other; NaN where one has none.
     pub means: [Estimate; 2],
     /// None where there are too few replicates for an error, or there is a doubt.
     pub difference: Option<Difference>,
@@ -50,6 +50,9 @@ struct Document<'a> {
     schema_version: u32,
     spunlaid_version: &'static str,
     comparisons: Vec<PairSummary<'a>>,
+    /// What is missing, and why.
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    notes: &'a [String],
 }
 
 #[derive(Serialize)]
@@ -78,6 +81,7 @@ struct Numbers {
 
 #[derive(Serialize)]
 struct Mean {
+    /// Null of patches that a web does not have.
     mean: f64,
     standard_error: Option<f64>,
     /// Number of replicates; none for a web.
@@ -86,7 +90,9 @@ struct Mean {
 }
 
 /// The comparisons as JSON, in SI units.
-pub fn json(comparisons: &[Comparison]) -> String {
+///
+/// * `notes` – what is missing, and why
+pub fn json(comparisons: &[Comparison], notes: &[String]) -> String {
     let mean = |estimate: &Estimate| {
         let finite = estimate.values.iter().filter(|value| value.is_finite()).count();
         let n = (!estimate.values.is_empty()).then_some(finite);
@@ -118,11 +124,9 @@ pub fn json(comparisons: &[Comparison]) -> String {
         schema_version: SCHEMA_VERSION,
         spunlaid_version: env!("CARGO_PKG_VERSION"),
         comparisons: comparisons.collect(),
+        notes,
     };
-    // Serialising plain numbers and strings into memory cannot fail.
-    let mut text = serde_json::to_string_pretty(&document).unwrap_or_default();
-    text.push('\n');
-    text
+    super::json_text(&document)
 }
 
 impl Comparison {

@@ -1,9 +1,14 @@
-//! `report.html` of a comparison: a table for each pair of runs, and their curves in one picture each.
+//! `report.html` of a comparison: a table for each pair of runs, their curves in one picture each, and webs beside each other.
 
 use super::methods::Methods;
 use super::rendered;
+use super::words::{metres, millimetres};
+use crate::numbers::{THIN, significant};
 use crate::output::comparison::{Compared, Comparison};
+use crate::output::web::Pictures;
 use askama::Template;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use spunlaid::statistics::Difference;
 use spunlaid_charts::Figure;
 
@@ -14,8 +19,21 @@ pub struct ComparisonReport<'a> {
     pub comparisons: &'a [Comparison],
     /// The figures.
     pub figures: &'a [Figure],
+    /// Pictures of webs.
+    pub pictures: Option<&'a ComparedPictures>,
+    /// What is missing, and why.
+    pub notes: &'a [String],
     /// Version of the program.
     pub version: &'a str,
+}
+
+/// Pictures of webs with their names.
+#[derive(Clone, Debug)]
+pub struct ComparedPictures {
+    /// Names of the webs.
+    pub names: Vec<String>,
+    /// Their pictures, in the same order.
+    pub pictures: Pictures,
 }
 
 /// Content of `assets/comparison.html`, which escapes everything that is not marked safe.
@@ -24,6 +42,8 @@ pub struct ComparisonReport<'a> {
 struct ComparisonPage<'a> {
     title: String,
     tables: Vec<PairTable<'a>>,
+    notes: &'a [String],
+    beside: Option<Beside<'a>>,
     figures: &'a [Figure],
     methods_paragraph: Methods,
     version: &'a str,
@@ -42,6 +62,49 @@ struct MeasureRow<'a> {
     cells: [String; 4],
     /// Whether the difference is within chance.
     faint: bool,
+}
+
+/// Pictures beside each other.
+struct Beside<'a> {
+    /// Names and pictures, as base64.
+    webs: Vec<(&'a str, String)>,
+    /// Width over height of each.
+    aspect: f64,
+    /// Length of the bar below a picture, and its share of the width in per cent.
+    bar: (String, f64),
+    /// Below white and below black.
+    ends: [String; 2],
+    caption: String,
+}
+
+impl<'a> Beside<'a> {
+    fn new(webs: &'a ComparedPictures) -> Self {
+        let Pictures { sides: [width, length], pixel, contrast, files } = &webs.pictures;
+        let names = webs.names.iter().map(String::as_str);
+        let contrast = |sign: char| format!("{sign}{}{THIN}%", significant(100.0 * contrast, 2));
+        let bar = round_length(0.4 * width);
+        Self {
+            webs: names.zip(files.iter().map(|file| STANDARD.encode(file))).collect(),
+            aspect: width / length,
+            bar: (metres(bar), 100.0 * bar / width),
+            ends: ['−', '+'].map(contrast),
+            caption: format!(
+                "The middle of each web, {} across and {} along it, at the same scale and in the same shades: the same shade is the same \
+                 basis weight relative to the mean of the piece, lighter where there is less fibre. Black and white are three standard \
+                 deviations of the most uneven piece apart from the mean. The machine direction runs downwards. A pixel is {} wide in all \
+                 pictures; finer maps are averaged to it.",
+                metres(*width),
+                metres(*length),
+                millimetres(*pixel)
+            ),
+        }
+    }
+}
+
+/// The longest of 1, 2 and 5 times a power of ten that is no longer than a length.
+fn round_length(most: f64) -> f64 {
+    let power = 10f64.powf(most.log10().floor());
+    [5.0, 2.0].into_iter().map(|step| step * power).find(|length| *length <= most).unwrap_or(power)
 }
 
 fn row(compared: &Compared) -> MeasureRow<'_> {
@@ -116,6 +179,8 @@ pub fn comparison_html(input: &ComparisonReport<'_>) -> String {
         methods_paragraph: Methods::new("compare", (told, Vec::new()), found),
         title,
         tables: tables.collect(),
+        notes: input.notes,
+        beside: input.pictures.map(Beside::new),
         figures: input.figures,
         version: input.version,
     };

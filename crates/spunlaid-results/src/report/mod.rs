@@ -7,7 +7,9 @@
 mod air;
 mod analysis;
 mod comparison;
+mod fit;
 mod frames;
+mod light_table;
 mod methods;
 mod page;
 mod paper;
@@ -22,7 +24,8 @@ mod words;
 
 pub use air::{AirReport, air_html};
 pub use analysis::{AnalysisReport, analysis_html};
-pub use comparison::{ComparisonReport, comparison_html};
+pub use comparison::{ComparedPictures, ComparisonReport, comparison_html};
+pub use fit::{FitReport, fit_html};
 pub use paper::{PaperReport, paper_html};
 pub use scan::{ScanReport, scan_html};
 pub use spinline::{LayerSpinline, SpinReport, spinline_html};

@@ -1,11 +1,10 @@
 //! `report.html` of a scanned web: the web on a light table, how uneven it is, and the figures.
 
+use super::light_table::{about_sheet, sheet};
 use super::methods::Methods;
 use super::rendered;
-use super::web::{
-    File, WebPage, about_light_table, cost, headline, largest_clouds, light_table_data, metres, millimetres,
-    nearest, per_cent, unevenness,
-};
+use super::web::{File, WebPage, cost, headline, largest_clouds, nearest, per_cent, unevenness};
+use super::words::{metres, millimetres};
 use crate::Failure;
 use crate::figures::SEEN;
 use crate::numbers::{THIN, plus_minus, significant};
@@ -36,7 +35,7 @@ pub struct ScanReport<'a> {
 /// The report as one HTML file.
 pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
     let findings = input.findings;
-    let (data, pixel) = light_table_data(&with_spots(findings), None)?;
+    let sheet = sheet(&with_spots(findings), None)?;
     let nearest_patch = nearest(findings.patches.iter().map(|patch| patch.unevenness.patch));
     let weight = findings.mean_known.then(|| findings.map.basis_weight());
     let headline = headline(weight, nearest_patch.map(|i| &findings.patches[i].unevenness));
@@ -57,9 +56,9 @@ pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
         headline,
         summary,
         notes: input.notes,
-        caption: about_light_table(pixel)
+        caption: about_sheet(sheet.pixel)
             + if findings.aside.spots.is_empty() { "" } else { " Black spots were left out." },
-        data,
+        sheet,
         fibres: false,
         verdict: verdict(findings),
         heads: ["Patch", "CV", "95 % interval"]

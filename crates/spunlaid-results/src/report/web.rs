@@ -1,29 +1,21 @@
 //! `report.html` of a web: the web on a light table, what makes it uneven, and the figures.
 
+use super::light_table::{Fibres, Sheet, Strands, about_sheet, sheet};
 use super::methods::{Methods, web_account};
 use super::rendered;
 use super::spinline::{self, LayerSpinline, SpinSection};
-use super::words::{count, time};
+use super::words::{count, metres, millimetres, time};
 use crate::Failure;
-use crate::failure::undrawable;
 use crate::numbers::{THIN, number, plus_minus, significant};
-use crate::output::web::{Layer, Performance, light_table};
+use crate::output::web::{Layer, Performance};
 use askama::Template;
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
-use serde::Serialize;
 use spunlaid::layers::WebSpec;
 use spunlaid::statistics::Estimate;
 use spunlaid::web::uniformity::Unevenness;
-use spunlaid::web::{Clouds, Findings, Lever, Map, PatchFindings, Sensitivity, Source, Strand, Web, Window};
+use spunlaid::web::{Clouds, Findings, Lever, PatchFindings, Sensitivity, Source, Strand, Web, Window};
 use spunlaid_charts::Figure;
 
-const MM: f64 = 1e3;
 const PER_CENT: f64 = 100.0;
-/// Largest side of the picture of the web [px].
-const PICTURE: usize = 1400;
-/// Most points of fibres in the page.
-const POINTS: usize = 150_000;
 /// Size of the patches that the eye judges first [m].
 const SEEN: f64 = 10e-3;
 
@@ -69,8 +61,7 @@ pub(super) struct WebPage<'a> {
     pub(super) summary: String,
     pub(super) notes: &'a [String],
     pub(super) caption: String,
-    /// Numbers and base64 only: nothing in it can end the script element it stands in.
-    pub(super) data: String,
+    pub(super) sheet: Sheet,
     /// Whether there are single fibres to be seen.
     pub(super) fibres: bool,
     pub(super) verdict: Vec<String>,
@@ -96,33 +87,11 @@ pub(super) struct File<'a> {
     pub(super) caption: &'static str,
 }
 
-/// What the script of the light table gets; lengths in mm.
-#[derive(Serialize)]
-struct Data {
-    /// Base64 of the picture.
-    image: String,
-    width: f64,
-    length: f64,
-    /// Side of a pixel of the picture.
-    pixel: f64,
-    window: Option<Fibres>,
-}
-
-#[derive(Serialize)]
-pub(super) struct Fibres {
-    corner: [f64; 2],
-    sides: [f64; 2],
-    diameter: f64,
-    /// Number of points of each fibre.
-    counts: Vec<usize>,
-    /// Base64 of 32-bit numbers, low byte first: x and y of each point from the corner.
-    points: String,
-}
-
 /// The report as one HTML file.
 pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
     let findings = input.findings;
-    let (data, pixel) = light_table_data(&findings.laid.map, Some(fibres(input)))?;
+    let strands = Strands { window: input.window, strands: input.strands, diameter: input.diameter };
+    let sheet = sheet(&findings.laid.map, Some(Fibres::new(strands)))?;
     let is_shared = findings.laid.together.is_some();
     let has_flown = !is_shared && findings.patches.iter().any(|patch| patch.flown.is_some());
     let mut heads = vec!["Patch", "CV of this map", "of its error: chance", "95 % interval by chance"];
@@ -145,8 +114,8 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
         headline,
         summary: [summary(input.web), about_the_air(findings), about_the_error(findings)].join(" "),
         notes: input.notes,
-        caption: caption(input, pixel),
-        data,
+        caption: format!("{} {}", about_sheet(sheet.pixel), strands.words()),
+        sheet,
         fibres: true,
         verdict: verdict(findings),
         heads,
@@ -190,25 +159,6 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
 
 pub(super) fn cost(performance: Performance) -> String {
     format!("computed in {} on {}", time(performance.wall_s), count(performance.threads as u64, "thread"))
-}
-
-/// What the script of the light table gets, and the side of a pixel of its picture [m].
-pub(super) fn light_table_data(map: &Map, window: Option<Fibres>) -> Result<(String, f64), Failure> {
-    let failed = |reason: String| undrawable("web", &reason);
-    let (picture, each) = light_table(map, PICTURE).map_err(failed)?;
-    let pixel = each as f64 * map.cell;
-    let data = Data {
-        image: STANDARD.encode(picture),
-        width: map.columns as f64 * map.cell * MM,
-        length: map.rows as f64 * map.cell * MM,
-        pixel: pixel * MM,
-        window,
-    };
-    Ok((serde_json::to_string(&data).map_err(|error| failed(error.to_string()))?, pixel))
-}
-
-pub(super) fn millimetres(length: f64) -> String {
-    format!("{}{THIN}mm", significant(length * MM, 3))
 }
 
 fn grams(weight: f64) -> String {
@@ -280,48 +230,6 @@ fn summary(web: &Web) -> String {
         length,
         count(filaments, "filament")
     )
-}
-
-pub(super) fn metres(length: f64) -> String {
-    if length < 1.0 { millimetres(length) } else { format!("{}{THIN}m", significant(length, 3)) }
-}
-
-/// * `pixel` – side of a pixel of the picture [m]
-pub(super) fn about_light_table(pixel: f64) -> String {
-    format!(
-        "Lighter where there is less fibre; black and white are three standard deviations apart from the mean. The machine \
-         direction runs downwards. A pixel is {} wide.",
-        millimetres(pixel)
-    )
-}
-
-fn caption(input: &WebReport<'_>, pixel: f64) -> String {
-    format!(
-        "{} In the frame, {} by {}, the single fibres are drawn in their true width: zoom in with \
-         the wheel, the buttons or + and −.",
-        about_light_table(pixel),
-        millimetres(input.window.sides[0]),
-        millimetres(input.window.sides[1])
-    )
-}
-
-fn fibres(input: &WebReport<'_>) -> Fibres {
-    let mut points = Vec::new();
-    let mut counts = Vec::new();
-    for strand in input.strands {
-        if points.len() / 8 + strand.points.len() > POINTS {
-            break;
-        }
-        counts.push(strand.points.len());
-        points.extend(strand.points.iter().flatten().flat_map(|x| ((x * MM) as f32).to_le_bytes()));
-    }
-    Fibres {
-        corner: input.window.corner.map(|x| x * MM),
-        sides: input.window.sides.map(|x| x * MM),
-        diameter: input.diameter * MM,
-        counts,
-        points: STANDARD.encode(points),
-    }
 }
 
 /// The map with its error by all causes, or by chance alone if the others are not known.

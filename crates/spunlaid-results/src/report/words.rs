@@ -1,6 +1,6 @@
 //! Sentences, and numbers with their units.
 
-use crate::numbers::{HARD, THIN, number, plus_minus};
+use crate::numbers::{HARD, THIN, number, plus_minus, significant};
 use spunlaid::air::EddyModel;
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
@@ -54,6 +54,16 @@ pub(super) fn count(n: u64, thing: &str) -> String {
         text.push(c);
     }
     format!("{text} {thing}{}", if n == 1 { "" } else { "s" })
+}
+
+/// A length in millimetres.
+pub(super) fn millimetres(length: f64) -> String {
+    format!("{}{THIN}mm", significant(length * 1e3, 3))
+}
+
+/// A length in millimetres, from one metre on in metres.
+pub(super) fn metres(length: f64) -> String {
+    if length < 1.0 { millimetres(length) } else { format!("{}{THIN}m", significant(length, 3)) }
 }
 
 /// The result in a sentence.

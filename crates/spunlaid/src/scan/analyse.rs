@@ -2,7 +2,7 @@
 
 use super::aside::Aside;
 use super::chance::scatter;
-use super::doubt::Doubt;
+use super::doubt::{Doubt, FEWEST};
 use super::findings::{Findings, PatchFindings, SHARP, Settings};
 use super::note::notes;
 use super::optics::{blurred, noise_at_most};
@@ -14,8 +14,6 @@ use crate::units::{Dimension, shortest};
 use crate::web::uniformity::Unevenness;
 use crate::web::{Clouds, autocorrelation};
 
-/// A sheet that is less than so many patches wide or long tells nothing about the web.
-const FEWEST: usize = 4;
 /// Usual sides of patches [m].
 const USUAL: [f64; 9] = [0.5e-3, 1e-3, 2e-3, 5e-3, 10e-3, 20e-3, 50e-3, 100e-3, 200e-3];
 /// A usual patch is at most this share of the picture.
@@ -96,6 +94,7 @@ fn found(picture: &Picture, settings: &Settings) -> Result<Findings, Fault> {
         white,
         density,
         shading,
+        noise: settings.noise,
         pixels,
         guess,
         aside,

@@ -2,6 +2,9 @@
 
 use std::fmt;
 
+/// A sheet that is less than so many patches wide or long tells nothing about the web.
+pub const FEWEST: usize = 4;
+
 /// Why the true CV over patches of a size cannot be known from a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Doubt {

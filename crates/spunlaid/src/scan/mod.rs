@@ -58,8 +58,10 @@ mod weigh;
 
 pub use analyse::analyse;
 pub use aside::{Aside, Spot};
-pub use doubt::Doubt;
+pub use doubt::{Doubt, FEWEST};
 pub use findings::{Findings, PatchFindings, Settings};
+pub use optics::shortest_sharp_wave;
 pub use picture::{Format, Picture};
 pub use read::{CELL, LEAST_SIDE, MOST_PIXELS, WEIGHT_OF_BLACK, parse, read};
+pub use shading::flattened;
 pub use weigh::{Light, Pixels};

@@ -1,6 +1,8 @@
 //! What the camera does to a picture: noise from pixel to pixel, and blur.
 
+use super::findings::SHARP;
 use crate::web::Map;
+use std::f64::consts::TAU;
 
 /// The largest standard deviation that noise from pixel to pixel can have, relative to the mean: that of what neighbouring pixels do not share.
 /// The finest structure of the web is in it, so the noise may be less.
@@ -55,6 +57,14 @@ fn binomial(before: u32, middle: u32, after: u32) -> u32 {
     ((sum + 2) / 4) as u32
 }
 
+/// The shortest wave that a picture shows sharply [m]: one more pixel of blur lowers its amplitude by one per cent, as it does for the
+/// smallest patches that have an interval. A Gaussian blur of σ takes `exp(−(2πσ/λ)²/2)` of a wave.
+///
+/// * `pixel` – side of a pixel [m]
+pub fn shortest_sharp_wave(pixel: f64) -> f64 {
+    TAU * pixel / (2.0 * SHARP).sqrt()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -73,5 +83,20 @@ mod tests {
             squares.sum::<f64>() / point.total() as f64
         };
         assert_eq!([spread(|i| i % 21), spread(|i| i / 21)], [1.0, 1.0]);
+    }
+    #[test]
+    fn the_shortest_sharp_wave_loses_one_per_cent_by_a_pixel_of_blur() {
+        let pixel = 0.1;
+        let wave = shortest_sharp_wave(pixel);
+        let side = 500;
+        let value = |column: usize| 1e6 * (2.0 + (TAU * (column as f64 * pixel) / wave).cos());
+        let cells = (0..3 * side).map(|at| value(at % side) as u32).collect();
+        let map = Map { columns: side, rows: 3, cell: pixel, quantum: 1.0, closed: [false; 2], cells };
+        let amplitude = |map: &Map| {
+            let inner = &map.row(1)[50..450];
+            f64::from(inner.iter().max().unwrap() - inner.iter().min().unwrap())
+        };
+        let lost = 1.0 - amplitude(&blurred(&map)) / amplitude(&map);
+        assert!((lost / SHARP - 1.0).abs() < 0.02, "{lost}");
     }
 }

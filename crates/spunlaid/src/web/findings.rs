@@ -24,6 +24,9 @@ pub struct Findings {
     /// Widths of the strips at the edges in cross direction, the first columns and the last ones, where the web is thinner and of which nothing below tells [m].
     /// They reach 3 σ_CD inwards of the outermost place of a filament; a web with periodic edges has none.
     pub margins: [f64; 2],
+    /// Where the web begins and ends across the sheet: where the reach of the outermost filaments ends, or at the edges of the sheet, which cut it or where it goes
+    /// on [m].
+    pub reach: [f64; 2],
     /// How uneven it is, patch by patch.
     pub patches: Vec<PatchFindings>,
     /// Directions of the fibres.
@@ -126,7 +129,7 @@ pub fn measure(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
 /// As [`find`].
 pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: Laying<'_>) -> Result<Findings, Error> {
     let sheet = &web.sheet;
-    let columns = within(web);
+    let Across { reach, columns } = across(web);
     let sides: Vec<usize> = sheet.patches.iter().map(|patch| side(sheet, *patch)).collect();
     // As many patches beside each other as on a sheet that is closed.
     let fits = |side: &usize| sheet.edges == Edges::Periodic || 2 * side <= columns.len();
@@ -183,7 +186,16 @@ pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: Laying<'_>) -> Result<
     let autocorrelation = autocorrelation(&map, lags, by.threads);
     let orientation = orientation(web, by)?;
     drop(map);
-    Ok(Findings { orientation, clouds, autocorrelation, sensitivities: Vec::new(), patches, margins, laid })
+    Ok(Findings {
+        orientation,
+        clouds,
+        autocorrelation,
+        sensitivities: Vec::new(),
+        patches,
+        margins,
+        reach,
+        laid,
+    })
 }
 
 /// CV over patches from that of independent filaments and from what pairs have in common.
@@ -202,13 +214,26 @@ fn with_pairs(web: &Web, together: &Together, independent: f64, patch: f64) -> O
 const EDGE: f64 = 3.0;
 
 /// The columns of the sheet that are not edges, where filaments are missing beyond the outermost place.
-fn within(web: &Web) -> Range<usize> {
+pub fn inner_columns(web: &Web) -> Range<usize> {
+    across(web).columns
+}
+
+/// How a web lies across its sheet.
+struct Across {
+    /// Where it begins and ends [m].
+    reach: [f64; 2],
+    /// The columns that are not edges, where filaments are missing beyond the outermost place.
+    columns: Range<usize>,
+}
+
+fn across(web: &Web) -> Across {
     let sheet = &web.sheet;
     let columns = sheet.cells()[0];
     if sheet.edges == Edges::Periodic {
-        return 0..columns;
+        return Across { reach: [0.0, sheet.width], columns: 0..columns };
     }
-    let of_layer = |(number, layer): (usize, &Layer)| {
+    let mut across = Across { reach: [sheet.width, 0.0], columns: 0..columns };
+    for (number, layer) in web.layers.iter().enumerate() {
         let edge = EDGE * layer.fibres.sigma_cd();
         let [first, last] = match &layer.filaments {
             Filaments::AtRandom { .. } => [0.0, sheet.width],
@@ -218,11 +243,13 @@ fn within(web: &Web) -> Range<usize> {
             }
         };
         let cells = |length: f64| (length / sheet.cell).clamp(0.0, columns as f64);
-        [cells(first + edge).ceil() as usize, cells(last - edge).floor() as usize]
-    };
-    let inner = web.layers.iter().enumerate().map(of_layer);
-    let [start, end] = inner.fold([0, columns], |all, of| [all[0].max(of[0]), all[1].min(of[1])]);
-    start..end.max(start)
+        let inner = cells(first + edge).ceil() as usize..cells(last - edge).floor() as usize;
+        across.columns = across.columns.start.max(inner.start)..across.columns.end.min(inner.end);
+        let outer = [first - edge, last + edge].map(|place| place.clamp(0.0, sheet.width));
+        across.reach = [across.reach[0].min(outer[0]), across.reach[1].max(outer[1])];
+    }
+    across.columns.end = across.columns.end.max(across.columns.start);
+    across
 }
 
 /// What is expected of patches of one side.

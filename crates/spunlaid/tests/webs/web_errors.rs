@@ -118,7 +118,9 @@ fn stat_edges_that_cut_do_not_count() {
     let sizes = [0.48, 0.6];
     let whole = measured(&web(rows(1e-3, 480), Edges::Periodic, sizes)).expect("findings");
     let cut = measured(&web(rows(1e-3, 480), Edges::Cut, sizes)).expect("findings");
-    assert_eq!(whole.margins, [0.0; 2]);
+    assert_eq!((whole.margins, whole.reach), ([0.0; 2], [0.0, sizes[0]]));
+    // The first nozzle stands at the edge of the sheet, so the sheet cuts its reach.
+    assert_eq!(cut.reach, [0.0, sizes[0]]);
     for margin in cut.margins {
         // 3 σ_CD inwards of the first nozzle, in whole cells.
         assert!((0.0..=CELL + 1e-9).contains(&(margin - 3.0 * 16e-3)), "{margin}");
@@ -134,6 +136,27 @@ fn stat_edges_that_cut_do_not_count() {
     let [sheet, between] = [&cut.laid.map, &*cut.within()].map(|map| map.basis_weight());
     let dense = web(rows(1e-3, 480), Edges::Periodic, sizes).basis_weight();
     assert!((between / dense - 1.0).abs() < 2e-3 && sheet < 0.99 * between, "{sheet} {between} {dense}");
+}
+
+/// On a sheet that is wider than its row, the web ends 3 σ_CD beyond the outermost nozzles.
+#[test]
+fn a_web_ends_where_the_reach_of_its_outermost_filaments_does() {
+    let Filaments::Rows(mut row) = rows(1e-3, 200) else { panic!("a row") };
+    row[0].offset = 0.1;
+    let web = web(Filaments::Rows(row), Edges::Cut, [0.48, 0.3]);
+    let found = measured(&web).expect("findings");
+    let reach = 3.0 * 16e-3;
+    for (found, wanted) in found.reach.into_iter().zip([0.1 - reach, 0.299 + reach]) {
+        assert!((found - wanted).abs() < 1e-9, "{found} {wanted}");
+    }
+    // Hardly any fibre lies beyond, and there is some just within.
+    let profile = found.laid.map.profile_cd();
+    let whole: f64 = profile.iter().sum();
+    let column = |place: f64| (place / CELL) as usize;
+    let [first, last] = found.reach.map(column);
+    let beyond: f64 = profile[..first].iter().chain(&profile[last + 1..]).sum();
+    assert!(beyond < 2e-3 * whole, "{beyond} {whole}");
+    assert!(profile[first + column(0.5 * reach)] > 0.0 && profile[last - column(0.5 * reach)] > 0.0);
 }
 
 #[test]

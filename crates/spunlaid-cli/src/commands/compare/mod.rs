@@ -1,6 +1,9 @@
 //! `spunlaid compare`: the results of several runs, or of several webs, side by side.
 
+mod maps;
 mod read;
+mod results;
+mod web;
 mod webs;
 
 use super::interrupt::stop_on_ctrl_c;
@@ -8,10 +11,10 @@ use crate::args::Compare;
 use crate::failure::Failure;
 use crate::say;
 use read::Run;
+use results::Results;
 use spunlaid::error::Fault;
 use spunlaid::observe::MEASURES;
 use spunlaid::statistics::{Difference, Estimate};
-use spunlaid_charts::Figure;
 use spunlaid_results::figures::{MOST_COMPARED, overlaid_figures};
 use spunlaid_results::output::comparison::{self, Compared, Comparison};
 use spunlaid_results::output::folder::Staging;
@@ -49,17 +52,27 @@ pub(crate) fn compare(compare: &Compare) -> Result<(), Failure> {
     let files = (!compare.json || compare.out.is_some())
         .then(|| Staging::new(&folder, FILES, compare.force, stop_on_ctrl_c()))
         .transpose()?;
-    let (comparisons, figures) = match webs::read(&compare.runs, &names)? {
+    let results = match webs::read(&compare.runs, &names)? {
         Some(webs) => webs::compared(&webs)?,
         None => of_runs(&compare.runs, names)?,
     };
-    let json = comparison::json(&comparisons);
+    let Results { comparisons, figures, pictures, notes } = &results;
+    let json = comparison::json(comparisons, notes);
     if let Some(mut staging) = files {
         staging.set_figures(&compare.figures.files());
-        staging.write_figures(&figures)?;
+        staging.write_figures(figures)?;
+        let drawn = pictures.iter().flat_map(|webs| &webs.pictures.files);
+        for (number, picture) in (1..).zip(drawn) {
+            staging.write(&format!("figures/web_picture_{number}.png"), picture)?;
+        }
         let version = env!("CARGO_PKG_VERSION");
-        let report =
-            comparison_html(&ComparisonReport { comparisons: &comparisons, figures: &figures, version });
+        let report = comparison_html(&ComparisonReport {
+            comparisons,
+            figures,
+            pictures: pictures.as_ref(),
+            notes,
+            version,
+        });
         staging.write("report.html", report)?;
         staging.write("comparison.json", &json)?;
         staging.publish()?;
@@ -68,18 +81,19 @@ pub(crate) fn compare(compare: &Compare) -> Result<(), Failure> {
         say::text(&json);
     } else if !compare.quiet {
         comparisons.iter().for_each(|comparison| say::text(&comparison::table(comparison)));
+        notes.iter().for_each(|note| say::remark(false, note));
         say::line(&format!("open {}", folder.join("report.html").display()));
     }
     Ok(())
 }
 
 /// Every run against the first, and their curves in one picture each.
-fn of_runs(folders: &[PathBuf], names: Vec<String>) -> Result<(Vec<Comparison>, Vec<Figure>), Failure> {
+fn of_runs(folders: &[PathBuf], names: Vec<String>) -> Result<Results, Failure> {
     let runs = folders.iter().zip(names).map(|(folder, name)| Run::read(folder, name));
     let runs: Vec<Run> = runs.collect::<Result<_, _>>()?;
     let comparisons = runs.iter().skip(1).map(|other| compared(&runs[0], other)).collect();
     let curves: Vec<_> = runs.into_iter().map(|run| run.curves).collect();
-    Ok((comparisons, overlaid_figures(&curves)))
+    Ok(Results { comparisons, figures: overlaid_figures(&curves), pictures: None, notes: Vec::new() })
 }
 
 /// The names of the folders; the whole paths where two names are equal.

@@ -51,7 +51,7 @@ pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
                 "spinline" => "spinlines",
                 _ => "fibres",
             };
-            Failure::Paused { done, total: file.study.most_fibres(), what }
+            Failure::Paused { done, total: Some(file.study.most_fibres()), what }
         }
         other => other,
     })

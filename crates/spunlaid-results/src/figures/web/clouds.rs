@@ -55,22 +55,27 @@ fn octaves(clouds: &Clouds, cell: f64) -> Figure {
     Figure::new(&chart, caption)
 }
 
-/// The power spectrum in both directions.
-fn spectrum(clouds: &Clouds) -> Figure {
-    let points = |direction: usize| -> Vec<(f64, f64)> {
-        let spectrum = clouds.spectrum(direction).into_iter();
-        let mut points: Vec<(f64, f64)> = spectrum.map(|(wave, density)| (wave * MM, density * MM)).collect();
-        points.reverse();
-        points
-    };
-    let chart = Chart::new(
+/// An empty chart of a power spectrum.
+pub(super) fn empty_spectrum() -> Chart {
+    Chart::new(
         "web_spectrum",
         "Power spectrum along and across the web",
         Axis::logarithmic("Wavelength (mm)").in_column("wavelength_mm"),
         Axis::logarithmic("Density of the relative variance (mm)").in_column("density_mm").decades(6),
     )
-    .line(Series::new("machine direction", BLUE).width(1.5), &points(1))
-    .line(Series::new("cross direction", VERMILION).width(1.5), &points(0));
+}
+
+/// Wavelength and density in cross (0) or machine direction (1), from short waves to long [mm].
+pub(super) fn density(clouds: &Clouds, direction: usize) -> Vec<(f64, f64)> {
+    let spectrum = clouds.spectrum(direction).into_iter().rev();
+    spectrum.map(|(wave, density)| (wave * MM, density * MM)).collect()
+}
+
+/// The power spectrum in both directions.
+fn spectrum(clouds: &Clouds) -> Figure {
+    let chart = empty_spectrum()
+        .line(Series::new("machine direction", BLUE).width(1.5), &density(clouds, 1))
+        .line(Series::new("cross direction", VERMILION).width(1.5), &density(clouds, 0));
     Figure::new(
         &chart,
         "One-sided power spectral density of the basis weight over its mean, by wave number along each direction and \

@@ -1,6 +1,5 @@
 //! How uneven the web is: over patches, and cell by cell.
 
-use super::super::compare::COLOURS;
 use super::{MM, PER_CENT, Weights};
 use crate::numbers::significant;
 use spunlaid::scan;
@@ -11,7 +10,7 @@ use spunlaid_charts::{
     palette::{BLUE, GREEN, GREY, VERMILION},
 };
 
-fn empty_chart() -> Chart {
+pub(super) fn empty_chart() -> Chart {
     Chart::new(
         "web_cv",
         "Unevenness over the size of the patches",
@@ -23,23 +22,6 @@ fn empty_chart() -> Chart {
 /// Side [mm], CV and its standard error [%].
 fn point(unevenness: &Unevenness) -> (f64, f64, Option<f64>) {
     (unevenness.patch * MM, unevenness.cv * PER_CENT, unevenness.standard_error.map(|error| error * PER_CENT))
-}
-
-/// The coefficient of variation of several webs, by their names, over the size of the patches.
-pub fn overlaid_webs(webs: &[(String, Vec<Unevenness>)]) -> Figure {
-    let mut chart = empty_chart();
-    for ((name, patches), colour) in webs.iter().zip(COLOURS) {
-        let spots: Vec<_> = patches.iter().map(point).collect();
-        let line: Vec<(f64, f64)> = spots.iter().map(|(patch, cv, _)| (*patch, *cv)).collect();
-        chart = chart
-            .line(Series::new("", colour).unlabelled().adorning().width(1.0), &line)
-            .scatter(Series::spots(name, colour), &spots);
-    }
-    Figure::new(
-        &chart,
-        "Standard deviation of the basis weight of square patches over its mean, for each web. Bars are one standard error, \
-         from the waves of each.",
-    )
 }
 
 /// The coefficient of variation of a scanned web over the size of the patches.

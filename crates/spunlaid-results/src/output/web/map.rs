@@ -11,6 +11,8 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::panic::resume_unwind;
 
+/// Longest side of a picture that browsers show [px].
+const LONGEST_SIDE: usize = 16_000;
 /// Number of rows in a row group.
 const ROWS: usize = 1 << 18;
 
@@ -34,18 +36,23 @@ pub(super) fn write_array(staging: &Staging<'_>, map: &Map) -> Result<(), Failur
     File::create(now).and_then(|file| array(map, BufWriter::new(file))).map_err(Failure::unwritable(&later))
 }
 
-/// A NumPy array of 32-bit numbers, a row of the web after the other [kg/m²].
-fn array(map: &Map, mut to: impl Write) -> io::Result<()> {
-    let mut head =
-        format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}), }}", map.rows, map.columns);
+/// What stands before the numbers of `map.npy`.
+pub(super) fn array_head([columns, rows]: [usize; 2]) -> Vec<u8> {
+    let mut words = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({rows}, {columns}), }}");
     // The numbers begin at a multiple of 64 bytes.
-    while !(10 + head.len() + 1).is_multiple_of(64) {
-        head.push(' ');
+    while !(10 + words.len() + 1).is_multiple_of(64) {
+        words.push(' ');
     }
-    head.push('\n');
-    to.write_all(b"\x93NUMPY\x01\x00")?;
-    to.write_all(&(head.len() as u16).to_le_bytes())?;
-    to.write_all(head.as_bytes())?;
+    words.push('\n');
+    let mut head = b"\x93NUMPY\x01\x00".to_vec();
+    head.extend((words.len() as u16).to_le_bytes());
+    head.extend(words.into_bytes());
+    head
+}
+
+/// A NumPy array of 32-bit numbers, a row of the web after the other [kg/m²].
+pub(super) fn array(map: &Map, mut to: impl Write) -> io::Result<()> {
+    to.write_all(&array_head([map.columns, map.rows]))?;
     let weight = map.weight_of_quantum();
     for row in 0..map.rows {
         let numbers = map.row(row).iter().map(|quanta| (f64::from(*quanta) * weight) as f32);
@@ -89,9 +96,10 @@ fn picture(map: &Map) -> Result<Vec<u8>, String> {
     png([map.columns, map.rows], png::BitDepth::Sixteen, &levels, &words, Some(per_metre))
 }
 
-/// The web as on a light table, at most so many pixels either way: 8-bit grey, and the sides of a pixel [cells].
+/// The web as on a light table, in at most so many pixels: 8-bit grey, and the sides of a pixel [cells].
 pub fn light_table(map: &Map, most: usize) -> Result<(Vec<u8>, usize), String> {
-    let each = map.columns.max(map.rows).div_ceil(most).max(1);
+    let each = (map.cells.len() as f64 / most as f64).sqrt().ceil() as usize;
+    let each = each.max(map.columns.max(map.rows).div_ceil(LONGEST_SIDE)).clamp(1, map.columns.min(map.rows));
     let [width, height] = [map.columns, map.rows].map(|size| size / each);
     let mut sums = vec![0u64; width * height];
     for row in 0..height * each {
@@ -103,11 +111,25 @@ pub fn light_table(map: &Map, most: usize) -> Result<(Vec<u8>, usize), String> {
     let count = sums.len() as f64;
     let mean = sums.iter().map(|sum| *sum as f64).sum::<f64>() / count;
     let variance = sums.iter().map(|sum| (*sum as f64 - mean).powi(2)).sum::<f64>() / count;
-    // Three standard deviations either way from dark to light.
     let deviation = variance.sqrt().max(1e-9 * mean).max(f64::MIN_POSITIVE);
-    let level = |sum: u64| (128.0 - (sum as f64 - mean) / deviation * 42.0).round().clamp(0.0, 255.0) as u8;
-    let levels: Vec<u8> = sums.into_iter().map(level).collect();
+    let levels: Vec<u8> = sums.into_iter().map(|sum| grey((sum as f64 - mean) / deviation)).collect();
     png([width, height], png::BitDepth::Eight, &levels, &[], None).map(|png| (png, each))
+}
+
+/// The map as on a light table, a pixel for each cell.
+///
+/// * `deviation` – standard deviation of the basis weight over its mean that the shades stand for
+pub(super) fn light_table_of(map: &Map, deviation: f64) -> Result<Vec<u8>, String> {
+    let mean = map.total() as f64 / map.cells.len() as f64;
+    let level = |quanta: &u32| grey((f64::from(*quanta) / mean - 1.0) / deviation);
+    let levels: Vec<u8> = map.cells.iter().map(level).collect();
+    let per_metre = (1.0 / map.cell).round() as u32;
+    png([map.columns, map.rows], png::BitDepth::Eight, &levels, &[], Some(per_metre))
+}
+
+/// The shade of a place so many standard deviations heavier than the mean: three either way are black and white.
+fn grey(deviations: f64) -> u8 {
+    (128.0 - 42.0 * deviations).round().clamp(0.0, 255.0) as u8
 }
 
 /// A grey picture.

@@ -1,10 +1,12 @@
 //! The files of a web's results folder.
 
 mod map;
+mod pieces;
 mod strands;
 mod summary;
 
 pub use map::light_table;
+pub use pieces::{MapFile, Pictures};
 pub use summary::{Layer, Performance, Summary};
 
 use super::folder::Staging;

@@ -6,7 +6,7 @@ use spunlaid::drag::{FrictionLaw, NormalLaw};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::report) struct Reference {
     /// How the text names it: `Matsui 1976`.
-    pub(super) short: &'static str,
+    pub(in crate::report) short: &'static str,
     /// Its entry in the list of references.
     pub(super) full: &'static str,
 }
@@ -33,6 +33,13 @@ pub(in crate::report) const SURROGATE: Reference = Reference {
     short: "Götz et al. 2007",
     full: "T. Götz, A. Klar, N. Marheineke, R. Wegener: A stochastic model and associated Fokker–Planck equation for the fiber lay-down process in \
            nonwoven production processes. SIAM Journal on Applied Mathematics 67(6), 1704–1717, 2007.",
+};
+
+/// The way in which a fit finds values and intervals.
+pub(in crate::report) const MOMENTS: Reference = Reference {
+    short: "McFadden 1989",
+    full: "D. McFadden: A method of simulated moments for estimation of discrete response models without numerical integration. Econometrica 57(5), \
+           995–1026, 1989.",
 };
 
 /// The source of a law of the friction along the fibre.

@@ -1,0 +1,186 @@
+//! The results of a web, laid or scanned, as far as they are compared.
+
+use serde_json::Value as Json;
+use spunlaid::scan::{Doubt, FEWEST};
+use spunlaid::statistics::NORMAL_95;
+use spunlaid_results::output::web::MapFile;
+use std::path::{Path, PathBuf};
+
+/// The results of a web.
+#[derive(Clone, Debug)]
+pub(super) struct Web {
+    pub(super) folder: PathBuf,
+    pub(super) name: String,
+    /// Mean basis weight, if it is known [kg/m²].
+    pub(super) weight: Option<f64>,
+    /// By the side of the patches.
+    pub(super) patches: Vec<Patch>,
+    /// The CV expected from the flown curves, if there were some.
+    pub(super) flown: Vec<Patch>,
+    /// Cloudiness index and share of the texture along the machine direction.
+    pub(super) clouds: [Option<WebNumber>; 2],
+    /// Whether it comes from a camera or a gauge, which blurs.
+    pub(super) is_scan: bool,
+    /// Side of a cell of its map, if it is known [m].
+    pub(super) cell: Option<f64>,
+    /// Its map, or why there is none.
+    pub(super) map: Result<MapFile, String>,
+}
+
+/// A number of a web.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct WebNumber {
+    pub(super) value: f64,
+    pub(super) standard_error: Option<f64>,
+    /// Ends of its 95 % interval, if they are known.
+    ends: Option<[f64; 2]>,
+    /// Why it is not to be had.
+    pub(super) doubt: Option<String>,
+}
+
+/// The unevenness over patches of one size.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Patch {
+    pub(super) side: f64,
+    pub(super) cv: WebNumber,
+}
+
+/// Patches whose sides differ by no more than this share are compared.
+const ALIKE: f64 = 0.05;
+
+/// Whether two lengths are nearly the same.
+pub(super) fn are_alike(a: f64, b: f64) -> bool {
+    (a / b).ln().abs() <= ALIKE
+}
+
+impl Web {
+    /// The web of a folder; none if `summary.json` is not that of a web.
+    pub(super) fn new(folder: &Path, name: &str, summary: &Json) -> Option<Self> {
+        let web = summary.get("web")?;
+        let number = |json: &Json, [value, error, ends]: [&str; 3]| {
+            let end = |i: usize| json[ends][i].as_f64();
+            Some(WebNumber {
+                value: json[value].as_f64()?,
+                standard_error: json[error].as_f64(),
+                ends: end(0).zip(end(1)).map(|(low, high)| [low, high]),
+                doubt: json["no_interval"].as_str().map(|doubt| format!("{doubt} ({name})")),
+            })
+        };
+        let all = web["patches"].as_array()?;
+        let patches = |names: [&str; 3]| -> Vec<Patch> {
+            let patch = |json: &Json| {
+                let cv = number(json, names)?.with_all_causes(&json["cv_whole_error"], names[0] == "cv");
+                Some(Patch { side: json["patch_m"].as_f64()?, cv })
+            };
+            all.iter().filter_map(patch).collect()
+        };
+        let clouds = [("cloudiness", "index"), ("texture_md", "mean")]
+            .map(|(group, value)| number(&web[group], [value, "standard_error", "interval"]));
+        Some(Self {
+            folder: folder.to_owned(),
+            name: name.to_owned(),
+            weight: web["basis_weight_kg_m2"].as_f64(),
+            // Older folders have no error but that by chance.
+            patches: patches(["cv", "cv_standard_error", "cv_interval"]),
+            flown: patches(["cv_flown", "cv_flown_standard_error", ""]),
+            clouds,
+            is_scan: summary.get("scan").is_some(),
+            cell: web["cell_m"].as_f64(),
+            map: MapFile::new(folder, web),
+        })
+    }
+
+    /// The CV over patches of a size, or why there is none.
+    pub(super) fn cv(&self, side: f64) -> Result<WebNumber, String> {
+        at(&self.patches, side).ok_or_else(|| self.missing(side))
+    }
+
+    /// Why there is no CV over patches of a size.
+    fn missing(&self, side: f64) -> String {
+        let shorter = |map: &MapFile| map.sides().into_iter().fold(f64::INFINITY, f64::min);
+        let name = &self.name;
+        match &self.map {
+            Ok(map) if side < map.cell && !are_alike(side, map.cell) => {
+                format!("smaller than a cell of the map ({name})")
+            }
+            Ok(map) if FEWEST as f64 * side > shorter(map) => format!("{} ({name})", Doubt::Few),
+            _ => format!("no such patches ({name}): give both the same with web.patches or --patches"),
+        }
+    }
+}
+
+impl WebNumber {
+    /// With the error by all causes in place of that by chance alone, if it is known: what is not chance makes the interval
+    /// wider on both sides.
+    ///
+    /// * `is_of_map` – whether the number is that of the map, which has this error
+    fn with_all_causes(self, whole: &Json, is_of_map: bool) -> Self {
+        let (Some(whole), Some(chance)) = (whole.as_f64().filter(|_| is_of_map), self.standard_error) else {
+            return self;
+        };
+        let others = NORMAL_95 * (whole * whole - chance * chance).max(0.0).sqrt();
+        let value = self.value;
+        let ends = self
+            .ends
+            .map(|[low, high]| [value - (value - low).hypot(others), value + (high - value).hypot(others)]);
+        Self { standard_error: Some(whole), ends, ..self }
+    }
+
+    /// The error upwards or downwards, so that 1.96 of it reach to the end of the interval.
+    pub(super) fn error_towards(&self, up: bool) -> Option<f64> {
+        match self.ends {
+            Some(ends) => Some((ends[usize::from(up)] - self.value).abs() / NORMAL_95),
+            None => self.standard_error,
+        }
+    }
+
+    /// Its 95 % interval, unless there is a doubt.
+    pub(super) fn interval(&self) -> Option<[f64; 2]> {
+        let end = |up: bool| Some(NORMAL_95 * self.error_towards(up)?);
+        let [below, above] = [end(false)?, end(true)?];
+        self.doubt.is_none().then_some([self.value - below, self.value + above])
+    }
+}
+
+/// The CV at a patch of nearly the same size, moved to that size along the slope to its neighbour.
+pub(super) fn at(patches: &[Patch], side: f64) -> Option<WebNumber> {
+    let far = |patch: &Patch| (side / patch.side).ln().abs();
+    let (i, nearest) = patches.iter().enumerate().min_by(|a, b| far(a.1).total_cmp(&far(b.1)))?;
+    if !are_alike(side, nearest.side) {
+        return None;
+    }
+    let next =
+        if i + 1 < patches.len() { Some(&patches[i + 1]) } else { i.checked_sub(1).map(|i| &patches[i]) };
+    let slope =
+        next.map_or(0.0, |next| (next.cv.value / nearest.cv.value).ln() / (next.side / nearest.side).ln());
+    let factor = (slope * (side / nearest.side).ln()).exp();
+    let factor = if factor.is_finite() { factor } else { 1.0 };
+    let number = &nearest.cv;
+    Some(WebNumber {
+        value: number.value * factor,
+        standard_error: number.standard_error.map(|error| error * factor),
+        ends: number.ends.map(|ends| ends.map(|end| end * factor)),
+        doubt: number.doubt.clone(),
+    })
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    pub(in super::super) const fn number(value: f64, ends: Option<[f64; 2]>) -> WebNumber {
+        WebNumber { value, standard_error: Some(0.01), ends, doubt: None }
+    }
+
+    #[test]
+    fn a_power_law_is_moved_to_the_other_size_of_patch() {
+        let law = |side: f64| Patch { side, cv: number(0.1 * side.powf(-0.4), None) };
+        let patches = [0.0051, 0.0102, 0.0204].map(law);
+        for side in [0.005, 0.010, 0.020] {
+            let found = at(&patches, side).unwrap();
+            assert!((found.value / law(side).cv.value - 1.0).abs() < 1e-12, "{found:?}");
+        }
+        assert_eq!(at(&patches, 0.0075), None);
+        assert_eq!(at(&[], 0.01), None);
+    }
+}

@@ -1,0 +1,158 @@
+//! The light table of a web's page: its picture, the single fibres of a window, and what is told of them.
+
+use super::words::millimetres;
+use crate::Failure;
+use crate::failure::undrawable;
+use crate::numbers::significant;
+use crate::output::web::light_table;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use serde::Serialize;
+use spunlaid::web::{Map, Strand, Window};
+
+const MM: f64 = 1e3;
+/// Most pixels of the picture of the web: a page of some megabytes.
+const PIXELS: usize = 3_000_000;
+/// Most points of fibres in the page.
+const POINTS: usize = 150_000;
+
+/// The picture of the web on the page.
+pub(super) struct Sheet {
+    /// Base64 of the picture.
+    pub(super) picture: String,
+    /// How large the web is, in words.
+    pub(super) words: String,
+    /// Width over length.
+    pub(super) aspect: f64,
+    /// Side of a pixel of the picture [m].
+    pub(super) pixel: f64,
+    /// What the script of the light table gets. Numbers and base64 only: nothing in it can end the script element it stands in.
+    pub(super) data: String,
+}
+
+/// What the script of the light table gets; lengths in mm.
+#[derive(Serialize)]
+struct Data {
+    width: f64,
+    length: f64,
+    /// Side of a pixel of the picture.
+    pixel: f64,
+    window: Option<Fibres>,
+}
+
+#[derive(Serialize)]
+pub(super) struct Fibres {
+    corner: [f64; 2],
+    sides: [f64; 2],
+    diameter: f64,
+    /// Number of points of each fibre.
+    counts: Vec<usize>,
+    /// Base64 of 32-bit numbers, low byte first: x and y of each point from the corner.
+    points: String,
+}
+
+/// The single fibres in a window.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Strands<'a> {
+    pub(super) window: Window,
+    pub(super) strands: &'a [Strand],
+    /// Diameter of a fibre [m].
+    pub(super) diameter: f64,
+}
+
+impl Strands<'_> {
+    /// What is told of them below the picture.
+    pub(super) fn words(&self) -> String {
+        format!(
+            "In the small frame, {} by {}, the single fibres are drawn in their true width.",
+            millimetres(self.window.sides[0]),
+            millimetres(self.window.sides[1])
+        )
+    }
+}
+
+impl Fibres {
+    /// As few as the page can hold, the first ones.
+    pub(super) fn new(Strands { window, strands, diameter }: Strands<'_>) -> Self {
+        let mut points = Vec::new();
+        let mut counts = Vec::new();
+        for strand in strands {
+            if points.len() / 8 + strand.points.len() > POINTS {
+                break;
+            }
+            counts.push(strand.points.len());
+            points.extend(strand.points.iter().flatten().flat_map(|x| ((x * MM) as f32).to_le_bytes()));
+        }
+        Self {
+            corner: window.corner.map(|x| x * MM),
+            sides: window.sides.map(|x| x * MM),
+            diameter: diameter * MM,
+            counts,
+            points: STANDARD.encode(points),
+        }
+    }
+}
+
+/// The picture of a map.
+pub(super) fn sheet(map: &Map, window: Option<Fibres>) -> Result<Sheet, Failure> {
+    let failed = |reason: String| undrawable("web", &reason);
+    let (picture, each) = light_table(map, PIXELS).map_err(failed)?;
+    let pixel = each as f64 * map.cell;
+    let [width, length] = [map.columns, map.rows].map(|cells| cells as f64 * map.cell * MM);
+    let data = Data { width, length, pixel: pixel * MM, window };
+    Ok(Sheet {
+        picture: STANDARD.encode(picture),
+        words: format!("The web is {} mm wide and {} mm long.", thousands(width), thousands(length)),
+        aspect: width / length,
+        pixel,
+        data: serde_json::to_string(&data).map_err(|error| failed(error.to_string()))?,
+    })
+}
+
+/// `4,500`, or `62.5` below a hundred.
+fn thousands(number: f64) -> String {
+    if number < 100.0 {
+        return significant(number, 3);
+    }
+    let digits = format!("{number:.0}");
+    let groups: Vec<&str> =
+        digits.as_bytes().rchunks(3).rev().filter_map(|part| str::from_utf8(part).ok()).collect();
+    groups.join(",")
+}
+
+/// What is told of a picture below it.
+///
+/// * `pixel` – side of a pixel of the picture [m]
+pub(super) fn about_sheet(pixel: f64) -> String {
+    format!(
+        "Lighter where there is less fibre; black and white are three standard deviations apart from the mean. The machine \
+         direction runs downwards. A pixel is {} wide. Drag to move the web, zoom with the wheel, two fingers, the buttons or the keys \
+         + and −; the key 0 shows the whole web.",
+        millimetres(pixel)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_words_are_those_of_the_web() {
+        let map = Map {
+            columns: 4500,
+            rows: 800,
+            cell: 1e-3,
+            quantum: 1.0,
+            closed: [false; 2],
+            cells: (0..4500 * 800).map(|i| 5 + i % 7).collect(),
+        };
+        let sheet = sheet(&map, None).unwrap();
+        assert_eq!(sheet.words, "The web is 4,500 mm wide and 800 mm long.");
+        // Two cells to a pixel: an elongated web is as fine as a square one of the same area.
+        assert_eq!((sheet.pixel, sheet.aspect), (2e-3, 5.625));
+        assert!(sheet.data.starts_with(r#"{"width":4500.0,"length":800.0,"pixel":2.0,"#), "{}", sheet.data);
+        for (number, words) in [(62.5, "62.5"), (999.0, "999"), (12_345_678.0, "12,345,678")] {
+            assert_eq!(thousands(number), words);
+        }
+    }
+}
