@@ -101,6 +101,8 @@ impl Run {
 const FEEDING: &str = "feed of an element";
 const STRING: &str = "waves of the taut string";
 const GUSTS: &str = "gusts that turn an element";
+const AXIAL: &str = "axial waves";
+const BENDING: &str = "bending waves";
 
 /// Factor of the root of a fed fibre on the limit of the bending waves: its largest stiffness is sixteen times that of
 /// other nodes, the bending waves are 18 % faster then.
@@ -117,6 +119,33 @@ pub struct StepLimit {
     /// The longest stable step [s]; steps must stay below it.
     #[serde(rename = "limit_s")]
     pub limit: f64,
+}
+
+impl StepLimit {
+    /// Where it comes from, and what allows longer steps.
+    pub fn reason(&self) -> &'static str {
+        match self.cause {
+            AXIAL => {
+                "sound crosses an element in this time, all along the fibre; run.scheme = \"implicit-tension\" knows no such limit, and longer \
+                 elements (fibre.element_length) lengthen it"
+            }
+            BENDING => {
+                "the shortest bending wave swings once in this time, at the root first; longer elements (fibre.element_length) or a thinner or \
+                 softer fibre lengthen it"
+            }
+            STRING => {
+                "a wave of the taut fibre crosses an element in this time at the root, where the tension is largest; longer elements \
+                 (fibre.element_length) or less drag lengthen it"
+            }
+            FEEDING => {
+                "an element is fed at the inlet in whole steps; longer elements (fibre.element_length) or a lower feed.speed lengthen it"
+            }
+            GUSTS => {
+                "gusts may turn an element only a little in a step; longer elements (fibre.element_length) or weaker turbulence lengthen it"
+            }
+            _ => "",
+        }
+    }
 }
 
 impl Case {
@@ -145,8 +174,8 @@ impl Case {
 
     /// The limits on the time step of an undamped flight with this mesh and the case's scheme.
     pub fn step_limits(&self) -> Vec<StepLimit> {
-        let axial = StepLimit { cause: "axial waves", limit: self.fibre.axial_step_limit() };
-        let bending = StepLimit { cause: "bending waves", limit: self.bending_step_limit() };
+        let axial = StepLimit { cause: AXIAL, limit: self.fibre.axial_step_limit() };
+        let bending = StepLimit { cause: BENDING, limit: self.bending_step_limit() };
         let mut limits = match self.run.scheme {
             Scheme::SemiImplicitEuler | Scheme::Leapfrog => vec![axial, bending],
             Scheme::ImplicitTension => vec![bending, self.string_step_limit()],
