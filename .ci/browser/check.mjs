@@ -55,6 +55,8 @@ const LAUNCH = {
 };
 const browser = await chromium.launchPersistentContext(process.env.PROFILE, { ...LAUNCH, hasTouch: true });
 
+await browser.grantPermissions(["clipboard-read", "clipboard-write"]);
+
 /** Everything the page says is wrong, and everything it asks the network for. */
 function listen(page, where) {
   page.on("pageerror", (error) => failures.push(`${where}: script error: ${error.message}`));
@@ -231,6 +233,19 @@ async function checkWithoutScripts() {
   await plain.close();
 }
 
+/** The paragraph of methods is there, and its button copies all of it. */
+async function checkMethods(page, where, shot) {
+  const text = await page.locator("#methods-text").innerText();
+  expect(/spunlaid \d/.test(text) && /The spunlaid authors/.test(text), `${where}: the methods do not name the program: ${text}`);
+  const button = page.locator('[data-copy="methods-text"]');
+  await button.scrollIntoViewIfNeeded();
+  await shot("methods", false);
+  await button.click();
+  await page.waitForFunction((b) => b.textContent !== "Copy", await button.elementHandle());
+  const copied = (await button.innerText()) === "Copied" ? await page.evaluate(() => navigator.clipboard.readText()) : await page.evaluate(() => `${getSelection()}`);
+  expect(copied.trim() === text.trim(), `${where}: copied is not what the methods say: ${copied}`);
+}
+
 async function check(scheme, width) {
   const where = `${scheme}, ${width} px`;
   const page = await browser.newPage();
@@ -282,6 +297,7 @@ async function check(scheme, width) {
   const [table, file] = options.web ? ["#verdict", "#file code"] : options.spin ? ["#results", "#file pre"] : ["#results", "#case-toml"];
   expect((await page.locator(`${table} tbody tr`).count()) >= 5, `${where}: the table of results is missing`);
   expect((await page.locator(file).innerText()).trim() !== "", `${where}: the case is missing`);
+  await checkMethods(page, where, shot);
   await page.close();
 }
 

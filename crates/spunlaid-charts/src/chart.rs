@@ -201,8 +201,28 @@ impl Chart {
     }
 
     fn with(mut self, series: Series, mark: Mark) -> Self {
+        let series = self.distinct(series, &mark);
         self.marks.push((series, mark));
         self
+    }
+
+    /// The series with a marker of its own, if only its colour would set it apart from another one in the legend.
+    fn distinct(&self, series: Series, mark: &Mark) -> Series {
+        const OTHERS: [Marker; 5] =
+            [Marker::Square, Marker::Diamond, Marker::Circle, Marker::Triangle, Marker::Spot];
+        let is_alike = |(other, drawn): &&(Series, Mark)| match (drawn, mark) {
+            _ if other.label.is_none() || other.dash != series.dash => false,
+            (Mark::Line(_), Mark::Line(_)) => other.marker == series.marker,
+            (Mark::Scatter(_), Mark::Scatter(_)) => {
+                other.marker.unwrap_or(Marker::Spot) == series.marker.unwrap_or(Marker::Spot)
+            }
+            _ => false,
+        };
+        if series.label.is_none() || !self.marks.iter().any(|one| is_alike(&one)) {
+            return series;
+        }
+        let is_free = |marker: &Marker| self.marks.iter().all(|(other, _)| other.marker != Some(*marker));
+        Series { marker: OTHERS.into_iter().find(is_free).or(series.marker), ..series }
     }
 
     /// The data along x and along y that set the ranges.

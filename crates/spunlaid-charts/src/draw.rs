@@ -6,10 +6,12 @@ use crate::legend;
 use crate::map::{KEY, Map};
 use crate::palette::{GREY, GRID, INK, Marker};
 use crate::scale::{Scale, Spacing, factor};
-use crate::svg::{Anchor, Stroke, Svg, Text, width};
+use crate::svg::{Anchor, Stroke, Svg, Text, width as width_of};
 
 const LABEL: f64 = 14.0;
 const TICK: f64 = 13.0;
+/// From one row of words below an axis to the next.
+const TICK_ROW: f64 = 16.0;
 
 /// The rectangle the data are drawn in, with its scales.
 struct Plot {
@@ -19,9 +21,64 @@ struct Plot {
     bottom: f64,
     x: Scale,
     y: Scale,
+    /// Of the whole chart.
+    width: f64,
+    height: f64,
+    /// Of the words below an axis of words, which stand in turn in each of them.
+    rows: usize,
+    is_empty: bool,
 }
 
 impl Plot {
+    /// Lays out a chart of another size than its own: text keeps its size, and the rectangle its proportions, as long as it is as
+    /// high as the words beside it.
+    ///
+    /// * `share` – of its own width
+    fn of(chart: &Chart, share: f64) -> Self {
+        let (xs, ys) = chart.extents();
+        // Fewer labels have room on less paper.
+        let count = |usual: f64| (usual * share.min(1.0)).round() as usize;
+        let mut y = Scale::fit(&chart.y, ys.iter().copied(), count(6.0));
+        let mut x = Scale::fit(&chart.x, xs.iter().copied(), count(7.0));
+        let has_map = maps(chart).next().is_some();
+        let left = 34.0 + y_label_width(&y);
+        let entries = if xs.is_empty() { Vec::new() } else { legend::entries(chart) };
+        let factors: f64 = if y.exponent != 0 { 20.0 } else { 0.0 };
+        // The key of a map has its label above it.
+        let above = if has_map { f64::max(factors, 14.0) } else { factors };
+        let right_of = |width: f64| width - if has_map { KEY } else { 18.0 };
+        let top_of = |width: f64| 12.0 + legend::height(&entries, right_of(width) - left) + above;
+        let (own_width, own_height) = chart.size;
+        let width = own_width * share;
+        let (right, top) = (right_of(width), top_of(width));
+        let rows_of = |width: f64| rows_of_words(&chart.x.words, (right_of(width) - left).max(1.0));
+        let words = if chart.x.label.is_empty() { 28.0 } else { 50.0 };
+        let below_of = |width: f64| words + TICK_ROW * (rows_of(width) - 1) as f64;
+        let below = below_of(width);
+        let own = own_height - below_of(own_width) - top_of(own_width);
+        let least = width_of(&chart.y.label, LABEL) + 4.0;
+        let bottom = top + if share == 1.0 { own } else { (own * share).max(least) };
+        if chart.equal {
+            let (per_x, per_y) =
+                ((x.ends.1 - x.ends.0) / (right - left), (y.ends.1 - y.ends.0) / (bottom - top));
+            let per = per_x.max(per_y);
+            x = Scale::between(Spacing::Linear, widened(x.ends, per * (right - left)), count(6.0));
+            y = Scale::between(Spacing::Linear, widened(y.ends, per * (bottom - top)), count(6.0));
+        }
+        Self {
+            left,
+            top,
+            right,
+            bottom,
+            x,
+            y,
+            height: bottom + below,
+            width,
+            rows: rows_of(width),
+            is_empty: xs.is_empty(),
+        }
+    }
+
     fn at(&self, (x, y): (f64, f64)) -> (f64, f64) {
         (self.along(x), self.up(y))
     }
@@ -35,36 +92,40 @@ impl Plot {
     }
 }
 
-/// The picture of charts one above the other.
-pub(crate) fn stacked(title: &str, charts: &[&Chart]) -> String {
-    let width = charts.iter().map(|c| c.size.0).fold(0.0, f64::max);
-    let height = charts.iter().map(|c| c.size.1).sum();
-    let mut svg = Svg::new(width, height, title);
+/// Width of a picture of charts on the screen [px].
+pub(crate) fn width(charts: &[Chart]) -> f64 {
+    charts.iter().map(|chart| chart.size.0).fold(0.0, f64::max)
+}
+
+/// The picture of charts one above the other, so many pixels wide.
+pub(crate) fn svg(title: &str, charts: &[Chart], width: f64) -> String {
+    let share = width / self::width(charts);
+    let plots: Vec<Plot> = charts.iter().map(|chart| Plot::of(chart, share)).collect();
+    let mut svg = Svg::new(width, plots.iter().map(|plot| plot.height).sum(), title);
     let mut top = 0.0;
-    for chart in charts {
-        svg.open_shifted(top);
-        draw(&mut svg, chart);
-        svg.close();
-        top += chart.size.1;
+    for (chart, plot) in charts.iter().zip(plots) {
+        if charts.len() > 1 {
+            svg.open_shifted(top);
+        }
+        draw(&mut svg, chart, &plot);
+        if charts.len() > 1 {
+            svg.close();
+        }
+        top += plot.height;
     }
     svg.finish()
 }
 
 impl Chart {
-    /// The picture.
+    /// The picture for the screen.
     pub fn svg(&self) -> String {
-        let mut svg = Svg::new(self.size.0, self.size.1, &self.title);
-        draw(&mut svg, self);
-        svg.finish()
+        svg(&self.title, std::slice::from_ref(self), self.size.0)
     }
 }
 
-fn draw(svg: &mut Svg, chart: &Chart) {
-    let (xs, ys) = chart.extents();
-    let empty = xs.is_empty();
-    let plot = lay_out(chart, &xs, &ys);
-    draw_grid(svg, &plot);
-    if !empty {
+fn draw(svg: &mut Svg, chart: &Chart, plot: &Plot) {
+    draw_grid(svg, plot);
+    if !plot.is_empty {
         let (width, height) = (plot.right - plot.left, plot.bottom - plot.top);
         svg.open_clip(&format!("clip_{}", chart.name), plot.left, plot.top, width, height);
         for (_, mark) in &chart.marks {
@@ -73,57 +134,48 @@ fn draw(svg: &mut Svg, chart: &Chart) {
             }
         }
         for (series, mark) in &chart.marks {
-            draw_shade(svg, &plot, series, mark);
+            draw_shade(svg, plot, series, mark);
         }
         for (series, mark) in &chart.marks {
-            draw_line(svg, &plot, series, mark);
+            draw_line(svg, plot, series, mark);
         }
         svg.close();
     }
-    draw_axes(svg, &plot, chart);
+    draw_axes(svg, plot, chart);
     if let Some(map) = maps(chart).next() {
         map.draw_key(svg, plot.right, (plot.top, plot.bottom));
     }
-    if empty {
+    if plot.is_empty {
         let middle = ((plot.left + plot.right) / 2.0, (plot.top + plot.bottom) / 2.0);
         let style = Text { size: LABEL, colour: GREY, anchor: Anchor::Middle, upright: true };
         svg.text(middle, &chart.nothing, style);
         return;
     }
     for (i, (series, mark)) in chart.marks.iter().enumerate() {
-        draw_points(svg, &plot, series, mark, i);
+        draw_points(svg, plot, series, mark, i);
     }
     legend::draw(svg, &legend::entries(chart), plot.left, plot.right);
-}
-
-fn lay_out(chart: &Chart, xs: &[f64], ys: &[f64]) -> Plot {
-    let (w, h) = chart.size;
-    let mut y = Scale::fit(&chart.y, ys.iter().copied(), 6);
-    let mut x = Scale::fit(&chart.x, xs.iter().copied(), 7);
-    let words = if chart.x.label.is_empty() { 0.0 } else { 22.0 };
-    let left = 34.0 + y_label_width(&y);
-    let right = w - maps(chart).next().map_or(18.0, |_| KEY);
-    let entries = if xs.is_empty() { Vec::new() } else { legend::entries(chart) };
-    let factors: f64 = if y.exponent != 0 { 20.0 } else { 0.0 };
-    // The key of a map has its label above it.
-    let above = if maps(chart).next().is_some() { f64::max(factors, 14.0) } else { factors };
-    let top = 12.0 + legend::height(&entries, right - left) + above;
-    let bottom = h - 28.0 - words;
-    if chart.equal {
-        let (per_x, per_y) = ((x.ends.1 - x.ends.0) / (right - left), (y.ends.1 - y.ends.0) / (bottom - top));
-        let per = per_x.max(per_y);
-        x = Scale::between(Spacing::Linear, widened(x.ends, per * (right - left)), 6);
-        y = Scale::between(Spacing::Linear, widened(y.ends, per * (bottom - top)), 6);
-    }
-    Plot { left, top, right, bottom, x, y }
 }
 
 fn maps(chart: &Chart) -> impl Iterator<Item = &Map> {
     chart.marks.iter().filter_map(|(_, mark)| if let Mark::Map(map) = mark { Some(map) } else { None })
 }
 
+/// In how many rows words stand so that none touches the next one of its row.
+///
+/// * `room` – of the axis [px]
+fn rows_of_words(words: &[String], room: f64) -> usize {
+    const MOST: usize = 4;
+    let each = room / words.len().max(1) as f64;
+    let half = |word: &String| 0.5 * width_of(word, TICK) + 3.0;
+    let has_room = |rows: &usize| {
+        words.iter().zip(words.iter().skip(*rows)).all(|(a, b)| half(a) + half(b) <= *rows as f64 * each)
+    };
+    (1..MOST).find(has_room).unwrap_or(MOST)
+}
+
 fn y_label_width(y: &Scale) -> f64 {
-    y.ticks.iter().filter_map(|t| t.label.as_deref()).map(|l| width(l, TICK)).fold(14.0, f64::max)
+    y.ticks.iter().filter_map(|t| t.label.as_deref()).map(|l| width_of(l, TICK)).fold(14.0, f64::max)
 }
 
 fn widened((lo, hi): (f64, f64), range: f64) -> (f64, f64) {
@@ -146,12 +198,13 @@ fn draw_grid(svg: &mut Svg, plot: &Plot) {
 fn draw_axes(svg: &mut Svg, plot: &Plot, chart: &Chart) {
     let stroke = Stroke::solid(INK, 0.9);
     let tick_text = |anchor| Text { size: TICK, colour: INK, anchor, upright: true };
-    for tick in &plot.x.ticks {
+    for (i, tick) in plot.x.ticks.iter().enumerate() {
         let x = plot.along(tick.value);
         let length = if tick.label.is_some() { 6.0 } else { 3.0 };
         svg.line((x, plot.bottom), (x, plot.bottom + length), &stroke);
         if let Some(label) = &tick.label {
-            svg.text((x, plot.bottom + 20.0), label, tick_text(Anchor::Middle));
+            let down = 20.0 + TICK_ROW * (i % plot.rows) as f64;
+            svg.text((x, plot.bottom + down), label, tick_text(Anchor::Middle));
         }
     }
     for tick in &plot.y.ticks {
@@ -165,8 +218,11 @@ fn draw_axes(svg: &mut Svg, plot: &Plot, chart: &Chart) {
     let corner = (plot.left, plot.bottom);
     svg.path(&[(plot.left, plot.top), corner, (plot.right, plot.bottom)], &stroke);
     let title = |upright| Text { size: LABEL, colour: INK, anchor: Anchor::Middle, upright };
-    let middle = (plot.left + plot.right) / 2.0;
-    svg.text((middle, plot.bottom + 42.0), &chart.x.label, title(true));
+    // A long label stays in the picture.
+    let half = 0.5 * width_of(&chart.x.label, LABEL) + 4.0;
+    let middle = ((plot.left + plot.right) / 2.0).min(plot.width - half).max(half);
+    let down = 42.0 + TICK_ROW * (plot.rows - 1) as f64;
+    svg.text((middle, plot.bottom + down), &chart.x.label, title(true));
     let middle = (plot.top + plot.bottom) / 2.0;
     svg.text((16.0, middle), &chart.y.label, title(false));
     if plot.x.exponent != 0 {
@@ -281,5 +337,65 @@ fn draw_error(svg: &mut Svg, plot: &Plot, (x, y): (f64, f64), error: f64, colour
     svg.line((x, top), (x, bottom), &stroke);
     for end in [top, bottom] {
         svg.line((x - 3.5, end), (x + 3.5, end), &stroke);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scale::Axis;
+
+    fn chart() -> Chart {
+        let points = [(0.0, 1.0, None), (1.0, 2.0, None)];
+        let long = "Power spectral density of what is measured (m²/s)";
+        Chart::new("c", "", Axis::linear("Time (s)"), Axis::linear(long))
+            .scatter(Series::circles("*y*"), &points)
+            .scatter(Series::triangles("a long name of a series"), &points)
+            .scatter(Series::spots("another long name of a series", "red"), &points)
+    }
+
+    #[test]
+    fn a_narrow_chart_keeps_the_size_of_its_text_and_the_proportions_of_its_plot() {
+        let chart = Chart { y: Axis::linear("y"), ..chart() };
+        let [own, narrow] = [1.0, 0.6].map(|share| Plot::of(&chart, share));
+        let ratio = |plot: &Plot| (plot.right - plot.left) / (plot.bottom - plot.top);
+        assert_eq!((own.width, own.height), (640.0, 400.0));
+        assert!((narrow.width - 384.0).abs() < 1e-9 && (ratio(&narrow) / ratio(&own) - 1.0).abs() < 0.1);
+        // The legend has more rows.
+        assert!(narrow.top > own.top + 15.0, "{} {}", narrow.top, own.top);
+        let svg = svg("", &[chart], 384.0);
+        assert!(svg.contains("width=\"384\"") && svg.contains("font-size=\"14\""), "{svg}");
+        assert!(!svg.contains("font-size=\"8"), "{svg}");
+    }
+
+    #[test]
+    fn a_plot_is_as_high_as_the_words_beside_it() {
+        let narrow = Plot::of(&chart(), 0.5);
+        assert!(narrow.bottom - narrow.top >= width_of(&chart().y.label, LABEL));
+    }
+
+    #[test]
+    fn words_that_would_touch_stand_in_rows() {
+        let words = ["matsui", "marheineke-wegener", "sakiadis"].map(str::to_owned);
+        assert_eq!(rows_of_words(&words, 900.0), 1);
+        assert_eq!(rows_of_words(&words, 220.0), 2);
+        assert_eq!(rows_of_words(&[], 100.0), 1);
+    }
+
+    #[test]
+    fn series_that_only_their_colour_sets_apart_get_markers_in_plot_and_legend() {
+        let line = [(0.0, 1.0), (1.0, 2.0), (2.0, 2.5)];
+        let chart = Chart::new("c", "", Axis::linear("x"), Axis::linear("y"))
+            .line(Series::new("a", "blue"), &line)
+            .line(Series::new("b", "red"), &line)
+            .line(Series::new("c", "green").dashed("6 4"), &line)
+            .scatter(Series::spots("d", "blue"), &[(0.0, 1.0, None)])
+            .scatter(Series::spots("e", "red"), &[(0.0, 1.0, None)]);
+        let markers = chart.marks.iter().map(|(series, _)| series.marker).collect::<Vec<_>>();
+        let expected = [None, Some(Marker::Square), None, Some(Marker::Spot), Some(Marker::Diamond)];
+        assert_eq!(markers, expected);
+        // Along the line and in the legend.
+        let squares = chart.svg().matches("fill=\"#ffffff\" stroke=\"red\"").count();
+        assert!(squares >= 3, "{squares}");
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::chart::{Chart, Mark, Series};
 use crate::draw;
+use crate::drawing::Drawing;
 use crate::table::{Table, column};
 
 /// A figure of a report.
@@ -13,38 +14,49 @@ pub struct Figure {
     pub title: String,
     /// What is shown and what the numbers mean.
     pub caption: String,
-    /// The picture.
+    /// The picture for the screen.
     pub svg: String,
     /// The numbers, in the units of the axes.
     pub table: Table,
+    /// How it is drawn at other widths.
+    drawing: Drawing,
 }
 
 impl Figure {
     /// The figure of a chart.
     pub fn new(chart: &Chart, caption: impl Into<String>) -> Self {
-        Self {
-            name: chart.name.clone(),
-            title: chart.title.clone(),
-            caption: unbroken(caption),
-            svg: chart.svg(),
-            table: table(&[chart]),
-        }
+        Self::stacked(&chart.name, &chart.title, &[chart], caption)
     }
 
     /// The figure of charts one above the other.
     pub fn stacked(name: &str, title: &str, charts: &[&Chart], caption: impl Into<String>) -> Self {
-        Self {
-            name: name.to_owned(),
-            title: title.to_owned(),
-            caption: unbroken(caption),
-            svg: draw::stacked(title, charts),
-            table: table(charts),
-        }
+        let owned: Vec<Chart> = charts.iter().copied().cloned().collect();
+        let heading = title.to_owned();
+        let width = draw::width(&owned);
+        let drawing = Drawing::new(width, move |width| draw::svg(&heading, &owned, width));
+        Self::drawn(name, title, drawing, table(charts), caption)
+    }
+
+    /// A figure that no chart can show.
+    pub fn drawn(
+        name: &str,
+        title: &str,
+        drawing: Drawing,
+        table: Table,
+        caption: impl Into<String>,
+    ) -> Self {
+        let (name, title, caption) = (name.to_owned(), title.to_owned(), unbroken(caption));
+        Self { name, title, caption, svg: drawing.on_screen(), table, drawing }
+    }
+
+    /// The picture as SVG for print, so many millimetres wide.
+    pub fn in_print(&self, width: f64) -> String {
+        self.drawing.in_print(width)
     }
 }
 
 /// The same text, but no line ends between a number and `%`.
-pub(crate) fn unbroken(text: impl Into<String>) -> String {
+fn unbroken(text: impl Into<String>) -> String {
     text.into().replace(" %", "\u{a0}%")
 }
 

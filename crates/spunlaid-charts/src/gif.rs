@@ -1,7 +1,7 @@
 //! Moving pictures.
 
 use crate::map::{colours, parts};
-use crate::png::{PngError, drawn};
+use crate::picture::{PictureError, drawn};
 use gif::{Encoder, Frame, Repeat};
 use std::collections::HashMap;
 
@@ -15,17 +15,17 @@ const GREYS: usize = 64;
 ///
 /// # Errors
 /// A string that is not an SVG picture, or one of another size.
-pub fn gif<'a>(frames: impl IntoIterator<Item = &'a str>, per_second: f64) -> Result<Vec<u8>, PngError> {
+pub fn gif<'a>(frames: impl IntoIterator<Item = &'a str>, per_second: f64) -> Result<Vec<u8>, PictureError> {
     let greys = (0..GREYS).map(|grey| [(grey * 255 / (GREYS - 1)) as u8; 3]);
     let palette: Vec<[u8; 3]> = colours().map(|colour| parts(&colour)).chain(greys).collect();
-    let failed = |error: gif::EncodingError| PngError::Encoding(error.to_string());
+    let failed = |error: gif::EncodingError| PictureError::Encoding(error.to_string());
     let mut nearest: HashMap<[u8; 3], u8> = HashMap::new();
     let mut encoder: Option<(Encoder<Vec<u8>>, [u16; 2])> = None;
     for svg in frames {
         let pixels = drawn(svg, 1.0)?;
         let size = match [pixels.width(), pixels.height()].map(u16::try_from) {
             [Ok(width), Ok(height)] => [width, height],
-            _ => return Err(PngError::Size(pixels.width(), pixels.height())),
+            _ => return Err(PictureError::Size(pixels.width(), pixels.height())),
         };
         let (into, expected) = match &mut encoder {
             Some((into, size)) => (into, *size),
@@ -38,7 +38,7 @@ pub fn gif<'a>(frames: impl IntoIterator<Item = &'a str>, per_second: f64) -> Re
             }
         };
         if size != expected {
-            return Err(PngError::Size(pixels.width(), pixels.height()));
+            return Err(PictureError::Size(pixels.width(), pixels.height()));
         }
         let number = |pixel: &[u8]| {
             let colour = [pixel[0], pixel[1], pixel[2]];
@@ -50,8 +50,8 @@ pub fn gif<'a>(frames: impl IntoIterator<Item = &'a str>, per_second: f64) -> Re
         into.write_frame(&Frame { width, height, delay, buffer: buffer.into(), ..Frame::default() })
             .map_err(failed)?;
     }
-    let Some((encoder, _)) = encoder else { return Err(PngError::Size(0, 0)) };
-    encoder.into_inner().map_err(|error| PngError::Encoding(error.to_string()))
+    let Some((encoder, _)) = encoder else { return Err(PictureError::Size(0, 0)) };
+    encoder.into_inner().map_err(|error| PictureError::Encoding(error.to_string()))
 }
 
 fn number_of_nearest(palette: &[[u8; 3]], colour: [u8; 3]) -> u8 {
@@ -92,7 +92,7 @@ mod tests {
     #[test]
     fn rejects_pictures_of_different_sizes() {
         let pictures = [square("#000000", 20), square("#000000", 21)];
-        assert!(matches!(gif(pictures.iter().map(String::as_str), 20.0), Err(PngError::Size(21, 21))));
+        assert!(matches!(gif(pictures.iter().map(String::as_str), 20.0), Err(PictureError::Size(21, 21))));
         assert!(gif([], 20.0).is_err());
     }
 }

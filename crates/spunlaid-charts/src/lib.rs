@@ -1,11 +1,12 @@
-//! Charts for reports: the picture as SVG and PNG, and the numbers it shows as CSV.
+//! Charts for reports: the picture as SVG, PNG and PDF, and the numbers it shows as CSV.
 //!
 //! The same data give the same bytes on every machine: the fonts are part of the crate, and nothing depends on the
 //! time, the locale or the number of threads.
 //!
 //! ```text
-//! data → Chart (axes, series, marks) → Figure ─ svg    layout, ticks, thinning, legend
+//! data → Chart (axes, series, marks) → Figure ─ svg    layout, ticks, thinning, legend; for the screen, or for a width in print
 //!                                             ├ png    from the SVG, with the crate's own fonts
+//!                                             ├ pdf    the same as outlines, a page of the picture's size
 //!                                             └ table  every point that the figure shows, as CSV
 //! ```
 //!
@@ -22,7 +23,7 @@
 //! let figure = Figure::new(&chart, "Mean over ten replicates; bars are one standard error.");
 //!
 //! assert!(figure.svg.starts_with("<svg"));
-//! assert!(png(&figure.svg)?.starts_with(b"\x89PNG"));
+//! assert!(png(&figure.svg, 192, &[])?.starts_with(b"\x89PNG"));
 //! assert_eq!(
 //!     figure.table.csv(),
 //!     "series,velocity_m_s,amplitude_mm,error\n\
@@ -31,7 +32,7 @@
 //!      z,5,4.7,0.1\n\
 //!      z,10,9.5,\n"
 //! );
-//! # Ok::<(), spunlaid_charts::PngError>(())
+//! # Ok::<(), spunlaid_charts::PictureError>(())
 //! ```
 //!
 //! Labels have a small mark-up: `*t*` is italic, `^{2}` is raised, `_{n}` is lowered.
@@ -43,6 +44,7 @@
 mod chart;
 mod decimate;
 mod draw;
+mod drawing;
 mod figure;
 mod gif;
 mod glyphs;
@@ -50,6 +52,8 @@ mod legend;
 mod map;
 mod numbers;
 pub mod palette;
+mod pdf;
+mod picture;
 mod png;
 mod rose;
 mod scale;
@@ -58,12 +62,15 @@ mod table;
 
 pub use chart::{Chart, Mark, Series};
 pub use decimate::even;
+pub use drawing::Drawing;
 pub use figure::Figure;
 pub use gif::gif;
 pub use map::{Map, Shades};
 pub use numbers::{shortest, signed, significant};
 pub use palette::Marker;
-pub use png::{PngError, png};
+pub use pdf::pdf;
+pub use picture::PictureError;
+pub use png::png;
 pub use rose::Rose;
 pub use scale::{Axis, Scale, Spacing, Tick};
 pub use table::Table;

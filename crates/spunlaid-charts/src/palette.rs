@@ -30,4 +30,8 @@ pub enum Marker {
     Triangle,
     /// Neither: a filled spot.
     Spot,
+    /// One of several of a kind.
+    Square,
+    /// Another one.
+    Diamond,
 }

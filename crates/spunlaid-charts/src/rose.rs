@@ -1,16 +1,18 @@
 //! A rose: how often each direction occurs, as wedges around a centre.
 
-use crate::figure::{Figure, unbroken};
+use crate::drawing::Drawing;
+use crate::figure::Figure;
 use crate::numbers::shortest;
 use crate::palette::{BLUE, GREY, GRID, INK};
 use crate::svg::{Anchor, Stroke, Svg, Text};
 use crate::table::Table;
 use std::f64::consts::{PI, TAU};
 
-/// Width and height [px], the centre, and the radius of the outermost ring.
-const SIZE: (f64, f64) = (580.0, 460.0);
-const CENTRE: (f64, f64) = (290.0, 214.0);
-const RADIUS: f64 = 185.0;
+/// Width on the screen [px], and what lies beside, above and below the outermost ring.
+const WIDTH: f64 = 580.0;
+const BESIDE: f64 = 105.0;
+const ABOVE: f64 = 29.0;
+const BELOW: f64 = 61.0;
 /// Most rings.
 const RINGS: f64 = 5.0;
 
@@ -36,60 +38,58 @@ pub struct Rose {
 impl Rose {
     /// The figure. Wedges are as long as their values.
     pub fn figure(&self, caption: impl Into<String>) -> Figure {
-        Figure {
-            name: self.name.clone(),
-            title: self.title.clone(),
-            caption: unbroken(caption),
-            svg: self.svg(),
-            table: self.table(),
-        }
+        let rose = self.clone();
+        let drawing = Drawing::new(WIDTH, move |width| rose.svg(width));
+        Figure::drawn(&self.name, &self.title, drawing, self.table(), caption)
     }
 
-    fn svg(&self) -> String {
-        let mut svg = Svg::new(SIZE.0, SIZE.1, &self.title);
+    fn svg(&self, width: f64) -> String {
+        let disc = Disc { radius: 0.5 * width - BESIDE };
+        let mut svg = Svg::new(width, ABOVE + 2.0 * disc.radius + BELOW, &self.title);
         let reference = self.reference.as_ref().map_or(0.0, |reference| reference.0);
         let values = self.classes.iter().map(|class| class.0).filter(|value| value.is_finite());
         let largest = values.fold(reference, f64::max);
         let step = ring_step(largest);
         let rings = (largest / step - 1e-9).ceil().max(1.0);
-        let at = |value: f64| value / (rings * step) * RADIUS;
-        self.draw_wedges(&mut svg, at);
+        let at = |value: f64| value / (rings * step) * disc.radius;
+        self.draw_wedges(&mut svg, disc, at);
         let grid = Stroke::solid(GREY, 0.5);
         for ring in 1..=rings as u32 {
-            svg.path(&circle(at(f64::from(ring) * step)), &grid);
+            svg.path(&disc.circle(at(f64::from(ring) * step)), &grid);
         }
         for turn in 0..4 {
-            let far = place(RADIUS, f64::from(turn) * PI / 2.0);
-            svg.line(CENTRE, far, &grid);
+            let far = disc.place(disc.radius, f64::from(turn) * PI / 2.0);
+            svg.line(disc.centre(), far, &grid);
         }
         if let Some((value, _)) = &self.reference {
-            svg.path(&circle(at(*value)), &Stroke { colour: INK, width: 1.3, dash: Some("5 4") });
+            svg.path(&disc.circle(at(*value)), &Stroke { colour: INK, width: 1.3, dash: Some("5 4") });
         }
-        self.draw_labels(&mut svg, rings, step, at);
+        self.draw_labels(&mut svg, disc, [rings, step], at);
         svg.finish()
     }
 
-    fn draw_wedges(&self, svg: &mut Svg, at: impl Fn(f64) -> f64) {
+    fn draw_wedges(&self, svg: &mut Svg, disc: Disc, at: impl Fn(f64) -> f64) {
         let width = TAU / self.classes.len().max(1) as f64;
         let edge = Stroke::solid(BLUE, 0.8);
         for (i, (value, _)) in self.classes.iter().enumerate() {
             if !(value.is_finite() && *value > 0.0) {
                 continue;
             }
-            let mut corners = vec![CENTRE];
+            let mut corners = vec![disc.centre()];
             // Arcs of three degrees cannot be distinguished from a circle.
             let parts = (width / (TAU / 120.0)).ceil().max(1.0) as usize;
             let angle = |k: usize| width * (i as f64 + k as f64 / parts as f64);
-            corners.extend((0..=parts).map(|k| place(at(*value), angle(k))));
+            corners.extend((0..=parts).map(|k| disc.place(at(*value), angle(k))));
             svg.polygon(&corners, BLUE, 0.28, Some(&edge));
         }
     }
 
-    fn draw_labels(&self, svg: &mut Svg, rings: f64, step: f64, at: impl Fn(f64) -> f64) {
+    fn draw_labels(&self, svg: &mut Svg, disc: Disc, [rings, step]: [f64; 2], at: impl Fn(f64) -> f64) {
+        let radius = disc.radius;
         let text = |anchor, colour, size| Text { size, colour, anchor, upright: true };
         for ring in 1..=rings as u32 {
             let value = f64::from(ring) * step;
-            let (x, y) = place(at(value), PI * 0.375);
+            let (x, y) = disc.place(at(value), PI * 0.375);
             // Readable on the wedges below.
             let label = shortest((value * 1e6).round() / 1e6);
             let half = 0.5 * crate::svg::width(&label, 12.0) + 2.0;
@@ -98,15 +98,15 @@ impl Rose {
             svg.text((x, y + 4.0), &label, text(Anchor::Middle, GREY, 12.0));
         }
         let [right, up, left, down] = &self.sides;
-        let (x, y) = CENTRE;
-        svg.text((x + RADIUS + 8.0, y + 5.0), right, text(Anchor::Start, INK, 13.0));
-        svg.text((x, y - RADIUS - 10.0), up, text(Anchor::Middle, INK, 13.0));
-        svg.text((x - RADIUS - 8.0, y + 5.0), left, text(Anchor::End, INK, 13.0));
-        svg.text((x, y + RADIUS + 22.0), down, text(Anchor::Middle, INK, 13.0));
+        let (x, y) = disc.centre();
+        svg.text((x + radius + 8.0, y + 5.0), right, text(Anchor::Start, INK, 13.0));
+        svg.text((x, y - radius - 10.0), up, text(Anchor::Middle, INK, 13.0));
+        svg.text((x - radius - 8.0, y + 5.0), left, text(Anchor::End, INK, 13.0));
+        svg.text((x, y + radius + 22.0), down, text(Anchor::Middle, INK, 13.0));
         if let Some((_, words)) = &self.reference {
-            let y = SIZE.1 - 9.0;
+            let y = y + radius + BELOW - 9.0;
             let width = crate::svg::width(words, 13.0);
-            let left = CENTRE.0 - 0.5 * (width + 34.0);
+            let left = x - 0.5 * (width + 34.0);
             svg.line(
                 (left, y - 4.5),
                 (left + 28.0, y - 4.5),
@@ -146,13 +146,27 @@ fn ring_step(largest: f64) -> f64 {
     step.unwrap_or(10.0) * power
 }
 
-/// A point at a distance from the centre [px], in a direction [rad].
-fn place(radius: f64, angle: f64) -> (f64, f64) {
-    (CENTRE.0 + radius * angle.cos(), CENTRE.1 - radius * angle.sin())
+/// The outermost ring.
+#[derive(Clone, Copy)]
+struct Disc {
+    /// [px].
+    radius: f64,
 }
 
-fn circle(radius: f64) -> Vec<(f64, f64)> {
-    (0..=120).map(|k| place(radius, TAU * f64::from(k) / 120.0)).collect()
+impl Disc {
+    fn centre(self) -> (f64, f64) {
+        (self.radius + BESIDE, self.radius + ABOVE)
+    }
+
+    /// A point at a distance from the centre [px], in a direction [rad].
+    fn place(self, distance: f64, angle: f64) -> (f64, f64) {
+        let (x, y) = self.centre();
+        (x + distance * angle.cos(), y - distance * angle.sin())
+    }
+
+    fn circle(self, radius: f64) -> Vec<(f64, f64)> {
+        (0..=120).map(|k| self.place(radius, TAU * f64::from(k) / 120.0)).collect()
+    }
 }
 
 #[cfg(test)]
@@ -177,17 +191,18 @@ mod tests {
         // Two of four classes: 2 to the upper right, 1 to the lower left. Rings every 0.4 up to 2.
         let rose = rose(vec![(2.0, None), (0.0, None), (1.0, Some(0.1)), (f64::NAN, None)]);
         let figure = rose.figure("");
+        let (centre, radius) = ((290.0, 214.0), 185.0);
         let wedges: Vec<&str> =
             figure.svg.lines().filter(|line| line.contains("fill-opacity=\"0.28\"")).collect();
         assert_eq!(wedges.len(), 2);
         assert!(wedges[0].contains(&format!(
             "M{} {}L{} {}",
-            CENTRE.0,
-            CENTRE.1,
-            CENTRE.0 + RADIUS,
-            CENTRE.1
+            centre.0,
+            centre.1,
+            centre.0 + radius,
+            centre.1
         )));
-        assert!(wedges[1].contains(&format!("L{} {}", CENTRE.0 - 0.5 * RADIUS, CENTRE.1)), "{}", wedges[1]);
+        assert!(wedges[1].contains(&format!("L{} {}", centre.0 - 0.5 * radius, centre.1)), "{}", wedges[1]);
         assert_eq!(
             figure.table.csv(),
             "series,direction_degrees,share,error\nfibre,45,2,\nfibre,135,0,\nfibre,225,1,0.1\nfibre,315,,\n"
@@ -206,7 +221,7 @@ mod tests {
     #[test]
     fn nothing_to_show_is_said() {
         for classes in [vec![], vec![(f64::NAN, None); 36], vec![(f64::INFINITY, None); 4]] {
-            let svg = rose(classes).svg();
+            let svg = rose(classes).svg(300.0);
             assert!(svg.contains("no values to show") && !svg.contains("NaN") && !svg.contains("inf"));
         }
     }

@@ -124,7 +124,7 @@ impl Svg {
         );
     }
 
-    /// A marker: circle and triangle hollow, the spot filled.
+    /// A marker: all are hollow but the spot.
     pub fn marker(&mut self, at: (f64, f64), marker: Marker, colour: &str) {
         let stroke = Stroke::solid(colour, 1.5);
         let (x, y) = at;
@@ -135,6 +135,15 @@ impl Svg {
                 let r = 5.2;
                 let corners = [(x, y - r), (x + 0.866 * r, y + 0.5 * r), (x - 0.866 * r, y + 0.5 * r)];
                 self.polygon(&corners, PAPER, 1.0, Some(&stroke));
+            }
+            Marker::Square => {
+                let h = 3.5;
+                let corners = [(x - h, y - h), (x + h, y - h), (x + h, y + h), (x - h, y + h)];
+                self.polygon(&corners, PAPER, 1.0, Some(&stroke));
+            }
+            Marker::Diamond => {
+                let r = 4.9;
+                self.polygon(&[(x, y - r), (x + r, y), (x, y + r), (x - r, y)], PAPER, 1.0, Some(&stroke));
             }
             Marker::Spot => self.circle(at, 3.4, colour, &stroke),
         }
@@ -160,6 +169,21 @@ impl Svg {
             spans(text, style.size)
         );
     }
+}
+
+/// A finished picture with its size in millimetres, so many for each pixel.
+pub(crate) fn in_millimetres(svg: &str, per_pixel: f64) -> String {
+    ["width", "height"].iter().fold(svg.to_owned(), |svg, side| {
+        let start = format!(" {side}=\"");
+        let place = svg.find(&start).map(|place| place + start.len());
+        let sized = place.and_then(|place| {
+            let (before, rest) = svg.split_at(place);
+            let (pixels, after) = rest.split_once('"')?;
+            let length = pixels.parse::<f64>().ok()? * per_pixel;
+            Some(format!("{before}{}mm\"{after}", number(length)))
+        });
+        sized.unwrap_or(svg)
+    })
 }
 
 /// How a line is drawn.
@@ -330,6 +354,23 @@ pub fn width(text: &str, size: f64) -> f64 {
     pieces(text).iter().map(width_of_piece).sum()
 }
 
+/// A label in lines that are no wider than the room, if its words allow it.
+///
+/// * `room` – [px]
+pub fn lines(text: &str, size: f64, room: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split(' ') {
+        match lines.last_mut() {
+            Some(line) if width(&format!("{line} {word}"), size) <= room => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -342,6 +383,20 @@ mod tests {
             spans("10^{2} x", 10.0),
             "10<tspan dy=\"-3.8\" font-size=\"7.2\">2</tspan><tspan dy=\"3.8\"> x</tspan>"
         );
+    }
+
+    #[test]
+    fn a_long_label_has_several_lines() {
+        assert_eq!(lines("Change of *u* (m/s)", 10.0, 1000.0), ["Change of *u* (m/s)"]);
+        let room = width("Change of", 10.0) + 0.1;
+        assert_eq!(lines("Change of *u* (m/s)", 10.0, room), ["Change of", "*u* (m/s)"]);
+    }
+
+    #[test]
+    fn a_picture_for_print_has_its_size_in_millimetres() {
+        let svg = in_millimetres(&Svg::new(400.0, 250.5, "").finish(), 0.2);
+        assert!(svg.contains(" width=\"80mm\" height=\"50.1mm\" viewBox=\"0 0 400 250.5\""), "{svg}");
+        assert!(svg.contains("<rect width=\"400\" height=\"250.5\""), "{svg}");
     }
 
     #[test]

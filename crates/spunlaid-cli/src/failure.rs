@@ -11,7 +11,7 @@ pub(crate) enum Failure {
     /// Something that the user can mend, or that the operating system does not allow.
     Error(Error),
     /// A study was interrupted.
-    Paused { done: u64, total: u64, what: &'static str },
+    Paused { done: u64, total: Option<u64>, what: &'static str },
     /// Fibres were lost; the results are those of all others.
     FibresLost { lost: String },
     /// The program panicked; the message has been printed.
@@ -61,9 +61,10 @@ impl fmt::Display for Failure {
             }
             Self::Error(error) => f.write_str(&error.with_options()),
             Self::Paused { done, total, what } => {
+                let total = total.map_or_else(String::new, |total| format!(" of {total}"));
                 write!(
                     f,
-                    "interrupted; {done} of {total} {what} are done and kept. Repeat the command to continue"
+                    "interrupted; {done}{total} {what} are done and kept. Repeat the command to continue"
                 )
             }
             Self::FibresLost { lost } => f.write_str(lost),
@@ -127,7 +128,8 @@ mod tests {
         ] {
             assert_eq!(not_the_inputs_fault.exit_code(), 2, "{not_the_inputs_fault:?}");
         }
-        for interrupted in [Failure::Paused { done: 1, total: 2, what: "fibres" }, Error::Interrupted.into()]
+        for interrupted in
+            [Failure::Paused { done: 1, total: Some(2), what: "fibres" }, Error::Interrupted.into()]
         {
             assert_eq!(interrupted.exit_code(), 130, "{interrupted:?}");
         }

@@ -29,6 +29,7 @@ fn main() -> ExitCode {
         Command::Sweep(sweep) => commands::sweep(&sweep),
         Command::Spin(spin) => commands::spin(&spin),
         Command::Web(web) => commands::web(&web),
+        Command::Fit(fit) => commands::fit(&fit),
         Command::Air(air) => commands::air(&air),
         Command::Live(live) => commands::live(&live),
         Command::Reproduce(arguments) => commands::reproduce(&arguments),

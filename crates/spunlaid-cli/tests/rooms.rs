@@ -21,8 +21,8 @@ const RESULTS: &[&[&str]] = &[&["failure", "numbers"], &["figures"], &["output"]
 
 const CHARTS: &[&[&str]] = &[
     &["decimate", "glyphs", "numbers", "palette"],
-    &["png", "svg"],
-    &["table", "map"],
+    &["picture", "svg"],
+    &["pdf", "png", "drawing", "table", "map"],
     &["gif", "scale"],
     &["chart"],
     &["legend"],

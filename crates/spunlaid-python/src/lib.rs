@@ -20,6 +20,7 @@ mod keys;
 mod merged;
 mod record;
 
+mod fit;
 mod flight;
 mod results;
 mod run;
@@ -44,6 +45,8 @@ mod _spunlaid {
     use super::bundle::fly_bundle;
     #[pymodule_export]
     use super::case::Case;
+    #[pymodule_export]
+    use super::fit::find_fit;
     #[pymodule_export]
     use super::flight::Flight;
     #[pymodule_export]

@@ -176,24 +176,6 @@ function startMotion(canvas) {
   return player;
 }
 
-/** The button that copies the case. */
-function startCopying() {
-  const [button, block] = [byId("copy"), byId("case-toml")];
-  button.addEventListener("click", async () => {
-    let done = true;
-    try {
-      await navigator.clipboard.writeText(block.textContent);
-    } catch {
-      // Without leave to write the clipboard: mark the text, for the reader's own copy key.
-      getSelection().selectAllChildren(block);
-      done = false;
-    }
-    button.textContent = done ? "Copied" : "Marked: press Ctrl+C";
-    setTimeout(() => (button.textContent = "Copy"), 2500);
-  });
-}
-
-startCopying();
 const canvas = byId("fibre");
 if (canvas) {
   try {

@@ -1,4 +1,4 @@
-// Saving figures out of a report.
+// Saving figures and copying texts out of a report.
 
 function download(name, blob) {
   const link = document.createElement("a");
@@ -32,4 +32,24 @@ function startSaving() {
   });
 }
 
+/** The buttons that copy a text of the page: the case, the methods. */
+function startCopying() {
+  document.querySelectorAll("[data-copy]").forEach((button) =>
+    button.addEventListener("click", async () => {
+      const block = document.getElementById(button.dataset.copy);
+      let done = true;
+      try {
+        await navigator.clipboard.writeText(block.innerText);
+      } catch {
+        // Without leave to write the clipboard: mark the text, for the reader's own copy key.
+        getSelection().selectAllChildren(block);
+        done = false;
+      }
+      button.textContent = done ? "Copied" : "Marked: press Ctrl+C";
+      setTimeout(() => (button.textContent = "Copy"), 2500);
+    }),
+  );
+}
+
 startSaving();
+startCopying();

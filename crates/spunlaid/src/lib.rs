@@ -104,5 +104,7 @@ pub mod layers;
 
 pub mod study;
 
+pub mod fit;
+
 pub mod input;
 pub mod paper;

@@ -33,6 +33,7 @@ const ROOMS: &[&[&str]] = &[
     &["beam"],
     &["layers"],
     &["study"],
+    &["fit"],
     &["input"],
     &["paper"],
 ];

@@ -1,6 +1,6 @@
 //! `spunlaid analyse`: how a velocity record, or a scan of a web, is read.
 
-use super::quantity;
+use super::{Figures, quantity};
 use clap::{Args, ValueHint};
 use spunlaid::record::IntegralRule;
 use spunlaid::statistics::Window;
@@ -65,6 +65,8 @@ pub(crate) struct Analyse {
     /// Replace the results in the output folder
     #[arg(long)]
     pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) figures: Figures,
 }
 
 /// How a scan of a web is read.

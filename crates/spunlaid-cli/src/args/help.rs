@@ -15,6 +15,7 @@ Examples:
   spunlaid web my_web.toml                          lay a fabric of many such filaments
   spunlaid run results/my --until \"20 s\"             fly it for longer, in the same turbulence
   spunlaid web cases/web.toml                       lay thousands of filaments: how even is the fabric?
+  spunlaid fit my_web.toml --to results/scan --vary line.depth    the settings behind a scanned web
   spunlaid compare results/my results/faster        say what differs between two runs
   spunlaid analyse wire.csv                         make the air of a case from a velocity record
   spunlaid analyse scan.png --pixel \"0.1 mm\"       say how even your own web is
@@ -184,6 +185,26 @@ Examples:
   spunlaid web cases/web.toml
   spunlaid web cases/web_known.toml --set line.belt_speed=\"6 m/s\" --out results/faster
   spunlaid web two_beams.toml --set layer.2.line.filaments_per_metre=4000";
+
+pub(super) const FIT_HELP: &str = "\
+A web is laid again and again with other values of the keys, until its unevenness over patches is that
+of the scan. Each trial lays the same webs with the same random numbers, cut to the size of the scan.
+The scan comes from `spunlaid analyse`; patches that its camera has blurred by more than 10 % are not
+compared. The keys may be those of the web or of the case that it flies; a case is flown anew in each
+trial. Without a range, a value may be five times smaller or larger than that of the file.
+
+If a fit is interrupted, the same command continues it and gives the same bits. The results folder
+holds
+  report.html    for the browser: values with 95 % intervals, curves of scan and fit, residuals, profiles
+  fit.json       all numbers                 trials.csv   the misfit of each trial
+  web.toml       the web with the values that were found; with cases/ if it flies some
+  figures/       every figure as SVG, PNG and CSV
+  journal        the numbers of every web; with it the fit can be continued
+
+Examples:
+  spunlaid analyse scan.png --pixel \"0.1 mm\" --lamp empty.png
+  spunlaid fit my_web.toml --to results/scan --vary air.length_scale,line.depth
+  spunlaid fit my_web.toml --to results/scan --vary laydown.noise=\"5 m^-0.5..40 m^-0.5\" --spectrum";
 
 pub(super) const REPRODUCE_HELP: &str = "\
 The results folder holds

@@ -1,18 +1,23 @@
 //! The command line.
 
 mod analyse;
+mod figures;
+mod fit;
 mod help;
 mod new;
 mod source;
 
 pub(crate) use analyse::{Analyse, Direction, LightName};
+pub(crate) use figures::{Figures, format};
+pub(crate) use fit::Fit;
 pub(crate) use new::{LineNumbers, New, polymer, titre};
 pub(crate) use source::{CaseSource, is_standard, quoted};
 
 use clap::{Args, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
+use figures::FigureWidth;
 use help::{
-    AIR_HELP, ANALYSE_HELP, CHECK_HELP, COMPARE_HELP, EXAMPLES, KEYS_HELP, LIVE_HELP, NEW_HELP,
+    AIR_HELP, ANALYSE_HELP, CHECK_HELP, COMPARE_HELP, EXAMPLES, FIT_HELP, KEYS_HELP, LIVE_HELP, NEW_HELP,
     REPRODUCE_HELP, RUN_HELP, SPIN_HELP, SWEEP_HELP, WEB_HELP,
 };
 use source::key_and_value;
@@ -42,6 +47,9 @@ pub(crate) enum Command {
     /// Lay a web of many filaments: map of its basis weight, how uneven it is, directions
     #[command(after_help = WEB_HELP)]
     Web(Web),
+    /// Find the settings whose webs are as uneven as a scanned one, with their intervals
+    #[command(after_help = FIT_HELP)]
+    Fit(Fit),
     /// Look at the turbulent air of a case: moving pictures of its gusts, slices for ParaView
     #[command(after_help = AIR_HELP)]
     Air(Air),
@@ -105,6 +113,8 @@ pub(crate) struct Run {
     /// Replace any results in the output folder; those of the same command are replaced without it
     #[arg(long)]
     pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) figures: Figures,
 }
 
 #[derive(Debug, Args)]
@@ -139,6 +149,8 @@ pub(crate) struct Sweep {
     /// Print the case or the web of point K, counted from 1, and fly nothing
     #[arg(long, value_name = "K", value_parser = |text: &str| whole(0, text))]
     pub(crate) print_point: Option<u64>,
+    #[command(flatten)]
+    pub(crate) figures: Figures,
 }
 
 #[derive(Debug, Args)]
@@ -161,6 +173,8 @@ pub(crate) struct Spin {
     /// Replace any results in the output folder; those of the same command are replaced without it
     #[arg(long)]
     pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) figures: Figures,
 }
 
 #[derive(Debug, Args)]
@@ -188,6 +202,8 @@ pub(crate) struct Air {
     /// Replace the results in the output folder
     #[arg(long)]
     pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) figures: Figures,
 }
 
 #[derive(Debug, Args)]
@@ -213,6 +229,8 @@ pub(crate) struct Web {
     /// Replace any results in the output folder; those of the same command are replaced without it
     #[arg(long)]
     pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) figures: Figures,
 }
 
 #[derive(Debug, Args)]
@@ -233,9 +251,11 @@ pub(crate) struct Reproduce {
     /// Folder for the results [default: results/paper]
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub(crate) out: Option<PathBuf>,
-    /// Figures to draw, as 9,10,11a [default: all]
+    /// Figures to draw, as 9,10,11a [default: all], and their formats, as 9,10,pdf [default: svg,png]
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub(crate) figures: Vec<String>,
+    #[command(flatten)]
+    pub(crate) width: FigureWidth,
     /// Fibres at each point; the paper has ten
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = |text: &str| whole(1, text))]
     pub(crate) replicates: u64,
@@ -293,6 +313,8 @@ pub(crate) struct Compare {
     /// Replace the comparison in the output folder
     #[arg(long)]
     pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) figures: Figures,
 }
 
 #[derive(Debug, Args)]

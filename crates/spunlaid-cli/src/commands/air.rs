@@ -31,7 +31,8 @@ pub(crate) fn air(air: &Air) -> Result<(), Failure> {
     let name = stem(&air.source.case, "case").to_string_lossy().into_owned();
     let folder = super::folder(air.out.as_ref(), format!("{name}_air"));
     let stop = stop_on_ctrl_c();
-    let staging = Staging::new(&folder, ENTRIES, air.force, stop)?;
+    let mut staging = Staging::new(&folder, ENTRIES, air.force, stop)?;
+    staging.set_figures(&air.figures.files());
     let replicate = air.replicate - 1;
     let looks =
         Looks { replicate, frames: air.frames, duration: air.duration, threads: threads(air.threads) };

@@ -12,7 +12,6 @@ use spunlaid_results::output::analysis::{
     air_block, analysis_json, autocorrelation_csv, result_table, spectrum_csv,
 };
 use spunlaid_results::output::folder::{ENTRIES, Staging};
-use spunlaid_results::output::pictures;
 use spunlaid_results::report::{AnalysisReport, analysis_html};
 
 pub(crate) fn analyse(analyse: &Analyse) -> Result<(), Failure> {
@@ -73,7 +72,8 @@ fn of_scans(arguments: &Analyse) -> Option<&'static str> {
 fn record(analyse: &Analyse) -> Result<(), Failure> {
     let name = stem(&analyse.record, "record");
     let folder = super::folder(analyse.out.as_ref(), name);
-    let staging = Staging::new(&folder, ENTRIES, analyse.force, super::interrupt::stop_on_ctrl_c())?;
+    let mut staging = Staging::new(&folder, ENTRIES, analyse.force, super::interrupt::stop_on_ctrl_c())?;
+    staging.set_figures(&analyse.figures.files());
     let record = read_record(&analyse.record, &layout(analyse))?;
     let analysis = spunlaid::record::analyse(&record, &settings(analyse))?;
     let remarks = remarks(&record);
@@ -148,7 +148,7 @@ fn write(
     json: &str,
 ) -> Result<(), Failure> {
     let figures = record_figures(record, analysis);
-    pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
+    staging.write_figures(&figures)?;
     let air = air_block(&record.file, analysis);
     let page =
         analysis_html(&AnalysisReport { name, record, analysis, figures: &figures, remarks, air: &air });

@@ -2,7 +2,7 @@
 
 use super::interrupt::stop_on_ctrl_c;
 use super::{plural, threads};
-use crate::args::{Reproduce, SchemeName};
+use crate::args::{Reproduce, SchemeName, format};
 use crate::failure::Failure;
 use crate::{progress, say};
 use serde::Serialize;
@@ -23,8 +23,9 @@ use spunlaid::study::{Journal, PointResults, Progress, Replicates, Study, result
 use spunlaid_charts::Figure;
 use spunlaid_results::figures::paper as draw;
 use spunlaid_results::output::folder::{ENTRIES, Staging};
+use spunlaid_results::output::json_text;
+use spunlaid_results::output::pictures::Format;
 use spunlaid_results::output::study::shown;
-use spunlaid_results::output::{json_text, pictures};
 use spunlaid_results::report::{PaperReport, paper_html};
 use std::sync::atomic::AtomicU64;
 use std::sync::{Mutex, PoisonError};
@@ -33,7 +34,8 @@ use std::sync::{Mutex, PoisonError};
 const FIGURES: [&str; 9] = ["2", "3", "8a", "8b", "9", "10", "11a", "11b", "11c"];
 
 pub(crate) fn reproduce(arguments: &Reproduce) -> Result<(), Failure> {
-    let wanted = chosen(&arguments.figures)?;
+    let formats: Vec<Format> = arguments.figures.iter().filter_map(|name| format(name).ok()).collect();
+    let wanted = chosen(arguments.figures.iter().filter(|name| format(name).is_err()).collect())?;
     let scheme = match arguments.scheme {
         SchemeName::SemiImplicitEuler => Scheme::SemiImplicitEuler,
         SchemeName::Leapfrog => Scheme::Leapfrog,
@@ -43,7 +45,8 @@ pub(crate) fn reproduce(arguments: &Reproduce) -> Result<(), Failure> {
     base.run.replicates = arguments.replicates;
     let folder = super::folder(arguments.out.as_ref(), "paper");
     let stop = stop_on_ctrl_c();
-    let staging = Staging::new(&folder, ENTRIES, arguments.force, stop)?;
+    let mut staging = Staging::new(&folder, ENTRIES, arguments.force, stop)?;
+    staging.set_figures(&arguments.width.files(&formats));
     let flying = Flying::new(&base, &wanted)?;
 
     let fibre_steps = AtomicU64::new(0);
@@ -61,7 +64,7 @@ pub(crate) fn reproduce(arguments: &Reproduce) -> Result<(), Failure> {
     let figures = flown.figures(&base);
     let claims = flown.claims();
     let choices = flown.choices();
-    pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
+    staging.write_figures(&figures)?;
     let case_toml = write_case(&base);
     let how = format!(
         "{} at each point, scheme {}, time step {} µs, the same random phases at all points of a figure. Figures 8a and 8b \
@@ -75,6 +78,7 @@ pub(crate) fn reproduce(arguments: &Reproduce) -> Result<(), Failure> {
         figures: &figures,
         choices: &choices,
         how: &how,
+        case: &base,
         case_toml: &case_toml,
         version: env!("CARGO_PKG_VERSION"),
     });
@@ -93,7 +97,7 @@ pub(crate) fn reproduce(arguments: &Reproduce) -> Result<(), Failure> {
 }
 
 /// The requested figures, or all if none are named. `8`, `9` and `11` mean all their parts.
-fn chosen(names: &[String]) -> Result<Vec<&'static str>, Failure> {
+fn chosen(names: Vec<&String>) -> Result<Vec<&'static str>, Failure> {
     if names.is_empty() {
         return Ok(FIGURES.to_vec());
     }
@@ -109,7 +113,11 @@ fn chosen(names: &[String]) -> Result<Vec<&'static str>, Failure> {
         let found: Vec<_> = FIGURES.into_iter().filter(|&figure| figure == plain || part(figure)).collect();
         if found.is_empty() {
             let message = format!("--figures {name}: there is no such result figure");
-            return Err(Fault::new(message, format!("write some of {}", FIGURES.join(", "))).into());
+            return Err(Fault::new(
+                message,
+                format!("write some of {}, or svg, png, pdf", FIGURES.join(", ")),
+            )
+            .into());
         }
         figures.extend(found);
     }

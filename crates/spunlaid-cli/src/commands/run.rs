@@ -69,7 +69,8 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
         notes: &notes,
         performance,
     };
-    if let Some(staging) = staging {
+    if let Some(mut staging) = staging {
+        staging.set_figures(&run.figures.files());
         written.write(&staging, computing)?;
         staging.publish()?;
         coarse.iter().for_each(|coarse| say::remark(false, coarse));

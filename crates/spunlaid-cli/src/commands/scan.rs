@@ -10,7 +10,6 @@ use spunlaid::scan::{Findings, Light, Picture, Settings, analyse, read};
 use spunlaid_results::figures::scan_figures;
 use spunlaid_results::numbers::{plus_minus, significant};
 use spunlaid_results::output::folder::Staging;
-use spunlaid_results::output::pictures;
 use spunlaid_results::output::web::{self, ENTRIES, Performance, Summary};
 use spunlaid_results::report::{ScanReport, scan_html};
 use std::path::Path;
@@ -26,7 +25,8 @@ pub(super) fn is_picture(file: &Path) -> bool {
 pub(super) fn scan(arguments: &Analyse) -> Result<(), Failure> {
     let name = stem(&arguments.record, "scan").to_string_lossy().into_owned();
     let folder = super::folder(arguments.out.as_ref(), &name);
-    let staging = Staging::new(&folder, ENTRIES, arguments.force, stop_on_ctrl_c())?;
+    let mut staging = Staging::new(&folder, ENTRIES, arguments.force, stop_on_ctrl_c())?;
+    staging.set_figures(&arguments.figures.files());
     let started = Instant::now();
     let picture = turned(read(&arguments.record, arguments.scan.pixel)?, arguments);
     let findings = analyse(&picture, &settings(arguments, &picture)?)?;
@@ -40,7 +40,7 @@ pub(super) fn scan(arguments: &Analyse) -> Result<(), Failure> {
     let summary = Summary::of_scan(&picture.file, &findings, performance, &notes).to_json();
     web::write_scan(&staging, &findings.map)?;
     let figures = scan_figures(&findings);
-    pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
+    staging.write_figures(&figures)?;
     let (name, file, notes) = (&name, &picture.file, &notes);
     let report = ScanReport { name, file, findings: &findings, figures: &figures, notes, performance };
     staging.write("report.html", scan_html(&report)?)?;

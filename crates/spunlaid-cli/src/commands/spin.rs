@@ -21,7 +21,8 @@ pub(crate) fn spin(spin: &Spin) -> Result<(), Failure> {
     let folder = (spin.out.is_some() || !spin.json).then(|| super::folder(spin.out.as_ref(), &name));
     if let Some(folder) = &folder {
         let origin = Origin::new("spin", &spin.file, &spin.set, folder);
-        let staging = staged(folder, ENTRIES, spin.force, origin, spin.quiet)?;
+        let mut staging = staged(folder, ENTRIES, spin.force, origin, spin.quiet)?;
+        staging.set_figures(&spin.figures.files());
         written.write(&staging)?;
         staging.publish()?;
     }

@@ -52,7 +52,8 @@ pub(crate) fn web(asked: &args::Web) -> Result<(), Failure> {
     let notes = [Note::of_results(&file.notes), found.clone()].concat();
     let written =
         WebFolder { name: &name, file: &file, web, layers, findings: &findings, notes: &notes, performance };
-    if let Some(staging) = staging {
+    if let Some(mut staging) = staging {
+        staging.set_figures(&asked.figures.files());
         written.write(&staging, by)?;
         staging.publish()?;
     }

@@ -12,6 +12,7 @@ mod commands;
 mod compare;
 mod compared_webs;
 mod continued;
+mod figures;
 mod gusts;
 mod keys;
 mod lost;

@@ -33,6 +33,7 @@ from ._spunlaid import Case, Flight, __version__
 if TYPE_CHECKING:
     from ._air import Air
     from ._analysis import Analysis, analyse
+    from ._fit import Fit, fit
     from ._spinline import Spinline, spin
     from ._study import Study, sweep
     from ._web import Web, web
@@ -47,6 +48,7 @@ __all__ = [
     "Error",
     "FibreLost",
     "FileError",
+    "Fit",
     "Flight",
     "FlightError",
     "FolderError",
@@ -63,6 +65,7 @@ __all__ = [
     "Web",
     "__version__",
     "analyse",
+    "fit",
     "keys",
     "load",
     "run",
@@ -75,6 +78,8 @@ _LATER = {
     "Air": "_air",
     "Analysis": "_analysis",
     "analyse": "_analysis",
+    "Fit": "_fit",
+    "fit": "_fit",
     "Spinline": "_spinline",
     "spin": "_spinline",
     "Study": "_study",

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
+    from ._fit import Fit
     from ._run import Run
     from ._study import Study
     from ._web import Web
@@ -161,6 +162,22 @@ def of_web(web: Web, what: str, ax: Axes | None) -> Axes:
     if draw is None:
         raise ValueError(f'a web plots "map" or "cv", not {what!r}')
     return draw(web, axes(ax))
+
+
+def of_fit(fit: Fit, ax: Axes | None) -> Axes:
+    """See `Fit.plot`."""
+    ax = axes(ax)
+    along = Axis("Side of the patches (mm)", per_si=1e3, logarithmic=True)
+    up = Axis("CV of the basis weight (%)", per_si=1e2, logarithmic=True)
+    patches = [number for number in fit.summary["numbers"] if "patch_m" in number]
+    at = along.place([patch["patch_m"] for patch in patches])
+    found, scatter = (np.array([patch[name] for patch in patches]) for name in ("fit", "scatter"))
+    ends = [up.place(found * np.exp(sign * 1.96 * scatter)) for sign in (-1.0, 1.0)]
+    ax.fill_between(at, ends[0], ends[1], alpha=0.25, label="95 of 100 simulated webs")
+    ax.plot(at, up.place(found), label="fit")
+    ax.plot(at, up.place([patch["scan"] for patch in patches]), "o", markersize=4, label="scan")
+    ax.legend()
+    return label(ax, along, up)
 
 
 def _map(web: Web, ax: Axes) -> Axes:

@@ -17,6 +17,7 @@ __all__ = [
     "Study",
     "__version__",
     "analyse",
+    "find_fit",
     "flown_from",
     "fly",
     "fly_bundle",
@@ -284,6 +285,17 @@ def analyse(
     integral: str | None = None,
     columns: list[str] = ...,
 ) -> dict[str, Any]: ...
+def find_fit(
+    path: str,
+    to: str,
+    vary: tuple[list[str], Mapping[str, Any], Mapping[str, Any]],
+    changes: Mapping[str, Any],
+    spectrum: bool,
+    webs: int,
+    out: str | None = None,
+    threads: int | None = None,
+    progress: _Progress = None,
+) -> tuple[str, list[str]]: ...
 def lay_web(
     path: str | None, changes: Mapping[str, Any], threads: int | None = None, progress: _Progress = None
 ) -> LaidWeb: ...

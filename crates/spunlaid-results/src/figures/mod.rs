@@ -1,8 +1,9 @@
-//! The figures of a run, a spinline, a study, a record and the paper, drawn with `spunlaid-charts`.
+//! The figures of a run, a spinline, a study, a fit, a record and the paper, drawn with `spunlaid-charts`.
 
 mod compare;
 #[cfg(test)]
 mod drag_laws;
+mod fit;
 pub mod paper;
 mod record;
 #[cfg(test)]
@@ -20,6 +21,7 @@ mod tests;
 mod web;
 
 pub use compare::{CurvePoint, Curves, MOST as MOST_COMPARED, overlaid_figures};
+pub use fit::fit_figures;
 pub use record::record_figures;
 pub use run::{run_figures, swing_frequency};
 pub use scales::Scale;

@@ -3,7 +3,7 @@
 use super::{run_figures, sample};
 use spunlaid::ensemble::SpectrumPoint;
 use spunlaid::observe::Kind;
-use spunlaid_charts::{Figure, png};
+use spunlaid_charts::{Figure, pdf, png};
 
 fn check(figures: &[Figure]) {
     for figure in figures {
@@ -11,7 +11,10 @@ fn check(figures: &[Figure]) {
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{}:\n{svg}", figure.name);
         assert!(svg.len() < 400_000, "{}: {} bytes", figure.name, svg.len());
         assert!(!figure.title.is_empty() && !figure.caption.contains("NaN"), "{figure:?}");
-        assert!(png(svg).unwrap().len() > 1000, "{}", figure.name);
+        assert!(png(svg, 192, &[]).unwrap().len() > 1000, "{}", figure.name);
+        let narrow = figure.in_print(84.0);
+        assert!(narrow.contains(" width=\"84mm\" ") && !narrow.contains("NaN"), "{narrow}");
+        assert!(pdf(&narrow, &figure.title, "").unwrap().len() > 1000, "{}", figure.name);
     }
 }
 

@@ -3,8 +3,8 @@
 use crate::Failure;
 use crate::numbers::{THIN, significant};
 use crate::output::air::{PLANES, Picture, Slices, Summary, pictures, write_vtk};
+use crate::output::beside;
 use crate::output::folder::Staging;
-use crate::output::{beside, pictures as files};
 use crate::report::{AirReport, air_html};
 use spunlaid::case::Case;
 use spunlaid::input::write_case;
@@ -56,7 +56,7 @@ impl AirFolder<'_> {
             staging.write(&format!("{name}.gif"), &picture.moving)?;
         }
         let figures: Vec<&Figure> = pictures.iter().map(|Picture { figure, .. }| figure).collect();
-        files::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
+        staging.write_figures(&figures)?;
         let page = AirReport {
             name: self.name,
             headline: self.headline(),

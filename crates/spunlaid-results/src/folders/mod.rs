@@ -3,15 +3,20 @@
 //! ```text
 //! air        slices of the turbulent air as VTK and moving pictures, report, summary
 //! spinline   a solved spinline: the thread, figures, report, summary
+//! fit        the journal of a fit, and what is made from it
 //! run        flies a case: tables while it flies, then figures, shapes, report, summary
 //! study      the folder of a study: its journal, and what is made from it
 //! web        map, single fibres, figures, report, summary
 //! ```
 
 pub mod air;
+pub mod fit;
+mod measured_web;
 pub mod run;
 pub mod spinline;
 pub mod study;
 #[cfg(test)]
 mod tests;
 pub mod web;
+
+pub use measured_web::read_measured_web;

@@ -7,7 +7,7 @@ use crate::output::folder::Staging;
 use crate::output::spinline::{SpinResults, write_stations};
 use crate::output::summary::{Performance, Summary};
 use crate::output::tables::{TableRecorder, Tables};
-use crate::output::{beside, paraview, pictures};
+use crate::output::{beside, paraview};
 use crate::report::{self, ReportInput};
 use spunlaid::case::Case;
 use spunlaid::ensemble::{
@@ -113,7 +113,7 @@ impl Run<'_> {
                 paraview::write(staging, case, trajectories)?;
                 paraview::write_laid(staging, trajectories)
             });
-            pictures::write(&all, |name, content| staging.write(&format!("figures/{name}"), content))?;
+            staging.write_figures(&all)?;
             shapes.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
         })?;
         let report = self.page(&case_toml, &figures, spinline.as_ref());

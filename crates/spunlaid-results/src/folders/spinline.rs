@@ -2,9 +2,9 @@
 
 use crate::Failure;
 use crate::figures::{SPINLINE, spinline_figures};
+use crate::output::beside;
 use crate::output::folder::Staging;
 use crate::output::spinline::{SpinResults, Summary, write_stations};
-use crate::output::{beside, pictures};
 use crate::report::{SpinReport, spinline_html};
 use spunlaid::input::{SpinFile, write_spinline};
 use spunlaid_charts::Figure;
@@ -38,7 +38,7 @@ impl SpinFolder<'_> {
         let toml = write_spinline(&spec.with_files_at(beside::place(&copied)));
         write_stations(staging, &[(1, &self.results.rows)])?;
         let figures = self.figures();
-        pictures::write(&figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
+        staging.write_figures(&figures)?;
         staging.write("report.html", self.page(&toml, &figures))?;
         staging.write("spinline.toml", toml)?;
         staging.write("summary.json", self.summary())

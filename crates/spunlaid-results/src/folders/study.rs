@@ -6,6 +6,7 @@ use crate::figures::study_figures;
 use crate::output::beside::{self, CASE_FILES};
 use crate::output::folder::Staging;
 use crate::output::leftovers;
+use crate::output::pictures::FigureFiles;
 use crate::output::{self};
 use crate::report::{StudyReport, study_html};
 use spunlaid::case::MOST_REPLICATES;
@@ -33,6 +34,7 @@ pub struct StudyFolder<'a> {
     path: PathBuf,
     /// If this is set, nothing more is written.
     stop: &'a AtomicBool,
+    figures: FigureFiles,
 }
 
 /// What was made from the journal.
@@ -75,7 +77,7 @@ impl<'a> StudyFolder<'a> {
             holds_nothing_else(path)?;
         }
         fs::create_dir_all(path).map_err(Failure::unwritable(path))?;
-        let folder = Self { path: path.to_owned(), stop };
+        let folder = Self { path: path.to_owned(), stop, figures: FigureFiles::default() };
         let (mut journal, header) = Journal::open(&at, force)?;
         leftovers::remove_unclaimed(path);
         let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: file.study.identity() };
@@ -118,6 +120,11 @@ impl<'a> StudyFolder<'a> {
         Ok((folder, journal, state))
     }
 
+    /// From now on, figures are written like this.
+    pub fn set_figures(&mut self, figures: &FigureFiles) {
+        self.figures = figures.clone();
+    }
+
     /// Where it is.
     pub fn path(&self) -> &Path {
         &self.path
@@ -125,7 +132,9 @@ impl<'a> StudyFolder<'a> {
 
     /// Collects the files that are made from the journal.
     fn staging(&self) -> Result<Staging<'a>, Failure> {
-        Staging::new(&self.path, MADE, true, self.stop)
+        let mut staging = Staging::new(&self.path, MADE, true, self.stop)?;
+        staging.set_figures(&self.figures);
+        Ok(staging)
     }
 
     /// Makes the tables, the figures and the report from the journal.
@@ -147,9 +156,7 @@ impl<'a> StudyFolder<'a> {
         let figures = study_figures(study, &results, &rankings.of_measures);
         output::study::write_json(&staging, study, &results, &rankings)?;
         let refusal = rankings.refusal.filter(|_| study.factors.len() > 1).map(|refusal| refusal.to_string());
-        output::pictures::write(&figures, |name, content| {
-            staging.write(&format!("figures/{name}"), content)
-        })?;
+        staging.write_figures(&figures)?;
         let report = study_html(&StudyReport {
             name,
             study,

@@ -4,7 +4,6 @@ use crate::Failure;
 use crate::figures::{SPINLINE, spinline_figures, web_figures};
 use crate::numbers::significant;
 use crate::output::folder::Staging;
-use crate::output::pictures;
 use crate::output::spinline::{SpinResults, SpinSummary, write_stations};
 use crate::output::web::{self, Layer, Performance, Summary};
 use crate::report::{LayerSpinline, WebReport, web_html};
@@ -77,11 +76,12 @@ impl WebFolder<'_> {
             figures.iter().chain(spinlines.iter().flat_map(|spinline| &spinline.figures)).collect();
         let report = std::thread::scope(|scope| {
             let others = scope.spawn(|| {
-                pictures::write(&all, |name, content| staging.write(&format!("figures/{name}"), content))?;
+                staging.write_figures(&all)?;
                 web::write_strands(staging, &strands)
             });
             let report = web_html(&WebReport {
                 name: self.name,
+                spec: &self.file.spec,
                 web: self.web,
                 findings: self.findings,
                 layers: &rows(&self.file.spec, self.web, self.layers),

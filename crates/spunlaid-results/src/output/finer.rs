@@ -29,6 +29,14 @@ pub struct FinerWords {
     pub advice: String,
 }
 
+impl FinerWords {
+    /// What the finer discretisation changes, in a sentence for each difference.
+    pub fn sentences(&self) -> impl Iterator<Item = String> {
+        let compared = format!("{} (compared with {})", self.what, self.with.trim_end_matches(','));
+        self.differences.iter().map(move |difference| format!("Check of the {compared}: {difference}."))
+    }
+}
+
 /// Both checks in words; an error says what was not compared, and why.
 pub fn words(checks: &FinerChecks, case: &Case, results: &Results) -> [Result<FinerWords, String>; 2] {
     let not = |what: &str, with: &str, why: &str| format!("{what}: not compared with {with}, because {why}");

@@ -3,8 +3,11 @@
 use super::beside::CASE_FILES;
 use super::leftovers::{self, Claim};
 use super::origin::{ORIGIN, Origin};
+use super::pictures::FigureFiles;
 use crate::Failure;
 use crate::failure::{holds_results, not_a_folder};
+use spunlaid_charts::Figure;
+use std::borrow::Borrow;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -52,6 +55,7 @@ pub struct Staging<'a> {
     /// Parent folders that were created for it, the deepest first. They are removed if nothing is published.
     made: Vec<PathBuf>,
     stop: &'a AtomicBool,
+    figures: FigureFiles,
 }
 
 impl<'a> Staging<'a> {
@@ -114,10 +118,15 @@ impl<'a> Staging<'a> {
             .inspect_err(|_| remove_empty(&made))
             .map_err(&unwritable)?;
         let claim = Claim::on(&staging);
-        let staging =
-            Self { folder: folder.to_owned(), staging, entries, replace, origin, claim, made, stop };
+        let (folder, figures) = (folder.to_owned(), FigureFiles::default());
+        let staging = Self { folder, staging, entries, replace, origin, claim, made, stop, figures };
         fs::create_dir(staging.staging.join(NEW)).map_err(&unwritable)?;
         Ok(staging)
+    }
+
+    /// From now on, figures are written like this.
+    pub fn set_figures(&mut self, figures: &FigureFiles) {
+        self.figures = figures.clone();
     }
 
     /// Whether the folder holds results of the same origin, which will be replaced.
@@ -143,6 +152,11 @@ impl<'a> Staging<'a> {
             .map_or(Ok(()), fs::create_dir_all)
             .and_then(|()| fs::write(&now, content))
             .map_err(Failure::unwritable(&later))
+    }
+
+    /// Writes the files of figures.
+    pub fn write_figures<F: Borrow<Figure> + Sync>(&self, figures: &[F]) -> Result<(), Failure> {
+        self.figures.write(figures, |name, content| self.write(&format!("figures/{name}"), content))
     }
 
     /// Moves the results to their folder. If there was no folder, this is one renaming; otherwise the entries are

@@ -5,6 +5,7 @@ pub mod analysis;
 pub mod beside;
 pub mod comparison;
 pub mod finer;
+pub mod fit;
 pub mod folder;
 pub mod in_order;
 pub mod leftovers;

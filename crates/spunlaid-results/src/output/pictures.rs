@@ -1,29 +1,96 @@
-//! Writes figures as SVG, CSV and PNG files. The PNG files are drawn on all threads.
+//! Writes figures in the formats and at the width that are asked for, with their numbers as CSV. They are drawn on all threads.
 
 use crate::Failure;
 use crate::failure::undrawable;
 use spunlaid::threads::each;
-use spunlaid_charts::{Figure, png};
+use spunlaid_charts::{Figure, PictureError, pdf, png};
 use std::borrow::Borrow;
 use std::thread::available_parallelism;
 
-/// Passes the name and content of each file of the figures to `write`, in order.
-pub fn write<F: Borrow<Figure> + Sync>(
-    figures: &[F],
-    mut write: impl FnMut(String, &[u8]) -> Result<(), Failure>,
-) -> Result<(), Failure> {
-    for (figure, picture) in figures.iter().map(F::borrow).zip(pictures(figures)) {
-        write(format!("{}.svg", figure.name), figure.svg.as_bytes())?;
-        write(format!("{}.csv", figure.name), figure.table.csv().as_bytes())?;
-        write(format!("{}.png", figure.name), &picture?)?;
-    }
-    Ok(())
+/// A format of figures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Lines and texts, for browsers and drawing programs.
+    Svg,
+    /// Pixels.
+    Png,
+    /// Lines and outlines of texts, a page of the figure's size.
+    Pdf,
 }
 
-fn pictures<F: Borrow<Figure> + Sync>(figures: &[F]) -> Vec<Result<Vec<u8>, Failure>> {
-    let threads = available_parallelism().map_or(1, usize::from);
-    each(threads, figures.len(), |i| {
-        let figure = figures[i].borrow();
-        png(&figure.svg).map_err(|reason| undrawable(&figure.name, &reason.to_string()))
-    })
+impl Format {
+    /// All formats.
+    pub const ALL: [Self; 3] = [Self::Svg, Self::Png, Self::Pdf];
+
+    /// The ending of its files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Svg => "svg",
+            Self::Png => "png",
+            Self::Pdf => "pdf",
+        }
+    }
+}
+
+/// How figures are written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FigureFiles {
+    /// Their formats.
+    pub formats: Vec<Format>,
+    /// Width in print [m]; none: as on the screen.
+    pub width: Option<f64>,
+}
+
+impl Default for FigureFiles {
+    fn default() -> Self {
+        Self { formats: vec![Format::Svg, Format::Png], width: None }
+    }
+}
+
+/// Width of a figure in one column and in two columns of a page [m]: Springer's journals, which are the narrowest of the large
+/// publishers; Elsevier's have 90 and 190 mm.
+pub const COLUMNS: [f64; 2] = [84e-3, 174e-3];
+/// The narrowest figure in print in which the words still have room, and the widest [m].
+pub const WIDTHS: [f64; 2] = [60e-3, 400e-3];
+/// Pixels per inch of a PNG for print, as journals ask for.
+const PRINT: u32 = 300;
+/// Pixels per inch of a PNG as on the screen: two for each pixel of the SVG.
+const SCREEN: u32 = 192;
+/// What files say about the program.
+const SOFTWARE: &str = concat!("spunlaid ", env!("CARGO_PKG_VERSION"));
+
+impl FigureFiles {
+    /// Passes the name and content of each file of the figures to `write`, in order.
+    ///
+    /// # Errors
+    /// If a figure cannot be drawn, or `write` fails.
+    pub fn write<F: Borrow<Figure> + Sync>(
+        &self,
+        figures: &[F],
+        mut write: impl FnMut(String, &[u8]) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        let threads = available_parallelism().map_or(1, usize::from);
+        let drawn = each(threads, figures.len(), |i| self.drawn(figures[i].borrow()));
+        for (figure, files) in figures.iter().map(F::borrow).zip(drawn) {
+            write(format!("{}.csv", figure.name), figure.table.csv().as_bytes())?;
+            for (format, content) in self.formats.iter().zip(files?) {
+                write(format!("{}.{}", figure.name, format.name()), &content)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The figure in each format.
+    fn drawn(&self, figure: &Figure) -> Result<Vec<Vec<u8>>, Failure> {
+        let printed = self.width.map(|width| figure.in_print(width * 1e3));
+        let svg = printed.as_deref().unwrap_or(&figure.svg);
+        let dpi = if printed.is_some() { PRINT } else { SCREEN };
+        let file = |format: &Format| match format {
+            Format::Svg => Ok(svg.as_bytes().to_vec()),
+            Format::Png => png(svg, dpi, &[("Title", &figure.title), ("Software", SOFTWARE)]),
+            Format::Pdf => pdf(svg, &figure.title, SOFTWARE),
+        };
+        let undrawable = |reason: PictureError| undrawable(&figure.name, &reason.to_string());
+        self.formats.iter().map(|format| file(format).map_err(undrawable)).collect()
+    }
 }

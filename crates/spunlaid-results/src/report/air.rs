@@ -1,5 +1,6 @@
 //! `report.html` of the air of a case.
 
+use super::methods::{Methods, case_account};
 use super::rendered;
 use super::words::length;
 use crate::numbers::{THIN, significant};
@@ -36,6 +37,7 @@ struct AirPage<'a> {
     summary: String,
     notes: &'a [String],
     pictures: Vec<Moving<'a>>,
+    methods_paragraph: Methods,
     toml: String,
     version: &'static str,
 }
@@ -61,10 +63,13 @@ impl<'a> Moving<'a> {
 
 /// The report as one HTML file.
 pub fn air_html(input: &AirReport<'_>) -> String {
+    let summary = summary(input.case, input.slices);
+    let found = [summary.clone(), input.headline.clone()];
     rendered(&AirPage {
         name: input.name,
         headline: &input.headline,
-        summary: summary(input.case, input.slices),
+        summary,
+        methods_paragraph: Methods::new("air", case_account(input.case), found),
         notes: input.notes,
         pictures: input.pictures.iter().map(Moving::of).collect(),
         toml: write_case(input.case),

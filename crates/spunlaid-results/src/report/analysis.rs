@@ -1,5 +1,6 @@
 //! Writes `report.html` of the analysis of a velocity record.
 
+use super::methods::Methods;
 use super::rendered;
 use super::words::{count, time};
 use crate::numbers::{THIN, plus_minus, significant};
@@ -41,6 +42,7 @@ struct AnalysisPage<'a> {
     figures: &'a [Figure],
     air: &'a str,
     methods: Vec<(&'static str, String)>,
+    methods_paragraph: Methods,
     version: &'static str,
 }
 
@@ -48,10 +50,18 @@ struct AnalysisPage<'a> {
 pub fn analysis_html(input: &AnalysisReport<'_>) -> String {
     let analysis = input.analysis;
     let (air_rows, components) = results(analysis);
+    let (headline, summary) = (headline(analysis), summary(input.record, analysis));
+    let methods = methods(analysis);
+    let told = [summary.clone()].into_iter().chain(methods.iter().map(|(_, text)| text.clone()));
+    let value = |row: &ResultRow| {
+        format!("{} {} ({} to {}) {}", row.name, row.value, row.low, row.high, row.unit).trim_end().to_owned()
+    };
+    let found = format!("{}.", air_rows.iter().map(value).collect::<Vec<_>>().join(", "));
     let page = AnalysisPage {
         name: input.name,
-        headline: headline(analysis),
-        summary: summary(input.record, analysis),
+        methods_paragraph: Methods::new("analyse", (told.collect(), Vec::new()), [headline.clone(), found]),
+        headline,
+        summary,
         notes: analysis.warnings.iter().map(ToString::to_string).collect(),
         remarks: input.remarks,
         air_rows,
@@ -59,7 +69,7 @@ pub fn analysis_html(input: &AnalysisReport<'_>) -> String {
         durations: durations(analysis),
         figures: input.figures,
         air: input.air,
-        methods: methods(analysis),
+        methods,
         version: env!("CARGO_PKG_VERSION"),
     };
     rendered(&page)

@@ -1,5 +1,6 @@
 //! `report.html` of a comparison: a table for each pair of runs, their curves in one picture each, and webs beside each other.
 
+use super::methods::Methods;
 use super::rendered;
 use super::words::{metres, millimetres};
 use crate::numbers::{THIN, significant};
@@ -44,6 +45,7 @@ struct ComparisonPage<'a> {
     notes: &'a [String],
     beside: Option<Beside<'a>>,
     figures: &'a [Figure],
+    methods_paragraph: Methods,
     version: &'a str,
 }
 
@@ -134,6 +136,26 @@ fn title(comparisons: &[Comparison]) -> String {
     }
 }
 
+/// How two results were compared, in sentences.
+fn method(comparison: &Comparison) -> String {
+    let Comparison { run, against, reason, errors, .. } = comparison;
+    format!(
+        "The results {run} and {against} were compared {reason}. {errors} A difference is beyond chance if its 95\u{a0}% interval leaves out zero."
+    )
+}
+
+/// Each difference beyond chance, in a sentence.
+fn differences(comparison: &Comparison) -> impl Iterator<Item = String> {
+    let is_beyond =
+        |measure: &&Compared| measure.difference.is_some_and(|difference| difference.is_beyond_chance());
+    comparison.measures.iter().filter(is_beyond).map(move |measure| {
+        let [first, other, difference, _] = measure.cells();
+        let Comparison { run, against, .. } = comparison;
+        let unit = if measure.unit.is_empty() { String::new() } else { format!(" ({})", measure.unit) };
+        format!("{}{unit}: {first} in {against}, {other} in {run}, difference {difference}.", measure.label)
+    })
+}
+
 /// The measure whose difference is the most of its interval.
 fn clearest(comparison: &Comparison) -> Option<String> {
     let beyond = comparison.measures.iter().filter_map(|measure| Some((measure, measure.difference?)));
@@ -150,8 +172,12 @@ pub fn comparison_html(input: &ComparisonReport<'_>) -> String {
         let (beyond, all) = comparison.beyond_chance();
         PairTable { comparison, rows: comparison.measures.iter().map(row).collect(), beyond, all }
     });
+    let title = title(input.comparisons);
+    let found = [format!("{title}.")].into_iter().chain(input.comparisons.iter().flat_map(differences));
+    let told = input.comparisons.iter().map(method).collect();
     let page = ComparisonPage {
-        title: title(input.comparisons),
+        methods_paragraph: Methods::new("compare", (told, Vec::new()), found),
+        title,
         tables: tables.collect(),
         notes: input.notes,
         beside: input.pictures.map(Beside::new),

@@ -7,8 +7,10 @@
 mod air;
 mod analysis;
 mod comparison;
+mod fit;
 mod frames;
 mod light_table;
+mod methods;
 mod page;
 mod paper;
 mod scan;
@@ -23,6 +25,7 @@ mod words;
 pub use air::{AirReport, air_html};
 pub use analysis::{AnalysisReport, analysis_html};
 pub use comparison::{ComparedPictures, ComparisonReport, comparison_html};
+pub use fit::{FitReport, fit_html};
 pub use paper::{PaperReport, paper_html};
 pub use scan::{ScanReport, scan_html};
 pub use spinline::{LayerSpinline, SpinReport, spinline_html};

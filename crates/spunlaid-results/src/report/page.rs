@@ -1,6 +1,7 @@
 //! The page: the template filled in.
 
 use super::frames;
+use super::methods::{Methods, case_account};
 use super::spinline::{self, SpinSection};
 use super::table::{self, Group, ReplicateRow};
 use super::words::{self, count};
@@ -52,6 +53,7 @@ struct RunPage<'a> {
     fed: bool,
     /// Of a fed fibre: what the mesh resolves.
     mesh: Option<(String, String)>,
+    methods_paragraph: Methods,
     case_toml: &'a str,
     cost: String,
     version: &'a str,
@@ -96,13 +98,18 @@ pub(super) fn render(input: &ReportInput<'_>) -> String {
     let results = input.results;
     let p = &input.performance;
     let replicates = results.replicates();
+    let (headline, groups) = (words::headline(input.case, results), table::groups(results));
+    let checks = finer::words(input.checks, input.case, results);
+    let found = [headline.clone()].into_iter().chain(groups.first().map(table::sentence));
+    let finer = checks.iter().flatten().flat_map(FinerWords::sentences);
     let page = RunPage {
         name: input.name,
-        headline: words::headline(input.case, results),
+        methods_paragraph: Methods::new("run", case_account(input.case), found.chain(finer)),
+        headline,
         summary: words::case(input.case),
         notes: input.notes,
         frames: frames::pack(input.case, results),
-        groups: table::groups(results),
+        groups,
         replicates: replicates as u64,
         replicate_heads: table::replicate_heads(results),
         replicate_rows: table::replicate_rows(results, LISTED),
@@ -111,7 +118,7 @@ pub(super) fn render(input: &ReportInput<'_>) -> String {
         sections: sections(input.figures),
         balance_error: number(results.number("balance_error").map_or(f64::NAN, Number::value)),
         work_error: results.number("work_error").map(|error| number(error.value())),
-        checks: finer::words(input.checks, input.case, results),
+        checks,
         fed: input.case.line.is_some(),
         mesh: words::mesh(input.case),
         case_toml: input.case_toml,

@@ -1,7 +1,9 @@
 //! The page of `spunlaid reproduce`: the paper's claims with evidence and verdict, its figures, its choices.
 
+use super::methods::{Methods, case_account};
 use super::rendered;
 use askama::Template;
+use spunlaid::case::Case;
 use spunlaid::paper::{Claim, Verdict};
 use spunlaid_charts::Figure;
 
@@ -16,6 +18,8 @@ pub struct PaperReport<'a> {
     pub choices: &'a [(String, Vec<String>)],
     /// How it was computed, in a sentence.
     pub how: &'a str,
+    /// The base case.
+    pub case: &'a Case,
     /// The case as a case file.
     pub case_toml: &'a str,
     /// Version of the program.
@@ -31,6 +35,7 @@ struct PaperPage<'a> {
     choice_heads: [&'static str; 4],
     choices: &'a [(String, Vec<String>)],
     how: &'a str,
+    methods_paragraph: Methods,
     case_toml: &'a str,
     version: &'a str,
 }
@@ -57,7 +62,9 @@ pub fn paper_html(input: &PaperReport<'_>) -> String {
         },
         verdict: claim.verdict.name(),
     });
+    let found = [input.how.to_owned(), format!("{headline}.")];
     let page = PaperPage {
+        methods_paragraph: Methods::new("reproduce", case_account(input.case), found),
         headline,
         claims: rows.collect(),
         figures: input.figures,

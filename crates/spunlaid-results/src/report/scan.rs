@@ -1,8 +1,9 @@
 //! `report.html` of a scanned web: the web on a light table, how uneven it is, and the figures.
 
 use super::light_table::{about_sheet, sheet};
+use super::methods::Methods;
 use super::rendered;
-use super::web::{File, WebPage, cost, headline, largest_clouds, nearest, per_cent};
+use super::web::{File, WebPage, cost, headline, largest_clouds, nearest, per_cent, unevenness};
 use super::words::{metres, millimetres};
 use crate::Failure;
 use crate::figures::SEEN;
@@ -37,15 +38,23 @@ pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
     let sheet = sheet(&with_spots(findings), None)?;
     let nearest_patch = nearest(findings.patches.iter().map(|patch| patch.unevenness.patch));
     let weight = findings.mean_known.then(|| findings.map.basis_weight());
+    let headline = headline(weight, nearest_patch.map(|i| &findings.patches[i].unevenness));
+    let summary = format!(
+        "A scan of {} across and {} along the web.",
+        metres(findings.map.columns as f64 * findings.map.cell),
+        metres(findings.map.rows as f64 * findings.map.cell)
+    );
+    let facts = facts(input);
+    let numbers = facts.iter().map(|fact| fact.join(" ")).collect::<Vec<_>>().join(", ");
+    let cvs = findings.patches.iter().map(|patch| patch.unevenness).collect::<Vec<_>>();
+    let told = vec![summary.clone(), format!("{numbers}.")];
+    let found = [headline.clone(), unevenness(&cvs)].into_iter().chain(verdict(findings));
     let page = WebPage {
         command: "analyse",
         name: input.name,
-        headline: headline(weight, nearest_patch.map(|i| &findings.patches[i].unevenness)),
-        summary: format!(
-            "A scan of {} across and {} along the web.",
-            metres(findings.map.columns as f64 * findings.map.cell),
-            metres(findings.map.rows as f64 * findings.map.cell)
-        ),
+        methods_paragraph: Methods::new("analyse", (told, Vec::new()), found),
+        headline,
+        summary,
         notes: input.notes,
         caption: about_sheet(sheet.pixel)
             + if findings.aside.spots.is_empty() { "" } else { " Black spots were left out." },
@@ -67,7 +76,7 @@ pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
         file: File {
             title: "The scan",
             heads: &[],
-            rows: facts(input),
+            rows: facts,
             toml: "",
             caption: "The map is in map.npy (kg/m², or parts of the mean where that is not known; a row of the web after the other), all \
                       numbers in summary.json, beside this page.",

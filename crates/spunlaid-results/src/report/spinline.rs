@@ -1,5 +1,6 @@
 //! `report.html` of a spinline, and the section about it in the reports of runs and of webs.
 
+use super::methods::{Account, Methods, along};
 use super::rendered;
 use super::words::length;
 use crate::numbers::{THIN, number_to, significant};
@@ -10,7 +11,7 @@ use crate::output::web::Layer;
 use askama::Template;
 use spunlaid::case::Case;
 use spunlaid::input::SpinFile;
-use spunlaid::spinline::{End, Law, PolymerSource, Solution, Surroundings, ZERO_CELSIUS};
+use spunlaid::spinline::{End, Law, PolymerSource, Solution, SpinSpec, Surroundings, ZERO_CELSIUS};
 use spunlaid::web::Web;
 use spunlaid_charts::Figure;
 
@@ -44,6 +45,7 @@ struct SpinPage<'a> {
     notes: &'a [String],
     spinline: SpinSection<'a>,
     methods: Vec<(&'static str, String)>,
+    methods_paragraph: Methods,
     toml: &'a str,
     version: &'static str,
 }
@@ -99,13 +101,25 @@ impl<'a> SpinSection<'a> {
 
 /// The report as one HTML file.
 pub fn spinline_html(input: &SpinReport<'_>) -> String {
+    let (spec, rows) = (&input.file.spec, &input.results.rows);
+    let headline = rows.first().map_or_else(String::new, headline);
+    let result = |(measure, solution): (&SpinMeasure, &Solution)| {
+        format!("{} {} {}", measure.label, measure.shown(solution), measure.unit.shown).trim_end().to_owned()
+    };
+    let results: Vec<String> = rows
+        .first()
+        .into_iter()
+        .flat_map(|row| MEASURES.iter().map(move |measure| result((measure, row))))
+        .collect();
+    let found = [headline.clone(), format!("{}.", results.join(", ")), numerical_error(rows)];
     let page = SpinPage {
         name: input.name,
-        headline: input.results.rows.first().map_or_else(String::new, headline),
-        summary: summary(input.file, &input.results.rows),
+        methods_paragraph: Methods::new("spin", account(spec, rows), found),
+        headline,
+        summary: summary(spec, rows),
         notes: input.notes,
         spinline: SpinSection::new("results", "Results", Vec::new(), input.results, input.figures),
-        methods: methods(input.file),
+        methods: methods(spec),
         toml: input.toml,
         version: env!("CARGO_PKG_VERSION"),
     };
@@ -123,8 +137,8 @@ fn headline(solution: &Solution) -> String {
 }
 
 /// What is spun, and where it freezes, in sentences.
-fn summary(file: &SpinFile, rows: &[Solution]) -> String {
-    let spinline = &file.spec.spinline;
+fn summary(spec: &SpinSpec, rows: &[Solution]) -> String {
+    let spinline = &spec.spinline;
     let mut text = format!(
         "{}{THIN}g/min of {} through a hole of {} at {}.",
         significant(spinline.throughput * 6e4, 3),
@@ -241,9 +255,16 @@ fn curtain(rows: &[Solution]) -> Option<String> {
     ))
 }
 
+/// What is computed of a spinline and how, with what is cited for it.
+pub(super) fn account(spec: &SpinSpec, rows: &[Solution]) -> Account {
+    let texts = methods(spec).into_iter().map(|(_, text)| text);
+    let length = format!("The line is {} long.", length(spec.spinline.length));
+    ([summary(spec, rows), length].into_iter().chain(texts).collect(), vec![along(spec.drag.along)])
+}
+
 /// What the model is, in a few words each.
-fn methods(file: &SpinFile) -> Vec<(&'static str, String)> {
-    let spinline = &file.spec.spinline;
+fn methods(spec: &SpinSpec) -> Vec<(&'static str, String)> {
+    let spinline = &spec.spinline;
     let melt = match spinline.law {
         Law::Newtonian => "a Newtonian melt whose viscosity rises as it cools",
         Law::Giesekus => "Giesekus’s law of a viscoelastic melt, with one relaxation time",
@@ -292,7 +313,7 @@ fn methods(file: &SpinFile) -> Vec<(&'static str, String)> {
             format!(
                 "{air} It drags the thread by the friction law of the case (drag.along = {}), and cools it by the law of Kase and Matsuo for air \
                  along and across it.",
-                file.spec.drag.along.name()
+                spec.drag.along.name()
             ),
         ),
         ("The ends", format!("The tension at the die is sought such that the end of the line has {end}.")),

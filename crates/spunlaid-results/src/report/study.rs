@@ -1,6 +1,8 @@
 //! `report.html` of a study: question, ranking, figures and points. It does not depend on the time of computation.
 
+use super::methods::{Account, Methods, case_account, web_account};
 use super::rendered;
+use super::spinline;
 use super::words::count;
 use crate::figures::name_of_key;
 use crate::numbers::{THIN, number};
@@ -11,6 +13,8 @@ use spunlaid_charts::Figure;
 
 /// Largest number of points that are listed.
 const LISTED: usize = 500;
+/// Most values of a factor that the methods list.
+const MOST_VALUES: usize = 12;
 
 /// Content of the report.
 #[derive(Clone, Copy, Debug)]
@@ -55,6 +59,7 @@ struct StudyPage<'a> {
     heads: Vec<String>,
     rows: Vec<PointRow>,
     unlisted: usize,
+    methods_paragraph: Methods,
     study_toml: &'a str,
     base_toml: &'a str,
     /// What the study varies, a case or a web, and the command that shows a point.
@@ -89,8 +94,10 @@ pub fn study_html(input: &StudyReport<'_>) -> String {
         Some(answer) => (answer, format!("{question} ")),
         None => (question, String::new()),
     };
+    let effects = effects(study, input.rankings);
     let page = StudyPage {
         name: input.name,
+        methods_paragraph: Methods::new("sweep", account(study, input.results), effects),
         title,
         summary: format!("{asked}{}", summary(study, input.results)),
         phases: phases(study),
@@ -117,6 +124,55 @@ pub fn study_html(input: &StudyReport<'_>) -> String {
         version: input.version,
     };
     rendered(&page)
+}
+
+/// What was varied and of what, with what is cited for it.
+fn account(study: &Study, results: &[PointResults]) -> Account {
+    let (base, references) = match study.points.first().map(|point| &point.experiment) {
+        Some(Experiment::Case(case)) => case_account(case),
+        Some(Experiment::Web(spec)) => web_account(spec),
+        Some(Experiment::Spinline(spec)) => spinline::account(spec, &[]),
+        None => Account::default(),
+    };
+    let varied = study.factors.iter().map(|factor| {
+        let values: Vec<String> =
+            factor.levels().into_iter().map(|value| factor.input().pretty(value)).collect();
+        let values = match values.as_slice() {
+            [first, .., last] if values.len() > MOST_VALUES => {
+                format!("{} values from {first} to {last}", values.len())
+            }
+            values => values.join(", "),
+        };
+        format!("The {} ({}) is varied: {values}.", name_of_key(&factor.key), factor.key)
+    });
+    // Nothing of a spinline is by chance.
+    let seed = match study.noun() {
+        "spinline" => String::new(),
+        _ => format!("The study has the seed {}.", study.seed),
+    };
+    let sentences = [summary(study, results), phases(study).to_owned(), seed].into_iter().chain(varied);
+    let first = "Everything else is as at the first point:".to_owned();
+    (sentences.chain([first]).chain(base).collect(), references)
+}
+
+/// The effects of each factor on each result of the tables, in sentences.
+fn effects(study: &Study, rankings: &[Ranking]) -> Vec<String> {
+    let sentence = |quantity: usize| {
+        let result = &study.quantities[quantity];
+        let effect = |effect: &Effect| {
+            let factor = &study.factors[effect.factor];
+            let [from, to] = [effect.from, effect.to].map(|value| factor.input().pretty(value));
+            let change = shown::in_unit(result, effect.change, effect.half_width);
+            format!("{change} from {from} to {to} of the {}", name_of_key(&factor.key))
+        };
+        let effects: Vec<String> = ranking_of(rankings, quantity)?.effects.iter().map(effect).collect();
+        Some(format!(
+            "Change of {}: {} (± half a 95\u{a0}% interval).",
+            shown::head(result),
+            effects.join(", ")
+        ))
+    };
+    shown::quantities(study).into_iter().filter_map(sentence).collect()
 }
 
 fn question(study: &Study) -> String {

@@ -37,6 +37,19 @@ pub(super) fn groups(results: &Results) -> Vec<Group> {
     results.numbers.chunk_by(same).map(group).collect()
 }
 
+/// The results of a group in a sentence.
+pub(super) fn sentence(group: &Group) -> String {
+    let result = |row: &ResultRow| format!("{} {} {}", row.name, row.value, row.unit).trim_end().to_owned();
+    let n = group.rows.iter().map(|row| row.n).max().unwrap_or(0);
+    let errors = if n > 1 {
+        format!(" (mean ± one standard error of the mean over {n} replicates)")
+    } else {
+        String::new()
+    };
+    let all: Vec<String> = group.rows.iter().map(result).collect();
+    format!("{}: {}{errors}.", group.title, all.join(", "))
+}
+
 fn row(one: &Number) -> ResultRow {
     let (measure, factor) = (one.measure, one.measure.unit.per_si);
     let (value, note) = match measure.over_replicates {

@@ -2,11 +2,13 @@
 
 use super::{ReportInput, SpinReport, html, spinline_html};
 use crate::figures::{SPINLINE, run_figures, sample, spinline_figures};
+use crate::numbers::plus_minus;
 use crate::output::spinline::SpinResults;
 use crate::output::summary::Performance;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use spunlaid::case::Case;
+use spunlaid::drag::FrictionLaw;
 use spunlaid::ensemble::{FinerChecks, Results};
 use spunlaid::input::parse_spinline;
 
@@ -58,6 +60,39 @@ fn check_well_formed(html: &str) {
         }
     }
     assert!(open.is_empty(), "{open:?} are not closed");
+}
+
+/// What stands between two pieces of a text.
+fn between<'a>(text: &'a str, before: &str, after: &str) -> &'a str {
+    text.split_once(before).unwrap().1.split_once(after).unwrap().0
+}
+
+#[test]
+fn the_methods_have_the_numbers_of_the_case_its_results_and_what_to_cite() {
+    let mut case = sample::case(20, 1001, 10);
+    case.run.seed = 4711;
+    case.drag.along = FrictionLaw::Sakiadis;
+    let results = sample::results(&case, 0.01);
+    let page = page(&case, &results, "case", &[], "version = 1");
+    let plain = |text: &str| text.replace(['\u{202f}', '\u{a0}'], " ");
+    let text = plain(between(&page, "<div id=\"methods-text\">", "</div>"));
+    let amplitude = results.estimate("amplitude_y");
+    let amplitude = plus_minus(1e3 * amplitude.mean, amplitude.standard_error.map(|error| 1e3 * error));
+    for part in [
+        "spunlaid 0.1.0 (spunlaid run)",
+        "chain of beads",
+        "seed 4711",
+        "20 elements",
+        "10 replicates were computed",
+        "follows Sakiadis 1961 along the fibre",
+        &plain(&format!("Amplitude in y {amplitude} mm")),
+        "± one standard error of the mean over 10 replicates",
+        "Battocchio, M. P. F. Sutcliffe, F. Teschner: Fibre behaviour in the spunbonding process. Part II",
+        "B. C. Sakiadis: Boundary-layer behavior",
+    ] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+    assert!(!text.contains("Matsui") && text.matches("Part II").count() == 1, "{text}");
 }
 
 #[test]

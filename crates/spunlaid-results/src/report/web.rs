@@ -1,6 +1,7 @@
 //! `report.html` of a web: the web on a light table, what makes it uneven, and the figures.
 
 use super::light_table::{Fibres, Sheet, Strands, about_sheet, sheet};
+use super::methods::{Methods, web_account};
 use super::rendered;
 use super::spinline::{self, LayerSpinline, SpinSection};
 use super::words::{count, metres, millimetres, time};
@@ -8,6 +9,7 @@ use crate::Failure;
 use crate::numbers::{THIN, number, plus_minus, significant};
 use crate::output::web::{Layer, Performance};
 use askama::Template;
+use spunlaid::layers::WebSpec;
 use spunlaid::statistics::Estimate;
 use spunlaid::web::uniformity::Unevenness;
 use spunlaid::web::{Clouds, Findings, Lever, PatchFindings, Sensitivity, Source, Strand, Web, Window};
@@ -22,6 +24,8 @@ const SEEN: f64 = 10e-3;
 pub struct WebReport<'a> {
     /// What the web is called.
     pub name: &'a str,
+    /// What is said of the web.
+    pub spec: &'a WebSpec,
     /// The web.
     pub web: &'a Web,
     /// What was found.
@@ -68,6 +72,7 @@ pub(super) struct WebPage<'a> {
     pub(super) levers: Vec<(String, Vec<String>)>,
     pub(super) figures: &'a [Figure],
     pub(super) spinlines: Vec<SpinSection<'a>>,
+    pub(super) methods_paragraph: Methods,
     pub(super) file: File<'a>,
     pub(super) cost: String,
     pub(super) version: &'static str,
@@ -96,13 +101,17 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
     let sources = sources(findings);
     heads.extend(sources.iter().map(|(head, _)| *head));
     heads.push("Straight fibres");
+    let headline = headline(
+        Some(findings.within().basis_weight()),
+        headline_patch(findings).map(|i| whole(&findings.patches[i])).as_ref(),
+    );
+    let cvs = findings.patches.iter().map(whole).collect::<Vec<_>>();
+    let found = [headline.clone(), unevenness(&cvs), about_the_error(findings)];
     let page = WebPage {
         command: "web",
         name: input.name,
-        headline: headline(
-            Some(findings.within().basis_weight()),
-            headline_patch(findings).map(|i| whole(&findings.patches[i])).as_ref(),
-        ),
+        methods_paragraph: Methods::new("web", web_account(input.spec), found),
+        headline,
         summary: [summary(input.web), about_the_air(findings), about_the_error(findings)].join(" "),
         notes: input.notes,
         caption: format!("{} {}", about_sheet(sheet.pixel), strands.words()),
@@ -178,6 +187,18 @@ pub(super) fn headline(weight: Option<f64>, patch: Option<&Unevenness>) -> Strin
         ),
         None => format!("{web}."),
     }
+}
+
+/// The CV over each size of patches, in a sentence.
+pub(super) fn unevenness(patches: &[Unevenness]) -> String {
+    let one = |patch: &Unevenness| {
+        format!("{} over patches of {}", per_cent(patch.cv, patch.standard_error), millimetres(patch.patch))
+    };
+    let all: Vec<String> = patches.iter().map(one).collect();
+    format!(
+        "Its CV (standard deviation over mean of the basis weight) is {}, ± one standard error.",
+        all.join(", ")
+    )
 }
 
 pub(super) fn per_cent(cv: f64, error: Option<f64>) -> String {

@@ -15,7 +15,7 @@ use crate::lanes::Isa;
 use crate::laydown::{Trace, Tracing};
 use crate::statistics::Estimate;
 use crate::surrogate::{Residual, Surrogate, Unidentified, identify};
-use crate::web::{Curves, Fibres, Findings, LaidWeb, Laying, Web, find_laid, measure_laid, pieces};
+use crate::web::{Curves, Fibres, Findings, LaidWeb, Laying, Map, Web, find_laid, lay, measure_laid, pieces};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -247,6 +247,15 @@ impl FlownWeb {
     /// If the web cannot be laid.
     pub fn pieces(&self) -> Result<u64, Error> {
         if self.laid.is_some() { Ok(0) } else { pieces(&self.web) }
+    }
+
+    /// Lays the web, unless it has been laid, and looks at nothing but its map.
+    ///
+    /// # Errors
+    /// If the web cannot be laid, or if it is stopped.
+    pub fn map(&mut self, by: Laying<'_>) -> Result<Map, Error> {
+        let laid = self.laid.take().map_or_else(|| lay(&self.web, by), Ok)?;
+        Ok(laid.map)
     }
 
     /// Lays the web, unless it has been laid, and looks at it.

@@ -54,6 +54,7 @@ pub const OF_SCANS: &[ScanMeasure<Findings>] = &[
         digits: 2,
         number: |scan| scan.shading,
     },
+    ScanMeasure { name: "noise", label: "", unit: PLAIN, digits: 3, number: |scan| scan.noise },
     ScanMeasure::count("filled_pixels", |scan| Some(scan.pixels.filled as f64)),
     ScanMeasure::count("saturated_pixels", |scan| Some(scan.pixels.saturated as f64)),
     ScanMeasure::count("lighter_pixels", |scan| Some(scan.pixels.lighter as f64)),

@@ -94,6 +94,7 @@ fn found(picture: &Picture, settings: &Settings) -> Result<Findings, Fault> {
         white,
         density,
         shading,
+        noise: settings.noise,
         pixels,
         guess,
         aside,

@@ -46,6 +46,8 @@ pub struct Findings {
     pub density: Option<f64>,
     /// How much brighter the lamp is at its brightest than at its darkest place, as a share, if that was taken out.
     pub shading: Option<f64>,
+    /// Standard deviation of the noise of a single pixel, if it was given: its variance has been taken out [levels].
+    pub noise: Option<f64>,
     /// Pixels that needed care.
     pub pixels: Pixels,
     /// What is only a guess about the lamp, if anything: then nothing that depends on it has an interval.

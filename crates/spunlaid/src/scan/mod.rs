@@ -63,4 +63,5 @@ pub use findings::{Findings, PatchFindings, Settings};
 pub use optics::shortest_sharp_wave;
 pub use picture::{Format, Picture};
 pub use read::{CELL, LEAST_SIDE, MOST_PIXELS, WEIGHT_OF_BLACK, parse, read};
+pub use shading::flattened;
 pub use weigh::{Light, Pixels};

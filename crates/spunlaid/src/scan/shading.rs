@@ -1,5 +1,7 @@
 //! The shading of the lamp: a polynomial of second order in both directions.
 
+use crate::web::Map;
+
 /// Powers of the place across and along the picture, term by term.
 const TERMS: [[usize; 2]; 6] = [[0, 0], [1, 0], [0, 1], [2, 0], [1, 1], [0, 2]];
 /// Highest sum of two powers, and one more.
@@ -68,6 +70,22 @@ impl Shading {
         }
         most - least
     }
+}
+
+/// A map without a polynomial of second order, as that of a scan is when the shading of its lamp has been taken out.
+pub fn flattened(map: &Map) -> Map {
+    let mean = map.total() as f64 / map.cells.len() as f64;
+    let weights: Vec<f64> = map.cells.iter().map(|cell| f64::from(*cell)).collect();
+    let shading = Shading::fit(&weights, map.columns);
+    let row = |(row, weights): (usize, &[f64])| -> Vec<u32> {
+        weights
+            .iter()
+            .zip(shading.row(row))
+            .map(|(weight, smooth)| (weight - smooth + mean).round() as u32)
+            .collect()
+    };
+    let cells = weights.chunks_exact(map.columns).enumerate().flat_map(row).collect();
+    Map { cells, ..map.clone() }
 }
 
 /// The solution of symmetric positive definite equations, by elimination without pivots.

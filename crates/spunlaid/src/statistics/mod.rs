@@ -2,6 +2,7 @@
 
 mod covariance;
 mod difference;
+pub(crate) mod linear;
 mod spectrum;
 mod thinned;
 

@@ -66,6 +66,13 @@ impl Experiment {
         }
     }
 
+    /// A checksum over everything on which its records depend.
+    pub fn checksum(&self) -> u32 {
+        let mut sum = crc32fast::Hasher::new();
+        self.enter(&mut sum);
+        sum.finalize()
+    }
+
     /// Enters everything on which its records depend into a checksum.
     pub(super) fn enter(&self, sum: &mut crc32fast::Hasher) {
         match self {

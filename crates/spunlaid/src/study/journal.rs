@@ -251,6 +251,11 @@ impl Journal {
         self.slots.iter().map(|of| of.len() as u64).max().unwrap_or(0)
     }
 
+    /// Number of recorded replicates of all points.
+    pub fn total(&self) -> u64 {
+        (0..self.slots.len()).map(|point| self.held(point)).sum()
+    }
+
     /// Whether a fibre has a record.
     pub fn holds(&self, point: usize, replicate: u64) -> bool {
         self.slots.get(point).and_then(|of| of.get(replicate as usize)).is_some_and(|slot| *slot != 0)

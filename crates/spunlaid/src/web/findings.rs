@@ -213,6 +213,11 @@ fn with_pairs(web: &Web, together: &Together, independent: f64, patch: f64) -> O
 /// Spreads σ_CD of a filament beyond its place that count as the edge of a web: less than 0.14 % of its fibre lies further out.
 const EDGE: f64 = 3.0;
 
+/// The columns of the sheet that are not edges, where filaments are missing beyond the outermost place.
+pub fn inner_columns(web: &Web) -> Range<usize> {
+    across(web).columns
+}
+
 /// How a web lies across its sheet.
 struct Across {
     /// Where it begins and ends [m].

@@ -23,6 +23,23 @@ pub struct Map {
     pub cells: Vec<u32>,
 }
 
+/// Mean quanta of a cell whose mass is no whole number of the old quanta.
+const QUANTA: f64 = 1e6;
+
+/// The new cells in which an old one lies, with its shares, cell by cell.
+///
+/// * `ratio` – side of a new cell over that of an old one
+/// * `most` – number of new cells
+fn overlaps(old: usize, ratio: f64, most: usize) -> Vec<Vec<(usize, f64)>> {
+    let shares = |at: usize| {
+        let [from, to] = [at as f64 / ratio, (at + 1) as f64 / ratio];
+        let into = from as usize..(to.ceil() as usize).min(most);
+        let share = |new: usize| (to.min(new as f64 + 1.0) - from.max(new as f64)) * ratio;
+        into.map(|new| (new, share(new))).filter(|(_, share)| *share > 1e-9).collect()
+    };
+    (0..old).map(shares).collect()
+}
+
 impl Map {
     /// An empty map.
     pub(super) fn new([columns, rows]: [usize; 2], cell: f64, quantum: f64, closed: [bool; 2]) -> Self {
@@ -37,6 +54,41 @@ impl Map {
         let rows = self.cells.chunks_exact(self.columns);
         let cells = rows.flat_map(|row| row.get(columns.clone()).unwrap_or_default()).copied().collect();
         Cow::Owned(Self { columns: columns.len(), closed: [false, self.closed[1]], cells, ..*self })
+    }
+
+    /// A rectangle of its cells, whose edges are open.
+    ///
+    /// * `corner` – its first column and row
+    /// * `sides` – its columns and rows
+    pub fn part(&self, corner: [usize; 2], sides: [usize; 2]) -> Self {
+        let row = |row: usize| self.row(corner[1] + row).get(corner[0]..corner[0] + sides[0]);
+        let cells = (0..sides[1]).flat_map(|i| row(i).unwrap_or_default()).copied().collect();
+        Self { columns: sides[0], rows: sides[1], closed: [false; 2], cells, ..*self }
+    }
+
+    /// The same web in larger cells, whose edges are open. Each gets of the old cells what lies in it, so that patches of whole new cells have
+    /// the same mass. What is less than a cell at the far edges is left out.
+    pub fn in_cells(&self, cell: f64) -> Self {
+        let ratio = cell / self.cell;
+        let [columns, rows] =
+            [self.columns, self.rows].map(|cells| (cells as f64 / ratio * (1.0 + 1e-9)) as usize);
+        let across = overlaps(self.columns, ratio, columns);
+        let along = overlaps(self.rows, ratio, rows);
+        let mut sums = vec![0.0; columns * rows];
+        for (row, shares) in along.iter().enumerate() {
+            let mut row_sums = vec![0.0; columns];
+            for (quanta, shares) in self.row(row).iter().zip(&across) {
+                shares.iter().for_each(|(column, share)| row_sums[*column] += share * f64::from(*quanta));
+            }
+            for (into, share) in shares {
+                let into = &mut sums[into * columns..][..columns];
+                into.iter_mut().zip(&row_sums).for_each(|(into, sum)| *into += share * sum);
+            }
+        }
+        let mean = sums.iter().sum::<f64>() / sums.len() as f64;
+        let scale = if mean > 0.0 { QUANTA / mean } else { 1.0 };
+        let cells = sums.into_iter().map(|sum| (sum * scale).round() as u32).collect();
+        Self { columns, rows, cell, quantum: self.quantum / scale, closed: [false; 2], cells }
     }
 
     /// The quanta of a row.
@@ -79,5 +131,32 @@ impl Map {
 
     fn means(&self, sums: &[u64], count: usize) -> Vec<f64> {
         sums.iter().map(|sum| *sum as f64 / count as f64 * self.weight_of_quantum()).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn larger_cells_hold_the_same_mass_and_a_part_is_a_part() {
+        let cells = (0..12 * 8).map(|i| 1000 + (i * i) % 97).collect();
+        let map = Map { columns: 12, rows: 8, cell: 1.0, quantum: 1.0, closed: [true; 2], cells };
+        for (cell, columns, rows) in [(2.0, 6, 4), (1.5, 8, 5), (1.0, 12, 8)] {
+            let large = map.in_cells(cell);
+            assert_eq!([large.columns, large.rows], [columns, rows], "{cell}");
+            let mass = |map: &Map, columns: usize, rows: usize| {
+                let row =
+                    |row: usize| map.row(row)[..columns].iter().map(|cell| u64::from(*cell)).sum::<u64>();
+                (0..rows).map(row).sum::<u64>() as f64 * map.quantum
+            };
+            // Three or six metres each way are whole cells of both.
+            let whole = (6.0 / cell) as usize;
+            let found = mass(&large, whole, whole) / mass(&map, 6, 6);
+            assert!((found - 1.0).abs() < 1e-6, "{cell}: {found}");
+        }
+        let part = map.part([3, 2], [4, 5]);
+        assert_eq!(part.row(1), &map.row(3)[3..7]);
+        assert_eq!((part.columns, part.rows, part.closed), (4, 5, [false; 2]));
     }
 }

@@ -26,7 +26,7 @@ mod whole_error;
 pub(crate) use canvas::Canvas;
 pub use clouds::{Clouds, autocorrelation};
 pub use curves::Curves;
-pub use findings::{Findings, PatchFindings, find, find_laid, measure, measure_laid};
+pub use findings::{Findings, PatchFindings, find, find_laid, inner_columns, measure, measure_laid};
 pub(crate) use lay::inlets;
 pub use lay::{LaidWeb, Laying, Spent, Together, lay, pieces};
 pub use map::Map;

@@ -85,6 +85,26 @@ pub fn unevenness_at(map: &Map, side: usize, places_of_filaments: &Places) -> Op
     })
 }
 
+/// The coefficient of variation over the patches of this very map, at every place within its edges. That of the web is larger, by what the
+/// mean of a piece varies.
+///
+/// * `side` – of a patch [cells]; None unless it is within the map, and without any fibre
+pub fn cv_of_piece(map: &Map, side: usize) -> Option<f64> {
+    let sizes = [map.columns, map.rows];
+    if side == 0 || sizes.iter().any(|size| side > *size) {
+        return None;
+    }
+    let places = sizes.map(|size| size - side + 1);
+    let (mut sum, mut squares) = (0.0, 0.0);
+    boxes(map, side, places, |_, boxes| {
+        sum += boxes.iter().map(|weight| *weight as f64).sum::<f64>();
+        squares += boxes.iter().map(|weight| (*weight as f64).powi(2)).sum::<f64>();
+    });
+    let count = (places[0] * places[1]) as f64;
+    let mean = sum / count;
+    (mean > 0.0).then(|| (squares / count / (mean * mean) - 1.0).max(0.0).sqrt())
+}
+
 /// Passes on the quanta in all patches, row by row of their places.
 pub(super) fn boxes(map: &Map, side: usize, places: [usize; 2], mut take: impl FnMut(usize, &[u64])) {
     let mut columns = vec![0u64; map.columns];

@@ -2,6 +2,7 @@
 #![allow(clippy::expect_used, clippy::panic, clippy::print_stdout, clippy::unwrap_used)]
 
 mod beam;
+mod fit;
 mod neighbours;
 mod surrogate;
 mod two_filaments;

@@ -18,7 +18,6 @@ use spunlaid::statistics::{Difference, Estimate};
 use spunlaid_results::figures::{MOST_COMPARED, overlaid_figures};
 use spunlaid_results::output::comparison::{self, Compared, Comparison};
 use spunlaid_results::output::folder::Staging;
-use spunlaid_results::output::pictures;
 use spunlaid_results::report::{ComparisonReport, comparison_html};
 use std::path::{Path, PathBuf};
 
@@ -59,8 +58,9 @@ pub(crate) fn compare(compare: &Compare) -> Result<(), Failure> {
     };
     let Results { comparisons, figures, pictures, notes } = &results;
     let json = comparison::json(comparisons, notes);
-    if let Some(staging) = files {
-        pictures::write(figures, |name, content| staging.write(&format!("figures/{name}"), content))?;
+    if let Some(mut staging) = files {
+        staging.set_figures(&compare.figures.files());
+        staging.write_figures(figures)?;
         let drawn = pictures.iter().flat_map(|webs| &webs.pictures.files);
         for (number, picture) in (1..).zip(drawn) {
             staging.write(&format!("figures/web_picture_{number}.png"), picture)?;

@@ -33,7 +33,8 @@ pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
     }
     file.notes.iter().for_each(say::study_note);
     let path = super::folder(sweep.out.as_ref(), stem(&sweep.study, "study"));
-    let (folder, journal, found) = StudyFolder::open(&path, &file, sweep.force, stop_on_ctrl_c())?;
+    let (mut folder, journal, found) = StudyFolder::open(&path, &file, sweep.force, stop_on_ctrl_c())?;
+    folder.set_figures(&sweep.figures.files());
     report_found(sweep, &file.study, &found);
 
     let journal = Mutex::new(journal);
@@ -50,7 +51,7 @@ pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
                 "spinline" => "spinlines",
                 _ => "fibres",
             };
-            Failure::Paused { done, total: file.study.most_fibres(), what }
+            Failure::Paused { done, total: Some(file.study.most_fibres()), what }
         }
         other => other,
     })

@@ -7,7 +7,7 @@ use spunlaid::case::Case;
 use spunlaid::ensemble::{Results, Trajectory};
 use spunlaid::flight::LaidPoint;
 use spunlaid_charts::{
-    Axis, Chart, Figure, Map, Series, Shades, Table,
+    Axis, Chart, Drawing, Figure, Map, Series, Shades, Table,
     palette::{GREY, INK, VERMILION},
     svg::{Anchor, Stroke, Svg, Text},
 };
@@ -34,27 +34,16 @@ fn trace(results: &Results) -> Figure {
     let points: &[LaidPoint] = results.trajectories.first().map_or(&[], |trajectory| &trajectory.laid);
     let mut table = Table::new(["md_mm", "cd_mm", "fed_m"]);
     let Some(window) = Window::new(points) else {
-        let mut svg = Svg::new(WIDTH, 120.0, TITLE);
-        let style = Text { size: 14.0, colour: GREY, anchor: Anchor::Middle, upright: true };
-        svg.text((WIDTH / 2.0, 64.0), "too little has been laid to be shown", style);
+        let drawing = Drawing::new(WIDTH, |width| {
+            let mut svg = Svg::new(width, 120.0, TITLE);
+            let style = Text { size: 14.0, colour: GREY, anchor: Anchor::Middle, upright: true };
+            svg.text((width / 2.0, 64.0), "too little has been laid to be shown", style);
+            svg.finish()
+        });
         table.add("fibre", std::iter::empty::<[f64; 3]>());
-        let caption = "Nothing was laid after the spin-up.".to_owned();
-        return Figure { name: NAME.into(), title: TITLE.into(), caption, svg: svg.finish(), table };
+        return Figure::drawn(NAME, TITLE, drawing, table, "Nothing was laid after the spin-up.");
     };
     table.add("fibre", window.points.iter().map(|p| [p.md * MM, p.cd * MM, p.fed]));
-    let scale = (WIDTH - 2.0 * MARGIN) / window.length;
-    let height = window.width * scale;
-    let mut svg = Svg::new(WIDTH, height + 2.0 * MARGIN + BELOW, TITLE);
-    let (left, top) = (MARGIN, MARGIN);
-    let (right, bottom) = (WIDTH - MARGIN, MARGIN + height);
-    let frame = [(left, top), (right, top), (right, bottom), (left, bottom)];
-    svg.polygon(&frame, LIGHT, 1.0, Some(&Stroke::solid("#d8d2bf", 1.0)));
-    svg.open_clip("clip_laid_trace", left, top, right - left, height);
-    let place = |p: &LaidPoint| (left + (p.md - window.from) * scale, bottom - (p.cd - window.low) * scale);
-    svg.path(&window.points.iter().map(place).collect::<Vec<_>>(), &Stroke::solid(INK, 0.9));
-    svg.close();
-    draw_scale(&mut svg, scale, bottom + 24.0, window.length);
-    draw_run_of_belt(&mut svg, right, bottom + 24.0);
     let fed = window.points.last().map_or(0.0, |p| p.fed) - window.points[0].fed;
     let caption = format!(
         "The first replicate on {} mm of the belt, in true proportions: {} m of fibre. The belt runs to the right, so the fibre \
@@ -63,12 +52,29 @@ fn trace(results: &Results) -> Figure {
         significant(window.length * MM, 2),
         significant(fed, 3)
     );
-    Figure { name: NAME.into(), title: TITLE.into(), caption, svg: svg.finish(), table }
+    let drawing = Drawing::new(WIDTH, move |width| {
+        let scale = (width - 2.0 * MARGIN) / window.length;
+        let height = window.width * scale;
+        let mut svg = Svg::new(width, height + 2.0 * MARGIN + BELOW, TITLE);
+        let (left, top) = (MARGIN, MARGIN);
+        let (right, bottom) = (width - MARGIN, MARGIN + height);
+        let frame = [(left, top), (right, top), (right, bottom), (left, bottom)];
+        svg.polygon(&frame, LIGHT, 1.0, Some(&Stroke::solid("#d8d2bf", 1.0)));
+        svg.open_clip("clip_laid_trace", left, top, right - left, height);
+        let place =
+            |p: &LaidPoint| (left + (p.md - window.from) * scale, bottom - (p.cd - window.low) * scale);
+        svg.path(&window.points.iter().map(place).collect::<Vec<_>>(), &Stroke::solid(INK, 0.9));
+        svg.close();
+        draw_scale(&mut svg, scale, bottom + 24.0, window.length);
+        draw_run_of_belt(&mut svg, right, bottom + 24.0);
+        svg.finish()
+    });
+    Figure::drawn(NAME, TITLE, drawing, table, caption)
 }
 
 /// A piece of the belt and the fibre that lies on it.
-struct Window<'a> {
-    points: &'a [LaidPoint],
+struct Window {
+    points: Vec<LaidPoint>,
     /// Its smallest coordinates and its extent in machine and cross direction [m].
     from: f64,
     low: f64,
@@ -76,9 +82,9 @@ struct Window<'a> {
     width: f64,
 }
 
-impl<'a> Window<'a> {
+impl Window {
     /// The newest piece, without the end that the next loops will still cover.
-    fn new(laid: &'a [LaidPoint]) -> Option<Self> {
+    fn new(laid: &[LaidPoint]) -> Option<Self> {
         let finite = laid.iter().all(|p| p.md.is_finite() && p.cd.is_finite());
         if laid.len() < 3 || !finite {
             return None;
@@ -102,7 +108,7 @@ impl<'a> Window<'a> {
         let across = range(|p| p.cd, points);
         let width = (1.12 * (across.1 - across.0)).max(0.1 * length);
         let low = 0.5 * (across.0 + across.1 - width);
-        Some(Self { points, from, low, length, width })
+        Some(Self { points: points.to_vec(), from, low, length, width })
     }
 }
 

@@ -50,7 +50,7 @@ fn one(declared: &observe::Figure, curves: &[&Curve], results: &Results) -> Figu
             Kind::Series => series(chart, i, curve, &places, results.replicates()),
             Kind::Number | Kind::Spectrum | Kind::Direction => {
                 let points: Vec<_> = places.iter().map(|place| (place.at, place.mean)).collect();
-                chart.line(styled(i, curve.measure.series).unmarked(), &points)
+                chart.line(styled(i, curve.measure.series), &points)
             }
         };
         if first.kind == Kind::Spectrum {

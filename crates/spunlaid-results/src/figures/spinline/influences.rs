@@ -2,10 +2,10 @@
 
 use spunlaid::input::{Change, Influence};
 use spunlaid_charts::{
-    Axis, Figure, Scale, Table,
+    Axis, Drawing, Figure, Scale, Table,
     palette::{BLUE, GREY, GRID, INK, VERMILION},
     signed,
-    svg::{Anchor, Stroke, Svg, Text, plain, width},
+    svg::{Anchor, Stroke, Svg, Text, plain, width as width_of},
 };
 
 const WIDTH: f64 = 720.0;
@@ -21,16 +21,16 @@ const SMALL: f64 = 12.5;
 const MOST: usize = 16;
 
 /// The numbers that are changed in one way.
-struct Panel<'a> {
+struct Panel {
     title: &'static str,
     label: &'static str,
     /// From the number of an influence to that of the axis.
     factor: f64,
     decimals: usize,
-    influences: Vec<&'a Influence>,
+    influences: Vec<Influence>,
 }
 
-impl Panel<'_> {
+impl Panel {
     fn height(&self) -> f64 {
         ABOVE + ROW * self.influences.len() as f64 + BELOW
     }
@@ -38,8 +38,8 @@ impl Panel<'_> {
 
 /// The influences on the diameter, relative changes and those of 10 K apart.
 pub(super) fn figure(prefix: &str, influences: &[Influence]) -> Figure {
-    let changed = |change: Change| -> Vec<&Influence> {
-        influences.iter().filter(|influence| influence.change == change).take(MOST).collect()
+    let changed = |change: Change| -> Vec<Influence> {
+        influences.iter().filter(|influence| influence.change == change).take(MOST).cloned().collect()
     };
     let panels = [
         Panel {
@@ -57,18 +57,8 @@ pub(super) fn figure(prefix: &str, influences: &[Influence]) -> Figure {
             influences: changed(Change::TenKelvin),
         },
     ];
-    let panels: Vec<Panel<'_>> = panels.into_iter().filter(|panel| !panel.influences.is_empty()).collect();
+    let panels: Vec<Panel> = panels.into_iter().filter(|panel| !panel.influences.is_empty()).collect();
     let title = "What decides the diameter";
-    let names = influences.iter().map(|influence| width(influence.label, SIZE));
-    let left = names.fold(120.0, f64::max).min(0.55 * WIDTH) + 22.0;
-    let mut svg = Svg::new(WIDTH, panels.iter().map(Panel::height).sum(), title);
-    let mut top = 0.0;
-    for panel in &panels {
-        svg.open_shifted(top);
-        draw(&mut svg, panel, left);
-        svg.close();
-        top += panel.height();
-    }
     let left_out = influences.len() - panels.iter().map(|panel| panel.influences.len()).sum::<usize>();
     let others = if left_out > 0 { " Weaker ones are in the numbers of the figure." } else { "" };
     let caption = format!(
@@ -76,17 +66,34 @@ pub(super) fn figure(prefix: &str, influences: &[Influence]) -> Figure {
          model: d ln d / d ln x, and the change for 10 K. Blue is finer, orange is thicker.{others} These are slopes: they hold for \
          small changes."
     );
-    let (name, title) = (format!("{prefix}_influences"), title.to_owned());
-    Figure { name, title, caption, svg: svg.finish(), table: table(influences) }
+    let drawing = Drawing::new(WIDTH, move |width| svg(title, &panels, width));
+    Figure::drawn(&format!("{prefix}_influences"), title, drawing, table(influences), caption)
 }
 
-fn draw(svg: &mut Svg, panel: &Panel<'_>, left: f64) {
+/// The panels one above the other, so many pixels wide.
+fn svg(title: &str, panels: &[Panel], width: f64) -> String {
+    let influences = || panels.iter().flat_map(|panel| &panel.influences);
+    let names = influences().map(|influence| width_of(influence.label, SIZE));
+    let left = names.fold(120.0, f64::max).min(0.55 * width) + 22.0;
+    let mut svg = Svg::new(width, panels.iter().map(Panel::height).sum(), title);
+    let mut top = 0.0;
+    for panel in panels {
+        svg.open_shifted(top);
+        draw(&mut svg, panel, left, width - 12.0);
+        svg.close();
+        top += panel.height();
+    }
+    svg.finish()
+}
+
+fn draw(svg: &mut Svg, panel: &Panel, left: f64, right: f64) {
     let value = |influence: &Influence| influence.diameter * panel.factor;
     // Room for the numbers at the ends of the bars.
     const ROOM: f64 = 52.0;
-    let (inner_left, inner_right) = (left + ROOM, WIDTH - 12.0 - ROOM);
-    let values = panel.influences.iter().map(|influence| value(influence)).chain([0.0]);
-    let scale = Scale::fit(&Axis::linear(panel.label).tight(), values, 5);
+    let (inner_left, inner_right) = (left + ROOM, right - ROOM);
+    let values = panel.influences.iter().map(value).chain([0.0]);
+    let count = ((inner_right - inner_left) / 60.0).clamp(2.0, 5.0) as usize;
+    let scale = Scale::fit(&Axis::linear(panel.label).tight(), values, count);
     let bottom = panel.height() - BELOW;
     let along = |value: f64| inner_left + scale.place(value) * (inner_right - inner_left);
 
@@ -98,7 +105,7 @@ fn draw(svg: &mut Svg, panel: &Panel<'_>, left: f64) {
         let style = Text { size: SMALL, colour: INK, anchor: Anchor::Middle, upright: true };
         svg.text((x, bottom + 19.0), tick.label.as_deref().unwrap_or_default(), style);
     }
-    svg.line((left, bottom), (WIDTH - 12.0, bottom), &Stroke::solid(INK, 0.9));
+    svg.line((left, bottom), (right, bottom), &Stroke::solid(INK, 0.9));
     for (row, influence) in panel.influences.iter().enumerate() {
         let y = ABOVE + ROW * (row as f64 + 0.5);
         let name = Text { size: SIZE, colour: INK, anchor: Anchor::End, upright: true };

@@ -100,6 +100,8 @@ pub(super) fn family(
         for (position, (measure, called)) in group.members.iter().enumerate() {
             let marker = if position == 0 { Marker::Circle } else { Marker::Triangle };
             let label = parameter.input().pretty(level);
+            // Markers without lines have shapes of their own, as long as the shape does not tell the results apart.
+            let dash = dash.filter(|_| place.is_joined() || group.members.len() > 1);
             let series = Series { marker: Some(marker), dash, ..Series::new(&label, colour) }
                 .named(&format!("{called} at {label}"));
             let series_count = levels.len() * group.members.len();

@@ -4,13 +4,19 @@ use super::quantity::{Along, Group, label_of_key, name_of_key};
 use crate::numbers::significant;
 use spunlaid::study::{PointResults, Study};
 use spunlaid_charts::{
-    Figure, Table,
+    Drawing, Figure, Table,
     palette::{INK, PAPER},
     svg::{Anchor, Stroke, Svg, Text},
 };
 
-const SIZE: (f64, f64) = (640.0, 440.0);
-const PLOT: (f64, f64, f64, f64) = (84.0, 22.0, 500.0, 370.0);
+/// Width on the screen, and room around the map [px].
+const WIDTH: f64 = 640.0;
+const LEFT: f64 = 84.0;
+const TOP: f64 = 22.0;
+const BESIDE: f64 = 140.0;
+const BELOW: f64 = 70.0;
+/// Height of the map over its width.
+const RATIO: f64 = 348.0 / 416.0;
 /// Dark blue to yellow, readable with any colour vision: matplotlib's viridis at eight values.
 const COLOURS: [(f64, f64, f64); 8] = [
     (68.0, 1.0, 84.0),
@@ -46,31 +52,22 @@ fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, l
         if group.members.len() == 2 { format!("{} in {called}", group.title) } else { group.title.clone() };
     let names = [0, 1].map(|i| name_of_key(&study.factors[i].key));
     let title = format!("{which} over {} and {}", names[1], names[0]);
-    let mut svg = Svg::new(SIZE.0, SIZE.1, &title);
-    let (left, top, right, bottom) = PLOT;
-    let (w, h) = ((right - left) / along.len() as f64, (bottom - top) / up.len() as f64);
-    for i in 0..up.len() {
-        for j in 0..along.len() {
-            let (x, y) = (left + j as f64 * w, bottom - (i + 1) as f64 * h);
-            // The small overlap prevents visible gaps.
-            let fill = if value(i, j).is_finite() { colour(share(value(i, j))) } else { PAPER.to_owned() };
-            rectangle(&mut svg, (x, y), (w + 0.3, h + 0.3), &fill);
-        }
-    }
-    let text = |anchor| Text { size: 13.0, colour: INK, anchor, upright: true };
     let [of_up, of_along] = [0, 1].map(|i| Along::of_study(study, i));
-    for j in some(along.len()) {
-        let x = left + (j as f64 + 0.5) * w;
-        svg.text((x, bottom + 18.0), &significant(of_along.place(along[j]), 3), text(Anchor::Middle));
-    }
-    for i in some(up.len()) {
-        let y = bottom - (i as f64 + 0.5) * h + 4.5;
-        svg.text((left - 8.0, y), &significant(of_up.place(up[i]), 3), text(Anchor::End));
-    }
-    let title_text = |upright| Text { size: 14.0, colour: INK, anchor: Anchor::Middle, upright };
-    svg.text(((left + right) / 2.0, bottom + 42.0), &of_along.axis.label, title_text(true));
-    svg.text((18.0, (top + bottom) / 2.0), &of_up.axis.label, title_text(false));
-    scale(&mut svg, group, (least, most));
+    let labels = |of: &Along, values: &[f64]| -> Vec<String> {
+        values.iter().map(|value| significant(of.place(*value), 3)).collect()
+    };
+    let heat = Heat {
+        title: title.clone(),
+        labels: [of_up.axis.label.clone(), of_along.axis.label.clone()],
+        up: labels(&of_up, &up),
+        along: labels(&of_along, &along),
+        shares: (0..up.len() * along.len())
+            .map(|k| Some(value(k / along.len(), k % along.len())).filter(|value| value.is_finite()))
+            .map(|value| value.map(share))
+            .collect(),
+        unit: group.unit.shown,
+        ends: (least, most),
+    };
     let caption = format!(
         "{which}, mean over the replicates, over {} (horizontal) and {} (vertical). The values and their standard \
          errors are in results.csv.",
@@ -89,28 +86,78 @@ fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, l
             [of_along.place(along[j]), of_up.place(up[i]), value, error.unwrap_or(f64::NAN)]
         }),
     );
-    Figure { name: format!("{}{axis}_map", group.figure.name), title, caption, svg: svg.finish(), table }
+    let drawing = Drawing::new(WIDTH, move |width| heat.svg(width));
+    Figure::drawn(&format!("{}{axis}_map", group.figure.name), &title, drawing, table, caption)
 }
 
-/// The colour scale.
-fn scale(svg: &mut Svg, group: &Group, (least, most): (f64, f64)) {
-    let (_, top, right, bottom) = PLOT;
-    let (left, width, steps) = (right + 24.0, 16.0, 64);
-    let height = (bottom - top) / f64::from(steps);
-    for k in 0..steps {
-        let y = bottom - f64::from(k + 1) * height;
-        rectangle(svg, (left, y), (width, height + 0.3), &colour(f64::from(k) / f64::from(steps - 1)));
-    }
-    let style = Text { size: 13.0, colour: INK, anchor: Anchor::Start, upright: true };
-    for k in 0..=4 {
-        let share = f64::from(k) / 4.0;
-        let y = bottom - share * (bottom - top);
-        svg.line((left + width, y), (left + width + 4.0, y), &Stroke::solid(INK, 0.9));
-        if least.is_finite() {
-            svg.text((left + width + 8.0, y + 4.5), &significant(least + share * (most - least), 3), style);
+/// A map as it is drawn.
+struct Heat {
+    title: String,
+    /// Of the axis up and of the axis along.
+    labels: [String; 2],
+    /// Of the rows, the lowest first, and of the columns.
+    up: Vec<String>,
+    along: Vec<String>,
+    /// How far each value lies between the ends, row by row from the lowest; none where there is no value.
+    shares: Vec<Option<f64>>,
+    unit: &'static str,
+    ends: (f64, f64),
+}
+
+impl Heat {
+    /// The map, so many pixels wide.
+    fn svg(&self, width: f64) -> String {
+        let (left, top, right) = (LEFT, TOP, width - BESIDE);
+        let bottom = top + (right - left) * RATIO;
+        let mut svg = Svg::new(width, bottom + BELOW, &self.title);
+        let (rows, columns) = (self.up.len(), self.along.len());
+        let (w, h) = ((right - left) / columns as f64, (bottom - top) / rows as f64);
+        for (k, share) in self.shares.iter().enumerate() {
+            let (i, j) = (k / columns, k % columns);
+            let (x, y) = (left + j as f64 * w, bottom - (i + 1) as f64 * h);
+            // The small overlap prevents visible gaps.
+            let fill = share.map_or_else(|| PAPER.to_owned(), colour);
+            rectangle(&mut svg, (x, y), (w + 0.3, h + 0.3), &fill);
         }
+        let text = |anchor| Text { size: 13.0, colour: INK, anchor, upright: true };
+        // Labels along are wider than high.
+        for j in some(columns, (8.0 * width / WIDTH) as usize) {
+            let x = left + (j as f64 + 0.5) * w;
+            svg.text((x, bottom + 18.0), &self.along[j], text(Anchor::Middle));
+        }
+        for i in some(rows, 8) {
+            let y = bottom - (i as f64 + 0.5) * h + 4.5;
+            svg.text((left - 8.0, y), &self.up[i], text(Anchor::End));
+        }
+        let title_text = |upright| Text { size: 14.0, colour: INK, anchor: Anchor::Middle, upright };
+        let [up, along] = &self.labels;
+        svg.text(((left + right) / 2.0, bottom + 42.0), along, title_text(true));
+        svg.text((18.0, (top + bottom) / 2.0), up, title_text(false));
+        self.draw_scale(&mut svg, right, (top, bottom));
+        svg.finish()
     }
-    svg.text((left, bottom + 18.0), group.unit.shown, style);
+
+    /// The colour scale.
+    fn draw_scale(&self, svg: &mut Svg, right: f64, (top, bottom): (f64, f64)) {
+        let (least, most) = self.ends;
+        let (left, width, steps) = (right + 24.0, 16.0, 64);
+        let height = (bottom - top) / f64::from(steps);
+        for k in 0..steps {
+            let y = bottom - f64::from(k + 1) * height;
+            rectangle(svg, (left, y), (width, height + 0.3), &colour(f64::from(k) / f64::from(steps - 1)));
+        }
+        let style = Text { size: 13.0, colour: INK, anchor: Anchor::Start, upright: true };
+        for k in 0..=4 {
+            let share = f64::from(k) / 4.0;
+            let y = bottom - share * (bottom - top);
+            svg.line((left + width, y), (left + width + 4.0, y), &Stroke::solid(INK, 0.9));
+            if least.is_finite() {
+                let value = significant(least + share * (most - least), 3);
+                svg.text((left + width + 8.0, y + 4.5), &value, style);
+            }
+        }
+        svg.text((left, bottom + 18.0), self.unit, style);
+    }
 }
 
 fn rectangle(svg: &mut Svg, (x, y): (f64, f64), (w, h): (f64, f64), fill: &str) {
@@ -125,8 +172,8 @@ fn colour(share: f64) -> String {
     format!("#{:02x}{:02x}{:02x}", mixed(a.0, b.0), mixed(a.1, b.1), mixed(a.2, b.2))
 }
 
-/// Indices of at most eight evenly spaced labels.
-fn some(count: usize) -> impl Iterator<Item = usize> {
-    let stride = count.div_ceil(8).max(1);
+/// Indices of at most so many evenly spaced labels.
+fn some(count: usize, most: usize) -> impl Iterator<Item = usize> {
+    let stride = count.div_ceil(most.max(1)).max(1);
     (0..count).step_by(stride)
 }

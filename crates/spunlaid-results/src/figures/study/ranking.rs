@@ -5,9 +5,9 @@ use crate::figures::with_unit;
 use crate::numbers::range;
 use spunlaid::study::{Effect, Ranking, Study};
 use spunlaid_charts::{
-    Axis, Figure, Marker, Scale, Table,
+    Axis, Drawing, Figure, Marker, Scale, Table,
     palette::{BLUE, GREY, GRID, INK, VERMILION},
-    svg::{Anchor, Stroke, Svg, Text, width},
+    svg::{Anchor, Stroke, Svg, Text, lines, width as width_of},
 };
 
 const WIDTH: f64 = 640.0;
@@ -15,6 +15,7 @@ const ROW: f64 = 46.0;
 const TOP: f64 = 40.0;
 const SIZE: f64 = 14.0;
 const SMALL: f64 = 12.0;
+const LINE: f64 = 18.0;
 
 /// What is compared: `5 to 30 m/s`, `sakiadis instead of matsui`.
 fn change_of(study: &Study, effect: &Effect) -> String {
@@ -30,7 +31,7 @@ fn change_of(study: &Study, effect: &Effect) -> String {
 /// The effects of all factors on a group of results.
 pub(super) fn figure(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
     let of_measure = |measure: usize| rankings.iter().find(|ranking| ranking.measure == measure);
-    let shown: Vec<(&Ranking, Marker, &str, &str)> = (group.members.iter())
+    let shown: Vec<(&Ranking, Marker, &'static str, &str)> = (group.members.iter())
         .zip([(Marker::Circle, BLUE), (Marker::Triangle, VERMILION)])
         .filter_map(|((measure, label), (marker, colour))| {
             Some((of_measure(*measure)?, marker, colour, label.as_str()))
@@ -46,57 +47,29 @@ pub(super) fn figure(study: &Study, rankings: &[Ranking], group: &Group) -> Figu
     let change = if with_words { "" } else { " from the least to the greatest value" };
     let label = with_unit(&format!("Change of {}{change}", group.figure.words), group.unit.shown);
     let all = shown.iter().flat_map(|shown| shown.0.effects.iter().flat_map(ends)).chain([0.0]);
-    let scale = Scale::fit(&Axis::linear(&label), all, 7);
-
-    let height = TOP + ROW * order.len() as f64 + 58.0;
     let title = format!("Effects on the {}", group.figure.words);
-    let mut svg = Svg::new(WIDTH, height, &title);
-    let names = order.iter().flat_map(|effect| {
-        let name = width(&label_of_key(&study.factors[effect.factor].key), SIZE);
-        [name, width(&change_of(study, effect), SMALL)]
-    });
-    let left = names.fold(120.0, f64::max).min(280.0) + 24.0;
-    let (right, bottom) = (WIDTH - 20.0, height - 58.0);
-    let along = |value: f64| left + scale.place(value) * (right - left);
-
-    for tick in scale.ticks.iter().filter(|tick| tick.label.is_some()) {
-        let x = along(tick.value);
-        svg.line((x, TOP), (x, bottom), &Stroke::solid(GRID, 0.8));
-        let style = Text { size: 13.0, colour: INK, anchor: Anchor::Middle, upright: true };
-        svg.text((x, bottom + 20.0), tick.label.as_deref().unwrap_or_default(), style);
-    }
-    svg.line((along(0.0), TOP), (along(0.0), bottom), &Stroke::solid(GREY, 1.2));
-    svg.line((left, bottom), (right, bottom), &Stroke::solid(INK, 0.9));
-    let style = Text { size: SIZE, colour: INK, anchor: Anchor::Middle, upright: true };
-    svg.text(((left + right) / 2.0, bottom + 44.0), &label, style);
-
-    let mut key = left;
-    for (_, marker, colour, label) in shown.iter().filter(|(.., label)| !label.is_empty()) {
-        svg.marker((key + 8.0, 18.0), *marker, colour);
-        let style = Text { size: 13.0, colour: INK, anchor: Anchor::Start, upright: true };
-        svg.text((key + 20.0, 22.5), label, style);
-        key += 60.0;
-    }
-    for (row, main_effect) in order.iter().enumerate() {
-        let y = TOP + ROW * (row as f64 + 0.5);
-        let name = Text { size: SIZE, colour: INK, anchor: Anchor::End, upright: true };
-        svg.text((left - 12.0, y - 2.0), &label_of_key(&study.factors[main_effect.factor].key), name);
-        let style = Text { size: SMALL, colour: GREY, anchor: Anchor::End, upright: true };
-        svg.text((left - 12.0, y + 14.0), &change_of(study, main_effect), style);
-        for (index, (ranking, marker, colour, _)) in shown.iter().enumerate() {
-            let Some(effect) = ranking.effects.iter().find(|effect| effect.is_like(main_effect)) else {
-                continue;
-            };
-            let y = if shown.len() == 1 { y } else { y - 8.0 + 16.0 * index as f64 };
-            let [low, high] = ends(effect).map(along);
-            let stroke = Stroke::solid(colour, 1.4);
-            svg.line((low, y), (high, y), &stroke);
-            for end in [low, high] {
-                svg.line((end, y - 3.5), (end, y + 3.5), &stroke);
-            }
-            svg.marker((along(effect.change * group.unit.per_si), y), *marker, colour);
-        }
-    }
+    let row = |main_effect: &Effect| Row {
+        name: label_of_key(&study.factors[main_effect.factor].key),
+        change: change_of(study, main_effect),
+        bars: (shown.iter().enumerate())
+            .filter_map(|(index, (ranking, marker, colour, _))| {
+                let effect = ranking.effects.iter().find(|effect| effect.is_like(main_effect))?;
+                let down = if shown.len() == 1 { 0.0 } else { 16.0 * index as f64 - 8.0 };
+                let value = effect.change * group.unit.per_si;
+                Some(Bar { down, ends: ends(effect), value, marker: *marker, colour })
+            })
+            .collect(),
+    };
+    let effects = Effects {
+        title: title.clone(),
+        keys: shown
+            .iter()
+            .map(|(_, marker, colour, label)| (*marker, *colour, (*label).to_owned()))
+            .collect(),
+        rows: order.iter().map(row).collect(),
+        axis: Axis::linear(&label),
+        values: all.collect(),
+    };
     let explained: Vec<String> = shown
         .iter()
         .filter(|(ranking, ..)| ranking.explained.is_finite())
@@ -140,5 +113,94 @@ pub(super) fn figure(study: &Study, rankings: &[Ranking], group: &Group) -> Figu
             table.add(&series, [[effect.change * group.unit.per_si, half]]);
         }
     }
-    Figure { name: format!("{}_ranking", group.figure.name), title, caption, svg: svg.finish(), table }
+    let drawing = Drawing::new(WIDTH, move |width| effects.svg(width));
+    Figure::drawn(&format!("{}_ranking", group.figure.name), &title, drawing, table, caption)
+}
+
+/// The effects as they are drawn.
+struct Effects {
+    title: String,
+    /// Marker, colour and label of each result.
+    keys: Vec<(Marker, &'static str, String)>,
+    rows: Vec<Row>,
+    axis: Axis,
+    /// All that lies on the axis.
+    values: Vec<f64>,
+}
+
+/// A factor with its bars.
+struct Row {
+    name: String,
+    change: String,
+    bars: Vec<Bar>,
+}
+
+/// An effect with its interval.
+struct Bar {
+    /// How far below the middle of its row [px].
+    down: f64,
+    ends: [f64; 2],
+    value: f64,
+    marker: Marker,
+    colour: &'static str,
+}
+
+impl Effects {
+    /// The picture, so many pixels wide.
+    fn svg(&self, width: f64) -> String {
+        let label = lines(&self.axis.label, SIZE, width - 40.0);
+        let below = 40.0 + LINE * label.len() as f64;
+        let height = TOP + ROW * self.rows.len() as f64 + below;
+        let mut svg = Svg::new(width, height, &self.title);
+        let names =
+            self.rows.iter().flat_map(|row| [width_of(&row.name, SIZE), width_of(&row.change, SMALL)]);
+        let left = names.fold(120.0, f64::max).min(0.5 * width) + 24.0;
+        let (right, bottom) = (width - 20.0, height - below);
+        let count = (7.0 * ((right - left) / 330.0).min(1.0)).round() as usize;
+        let scale = Scale::fit(&self.axis, self.values.iter().copied(), count);
+        let along = |value: f64| left + scale.place(value) * (right - left);
+
+        for tick in scale.ticks.iter().filter(|tick| tick.label.is_some()) {
+            let x = along(tick.value);
+            svg.line((x, TOP), (x, bottom), &Stroke::solid(GRID, 0.8));
+            let style = Text { size: 13.0, colour: INK, anchor: Anchor::Middle, upright: true };
+            svg.text((x, bottom + 20.0), tick.label.as_deref().unwrap_or_default(), style);
+        }
+        svg.line((along(0.0), TOP), (along(0.0), bottom), &Stroke::solid(GREY, 1.2));
+        svg.line((left, bottom), (right, bottom), &Stroke::solid(INK, 0.9));
+        let longest = label.iter().map(|line| width_of(line, SIZE)).fold(0.0, f64::max);
+        let middle = (0.5 * (left + right)).min(width - 20.0 - 0.5 * longest);
+        for (number, line) in label.iter().enumerate() {
+            let style = Text { size: SIZE, colour: INK, anchor: Anchor::Middle, upright: true };
+            svg.text((middle, bottom + 44.0 + LINE * number as f64), line, style);
+        }
+
+        let mut key = left;
+        for (marker, colour, label) in self.keys.iter().filter(|(.., label)| !label.is_empty()) {
+            svg.marker((key + 8.0, 18.0), *marker, colour);
+            let style = Text { size: 13.0, colour: INK, anchor: Anchor::Start, upright: true };
+            svg.text((key + 20.0, 22.5), label, style);
+            key += 60.0;
+        }
+        for (number, row) in self.rows.iter().enumerate() {
+            let y = TOP + ROW * (number as f64 + 0.5);
+            let name = Text { size: SIZE, colour: INK, anchor: Anchor::End, upright: true };
+            svg.text((left - 12.0, y - 2.0), &row.name, name);
+            let style = Text { size: SMALL, colour: GREY, anchor: Anchor::End, upright: true };
+            for (line, words) in lines(&row.change, SMALL, left - 16.0).iter().enumerate() {
+                svg.text((left - 12.0, y + 14.0 * (line as f64 + 1.0)), words, style);
+            }
+            for bar in &row.bars {
+                let y = y + bar.down;
+                let [low, high] = bar.ends.map(along);
+                let stroke = Stroke::solid(bar.colour, 1.4);
+                svg.line((low, y), (high, y), &stroke);
+                for end in [low, high] {
+                    svg.line((end, y - 3.5), (end, y + 3.5), &stroke);
+                }
+                svg.marker((along(bar.value), y), bar.marker, bar.colour);
+            }
+        }
+        svg.finish()
+    }
 }

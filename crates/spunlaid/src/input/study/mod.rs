@@ -3,6 +3,7 @@
 mod base;
 mod design;
 mod differences;
+mod fit;
 mod levels;
 mod links;
 mod plan;
@@ -14,6 +15,7 @@ mod web;
 mod write;
 
 pub use differences::differences;
+pub use fit::{FitFile, parse_fit, read_fit};
 pub use points::StudyNote;
 pub use starter::starter_study;
 

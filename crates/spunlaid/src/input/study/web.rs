@@ -73,6 +73,14 @@ impl WebBase {
         Ok(Self { text, path, set, flies, spec })
     }
 
+    /// The web with these values of keys, and with a seed of its own if there is one.
+    pub(super) fn file(&self, values: &[(VariedKey, f64)], seed: Option<u64>) -> Result<WebFile, Error> {
+        let value = |(key, value): &(VariedKey, f64)| (key.name.clone(), key.exact(*value));
+        let seed = seed.map(|seed| ("web.seed".to_owned(), seed.to_string()));
+        let point = Sides::new(values.iter().map(value).chain(seed), self.flies);
+        parse(&self.text, &self.path, &self.set, &point)
+    }
+
     /// The case that it flies, the first of several.
     fn case_value(&self, name: &str) -> Option<Value> {
         let case = self.spec.layers.iter().find_map(|layer| match &layer.source {
@@ -143,10 +151,7 @@ impl Base for WebBase {
     }
 
     fn point(&self, values: &[(VariedKey, f64)], _: &Place, _: &Plan, seed: Option<u64>) -> MadeExperiment {
-        let value = |(key, value): &(VariedKey, f64)| (key.name.clone(), key.exact(*value));
-        let seed = seed.map(|seed| ("web.seed".to_owned(), seed.to_string()));
-        let point = Sides::new(values.iter().map(value).chain(seed), self.flies);
-        let WebFile { spec, notes, .. } = parse(&self.text, &self.path, &self.set, &point)?;
+        let WebFile { spec, notes, .. } = self.file(values, seed)?;
         Ok((Experiment::Web(spec), notes))
     }
 

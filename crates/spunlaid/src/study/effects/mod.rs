@@ -25,7 +25,6 @@
 //! there is.
 
 mod fit;
-mod linear;
 mod refusal;
 mod solution;
 

@@ -1,9 +1,9 @@
 //! The solution of a fit: coefficients, and effects with their intervals.
 
 use super::fit::{Contrast, Fit};
-use super::linear::{add, dot};
 use super::{Effect, Refusal};
 use crate::error::Error;
+use crate::statistics::linear::{add, dot};
 use crate::statistics::student_t_95_at;
 use crate::study::PointResults;
 use crate::study::journal::Journal;

@@ -1,11 +1,11 @@
 //! Small vectors and matrices.
 
 /// Adds a multiple of a row to the sums.
-pub(super) fn add(sums: &mut [f64], factor: f64, row: &[f64]) {
+pub(crate) fn add(sums: &mut [f64], factor: f64, row: &[f64]) {
     sums.iter_mut().zip(row).for_each(|(sum, x)| *sum += factor * x);
 }
 
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
@@ -13,7 +13,7 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
 ///
 /// # Errors
 /// The column of a singular matrix that follows from the columns before it, up to rounding.
-pub(super) fn inverse(mut matrix: Vec<Vec<f64>>) -> Result<Vec<Vec<f64>>, usize> {
+pub(crate) fn inverse(mut matrix: Vec<Vec<f64>>) -> Result<Vec<Vec<f64>>, usize> {
     let size = matrix.len();
     let scale: Vec<f64> = (0..size).map(|i| matrix[i][i]).collect();
     let mut inverse: Vec<Vec<f64>> =

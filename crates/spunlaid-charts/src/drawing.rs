@@ -1,0 +1,41 @@
+//! A picture that can be drawn at any width: it is laid out for it, and its text keeps its size.
+
+use crate::svg::in_millimetres;
+use std::fmt;
+use std::sync::Arc;
+
+/// A pixel in print [mm]: the labels of the axes, of 14 pixels, are 8 points high, as journals ask for.
+pub const PRINTED_PIXEL: f64 = 8.0 / 14.0 * 25.4 / 72.0;
+
+/// How a figure is drawn.
+#[derive(Clone)]
+pub struct Drawing {
+    /// On the screen [px].
+    width: f64,
+    draw: Arc<dyn Fn(f64) -> String + Send + Sync>,
+}
+
+impl Drawing {
+    /// The drawing that a function makes as SVG for each width [px].
+    ///
+    /// * `width` – on the screen [px]
+    pub fn new(width: f64, draw: impl Fn(f64) -> String + Send + Sync + 'static) -> Self {
+        Self { width, draw: Arc::new(draw) }
+    }
+
+    /// The SVG for the screen.
+    pub fn on_screen(&self) -> String {
+        (self.draw)(self.width)
+    }
+
+    /// The SVG for print, so many millimetres wide.
+    pub fn in_print(&self, width: f64) -> String {
+        in_millimetres(&(self.draw)(width / PRINTED_PIXEL), PRINTED_PIXEL)
+    }
+}
+
+impl fmt::Debug for Drawing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Drawing").field("width", &self.width).finish_non_exhaustive()
+    }
+}

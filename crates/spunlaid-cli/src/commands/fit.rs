@@ -1,0 +1,116 @@
+//! `spunlaid fit`: which values of some keys make a web like a scan?
+
+use super::interrupt::stop_on_ctrl_c;
+use super::{aligned, plural, stem, threads};
+use crate::args;
+use crate::failure::Failure;
+use crate::say;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use spunlaid::case::Note;
+use spunlaid::error::Error;
+use spunlaid::fit::{Fit, Question, Target, Watched, fit as find};
+use spunlaid::input::{FitFile, Overrides, read_fit};
+use spunlaid::lanes::Isa;
+use spunlaid::layers::{Flights, Flyer};
+use spunlaid::study::{Journal, JournalState};
+use spunlaid::web::Laying;
+use spunlaid_results::folders::fit::{FitFolder, FitInput};
+use spunlaid_results::folders::read_measured_web;
+use spunlaid_results::output::fit::{fit_json, pretty, sentences, value_and_interval};
+use std::sync::atomic::AtomicU64;
+
+pub(crate) fn fit(asked: &args::Fit) -> Result<(), Failure> {
+    let set = Overrides { values: &asked.set, word: "--set" };
+    let file = read_fit(&asked.web, set, &asked.vary, "--vary")?;
+    file.start.notes.iter().for_each(say::note);
+    let scan = read_measured_web(&asked.to)?;
+    let target = Target::new(&scan, &file.start.spec.sheet, asked.spectrum)
+        .map_err(|fault| Error::folder(&asked.to, fault))?;
+    let notes = Note::of_results(&file.start.notes);
+    let name = stem(&asked.web, "web").to_string_lossy().into_owned();
+    let paths = [asked.web.display().to_string(), asked.to.display().to_string()];
+    let input = FitInput {
+        name: &name,
+        paths: [&paths[0], &paths[1]],
+        file: &file,
+        target: &target,
+        webs: asked.webs,
+        notes: &notes,
+    };
+    let path = super::folder(asked.out.as_ref(), format!("{name}_fit"));
+    let (mut folder, mut journal, state) = FitFolder::open(&path, &input, asked.force, stop_on_ctrl_c())?;
+    report_found(asked, state);
+    let found = search(asked, &file, &target, &mut journal).map_err(|error| match error {
+        Error::Interrupted => Failure::Paused { done: journal.total(), what: "webs", total: None },
+        other => other.into(),
+    })?;
+    folder.figures = asked.figures.files();
+    folder.write(&input, &found)?;
+    if asked.json {
+        say::text(&fit_json(&found, &target, input.paths, &notes));
+    } else if !asked.quiet {
+        say::text(&table(&found));
+        sentences(&found).iter().for_each(|sentence| say::line(sentence));
+        say::line(&format!("open {}", path.join("report.html").display()));
+    }
+    Ok(())
+}
+
+fn report_found(asked: &args::Fit, state: Option<JournalState>) {
+    let Some(JournalState { fibres, damaged, .. }) = state else { return };
+    if !asked.quiet {
+        say::aside(&format!("continuing: {} already laid", plural(fibres, "web")));
+    }
+    if damaged > 0 {
+        let records = plural(damaged, "record");
+        say::warning(&format!("the journal has damaged records ({records}); these webs are laid again"));
+    }
+}
+
+/// Searches, and shows how far it is.
+fn search(asked: &args::Fit, file: &FitFile, target: &Target, journal: &mut Journal) -> Result<Fit, Error> {
+    let make = |values: &[f64]| Ok(file.web(values)?.spec);
+    let question = Question { parameters: &file.parameters, target, make: &make, webs: asked.webs };
+    let (stop, laid) = (stop_on_ctrl_c(), AtomicU64::new(0));
+    let bar = bar(asked);
+    let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
+    let flyer = Flyer::new(threads(asked.threads), stop, &follow);
+    let by = Laying { threads: threads(asked.threads), isa: Isa::detect(), stop, laid: &laid };
+    let watch = |Watched { trial, web, webs, values }: Watched<'_>| {
+        let values = file.parameters.iter().zip(values);
+        let values = values.map(|(key, value)| format!("{} = {}", key.key, pretty(key, *value)));
+        bar.set_length(webs);
+        bar.set_position(web - 1);
+        bar.set_message(format!("trial {trial}: {}", values.collect::<Vec<_>>().join(", ")));
+    };
+    let found = find(question, flyer, by, journal, &watch);
+    bar.finish_and_clear();
+    found
+}
+
+/// A bar for the webs of a trial; how many trials there will be is not known.
+fn bar(asked: &args::Fit) -> ProgressBar {
+    let target = if asked.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+    let bar = ProgressBar::with_draw_target(Some(asked.webs), target);
+    if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:20}] web {pos} of {len}  {elapsed} elapsed")
+    {
+        bar.set_style(style.progress_chars("=> "));
+    }
+    bar
+}
+
+/// The table for the terminal.
+fn table(fit: &Fit) -> String {
+    let mut rows = vec![["key", "start", "fit", "95 % interval"].map(str::to_owned).to_vec()];
+    for key in &fit.keys {
+        let [value, interval] = value_and_interval(key);
+        let start = pretty(&key.parameter, key.parameter.start);
+        rows.push(vec![key.parameter.key.clone(), start, value, interval]);
+    }
+    format!(
+        "{}{} of {} each\n",
+        aligned(&rows),
+        plural(fit.trials.len() as u64, "trial"),
+        plural(fit.webs, "web")
+    )
+}

@@ -1,0 +1,85 @@
+//! `find_fit`: which values of some keys make a web like a scan?
+
+use crate::value::overrides;
+use crate::watched::{Watch, guarded, threads, watched};
+use pyo3::prelude::*;
+use spunlaid::case::Note;
+use spunlaid::error::Error;
+use spunlaid::fit::{MOST_TRIALS, Question, Target, Watched, fit};
+use spunlaid::input::{Overrides, read_fit};
+use spunlaid::lanes::Isa;
+use spunlaid::layers::{Flights, Flyer};
+use spunlaid::study::Journal;
+use spunlaid::web::Laying;
+use spunlaid_results::folders::fit::{FitFolder, FitInput};
+use spunlaid_results::folders::read_measured_web;
+use spunlaid_results::output::fit::{fit_json, sentences};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Finds the values. See spunlaid.fit, which calls it. Returns the text of fit.json and what it says in sentences.
+///
+/// * `vary` – names of the keys, and of those that have a range its ends
+/// * `out` – the folder of the results; without one, nothing is kept when it is interrupted
+#[pyfunction]
+#[pyo3(signature = (path, to, vary, changes, spectrum, webs, out = None, threads = None, progress = None))]
+#[expect(clippy::too_many_arguments, reason = "the function of Python has them by name")]
+pub(crate) fn find_fit(
+    py: Python<'_>,
+    path: PathBuf,
+    to: PathBuf,
+    vary: (Vec<String>, Bound<'_, PyAny>, Bound<'_, PyAny>),
+    changes: &Bound<'_, PyAny>,
+    spectrum: bool,
+    webs: u64,
+    out: Option<PathBuf>,
+    threads: Option<usize>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<(String, Vec<String>)> {
+    let changes = overrides(changes)?;
+    let (names, low, high) = vary;
+    let ends = overrides(&low)?.into_iter().zip(overrides(&high)?);
+    let ranges: BTreeMap<String, String> =
+        ends.map(|((key, low), (_, high))| (key, format!("{low}..{high}"))).collect();
+    let vary = names
+        .iter()
+        .map(|name| ranges.get(name).map_or_else(|| name.clone(), |range| format!("{name}={range}")));
+    let vary: Vec<String> = vary.collect();
+    let set = Overrides { values: &changes, word: "set:" };
+    let (file, target) = guarded(py, || {
+        let file = read_fit(&path, set, &vary, "vary:")?;
+        let sheet = &file.start.spec.sheet;
+        let target = Target::new(&read_measured_web(&to)?, sheet, spectrum);
+        let target = target.map_err(|fault| Error::folder(&to, fault))?;
+        Ok((file, target))
+    })?;
+    let notes = Note::of_results(&file.start.notes);
+    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let paths = [&path, &to].map(|path| path.display().to_string());
+    let paths = [&*paths[0], &*paths[1]];
+    let input = FitInput { name: &name, paths, file: &file, target: &target, webs, notes: &notes };
+    let threads = self::threads(threads);
+    let watch = Watch::new(webs);
+    let found = watched(py, &watch, progress.as_ref(), || {
+        let opened = out.as_ref().map(|out| FitFolder::open(out, &input, false, &watch.stop)).transpose()?;
+        let (folder, mut journal) = match opened {
+            Some((folder, journal, _)) => (Some(folder), journal),
+            None => (None, Journal::in_memory(MOST_TRIALS)),
+        };
+        let make = |values: &[f64]| Ok(file.web(values)?.spec);
+        let question = Question { parameters: &file.parameters, target: &target, make: &make, webs };
+        let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
+        let flyer = Flyer::new(threads, &watch.stop, &follow);
+        let laid = AtomicU64::new(0);
+        let laying = Laying { threads, isa: Isa::detect(), stop: &watch.stop, laid: &laid };
+        let tell = |now: Watched<'_>| watch.done.store(now.web - 1, Ordering::Relaxed);
+        let found = fit(question, flyer, laying, &mut journal, &tell)?;
+        if let Some(folder) = folder {
+            folder.write(&input, &found)?;
+        }
+        watch.done.store(webs, Ordering::Relaxed);
+        Ok(found)
+    })?;
+    Ok((fit_json(&found, &target, paths, &notes), sentences(&found)))
+}

@@ -1,0 +1,177 @@
+//! Figures of a fit: the unevenness of the scan beside that of the simulated webs, the spectrum, and how sure the values are.
+
+use crate::numbers::significant;
+use spunlaid::fit::{Fit, FittedKey, FittedNumber, Texture};
+use spunlaid::statistics::NORMAL_95;
+use spunlaid::units::Dimension;
+use spunlaid_charts::{
+    Axis, Chart, Figure, Series,
+    palette::{BLUE, GREY, INK, VERMILION},
+};
+
+const MM: f64 = 1e3;
+const PER_CENT: f64 = 100.0;
+
+/// All figures of a fit.
+pub fn fit_figures(fit: &Fit) -> Vec<Figure> {
+    let mut figures = vec![unevenness(fit), residuals(fit)];
+    if fit.numbers.iter().any(|number| matches!(number.texture, Texture::Band { .. })) {
+        figures.extend([0, 1].map(|direction| spectrum(fit, direction)));
+    }
+    figures.extend(fit.keys.iter().filter(|key| key.profile.len() > 1).map(profile));
+    figures
+}
+
+/// Place, scan, start, fit, and the ends between which 95 of 100 simulated webs lie.
+type Drawn = (f64, f64, f64, f64, [f64; 2]);
+
+fn drawn(place: f64, number: &FittedNumber, scale: f64) -> Drawn {
+    let [low, high] = [-NORMAL_95, NORMAL_95].map(|z| scale * number.found * (z * number.scatter).exp());
+    (place, scale * number.scan, scale * number.start, scale * number.found, [low, high])
+}
+
+fn curves(chart: Chart, drawn: &[Drawn]) -> Chart {
+    let line = |value: fn(&Drawn) -> f64| -> Vec<(f64, f64)> {
+        drawn.iter().map(|one| (one.0, value(one))).collect()
+    };
+    let band: Vec<(f64, f64, f64)> = drawn.iter().map(|one| (one.0, one.4[0], one.4[1])).collect();
+    let scan: Vec<(f64, f64, Option<f64>)> = drawn.iter().map(|one| (one.0, one.1, None)).collect();
+    chart
+        .band(Series::new("95 of 100 simulated webs", VERMILION), &band)
+        .line(Series::new("start", GREY).dashed("6 4"), &line(|one| one.2))
+        .line(Series::new("fit, mean of the simulated webs", VERMILION).width(1.8), &line(|one| one.3))
+        .scatter(Series::spots("scan", BLUE), &scan)
+}
+
+/// CV over the size of the patches.
+fn unevenness(fit: &Fit) -> Figure {
+    let patch = |number: &FittedNumber| match number.texture {
+        Texture::Patch(side) => Some(drawn(side * MM, number, PER_CENT)),
+        Texture::Band { .. } => None,
+    };
+    let patches: Vec<Drawn> = fit.numbers.iter().filter_map(patch).collect();
+    let chart = Chart::new(
+        "fit_cv",
+        "Unevenness of the scan and of the simulated webs",
+        Axis::logarithmic("Side of a patch (mm)").in_column("patch_mm"),
+        Axis::logarithmic("Coefficient of variation CV (%)").in_column("cv_percent"),
+    );
+    Figure::new(
+        &curves(chart, &patches),
+        "Standard deviation of the basis weight of square patches over its mean, in pieces of web as large as the part of the scan that is \
+         compared. In the band lie 95 of 100 single simulated webs with the values that were found: a scan of such a web \
+         lies there too. It is about the piece itself, so it is lower for large patches than that of the whole web.",
+    )
+}
+
+/// Variance of waves in octaves, across or along the web.
+fn spectrum(fit: &Fit, direction: usize) -> Figure {
+    let (name, words) =
+        if direction == 0 { ("fit_spectrum_cd", "cross") } else { ("fit_spectrum_md", "machine") };
+    let band = |number: &FittedNumber| match number.texture {
+        Texture::Band { direction: own, waves: [shortest, longest] } if own == direction => {
+            Some(drawn((shortest * longest).sqrt() * MM, number, PER_CENT * PER_CENT))
+        }
+        _ => None,
+    };
+    let bands: Vec<Drawn> = fit.numbers.iter().filter_map(band).collect();
+    let chart = Chart::new(
+        name,
+        &format!("Spectrum in {words} direction, octave by octave"),
+        Axis::logarithmic("Wavelength, middle of the octave (mm)").in_column("wavelength_mm"),
+        Axis::logarithmic("Variance of the octave (%^{2})").in_column("variance_percent2"),
+    );
+    Figure::new(
+        &curves(chart, &bands),
+        format!(
+            "Variance of the relative basis weight by its wavelength in {words} direction, of the scan and of the simulated webs. In the \
+             band lie 95 of 100 single simulated webs with the values that were found."
+        ),
+    )
+}
+
+/// How far the scan is from the fit.
+fn residuals(fit: &Fit) -> Figure {
+    let of = |wanted: fn(&Texture) -> Option<f64>| -> Vec<(f64, f64, Option<f64>)> {
+        let point = |number: &FittedNumber| Some((wanted(&number.texture)? * MM, number.residual(), None));
+        fit.numbers.iter().filter_map(point).collect()
+    };
+    let patches = of(|texture| match texture {
+        Texture::Patch(side) => Some(*side),
+        Texture::Band { .. } => None,
+    });
+    let across = of(|texture| match texture {
+        Texture::Band { direction: 0, waves } => Some((waves[0] * waves[1]).sqrt()),
+        _ => None,
+    });
+    let along = of(|texture| match texture {
+        Texture::Band { direction: 1, waves } => Some((waves[0] * waves[1]).sqrt()),
+        _ => None,
+    });
+    let ends = [&patches, &across, &along].into_iter().flatten().map(|point| point.0);
+    let (from, to) = ends.fold((f64::INFINITY, 0.0_f64), |(from, to), at| (from.min(at), to.max(at)));
+    let level = |height: f64| [(from, height), (to, height)];
+    let mut chart = Chart::new(
+        "fit_residuals",
+        "What the fit leaves",
+        Axis::logarithmic("Side of a patch, or wavelength (mm)").in_column("size_mm"),
+        Axis::linear("Scan less fit (standard deviations of a web)").in_column("residual"),
+    )
+    .band(Series::new("95 of 100 webs", GREY), &[(from, -NORMAL_95, NORMAL_95), (to, -NORMAL_95, NORMAL_95)])
+    .line(Series::new("", INK).unlabelled().adorning().width(1.0), &level(0.0))
+    .scatter(Series::spots("CV over patches", BLUE), &patches);
+    if !across.is_empty() {
+        chart = chart
+            .scatter(Series::triangles("spectrum across"), &across)
+            .scatter(Series::spots("spectrum along", VERMILION), &along);
+    }
+    Figure::new(
+        &chart,
+        "The logarithm of the scan’s number over that of the fit, in standard deviations of that number from one simulated web to another. \
+         Neighbouring sizes go together, so several points on one side say little more than one.",
+    )
+}
+
+/// A value of a key in a unit that suits all values that are drawn, as axis title and factor.
+fn axis(key: &FittedKey) -> (String, f64) {
+    let parameter = &key.parameter;
+    let name = &parameter.key;
+    if parameter.dimension == Dimension::Ratio {
+        return (name.clone(), 1.0);
+    }
+    let pretty = parameter.dimension.pretty_to(key.value, 17);
+    let (number, unit) = pretty.split_once(' ').unwrap_or((&pretty, ""));
+    let factor = number.parse::<f64>().map_or(1.0, |number| number / key.value);
+    (format!("{name} ({unit})"), if factor.is_finite() { factor } else { 1.0 })
+}
+
+/// The least misfit for each value of a key.
+fn profile(key: &FittedKey) -> Figure {
+    let (title, factor) = axis(key);
+    let points: Vec<(f64, f64, Option<f64>)> =
+        key.profile.iter().map(|(value, misfit)| (value * factor, *misfit, None)).collect();
+    let line: Vec<(f64, f64)> = points.iter().map(|point| (point.0, point.1)).collect();
+    let name = format!("fit_profile_{}", key.parameter.key.replace('.', "_"));
+    let mut chart = Chart::new(
+        &name,
+        &format!("Misfit over {}", key.parameter.key),
+        Axis::linear(&title),
+        Axis::linear("Least misfit").zero_based(),
+    );
+    if let Ok([low, high]) = key.interval {
+        chart = chart.stretch(Series::new("95 % interval", VERMILION), low * factor, high * factor);
+    }
+    let chart = chart
+        .line(Series::new("", BLUE).unlabelled().adorning().width(1.2), &line)
+        .scatter(Series::spots("simulated", BLUE), &points)
+        .vertical(Series::new("fit", INK), key.value * factor);
+    Figure::new(
+        &chart,
+        format!(
+            "The least misfit for values of {} beside the one that was found, {}: at each of them webs were laid, with the other keys as is best then. A flat curve \
+             says that the scan does not know this key.",
+            key.parameter.key,
+            significant(key.value * factor, 4)
+        ),
+    )
+}

@@ -1,0 +1,149 @@
+//! The folder of a fit: its journal, and what is made from it.
+
+use crate::Failure;
+use crate::failure::{holds_results, not_a_folder, other_version};
+use crate::figures::fit_figures;
+use crate::output::beside::{self, CASE_FILES};
+use crate::output::fit::{fit_json, trials_csv};
+use crate::output::folder::Staging;
+use crate::output::leftovers;
+use crate::output::pictures::FigureFiles;
+use crate::report::{FitReport, fit_html};
+use spunlaid::error::Fault;
+use spunlaid::fit::{Fit, MOST_TRIALS, Target, identity, numbers_of_record};
+use spunlaid::input::{FitFile, LaydownSource, WebSpec, write_case, write_web};
+use spunlaid::study::{Header, Journal, JournalState};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+const JOURNAL: &str = "journal";
+/// The files of a fit; the last one marks it as complete.
+const FILES: &[&str] = &["web.toml", "cases", CASE_FILES, "trials.csv", "figures", "report.html", "fit.json"];
+/// Files of other results.
+const OF_OTHERS: &[&str] = &["summary.json", "results.csv", "analysis.json", "comparison.json", "study.toml"];
+
+/// A results folder that this process has locked.
+#[derive(Debug)]
+pub struct FitFolder<'a> {
+    path: PathBuf,
+    stop: &'a AtomicBool,
+    /// How figures are written.
+    pub figures: FigureFiles,
+}
+
+/// What is fitted to what.
+#[derive(Clone, Copy, Debug)]
+pub struct FitInput<'a> {
+    /// What the fit is called: the name of the web's file.
+    pub name: &'a str,
+    /// Path of the web's file, and results folder of the scan.
+    pub paths: [&'a str; 2],
+    /// The web and the keys.
+    pub file: &'a FitFile,
+    /// What it is compared with.
+    pub target: &'a Target,
+    /// Simulated webs of each trial.
+    pub webs: u64,
+    /// Notes for the reader.
+    pub notes: &'a [String],
+}
+
+impl FitInput<'_> {
+    fn identity(&self) -> u32 {
+        identity(&self.file.start.spec, &self.file.parameters, self.target, self.webs)
+    }
+}
+
+impl<'a> FitFolder<'a> {
+    /// Opens the folder to begin a fit, or to continue the same one. Returns its journal, and what that holds if there was one.
+    ///
+    /// * `force` – what the folder holds is replaced
+    /// * `stop` – if this is set, nothing more is written
+    ///
+    /// # Errors
+    /// If it cannot be written, or holds something else.
+    pub fn open(
+        path: &Path,
+        input: &FitInput<'_>,
+        force: bool,
+        stop: &'a AtomicBool,
+    ) -> Result<(Self, Journal, Option<JournalState>), Failure> {
+        if path.exists() && !path.is_dir() {
+            return Err(not_a_folder(path));
+        }
+        let found = OF_OTHERS.iter().find(|name| path.join(name).exists());
+        if let (false, Some(found)) = (force, found) {
+            return Err(holds_results(path, found));
+        }
+        fs::create_dir_all(path).map_err(Failure::unwritable(path))?;
+        let (mut journal, header) = Journal::open(&path.join(JOURNAL), force)?;
+        leftovers::remove_unclaimed(path);
+        let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: input.identity() };
+        let numbers = numbers_of_record(input.target);
+        let state = match header {
+            None => {
+                journal.begin(&wanted, MOST_TRIALS, numbers)?;
+                None
+            }
+            Some(found) if found.version != wanted.version => {
+                return Err(other_version(path, &found.version));
+            }
+            Some(found) if found != wanted => {
+                let fault = Fault::new(
+                    "holds a fit of another web, to another scan, of other keys or ranges, or with another number of webs",
+                    "name another folder, or start again",
+                );
+                return Err(Failure::folder(path, fault.option("--out, --force")));
+            }
+            Some(_) => Some(journal.go_on(MOST_TRIALS, input.webs, numbers)?),
+        };
+        Ok((Self { path: path.to_owned(), stop, figures: FigureFiles::default() }, journal, state))
+    }
+
+    /// Writes the values, the figures, the report and the web with the values that were found.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn write(&self, input: &FitInput<'_>, fit: &Fit) -> Result<(), Failure> {
+        let mut staging = Staging::new(&self.path, FILES, true, self.stop)?;
+        staging.set_figures(&self.figures);
+        let values: Vec<f64> = fit.keys.iter().map(|key| key.value).collect();
+        let spec = input.file.web(&values)?.spec;
+        let toml = write_found(&staging, spec.clone())?;
+        let figures = fit_figures(fit);
+        staging.write_figures(&figures)?;
+        let (FitInput { name, paths, target, notes, .. }, spec) = (*input, &spec);
+        let report = fit_html(&FitReport {
+            name,
+            scan: paths[1],
+            fit,
+            target,
+            spec,
+            figures: &figures,
+            notes,
+            toml: &toml,
+        });
+        staging.write("web.toml", toml)?;
+        staging.write("trials.csv", trials_csv(fit))?;
+        staging.write("report.html", report)?;
+        staging.write("fit.json", fit_json(fit, target, paths, notes))?;
+        staging.publish()
+    }
+}
+
+/// Writes the cases of the web that was found, and the files that they name. Returns the text of the web's file.
+fn write_found(staging: &Staging<'_>, mut spec: WebSpec) -> Result<String, Failure> {
+    for (number, layer) in (1..).zip(&mut spec.layers) {
+        if let LaydownSource::Case { path, case } = &mut layer.source {
+            let copied = beside::copy(case.files(), &staging.place(CASE_FILES).0)?;
+            let place = beside::place(&copied);
+            let text = write_case(&case.with_files_at(|file| Path::new("..").join(place(file))));
+            let name = format!("cases/layer_{number}.toml");
+            staging.write(&name, text)?;
+            (*path, *case) = (PathBuf::from(name), Arc::clone(case));
+        }
+    }
+    Ok(write_web(&spec))
+}

@@ -1,0 +1,166 @@
+//! `fit.json`, `trials.csv` and the table of the terminal: which values make webs like the scan.
+
+use super::json_text;
+use crate::numbers::significant;
+use serde_json::{Value as Json, json};
+use spunlaid::fit::{Fit, FittedKey, FittedNumber, KeyDoubt, Parameter, Target, Texture};
+
+/// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
+const SCHEMA_VERSION: u32 = 1;
+
+/// The text of `fit.json`.
+///
+/// * `web`, `scan` – paths of what was fitted, and to what
+pub fn fit_json(fit: &Fit, target: &Target, [web, scan]: [&str; 2], notes: &[String]) -> String {
+    let key = |key: &FittedKey| {
+        let parameter = &key.parameter;
+        let profile: Vec<Json> =
+            key.profile.iter().map(|(value, misfit)| json!({"value": value, "misfit": misfit})).collect();
+        json!({
+            "key": parameter.key,
+            "unit": parameter.dimension.si_unit(),
+            "start": parameter.start,
+            "range": parameter.range,
+            "value": key.value,
+            "interval": key.interval.as_ref().ok(),
+            "no_interval": key.interval.as_ref().err(),
+            "doubt": key.doubt.map(doubt),
+            "profile": profile,
+        })
+    };
+    let number = |number: &FittedNumber| {
+        let mut entry = json!({
+            "scan": number.scan, "start": number.start, "fit": number.found,
+            "scatter": number.scatter, "residual": number.residual(),
+        });
+        match number.texture {
+            Texture::Patch(side) => entry["patch_m"] = side.into(),
+            Texture::Band { direction, waves } => {
+                entry["direction"] = (if direction == 0 { "cd" } else { "md" }).into();
+                entry["from_m"] = waves[0].into();
+                entry["to_m"] = waves[1].into();
+            }
+        }
+        entry
+    };
+    let alike = fit.alike.iter().map(|pair| {
+        let keys = pair.keys.map(|key| fit.keys[key].parameter.key.as_str());
+        json!({"keys": keys, "correlation": pair.correlation, "per_first": pair.per_first})
+    });
+    let refused = fit.refused.iter().map(|(values, reason)| json!({"values": values, "reason": reason}));
+    let trials = fit.trials.iter().map(|trial| json!({"values": trial.values, "misfit": trial.misfit}));
+    let [width, length] = target.sides();
+    json_text(&json!({
+        "schema_version": SCHEMA_VERSION,
+        "spunlaid_version": env!("CARGO_PKG_VERSION"),
+        "web": web,
+        "scan": scan,
+        "compared_width_m": width,
+        "compared_length_m": length,
+        "webs_per_trial": fit.webs,
+        "webs_with_larger_misfit": fit.worse,
+        "misfit_start": fit.misfit[0],
+        "misfit": fit.misfit[1],
+        "settled": fit.settled,
+        "keys": fit.keys.iter().map(key).collect::<Vec<_>>(),
+        "correlations": fit.correlations,
+        "alike": alike.collect::<Vec<_>>(),
+        "numbers": fit.numbers.iter().map(number).collect::<Vec<_>>(),
+        "trials": trials.collect::<Vec<_>>(),
+        "refused": refused.collect::<Vec<_>>(),
+        "notes": notes,
+    }))
+}
+
+/// The text of `trials.csv`: a row for each trial.
+pub fn trials_csv(fit: &Fit) -> String {
+    let heads =
+        fit.keys.iter().map(|key| format!("{}{}", key.parameter.key, key.parameter.dimension.suffix()));
+    let mut text = format!("trial,{},misfit\n", heads.collect::<Vec<_>>().join(","));
+    for (number, trial) in (1..).zip(&fit.trials) {
+        let values: Vec<String> = trial.values.iter().map(f64::to_string).collect();
+        text.push_str(&format!("{number},{},{}\n", values.join(","), trial.misfit));
+    }
+    text
+}
+
+/// Why the value of a key is not to be trusted, in words.
+pub fn doubt(doubt: KeyDoubt) -> &'static str {
+    match doubt {
+        KeyDoubt::NoEffect => "it changes nothing of what is compared",
+        KeyDoubt::Unknown => "the scan does not know it: every value of the range will do",
+        KeyDoubt::AtEnd => "it lies at an end of its range",
+    }
+}
+
+/// A value of a key for people.
+pub fn pretty(parameter: &Parameter, value: f64) -> String {
+    if parameter.whole { format!("{value:.0}") } else { parameter.dimension.pretty_to(value, 3) }
+}
+
+/// The value of a key, and its interval, for people.
+pub fn value_and_interval(key: &FittedKey) -> [String; 2] {
+    let pretty = |value: f64| pretty(&key.parameter, value);
+    let interval = match &key.interval {
+        Ok([low, high]) => format!("{} to {}", pretty(*low), pretty(*high)),
+        Err(reason) => format!("none: {reason}"),
+    };
+    [pretty(key.value), interval]
+}
+
+/// What the fit says, sentence by sentence: whether such webs can look like the scan, and what the scan does not know.
+pub fn sentences(fit: &Fit) -> Vec<String> {
+    let mut all = Vec::new();
+    let share = format!("{} of {} simulated webs", fit.worse, fit.webs);
+    all.push(if fit.worse == 0 {
+        format!(
+            "No value of these keys makes webs like the scan: its misfit is larger than that of each of the {} simulated webs, taken as the scan. \
+             Seek other keys, or look at the figure of what the fit leaves.",
+            fit.webs
+        )
+    } else {
+        format!("Webs of these values can look like the scan: {share}, each taken as the scan, have a larger misfit.")
+    });
+    for key in &fit.keys {
+        if let Some(found) = key.doubt {
+            let name = &key.parameter.key;
+            let advice = match found {
+                KeyDoubt::NoEffect => "leave it out",
+                KeyDoubt::Unknown => {
+                    "leave it at a value that you know, or compare the spectrum too (--spectrum)"
+                }
+                KeyDoubt::AtEnd => "give it a wider range, if values beyond it make sense",
+            };
+            all.push(format!("{name}: {}; {advice}.", doubt(found)));
+        }
+    }
+    for pair in &fit.alike {
+        let [one, other] = pair.keys.map(|key| &fit.keys[key].parameter);
+        let how = if one.is_logarithmic() && other.is_logarithmic() {
+            let change = 100.0 * (1.1_f64.powf(pair.per_first) - 1.0);
+            format!(
+                "10 % more of the first with {} % {} of the second",
+                significant(change.abs(), 2),
+                if change < 0.0 { "less" } else { "more" }
+            )
+        } else {
+            "a change of the first with one of the second".to_owned()
+        };
+        all.push(format!(
+            "The scan cannot tell {} and {} apart (correlation {}): {how} leaves it almost as it is. Measure one of them otherwise, and leave it out.",
+            one.key,
+            other.key,
+            significant(pair.correlation, 2)
+        ));
+    }
+    if !fit.settled {
+        all.push(
+            "The search has not settled: better values may exist. Start it elsewhere, with --set KEY=VALUE."
+                .to_owned(),
+        );
+    }
+    if let Some((_, reason)) = fit.refused.last() {
+        all.push(format!("Webs of {} trials could not be laid; the last one: {reason}", fit.refused.len()));
+    }
+    all
+}

@@ -1,0 +1,123 @@
+//! What a paper cites beside its numbers: the program, and the sources of the models that the numbers rest on.
+
+use spunlaid::drag::{FrictionLaw, NormalLaw};
+
+/// A work that is cited.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::report) struct Reference {
+    /// How the text names it: `Matsui 1976`.
+    pub(in crate::report) short: &'static str,
+    /// Its entry in the list of references.
+    pub(super) full: &'static str,
+}
+
+/// The program itself.
+pub(in crate::report) const PROGRAM: Reference = Reference {
+    short: concat!("spunlaid ", env!("CARGO_PKG_VERSION")),
+    full: concat!(
+        "The spunlaid authors: spunlaid: a simulator of fibres in turbulent air. Version ",
+        env!("CARGO_PKG_VERSION"),
+        "."
+    ),
+};
+
+/// The chain of beads in turbulent air.
+pub(in crate::report) const CHAIN: Reference = Reference {
+    short: "Battocchio, Sutcliffe and Teschner 2015",
+    full: "F. Battocchio, M. P. F. Sutcliffe, F. Teschner: Fibre behaviour in the spunbonding process. Part II: Modelling fibre dynamics in turbulent \
+           flows. Proc. IMechE Part C: J. Mechanical Engineering Science, 2015.",
+};
+
+/// The stochastic model of a laid fibre.
+pub(in crate::report) const SURROGATE: Reference = Reference {
+    short: "Götz et al. 2007",
+    full: "T. Götz, A. Klar, N. Marheineke, R. Wegener: A stochastic model and associated Fokker–Planck equation for the fiber lay-down process in \
+           nonwoven production processes. SIAM Journal on Applied Mathematics 67(6), 1704–1717, 2007.",
+};
+
+/// The way in which a fit finds values and intervals.
+pub(in crate::report) const MOMENTS: Reference = Reference {
+    short: "McFadden 1989",
+    full: "D. McFadden: A method of simulated moments for estimation of discrete response models without numerical integration. Econometrica 57(5), \
+           995–1026, 1989.",
+};
+
+/// The source of a law of the friction along the fibre.
+pub(in crate::report) const fn along(law: FrictionLaw) -> Reference {
+    match law {
+        FrictionLaw::Matsui { .. } => Reference {
+            short: "Matsui 1976",
+            full: "M. Matsui: Air drag on a continuous filament in melt spinning. Transactions of the Society of Rheology 20(3), 465–473, 1976.",
+        },
+        FrictionLaw::MajumdarShambaugh => Reference {
+            short: "Majumdar and Shambaugh 1990",
+            full: "B. Majumdar, R. L. Shambaugh: Air drag on filaments in the melt blowing process. Journal of Rheology 34(4), 591–601, 1990.",
+        },
+        FrictionLaw::Sakiadis => Reference {
+            short: "Sakiadis 1961",
+            full: "B. C. Sakiadis: Boundary-layer behavior on continuous solid surfaces: III. The boundary layer on a continuous cylindrical surface. AIChE \
+                   Journal 7(3), 467–472, 1961.",
+        },
+        FrictionLaw::GlauertLighthill => Reference {
+            short: "Glauert and Lighthill 1955",
+            full: "M. B. Glauert, M. J. Lighthill: The axisymmetric boundary layer on a long thin cylinder. Proceedings of the Royal Society A 230, \
+                   188–203, 1955.",
+        },
+    }
+}
+
+/// The source of a law of the drag across the fibre.
+pub(in crate::report) const fn across(law: NormalLaw) -> Reference {
+    match law {
+        NormalLaw::JuShambaugh => Reference {
+            short: "Ju and Shambaugh 1994",
+            full: "Y. D. Ju, R. L. Shambaugh: Air drag on fine filaments at oblique and normal angles to the air stream. Polymer Engineering and Science \
+                   34(12), 958–964, 1994.",
+        },
+        NormalLaw::MarheinekeWegener => Reference {
+            short: "Marheineke and Wegener 2011",
+            full: "N. Marheineke, R. Wegener: Modeling and application of a stochastic drag for fibers in turbulent flows. International Journal of \
+                   Multiphase Flow 37(2), 136–148, 2011.",
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn file(name: &str) -> String {
+        std::fs::read_to_string(format!("{}/../../{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
+    }
+
+    #[test]
+    fn the_sources_of_models_are_those_of_the_theory() {
+        let theory = file("docs/theory.md").replace('*', "").split_whitespace().collect::<Vec<_>>().join(" ");
+        let laws = FrictionLaw::ALL.map(along).into_iter().chain(NormalLaw::ALL.map(across));
+        for reference in laws.chain([CHAIN, SURROGATE]) {
+            let known = reference.full.trim_end_matches(", 2015.").trim_end_matches('.');
+            assert!(theory.contains(known), "{known}");
+        }
+    }
+
+    #[test]
+    fn program_and_paper_are_cited_as_citation_cff_asks_for() {
+        let asked = file("CITATION.cff");
+        let title = |start: &str| {
+            let line = asked
+                .lines()
+                .map(|line| line.trim_start_matches([' ', '-']))
+                .find(|line| line.starts_with(start));
+            line.unwrap().split_once(": ").unwrap().1.trim_matches('"').to_owned()
+        };
+        assert!(PROGRAM.full.contains(&title("title: \"spunlaid")), "{}", PROGRAM.full);
+        assert!(PROGRAM.full.contains(&title("name: ")) && PROGRAM.full.contains(&title("version: ")));
+        assert!(CHAIN.full.contains(&title("title: \"Fibre behaviour")), "{}", CHAIN.full);
+        for part in
+            ["family-names: Battocchio", "family-names: Sutcliffe", "family-names: Teschner", "year: 2015"]
+        {
+            let name = part.split_once(": ").unwrap().1;
+            assert!(asked.contains(part) && CHAIN.full.contains(name), "{part}");
+        }
+    }
+}

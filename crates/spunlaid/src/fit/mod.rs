@@ -1,0 +1,176 @@
+//! From a scanned web back to the settings of the line: which values of some keys make webs that are as uneven as the scan?
+//!
+//! ```text
+//! scan ─ map, patches ────→ Target: logarithms of CV over patches, and of the spectrum
+//! values of the keys → webs, laid with the same random numbers in every trial → the same numbers of the same window
+//!   → misfit, weighted by how the numbers scatter from web to web → steps of Gauss and Newton → Fit
+//! ```
+//!
+//! **The misfit** is `rᵀ C⁻¹ r`, with the differences r between the logarithms of the scan and the mean of those of n simulated webs, and the
+//! covariance C of these logarithms from web to web, of which a tenth is taken away beside the diagonal.
+//!
+//! **The intervals** come from the webs themselves: each simulated web of the best values takes the place of the scan, and the values
+//! that would be found for it scatter as those for a real scan do (simulated method of moments: D. McFadden, Econometrica 57 (1989) 995–1026;
+//! C. Gouriéroux, A. Monfort, E. Renault, Journal of Applied Econometrics 8 (1993) S85–S118). Errors of the camera, of the few flown fibres and of the surrogate
+//! are added. Where the misfit is no parabola, the ends of the interval follow its profile.
+//!
+//! **Whether such webs can look like the scan** is said by the misfit itself: that of the scan stands among those that the simulated webs
+//! have when each is taken as the scan.
+
+mod found;
+mod parameter;
+mod search;
+mod target;
+mod texture;
+mod webs;
+mod weights;
+
+pub use found::{Alike, Fit, FittedKey, FittedNumber, KeyDoubt, TrialOfFit};
+pub use parameter::{Parameter, USUAL_FACTOR};
+pub use target::{MeasuredPatch, MeasuredWeb, Target};
+pub use texture::Texture;
+pub use webs::{MOST_TRIALS, MakeWeb, Watched};
+
+use crate::error::{Error, Fault};
+use crate::layers::{Flyer, Method, WebSpec};
+use crate::study::{Experiment, Journal};
+use crate::web::{Laying, PatchFindings};
+use webs::Webs;
+
+/// Most keys that are sought at a time.
+pub const MOST_KEYS: usize = 4;
+/// Fewest simulated webs of a trial.
+pub const FEWEST_WEBS: u64 = 8;
+/// Usual number of simulated webs of a trial: so many as are needed to say with 95 % confidence that no such web looks like the scan.
+pub const USUAL_WEBS: u64 = 20;
+
+/// Most searches, each from the best place that is known.
+const ROUNDS: usize = 3;
+
+/// What is sought, and in what.
+#[derive(Clone, Copy)]
+pub struct Question<'a> {
+    /// The keys.
+    pub parameters: &'a [Parameter],
+    /// What the webs shall be like.
+    pub target: &'a Target,
+    /// Makes the web of some values of the keys [SI].
+    pub make: MakeWeb<'a>,
+    /// Simulated webs of each trial.
+    pub webs: u64,
+}
+
+impl std::fmt::Debug for Question<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Question")
+            .field("parameters", &self.parameters)
+            .field("webs", &self.webs)
+            .finish_non_exhaustive()
+    }
+}
+
+/// Numbers of a record in the journal of a fit.
+pub fn numbers_of_record(target: &Target) -> usize {
+    target.textures().len()
+}
+
+/// A checksum over everything on which the records of a fit depend.
+///
+/// * `start` – the web before anything is sought
+pub fn identity(start: &WebSpec, parameters: &[Parameter], target: &Target, webs: u64) -> u32 {
+    let mut sum = crc32fast::Hasher::new();
+    sum.update(&Experiment::Web(start.clone()).checksum().to_le_bytes());
+    sum.update(&target.checksum().to_le_bytes());
+    sum.update(&webs.to_le_bytes());
+    for Parameter { key, start, range, .. } in parameters {
+        sum.update(key.as_bytes());
+        [*start, range[0], range[1]].iter().for_each(|number| sum.update(&number.to_le_bytes()));
+    }
+    sum.finalize()
+}
+
+/// Finds the values of the keys whose webs are most like the target.
+///
+/// * `flyer` – flies the fibres of each trial
+/// * `journal` – webs that are in it are not laid again
+/// * `watch` – is told of every web that is laid
+///
+/// # Errors
+/// If there are too many keys, too few webs or too few numbers; if the webs of the start cannot be laid; if it is stopped.
+pub fn fit<'a>(
+    question: Question<'a>,
+    flyer: Flyer<'a>,
+    by: Laying<'a>,
+    journal: &'a mut Journal,
+    watch: &'a dyn Fn(Watched<'_>),
+) -> Result<Fit, Error> {
+    let Question { parameters, target, make, webs: count } = question;
+    check(question)?;
+    let (trials, refused) = (Vec::new(), Vec::new());
+    let mut webs = Webs { parameters, target, make, count, flyer, by, journal, watch, trials, refused };
+    let start: Vec<f64> = parameters.iter().map(|sought| sought.coordinate(sought.start)).collect();
+    let Some(mut start) = webs.trial(&start)? else {
+        return Err(webs.refused.pop().map_or(Error::Interrupted, |(_, error)| error));
+    };
+    let mut rounds = ROUNDS;
+    loop {
+        let place = search::search(&mut webs, start)?;
+        let values = webs.trials[place.trial].values.clone();
+        let others = errors_of_model(&mut webs, &make(&values)?)?;
+        let found = found::found(&mut webs, &place, &others)?;
+        // The profiles may have met a better place.
+        rounds -= 1;
+        match search::best(&webs, &place.weights) {
+            Some(better) if better != place.trial && rounds > 0 => start = better,
+            _ => return Ok(found),
+        }
+    }
+}
+
+fn check(question: Question<'_>) -> Result<(), Fault> {
+    let (keys, numbers) = (question.parameters.len(), question.target.textures().len());
+    if keys == 0 || keys > MOST_KEYS {
+        let message = format!("{keys} keys are sought, and a fit finds 1 to {MOST_KEYS}");
+        return Err(Fault::new(message, "name the keys that you know least"));
+    }
+    if question.webs < FEWEST_WEBS {
+        let message = format!("{} webs are too few to tell chance from difference", question.webs);
+        return Err(Fault::new(message, format!("ask for {FEWEST_WEBS} or more")));
+    }
+    if numbers < keys {
+        let message = format!("{keys} keys cannot be found from {numbers} patches");
+        return Err(Fault::new(message, "name fewer keys, or analyse the scan with more patches"));
+    }
+    Ok(())
+}
+
+/// Standard errors of the logarithms of CV by the few flown fibres, and by the model that lays the webs in their place.
+fn errors_of_model(webs: &mut Webs<'_>, spec: &WebSpec) -> Result<Vec<Vec<f64>>, Error> {
+    // Of filaments in one air all have been flown, and known numbers say nothing of real fibres.
+    if spec.method == Method::SharedAir || spec.layers.iter().all(|layer| layer.source.case().is_none()) {
+        return Ok(Vec::new());
+    }
+    let sides = webs.target.textures().iter().filter_map(|texture| match texture {
+        Texture::Patch(side) => Some(*side),
+        Texture::Band { .. } => None,
+    });
+    let mut spec = spec.clone();
+    spec.sheet.patches = sides.collect();
+    let mut flown = webs.flyer.web(&spec)?;
+    let found = flown.measure(webs.by)?;
+    let errors = |cause: &dyn Fn(&PatchFindings) -> Option<f64>| -> Vec<f64> {
+        let of_side = |side: f64| {
+            let far = |patch: &&PatchFindings| (patch.map.patch / side).ln().abs();
+            let patch = found.patches.iter().min_by(|a, b| far(a).total_cmp(&far(b)));
+            patch.and_then(|patch| Some(cause(patch)? / patch.map.cv)).unwrap_or(0.0)
+        };
+        let of = |texture: &Texture| match texture {
+            Texture::Patch(side) => of_side(*side),
+            // A variance is twice as far off as the CV over patches as large as its waves.
+            Texture::Band { waves, .. } => 2.0 * of_side(0.5 * waves[0]),
+        };
+        webs.target.textures().iter().map(of).collect()
+    };
+    let causes = [errors(&|patch| patch.whole_error().flight), errors(&|patch| patch.whole_error().model)];
+    Ok(causes.into_iter().filter(|errors| errors.iter().any(|error| *error > 0.0)).collect())
+}

@@ -1,0 +1,232 @@
+//! The search: steps of Gauss and Newton, damped as by Levenberg and Marquardt, within the ranges of the keys.
+
+use super::webs::{Trial, Webs};
+use super::weights::{Matrix, gain, information, misfit, weights};
+use crate::error::{Error, Fault};
+use crate::statistics::linear::{dot, inverse};
+
+/// Step of a slope, as a coordinate: a tenth of the value, or less if it is known well.
+const STEP: f64 = 0.1;
+const LEAST_STEP: f64 = 0.02;
+/// Longest step of the search, as a coordinate: twice the value, or half of it.
+const LONGEST: f64 = 0.7;
+/// The search ends with steps that are this share of a standard error.
+const ENOUGH: f64 = 0.05;
+/// It has settled if a further step would be this share of a standard error.
+const LITTLE: f64 = 0.25;
+/// Most steps.
+const MOST: usize = 25;
+/// Damping at the beginning, and factors by which it changes.
+const DAMPING: f64 = 0.01;
+const LOOSER: f64 = 0.2;
+const TIGHTER: f64 = 8.0;
+/// Tries of a step with more and more damping.
+const TRIES: usize = 6;
+
+/// Where the search has come to.
+pub(super) struct Place {
+    /// Index of the trial.
+    pub(super) trial: usize,
+    /// Slopes of the numbers by each key.
+    pub(super) slopes: Matrix,
+    /// Weights of the numbers.
+    pub(super) weights: Matrix,
+    /// Whether no step of any length is left to do.
+    pub(super) settled: bool,
+}
+
+/// Searches for the values with the least misfit.
+///
+/// * `trial` – the index of that from which it starts
+///
+/// # Errors
+/// As [`Webs::trial`].
+pub(super) fn search(webs: &mut Webs<'_>, mut trial: usize) -> Result<Place, Error> {
+    let (mut damping, mut steps) = (DAMPING, vec![STEP; webs.parameters.len()]);
+    let mut settled = false;
+    let mut slopes_here = slopes(webs, trial, &steps, false)?;
+    // Whether the slopes were found at this trial, or follow from those of an earlier one.
+    let mut are_own = true;
+    for _ in 0..MOST {
+        let weights = weights_at(webs, trial)?;
+        let slopes = &slopes_here;
+        let rest = rest(webs, trial);
+        let here = misfit(&weights, &rest);
+        let errors = standard_errors(&weights, slopes, webs.count);
+        steps = errors.iter().map(|error| (0.5 * error).clamp(LEAST_STEP, STEP)).collect();
+        let mut next = None;
+        for _ in 0..if are_own { TRIES } else { 1 } {
+            let to = stepped(webs, trial, &weights, slopes, &rest, damping);
+            let far = to.iter().zip(&webs.trials[trial].at).zip(&errors);
+            settled = far.into_iter().all(|((to, from), error)| (to - from).abs() <= ENOUGH * error.min(1.0));
+            if settled {
+                break;
+            }
+            if let Some(found) = webs.trial(&to)? {
+                let there = misfit(&weights, &self::rest(webs, found));
+                if there < here {
+                    next = Some(found);
+                    break;
+                }
+            }
+            damping *= TIGHTER;
+        }
+        match next {
+            Some(found) => {
+                slopes_here = turned(slopes, &webs.trials[trial], &webs.trials[found]);
+                (trial, are_own) = (found, false);
+                damping *= LOOSER;
+            }
+            None if are_own => break,
+            None => {
+                slopes_here = self::slopes(webs, trial, &steps, false)?;
+                are_own = true;
+            }
+        }
+    }
+    let weights = weights_at(webs, trial)?;
+    let trial = best(webs, &weights).unwrap_or(trial);
+    let weights = weights_at(webs, trial)?;
+    let slopes = slopes(webs, trial, &steps, true)?;
+    // Where misfits differ by less than slopes of finite steps can tell, no step makes them less.
+    let errors = standard_errors(&weights, &slopes, webs.count);
+    let to = stepped(webs, trial, &weights, &slopes, &rest(webs, trial), 0.0);
+    let far = to.iter().zip(&webs.trials[trial].at).map(|(to, from)| (to - from).abs());
+    let settled = settled || far.zip(&errors).all(|(far, error)| far <= LITTLE * error);
+    Ok(Place { trial, slopes, weights, settled })
+}
+
+/// The index of the trial with the least misfit.
+pub(super) fn best(webs: &Webs<'_>, weights: &Matrix) -> Option<usize> {
+    let misfit_of = |trial: &usize| misfit(weights, &rest(webs, *trial));
+    (0..webs.trials.len()).min_by(|a, b| misfit_of(a).total_cmp(&misfit_of(b)))
+}
+
+/// What the scan has more than the webs of a trial, in logarithms.
+pub(super) fn rest(webs: &Webs<'_>, trial: usize) -> Vec<f64> {
+    webs.target.logarithms.iter().zip(&webs.trials[trial].mean).map(|(scan, web)| scan - web).collect()
+}
+
+/// Slopes that are right for the step from one trial to the next, and otherwise as they were: C. G. Broyden, Mathematics of Computation 19 (1965) 577–593.
+fn turned(slopes: &Matrix, from: &Trial, to: &Trial) -> Matrix {
+    let step: Vec<f64> = to.at.iter().zip(&from.at).map(|(to, from)| to - from).collect();
+    let squared = dot(&step, &step);
+    let missing = |i: usize| {
+        let foreseen: f64 = slopes.iter().zip(&step).map(|(slope, step)| slope[i] * step).sum();
+        (to.mean[i] - from.mean[i] - foreseen) / squared
+    };
+    let missing: Vec<f64> = (0..to.mean.len()).map(missing).collect();
+    let turned = |(slope, step): (&Vec<f64>, &f64)| {
+        slope.iter().zip(&missing).map(|(slope, missing)| slope + missing * step).collect()
+    };
+    slopes.iter().zip(&step).map(turned).collect()
+}
+
+fn weights_at(webs: &Webs<'_>, trial: usize) -> Result<Matrix, Error> {
+    weights(webs.trials[trial].webs.iter(), &webs.target.camera).ok_or_else(|| {
+        Error::Flight(Fault::new(
+            "the simulated webs do not differ from each other",
+            "lay more of them, or larger sheets, so that chance can be told from difference",
+        ))
+    })
+}
+
+/// Slopes of the numbers by each coordinate.
+///
+/// * `both` – whether steps to both sides are taken
+fn slopes(webs: &mut Webs<'_>, trial: usize, steps: &[f64], both: bool) -> Result<Matrix, Error> {
+    let mut slopes = Vec::new();
+    for key in 0..steps.len() {
+        let [low, high] = webs.parameters[key].ends();
+        let here = webs.trials[trial].at.clone();
+        let to = |step: f64| {
+            let mut to = here.clone();
+            to[key] = (here[key] + step).clamp(low, high);
+            to
+        };
+        let first = if here[key] + steps[key] <= high { steps[key] } else { -steps[key] };
+        let mut ends = Vec::new();
+        for step in [first, -first, 0.4 * first] {
+            let there = to(step);
+            if (there[key] - here[key]).abs() < 0.3 * step.abs() || ends.len() > usize::from(both) {
+                continue;
+            }
+            ends.extend(webs.trial(&there)?);
+        }
+        let (one, other) = match ends[..] {
+            [one, other] => (one, other),
+            [one] => (one, trial),
+            _ => {
+                return Err(webs.refused.pop().map_or(Error::Interrupted, |(_, error)| error));
+            }
+        };
+        let length = webs.trials[one].at[key] - webs.trials[other].at[key];
+        let ends = webs.trials[one].mean.iter().zip(&webs.trials[other].mean);
+        slopes.push(ends.map(|(one, other)| (one - other) / length).collect());
+    }
+    Ok(slopes)
+}
+
+/// Standard errors of the coordinates, by the scatter of the scan and of the simulated webs; without bound for a key that changes nothing.
+fn standard_errors(weights: &Matrix, slopes: &Matrix, count: u64) -> Vec<f64> {
+    let scatter = 1.0 + 1.0 / count as f64;
+    match inverse(information(weights, slopes)) {
+        Ok(inverse) => (0..slopes.len()).map(|i| (scatter * inverse[i][i]).sqrt()).collect(),
+        Err(_) => vec![f64::INFINITY; slopes.len()],
+    }
+}
+
+/// The next place: a damped step from a trial, which ends at the ranges of the keys.
+fn stepped(
+    webs: &Webs<'_>,
+    trial: usize,
+    weights: &Matrix,
+    slopes: &Matrix,
+    rest: &[f64],
+    damping: f64,
+) -> Vec<f64> {
+    let here = &webs.trials[trial].at;
+    let mut to = here.clone();
+    let mut free: Vec<usize> = (0..slopes.len()).collect();
+    let mut rest = rest.to_vec();
+    while !free.is_empty() {
+        let own: Matrix = free.iter().map(|key| slopes[*key].clone()).collect();
+        let mut information = information(weights, &own);
+        (0..own.len()).for_each(|i| information[i][i] *= 1.0 + damping);
+        let pull: Vec<f64> = own
+            .iter()
+            .map(|slope| weights.iter().zip(&rest).map(|(row, one)| one * dot(row, slope)).sum())
+            .collect();
+        let Ok(inverse) = inverse(information) else {
+            // A key that changes nothing stays where it is.
+            if let Err(key) = gain(weights, &own) {
+                free.remove(key);
+                continue;
+            }
+            break;
+        };
+        let step: Vec<f64> = inverse.iter().map(|row| dot(row, &pull)).collect();
+        let length = step.iter().fold(0.0_f64, |most, step| most.max(step.abs()));
+        let share = (LONGEST / length).min(1.0);
+        let ends = |i: usize| webs.parameters[free[i]].ends();
+        let beyond = (0..free.len()).find(|i| {
+            let [low, high] = ends(*i);
+            !(low..=high).contains(&(here[free[*i]] + share * step[*i]))
+        });
+        match beyond {
+            Some(i) => {
+                // It stays at its end, and the others go as is best then.
+                let (key, [low, high]) = (free[i], ends(i));
+                to[key] = (here[key] + share * step[i]).clamp(low, high);
+                let moved = to[key] - here[key];
+                rest.iter_mut().zip(&slopes[key]).for_each(|(rest, slope)| *rest -= slope * moved);
+                free.remove(i);
+            }
+            None => {
+                free.iter().zip(&step).for_each(|(key, step)| to[*key] = here[*key] + share * step);
+                break;
+            }
+        }
+    }
+    to
+}

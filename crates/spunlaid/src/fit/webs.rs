@@ -1,0 +1,138 @@
+//! The simulated webs of each trial, laid or read from the journal.
+
+use super::parameter::Parameter;
+use super::target::Target;
+use super::weights::mean_of;
+use crate::error::{Error, Fault};
+use crate::layers::{Flyer, WebSpec};
+use crate::study::{Journal, Landing, Record, seed_of_point};
+use crate::web::{Laying, inner_columns};
+
+/// A trial: values of the keys, and the numbers of the webs that were laid with them.
+#[derive(Clone, Debug)]
+pub(super) struct Trial {
+    /// Coordinates of the values.
+    pub(super) at: Vec<f64>,
+    /// The values [SI].
+    pub(super) values: Vec<f64>,
+    /// Logarithms of the numbers of each web.
+    pub(super) webs: Vec<Vec<f64>>,
+    /// Their mean.
+    pub(super) mean: Vec<f64>,
+}
+
+/// What is being laid.
+#[derive(Clone, Copy, Debug)]
+pub struct Watched<'a> {
+    /// Number of the trial, from 1.
+    pub trial: usize,
+    /// Number of its web, from 1.
+    pub web: u64,
+    /// Number of webs of each trial.
+    pub webs: u64,
+    /// The values of the trial [SI].
+    pub values: &'a [f64],
+}
+
+/// Most trials of a fit.
+pub const MOST_TRIALS: usize = 200;
+
+/// Makes the web of some values.
+pub type MakeWeb<'a> = &'a dyn Fn(&[f64]) -> Result<WebSpec, Error>;
+
+/// Lays the webs of trials.
+pub(super) struct Webs<'a> {
+    pub(super) parameters: &'a [Parameter],
+    pub(super) target: &'a Target,
+    pub(super) make: MakeWeb<'a>,
+    /// Of each trial.
+    pub(super) count: u64,
+    pub(super) flyer: Flyer<'a>,
+    pub(super) by: Laying<'a>,
+    pub(super) journal: &'a mut Journal,
+    pub(super) watch: &'a dyn Fn(Watched<'_>),
+    pub(super) trials: Vec<Trial>,
+    /// Trials that could not be laid, and why the last of them could not.
+    pub(super) refused: Vec<(Vec<f64>, Error)>,
+}
+
+impl Webs<'_> {
+    /// The values at some coordinates.
+    pub(super) fn values(&self, at: &[f64]) -> Vec<f64> {
+        self.parameters.iter().zip(at).map(|(parameter, at)| parameter.value(*at)).collect()
+    }
+
+    /// The index of the trial at these coordinates. None if the web cannot be laid with these values.
+    ///
+    /// # Errors
+    /// If it is stopped, if the journal cannot be used, or if there are too many trials.
+    pub(super) fn trial(&mut self, at: &[f64]) -> Result<Option<usize>, Error> {
+        let values = self.values(at);
+        if let Some(known) = self.trials.iter().position(|trial| trial.values == values) {
+            return Ok(Some(known));
+        }
+        if self.refused.iter().any(|(refused, _)| *refused == values) {
+            return Ok(None);
+        }
+        match self.lay(&values) {
+            Ok(webs) => {
+                let mean = mean_of(webs.iter());
+                self.trials.push(Trial { at: at.to_vec(), values, webs, mean });
+                Ok(Some(self.trials.len() - 1))
+            }
+            // Another value of a key may do.
+            Err(
+                error @ (Error::Rejected(_)
+                | Error::Flight(_)
+                | Error::Diverged { .. }
+                | Error::NotLanding { .. }),
+            ) => {
+                self.refused.push((values, error));
+                Ok(None)
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    /// The numbers of all webs of these values.
+    fn lay(&mut self, values: &[f64]) -> Result<Vec<Vec<f64>>, Error> {
+        let trial = self.trials.len();
+        if trial >= MOST_TRIALS {
+            let message = format!("has not come to an end after {MOST_TRIALS} trials");
+            return Err(Error::flight(message, "seek fewer keys, or give them narrower ranges"));
+        }
+        let spec = (self.make)(values)?;
+        let known = self.journal.records(trial, self.count)?;
+        let mut webs = Vec::with_capacity(self.count as usize);
+        for replicate in 0..self.count {
+            let journaled = known.iter().find(|record| record.replicate == replicate);
+            if let Some(measured) = journaled.and_then(|record| record.landing.measured()) {
+                webs.push(measured.to_vec());
+                continue;
+            }
+            (self.watch)(Watched { trial: trial + 1, web: replicate + 1, webs: self.count, values });
+            let numbers = self.web(&WebSpec { seed: seed(&spec, replicate), ..spec.clone() })?;
+            let landing = Landing::Measured(numbers.clone().into_boxed_slice());
+            self.journal.add(&[Record { point: trial as u64, replicate, landing }])?;
+            webs.push(numbers);
+        }
+        Ok(webs)
+    }
+
+    fn web(&mut self, spec: &WebSpec) -> Result<Vec<f64>, Error> {
+        let mut flown = self.flyer.web(spec)?;
+        let inner = inner_columns(&flown.web);
+        let map = flown.map(self.by)?;
+        self.target.logarithms_of(&map, inner, self.by.threads).ok_or_else(|| {
+            Error::Flight(Fault::new(
+                "the part of the web that is not edge is smaller than what it is compared with, or empty",
+                "set web.width to more, or web.edges to \"periodic\"",
+            ))
+        })
+    }
+}
+
+/// The seed of a web of a trial. The same webs lie in each trial, as far as the keys allow: what differs is then less by chance.
+pub(super) fn seed(spec: &WebSpec, replicate: u64) -> u64 {
+    if replicate == 0 { spec.seed } else { seed_of_point(spec.seed, replicate) }
+}

@@ -1,0 +1,142 @@
+//! The web of a fit: which keys can be sought in it, and the web of some values of theirs.
+
+use super::super::web::WebFile;
+use super::super::{Overrides, file};
+use super::web::WebBase;
+use super::{Base, VariedKey};
+use crate::case::keys::{Kind, Sign};
+use crate::error::{Error, Fault, FileKind, Finding, Place, Problem};
+use crate::fit::{Parameter, USUAL_FACTOR};
+use std::path::Path;
+
+/// The web of a fit, with the keys that are sought in it.
+pub struct FitFile {
+    base: WebBase,
+    keys: Vec<VariedKey>,
+    /// The web before anything is sought.
+    pub start: WebFile,
+    /// The keys that are sought, with the values of the file and their ranges.
+    pub parameters: Vec<Parameter>,
+}
+
+impl std::fmt::Debug for FitFile {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("FitFile").field("parameters", &self.parameters).finish_non_exhaustive()
+    }
+}
+
+/// Reads the file of a web in which keys are sought.
+///
+/// * `vary` – the keys, each by its name, or with its range: `line.depth=5 mm..40 mm`
+/// * `word` – what messages call them, `--vary`
+///
+/// # Errors
+/// If the web cannot be laid, or if a key cannot be sought.
+pub fn read_fit(path: &Path, set: Overrides<'_>, vary: &[String], word: &str) -> Result<FitFile, Error> {
+    let text = file::read(path, FileKind::Web)?;
+    parse_fit(text, &path.display().to_string(), set, vary, word)
+}
+
+/// [`read_fit`] of a text.
+///
+/// # Errors
+/// As [`read_fit`].
+pub fn parse_fit(
+    text: String,
+    name: &str,
+    set: Overrides<'_>,
+    vary: &[String],
+    word: &str,
+) -> Result<FitFile, Error> {
+    let none = Overrides { values: &[], word: set.word };
+    let base = WebBase::new(text, name.to_owned(), [none, set])?;
+    let (mut keys, mut parameters, mut problems) =
+        (Vec::<VariedKey>::new(), Vec::new(), Vec::<Problem>::new());
+    for item in vary {
+        let (key, range) =
+            item.split_once('=').map_or((item.trim(), None), |(key, range)| (key.trim(), Some(range.trim())));
+        let problem = |value: Option<&str>, what: Fault| Finding {
+            place: Place::Override(word.to_owned()),
+            key: key.to_owned(),
+            value: value.map(ToOwned::to_owned),
+            what,
+        };
+        let found = base.varied(key).map_err(|remedy| Fault::new("cannot be sought", remedy));
+        let found = found.and_then(|found| {
+            let is_twice = keys.iter().any(|other| other.name == found.name);
+            if is_twice { Err(Fault::new("is named twice", "name it once")) } else { Ok(found) }
+        });
+        let parameter = found.and_then(|found| Ok((parameter(&base, &found, range)?, found)));
+        match parameter {
+            Ok((parameter, found)) => {
+                parameters.push(parameter);
+                keys.push(found);
+            }
+            Err(fault) => problems.push(problem(range, fault)),
+        }
+    }
+    if !problems.is_empty() {
+        return Err(problems.into());
+    }
+    let start = base.file(&[], None)?;
+    Ok(FitFile { base, keys, start, parameters })
+}
+
+impl FitFile {
+    /// The web with these values of the keys [SI].
+    ///
+    /// # Errors
+    /// Every problem with it.
+    pub fn web(&self, values: &[f64]) -> Result<WebFile, Error> {
+        let values: Vec<(VariedKey, f64)> = self.keys.iter().cloned().zip(values.iter().copied()).collect();
+        self.base.file(&values, None)
+    }
+}
+
+/// A key that is sought, with its range.
+fn parameter(base: &WebBase, key: &VariedKey, range: Option<&str>) -> Result<Parameter, Fault> {
+    let is_share = match key.kind {
+        Kind::Quantity(_, sign) => *sign == Sign::Share,
+        Kind::Whole(..) => false,
+        _ => {
+            return Err(Fault::new(
+                "cannot be sought: its values are not numbers",
+                "seek a key whose value is a number",
+            ));
+        }
+    };
+    let (dimension, whole) = (key.dimension(), key.is_whole());
+    let value = base.value(key);
+    let range = match range {
+        Some(range) => {
+            let ends = range
+                .split_once("..")
+                .ok_or_else(|| Fault::new("is no range", "write FROM..TO, as in 5 mm..40 mm"))?;
+            let [from, to] = [ends.0, ends.1].map(|end| dimension.parse(end.trim().trim_matches('"')));
+            let (from, to) = (from?, to?);
+            if !(from < to && from.is_finite() && to.is_finite()) {
+                return Err(Fault::new(
+                    "is no range",
+                    "write the smaller value first, and two values that differ",
+                ));
+            }
+            [from, to]
+        }
+        None if value > 0.0 => [
+            value / USUAL_FACTOR,
+            if is_share { (value * USUAL_FACTOR).min(1.0) } else { value * USUAL_FACTOR },
+        ],
+        None => {
+            let reason = if value.is_nan() {
+                "has no value in the file from which the search could start"
+            } else {
+                "is not above zero, so it needs a range"
+            };
+            return Err(Fault::new(reason, format!("write {}=FROM..TO", key.name)));
+        }
+    };
+    let inside = (range[0]..=range[1]).contains(&value);
+    let middle = if range[0] > 0.0 { (range[0] * range[1]).sqrt() } else { 0.5 * (range[0] + range[1]) };
+    let start = if inside { value } else { middle };
+    Ok(Parameter { key: key.name.clone(), dimension, whole, start, range })
+}
