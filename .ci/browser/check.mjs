@@ -229,7 +229,7 @@ async function checkWithoutScripts() {
   await page.goto(report, { waitUntil: "load" });
   const [picture, frame] = [await page.locator("#sheet").boundingBox(), await page.locator("figure.view").boundingBox()];
   expect(picture && picture.width > frame.width - 4 && picture.height > 50, "without scripts: there is no picture of the web");
-  expect(!(await page.locator("#closer").isVisible()), "without scripts: there are buttons that do nothing");
+  expect((await page.locator("button:visible").count()) === 0, "without scripts: there are buttons that do nothing");
   await plain.close();
 }
 
