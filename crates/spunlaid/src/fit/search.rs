@@ -5,9 +5,10 @@ use super::weights::{Matrix, gain, information, misfit, weights};
 use crate::error::{Error, Fault};
 use crate::statistics::linear::{dot, inverse};
 
-/// Step of a slope, as a coordinate: a tenth of the value, or less if it is known well.
-const STEP: f64 = 0.1;
-const LEAST_STEP: f64 = 0.02;
+/// Step of a slope, as a coordinate: at the beginning, and then a standard error between these ends. The mean of the webs jumps a little
+/// between trials, because a key may change which random numbers a filament takes; steps must be long beside that.
+const STEP: f64 = 0.25;
+const STEPS: [f64; 2] = [0.05, 0.5];
 /// Longest step of the search, as a coordinate: twice the value, or half of it.
 const LONGEST: f64 = 0.7;
 /// The search ends with steps that are this share of a standard error.
@@ -51,7 +52,7 @@ pub(super) fn search(webs: &mut Webs<'_>, mut trial: usize, weights: Matrix) -> 
         let rest = rest(webs, trial);
         let here = misfit(&weights, &rest);
         let errors = standard_errors(&weights, slopes, webs.count);
-        steps = errors.iter().map(|error| (0.5 * error).clamp(LEAST_STEP, STEP)).collect();
+        steps = errors.iter().map(|error| error.clamp(STEPS[0], STEPS[1])).collect();
         let (mut next, mut is_short) = (None, false);
         for _ in 0..if are_own { TRIES } else { 1 } {
             let to = stepped(webs, trial, &weights, slopes, &rest, damping);
