@@ -26,6 +26,7 @@ const CHARTS: &[&[&str]] = &[
     &["gif", "scale"],
     &["chart"],
     &["legend"],
+    &["layout"],
     &["draw"],
     &["figure"],
     &["rose"],
