@@ -134,7 +134,7 @@ impl Errors {
 struct Surface {
     /// Indices of the keys that change something.
     known: Vec<usize>,
-    /// Logarithms of the numbers at the place.
+    /// Logarithms of the numbers at the values.
     here: Vec<f64>,
     /// Slopes of the numbers by each of these keys.
     slopes: Matrix,
@@ -173,18 +173,20 @@ impl Surface {
         Self { known, here, slopes, gain: gain_of_all, errors }
     }
 
-    /// The step from the place to the values with the least misfit, by key, and how many standard errors it is long.
-    fn step(&self, webs: &Webs<'_>, place: &Place) -> (Vec<f64>, f64) {
-        let at = &webs.trials[place.trial].at;
+    /// The step to the values with the least misfit, by key.
+    ///
+    /// * `from` – the step from the place to where these numbers are
+    fn step(&self, webs: &Webs<'_>, place: &Place, from: &[f64]) -> Vec<f64> {
+        let at = webs.trials[place.trial].at.iter().zip(from).map(|(place, from)| place + from);
+        let at: Vec<f64> = at.collect();
         let rest: Vec<f64> =
             webs.target.logarithms.iter().zip(&self.here).map(|(scan, here)| scan - here).collect();
-        let (mut step, mut longest) = (vec![0.0; at.len()], 0.0_f64);
-        for (own, (key, row)) in self.known.iter().zip(&self.gain).enumerate() {
+        let mut step = vec![0.0; at.len()];
+        for (key, row) in self.known.iter().zip(&self.gain) {
             let [low, high] = webs.parameters[*key].ends();
             step[*key] = (at[*key] + dot(row, &rest)).clamp(low, high) - at[*key];
-            longest = longest.max(step[*key].abs() / self.errors.standard_error(own));
         }
-        (step, longest)
+        step
     }
 }
 
@@ -197,30 +199,90 @@ fn in_place_of_the_scan(webs: &Webs<'_>, place: &Place, web: usize) -> (Matrix, 
     (weights, all[web].iter().zip(&mean).map(|(web, mean)| web - mean).collect())
 }
 
-/// The numbers at a place and their slopes, as a plane through the means of all trials around it.
-///
-/// * `reach` – how far from the place trials count, by coordinate
-fn plane(webs: &Webs<'_>, place: &Place, reach: &[f64]) -> Option<(Vec<f64>, Matrix)> {
-    let here = &webs.trials[place.trial].at;
-    let steps = |at: &[f64]| -> Vec<f64> { at.iter().zip(here).map(|(at, here)| at - here).collect() };
-    let around = webs.trials.iter().map(|trial| (steps(&trial.at), &trial.mean));
-    let around: Vec<(Vec<f64>, &Vec<f64>)> =
-        around.filter(|(step, _)| step.iter().zip(reach).all(|(step, reach)| step.abs() <= *reach)).collect();
-    let row = |step: &[f64]| -> Vec<f64> { std::iter::once(1.0).chain(step.iter().copied()).collect() };
-    let size = here.len() + 1;
-    let sum = |term: &dyn Fn(&[f64], &[f64]) -> f64| {
-        around.iter().map(|(step, mean)| term(&row(step), mean)).sum::<f64>()
-    };
-    let normal = (0..size).map(|i| (0..size).map(|j| sum(&|row, _| row[i] * row[j])).collect()).collect();
-    let inverse = inverse(normal).ok()?;
-    let of_number = |number: usize| -> Vec<f64> {
-        let moments: Vec<f64> = (0..size).map(|i| sum(&|row, mean| row[i] * mean[number])).collect();
-        inverse.iter().map(|row| dot(row, &moments)).collect()
-    };
-    let planes: Matrix = (0..webs.target.logarithms.len()).map(of_number).collect();
-    let column = |i: usize| planes.iter().map(|plane| plane[i]).collect();
-    Some((column(0), (1..size).map(column).collect()))
+/// The numbers around a place as polynomials of second order through the means of all trials there.
+struct Polynomials {
+    /// Powers of the coordinates in each term, by the coordinates that are multiplied: none, one or two.
+    terms: Vec<Vec<usize>>,
+    /// Of each number, the factor of each term.
+    factors: Matrix,
 }
+
+impl Polynomials {
+    /// * `reach` – how far from the place trials count, by coordinate
+    ///
+    /// None if too few trials lie there.
+    fn new(webs: &Webs<'_>, place: &Place, reach: &[f64]) -> Option<Self> {
+        let keys = reach.len();
+        let linear = || std::iter::once(Vec::new()).chain((0..keys).map(|i| vec![i]));
+        let squares = || (0..keys).map(|i| vec![i, i]);
+        let products = (0..keys).flat_map(|i| (i + 1..keys).map(move |j| vec![i, j]));
+        let all = [
+            linear().chain(squares()).chain(products).collect(),
+            linear().chain(squares()).collect(),
+            linear().collect::<Vec<Vec<usize>>>(),
+        ];
+        all.into_iter().find_map(|terms| Self::of_terms(webs, place, reach, terms))
+    }
+
+    fn of_terms(webs: &Webs<'_>, place: &Place, reach: &[f64], terms: Vec<Vec<usize>>) -> Option<Self> {
+        let here = &webs.trials[place.trial].at;
+        // In parts of the reach, so that all terms are of like size.
+        let step = |at: &[f64]| -> Vec<f64> {
+            at.iter().zip(here).zip(reach).map(|((at, here), reach)| (at - here) / reach).collect()
+        };
+        let around = webs.trials.iter().map(|trial| (step(&trial.at), &trial.mean));
+        let around = around.filter(|(step, _)| step.iter().all(|step| step.abs() <= 1.0));
+        let rows: Vec<(Vec<f64>, &Vec<f64>)> = around
+            .map(|(step, mean)| (terms.iter().map(|term| value(term, &step)).collect(), mean))
+            .collect();
+        // A trial more than there are terms, so that chance does not decide.
+        if rows.len() <= terms.len() {
+            return None;
+        }
+        let sum = |term: &dyn Fn(&[f64], &[f64]) -> f64| {
+            rows.iter().map(|(row, mean)| term(row, mean)).sum::<f64>()
+        };
+        let size = terms.len();
+        let normal = (0..size).map(|i| (0..size).map(|j| sum(&|row, _| row[i] * row[j])).collect()).collect();
+        let inverse = inverse(normal).ok()?;
+        let scales: Vec<f64> =
+            terms.iter().map(|term| term.iter().map(|key| reach[*key]).product::<f64>()).collect();
+        let of_number = |number: usize| -> Vec<f64> {
+            let moments: Vec<f64> = (0..size).map(|i| sum(&|row, mean| row[i] * mean[number])).collect();
+            inverse.iter().zip(&scales).map(|(row, scale)| dot(row, &moments) / scale).collect()
+        };
+        let factors = (0..webs.target.logarithms.len()).map(of_number).collect();
+        Some(Self { terms, factors })
+    }
+
+    /// The numbers a step away from the place, and their slopes there.
+    fn at(&self, step: &[f64]) -> (Vec<f64>, Matrix) {
+        let values: Vec<f64> = self.terms.iter().map(|term| value(term, step)).collect();
+        let slope = |key: usize| {
+            let of_term = |term: &Vec<usize>| {
+                let without = |i: usize| {
+                    term.iter().enumerate().filter(move |(j, _)| *j != i).map(|(_, key)| step[*key])
+                };
+                let own = (0..term.len()).filter(|i| term[*i] == key);
+                own.map(|i| without(i).product::<f64>()).sum::<f64>()
+            };
+            let slopes: Vec<f64> = self.terms.iter().map(of_term).collect();
+            self.factors.iter().map(|factors| dot(factors, &slopes)).collect()
+        };
+        (
+            self.factors.iter().map(|factors| dot(factors, &values)).collect(),
+            (0..step.len()).map(slope).collect(),
+        )
+    }
+}
+
+/// The product of the coordinates of a term.
+fn value(term: &[usize], step: &[f64]) -> f64 {
+    term.iter().map(|key| step[*key]).product()
+}
+
+/// Most steps on the polynomials, each from where the last one ended.
+const MOST: usize = 20;
 
 /// What a search has found, and how far the best values are from where it ended.
 pub(super) struct Found {
@@ -246,17 +308,36 @@ pub(super) fn found(webs: &mut Webs<'_>, place: &Place, other_errors: &Matrix) -
         let error = rough.errors.standard_error(own);
         (profiles[*key], reach[*key]) = profile(webs, place, &rough, (own, error))?;
     }
-    let exact = plane(webs, place, &reach)
-        .map(|(here, slopes)| Surface::new(webs, place, (here, &slopes), other_errors))
-        .filter(|exact| exact.known == rough.known)
-        .unwrap_or(rough);
-    let (step, far) = exact.step(webs, place);
+    let mut step = vec![0.0; reach.len()];
+    let mut exact = rough;
+    let known: Vec<f64> = reach.iter().map(|reach| if *reach > 0.0 { *reach } else { 1.0 }).collect();
+    if let Some(polynomials) = Polynomials::new(webs, place, &known) {
+        for _ in 0..MOST {
+            let (numbers, slopes) = polynomials.at(&step);
+            let next = Surface::new(webs, place, (numbers, &slopes), other_errors);
+            let further = next.step(webs, place, &step);
+            exact = next;
+            // No further than trials have been.
+            let to: Vec<f64> = (step.iter().zip(&further).zip(&known))
+                .map(|((step, further), reach)| (step + 0.7 * further).clamp(-reach, *reach))
+                .collect();
+            let is_still = to.iter().zip(&step).all(|(to, from)| (to - from).abs() < 1e-6);
+            step = to;
+            if is_still {
+                break;
+            }
+        }
+    } else {
+        step = exact.step(webs, place, &step);
+    }
+    let distance = |(own, key): (usize, &usize)| step[*key].abs() / exact.errors.standard_error(own);
+    let far = exact.known.iter().enumerate().map(distance).fold(0.0, f64::max);
     let at: Vec<f64> = here.at.iter().zip(&step).map(|(here, step)| here + step).collect();
     let fit = Fit {
         keys: keys(webs, &exact, &at, profiles),
         correlations: Vec::new(),
         alike: Vec::new(),
-        numbers: numbers(webs, place, &exact, &step),
+        numbers: numbers(webs, place, &exact),
         misfit: [0, place.trial].map(|trial| misfit(&place.weights, &rest(webs, trial))),
         worse: worse(webs, place, &exact),
         webs: webs.count,
@@ -362,20 +443,16 @@ fn together(surface: &Surface, weights: &Matrix, keys: usize) -> (Matrix, Vec<Al
 }
 
 /// What was compared.
-///
-/// * `step` – from the place to the values
-fn numbers(webs: &Webs<'_>, place: &Place, surface: &Surface, step: &[f64]) -> Vec<FittedNumber> {
+fn numbers(webs: &Webs<'_>, place: &Place, surface: &Surface) -> Vec<FittedNumber> {
     let trial = &webs.trials[place.trial];
     let number = |i: usize| {
         let mean = trial.mean[i];
         let squares = trial.webs.iter().map(|web| (web[i] - mean).powi(2)).sum::<f64>();
-        let moved: f64 =
-            surface.known.iter().zip(&surface.slopes).map(|(key, slope)| slope[i] * step[*key]).sum();
         FittedNumber {
             texture: webs.target.textures.all[i],
             scan: libm::exp(webs.target.logarithms[i]),
             start: libm::exp(webs.trials[0].mean[i]),
-            found: libm::exp(surface.here[i] + moved),
+            found: libm::exp(surface.here[i]),
             scatter: (squares / (trial.webs.len() as f64 - 1.0)).sqrt(),
         }
     };
