@@ -9,6 +9,7 @@
 mod canvas;
 mod clouds;
 mod curves;
+mod expected;
 mod findings;
 mod lay;
 mod map;
@@ -26,7 +27,8 @@ mod whole_error;
 pub(crate) use canvas::Canvas;
 pub use clouds::{Clouds, autocorrelation};
 pub use curves::Curves;
-pub use findings::{Findings, PatchFindings, find, find_laid, inner_columns, measure, measure_laid};
+pub use expected::{ExpectedCv, expected_cv, inner_columns};
+pub use findings::{Findings, PatchFindings, find, find_laid, measure, measure_laid};
 pub(crate) use lay::inlets;
 pub use lay::{LaidWeb, Laying, Spent, Together, lay, pieces};
 pub use map::Map;

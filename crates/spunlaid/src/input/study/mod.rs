@@ -1,5 +1,6 @@
 //! Study files: reads a file to a [`Study`] with all its points, and writes it back.
 
+mod advice;
 mod base;
 mod design;
 mod differences;
@@ -14,6 +15,7 @@ mod starter;
 mod web;
 mod write;
 
+pub use advice::{parse_changes, read_changes};
 pub use differences::differences;
 pub use fit::{FitFile, parse_fit, read_fit};
 pub use points::StudyNote;
