@@ -45,6 +45,11 @@ fn rounded(number: f64) -> f64 {
     format!("{number:.3e}").parse().unwrap_or(number)
 }
 
+/// The throughput of a hole of a layer, with a power of the factor.
+fn throughput(layer: usize, power: f64) -> (String, f64) {
+    (format!("layer.{layer}.line.throughput"), power)
+}
+
 /// The line of a web, whose settings change.
 struct Line<'a> {
     base: &'a WebBase,
@@ -61,23 +66,18 @@ impl Line<'_> {
     fn changes(&self) -> Vec<Change> {
         let mut changes = Vec::new();
         let layers = self.spec().layers.len();
-        let whole = |layer: usize| (layers > 1).then_some(layer);
-        let mut of_layers = Vec::new();
+        let numbered = |layer: usize| (layers > 1).then_some(layer);
         for layer in 1..=layers {
-            of_layers.extend(self.change(Setting::Throughput, whole(layer), &[self.throughput(layer)]));
-        }
-        if of_layers.is_empty() {
-            let ways = ["spinline.throughput", "feed.speed"].map(|key| vec![(key.to_owned(), 1.0)]);
-            of_layers = self.change(Setting::Throughput, None, &ways);
-        }
-        changes.append(&mut of_layers);
-        for layer in 1..=layers {
-            changes.extend(self.change(Setting::Holes, whole(layer), &[self.holes(layer)]));
+            changes.extend(self.change(
+                Setting::Throughput,
+                numbered(layer),
+                &[vec![throughput(layer, 1.0)]],
+            ));
+            changes.extend(self.change(Setting::Holes, numbered(layer), &[self.holes(layer)]));
         }
         for layer in (1..=layers).filter(|layer| self.spec().layers[layer - 1].source.case().is_none()) {
-            let titre = (format!("layer.{layer}.fibre.linear_density"), 1.0);
-            let way = vec![titre, (format!("layer.{layer}.line.throughput"), 0.0)];
-            changes.extend(self.change(Setting::Titre, whole(layer), &[way]));
+            let way = vec![(format!("layer.{layer}.fibre.linear_density"), 1.0), throughput(layer, 0.0)];
+            changes.extend(self.change(Setting::Titre, numbered(layer), &[way]));
         }
         for (setting, ways) in self.of_all_layers() {
             changes.extend(self.change(setting, None, &ways));
@@ -88,19 +88,13 @@ impl Line<'_> {
     /// The settings that all layers share, each with the ways to change it, the best first.
     fn of_all_layers(&self) -> Vec<(Setting, Vec<Way>)> {
         let alone = |keys: &[&str]| keys.iter().map(|key| vec![((*key).to_owned(), 1.0)]).collect();
-        let cases: Vec<usize> = (1..=self.spec().layers.len())
-            .filter(|layer| self.spec().layers[layer - 1].source.case().is_some())
-            .collect();
-        let titre = || ("fibre.linear_density".to_owned(), 1.0);
-        let fed = cases.iter().map(|layer| (format!("layer.{layer}.line.throughput"), 0.0));
-        let titres = vec![
-            std::iter::once(titre()).chain(fed).collect(),
-            vec![titre(), ("feed.speed".to_owned(), -1.0)],
-        ];
+        let is_flown = |layer: &usize| self.spec().layers[layer - 1].source.case().is_some();
+        let fed = (1..=self.spec().layers.len()).filter(is_flown).map(|layer| throughput(layer, 0.0));
+        let titre = std::iter::once(("fibre.linear_density".to_owned(), 1.0)).chain(fed).collect();
         let is_spun = self.base.number_of_cases("spinline.throughput").is_some();
         let mut all = vec![
             // The spinline decides the titre.
-            (Setting::Titre, if is_spun { Vec::new() } else { titres }),
+            (Setting::Titre, if is_spun { Vec::new() } else { vec![titre] }),
             (Setting::DrawingAir, alone(&["spinline.velocity_factor", "spinline.velocity"])),
             (Setting::DieTemperature, alone(&["spinline.die_temperature"])),
             (Setting::Distance, alone(&["belt.distance"])),
@@ -147,14 +141,12 @@ impl Line<'_> {
         })
     }
 
+    /// What each layer adds to a way.
     fn of_each(&self, keys: impl Fn(usize, &Filaments) -> Way) -> Way {
         (1..).zip(&self.spec().layers).flat_map(|(layer, of)| keys(layer, &of.filaments)).collect()
     }
 
-    fn throughput(&self, layer: usize) -> Way {
-        vec![(format!("layer.{layer}.line.throughput"), 1.0)]
-    }
-
+    /// The keys of the holes of a layer.
     fn holes(&self, layer: usize) -> Way {
         let line = format!("layer.{layer}.line");
         match &self.spec().layers[layer - 1].filaments {
@@ -219,17 +211,17 @@ impl Line<'_> {
         known: &[(VariedKey, f64, f64)],
         which: usize,
     ) -> Option<Change> {
-        let mut factor = FACTORS[which];
+        let mut factor = 1.0;
         let to = |(key, from, power): &(VariedKey, f64, f64)| {
             let to = match (setting, key.dimension()) {
                 (Setting::DieTemperature, Dimension::Temperature) => from + KELVINS[which],
                 _ if *power == 0.0 => *from,
-                _ if key.is_whole() => (from * factor).round().max(1.0),
-                _ if *power == 1.0 => rounded(from * factor),
+                _ if key.is_whole() => (from * FACTORS[which]).round().max(1.0),
+                _ if *power == 1.0 => rounded(from * FACTORS[which]),
                 _ => from * factor.powf(*power),
             };
             // What comes behind follows from the rounded number, as the pitch of a row from its holes.
-            if *power == 1.0 && to != *from {
+            if *power == 1.0 {
                 factor = to / from;
             }
             (key.clone(), to)
