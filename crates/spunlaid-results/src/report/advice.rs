@@ -48,7 +48,9 @@ pub fn advice_words(spec: &WebSpec, findings: &Findings, advice: Option<&Advice>
     let named: Vec<String> = lowering
         .iter()
         .take(NAMED)
-        .map(|(effect, cv)| format!("{} ({}), {}", more_or_less(&effect.change, spec), by(cv), cost(effect)))
+        .map(|(effect, cv)| {
+            format!("{} ({}{THIN}%), {}", more_or_less(&effect.change, spec), per_cent(cv), cost(effect))
+        })
         .collect();
     format!("At the same {weight}, the {what} {place} falls most with {}.", named.join("; then with "))
         + if is_known(spec) {
@@ -63,10 +65,10 @@ fn is_known(spec: &WebSpec) -> bool {
     spec.layers.iter().all(|layer| layer.source.case().is_none())
 }
 
-/// `−10.6 ± 0.7 %`.
-fn by(cv: &CvChange) -> String {
+/// `−10.6 ± 0.7`.
+fn per_cent(cv: &CvChange) -> String {
     let error = Some(PER_CENT * cv.standard_error).filter(|error| error.is_finite());
-    format!("{}{THIN}%", plus_minus(PER_CENT * cv.change, error))
+    plus_minus(PER_CENT * cv.change, error)
 }
 
 /// `20 % less titre, 2 to 1.6 dtex`.
@@ -119,14 +121,13 @@ impl AdviceTable {
         let row = |effect: &Effect| {
             let key = |changed: &ChangedKey| changed.key.clone();
             let keys = effect.change.keys.iter().map(key).collect::<Vec<_>>().join(", ");
-            let cv = |patch: &f64| effect.over(*patch).map_or_else(|| "–".to_owned(), by);
-            let belt = format!("{}{THIN}m/s", significant(effect.belt_speed[1], 4));
-            let flow = format!("{}{THIN}kg/h", significant(HOUR * effect.mass_flow[1], 4));
-            let cells = patches.iter().map(cv).chain([belt, flow]).collect();
+            let cv = |patch: &f64| effect.over(*patch).map_or_else(|| "–".to_owned(), per_cent);
+            let line = [effect.belt_speed[1], HOUR * effect.mass_flow[1]].map(|of| significant(of, 4));
+            let cells = patches.iter().map(cv).chain(line).collect();
             (more_or_less(&effect.change, spec), keys, cells)
         };
-        let heads = (patches.iter().map(|patch| millimetres(*patch)))
-            .chain(["Belt".to_owned(), "From each metre".to_owned()])
+        let heads = (patches.iter().map(|patch| format!("CV at {}, %", millimetres(*patch))))
+            .chain(["Belt, m/s".to_owned(), "From each metre, kg/h".to_owned()])
             .collect();
         let failed: Vec<String> = (advice.failed.iter())
             .map(|(change, why)| format!("{}: {why}", more_or_less(change, spec)))

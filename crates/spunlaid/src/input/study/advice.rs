@@ -211,7 +211,7 @@ impl Line<'_> {
         known: &[(VariedKey, f64, f64)],
         which: usize,
     ) -> Option<Change> {
-        let mut factor = 1.0;
+        let mut factor = 1.0_f64;
         let to = |(key, from, power): &(VariedKey, f64, f64)| {
             let to = match (setting, key.dimension()) {
                 (Setting::DieTemperature, Dimension::Temperature) => from + KELVINS[which],
