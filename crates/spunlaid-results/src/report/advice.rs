@@ -12,9 +12,11 @@ const PER_CENT: f64 = 100.0;
 /// Largest number of settings that the sentence names.
 const NAMED: usize = 2;
 
-/// The table of the settings.
+/// What a report says of the settings: a sentence, and a table.
 #[derive(Default)]
-pub(super) struct AdviceTable {
+pub(super) struct AdviceSection {
+    /// [`advice_words`]; empty for a web that is no simulated one.
+    pub(super) sentence: String,
     pub(super) heads: Vec<String>,
     /// Of each row the change, its keys, and the other cells.
     pub(super) rows: Vec<(String, String, Vec<String>)>,
@@ -115,8 +117,11 @@ fn cost(effect: &Effect) -> String {
     format!("with {}{THIN}% {way} throughput", significant(PER_CENT * change.abs(), 2))
 }
 
-impl AdviceTable {
-    pub(super) fn new(spec: &WebSpec, findings: &Findings, advice: &Advice) -> Self {
+impl AdviceSection {
+    /// * `advice` – None if no change was tried
+    pub(super) fn new(spec: &WebSpec, findings: &Findings, advice: Option<&Advice>) -> Self {
+        let sentence = advice_words(spec, findings, advice);
+        let Some(advice) = advice else { return Self { sentence, ..Self::default() } };
         let patches: Vec<f64> = findings.patches.iter().map(|patch| patch.map.patch).collect();
         let row = |effect: &Effect| {
             let key = |changed: &ChangedKey| changed.key.clone();
@@ -148,6 +153,6 @@ impl AdviceTable {
         if !failed.is_empty() {
             caption += &format!(" These could not be tried: {}.", failed.join("; "));
         }
-        Self { heads, rows: advice.effects.iter().map(row).collect(), caption }
+        Self { sentence, heads, rows: advice.effects.iter().map(row).collect(), caption }
     }
 }

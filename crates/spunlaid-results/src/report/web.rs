@@ -1,6 +1,6 @@
 //! `report.html` of a web: the web on a light table, what makes it uneven, and the figures.
 
-use super::advice::{AdviceTable, advice_words};
+use super::advice::AdviceSection;
 use super::light_table::{Fibres, Sheet, Strands, about_sheet, sheet};
 use super::methods::{Methods, web_account};
 use super::rendered;
@@ -72,7 +72,7 @@ pub(super) struct WebPage<'a> {
     pub(super) heads: Vec<&'static str>,
     pub(super) patches: Vec<Vec<String>>,
     pub(super) about_patches: &'static str,
-    pub(super) advice: AdviceTable,
+    pub(super) advice: AdviceSection,
     pub(super) lever_heads: Vec<String>,
     pub(super) levers: Vec<(String, Vec<String>)>,
     pub(super) figures: &'a [Figure],
@@ -117,15 +117,7 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
         name: input.name,
         methods_paragraph: Methods::new("web", web_account(input.spec), found),
         headline,
-        summary: [
-            advice_words(input.spec, findings, input.advice),
-            summary(input.web),
-            about_the_air(findings),
-            about_the_error(findings),
-        ]
-        .join(" ")
-        .trim_start()
-        .to_owned(),
+        summary: [summary(input.web), about_the_air(findings), about_the_error(findings)].join(" "),
         notes: input.notes,
         caption: format!("{} {}", about_sheet(sheet.pixel), strands.words()),
         sheet,
@@ -143,7 +135,7 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
             "The error is by chance only: no fibre was flown, so it is not known how far the surrogate is from \
              real fibres."
         },
-        advice: input.advice.map(|advice| AdviceTable::new(input.spec, findings, advice)).unwrap_or_default(),
+        advice: AdviceSection::new(input.spec, findings, input.advice),
         lever_heads: findings.patches.iter().map(|patch| millimetres(patch.map.patch)).collect(),
         levers: findings.sensitivities.iter().map(levers).collect(),
         figures: input.figures,
