@@ -314,7 +314,7 @@ fn a_web_says_which_settings_of_the_line_would_make_it_more_even() {
     let best = changes.iter().filter(lowers).min_by(|a, b| by(a).total_cmp(&by(b))).unwrap();
     let [named, ..] = sentence.split("; ").collect::<Vec<_>>()[..] else { panic!("{sentence}") };
     let layer = format!(" of layer S{}", best["layer"]);
-    let setting = best["setting"].as_str().unwrap();
+    let setting = best["setting"].as_str().unwrap().replace("throughput", "throughput of a hole");
     assert!(named.contains(&format!("{setting}{layer}, ")), "{sentence} {best}");
     let cost = number(&best["throughput_change"]);
     assert_eq!(named.contains("the same throughput"), cost.abs() < 1e-6, "{sentence} {best}");
