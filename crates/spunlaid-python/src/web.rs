@@ -5,8 +5,9 @@ use crate::watched::{Watch, guarded, threads, watched};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use spunlaid::advice::{Advice, advise, steps};
 use spunlaid::case::Note;
-use spunlaid::input::{Overrides, WebFile, parse_web, read_web};
+use spunlaid::input::{Overrides, WebFile, parse_changes, parse_web, read_changes, read_web};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
 use spunlaid::web::{Findings, Laying};
@@ -25,22 +26,29 @@ pub(crate) struct LaidWeb {
     file: WebFile,
     flown: FlownWeb,
     findings: Findings,
+    advice: Option<Advice>,
     notes: Vec<String>,
     performance: Performance,
 }
 
 /// Lays a web. See spunlaid.web, which calls it.
 #[pyfunction]
-#[pyo3(signature = (path, changes, threads = None, progress = None))]
+#[pyo3(signature = (path, changes, advice = false, threads = None, progress = None))]
 pub(crate) fn lay_web(
     py: Python<'_>,
     path: Option<PathBuf>,
     changes: &Bound<'_, PyAny>,
+    advice: bool,
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<LaidWeb> {
     let changes = overrides(changes)?;
     let set = Overrides { values: &changes, word: "web:" };
+    let tried = advice.then(|| match &path {
+        Some(path) => guarded(py, || read_changes(path, set)),
+        None => guarded(py, || parse_changes(String::new(), "web", set)),
+    });
+    let tried = tried.transpose()?;
     let (name, file) = match path {
         Some(path) => {
             let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -50,7 +58,7 @@ pub(crate) fn lay_web(
     };
     let threads = self::threads(threads);
     let watch = Watch::default();
-    let (flown, findings, performance) = watched(py, &watch, progress.as_ref(), || {
+    let (flown, findings, advice, performance) = watched(py, &watch, progress.as_ref(), || {
         let started = Instant::now();
         // The flights have a counter of their own; it is looked at while they fly.
         let follow = |Flights { done, steps, .. }: Flights<'_>, work: &mut (dyn FnMut() + Send)| {
@@ -63,14 +71,22 @@ pub(crate) fn lay_web(
         watch.total.store(flown.pieces()?, Ordering::Relaxed);
         let laying = Laying { threads, isa: Isa::detect(), stop: &watch.stop, laid: &watch.done };
         let findings = flown.find(laying)?;
+        let advice = match tried {
+            Some(changes) => {
+                watch.done.store(0, Ordering::Relaxed);
+                watch.total.store(steps(&changes), Ordering::Relaxed);
+                Some(advise(&file.spec, (&flown.web, &findings), changes, laying)?)
+            }
+            None => None,
+        };
         let wall_s = started.elapsed().as_secs_f64();
         let instruction_set = laying.isa.name();
         let performance = Performance { wall_s, threads, instruction_set, ..Performance::default() };
         let performance = performance.with_flights(&findings);
-        Ok((flown, findings, performance))
+        Ok((flown, findings, advice, performance))
     })?;
     let notes = [Note::of_results(&file.notes), notes(&flown.web, &findings, &flown.layers)].concat();
-    Ok(LaidWeb { name, file, flown, findings, notes, performance })
+    Ok(LaidWeb { name, file, flown, findings, advice, notes, performance })
 }
 
 /// Does `work` while another thread copies its counter.
@@ -97,6 +113,7 @@ impl LaidWeb {
             web: &self.flown.web,
             layers: &self.flown.layers,
             findings: &self.findings,
+            advice: self.advice.as_ref(),
             notes: &self.notes,
             performance: self.performance,
         }

@@ -17,7 +17,7 @@ SMALL = {"web.width": 0.2, "web.length": "0.2 m", "laydown.sigma_md": "10 mm", "
 
 @pytest.fixture(scope="module")
 def web() -> spunlaid.Web:
-    return spunlaid.web(CASES / "web_known.toml", set=SMALL, threads=2)
+    return spunlaid.web(CASES / "web_known.toml", set=SMALL, threads=2, advice=True)
 
 
 def test_identical_to_the_program(web: spunlaid.Web, program: Path, tmp_path: Path) -> None:
@@ -32,6 +32,13 @@ def test_identical_to_the_program(web: spunlaid.Web, program: Path, tmp_path: Pa
         assert (tmp_path / "w" / name).read_bytes() == (tmp_path / "python" / name).read_bytes()
     with pytest.raises(spunlaid.FolderError, match="holds results already"):
         web.save(tmp_path / "python")
+
+
+def test_advice_only_where_it_is_asked_for(web: spunlaid.Web) -> None:
+    assert {change["setting"] for change in web.summary["advice"]["changes"]} == {"throughput", "holes", "titre"}
+    without = spunlaid.web(CASES / "web_known.toml", set=SMALL, threads=2)
+    assert "advice" not in without.summary
+    np.testing.assert_array_equal(without.map, web.map)
 
 
 def test_analytic_basis_weight(web: spunlaid.Web) -> None:

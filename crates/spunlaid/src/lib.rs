@@ -104,6 +104,7 @@ pub mod layers;
 
 pub mod study;
 
+pub mod advice;
 pub mod fit;
 
 pub mod input;

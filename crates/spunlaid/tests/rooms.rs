@@ -33,7 +33,7 @@ const ROOMS: &[&[&str]] = &[
     &["beam"],
     &["layers"],
     &["study"],
-    &["fit"],
+    &["advice", "fit"],
     &["input"],
     &["paper"],
 ];

@@ -173,8 +173,8 @@ A web is a small text file:
 
 Several beams are [[layer]] tables, each with its own [layer.laydown], [layer.line] and
 [layer.fibre]. `spunlaid keys --web` explains every key. The results folder holds
-  report.html    for the browser: the web on a light table, what makes it uneven, figures
-  summary.json   basis weight, CV over patches with errors, directions, clouds, sensitivities
+  report.html    for the browser: the web on a light table, what would make it more even, figures
+  summary.json   basis weight, CV over patches with errors, directions, clouds, advice
   map.npy, map.parquet, map.png   the basis weight of each cell
   fibres.vtp     the single fibres of a window, for ParaView
   figures/       every figure as SVG, PNG and CSV

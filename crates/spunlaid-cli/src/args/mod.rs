@@ -226,6 +226,12 @@ pub(crate) struct Web {
     /// Print summary.json instead of the table; without --out, write no files
     #[arg(long)]
     pub(crate) json: bool,
+    /// Try what makes it more even also where that takes long: where all filaments fly in one air, or flights are long
+    #[arg(long)]
+    pub(crate) advice: bool,
+    /// Do not try what makes it more even, which takes two flights for each setting
+    #[arg(long, conflicts_with = "advice")]
+    pub(crate) no_advice: bool,
     /// Replace any results in the output folder; those of the same command are replaced without it
     #[arg(long)]
     pub(crate) force: bool,

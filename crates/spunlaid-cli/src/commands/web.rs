@@ -5,22 +5,25 @@ use super::{aligned, plural, staged, stem, threads};
 use crate::args;
 use crate::failure::Failure;
 use crate::{progress, say};
+use spunlaid::advice::{Advice, Change, advise, steps};
 use spunlaid::case::Note;
-use spunlaid::input::{Overrides, read_web};
+use spunlaid::input::{Method, Overrides, WebFile, read_changes, read_web};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
-use spunlaid::web::{Findings, Laying, PatchFindings};
+use spunlaid::web::{Findings, Laying, PatchFindings, Web};
 use spunlaid_results::folders;
 use spunlaid_results::folders::web::WebFolder;
 use spunlaid_results::numbers::{plus_minus, significant};
 use spunlaid_results::output::origin::Origin;
 use spunlaid_results::output::web::{ENTRIES, Performance};
+use spunlaid_results::report::advice_words;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
 pub(crate) fn web(asked: &args::Web) -> Result<(), Failure> {
-    let file = read_web(&asked.file, Overrides { values: &asked.set, word: "--set" })?;
+    let set = Overrides { values: &asked.set, word: "--set" };
+    let file = read_web(&asked.file, set)?;
     file.notes.iter().for_each(say::note);
     let name = stem(&asked.file, "web").to_string_lossy().into_owned();
     let folder = (asked.out.is_some() || !asked.json).then(|| super::folder(asked.out.as_ref(), &name));
@@ -40,7 +43,18 @@ pub(crate) fn web(asked: &args::Web) -> Result<(), Failure> {
     let by = Laying { threads: threads(asked.threads), isa: Isa::detect(), stop, laid: &laid };
     let label = format!("laying {} km of fibre", significant(flown.web.fibre_length() / 1e3, 3));
     let findings = progress::follow(&laid, flown.pieces()?, &label, asked.quiet, || flown.find(by))?;
+    let laying_s = started.elapsed().as_secs_f64();
     let FlownWeb { web, layers, .. } = &flown;
+    let changes = if asked.no_advice { None } else { Some(read_changes(&asked.file, set)?) };
+    let is_short =
+        |changes: &Vec<Change>| file.spec.method != Method::SharedAir && steps(changes) <= MOST_STEPS;
+    let changes = changes.filter(|changes| asked.advice || is_short(changes));
+    let tried = changes.as_ref().map(|changes| trying(changes.len()));
+    let advice = match changes {
+        Some(changes) => Some(advised(changes, (&file, web, &findings), by, asked.quiet)?),
+        None => None,
+    };
+    let advice_s = started.elapsed().as_secs_f64() - laying_s;
     let performance = Performance {
         wall_s: started.elapsed().as_secs_f64(),
         threads: by.threads,
@@ -50,8 +64,16 @@ pub(crate) fn web(asked: &args::Web) -> Result<(), Failure> {
     .with_flights(&findings);
     let found = folders::web::notes(web, &findings, layers);
     let notes = [Note::of_results(&file.notes), found.clone()].concat();
-    let written =
-        WebFolder { name: &name, file: &file, web, layers, findings: &findings, notes: &notes, performance };
+    let written = WebFolder {
+        name: &name,
+        file: &file,
+        web,
+        layers,
+        findings: &findings,
+        advice: advice.as_ref(),
+        notes: &notes,
+        performance,
+    };
     if let Some(mut staging) = staging {
         staging.set_figures(&asked.figures.files());
         written.write(&staging, by)?;
@@ -61,13 +83,42 @@ pub(crate) fn web(asked: &args::Web) -> Result<(), Failure> {
         say::text(&written.summary());
     } else if !asked.quiet {
         say::text(&told(&findings));
-        say::line(&format!("\n{label} took {:.2} s", performance.wall_s));
+        let words = advice_words(&file.spec, &findings, advice.as_ref());
+        if !(words.is_empty() || asked.no_advice) {
+            say::line(&format!("\n{words}"));
+        }
+        say::line(&format!("\n{label} took {laying_s:.2} s"));
+        if let Some(tried) = tried {
+            say::line(&format!("{tried} took {advice_s:.2} s; --no-advice leaves it out"));
+        }
         found.iter().for_each(|note| say::remark(false, note));
         if let Some(folder) = folder {
             say::line(&format!("open {}", folder.join("report.html").display()));
         }
     }
     Ok(())
+}
+
+/// Most steps of all fibres that are flown for advice unasked: a minute or two of a processor.
+const MOST_STEPS: u64 = 4_000_000;
+
+/// What is done while changes are tried.
+fn trying(changes: usize) -> String {
+    format!("trying {} of the line", plural(changes as u64, "change"))
+}
+
+/// What changes of the line do to a web, with their progress.
+fn advised(
+    changes: Vec<Change>,
+    (file, web, findings): (&WebFile, &Web, &Findings),
+    by: Laying<'_>,
+    quiet: bool,
+) -> Result<Advice, Failure> {
+    let done = AtomicU64::new(0);
+    let (all, label) = (steps(&changes), trying(changes.len()));
+    let by = Laying { laid: &done, ..by };
+    let work = || advise(&file.spec, (web, findings), changes, by);
+    Ok(progress::follow(&done, all, &label, quiet, work)?)
 }
 
 /// Shows the progress of the flights of a case.

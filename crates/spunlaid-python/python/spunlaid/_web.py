@@ -112,6 +112,7 @@ def web(
     web: str | os.PathLike[str] | Mapping[str, Any],
     *,
     set: Mapping[str, Any] | None = None,  # noqa: A002 - the word of the program
+    advice: bool = False,
     threads: int | None = None,
     progress: Progress = None,
 ) -> Web:
@@ -120,6 +121,7 @@ def web(
     web: the path of the file of a web; or a dict of its tables, `{"fibre": {...}, "laydown": {...}, "line": {...}, "web":
         {...}}`, with texts that have a unit, and numbers in SI units. `spunlaid keys --web` lists the keys
     set: keys that replace those of the file, `{"line.belt_speed": 5.0}`
+    advice: whether to try what settings of the line would make it more even at the same basis weight; `summary["advice"]` then says it
     threads: number of threads, by default one for each processor; the results do not depend on it
     progress: None, True, False, or a function that gets the parts done and their number
     """
@@ -130,4 +132,4 @@ def web(
     else:
         path = os.fspath(web)
     with shown(progress, "web") as show:
-        return Web(_spunlaid.lay_web(path, changes, _threads(threads), show))
+        return Web(_spunlaid.lay_web(path, changes, advice, _threads(threads), show))

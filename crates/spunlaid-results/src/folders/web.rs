@@ -7,6 +7,7 @@ use crate::output::folder::Staging;
 use crate::output::spinline::{SpinResults, SpinSummary, write_stations};
 use crate::output::web::{self, Layer, Performance, Summary};
 use crate::report::{LayerSpinline, WebReport, web_html};
+use spunlaid::advice::Advice;
 use spunlaid::case::Case;
 use spunlaid::input::{LayerSpec, WebFile, WebSpec};
 use spunlaid::layers::OfLayer;
@@ -29,6 +30,8 @@ pub struct WebFolder<'a> {
     pub layers: &'a [OfLayer],
     /// What was found of it.
     pub findings: &'a Findings,
+    /// What would make it more even; None if it was not tried.
+    pub advice: Option<&'a Advice>,
     /// Notes for the reader.
     pub notes: &'a [String],
     /// What it cost.
@@ -39,7 +42,7 @@ impl WebFolder<'_> {
     /// The text of `summary.json`.
     pub fn summary(&self) -> String {
         let rows = rows(&self.file.spec, self.web, self.layers);
-        Summary::new(self.web, self.findings, &rows, self.performance, self.notes).to_json()
+        Summary::new(self.web, (self.findings, self.advice), &rows, self.performance, self.notes).to_json()
     }
 
     /// Writes the map, the single fibres of a window, the figures, the report, the file of the web and the summary.
@@ -84,6 +87,7 @@ impl WebFolder<'_> {
                 spec: &self.file.spec,
                 web: self.web,
                 findings: self.findings,
+                advice: self.advice,
                 layers: &rows(&self.file.spec, self.web, self.layers),
                 strands: &strands,
                 window,

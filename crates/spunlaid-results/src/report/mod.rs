@@ -4,6 +4,7 @@
 //! Results → words (headline, numbers), table (rows), frames (the moving fibre) → page (assets/report.html)
 //! ```
 
+mod advice;
 mod air;
 mod analysis;
 mod comparison;
@@ -22,6 +23,7 @@ mod tests;
 mod web;
 mod words;
 
+pub use advice::advice_words;
 pub use air::{AirReport, air_html};
 pub use analysis::{AnalysisReport, analysis_html};
 pub use comparison::{ComparedPictures, ComparisonReport, comparison_html};

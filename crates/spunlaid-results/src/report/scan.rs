@@ -1,5 +1,6 @@
 //! `report.html` of a scanned web: the web on a light table, how uneven it is, and the figures.
 
+use super::advice::AdviceSection;
 use super::light_table::{about_sheet, sheet};
 use super::methods::Methods;
 use super::rendered;
@@ -69,6 +70,7 @@ pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
         about_patches: "The interval is that of the web, of which the scan is one piece. The noise of the camera \
             is as it was given, and then taken out of the CV, or the most that it can be. Where one more pixel of \
             blur changes little, the camera’s own blur has changed little as well.",
+        advice: AdviceSection::default(),
         lever_heads: Vec::new(),
         levers: Vec::new(),
         figures: input.figures,

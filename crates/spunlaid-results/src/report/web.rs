@@ -1,5 +1,6 @@
 //! `report.html` of a web: the web on a light table, what makes it uneven, and the figures.
 
+use super::advice::AdviceSection;
 use super::light_table::{Fibres, Sheet, Strands, about_sheet, sheet};
 use super::methods::{Methods, web_account};
 use super::rendered;
@@ -9,6 +10,7 @@ use crate::Failure;
 use crate::numbers::{THIN, number, plus_minus, significant};
 use crate::output::web::{Layer, Performance};
 use askama::Template;
+use spunlaid::advice::Advice;
 use spunlaid::layers::WebSpec;
 use spunlaid::statistics::Estimate;
 use spunlaid::web::uniformity::Unevenness;
@@ -30,6 +32,8 @@ pub struct WebReport<'a> {
     pub web: &'a Web,
     /// What was found.
     pub findings: &'a Findings,
+    /// What would make it more even; None if it was not tried.
+    pub advice: Option<&'a Advice>,
     /// Its layers.
     pub layers: &'a [Layer],
     /// The fibres in the window, and the diameter of those of the first layer [m].
@@ -68,6 +72,7 @@ pub(super) struct WebPage<'a> {
     pub(super) heads: Vec<&'static str>,
     pub(super) patches: Vec<Vec<String>>,
     pub(super) about_patches: &'static str,
+    pub(super) advice: AdviceSection,
     pub(super) lever_heads: Vec<String>,
     pub(super) levers: Vec<(String, Vec<String>)>,
     pub(super) figures: &'a [Figure],
@@ -117,7 +122,7 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
         caption: format!("{} {}", about_sheet(sheet.pixel), strands.words()),
         sheet,
         fibres: true,
-        verdict: verdict(findings),
+        verdict: verdict(findings, input.advice.is_some()),
         heads,
         patches: patches(findings, has_flown, &sources),
         about_patches: if is_shared {
@@ -130,6 +135,7 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
             "The error is by chance only: no fibre was flown, so it is not known how far the surrogate is from \
              real fibres."
         },
+        advice: AdviceSection::new(input.spec, findings, input.advice),
         lever_heads: findings.patches.iter().map(|patch| millimetres(patch.map.patch)).collect(),
         levers: findings.sensitivities.iter().map(levers).collect(),
         figures: input.figures,
@@ -161,12 +167,12 @@ pub(super) fn cost(performance: Performance) -> String {
     format!("computed in {} on {}", time(performance.wall_s), count(performance.threads as u64, "thread"))
 }
 
-fn grams(weight: f64) -> String {
+pub(super) fn grams(weight: f64) -> String {
     format!("{}{THIN}g/m²", significant(weight * 1e3, 3))
 }
 
 /// The patch nearest to what the eye judges first.
-fn headline_patch(findings: &Findings) -> Option<usize> {
+pub(super) fn headline_patch(findings: &Findings) -> Option<usize> {
     nearest(findings.patches.iter().map(|patch| patch.map.patch))
 }
 
@@ -383,7 +389,9 @@ pub(super) fn largest_clouds(clouds: &Clouds) -> Option<String> {
 }
 
 /// What makes the web uneven, and what would make it more even, in sentences.
-fn verdict(findings: &Findings) -> Vec<String> {
+///
+/// * `has_advice` – whether the settings of the line say what would
+fn verdict(findings: &Findings, has_advice: bool) -> Vec<String> {
     let mut sentences: Vec<String> = findings.clouds.as_ref().and_then(largest_clouds).into_iter().collect();
     let Some(i) = headline_patch(findings) else { return sentences };
     let patch = &findings.patches[i];
@@ -404,6 +412,9 @@ fn verdict(findings: &Findings) -> Vec<String> {
         if is_shared { "" } else { "expected " },
         significant(ratio, 3)
     ));
+    if has_advice {
+        return sentences;
+    }
     let known = findings
         .sensitivities
         .iter()

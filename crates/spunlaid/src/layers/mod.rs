@@ -16,6 +16,7 @@ pub use keys::{WEB, WEB_KEYS, WEB_TABLES, WebKey};
 pub use laid::{LAID, read as read_laid};
 
 use crate::case::Case;
+use crate::case::keys::{self as case_keys, Value};
 use crate::error::{Error, Fault, Finding, Place, Problem};
 use crate::surrogate::Surrogate;
 use crate::units::Dimension;
@@ -26,6 +27,9 @@ use std::sync::Arc;
 
 /// Fewest standard deviations of a filament's place that a closed side of the web is long.
 const LEAST_SPREADS: f64 = 8.0;
+
+/// Relative difference up to which two numbers are the same.
+pub(crate) const SAME: f64 = 1e-9;
 
 /// A web before its fibres have been flown.
 #[derive(Clone, Debug, PartialEq)]
@@ -178,6 +182,22 @@ impl WebSpec {
     /// The speed of a belt on which all layers together have this mass per area [m/s].
     pub fn belt_speed_for(&self, basis_weight: f64) -> f64 {
         self.mass_flow() / basis_weight
+    }
+
+    /// Puts all layers on a belt of this speed, above which the cases are flown.
+    ///
+    /// * `belt` – its speed [m/s]
+    pub(crate) fn set_belt_speed(&mut self, belt: f64) {
+        for layer in &mut self.layers {
+            if let LaydownSource::Case { case, .. } = &mut layer.source
+                && (layer.belt_speed / belt - 1.0).abs() > SAME
+            {
+                let speed = case_keys::find("belt.speed")
+                    .map(|speed| speed.apply(Arc::make_mut(case), &Value::Number(belt)));
+                drop(speed);
+            }
+            layer.belt_speed = belt;
+        }
     }
 
     /// The web of one of its layers alone.

@@ -1,22 +1,21 @@
 //! Everything that is found out about a web.
 
 use super::clouds::{Clouds, autocorrelation};
+use super::expected::{ALONE, Across, across, expected, side, sides};
 use super::laid::{LaidWeb, Together};
 use super::lay::lay;
 use super::laying::Laying;
 use super::map::Map;
-use super::one_fibre::{Alone, OneFibre, one_fibre, straight_fibres};
+use super::one_fibre::OneFibre;
 use super::orientation::{Orientation, orientation};
-use super::plan::places;
 use super::sensitivity::{Sensitivity, Source, sensitivities};
 use super::uniformity::{Unevenness, unevenness_at};
 use super::waves::Places;
-use super::{Edges, Fibres, Filaments, Layer, Sheet, Web};
+use super::{Fibres, Layer, Web};
 use crate::error::{Error, Fault};
 use crate::threads::try_each;
 use crate::units::Dimension;
 use std::borrow::Cow;
-use std::ops::Range;
 use std::sync::atomic::AtomicU64;
 
 /// A web, laid and looked at.
@@ -72,8 +71,6 @@ pub struct PatchFindings {
     pub pairs: Option<f64>,
 }
 
-/// Fibres that are laid alone.
-const ALONE: u64 = 16;
 /// Fibres that are laid alone for each sensitivity.
 const TURNED: u64 = 8;
 /// Longest lag of the autocorrelation [m], and most lags.
@@ -113,11 +110,6 @@ pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: Laying<'_>) -> Result<Fin
     Ok(Findings { sensitivities, ..found })
 }
 
-/// Cells along the side of a patch [m].
-fn side(sheet: &Sheet, patch: f64) -> usize {
-    (patch / sheet.cell).round() as usize
-}
-
 /// [`find`] without the sensitivities, which take as long as the rest.
 ///
 /// # Errors
@@ -133,10 +125,7 @@ pub fn measure(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
 pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: Laying<'_>) -> Result<Findings, Error> {
     let sheet = &web.sheet;
     let Across { reach, columns } = across(web);
-    let sides: Vec<usize> = sheet.patches.iter().map(|patch| side(sheet, *patch)).collect();
-    // As many patches beside each other as on a sheet that is closed.
-    let fits = |side: &usize| sheet.edges == Edges::Periodic || 2 * side <= columns.len();
-    let sides: Vec<usize> = sides.into_iter().filter(fits).collect();
+    let sides = sides(sheet, &columns);
     let margins = [columns.start, sheet.cells()[0] - columns.end].map(|cells| cells as f64 * sheet.cell);
     if columns.is_empty() || (sides.is_empty() && !sheet.patches.is_empty()) {
         let smallest = sheet.patches.iter().copied().fold(f64::INFINITY, f64::min);
@@ -211,108 +200,4 @@ fn with_pairs(web: &Web, together: &Together, independent: f64, patch: f64) -> O
     };
     let shared: Option<f64> = weights().enumerate().map(of_layer).sum();
     Some((independent * independent + shared?).max(0.0).sqrt())
-}
-
-/// Spreads σ_CD of a filament beyond its place that count as the edge of a web: less than 0.14 % of its fibre lies further out.
-const EDGE: f64 = 3.0;
-
-/// The columns of the sheet that are not edges, where filaments are missing beyond the outermost place.
-pub fn inner_columns(web: &Web) -> Range<usize> {
-    across(web).columns
-}
-
-/// How a web lies across its sheet.
-struct Across {
-    /// Where it begins and ends [m].
-    reach: [f64; 2],
-    /// The columns that are not edges, where filaments are missing beyond the outermost place.
-    columns: Range<usize>,
-}
-
-fn across(web: &Web) -> Across {
-    let sheet = &web.sheet;
-    let columns = sheet.cells()[0];
-    if sheet.edges == Edges::Periodic {
-        return Across { reach: [0.0, sheet.width], columns: 0..columns };
-    }
-    let mut across = Across { reach: [sheet.width, 0.0], columns: 0..columns };
-    for (number, layer) in web.layers.iter().enumerate() {
-        let edge = EDGE * layer.fibres.sigma_cd();
-        let [first, last] = match &layer.filaments {
-            Filaments::AtRandom { .. } => [0.0, sheet.width],
-            Filaments::Slot { .. } | Filaments::Rows(_) => {
-                let places = places(web, number, layer);
-                [places.first(), places.last()].map(|place| place.copied().unwrap_or(0.0))
-            }
-        };
-        let cells = |length: f64| (length / sheet.cell).clamp(0.0, columns as f64);
-        let inner = cells(first + edge).ceil() as usize..cells(last - edge).floor() as usize;
-        across.columns = across.columns.start.max(inner.start)..across.columns.end.min(inner.end);
-        let outer = [first - edge, last + edge].map(|place| place.clamp(0.0, sheet.width));
-        across.reach = [across.reach[0].min(outer[0]), across.reach[1].max(outer[1])];
-    }
-    across.columns.end = across.columns.end.max(across.columns.start);
-    across
-}
-
-/// What is expected of patches of one side.
-struct Expected {
-    /// CV and its standard error.
-    cv: (f64, f64),
-    /// CV of straight fibres of the same mass.
-    straight_fibres: f64,
-}
-
-/// The CV that is expected of a web of these layers for each side of a patch.
-///
-/// * `columns` – of the sheet over which the patches lie
-fn expected(
-    web: &Web,
-    layers: Vec<Layer>,
-    sides: &[usize],
-    (of, columns): (OneFibre, Range<usize>),
-    by: Laying<'_>,
-) -> Result<Vec<Expected>, Error> {
-    let sheet = &web.sheet;
-    let closed = sheet.edges == Edges::Periodic;
-    let found = try_each(by.threads, layers.len(), |i| one_fibre(&layers[i], sides, of, by))?;
-    let expected = |i: usize| {
-        // Places of a patch.
-        let count = if closed { columns.len() } else { columns.len() + 1 - sides[i] };
-        let across_layer = |(number, (layer, found)): (usize, (&Layer, &Vec<Alone>))| {
-            let weight = layer.basis_weight(sheet);
-            let across = match &layer.filaments {
-                Filaments::AtRandom { .. } => vec![weight; count],
-                Filaments::Slot { .. } | Filaments::Rows(_) => {
-                    let places = places(web, number, layer);
-                    let places: Vec<f64> = places.iter().map(|place| place / sheet.cell).collect();
-                    let across = found[i].across(&places, (sheet.cells()[0], closed), sides[i]);
-                    across[columns.start..][..count].iter().map(|of| weight * of).collect()
-                }
-            };
-            let mean = across.iter().sum::<f64>() / count as f64;
-            (across, mean)
-        };
-        let weights: Vec<(Vec<f64>, f64)> = layers.iter().zip(&found).enumerate().map(across_layer).collect();
-        let whole = weights.iter().map(|(_, mean)| mean).sum::<f64>();
-        // Variances of independent layers add up, and so do what their places do at each column.
-        let (mut square, mut error, mut straight) = (0.0, 0.0, 0.0);
-        let mut sums = vec![0.0; count];
-        for ((layer, found), (across, weight)) in layers.iter().zip(&found).zip(&weights) {
-            let share = weight / whole;
-            let scale = share * share * layer.linear_density / weight;
-            let by_chance = found[i].of(&layer.filaments);
-            square += scale * by_chance.mean;
-            error += (scale * by_chance.standard_error.unwrap_or(f64::NAN)).powi(2);
-            let patch = sides[i] as f64 * sheet.cell;
-            straight += (share * straight_fibres(weight / layer.linear_density, patch)).powi(2);
-            sums.iter_mut().zip(across).for_each(|(sum, of)| *sum += of / whole);
-        }
-        square += sums.iter().map(|of| (of - 1.0).powi(2)).sum::<f64>() / count as f64;
-        Expected {
-            cv: (square.sqrt(), error.sqrt() / (2.0 * square.sqrt())),
-            straight_fibres: straight.sqrt(),
-        }
-    };
-    Ok((0..sides.len()).map(expected).collect())
 }

@@ -9,6 +9,7 @@
 mod canvas;
 mod clouds;
 mod curves;
+mod expected;
 mod findings;
 mod laid;
 mod lay;
@@ -31,7 +32,8 @@ mod window;
 pub(crate) use canvas::Canvas;
 pub use clouds::{Clouds, autocorrelation};
 pub use curves::Curves;
-pub use findings::{Findings, PatchFindings, find, find_laid, inner_columns, measure, measure_laid};
+pub use expected::{ExpectedCv, expected_cv, inner_columns};
+pub use findings::{Findings, PatchFindings, find, find_laid, measure, measure_laid};
 pub use laid::{LaidWeb, Together};
 pub use lay::{lay, pieces};
 pub use laying::{Laying, Spent};

@@ -1,6 +1,7 @@
 //! Webs and the surrogate that lays them.
 #![allow(clippy::expect_used, clippy::panic, clippy::print_stdout, clippy::unwrap_used)]
 
+mod advice;
 mod beam;
 mod fit;
 mod neighbours;

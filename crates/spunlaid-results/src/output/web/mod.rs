@@ -1,10 +1,12 @@
 //! The files of a web's results folder.
 
+mod advice;
 mod map;
 mod pieces;
 mod strands;
 mod summary;
 
+pub(crate) use advice::HOUR;
 pub use map::light_table;
 pub use pieces::{MapFile, Pictures};
 pub use summary::{Layer, Performance, Summary};

@@ -1,10 +1,12 @@
 //! `summary.json`: all results of a web.
 
+use super::advice::AdviceSummary;
 use crate::figures::SEEN;
 use crate::output::in_order::InOrder;
 use crate::output::spinline::SpinSummary;
 use serde::Serialize;
 use serde_json::Value as Json;
+use spunlaid::advice::Advice;
 use spunlaid::observe::{OF_SCANNED_PATCHES, OF_SCANS, ScanMeasure};
 use spunlaid::scan;
 use spunlaid::statistics::{Estimate, interval_of_deviation};
@@ -22,6 +24,8 @@ pub struct Summary<'a> {
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     layers: &'a [Layer],
     web: WebSummary,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    advice: Option<AdviceSummary>,
     #[serde(skip_serializing_if = "Option::is_none")]
     neighbours: Option<NeighboursSummary<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -271,7 +275,7 @@ impl<'a> Summary<'a> {
     /// Gathers everything.
     pub fn new(
         web: &Web,
-        findings: &Findings,
+        (findings, advice): (&Findings, Option<&Advice>),
         layers: &'a [Layer],
         performance: Performance,
         notes: &'a [String],
@@ -326,6 +330,7 @@ impl<'a> Summary<'a> {
                 sensitivities: levers.collect(),
                 ..WebSummary::of_map(&findings.laid.map, findings.clouds.as_ref(), patches.collect())
             },
+            advice: advice.map(AdviceSummary::new),
             neighbours: NeighboursSummary::of(findings, layers),
             scan: None,
             performance,
@@ -366,6 +371,7 @@ impl<'a> Summary<'a> {
             spunlaid_version: env!("CARGO_PKG_VERSION"),
             layers: &[],
             web: WebSummary { basis_weight_kg_m2, ..web },
+            advice: None,
             neighbours: None,
             scan: Some(InOrder(scan.collect())),
             performance,

@@ -1,22 +1,253 @@
-//! What to write in place of a key that a study cannot vary.
+//! The webs of advice: the same web with one setting of the line changed, on the belt that lays the same weight.
 
-use crate::case::keys;
+use super::super::{Overrides, file};
+use super::web::WebBase;
+use super::{Base, VariedKey};
+use crate::advice::{Change, ChangedKey, Setting};
+use crate::air::{Air, Flow};
+use crate::error::{Error, FileKind};
+use crate::layers::{LaydownSource, LayerSpec, Method, WebSpec};
+use crate::units::Dimension;
+use crate::web::Filaments;
+use std::path::Path;
 
-/// Advice for a key whose values a study cannot vary.
-pub(super) const TAKE_A_NUMBER: &str = "take a key whose value is a number or one of a few words";
+/// The factors by which settings are changed.
+const FACTORS: [f64; 2] = [0.8, 1.2];
+/// The change of the temperature of a die, for each of the factors [K].
+const KELVINS: [f64; 2] = [-10.0, 10.0];
 
-/// Advice for a name that a study cannot vary.
-pub(super) fn advice(name: &str) -> String {
-    match name {
-        "run.replicates" => return "write replicates = 10 in the study file, above its tables".to_owned(),
-        "run.seed" => return "write seed = 1 in the study file, above its tables".to_owned(),
-        _ => {}
+/// Reads the file of a web and makes the webs in which one setting of its line is changed.
+///
+/// # Errors
+/// If the web cannot be read.
+pub fn read_changes(path: &Path, set: Overrides<'_>) -> Result<Vec<Change>, Error> {
+    let text = file::read(path, FileKind::Web)?;
+    parse_changes(text, &path.display().to_string(), set)
+}
+
+/// [`read_changes`] of a text.
+///
+/// # Errors
+/// As [`read_changes`].
+pub fn parse_changes(text: String, name: &str, set: Overrides<'_>) -> Result<Vec<Change>, Error> {
+    let none = Overrides { values: &[], word: set.word };
+    let base = WebBase::new(text, name.to_owned(), [none, set])?;
+    let is_laid = |layer: &LayerSpec| matches!(layer.source, LaydownSource::Results { .. });
+    if base.spec().layers.iter().any(is_laid) {
+        // What has been flown lies on the belt of its flight.
+        return Ok(Vec::new());
     }
-    if keys::find(name).is_some() {
-        return TAKE_A_NUMBER.to_owned();
+    Ok(Line { base: &base }.changes())
+}
+
+/// A number that can be written in a file, of four digits.
+fn rounded(number: f64) -> f64 {
+    format!("{number:.3e}").parse().unwrap_or(number)
+}
+
+/// The throughput of a hole of a layer, with a power of the factor.
+fn throughput(layer: usize, power: f64) -> (String, f64) {
+    (format!("layer.{layer}.line.throughput"), power)
+}
+
+/// The line of a web, whose settings change.
+struct Line<'a> {
+    base: &'a WebBase,
+}
+
+/// Keys that change together, each with the power of the factor by which it changes.
+type Way = Vec<(String, f64)>;
+
+impl Line<'_> {
+    fn spec(&self) -> &WebSpec {
+        self.base.spec()
     }
-    match keys::nearest(name) {
-        Some(key) if key.varies => format!("did you mean {}?", key.name),
-        _ => "write the full name of a key of the case, like air.velocity".to_owned(),
+
+    fn changes(&self) -> Vec<Change> {
+        let mut changes = Vec::new();
+        let layers = self.spec().layers.len();
+        let numbered = |layer: usize| (layers > 1).then_some(layer);
+        for layer in 1..=layers {
+            changes.extend(self.change(
+                Setting::Throughput,
+                numbered(layer),
+                &[vec![throughput(layer, 1.0)]],
+            ));
+            changes.extend(self.change(Setting::Holes, numbered(layer), &[self.holes(layer)]));
+        }
+        for layer in (1..=layers).filter(|layer| self.spec().layers[layer - 1].source.case().is_none()) {
+            let way = vec![(format!("layer.{layer}.fibre.linear_density"), 1.0), throughput(layer, 0.0)];
+            changes.extend(self.change(Setting::Titre, numbered(layer), &[way]));
+        }
+        for (setting, ways) in self.of_all_layers() {
+            changes.extend(self.change(setting, None, &ways));
+        }
+        changes
+    }
+
+    /// The settings that all layers share, each with the ways to change it, the best first.
+    fn of_all_layers(&self) -> Vec<(Setting, Vec<Way>)> {
+        let alone = |keys: &[&str]| keys.iter().map(|key| vec![((*key).to_owned(), 1.0)]).collect();
+        let is_flown = |layer: &usize| self.spec().layers[layer - 1].source.case().is_some();
+        let fed = (1..=self.spec().layers.len()).filter(is_flown).map(|layer| throughput(layer, 0.0));
+        let titre = std::iter::once(("fibre.linear_density".to_owned(), 1.0)).chain(fed).collect();
+        let is_spun = self.base.number_of_cases("spinline.throughput").is_some();
+        let mut all = vec![
+            // The spinline decides the titre.
+            (Setting::Titre, if is_spun { Vec::new() } else { vec![titre] }),
+            (Setting::DrawingAir, alone(&["spinline.velocity_factor", "spinline.velocity"])),
+            (Setting::DieTemperature, alone(&["spinline.die_temperature"])),
+            (Setting::Distance, alone(&["belt.distance"])),
+            (Setting::AirSpeed, alone(&["air.speed_factor", "air.velocity"])),
+            (
+                Setting::Turbulence,
+                if self.is_evenly_turbulent() { alone(&["air.turbulence_intensity"]) } else { Vec::new() },
+            ),
+        ];
+        if self.spec().method == Method::SharedAir {
+            all.push((
+                Setting::Depth,
+                vec![self.of_each(|layer, filaments| match filaments {
+                    Filaments::Slot { .. } => vec![(format!("layer.{layer}.line.depth"), 1.0)],
+                    _ => Vec::new(),
+                })],
+            ));
+            all.push((
+                Setting::RowPlaces,
+                vec![self.of_each(|layer, filaments| {
+                    match filaments {
+                        Filaments::Rows(rows) => (1..)
+                            .zip(rows)
+                            .filter(|(_, row)| row.md != 0.0)
+                            .map(|(row, _)| (format!("layer.{layer}.line.rows.{row}.md"), 1.0))
+                            .collect(),
+                        _ => Vec::new(),
+                    }
+                })],
+            ));
+        }
+        all
+    }
+
+    /// Whether one number tells how turbulent the air of the cases is. A flow whose turbulence differs from place to place would become another flow.
+    fn is_evenly_turbulent(&self) -> bool {
+        let is_even = |air: &Air| match &air.flow {
+            Flow::Profile(profile) => profile.turbulence_intensity.windows(2).all(|pair| pair[0] == pair[1]),
+            Flow::Uniform | Flow::Field(_) => true,
+        };
+        let mut cases = self.spec().layers.iter().filter_map(|layer| layer.source.case());
+        cases.all(|case| {
+            !case.air.from_flow.turbulence_intensity || (!case.air.flow.is_field() && is_even(&case.air))
+        })
+    }
+
+    /// What each layer adds to a way.
+    fn of_each(&self, keys: impl Fn(usize, &Filaments) -> Way) -> Way {
+        (1..).zip(&self.spec().layers).flat_map(|(layer, of)| keys(layer, &of.filaments)).collect()
+    }
+
+    /// The keys of the holes of a layer.
+    fn holes(&self, layer: usize) -> Way {
+        let line = format!("layer.{layer}.line");
+        match &self.spec().layers[layer - 1].filaments {
+            Filaments::AtRandom { .. } | Filaments::Slot { .. } => {
+                vec![(format!("{line}.filaments_per_metre"), 1.0)]
+            }
+            Filaments::Rows(rows) => (1..)
+                .zip(rows)
+                .flat_map(|(number, row)| {
+                    let key = |name: &str, power| (format!("{line}.rows.{number}.{name}"), power);
+                    // A row stays as wide as it is.
+                    let pitch = (!row.is_even).then(|| key("pitch", -1.0));
+                    std::iter::once(key("filaments", 1.0)).chain(pitch)
+                })
+                .collect(),
+        }
+    }
+
+    /// The value of a key.
+    fn number(&self, name: &str, key: &VariedKey) -> Option<f64> {
+        let number = self.base.value(key);
+        if !number.is_nan() && !name.starts_with("layer.") {
+            return self.base.number_of_cases(name);
+        }
+        if !number.is_nan() {
+            return Some(number);
+        }
+        // Another key may stand in its place.
+        let layer = name.strip_prefix("layer.")?.split('.').next()?.parse::<usize>().ok()?;
+        let layer = self.spec().layers.get(layer.checked_sub(1)?)?;
+        if name.ends_with(".line.throughput") {
+            Some(layer.linear_density() * layer.feed_speed)
+        } else if name.ends_with(".fibre.linear_density") {
+            Some(layer.linear_density())
+        } else {
+            None
+        }
+    }
+
+    /// The webs with less and with more of a setting, in the first of some ways in which both can be made; none if there is no such way.
+    fn change(&self, setting: Setting, layer: Option<usize>, ways: &[Way]) -> Vec<Change> {
+        let of_way = |way: &Way| -> Option<Vec<Change>> {
+            let known: Vec<(VariedKey, f64, f64)> = (way.iter())
+                .map(|(name, power)| {
+                    let key = self.base.varied(name).ok()?;
+                    let number = self.number(name, &key).filter(|number| *number != 0.0)?;
+                    Some((key, number, *power))
+                })
+                .collect::<Option<_>>()?;
+            let some: Vec<Change> =
+                (0..FACTORS.len()).filter_map(|i| self.changed(setting, layer, &known, i)).collect();
+            (!some.is_empty() && !known.is_empty()).then_some(some)
+        };
+        ways.iter().find_map(of_way).unwrap_or_default()
+    }
+
+    /// The web with the known keys changed by one of the factors; None if it cannot be made.
+    fn changed(
+        &self,
+        setting: Setting,
+        layer: Option<usize>,
+        known: &[(VariedKey, f64, f64)],
+        which: usize,
+    ) -> Option<Change> {
+        let mut factor = 1.0_f64;
+        let to = |(key, from, power): &(VariedKey, f64, f64)| {
+            let to = match (setting, key.dimension()) {
+                (Setting::DieTemperature, Dimension::Temperature) => from + KELVINS[which],
+                _ if *power == 0.0 => *from,
+                _ if key.is_whole() => (from * FACTORS[which]).round().max(1.0),
+                _ if *power == 1.0 => rounded(from * FACTORS[which]),
+                _ => from * factor.powf(*power),
+            };
+            // What comes behind follows from the rounded number, as the pitch of a row from its holes.
+            if *power == 1.0 {
+                factor = to / from;
+            }
+            (key.clone(), to)
+        };
+        let values: Vec<(VariedKey, f64)> = known.iter().map(to).collect();
+        let mut spec = self.base.file(&values, None).ok()?.spec;
+        let belt = spec.belt_speed_for(self.weight());
+        let slowest = spec.layers.iter().map(|layer| layer.feed_speed).fold(f64::INFINITY, f64::min);
+        if belt.is_nan() || belt > slowest {
+            return None;
+        }
+        spec.set_belt_speed(belt);
+        let is_alone = self.spec().layers.len() == 1;
+        let changed = |((key, from, _), (_, to)): (&(VariedKey, f64, f64), &(VariedKey, f64))| {
+            let name = key.name.strip_prefix("layer.1.").filter(|_| is_alone).unwrap_or(&key.name);
+            let (dimension, whole) = (key.dimension(), key.is_whole());
+            (from != to).then(|| ChangedKey { key: name.to_owned(), dimension, whole, from: *from, to: *to })
+        };
+        let keys: Vec<ChangedKey> = known.iter().zip(&values).filter_map(changed).collect();
+        (!keys.is_empty()).then_some(Change { setting, layer, keys, spec })
+    }
+
+    /// Mass per area of the web [kg/m²].
+    fn weight(&self) -> f64 {
+        let spec = self.spec();
+        let belt = spec.layers.first().map_or(f64::NAN, |layer| layer.belt_speed);
+        spec.basis_weight.unwrap_or_else(|| spec.mass_flow() / belt)
     }
 }

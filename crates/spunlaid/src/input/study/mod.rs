@@ -12,9 +12,11 @@ mod points;
 mod reader;
 mod replicates;
 mod starter;
+mod unvaried;
 mod web;
 mod write;
 
+pub use advice::{parse_changes, read_changes};
 pub use differences::differences;
 pub use fit::{FitFile, parse_fit, read_fit};
 pub use points::StudyNote;

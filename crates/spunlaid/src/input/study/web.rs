@@ -2,15 +2,16 @@
 
 use super::super::web::{WebFile, parse_web_of_case, write_web};
 use super::super::{Overrides, document};
-use super::advice::TAKE_A_NUMBER;
 use super::plan::Plan;
 use super::reader::not_varied;
+use super::unvaried::TAKE_A_NUMBER;
 use super::{Base, MadeExperiment, VariedKey, level};
+use crate::case::Case;
 use crate::case::keys::{self, Value, nearest_word};
 use crate::error::{Error, Place, Problem};
 use crate::layers::full_names::{full_name, value, web_key, without_numbers};
 use crate::layers::keys::WEB;
-use crate::layers::{LaydownSource, WEB_KEYS, WebSpec};
+use crate::layers::{LaydownSource, LayerSpec, SAME, WEB_KEYS, WebSpec};
 use crate::study::{Experiment, Point, Quantity, Study};
 
 /// Why a key of a case has no meaning for a web.
@@ -81,19 +82,38 @@ impl WebBase {
         parse(&self.text, &self.path, &self.set, &point)
     }
 
+    /// The web before its keys vary.
+    pub(super) const fn spec(&self) -> &WebSpec {
+        &self.spec
+    }
+
+    /// The number of a key of the cases, if all that are flown have the same.
+    pub(super) fn number_of_cases(&self, name: &str) -> Option<f64> {
+        let number = |layer: &LayerSpec| Some(value_in_case(layer.source.case()?, name)?.number());
+        let mut numbers = self.spec.layers.iter().filter_map(number);
+        let first = numbers.next()??;
+        let is_same =
+            |other: Option<f64>| other.is_some_and(|other| (other - first).abs() <= SAME * first.abs());
+        numbers.all(is_same).then_some(first)
+    }
+
     /// The case that it flies, the first of several.
     fn case_value(&self, name: &str) -> Option<Value> {
         let case = self.spec.layers.iter().find_map(|layer| match &layer.source {
             LaydownSource::Case { case, .. } => Some(&**case),
             _ => None,
         });
-        let case = case?;
-        // The diameter of a case stands for its titre.
-        if name == "fibre.linear_density" {
-            Some(case.linear_density().into())
-        } else {
-            keys::find(name)?.get(case)
-        }
+        value_in_case(case?, name)
+    }
+}
+
+/// The value of a key of a case.
+fn value_in_case(case: &Case, name: &str) -> Option<Value> {
+    // The diameter of a case stands for its titre.
+    if name == "fibre.linear_density" {
+        Some(case.linear_density().into())
+    } else {
+        keys::find(name)?.get(case)
     }
 }
 

@@ -1,11 +1,11 @@
 //! Checks layers together: with each other, and with the sheet on which they lie.
 
-use super::read::{BELT_SPEED, Reading, SAME};
+use super::read::{BELT_SPEED, Reading};
 use crate::air::Lateral;
 use crate::case::{Note, Remark};
 use crate::error::{Fault, Place};
 use crate::layers::keys::{METHODS, WEB};
-use crate::layers::{LaydownSource, LayerSpec, WebKey, WebSpec, too_small};
+use crate::layers::{LaydownSource, LayerSpec, SAME, WebKey, WebSpec, too_small};
 use crate::units::Dimension;
 use crate::web::{Edges, Filaments, Row, Sheet};
 use std::collections::BTreeMap;

@@ -8,7 +8,7 @@ use crate::case::{Note, unusual};
 use crate::error::{Error, Fault, Finding};
 use crate::layers::full_names::{web_key, without_numbers};
 use crate::layers::keys::{WEB, in_rows};
-use crate::layers::{LaydownSource, LayerSpec, Method, WebKey, WebSpec};
+use crate::layers::{LaydownSource, LayerSpec, Method, SAME, WebKey, WebSpec};
 use crate::web::{Filaments, Row};
 use std::path::{Path, PathBuf};
 
@@ -23,8 +23,6 @@ pub(super) const BELT_SPEED: &str = "line.belt_speed";
 /// The keys that stand in place of the speeds.
 pub(super) const BASIS_WEIGHT: &str = "line.basis_weight";
 pub(super) const THROUGHPUT: &str = "line.throughput";
-/// Relative difference up to which two written numbers are the same.
-pub(super) const SAME: f64 = 1e-9;
 /// Relative difference up to which two numbers agree if one is rounded to three digits and the other follows from such numbers.
 pub(super) const ROUNDED: f64 = 5e-3;
 

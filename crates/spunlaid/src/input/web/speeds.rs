@@ -1,14 +1,12 @@
 //! The speeds of feed and belt: written, those of a flown case, or from the throughput and the basis weight in their place.
 
-use super::read::{BASIS_WEIGHT, BELT_SPEED, ROUNDED, Reading, SAME, THROUGHPUT};
-use crate::case::keys::{self, Value};
+use super::read::{BASIS_WEIGHT, BELT_SPEED, ROUNDED, Reading, THROUGHPUT};
 use crate::case::{Case, Note, Remark};
 use crate::error::{Fault, Place};
 use crate::layers::full_names::without_numbers;
-use crate::layers::{LaydownSource, LayerSpec, WebSpec};
+use crate::layers::{LaydownSource, LayerSpec, SAME, WebSpec};
 use crate::units::Dimension;
 use std::path::Path;
-use std::sync::Arc;
 
 /// The numbers of a case that follow from keys of its web.
 const OF_CASE: [(&str, &str); 3] =
@@ -173,17 +171,14 @@ impl Reading<'_> {
             self.written.reject(&key, Fault::new(message, "lay more, or feed faster"));
             return;
         }
-        for layer in &mut web.layers {
-            if let LaydownSource::Case { case, path } = &mut layer.source
+        for layer in &web.layers {
+            if let LaydownSource::Case { path, .. } = &layer.source
                 && (layer.belt_speed / belt - 1.0).abs() > SAME
             {
                 self.note_change(&key, "belt.speed", Dimension::Velocity, [belt, layer.belt_speed], path);
-                let speed = keys::find("belt.speed")
-                    .map(|speed| speed.apply(Arc::make_mut(case), &Value::Number(belt)));
-                drop(speed);
             }
-            layer.belt_speed = belt;
         }
+        web.set_belt_speed(belt);
     }
 
     /// Compares the basis weight with that on a belt whose speed is given too.

@@ -1,0 +1,105 @@
+//! What would make a web more even, in `summary.json`.
+
+use serde::Serialize;
+use spunlaid::advice::{Advice, Change, ChangedKey, CvChange, Effect};
+
+/// Seconds of an hour.
+pub(crate) const HOUR: f64 = 3600.0;
+
+/// What changed settings of the line do to the CV at the same basis weight.
+#[derive(Debug, Serialize)]
+pub(super) struct AdviceSummary {
+    changes: Vec<ChangeSummary>,
+    /// Changes that could not be flown or laid.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    failed: Vec<Failed>,
+}
+
+#[derive(Debug, Serialize)]
+struct ChangeSummary {
+    setting: &'static str,
+    /// Number of the layer, from 1; null where all layers change.
+    layer: Option<usize>,
+    keys: Vec<Key>,
+    belt_speed_m_s: f64,
+    /// Change as a share of the speed.
+    belt_speed_change: f64,
+    throughput_kg_h_m: f64,
+    throughput_change: f64,
+    patches: Vec<Patch>,
+}
+
+#[derive(Debug, Serialize)]
+struct Key {
+    key: String,
+    from: f64,
+    to: f64,
+    /// Unit of both; empty for pure numbers.
+    unit: &'static str,
+    /// The new value as it is written in a file.
+    written: String,
+}
+
+#[derive(Debug, Serialize)]
+struct Patch {
+    patch_m: f64,
+    /// Change of the CV as a share of it.
+    cv_change: f64,
+    /// Null for a single fibre.
+    standard_error: f64,
+    beyond_chance: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct Failed {
+    setting: &'static str,
+    layer: Option<usize>,
+    keys: Vec<Key>,
+    why: String,
+}
+
+fn keys(change: &Change) -> Vec<Key> {
+    let key = |changed: &ChangedKey| Key {
+        key: changed.key.clone(),
+        from: changed.from,
+        to: changed.to,
+        unit: changed.dimension.si_unit(),
+        written: if changed.whole {
+            format!("{:.0}", changed.to)
+        } else {
+            changed.dimension.exact(changed.to)
+        },
+    };
+    change.keys.iter().map(key).collect()
+}
+
+impl AdviceSummary {
+    pub(super) fn new(advice: &Advice) -> Self {
+        let patch = |cv: &CvChange| Patch {
+            patch_m: cv.patch,
+            cv_change: cv.change,
+            standard_error: cv.standard_error,
+            beyond_chance: cv.is_beyond_chance(),
+        };
+        let change = |effect: &Effect| ChangeSummary {
+            setting: effect.change.setting.name(),
+            layer: effect.change.layer,
+            keys: keys(&effect.change),
+            belt_speed_m_s: effect.belt_speed[1],
+            belt_speed_change: effect.belt_speed[1] / effect.belt_speed[0] - 1.0,
+            throughput_kg_h_m: HOUR * effect.mass_flow[1],
+            throughput_change: effect.mass_flow[1] / effect.mass_flow[0] - 1.0,
+            patches: effect.cvs.iter().map(patch).collect(),
+        };
+        let failed = |(change, why): &(Change, String)| Failed {
+            setting: change.setting.name(),
+            layer: change.layer,
+            keys: keys(change),
+            why: why.clone(),
+        };
+        Self {
+            changes: advice.effects.iter().map(change).collect(),
+            failed: advice.failed.iter().map(failed).collect(),
+        }
+    }
+}

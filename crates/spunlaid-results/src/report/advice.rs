@@ -1,0 +1,158 @@
+//! What would make a web more even, for people: the sentence under the headline, and a table of all settings that were tried.
+
+use super::web::{grams, headline_patch};
+use super::words::millimetres;
+use crate::numbers::{THIN, plus_minus, significant};
+use crate::output::web::HOUR;
+use spunlaid::advice::{Advice, Change, ChangedKey, CvChange, Effect, Setting};
+use spunlaid::layers::WebSpec;
+use spunlaid::web::Findings;
+
+const PER_CENT: f64 = 100.0;
+/// Largest number of settings that the sentence names.
+const NAMED: usize = 2;
+
+/// What a report says of the settings: a sentence, and a table.
+#[derive(Default)]
+pub(super) struct AdviceSection {
+    /// [`advice_words`]; empty for a web that is no simulated one.
+    pub(super) sentence: String,
+    pub(super) heads: Vec<String>,
+    /// Of each row the change, its keys, and the other cells.
+    pub(super) rows: Vec<(String, String, Vec<String>)>,
+    pub(super) caption: String,
+}
+
+/// Which changed settings lower the CV of a web most, by how much, and what they cost in throughput: a sentence or two.
+///
+/// * `advice` – None if no change was tried
+pub fn advice_words(spec: &WebSpec, findings: &Findings, advice: Option<&Advice>) -> String {
+    let Some(advice) = advice else {
+        return "What would make it more even was not tried: spunlaid web with --advice flies it anew for each setting of the line.".to_owned();
+    };
+    let Some(i) = headline_patch(findings) else { return String::new() };
+    let patch = findings.patches[i].map.patch;
+    if advice.effects.is_empty() {
+        return "What would make it more even cannot be tried: its fibres have been flown above this belt, or no setting of its line can be changed. Name a \
+                case to fly (laydown.case)."
+            .to_owned();
+    }
+    let lowering = advice.lowering(patch);
+    let weight = grams(findings.within().basis_weight());
+    let what = if findings.laid.together.is_some() { "CV" } else { "expected CV" };
+    let place = format!("over patches of {}", millimetres(patch));
+    if lowering.is_empty() {
+        return format!(
+            "At the same {weight}, none of the {} changes of the line that were tried lowers the {what} {place} by more than 1{THIN}% and beyond chance.",
+            advice.effects.len()
+        );
+    }
+    let named: Vec<String> = lowering
+        .iter()
+        .take(NAMED)
+        .map(|(effect, cv)| {
+            format!("{} ({}{THIN}%), {}", more_or_less(&effect.change, spec), per_cent(cv), cost(effect))
+        })
+        .collect();
+    format!("At the same {weight}, the {what} {place} falls most with {}.", named.join("; then with "))
+        + if is_known(spec) {
+            " The lay-down itself is taken as it is, because no fibre was flown."
+        } else {
+            ""
+        }
+}
+
+/// Whether nothing of the web was flown.
+fn is_known(spec: &WebSpec) -> bool {
+    spec.layers.iter().all(|layer| layer.source.case().is_none())
+}
+
+/// `−10.6 ± 0.7`.
+fn per_cent(cv: &CvChange) -> String {
+    let error = Some(PER_CENT * cv.standard_error).filter(|error| error.is_finite());
+    plus_minus(PER_CENT * cv.change, error)
+}
+
+/// `20 % less titre, 2 to 1.6 dtex`.
+fn more_or_less(change: &Change, spec: &WebSpec) -> String {
+    let whose = match change.layer {
+        Some(layer) => format!(" of layer {}", name_of(spec, layer)),
+        None => String::new(),
+    };
+    let values = change.keys.first().map_or_else(String::new, values);
+    format!("{} {}{whose}, {values}", share(change), change.setting.words())
+}
+
+fn name_of(spec: &WebSpec, layer: usize) -> String {
+    let named = spec.layers.get(layer - 1).and_then(|layer| layer.name.clone());
+    named.unwrap_or_else(|| layer.to_string())
+}
+
+/// `20 % less`, or `10 °C more`.
+fn share(change: &Change) -> String {
+    let Some(key) = change.keys.first() else { return String::new() };
+    let way = match (key.to < key.from, key.whole) {
+        (true, true) => "fewer",
+        (true, false) => "less",
+        (false, _) => "more",
+    };
+    if change.setting == Setting::DieTemperature {
+        return format!("{}{THIN}°C {way}", significant((key.to - key.from).abs(), 3));
+    }
+    format!("{}{THIN}% {way}", significant(PER_CENT * (key.to / key.from - 1.0).abs(), 3))
+}
+
+fn values(key: &ChangedKey) -> String {
+    format!("{} to {}", key.pretty(key.from), key.pretty(key.to))
+}
+
+/// What a change costs in throughput.
+fn cost(effect: &Effect) -> String {
+    let [before, after] = effect.mass_flow;
+    let change = after / before - 1.0;
+    if change.abs() < 1e-6 {
+        return "with the same throughput".to_owned();
+    }
+    let way = if change < 0.0 { "less" } else { "more" };
+    format!("with {}{THIN}% {way} throughput", significant(PER_CENT * change.abs(), 2))
+}
+
+impl AdviceSection {
+    /// * `advice` – None if no change was tried
+    pub(super) fn new(spec: &WebSpec, findings: &Findings, advice: Option<&Advice>) -> Self {
+        let sentence = advice_words(spec, findings, advice);
+        let Some(advice) = advice else { return Self { sentence, ..Self::default() } };
+        let patches: Vec<f64> = findings.patches.iter().map(|patch| patch.map.patch).collect();
+        let row = |effect: &Effect| {
+            let key = |changed: &ChangedKey| changed.key.clone();
+            let keys = effect.change.keys.iter().map(key).collect::<Vec<_>>().join(", ");
+            let cv = |patch: &f64| effect.over(*patch).map_or_else(|| "–".to_owned(), per_cent);
+            let line = [effect.belt_speed[1], HOUR * effect.mass_flow[1]].map(|of| significant(of, 4));
+            let cells = patches.iter().map(cv).chain(line).collect();
+            (more_or_less(&effect.change, spec), keys, cells)
+        };
+        let heads = (patches.iter().map(|patch| format!("CV at {}, %", millimetres(*patch))))
+            .chain(["Belt, m/s".to_owned(), "From each metre, kg/h".to_owned()])
+            .collect();
+        let failed: Vec<String> = (advice.failed.iter())
+            .map(|(change, why)| format!("{}: {why}", more_or_less(change, spec)))
+            .collect();
+        let error = if findings.laid.together.is_some() {
+            "which counts both maps as independent"
+        } else if is_known(spec) {
+            "from paths with the same random numbers before and after; the lay-down itself (σ MD, σ CD, A) is taken as it is, because no fibre was flown"
+        } else {
+            "over the flown fibres, each compared with itself in the same gusts before the change"
+        };
+        let mut caption = format!(
+            "Change of the CV as a share of it when one setting of the line is changed and the belt follows, so that the basis weight stays {}: over patches of \
+             each size, ± one standard error, {error}. All that is not named stays; with another titre the throughput of a hole stays and the filament is fed \
+             slower or faster.",
+            grams(findings.within().basis_weight())
+        );
+        if !failed.is_empty() {
+            caption += &format!(" These could not be tried: {}.", failed.join("; "));
+        }
+        Self { sentence, heads, rows: advice.effects.iter().map(row).collect(), caption }
+    }
+}

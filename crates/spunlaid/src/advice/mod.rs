@@ -1,0 +1,213 @@
+//! What would make a web more even at the same basis weight, in settings of the machine.
+//!
+//! ```text
+//! settings of the line → webs with one of them changed, on the belt that lays the same weight
+//!   → flown anew in the same gusts → expected CV, compared with that of the web itself fibre by fibre → Advice
+//! ```
+
+mod setting;
+
+pub use setting::{Change, ChangedKey, Setting};
+
+use crate::error::Error;
+use crate::layers::{Flights, Flyer, LaydownSource, LayerSpec, Method, WebSpec};
+use crate::statistics::Difference;
+use crate::threads::try_each;
+use crate::web::uniformity::Unevenness;
+use crate::web::{ExpectedCv, Findings, Laying, PatchFindings, Web, expected_cv};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// What changes of settings do to the CV of a web.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Advice {
+    /// The changes, each with what it does.
+    pub effects: Vec<Effect>,
+    /// Changes that cannot be flown or laid, and why.
+    pub failed: Vec<(Change, String)>,
+}
+
+/// What a change does.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Effect {
+    /// The change.
+    pub change: Change,
+    /// Speed of the belt before and after [m/s].
+    pub belt_speed: [f64; 2],
+    /// Mass that is laid per time and width before and after [kg/(m s)].
+    pub mass_flow: [f64; 2],
+    /// What becomes of the CV over patches of each size.
+    pub cvs: Vec<CvChange>,
+}
+
+/// What a change does to the CV over patches of one size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CvChange {
+    /// Side of the patches [m].
+    pub patch: f64,
+    /// Change of the CV as a share of it: negative for a more even web.
+    pub change: f64,
+    /// Its standard error.
+    pub standard_error: f64,
+    /// Degrees of freedom of the error.
+    pub degrees: f64,
+}
+
+impl CvChange {
+    /// Whether the 95 % confidence interval leaves out zero.
+    pub fn is_beyond_chance(&self) -> bool {
+        let Self { change: value, standard_error, degrees, .. } = *self;
+        Difference { value, standard_error, degrees }.is_beyond_chance()
+    }
+}
+
+impl Effect {
+    /// What it does over patches of this side [m].
+    pub fn over(&self, patch: f64) -> Option<&CvChange> {
+        self.cvs.iter().find(|cv| cv.patch == patch)
+    }
+}
+
+/// Least change of a CV that is advice, as a share of it.
+const LEAST: f64 = 0.01;
+
+impl Advice {
+    /// The changes that lower the CV over patches of this side by at least one per cent of it and beyond chance: the best of each setting, and of these the best first.
+    pub fn lowering(&self, patch: f64) -> Vec<(&Effect, &CvChange)> {
+        let lowers = |effect| {
+            let cv: &CvChange = Effect::over(effect, patch)?;
+            (cv.change <= -LEAST && cv.is_beyond_chance()).then_some((effect, cv))
+        };
+        let mut lowering: Vec<(&Effect, &CvChange)> = self.effects.iter().filter_map(lowers).collect();
+        lowering.sort_by(|a, b| a.1.change.total_cmp(&b.1.change));
+        let setting = |effect: &Effect| (effect.change.setting, effect.change.layer);
+        let mut settings = Vec::new();
+        lowering.retain(|(effect, _)| {
+            let is_new = !settings.contains(&setting(effect));
+            settings.push(setting(effect));
+            is_new
+        });
+        lowering
+    }
+}
+
+/// Steps of all fibres of the flights that it takes to try some changes; for a web in one air it is not known.
+pub fn steps(changes: &[Change]) -> u64 {
+    changes.iter().map(|change| steps_of_web(&change.spec)).sum()
+}
+
+fn steps_of_web(spec: &WebSpec) -> u64 {
+    let mut cases: Vec<_> = (spec.layers.iter())
+        .filter_map(|layer| match &layer.source {
+            LaydownSource::Case { path, case } => Some((path, case)),
+            _ => None,
+        })
+        .collect();
+    cases.dedup();
+    cases.iter().map(|(_, case)| case.run.steps * case.run.replicates).sum()
+}
+
+/// Tries changes of a web.
+///
+/// * `web`, `findings` – the web as it is, and what was found of it
+/// * `by` – its counter grows by the [`steps`] of the changes that are done
+///
+/// # Errors
+/// If it is stopped, or if nothing is expected of the web as it is.
+pub fn advise(
+    spec: &WebSpec,
+    (web, findings): (&Web, &Findings),
+    changes: Vec<Change>,
+    by: Laying<'_>,
+) -> Result<Advice, Error> {
+    let is_shared = spec.method == Method::SharedAir;
+    let aside = AtomicU64::new(0);
+    let base = if is_shared {
+        Unevennesses::OfMaps(findings.patches.clone())
+    } else {
+        Unevennesses::Expected(expected_cv(web, Laying { laid: &aside, ..by })?)
+    };
+    // A flight of eight fibres takes one thread, and many changes are tried side by side. All filaments in one air take all threads.
+    let (abreast, threads) = if is_shared { (1, by.threads) } else { (by.threads, 1) };
+    let tried = try_each(abreast, changes.len(), |i| {
+        let spec = &changes[i].spec;
+        let tried = unevennesses(spec, Laying { threads, laid: &aside, ..by });
+        by.laid.fetch_add(steps_of_web(spec), Ordering::Relaxed);
+        match tried {
+            Ok(found) => Ok(Ok(base.changes_to(&found))),
+            Err(Error::Interrupted) => Err(Error::Interrupted),
+            Err(error) => Ok(Err(error.to_string())),
+        }
+    })?;
+    let belt_speed = |spec: &WebSpec| spec.layers.first().map_or(f64::NAN, |layer| layer.belt_speed);
+    let mut advice = Advice::default();
+    for (change, tried) in changes.into_iter().zip(tried) {
+        match tried {
+            Ok(cvs) => advice.effects.push(Effect {
+                belt_speed: [spec, &change.spec].map(belt_speed),
+                mass_flow: [spec, &change.spec].map(WebSpec::mass_flow),
+                change,
+                cvs,
+            }),
+            Err(why) => advice.failed.push((change, why)),
+        }
+    }
+    Ok(advice)
+}
+
+/// How uneven a web is over patches of each size.
+enum Unevennesses {
+    /// As it is expected of independent filaments.
+    Expected(Vec<ExpectedCv>),
+    /// On the map of filaments in one air.
+    OfMaps(Vec<PatchFindings>),
+}
+
+impl Unevennesses {
+    /// The changes from these numbers to others, over the patches that both have.
+    fn changes_to(&self, other: &Self) -> Vec<CvChange> {
+        match (self, other) {
+            (Self::Expected(here), Self::Expected(there)) => {
+                let to = |here: &ExpectedCv| {
+                    let there = there.iter().find(|there| there.patch == here.patch)?;
+                    let (change, standard_error) = here.change_to(there);
+                    let degrees = here.fibres().min(there.fibres()).max(2) as f64 - 1.0;
+                    Some(CvChange { patch: here.patch, change, standard_error, degrees })
+                };
+                here.iter().filter_map(to).collect()
+            }
+            (Self::OfMaps(here), Self::OfMaps(there)) => {
+                let to = |here: &PatchFindings| {
+                    let (here, there) =
+                        (here.map, there.iter().find(|there| there.map.patch == here.map.patch)?.map);
+                    let ratio = there.cv / here.cv;
+                    let share = |of: Unevenness| of.standard_error.map_or(f64::NAN, |error| error / of.cv);
+                    let standard_error = ratio * share(here).hypot(share(there));
+                    Some(CvChange {
+                        patch: here.patch,
+                        change: ratio - 1.0,
+                        standard_error,
+                        degrees: f64::INFINITY,
+                    })
+                };
+                here.iter().filter_map(to).collect()
+            }
+            // Both webs are laid by the same method.
+            _ => Vec::new(),
+        }
+    }
+}
+
+fn unevennesses(spec: &WebSpec, by: Laying<'_>) -> Result<Unevennesses, Error> {
+    let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
+    let is_flown = |layer: &LayerSpec| matches!(layer.source, LaydownSource::Case { .. });
+    // The flown curves are compared, whether a surrogate is found in them or not.
+    let method = match spec.method {
+        Method::Surrogate if spec.layers.iter().all(is_flown) => Method::Dynamics,
+        method => method,
+    };
+    let mut flown = Flyer::new(by.threads, by.stop, &follow).web(&WebSpec { method, ..spec.clone() })?;
+    Ok(match spec.method {
+        Method::SharedAir => Unevennesses::OfMaps(flown.measure(by)?.patches),
+        Method::Surrogate | Method::Dynamics => Unevennesses::Expected(expected_cv(&flown.web, by)?),
+    })
+}

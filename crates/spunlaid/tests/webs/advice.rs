@@ -1,0 +1,197 @@
+//! Advice: what settings of a line do to the CV of its web at the same basis weight.
+
+use spunlaid::advice::{Advice, Change, Setting, advise};
+use spunlaid::error::Error;
+use spunlaid::input::{LaydownSource, Overrides, WebFile, WebSpec, parse_changes, parse_web};
+use spunlaid::lanes::Isa;
+use spunlaid::layers::{Flights, Flyer};
+use spunlaid::web::Laying;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, AtomicU64};
+
+/// Filaments that hardly bend within the patch of 2 mm, and lie far from themselves.
+const STRAIGHT: &str = "
+[fibre]
+linear_density = \"2 dtex\"
+density = \"910 kg/m³\"
+[laydown]
+sigma_md = \"30 mm\"
+sigma_cd = \"30 mm\"
+noise = \"4 m^-0.5\"
+[line]
+throughput = \"0.5 g/min\"
+belt_speed = \"10 m/s\"
+filaments_per_metre = 2000
+[web]
+width = \"250 mm\"
+length = \"250 mm\"
+cell = \"1 mm\"
+patches = [\"2 mm\"]
+";
+
+/// Two beams: one is flown, and the other one is in numbers and rows.
+const BEAMS: &str = "
+[[layer]]
+[layer.laydown]
+case = \"spunbond.toml\"
+[layer.line]
+filaments_per_metre = 3000
+[[layer]]
+name = \"M\"
+[layer.fibre]
+diameter = \"4 µm\"
+density = \"910 kg/m³\"
+[layer.laydown]
+sigma_md = \"9 mm\"
+sigma_cd = \"8 mm\"
+noise = \"15 m^-0.5\"
+[layer.line]
+feed_speed = \"40 m/s\"
+rows = [{ pitch = \"0.5 mm\", filaments = 500 }, { pitch = \"1 mm\", filaments = 250, md = \"4 mm\" }]
+[web]
+width = \"250 mm\"
+length = \"250 mm\"
+";
+
+fn cases() -> String {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/web.toml").display().to_string()
+}
+
+fn read(text: &str, set: &[(&str, &str)]) -> (WebFile, Vec<Change>) {
+    let set: Vec<(String, String)> =
+        set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+    let set = Overrides { values: &set, word: "--set" };
+    (parse_web(text, &cases(), set).unwrap(), parse_changes(text.to_owned(), &cases(), set).unwrap())
+}
+
+fn advice(text: &str, threads: usize, stop: &AtomicBool) -> Result<Advice, Error> {
+    let (file, changes) = read(text, &[]);
+    let (laid, on) = (AtomicU64::new(0), AtomicBool::new(false));
+    let by = Laying { threads, isa: Isa::detect(), stop: &on, laid: &laid };
+    let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
+    let mut flown = Flyer::new(threads, &on, &follow).web(&file.spec).unwrap();
+    let findings = flown.measure(by).unwrap();
+    advise(&file.spec, (&flown.web, &findings), changes, Laying { stop, ..by })
+}
+
+fn weight(spec: &WebSpec) -> f64 {
+    spec.mass_flow() / spec.layers[0].belt_speed
+}
+
+/// The settings that are changed, each with its layer.
+fn settings(changes: &[Change]) -> Vec<(Setting, Option<usize>)> {
+    let mut settings: Vec<_> = changes.iter().map(|change| (change.setting, change.layer)).collect();
+    settings.dedup();
+    settings
+}
+
+#[test]
+fn invariant_every_changed_web_has_the_same_basis_weight() {
+    use Setting::{
+        AirSpeed, Depth, DieTemperature, Distance, DrawingAir, Holes, Throughput, Titre, Turbulence,
+    };
+    let file = |name: &str| std::fs::read_to_string(Path::new(&cases()).with_file_name(name)).unwrap();
+    let alone = |all: &[Setting]| all.iter().map(|setting| (*setting, None)).collect::<Vec<_>>();
+    let flown = alone(&[Throughput, Holes, Titre, Distance, AirSpeed, Turbulence]);
+    let spun = alone(&[Throughput, Holes, DrawingAir, DieTemperature, Distance, AirSpeed, Turbulence]);
+    let beams =
+        [(Throughput, Some(1)), (Holes, Some(1)), (Throughput, Some(2)), (Holes, Some(2)), (Titre, Some(2))];
+    let beams = [&beams[..], &alone(&[Titre, Distance, AirSpeed, Turbulence])].concat();
+    let weight_written: &[(&str, &str)] = &[("line.basis_weight", "15 g/m²")];
+    for (text, set, wanted) in [
+        (STRAIGHT, &[][..], alone(&[Throughput, Holes, Titre])),
+        (STRAIGHT, weight_written, alone(&[Throughput, Holes, Titre])),
+        (BEAMS, &[], beams),
+        (&file("web.toml"), &[], flown.clone()),
+        (&file("web.toml"), weight_written, flown.clone()),
+        (&file("web_shared.toml"), &[], [&flown[..], &alone(&[Depth])].concat()),
+        (&file("whole_line.toml"), &[], spun),
+    ] {
+        let (base, changes) = read(text, set);
+        assert_eq!(settings(&changes), wanted, "{set:?}");
+        assert_eq!(changes.len(), 2 * wanted.len());
+        for change in &changes {
+            let name = format!("{:?} {:?}", change.setting, change.keys);
+            // Rounding only.
+            assert!((weight(&change.spec) / weight(&base.spec) - 1.0).abs() < 1e-9, "{name}");
+            for (before, after) in base.spec.layers.iter().zip(&change.spec.layers) {
+                // All lie on one belt, above which the cases are flown.
+                assert_eq!(after.belt_speed, change.spec.layers[0].belt_speed, "{name}");
+                if let LaydownSource::Case { case, .. } = &after.source {
+                    assert_eq!(case.line.unwrap().belt_speed, after.belt_speed, "{name}");
+                }
+                let throughput = |of: &spunlaid::input::LayerSpec| of.linear_density() * of.feed_speed;
+                if change.setting != Throughput {
+                    assert!((throughput(after) / throughput(before) - 1.0).abs() < 1e-9, "{name}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_change_of_one_beam_leaves_the_other_one_as_it_is() {
+    let (base, changes) = read(BEAMS, &[]);
+    let of = |setting: Setting, layer| {
+        changes.iter().find(|change| (change.setting, change.layer) == (setting, layer)).unwrap()
+    };
+    let holes = of(Setting::Holes, Some(2));
+    assert_eq!(holes.spec.layers[0].filaments, base.spec.layers[0].filaments);
+    assert_eq!(holes.spec.layers[1].filaments.count(&base.spec.sheet), 600);
+    let keys: Vec<(&str, f64)> = holes.keys.iter().map(|key| (&*key.key, key.to)).collect();
+    // The rows stay as wide as they are.
+    assert_eq!(
+        keys,
+        [
+            ("layer.2.line.rows.1.filaments", 400.0),
+            ("layer.2.line.rows.1.pitch", 0.5e-3 / 0.8),
+            ("layer.2.line.rows.2.filaments", 200.0),
+            ("layer.2.line.rows.2.pitch", 1e-3 / 0.8),
+        ]
+    );
+    let titre = of(Setting::Titre, Some(2));
+    assert_eq!(titre.spec.layers[0].source, base.spec.layers[0].source);
+    assert!(
+        (titre.spec.layers[1].linear_density() / base.spec.layers[1].linear_density() - 0.8).abs() < 1e-3
+    );
+}
+
+/// CV² of straight independent filaments goes with their mass per length at the same weight, theory.md (72). The number of holes, on a faster belt, and the
+/// throughput do not change it.
+#[test]
+fn analytic_titre_of_straight_filaments() {
+    let advice = advice(STRAIGHT, 2, &AtomicBool::new(false)).unwrap();
+    assert_eq!(advice.failed, []);
+    let change = |setting: Setting, more: bool| {
+        let found = advice.effects.iter().find(|effect| {
+            effect.change.setting == setting
+                && (effect.change.keys[0].to > effect.change.keys[0].from) == more
+        });
+        found.unwrap().cvs[0]
+    };
+    for (more, titre) in [(false, 0.8_f64), (true, 1.2)] {
+        let cv = change(Setting::Titre, more);
+        println!("{more}: {} ± {}, {}", cv.change, cv.standard_error, titre.sqrt() - 1.0);
+        // Four standard errors of few paths, and a per cent for where a filament meets itself.
+        let tolerance = 4.0 * cv.standard_error + 0.01;
+        assert!((cv.change - (titre.sqrt() - 1.0)).abs() < tolerance, "{cv:?}");
+        assert!(tolerance < 0.04, "{cv:?}");
+        // With more throughput the belt is as much faster, and the same paths lie on it.
+        assert!(change(Setting::Throughput, more).change.abs() < 1e-9);
+    }
+    let [(effect, cv), ..] = advice.lowering(2e-3)[..] else { panic!("nothing lowers it") };
+    assert_eq!((effect.change.setting, cv.change < -0.05), (Setting::Titre, true));
+    assert!((effect.mass_flow[1] / effect.mass_flow[0] - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn identical_advice_from_any_number_of_threads() {
+    let run = AtomicBool::new(false);
+    assert_eq!(advice(STRAIGHT, 1, &run).unwrap(), advice(STRAIGHT, 3, &run).unwrap());
+}
+
+#[test]
+fn advice_ends_when_it_is_stopped() {
+    let stopped = advice(STRAIGHT, 2, &AtomicBool::new(true));
+    assert!(matches!(stopped, Err(Error::Interrupted)), "{stopped:?}");
+}
