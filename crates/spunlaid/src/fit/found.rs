@@ -144,15 +144,16 @@ struct Surface {
 }
 
 impl Surface {
+    /// * `known` – indices of the keys that may change something
     /// * `slopes` – by each key
     /// * `other_errors` – of the logarithms, by causes other than chance
     fn new(
         webs: &Webs<'_>,
         place: &Place,
+        mut known: Vec<usize>,
         (here, slopes): (Vec<f64>, &Matrix),
         other_errors: &Matrix,
     ) -> Self {
-        let mut known: Vec<usize> = (0..slopes.len()).collect();
         let (slopes, gain_of_all) = loop {
             let slopes: Matrix = known.iter().map(|key| slopes[*key].clone()).collect();
             match gain(&place.weights, &slopes) {
@@ -301,7 +302,8 @@ pub(super) struct Found {
 /// As [`Webs::trial`].
 pub(super) fn found(webs: &mut Webs<'_>, place: &Place, other_errors: &Matrix) -> Result<Found, Error> {
     let here = webs.trials[place.trial].clone();
-    let rough = Surface::new(webs, place, (here.mean.clone(), &place.slopes), other_errors);
+    let all = (0..webs.parameters.len()).collect();
+    let rough = Surface::new(webs, place, all, (here.mean.clone(), &place.slopes), other_errors);
     let mut profiles = vec![Vec::new(); webs.parameters.len()];
     let mut reach = vec![0.0; webs.parameters.len()];
     for (own, key) in rough.known.iter().enumerate() {
@@ -314,7 +316,7 @@ pub(super) fn found(webs: &mut Webs<'_>, place: &Place, other_errors: &Matrix) -
     if let Some(polynomials) = Polynomials::new(webs, place, &known) {
         for _ in 0..MOST {
             let (numbers, slopes) = polynomials.at(&step);
-            let next = Surface::new(webs, place, (numbers, &slopes), other_errors);
+            let next = Surface::new(webs, place, exact.known.clone(), (numbers, &slopes), other_errors);
             let further = next.step(webs, place, &step);
             exact = next;
             // No further than trials have been.
@@ -349,13 +351,16 @@ pub(super) fn found(webs: &mut Webs<'_>, place: &Place, other_errors: &Matrix) -
     Ok(Found { fit: Fit { correlations, alike, ..fit }, at, far })
 }
 
+/// Values of a key with their least misfits, and how far from the place polynomials hold.
+type Profile = (Vec<(f64, f64)>, f64);
+
 /// The least misfit for other values of a key, and how far from the place they are.
 fn profile(
     webs: &mut Webs<'_>,
     place: &Place,
     surface: &Surface,
     (own, error): (usize, f64),
-) -> Result<(Vec<(f64, f64)>, f64), Error> {
+) -> Result<Profile, Error> {
     let known = &surface.known;
     let here = webs.trials[place.trial].at.clone();
     let information = information(&place.weights, &surface.slopes);
@@ -389,11 +394,14 @@ fn profile(
             let rest = rest(webs, trial);
             let left = gain.as_ref().map_or_else(|_| rest.clone(), |gain| unexplained(gain, &slopes, &rest));
             profile.push((parameter.value(at[key]), misfit(&place.weights, &left)));
-            reach = reach.max(step.abs());
+            // Polynomials of second order hold within a standard error.
+            if distance.abs() <= 1.0 {
+                reach = reach.max(step.abs());
+            }
         }
     }
     profile.sort_by(|a, b| a.0.total_cmp(&b.0));
-    Ok((profile, 1.01 * reach))
+    Ok((profile, 1.05 * reach))
 }
 
 /// The keys with their values and intervals.

@@ -48,7 +48,7 @@ pub const USUAL_WEBS: u64 = 20;
 /// Most searches after the first one.
 const ROUNDS: usize = 3;
 /// Values that are further from the place where a search has ended are sought anew from there [standard errors].
-const FAR: f64 = 1.0;
+const FAR: f64 = 0.9;
 
 /// What is sought, and in what.
 #[derive(Clone, Copy)]

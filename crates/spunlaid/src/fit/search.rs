@@ -30,7 +30,7 @@ pub(super) struct Place {
     pub(super) trial: usize,
     /// Slopes of the numbers by each key.
     pub(super) slopes: Matrix,
-    /// Weights of the numbers.
+    /// Weights of the numbers, by the webs of the trial.
     pub(super) weights: Matrix,
     /// Whether no step of any length is left to do.
     pub(super) settled: bool,
@@ -92,6 +92,8 @@ pub(super) fn search(webs: &mut Webs<'_>, mut trial: usize, weights: Matrix) -> 
         }
     }
     let slopes = slopes(webs, trial, &steps, true)?;
+    // The scan stands beside the webs of this trial from here on.
+    let weights = weights_at(webs, trial)?;
     // Where misfits differ by less than slopes of finite steps can tell, no step makes them less.
     let errors = standard_errors(&weights, &slopes, webs.count);
     let to = stepped(webs, trial, &weights, &slopes, &rest(webs, trial), 0.0);
