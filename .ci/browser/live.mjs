@@ -3,7 +3,7 @@
 // Started by `check`, which says where Chromium and playwright-core are.
 
 import { execFileSync, spawn } from "node:child_process";
-import { mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { dirname, join, resolve } from "node:path";
@@ -44,9 +44,9 @@ function ofRun(velocity) {
   return [1e3 * mean, 1e3 * error];
 }
 
-/** Starts the program; returns its process and the address of its page. */
-async function start(name) {
-  const live = spawn(program, ["live", join(cases, name), "--no-open"], { cwd: folder });
+/** Starts the program with a case of `cases/` or of another folder; returns its process and the address of its page. */
+async function start(name, ...more) {
+  const live = spawn(program, ["live", resolve(cases, name), "--no-open", ...more], { cwd: folder });
   const address = await new Promise((found, lost) => {
     live.stdout.once("data", (text) => found(String(text).trim()));
     live.once("exit", (code) => lost(new Error(`spunlaid live ${name} ended with code ${code}`)));
@@ -63,12 +63,13 @@ function computed(pid) {
 /** Resident memory [MB]. */
 const resident = (pid) => Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${pid}/status`, "utf8"))[1]) / 1024;
 
-async function open(browser, address, { scheme = "light", width = 1280 } = {}) {
+async function open(browser, address, { scheme = "light", width = 1280, alone = false } = {}) {
   const where = `${scheme}, ${width} px`;
   const page = await browser.newPage({ viewport: { width, height: 860 }, colorScheme: scheme });
   page.on("pageerror", (error) => failures.push(`${where}: script error: ${error.message}`));
   page.on("console", (message) => {
-    if (message.type() === "error") failures.push(`${where}: console error: ${message.text()}`);
+    // The browser itself complains where nobody answers.
+    if (message.type() === "error" && !alone) failures.push(`${where}: console error: ${message.text()}`);
   });
   page.on("request", (request) => {
     const { protocol, host } = new URL(request.url());
@@ -218,6 +219,88 @@ async function checkFed(browser) {
   return [`a fed fibre: σ ${sigma?.value?.toFixed(1)} ± ${sigma?.error?.toFixed(1)} mm in machine direction`];
 }
 
+/** Whether an element is red: its border, or its text. */
+const isRed = (place, property) =>
+  place.evaluate((element, property) => {
+    const [r, g, b] = getComputedStyle(element)[property].match(/\d+/g).map(Number);
+    return r > 1.5 * g && r > 1.5 * b;
+  }, property);
+
+/** A fibre in the air of a record with a gust of 45 km/s, which no flight survives. */
+function wildCase() {
+  const velocity = (i) => (i >= 400 && i < 420 ? 1e5 : 10 + ((i * i) % 101) * 0.01);
+  const rows = Array.from({ length: 2000 }, (_, i) => `${i * 1e-3},${velocity(i)}\n`);
+  writeFileSync(join(folder, "gust.csv"), `time_s,u_m_s\n${rows.join("")}`);
+  const fibre = "[fibre]\nlength='0.2 m'\ndiameter='50 µm'\ndensity='950 kg/m³'\nyoungs_modulus='2 GPa'\nelement_length='50 mm'\n";
+  const air = "[air]\nrecord='gust.csv'\nvelocity='10 m/s'\nturbulence_intensity=450\nlength_scale='0.2 m'\n";
+  writeFileSync(join(folder, "gust.toml"), `version=1\n${fibre}${air}[run]\nduration='50 ms'\ntime_step='20 µs'\n`);
+  return join(folder, "gust.toml");
+}
+
+/** What goes wrong is said where it was done, with the way out. */
+async function checkMistakes(browser) {
+  const { live, address } = await start("table1.toml");
+  let page = await open(browser, address);
+
+  // A wrong unit: the box is red and keeps it, and the message stands beside it.
+  const box = page.locator('input[data-key="air.velocity"]:not([type=range])');
+  const before = await box.inputValue();
+  await box.fill("10 g");
+  await box.press("Tab");
+  const beside = page.locator(".setting", { has: box }).locator(".wrong");
+  await beside.waitFor();
+  expect((await isRed(box, "borderTopColor")) && (await isRed(beside, "color")), "a box with a wrong unit and its message are not red");
+  expect((await beside.innerText()).includes("m/s"), `the message does not say what is allowed: ${await beside.innerText()}`);
+  await page.locator("#forget").click();
+  await wait(300);
+  expect((await box.inputValue()) === "10 g", "what was written has gone from the box");
+  expect(await page.locator("#refused").isHidden(), "the message stands over the picture too");
+  await shot(page, "wrong-unit");
+  await box.press("Escape");
+  expect((await box.inputValue()) === before && (await beside.isHidden()), "Escape does not bring the value back");
+  await box.fill("12 m/s");
+  await box.press("Enter");
+  await page.waitForFunction(() => spunlaidLive.state.air === 12);
+
+  // A name that leads elsewhere.
+  await page.locator("#name").fill("../x.toml");
+  await page.locator("#save").click();
+  await page.waitForFunction(() => document.getElementById("saved").textContent !== "");
+  const name = await page.locator("#saved").innerText();
+  expect(/no \/ or \\/.test(name) && /letters, digits/.test(name), `a wrong name is not explained: ${name}`);
+  expect(await isRed(page.locator("#saved"), "color"), "the message about a name is not red");
+  await page.close();
+  live.kill();
+
+  // Fibres that are lost: the page says how to go on.
+  const wild = await start(wildCase());
+  page = await open(browser, wild.address);
+  await page.locator("#pace").selectOption("free");
+  await page.waitForFunction(() => spunlaidLive.state.stands && spunlaidLive.state.trouble);
+  expect(/press Go/i.test(await page.locator("#status").innerText()), `after lost fibres: ${await page.locator("#status").innerText()}`);
+  expect(/press Go/.test(await page.locator("#notes").innerText()), `after lost fibres: ${await page.locator("#notes").innerText()}`);
+  expect((await page.locator("#play").innerText()) === "Go", "there is no button Go");
+  await shot(page, "lost");
+  await page.close();
+  wild.live.kill();
+
+  // A program that was started again has another address.
+  const old = await start("table1.toml");
+  page = await open(browser, old.address, { alone: true });
+  const port = new URL(old.address).port;
+  const says = (text) => page.waitForFunction((text) => document.getElementById("status").textContent.includes(text), text, { timeout: 20000 });
+  const ended = new Promise((done) => old.live.once("exit", done));
+  old.live.kill();
+  await ended;
+  await says("does not answer");
+  const other = await start("table1.toml", "--port", port);
+  await says("Open the new address");
+  await shot(page, "restarted");
+  await page.close();
+  other.live.kill();
+  return ["mistakes are told where they are made, with the way out"];
+}
+
 const browser = await chromium.launch({
   executablePath: process.env.CHROMIUM,
   headless: false, // the flag below asks for the new headless mode
@@ -225,7 +308,7 @@ const browser = await chromium.launch({
 });
 let lines = [];
 try {
-  lines = [...(await checkFixed(browser)), ...(await checkFed(browser))];
+  lines = [...(await checkMistakes(browser)), ...(await checkFixed(browser)), ...(await checkFed(browser))];
 } catch (error) {
   failures.push(`the check itself: ${error.message}`);
 } finally {

@@ -48,6 +48,7 @@ mod drawing;
 mod figure;
 mod gif;
 mod glyphs;
+mod layout;
 mod legend;
 mod map;
 mod numbers;

@@ -20,7 +20,7 @@ function labelled(element, label) {
 const TITLES = { spinline: "Spinline", fibre: "Fibre", feed: "Feed", belt: "Belt", air: "Air", drag: "Drag", run: "Computation" };
 
 class Controls {
-  /** `set(key, value)` is called when something is changed. */
+  /** `set(key, value, written)` is called when something is changed; `written` is whether it was written into a box. */
   constructor(form, set) {
     Object.assign(this, { form, set, controls: new Map() });
     form.addEventListener("submit", (e) => e.preventDefault());
@@ -71,9 +71,18 @@ class Controls {
     text.dataset.key = setting.key;
     if (setting.takes === "word") setting.words.forEach((word) => text.add(new Option(word)));
     else text.autocomplete = "off";
-    text.addEventListener("change", () => this.set(setting.key, text.value));
+    text.addEventListener("change", () => this.set(setting.key, text.value, true));
+    text.addEventListener("input", () => this.accept(setting.key));
+    text.addEventListener("keydown", (e) => {
+      if (e.key !== "Escape" || !control.now) return;
+      this.accept(setting.key);
+      text.value = control.now;
+    });
     head.append(about, text);
     control.text = text;
+    control.wrong = Object.assign(document.createElement("p"), { className: "wrong", id: `${id}-wrong`, hidden: true });
+    control.wrong.setAttribute("role", "alert");
+    row.append(control.wrong);
     if (setting.takes === "quantity") {
       const slider = Object.assign(document.createElement("input"), { type: "range", min: 0, max: NOTCHES, step: 1, id });
       slider.setAttribute("aria-labelledby", name.id);
@@ -108,11 +117,29 @@ class Controls {
     for (const { key, si, text } of values) {
       const control = this.controls.get(key);
       if (!control) continue;
-      if (control.text !== document.activeElement || control.setting.takes === "word") control.text.value = text;
+      control.now = text;
+      // What is wrong stays to be mended.
+      if (control.wrong.hidden && (control.text !== document.activeElement || control.setting.takes === "word")) control.text.value = text;
       if (!control.slider) continue;
       control.slider.setAttribute("aria-valuetext", text);
       if (control.slider !== this.held) control.slider.value = this.notch(control.setting, si);
     }
+  }
+
+  /** Marks a value that was written and cannot be flown, and says why beside it. The box keeps it. */
+  refuse(key, value, why) {
+    const { text, wrong } = this.controls.get(key);
+    [text.value, wrong.textContent, wrong.hidden] = [value, `${why}. The setting before flies on; Escape brings it back.`, false];
+    text.setAttribute("aria-invalid", "true");
+    text.setAttribute("aria-describedby", wrong.id);
+  }
+
+  accept(key) {
+    const control = this.controls.get(key);
+    if (!control || control.wrong.hidden) return;
+    control.wrong.hidden = true;
+    control.text.removeAttribute("aria-invalid");
+    control.text.removeAttribute("aria-describedby");
   }
 
   /** Remembers the slider under a pointer: it is not moved by what the program says. `released` is called when it is let go. */

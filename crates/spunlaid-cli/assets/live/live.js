@@ -2,7 +2,7 @@
 
 const byId = (id) => document.getElementById(id);
 
-const page = { state: null, frame: null, drawn: null, numbers: null, measured: null, before: null, connected: false, dirty: false };
+const page = { state: null, frame: null, drawn: null, numbers: null, measured: null, before: null, connected: false, moved: false, dirty: false };
 /** For checks: how it goes. */
 const seen = { frames: 0, drawn: 0, latency: [], errors: [] };
 
@@ -13,21 +13,22 @@ const controls = new Controls(byId("settings"), change);
 controls.watch(() => byId("refused").hidden || controls.show(page.state.values));
 const asked = new Map();
 
-/** Asks for a change and remembers when. */
-function change(key, value) {
-  asked.set(link.set(key, value), { at: performance.now(), generation: null });
+/** Asks for a change and remembers when; `written` is whether it was written into a box. */
+function change(key, value, written = false) {
+  asked.set(link.set(key, value), { at: performance.now(), generation: null, key, value, written });
   if (asked.size > 100) asked.delete(asked.keys().next().value);
 }
 
 const link = new Link({
   open() {
-    page.connected = true;
+    [page.connected, page.moved] = [true, false];
     status();
   },
   closed() {
     page.connected = false;
     page.frame = null;
     status();
+    findAddress();
   },
   settings: ({ settings }) => controls.build(settings),
   state,
@@ -40,22 +41,42 @@ const link = new Link({
   },
   applied({ stamp, generation }) {
     const change = asked.get(stamp);
-    if (change) change.generation = generation;
+    if (change) {
+      change.generation = generation;
+      controls.accept(change.key);
+    }
     problems([]);
     refusal([]);
   },
-  refused({ problems: all }) {
+  refused({ about, problems: all }) {
+    const written = about.is === "setting" ? asked.get(about.stamp) : null;
+    if (written) asked.delete(about.stamp);
+    if (written?.written) return controls.refuse(written.key, written.value, all.map(({ text }) => text).join(" "));
+    if (about.is === "name") return saved(all.map(({ text }) => text).join(" "), true);
     refusal(all);
     edited(byId("text").value !== page.state?.text);
     problems(all);
   },
   saved({ name }) {
-    byId("saved").textContent = `saved as ${name}`;
+    saved(`saved as ${name}`, false);
   },
   exists({ name }) {
     if (confirm(`${name} is there already. Replace it?`)) link.ask({ do: "save", name, replace: true });
   },
 });
+
+/** What became of a name under which the case was to be saved. */
+function saved(text, wrong) {
+  byId("saved").textContent = text;
+  byId("saved").classList.toggle("wrong", wrong);
+  byId("name").setAttribute("aria-invalid", String(wrong));
+}
+
+/** Whether the program answers at this address no more because it was started again, and has another one. */
+async function findAddress() {
+  page.moved = await fetch(location.href, { method: "HEAD" }).then(({ status }) => status === 403, () => false);
+  status();
+}
 
 /** The case and its settings, as they are now. */
 function state(told) {
@@ -84,7 +105,7 @@ function state(told) {
   const play = byId("play");
   play.textContent = told.stands ? "Go" : "Pause";
   play.setAttribute("aria-pressed", String(!told.stands));
-  const notes = [...(told.trouble ? [`The fibres were lost and have started anew: ${told.trouble}`] : []), ...told.notes];
+  const notes = [...(told.trouble ? [`The fibres were lost: ${told.trouble}. They are straight again and stand. Change what was too much for them, then press Go.`] : []), ...told.notes];
   byId("remark").textContent = told.remark ? `${told.remark[0].toUpperCase()}${told.remark.slice(1)}.` : "";
   byId("filament").hidden = told.filament.length === 0;
   byId("filament").replaceChildren(...told.filament.map(sentence));
@@ -158,11 +179,15 @@ function measured(told) {
 function status() {
   const { state, frame, connected } = page;
   const line = byId("status");
-  line.classList.toggle("trouble", !connected || Boolean(frame?.behind));
+  line.classList.toggle("trouble", !connected || Boolean(frame?.behind) || Boolean(state?.trouble));
   if (!connected) {
-    line.textContent = "The program does not answer. It may have ended; the page tries again.";
+    line.textContent = page.moved
+      ? "The program has been started again and has another address. Open the new address, which it has printed."
+      : "The program does not answer. It may have ended; the page tries again. If you have started it again, open the new address, which it has printed.";
   } else if (!state) {
     line.textContent = "Connecting …";
+  } else if (state.stands && state.trouble) {
+    line.textContent = "The time stands, because the fibres were lost. Press Go to fly on.";
   } else if (state.stands) {
     line.textContent = `The time stands. Steps of ${state.step}, ${state.scheme}.`;
   } else if (frame) {
@@ -250,7 +275,7 @@ byId("undo").addEventListener("click", () => {
   editor(page.state.text);
 });
 byId("save").addEventListener("click", () => {
-  byId("saved").textContent = "";
+  saved("", false);
   link.ask({ do: "save", name: byId("name").value, replace: false });
 });
 byId("copy").addEventListener("click", async () => {

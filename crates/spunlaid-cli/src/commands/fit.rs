@@ -16,7 +16,7 @@ use spunlaid::study::{Journal, JournalState};
 use spunlaid::web::Laying;
 use spunlaid_results::folders::fit::{FitFolder, FitInput};
 use spunlaid_results::folders::read_measured_web;
-use spunlaid_results::output::fit::{fit_json, pretty, sentences, value_and_interval};
+use spunlaid_results::output::fit::{fit_json, pretty, refused, sentences, value_and_interval};
 use std::sync::atomic::AtomicU64;
 
 pub(crate) fn fit(asked: &args::Fit) -> Result<(), Failure> {
@@ -50,7 +50,7 @@ pub(crate) fn fit(asked: &args::Fit) -> Result<(), Failure> {
         say::text(&fit_json(&found, &target, input.paths, &notes));
     } else if !asked.quiet {
         say::text(&table(&found));
-        sentences(&found).iter().for_each(|sentence| say::line(sentence));
+        sentences(&found).iter().chain(&refused(&found)).for_each(|sentence| say::line(sentence));
         say::line(&format!("open {}", path.join("report.html").display()));
     }
     Ok(())

@@ -4,7 +4,8 @@ use crate::args::Live;
 use crate::failure::{Failure, not_served};
 use crate::live::{Start, live as fly};
 use crate::say;
-use spunlaid::input::{read_case, starter_case};
+use spunlaid::input::read_case;
+use spunlaid::paper;
 
 /// Serves the page until the program is ended.
 pub(crate) fn live(live: &Live) -> Result<(), Failure> {
@@ -14,7 +15,7 @@ pub(crate) fn live(live: &Live) -> Result<(), Failure> {
             read_case(path, &[])?;
             std::fs::read_to_string(path).map_err(|source| not_served(&source))?
         }
-        None => starter_case().to_owned(),
+        None => paper::TABLE1.to_owned(),
     };
     let start = Start { text, file: live.case.clone(), port: live.port.unwrap_or(0) };
     fly(start, |address, remark| {

@@ -73,7 +73,30 @@ pub(super) enum Answer {
     /// There is a file of this name already.
     Exists { name: String },
     /// What was asked cannot be done.
-    Refused { problems: Vec<Complaint> },
+    Refused { about: Subject, problems: Vec<Complaint> },
+}
+
+/// What a refusal is about, so that the page shows it there.
+#[derive(Clone, Copy, Debug, Serialize, PartialEq)]
+#[serde(tag = "is", rename_all = "snake_case")]
+pub(super) enum Subject {
+    /// The value of a key, which was sent with this stamp.
+    Setting { stamp: u64 },
+    /// The name of a file.
+    Name,
+    /// Something else.
+    Other,
+}
+
+impl Command {
+    /// What its refusal would be about.
+    pub(super) const fn subject(&self) -> Subject {
+        match self {
+            Self::Set { stamp, .. } => Subject::Setting { stamp: *stamp },
+            Self::Save { .. } => Subject::Name,
+            _ => Subject::Other,
+        }
+    }
 }
 
 /// Why something cannot be done.
@@ -87,7 +110,19 @@ pub(super) struct Complaint {
 
 impl Answer {
     pub(super) fn refused(text: impl Into<String>) -> Self {
-        Self::Refused { problems: vec![Complaint { line: None, text: text.into() }] }
+        Self::rejected(vec![Complaint { line: None, text: text.into() }])
+    }
+
+    pub(super) const fn rejected(problems: Vec<Complaint>) -> Self {
+        Self::Refused { about: Subject::Other, problems }
+    }
+
+    /// The answer to a request about this.
+    pub(super) fn about(self, about: Subject) -> Self {
+        match self {
+            Self::Refused { problems, .. } => Self::Refused { about, problems },
+            other => other,
+        }
     }
 
     pub(super) fn json(&self) -> String {
@@ -150,7 +185,7 @@ mod tests {
             r#"{"do":"pace","pace":"double"}"#,
             &deep,
         ] {
-            let Err(Answer::Refused { problems }) = read(text) else {
+            let Err(Answer::Refused { problems, .. }) = read(text) else {
                 panic!("{text} is understood");
             };
             assert!(problems[0].text.starts_with("this message is not understood: "), "{problems:?}");

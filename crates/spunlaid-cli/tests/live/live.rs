@@ -137,6 +137,61 @@ fn the_tension_of_flights_is_a_number_on_the_page() {
     assert!(state["belt"]["feed"].as_f64().unwrap() > 40.0, "{state}");
 }
 
+/// A fibre in the air of a record with a gust of 45 km/s, which no flight survives.
+const GUST: &str = "version = 1\n[fibre]\nlength = '0.2 m'\ndiameter = '50 µm'\ndensity = '950 kg/m³'\n\
+    youngs_modulus = '2 GPa'\nelement_length = '50 mm'\n[air]\nrecord = 'gust.csv'\nvelocity = '10 m/s'\n\
+    turbulence_intensity = 450\nlength_scale = '0.2 m'\n[run]\nduration = '50 ms'\ntime_step = '20 µs'\n";
+
+#[test]
+fn after_lost_fibres_the_time_stands_until_go() {
+    let folder = tempfile::tempdir().unwrap();
+    let velocity = |i: u32| if (400..420).contains(&i) { 1e5 } else { 10.0 + f64::from(i * i % 101) * 0.01 };
+    let rows = (0..2000).map(|i| format!("{},{}\n", f64::from(i) * 1e-3, velocity(i)));
+    let record = format!("time_s,u_m_s\n{}", rows.collect::<String>());
+    std::fs::write(folder.path().join("gust.csv"), record).unwrap();
+    let case = folder.path().join("gust.toml");
+    std::fs::write(&case, GUST).unwrap();
+    let live = Live::start(&[case.to_str().unwrap()]);
+    let mut page = live.page();
+    page.ask(&json!({ "do": "pace", "pace": "free" }));
+    let until = |page: &mut Page, stands: bool| loop {
+        let state = page.told("state");
+        if state["stands"] == stands {
+            break state;
+        }
+    };
+    let lost = until(&mut page, true);
+    assert!(lost["trouble"].is_string(), "{lost}");
+    // They are lost again, but not before the page has seen them fly.
+    page.ask(&json!({ "do": "pace", "pace": "hundredth" }));
+    page.ask(&json!({ "do": "go" }));
+    let on = until(&mut page, false);
+    assert!(on["trouble"].is_null(), "{on}");
+}
+
+#[test]
+fn without_a_case_it_is_table_1_as_everywhere() {
+    let [own, named] = [&[][..], &["table1.toml"]].map(|case| Live::start(case).page().told("state"));
+    assert_eq!(own["text"], named["text"]);
+}
+
+#[test]
+fn a_refusal_says_what_it_is_about() {
+    let live = Live::start(&["table1.toml"]);
+    let mut page = live.page();
+    let mut about = |message: &Value| {
+        page.ask(message);
+        page.told("refused")["about"].clone()
+    };
+    let wrong_unit = json!({ "do": "set", "key": "air.velocity", "value": "10 g", "stamp": 7 });
+    assert_eq!(about(&wrong_unit), json!({ "is": "setting", "stamp": 7 }));
+    assert_eq!(
+        about(&json!({ "do": "save", "name": "../x.toml", "replace": false })),
+        json!({ "is": "name" })
+    );
+    assert_eq!(about(&json!({ "do": "case", "text": "[fibre" })), json!({ "is": "other" }));
+}
+
 #[test]
 fn only_what_is_saved_by_a_plain_name_is_written() {
     let live = Live::start(&["spunbond.toml"]);
@@ -144,7 +199,10 @@ fn only_what_is_saved_by_a_plain_name_is_written() {
     let save = |name: &str, replace: bool| json!({ "do": "save", "name": name, "replace": replace });
     for name in ["../a", "/tmp/a", "a/b", "", ".hidden", "..", "a\u{0}b"] {
         assert!(
-            page.refused(&save(name, true))["text"].as_str().unwrap().contains("is not a plain name"),
+            page.refused(&save(name, true))["text"]
+                .as_str()
+                .unwrap()
+                .contains("cannot be the name of the file"),
             "{name}"
         );
     }

@@ -13,6 +13,7 @@ fn check_prints_a_case_that_can_be_read_again() {
         "time step 20 µs, 500 steps; stable below",
         "34.46 µs",
         "axial waves",
+        "the shortest, axial waves: sound crosses an element in this time",
         "expected: less than a second on 1 of ",
         "MiB of memory, 1 MB of results",
         "ready: spunlaid run brief.toml --set 'air.velocity=12 m/s'",
@@ -26,6 +27,33 @@ fn check_prints_a_case_that_can_be_read_again() {
     assert!(said.contains(&resolved), "{said}");
     std::fs::write(desk.path("printed.toml"), said.split("\nready").next().unwrap()).unwrap();
     assert!(success(&mut desk.spunlaid("check printed.toml")).contains(&resolved));
+}
+
+#[test]
+fn check_says_which_place_of_a_field_decides_the_step() {
+    let desk = Desk::new();
+    // A channel along x whose turbulence is quickest at three quarters of the fibre: ε/k is four times as large there.
+    let rows = "x_m,y_m,z_m,u_m_s,v_m_s,w_m_s,k_m2_s2,epsilon_m2_s3\n";
+    let plane = |i: usize, j: usize| {
+        let (x, epsilon) = (0.125 * i as f64, if i == 3 { 400.0 } else { 100.0 });
+        format!("{x},{},{},8,0,0,1,{epsilon}\n", j % 2, j / 2)
+    };
+    let all: String = (0..5).flat_map(|i| (0..4).map(move |j| plane(i, j))).collect();
+    std::fs::write(desk.path("channel.csv"), rows.to_owned() + &all).unwrap();
+    let case = "version = 1\n[fibre]\nlength = \"0.5 m\"\ndiameter = \"20 um\"\ndensity = \"950 kg/m3\"\n\
+                youngs_modulus = \"2 GPa\"\nelement_length = \"10 mm\"\n[air]\nfield = \"channel.csv\"\n\
+                [run]\nduration = \"10 ms\"\nscheme = \"implicit-tension\"\n";
+    std::fs::write(desk.path("channel.toml"), case).unwrap();
+    let said = success(&mut desk.spunlaid("check channel.toml"));
+    assert!(said.contains("the turbulence changes fastest 37"), "{said}");
+    assert!(said.contains("mm from the root, where its cut-off frequency is"), "{said}");
+    assert!(
+        said.contains("the shortest, waves of the taut string: a wave of the taut fibre crosses"),
+        "{said}"
+    );
+    // A case whose air is the same everywhere has no such place.
+    let uniform = Desk::new();
+    assert!(!success(&mut uniform.spunlaid("check brief.toml")).contains("changes fastest"));
 }
 
 #[test]

@@ -13,6 +13,7 @@ mod compare;
 mod compared_webs;
 mod continued;
 mod figures;
+mod fit;
 mod gusts;
 mod keys;
 mod lost;

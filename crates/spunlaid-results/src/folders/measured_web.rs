@@ -25,8 +25,8 @@ pub fn read_measured_web(folder: &Path) -> Result<MeasuredWeb, Error> {
         serde_json::from_str(&text).map_err(|error| refused(format!("summary.json: {error}")))?;
     let missing = |what: &str| refused(format!("summary.json has no {what}"));
     let web = summary.get("web").ok_or_else(|| missing("web"))?;
-    let cell = web["cell_m"].as_f64().ok_or_else(|| missing("web.cell_m"))?;
-    let all = web["patches"].as_array().ok_or_else(|| missing("web.patches"))?;
+    let cell = web["cell_m"].as_f64().ok_or_else(|| missing("cell_m of the web"))?;
+    let all = web["patches"].as_array().ok_or_else(|| missing("patches of the web"))?;
     let noise_is_out = summary["scan"]["noise"].as_f64().is_some();
     // A laid web has neither camera nor blur.
     let patch = |patch: &Json| {

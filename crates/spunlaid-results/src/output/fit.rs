@@ -159,8 +159,13 @@ pub fn sentences(fit: &Fit) -> Vec<String> {
                 .to_owned(),
         );
     }
-    if let Some((_, reason)) = fit.refused.last() {
-        all.push(format!("Webs of {} trials could not be laid; the last one: {reason}", fit.refused.len()));
-    }
     all
+}
+
+/// Why some trials could not be laid, if there are such.
+pub fn refused(fit: &Fit) -> Option<String> {
+    let (_, reason) = fit.refused.last()?;
+    let count = fit.refused.len();
+    let trials = if count == 1 { "1 trial".to_owned() } else { format!("{count} trials") };
+    Some(format!("The webs of {trials} could not be laid, and the search has gone on without: {reason}"))
 }

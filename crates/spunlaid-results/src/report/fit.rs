@@ -3,7 +3,7 @@
 use super::methods::{MOMENTS, Methods, web_account};
 use super::rendered;
 use crate::numbers::significant;
-use crate::output::fit::{doubt, pretty, sentences as sentences_of, value_and_interval};
+use crate::output::fit::{doubt, pretty, refused, sentences as sentences_of, value_and_interval};
 use askama::Template;
 use spunlaid::fit::{Fit, FittedKey, FittedNumber, Target, Texture};
 use spunlaid::layers::WebSpec;
@@ -67,7 +67,7 @@ pub fn fit_html(input: &FitReport<'_>) -> String {
             input.scan, fit.webs
         ),
         notes: input.notes,
-        sentences: sentences_of(fit),
+        sentences: sentences_of(fit).into_iter().chain(refused(fit)).collect(),
         keys: fit.keys.iter().map(row).collect(),
         correlation_heads: fit.keys.iter().filter(|_| several).map(head).collect(),
         correlations: correlations

@@ -308,11 +308,8 @@ impl Air {
         if self.is_uniform() {
             return;
         }
-        const PLACES: usize = 256;
-        let places = (0..PLACES).map(|i| along * ((i as f64 + 0.5) / PLACES as f64));
-        let mut hint = Hint::default();
-        let local: Vec<LocalAir> = places.map(|at| self.local(at, &mut hint)).collect();
-        let mean = |of: &dyn Fn(&LocalAir) -> f64| local.iter().map(of).sum::<f64>() / PLACES as f64;
+        let local = self.sampled(along);
+        let mean = |of: &dyn Fn(&LocalAir) -> f64| local.iter().map(of).sum::<f64>() / local.len() as f64;
         let speed = mean(&|air| air.velocity.norm());
         self.velocity = if mean(&|air| air.velocity.x) < 0.0 { -speed } else { speed };
         if self.from_flow.turbulence_intensity && speed > 0.0 {
@@ -324,5 +321,24 @@ impl Air {
         if self.from_flow.cutoff_frequency {
             self.cutoff_frequency = local.iter().map(|air| air.cutoff_frequency).fold(0.0, f64::max);
         }
+    }
+
+    /// The air along a fibre, at the middles of equal pieces.
+    fn sampled(&self, along: Vec3<f64>) -> Vec<LocalAir> {
+        const PLACES: usize = 256;
+        let mut hint = Hint::default();
+        let places = (0..PLACES).map(|i| along * ((i as f64 + 0.5) / PLACES as f64));
+        places.map(|at| self.local(at, &mut hint)).collect()
+    }
+
+    /// Where along a fibre the turbulence changes fastest, as a share of its length, if the flow tells its cut-off frequency. This
+    /// place sets [`Air::cutoff_frequency`], and so the time step where the case gives none.
+    ///
+    /// * `along` – from the root to the end of the straight fibre [m]
+    pub fn place_of_cutoff(&self, along: Vec3<f64>) -> Option<f64> {
+        let cutoffs = self.sampled(along).into_iter().map(|air| air.cutoff_frequency).enumerate();
+        let count = cutoffs.len() as f64;
+        let (fastest, _) = cutoffs.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        self.from_flow.cutoff_frequency.then_some((fastest as f64 + 0.5) / count)
     }
 }

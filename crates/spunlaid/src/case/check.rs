@@ -1,6 +1,7 @@
 //! The conditions that a case must meet before it can be run.
 
 use super::keys::{self, finding};
+use super::limits::{MOST_INSTANTS, MOST_STEPS};
 use super::memory::FLIGHT_MEMORY_LIMIT;
 use super::neighbours::without_shared_air;
 use super::note::Note;
@@ -11,18 +12,6 @@ use crate::error::{self, Fault, Finding, Place, Problem};
 use crate::fibre::Root;
 use crate::line::Contact;
 use crate::units::Dimension;
-
-/// Largest number of steps of a run.
-pub const MOST_STEPS: u64 = 1_000_000_000_000;
-/// Largest number of shapes of a fibre that are kept.
-pub const MOST_SHAPES: u64 = 20_000;
-/// Largest number of replicates. Each takes half a kilobyte of memory for its values in the summary.
-pub const MOST_REPLICATES: u64 = 10_000_000;
-/// Largest number of recorded instants over all replicates. They are written to disk during the run, so they take
-/// no memory. Each takes [`INSTANT_ON_DISK`], which makes 150 GB in all.
-pub const MOST_INSTANTS: f64 = 1e9;
-/// Size of a recorded instant in the tables of a run [bytes].
-pub const INSTANT_ON_DISK: f64 = 150.0;
 
 impl Case {
     /// Checks everything that must hold for the case to be run.

@@ -3,6 +3,7 @@
 mod check;
 mod files;
 pub mod keys;
+mod limits;
 mod memory;
 mod neighbours;
 mod note;
@@ -12,7 +13,8 @@ mod unset;
 mod usual;
 
 pub(crate) use check::too_many_steps;
-pub use check::{INSTANT_ON_DISK, MOST_INSTANTS, MOST_REPLICATES, MOST_SHAPES, MOST_STEPS};
+pub(crate) use limits::whole_parts;
+pub use limits::{INSTANT_ON_DISK, MOST_INSTANTS, MOST_REPLICATES, MOST_SHAPES, MOST_STEPS};
 pub use memory::{FLIGHT_MEMORY_LIMIT, FlightMemory};
 pub use neighbours::Neighbours;
 pub use note::{Note, Remark};
@@ -99,6 +101,8 @@ impl Run {
 const FEEDING: &str = "feed of an element";
 const STRING: &str = "waves of the taut string";
 const GUSTS: &str = "gusts that turn an element";
+const AXIAL: &str = "axial waves";
+const BENDING: &str = "bending waves";
 
 /// Factor of the root of a fed fibre on the limit of the bending waves: its largest stiffness is sixteen times that of
 /// other nodes, the bending waves are 18 % faster then.
@@ -115,6 +119,33 @@ pub struct StepLimit {
     /// The longest stable step [s]; steps must stay below it.
     #[serde(rename = "limit_s")]
     pub limit: f64,
+}
+
+impl StepLimit {
+    /// Where it comes from, and what allows longer steps.
+    pub fn reason(&self) -> &'static str {
+        match self.cause {
+            AXIAL => {
+                "sound crosses an element in this time, all along the fibre; run.scheme = \"implicit-tension\" knows no such limit, and longer \
+                 elements (fibre.element_length) lengthen it"
+            }
+            BENDING => {
+                "the shortest bending wave swings once in this time, at the root first; longer elements (fibre.element_length) or a thinner or \
+                 softer fibre lengthen it"
+            }
+            STRING => {
+                "a wave of the taut fibre crosses an element in this time at the root, where the tension is largest; longer elements \
+                 (fibre.element_length) or less drag lengthen it"
+            }
+            FEEDING => {
+                "an element is fed at the inlet in whole steps; longer elements (fibre.element_length) or a lower feed.speed lengthen it"
+            }
+            GUSTS => {
+                "gusts may turn an element only a little in a step; longer elements (fibre.element_length) or weaker turbulence lengthen it"
+            }
+            _ => "",
+        }
+    }
 }
 
 impl Case {
@@ -143,8 +174,8 @@ impl Case {
 
     /// The limits on the time step of an undamped flight with this mesh and the case's scheme.
     pub fn step_limits(&self) -> Vec<StepLimit> {
-        let axial = StepLimit { cause: "axial waves", limit: self.fibre.axial_step_limit() };
-        let bending = StepLimit { cause: "bending waves", limit: self.bending_step_limit() };
+        let axial = StepLimit { cause: AXIAL, limit: self.fibre.axial_step_limit() };
+        let bending = StepLimit { cause: BENDING, limit: self.bending_step_limit() };
         let mut limits = match self.run.scheme {
             Scheme::SemiImplicitEuler | Scheme::Leapfrog => vec![axial, bending],
             Scheme::ImplicitTension => vec![bending, self.string_step_limit()],
@@ -366,12 +397,4 @@ impl Case {
             None => cause,
         }
     }
-}
-
-/// How many times `part` fits into `whole`, rounded to a whole number, and whether it fits exactly (apart from
-/// floating-point rounding).
-pub(crate) fn whole_parts(whole: f64, part: f64) -> (u64, bool) {
-    let ratio = whole / part;
-    let nearest = ratio.round();
-    (nearest as u64, (ratio - nearest).abs() <= 8.0 * f64::EPSILON * ratio)
 }

@@ -4,6 +4,7 @@
 //! a fibre. Fibres whose elements are all alike hold it once.
 
 use super::laying::Friction;
+use super::node::Node;
 use super::{Common, Strand};
 use crate::company::PerLane;
 use crate::drag::{DragLanes, ElementDrag};
@@ -64,17 +65,6 @@ pub(crate) struct ElementConstants {
     pub(crate) compliance: Lanes,
     /// Half of its drag, which is the share of each of its two nodes.
     pub(crate) half_drag: DragLanes,
-}
-
-/// The constants of a node.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Node {
-    pub(crate) mass: Lanes,
-    /// 0 if the node is held.
-    pub(crate) inverse_mass: Lanes,
-    /// Likewise along x; 0 also if the node slides on the belt.
-    pub(crate) inverse_mass_x: Lanes,
-    pub(crate) weight: Lanes,
 }
 
 impl Constants {

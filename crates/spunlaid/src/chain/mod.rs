@@ -6,6 +6,7 @@ pub(crate) mod force_pass;
 pub(crate) mod forces;
 pub(crate) mod implicit;
 pub(crate) mod laying;
+pub(crate) mod node;
 pub mod schemes;
 pub mod work;
 

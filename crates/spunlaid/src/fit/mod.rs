@@ -6,7 +6,7 @@
 //!   → misfit, weighted by how the numbers scatter from web to web → steps of Gauss and Newton → Fit
 //! ```
 //!
-//! **The misfit** is `rᵀ C⁻¹ r`, with the differences r between the logarithms of the scan and the mean of those of n simulated webs, and the
+//! **The misfit** (theory.md (100)) is `rᵀ C⁻¹ r`, with the differences r between the logarithms of the scan and the mean of those of n simulated webs, and the
 //! covariance C of these logarithms from web to web, of which a tenth is taken away beside the diagonal.
 //!
 //! **The intervals** come from the webs themselves: each simulated web of the best values takes the place of the scan, and the values
@@ -35,6 +35,7 @@ use crate::error::{Error, Fault};
 use crate::layers::{Flyer, Method, WebSpec};
 use crate::study::{Experiment, Journal};
 use crate::web::{Laying, PatchFindings};
+use found::Found;
 use webs::Webs;
 
 /// Most keys that are sought at a time.
@@ -44,8 +45,10 @@ pub const FEWEST_WEBS: u64 = 8;
 /// Usual number of simulated webs of a trial: so many as are needed to say with 95 % confidence that no such web looks like the scan.
 pub const USUAL_WEBS: u64 = 20;
 
-/// Most searches, each from the best place that is known.
+/// Most searches after the first one.
 const ROUNDS: usize = 3;
+/// Values that are further from the place where a search has ended are sought anew from there [standard errors].
+const FAR: f64 = 1.0;
 
 /// What is sought, and in what.
 #[derive(Clone, Copy)]
@@ -112,17 +115,22 @@ pub fn fit<'a>(
     let Some(mut start) = webs.trial(&start)? else {
         return Err(webs.refused.pop().map_or(Error::Interrupted, |(_, error)| error));
     };
-    let mut rounds = ROUNDS;
+    // The scatter at the start tells where to go, that at the first end what a misfit is worth.
+    let weights = search::weights_at(&webs, start)?;
+    start = search::search(&mut webs, start, weights)?.trial;
+    let mut rounds = 0;
     loop {
-        let place = search::search(&mut webs, start)?;
+        rounds += 1;
+        let weights = search::weights_at(&webs, start)?;
+        let place = search::search(&mut webs, start, weights)?;
         let values = webs.trials[place.trial].values.clone();
         let others = errors_of_model(&mut webs, &make(&values)?)?;
-        let found = found::found(&mut webs, &place, &others)?;
-        // The profiles may have met a better place.
-        rounds -= 1;
-        match search::best(&webs, &place.weights) {
-            Some(better) if better != place.trial && rounds > 0 => start = better,
-            _ => return Ok(found),
+        let Found { fit, at, far } = found::found(&mut webs, &place, &others)?;
+        // Far from the trials, straight lines do not hold.
+        let next = if far > FAR && rounds < ROUNDS { webs.trial(&at)? } else { None };
+        match next {
+            Some(next) if next != start => start = next,
+            _ => return Ok(fit),
         }
     }
 }

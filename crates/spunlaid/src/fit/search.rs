@@ -5,9 +5,10 @@ use super::weights::{Matrix, gain, information, misfit, weights};
 use crate::error::{Error, Fault};
 use crate::statistics::linear::{dot, inverse};
 
-/// Step of a slope, as a coordinate: a tenth of the value, or less if it is known well.
-const STEP: f64 = 0.1;
-const LEAST_STEP: f64 = 0.02;
+/// Step of a slope, as a coordinate: at the beginning, and then a standard error between these ends. The mean of the webs jumps a little
+/// between trials, because a key may change which random numbers a filament takes; steps must be long beside that.
+const STEP: f64 = 0.25;
+const STEPS: [f64; 2] = [0.05, 0.5];
 /// Longest step of the search, as a coordinate: twice the value, or half of it.
 const LONGEST: f64 = 0.7;
 /// The search ends with steps that are this share of a standard error.
@@ -35,31 +36,30 @@ pub(super) struct Place {
     pub(super) settled: bool,
 }
 
-/// Searches for the values with the least misfit.
+/// Searches for the values with the least misfit by given weights.
 ///
 /// * `trial` – the index of that from which it starts
 ///
 /// # Errors
 /// As [`Webs::trial`].
-pub(super) fn search(webs: &mut Webs<'_>, mut trial: usize) -> Result<Place, Error> {
+pub(super) fn search(webs: &mut Webs<'_>, mut trial: usize, weights: Matrix) -> Result<Place, Error> {
     let (mut damping, mut steps) = (DAMPING, vec![STEP; webs.parameters.len()]);
-    let mut settled = false;
     let mut slopes_here = slopes(webs, trial, &steps, false)?;
     // Whether the slopes were found at this trial, or follow from those of an earlier one.
     let mut are_own = true;
     for _ in 0..MOST {
-        let weights = weights_at(webs, trial)?;
         let slopes = &slopes_here;
         let rest = rest(webs, trial);
         let here = misfit(&weights, &rest);
         let errors = standard_errors(&weights, slopes, webs.count);
-        steps = errors.iter().map(|error| (0.5 * error).clamp(LEAST_STEP, STEP)).collect();
-        let mut next = None;
+        steps = errors.iter().map(|error| error.clamp(STEPS[0], STEPS[1])).collect();
+        let (mut next, mut is_short) = (None, false);
         for _ in 0..if are_own { TRIES } else { 1 } {
             let to = stepped(webs, trial, &weights, slopes, &rest, damping);
             let far = to.iter().zip(&webs.trials[trial].at).zip(&errors);
-            settled = far.into_iter().all(|((to, from), error)| (to - from).abs() <= ENOUGH * error.min(1.0));
-            if settled {
+            is_short =
+                far.into_iter().all(|((to, from), error)| (to - from).abs() <= ENOUGH * error.min(1.0));
+            if is_short {
                 break;
             }
             if let Some(found) = webs.trial(&to)? {
@@ -77,22 +77,26 @@ pub(super) fn search(webs: &mut Webs<'_>, mut trial: usize) -> Result<Place, Err
                 (trial, are_own) = (found, false);
                 damping *= LOOSER;
             }
-            None if are_own => break,
+            // The slopes of steps to one side may have met a better place than the search.
+            None if are_own => match best(webs, &weights) {
+                Some(better) if better != trial && !is_short => {
+                    trial = better;
+                    slopes_here = self::slopes(webs, trial, &steps, false)?;
+                }
+                _ => break,
+            },
             None => {
                 slopes_here = self::slopes(webs, trial, &steps, false)?;
                 are_own = true;
             }
         }
     }
-    let weights = weights_at(webs, trial)?;
-    let trial = best(webs, &weights).unwrap_or(trial);
-    let weights = weights_at(webs, trial)?;
     let slopes = slopes(webs, trial, &steps, true)?;
     // Where misfits differ by less than slopes of finite steps can tell, no step makes them less.
     let errors = standard_errors(&weights, &slopes, webs.count);
     let to = stepped(webs, trial, &weights, &slopes, &rest(webs, trial), 0.0);
     let far = to.iter().zip(&webs.trials[trial].at).map(|(to, from)| (to - from).abs());
-    let settled = settled || far.zip(&errors).all(|(far, error)| far <= LITTLE * error);
+    let settled = far.zip(&errors).all(|(far, error)| far <= LITTLE * error);
     Ok(Place { trial, slopes, weights, settled })
 }
 
@@ -122,7 +126,11 @@ fn turned(slopes: &Matrix, from: &Trial, to: &Trial) -> Matrix {
     slopes.iter().zip(&step).map(turned).collect()
 }
 
-fn weights_at(webs: &Webs<'_>, trial: usize) -> Result<Matrix, Error> {
+/// Weights by the scatter of the webs of a trial.
+///
+/// # Errors
+/// If they do not differ from each other.
+pub(super) fn weights_at(webs: &Webs<'_>, trial: usize) -> Result<Matrix, Error> {
     weights(webs.trials[trial].webs.iter(), &webs.target.camera).ok_or_else(|| {
         Error::Flight(Fault::new(
             "the simulated webs do not differ from each other",

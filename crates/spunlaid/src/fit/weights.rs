@@ -48,7 +48,7 @@ pub(super) fn information(weights: &Matrix, slopes: &Matrix) -> Matrix {
     slopes.iter().map(|slope| weighted.iter().map(|other| dot(slope, other)).collect()).collect()
 }
 
-/// What numbers that are off by one each do to the sought values: `(Jᵀ W J)⁻¹ Jᵀ W` [by key, then by number].
+/// What numbers that are off by one each do to the sought values, theory.md (101): `(Jᵀ W J)⁻¹ Jᵀ W` [by key, then by number].
 ///
 /// # Errors
 /// The key whose slopes follow from those of the keys before it, or are zero.

@@ -25,6 +25,9 @@ macro_rules! file {
 /// The case that all the studies vary.
 const TABLE_1: (&str, &str) = file!("cases/table1.toml");
 
+/// The file of Table 1.
+pub const TABLE1: &str = TABLE_1.1;
+
 /// A parameter of Table 1 that the paper varies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parameter {

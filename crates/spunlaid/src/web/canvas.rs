@@ -1,6 +1,6 @@
 //! A map on which many threads draw at once.
 
-use super::lay::{HIGHEST, LaidWeb};
+use super::laid::{HIGHEST, LaidWeb, too_full};
 use super::map::Map;
 use super::{Edges, Sheet};
 use crate::error::Fault;
@@ -134,14 +134,6 @@ impl Canvas {
         };
         Ok(LaidWeb { map, cut: self.cut.into_inner() as f64 * self.quantum, together: None })
     }
-}
-
-/// The fault of a cell that holds more fibre than can be counted.
-pub(super) fn too_full(cell: f64) -> Fault {
-    let message = format!(
-        "a cell of {cell:e} m holds more fibre than can be counted, since the filaments lie in few places"
-    );
-    Fault::new(message, "choose smaller cells (web.cell)")
 }
 
 #[cfg(test)]

@@ -87,9 +87,8 @@ const AT_ONCE: usize = 512;
 const SHORT: f64 = 6.0;
 /// The longest wave over the shorter side of the sheet.
 const LONG: f64 = 0.25;
-/// Mean square of a Hann window, and its mean fourth power over the square of that.
+/// Mean square of a Hann window.
 const SQUARE: f64 = 0.375;
-pub(super) const HANN: f64 = 35.0 / 18.0;
 
 fn hann(at: usize, of: usize) -> f64 {
     libm::sin(PI * (at as f64 + 0.5) / of as f64).powi(2) / SQUARE.sqrt()

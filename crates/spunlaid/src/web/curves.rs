@@ -1,6 +1,6 @@
 //! Curves that fibres have laid, to be laid again in a web.
 
-use super::lay::Points;
+use super::points::Points;
 use crate::error::Fault;
 use crate::lanes::Lanes;
 use rand_chacha::ChaCha8Rng;

@@ -1,7 +1,8 @@
 //! The unevenness that is expected of webs of independent filaments, from single fibres.
 
-use super::lay::{Laying, places};
+use super::laying::Laying;
 use super::one_fibre::{Alone, OneFibre, one_fibre, straight_fibres};
+use super::plan::places;
 use super::{Edges, Fibres, Filaments, Layer, Sheet, Web};
 use crate::error::Error;
 use crate::statistics::Estimate;

@@ -2,7 +2,9 @@
 
 use super::clouds::{Clouds, autocorrelation};
 use super::expected::{ALONE, Across, across, expected, side, sides};
-use super::lay::{LaidWeb, Laying, Together, lay};
+use super::laid::{LaidWeb, Together};
+use super::lay::lay;
+use super::laying::Laying;
 use super::map::Map;
 use super::one_fibre::OneFibre;
 use super::orientation::{Orientation, orientation};

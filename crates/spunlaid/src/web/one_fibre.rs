@@ -1,6 +1,7 @@
 //! What one fibre alone says about the unevenness of a web of many.
 
-use super::lay::{Laying, lay};
+use super::lay::lay;
+use super::laying::Laying;
 use super::uniformity::boxes;
 use super::{Edges, Fibres, Filaments, Layer, Row, Sheet, Web};
 use crate::error::Error;

@@ -1,7 +1,8 @@
 //! The directions of the fibres in a web.
 
 use super::Web;
-use super::lay::{Laying, plans};
+use super::laying::Laying;
+use super::plan::plans;
 use crate::error::Error;
 use crate::lanes::WIDTH;
 use crate::statistics::Estimate;

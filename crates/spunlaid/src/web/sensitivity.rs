@@ -1,6 +1,6 @@
 //! What would make a web more even.
 
-use super::lay::Laying;
+use super::laying::Laying;
 use super::one_fibre::{OneFibre, one_fibre};
 use super::{Curves, Fibres, Layer, Web};
 use crate::error::Error;

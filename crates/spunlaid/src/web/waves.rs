@@ -1,6 +1,5 @@
 //! Waves: the powers of a field on a rectangle, and how much of its variance is chance.
 
-use super::clouds::HANN;
 use crate::fft::{Complex, InverseTransform};
 use crate::lanes::{Lanes, WIDTH};
 use crate::threads::each;
@@ -57,6 +56,8 @@ pub(super) struct Powers {
     values: Vec<f64>,
 }
 
+/// Mean fourth power of a Hann window over the square of its mean square.
+const HANN: f64 = 35.0 / 18.0;
 /// Fewest numbers either way.
 pub(super) const FEWEST: usize = WIDTH;
 

@@ -1,7 +1,7 @@
 //! Fits of webs to scans: the loop is closed with simulated webs, whose values are known.
 
 use spunlaid::error::Error;
-use spunlaid::fit::{Fit, MeasuredWeb, Question, Target, fit};
+use spunlaid::fit::{Fit, KeyDoubt, MeasuredPatch, MeasuredWeb, Question, Target, fit};
 use spunlaid::input::{FitFile, Overrides, parse_fit};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, Flyer};
@@ -85,12 +85,12 @@ fn fitted(
 }
 
 /// How many intervals of so many closed loops hold the value with which the scanned web was laid; by key.
-fn coverage(vary: &[&str], truth: &[f64], spectrum: bool, loops: u64) -> Vec<u64> {
+fn coverage(vary: &[&str], truth: &[f64], spectrum: bool, (loops, webs): (u64, u64)) -> Vec<u64> {
     let file = read(SMALL, vary);
     let mut hits = vec![0; truth.len()];
     for seed in 1000..1000 + loops {
         let scan = scanned(&laid(&file, truth, seed));
-        let found = fitted(&file, &scan, spectrum, 20, &mut Journal::in_memory(200)).unwrap();
+        let found = fitted(&file, &scan, spectrum, webs, &mut Journal::in_memory(200)).unwrap();
         for ((key, truth), hits) in found.keys.iter().zip(truth).zip(&mut hits) {
             let [low, high] = key.interval.clone().unwrap();
             *hits += u64::from((low..=high).contains(truth));
@@ -109,18 +109,77 @@ fn coverage(vary: &[&str], truth: &[f64], spectrum: bool, loops: u64) -> Vec<u64
 }
 
 #[test]
-fn the_values_of_a_scanned_simulated_web_lie_in_the_intervals() {
-    let hits = coverage(&["laydown.noise", "line.filaments_per_metre"], &[16.0, 350.0], false, 20);
-    println!("{hits:?}");
-    assert!(hits.iter().all(|hits| *hits >= 15), "{hits:?} of 20");
+fn stat_the_number_of_filaments_of_a_scanned_web_lies_in_the_intervals() {
+    let hits = coverage(&["line.filaments_per_metre"], &[350.0], false, (10, 10));
+    // Of a coverage of 92 %, three misses or more in ten loops happen once in twenty; six or more once in a hundred thousand.
+    assert!(hits[0] >= 5, "{hits:?} of 10");
 }
 
-/// 100 closed loops, for docs/validation.md.
+/// Two keys that make up for each other in part; and the journal holds all webs, so that the same fit lays none anew.
 #[test]
-#[ignore = "takes minutes"]
-fn coverage_of_a_hundred_loops() {
+fn identical_from_the_journal_with_values_within_their_intervals() {
+    let file = read(SMALL, &["laydown.noise=4 m^-0.5..48 m^-0.5", "line.filaments_per_metre"]);
+    let scan = MeasuredWeb { flat: false, ..scanned(&laid(&file, &[16.0, 350.0], 1000)) };
+    let mut journal = Journal::in_memory(200);
+    let found = fitted(&file, &scan, false, 12, &mut journal).unwrap();
+    // What was found says of itself how far it may be off, and the two keys make up for each other in part.
+    for (key, truth) in found.keys.iter().zip([16.0, 350.0]) {
+        let [low, high] = key.interval.clone().unwrap();
+        assert!(low < high && key.value >= low && key.value <= high, "{key:?}");
+        assert!((0.2..5.0).contains(&(key.value / truth)), "{key:?}");
+        assert!(
+            key.profile.len() >= 3 && key.profile.iter().all(|(_, misfit)| misfit.is_finite()),
+            "{key:?}"
+        );
+    }
+    assert!(found.misfit[1] < found.misfit[0] && found.trials.len() as u64 * 12 == journal.total());
+    let again = fitted(&file, &scan, false, 12, &mut journal).unwrap();
+    assert_eq!(format!("{:?}", found.keys), format!("{:?}", again.keys), "nothing is laid anew");
+}
+
+/// A key that changes nothing of what is compared is named, and the others are found all the same.
+#[test]
+fn a_key_without_effect_is_named() {
+    let text = SMALL.replace("filaments_per_metre = 250", "filaments_per_metre = 250\ndepth = \"10 mm\"");
+    let file = read(&text, &["line.depth", "line.filaments_per_metre"]);
+    let scan = scanned(&laid(&file, &[0.01, 350.0], 1000));
+    let found = fitted(&file, &scan, false, 8, &mut Journal::in_memory(200)).unwrap();
+    assert_eq!(found.keys[0].doubt, Some(KeyDoubt::NoEffect), "{found:?}");
+    assert!(found.keys[0].interval.is_err());
+    let [low, high] = found.keys[1].interval.clone().unwrap();
+    assert!(low < 350.0 && 350.0 < high, "{found:?}");
+}
+
+#[test]
+fn what_cannot_be_compared_is_refused() {
+    let file = read(SMALL, &["line.filaments_per_metre"]);
+    let scan = scanned(&laid(&file, &[350.0], 1000));
+    let target =
+        |scan: &MeasuredWeb| Target::new(scan, &file.start.spec.sheet, false).unwrap_err().to_string();
+    let blurred = MeasuredWeb {
+        patches: scan.patches.iter().map(|patch| MeasuredPatch { blur: 0.2, ..*patch }).collect(),
+        ..scan.clone()
+    };
+    assert!(target(&blurred).contains("none of them is sharp"), "{}", target(&blurred));
+    let mut even = scan.clone();
+    even.map.cells.iter_mut().for_each(|cell| *cell = 1000);
+    assert!(target(&even).contains("does not vary"), "{}", target(&even));
+    let few = fitted(&file, &scan, false, 3, &mut Journal::in_memory(200)).unwrap_err().to_string();
+    assert!(few.contains("too few to tell chance from difference"), "{few}");
+    // The lamp is a guess: values, but no intervals.
+    let guessed = MeasuredWeb { doubt: Some("the level of the lamp is a guess".to_owned()), ..scan };
+    let found = fitted(&file, &guessed, false, 8, &mut Journal::in_memory(200)).unwrap();
+    assert_eq!(found.keys[0].interval, Err("the level of the lamp is a guess".to_owned()));
+}
+
+/// Closed loops for docs/fit.md: how many of 100 intervals hold the value with which the scanned web was laid.
+#[test]
+#[ignore = "takes minutes; docs/fit.md has its numbers"]
+fn stat_coverage_of_a_hundred_loops() {
     for spectrum in [false, true] {
-        let hits = coverage(&["laydown.noise", "line.filaments_per_metre"], &[16.0, 350.0], spectrum, 100);
+        let hits =
+            coverage(&["laydown.noise", "line.filaments_per_metre"], &[16.0, 350.0], spectrum, (100, 20));
         println!("spectrum {spectrum}: {hits:?} of 100");
+        assert!(hits.iter().all(|hits| *hits >= 80), "{hits:?}");
     }
 }

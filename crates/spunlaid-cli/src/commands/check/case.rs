@@ -241,12 +241,24 @@ fn fed(case: &Case, line: Line) {
 fn limits(case: &Case) {
     let h = case.run.time_step;
     say::line(&format!("# time step {}, {} steps; stable below", Dimension::Time.pretty(h), case.run.steps));
-    for limit in case.stable_step_limits() {
+    let limits = case.stable_step_limits();
+    for limit in &limits {
         say::line(&format!(
             "#   {:<10} {} ({:.3} of it used)",
             Dimension::Time.pretty(limit.limit),
             limit.cause,
             h / limit.limit
+        ));
+    }
+    if let Some(shortest) = limits.iter().min_by(|a, b| a.limit.total_cmp(&b.limit)) {
+        say::line(&format!("#   the shortest, {}: {}", shortest.cause, shortest.reason()));
+    }
+    if let Some(share) = case.air.place_of_cutoff(case.along()).filter(|_| case.line.is_none()) {
+        say::line(&format!(
+            "#   the turbulence changes fastest {} from the root, where its cut-off frequency is {}; a step that keeps run.error_tolerance \
+             follows it",
+            Dimension::Length.pretty_to(share * case.fibre.length, 3),
+            Dimension::Frequency.pretty_to(case.air.cutoff_frequency, 3)
         ));
     }
 }

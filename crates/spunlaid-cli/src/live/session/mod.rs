@@ -159,7 +159,7 @@ impl Session {
                 }
                 command => {
                     changed = true;
-                    self.obey(command).unwrap_or_else(Some)
+                    self.obey(command).unwrap_or_else(|refusal| Some(refusal.about(command.subject())))
                 }
             };
             if let Some(answer) = answer {

@@ -31,7 +31,7 @@ impl Session {
             }
             Command::Pause {} => self.stands = true,
             Command::Go {} => {
-                self.stands = false;
+                (self.stands, self.trouble) = (false, None);
                 self.clock.begin(Instant::now());
             }
             Command::Step {} => {
@@ -39,7 +39,7 @@ impl Session {
                 self.step();
             }
             Command::Reset {} => {
-                self.fibres.reset().map_err(|error| Answer::Refused { problems: complaints(&error) })?;
+                self.fibres.reset().map_err(|error| Answer::rejected(complaints(&error)))?;
                 self.since = 0.0;
                 self.began_anew();
             }
@@ -59,7 +59,7 @@ impl Session {
     /// The document with another value of a key.
     fn with(&self, name: &str, value: &KeyValue) -> Result<Document, Answer> {
         let key = keys::named(name).map_err(|problem| Answer::refused(problem.to_string()))?;
-        let refused = |problems| Answer::Refused { problems };
+        let refused = Answer::rejected;
         let written = toml_of(key, value).map_err(Answer::refused)?;
         let mut document = self.document.with(key, Some(written)).map_err(refused)?;
         // The diameter may have been written as a linear density.
@@ -70,7 +70,7 @@ impl Session {
     }
 
     fn become_of(&mut self, document: Document) -> Result<(), Answer> {
-        let refused = |problems| Answer::Refused { problems };
+        let refused = Answer::rejected;
         let read = document.read().map_err(refused)?;
         let document = document.with_tension_of_flights(&read.case).unwrap_or(document);
         let since = self.now();

@@ -16,6 +16,7 @@
 
 mod lattice;
 mod look;
+mod memory;
 mod plan;
 mod synthesis;
 mod tape;
@@ -99,7 +100,7 @@ impl EddyField {
     ///
     /// * as of [`EddyField::new`]
     pub fn memory(fields: u64, air: &Air, distance: f64, extent: Extent, cutoff: f64) -> f64 {
-        Plan::memory(fields, air, distance, extent, cutoff)
+        memory::memory(fields, air, distance, extent, cutoff)
     }
 
     /// Longest time between two looks at the air around a fibre that is fed [s]: an eighth of the shortest period that it feels, and no

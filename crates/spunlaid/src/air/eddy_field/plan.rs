@@ -2,7 +2,6 @@
 
 use super::lattice::{Extent, Lattice, left, samples};
 use super::way::{Stage, WayOfEddies};
-use super::{synthesis, tape};
 use crate::air::{Air, Spectrum};
 use std::f64::consts::{SQRT_2, TAU};
 
@@ -11,7 +10,7 @@ const ENERGY_WAVE: f64 = 0.746834;
 /// Fewest harmonics, and fewest of the generation with the lowest cut-off frequency.
 const FEWEST: [f64; 2] = [64.0, 10.0];
 /// Blocks of time in a repeat time.
-const BLOCKS: f64 = 8.0;
+pub(super) const BLOCKS: f64 = 8.0;
 
 /// How a field is made and how it is read.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,35 +81,10 @@ impl Plan {
     pub(super) fn block(&self) -> f64 {
         self.repeat_time / BLOCKS
     }
-
-    /// The most memory that so many fields take, of which one at a time is made in such blocks [bytes].
-    pub(super) fn memory(fields: u64, air: &Air, distance: f64, extent: Extent, cutoff: f64) -> f64 {
-        let way = WayOfEddies::new(air, distance);
-        let (lattice, harmonics) = sizes(&way, extent, cutoff);
-        let highest = way.stages.iter().map(|stage| stage.cutoff_frequency).fold(0.0, f64::max);
-        let (mut kept, mut making) = (0.0, 0.0_f64);
-        for (j, stage) in way.stages.iter().enumerate() {
-            let of_stage = harmonics as f64 * stage.cutoff_frequency / highest;
-            let samples = samples(of_stage.ceil() as usize);
-            let [youngest, oldest] = way.travels(j);
-            let looked_at =
-                samples as f64 * (1.0 / BLOCKS + (oldest - youngest) * highest / harmonics as f64);
-            kept += tape::memory(&lattice, samples, looked_at) + of_stage * amplitudes_memory(&lattice);
-            making = making
-                .max(synthesis::memory(&lattice, of_stage) + tape::memory_while_joining(&lattice, samples));
-        }
-        kept * fields as f64 + making
-    }
-}
-
-/// Memory of the amplitudes of a harmonic [bytes].
-fn amplitudes_memory(lattice: &Lattice) -> f64 {
-    let [y, z] = lattice.most_waves().map(|most| (most + 1) as f64);
-    y * z * size_of::<f32>() as f64
 }
 
 /// The lattice and the number of harmonics up to the highest cut-off frequency.
-fn sizes(way: &WayOfEddies, extent: Extent, cutoff: f64) -> (Lattice, usize) {
+pub(super) fn sizes(way: &WayOfEddies, extent: Extent, cutoff: f64) -> (Lattice, usize) {
     let smallest = way.stages.iter().map(|stage| stage.length_scale).fold(f64::INFINITY, f64::min);
     let cutoffs = way.stages.iter().map(|stage| stage.cutoff_frequency);
     let (lowest, highest) =

@@ -8,14 +8,16 @@
 //! A wind makes its samples as the time goes on. It keeps one block of them, so its memory does not grow with
 //! the duration of the flight.
 
+mod grid;
 mod sampling;
+mod stream;
 mod stretches;
 mod synthesis;
 mod taper;
 mod windows;
 
 pub(crate) use sampling::Sampling;
-pub use synthesis::{Stream, StreamKey};
+pub use stream::{Stream, StreamKey};
 
 use self::stretches::Stretches;
 use self::taper::{SPREAD, Taper};

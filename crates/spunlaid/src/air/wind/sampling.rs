@@ -1,7 +1,7 @@
 //! What the winds of one flight have in common: when samples are made, and what they are made of.
 
 use super::super::{Air, FromFile, Measured};
-use super::Stream;
+use super::stream::Stream;
 use crate::company::{Bits, PerLane, shared};
 use crate::error::{Error, Fault};
 use std::cmp::Ordering;

@@ -2,7 +2,7 @@
 
 use super::super::{EddyTurbulence, Measured};
 use super::sampling::Sampling;
-use super::synthesis::Stream;
+use super::stream::Stream;
 use crate::company::PerLane;
 use crate::lanes::{Lanes, Register, WIDTH, Wide};
 use rand_chacha::ChaCha8Rng;

@@ -1,63 +1,19 @@
 //! A window of turbulence by random-phase synthesis.
 
-use super::super::{Air, EddyTurbulence};
+use super::grid::{Grid, Share};
 use super::sampling::Sampling;
+use super::stream::Stream;
 use super::taper::Taper;
-use super::windows::{Grid, Share};
 use crate::company::PerLane;
 use crate::fft::{Complex, InverseTransform, WideComplex, unit};
 use crate::lanes::{Lanes, Register, Task, WIDTH, Wide, cos_sin_turn};
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use rand_chacha::rand_core::Rng;
 use std::f64::consts::{PI, SQRT_2};
-
-/// The key of the random phases of a fibre. Equal keys give equal turbulence, bit for bit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct StreamKey {
-    /// Master seed of the run.
-    pub seed: u64,
-    /// Index of the replicate.
-    pub replicate: u64,
-}
-
-impl StreamKey {
-    /// Random numbers of one velocity component of one eddy in one window of time.
-    pub(super) fn stream(self, window: u64, eddy: u64, component: usize) -> ChaCha8Rng {
-        let mut key = [0; 32];
-        let last = component as u64 | window << 2;
-        for (bytes, word) in key.chunks_exact_mut(8).zip([self.seed, self.replicate, eddy, last]) {
-            bytes.copy_from_slice(&word.to_le_bytes());
-        }
-        ChaCha8Rng::from_seed(key)
-    }
-}
 
 /// A random number in [0, 1).
 fn uniform(stream: &mut ChaCha8Rng) -> f64 {
     (stream.next_u64() >> 11) as f64 * (0.5 * f64::EPSILON)
-}
-
-/// The source of the turbulence of one fibre.
-#[derive(Clone, Debug)]
-pub struct Stream {
-    /// The air.
-    pub air: Air,
-    /// The turbulence of each eddy, see [`Air::turbulence_along`].
-    pub eddies: Vec<EddyTurbulence>,
-    /// The key of its random phases.
-    pub key: StreamKey,
-}
-
-impl Stream {
-    /// The streams of a uniform flow, whose eddies are all alike and independent.
-    pub fn uniform(lanes: &[(Air, StreamKey)], eddies: usize) -> Vec<Self> {
-        let stream = |(air, key): &(Air, StreamKey)| Self {
-            air: air.clone(),
-            eddies: vec![air.turbulence_of_an_eddy(); eddies],
-            key: *key,
-        };
-        lanes.iter().map(stream).collect()
-    }
 }
 
 /// The samples of one window of random phases.

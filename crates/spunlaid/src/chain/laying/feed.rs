@@ -2,7 +2,7 @@
 
 use super::{Fed, Friction, Laying};
 use crate::chain::Chain;
-use crate::chain::constants::Node;
+use crate::chain::node::Node;
 use crate::lanes::{Lanes, WIDTH};
 use crate::vec3::Vec3;
 

@@ -2,7 +2,7 @@
 
 use super::Fed;
 use crate::chain::Chain;
-use crate::chain::constants::Node;
+use crate::chain::node::Node;
 use crate::lanes::{Lanes, WIDTH};
 use crate::line::Contact;
 use crate::vec3::Vec3;

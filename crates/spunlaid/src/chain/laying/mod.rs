@@ -20,7 +20,8 @@ pub(crate) use carried::Carried;
 pub(crate) use friction::Friction;
 
 use super::Chain;
-use super::constants::{Constants, Node};
+use super::constants::Constants;
+use super::node::Node;
 use crate::fibre::{Fibre, Root};
 use crate::lanes::{Lanes, WIDTH};
 use crate::line::Line;

@@ -7,6 +7,7 @@ use super::super::open::{self, Open};
 use super::super::spinline::{self, SpinFile};
 use super::super::written::{WrittenValue, WrittenValues};
 use super::plan::Plan;
+use super::unvaried::advice;
 use super::{Base, MadeExperiment, VariedKey, level};
 use crate::case::keys::{self, Value};
 use crate::case::{Note, Remark};
@@ -190,24 +191,5 @@ fn value_of(key: &VariedKey, value: f64) -> Result<Value, Fault> {
         Ok(Value::Whole(value as u64))
     } else {
         Err(Fault::out_of_range(1, 1_000_000_000_000_000))
-    }
-}
-
-/// Advice for a key whose values a study cannot vary.
-pub(super) const TAKE_A_NUMBER: &str = "take a key whose value is a number or one of a few words";
-
-/// Advice for a name that a study cannot vary.
-pub(super) fn advice(name: &str) -> String {
-    match name {
-        "run.replicates" => return "write replicates = 10 in the study file, above its tables".to_owned(),
-        "run.seed" => return "write seed = 1 in the study file, above its tables".to_owned(),
-        _ => {}
-    }
-    if keys::find(name).is_some() {
-        return TAKE_A_NUMBER.to_owned();
-    }
-    match keys::nearest(name) {
-        Some(key) if key.varies => format!("did you mean {}?", key.name),
-        _ => "write the full name of a key of the case, like air.velocity".to_owned(),
     }
 }

@@ -12,6 +12,7 @@ mod points;
 mod reader;
 mod replicates;
 mod starter;
+mod unvaried;
 mod web;
 mod write;
 

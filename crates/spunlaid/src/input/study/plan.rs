@@ -6,7 +6,8 @@ use super::super::overrides::AUTO;
 use super::super::write::quoted;
 use super::reader::{self, Reader, not_varied, set_twice};
 use super::replicates::MOST_REPLICATES;
-use super::{Base, StudyChanges, base, links};
+use super::unvaried::advice;
+use super::{Base, StudyChanges, links};
 use crate::case::keys::{self, Kind};
 use crate::error::{Fault, FileKind};
 use crate::layers::full_names::is_alternative;
@@ -107,7 +108,7 @@ impl<'a> Reader<'a> {
             return;
         };
         if matches!(key.name, "run.replicates" | "run.seed") {
-            self.reject(entry, name, not_varied(base::advice(name)));
+            self.reject(entry, name, not_varied(advice(name)));
         }
         let is_word = |word: &str| word == AUTO || key.kind.words().contains(&word);
         if matches!(key.kind, Kind::File(_)) && !entry.value.as_str().is_some_and(is_word) {

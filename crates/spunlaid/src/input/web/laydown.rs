@@ -2,7 +2,7 @@
 
 use super::super::data::DataFiles;
 use super::super::{Overrides, file, parse_with};
-use super::read::{Reading, THROUGHPUT};
+use super::read::{NUMBERS, Reading, THROUGHPUT};
 use crate::case::keys::Value;
 use crate::case::{Case, Note};
 use crate::error::{Error, Fault, FileKind, Place};
@@ -11,12 +11,6 @@ use crate::layers::full_names::without_numbers;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The three numbers of the surrogate, with a line for each.
-pub(super) const NUMBERS: [(&str, &str); 3] = [
-    ("laydown.sigma_md", "sigma_md = \"18.4 mm\""),
-    ("laydown.sigma_cd", "sigma_cd = \"18.3 mm\""),
-    ("laydown.noise", "noise = \"12.4 m^-0.5\""),
-];
 const CASE: &str = "laydown.case";
 const RESULTS: &str = "laydown.results";
 /// Files of a finished run.

@@ -3,7 +3,6 @@
 use super::super::Overrides;
 use super::super::open::rival;
 use super::super::written::{WrittenValue, WrittenValues, sorted};
-use super::laydown::NUMBERS;
 use crate::case::keys::{Key, LeftOut, Value};
 use crate::case::{Note, unusual};
 use crate::error::{Error, Fault, Finding};
@@ -13,6 +12,12 @@ use crate::layers::{LaydownSource, LayerSpec, Method, SAME, WebKey, WebSpec};
 use crate::web::{Filaments, Row};
 use std::path::{Path, PathBuf};
 
+/// The three numbers of the surrogate, with a line for each.
+pub(super) const NUMBERS: [(&str, &str); 3] = [
+    ("laydown.sigma_md", "sigma_md = \"18.4 mm\""),
+    ("laydown.sigma_cd", "sigma_cd = \"18.3 mm\""),
+    ("laydown.noise", "noise = \"12.4 m^-0.5\""),
+];
 /// The key of the only thing that all layers have in common.
 pub(super) const BELT_SPEED: &str = "line.belt_speed";
 /// The keys that stand in place of the speeds.

@@ -1,0 +1,117 @@
+//! `spunlaid fit`: finds the values with which a web was laid, goes on after it was killed, and refuses what it cannot do.
+
+use crate::desk::{Desk, names, refusal, success};
+use serde_json::Value;
+use std::fs;
+use std::time::Duration;
+
+const WEB: &str = "version = 1
+[fibre]
+diameter = \"18 µm\"
+density = \"910 kg/m³\"
+[laydown]
+sigma_md = \"6 mm\"
+sigma_cd = \"6 mm\"
+noise = \"12 m^-0.5\"
+[line]
+feed_speed = \"50 m/s\"
+belt_speed = \"5 m/s\"
+filaments_per_metre = 500
+[web]
+width = \"120 mm\"
+length = \"120 mm\"
+";
+
+/// A web of 900 filaments per metre, whose number is to be found from 500.
+fn desk() -> Desk {
+    let desk = Desk::new();
+    fs::write(desk.path("web.toml"), WEB).unwrap();
+    let truth = "web web.toml --set line.filaments_per_metre=900 --set web.seed=5 --out truth --quiet";
+    success(&mut desk.spunlaid(truth));
+    desk
+}
+
+fn json(desk: &Desk, path: &str) -> Value {
+    serde_json::from_slice(&desk.read(path)).unwrap()
+}
+
+#[test]
+fn the_number_of_filaments_is_found_and_the_web_that_was_found_can_be_laid() {
+    let desk = desk();
+    success(&mut desk.spunlaid("analyse truth/map.png --out scan --quiet"));
+    let fit = "fit web.toml --to scan --vary line.filaments_per_metre --webs 10 --out fit --quiet";
+    success(&mut desk.spunlaid(fit));
+    let entries = ["fit.json", "figures", "journal", "report.html", "trials.csv", "web.toml"];
+    assert_eq!(desk.entries("fit"), names(&entries));
+    let found = json(&desk, "fit/fit.json");
+    let key = &found["keys"][0];
+    let [low, high] = [0, 1].map(|end| key["interval"][end].as_f64().unwrap());
+    assert!(low < 900.0 && 900.0 < high && low > 300.0 && high < 2500.0, "{key}");
+    assert!(found["misfit"].as_f64() < found["misfit_start"].as_f64(), "{found}");
+    // Patches that the scan has blurred away are not compared: no CV below 2 mm in pixels of 0.5 mm.
+    let sides: Vec<f64> = found["numbers"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|number| number["patch_m"].as_f64().unwrap())
+        .collect();
+    assert!(sides.iter().all(|side| (0.002..=0.03).contains(side)) && sides.len() >= 3, "{sides:?}");
+    success(&mut desk.spunlaid("web fit/web.toml --out again --quiet"));
+    let page = String::from_utf8(desk.read("fit/report.html")).unwrap();
+    assert!(page.contains("can look like the scan") && page.contains("Misfit over line.filaments_per_metre"));
+}
+
+#[test]
+fn a_fit_that_is_killed_goes_on_and_ends_with_the_same_bits() {
+    let desk = desk();
+    let fit = "fit web.toml --to truth --vary line.filaments_per_metre,laydown.noise --webs 8 --quiet --out";
+    success(&mut desk.spunlaid(&format!("{fit} whole --threads 1")));
+    let mut kills = 0;
+    loop {
+        let mut child = desk.spunlaid(&format!("{fit} killed --threads 2")).spawn().unwrap();
+        let begun = || fs::metadata(desk.path("killed/journal")).map_or(0, |journal| journal.len());
+        let (before, mut ended) = (begun(), None);
+        // Until some webs more have been laid.
+        while begun() < before + 2000 && ended.is_none() {
+            std::thread::sleep(Duration::from_millis(2));
+            ended = child.try_wait().unwrap();
+        }
+        if ended.is_some() {
+            break;
+        }
+        child.kill().unwrap();
+        child.wait().unwrap();
+        kills += 1;
+    }
+    assert!(kills >= 2, "killed {kills} times");
+    for name in ["fit.json", "trials.csv", "web.toml", "journal"] {
+        assert_eq!(desk.read(&format!("whole/{name}")), desk.read(&format!("killed/{name}")), "{name}");
+    }
+}
+
+#[test]
+fn what_cannot_be_sought_is_refused_with_the_way_out() {
+    let desk = desk();
+    for (arguments, words) in [
+        ("--to truth --vary line.depht", "cannot be sought"),
+        ("--to truth --vary web.method", "cannot be sought"),
+        ("--to truth --vary laydown.noise,laydown.noise", "is named twice"),
+        ("--to truth --vary laydown.noise=5..40", "--vary laydown.noise = \"5..40\""),
+        ("--to truth --vary laydown.noise=40m^-0.5..5m^-0.5", "write the smaller value first"),
+        ("--to truth --vary laydown.noise=7", "write FROM..TO"),
+        ("--to nowhere --vary laydown.noise", "it is not a folder"),
+        ("--to . --vary laydown.noise", "holds no scanned or laid web"),
+        ("--to truth --vary air.velocity", "this web flies none"),
+        ("--to truth --vary laydown.noise --webs 3", "--webs"),
+    ] {
+        let message = refusal(&mut desk.spunlaid(&format!("fit web.toml {arguments} --out fit")), 1);
+        assert!(message.contains(words), "{arguments}: {message}");
+        assert!(!desk.path("fit").exists(), "{arguments}");
+    }
+    // Another question does not go on in the folder of the first one.
+    success(&mut desk.spunlaid("fit web.toml --to truth --vary laydown.noise --webs 8 --out fit --quiet"));
+    let other = "fit web.toml --to truth --vary laydown.noise --webs 9 --out fit --quiet";
+    let message = refusal(&mut desk.spunlaid(other), 1);
+    assert!(message.contains("holds a fit of another web") && message.contains("--force"), "{message}");
+    success(&mut desk.spunlaid(&format!("{other} --force")));
+}

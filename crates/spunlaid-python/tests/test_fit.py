@@ -1,0 +1,54 @@
+"""Fits of webs to scans."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from pathlib import Path
+
+import pytest
+from conftest import CASES
+
+import spunlaid
+
+SMALL = {
+    "web.width": 0.15,
+    "web.length": 0.15,
+    "laydown.sigma_md": 0.006,
+    "laydown.sigma_cd": 0.006,
+    "line.belt_speed": 5.0,
+}
+KEYS = {"line.filaments_per_metre": (200, 2000)}
+
+
+@pytest.fixture(scope="module")
+def scan(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A web of 900 filaments per metre."""
+    folder = tmp_path_factory.mktemp("fit") / "scan"
+    values = {**SMALL, "line.filaments_per_metre": 900, "web.seed": 5}
+    spunlaid.web(CASES / "web_known.toml", set=values, threads=1).save(folder)
+    return folder
+
+
+def test_the_number_is_found_as_by_the_program(scan: Path, program: Path, tmp_path: Path) -> None:
+    start = {**SMALL, "line.filaments_per_metre": 500}
+    web = CASES / "web_known.toml"
+    found = spunlaid.fit(web, scan, KEYS, webs=8, set=start, out=tmp_path / "python", threads=1)
+    low, high = found.intervals["line.filaments_per_metre"]
+    assert low < 900 < high
+    assert high / low < 3
+    assert found.values["line.filaments_per_metre"] == pytest.approx(900, rel=0.4)
+    assert "can look like the scan" in found.sentences[0]
+    command = [program, "fit", web, "--to", scan, "--vary", "line.filaments_per_metre=200..2000", "--webs", "8", "--quiet"]
+    for key, value in start.items():
+        command += ["--set", f"{key}={value} m/s" if "speed" in key else f"{key}={value}" if "filaments" in key else f"{key}={value} m"]
+    subprocess.run([*command, "--out", tmp_path / "program"], check=True, capture_output=True)
+    told = json.loads((tmp_path / "program" / "fit.json").read_text())
+    assert told == found.summary == json.loads((tmp_path / "python" / "fit.json").read_text())
+
+
+def test_what_is_wrong_is_said(scan: Path, tmp_path: Path) -> None:
+    with pytest.raises(spunlaid.CaseError, match=r"line\.depht cannot be sought"):
+        spunlaid.fit(CASES / "web_known.toml", scan, ["line.depht"])
+    with pytest.raises(spunlaid.FolderError, match="holds no scanned or laid web"):
+        spunlaid.fit(CASES / "web_known.toml", tmp_path, ["laydown.noise"])

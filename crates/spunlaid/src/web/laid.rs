@@ -1,0 +1,60 @@
+//! What has been laid.
+
+use super::laying::Spent;
+use super::map::Map;
+use super::neighbours::{NeighbourCorrelation, SharedVariance};
+use super::window::Strand;
+use crate::error::Fault;
+
+/// Highest number of a cell, by which the quantum is chosen, over the mean one and over that of a single trace.
+pub(super) const HIGHEST: f64 = 4.0;
+
+/// What has been laid.
+#[derive(Clone, Debug)]
+pub struct LaidWeb {
+    /// The basis weight.
+    pub map: Map,
+    /// Mass beyond edges that cut it off [kg].
+    pub cut: f64,
+    /// What is known of filaments that were flown together and laid as they came down; None of a web of independent filaments.
+    pub together: Option<Together>,
+}
+
+/// What is known of filaments that were flown together, in one air.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Together {
+    /// Single fibres of a window.
+    pub strands: Vec<Strand>,
+    /// How filaments of each layer come down together, over their distance.
+    pub neighbours: Vec<NeighbourCorrelation>,
+    /// The part of CV² that neighbours make together, of each layer over patches of each side; empty if it is not known.
+    pub pairs: Vec<SharedVariance>,
+    /// Filaments that were lost: they are missing on the web from then on.
+    pub lost: u64,
+    /// Length of time that was flown, of the layer that took the longest [s].
+    pub time: f64,
+    /// What the flights took.
+    pub spent: Spent,
+}
+
+impl Together {
+    /// Adds what is known of another layer.
+    pub(crate) fn add(&mut self, layer: usize, other: Self) {
+        self.strands.extend(other.strands.into_iter().map(|strand| Strand { layer, ..strand }));
+        let neighbours = other.neighbours.into_iter();
+        self.neighbours.extend(neighbours.map(|neighbour| NeighbourCorrelation { layer, ..neighbour }));
+        self.pairs.extend(other.pairs.into_iter().map(|pair| SharedVariance { layer, ..pair }));
+        self.lost += other.lost;
+        self.time = self.time.max(other.time);
+        self.spent.whole += other.spent.whole;
+        self.spent.in_parallel += other.spent.in_parallel;
+    }
+}
+
+/// The fault of a cell that holds more fibre than can be counted.
+pub(super) fn too_full(cell: f64) -> Fault {
+    let message = format!(
+        "a cell of {cell:e} m holds more fibre than can be counted, since the filaments lie in few places"
+    );
+    Fault::new(message, "choose smaller cells (web.cell)")
+}

@@ -1,0 +1,27 @@
+//! What lays a web: threads, instruction set, how it is watched and stopped.
+
+use crate::lanes::Isa;
+use std::sync::atomic::{AtomicBool, AtomicU64};
+use std::time::Duration;
+
+/// What computes, and how it is watched and stopped.
+#[derive(Clone, Copy, Debug)]
+pub struct Laying<'a> {
+    /// Number of threads. The map does not depend on it.
+    pub threads: usize,
+    /// Instruction set. The map does not depend on it.
+    pub isa: Isa,
+    /// Ends the laying when it is set.
+    pub stop: &'a AtomicBool,
+    /// Grows by the pieces of filaments that have been laid; [`pieces`] says how many there are.
+    pub laid: &'a AtomicU64,
+}
+
+/// Time that a computation took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spent {
+    /// All of it.
+    pub whole: Duration,
+    /// The parts that are shared among threads.
+    pub in_parallel: Duration,
+}

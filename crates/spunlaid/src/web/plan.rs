@@ -1,0 +1,316 @@
+//! How the filaments of a layer are drawn: where they come down, in which pieces, with which random numbers.
+
+use super::curves::Stretches;
+use super::laying::Laying;
+use super::points::Points;
+use super::raster::{Draw, Pens};
+use super::strip::Strip;
+use super::{Fibres, Filaments, Layer, Sheet, Web};
+use crate::error::{Error, Fault};
+use crate::lanes::{Isa, Lanes, WIDTH};
+use crate::surrogate::{PATH_POINTS, PathKey, Paths, Surrogate};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+use std::ops::Range;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+
+/// Longest piece of a path: of the smaller standard deviation, and of the length 1/A² in which the direction is forgotten.
+const LONGEST_PIECE: [f64; 2] = [0.06, 0.2];
+/// Points that are drawn at once.
+pub(super) const BLOCK: usize = PATH_POINTS + 1;
+/// Last word of the keys of the places of filaments, of the choice of stretches, and of the depths in a slot. Paths and winds have others.
+const PLACES: u64 = 4;
+const STRETCHES: u64 = 5;
+const DEPTHS: u64 = 6;
+/// Paths of the surrogate.
+struct Wandering {
+    paths: Paths,
+    last: Option<[Lanes; 2]>,
+}
+
+impl Points for Wandering {
+    fn next(&mut self, pieces: usize, points: &mut [[Lanes; 2]]) -> usize {
+        let count = points.len().min(pieces + 1);
+        let points = match self.last {
+            Some(last) => {
+                points[0] = last;
+                self.paths.fill(&mut points[1..count]);
+                &points[..count]
+            }
+            // After these, the paths need new points whenever some are asked for.
+            None => {
+                let points = &mut points[..count.min(PATH_POINTS)];
+                self.paths.fill(points);
+                points
+            }
+        };
+        self.last = points.last().copied();
+        points.len()
+    }
+
+    fn paths(&mut self) -> Option<&mut Paths> {
+        Some(&mut self.paths)
+    }
+}
+
+/// How the filaments of a layer are drawn.
+pub(super) struct Plan<'a> {
+    number: u64,
+    pub(super) layer: &'a Layer,
+    /// Places of the filaments across the web, in order [m].
+    pub(super) places: Vec<f64>,
+    /// Pieces of each filament.
+    pub(super) pieces: usize,
+    /// Length of a piece [m].
+    pub(super) piece: f64,
+    /// Parts of a piece, and quanta of a part.
+    pub(super) parts: usize,
+    pub(super) quanta: u32,
+}
+
+/// Time of a point of a path, in times that it takes to draw a part of a piece.
+const POINT: f64 = 1.3;
+
+/// The piece that takes the least time for a length of fibre: the longest one, or the longest that fills whole parts.
+///
+/// * `part` – longest part [m]
+fn cheapest_piece(longest: f64, part: f64) -> f64 {
+    let parts = longest / part;
+    // Below a whole number by more than rounding.
+    let whole = parts.floor() * (1.0 - 1e-9);
+    let cost = |parts: f64| (POINT + parts.ceil()) / parts;
+    if whole > 0.0 && cost(whole) < cost(parts) { whole * part } else { longest }
+}
+
+impl<'a> Plan<'a> {
+    fn new(web: &Web, number: usize, layer: &'a Layer) -> Result<Self, Fault> {
+        let sheet = &web.sheet;
+        let fed = layer.fed_length(sheet);
+        let (wanted, longest) = match &layer.fibres {
+            Fibres::Surrogate(of) => {
+                let least = of.sigma_md.min(of.sigma_cd);
+                let longest = (LONGEST_PIECE[0] * least).min(LONGEST_PIECE[1] / (of.noise * of.noise));
+                // A whole number of pieces, none of them longer.
+                let wanted = cheapest_piece(longest, sheet.cell / (1.0 + layer.belt_ratio()));
+                (fed / (fed / wanted).ceil(), None)
+            }
+            Fibres::Curves(curves) => {
+                let [_, longest] = curves.reach();
+                if (curves.belt_ratio() / layer.belt_ratio() - 1.0).abs() > 1e-9 {
+                    let message = format!(
+                        "the curves were laid at a belt speed of {} times the feed speed, the layer has {} times",
+                        curves.belt_ratio(),
+                        layer.belt_ratio()
+                    );
+                    return Err(Fault::new(message, "fly the case at the belt speed of the web"));
+                }
+                (curves.spacing(), Some(longest))
+            }
+        };
+        let pieces = (fed / wanted).round().max(1.0);
+        if !(fed > 0.0 && pieces < 1e12) {
+            return Err(no_layer(number + 1));
+        }
+        let piece = fed / pieces;
+        let advance = layer.belt_ratio() * piece;
+        let parts = Pens::parts_of((longest.unwrap_or(piece) + advance) / sheet.cell);
+        let places = places(web, number, layer);
+        if places.is_empty() {
+            return Err(no_layer(number + 1));
+        }
+        Ok(Self { number: number as u64, layer, places, pieces: pieces as usize, piece, parts, quanta: 0 })
+    }
+
+    /// Mass of a part of a piece [kg].
+    pub(super) fn mass_of_part(&self) -> f64 {
+        self.layer.linear_density * self.piece / self.parts as f64
+    }
+
+    /// Highest mass of a cell that is reckoned with, without the other filaments [kg].
+    pub(super) fn mass_of_trace(&self, sheet: &Sheet) -> f64 {
+        let width = match &self.layer.fibres {
+            Fibres::Surrogate(of) => (2.0 * std::f64::consts::PI).sqrt() * of.sigma_cd,
+            Fibres::Curves(_) => self.layer.fibres.reach(),
+        };
+        self.layer.linear_density / self.layer.belt_ratio() * sheet.cell * (sheet.cell / width).min(1.0)
+    }
+
+    fn key(&self, web: &Web, filament: usize) -> PathKey {
+        PathKey { seed: web.seed, fibre: self.number << 48 | filament as u64 }
+    }
+
+    /// The curves of the filaments from the number `first` on.
+    fn points(&self, web: &Web, isa: Isa, first: usize, count: usize) -> Result<Box<dyn Points>, Fault> {
+        match &self.layer.fibres {
+            Fibres::Surrogate(surrogate) => {
+                let keys: Vec<PathKey> = (first..first + count).map(|f| self.key(web, f)).collect();
+                let paths = Paths::new(isa, *surrogate, self.piece, &keys).ok_or_else(|| {
+                    let Surrogate { sigma_md, sigma_cd, noise } = surrogate;
+                    Fault::new(
+                        format!(
+                            "no path can be made with the standard deviations {sigma_md:e} m and {sigma_cd:e} m and the \
+                             noise {noise:e} m^-0.5"
+                        ),
+                        "all must be above zero",
+                    )
+                })?;
+                Ok(Box::new(Wandering { paths, last: None }))
+            }
+            Fibres::Curves(curves) => {
+                let random = random(web.seed, self.number << 48 | first as u64, STRETCHES);
+                Ok(Box::new(Stretches::new(Arc::clone(curves), random, count)))
+            }
+        }
+    }
+
+    /// Draws some filaments on a strip.
+    pub(super) fn draw(
+        &self,
+        web: &Web,
+        which: Range<usize>,
+        strip: &mut Strip,
+        by: Laying<'_>,
+    ) -> Result<(), Error> {
+        let per_cell = 1.0 / web.sheet.cell;
+        let (Some(low), Some(high)) = (self.places.get(which.start), self.places.get(which.end - 1)) else {
+            return Ok(());
+        };
+        let reach = self.layer.fibres.reach() + 2.0 * web.sheet.cell;
+        let first = ((low - reach) * per_cell).floor();
+        strip.take(first as i64, ((high + reach) * per_cell - first).ceil() as usize + 1);
+        let pens = |start: usize| {
+            let count = WIDTH.min(which.end - start);
+            let mut at = self.start(web, start, count).map(|at| Lanes(at.0.map(|at| at * per_cell)));
+            at[0] = Lanes(at[0].0.map(|at| at - first));
+            let advance = self.layer.belt_ratio() * self.piece * per_cell;
+            Pens { curves: count, per_cell, advance, parts: self.parts, quanta: self.quanta, at }
+        };
+        for start in which.clone().step_by(2 * WIDTH) {
+            let starts: Vec<usize> = (start..which.end).step_by(WIDTH).take(2).collect();
+            let mut pens: Vec<Pens> = starts.iter().map(|start| pens(*start)).collect();
+            let sets = starts.iter().zip(&pens).map(|(start, pens)| (*start, pens.curves)).collect();
+            self.walk_together(web, sets, by, |set, points| {
+                by.isa.run(Draw { pens: &mut pens[set], strip, points });
+            })?;
+        }
+        Ok(())
+    }
+
+    /// Where the straight traces of some filaments begin, across the web and along it [m].
+    pub(super) fn start(&self, web: &Web, first: usize, count: usize) -> [Lanes; 2] {
+        // Filaments start anywhere on the ring, so that it has no seam.
+        let mut starts = random(web.seed, self.number << 48 | first as u64, PLACES);
+        [
+            Lanes::from_fn(|i| self.places[first + i.min(count - 1)]),
+            Lanes::from_fn(|_| uniform(&mut starts) * web.sheet.length),
+        ]
+    }
+
+    /// Passes on the points (ξ₁, ξ₂) of up to eight filaments, block by block. The first point of a block is where its first piece begins.
+    pub(super) fn walk(
+        &self,
+        web: &Web,
+        first: usize,
+        count: usize,
+        by: Laying<'_>,
+        mut take: impl FnMut(&[[Lanes; 2]]),
+    ) -> Result<(), Error> {
+        self.walk_together(web, vec![(first, count)], by, |_, points| take(points))
+    }
+
+    /// [`Plan::walk`] for one or two sets of filaments at once.
+    ///
+    /// * `sets` – first filament and number of filaments of each
+    /// * `take` – is given the number of the set and its points
+    fn walk_together(
+        &self,
+        web: &Web,
+        sets: Vec<(usize, usize)>,
+        by: Laying<'_>,
+        mut take: impl FnMut(usize, &[[Lanes; 2]]),
+    ) -> Result<(), Error> {
+        let mut points = [[Lanes::ZERO; 2]; BLOCK];
+        let curves = sets.iter().map(|(first, count)| self.points(web, by.isa, *first, *count));
+        let mut curves: Vec<Box<dyn Points>> = curves.collect::<Result<_, _>>()?;
+        let mut left = vec![self.pieces; sets.len()];
+        while left.iter().any(|left| *left > 0) {
+            if by.stop.load(Ordering::Relaxed) {
+                return Err(Error::Interrupted);
+            }
+            if let [one, other] = &mut curves[..]
+                && let (Some(one), Some(other)) = (one.paths(), other.paths())
+            {
+                one.go_on_together(other);
+            }
+            for ((set, curves), left) in curves.iter_mut().enumerate().zip(&mut left) {
+                if *left > 0 {
+                    let given = curves.next(*left, &mut points);
+                    take(set, &points[..given]);
+                    *left -= given - 1;
+                    by.laid.fetch_add(((given - 1) * sets[set].1) as u64, Ordering::Relaxed);
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A stream of random numbers of its own.
+fn random(seed: u64, number: u64, kind: u64) -> ChaCha8Rng {
+    let mut key = [0; 32];
+    for (bytes, word) in key.chunks_exact_mut(8).zip([seed, number, 0, kind]) {
+        bytes.copy_from_slice(&word.to_le_bytes());
+    }
+    ChaCha8Rng::from_seed(key)
+}
+
+/// A random number from 0 to below 1.
+fn uniform(random: &mut ChaCha8Rng) -> f64 {
+    (random.next_u64() >> 11) as f64 / 9_007_199_254_740_992.0
+}
+
+/// Where the filaments of a layer come down in cross direction, in order [m].
+pub(super) fn places(web: &Web, number: usize, layer: &Layer) -> Vec<f64> {
+    inlets(&web.sheet, web.seed, number, &layer.filaments).into_iter().map(|[cd, _]| cd).collect()
+}
+
+/// Where the inlets of the filaments of a layer are in cross and in machine direction, in order across the web [m].
+///
+/// * `seed` – of the web
+/// * `number` – of the layer
+pub(crate) fn inlets(sheet: &Sheet, seed: u64, number: usize, filaments: &Filaments) -> Vec<[f64; 2]> {
+    let random = |kind| random(seed, (number as u64) << 48 | 1 << 47, kind);
+    let count = filaments.count(sheet);
+    let mut inlets: Vec<[f64; 2]> = match filaments {
+        Filaments::AtRandom { .. } => {
+            let mut random = random(PLACES);
+            (0..count).map(|_| [uniform(&mut random) * sheet.width, 0.0]).collect()
+        }
+        Filaments::Slot { depth, .. } => {
+            let (mut random, pitch) = (random(DEPTHS), sheet.width / count as f64);
+            let inlet = |i| [(i as f64 + 0.5) * pitch, (uniform(&mut random) - 0.5) * depth];
+            (0..count).map(inlet).collect()
+        }
+        Filaments::Rows(rows) => {
+            let nozzles = rows
+                .iter()
+                .flat_map(|row| (0..row.filaments).map(|i| [row.offset + row.pitch * i as f64, row.md]));
+            nozzles.collect()
+        }
+    };
+    inlets.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    inlets
+}
+
+pub(super) fn plans(web: &Web) -> Result<Vec<Plan<'_>>, Fault> {
+    web.layers.iter().enumerate().map(|(number, layer)| Plan::new(web, number, layer)).collect()
+}
+
+/// The fault of a layer without filaments or without fibre.
+fn no_layer(number: usize) -> Fault {
+    Fault::new(
+        format!("layer {number} of the web lays nothing"),
+        "it needs filaments, a feed speed and a belt speed above zero",
+    )
+}
