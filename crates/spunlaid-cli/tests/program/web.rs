@@ -211,6 +211,25 @@ fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
     let table = desk::success(&mut desk.spunlaid("web web.toml --out w"));
     assert!(table.contains("airs of their own") && !table.contains("few fibres"), "{table}");
     let summary = desk.summary("w");
+    // Advice takes such a web for each change, and has to be asked for.
+    assert!(
+        table.contains("\nWhat would make it more even was not tried: spunlaid web with --advice"),
+        "{table}"
+    );
+    assert!(summary.get("advice").is_none());
+    desk::success(&mut desk.spunlaid("web web.toml --out advised --advice --quiet"));
+    let advised = desk.summary("advised");
+    assert_eq!(advised["web"], summary["web"]);
+    let changes = advised["advice"]["changes"].as_array().unwrap();
+    let depths: Vec<f64> = (changes.iter())
+        .filter(|change| change["setting"] == "depth")
+        .map(|change| change["keys"][0]["to"].as_f64().unwrap())
+        .collect();
+    assert_eq!(depths, [8e-3, 12e-3]);
+    for patch in changes.iter().flat_map(|change| change["patches"].as_array().unwrap()) {
+        // The air of each web is another one.
+        assert!(patch["cv_change"].as_f64().unwrap() != 0.0, "{patch}");
+    }
     assert_eq!(summary["layers"][0]["lateral_cutoff"], 15.0, "{summary}");
     assert_eq!(summary["web"]["lost_filaments"], 0);
     for patch in summary["web"]["patches"].as_array().unwrap() {

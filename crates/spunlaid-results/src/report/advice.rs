@@ -2,7 +2,7 @@
 
 use super::web::{grams, headline_patch};
 use super::words::millimetres;
-use crate::numbers::{THIN, plus_minus, significant};
+use crate::numbers::{HARD, THIN, plus_minus, significant};
 use crate::output::web::HOUR;
 use spunlaid::advice::{Advice, Change, ChangedKey, CvChange, Effect, Setting};
 use spunlaid::layers::WebSpec;
@@ -54,12 +54,16 @@ pub fn advice_words(spec: &WebSpec, findings: &Findings, advice: Option<&Advice>
             format!("{} ({}{THIN}%), {}", more_or_less(&effect.change, spec), per_cent(cv), cost(effect))
         })
         .collect();
-    format!("At the same {weight}, the {what} {place} falls most with {}.", named.join("; then with "))
-        + if is_known(spec) {
-            " The lay-down itself is taken as it is, because no fibre was flown."
-        } else {
-            ""
-        }
+    let mut words =
+        format!("At the same {weight}, the {what} {place} falls most with {}.", named.join("; then with "));
+    if named.len() < NAMED {
+        words +=
+            &format!(" No other setting that was tried lowers it by more than 1{THIN}% and beyond chance.");
+    }
+    if is_known(spec) {
+        words += " The lay-down itself is taken as it is, because no fibre was flown.";
+    }
+    words
 }
 
 /// Whether nothing of the web was flown.
@@ -67,10 +71,11 @@ fn is_known(spec: &WebSpec) -> bool {
     spec.layers.iter().all(|layer| layer.source.case().is_none())
 }
 
-/// `−10.6 ± 0.7`.
+/// `−10.6 ± 0.7`, or `+3.2 ± 1.3`.
 fn per_cent(cv: &CvChange) -> String {
     let error = Some(PER_CENT * cv.standard_error).filter(|error| error.is_finite());
-    plus_minus(PER_CENT * cv.change, error)
+    let plus = if cv.change > 0.0 { "+" } else { "" };
+    format!("{plus}{}", plus_minus(PER_CENT * cv.change, error))
 }
 
 /// `20 % less titre, 2 to 1.6 dtex`.
@@ -103,7 +108,9 @@ fn share(change: &Change) -> String {
 }
 
 fn values(key: &ChangedKey) -> String {
-    format!("{} to {}", key.pretty(key.from), key.pretty(key.to))
+    // No line ends between a number and its unit.
+    let [from, to] = [key.from, key.to].map(|value| key.pretty(value).replace(' ', &HARD.to_string()));
+    format!("{from} to {to}")
 }
 
 /// What a change costs in throughput.
