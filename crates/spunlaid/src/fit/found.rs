@@ -407,7 +407,8 @@ fn profile(
 /// The keys with their values and intervals.
 fn keys(webs: &Webs<'_>, surface: &Surface, at: &[f64], profiles: Vec<Vec<(f64, f64)>>) -> Vec<FittedKey> {
     let t = student_t_95(webs.count - 1);
-    let key = |(key, (parameter, profile)): (usize, (&Parameter, Vec<(f64, f64)>))| {
+    let key = |(key, profile): (usize, Vec<(f64, f64)>)| {
+        let parameter = &webs.parameters[key];
         let (parameter, value) = (parameter.clone(), parameter.value(at[key]));
         let Some(own) = surface.known.iter().position(|known| *known == key) else {
             let interval = Err("it changes nothing of what is compared".to_owned());
@@ -426,7 +427,7 @@ fn keys(webs: &Webs<'_>, surface: &Surface, at: &[f64], profiles: Vec<Vec<(f64, 
         let interval = webs.target.doubt().map_or(Ok(in_range), |doubt| Err(doubt.to_owned()));
         FittedKey { parameter, value, interval, profile, doubt }
     };
-    webs.parameters.iter().zip(profiles).enumerate().map(key).collect()
+    profiles.into_iter().enumerate().map(key).collect()
 }
 
 /// Correlations of the errors of all keys, and the keys that cannot be told apart.
