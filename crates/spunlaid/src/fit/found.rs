@@ -1,12 +1,14 @@
 //! What a fit has found: the values with their intervals, the profile of the misfit, and whether such webs can look like the scan at all.
 
 use super::parameter::Parameter;
+use super::polynomials::Polynomials;
 use super::search::{Place, rest};
+use super::surface::{Surface, in_place_of_the_scan};
 use super::texture::Texture;
 use super::webs::Webs;
-use super::weights::{Matrix, gain, information, mean_of, misfit, unexplained, weights};
+use super::weights::{Matrix, gain, information, misfit, unexplained};
 use crate::error::Error;
-use crate::statistics::linear::{dot, inverse};
+use crate::statistics::linear::inverse;
 use crate::statistics::student_t_95;
 
 /// What was found.
@@ -106,181 +108,6 @@ impl FittedNumber {
 const ALIKE: f64 = 0.95;
 /// The profile is found at these distances from the value [standard errors].
 const PROFILE: [f64; 5] = [-2.0, -1.0, 0.0, 1.0, 2.0];
-
-/// The errors of the values: what each cause does to the coordinates.
-struct Errors {
-    /// What each simulated web, taken as the scan, would do to the coordinates [by web].
-    by_chance: Matrix,
-    /// What other causes do [by cause].
-    others: Matrix,
-}
-
-impl Errors {
-    /// Covariance of the errors of two coordinates.
-    fn covariance(&self, i: usize, j: usize) -> f64 {
-        let n = self.by_chance.len() as f64;
-        // A web differs from the mean of the others by n/(n − 1) of its variance, the scan from the mean of all by (n + 1)/n.
-        let scale = (n - 1.0) * (n + 1.0) / (n * n);
-        let chance = self.by_chance.iter().map(|web| web[i] * web[j]).sum::<f64>() / n * scale;
-        chance + self.others.iter().map(|cause| cause[i] * cause[j]).sum::<f64>()
-    }
-
-    fn standard_error(&self, i: usize) -> f64 {
-        self.covariance(i, i).sqrt()
-    }
-}
-
-/// What the trials around a place say together.
-struct Surface {
-    /// Indices of the keys that change something.
-    known: Vec<usize>,
-    /// Logarithms of the numbers at the values.
-    here: Vec<f64>,
-    /// Slopes of the numbers by each of these keys.
-    slopes: Matrix,
-    /// What numbers do to the values.
-    gain: Matrix,
-    errors: Errors,
-}
-
-impl Surface {
-    /// * `known` – indices of the keys that may change something
-    /// * `slopes` – by each key
-    /// * `other_errors` – of the logarithms, by causes other than chance
-    fn new(
-        webs: &Webs<'_>,
-        place: &Place,
-        mut known: Vec<usize>,
-        (here, slopes): (Vec<f64>, &Matrix),
-        other_errors: &Matrix,
-    ) -> Self {
-        let (slopes, gain_of_all) = loop {
-            let slopes: Matrix = known.iter().map(|key| slopes[*key].clone()).collect();
-            match gain(&place.weights, &slopes) {
-                Ok(gain) => break (slopes, gain),
-                // A key that changes nothing has no value of its own.
-                Err(key) => known.remove(key),
-            };
-        };
-        let by_chance = webs.trials[place.trial].webs.iter().enumerate().map(|(i, _)| {
-            let (weights, apart) = in_place_of_the_scan(webs, place, i);
-            let gain = gain(&weights, &slopes).unwrap_or_else(|_| gain_of_all.clone());
-            gain.iter().map(|row| dot(row, &apart)).collect()
-        });
-        let by_chance = by_chance.collect();
-        let causes = other_errors.iter().chain(&webs.target.camera);
-        let others = causes.map(|errors| gain_of_all.iter().map(|row| dot(row, errors)).collect()).collect();
-        let errors = Errors { by_chance, others };
-        Self { known, here, slopes, gain: gain_of_all, errors }
-    }
-
-    /// The step to the values with the least misfit, by key.
-    ///
-    /// * `from` – the step from the place to where these numbers are
-    fn step(&self, webs: &Webs<'_>, place: &Place, from: &[f64]) -> Vec<f64> {
-        let at = webs.trials[place.trial].at.iter().zip(from).map(|(place, from)| place + from);
-        let at: Vec<f64> = at.collect();
-        let rest: Vec<f64> =
-            webs.target.logarithms.iter().zip(&self.here).map(|(scan, here)| scan - here).collect();
-        let mut step = vec![0.0; at.len()];
-        for (key, row) in self.known.iter().zip(&self.gain) {
-            let [low, high] = webs.parameters[*key].ends();
-            step[*key] = (at[*key] + dot(row, &rest)).clamp(low, high) - at[*key];
-        }
-        step
-    }
-}
-
-/// A web of a trial as if it were the scan and the others were all that were laid: the weights by these, and how far it is from them.
-fn in_place_of_the_scan(webs: &Webs<'_>, place: &Place, web: usize) -> (Matrix, Vec<f64>) {
-    let all = &webs.trials[place.trial].webs;
-    let others = || all.iter().enumerate().filter(move |(other, _)| *other != web).map(|(_, web)| web);
-    let weights = weights(others(), &webs.target.camera).unwrap_or_else(|| place.weights.clone());
-    let mean = mean_of(others());
-    (weights, all[web].iter().zip(&mean).map(|(web, mean)| web - mean).collect())
-}
-
-/// The numbers around a place as polynomials of second order through the means of all trials there.
-struct Polynomials {
-    /// Powers of the coordinates in each term, by the coordinates that are multiplied: none, one or two.
-    terms: Vec<Vec<usize>>,
-    /// Of each number, the factor of each term.
-    factors: Matrix,
-}
-
-impl Polynomials {
-    /// * `reach` – how far from the place trials count, by coordinate
-    ///
-    /// None if too few trials lie there.
-    fn new(webs: &Webs<'_>, place: &Place, reach: &[f64]) -> Option<Self> {
-        let keys = reach.len();
-        let linear = || std::iter::once(Vec::new()).chain((0..keys).map(|i| vec![i]));
-        let squares = || (0..keys).map(|i| vec![i, i]);
-        let products = (0..keys).flat_map(|i| (i + 1..keys).map(move |j| vec![i, j]));
-        let all = [
-            linear().chain(squares()).chain(products).collect(),
-            linear().chain(squares()).collect(),
-            linear().collect::<Vec<Vec<usize>>>(),
-        ];
-        all.into_iter().find_map(|terms| Self::of_terms(webs, place, reach, terms))
-    }
-
-    fn of_terms(webs: &Webs<'_>, place: &Place, reach: &[f64], terms: Vec<Vec<usize>>) -> Option<Self> {
-        let here = &webs.trials[place.trial].at;
-        // In parts of the reach, so that all terms are of like size.
-        let step = |at: &[f64]| -> Vec<f64> {
-            at.iter().zip(here).zip(reach).map(|((at, here), reach)| (at - here) / reach).collect()
-        };
-        let around = webs.trials.iter().map(|trial| (step(&trial.at), &trial.mean));
-        let around = around.filter(|(step, _)| step.iter().all(|step| step.abs() <= 1.0));
-        let rows: Vec<(Vec<f64>, &Vec<f64>)> = around
-            .map(|(step, mean)| (terms.iter().map(|term| value(term, &step)).collect(), mean))
-            .collect();
-        // A trial more than there are terms, so that chance does not decide.
-        if rows.len() <= terms.len() {
-            return None;
-        }
-        let sum = |term: &dyn Fn(&[f64], &[f64]) -> f64| {
-            rows.iter().map(|(row, mean)| term(row, mean)).sum::<f64>()
-        };
-        let size = terms.len();
-        let normal = (0..size).map(|i| (0..size).map(|j| sum(&|row, _| row[i] * row[j])).collect()).collect();
-        let inverse = inverse(normal).ok()?;
-        let scales: Vec<f64> =
-            terms.iter().map(|term| term.iter().map(|key| reach[*key]).product::<f64>()).collect();
-        let of_number = |number: usize| -> Vec<f64> {
-            let moments: Vec<f64> = (0..size).map(|i| sum(&|row, mean| row[i] * mean[number])).collect();
-            inverse.iter().zip(&scales).map(|(row, scale)| dot(row, &moments) / scale).collect()
-        };
-        let factors = (0..webs.target.logarithms.len()).map(of_number).collect();
-        Some(Self { terms, factors })
-    }
-
-    /// The numbers a step away from the place, and their slopes there.
-    fn at(&self, step: &[f64]) -> (Vec<f64>, Matrix) {
-        let values: Vec<f64> = self.terms.iter().map(|term| value(term, step)).collect();
-        let slope = |key: usize| {
-            let of_term = |term: &Vec<usize>| {
-                let without = |i: usize| {
-                    term.iter().enumerate().filter(move |(j, _)| *j != i).map(|(_, key)| step[*key])
-                };
-                let own = (0..term.len()).filter(|i| term[*i] == key);
-                own.map(|i| without(i).product::<f64>()).sum::<f64>()
-            };
-            let slopes: Vec<f64> = self.terms.iter().map(of_term).collect();
-            self.factors.iter().map(|factors| dot(factors, &slopes)).collect()
-        };
-        (
-            self.factors.iter().map(|factors| dot(factors, &values)).collect(),
-            (0..step.len()).map(slope).collect(),
-        )
-    }
-}
-
-/// The product of the coordinates of a term.
-fn value(term: &[usize], step: &[f64]) -> f64 {
-    term.iter().map(|key| step[*key]).product()
-}
 
 /// Most steps on the polynomials, each from where the last one ended.
 const MOST: usize = 20;

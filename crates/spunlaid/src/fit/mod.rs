@@ -12,14 +12,16 @@
 //! **The intervals** come from the webs themselves: each simulated web of the best values takes the place of the scan, and the values
 //! that would be found for it scatter as those for a real scan do (simulated method of moments: D. McFadden, Econometrica 57 (1989) 995–1026;
 //! C. Gouriéroux, A. Monfort, E. Renault, Journal of Applied Econometrics 8 (1993) S85–S118). Errors of the camera, of the few flown fibres and of the surrogate
-//! are added. Where the misfit is no parabola, the ends of the interval follow its profile.
+//! are added. The values themselves come from polynomials of second order through all trials within a standard error of the best one.
 //!
 //! **Whether such webs can look like the scan** is said by the misfit itself: that of the scan stands among those that the simulated webs
 //! have when each is taken as the scan.
 
 mod found;
 mod parameter;
+mod polynomials;
 mod search;
+mod surface;
 mod target;
 mod texture;
 mod webs;
