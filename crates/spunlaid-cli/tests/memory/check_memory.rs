@@ -24,6 +24,7 @@ fn peak(command: &mut Command) -> f64 {
 
 #[test]
 fn check_tells_the_memory_of_a_run() {
+    let _alone = crate::alone();
     let desk = Desk::new();
     let field = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/openfoam_diffuser.toml");
     for (name, case, changes) in [
@@ -46,6 +47,7 @@ fn check_tells_the_memory_of_a_run() {
 /// The tables are written while fibres fly, and what observers keep of the instants is bounded.
 #[test]
 fn memory_of_a_run_does_not_grow_with_its_duration_or_its_recorded_instants() {
+    let _alone = crate::alone();
     let desk = Desk::new();
     let seldom = ["run.output_interval=50 ms", "run.replicates=1"];
     let often = ["run.duration=2.1 s", "run.replicates=16", "run.shapes=100"];

@@ -53,6 +53,7 @@ fn peak(points: u64, replicates: u64) -> Peak {
 
 #[test]
 fn memory_is_flat() {
+    let _alone = crate::alone();
     let three = |points, replicates| [(); 3].map(|()| peak(points, replicates));
     let (few, many, often) = (three(1000, 2), three(10_000, 2), three(1000, 20));
     // A peak wanders by 3 MiB with the pictures that happen to be drawn side by side, and a look may miss the last
