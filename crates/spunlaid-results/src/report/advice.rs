@@ -1,6 +1,6 @@
 //! What would make a web more even, for people: the sentence under the headline, and a table of all settings that were tried.
 
-use super::web::{grams, headline_patch};
+use super::headline::{grams, headline_patch};
 use super::words::millimetres;
 use crate::numbers::{HARD, THIN, plus_minus, significant};
 use crate::output::web::HOUR;

@@ -10,6 +10,7 @@ mod analysis;
 mod comparison;
 mod fit;
 mod frames;
+mod headline;
 mod light_table;
 mod methods;
 mod page;

@@ -1,10 +1,11 @@
 //! `report.html` of a scanned web: the web on a light table, how uneven it is, and the figures.
 
 use super::advice::AdviceSection;
+use super::headline::nearest;
 use super::light_table::{about_sheet, sheet};
 use super::methods::Methods;
 use super::rendered;
-use super::web::{File, WebPage, cost, headline, largest_clouds, nearest, per_cent, unevenness};
+use super::web::{File, WebPage, cost, headline, largest_clouds, per_cent, unevenness};
 use super::words::{metres, millimetres};
 use crate::Failure;
 use crate::figures::SEEN;

@@ -1,6 +1,7 @@
 //! `report.html` of a web: the web on a light table, what makes it uneven, and the figures.
 
 use super::advice::AdviceSection;
+use super::headline::{grams, headline_patch};
 use super::light_table::{Fibres, Sheet, Strands, about_sheet, sheet};
 use super::methods::{Methods, web_account};
 use super::rendered;
@@ -18,8 +19,6 @@ use spunlaid::web::{Clouds, Findings, Lever, PatchFindings, Sensitivity, Source,
 use spunlaid_charts::Figure;
 
 const PER_CENT: f64 = 100.0;
-/// Size of the patches that the eye judges first [m].
-const SEEN: f64 = 10e-3;
 
 /// Content of the report.
 #[derive(Clone, Copy, Debug)]
@@ -165,21 +164,6 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
 
 pub(super) fn cost(performance: Performance) -> String {
     format!("computed in {} on {}", time(performance.wall_s), count(performance.threads as u64, "thread"))
-}
-
-pub(super) fn grams(weight: f64) -> String {
-    format!("{}{THIN}g/m²", significant(weight * 1e3, 3))
-}
-
-/// The patch nearest to what the eye judges first.
-pub(super) fn headline_patch(findings: &Findings) -> Option<usize> {
-    nearest(findings.patches.iter().map(|patch| patch.map.patch))
-}
-
-/// Which of the sides of patches is nearest to what the eye judges first.
-pub(super) fn nearest(patches: impl Iterator<Item = f64>) -> Option<usize> {
-    let far = |patch: f64| (patch / SEEN).ln().abs();
-    patches.map(far).enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).map(|(i, _)| i)
 }
 
 /// * `weight` – mean basis weight, if it is known [kg/m²]
