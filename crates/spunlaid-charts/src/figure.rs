@@ -14,11 +14,9 @@ pub struct Figure {
     pub title: String,
     /// What is shown and what the numbers mean.
     pub caption: String,
-    /// The picture for the screen.
-    pub svg: String,
     /// The numbers, in the units of the axes.
     pub table: Table,
-    /// How it is drawn at other widths.
+    /// How it is drawn.
     drawing: Drawing,
 }
 
@@ -46,7 +44,12 @@ impl Figure {
         caption: impl Into<String>,
     ) -> Self {
         let (name, title, caption) = (name.to_owned(), title.to_owned(), unbroken(caption));
-        Self { name, title, caption, svg: drawing.on_screen(), table, drawing }
+        Self { name, title, caption, table, drawing }
+    }
+
+    /// The picture as SVG for the screen. It is drawn when it is asked for, because that of many points is larger than they are.
+    pub fn svg(&self) -> String {
+        self.drawing.on_screen()
     }
 
     /// The picture as SVG for print, so many millimetres wide.
@@ -157,7 +160,8 @@ mod tests {
             .scatter(Series::new("*y*", "red"), &[(0.1, 1.0, None), (0.9, 2.0, None)]);
         let figure = Figure::new(&chart, "");
         assert_eq!(figure.table.csv(), "series,law,y_mm\ny,one,1\ny,two,2\n");
-        assert!(figure.svg.contains(">one</text>") && figure.svg.contains(">two</text>"), "{}", figure.svg);
+        let svg = figure.svg();
+        assert!(svg.contains(">one</text>") && svg.contains(">two</text>"), "{svg}");
     }
 
     #[test]

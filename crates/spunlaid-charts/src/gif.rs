@@ -15,14 +15,17 @@ const GREYS: usize = 64;
 ///
 /// # Errors
 /// A string that is not an SVG picture, or one of another size.
-pub fn gif<'a>(frames: impl IntoIterator<Item = &'a str>, per_second: f64) -> Result<Vec<u8>, PictureError> {
+pub fn gif<S: AsRef<str>>(
+    frames: impl IntoIterator<Item = S>,
+    per_second: f64,
+) -> Result<Vec<u8>, PictureError> {
     let greys = (0..GREYS).map(|grey| [(grey * 255 / (GREYS - 1)) as u8; 3]);
     let palette: Vec<[u8; 3]> = colours().map(|colour| parts(&colour)).chain(greys).collect();
     let failed = |error: gif::EncodingError| PictureError::Encoding(error.to_string());
     let mut nearest: HashMap<[u8; 3], u8> = HashMap::new();
     let mut encoder: Option<(Encoder<Vec<u8>>, [u16; 2])> = None;
     for svg in frames {
-        let pixels = drawn(svg, 1.0)?;
+        let pixels = drawn(svg.as_ref(), 1.0)?;
         let size = match [pixels.width(), pixels.height()].map(u16::try_from) {
             [Ok(width), Ok(height)] => [width, height],
             _ => return Err(PictureError::Size(pixels.width(), pixels.height())),

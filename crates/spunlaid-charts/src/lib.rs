@@ -22,8 +22,8 @@
 //!     .scatter(Series::triangles("*z*"), &[(5.0, 4.7, Some(0.1)), (10.0, 9.5, None)]);
 //! let figure = Figure::new(&chart, "Mean over ten replicates; bars are one standard error.");
 //!
-//! assert!(figure.svg.starts_with("<svg"));
-//! assert!(png(&figure.svg, 192, &[])?.starts_with(b"\x89PNG"));
+//! assert!(figure.svg().starts_with("<svg"));
+//! assert!(png(&figure.svg(), 192, &[])?.starts_with(b"\x89PNG"));
 //! assert_eq!(
 //!     figure.table.csv(),
 //!     "series,velocity_m_s,amplitude_mm,error\n\

@@ -190,10 +190,9 @@ mod tests {
     fn the_longest_wedge_reaches_as_far_as_its_ring() {
         // Two of four classes: 2 to the upper right, 1 to the lower left. Rings every 0.4 up to 2.
         let rose = rose(vec![(2.0, None), (0.0, None), (1.0, Some(0.1)), (f64::NAN, None)]);
-        let figure = rose.figure("");
+        let svg = rose.figure("").svg();
         let (centre, radius) = ((290.0, 214.0), 185.0);
-        let wedges: Vec<&str> =
-            figure.svg.lines().filter(|line| line.contains("fill-opacity=\"0.28\"")).collect();
+        let wedges: Vec<&str> = svg.lines().filter(|line| line.contains("fill-opacity=\"0.28\"")).collect();
         assert_eq!(wedges.len(), 2);
         assert!(wedges[0].contains(&format!(
             "M{} {}L{} {}",

@@ -7,7 +7,7 @@ use spunlaid_charts::{Figure, pdf, png};
 
 fn check(figures: &[Figure]) {
     for figure in figures {
-        let svg = &figure.svg;
+        let svg = &figure.svg();
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{}:\n{svg}", figure.name);
         assert!(svg.len() < 400_000, "{}: {} bytes", figure.name, svg.len());
         assert!(!figure.title.is_empty() && !figure.caption.contains("NaN"), "{figure:?}");
@@ -133,7 +133,7 @@ fn shades_the_spin_up() {
     let mut case = sample::case(4, 200, 3);
     case.run.spin_up_steps = 50;
     let figures = run_figures(&case, &sample::results(&case, 0.01), &[]);
-    assert!(figures[0].svg.contains("spin-up"));
+    assert!(figures[0].svg().contains("spin-up"));
     check(&figures);
 }
 

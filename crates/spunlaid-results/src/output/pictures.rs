@@ -82,13 +82,14 @@ impl FigureFiles {
 
     /// The figure in each format.
     fn drawn(&self, figure: &Figure) -> Result<Vec<Vec<u8>>, Failure> {
-        let printed = self.width.map(|width| figure.in_print(width * 1e3));
-        let svg = printed.as_deref().unwrap_or(&figure.svg);
-        let dpi = if printed.is_some() { PRINT } else { SCREEN };
+        let (svg, dpi) = match self.width {
+            Some(width) => (figure.in_print(width * 1e3), PRINT),
+            None => (figure.svg(), SCREEN),
+        };
         let file = |format: &Format| match format {
             Format::Svg => Ok(svg.as_bytes().to_vec()),
-            Format::Png => png(svg, dpi, &[("Title", &figure.title), ("Software", SOFTWARE)]),
-            Format::Pdf => pdf(svg, &figure.title, SOFTWARE),
+            Format::Png => png(&svg, dpi, &[("Title", &figure.title), ("Software", SOFTWARE)]),
+            Format::Pdf => pdf(&svg, &figure.title, SOFTWARE),
         };
         let undrawable = |reason: PictureError| undrawable(&figure.name, &reason.to_string());
         self.formats.iter().map(|format| file(format).map_err(undrawable)).collect()

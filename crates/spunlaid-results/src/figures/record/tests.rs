@@ -7,7 +7,7 @@ use spunlaid_charts::{Figure, png};
 fn check(figures: &[Figure]) {
     assert_eq!(figures.len(), 4);
     for figure in figures {
-        let svg = &figure.svg;
+        let svg = &figure.svg();
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{}:\n{svg}", figure.name);
         assert!(svg.len() < 400_000, "{}: {} bytes", figure.name, svg.len());
         assert!(!figure.title.is_empty() && !figure.caption.contains("NaN"), "{figure:?}");

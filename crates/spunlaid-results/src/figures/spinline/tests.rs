@@ -8,7 +8,7 @@ fn check(figures: &[Figure], names: &[&str]) {
     let found: Vec<&str> = figures.iter().map(|figure| figure.name.as_str()).collect();
     assert_eq!(found, names);
     for figure in figures {
-        let svg = &figure.svg;
+        let svg = &figure.svg();
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{}:\n{svg}", figure.name);
         assert!(svg.len() < 200_000, "{}: {} bytes", figure.name, svg.len());
         let picture = png(svg, 192, &[]).unwrap();

@@ -80,7 +80,7 @@ fn draws_every_kind_of_study() {
         let names: std::collections::BTreeSet<&str> = figures.iter().map(|f| f.name.as_str()).collect();
         assert_eq!((figures.len(), names.len()), (expected, expected), "{design:?} {counts:?} {names:?}");
         for figure in &figures {
-            let svg = &figure.svg;
+            let svg = &figure.svg();
             assert!(!svg.contains("NaN") && !svg.contains("inf"), "{}:\n{svg}", figure.name);
             assert!(svg.len() < 400_000 && !figure.caption.contains("NaN"), "{}", figure.name);
             assert!(png(svg, 192, &[]).unwrap().len() > 1000, "{}", figure.name);
@@ -94,7 +94,7 @@ fn a_result_that_applies_to_no_point_is_not_drawn() {
     let names = |results: &[PointResults]| -> Vec<String> {
         let figures = study_figures(&study, results, &rankings(&study));
         let with =
-            |figure: &&Figure| figure.svg.contains("work check") || figure.caption.contains("work check");
+            |figure: &&Figure| figure.svg().contains("work check") || figure.caption.contains("work check");
         figures.iter().filter(with).map(|figure| figure.name.clone()).collect()
     };
     assert_eq!(names(&results), ["energy_error_over_air_velocity", "energy_error_at_end_over_air_velocity"]);
