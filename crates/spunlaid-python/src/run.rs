@@ -1,6 +1,7 @@
 //! `fly`: flies a case, and what can be asked of its results.
 
 use crate::case::Case;
+use crate::failure::raised;
 use crate::flight::laid_columns;
 use crate::results::RunResults;
 use crate::samples::{Collected, locked};
@@ -196,17 +197,18 @@ impl RunResults {
     fn shapes<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         let trajectories: Vec<&Trajectory> =
             self.results.trajectories.iter().filter(|trajectory| !trajectory.shapes.is_empty()).collect();
-        let times: Vec<f64> = trajectories
-            .first()
-            .map_or_else(Vec::new, |trajectory| trajectory.shapes.iter().map(|shape| shape.time).collect());
-        let shapes = || trajectories.iter().flat_map(|trajectory| &trajectory.shapes);
-        let nodes = shapes().map(|shape| shape.position.len()).max().unwrap_or(0);
-        let mut flat = Vec::with_capacity(trajectories.len() * times.len() * nodes * 3);
-        for shape in shapes() {
+        let count = trajectories.first().map_or(0, |trajectory| trajectory.shapes.len());
+        let nodes = trajectories.iter().map(|trajectory| trajectory.shapes.most_nodes()).max().unwrap_or(0);
+        let mut times = Vec::with_capacity(trajectories.len() * count);
+        let mut flat = Vec::with_capacity(trajectories.len() * count * nodes * 3);
+        for shape in trajectories.iter().flat_map(|trajectory| trajectory.shapes.iter()) {
+            let shape = shape.map_err(|error| raised(py, error))?;
+            times.push(shape.time);
             flat.extend(shape.position.iter().flat_map(|p| [p.x, p.y, p.z]));
             flat.extend(std::iter::repeat_n(f64::NAN, 3 * (nodes - shape.position.len())));
         }
-        let shape = [trajectories.len(), times.len(), nodes, 3];
+        times.truncate(count);
+        let shape = [trajectories.len(), count, nodes, 3];
         let positions = PyArray1::from_vec(py, flat).reshape(shape)?;
         Ok((locked(PyArray1::from_vec(py, times).as_any())?, locked(positions.as_any())?))
     }

@@ -1,5 +1,6 @@
 //! Results of a run as plain values of Python, for pickling, and back.
 
+use crate::failure::raised;
 use crate::results::RunResults;
 use crate::samples::Samples;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
@@ -51,7 +52,8 @@ pub(crate) fn reduced<'py>(py: Python<'py>, run: &RunResults) -> PyResult<Bound<
     let trajectories = PyList::empty(py);
     for trajectory in &run.results.trajectories {
         let shapes = PyList::empty(py);
-        for shape in &trajectory.shapes {
+        for shape in trajectory.shapes.iter() {
+            let shape = shape.map_err(|error| raised(py, error))?;
             let flat = shape.position.iter().flat_map(|p| [p.x, p.y, p.z]).collect();
             shapes.append((shape.time, PyArray1::from_vec(py, flat)))?;
         }

@@ -44,13 +44,13 @@ fn check_tells_the_memory_of_a_run() {
     }
 }
 
-/// The tables are written while fibres fly, and what observers keep of the instants is bounded.
+/// Tables and shapes go to files while fibres fly, and what observers keep of the instants is bounded.
 #[test]
 fn memory_of_a_run_does_not_grow_with_its_duration_or_its_recorded_instants() {
     let _alone = crate::alone();
     let desk = Desk::new();
     let seldom = ["run.output_interval=50 ms", "run.replicates=1"];
-    let often = ["run.duration=2.1 s", "run.replicates=16", "run.shapes=100"];
+    let often = ["run.duration=2.1 s", "run.replicates=16"];
     for (name, changes, [few, many]) in [
         // The turbulence is made window by window, and a window lasts for some ten seconds.
         ("duration", &seldom[..], ["run.duration=20 s", "run.duration=200 s"]),

@@ -116,7 +116,7 @@ impl Run<'_> {
             staging.write_figures(&all)?;
             shapes.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
         })?;
-        let report = self.page(&case_toml, &figures, spinline.as_ref());
+        let report = self.page(&case_toml, &figures, spinline.as_ref())?;
         staging.write("case.toml", case_toml)?;
         staging.write("report.html", report)?;
         staging.write("summary.json", self.summary())
@@ -127,7 +127,7 @@ impl Run<'_> {
     /// # Errors
     /// If the computation is interrupted.
     pub fn report(&self, computing: Computing<'_>) -> Result<String, Failure> {
-        Ok(self.page(&write_case(self.case), &self.figures(computing)?, self.spinline().as_ref()))
+        self.page(&write_case(self.case), &self.figures(computing)?, self.spinline().as_ref())
     }
 
     fn figures(&self, computing: Computing<'_>) -> Result<Vec<Figure>, Failure> {
@@ -146,7 +146,7 @@ impl Run<'_> {
         case_toml: &str,
         figures: &[Figure],
         spinline: Option<&(SpinResults, Vec<Figure>)>,
-    ) -> String {
+    ) -> Result<String, Failure> {
         report::html(&ReportInput {
             name: self.name,
             case: self.case,
@@ -188,11 +188,7 @@ pub fn lost(case: &Case, results: &Results) -> Option<String> {
 /// A note about shapes for ParaView that are too far apart in time to follow the free end.
 pub fn coarse_shapes(case: &Case, results: &Results) -> Option<String> {
     let shapes = &results.trajectories.first()?.shapes;
-    let [first, second, ..] = shapes.as_slice() else {
-        return None;
-    };
-    let thinned = paraview::thinned(case, shapes.len());
-    let interval = (second.time - first.time) * thinned as f64;
+    let interval = shapes.interval()? * paraview::thinned(case, shapes.len()) as f64;
     let frequency = ["frequency_y", "frequency_z"].map(|name| results.estimate(name).mean);
     let frequency = frequency[0].max(frequency[1]);
     let each = 1.0 / (frequency * interval);

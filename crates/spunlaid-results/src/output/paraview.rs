@@ -3,12 +3,15 @@
 use super::folder::Staging;
 use crate::Failure;
 use spunlaid::case::Case;
-use spunlaid::ensemble::Trajectory;
+use spunlaid::ensemble::{Shape, Trajectory};
 use spunlaid::vec3::Vec3;
 use std::fmt::Write;
 
 /// Largest number of instants in a series if the case does not say how many. Each instant is a file.
 const MOST_INSTANTS: usize = 500;
+
+/// Folder of the shapes.
+pub(super) const SHAPE: &str = "shape";
 
 /// One of this number of kept shapes is written.
 pub fn thinned(case: &Case, shapes: usize) -> usize {
@@ -26,12 +29,18 @@ pub fn write(staging: &Staging<'_>, case: &Case, trajectories: &[Trajectory]) ->
     );
     let every = thinned(case, first.shapes.len());
     let digits = first.shapes.len().div_ceil(every).to_string().len();
-    for (number, (k, shape)) in first.shapes.iter().enumerate().step_by(every).enumerate() {
-        let name = format!("shape/fibre_{number:0digits$}.vtp");
-        let lines: Vec<Line> =
-            trajectories.iter().filter_map(|trajectory| shape_line(trajectory, k, rest_length)).collect();
+    for (number, k) in (0..first.shapes.len()).step_by(every).enumerate() {
+        let name = format!("{SHAPE}/fibre_{number:0digits$}.vtp");
+        let (mut lines, mut time) = (Vec::new(), None);
+        for trajectory in &trajectories {
+            if let Some(shape) = trajectory.shapes.get(k)? {
+                time.get_or_insert(shape.time);
+                lines.push(shape_line(trajectory.replicate, shape, rest_length));
+            }
+        }
         staging.write(&name, poly_data("replicate", &["distance_m"], &lines))?;
-        let _ = writeln!(collection, "<DataSet timestep=\"{:?}\" part=\"0\" file=\"{name}\"/>", shape.time);
+        let time = time.unwrap_or_default();
+        let _ = writeln!(collection, "<DataSet timestep=\"{time:?}\" part=\"0\" file=\"{name}\"/>");
     }
     collection.push_str("</Collection>\n</VTKFile>\n");
     staging.write("shape.pvd", collection)
@@ -56,10 +65,10 @@ fn laid_line(trajectory: &Trajectory) -> Line {
     }
 }
 
-fn shape_line(trajectory: &Trajectory, k: usize, rest_length: f64) -> Option<Line> {
-    let points = &trajectory.shapes.get(k)?.position;
+fn shape_line(replicate: u64, shape: Shape, rest_length: f64) -> Line {
+    let points = shape.position;
     let distance = (0..points.len()).map(|i| i as f64 * rest_length).collect();
-    Some(Line { number: trajectory.replicate + 1, points: points.clone(), data: vec![distance] })
+    Line { number: replicate + 1, points, data: vec![distance] }
 }
 
 /// A line of a VTK file.

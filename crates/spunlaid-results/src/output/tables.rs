@@ -2,12 +2,15 @@
 //! by fibre in the order of the replicates.
 
 use super::folder::Staging;
+use super::paraview::SHAPE;
 use super::parquet::{self, Holds, Parquet};
 use super::spill::Spill;
 use crate::Failure;
-use spunlaid::ensemble::{Recorder, Sample};
+use spunlaid::ensemble::{Recorder, Sample, Shapes};
 use spunlaid::error::Error;
 use spunlaid::flight::LaidPoint;
+use std::fs::{self, File};
+use std::path::PathBuf;
 
 /// A column of doubles: its name with the unit, and its value at an instant.
 pub type Column = (&'static str, fn(&Sample) -> f64);
@@ -62,11 +65,13 @@ const POINT: [PointColumn; 4] =
 /// Number of rows in a row group, which is held in memory.
 const ROWS: usize = 1 << 15;
 
-/// Takes what is recorded of the fibres in flight, for [`Tables`].
+/// Takes what is recorded of the fibres in flight, for [`Tables`], and keeps their shapes in files.
 #[derive(Debug)]
 pub struct TableRecorder {
     samples: Vec<(Vec<Column>, Spill)>,
     laid: Option<Spill>,
+    /// Folder of the shapes, and its final path for messages.
+    shapes: (PathBuf, PathBuf),
 }
 
 impl TableRecorder {
@@ -79,6 +84,7 @@ impl TableRecorder {
         Self {
             samples: tables(fed).into_iter().map(spill).collect(),
             laid: fed.then(|| Spill::new(staging, LAID, POINT.len())),
+            shapes: (staging.scratch(), staging.place(SHAPE).1),
         }
     }
 
@@ -107,6 +113,17 @@ impl Recorder for TableRecorder {
         self.laid.as_ref().map_or(Ok(()), |spill| {
             points.iter().try_for_each(|point| spill.push(replicate, POINT.map(|(_, value)| value(point))))
         })
+    }
+
+    fn shapes(&self, replicate: u64) -> Result<Shapes, Error> {
+        let (folder, later) = &self.shapes;
+        fs::create_dir_all(folder)
+            .and_then(|()| {
+                let file = folder.join(format!("{SHAPE}_{replicate}"));
+                File::options().read(true).write(true).create(true).truncate(true).open(file)
+            })
+            .map(|file| Shapes::in_file(file, later))
+            .map_err(Error::unwritable(later))
     }
 }
 

@@ -35,6 +35,7 @@ pub use spinline::{LayerSpinline, SpinReport, spinline_html};
 pub use study::{StudyReport, study_html};
 pub use web::{WebReport, web_html};
 
+use crate::Failure;
 use crate::output::spinline::SpinResults;
 use crate::output::summary::Performance;
 use askama::Template;
@@ -73,7 +74,10 @@ pub struct ReportInput<'a> {
 }
 
 /// The report as one HTML file of less than 6 MB.
-pub fn html(input: &ReportInput<'_>) -> String {
+///
+/// # Errors
+/// The file of the shapes cannot be read.
+pub fn html(input: &ReportInput<'_>) -> Result<String, Failure> {
     page::render(input)
 }
 

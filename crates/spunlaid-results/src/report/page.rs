@@ -6,6 +6,7 @@ use super::spinline::{self, SpinSection};
 use super::table::{self, Group, ReplicateRow};
 use super::words::{self, count};
 use super::{ReportInput, rendered};
+use crate::Failure;
 use crate::numbers::number;
 use crate::output::finer::{self, FinerWords};
 use askama::Template;
@@ -94,7 +95,7 @@ fn sections(figures: &[Figure]) -> Vec<(&'static str, Vec<&Figure>)> {
 }
 
 /// The page as HTML.
-pub(super) fn render(input: &ReportInput<'_>) -> String {
+pub(super) fn render(input: &ReportInput<'_>) -> Result<String, Failure> {
     let results = input.results;
     let p = &input.performance;
     let replicates = results.replicates();
@@ -108,7 +109,7 @@ pub(super) fn render(input: &ReportInput<'_>) -> String {
         headline,
         summary: words::case(input.case),
         notes: input.notes,
-        frames: frames::pack(input.case, results),
+        frames: frames::pack(input.case, results)?,
         groups,
         replicates: replicates as u64,
         replicate_heads: table::replicate_heads(results),
@@ -132,5 +133,5 @@ pub(super) fn render(input: &ReportInput<'_>) -> String {
         version: input.version,
         script: format!("(() => {{\n\"use strict\";\n{}\n}})();", SCRIPTS.join("\n")),
     };
-    rendered(&page)
+    Ok(rendered(&page))
 }

@@ -38,6 +38,7 @@ fn page(case: &Case, results: &Results, name: &str, notes: &[String], case_toml:
         performance: PERFORMANCE,
         version: "0.1.0",
     })
+    .expect("shapes in memory")
 }
 
 /// Fails unless every element that is opened is closed, in order.
@@ -163,7 +164,7 @@ fn says_the_result_first() {
 fn holds_the_shapes() {
     let case = sample::case(4, 50, 2);
     let results = sample::results(&case, 0.01);
-    let frames = super::frames::pack(&case, &results).expect("shapes were kept");
+    let frames = super::frames::pack(&case, &results).expect("shapes in memory").expect("shapes were kept");
     let packed =
         frames.json.split("\"positions\":\"").nth(1).and_then(|t| t.strip_suffix("\"}")).expect("positions");
     let bytes = STANDARD.decode(packed).expect("base64");
@@ -173,7 +174,7 @@ fn holds_the_shapes() {
         start.split(']').next().unwrap_or_default().split(',').map(|v| v.parse().expect("a number")).collect()
     };
     let (origin, step) = (list("origin_mm"), list("step_mm"));
-    let end = results.trajectories[1].shapes[49].position[4];
+    let end = results.trajectories[1].shapes.last().expect("a shape").position[4];
     for (k, expected) in [end.x, end.y, end.z].into_iter().enumerate() {
         let at = bytes.len() - 6 + 2 * k;
         let level = f64::from(u16::from_le_bytes([bytes[at], bytes[at + 1]]));
@@ -187,7 +188,9 @@ fn holds_the_shapes() {
 fn shows_a_stretch_of_a_run_too_long_to_follow() {
     // 20 s of 17 Hz: at 1/16 of a swing per instant more than fit.
     let case = sample::case(200, 20_001, 1);
-    let frames = super::frames::pack(&case, &sample::results(&case, 0.01)).expect("shapes were kept");
+    let frames = super::frames::pack(&case, &sample::results(&case, 0.01))
+        .expect("shapes in memory")
+        .expect("shapes were kept");
     assert!(
         frames.remarks.iter().any(|r| r.starts_with("The animation shows the last ")),
         "{:?}",
@@ -217,7 +220,7 @@ fn a_fed_fibre_is_shown_above_its_belt() {
 fn nodes_of_a_fed_fibre_keep_their_numbers() {
     let case = sample::fed_case(300, 2);
     let results = sample::fed_results(&case, 8);
-    let frames = super::frames::pack(&case, &results).expect("shapes were kept");
+    let frames = super::frames::pack(&case, &results).expect("shapes in memory").expect("shapes were kept");
     let data: serde_json::Value = serde_json::from_str(&frames.json).expect("JSON");
     let list = |value: &serde_json::Value| -> Vec<f64> {
         value.as_array().expect("a list").iter().map(|v| v.as_f64().expect("a number")).collect()
@@ -316,6 +319,7 @@ fn the_report_of_a_run_shows_its_spinline() {
             performance: PERFORMANCE,
             version: "0.1.0",
         })
+        .unwrap()
     };
     let page = shown(&case);
     check_well_formed(&page);

@@ -6,6 +6,7 @@ mod finer;
 mod order;
 mod recorder;
 mod results;
+mod shapes;
 mod trajectory;
 mod turbulence;
 
@@ -16,7 +17,8 @@ pub use finer::{Change, FinerCheck, FinerChecks, FinerPlan, FinerPlans, Refined,
 pub use order::in_order;
 pub use recorder::{LaidCurves, Recorder};
 pub use results::{Collector, Curve, LostFibre, Number, Place, Results};
-pub use trajectory::{Keep, KeepShapes, Shape, Trajectory, fly_each, fly_together, pace};
+pub use shapes::{Shape, Shapes};
+pub use trajectory::{Keep, KeepShapes, Trajectory, fly_each, fly_together, pace};
 pub use turbulence::{SpectrumPoint, turbulence_spectrum, velocity_record};
 
 use crate::case::Case;

@@ -1,5 +1,6 @@
 //! What is recorded of fibres while they fly, so that no flight has to keep it.
 
+use super::Shapes;
 use crate::error::Error;
 use crate::flight::LaidPoint;
 use crate::observe::Sample;
@@ -25,6 +26,15 @@ pub trait Recorder: std::fmt::Debug + Sync {
     /// # Errors
     /// An error ends the flight.
     fn lay(&self, replicate: u64, points: &[LaidPoint]) -> Result<(), Error>;
+
+    /// Says where the shapes of a fibre are kept that begins to fly: in memory, or in a file.
+    ///
+    /// # Errors
+    /// There is no such file.
+    fn shapes(&self, replicate: u64) -> Result<Shapes, Error> {
+        let _ = replicate;
+        Ok(Shapes::default())
+    }
 }
 
 /// Keeps in memory what the fed fibres of a case lay, for those who want it there.

@@ -1,12 +1,11 @@
 //! The trajectory of one replicate.
 
-use super::{Computing, EndPath};
+use super::{Computing, EndPath, Shapes};
 use crate::case::Case;
 use crate::error::{Error, Fault};
 use crate::flight::{AirOf, Flight, Job, LaidPoint};
 use crate::lanes::{Isa, WIDTH};
 use crate::observe::{Measure, Observation, Observers, Sample, Value};
-use crate::vec3::Vec3;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
@@ -22,7 +21,7 @@ pub struct Trajectory {
     /// Where the free end was, of the first fibre of each flight; empty if curves are not measured, and of a fed fibre.
     pub path: EndPath,
     /// The whole fibre at some of the recorded instants; empty unless asked for.
-    pub shapes: Vec<Shape>,
+    pub shapes: Shapes,
     /// The first points that a fed fibre has laid after the spin-up, of the replicates whose shapes are stored.
     pub laid: Vec<LaidPoint>,
 }
@@ -39,15 +38,6 @@ impl Trajectory {
             _ => f64::NAN,
         }
     }
-}
-
-/// The whole fibre at one instant.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Shape {
-    /// Time [s].
-    pub time: f64,
-    /// Positions of the `N+1` nodes [m]. Of a fed fibre, their number changes with time.
-    pub position: Vec<Vec3<f64>>,
 }
 
 /// What to store of an ensemble besides the numbers of each fibre.
@@ -202,8 +192,14 @@ fn fly_until_lost(
         .collect();
     let clock = flight.clock().clone();
     let mut observers = Observers::new(&flight, keep.curves);
-    let mut trajectories: Vec<Trajectory> =
-        jobs.iter().map(|job| Trajectory { replicate: job.replicate, ..Trajectory::default() }).collect();
+    // The shapes of companions are not kept.
+    let keeps_shapes = |lane: usize| jobs[lane].replicate < keep.shapes.replicates && !is_companion[lane];
+    let begin = |(lane, job): (usize, &Job<'_>)| {
+        let place = computing.recorder.filter(|_| keeps_shapes(lane));
+        let shapes = place.map_or_else(|| Ok(Shapes::default()), |place| place.shapes(job.replicate))?;
+        Ok(Trajectory { replicate: job.replicate, shapes, ..Trajectory::default() })
+    };
+    let mut trajectories = jobs.iter().enumerate().map(begin).collect::<Result<Vec<_>, Error>>()?;
     let mut step = 0;
     for instant in 0.. {
         // A snapshot needs one step. The last one takes that step on a copy.
@@ -228,12 +224,11 @@ fn fly_until_lost(
             if keep.curves && lane == 0 && jobs[lane].case.line.is_none() {
                 trajectory.path.push(&samples[lane]);
             }
-            if trajectory.replicate < keep.shapes.replicates && instant % keep.shapes.every == 0 {
+            if keeps_shapes(lane) && instant % keep.shapes.every == 0 {
                 let nodes = snapshot.position.iter().take(snapshot.nodes[lane]);
-                let position = nodes.map(|p| p.lane(lane)).collect();
-                trajectory.shapes.push(Shape { time: snapshot.time, position });
+                trajectory.shapes.push(snapshot.time, nodes.map(|p| p.lane(lane)))?;
             }
-            if trajectory.replicate < keep.shapes.replicates {
+            if keeps_shapes(lane) {
                 let room = LAID_WITH_SHAPES - trajectory.laid.len();
                 let first_counted = first_counted(jobs[lane].case);
                 let counted = laid[lane].iter().filter(|point| point.fed >= first_counted);

@@ -300,7 +300,8 @@ fn memory(case: &Case, threads: u64) -> f64 {
     /// The program itself, and the figures that it draws when the flights are over.
     const PROGRAM: f64 = 15.0 * (1u64 << 20) as f64;
     const FIGURES: f64 = 20.0 * (1u64 << 20) as f64;
-    /// A position that is kept, and once more while it is written.
+    /// Most positions that are read back from the file of the shapes, and bytes of one of them there and in the report.
+    const MOST_POSITIONS: f64 = 375_000.0;
     const POSITION: f64 = 2.0 * 24.0;
     /// Rows of the tables that wait to be written, of 18 numbers, in lists that may be half empty; and those of each fibre that
     /// wait to go to its file.
@@ -317,8 +318,8 @@ fn memory(case: &Case, threads: u64) -> f64 {
     let flying = case.flight_memory().total() * threads as f64
         + ROW * rows.min(ROWS)
         + (ROW * rows).min(FIBRE * fibres);
-    let memory = air.field_memory() as f64 + POSITION * positions(case);
-    PROGRAM + reading.max(memory + flying.max(FIGURES))
+    let drawing = FIGURES + POSITION * positions(case).min(MOST_POSITIONS);
+    PROGRAM + reading.max(air.field_memory() as f64 + flying.max(drawing))
 }
 
 /// Size of the largest of the files of the air [bytes]; they are read one after the other.

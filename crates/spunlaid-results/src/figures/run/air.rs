@@ -117,7 +117,7 @@ pub(super) fn slices(case: &Case, results: &Results) -> Option<Figure> {
         .sized(640.0, 300.0)
         .map(map);
         results.trajectories.iter().enumerate().fold(chart, |chart, (i, trajectory)| {
-            let end = trajectory.shapes.last().map_or(&[][..], |shape| &shape.position);
+            let end = trajectory.shapes.last().unwrap_or_default().position;
             let path: Vec<_> = end.iter().map(|p| (p.x * MM, coordinate(p) * MM)).collect();
             let name = format!("fibre {}", trajectory.replicate + 1);
             let series = Series::new("fibres at the end", VERMILION).named(&name).width(1.3);

@@ -4,7 +4,8 @@
 use super::data::{Belt, Data, Frames, LaidPoints, POSITIONS, encode};
 use crate::report::words::{count, time};
 use spunlaid::case::Case;
-use spunlaid::ensemble::{Results, Trajectory};
+use spunlaid::ensemble::{Results, Shape, Trajectory};
+use spunlaid::error::Error;
 use spunlaid::line::Line;
 use spunlaid::vec3::Vec3;
 
@@ -40,17 +41,16 @@ impl NodeChoice<'_> {
     }
 
     /// The chosen nodes of a shape, the newest first, and the strided number of the newest.
-    fn nodes(&self, trajectory: &Trajectory, instant: usize) -> (u64, Vec<Vec3<f64>>) {
-        let Some(shape) = trajectory.shapes.get(instant) else { return (0, Vec::new()) };
+    fn nodes(&self, trajectory: &Trajectory, instant: usize) -> Result<(u64, Vec<Vec3<f64>>), Error> {
+        let Some(shape) = trajectory.shapes.get(instant)? else { return Ok((0, Vec::new())) };
         let skipped = self.root(shape.time) % self.stride;
         let nodes = shape.position.iter().skip(skipped as usize).step_by(self.stride as usize);
-        (self.root(shape.time) / self.stride, nodes.copied().collect())
+        Ok((self.root(shape.time) / self.stride, nodes.copied().collect()))
     }
 
-    /// Number of the oldest node at an instant.
-    fn oldest(&self, trajectory: &Trajectory, instant: usize) -> u64 {
-        let shape = &trajectory.shapes[instant];
-        (self.root(shape.time) + 1).saturating_sub(shape.position.len() as u64)
+    /// Number of the oldest node of a shape.
+    fn oldest(&self, Outline { time, nodes }: Outline) -> u64 {
+        (self.root(time) + 1).saturating_sub(nodes as u64)
     }
 
     /// Number of a laid point.
@@ -59,14 +59,35 @@ impl NodeChoice<'_> {
     }
 }
 
+/// When a shape was kept [s], and its number of nodes.
+#[derive(Clone, Copy)]
+struct Outline {
+    time: f64,
+    nodes: usize,
+}
+
+/// A replicate, and the outlines of its shapes.
+type Outlined<'a> = (&'a Trajectory, Vec<Outline>);
+
+fn outlined(trajectory: &Trajectory) -> Result<Outlined<'_>, Error> {
+    let outline = |shape: Shape| Outline { time: shape.time, nodes: shape.position.len() };
+    let outlines = trajectory.shapes.iter().map(|shape| shape.map(outline));
+    Ok((trajectory, outlines.collect::<Result<_, _>>()?))
+}
+
 /// Chooses and packs the shapes and laid points of a run of fed fibres.
-pub(super) fn pack(case: &Case, line: Line, results: &Results) -> Option<Frames> {
+pub(super) fn pack(case: &Case, line: Line, results: &Results) -> Result<Option<Frames>, Error> {
     let flown: Vec<&Trajectory> = results.trajectories.iter().filter(|t| !t.shapes.is_empty()).collect();
-    let shapes = &flown.first()?.shapes;
-    let longest = shapes.iter().map(|shape| shape.position.len()).max()?;
-    let first_root = shapes.first()?.position.len().checked_sub(1)? as u64;
-    let nodes = shapes.iter().flat_map(|shape| &shape.position).map(|p| p.z.abs());
-    let deflection = nodes.filter(|z| z.is_finite()).fold(0.0, f64::max);
+    let Some(first) = flown.first() else { return Ok(None) };
+    let shapes = &first.shapes;
+    let (longest, mut deflection, mut first_root) = (shapes.most_nodes(), 0.0_f64, None);
+    for shape in shapes.iter() {
+        let position = shape?.position;
+        first_root.get_or_insert((position.len() as u64).saturating_sub(1));
+        let aside = position.iter().map(|p| p.z.abs()).filter(|z| z.is_finite());
+        deflection = aside.fold(deflection, f64::max);
+    }
+    let first_root = first_root.unwrap_or_default();
     let shown = (WIDTHS * deflection).clamp(SHOWN.0 * line.distance, SHOWN.1 * line.distance);
     let chosen = NodeChoice { case, line, stride: longest.div_ceil(NODES) as u64, first_root, shown };
     let nodes = longest / chosen.stride as usize + 1;
@@ -74,17 +95,20 @@ pub(super) fn pack(case: &Case, line: Line, results: &Results) -> Option<Frames>
     let trajectories: Vec<&Trajectory> =
         flown.iter().filter(|t| t.shapes.len() == shapes.len()).take(replicates).copied().collect();
     let most = (POSITIONS / (nodes * trajectories.len())).clamp(2, MOST_INSTANTS);
-    let instants = instants(&chosen, &trajectories, most);
+    let fibres = trajectories.iter().map(|t| outlined(t)).collect::<Result<Vec<_>, _>>()?;
+    let instants = instants(&chosen, &fibres, most);
 
-    let all: Vec<Vec<(u64, Vec<Vec3<f64>>)>> =
-        trajectories.iter().map(|t| instants.clone().map(|i| chosen.nodes(t, i)).collect()).collect();
+    type Nodes = (u64, Vec<Vec3<f64>>);
+    let chosen_nodes = |t: &&Trajectory| instants.clone().map(|i| chosen.nodes(t, i)).collect();
+    let all: Vec<Vec<Nodes>> = trajectories.iter().map(chosen_nodes).collect::<Result<_, Error>>()?;
     let points = || all.iter().flatten().flat_map(|(_, nodes)| nodes.iter().copied());
-    let times: Vec<f64> = instants.clone().map(|i| shapes[i].time).collect();
+    let outlines = fibres.first().map_or(&[][..], |(_, outlines)| outlines);
+    let times: Vec<f64> = outlines[instants.clone()].iter().map(|outline| outline.time).collect();
     let belt = Belt {
         speed: line.belt_speed,
         feed_speed: line.feed_speed,
         shown_mm: shown * 1e3,
-        newest: all.first()?.iter().map(|(newest, _)| *newest).collect(),
+        newest: all.iter().take(1).flatten().map(|(newest, _)| *newest).collect(),
         counts: all.iter().map(|instants| instants.iter().map(|(_, nodes)| nodes.len()).collect()).collect(),
         laid: trajectories.iter().map(|t| laid(&chosen, t, &times)).collect(),
     };
@@ -102,29 +126,29 @@ pub(super) fn pack(case: &Case, line: Line, results: &Results) -> Option<Frames>
     {
         remarks.push(format!("The animation shows {} of {}.", time(last - first), time(case.run.duration())));
     }
-    data.frames(remarks)
+    Ok(data.frames(remarks))
 }
 
 /// The last instants at which the laid points that are kept go on where the fibre in the air ends, in all replicates.
-fn instants(chosen: &NodeChoice<'_>, trajectories: &[&Trajectory], most: usize) -> std::ops::Range<usize> {
+fn instants(chosen: &NodeChoice<'_>, fibres: &[Outlined<'_>], most: usize) -> std::ops::Range<usize> {
     let goes_on = |instant: usize| {
-        trajectories.iter().all(|t| {
+        fibres.iter().all(|(t, outlines)| {
             let number = |point: Option<&spunlaid::flight::LaidPoint>| point.map(|p| chosen.number(p.fed));
             let (Some(first), Some(last)) = (number(t.laid.first()), number(t.laid.last())) else {
                 return false;
             };
-            (first..=last + 1).contains(&chosen.oldest(t, instant))
+            (first..=last + 1).contains(&chosen.oldest(outlines[instant]))
         })
     };
-    let total = trajectories.first().map_or(0, |t| t.shapes.len());
+    let outlines = fibres.first().map_or(&[][..], |(_, outlines)| outlines);
+    let total = outlines.len();
     let Some(end) = (0..total).rfind(|&instant| goes_on(instant)) else {
         return total.saturating_sub(most)..total;
     };
     let start = (0..end).find(|&instant| goes_on(instant)).unwrap_or(end);
     // Some belt has been covered before the picture begins, if there is time for it.
     let covered = chosen.shown / chosen.line.belt_speed;
-    let shapes = &trajectories[0].shapes;
-    let middle = (start..end).find(|&i| shapes[i].time >= shapes[start].time + covered).unwrap_or(start);
+    let middle = (start..end).find(|&i| outlines[i].time >= outlines[start].time + covered).unwrap_or(start);
     let start = middle.min(start + (end - start) / 3);
     start.max((end + 1).saturating_sub(most))..end + 1
 }

@@ -4,7 +4,8 @@ use super::data::{Data, Frames, POSITIONS};
 use crate::figures::swing_frequency;
 use crate::report::words::{count, time};
 use spunlaid::case::Case;
-use spunlaid::ensemble::{Results, Shape, Trajectory};
+use spunlaid::ensemble::{Results, Shapes, Trajectory};
+use spunlaid::error::Error;
 use spunlaid_charts::even;
 
 /// Most nodes of a fibre in a picture.
@@ -21,40 +22,43 @@ struct Choice {
 }
 
 /// Chooses and packs the shapes of a run of fibres of fixed length.
-pub(super) fn pack(case: &Case, results: &Results) -> Option<Frames> {
+pub(super) fn pack(case: &Case, results: &Results) -> Result<Option<Frames>, Error> {
     let candidates: Vec<&Trajectory> =
         results.trajectories.iter().filter(|f| !f.shapes.is_empty()).take(8).collect();
-    let shapes: &[Shape] = &candidates.first()?.shapes;
+    let Some(first) = candidates.first() else { return Ok(None) };
+    let shapes = &first.shapes;
     let same = |t: &&&Trajectory| t.shapes.len() == shapes.len();
     let trajectories: Vec<&Trajectory> = candidates.iter().filter(same).copied().collect();
-    let nodes = shapes.first()?.position.len();
     let frequency = swing_frequency(results);
-    let (choice, remarks) = choose(shapes, nodes, trajectories.len(), frequency);
-    let chosen = || {
-        trajectories.iter().flat_map(|t| choice.instants.iter().map(|&i| &t.shapes[i])).flat_map(|shape| {
-            choice.nodes.iter().map(|&n| shape.position.get(n).copied().unwrap_or_default())
-        })
-    };
-    let times = choice.instants.iter().map(|&i| shapes[i].time).collect();
-    let mut data = Data::new(case, &trajectories, times, chosen);
+    let (choice, remarks) = choose(shapes, trajectories.len(), frequency)?;
+    let (mut times, mut chosen) = (Vec::new(), Vec::new());
+    for trajectory in &trajectories {
+        times.clear();
+        for &instant in &choice.instants {
+            let shape = trajectory.shapes.get(instant)?.unwrap_or_default();
+            times.push(shape.time);
+            chosen.extend(choice.nodes.iter().map(|&n| shape.position.get(n).copied().unwrap_or_default()));
+        }
+    }
+    let mut data = Data::new(case, &trajectories, times, || chosen.iter().copied());
     (data.nodes, data.frequency) = (Some(choice.nodes.len()), frequency);
-    data.frames(remarks)
+    Ok(data.frames(remarks))
 }
 
 fn choose(
-    shapes: &[Shape],
-    nodes: usize,
+    shapes: &Shapes,
     trajectories: usize,
     frequency: Option<f64>,
-) -> (Choice, Vec<String>) {
+) -> Result<(Choice, Vec<String>), Error> {
     let mut remarks = Vec::new();
+    let nodes = shapes.most_nodes();
     let kept_nodes = even(nodes, NODES);
     if kept_nodes.len() < nodes {
         remarks.push(format!("{} of {} are drawn.", kept_nodes.len(), count(nodes as u64, "node")));
     }
     let most = (POSITIONS / (kept_nodes.len() * trajectories)).clamp(2, INSTANTS);
     let total = shapes.len();
-    let interval = if total > 1 { shapes[1].time - shapes[0].time } else { 0.0 };
+    let interval = shapes.interval().unwrap_or(0.0);
     let coarsest = frequency.map(|f| 1.0 / (PER_SWING * f));
     if coarsest.is_some_and(|coarsest| interval > 4.0 * coarsest) {
         remarks.push(format!(
@@ -70,15 +74,13 @@ fn choose(
         if followed < stride {
             let first = total - ((most - 1) * followed + 1);
             instants = (first..total).step_by(followed).collect();
-            remarks.push(format!(
-                "The animation shows the last {} of {}.",
-                time(shapes[total - 1].time - shapes[first].time),
-                time(shapes[total - 1].time)
-            ));
+            let (first, last) =
+                (shapes.get(first)?.unwrap_or_default().time, shapes.last().unwrap_or_default().time);
+            remarks.push(format!("The animation shows the last {} of {}.", time(last - first), time(last)));
         } else {
             instants = even(total, most);
             remarks.push(format!("The animation shows {} of {total} recorded shapes.", instants.len()));
         }
     }
-    (Choice { instants, nodes: kept_nodes }, remarks)
+    Ok((Choice { instants, nodes: kept_nodes }, remarks))
 }

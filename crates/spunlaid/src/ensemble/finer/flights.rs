@@ -4,7 +4,7 @@ use super::FinerPlan;
 use crate::air::EddyModel;
 use crate::case::Case;
 use crate::ensemble::trajectory::fly_in_air;
-use crate::ensemble::{Computing, Keep, Recorder, Sample, Trajectory};
+use crate::ensemble::{Computing, Keep, Recorder, Sample, Shapes, Trajectory};
 use crate::error::Error;
 use crate::flight::{AirOf, Job, LaidPoint};
 use std::collections::BTreeMap;
@@ -101,5 +101,9 @@ impl Recorder for Paths<'_> {
 
     fn lay(&self, replicate: u64, points: &[LaidPoint]) -> Result<(), Error> {
         self.passed_on.map_or(Ok(()), |recorder| recorder.lay(replicate, points))
+    }
+
+    fn shapes(&self, replicate: u64) -> Result<Shapes, Error> {
+        self.passed_on.map_or_else(|| Ok(Shapes::default()), |recorder| recorder.shapes(replicate))
     }
 }
