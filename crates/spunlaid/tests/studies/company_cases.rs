@@ -138,7 +138,7 @@ length_scale = '20 mm'
 cutoff_frequency = '200 Hz'
 eddies = 'convected'
 lateral = 'von-karman'
-lateral_cutoff = 8
+lateral_cutoff = 5
 [run]
 duration = '8 ms'
 spin_up = '1 ms'

@@ -12,7 +12,8 @@ use spunlaid::web::Laying;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
-/// Webs that together have every key.
+/// Webs that together have every key. Their cells are small: single fibres, which say what CV to expect, are laid on as many cells
+/// in any web, and so on the shorter belt.
 const WEBS: [(&str, &str); 3] = [
     (
         "rows",
@@ -31,7 +32,7 @@ rows = [{ offset = "10 mm", pitch = "5 mm", filaments = 30 }, { offset = "20 mm"
 [web]
 width = "200 mm"
 length = "200 mm"
-cell = "10 mm"
+cell = "2 mm"
 patches = ["20 mm"]
 edges = "cut"
 seed = 3
@@ -43,7 +44,7 @@ seed = 3
 [web]
 width = "200 mm"
 length = "200 mm"
-cell = "10 mm"
+cell = "2 mm"
 patches = ["20 mm"]
 [[layer]]
 name = "S1"
@@ -82,7 +83,7 @@ filaments_per_metre = 40
 [web]
 width = "300 mm"
 length = "300 mm"
-cell = "10 mm"
+cell = "2 mm"
 patches = ["20 mm"]
 "#,
     ),
