@@ -174,7 +174,8 @@ fn vary_every_key(name: &str, text: &str) -> Found {
     let is_tested = |key: &&Key| case.spinline.is_none() || key.name.starts_with("spinline.");
     // Air that differs across the flow is coarse: the usual one takes longer than all other keys together.
     let coarse = "[air]\nlateral = 'von-karman'\nlateral_cutoff = 5\n";
-    let in_coarse_air = if text.contains("lateral = ") { text.clone() } else { text.replace("[air]\n", coarse) };
+    let in_coarse_air =
+        if text.contains("lateral = ") { text.clone() } else { text.replace("[air]\n", coarse) };
     for key in keys::all().iter().filter(|key| key.varies).filter(is_tested) {
         let (mut refused, mut flown) = (Vec::new(), BTreeSet::new());
         let text = if key.name == "air.lateral" { &in_coarse_air } else { text };
