@@ -129,6 +129,8 @@ fn field(placed: &PlacedField) {
         let [low, high] = [low, high].map(|end| Dimension::Length.pretty_to(end + 0.0, 3));
         say::line(&format!("#     {name} from {low} to {high}"));
     }
+    let read = placed.field.sources().iter().map(|(quantity, arrays)| format!("{quantity} from {arrays}"));
+    say::line(&format!("#   read: {}", read.collect::<Vec<_>>().join("; ")));
     say::line(&format!("#   velocity {}", spread(overview.speed, "m/s")));
     if placed.field.has_turbulence() {
         say::line(&format!("#   k {}", spread(overview.k, "m²/s²")));

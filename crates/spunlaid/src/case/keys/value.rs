@@ -1,7 +1,7 @@
 //! The kinds of values that keys take, and what each kind allows.
 
 use crate::air::{FromFile, Measured, Profile, SpectrumTable};
-use crate::error::{Fault, one_of};
+use crate::error::{Fault, nearest_word, one_of};
 use crate::field::Field;
 use crate::spinline::{AirTable, Polymer, PolymerFile};
 use crate::units::{Dimension, UnitAdvice, shortest};
@@ -290,7 +290,7 @@ impl Kind {
                 if names.contains(&text.as_str()) {
                     return None;
                 }
-                let nearest = super::nearest_word(text, names.iter().copied());
+                let nearest = nearest_word(text, names.iter().copied());
                 Some(Fault::not_one_of(nearest, &names))
             }
             (Self::Text(_), Value::Text(text)) => {
