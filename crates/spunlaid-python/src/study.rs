@@ -95,7 +95,7 @@ impl Study {
         };
         let number = file.study.points.len();
         let journal = guarded(py, || match &out {
-            Some(out) => Ok(StudyFolder::open(out, &file, force, &NEVER)?.1),
+            Some(out) => Ok(StudyFolder::open(out, &file, force, None, &NEVER)?.1),
             None => Ok(Journal::in_memory(number)),
         })?;
         let round = Mutex::new((Rounds::of(&file.study), None));
@@ -345,7 +345,7 @@ impl Study {
         guarded(py, || {
             // The folder is opened anew, which also sees whether it still holds this study.
             *self.journal() = None;
-            let (folder, mut journal, _) = StudyFolder::open(out, &self.file, false, &NEVER)?;
+            let (mut folder, mut journal, _) = StudyFolder::open(out, &self.file, false, None, &NEVER)?;
             folder.write(&self.name, &self.file, &mut journal).map(drop)
         })
     }
@@ -423,7 +423,7 @@ impl Study {
         let mut kept_open = self.journal();
         match (kept_open.as_mut(), &self.out) {
             (Some(journal), _) => work(journal),
-            (None, Some(out)) => work(&mut StudyFolder::open(out, &self.file, false, &NEVER)?.1),
+            (None, Some(out)) => work(&mut StudyFolder::open(out, &self.file, false, None, &NEVER)?.1),
             (None, None) => work(&mut Journal::in_memory(self.file.study.points.len())),
         }
     }

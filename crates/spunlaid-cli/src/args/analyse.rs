@@ -62,7 +62,7 @@ pub(crate) struct Analyse {
     /// Print analysis.json, or summary.json of a web, instead of the table
     #[arg(long)]
     pub(crate) json: bool,
-    /// Replace the results in the output folder
+    /// Replace any results in the output folder; those of the same command are replaced without it
     #[arg(long)]
     pub(crate) force: bool,
     #[command(flatten)]

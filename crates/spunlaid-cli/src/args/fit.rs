@@ -40,7 +40,7 @@ pub(crate) struct Fit {
     pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) figures: Figures,
-    /// Start again; deletes the fit in the output folder
+    /// Start again; deletes the fit in the output folder. A complete one of the same command is replaced without it
     #[arg(long)]
     pub(crate) force: bool,
 }

@@ -87,8 +87,8 @@ A study is a small text file beside the case it varies:
   [link]                     # keys that follow from others
   \"air.cutoff_frequency\" = \"air.velocity / (4 * air.length_scale)\"    # or just \"taylor\"
 
-If a sweep is interrupted, the same command continues it and gives the same bits. The results
-folder holds
+If a sweep is interrupted, the same command continues it and gives the same bits. After an edit, the
+same command replaces a finished study when the new one is complete. The results folder holds
   report.html          for the browser: the study, table, figures, ranking
   results.csv          a row per point: seed, inputs, n, lost, then mean and standard error (_se) of every result
   results.json         the same with the ranking

@@ -4,12 +4,14 @@ mod analyse;
 mod figures;
 mod fit;
 mod help;
+mod invocation;
 mod new;
 mod source;
 
 pub(crate) use analyse::{Analyse, Direction, LightName};
 pub(crate) use figures::{Figures, format};
 pub(crate) use fit::Fit;
+pub(crate) use invocation::Invocation;
 pub(crate) use new::{LineNumbers, New, polymer, titre};
 pub(crate) use source::{CaseSource, is_standard, quoted};
 
@@ -131,7 +133,7 @@ pub(crate) struct Sweep {
     /// No progress and no table; warnings and errors are still shown
     #[arg(long, short)]
     pub(crate) quiet: bool,
-    /// Start again; deletes the study in the output folder
+    /// Start again; deletes the study in the output folder. A complete one of the same command is replaced without it
     #[arg(long)]
     pub(crate) force: bool,
     /// Set a key of the case or of the web for all points, as run.duration="2 s"; can be repeated
@@ -199,7 +201,7 @@ pub(crate) struct Air {
     /// No progress bar; warnings and errors are still shown
     #[arg(long, short)]
     pub(crate) quiet: bool,
-    /// Replace the results in the output folder
+    /// Replace any results in the output folder; those of the same command are replaced without it
     #[arg(long)]
     pub(crate) force: bool,
     #[command(flatten)]
@@ -274,7 +276,7 @@ pub(crate) struct Reproduce {
     /// No progress bar and no list of claims; errors are still shown
     #[arg(long, short)]
     pub(crate) quiet: bool,
-    /// Replace the results in the output folder
+    /// Replace any results in the output folder; those of the same command are replaced without it
     #[arg(long)]
     pub(crate) force: bool,
 }
@@ -316,7 +318,7 @@ pub(crate) struct Compare {
     /// Print comparison.json instead of the table; without --out, write no files
     #[arg(long)]
     pub(crate) json: bool,
-    /// Replace the comparison in the output folder
+    /// Replace any results in the output folder; those of the same command are replaced without it
     #[arg(long)]
     pub(crate) force: bool,
     #[command(flatten)]

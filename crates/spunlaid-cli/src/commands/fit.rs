@@ -2,7 +2,7 @@
 
 use super::interrupt::stop_on_ctrl_c;
 use super::{aligned, plural, stem, threads};
-use crate::args;
+use crate::args::{self, Invocation};
 use crate::failure::Failure;
 use crate::say;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -19,7 +19,7 @@ use spunlaid_results::folders::read_measured_web;
 use spunlaid_results::output::fit::{fit_json, pretty, refused, sentences, value_and_interval};
 use std::sync::atomic::AtomicU64;
 
-pub(crate) fn fit(asked: &args::Fit) -> Result<(), Failure> {
+pub(crate) fn fit(asked: &args::Fit, invocation: &Invocation) -> Result<(), Failure> {
     let set = Overrides { values: &asked.set, word: "--set" };
     let file = read_fit(&asked.web, set, &asked.vary, "--vary")?;
     file.start.notes.iter().for_each(say::note);
@@ -38,7 +38,12 @@ pub(crate) fn fit(asked: &args::Fit) -> Result<(), Failure> {
         notes: &notes,
     };
     let path = super::folder(asked.out.as_ref(), format!("{name}_fit"));
-    let (mut folder, mut journal, state) = FitFolder::open(&path, &input, asked.force, stop_on_ctrl_c())?;
+    let origin = invocation.origin(&[&asked.web], &path);
+    let (mut folder, mut journal, state) =
+        FitFolder::open(&path, &input, asked.force, origin.as_ref(), stop_on_ctrl_c())?;
+    if folder.replaces() {
+        super::say_replaced(&path, asked.quiet);
+    }
     report_found(asked, state);
     let found = search(asked, &file, &target, &mut journal).map_err(|error| match error {
         Error::Interrupted => Failure::Paused { done: journal.total(), what: "webs", total: None },

@@ -65,16 +65,23 @@ fn staged(
     folder: &Path,
     entries: &'static [&'static str],
     force: bool,
-    origin: Origin,
+    origin: Option<Origin>,
     quiet: bool,
 ) -> Result<Staging<'static>, Failure> {
     let staging = Staging::with_origin(folder, entries, force, origin, stop_on_ctrl_c())?;
-    if staging.replaces_own() && !quiet {
+    if staging.replaces_own() {
+        say_replaced(folder, quiet);
+    }
+    Ok(staging)
+}
+
+/// Says that the earlier results of the same command are replaced.
+fn say_replaced(folder: &Path, quiet: bool) {
+    if !quiet {
         let replaced =
             format!("{}: holds earlier results of this command, which are replaced", folder.display());
         say::remark(false, &replaced);
     }
-    Ok(staging)
 }
 
 /// `1 fibre`, `2 fibres`.

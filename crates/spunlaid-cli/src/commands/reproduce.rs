@@ -1,8 +1,8 @@
 //! `spunlaid reproduce`: draws the paper's figures again and tests its claims.
 
 use super::interrupt::stop_on_ctrl_c;
-use super::{plural, threads};
-use crate::args::{Reproduce, SchemeName, format};
+use super::{plural, staged, threads};
+use crate::args::{Invocation, Reproduce, SchemeName, format};
 use crate::failure::Failure;
 use crate::{progress, say};
 use serde::Serialize;
@@ -22,7 +22,7 @@ use spunlaid::paper::{
 use spunlaid::study::{Journal, PointResults, Progress, Replicates, Study, results_of_point, run};
 use spunlaid_charts::Figure;
 use spunlaid_results::figures::paper as draw;
-use spunlaid_results::output::folder::{ENTRIES, Staging};
+use spunlaid_results::output::folder::ENTRIES;
 use spunlaid_results::output::json_text;
 use spunlaid_results::output::pictures::Format;
 use spunlaid_results::output::study::shown;
@@ -33,7 +33,7 @@ use std::sync::{Mutex, PoisonError};
 /// The figures that can be chosen.
 const FIGURES: [&str; 9] = ["2", "3", "8a", "8b", "9", "10", "11a", "11b", "11c"];
 
-pub(crate) fn reproduce(arguments: &Reproduce) -> Result<(), Failure> {
+pub(crate) fn reproduce(arguments: &Reproduce, invocation: &Invocation) -> Result<(), Failure> {
     let formats: Vec<Format> = arguments.figures.iter().filter_map(|name| format(name).ok()).collect();
     let wanted = chosen(arguments.figures.iter().filter(|name| format(name).is_err()).collect())?;
     let scheme = match arguments.scheme {
@@ -45,7 +45,8 @@ pub(crate) fn reproduce(arguments: &Reproduce) -> Result<(), Failure> {
     base.run.replicates = arguments.replicates;
     let folder = super::folder(arguments.out.as_ref(), "paper");
     let stop = stop_on_ctrl_c();
-    let mut staging = Staging::new(&folder, ENTRIES, arguments.force, stop)?;
+    let origin = invocation.origin(&[], &folder);
+    let mut staging = staged(&folder, ENTRIES, arguments.force, origin, arguments.quiet)?;
     staging.set_figures(&arguments.width.files(&formats));
     let flying = Flying::new(&base, &wanted)?;
 

@@ -3,7 +3,7 @@
 use super::finished::continued;
 use super::interrupt::stop_on_ctrl_c;
 use super::{plural, staged, stem, threads};
-use crate::args::{Run, is_standard};
+use crate::args::{Invocation, Run};
 use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::case::Note;
@@ -11,13 +11,12 @@ use spunlaid::ensemble::{Computing, FinerPlans};
 use spunlaid::lanes::Isa;
 use spunlaid_results::folders::run as files;
 use spunlaid_results::output::folder::{ENTRIES, Staging};
-use spunlaid_results::output::origin::Origin;
 use spunlaid_results::output::{finer, table};
 use std::path::Path;
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
-pub(crate) fn run(run: &Run) -> Result<(), Failure> {
+pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     let (case, mut notes) = match run.until {
         Some(until) => continued(run, until)?,
         None => {
@@ -32,7 +31,7 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
         _ => (run.out.is_some() || !run.json).then(|| super::folder(run.out.as_ref(), &name)),
     };
     let stop = stop_on_ctrl_c();
-    let staging = folder.as_ref().map(|folder| staging(run, folder)).transpose()?;
+    let staging = folder.as_ref().map(|folder| staging(run, invocation, folder)).transpose()?;
 
     let fibre_steps = AtomicU64::new(0);
     let computing = Computing {
@@ -98,15 +97,10 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
 
 /// Collects the results. A continued run replaces its own ones. It took longer, so that the run from which it began does not replace
 /// it.
-fn staging(run: &Run, folder: &Path) -> Result<Staging<'static>, Failure> {
-    if run.until.is_some() || is_standard(&run.source.case) {
-        let replace = run.force || run.until.is_some() && run.out.is_none();
-        return Ok(Staging::new(folder, ENTRIES, replace, stop_on_ctrl_c())?);
-    }
-    let own = overrides(run).into_iter().map(|(key, value)| (key.to_owned(), value));
-    let changes: Vec<_> = run.source.set.iter().cloned().chain(own).collect();
-    let origin = Origin::new("run", &run.source.case, &changes, folder);
-    staged(folder, ENTRIES, run.force, origin, run.quiet)
+fn staging(run: &Run, invocation: &Invocation, folder: &Path) -> Result<Staging<'static>, Failure> {
+    let is_continued = run.until.is_some();
+    let origin = (!is_continued).then(|| invocation.origin(&[&run.source.case], folder)).flatten();
+    staged(folder, ENTRIES, run.force || is_continued && run.out.is_none(), origin, run.quiet)
 }
 
 /// What the results are called: as the case file, or as the folder of a run that is continued.

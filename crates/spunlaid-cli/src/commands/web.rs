@@ -2,7 +2,7 @@
 
 use super::interrupt::stop_on_ctrl_c;
 use super::{aligned, plural, staged, stem, threads};
-use crate::args;
+use crate::args::{self, Invocation};
 use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::advice::{Advice, Change, advise, steps};
@@ -14,14 +14,13 @@ use spunlaid::web::{Findings, Laying, PatchFindings, Web};
 use spunlaid_results::folders;
 use spunlaid_results::folders::web::WebFolder;
 use spunlaid_results::numbers::{plus_minus, significant};
-use spunlaid_results::output::origin::Origin;
 use spunlaid_results::output::web::{ENTRIES, Performance};
 use spunlaid_results::report::advice_words;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
-pub(crate) fn web(asked: &args::Web) -> Result<(), Failure> {
+pub(crate) fn web(asked: &args::Web, invocation: &Invocation) -> Result<(), Failure> {
     let set = Overrides { values: &asked.set, word: "--set" };
     let file = read_web(&asked.file, set)?;
     file.notes.iter().for_each(say::note);
@@ -29,7 +28,7 @@ pub(crate) fn web(asked: &args::Web) -> Result<(), Failure> {
     let folder = (asked.out.is_some() || !asked.json).then(|| super::folder(asked.out.as_ref(), &name));
     let stop = stop_on_ctrl_c();
     let staged = |folder: &PathBuf| {
-        let origin = Origin::new("web", &asked.file, &asked.set, folder);
+        let origin = invocation.origin(&[&asked.file], folder);
         staged(folder, ENTRIES, asked.force, origin, asked.quiet)
     };
     let staging = folder.as_ref().map(staged).transpose()?;

@@ -41,7 +41,7 @@ fn the_number_of_filaments_is_found_and_the_web_that_was_found_can_be_laid() {
     success(&mut desk.spunlaid("analyse truth/map.png --out scan --quiet"));
     let fit = "fit web.toml --to scan --vary line.filaments_per_metre --webs 10 --out fit --quiet";
     success(&mut desk.spunlaid(fit));
-    let entries = ["fit.json", "figures", "journal", "report.html", "trials.csv", "web.toml"];
+    let entries = ["fit.json", "figures", "journal", "origin.toml", "report.html", "trials.csv", "web.toml"];
     assert_eq!(desk.entries("fit"), names(&entries));
     let found = json(&desk, "fit/fit.json");
     let key = &found["keys"][0];
@@ -114,4 +114,20 @@ fn what_cannot_be_sought_is_refused_with_the_way_out() {
     let message = refusal(&mut desk.spunlaid(other), 1);
     assert!(message.contains("holds a fit of another web") && message.contains("--force"), "{message}");
     success(&mut desk.spunlaid(&format!("{other} --force")));
+    // After an edit of the web, the same question replaces its fit.
+    let web = String::from_utf8(desk.read("web.toml")).unwrap();
+    fs::write(desk.path("web.toml"), web.replace("[web]", "[web]\nseed = 77")).unwrap();
+    let other = other.replace(" --quiet", "");
+    let output = desk.spunlaid(&other).output().unwrap();
+    let notes = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{notes}");
+    assert!(
+        notes.contains("note: fit: holds earlier results of this command, which are replaced"),
+        "{notes}"
+    );
+    success(&mut desk.spunlaid(&format!("{} --out alone", other.replace(" --out fit", ""))));
+    for name in ["fit.json", "trials.csv", "web.toml", "journal", "origin.toml"] {
+        assert_eq!(desk.read(&format!("fit/{name}")), desk.read(&format!("alone/{name}")), "{name}");
+    }
+    assert!(!desk.path("fit/replacement").exists());
 }

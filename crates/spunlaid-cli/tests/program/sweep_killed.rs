@@ -1,7 +1,9 @@
 //! A study that is killed at any moment continues, and ends with the same bits.
 
 use crate::common::{Place, assert_same, case, results, said};
+use std::collections::BTreeMap;
 use std::fs;
+use std::path::Path;
 use std::thread::sleep;
 use std::time::Duration;
 
@@ -81,6 +83,53 @@ fn identical_when_killed_while_files_are_begun_and_written() {
     }
     place.swept("killed", &[]);
     assert_same(&results(&place.path("whole")), &results(&place.path("killed")));
+}
+
+#[test]
+fn earlier_results_stay_whole_until_those_of_a_changed_study_are() {
+    let study = STUDY.replace("steps = 6", "steps = 2").replace("'100 mm', ", "");
+    let place = Place::new(&case(0.02), &study);
+    place.swept("out", &["--threads", "2"]);
+    let earlier = results(&place.path("out"));
+    let changed = study.replace("'20 m/s'", "'25 m/s'");
+    fs::write(place.path("study.toml"), &changed).unwrap();
+    place.swept("whole", &["--threads", "2"]);
+    let new = results(&place.path("whole"));
+    let (mut moments, mut kills, mut kept) = (Moments(5), 0, 0);
+    let now = || {
+        let all = results(&place.path("out")).into_iter();
+        all.filter(|(name, _)| !name.starts_with("replacement")).collect::<BTreeMap<_, _>>()
+    };
+    loop {
+        let mut child = place.under_way("out", &["--threads", "2"]);
+        // Longer each time, so that a slow machine too comes to the end.
+        sleep(moments.next(60 + 10 * kills));
+        child.kill().unwrap();
+        if child.wait().unwrap().success() {
+            break;
+        }
+        kills += 1;
+        if now().contains_key(Path::new("report.html")) {
+            let is_new = !place.path("out").join("replacement").exists();
+            // What a killed process was about to write is in a hidden folder.
+            let mut now = now();
+            now.retain(|name, _| !name.to_string_lossy().starts_with(".spunlaid-"));
+            assert_same(&now, if is_new && now != earlier { &new } else { &earlier });
+        }
+        let records = records(&place, "out/replacement");
+        assert!(records >= kept || !place.path("out").join("replacement").exists(), "{kept}, {records}");
+        kept = records;
+        // A third study does not take what has been done for the second.
+        if kills == 3 && kept > 0 {
+            fs::write(place.path("study.toml"), study.replace("'20 m/s'", "'30 m/s'")).unwrap();
+            let refusal = place.refused("out", &[]);
+            assert!(refusal.contains("replacement: holds results of another study"), "{refusal}");
+            fs::write(place.path("study.toml"), &changed).unwrap();
+        }
+    }
+    assert!(kills >= 3, "only {kills} kills before the end");
+    place.swept("out", &[]);
+    assert_same(&results(&place.path("out")), &new);
 }
 
 #[test]

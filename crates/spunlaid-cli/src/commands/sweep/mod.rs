@@ -5,7 +5,7 @@ mod table;
 
 use super::interrupt::stop_on_ctrl_c;
 use super::{plural, stem, threads};
-use crate::args::Sweep;
+use crate::args::{Invocation, Sweep};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::case::keys;
@@ -24,7 +24,7 @@ use std::sync::{Mutex, PoisonError};
 /// Largest number of lost fibres that are listed.
 const LOST_LISTED: u64 = 10;
 
-pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
+pub(crate) fn sweep(sweep: &Sweep, invocation: &Invocation) -> Result<(), Failure> {
     let (points, replicates) = (sweep.points, sweep.replicates);
     let set = Overrides { values: &sweep.set, word: "--set" };
     let file = read_changed_study(&sweep.study, &StudyChanges { points, replicates, set })?;
@@ -33,7 +33,12 @@ pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
     }
     file.notes.iter().for_each(say::study_note);
     let path = super::folder(sweep.out.as_ref(), stem(&sweep.study, "study"));
-    let (mut folder, journal, found) = StudyFolder::open(&path, &file, sweep.force, stop_on_ctrl_c())?;
+    let origin = invocation.origin(&[&sweep.study], &path);
+    let (mut folder, journal, found) =
+        StudyFolder::open(&path, &file, sweep.force, origin.as_ref(), stop_on_ctrl_c())?;
+    if folder.replaces() {
+        super::say_replaced(&path, sweep.quiet);
+    }
     folder.set_figures(&sweep.figures.files());
     report_found(sweep, &file.study, &found);
 
@@ -43,7 +48,7 @@ pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
     let mut journal = journal.into_inner().unwrap_or_else(PoisonError::into_inner);
     let done = (0..file.study.points.len()).map(|point| journal.held(point)).sum();
     let written =
-        outcome.map_err(Failure::from).and_then(|()| write(sweep, &file, &folder, &mut journal, before));
+        outcome.map_err(Failure::from).and_then(|()| write(sweep, &file, &mut folder, &mut journal, before));
     written.map_err(|failure| match failure {
         Failure::Error(Error::Interrupted) => {
             let what = match file.study.noun() {
@@ -133,7 +138,7 @@ fn fly(sweep: &Sweep, study: &Study, journal: &Mutex<Journal>) -> Result<(), Err
 fn write(
     sweep: &Sweep,
     file: &StudyFile,
-    folder: &StudyFolder<'_>,
+    folder: &mut StudyFolder<'_>,
     journal: &mut Journal,
     before: u64,
 ) -> Result<(), Failure> {

@@ -104,7 +104,7 @@ pub(super) const KEYS: &[Key] = &[
         .follows("the array with a usual name of the velocity")
         .meaning(
             "Array of the velocity in a field, by name: one of three components, or two or three of one with commas between \
-             them, `\"Ux, Uy, Uz\"`.",
+             them, `Ux, Uy, Uz`.",
         ),
     key("air.field_k", Kind::Text("k"), of_field_layout!(k))
         .follows("the array with a usual name of k")
