@@ -129,5 +129,5 @@ fn what_cannot_be_sought_is_refused_with_the_way_out() {
     for name in ["fit.json", "trials.csv", "web.toml", "journal", "origin.toml"] {
         assert_eq!(desk.read(&format!("fit/{name}")), desk.read(&format!("alone/{name}")), "{name}");
     }
-    assert!(!desk.path("fit/replacement").exists());
+    assert!(!desk.path("fit/.spunlaid-replacement").exists());
 }

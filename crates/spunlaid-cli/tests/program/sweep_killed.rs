@@ -98,7 +98,8 @@ fn earlier_results_stay_whole_until_those_of_a_changed_study_are() {
     let (mut moments, mut kills, mut kept) = (Moments(5), 0, 0);
     let now = || {
         let all = results(&place.path("out")).into_iter();
-        all.filter(|(name, _)| !name.starts_with("replacement")).collect::<BTreeMap<_, _>>()
+        // What is being made is in hidden folders.
+        all.filter(|(name, _)| !name.to_string_lossy().starts_with(".spunlaid-")).collect::<BTreeMap<_, _>>()
     };
     loop {
         let mut child = place.under_way("out", &["--threads", "2"]);
@@ -110,26 +111,59 @@ fn earlier_results_stay_whole_until_those_of_a_changed_study_are() {
         }
         kills += 1;
         if now().contains_key(Path::new("report.html")) {
-            let is_new = !place.path("out").join("replacement").exists();
-            // What a killed process was about to write is in a hidden folder.
-            let mut now = now();
-            now.retain(|name, _| !name.to_string_lossy().starts_with(".spunlaid-"));
+            let now = now();
+            let is_new = !place.path("out").join(".spunlaid-replacement").exists();
             assert_same(&now, if is_new && now != earlier { &new } else { &earlier });
         }
-        let records = records(&place, "out/replacement");
-        assert!(records >= kept || !place.path("out").join("replacement").exists(), "{kept}, {records}");
+        let records = records(&place, "out/.spunlaid-replacement");
+        assert!(
+            records >= kept || !place.path("out").join(".spunlaid-replacement").exists(),
+            "{kept}, {records}"
+        );
         kept = records;
         // A third study does not take what has been done for the second.
         if kills == 3 && kept > 0 {
             fs::write(place.path("study.toml"), study.replace("'20 m/s'", "'30 m/s'")).unwrap();
             let refusal = place.refused("out", &[]);
-            assert!(refusal.contains("replacement: holds results of another study"), "{refusal}");
+            assert!(refusal.contains(".spunlaid-replacement: holds results of another study"), "{refusal}");
             fs::write(place.path("study.toml"), &changed).unwrap();
         }
     }
     assert!(kills >= 3, "only {kills} kills before the end");
     place.swept("out", &[]);
     assert_same(&results(&place.path("out")), &new);
+}
+
+#[test]
+fn identical_when_killed_while_complete_results_replace_earlier_ones() {
+    let study = STUDY.replace("steps = 6", "steps = 2").replace("'100 mm', ", "");
+    let changed = study.replace("'20 m/s'", "'25 m/s'");
+    let place = Place::new(&case(0.002), &study);
+    let write = |study: &str| fs::write(place.path("study.toml"), study).unwrap();
+    let [out, hidden] = ["out", "out/.spunlaid-replacement"].map(|folder| place.path(folder));
+    let entries = |folder: &Path| -> Vec<_> {
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+    };
+    // Before the journal is moved, after it, and when all but a few are moved.
+    for moved in
+        [&[][..], &["journal"], &["journal", "origin.toml", "study.toml", "case.toml", "results.csv"]]
+    {
+        write(&study);
+        place.swept("out", &["--force"]);
+        write(&changed);
+        place.swept("whole", &["--force"]);
+        for name in entries(&out).iter().filter(|name| !["journal", "origin.toml"].contains(&name.as_str())) {
+            let path = out.join(name);
+            if path.is_dir() { fs::remove_dir_all(path) } else { fs::remove_file(path) }.unwrap();
+        }
+        fs::create_dir(&hidden).unwrap();
+        for name in entries(&place.path("whole")).iter().filter(|name| *name != "figures") {
+            let to = if moved.contains(&name.as_str()) { &out } else { &hidden };
+            fs::copy(place.path("whole").join(name), to.join(name)).unwrap();
+        }
+        place.swept("out", &[]);
+        assert_same(&results(&place.path("whole")), &results(&out));
+    }
 }
 
 #[test]

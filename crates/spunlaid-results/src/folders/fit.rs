@@ -19,8 +19,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 /// The files of a fit; the last one marks it as complete.
-const FILES: &[&str] = &["web.toml", "cases", CASE_FILES, "trials.csv", "figures", "report.html", LAST];
-const LAST: &str = "fit.json";
+const FILES: &[&str] = &["web.toml", "cases", CASE_FILES, "trials.csv", "figures", "report.html", "fit.json"];
 /// Files of other results.
 const OF_OTHERS: &[&str] = &["summary.json", "results.csv", "analysis.json", "comparison.json", "study.toml"];
 
@@ -78,7 +77,7 @@ impl<'a> FitFolder<'a> {
         }
         let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: input.identity() };
         let (at, mut journal, header) =
-            Journalled::open(path, &Work { header: &wanted, last: LAST, force, origin })?;
+            Journalled::open(path, &Work { header: &wanted, entries: &[FILES], force, origin })?;
         let path = at.place.as_path();
         let numbers = numbers_of_record(input.target);
         let state = match header {
@@ -135,7 +134,7 @@ impl<'a> FitFolder<'a> {
         staging.write("report.html", report)?;
         staging.write("fit.json", fit_json(fit, target, paths, notes))?;
         staging.publish()?;
-        self.at.finish(FILES.iter().copied())
+        self.at.finish()
     }
 }
 

@@ -23,8 +23,7 @@ const STUDY: &str = "study.toml";
 const DESCRIPTION: &[&str] = &[CASE_FILES, "case.toml", "web.toml", "spinline.toml", STUDY];
 /// Files that are made from the journal; the last one marks them as complete.
 const MADE: &[&str] =
-    &["results.csv", "results.json", "results.parquet", "replicates.parquet", "figures", LAST];
-const LAST: &str = "report.html";
+    &["results.csv", "results.json", "results.parquet", "replicates.parquet", "figures", "report.html"];
 /// Files of other results, and the journal that studies of webs had before they were like all others.
 const OF_OTHERS: &[&str] =
     &["summary.json", "end_node.parquet", "energy.parquet", "analysis.json", "webs.jsonl"];
@@ -77,7 +76,7 @@ impl<'a> StudyFolder<'a> {
         }
         let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: file.study.identity() };
         let (at, mut journal, header) =
-            Journalled::open(path, &Work { header: &wanted, last: LAST, force, origin })?;
+            Journalled::open(path, &Work { header: &wanted, entries: &[DESCRIPTION, MADE], force, origin })?;
         let folder = Self { at, stop, figures: FigureFiles::default() };
         let path = folder.at.place.as_path();
         let state = match header {
@@ -176,7 +175,7 @@ impl<'a> StudyFolder<'a> {
         });
         staging.write("report.html", report)?;
         staging.publish()?;
-        self.at.finish(DESCRIPTION.iter().chain(MADE).copied())?;
+        self.at.finish()?;
         Ok(StudyResults { results, refusal })
     }
 

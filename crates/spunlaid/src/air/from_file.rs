@@ -30,7 +30,7 @@ impl<T> FromFile<T> {
     ///
     /// * `way` – empty if there is only one
     #[must_use]
-    pub fn read_as(self, way: &str) -> Self {
+    pub(crate) fn read_as(self, way: &str) -> Self {
         let mut sum = crc32fast::Hasher::new_with_initial(self.checksum);
         sum.update(way.as_bytes());
         Self { checksum: sum.finalize(), ..self }
