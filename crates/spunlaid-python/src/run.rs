@@ -1,6 +1,7 @@
 //! `fly`: flies a case, and what can be asked of its results.
 
 use crate::case::Case;
+use crate::figures::figure_files;
 use crate::flight::laid_columns;
 use crate::results::RunResults;
 use crate::samples::{Collected, locked};
@@ -228,7 +229,16 @@ impl RunResults {
     }
 
     /// Writes the folder that `spunlaid run` writes.
-    fn save(&self, py: Python<'_>, path: PathBuf, force: bool) -> PyResult<()> {
+    #[pyo3(signature = (path, force, figures = None, figure_width = None))]
+    fn save(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        force: bool,
+        figures: Option<&Bound<'_, PyAny>>,
+        figure_width: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<()> {
+        let figures = figure_files(figures, figure_width)?;
         let Some(samples) = &self.samples else {
             let text = "the run was flown with samples=False, so its tables cannot be written";
             return Err(crate::failure::raised_as(py, "FolderError", text.to_owned()));
@@ -236,7 +246,8 @@ impl RunResults {
         let samples = samples.borrowed(py).all();
         let watch = Watch::default();
         watched(py, &watch, None, || {
-            let staging = Staging::new(&path, ENTRIES, force, &watch.stop)?;
+            let mut staging = Staging::new(&path, ENTRIES, force, &watch.stop)?;
+            staging.set_figures(&figures);
             let recorder = TableRecorder::new(&staging, self.case.line.is_some());
             let mut tables = Tables::create(&staging, &recorder)?;
             for (replicate, samples) in (0..).zip(samples) {

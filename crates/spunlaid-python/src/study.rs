@@ -3,6 +3,7 @@
 use crate::bundle::{BundlePart, parts, records};
 use crate::case::Case;
 use crate::failure::{raised_as, without_lines};
+use crate::figures::figure_files;
 use crate::scale::{AxisScale, scale};
 use crate::value::overrides;
 use crate::watched::{Watch, guarded, threads, watched};
@@ -337,7 +338,14 @@ impl Study {
     }
 
     /// Makes tables, figures and report in the folder of the study, and lets go of it.
-    fn write(&self, py: Python<'_>) -> PyResult<()> {
+    #[pyo3(signature = (figures = None, figure_width = None))]
+    fn write(
+        &self,
+        py: Python<'_>,
+        figures: Option<&Bound<'_, PyAny>>,
+        figure_width: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<()> {
+        let figures = figure_files(figures, figure_width)?;
         let Some(out) = &self.out else {
             let text = "the study was flown without a folder; name one: out = \"results/study\"".to_owned();
             return Err(raised_as(py, "FolderError", text));
@@ -346,6 +354,7 @@ impl Study {
             // The folder is opened anew, which also sees whether it still holds this study.
             *self.journal() = None;
             let (mut folder, mut journal, _) = StudyFolder::open(out, &self.file, false, None, &NEVER)?;
+            folder.set_figures(&figures);
             folder.write(&self.name, &self.file, &mut journal).map(drop)
         })
     }

@@ -9,7 +9,7 @@ mod new;
 mod source;
 
 pub(crate) use analyse::{Analyse, Direction, LightName};
-pub(crate) use figures::{Figures, format};
+pub(crate) use figures::Figures;
 pub(crate) use fit::Fit;
 pub(crate) use invocation::Invocation;
 pub(crate) use new::{LineNumbers, New, polymer, titre};

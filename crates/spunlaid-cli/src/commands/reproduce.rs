@@ -2,7 +2,7 @@
 
 use super::interrupt::stop_on_ctrl_c;
 use super::{plural, staged, threads};
-use crate::args::{Invocation, Reproduce, SchemeName, format};
+use crate::args::{Invocation, Reproduce, SchemeName};
 use crate::failure::Failure;
 use crate::{progress, say};
 use serde::Serialize;
@@ -34,8 +34,8 @@ use std::sync::{Mutex, PoisonError};
 const FIGURES: [&str; 9] = ["2", "3", "8a", "8b", "9", "10", "11a", "11b", "11c"];
 
 pub(crate) fn reproduce(arguments: &Reproduce, invocation: &Invocation) -> Result<(), Failure> {
-    let formats: Vec<Format> = arguments.figures.iter().filter_map(|name| format(name).ok()).collect();
-    let wanted = chosen(arguments.figures.iter().filter(|name| format(name).is_err()).collect())?;
+    let formats: Vec<Format> = arguments.figures.iter().filter_map(|name| Format::named(name).ok()).collect();
+    let wanted = chosen(arguments.figures.iter().filter(|name| Format::named(name).is_err()).collect())?;
     let scheme = match arguments.scheme {
         SchemeName::SemiImplicitEuler => Scheme::SemiImplicitEuler,
         SchemeName::Leapfrog => Scheme::Leapfrog,
