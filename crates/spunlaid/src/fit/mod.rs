@@ -27,11 +27,11 @@ mod texture;
 mod webs;
 mod weights;
 
-pub use found::{Alike, Fit, FittedKey, FittedNumber, KeyDoubt, TrialOfFit};
+pub use found::{Fit, FitTrial, FittedKey, FittedNumber, InseparableKeys, KeyDoubt};
 pub use parameter::{Parameter, USUAL_FACTOR};
 pub use target::{MeasuredPatch, MeasuredWeb, Target};
 pub use texture::Texture;
-pub use webs::{MOST_TRIALS, MakeWeb, Watched};
+pub use webs::{MOST_TRIALS, MakeWeb, WebInProgress};
 
 use crate::error::{Error, Fault};
 use crate::layers::{Flyer, Method, WebSpec};
@@ -107,7 +107,7 @@ pub fn fit<'a>(
     flyer: Flyer<'a>,
     by: Laying<'a>,
     journal: &'a mut Journal,
-    watch: &'a dyn Fn(Watched<'_>),
+    watch: &'a dyn Fn(WebInProgress<'_>),
 ) -> Result<Fit, Error> {
     let Question { parameters, target, make, webs: count } = question;
     check(question)?;

@@ -23,7 +23,7 @@ pub(super) struct Trial {
 
 /// What is being laid.
 #[derive(Clone, Copy, Debug)]
-pub struct Watched<'a> {
+pub struct WebInProgress<'a> {
     /// Number of the trial, from 1.
     pub trial: usize,
     /// Number of its web, from 1.
@@ -50,7 +50,7 @@ pub(super) struct Webs<'a> {
     pub(super) flyer: Flyer<'a>,
     pub(super) by: Laying<'a>,
     pub(super) journal: &'a mut Journal,
-    pub(super) watch: &'a dyn Fn(Watched<'_>),
+    pub(super) watch: &'a dyn Fn(WebInProgress<'_>),
     pub(super) trials: Vec<Trial>,
     /// Trials that could not be laid, and why the last of them could not.
     pub(super) refused: Vec<(Vec<f64>, Error)>,
@@ -110,7 +110,7 @@ impl Webs<'_> {
                 webs.push(measured.to_vec());
                 continue;
             }
-            (self.watch)(Watched { trial: trial + 1, web: replicate + 1, webs: self.count, values });
+            (self.watch)(WebInProgress { trial: trial + 1, web: replicate + 1, webs: self.count, values });
             let numbers = self.web(&WebSpec { seed: seed(&spec, replicate), ..spec.clone() })?;
             let landing = Landing::Measured(numbers.clone().into_boxed_slice());
             self.journal.add(&[Record { point: trial as u64, replicate, landing }])?;
