@@ -126,6 +126,15 @@ impl Target {
         Ok(Self { map, textures, logarithms, camera, doubt: measured.doubt.clone() })
     }
 
+    /// A web of which nothing but these logarithms is known.
+    #[cfg(test)]
+    pub(super) fn of_patches(sides: &[f64], logarithms: Vec<f64>) -> Self {
+        let map =
+            Map { columns: 0, rows: 0, cell: 1e-3, quantum: 1.0, closed: [false; 2], cells: Vec::new() };
+        let textures = Textures { all: sides.iter().copied().map(Texture::Patch).collect(), flat: false };
+        Self { map, textures, logarithms, camera: Vec::new(), doubt: None }
+    }
+
     /// What is compared.
     pub fn textures(&self) -> &[Texture] {
         &self.textures.all
