@@ -3,7 +3,7 @@
 use crate::case::Case;
 use crate::flight::laid_columns;
 use crate::results::RunResults;
-use crate::samples::{Collected, locked};
+use crate::samples::{SampleCollector, locked};
 use crate::scale::scale;
 use crate::watched::{Watch, threads, watched};
 use numpy::{PyArray1, PyArrayMethods};
@@ -57,7 +57,7 @@ pub(crate) fn fly(
     let started = Instant::now();
     let (results, checks, collected) = watched(py, &watch, progress.as_ref(), || {
         let shapes = if shapes { KeepShapes::within(&description, POSITIONS) } else { KeepShapes::NONE };
-        let (mut collector, mut collected) = (Results::collector(KEPT), Collected::default());
+        let (mut collector, mut collected) = (Results::collector(KEPT), SampleCollector::default());
         let take = |landed: Result<Trajectory, LostFibre>| {
             match landed {
                 Ok(mut trajectory) => {

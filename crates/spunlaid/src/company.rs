@@ -75,7 +75,7 @@ impl<T> PerLane<T> {
     ///
     /// # Errors
     /// If one differs from the first; the fault says in what.
-    pub(crate) fn shared<S: Shared>(&self, mut setting: impl FnMut(&T) -> S) -> Result<S, Error> {
+    pub(crate) fn shared<S: CompanyKey>(&self, mut setting: impl FnMut(&T) -> S) -> Result<S, Error> {
         let first = setting(&self.0[0]);
         for (lane, other) in self.0.iter().enumerate().skip(1) {
             if let Some(what) = first.difference(&setting(other)) {
@@ -90,12 +90,12 @@ impl<T> PerLane<T> {
 }
 
 /// What fibres have in common if they fly side by side.
-pub(crate) trait Shared: Ord {
+pub(crate) trait CompanyKey: Ord {
     /// In words, the first thing in which two differ.
     fn difference(&self, other: &Self) -> Option<&'static str>;
 }
 
-impl<S: Shared> Shared for Option<S> {
+impl<S: CompanyKey> CompanyKey for Option<S> {
     fn difference(&self, other: &Self) -> Option<&'static str> {
         match (self, other) {
             (Some(one), Some(other)) => one.difference(other),
@@ -131,7 +131,7 @@ macro_rules! shared {
         #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
         $visible struct $name { $($(#[$of])* $visible $field: $type,)* }
 
-        impl $crate::company::Shared for $name {
+        impl $crate::company::CompanyKey for $name {
             fn difference(&self, other: &Self) -> Option<&'static str> {
                 $($crate::company::shared!(@compare &self.$field, &other.$field $(, $words)?);)*
                 None
@@ -144,7 +144,7 @@ macro_rules! shared {
         }
     };
     (@compare $one:expr, $other:expr) => {
-        if let Some(words) = $crate::company::Shared::difference($one, $other) {
+        if let Some(words) = $crate::company::CompanyKey::difference($one, $other) {
             return Some(words);
         }
     };

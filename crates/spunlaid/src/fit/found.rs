@@ -17,7 +17,7 @@ pub struct Fit {
     /// Correlations of the errors of the values, key by key.
     pub correlations: Vec<Vec<f64>>,
     /// Keys that the data cannot tell apart: their indices, and what a rise of the first by a tenth is made up for with.
-    pub alike: Vec<Alike>,
+    pub alike: Vec<InseparableKeys>,
     /// What was compared.
     pub numbers: Vec<FittedNumber>,
     /// The misfit at the start and at the end.
@@ -27,7 +27,7 @@ pub struct Fit {
     /// Simulated webs of each trial.
     pub webs: u64,
     /// All trials.
-    pub trials: Vec<TrialOfFit>,
+    pub trials: Vec<FitTrial>,
     /// Whether the search has ended because its steps had become short.
     pub settled: bool,
     /// Trials whose webs could not be laid: their values, and why.
@@ -36,7 +36,7 @@ pub struct Fit {
 
 /// A trial.
 #[derive(Clone, Debug, PartialEq)]
-pub struct TrialOfFit {
+pub struct FitTrial {
     /// Values of the keys [SI].
     pub values: Vec<f64>,
     /// Its misfit.
@@ -71,7 +71,7 @@ pub enum KeyDoubt {
 
 /// Two keys that the data cannot tell apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Alike {
+pub struct InseparableKeys {
     /// Indices of the keys.
     pub keys: [usize; 2],
     /// Correlation of their errors.
@@ -157,7 +157,7 @@ fn keys(
 }
 
 /// Correlations of the errors of all keys, and the keys that cannot be told apart.
-fn together(surface: &Surface, weights: &Matrix, keys: usize) -> (Matrix, Vec<Alike>) {
+fn together(surface: &Surface, weights: &Matrix, keys: usize) -> (Matrix, Vec<InseparableKeys>) {
     let Surface { known, slopes, errors, .. } = surface;
     let information = information(weights, slopes);
     let mut correlations: Matrix =
@@ -170,7 +170,7 @@ fn together(surface: &Surface, weights: &Matrix, keys: usize) -> (Matrix, Vec<Al
             correlations[*key][*other] = correlation;
             if i < j && correlation.abs() >= ALIKE {
                 let per_first = -information[i][j] / information[j][j];
-                alike.push(Alike { keys: [*key, *other], correlation, per_first });
+                alike.push(InseparableKeys { keys: [*key, *other], correlation, per_first });
             }
         }
     }
@@ -208,8 +208,8 @@ fn worse(webs: &Webs<'_>, place: &Place, surface: &Surface) -> u64 {
 }
 
 /// All trials with their misfits.
-fn trials(webs: &Webs<'_>, place: &Place) -> Vec<TrialOfFit> {
-    let trial = |trial: usize| TrialOfFit {
+fn trials(webs: &Webs<'_>, place: &Place) -> Vec<FitTrial> {
+    let trial = |trial: usize| FitTrial {
         values: webs.trials[trial].values.clone(),
         misfit: misfit(&place.weights, &rest(webs, trial)),
     };

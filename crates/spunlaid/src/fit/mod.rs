@@ -34,12 +34,12 @@ mod values;
 mod webs;
 mod weights;
 
-pub use found::{Alike, Fit, FittedKey, FittedNumber, KeyDoubt, TrialOfFit};
+pub use found::{Fit, FitTrial, FittedKey, FittedNumber, InseparableKeys, KeyDoubt};
 pub use parameter::{Parameter, USUAL_FACTOR};
 pub use simulator::MakeWeb;
 pub use target::{MeasuredPatch, MeasuredWeb, Target};
 pub use texture::Texture;
-pub use webs::{MOST_TRIALS, Watched};
+pub use webs::{MOST_TRIALS, WebInProgress};
 
 use crate::error::{Error, Fault};
 use crate::layers::{Flyer, WebSpec};
@@ -115,7 +115,7 @@ pub fn fit<'a>(
     flyer: Flyer<'a>,
     by: Laying<'a>,
     journal: &'a mut Journal,
-    watch: &'a dyn Fn(Watched<'_>),
+    watch: &'a dyn Fn(WebInProgress<'_>),
 ) -> Result<Fit, Error> {
     check(question)?;
     let Question { parameters, target, make, webs: count } = question;

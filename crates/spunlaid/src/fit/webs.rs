@@ -22,7 +22,7 @@ pub(super) struct Trial {
 
 /// What is being laid.
 #[derive(Clone, Copy, Debug)]
-pub struct Watched<'a> {
+pub struct WebInProgress<'a> {
     /// Number of the trial, from 1.
     pub trial: usize,
     /// Number of its web, from 1.
@@ -44,7 +44,7 @@ pub(super) struct Webs<'a> {
     /// Of each trial.
     pub(super) count: u64,
     pub(super) journal: &'a mut Journal,
-    pub(super) watch: &'a dyn Fn(Watched<'_>),
+    pub(super) watch: &'a dyn Fn(WebInProgress<'_>),
     pub(super) trials: Vec<Trial>,
     /// Trials that could not be laid, and why the last of them could not.
     pub(super) refused: Vec<(Vec<f64>, Error)>,
@@ -56,7 +56,7 @@ impl<'a> Webs<'a> {
         (parameters, target): (&'a [Parameter], &'a Target),
         (simulator, count): (&'a mut dyn Simulator, u64),
         journal: &'a mut Journal,
-        watch: &'a dyn Fn(Watched<'_>),
+        watch: &'a dyn Fn(WebInProgress<'_>),
     ) -> Self {
         let (trials, refused) = (Vec::new(), Vec::new());
         Self { parameters, target, simulator, count, journal, watch, trials, refused }
@@ -115,7 +115,7 @@ impl<'a> Webs<'a> {
                 webs.push(measured.to_vec());
                 continue;
             }
-            (self.watch)(Watched { trial: trial + 1, web: replicate + 1, webs: self.count, values });
+            (self.watch)(WebInProgress { trial: trial + 1, web: replicate + 1, webs: self.count, values });
             let numbers = self.simulator.web(replicate)?;
             let landing = Landing::Measured(numbers.clone().into_boxed_slice());
             self.journal.add(&[Record { point: trial as u64, replicate, landing }])?;

@@ -12,9 +12,9 @@ use crate::ensemble::{Computing, Keep, LaidCurves, fly};
 use crate::error::{Error, Fault};
 use crate::flight::LaidPoint;
 use crate::lanes::Isa;
-use crate::laydown::{Trace, Tracing};
+use crate::laydown::{Trace, TraceSettings};
 use crate::statistics::Estimate;
-use crate::surrogate::{Residual, Surrogate, Unidentified, identify};
+use crate::surrogate::{IdentificationFailure, Residual, Surrogate, identify};
 use crate::web::{Curves, Fibres, Findings, LaidWeb, Laying, Map, Web, find_laid, lay, measure_laid, pieces};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -22,7 +22,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// The fibres of a layer.
 #[derive(Clone, Debug)]
-pub struct OfLayer {
+pub struct LayerFibres {
     /// What is laid.
     pub fibres: Fibres,
     /// What the flown fibres have laid, unless the numbers of the surrogate were known.
@@ -39,7 +39,7 @@ pub struct FlownFibres {
     /// How well the surrogate with the mean numbers fits; None without one.
     pub residual: Option<Residual>,
     /// Why the first replicate without a surrogate has none.
-    pub unidentified: Option<Unidentified>,
+    pub unidentified: Option<IdentificationFailure>,
 }
 
 /// The flights of a case, to be watched.
@@ -66,7 +66,7 @@ pub struct FlownWeb {
     /// The web.
     pub web: Web,
     /// The fibres of its layers.
-    pub layers: Vec<OfLayer>,
+    pub layers: Vec<LayerFibres>,
     /// What filaments in one air have laid; None of a web that is still to be laid.
     laid: Option<LaidWeb>,
 }
@@ -122,10 +122,10 @@ impl<'a> Flyer<'a> {
     /// # Errors
     /// If the fibres cannot be flown or read, have laid nothing, or spread too far for the sheet; and if no surrogate is
     /// found where one is to be laid.
-    pub fn fibres(&mut self, spec: &WebSpec, layer: &LayerSpec) -> Result<OfLayer, Error> {
+    pub fn fibres(&mut self, spec: &WebSpec, layer: &LayerSpec) -> Result<LayerFibres, Error> {
         let (path, case) = match &layer.source {
             LaydownSource::Surrogate(surrogate) => {
-                return Ok(OfLayer { fibres: Fibres::Surrogate(*surrogate), flown: None });
+                return Ok(LayerFibres { fibres: Fibres::Surrogate(*surrogate), flown: None });
             }
             LaydownSource::Case { path, case } | LaydownSource::Results { folder: path, case } => {
                 (path, case)
@@ -154,7 +154,7 @@ impl<'a> Flyer<'a> {
             Method::Surrogate => Fibres::Surrogate(flown.surrogate(path)?),
             Method::Dynamics | Method::SharedAir => Fibres::Curves(Arc::clone(&flown.curves)),
         };
-        Ok(OfLayer { fibres, flown: Some(flown) })
+        Ok(LayerFibres { fibres, flown: Some(flown) })
     }
 
     /// Flies a case; the points that each replicate has laid.
@@ -191,7 +191,7 @@ impl FlownFibres {
         // As the measures of a run do, to the same bits.
         let skip = (line.feed_speed * case.run.spin_up() / spacing).round() as u64;
         let belt_ratio = line.belt_ratio();
-        let tracing = Tracing { spacing, belt_ratio, skip, reach: line.distance };
+        let tracing = TraceSettings { spacing, belt_ratio, skip, reach: line.distance };
         let (mut numbers, mut unidentified) = ([const { Vec::new() }; 3], None);
         let mut traces = Vec::new();
         for points in &mut laid {
@@ -276,7 +276,7 @@ impl FlownWeb {
 }
 
 /// The web with the fibres of its layers. Beside flown curves stands their surrogate, and the other way round.
-fn to_lay(spec: &WebSpec, layers: &[OfLayer]) -> Web {
+fn to_lay(spec: &WebSpec, layers: &[LayerFibres]) -> Web {
     let mut web = spec.web(layers.iter().map(|layer| layer.fibres.clone()));
     for ((layer, of), named) in web.layers.iter_mut().zip(layers).zip(&spec.layers) {
         layer.compared = of.flown.as_ref().and_then(|flown| match spec.method {

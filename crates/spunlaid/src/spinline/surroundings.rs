@@ -1,6 +1,6 @@
 //! The air along the spinline.
 
-use crate::air::FromFile;
+use crate::air::FileContent;
 
 /// The air along the spinline.
 #[derive(Clone, Debug, PartialEq)]
@@ -8,7 +8,7 @@ pub enum Surroundings {
     /// The same everywhere.
     Uniform(AirState),
     /// Values at distances from the die, from a table.
-    Table(FromFile<AirTable>),
+    Table(FileContent<AirTable>),
     /// The velocity of the case's CFD field upstream of the inlet.
     Field {
         /// Temperature of the air [K].

@@ -1,7 +1,7 @@
 //! Designs: how the values of the factors are combined into points.
 
 use super::sobol::{MOST_DIMENSIONS, Sobol};
-use super::{Input, Use, stream};
+use super::{Input, RandomUse, stream};
 use crate::units::Dimension;
 use rand_chacha::rand_core::Rng;
 
@@ -161,7 +161,7 @@ fn grid(values: &[Vec<f64>]) -> Vec<Vec<f64>> {
 
 /// One share in each slice of [0, 1), in random order.
 fn latin(points: u64, seed: u64, factor: u64) -> Vec<f64> {
-    let mut random = stream(seed, Use::LatinHypercube, factor);
+    let mut random = stream(seed, RandomUse::LatinHypercube, factor);
     let mut order: Vec<u64> = (0..points).collect();
     // Shuffle of Fisher and Yates. The bias of the remainder is negligible because `last` is far below 2⁶⁴.
     for last in (1..order.len()).rev() {

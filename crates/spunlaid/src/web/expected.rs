@@ -1,7 +1,7 @@
 //! The unevenness that is expected of webs of independent filaments, from single fibres.
 
 use super::laying::Laying;
-use super::one_fibre::{Alone, OneFibre, one_fibre, straight_fibres};
+use super::one_fibre::{OneFibre, SingleFibres, one_fibre, straight_fibres};
 use super::plan::places;
 use super::{Edges, Fibres, Filaments, Layer, Sheet, Web};
 use crate::error::Error;
@@ -18,20 +18,20 @@ pub fn inner_columns(web: &Web) -> Range<usize> {
 }
 
 /// How a web lies across its sheet.
-pub(super) struct Across {
+pub(super) struct SheetPosition {
     /// Where it begins and ends [m].
     pub(super) reach: [f64; 2],
     /// The columns that are not edges, where filaments are missing beyond the outermost place.
     pub(super) columns: Range<usize>,
 }
 
-pub(super) fn across(web: &Web) -> Across {
+pub(super) fn across(web: &Web) -> SheetPosition {
     let sheet = &web.sheet;
     let columns = sheet.cells()[0];
     if sheet.edges == Edges::Periodic {
-        return Across { reach: [0.0, sheet.width], columns: 0..columns };
+        return SheetPosition { reach: [0.0, sheet.width], columns: 0..columns };
     }
-    let mut across = Across { reach: [sheet.width, 0.0], columns: 0..columns };
+    let mut across = SheetPosition { reach: [sheet.width, 0.0], columns: 0..columns };
     for (number, layer) in web.layers.iter().enumerate() {
         let edge = EDGE * layer.fibres.sigma_cd();
         let [first, last] = match &layer.filaments {
@@ -156,7 +156,7 @@ pub(super) fn expected(
     let expected = |i: usize| {
         // Places of a patch.
         let count = if closed { columns.len() } else { columns.len() + 1 - sides[i] };
-        let across_layer = |(number, (layer, found)): (usize, (&Layer, &Vec<Alone>))| {
+        let across_layer = |(number, (layer, found)): (usize, (&Layer, &Vec<SingleFibres>))| {
             let weight = layer.basis_weight(sheet);
             let across = match &layer.filaments {
                 Filaments::AtRandom { .. } => vec![weight; count],

@@ -1,8 +1,8 @@
 //! Everything that is found out about a web.
 
 use super::clouds::{Clouds, autocorrelation};
-use super::expected::{ALONE, Across, across, expected, side, sides};
-use super::laid::{LaidWeb, Together};
+use super::expected::{ALONE, SheetPosition, across, expected, side, sides};
+use super::laid::{LaidWeb, SharedAirFindings};
 use super::lay::lay;
 use super::laying::Laying;
 use super::map::Map;
@@ -124,7 +124,7 @@ pub fn measure(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
 /// As [`find`].
 pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: Laying<'_>) -> Result<Findings, Error> {
     let sheet = &web.sheet;
-    let Across { reach, columns } = across(web);
+    let SheetPosition { reach, columns } = across(web);
     let sides = sides(sheet, &columns);
     let margins = [columns.start, sheet.cells()[0] - columns.end].map(|cells| cells as f64 * sheet.cell);
     if columns.is_empty() || (sides.is_empty() && !sheet.patches.is_empty()) {
@@ -191,7 +191,7 @@ pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: Laying<'_>) -> Result<
 }
 
 /// CV over patches from that of independent filaments and from what pairs have in common.
-fn with_pairs(web: &Web, together: &Together, independent: f64, patch: f64) -> Option<f64> {
+fn with_pairs(web: &Web, together: &SharedAirFindings, independent: f64, patch: f64) -> Option<f64> {
     let weights = || web.layers.iter().map(|layer| layer.basis_weight(&web.sheet));
     let whole: f64 = weights().sum();
     let of_layer = |(number, weight): (usize, f64)| {

@@ -28,10 +28,10 @@ const ABREAST: usize = 8;
 
 /// What single fibres say about patches of one side.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Alone {
+pub struct SingleFibres {
     /// `CV²·τ` of filaments at random places [1/m]: the value of each fibre, and their mean.
     pub at_random: Estimate,
-    /// The same of filaments at fixed places, without what the places themselves do, the unevenness of [`Alone::profile`].
+    /// The same of filaments at fixed places, without what the places themselves do, the unevenness of [`SingleFibres::profile`].
     pub at_places: Estimate,
     /// Mean length of a filament in a patch [m], by the first column of the patch; the trace lies in the middle of the
     /// column `trace`.
@@ -53,7 +53,12 @@ pub struct Alone {
 ///
 /// # Errors
 /// If the filaments cannot be laid, or if it is stopped.
-pub fn one_fibre(layer: &Layer, sides: &[usize], of: OneFibre, by: Laying<'_>) -> Result<Vec<Alone>, Error> {
+pub fn one_fibre(
+    layer: &Layer,
+    sides: &[usize],
+    of: OneFibre,
+    by: Laying<'_>,
+) -> Result<Vec<SingleFibres>, Error> {
     let largest = sides.iter().copied().max().unwrap_or(1);
     // So far apart that no patch meets two fibres.
     let reach = (layer.fibres.reach() / of.cell).ceil() as usize + 4;
@@ -146,7 +151,7 @@ fn add(
     Ok(())
 }
 
-impl Alone {
+impl SingleFibres {
     /// `CV²·τ` of a layer, without what fixed places themselves do.
     pub fn of(&self, filaments: &Filaments) -> &Estimate {
         match filaments {
@@ -197,7 +202,7 @@ struct Sums {
 
 impl Sums {
     /// * `area` – of a patch [m²]
-    fn finish(self, area: f64, trace: usize) -> Alone {
+    fn finish(self, area: f64, trace: usize) -> SingleFibres {
         let fibres = self.profiles.len() as f64;
         let columns = self.profiles.first().map_or(0, Vec::len);
         let profile: Vec<f64> =
@@ -210,7 +215,7 @@ impl Sums {
             };
             (squares - rows * profile.iter().zip(own).map(other).sum::<f64>()) / area
         });
-        Alone {
+        SingleFibres {
             at_places: Estimate::new(at_places.collect()),
             at_random: Estimate::new(self.squares.iter().map(|squares| squares / area).collect()),
             profile,

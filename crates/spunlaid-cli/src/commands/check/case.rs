@@ -16,7 +16,7 @@ use spunlaid::line::Line;
 use spunlaid::units::Dimension;
 use spunlaid_results::folders::run::POSITIONS;
 use spunlaid_results::numbers::significant;
-use spunlaid_results::output::in_order::InOrder;
+use spunlaid_results::output::in_order::OrderedObject;
 use spunlaid_results::output::json_text;
 use spunlaid_results::output::spinline::{self, SpinResults, SpinSummary};
 use spunlaid_results::output::summary::resolved;
@@ -83,7 +83,7 @@ fn json(case: &Case, expected: Expected, notes: Vec<String>) -> String {
     struct Checked {
         schema_version: u32,
         spunlaid_version: &'static str,
-        case: InOrder<InOrder<Json>>,
+        case: OrderedObject<OrderedObject<Json>>,
         /// Of a fed fibre.
         #[serde(skip_serializing_if = "Option::is_none")]
         throughput_kg_s: Option<f64>,

@@ -30,7 +30,7 @@ pub(super) struct Stage {
 
 /// How eddies pass from the inlet to the belt.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct WayOfEddies {
+pub(super) struct EddyPath {
     pieces_per_length: f64,
     /// At the ends of the pieces: the number of the generation before it and, as its fraction, the way to the next; and the time that the air
     /// has travelled since the inlet [s]. The label of air is the time less this.
@@ -40,7 +40,7 @@ pub(super) struct WayOfEddies {
     pub(super) ageing: f64,
 }
 
-impl WayOfEddies {
+impl EddyPath {
     /// * `distance` – from the inlet, or the root, to the end of the way [m]
     pub(super) fn new(air: &Air, distance: f64) -> Self {
         let mut hint = Hint::default();

@@ -1,6 +1,6 @@
 //! What the winds of one flight have in common: when samples are made, and what they are made of.
 
-use super::super::{Air, FromFile, Measured};
+use super::super::{Air, FileContent, Measured};
 use super::stream::Stream;
 use crate::company::{Bits, PerLane, shared};
 use crate::error::{Error, Fault};
@@ -57,7 +57,7 @@ impl Sampling {
 
 /// A record; two are equal if they are the same file, read in the same way.
 #[derive(Clone, Debug)]
-pub(crate) struct Recording(FromFile<Measured>);
+pub(crate) struct Recording(FileContent<Measured>);
 
 impl Recording {
     fn identity(&self) -> impl Ord {

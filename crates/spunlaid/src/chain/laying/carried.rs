@@ -10,7 +10,7 @@ const ALMOST_STRAIGHT: f64 = 1e-3;
 
 /// Energy carried into the chain by fed fibre, minus what laid fibre carried out of it [J].
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Carried {
+pub(crate) struct CarriedEnergy {
     pub(crate) kinetic: Lanes,
     pub(crate) axial: Lanes,
     pub(crate) bending: Lanes,

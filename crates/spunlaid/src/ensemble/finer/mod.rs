@@ -22,7 +22,7 @@ use crate::statistics::Estimate;
 
 /// What is finer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Refined {
+pub enum Refinement {
     /// The time step.
     TimeStep,
     /// The elements.
@@ -83,7 +83,7 @@ pub struct Change {
 #[derive(Clone, Debug)]
 pub struct FinerCheck {
     /// What is finer.
-    pub refined: Refined,
+    pub refined: Refinement,
     /// Scheme of the finer flights.
     pub scheme: Scheme,
     /// Time step of the finer flights [s].
@@ -153,10 +153,10 @@ impl FinerCheck {
     /// validation.md has what was found.
     pub fn error_over_change(&self) -> Option<f64> {
         match self.refined {
-            Refined::TimeStep if self.is_resolved => Some(1.0),
-            Refined::TimeStep => Some(2.5),
-            Refined::Elements if self.is_fed => None,
-            Refined::Elements => Some(4.0 / 3.0),
+            Refinement::TimeStep if self.is_resolved => Some(1.0),
+            Refinement::TimeStep => Some(2.5),
+            Refinement::Elements if self.is_fed => None,
+            Refinement::Elements => Some(4.0 / 3.0),
         }
     }
 }

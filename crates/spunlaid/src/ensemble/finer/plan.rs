@@ -1,6 +1,6 @@
 //! What is flown again for the checks of a run, and how much of it is worth its computing time.
 
-use super::{Refined, Refinements};
+use super::{Refinement, Refinements};
 use crate::case::{Case, ERROR_TOLERANCE, MOST_STEPS};
 use crate::chain::schemes::Scheme;
 use crate::lanes::WIDTH;
@@ -33,7 +33,7 @@ const MOST_COMPARED: u64 = 1 << 14;
 #[derive(Clone, Debug)]
 pub struct FinerPlan {
     /// What is finer.
-    pub refined: Refined,
+    pub refined: Refinement,
     /// As the run; `None` if the paths of the run itself are compared.
     pub(super) own: Option<Case>,
     pub(super) fine: Case,
@@ -112,7 +112,7 @@ fn step_of_a_path(case: &Case) -> Result<FinerPlan, String> {
     let share_of_run = cost(&fine) / cost_of_run(case);
     let replicates = run.replicates.min(WIDTH as u64);
     let horizon = case.air_horizon();
-    Ok(FinerPlan { refined: Refined::TimeStep, own: None, fine, every, horizon, replicates, share_of_run })
+    Ok(FinerPlan { refined: Refinement::TimeStep, own: None, fine, every, horizon, replicates, share_of_run })
 }
 
 /// Compares what is laid with what leapfrog lays, with steps in which the axial waves are resolved. That is another scheme,
@@ -128,7 +128,7 @@ fn step_of_the_laid(case: &Case) -> Result<FinerPlan, String> {
         fine.run.scheme = case.run.scheme;
     }
     fine.set_time_step(resolved.min(0.5 * case.run.time_step));
-    statistics(Refined::TimeStep, case, case.clone(), fine)
+    statistics(Refinement::TimeStep, case, case.clone(), fine)
 }
 
 /// Compares the statistics of the case's elements with those of half their length, both with the same long steps of
@@ -156,7 +156,7 @@ fn mesh(case: &Case) -> Result<FinerPlan, String> {
     own.run.scheme = Scheme::ImplicitTension;
     fine.set_time_step(step);
     own.set_time_step(fine.run.time_step);
-    statistics(Refined::Elements, case, own, fine)
+    statistics(Refinement::Elements, case, own, fine)
 }
 
 fn shortest_limit(case: &Case) -> f64 {
@@ -165,7 +165,7 @@ fn shortest_limit(case: &Case) -> f64 {
 }
 
 /// A plan that compares statistics, over as much time as is worth its computing time.
-fn statistics(refined: Refined, case: &Case, mut own: Case, mut fine: Case) -> Result<FinerPlan, String> {
+fn statistics(refined: Refinement, case: &Case, mut own: Case, mut fine: Case) -> Result<FinerPlan, String> {
     let all = case.run.duration();
     let per_second = |case: &Case| case.fibre.elements as f64 / case.run.time_step;
     let per_second = per_second(&own) + per_second(&fine);
@@ -229,6 +229,8 @@ impl FinerPlan {
 
     pub(super) fn is_resolved(&self) -> bool {
         let own = self.own.as_ref();
-        own.is_some_and(|own| self.refined == Refined::TimeStep && own.run.scheme == Scheme::ImplicitTension)
+        own.is_some_and(|own| {
+            self.refined == Refinement::TimeStep && own.run.scheme == Scheme::ImplicitTension
+        })
     }
 }

@@ -4,7 +4,7 @@ use super::array::{Array, NumberType, Source};
 use super::encoding::Budget;
 use super::grid::{Grid, counted, vectors};
 use super::piece::{Assembly, Piece};
-use super::unstructured::{Listed, Polyhedra};
+use super::unstructured::{MeshLists, Polyhedra};
 use crate::error::{Fault, FileError, Position};
 use crate::field::Field;
 use crate::field::fault;
@@ -116,11 +116,11 @@ impl<'a> Scanner<'a> {
         Ok(vectors(&array.numbers(wanted.unwrap_or(count), budget)?))
     }
 
-    fn cells(&mut self, with_ends: bool, budget: &mut Budget) -> Result<Listed, FileError> {
+    fn cells(&mut self, with_ends: bool, budget: &mut Budget) -> Result<MeshLists, FileError> {
         self.next_keyword("CELLS")?;
         let count: usize = self.parse("a number of cells")?;
         let size: usize = self.parse("a number of entries")?;
-        let mut listed = Listed { polyhedra: Polyhedra::Inline, ..Listed::default() };
+        let mut listed = MeshLists { polyhedra: Polyhedra::Inline, ..MeshLists::default() };
         if with_ends {
             let mut list = |keyword, size| {
                 self.keyword(keyword)?;

@@ -45,11 +45,11 @@ impl Solution {
 }
 
 /// One number for each measure.
-type Each = Vec<f64>;
+type PerMeasure = Vec<f64>;
 
 /// Deviations of a point's replicates from their mean, scaled so that the sum of their squares is the variance of the
 /// mean; by replicate.
-fn deviations(results: &PointResults, records: &[Record]) -> Vec<(usize, Each)> {
+fn deviations(results: &PointResults, records: &[Record]) -> Vec<(usize, PerMeasure)> {
     let n = results.n as f64;
     let scale = if n > 1.0 { 1.0 / (n * (n - 1.0)).sqrt() } else { 0.0 };
     let of = |record: &Record| {
