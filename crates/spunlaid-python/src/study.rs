@@ -98,7 +98,7 @@ impl Study {
             Some(out) => Ok(StudyFolder::open(out, &file, force, &NEVER)?.1),
             None => Ok(Journal::in_memory(number)),
         })?;
-        let round = Mutex::new((Rounds::of(&file.study), None));
+        let round = Mutex::new((Rounds::new(&file.study), None));
         Ok(Self { name, file, out, journal: Mutex::new(Some(journal)), round })
     }
 
@@ -147,7 +147,7 @@ impl Study {
         guarded(py, || {
             let mut round = self.round();
             let missing = self.with_journal(|journal| Ok(round.0.missing(journal)))?;
-            let bundles = Bundles::of(&self.file.study.points, &missing, flights);
+            let bundles = Bundles::from_batches(&self.file.study.points, &missing, flights);
             let count = bundles.count();
             round.1 = Some(bundles);
             Ok(count)

@@ -13,7 +13,7 @@ pub(super) struct NeighboursSummary {
 }
 
 impl NeighboursSummary {
-    pub(super) fn of(results: &Results) -> Self {
+    pub(super) fn new(results: &Results) -> Self {
         let of = |direction: &str| {
             let before = format!("neighbours_{direction}_");
             let is_one = |curve: &&Curve| curve.measure.kind == Kind::Neighbour;

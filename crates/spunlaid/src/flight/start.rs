@@ -60,7 +60,7 @@ impl Flight {
     ) -> Result<Self, Error> {
         let air = air.into();
         let strands = PerLane::new(strands.to_vec())?;
-        let common = strands.shared(|strand| chain::Common::of(strand, None))?;
+        let common = strands.shared(|strand| chain::Common::new(strand, None))?;
         let elements = common.elements;
         if elements == 0 {
             return Err(Error::Flight(Fault::plain("a fibre needs at least one element")));

@@ -48,7 +48,7 @@ impl SpinFile {
         let tables = ["spinline", "spinline.material", "drag"];
         for key in tables.into_iter().flat_map(keys::of_table) {
             let Some(Value::Number(value)) = key.get(&carrier) else { continue };
-            let change = Change::of(key);
+            let change = Change::from_key(key);
             if (value != 0.0 || change == Change::TenKelvin) && is_physical(key) {
                 let changed = |sign: f64| {
                     let mut case = carrier.clone();
@@ -76,7 +76,7 @@ fn solve(case: &Case) -> Result<Option<Solution>, Failure> {
 
 impl Change {
     /// How a key is changed: a temperature, and a difference of temperatures that may be zero, has no share of its value.
-    fn of(key: &Key) -> Self {
+    fn from_key(key: &Key) -> Self {
         match key.kind {
             Kind::Quantity(Dimension::Temperature, _)
             | Kind::Quantity(Dimension::TemperatureDifference, Sign::Any) => Self::TenKelvin,

@@ -140,7 +140,7 @@ impl<'a> Flyer<'a> {
                     LaydownSource::Results { folder, .. } => laid::read(folder)?,
                     _ => self.fly(path, case)?,
                 };
-                let flown = Arc::new(FlownFibres::of(path, case, curves)?);
+                let flown = Arc::new(FlownFibres::gather(path, case, curves)?);
                 if self.flown.len() == KEPT {
                     self.flown.remove(0);
                 }
@@ -184,7 +184,7 @@ impl<'a> Flyer<'a> {
 impl FlownFibres {
     /// * `path` – of the case or of the results, for messages
     /// * `laid` – all points of each replicate
-    pub(super) fn of(path: &Path, case: &Case, mut laid: Vec<Vec<LaidPoint>>) -> Result<Self, Error> {
+    pub(super) fn gather(path: &Path, case: &Case, mut laid: Vec<Vec<LaidPoint>>) -> Result<Self, Error> {
         let nothing = |reason: &str| Error::folder(path, Fault::plain(reason.to_owned()));
         let line = case.line.ok_or_else(|| nothing("its fibre is not fed on to a belt"))?;
         let spacing = case.fibre.rest_length();

@@ -178,7 +178,7 @@ pub(super) fn expected(
         for ((layer, found), (across, weight)) in layers.iter().zip(&found).zip(&weights) {
             let share = weight / whole;
             let scale = share * share * layer.linear_density / weight;
-            let by_chance = found[i].of(&layer.filaments);
+            let by_chance = found[i].estimate(&layer.filaments);
             square += scale * by_chance.mean;
             parts.push(by_chance.values.iter().map(|value| scale * value).collect());
             error += (scale * by_chance.standard_error.unwrap_or(f64::NAN)).powi(2);

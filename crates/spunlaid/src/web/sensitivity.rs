@@ -165,7 +165,7 @@ pub fn sensitivities(
             return Ok(Vec::new());
         }
         let found = one_fibre(&layers[i % 2], sides, of, by)?;
-        Ok(found.iter().map(|alone| alone.of(&layer.filaments).clone()).collect())
+        Ok(found.iter().map(|alone| alone.estimate(&layer.filaments).clone()).collect())
     })?;
     for ((lever, (source, _)), of_both) in turned.into_iter().zip(of_both.chunks_exact(2)) {
         let elasticity = if lever == Lever::BeltSpeed && layer.belt_changes_flight() {

@@ -64,7 +64,7 @@ pub(super) const FEWEST: usize = WIDTH;
 impl Powers {
     /// * `columns`, `rows` – powers of two, at least [`FEWEST`]
     /// * `value` – of a row and a column
-    pub(super) fn of(
+    pub(super) fn new(
         columns: usize,
         rows: usize,
         threads: usize,

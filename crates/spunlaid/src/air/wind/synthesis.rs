@@ -98,7 +98,7 @@ impl<'a> Harmonics<'a> {
         let turns_per_sample = |n: usize| (n as f64 + 0.5) / period as f64;
         let scale = (0..harmonics).map(|n| SQRT_2 / taper.transform(turns_per_sample(n))).collect();
         let zero = || std::array::from_fn(|_| vec![Lanes::ZERO; harmonics]);
-        let first = &streams.of(0).air;
+        let first = &streams.lane(0).air;
         let alike = |stream: &Stream| {
             stream.air.spectrum == first.spectrum && stream.air.repeat_time() == first.repeat_time()
         };
@@ -116,7 +116,7 @@ impl<'a> Harmonics<'a> {
             // Most eddies have the same spectrum.
             let like_above = eddy > 0 && eddies[eddy - 1].same_spectrum(turbulence);
             // So have most lanes, whose air is that of the first.
-            let like_first = self.alike[lane] && self.streams.of(0).eddies[eddy].same_spectrum(turbulence);
+            let like_first = self.alike[lane] && self.streams.lane(0).eddies[eddy].same_spectrum(turbulence);
             if !like_above && like_first && lane > 0 {
                 self.amplitude[component].iter_mut().for_each(|of| of.0[lane] = of.0[0]);
                 self.within_cutoff[component][lane] = self.within_cutoff[component][0];

@@ -18,7 +18,7 @@ pub(crate) struct Friction {
 
 impl Friction {
     /// Friction of up to eight fibres; none if all of them stick.
-    pub(super) fn of(lanes: &[Feed], rest_length: &Lanes) -> Option<Self> {
+    pub(super) fn new(lanes: &[Feed], rest_length: &Lanes) -> Option<Self> {
         let pick = |i: usize| &lanes[if i < lanes.len() { i } else { 0 }];
         let of = |i: usize| match pick(i).line.contact {
             Contact::Stick => (f64::INFINITY, 0.0),

@@ -63,7 +63,7 @@ impl Statistic {
         OF_THE_END.iter().chain(OF_THE_LAID)
     }
 
-    fn of(&self, trajectory: &Trajectory) -> f64 {
+    fn measure(&self, trajectory: &Trajectory) -> f64 {
         let values = self.measures.iter().map(|measure| trajectory.number(measure));
         values.sum::<f64>() / self.measures.len() as f64
     }

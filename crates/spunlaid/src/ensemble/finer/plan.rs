@@ -52,7 +52,7 @@ pub type FinerPlans = Refinements<FinerPlan>;
 
 impl FinerPlans {
     /// The plans for a case.
-    pub fn of(case: &Case) -> Self {
+    pub fn for_case(case: &Case) -> Self {
         let step = if case.line.is_some() { step_of_the_laid(case) } else { step_of_a_path(case) };
         Self { step, mesh: mesh(case) }
     }
