@@ -405,9 +405,9 @@ impl Study {
     #[getter]
     fn measures(&self) -> Vec<(&str, &str, &str, &'static str, AxisScale)> {
         let all = self.file.study.quantities.iter();
-        all.map(|of| {
-            let axis = scale(Scale::of_quantity(&of.label, of.unit));
-            (&*of.column, &*of.name, &*of.label, of.meaning, axis)
+        all.map(|quantity| {
+            let axis = scale(Scale::of_quantity(&quantity.label, quantity.unit));
+            (&*quantity.column, &*quantity.name, &*quantity.label, quantity.meaning, axis)
         })
         .collect()
     }

@@ -125,11 +125,11 @@ impl From<f64> for Bits {
 /// a struct itself.
 macro_rules! shared {
     ($(#[$about:meta])* $visible:vis struct $name:ident {
-        $($(#[$of:meta])* $field:ident: $type:ty $(= $words:literal)?,)*
+        $($(#[$attribute:meta])* $field:ident: $type:ty $(= $words:literal)?,)*
     }) => {
         $(#[$about])*
         #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-        $visible struct $name { $($(#[$of])* $visible $field: $type,)* }
+        $visible struct $name { $($(#[$attribute])* $visible $field: $type,)* }
 
         impl $crate::company::CompanyKey for $name {
             fn difference(&self, other: &Self) -> Option<&'static str> {

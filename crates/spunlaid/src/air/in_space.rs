@@ -86,7 +86,8 @@ impl AirInSpace {
             }),
             places: lanes.map(|(_, place, _, _)| *place),
             means: lanes.map(|(air, _, field, distance)| {
-                let known = last.take().filter(|(of, _)| of.has_air_of(field)).map(|(_, means)| means);
+                let known =
+                    last.take().filter(|(before, _)| before.has_air_of(field)).map(|(_, means)| means);
                 let means = known.unwrap_or_else(|| WayFlow::new(air, *distance));
                 last = Some((Arc::clone(field), means.clone()));
                 means

@@ -71,7 +71,7 @@ impl Air {
     /// The turbulence at each station; its mean is zero. In a uniform flow it has the flow's rms, otherwise rms one.
     pub fn turbulence_at(&self, grid: &StationGrid) -> Vec<EddyTurbulence> {
         let mut turbulence = self.turbulence_along(grid.along(), grid.count, &grid.eddies());
-        turbulence.iter_mut().for_each(|of| of.mean = 0.0);
+        turbulence.iter_mut().for_each(|eddy| eddy.mean = 0.0);
         turbulence
     }
 
@@ -81,7 +81,7 @@ impl Air {
         let (mut common, mut own) = (0.0, (0.0, 0.0));
         let spacing = std::f64::consts::TAU / self.repeat_time();
         for component in 0..3 {
-            let amplitudes = [upper, lower].map(|of| of.spectrum(self, component).amplitudes());
+            let amplitudes = [upper, lower].map(|end| end.spectrum(self, component).amplitudes());
             for (n, (a, b)) in amplitudes[0].iter().zip(&amplitudes[1]).enumerate() {
                 common += a * b * libm::cos((n as f64 + 0.5) * spacing * time);
             }

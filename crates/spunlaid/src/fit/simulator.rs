@@ -97,12 +97,12 @@ impl Simulator for WebSimulator<'_> {
                 let patch = found.patches.iter().min_by(|a, b| far(a).total_cmp(&far(b)));
                 patch.and_then(|patch| Some(cause(patch)? / patch.map.cv)).unwrap_or(0.0)
             };
-            let of = |texture: &Texture| match texture {
+            let error = |texture: &Texture| match texture {
                 Texture::Patch(side) => of_side(*side),
                 // A variance is twice as far off as the CV over patches as large as its waves.
                 Texture::Band { waves, .. } => 2.0 * of_side(0.5 * waves[0]),
             };
-            self.target.textures().iter().map(of).collect()
+            self.target.textures().iter().map(error).collect()
         };
         let causes =
             [errors(&|patch| patch.whole_error().flight), errors(&|patch| patch.whole_error().model)];

@@ -120,8 +120,9 @@ fn analytic_drag_of_each_element() {
     let elements: Vec<_> = (0..ELEMENTS).map(|j| varied(&strand, j)).collect();
     for i in 0..=ELEMENTS {
         let around = [i.checked_sub(1).map(|j| &elements[j]), elements.get(i)];
-        let half =
-            |of: fn(&ElementProperties) -> f64| around.iter().flatten().map(|e| 0.5 * of(e)).sum::<f64>();
+        let half = |property: fn(&ElementProperties) -> f64| {
+            around.iter().flatten().map(|e| 0.5 * property(e)).sum::<f64>()
+        };
         let expected = H * half(|e| e.drag.across.factor) / half(|e| e.mass);
         let found = flight.chain().velocity[i].lane(1).x;
         // The power of the drag law is good to 1e-7.

@@ -103,9 +103,9 @@ impl Change {
             Self::Relative => libm::log((1.0 + STEP) / (1.0 - STEP)),
             Self::TenKelvin => 2.0 * KELVIN / 10.0,
         };
-        let of = |number: fn(&Solution) -> f64| libm::log(number(&more) / number(&less)) / scale;
-        let diameter = of(|filament| filament.final_diameter);
-        let speed = of(|filament| filament.final_speed);
+        let elasticity = |number: fn(&Solution) -> f64| libm::log(number(&more) / number(&less)) / scale;
+        let diameter = elasticity(|filament| filament.final_diameter);
+        let speed = elasticity(|filament| filament.final_speed);
         (diameter.abs() >= LEAST).then_some(Influence { key, label, change: self, diameter, speed })
     }
 }

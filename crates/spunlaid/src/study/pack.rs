@@ -252,11 +252,14 @@ mod tests {
             assert_eq!(bundles.count(), 10usize.div_ceil(flights));
             let mut jobs = Vec::new();
             for bundle in 0..bundles.count() {
-                let of = bundles.batches(bundle);
-                let here: u64 = of.iter().map(length).sum();
+                let batches = bundles.batches(bundle);
+                let here: u64 = batches.iter().map(length).sum();
                 assert!(here <= 8 * flights as u64);
-                assert!(Packing::new(&points, &of).count <= flights, "a bundle flies in as many flights");
-                jobs.extend(of.iter().flat_map(|b| b.replicates.clone().map(|r| (b.point, r))));
+                assert!(
+                    Packing::new(&points, &batches).count <= flights,
+                    "a bundle flies in as many flights"
+                );
+                jobs.extend(batches.iter().flat_map(|b| b.replicates.clone().map(|r| (b.point, r))));
             }
             jobs.sort_unstable();
             let all: Vec<_> = (0..6).flat_map(|point| (3..14).map(move |r| (point, r))).collect();

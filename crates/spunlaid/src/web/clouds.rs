@@ -90,8 +90,8 @@ const LONG: f64 = 0.25;
 /// Mean square of a Hann window.
 const SQUARE: f64 = 0.375;
 
-fn hann(at: usize, of: usize) -> f64 {
-    libm::sin(PI * (at as f64 + 0.5) / of as f64).powi(2) / SQUARE.sqrt()
+fn hann(at: usize, length: usize) -> f64 {
+    libm::sin(PI * (at as f64 + 0.5) / length as f64).powi(2) / SQUARE.sqrt()
 }
 
 impl Clouds {
@@ -249,7 +249,7 @@ impl Sheet {
         }
         let of_part = mean * map.cells.len() as f64 / (columns * rows) as f64;
         let open = map.closed.map(|closed| !closed);
-        let window = |open: bool, at: usize, of: usize| if open { hann(at, of) } else { 1.0 };
+        let window = |open: bool, at: usize, length: usize| if open { hann(at, length) } else { 1.0 };
         let across: Vec<f64> = (0..columns).map(|column| window(open[0], column, columns)).collect();
         let powers = Powers::new(columns, rows, threads, |row, column| {
             (sums[row * columns + column] / of_part - 1.0) * across[column] * window(open[1], row, rows)

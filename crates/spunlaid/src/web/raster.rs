@@ -193,8 +193,8 @@ impl<S: Register> Ink<S> {
     fn finish(&mut self, strip: &mut Strip) {
         self.add(strip);
         let entries = entry(self.cell, self.gathered + Wide::splat(TWO_52)).store();
-        for (of, entry) in self.list.iter_mut().zip(entries.0) {
-            *of = entry.to_bits();
+        for (slot, entry) in self.list.iter_mut().zip(entries.0) {
+            *slot = entry.to_bits();
         }
         (self.listed, self.gathered) = (WIDTH, Wide::zero());
         self.add(strip);
