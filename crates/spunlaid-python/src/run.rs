@@ -42,8 +42,11 @@ pub(crate) fn fly(
     shapes: bool,
 ) -> PyResult<RunResults> {
     let (description, run) = (Arc::clone(&case.case), case.case.run);
-    let plans =
-        if check_step { FinerPlans::of(&description) } else { FinerPlans::none("it was not asked for") };
+    let plans = if check_step {
+        FinerPlans::for_case(&description)
+    } else {
+        FinerPlans::none("it was not asked for")
+    };
     let watch =
         Watch::new(run.steps.saturating_mul(description.fibres()).saturating_add(plans.fibre_steps()));
     let belt = LaidCurves::default();

@@ -184,7 +184,7 @@ struct NeighbourSummary<'a> {
 
 impl<'a> NeighboursSummary<'a> {
     /// None of a web of independent filaments.
-    fn of(findings: &Findings, layers: &'a [Layer]) -> Option<Self> {
+    fn from_findings(findings: &Findings, layers: &'a [Layer]) -> Option<Self> {
         let entry = |neighbour: &NeighbourCorrelation| NeighbourSummary {
             layer: layers.get(neighbour.layer).map_or("", |layer| layer.name.as_str()),
             distance_m: neighbour.distance,
@@ -331,7 +331,7 @@ impl<'a> Summary<'a> {
                 ..WebSummary::of_map(&findings.laid.map, findings.clouds.as_ref(), patches.collect())
             },
             advice: advice.map(AdviceSummary::new),
-            neighbours: NeighboursSummary::of(findings, layers),
+            neighbours: NeighboursSummary::from_findings(findings, layers),
             scan: None,
             performance,
             notes,

@@ -421,8 +421,9 @@ impl Kind {
             (Self::Switch, Value::Text(text)) => text.clone(),
             (_, Value::Text(text)) => format!("\"{}\"", crate::units::excerpt(text, 60)),
             (_, Value::Numbers(values)) => {
-                let shown =
-                    |value: &f64| self.dimension().map_or_else(|| shortest(*value), |of| of.pretty(*value));
+                let shown = |value: &f64| {
+                    self.dimension().map_or_else(|| shortest(*value), |dimension| dimension.pretty(*value))
+                };
                 values.iter().map(shown).collect::<Vec<_>>().join(", ")
             }
             (_, Value::Vector(v)) => format!("[{}, {}, {}]", v.x, v.y, v.z),

@@ -143,7 +143,7 @@ impl Line<'_> {
 
     /// What each layer adds to a way.
     fn of_each(&self, keys: impl Fn(usize, &Filaments) -> KeyPowers) -> KeyPowers {
-        (1..).zip(&self.spec().layers).flat_map(|(layer, of)| keys(layer, &of.filaments)).collect()
+        (1..).zip(&self.spec().layers).flat_map(|(layer, spec)| keys(layer, &spec.filaments)).collect()
     }
 
     /// The keys of the holes of a layer.
