@@ -1,4 +1,4 @@
-//! `LookedAtAir`: the turbulent air of a case, which Python looks at.
+//! `AirSampler`: the turbulent air of a case, which Python looks at.
 
 use crate::case::Case;
 use crate::watched::{guarded, threads};
@@ -13,12 +13,12 @@ use std::sync::{Mutex, PoisonError};
 /// The turbulent air of a case. spunlaid.Air shows it.
 #[pyclass(frozen, module = "spunlaid._spunlaid")]
 #[derive(Debug)]
-pub(crate) struct LookedAtAir {
+pub(crate) struct AirSampler {
     air: Mutex<AirAtPlaces>,
 }
 
 #[pymethods]
-impl LookedAtAir {
+impl AirSampler {
     /// * `replicate` – from 0
     #[new]
     fn new(py: Python<'_>, case: &Case, replicate: u64) -> PyResult<Self> {

@@ -5,7 +5,7 @@ use crate::watched::{Watch, guarded, threads, watched};
 use pyo3::prelude::*;
 use spunlaid::case::Note;
 use spunlaid::error::Error;
-use spunlaid::fit::{MOST_TRIALS, Question, Target, Watched, fit};
+use spunlaid::fit::{MOST_TRIALS, Question, Target, WebInProgress, fit};
 use spunlaid::input::{Overrides, read_fit};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, Flyer};
@@ -74,7 +74,7 @@ pub(crate) fn find_fit(
         let flyer = Flyer::new(threads, &watch.stop, &follow);
         let laid = AtomicU64::new(0);
         let laying = Laying { threads, isa: Isa::detect(), stop: &watch.stop, laid: &laid };
-        let tell = |now: Watched<'_>| watch.done.store(now.web - 1, Ordering::Relaxed);
+        let tell = |now: WebInProgress<'_>| watch.done.store(now.web - 1, Ordering::Relaxed);
         let found = fit(question, flyer, laying, &mut journal, &tell)?;
         if let Some(mut folder) = folder {
             folder.write(&input, &found)?;

@@ -2,7 +2,7 @@
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use spunlaid::case::keys::{Key, LeftOut, all};
+use spunlaid::case::keys::{Key, Omission, all};
 use spunlaid::layers::WEB_KEYS;
 
 /// Every key of a case or of a web: a dict for each. See spunlaid.keys, which calls it.
@@ -25,8 +25,8 @@ fn about<'py, T>(py: Python<'py>, key: &Key<T>) -> PyResult<Bound<'py, PyDict>> 
     dict.set_item("unit", key.dimension().map(|dimension| dimension.si_unit()))?;
     dict.set_item("allowed", key.allowed())?;
     dict.set_item("words", key.kind.words())?;
-    dict.set_item("required", matches!(key.left_out, LeftOut::Required(_)))?;
-    let (LeftOut::Required(text) | LeftOut::Value(text) | LeftOut::Follows(text)) = key.left_out;
+    dict.set_item("required", matches!(key.left_out, Omission::Required(_)))?;
+    let (Omission::Required(text) | Omission::Value(text) | Omission::Follows(text)) = key.left_out;
     dict.set_item("left_out", text)?;
     dict.set_item("meaning", key.meaning)?;
     dict.set_item("synonyms", key.synonyms)?;

@@ -41,7 +41,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _spunlaid {
     #[pymodule_export]
-    use super::air::LookedAtAir;
+    use super::air::AirSampler;
     #[pymodule_export]
     use super::bundle::fly_bundle;
     #[pymodule_export]

@@ -4,7 +4,7 @@ use crate::case::Case;
 use crate::figures::figure_files;
 use crate::flight::laid_columns;
 use crate::results::RunResults;
-use crate::samples::{Collected, locked};
+use crate::samples::{SampleCollector, locked};
 use crate::scale::scale;
 use crate::watched::{Watch, threads, watched};
 use numpy::{PyArray1, PyArrayMethods};
@@ -43,8 +43,11 @@ pub(crate) fn fly(
     shapes: bool,
 ) -> PyResult<RunResults> {
     let (description, run) = (Arc::clone(&case.case), case.case.run);
-    let plans =
-        if check_step { FinerPlans::of(&description) } else { FinerPlans::none("it was not asked for") };
+    let plans = if check_step {
+        FinerPlans::for_case(&description)
+    } else {
+        FinerPlans::none("it was not asked for")
+    };
     let watch =
         Watch::new(run.steps.saturating_mul(description.fibres()).saturating_add(plans.fibre_steps()));
     let belt = LaidCurves::default();
@@ -58,7 +61,7 @@ pub(crate) fn fly(
     let started = Instant::now();
     let (results, checks, collected) = watched(py, &watch, progress.as_ref(), || {
         let shapes = if shapes { KeepShapes::within(&description, POSITIONS) } else { KeepShapes::NONE };
-        let (mut collector, mut collected) = (Results::collector(KEPT), Collected::default());
+        let (mut collector, mut collected) = (Results::collector(KEPT), SampleCollector::default());
         let take = |landed: Result<Trajectory, LostFibre>| {
             match landed {
                 Ok(mut trajectory) => {

@@ -29,7 +29,7 @@ const FIELDS: [Field; 15] = [
 
 /// Collects samples, replicate after replicate.
 #[derive(Debug, Default)]
-pub(crate) struct Collected {
+pub(crate) struct SampleCollector {
     times: Vec<f64>,
     columns: [Vec<f64>; FIELDS.len()],
     /// Number of fibres so far, and those of them that were lost.
@@ -37,7 +37,7 @@ pub(crate) struct Collected {
     lost: Vec<usize>,
 }
 
-impl Collected {
+impl SampleCollector {
     pub(crate) fn take(&mut self, samples: &[Sample]) {
         self.fibres += 1;
         if self.times.is_empty() {
@@ -122,19 +122,19 @@ impl Samples {
     }
 
     /// The columns for reading.
-    pub(crate) fn borrowed<'py>(&self, py: Python<'py>) -> Borrowed<'py> {
+    pub(crate) fn borrowed<'py>(&self, py: Python<'py>) -> SampleReader<'py> {
         let columns = self.columns.iter().map(|column| column.bind(py).readonly()).collect();
-        Borrowed { times: self.times.bind(py).readonly().as_array().to_vec(), columns }
+        SampleReader { times: self.times.bind(py).readonly().as_array().to_vec(), columns }
     }
 }
 
 /// Samples that are being read.
-pub(crate) struct Borrowed<'py> {
+pub(crate) struct SampleReader<'py> {
     times: Vec<f64>,
     columns: Vec<PyReadonlyArray2<'py, f64>>,
 }
 
-impl Borrowed<'_> {
+impl SampleReader<'_> {
     fn shape(&self) -> [usize; 2] {
         let replicates = self.columns.first().map_or(0, |column| column.as_array().nrows());
         [replicates, self.times.len()]

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::ensemble::{
-    Change, Curve, FinerCheck, FinerChecks, LostFibre, Number, Place, Refined, Results, Shape, Statistic,
+    Change, Curve, FinerCheck, FinerChecks, LostFibre, Number, Place, Refinement, Results, Shape, Statistic,
     Trajectory,
 };
 use spunlaid::flight::LaidPoint;
@@ -81,7 +81,7 @@ pub(crate) fn flown_from(py: Python<'_>, state: &Bound<'_, PyDict>) -> PyResult<
     let (wall_s, threads, element_steps, ns_per_element_step) = need("performance")?.extract()?;
     let instruction_set = Isa::detect().name();
     let performance = Performance { wall_s, threads, element_steps, ns_per_element_step, instruction_set };
-    let checked = |name: &str, refined: Refined| -> PyResult<Result<FinerCheck, String>> {
+    let checked = |name: &str, refined: Refinement| -> PyResult<Result<FinerCheck, String>> {
         let state = need(name)?;
         match state.extract::<String>() {
             Ok(why) => Ok(Err(why)),
@@ -89,8 +89,8 @@ pub(crate) fn flown_from(py: Python<'_>, state: &Bound<'_, PyDict>) -> PyResult<
         }
     };
     let checks = FinerChecks {
-        step: checked("step_check", Refined::TimeStep)?,
-        mesh: checked("mesh_check", Refined::Elements)?,
+        step: checked("step_check", Refinement::TimeStep)?,
+        mesh: checked("mesh_check", Refinement::Elements)?,
     };
     let lost: Vec<(u64, f64, String)> = need("lost")?.extract()?;
     let lost =
@@ -165,7 +165,7 @@ fn check_state<'py>(py: Python<'py>, check: &FinerCheck) -> PyResult<Bound<'py, 
 }
 
 /// The check that [`check_state`] wrote.
-fn check_of(state: &Bound<'_, PyAny>, refined: Refined) -> PyResult<FinerCheck> {
+fn check_of(state: &Bound<'_, PyAny>, refined: Refinement) -> PyResult<FinerCheck> {
     let unknown = |what: &str, name: &str| {
         PyValueError::new_err(format!("this version of spunlaid has no {what} {name}"))
     };

@@ -99,7 +99,7 @@ impl Study {
             Some(out) => Ok(StudyFolder::open(out, &file, force, None, &NEVER)?.1),
             None => Ok(Journal::in_memory(number)),
         })?;
-        let round = Mutex::new((Rounds::of(&file.study), None));
+        let round = Mutex::new((Rounds::new(&file.study), None));
         Ok(Self { name, file, out, journal: Mutex::new(Some(journal)), round })
     }
 
@@ -148,7 +148,7 @@ impl Study {
         guarded(py, || {
             let mut round = self.round();
             let missing = self.with_journal(|journal| Ok(round.0.missing(journal)))?;
-            let bundles = Bundles::of(&self.file.study.points, &missing, flights);
+            let bundles = Bundles::from_batches(&self.file.study.points, &missing, flights);
             let count = bundles.count();
             round.1 = Some(bundles);
             Ok(count)
@@ -414,9 +414,9 @@ impl Study {
     #[getter]
     fn measures(&self) -> Vec<(&str, &str, &str, &'static str, AxisScale)> {
         let all = self.file.study.quantities.iter();
-        all.map(|of| {
-            let axis = scale(Scale::of_quantity(&of.label, of.unit));
-            (&*of.column, &*of.name, &*of.label, of.meaning, axis)
+        all.map(|quantity| {
+            let axis = scale(Scale::of_quantity(&quantity.label, quantity.unit));
+            (&*quantity.column, &*quantity.name, &*quantity.label, quantity.meaning, axis)
         })
         .collect()
     }

@@ -32,7 +32,7 @@ impl<T> PerLane<T> {
 
     /// The entry of a lane.
     #[inline(always)]
-    pub(crate) fn of(&self, lane: usize) -> &T {
+    pub(crate) fn lane(&self, lane: usize) -> &T {
         &self.0[if lane < self.0.len() { lane } else { 0 }]
     }
 
@@ -48,12 +48,12 @@ impl<T> PerLane<T> {
 
     /// A number of each lane.
     pub(crate) fn lanes(&self, number: impl Fn(&T) -> f64) -> Lanes {
-        Lanes::from_fn(|lane| number(self.of(lane)))
+        Lanes::from_fn(|lane| number(self.lane(lane)))
     }
 
     /// A value of each lane.
     pub(crate) fn each<U>(&self, value: impl Fn(&T) -> U) -> [U; WIDTH] {
-        from_fn(|lane| value(self.of(lane)))
+        from_fn(|lane| value(self.lane(lane)))
     }
 
     /// What follows from each.
@@ -63,7 +63,7 @@ impl<T> PerLane<T> {
 
     /// What follows from each together with the same fibre's entry of another kind.
     pub(crate) fn zip<U, V>(&self, other: &PerLane<U>, value: impl Fn(&T, &U) -> V) -> PerLane<V> {
-        PerLane(self.0.iter().enumerate().map(|(lane, entry)| value(entry, other.of(lane))).collect())
+        PerLane(self.0.iter().enumerate().map(|(lane, entry)| value(entry, other.lane(lane))).collect())
     }
 
     /// Whether something holds for any of them.
@@ -75,7 +75,7 @@ impl<T> PerLane<T> {
     ///
     /// # Errors
     /// If one differs from the first; the fault says in what.
-    pub(crate) fn shared<S: Shared>(&self, mut setting: impl FnMut(&T) -> S) -> Result<S, Error> {
+    pub(crate) fn shared<S: CompanyKey>(&self, mut setting: impl FnMut(&T) -> S) -> Result<S, Error> {
         let first = setting(&self.0[0]);
         for (lane, other) in self.0.iter().enumerate().skip(1) {
             if let Some(what) = first.difference(&setting(other)) {
@@ -90,12 +90,12 @@ impl<T> PerLane<T> {
 }
 
 /// What fibres have in common if they fly side by side.
-pub(crate) trait Shared: Ord {
+pub(crate) trait CompanyKey: Ord {
     /// In words, the first thing in which two differ.
     fn difference(&self, other: &Self) -> Option<&'static str>;
 }
 
-impl<S: Shared> Shared for Option<S> {
+impl<S: CompanyKey> CompanyKey for Option<S> {
     fn difference(&self, other: &Self) -> Option<&'static str> {
         match (self, other) {
             (Some(one), Some(other)) => one.difference(other),
@@ -125,13 +125,13 @@ impl From<f64> for Bits {
 /// a struct itself.
 macro_rules! shared {
     ($(#[$about:meta])* $visible:vis struct $name:ident {
-        $($(#[$of:meta])* $field:ident: $type:ty $(= $words:literal)?,)*
+        $($(#[$attribute:meta])* $field:ident: $type:ty $(= $words:literal)?,)*
     }) => {
         $(#[$about])*
         #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-        $visible struct $name { $($(#[$of])* $visible $field: $type,)* }
+        $visible struct $name { $($(#[$attribute])* $visible $field: $type,)* }
 
-        impl $crate::company::Shared for $name {
+        impl $crate::company::CompanyKey for $name {
             fn difference(&self, other: &Self) -> Option<&'static str> {
                 $($crate::company::shared!(@compare &self.$field, &other.$field $(, $words)?);)*
                 None
@@ -144,7 +144,7 @@ macro_rules! shared {
         }
     };
     (@compare $one:expr, $other:expr) => {
-        if let Some(words) = $crate::company::Shared::difference($one, $other) {
+        if let Some(words) = $crate::company::CompanyKey::difference($one, $other) {
             return Some(words);
         }
     };

@@ -2,7 +2,7 @@
 
 use crate::chain::constants::Constants;
 use crate::chain::forces::Element;
-use crate::chain::laying::Carried;
+use crate::chain::laying::CarriedEnergy;
 use crate::chain::schemes::Scheme;
 use crate::chain::work::WorkDone;
 use crate::lanes::{Isa, Lanes, Register, Task, Wide, bend_ratio};
@@ -51,7 +51,7 @@ impl Energy {
         velocity: &[Vec3<Lanes>],
         start: &[Vec3<Lanes>],
     ) -> Self {
-        isa.run(HeldEnergy { constants, position, velocity, start })
+        isa.run(StateEnergy { constants, position, velocity, start })
     }
 
     /// Adds the work done since the start, at which the chain had the energy `initial`.
@@ -61,7 +61,7 @@ impl Energy {
         &mut self,
         initial: &Self,
         (before, after): (&WorkDone, &WorkDone),
-        carried: &Carried,
+        carried: &CarriedEnergy,
         scheme: Scheme,
         h: f64,
     ) {
@@ -90,14 +90,14 @@ impl Energy {
 }
 
 /// Computes the energies that depend on positions and velocities.
-struct HeldEnergy<'a> {
+struct StateEnergy<'a> {
     constants: &'a Constants,
     position: &'a [Vec3<Lanes>],
     velocity: &'a [Vec3<Lanes>],
     start: &'a [Vec3<Lanes>],
 }
 
-impl Task for HeldEnergy<'_> {
+impl Task for StateEnergy<'_> {
     type Output = Energy;
 
     #[inline(always)]

@@ -72,13 +72,13 @@ impl<'a, T> IntoIterator for &'a Nodes<T> {
 
 /// Values along the chain: one for each place, or a single one where all places are alike.
 #[derive(Clone, Debug)]
-pub(crate) struct Along<T> {
+pub(crate) struct ChainValues<T> {
     values: Nodes<T>,
     /// From the value of one place to that of the next: 0 or 1.
     stride: usize,
 }
 
-impl<T: Copy + PartialEq> Along<T> {
+impl<T: Copy + PartialEq> ChainValues<T> {
     /// * `count` – number of places
     /// * `value` – of each place
     pub(crate) fn new(count: usize, value: impl Fn(usize) -> T) -> Self {
@@ -121,7 +121,7 @@ impl<T: Copy + PartialEq> Along<T> {
     }
 }
 
-/// [`Along`] in a loop, where its parts stay in registers.
+/// [`ChainValues`] in a loop, where its parts stay in registers.
 pub(crate) struct View<'a, T> {
     values: &'a [T],
     stride: usize,

@@ -8,7 +8,7 @@ use crate::{progress, say};
 use spunlaid::air::Lateral;
 use spunlaid::case::Note;
 use spunlaid_results::folders::air::AirFolder;
-use spunlaid_results::output::air::{ENTRIES, Looks, Slices};
+use spunlaid_results::output::air::{AirViews, ENTRIES, Slices};
 use std::sync::atomic::AtomicU64;
 
 /// What a reader is told of a case whose fibres have turbulence of their own.
@@ -35,7 +35,7 @@ pub(crate) fn air(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
     staging.set_figures(&air.figures.files());
     let replicate = air.replicate - 1;
     let looks =
-        Looks { replicate, frames: air.frames, duration: air.duration, threads: threads(air.threads) };
+        AirViews { replicate, frames: air.frames, duration: air.duration, threads: threads(air.threads) };
     let done = AtomicU64::new(0);
     let slices = progress::follow(&done, air.frames, "the air passes", air.quiet, || {
         Slices::new(&case, &looks, &done, stop)

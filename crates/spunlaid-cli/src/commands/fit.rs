@@ -8,7 +8,7 @@ use crate::say;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use spunlaid::case::Note;
 use spunlaid::error::Error;
-use spunlaid::fit::{Fit, Question, Target, Watched, fit as find};
+use spunlaid::fit::{Fit, Question, Target, WebInProgress, fit as find};
 use spunlaid::input::{FitFile, Overrides, read_fit};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, Flyer};
@@ -81,7 +81,7 @@ fn search(asked: &args::Fit, file: &FitFile, target: &Target, journal: &mut Jour
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
     let flyer = Flyer::new(threads(asked.threads), stop, &follow);
     let by = Laying { threads: threads(asked.threads), isa: Isa::detect(), stop, laid: &laid };
-    let watch = |Watched { trial, web, webs, values }: Watched<'_>| {
+    let watch = |WebInProgress { trial, web, webs, values }: WebInProgress<'_>| {
         let values = file.parameters.iter().zip(values);
         let values = values.map(|(key, value)| format!("{} = {}", key.key, pretty(key, *value)));
         bar.set_length(webs);

@@ -3,7 +3,7 @@
 use crate::args::Keys;
 use crate::failure::Failure;
 use crate::say;
-use spunlaid::case::keys::{self, Key, Kind, LeftOut, TABLES};
+use spunlaid::case::keys::{self, Key, Kind, Omission, TABLES};
 use spunlaid::error::Fault;
 use spunlaid::layers::{WEB_KEYS, WEB_TABLES, WebKey};
 use spunlaid::units::{Dimension, UnitAdvice};
@@ -18,7 +18,7 @@ const WIDTH: usize = 100;
 struct KeyEntry {
     name: &'static str,
     kind: Kind,
-    left_out: LeftOut,
+    left_out: Omission,
     meaning: &'static str,
     synonyms: Vec<&'static str>,
     /// The file in which it stands, if it is not that of a case.
@@ -87,8 +87,8 @@ pub(crate) fn keys(arguments: &Keys) -> Result<(), Failure> {
 fn reference(key: &KeyEntry) -> String {
     let mut text = format!("{}{}\n", key.name, key.file);
     let default = match key.left_out {
-        LeftOut::Required(example) => format!("none; the key is required, like {example}"),
-        LeftOut::Value(words) | LeftOut::Follows(words) => words.to_owned(),
+        Omission::Required(example) => format!("none; the key is required, like {example}"),
+        Omission::Value(words) | Omission::Follows(words) => words.to_owned(),
     };
     for (title, words) in [
         ("", key.meaning.replace('`', "\"")),
@@ -186,9 +186,9 @@ fn markdown(found: &[KeyEntry], head: &str, tables: &[&str]) -> String {
         );
         for (key, short) in rows {
             let left_out = match key.left_out {
-                LeftOut::Required(example) => format!("required, like `{example}`"),
-                LeftOut::Value(value) => format!("`{value}`"),
-                LeftOut::Follows(words) => words.to_owned(),
+                Omission::Required(example) => format!("required, like `{example}`"),
+                Omission::Value(value) => format!("`{value}`"),
+                Omission::Follows(words) => words.to_owned(),
             };
             let marks = key.may_change.into_iter().zip(["study", "flight"]);
             let marks: Vec<&str> = marks.filter(|(is, _)| *is).map(|(_, mark)| mark).collect();

@@ -42,7 +42,7 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
         recorder: None,
     };
     let started = Instant::now();
-    let plans = FinerPlans::of(&case);
+    let plans = FinerPlans::for_case(&case);
     let (results, checks) = progress::follow(
         &fibre_steps,
         case.run.steps * case.fibres() + plans.fibre_steps(),

@@ -135,19 +135,19 @@ fn flying(quiet: bool) -> impl Fn(Flights<'_>, &mut (dyn FnMut() + Send)) {
 type Column = (&'static str, fn(&PatchFindings) -> Option<(f64, f64)>);
 
 /// The table for the terminal.
-fn told(of: &Findings) -> String {
+fn told(findings: &Findings) -> String {
     let per_cent = |cv: f64, error: Option<f64>| plus_minus(100.0 * cv, error.map(|error| 100.0 * error));
-    let is_shared = of.laid.together.is_some();
+    let is_shared = findings.laid.together.is_some();
     let all: [Column; 2] = match is_shared {
         true => [("airs of their own", |patch| patch.independent), ("", |_| None)],
         false => [("surrogate", |patch| patch.surrogate), ("flown curves", |patch| patch.flown)],
     };
     let mut expected: Vec<Column> =
-        all.into_iter().filter(|(_, cv)| of.patches.iter().any(|patch| cv(patch).is_some())).collect();
+        all.into_iter().filter(|(_, cv)| findings.patches.iter().any(|patch| cv(patch).is_some())).collect();
     if expected.is_empty() {
         expected.push(("single fibres", |patch| Some(patch.one_fibre)));
     }
-    let flown = !is_shared && of.patches.iter().any(|patch| patch.flown.is_some());
+    let flown = !is_shared && findings.patches.iter().any(|patch| patch.flown.is_some());
     let mut heads = vec!["patch", "this map", "by chance", "95 % by chance"];
     if flown {
         heads.extend(["few fibres", "model"]);
@@ -155,7 +155,7 @@ fn told(of: &Findings) -> String {
     heads.extend(expected.iter().map(|(head, _)| *head));
     heads.push("straight fibres");
     let mut rows = vec![heads.into_iter().map(str::to_owned).collect::<Vec<_>>()];
-    for patch in &of.patches {
+    for patch in &findings.patches {
         let error = patch.whole_error();
         let part =
             |part: Option<f64>| part.map_or_else(|| "–".to_owned(), |part| significant(100.0 * part, 2));
@@ -171,10 +171,10 @@ fn told(of: &Findings) -> String {
         if flown {
             row.extend([error.flight, error.model].map(part));
         }
-        let cv = |of: Option<(f64, f64)>| {
-            of.map_or_else(|| "–".to_owned(), |(cv, error)| per_cent(cv, Some(error)))
+        let cv = |value: Option<(f64, f64)>| {
+            value.map_or_else(|| "–".to_owned(), |(cv, error)| per_cent(cv, Some(error)))
         };
-        row.extend(expected.iter().map(|(_, of)| cv(of(patch))));
+        row.extend(expected.iter().map(|(_, cv_of_patch)| cv(cv_of_patch(patch))));
         row.push(significant(100.0 * patch.straight_fibres, 3));
         rows.push(row);
     }
@@ -185,7 +185,7 @@ fn told(of: &Findings) -> String {
     };
     format!(
         "basis weight {} g/m²\nunevenness, CV in %: of this map {whole}, and as expected\n{}",
-        significant(of.within().basis_weight() * 1e3, 4),
+        significant(findings.within().basis_weight() * 1e3, 4),
         aligned(&rows)
     )
 }

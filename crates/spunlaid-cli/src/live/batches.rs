@@ -12,7 +12,7 @@ const LEAST: usize = 4;
 
 /// A value over eight fibres, and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Settling {
+pub(super) struct RunningEstimate {
     pub(super) value: f64,
     /// `None` before the first batch.
     pub(super) error: Option<f64>,
@@ -89,7 +89,7 @@ impl Batches {
     }
 
     /// The standard deviation over all the time, as a run computes it, averaged over the fibres.
-    pub(super) fn amplitude(&self) -> Settling {
+    pub(super) fn amplitude(&self) -> RunningEstimate {
         let count = self.batches.len() as f64;
         let mean: [f64; WIDTH] = from_fn(|i| self.batches.iter().map(|b| b.mean[i]).sum::<f64>() / count);
         let square = |b: &Batch, i: usize| b.variance[i] + (b.mean[i] - mean[i]).powi(2);
@@ -103,13 +103,13 @@ impl Batches {
                 })
             })
             .collect();
-        Settling { value: amplitude.iter().sum::<f64>() / WIDTH as f64, error: standard_error(shares) }
+        RunningEstimate { value: amplitude.iter().sum::<f64>() / WIDTH as f64, error: standard_error(shares) }
     }
 
     /// Half the number of sign changes per second, averaged over the fibres.
-    pub(super) fn frequency(&self) -> Settling {
+    pub(super) fn frequency(&self) -> RunningEstimate {
         let values: Vec<[f64; WIDTH]> = self.batches.iter().map(|b| b.frequency).collect();
-        Settling { value: mean_of(&values), error: standard_error(values) }
+        RunningEstimate { value: mean_of(&values), error: standard_error(values) }
     }
 }
 
@@ -272,6 +272,6 @@ mod tests {
         let frequency = one.frequency();
         assert_eq!(frequency.value, 3.5);
         assert!((frequency.error.unwrap() - (6.0_f64 / 8.0).sqrt()).abs() < 1e-15);
-        assert_eq!(one.amplitude(), Settling { value: 0.0, error: Some(0.0) });
+        assert_eq!(one.amplitude(), RunningEstimate { value: 0.0, error: Some(0.0) });
     }
 }

@@ -167,13 +167,13 @@ impl Board {
 #[cfg(test)]
 mod tests {
     use super::super::fibres::Fibres;
-    use super::super::frame::Lately;
+    use super::super::frame::RecentMotion;
     use super::*;
     use spunlaid::input::{parse_case, starter_case};
 
     fn board() -> Board {
         let fibres = Fibres::new(parse_case(starter_case(), "a.toml", &[]).unwrap().0).unwrap();
-        Board::new(Frame::new(fibres.snapshot(), &Lately::new()))
+        Board::new(Frame::new(fibres.snapshot(), &RecentMotion::new()))
     }
 
     fn text(news: News) -> String {

@@ -27,7 +27,7 @@ pub(super) struct Document {
 }
 
 /// A case that has been read, with warnings about it.
-pub(super) struct Read {
+pub(super) struct LoadedCase {
     pub(super) case: Case,
     pub(super) warnings: Vec<String>,
 }
@@ -53,7 +53,7 @@ impl Document {
     ///
     /// # Errors
     /// What is wrong with it, by line.
-    pub(super) fn read(&self) -> Result<Read, Vec<Complaint>> {
+    pub(super) fn read(&self) -> Result<LoadedCase, Vec<Complaint>> {
         if self.text.len() as u64 > LARGEST_FILE {
             return Err(complaint("the case is larger than a case file may be"));
         }
@@ -82,7 +82,7 @@ impl Document {
             note.place = Place::Code;
             note.to_string()
         });
-        Ok(Read { case, warnings: warnings.collect() })
+        Ok(LoadedCase { case, warnings: warnings.collect() })
     }
 
     /// Whether the text gives a value for a key of a table.

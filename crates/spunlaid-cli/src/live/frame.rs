@@ -63,14 +63,14 @@ impl<T: Copy> Tail<T> {
 
 /// What has happened lately: motion of the first fibre's free end, points that it laid.
 #[derive(Clone, Debug)]
-pub(super) struct Lately {
+pub(super) struct RecentMotion {
     /// Time [s]; x, y and z [m].
     samples: Tail<[f64; 4]>,
     /// md and cd [m].
     laid: Tail<[f64; 2]>,
 }
 
-impl Lately {
+impl RecentMotion {
     pub(super) fn new() -> Self {
         Self { samples: Tail::new(SAMPLES), laid: Tail::new(POINTS) }
     }
@@ -93,7 +93,7 @@ impl Lately {
 
 /// How far a page is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Had {
+pub(super) struct PageProgress {
     samples: u32,
     laid: u32,
 }
@@ -113,12 +113,12 @@ pub(super) struct Frame {
     pub(super) belt_run: f64,
     nodes: [u16; WIDTH],
     positions: Vec<f32>,
-    lately: Lately,
+    lately: RecentMotion,
 }
 
 impl Frame {
     /// A frame that shows these shapes; its other fields are to be set.
-    pub(super) fn new(snapshot: &Snapshot, lately: &Lately) -> Self {
+    pub(super) fn new(snapshot: &Snapshot, lately: &RecentMotion) -> Self {
         let mut nodes = [0; WIDTH];
         let mut positions = Vec::new();
         for (lane, count) in nodes.iter_mut().enumerate() {
@@ -145,12 +145,12 @@ impl Frame {
     }
 
     /// The bytes for a page that has had so much.
-    pub(super) fn bytes(&self, had: &mut Had) -> Vec<u8> {
+    pub(super) fn bytes(&self, had: &mut PageProgress) -> Vec<u8> {
         let (first_sample, samples) = self.lately.samples.since(had.samples);
         let (first_point, points) = self.lately.laid.since(had.laid);
         let samples: Vec<[f64; 4]> = samples.collect();
         let points: Vec<[f64; 2]> = points.collect();
-        *had = Had { samples: self.lately.samples.count, laid: self.lately.laid.count };
+        *had = PageProgress { samples: self.lately.samples.count, laid: self.lately.laid.count };
 
         let bits = u8::from(self.stands) | u8::from(self.behind) << 1 | u8::from(self.fed) << 2;
         let mut bytes =
@@ -205,14 +205,14 @@ mod tests {
         let set = set.map(|(key, value)| (key.to_owned(), value.to_owned()));
         let (case, _) = parse_case(starter_case(), "a.toml", &set).unwrap();
         let mut fibres = Fibres::new(case).unwrap();
-        let mut lately = Lately::new();
-        let see = |fibres: &mut Fibres, lately: &mut Lately, steps| {
+        let mut lately = RecentMotion::new();
+        let see = |fibres: &mut Fibres, lately: &mut RecentMotion, steps| {
             fibres.fly(steps, |i| lately.add(i.snapshot.time, i.snapshot, &i.laid[0])).unwrap();
         };
         see(&mut fibres, &mut lately, 4001);
         let mut frame = Frame::new(fibres.snapshot(), &lately);
         (frame.generation, frame.behind, frame.speed) = (7, true, 0.5);
-        let (mut had, mut other) = (Had::default(), Had::default());
+        let (mut had, mut other) = (PageProgress::default(), PageProgress::default());
         let bytes = frame.bytes(&mut had);
         assert_eq!(bytes[..6], [7, 0, 0, 0, 2, 8]);
         let (samples, nodes) = (u16_at(&bytes, 6), u16_at(&bytes, 22));

@@ -5,7 +5,7 @@ use super::number::ShownNumber;
 use serde::Serialize;
 use spunlaid::case::Case;
 use spunlaid::lanes::WIDTH;
-use spunlaid::laydown::{self, Footprint, Trace, Tracing};
+use spunlaid::laydown::{self, Footprint, Trace, TraceSettings};
 use spunlaid::statistics::Estimate;
 use spunlaid::surrogate::identify;
 use std::array::from_fn;
@@ -40,7 +40,7 @@ impl LaidStatistics {
         let line = case.line?;
         let belt_ratio = line.belt_ratio();
         let tracing =
-            Tracing { spacing: case.fibre.rest_length(), belt_ratio, skip: 0, reach: line.distance };
+            TraceSettings { spacing: case.fibre.rest_length(), belt_ratio, skip: 0, reach: line.distance };
         Some(Self { traces: from_fn(|_| Trace::new(tracing)), fitted: (0, Vec::new()) })
     }
 

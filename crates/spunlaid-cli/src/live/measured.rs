@@ -1,6 +1,6 @@
 //! Statistics of the fibres while they fly, since the last change.
 
-use super::batches::{Batches, Settling};
+use super::batches::{Batches, RunningEstimate};
 use super::fibres::Instant;
 use super::laid::LaidStatistics;
 use super::number::ShownNumber;
@@ -33,13 +33,13 @@ pub(super) struct Statistics {
 
 #[derive(Debug)]
 enum Motion {
-    Fixed(Box<Swinging>),
+    Fixed(Box<FixedFibreMeasures>),
     Fed(Box<LaidStatistics>),
 }
 
 /// Of fibres of fixed length.
 #[derive(Debug)]
-struct Swinging {
+struct FixedFibreMeasures {
     y: Batches,
     z: Batches,
     along: Box<dyn Observer>,
@@ -83,7 +83,7 @@ impl Statistics {
         };
         let motion = match LaidStatistics::new(case) {
             Some(statistics) => Motion::Fed(Box::new(statistics)),
-            None => Motion::Fixed(Box::new(Swinging::new(case, flight))),
+            None => Motion::Fixed(Box::new(FixedFibreMeasures::new(case, flight))),
         };
         Self { from: flight.time() + settling, duration: 0.0, batch: None, motion }
     }
@@ -141,7 +141,7 @@ impl Statistics {
     }
 }
 
-impl Swinging {
+impl FixedFibreMeasures {
     fn new(case: &Case, flight: &Flight) -> Self {
         let observer =
             DECLARED.iter().find(|d| d.measures.iter().any(|m| m.name == "amplitude_y_along_fibre"));
@@ -150,7 +150,7 @@ impl Swinging {
             y: Batches::default(),
             z: Batches::default(),
             along: observer
-                .map_or_else(|| Box::new(Blind) as Box<dyn Observer>, |found| (found.observer)(flight)),
+                .map_or_else(|| Box::new(NoObserver) as Box<dyn Observer>, |found| (found.observer)(flight)),
             recent: from_fn(|_| Default::default()),
             spectrum: [welch.clone(), welch],
         }
@@ -181,7 +181,7 @@ impl Swinging {
     }
 
     fn numbers(&self) -> Vec<ShownNumber> {
-        let number = |name, Settling { value, error }| ShownNumber::new(name, value, error);
+        let number = |name, RunningEstimate { value, error }| ShownNumber::new(name, value, error);
         [
             number("amplitude_y", self.y.amplitude()),
             number("amplitude_z", self.z.amplitude()),
@@ -218,9 +218,9 @@ impl Swinging {
 
 /// Sees nothing, in place of an observer that is not declared.
 #[derive(Debug)]
-struct Blind;
+struct NoObserver;
 
-impl Observer for Blind {
+impl Observer for NoObserver {
     fn see(&mut self, _: &Observation<'_>) {}
 
     fn finish(&self, _: usize, _: &Flight) -> Vec<Value> {

@@ -152,7 +152,7 @@ impl Server {
             .read_buffer_size(PIECE)
             .max_message_size(Some(LARGEST))
             .max_frame_size(Some(LARGEST));
-        let inward = Inward { stream, page, board: &self.board };
+        let inward = PageStream { stream, page, board: &self.board };
         let mut socket = WebSocket::from_partially_read(inward, rest, Role::Server, Some(config));
         loop {
             let answer = match socket.read()? {
@@ -176,19 +176,19 @@ impl Server {
 
 /// The stream of a page as its reader has it. What the protocol answers by itself, a ping and the end, is written between the messages
 /// of the writer.
-struct Inward<'a> {
+struct PageStream<'a> {
     stream: &'a TcpStream,
     page: PageId,
     board: &'a Board,
 }
 
-impl Read for Inward<'_> {
+impl Read for PageStream<'_> {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
         self.stream.read(bytes)
     }
 }
 
-impl Write for Inward<'_> {
+impl Write for PageStream<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let posted = self.board.post(self.page, News::Raw(bytes.to_vec()));
         if posted { Ok(bytes.len()) } else { Err(ErrorKind::BrokenPipe.into()) }

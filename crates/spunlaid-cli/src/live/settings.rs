@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use spunlaid::case::Case;
-use spunlaid::case::keys::{self, Key, Kind, LeftOut, Value};
+use spunlaid::case::keys::{self, Key, Kind, Omission, Value};
 use spunlaid::units::Dimension;
 
 /// Keys of the run that have no meaning while a page looks on: how long it lasts, what is recorded.
@@ -31,12 +31,12 @@ pub(super) struct Setting {
     /// Whether it is one of the first to look at.
     first: bool,
     #[serde(flatten)]
-    takes: Takes,
+    takes: SettingKind,
 }
 
 #[derive(Debug, Serialize, PartialEq)]
 #[serde(tag = "takes", rename_all = "snake_case")]
-enum Takes {
+enum SettingKind {
     /// A quantity; the ends of the slider in SI units, and whether it is logarithmic.
     Quantity { low: f64, high: f64, logarithmic: bool },
     /// A word.
@@ -47,7 +47,7 @@ enum Takes {
 
 /// The present value of a setting.
 #[derive(Debug, Serialize, PartialEq)]
-pub(super) struct Present {
+pub(super) struct SettingValue {
     key: &'static str,
     /// In SI units, if it is a quantity.
     si: Option<f64>,
@@ -61,7 +61,7 @@ pub(super) fn settings(case: &Case) -> Vec<Setting> {
 }
 
 /// The present values, in the same order.
-pub(super) fn present(case: &Case) -> Vec<Present> {
+pub(super) fn present(case: &Case) -> Vec<SettingValue> {
     shown(case)
         .filter(|(key, value)| setting(key, value).is_some())
         .map(|(key, value)| {
@@ -71,7 +71,7 @@ pub(super) fn present(case: &Case) -> Vec<Present> {
                 (Value::Text(text), _) => text.clone(),
                 _ => String::new(),
             };
-            Present { key: key.name, si: value.number(), text }
+            SettingValue { key: key.name, si: value.number(), text }
         })
         .collect()
 }
@@ -88,23 +88,25 @@ fn setting(key: &'static Key, value: &Value) -> Option<Setting> {
         (Kind::Quantity(..), Some((low, high)), Value::Number(now)) => {
             // A slider reaches to the value of the case.
             let (low, high) = (low.min(*now), high.max(*now));
-            Takes::Quantity { low, high, logarithmic: low > 0.0 && high / low >= 50.0 }
+            SettingKind::Quantity { low, high, logarithmic: low > 0.0 && high / low >= 50.0 }
         }
-        (Kind::Choice(_), _, Value::Text(_)) => Takes::Word { words: key.kind.words() },
-        (Kind::Whole(low, _), _, Value::Whole(_)) if key.name == "run.seed" => Takes::Whole { low: *low },
+        (Kind::Choice(_), _, Value::Text(_)) => SettingKind::Word { words: key.kind.words() },
+        (Kind::Whole(low, _), _, Value::Whole(_)) if key.name == "run.seed" => {
+            SettingKind::Whole { low: *low }
+        }
         _ => return None,
     };
     let left_out = match key.left_out {
-        LeftOut::Required(_) => String::new(),
-        LeftOut::Value(value) => format!(" Default: {value}."),
-        LeftOut::Follows(words) => format!(" If it is left out: {words}."),
+        Omission::Required(_) => String::new(),
+        Omission::Value(value) => format!(" Default: {value}."),
+        Omission::Follows(words) => format!(" If it is left out: {words}."),
     };
     let unit = match key.kind.dimension() {
         Some(Dimension::Ratio) | None => String::new(),
         Some(dimension) => format!(", in {} for example", dimension.si_unit()),
     };
     let first =
-        matches!(key.left_out, LeftOut::Required(_)) || ["spinline", "feed", "belt"].contains(&key.table());
+        matches!(key.left_out, Omission::Required(_)) || ["spinline", "feed", "belt"].contains(&key.table());
     Some(Setting {
         key: key.name,
         table: key.table(),
@@ -112,7 +114,7 @@ fn setting(key: &'static Key, value: &Value) -> Option<Setting> {
         meaning: key.meaning,
         about: format!("Takes {}{unit}.{left_out}", key.allowed()),
         in_flight: key.in_flight,
-        first: first && !matches!(takes, Takes::Word { .. }),
+        first: first && !matches!(takes, SettingKind::Word { .. }),
         takes,
     })
 }
@@ -133,22 +135,25 @@ mod tests {
         let setting = |name: &str| all.iter().find(|s| s.key == name).unwrap();
         assert_eq!(
             setting("air.velocity").takes,
-            Takes::Quantity { low: 0.0, high: 60.0, logarithmic: false }
+            SettingKind::Quantity { low: 0.0, high: 60.0, logarithmic: false }
         );
         assert_eq!(
             setting("fibre.diameter").takes,
-            Takes::Quantity { low: 5e-6, high: 2e-4, logarithmic: false }
+            SettingKind::Quantity { low: 5e-6, high: 2e-4, logarithmic: false }
         );
         assert_eq!(
             setting("fibre.youngs_modulus").takes,
-            Takes::Quantity { low: 1e7, high: 1e10, logarithmic: true }
+            SettingKind::Quantity { low: 1e7, high: 1e10, logarithmic: true }
         );
         assert!(
             setting("air.velocity").in_flight
                 && setting("air.velocity").first
                 && !setting("air.length_scale").in_flight
         );
-        assert_eq!(setting("fibre.root").takes, Takes::Word { words: vec!["pinned", "clamped", "free"] });
+        assert_eq!(
+            setting("fibre.root").takes,
+            SettingKind::Word { words: vec!["pinned", "clamped", "free"] }
+        );
         assert!(setting("run.seed").about.contains("Default: 1."));
         let first: Vec<&str> = all.iter().filter(|s| s.first).map(|s| s.key).collect();
         assert_eq!(first.len(), 8, "{first:?}");

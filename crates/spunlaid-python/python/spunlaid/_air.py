@@ -28,7 +28,7 @@ class Air:
             raise ValueError(f"replicate must be a whole number from 1, not {replicate!r}")
         case = case_of(case)
         self._case = case if seed is None else case.with_({"run.seed": seed})
-        self._air = _spunlaid.LookedAtAir(self._case, int(replicate) - 1)
+        self._air = _spunlaid.AirSampler(self._case, int(replicate) - 1)
 
     def at(self, t: ArrayLike, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> NDArray[np.float64]:
         """Velocity of the air [m/s]. Numbers and arrays of any shapes that fit together; the result has one more axis, with the

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 __all__ = [
     "Case",
     "Flight",
-    "LookedAtAir",
+    "AirSampler",
     "RunResults",
     "LaidWeb",
     "SolvedSpinline",
@@ -99,8 +99,8 @@ class Case(Mapping[str, Any]):
         """The limits on the time step [s] and what sets them."""
 
 @final
-class LookedAtAir:
-    def __new__(cls, case: Case, replicate: int) -> LookedAtAir: ...
+class AirSampler:
+    def __new__(cls, case: Case, replicate: int) -> AirSampler: ...
     def velocities(self, times: _Floats, places: _Floats) -> _Floats: ...
     @property
     def extent(self) -> tuple[float, float]: ...

@@ -23,15 +23,15 @@ pub fn fit_figures(fit: &Fit) -> Vec<Figure> {
 }
 
 /// Place, scan, start, fit, and the ends between which 95 of 100 simulated webs lie.
-type Drawn = (f64, f64, f64, f64, [f64; 2]);
+type CurveRow = (f64, f64, f64, f64, [f64; 2]);
 
-fn drawn(place: f64, number: &FittedNumber, scale: f64) -> Drawn {
+fn drawn(place: f64, number: &FittedNumber, scale: f64) -> CurveRow {
     let [low, high] = [-NORMAL_95, NORMAL_95].map(|z| scale * number.found * (z * number.scatter).exp());
     (place, scale * number.scan, scale * number.start, scale * number.found, [low, high])
 }
 
-fn curves(chart: Chart, drawn: &[Drawn]) -> Chart {
-    let line = |value: fn(&Drawn) -> f64| -> Vec<(f64, f64)> {
+fn curves(chart: Chart, drawn: &[CurveRow]) -> Chart {
+    let line = |value: fn(&CurveRow) -> f64| -> Vec<(f64, f64)> {
         drawn.iter().map(|one| (one.0, value(one))).collect()
     };
     let band: Vec<(f64, f64, f64)> = drawn.iter().map(|one| (one.0, one.4[0], one.4[1])).collect();
@@ -49,7 +49,7 @@ fn unevenness(fit: &Fit) -> Figure {
         Texture::Patch(side) => Some(drawn(side * MM, number, PER_CENT)),
         Texture::Band { .. } => None,
     };
-    let patches: Vec<Drawn> = fit.numbers.iter().filter_map(patch).collect();
+    let patches: Vec<CurveRow> = fit.numbers.iter().filter_map(patch).collect();
     let chart = Chart::new(
         "fit_cv",
         "Unevenness of the scan and of the simulated webs",
@@ -74,7 +74,7 @@ fn spectrum(fit: &Fit, direction: usize) -> Figure {
         }
         _ => None,
     };
-    let bands: Vec<Drawn> = fit.numbers.iter().filter_map(band).collect();
+    let bands: Vec<CurveRow> = fit.numbers.iter().filter_map(band).collect();
     let chart = Chart::new(
         name,
         &format!("Spectrum in {words} direction, octave by octave"),
@@ -92,19 +92,19 @@ fn spectrum(fit: &Fit, direction: usize) -> Figure {
 
 /// How far the scan is from the fit.
 fn residuals(fit: &Fit) -> Figure {
-    let of = |wanted: fn(&Texture) -> Option<f64>| -> Vec<(f64, f64, Option<f64>)> {
+    let points = |wanted: fn(&Texture) -> Option<f64>| -> Vec<(f64, f64, Option<f64>)> {
         let point = |number: &FittedNumber| Some((wanted(&number.texture)? * MM, number.residual(), None));
         fit.numbers.iter().filter_map(point).collect()
     };
-    let patches = of(|texture| match texture {
+    let patches = points(|texture| match texture {
         Texture::Patch(side) => Some(*side),
         Texture::Band { .. } => None,
     });
-    let across = of(|texture| match texture {
+    let across = points(|texture| match texture {
         Texture::Band { direction: 0, waves } => Some((waves[0] * waves[1]).sqrt()),
         _ => None,
     });
-    let along = of(|texture| match texture {
+    let along = points(|texture| match texture {
         Texture::Band { direction: 1, waves } => Some((waves[0] * waves[1]).sqrt()),
         _ => None,
     });

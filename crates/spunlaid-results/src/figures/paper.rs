@@ -1,7 +1,7 @@
 //! The figures of the paper, drawn anew: circles for y, triangles for z, with the error bars it lacks.
 
 use spunlaid::ensemble::{Place, SpectrumPoint};
-use spunlaid::paper::{Both, Parameter, TrendPoint};
+use spunlaid::paper::{LateralEstimates, Parameter, TrendPoint};
 use spunlaid::vec3::Vec3;
 use spunlaid_charts::{
     Axis, Chart, Figure, Series,
@@ -131,7 +131,7 @@ fn chart(
     name: &str,
     what: &str,
     label: &str,
-    quantity: fn(&TrendPoint) -> Both,
+    quantity: fn(&TrendPoint) -> LateralEstimates,
     scale: f64,
 ) -> Figure {
     let (symbol, unit, to_unit) = parameter.unit();

@@ -1,7 +1,7 @@
 //! The scales of axes, for programs that draw with other means.
 
 use super::run::measured::axes;
-use super::study::Along;
+use super::study::FactorAxis;
 use super::with_unit;
 use spunlaid::observe::{Measure, Unit};
 use spunlaid::study::Study;
@@ -40,7 +40,7 @@ impl Scale {
 
     /// The scale of a factor of a study.
     pub fn of_factor(study: &Study, factor: usize) -> Self {
-        let Along { axis, zero, scale, .. } = Along::of_study(study, factor);
+        let FactorAxis { axis, zero, scale, .. } = FactorAxis::of_study(study, factor);
         Self { zero, ..Self::new(axis, scale) }
     }
 }

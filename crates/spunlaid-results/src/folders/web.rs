@@ -10,10 +10,10 @@ use crate::report::{LayerSpinline, WebReport, web_html};
 use spunlaid::advice::Advice;
 use spunlaid::case::Case;
 use spunlaid::input::{LayerSpec, WebFile, WebSpec};
-use spunlaid::layers::OfLayer;
+use spunlaid::layers::LayerFibres;
 use spunlaid::spinline::Solution;
 use spunlaid::surrogate::Residual;
-use spunlaid::web::{Fibres, Findings, Laying, PatchFindings, Together, Web, strands};
+use spunlaid::web::{Fibres, Findings, Laying, PatchFindings, SharedAirFindings, Web, strands};
 use spunlaid_charts::Figure;
 use std::borrow::Cow;
 
@@ -27,7 +27,7 @@ pub struct WebFolder<'a> {
     /// The web that was laid.
     pub web: &'a Web,
     /// The fibres of its layers.
-    pub layers: &'a [OfLayer],
+    pub layers: &'a [LayerFibres],
     /// What was found of it.
     pub findings: &'a Findings,
     /// What would make it more even; None if it was not tried.
@@ -107,7 +107,7 @@ impl WebFolder<'_> {
 }
 
 /// What layers were laid from, for the files.
-fn rows(spec: &WebSpec, web: &Web, layers: &[OfLayer]) -> Vec<Layer> {
+fn rows(spec: &WebSpec, web: &Web, layers: &[LayerFibres]) -> Vec<Layer> {
     let row = |(i, (layer, drawn)): (usize, (&LayerSpec, &spunlaid::web::Layer))| {
         let fit = residual(layers.get(i));
         let surrogate =
@@ -158,12 +158,12 @@ fn spinlines(spec: &WebSpec) -> Vec<LayerSpinline> {
 }
 
 /// How well the surrogate of a layer fits what its fibres have laid.
-fn residual(layer: Option<&OfLayer>) -> Option<Residual> {
+fn residual(layer: Option<&LayerFibres>) -> Option<Residual> {
     layer?.flown.as_ref()?.residual
 }
 
 /// What a reader must know of what was found.
-pub fn notes(web: &Web, findings: &Findings, layers: &[OfLayer]) -> Vec<String> {
+pub fn notes(web: &Web, findings: &Findings, layers: &[LayerFibres]) -> Vec<String> {
     let mut notes = match &findings.laid.together {
         Some(together) => about_lost_filaments(web, together),
         None => about_the_model(web, findings, layers),
@@ -204,7 +204,7 @@ pub fn notes(web: &Web, findings: &Findings, layers: &[OfLayer]) -> Vec<String> 
 }
 
 /// How many filaments of a web in one air were lost.
-fn about_lost_filaments(web: &Web, together: &Together) -> Vec<String> {
+fn about_lost_filaments(web: &Web, together: &SharedAirFindings) -> Vec<String> {
     let all: u64 = web.layers.iter().map(|layer| layer.count(&web.sheet)).sum();
     match together.lost {
         0 => Vec::new(),
@@ -220,7 +220,7 @@ const TOO_FEW: f64 = 0.025;
 const POOR_FIT: f64 = 0.05;
 
 /// Whether the surrogate speaks for the flown fibres, and which of them to believe where it does not.
-fn about_the_model(web: &Web, findings: &Findings, layers: &[OfLayer]) -> Vec<String> {
+fn about_the_model(web: &Web, findings: &Findings, layers: &[LayerFibres]) -> Vec<String> {
     let mut notes = Vec::new();
     let by_surrogate = web.layers.iter().any(|layer| matches!(layer.fibres, Fibres::Surrogate(_)));
     let element = web.longest_element().unwrap_or(0.0);

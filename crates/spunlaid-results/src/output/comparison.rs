@@ -1,6 +1,6 @@
 //! `comparison.json` and its table: what differs between two runs, and whether it is beyond chance.
 
-use super::in_order::InOrder;
+use super::in_order::OrderedObject;
 use crate::numbers::{decimals, plus_minus, to_decimals};
 use serde::Serialize;
 use spunlaid::statistics::{Difference, Estimate};
@@ -23,12 +23,12 @@ pub struct Comparison {
     /// What the errors in the table are.
     pub errors: &'static str,
     /// Measure by measure.
-    pub measures: Vec<Compared>,
+    pub measures: Vec<ComparedMeasure>,
 }
 
 /// A measure of two runs.
 #[derive(Clone, Debug)]
-pub struct Compared {
+pub struct ComparedMeasure {
     /// Its name for the reader.
     pub label: String,
     /// Its name in `comparison.json`.
@@ -62,7 +62,7 @@ struct PairSummary<'a> {
     paired: bool,
     pairs: Option<usize>,
     reason: &'a str,
-    measures: InOrder<Numbers>,
+    measures: OrderedObject<Numbers>,
 }
 
 #[derive(Serialize)]
@@ -98,7 +98,7 @@ pub fn json(comparisons: &[Comparison], notes: &[String]) -> String {
         let n = (!estimate.values.is_empty()).then_some(finite);
         Mean { mean: estimate.mean, standard_error: estimate.standard_error, n }
     };
-    let numbers = |compared: &Compared| {
+    let numbers = |compared: &ComparedMeasure| {
         let [against, run] = &compared.means;
         let numbers = Numbers {
             against: mean(against),
@@ -111,7 +111,7 @@ pub fn json(comparisons: &[Comparison], notes: &[String]) -> String {
         };
         (compared.column.clone(), numbers)
     };
-    let one = |comparison: &'_ Comparison| InOrder(comparison.measures.iter().map(numbers).collect());
+    let one = |comparison: &'_ Comparison| OrderedObject(comparison.measures.iter().map(numbers).collect());
     let comparisons = comparisons.iter().map(|comparison| PairSummary {
         run: &comparison.run,
         against: &comparison.against,
@@ -141,7 +141,7 @@ impl Comparison {
     }
 }
 
-impl Compared {
+impl ComparedMeasure {
     /// Both means, the difference with its sign, and the verdict, in the unit of the measure.
     pub fn cells(&self) -> [String; 4] {
         let factor = self.per_si;

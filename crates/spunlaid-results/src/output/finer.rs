@@ -2,7 +2,7 @@
 
 use crate::numbers::{plus_minus, significant};
 use spunlaid::case::Case;
-use spunlaid::ensemble::{Change, FinerCheck, FinerChecks, Refined, Results};
+use spunlaid::ensemble::{Change, FinerCheck, FinerChecks, Refinement, Results};
 use spunlaid::statistics::Estimate;
 use spunlaid::units::Dimension;
 use std::fmt::Write;
@@ -79,7 +79,7 @@ impl FinerWords {
         let mut differences: Vec<String> = path
             .map(|path| format!("Path of the free end differs by {} of its amplitude", percent(path)))
             .collect();
-        let factor = check.error_over_change().filter(|_| check.refined == Refined::Elements);
+        let factor = check.error_over_change().filter(|_| check.refined == Refinement::Elements);
         differences.extend(check.changes.iter().map(|Change { statistic, estimate }| {
             let error = factor.map_or(String::new(), |factor| {
                 let times = |value: f64| factor * value;
@@ -94,8 +94,8 @@ impl FinerWords {
             format!("{} differs by {}{error}", statistic.label, percent(estimate))
         }));
         let (what, with, advice) = match check.refined {
-            Refined::TimeStep => ("time step", shorter(check, case), of_the_step(check, results)),
-            Refined::Elements => {
+            Refinement::TimeStep => ("time step", shorter(check, case), of_the_step(check, results)),
+            Refinement::Elements => {
                 let length = Dimension::Length.pretty_to(check.element_length, 3);
                 ("mesh", format!("elements of {length}, half the length,"), of_the_mesh(check))
             }
@@ -104,7 +104,7 @@ impl FinerWords {
             Some(1.0) => {
                 "The finer step stands for the limit, so the difference is the error of the step.".to_owned()
             }
-            Some(factor) if check.refined == Refined::TimeStep => {
+            Some(factor) if check.refined == Refinement::TimeStep => {
                 format!("The error of the step is at most about {factor} times as large.")
             }
             Some(_) => {
@@ -212,7 +212,7 @@ mod tests {
     use spunlaid::chain::schemes::Scheme;
     use spunlaid::ensemble::Statistic;
 
-    fn check(refined: Refined, name: &str, mean: f64, standard_error: f64) -> FinerCheck {
+    fn check(refined: Refinement, name: &str, mean: f64, standard_error: f64) -> FinerCheck {
         let estimate = Estimate { mean, standard_error: Some(standard_error), values: vec![mean; 8] };
         let statistic = Statistic::all().find(|statistic| statistic.name == name).unwrap();
         let is_fed = !matches!(name, "amplitude" | "frequency");
@@ -233,7 +233,7 @@ mod tests {
 
     #[test]
     fn advice_on_the_mesh_names_an_element_length() {
-        let advice = |mean, error| of_the_mesh(&check(Refined::Elements, "frequency", mean, error));
+        let advice = |mean, error| of_the_mesh(&check(Refinement::Elements, "frequency", mean, error));
         // 4/3 of 18.5 % is 25 %, of which a sixteenth is left at a quarter of 25 mm.
         assert!(advice(0.185, 0.015).contains("fibre.element_length = \"6.25 mm\" and look again"));
         assert!(
@@ -243,13 +243,13 @@ mod tests {
         );
         assert!(advice(0.011, 0.002).contains("below 3 %"));
         assert!(advice(0.01, 0.02).contains("too short to show"));
-        let advice_for_spread = |mean| of_the_mesh(&check(Refined::Elements, "spread", mean, 1e-3));
+        let advice_for_spread = |mean| of_the_mesh(&check(Refinement::Elements, "spread", mean, 1e-3));
         assert!(
             advice_for_spread(0.05).contains("\"12.5 mm\"")
                 && advice_for_spread(3e-3).contains("One halving does not show")
         );
         assert!(
-            of_the_mesh(&check(Refined::Elements, "chord_over_arc", 0.3, 1e-3))
+            of_the_mesh(&check(Refinement::Elements, "chord_over_arc", 0.3, 1e-3))
                 .contains("One halving does not show")
         );
     }

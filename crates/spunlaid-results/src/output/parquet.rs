@@ -24,12 +24,12 @@ const FEW: usize = 1 << 12;
 pub(super) struct Column {
     /// Its name with the unit.
     pub(super) name: String,
-    pub(super) holds: Holds,
+    pub(super) holds: ColumnValues,
 }
 
 /// The values of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Holds {
+pub(super) enum ColumnValues {
     /// Whole numbers.
     Whole,
     /// Words.
@@ -46,14 +46,14 @@ pub(super) struct Parquet {
     /// Its final path.
     path: PathBuf,
     writer: SerializedFileWriter<BufWriter<File>>,
-    columns: Vec<Gathered>,
+    columns: Vec<PendingValues>,
     group: usize,
     /// Number of rows since the last group.
     rows: usize,
 }
 
 /// The values of a column since the last group of rows.
-enum Gathered {
+enum PendingValues {
     Whole(Vec<i64>),
     Text(Vec<ByteArray>),
     Number(Vec<f64>),
@@ -73,13 +73,13 @@ impl Parquet {
         let file = File::create(now).map_err(Failure::unwritable(&path))?;
         let field = |column: &Column| {
             let (physical, repetition) = match column.holds {
-                Holds::Whole => (PhysicalType::INT64, Repetition::REQUIRED),
-                Holds::Text => (PhysicalType::BYTE_ARRAY, Repetition::REQUIRED),
-                Holds::Number => (PhysicalType::DOUBLE, Repetition::REQUIRED),
-                Holds::Optional => (PhysicalType::DOUBLE, Repetition::OPTIONAL),
+                ColumnValues::Whole => (PhysicalType::INT64, Repetition::REQUIRED),
+                ColumnValues::Text => (PhysicalType::BYTE_ARRAY, Repetition::REQUIRED),
+                ColumnValues::Number => (PhysicalType::DOUBLE, Repetition::REQUIRED),
+                ColumnValues::Optional => (PhysicalType::DOUBLE, Repetition::OPTIONAL),
             };
             let field = Type::primitive_type_builder(&column.name, physical);
-            let logical = (column.holds == Holds::Text).then_some(LogicalType::String);
+            let logical = (column.holds == ColumnValues::Text).then_some(LogicalType::String);
             field.with_repetition(repetition).with_logical_type(logical).build().map(Arc::new)
         };
         let fields = columns.iter().map(field).collect::<Result<Vec<_>, _>>();
@@ -96,17 +96,17 @@ impl Parquet {
             })
             .map_err(|error| failure::table(&path, error))?;
         let empty = |column: &Column| match column.holds {
-            Holds::Whole => Gathered::Whole(Vec::new()),
-            Holds::Text => Gathered::Text(Vec::new()),
-            Holds::Number => Gathered::Number(Vec::new()),
-            Holds::Optional => Gathered::Optional(Vec::new(), Vec::new()),
+            ColumnValues::Whole => PendingValues::Whole(Vec::new()),
+            ColumnValues::Text => PendingValues::Text(Vec::new()),
+            ColumnValues::Number => PendingValues::Number(Vec::new()),
+            ColumnValues::Optional => PendingValues::Optional(Vec::new(), Vec::new()),
         };
         Ok(Self { path, writer, columns: columns.iter().map(empty).collect(), group, rows: 0 })
     }
 
     /// Adds values to a column of whole numbers.
     pub(super) fn extend_whole(&mut self, column: usize, values: impl IntoIterator<Item = i64>) {
-        if let Some(Gathered::Whole(gathered)) = self.columns.get_mut(column) {
+        if let Some(PendingValues::Whole(gathered)) = self.columns.get_mut(column) {
             gathered.extend(values);
             self.rows = gathered.len();
         }
@@ -114,7 +114,7 @@ impl Parquet {
 
     /// Adds a word to a column of words.
     pub(super) fn push_text(&mut self, column: usize, word: &str) {
-        if let Some(Gathered::Text(gathered)) = self.columns.get_mut(column) {
+        if let Some(PendingValues::Text(gathered)) = self.columns.get_mut(column) {
             gathered.push(word.into());
         }
     }
@@ -122,17 +122,17 @@ impl Parquet {
     /// Adds values to a column of numbers.
     pub(super) fn extend(&mut self, column: usize, values: impl IntoIterator<Item = f64>) {
         match self.columns.get_mut(column) {
-            Some(Gathered::Number(gathered)) => {
+            Some(PendingValues::Number(gathered)) => {
                 gathered.extend(values);
                 self.rows = gathered.len();
             }
-            Some(Gathered::Optional(gathered, known)) => {
+            Some(PendingValues::Optional(gathered, known)) => {
                 for value in values {
                     gathered.extend(value.is_finite().then_some(value));
                     known.push(i16::from(value.is_finite()));
                 }
             }
-            Some(Gathered::Whole(_) | Gathered::Text(_)) | None => {}
+            Some(PendingValues::Whole(_) | PendingValues::Text(_)) | None => {}
         }
     }
 
@@ -156,10 +156,10 @@ impl Parquet {
         self.write_group().map_err(|error| failure::table(&self.path, error))?;
         for gathered in &mut self.columns {
             match gathered {
-                Gathered::Whole(values) => values.clear(),
-                Gathered::Text(values) => values.clear(),
-                Gathered::Number(values) => values.clear(),
-                Gathered::Optional(values, known) => {
+                PendingValues::Whole(values) => values.clear(),
+                PendingValues::Text(values) => values.clear(),
+                PendingValues::Number(values) => values.clear(),
+                PendingValues::Optional(values, known) => {
                     values.clear();
                     known.clear();
                 }
@@ -184,7 +184,7 @@ impl Parquet {
     }
 }
 
-impl Gathered {
+impl PendingValues {
     /// The values as a table holds them, and what the table must know of them.
     fn pack(
         &self,

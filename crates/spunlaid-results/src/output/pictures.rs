@@ -104,11 +104,14 @@ impl FigureFiles {
         mut write: impl FnMut(String, &[u8]) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
         let threads = available_parallelism().map_or(1, usize::from);
-        let drawn = each(threads, figures.len(), |i| self.drawn(figures[i].borrow()));
-        for (figure, files) in figures.iter().map(F::borrow).zip(drawn) {
-            write(format!("{}.csv", figure.name), figure.table.csv().as_bytes())?;
-            for (format, content) in self.formats.iter().zip(files?) {
-                write(format!("{}.{}", figure.name, format.name()), &content)?;
+        // A few at a time: the pictures of many points are large, and only those of these few are held.
+        for figures in figures.chunks(threads) {
+            let drawn = each(threads, figures.len(), |i| self.drawn(figures[i].borrow()));
+            for (figure, files) in figures.iter().map(F::borrow).zip(drawn) {
+                write(format!("{}.csv", figure.name), figure.table().csv().as_bytes())?;
+                for (format, content) in self.formats.iter().zip(files?) {
+                    write(format!("{}.{}", figure.name, format.name()), &content)?;
+                }
             }
         }
         Ok(())

@@ -27,11 +27,11 @@ pub(super) struct Spill {
     table: PathBuf,
     /// Numbers in a row.
     width: usize,
-    waiting: Mutex<Waiting>,
+    waiting: Mutex<PendingRows>,
 }
 
 #[derive(Debug, Default)]
-struct Waiting {
+struct PendingRows {
     /// Rows that are not in a file, by replicate.
     rows: BTreeMap<u64, Vec<f64>>,
     /// Why a file could not be written.
@@ -116,7 +116,7 @@ impl Spill {
         self.folder.join(format!("{}_{replicate}", self.name))
     }
 
-    fn waiting(&self) -> MutexGuard<'_, Waiting> {
+    fn waiting(&self) -> MutexGuard<'_, PendingRows> {
         self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
     }
 

@@ -1,6 +1,6 @@
 //! `summary.json`: all results of a run.
 
-use super::in_order::InOrder;
+use super::in_order::OrderedObject;
 use super::neighbours::NeighboursSummary;
 use super::spinline::SpinSummary;
 use serde::Serialize;
@@ -22,7 +22,7 @@ const SCHEMA_VERSION: u32 = 3;
 pub struct Summary<'a> {
     schema_version: u32,
     spunlaid_version: &'static str,
-    case: InOrder<InOrder<Json>>,
+    case: OrderedObject<OrderedObject<Json>>,
     /// Of a case that is fed from a spinline.
     #[serde(skip_serializing_if = "Option::is_none")]
     spinline: Option<SpinSummary>,
@@ -152,7 +152,7 @@ impl<'a> Summary<'a> {
             lost: results.lost.len(),
             lost_fibres: results.lost.iter().map(lost_summary).collect(),
             measures,
-            neighbours: NeighboursSummary::of(results),
+            neighbours: NeighboursSummary::new(results),
             step_check: checks.step.as_ref().ok().map(FinerSummary::new),
             mesh_check: checks.mesh.as_ref().ok().map(FinerSummary::new),
             performance,
@@ -197,7 +197,7 @@ fn of_mean(estimate: &Estimate) -> NumberSummary<'_> {
 
 /// The resolved case: every key, with its SI unit in the name. A key without a meaning for the case is null. If the
 /// flow is not uniform, the numbers are averages along the fibre.
-pub fn resolved(case: &Case) -> InOrder<InOrder<Json>> {
+pub fn resolved(case: &Case) -> OrderedObject<OrderedObject<Json>> {
     let table = |name: &'static str| {
         let entry = |key: &Key| {
             let unit = key.dimension().map(Dimension::suffix).unwrap_or_default();
@@ -210,18 +210,18 @@ pub fn resolved(case: &Case) -> InOrder<InOrder<Json>> {
         }
         entries
     };
-    let mut tables: Vec<(String, InOrder<Json>)> = Vec::new();
+    let mut tables: Vec<(String, OrderedObject<Json>)> = Vec::new();
     for name in keys::TABLES {
         match (name.split_once('.'), tables.last_mut()) {
             // A table within the one before it.
-            (Some((_, short)), Some((_, InOrder(entries)))) => {
+            (Some((_, short)), Some((_, OrderedObject(entries)))) => {
                 let inner = table(name).into_iter().collect();
                 entries.push((short.to_owned(), Json::Object(inner)));
             }
-            _ => tables.push((name.to_owned(), InOrder(table(name)))),
+            _ => tables.push((name.to_owned(), OrderedObject(table(name)))),
         }
     }
-    InOrder(tables)
+    OrderedObject(tables)
 }
 
 /// A value as JSON. Files are given by their names without folders.

@@ -2,7 +2,7 @@
 //! by fibre in the order of the replicates.
 
 use super::folder::Staging;
-use super::parquet::{self, Holds, Parquet};
+use super::parquet::{self, ColumnValues, Parquet};
 use super::spill::Spill;
 use crate::Failure;
 use spunlaid::ensemble::{Recorder, Sample};
@@ -127,8 +127,9 @@ impl<'a> Tables<'a> {
             recorder.samples.iter().map(|(columns, _)| columns.iter().map(|(name, _)| *name).collect());
         let laid = recorder.laid.iter().map(|_| POINT.iter().map(|(name, _)| *name).collect());
         let create = |(columns, spill): (Vec<&str>, &Spill)| {
-            let replicate = parquet::Column { name: "replicate".to_owned(), holds: Holds::Whole };
-            let number = |name: &&str| parquet::Column { name: (*name).to_owned(), holds: Holds::Number };
+            let replicate = parquet::Column { name: "replicate".to_owned(), holds: ColumnValues::Whole };
+            let number =
+                |name: &&str| parquet::Column { name: (*name).to_owned(), holds: ColumnValues::Number };
             let all: Vec<_> = std::iter::once(replicate).chain(columns.iter().map(number)).collect();
             Parquet::create(staging.place(spill.name()), &all, ROWS)
         };

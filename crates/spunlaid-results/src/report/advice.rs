@@ -134,7 +134,8 @@ impl AdviceSection {
             let key = |changed: &ChangedKey| changed.key.clone();
             let keys = effect.change.keys.iter().map(key).collect::<Vec<_>>().join(", ");
             let cv = |patch: &f64| effect.over(*patch).map_or_else(|| "–".to_owned(), per_cent);
-            let line = [effect.belt_speed[1], HOUR * effect.mass_flow[1]].map(|of| significant(of, 4));
+            let line =
+                [effect.belt_speed[1], HOUR * effect.mass_flow[1]].map(|number| significant(number, 4));
             let cells = patches.iter().map(cv).chain(line).collect();
             (more_or_less(&effect.change, spec), keys, cells)
         };

@@ -4,7 +4,7 @@ use super::methods::Methods;
 use super::rendered;
 use super::words::{metres, millimetres};
 use crate::numbers::{THIN, significant};
-use crate::output::comparison::{Compared, Comparison};
+use crate::output::comparison::{ComparedMeasure, Comparison};
 use crate::output::web::Pictures;
 use askama::Template;
 use base64::Engine;
@@ -43,7 +43,7 @@ struct ComparisonPage<'a> {
     title: String,
     tables: Vec<PairTable<'a>>,
     notes: &'a [String],
-    beside: Option<Beside<'a>>,
+    beside: Option<PicturePair<'a>>,
     figures: &'a [Figure],
     methods_paragraph: Methods,
     version: &'a str,
@@ -65,7 +65,7 @@ struct MeasureRow<'a> {
 }
 
 /// Pictures beside each other.
-struct Beside<'a> {
+struct PicturePair<'a> {
     /// Names and pictures, as base64.
     webs: Vec<(&'a str, String)>,
     /// Width over height of each.
@@ -77,7 +77,7 @@ struct Beside<'a> {
     caption: String,
 }
 
-impl<'a> Beside<'a> {
+impl<'a> PicturePair<'a> {
     fn new(webs: &'a ComparedPictures) -> Self {
         let Pictures { sides: [width, length], pixel, contrast, files } = &webs.pictures;
         let names = webs.names.iter().map(String::as_str);
@@ -107,7 +107,7 @@ fn round_length(most: f64) -> f64 {
     [5.0, 2.0].into_iter().map(|step| step * power).find(|length| *length <= most).unwrap_or(power)
 }
 
-fn row(compared: &Compared) -> MeasureRow<'_> {
+fn row(compared: &ComparedMeasure) -> MeasureRow<'_> {
     MeasureRow {
         name: &compared.label,
         unit: compared.unit,
@@ -146,8 +146,9 @@ fn method(comparison: &Comparison) -> String {
 
 /// Each difference beyond chance, in a sentence.
 fn differences(comparison: &Comparison) -> impl Iterator<Item = String> {
-    let is_beyond =
-        |measure: &&Compared| measure.difference.is_some_and(|difference| difference.is_beyond_chance());
+    let is_beyond = |measure: &&ComparedMeasure| {
+        measure.difference.is_some_and(|difference| difference.is_beyond_chance())
+    };
     comparison.measures.iter().filter(is_beyond).map(move |measure| {
         let [first, other, difference, _] = measure.cells();
         let Comparison { run, against, .. } = comparison;
@@ -180,7 +181,7 @@ pub fn comparison_html(input: &ComparisonReport<'_>) -> String {
         title,
         tables: tables.collect(),
         notes: input.notes,
-        beside: input.pictures.map(Beside::new),
+        beside: input.pictures.map(PicturePair::new),
         figures: input.figures,
         version: input.version,
     };

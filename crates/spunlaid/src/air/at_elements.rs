@@ -80,19 +80,19 @@ impl AirAtElements {
 
     /// The air before a step.
     #[inline(always)]
-    pub(super) fn now<S: Register>(&self, step: u64) -> OnTheWay<'_, S> {
-        OnTheWay { elements: &self.elements, steps: Wide::splat((step % self.every) as f64) }
+    pub(super) fn now<S: Register>(&self, step: u64) -> InstantStations<'_, S> {
+        InstantStations { elements: &self.elements, steps: Wide::splat((step % self.every) as f64) }
     }
 }
 
 /// The air at the elements at one instant.
-pub(crate) struct OnTheWay<'a, S: Register> {
+pub(crate) struct InstantStations<'a, S: Register> {
     elements: &'a [ElementAir],
     /// Steps since the last look.
     steps: Wide<S>,
 }
 
-impl<S: Register> OnTheWay<'_, S> {
+impl<S: Register> InstantStations<'_, S> {
     /// Velocity of the air at element `j` [m/s].
     #[inline(always)]
     pub(super) fn at(&self, j: usize) -> Vec3<Wide<S>> {

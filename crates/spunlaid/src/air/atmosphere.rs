@@ -9,9 +9,9 @@
 //! own: it may belong to one flight, or be a handle to what many flights read. Velocities that are all written into a buffer
 //! beforehand cost up to a seventh of a step: the signals of many eddies do not fit into the first-level cache.
 
-use super::at_elements::OnTheWay;
-use super::eddy_wind::{InEddies, LastEddy};
-use super::surroundings::InFlow;
+use super::at_elements::InstantStations;
+use super::eddy_wind::{InstantEddies, LastEddy};
+use super::surroundings::InstantFlow;
 use super::{AirInSpace, Eddies, EddyWind, Stations, Surroundings, Wind};
 use crate::error::{Error, Fault};
 use crate::lanes::{Lanes, Register, Wide};
@@ -34,9 +34,9 @@ pub enum Atmosphere {
 
 /// The velocities of the air at the elements at one instant.
 pub(crate) enum Velocities<'a, S: Register> {
-    Uniform(InEddies<'a, S>),
-    Flow(InEddies<'a, S>, InFlow<'a, S>),
-    Way(OnTheWay<'a, S>),
+    Uniform(InstantEddies<'a, S>),
+    Flow(InstantEddies<'a, S>, InstantFlow<'a, S>),
+    Way(InstantStations<'a, S>),
 }
 
 /// Gives the velocity of the air at each element.
@@ -65,21 +65,21 @@ impl<S: Register> Velocities<'_, S> {
     }
 }
 
-impl<S: Register> VelocityAt<S> for InEddies<'_, S> {
+impl<S: Register> VelocityAt<S> for InstantEddies<'_, S> {
     #[inline(always)]
     fn at(&self, j: usize, last: &mut LastEddy<S>) -> Vec3<Wide<S>> {
         self.at(j, last)
     }
 }
 
-impl<S: Register> VelocityAt<S> for (&InEddies<'_, S>, &InFlow<'_, S>) {
+impl<S: Register> VelocityAt<S> for (&InstantEddies<'_, S>, &InstantFlow<'_, S>) {
     #[inline(always)]
     fn at(&self, j: usize, last: &mut LastEddy<S>) -> Vec3<Wide<S>> {
         self.1.carried(j, self.0.at(j, last))
     }
 }
 
-impl<S: Register> VelocityAt<S> for OnTheWay<'_, S> {
+impl<S: Register> VelocityAt<S> for InstantStations<'_, S> {
     #[inline(always)]
     fn at(&self, j: usize, _: &mut LastEddy<S>) -> Vec3<Wide<S>> {
         self.at(j)

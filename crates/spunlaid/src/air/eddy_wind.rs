@@ -17,13 +17,13 @@ pub struct EddyWind {
 impl EddyWind {
     /// Looks at the wind at a time [s].
     #[inline(always)]
-    pub(super) fn look<S: Register>(&mut self, time: f64) -> InEddies<'_, S> {
-        InEddies { now: self.wind.blow(time), of_element: self.eddies.of_element() }
+    pub(super) fn look<S: Register>(&mut self, time: f64) -> InstantEddies<'_, S> {
+        InstantEddies { now: self.wind.blow(time), of_element: self.eddies.of_element() }
     }
 }
 
 /// The wind of eddies at one instant.
-pub(crate) struct InEddies<'a, S: Register> {
+pub(crate) struct InstantEddies<'a, S: Register> {
     now: EddyVelocities<'a, S>,
     /// The eddy of each element.
     of_element: &'a [u32],
@@ -40,7 +40,7 @@ impl<S: Register> LastEddy<S> {
     }
 }
 
-impl<S: Register> InEddies<'_, S> {
+impl<S: Register> InstantEddies<'_, S> {
     /// The wind at element `j`.
     #[inline(always)]
     pub(super) fn at(&self, j: usize, last: &mut LastEddy<S>) -> Vec3<Wide<S>> {

@@ -1,7 +1,7 @@
 //! How the mean flow, and the strength and size of its turbulence, change from place to place.
 
-use super::{Air, FromFile, PlacedField, Profile, Widening};
-use crate::field::{Around, Hint, Local};
+use super::{Air, FileContent, PlacedField, Profile, Widening};
+use crate::field::{AirAround, Hint, Local};
 use crate::vec3::Vec3;
 
 /// Where the mean flow comes from.
@@ -11,14 +11,14 @@ pub enum Flow {
     #[default]
     Uniform,
     /// Along x as in a table.
-    Profile(FromFile<Profile>),
+    Profile(FileContent<Profile>),
     /// In space as in a CFD solution.
     Field(PlacedField),
 }
 
 /// Which numbers of the case come from the flow instead.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct FromFlow {
+pub struct FlowNumbers {
     /// [`Air::turbulence_intensity`].
     pub turbulence_intensity: bool,
     /// [`Air::length_scale`].
@@ -58,17 +58,17 @@ impl Flow {
     }
 
     /// Which numbers the flow contains besides the velocity.
-    pub fn tells(&self) -> FromFlow {
+    pub fn tells(&self) -> FlowNumbers {
         match self {
-            Self::Uniform => FromFlow::default(),
-            Self::Profile(profile) => FromFlow {
+            Self::Uniform => FlowNumbers::default(),
+            Self::Profile(profile) => FlowNumbers {
                 turbulence_intensity: !profile.turbulence_intensity.is_empty(),
                 length_scale: !profile.length_scale.is_empty(),
                 cutoff_frequency: !profile.cutoff_frequency.is_empty(),
             },
             Self::Field(PlacedField { field, .. }) => {
                 let turbulent = field.has_turbulence();
-                FromFlow {
+                FlowNumbers {
                     turbulence_intensity: turbulent,
                     length_scale: turbulent,
                     cutoff_frequency: turbulent,
@@ -129,33 +129,33 @@ impl Air {
     /// rms of the fluctuation [m/s].
     ///
     /// * `hint` – as of [`Air::local`]
-    pub(super) fn around(&self, at: Vec3<f64>, hint: &mut Hint) -> Around {
+    pub(super) fn around(&self, at: Vec3<f64>, hint: &mut Hint) -> AirAround {
         match &self.flow {
             Flow::Uniform | Flow::Profile(_) => self.around_in_profile(at, hint),
             Flow::Field(placed) => {
                 let mut around = placed.around(at, hint);
                 let [u, v, w, root_k] = around.value.map(|value| value * self.speed_factor);
-                around.gradients = around.gradients.map(|of| of.map(|change| change * self.speed_factor));
+                around.gradients =
+                    around.gradients.map(|gradient| gradient.map(|change| change * self.speed_factor));
                 let rms_per_root = (2.0_f64 / 3.0).sqrt();
                 let rms = if self.from_flow.turbulence_intensity {
-                    around.gradients.iter_mut().for_each(|of| of[3] *= rms_per_root);
+                    around.gradients.iter_mut().for_each(|gradient| gradient[3] *= rms_per_root);
                     rms_per_root * root_k
                 } else {
                     let speed = Vec3::new(u, v, w).norm();
                     let per_speed = if speed > 0.0 { self.turbulence_intensity / speed } else { 0.0 };
-                    around
-                        .gradients
-                        .iter_mut()
-                        .for_each(|of| of[3] = per_speed * (u * of[0] + v * of[1] + w * of[2]));
+                    around.gradients.iter_mut().for_each(|gradient| {
+                        gradient[3] = per_speed * (u * gradient[0] + v * gradient[1] + w * gradient[2])
+                    });
                     self.turbulence_intensity * speed
                 };
-                Around { value: [u, v, w, rms], ..around }
+                AirAround { value: [u, v, w, rms], ..around }
             }
         }
     }
 
     /// In a profile the air changes along x only, apart from the velocity with which it widens. The gradient is that between two points near by.
-    fn around_in_profile(&self, at: Vec3<f64>, hint: &mut Hint) -> Around {
+    fn around_in_profile(&self, at: Vec3<f64>, hint: &mut Hint) -> AirAround {
         let mut value = |x: f64| {
             let LocalAir { velocity, rms, inside, .. } = self.local(Vec3::new(x, at.y, at.z), hint);
             ([velocity.x, velocity.y, velocity.z, rms], inside)
@@ -176,7 +176,7 @@ impl Air {
             // Between two rows the rate is the same for all x.
             (gradients[0][1], gradients[1][1]) = (0.0, rate);
         }
-        Around { value: here, gradients, reach, inside }
+        AirAround { value: here, gradients, reach, inside }
     }
 
     /// The largest mean speed along a straight fibre, with six standard deviations of the turbulence there [m/s].
@@ -226,7 +226,7 @@ impl Air {
             let across = [0.671_043_606_703_789_2, 0.549_700_477_901_967_3];
             let [y, z] = across.map(|ratio| 0.2 * length * (share(i, ratio) - 0.5));
             let at = along * share(i, 0.819_172_513_396_164_5) + Vec3::new(0.0, y, z);
-            let Around { mut gradients, inside, reach, .. } = self.around(at, &mut hint);
+            let AirAround { mut gradients, inside, reach, .. } = self.around(at, &mut hint);
             if reach == 0.0 {
                 // The field is too rough for gradients, so the change over a short way is taken.
                 let h = 1e-4 * length;
@@ -236,7 +236,8 @@ impl Air {
                     std::array::from_fn(|i| (after[i] - before[i]) / (2.0 * h))
                 });
             }
-            let squares: f64 = gradients.iter().flat_map(|of| &of[..3]).map(|change| change * change).sum();
+            let squares: f64 =
+                gradients.iter().flat_map(|gradient| &gradient[..3]).map(|change| change * change).sum();
             if inside { squares.sqrt() } else { 0.0 }
         };
         (0..PLACES).map(gradient).fold(0.0, f64::max)
@@ -309,7 +310,9 @@ impl Air {
             return;
         }
         let local = self.sampled(along);
-        let mean = |of: &dyn Fn(&LocalAir) -> f64| local.iter().map(of).sum::<f64>() / local.len() as f64;
+        let mean = |quantity: &dyn Fn(&LocalAir) -> f64| {
+            local.iter().map(quantity).sum::<f64>() / local.len() as f64
+        };
         let speed = mean(&|air| air.velocity.norm());
         self.velocity = if mean(&|air| air.velocity.x) < 0.0 { -speed } else { speed };
         if self.from_flow.turbulence_intensity && speed > 0.0 {

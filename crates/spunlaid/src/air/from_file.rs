@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The content of a file, read once and shared by all fibres that fly in it.
-pub struct FromFile<T> {
+pub struct FileContent<T> {
     path: PathBuf,
     checksum: u32,
     /// Further files that this one names, relative to its folder.
@@ -14,7 +14,7 @@ pub struct FromFile<T> {
     content: Arc<T>,
 }
 
-impl<T> FromFile<T> {
+impl<T> FileContent<T> {
     /// The content of the file at `path`; `checksum` tells this content from another.
     pub fn new(path: PathBuf, checksum: u32, content: Arc<T>) -> Self {
         Self { path, checksum, parts: Arc::default(), content }
@@ -59,13 +59,13 @@ impl<T> FromFile<T> {
 }
 
 // A derived implementation would require `T: Clone`.
-impl<T> Clone for FromFile<T> {
+impl<T> Clone for FileContent<T> {
     fn clone(&self) -> Self {
         self.moved_to(self.path.clone())
     }
 }
 
-impl<T> Deref for FromFile<T> {
+impl<T> Deref for FileContent<T> {
     type Target = T;
 
     fn deref(&self) -> &T {
@@ -74,14 +74,14 @@ impl<T> Deref for FromFile<T> {
 }
 
 /// Compares the contents; the folder of the file does not matter.
-impl<T> PartialEq for FromFile<T> {
+impl<T> PartialEq for FileContent<T> {
     fn eq(&self, other: &Self) -> bool {
         self.checksum == other.checksum && self.path.file_name() == other.path.file_name()
     }
 }
 
 /// Name and checksum stand for the content.
-impl<T> fmt::Debug for FromFile<T> {
+impl<T> fmt::Debug for FileContent<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let name = self.path.file_name().unwrap_or_default().to_string_lossy();
         write!(f, "{name}#{:08x}", self.checksum)

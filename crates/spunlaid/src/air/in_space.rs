@@ -5,7 +5,7 @@
 //! MeanAlong, or Surroundings in a CFD field → mean velocity and rms there → the velocity
 //! ```
 
-use super::at_elements::{AirAtElements, OnTheWay};
+use super::at_elements::{AirAtElements, InstantStations};
 use super::eddy_field::EddyFields;
 use super::{Air, EddyField, Surroundings};
 use crate::company::PerLane;
@@ -24,7 +24,7 @@ const PIECES: usize = 1024;
 pub struct AirInSpace {
     fields: PerLane<Field>,
     places: PerLane<Place>,
-    means: PerLane<MeanAlong>,
+    means: PerLane<WayFlow>,
     elements: AirAtElements,
     /// The mean flow and the rms in a CFD field.
     surroundings: Option<Surroundings>,
@@ -40,13 +40,13 @@ struct Field {
 
 /// Mean flow and rms along the way.
 #[derive(Clone, Debug)]
-struct MeanAlong {
+struct WayFlow {
     per_length: f64,
     /// At the ends of the pieces: velocity along x [m/s], change of the velocity along y with y [1/s], rms [m/s].
     ends: Arc<Vec<[f64; 3]>>,
 }
 
-impl MeanAlong {
+impl WayFlow {
     /// * `distance` – to the end of the way [m]
     fn new(air: &Air, distance: f64) -> Self {
         let mut hint = Hint::default();
@@ -76,8 +76,8 @@ impl AirInSpace {
         every: u64,
     ) -> Self {
         let fields: Vec<&Arc<EddyField>> = lanes.iter().map(|(_, _, field, _)| field).collect();
-        let (mut lane, mut last) = (0, None::<(Arc<EddyField>, MeanAlong)>);
-        let in_field = lanes.of(0).0.flow.is_field();
+        let (mut lane, mut last) = (0, None::<(Arc<EddyField>, WayFlow)>);
+        let in_field = lanes.lane(0).0.flow.is_field();
         Self {
             fields: lanes.map(|(_, _, field, _)| {
                 let same_as = fields.iter().position(|other| Arc::ptr_eq(other, field)).unwrap_or(lane);
@@ -86,8 +86,9 @@ impl AirInSpace {
             }),
             places: lanes.map(|(_, place, _, _)| *place),
             means: lanes.map(|(air, _, field, distance)| {
-                let known = last.take().filter(|(of, _)| of.has_air_of(field)).map(|(_, means)| means);
-                let means = known.unwrap_or_else(|| MeanAlong::new(air, *distance));
+                let known =
+                    last.take().filter(|(before, _)| before.has_air_of(field)).map(|(_, means)| means);
+                let means = known.unwrap_or_else(|| WayFlow::new(air, *distance));
                 last = Some((Arc::clone(field), means.clone()));
                 means
             }),
@@ -110,7 +111,7 @@ impl AirInSpace {
 
     /// Lets go of what has been made of the fields, so that their owners can forget it.
     pub(crate) fn release(&mut self) {
-        let unmade = Arc::new(self.fields.of(0).field.unmade());
+        let unmade = Arc::new(self.fields.lane(0).field.unmade());
         self.give(&unmade);
     }
 
@@ -150,7 +151,7 @@ impl AirInSpace {
         step: u64,
         t: f64,
         position: &[Vec3<Lanes>],
-    ) -> OnTheWay<'_, S> {
+    ) -> InstantStations<'_, S> {
         if self.elements.is_look_due(step) {
             self.make_for(t);
             S::ISA.run(Look { air: self, t, position });
@@ -184,8 +185,8 @@ impl AirInSpace {
         }
         let per_step = self.elements.per_step();
         let half = Wide::<S>::splat(0.5);
-        let fields = EddyFields::new(from_fn(|lane| &*self.fields.of(lane).field));
-        let means: [&MeanAlong; WIDTH] = from_fn(|lane| self.means.of(lane));
+        let fields = EddyFields::new(from_fn(|lane| &*self.fields.lane(lane).field));
+        let means: [&WayFlow; WIDTH] = from_fn(|lane| self.means.lane(lane));
         let places =
             Vec3::new(Lanes::ZERO, self.places.lanes(|place| place.y), self.places.lanes(|place| place.z));
         for (j, (ends, element)) in position.windows(2).zip(self.elements.each()).enumerate() {

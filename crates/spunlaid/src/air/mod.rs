@@ -36,8 +36,8 @@ pub use eddy_field::{EddyField, Extent};
 pub use eddy_turbulence::EddyTurbulence;
 pub use eddy_wind::EddyWind;
 pub(crate) use eddy_wind::LastEddy;
-pub use flow::{Flow, FromFlow, LocalAir};
-pub use from_file::FromFile;
+pub use flow::{Flow, FlowNumbers, LocalAir};
+pub use from_file::FileContent;
 pub use in_space::AirInSpace;
 pub use lateral::{Lateral, Widening};
 pub use measured::{APART, Measured, RecordLayout, RecordNumbers};
@@ -73,7 +73,7 @@ pub struct Air {
     /// How the mean flow varies from place to place.
     pub flow: Flow,
     /// Which of the numbers above come from the flow.
-    pub from_flow: FromFlow,
+    pub from_flow: FlowNumbers,
     /// Factor on all velocities of a flow that is not uniform [-].
     pub speed_factor: f64,
     /// How the energy of the turbulence spreads over frequency.
@@ -85,7 +85,7 @@ pub struct Air {
     /// Where the mean flow of a profile widens as it slows.
     pub widening: Widening,
     /// Records of the fluctuation, one for all eddies or one for each; empty if the fluctuation is synthesised.
-    pub records: Vec<FromFile<Measured>>,
+    pub records: Vec<FileContent<Measured>>,
 }
 
 impl Air {
@@ -113,7 +113,7 @@ impl Air {
             kinematic_viscosity: 1.51e-5,
             harmonics: 0,
             flow: Flow::Uniform,
-            from_flow: FromFlow::default(),
+            from_flow: FlowNumbers::default(),
             speed_factor: 1.0,
             spectrum: SpectrumShape::Flat,
             eddies: EddyModel::Independent,
@@ -127,24 +127,24 @@ impl Air {
 
     /// The files that the air was read from, each with the parts that it names, relative to its folder.
     pub fn files(&self) -> Vec<(&Path, &[PathBuf])> {
-        fn of<T>(file: &FromFile<T>) -> (&Path, &[PathBuf]) {
+        fn paths<T>(file: &FileContent<T>) -> (&Path, &[PathBuf]) {
             (file.path(), file.parts())
         }
-        let mut files: Vec<_> = self.records.iter().map(of).collect();
+        let mut files: Vec<_> = self.records.iter().map(paths).collect();
         match &self.flow {
             Flow::Uniform => {}
-            Flow::Profile(profile) => files.push(of(profile)),
-            Flow::Field(placed) => files.push(of(&placed.field)),
+            Flow::Profile(profile) => files.push(paths(profile)),
+            Flow::Field(placed) => files.push(paths(&placed.field)),
         }
         if let SpectrumShape::Measured(table) = &self.spectrum {
-            files.push(of(table));
+            files.push(paths(table));
         }
         files
     }
 
     /// The same air with its files at other paths.
     pub fn with_files_at(&self, place: impl Fn(&Path) -> PathBuf) -> Self {
-        fn moved<T>(file: &FromFile<T>, place: impl Fn(&Path) -> PathBuf) -> FromFile<T> {
+        fn moved<T>(file: &FileContent<T>, place: impl Fn(&Path) -> PathBuf) -> FileContent<T> {
             file.moved_to(place(file.path()))
         }
         let mut air = self.clone();

@@ -1,7 +1,7 @@
 //! A CFD field, and where the fibre hangs in it.
 
-use super::FromFile;
-use crate::field::{Around, Field, Hint, Local};
+use super::FileContent;
+use crate::field::{AirAround, Field, Hint, Local};
 use crate::vec3::Vec3;
 
 /// A direction along an axis of a field, forwards or backwards.
@@ -63,7 +63,7 @@ impl Axis {
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedField {
     /// The field.
-    pub field: FromFile<Field>,
+    pub field: FileContent<Field>,
     /// Position of the fibre's root in the field [m].
     pub root: Vec3<f64>,
     /// The direction of the field that is the fibre's x, along gravity.
@@ -102,9 +102,9 @@ impl PlacedField {
     }
 
     /// The air around a place of the fibre's frame [m], linear in space, in that frame.
-    pub(super) fn around(&self, at: Vec3<f64>, hint: &mut Hint) -> Around {
+    pub(super) fn around(&self, at: Vec3<f64>, hint: &mut Hint) -> AirAround {
         let place = (self.root + self.axis.to_field(at)) * (1.0 / self.unit);
-        let Around { value, gradients, reach, inside } = self.field.around(place, hint);
+        let AirAround { value, gradients, reach, inside } = self.field.around(place, hint);
         let turned = |[u, v, w, root_k]: [f64; 4]| {
             let v = self.axis.to_fibre(Vec3::new(u, v, w));
             [v.x, v.y, v.z, root_k]
@@ -115,7 +115,7 @@ impl PlacedField {
             turned(std::array::from_fn(|i| way.x * x[i] + way.y * y[i] + way.z * z[i]))
         };
         let axes = [Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0), Vec3::new(0.0, 0.0, 1.0)];
-        Around { value: turned(value), gradients: axes.map(along), reach: reach * self.unit, inside }
+        AirAround { value: turned(value), gradients: axes.map(along), reach: reach * self.unit, inside }
     }
 
     /// Upper limit for the length of an eddy: the diagonal of the field's box [m].

@@ -1,6 +1,6 @@
 //! Energy spectra of the velocity fluctuation.
 
-use super::FromFile;
+use super::FileContent;
 use std::f64::consts::PI;
 
 /// How the energy of the fluctuation spreads over frequency. The variance is the same whatever the shape.
@@ -13,7 +13,7 @@ pub enum SpectrumShape {
     /// theory.md (46)
     VonKarman,
     /// As measured, up to the cut-off.
-    Measured(FromFile<SpectrumTable>),
+    Measured(FileContent<SpectrumTable>),
 }
 
 impl SpectrumShape {

@@ -7,7 +7,7 @@
 //! A fed element does not stay with an eddy: it feels the air of the place where it is. Between two stations the signal
 //! is interpolated with weights that keep its variance.                                           theory.md (64)
 
-use super::at_elements::{AirAtElements, OnTheWay};
+use super::at_elements::{AirAtElements, InstantStations};
 use super::{Air, Eddies, EddyModel, EddyTurbulence, Flow, Surroundings, Widening, Wind};
 use crate::company::{PerLane, shared};
 use crate::fibre::Place;
@@ -71,7 +71,7 @@ impl Air {
     /// The turbulence at each station; its mean is zero. In a uniform flow it has the flow's rms, otherwise rms one.
     pub fn turbulence_at(&self, grid: &StationGrid) -> Vec<EddyTurbulence> {
         let mut turbulence = self.turbulence_along(grid.along(), grid.count, &grid.eddies());
-        turbulence.iter_mut().for_each(|of| of.mean = 0.0);
+        turbulence.iter_mut().for_each(|eddy| eddy.mean = 0.0);
         turbulence
     }
 
@@ -81,7 +81,7 @@ impl Air {
         let (mut common, mut own) = (0.0, (0.0, 0.0));
         let spacing = std::f64::consts::TAU / self.repeat_time();
         for component in 0..3 {
-            let amplitudes = [upper, lower].map(|of| of.spectrum(self, component).amplitudes());
+            let amplitudes = [upper, lower].map(|end| end.spectrum(self, component).amplitudes());
             for (n, (a, b)) in amplitudes[0].iter().zip(&amplitudes[1]).enumerate() {
                 common += a * b * libm::cos((n as f64 + 0.5) * spacing * time);
             }
@@ -105,7 +105,7 @@ shared! {
 
 impl Way {
     /// * `every` – steps from one look to the next
-    pub(crate) fn of(air: &Air, grid: &StationGrid, every: u64) -> Self {
+    pub(crate) fn from_air(air: &Air, grid: &StationGrid, every: u64) -> Self {
         Self {
             stations: grid.count,
             every: every.max(1),
@@ -222,7 +222,7 @@ impl Stations {
         t: f64,
         wind: &mut Wind,
         position: &[Vec3<Lanes>],
-    ) -> OnTheWay<'_, S> {
+    ) -> InstantStations<'_, S> {
         if self.elements.is_look_due(step) {
             S::ISA.run(Look { stations: self, t, wind, position });
         }
@@ -328,7 +328,7 @@ pub(crate) fn time_between_looks(air: &Air, feed_speed: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::{Hint, PerLane, Place, StationGrid, Stations, Way};
-    use crate::air::{Air, EddyModel, Flow, FromFile, Profile, Stream, StreamKey, Widening, Wind};
+    use crate::air::{Air, EddyModel, FileContent, Flow, Profile, Stream, StreamKey, Widening, Wind};
     use crate::air::{Atmosphere, Instant, Velocities};
     use crate::lanes::{Isa, Lanes, Plain, WIDTH};
     use crate::vec3::Vec3;
@@ -343,14 +343,14 @@ mod tests {
     const APART: f64 = 0.0107;
 
     /// Fluctuations that elements along the way feel, in eight lanes.
-    struct Felt {
+    struct Fluctuations {
         grid: StationGrid,
         air: Atmosphere,
         position: Vec<Vec3<Lanes>>,
         looks: u64,
     }
 
-    impl Felt {
+    impl Fluctuations {
         fn new(eddies: EddyModel) -> Self {
             let air = Air { eddies, harmonics: 64, ..Air::uniform(SPEED, 0.1, 16e-3, 940.0) };
             let grid = air.stations(0.5);
@@ -368,7 +368,7 @@ mod tests {
                 .collect();
             let lanes = PerLane::new(vec![(air.clone(), grid)]).unwrap();
             let middle = PerLane::new(vec![Place::default()]).unwrap();
-            let stations = Stations::new(Way::of(&air, &grid, 1), &lanes, &middle, position.len() - 1);
+            let stations = Stations::new(Way::from_air(&air, &grid, 1), &lanes, &middle, position.len() - 1);
             Self { grid, air: Atmosphere::Way(wind, stations), position, looks: 0 }
         }
 
@@ -396,7 +396,7 @@ mod tests {
     #[test]
     fn invariant_the_variance_between_stations_is_that_of_the_stations() {
         for eddies in [EddyModel::Independent, EddyModel::Convected { decay_time: DECAY }] {
-            let mut felt = Felt::new(eddies);
+            let mut felt = Fluctuations::new(eddies);
             let (mut sums, mut count) = ([0.0; QUARTERS], 0.0);
             for i in 0..INSTANTS {
                 let values = felt.at(i as f64 * APART);
@@ -426,7 +426,7 @@ mod tests {
 
     #[test]
     fn analytic_a_carried_pattern_forgets_itself_with_its_decay_time() {
-        let mut felt = Felt::new(EddyModel::Convected { decay_time: DECAY });
+        let mut felt = Fluctuations::new(EddyModel::Convected { decay_time: DECAY });
         for share in [0.2, 0.5, 1.0] {
             let lag = (share * DECAY * SPEED / felt.grid.spacing).round() as usize;
             let later = lag as f64 * felt.grid.spacing / SPEED;
@@ -449,7 +449,7 @@ mod tests {
     #[test]
     fn analytic_fed_fibres_feel_the_widening_of_a_profile() {
         let rows = Profile { x: vec![0.0, 0.5], velocity: vec![60.0, 10.0], ..Profile::default() };
-        let flow = Flow::Profile(FromFile::new("profile.csv".into(), 1, Arc::new(rows)));
+        let flow = Flow::Profile(FileContent::new("profile.csv".into(), 1, Arc::new(rows)));
         for widening in Widening::ALL {
             let eddies = EddyModel::Convected { decay_time: DECAY };
             let air = Air { flow: flow.clone(), widening, eddies, ..Air::uniform(SPEED, 0.0, 16e-3, 940.0) };
@@ -464,7 +464,7 @@ mod tests {
             let position: Vec<_> = (1..25)
                 .map(|j| Vec3::splat(Vec3::new(0.02 * f64::from(j), 1e-3 * f64::from(j), 2e-3)))
                 .collect();
-            let stations = Stations::new(Way::of(&air, &grid, 1), &lanes, &places, position.len() - 1);
+            let stations = Stations::new(Way::from_air(&air, &grid, 1), &lanes, &places, position.len() - 1);
             let mut air_at_fibre = Atmosphere::Way(wind, stations);
             let now = Instant { step: 0, time: 0.0 };
             let Velocities::Way(velocities) = air_at_fibre.look::<Plain>(now, &position) else {

@@ -4,7 +4,7 @@ use super::Air;
 use crate::company::PerLane;
 use crate::error::Error;
 use crate::fibre::Place as RootPlace;
-use crate::field::{Around, Hint};
+use crate::field::{AirAround, Hint};
 use crate::lanes::{Lanes, Register, Task, WIDTH, Wide};
 use crate::nodes::Nodes;
 use crate::vec3::Vec3;
@@ -23,7 +23,7 @@ struct Place {
 
 /// The air around an element of eight fibres, linear in space. It is used until the element has moved too far.
 #[derive(Clone, Copy, Debug)]
-struct Nearby {
+struct LinearAir {
     /// Where the element was [m].
     at: Vec3<Lanes>,
     /// How far it may move along each axis [m].
@@ -37,7 +37,7 @@ struct Nearby {
 }
 
 /// Nothing is known of the air yet.
-const UNKNOWN: Nearby = Nearby {
+const UNKNOWN: LinearAir = LinearAir {
     at: Vec3::new(Lanes::ZERO, Lanes::ZERO, Lanes::ZERO),
     reach: Lanes::splat(-1.0),
     value: [Lanes::ZERO; 4],
@@ -50,7 +50,7 @@ const UNKNOWN: Nearby = Nearby {
 pub struct Surroundings {
     airs: PerLane<(Air, RootPlace)>,
     places: Nodes<Place>,
-    nearby: Nodes<Nearby>,
+    nearby: Nodes<LinearAir>,
     /// Where each fibre's element was found last.
     hints: Nodes<[Hint; WIDTH]>,
     /// Steps from one look to the next.
@@ -121,12 +121,12 @@ impl Surroundings {
 
     /// Looks at the flow at the elements before a step.
     #[inline(always)]
-    pub(super) fn look<S: Register>(&mut self, step: u64, position: &[Vec3<Lanes>]) -> InFlow<'_, S> {
+    pub(super) fn look<S: Register>(&mut self, step: u64, position: &[Vec3<Lanes>]) -> InstantFlow<'_, S> {
         let since = step % self.every;
         if since == 0 {
             S::ISA.run(Look { surroundings: self, position });
         }
-        InFlow { places: &self.places, steps: Wide::splat(since as f64) }
+        InstantFlow { places: &self.places, steps: Wide::splat(since as f64) }
     }
 
     /// Looks up the flow at the elements.
@@ -168,9 +168,9 @@ impl Surroundings {
         let (nearby, hints) = (&mut self.nearby[element], &mut self.hints[element]);
         for (lane, hint) in hints.iter_mut().enumerate().filter(|(lane, _)| beyond.0[*lane] > 0.0) {
             let at = centre.lane(lane);
-            let (air, root) = self.airs.of(lane);
+            let (air, root) = self.airs.lane(lane);
             let in_slot = Vec3::new(at.x, at.y + root.y, at.z);
-            let Around { value, gradients, reach, inside } = air.around(in_slot, hint);
+            let AirAround { value, gradients, reach, inside } = air.around(in_slot, hint);
             nearby.at.set_lane(lane, at);
             nearby.reach.0[lane] = reach;
             nearby.outside.0[lane] = if inside { 0.0 } else { 1.0 };
@@ -198,13 +198,13 @@ impl Task for Look<'_> {
 }
 
 /// The flow at the elements at one instant.
-pub(crate) struct InFlow<'a, S: Register> {
+pub(crate) struct InstantFlow<'a, S: Register> {
     places: &'a [Place],
     /// Steps since the last look.
     steps: Wide<S>,
 }
 
-impl<S: Register> InFlow<'_, S> {
+impl<S: Register> InstantFlow<'_, S> {
     /// Velocity of the air at element `j` [m/s], where the flow carries an eddy with this signal of mean zero and rms one.
     #[inline(always)]
     pub(super) fn carried(&self, j: usize, signal: Vec3<Wide<S>>) -> Vec3<Wide<S>> {

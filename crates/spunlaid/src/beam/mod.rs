@@ -27,7 +27,8 @@ use crate::flight::LaidPoint;
 use crate::lanes::Isa;
 use crate::threads::try_each;
 use crate::web::{
-    Canvas, LaidWeb, NeighbourCorrelation, SharedVariance, Sheet, Spent, Strand, Together, Window,
+    Canvas, LaidWeb, NeighbourCorrelation, SharedAirFindings, SharedVariance, Sheet, Strand, TimeSpent,
+    Window,
 };
 use air::SharedField;
 use filament::{Reach, Stretch};
@@ -82,7 +83,7 @@ pub struct Flying<'a> {
 
 /// What the filaments of a beam have done besides laying the sheet.
 #[derive(Debug, Default)]
-pub struct Flown {
+pub struct BeamFindings {
     /// All points that some filaments have laid, from the start on, with their numbers across the web.
     pub kept: Vec<(usize, Vec<LaidPoint>)>,
     /// The parts of all filaments in a window of the sheet.
@@ -96,7 +97,7 @@ pub struct Flown {
     /// Time that was flown [s].
     pub time: f64,
     /// What it took.
-    pub spent: Spent,
+    pub spent: TimeSpent,
 }
 
 impl Beam<'_> {
@@ -116,7 +117,12 @@ impl Beam<'_> {
     /// # Errors
     /// A filament that is not fed, one whose flight cannot be made, too many lost ones, an interruption, and a cell that would hold
     /// more fibre than can be counted.
-    pub fn lay(&self, sheet: &Sheet, window: Window, by: Flying<'_>) -> Result<(LaidWeb, Flown), Error> {
+    pub fn lay(
+        &self,
+        sheet: &Sheet,
+        window: Window,
+        by: Flying<'_>,
+    ) -> Result<(LaidWeb, BeamFindings), Error> {
         let element = self.element_mass();
         let canvas = Canvas::new(sheet, &[element], self.basis_weight(sheet))?;
         let mut flown = self.fly((sheet, window), (&canvas, canvas.quanta(element)), by)?;
@@ -148,11 +154,11 @@ impl Beam<'_> {
         (sheet, window): (&Sheet, Window),
         (canvas, quanta): (&Canvas, u32),
         by: Flying<'_>,
-    ) -> Result<Flown, Error> {
+    ) -> Result<BeamFindings, Error> {
         let started = Instant::now();
         let line = self.case.line.filter(|line| line.belt_speed > 0.0);
         let line = line.ok_or_else(|| Fault::plain("the fibre of the case is not laid on a moving belt"))?;
-        let (mut spent, mut making) = (Spent::default(), Duration::ZERO);
+        let (mut spent, mut making) = (TimeSpent::default(), Duration::ZERO);
         let mut shared = SharedField::new(self, sheet, by.threads);
         let block = shared.as_ref().map_or(BLOCK, SharedField::block);
         let steps = (block / self.case.run.time_step).ceil().max(1.0) as u64;
@@ -197,11 +203,11 @@ impl Beam<'_> {
             together.add();
             stretch.settle(&reach);
         }
-        let mut flown = Flown {
+        let mut flown = BeamFindings {
             neighbours: together.correlations(),
             pairs: together.variances(self, sheet, by.threads),
             time: done as f64 * self.case.run.time_step,
-            ..Flown::default()
+            ..BeamFindings::default()
         };
         for pack in packs {
             let pack = pack.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -213,7 +219,7 @@ impl Beam<'_> {
         }
         spent.in_parallel += making;
         spent.whole = started.elapsed();
-        Ok(Flown { spent, ..flown })
+        Ok(BeamFindings { spent, ..flown })
     }
 
     /// Whether the curve of a filament is kept.
@@ -231,11 +237,11 @@ impl Beam<'_> {
     }
 }
 
-impl Flown {
+impl BeamFindings {
     /// What is to be known of the web; its single fibres are taken.
-    pub(crate) fn together(&mut self) -> Together {
+    pub(crate) fn together(&mut self) -> SharedAirFindings {
         let Self { strands, neighbours, pairs, lost, time, spent, .. } = self;
-        Together {
+        SharedAirFindings {
             strands: std::mem::take(strands),
             neighbours: neighbours.clone(),
             pairs: pairs.clone(),
@@ -269,7 +275,7 @@ fn air_during(
 }
 
 /// The error of filaments so many of which are lost that what is left is no web.
-fn too_many_lost(flown: Flown, filaments: usize) -> Error {
+fn too_many_lost(flown: BeamFindings, filaments: usize) -> Error {
     let count = flown.lost.len();
     match flown.lost.into_iter().next() {
         Some((_, reason)) => Error::Flight(Fault::plain(format!(

@@ -2,11 +2,11 @@
 
 use super::filament::{Filament, Reach, Stretch};
 use super::neighbours::Neighbours;
-use super::{Beam, Flown};
+use super::{Beam, BeamFindings};
 use crate::air::EddyField;
 use crate::error::Error;
 use crate::fibre::Place;
-use crate::flight::{AirOf, Flight, Job};
+use crate::flight::{Flight, Job, SurroundingRun};
 use crate::lanes::{Isa, WIDTH};
 use crate::web::Canvas;
 use std::sync::Arc;
@@ -47,7 +47,7 @@ impl Pack {
         };
         let jobs: Vec<Job<'_>> = numbers.iter().map(job).collect();
         let filament = |number: &usize| Filament::new(*number, beam.places[*number], beam.keeps(*number));
-        let flight = Flight::in_air(&jobs, isa, AirOf { field, ..AirOf::run(beam.case) })?;
+        let flight = Flight::in_air(&jobs, isa, SurroundingRun { field, ..SurroundingRun::run(beam.case) })?;
         Ok(Self { flight, filaments: numbers.iter().map(filament).collect() })
     }
 
@@ -102,7 +102,7 @@ impl Pack {
     }
 
     /// Hands over what its filaments have done.
-    pub(super) fn finish(self, flown: &mut Flown) {
+    pub(super) fn finish(self, flown: &mut BeamFindings) {
         for filament in self.filaments {
             let Filament { number, kept, strands, lost, .. } = filament;
             flown.strands.extend(strands);

@@ -182,7 +182,7 @@ impl Pairs {
                 // A filament that is fed elsewhere along the belt comes down elsewhere.
                 let offset =
                     [z + means[other][1] - means[alive[i]][1], y + means[other][0] - means[alive[i]][0]];
-                let pair = OnTheBelt { offset, variance: covariances[0][0], covariances: near, lag };
+                let pair = BeltPair { offset, variance: covariances[0][0], covariances: near, lag };
                 sums.iter_mut().zip(&sheet.patches).for_each(|(sum, patch)| *sum += pair.overlap(*patch));
             }
             sums
@@ -229,7 +229,7 @@ impl Pairs {
 }
 
 /// Two filaments whose places on the belt are jointly normal.
-struct OnTheBelt {
+struct BeltPair {
     /// Mean distance of what they lay at the same time, along z and along y [m].
     offset: [f64; 2],
     /// Of the places of each, in machine and in cross direction [m²].
@@ -239,7 +239,7 @@ struct OnTheBelt {
     lag: f64,
 }
 
-impl OnTheBelt {
+impl BeltPair {
     /// `∫ dv [T(v + y, 2σ₁²(1 − C₁)) T(z, 2σ₂²(1 − C₂)) − T(v + y, 2σ₁²) T(z, 2σ₂²)]` over the belt v that passes between the two, with
     /// [`overlap`] T.
     fn overlap(&self, side: f64) -> f64 {

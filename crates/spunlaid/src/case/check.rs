@@ -6,7 +6,7 @@ use super::memory::FLIGHT_MEMORY_LIMIT;
 use super::neighbours::without_shared_air;
 use super::note::Note;
 use super::{Case, FEEDING, StepLimit};
-use crate::air::{FromFile, Lateral, Measured};
+use crate::air::{FileContent, Lateral, Measured};
 use crate::chain::schemes::Scheme;
 use crate::error::{self, Fault, Finding, Place, Problem};
 use crate::fibre::Root;
@@ -156,7 +156,7 @@ impl Check<'_> {
                 return;
             }
         }
-        for (quantity, of, what, value) in [
+        for (quantity, key, what, value) in [
             (
                 "air.kinematic_viscosity",
                 self.case.air.kinematic_viscosity,
@@ -189,7 +189,7 @@ impl Check<'_> {
             ),
         ] {
             if !value.is_finite() {
-                self.blame(quantity, of, Fault::degenerate(what, value));
+                self.blame(quantity, key, Fault::degenerate(what, value));
                 return;
             }
         }
@@ -327,7 +327,7 @@ impl Check<'_> {
         let duration = self.case.run.duration() + self.case.run.time_step + delay;
         let sharing = if records == 1 && !convected { eddies.count() } else { 1 };
         let stretches = (sharing * shared.stretches_each()) as f64;
-        let records: Vec<FromFile<Measured>> = self.case.air.records.clone();
+        let records: Vec<FileContent<Measured>> = self.case.air.records.clone();
         for record in records.iter().filter(|record| record.stretches(duration) < stretches) {
             let [each, all] = [
                 Dimension::Time.pretty(duration),

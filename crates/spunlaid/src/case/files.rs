@@ -1,7 +1,7 @@
 //! The files that a case names.
 
 use super::Case;
-use crate::air::FromFile;
+use crate::air::FileContent;
 use crate::spinline::{PolymerSource, SpinSpec, Spinline, Surroundings};
 use std::path::{Path, PathBuf};
 
@@ -47,7 +47,7 @@ impl Spinline {
 
     /// The same spinline with its files at other paths.
     pub fn with_files_at(&self, place: impl Fn(&Path) -> PathBuf) -> Self {
-        fn moved<T>(file: &mut FromFile<T>, place: impl Fn(&Path) -> PathBuf) {
+        fn moved<T>(file: &mut FileContent<T>, place: impl Fn(&Path) -> PathBuf) {
             *file = file.moved_to(place(file.path()));
         }
         let mut spinline = self.clone();

@@ -10,7 +10,7 @@ use crate::company::PerLane;
 use crate::drag::{DragLanes, ElementDrag};
 use crate::fibre::Root;
 use crate::lanes::Lanes;
-use crate::nodes::Along;
+use crate::nodes::ChainValues;
 use crate::vec3::Vec3;
 
 /// Properties of one element of a fibre.
@@ -32,15 +32,15 @@ pub(crate) struct ElementProperties {
 #[derive(Clone, Debug)]
 pub(crate) struct Constants {
     /// Of each element.
-    pub(crate) elements: Along<ElementConstants>,
+    pub(crate) elements: ChainValues<ElementConstants>,
     /// The root. It does not move if it is held.
     pub(crate) root: Node,
     /// Of each node as one between two elements.
-    pub(crate) nodes: Along<Node>,
+    pub(crate) nodes: ChainValues<Node>,
     /// The nodes that differ from the others, from the end upwards: the free end, and those on the belt.
     pub(crate) tail: Vec<Node>,
     /// Of each node as one between two elements, theory.md (12).
-    pub(crate) bending_stiffness: Along<Lanes>,
+    pub(crate) bending_stiffness: ChainValues<Lanes>,
     /// Of the root, and of the node below it.
     pub(crate) root_stiffness: Lanes,
     pub(crate) second_stiffness: Lanes,
@@ -114,13 +114,14 @@ impl Constants {
             compliance: strands.lanes(|s| 1.0 / element(s, j).axial_stiffness),
             half_drag: DragLanes::pack(common.drag_curves, &strands.each(|s| element(s, j).drag.half())),
         };
-        let direction = |of: &dyn Fn(Vec3<f64>) -> f64| strands.lanes(|s| of(s.fibre.direction));
+        let direction =
+            |component: &dyn Fn(Vec3<f64>) -> f64| strands.lanes(|s| component(s.fibre.direction));
         Self {
-            elements: Along::new(elements, constants),
+            elements: ChainValues::new(elements, constants),
             root: node(&|s| 0.5 * element(s, 0).mass, &|s| s.fibre.root != Root::Free),
-            nodes: Along::new(elements + 1, |i| node(&|s| between(s, i), &|_| false)),
+            nodes: ChainValues::new(elements + 1, |i| node(&|s| between(s, i), &|_| false)),
             tail: vec![node(&|s| 0.5 * element(s, last).mass, &|_| false)],
-            bending_stiffness: Along::new(elements + 1, |i| strands.lanes(|s| bending(s, i))),
+            bending_stiffness: ChainValues::new(elements + 1, |i| strands.lanes(|s| bending(s, i))),
             root_stiffness: strands.lanes(root_stiffness),
             second_stiffness: strands.lanes(|s| bending(s, 1)),
             root_direction: Vec3::new(direction(&|v| v.x), direction(&|v| v.y), direction(&|v| v.z)),

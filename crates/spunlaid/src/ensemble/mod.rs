@@ -12,7 +12,7 @@ mod turbulence;
 pub use crate::flight::Job;
 pub use crate::observe::Sample;
 pub use end_path::{EndPath, EndPoint};
-pub use finer::{Change, FinerCheck, FinerChecks, FinerPlan, FinerPlans, Refined, Refinements, Statistic};
+pub use finer::{Change, FinerCheck, FinerChecks, FinerPlan, FinerPlans, Refinement, Refinements, Statistic};
 pub use order::in_order;
 pub use recorder::{LaidCurves, Recorder};
 pub use results::{Collector, Curve, LostFibre, Number, Place, Results};

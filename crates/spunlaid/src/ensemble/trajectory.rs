@@ -3,7 +3,7 @@
 use super::{Computing, EndPath};
 use crate::case::Case;
 use crate::error::{Error, Fault};
-use crate::flight::{AirOf, Flight, Job, LaidPoint};
+use crate::flight::{Flight, Job, LaidPoint, SurroundingRun};
 use crate::lanes::{Isa, WIDTH};
 use crate::observe::{Measure, Observation, Observers, Sample, Value};
 use crate::vec3::Vec3;
@@ -114,7 +114,7 @@ pub fn fly_together(
     computing: Computing<'_>,
 ) -> Result<Vec<Trajectory>, Error> {
     let first = jobs.first().ok_or_else(Error::no_fibre)?;
-    fly_in_air(jobs, keep, AirOf::run(first.case), computing)
+    fly_in_air(jobs, keep, SurroundingRun::run(first.case), computing)
 }
 
 /// Length of fibre fed in the spin-up, whose points are not kept [m].
@@ -138,7 +138,7 @@ pub fn fly_each(
             (0..jobs.len()).filter(|job| lost.iter().all(|(other, _)| other != job)).collect();
         let together: Vec<Job<'_>> = flying.iter().map(|job| jobs[*job]).collect();
         let flown = match together.first() {
-            Some(first) => fly_until_lost(&together, keep, AirOf::run(first.case), computing),
+            Some(first) => fly_until_lost(&together, keep, SurroundingRun::run(first.case), computing),
             None if jobs.is_empty() => {
                 Err(Error::Flight(Fault::plain("a flight needs at least one fibre")).into())
             }
@@ -162,7 +162,7 @@ pub fn fly_each(
 pub(super) fn fly_in_air(
     jobs: &[Job<'_>],
     keep: Keep,
-    air: AirOf<'_>,
+    air: SurroundingRun<'_>,
     computing: Computing<'_>,
 ) -> Result<Vec<Trajectory>, Error> {
     fly_until_lost(jobs, keep, air, computing).map_err(|ended| match ended {
@@ -189,7 +189,7 @@ impl From<Error> for FlightEnd {
 fn fly_until_lost(
     jobs: &[Job<'_>],
     keep: Keep,
-    air: AirOf<'_>,
+    air: SurroundingRun<'_>,
     computing: Computing<'_>,
 ) -> Result<Vec<Trajectory>, FlightEnd> {
     let mut flight = Flight::in_air(jobs, computing.isa, air)?;
@@ -285,7 +285,12 @@ pub fn pace(case: &Case, isa: Isa) -> Result<f64, Error> {
 }
 
 /// Finds where a fibre is first seen to be lost: repeats the flight, step by step after the last good instant.
-fn divergence(jobs: &[Job<'_>], isa: Isa, air: AirOf<'_>, good_steps: u64) -> Result<FlightEnd, Error> {
+fn divergence(
+    jobs: &[Job<'_>],
+    isa: Isa,
+    air: SurroundingRun<'_>,
+    good_steps: u64,
+) -> Result<FlightEnd, Error> {
     let mut flight = Flight::in_air(jobs, isa, air)?;
     flight.advance(good_steps);
     loop {

@@ -33,11 +33,11 @@ const MOST_MEMORY: usize = 1 << 30;
 const MOST_BRICKS: f64 = 1e6;
 
 /// Velocity along x, y and z and `√k` [m/s]. Unlike `k`, its root is proportional to the fluctuation.
-type Brief = [f64; 4];
+type AirNumbers = [f64; 4];
 
 /// The air around a point, linear in space, see [`Field::around`](super::Field::around).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Around {
+pub struct AirAround {
     /// Velocity along x, y and z and `√k` at the point [m/s].
     pub value: [f64; 4],
     /// Their changes along x, y and z [1/s].
@@ -76,7 +76,7 @@ struct Parts {
 
 #[derive(Debug)]
 struct Values {
-    at: [Brief; POINTS],
+    at: [AirNumbers; POINTS],
     inside: bool,
     /// [`MARGIN`], or zero where the flow changes at the faces.
     margin: f64,
@@ -114,7 +114,7 @@ impl Bricks {
     /// The air around a point.
     ///
     /// * `hint` – where the field itself is sampled
-    pub(super) fn around(&self, at: [f64; 3], hint: &mut Hint, field: &Support) -> Around {
+    pub(super) fn around(&self, at: [f64; 3], hint: &mut Hint, field: &Support) -> AirAround {
         let within = (0..3).all(|axis| {
             let flat = self.low[axis] == self.high[axis];
             flat || self.low[axis] <= at[axis] && at[axis] <= self.high[axis]
@@ -136,7 +136,7 @@ impl Bricks {
             }
         }
         let (values, inside) = field.sample(at, hint);
-        Around { value: brief(values), gradients: [[0.0; 4]; 3], reach: 0.0, inside }
+        AirAround { value: brief(values), gradients: [[0.0; 4]; 3], reach: 0.0, inside }
     }
 
     fn place(&self, at: [f64; 3]) -> Place {
@@ -156,7 +156,7 @@ impl Bricks {
         place: &mut Place,
         allowed: Option<f64>,
         field: &Support,
-    ) -> Option<Around> {
+    ) -> Option<AirAround> {
         let made;
         let brick = match brick.get() {
             Some(brick) => brick,
@@ -195,14 +195,14 @@ impl Bricks {
 
     /// The air at a place of a brick. It reaches little beyond its faces.
     #[inline]
-    fn within(&self, values: &Values, place: &Place) -> Around {
+    fn within(&self, values: &Values, place: &Place) -> AirAround {
         let around = values.around(place);
         let mut reach = around.reach;
         for axis in (0..3).filter(|axis| self.low[*axis] < self.high[*axis]) {
             let to_face = place.share[axis].min(1.0 - place.share[axis]);
             reach = reach.min((to_face + values.margin) * place.size);
         }
-        Around { reach, ..around }
+        AirAround { reach, ..around }
     }
 
     #[inline(never)]
@@ -288,19 +288,19 @@ impl Bricks {
 /// Steps of an evenly spread sequence of points along x, y and z (Roberts' R₃).
 const RATIOS: [f64; 3] = [0.819_172_513_396_164_5, 0.671_043_606_703_789_2, 0.549_700_477_901_967_3];
 
-fn brief([u, v, w, k, _]: Quantities) -> Brief {
+fn brief([u, v, w, k, _]: Quantities) -> AirNumbers {
     [u, v, w, k.max(0.0).sqrt()]
 }
 
-fn difference(a: &Brief, b: &Brief) -> f64 {
+fn difference(a: &AirNumbers, b: &AirNumbers) -> f64 {
     a.iter().zip(b).fold(0.0, |most, (a, b)| most.max((a - b).abs()))
 }
 
 impl Values {
-    fn around(&self, place: &Place) -> Around {
+    fn around(&self, place: &Place) -> AirAround {
         let (value, gradients) = self.between(place.share);
         let spacing = place.size / CELLS as f64;
-        Around {
+        AirAround {
             value,
             gradients: gradients.map(|changes| changes.map(|change| change / spacing)),
             reach: 0.5 * spacing,
@@ -309,7 +309,7 @@ impl Values {
     }
 
     /// The values at a place of the brick, continued linearly from another one.
-    fn continued(&self, from: [f64; 3], to: [f64; 3]) -> Brief {
+    fn continued(&self, from: [f64; 3], to: [f64; 3]) -> AirNumbers {
         let (mut value, gradients) = self.between(from);
         for (axis, gradient) in gradients.iter().enumerate() {
             let cells = (to[axis] - from[axis]) * CELLS as f64;
@@ -320,7 +320,7 @@ impl Values {
 
     /// The values linear in each coordinate, and their changes over a cell along x, y and z.
     #[inline]
-    fn between(&self, share: [f64; 3]) -> (Brief, [Brief; 3]) {
+    fn between(&self, share: [f64; 3]) -> (AirNumbers, [AirNumbers; 3]) {
         let along = share.map(|share| share * CELLS as f64);
         let before = along.map(|along| (along as usize).min(CELLS - 1));
         let [sx, sy, sz] = [0, 1, 2].map(|axis| along[axis] - before[axis] as f64);

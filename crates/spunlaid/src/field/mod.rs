@@ -54,7 +54,7 @@ mod read;
 mod tree;
 mod values;
 
-pub use bricks::Around;
+pub use bricks::AirAround;
 pub use layout::FieldLayout;
 pub use mesh::cells::{Cells, Shape};
 pub use overview::{Overview, Spread};
@@ -294,10 +294,10 @@ impl Field {
     ///
     /// * `at` – [m]
     /// * `hint` – as of [`Field::sample`]
-    pub fn around(&self, at: Vec3<f64>, hint: &mut Hint) -> Around {
+    pub fn around(&self, at: Vec3<f64>, hint: &mut Hint) -> AirAround {
         let at = [at.x, at.y, at.z].map(|x| x.clamp(-FARTHEST, FARTHEST));
         if at.iter().any(|x| x.is_nan()) {
-            return Around::default();
+            return AirAround::default();
         }
         self.bricks.around(at, hint, &self.support)
     }

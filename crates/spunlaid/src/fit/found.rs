@@ -1,15 +1,13 @@
 //! What a fit has found: the values with their intervals, the profile of the misfit, and whether such webs can look like the scan at all.
 
+use super::interval::Ends;
 use super::parameter::Parameter;
-use super::polynomials::Polynomials;
 use super::search::{Place, rest};
 use super::surface::{Surface, in_place_of_the_scan};
 use super::texture::Texture;
+use super::values::Values;
 use super::webs::Webs;
 use super::weights::{Matrix, gain, information, misfit, unexplained};
-use crate::error::Error;
-use crate::statistics::linear::inverse;
-use crate::statistics::student_t_95;
 
 /// What was found.
 #[derive(Clone, Debug)]
@@ -19,7 +17,7 @@ pub struct Fit {
     /// Correlations of the errors of the values, key by key.
     pub correlations: Vec<Vec<f64>>,
     /// Keys that the data cannot tell apart: their indices, and what a rise of the first by a tenth is made up for with.
-    pub alike: Vec<Alike>,
+    pub alike: Vec<InseparableKeys>,
     /// What was compared.
     pub numbers: Vec<FittedNumber>,
     /// The misfit at the start and at the end.
@@ -29,7 +27,7 @@ pub struct Fit {
     /// Simulated webs of each trial.
     pub webs: u64,
     /// All trials.
-    pub trials: Vec<TrialOfFit>,
+    pub trials: Vec<FitTrial>,
     /// Whether the search has ended because its steps had become short.
     pub settled: bool,
     /// Trials whose webs could not be laid: their values, and why.
@@ -38,7 +36,7 @@ pub struct Fit {
 
 /// A trial.
 #[derive(Clone, Debug, PartialEq)]
-pub struct TrialOfFit {
+pub struct FitTrial {
     /// Values of the keys [SI].
     pub values: Vec<f64>,
     /// Its misfit.
@@ -73,7 +71,7 @@ pub enum KeyDoubt {
 
 /// Two keys that the data cannot tell apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Alike {
+pub struct InseparableKeys {
     /// Indices of the keys.
     pub keys: [usize; 2],
     /// Correlation of their errors.
@@ -106,144 +104,45 @@ impl FittedNumber {
 
 /// Correlation from which two keys cannot be told apart.
 const ALIKE: f64 = 0.95;
-/// The profile is found at these distances from the value [standard errors].
-const PROFILE: [f64; 5] = [-2.0, -1.0, 0.0, 1.0, 2.0];
-
-/// Most steps on the polynomials, each from where the last one ended.
-const MOST: usize = 20;
-
-/// What a search has found, and how far the best values are from where it ended.
-pub(super) struct Found {
-    pub(super) fit: Fit,
-    /// Coordinates of the values.
-    pub(super) at: Vec<f64>,
-    /// Their distance from the place [standard errors].
-    pub(super) far: f64,
-}
-
-/// Makes the results of the place at which a search has ended. Trials around it tell the profiles, and all of them together the values.
+/// The results of the place at which the search has ended.
 ///
-/// * `other_errors` – standard errors of the logarithms by causes other than chance, each common to all numbers
-///
-/// # Errors
-/// As [`Webs::trial`].
-pub(super) fn found(webs: &mut Webs<'_>, place: &Place, other_errors: &Matrix) -> Result<Found, Error> {
-    let here = webs.trials[place.trial].clone();
-    let all = (0..webs.parameters.len()).collect();
-    let rough = Surface::new(webs, place, all, (here.mean.clone(), &place.slopes), other_errors);
-    let mut profiles = vec![Vec::new(); webs.parameters.len()];
-    let mut reach = vec![0.0; webs.parameters.len()];
-    for (own, key) in rough.known.iter().enumerate() {
-        let error = rough.errors.standard_error(own);
-        (profiles[*key], reach[*key]) = profile(webs, place, &rough, (own, error))?;
-    }
-    let mut step = vec![0.0; reach.len()];
-    let mut exact = rough;
-    let known: Vec<f64> = reach.iter().map(|reach| if *reach > 0.0 { *reach } else { 1.0 }).collect();
-    if let Some(polynomials) = Polynomials::new(webs, place, &known) {
-        for _ in 0..MOST {
-            let (numbers, slopes) = polynomials.at(&step);
-            let next = Surface::new(webs, place, exact.known.clone(), (numbers, &slopes), other_errors);
-            let further = next.step(webs, place, &step);
-            exact = next;
-            // No further than trials have been.
-            let to: Vec<f64> = (step.iter().zip(&further).zip(&known))
-                .map(|((step, further), reach)| (step + 0.7 * further).clamp(-reach, *reach))
-                .collect();
-            let is_still = to.iter().zip(&step).all(|(to, from)| (to - from).abs() < 1e-6);
-            step = to;
-            if is_still {
-                break;
-            }
-        }
-    } else {
-        step = exact.step(webs, place, &step);
-    }
-    let distance = |(own, key): (usize, &usize)| step[*key].abs() / exact.errors.standard_error(own);
-    let far = exact.known.iter().enumerate().map(distance).fold(0.0, f64::max);
-    let at: Vec<f64> = here.at.iter().zip(&step).map(|(here, step)| here + step).collect();
+/// * `ends` – of the intervals, of each key that changes something
+pub(super) fn found(webs: &Webs<'_>, place: &Place, values: Values, ends: &[Ends]) -> Fit {
+    let Values { at, surface, profiles, far } = values;
     let fit = Fit {
-        keys: keys(webs, &exact, &at, profiles),
+        keys: keys(webs, (&surface, ends), &at, profiles),
         correlations: Vec::new(),
         alike: Vec::new(),
-        numbers: numbers(webs, place, &exact),
+        numbers: numbers(webs, place, &surface),
         misfit: [0, place.trial].map(|trial| misfit(&place.weights, &rest(webs, trial))),
-        worse: worse(webs, place, &exact),
+        worse: worse(webs, place, &surface),
         webs: webs.count,
         trials: trials(webs, place),
         settled: place.settled || far < 1.0,
         refused: webs.refused.iter().map(|(values, error)| (values.clone(), error.to_string())).collect(),
     };
-    let (correlations, alike) = together(&exact, &place.weights, webs.parameters.len());
-    Ok(Found { fit: Fit { correlations, alike, ..fit }, at, far })
-}
-
-/// Values of a key with their least misfits, and how far from the place polynomials hold.
-type Profile = (Vec<(f64, f64)>, f64);
-
-/// The least misfit for other values of a key, and how far from the place they are.
-fn profile(
-    webs: &mut Webs<'_>,
-    place: &Place,
-    surface: &Surface,
-    (own, error): (usize, f64),
-) -> Result<Profile, Error> {
-    let known = &surface.known;
-    let here = webs.trials[place.trial].at.clone();
-    let information = information(&place.weights, &surface.slopes);
-    // The others follow as is best.
-    let others: Vec<usize> = (0..known.len()).filter(|other| *other != own).collect();
-    let of_others: Matrix =
-        others.iter().map(|i| others.iter().map(|j| information[*i][*j]).collect()).collect();
-    let follow: Vec<f64> = (inverse(of_others).unwrap_or_default().iter())
-        .map(|row| -row.iter().zip(&others).map(|(share, i)| share * information[*i][own]).sum::<f64>())
-        .collect();
-    let key = known[own];
-    let parameter = webs.parameters[key].clone();
-    let [low, high] = parameter.ends();
-    let slopes: Matrix = others.iter().map(|i| surface.slopes[*i].clone()).collect();
-    let gain = gain(&place.weights, &slopes);
-    let mut profile = Vec::new();
-    let mut reach = 0.0_f64;
-    for distance in PROFILE {
-        let step = (here[key] + distance * error).clamp(low, high) - here[key];
-        if !step.is_finite() || (distance != 0.0 && step.abs() < 0.1 * error) {
-            continue;
-        }
-        let mut at = here.clone();
-        at[key] += step;
-        for (i, follow) in others.iter().zip(&follow) {
-            let [low, high] = webs.parameters[known[*i]].ends();
-            at[known[*i]] = (at[known[*i]] + follow * step).clamp(low, high);
-        }
-        if let Some(trial) = webs.trial(&at)? {
-            // What is left for the others to do is little, and straight lines serve.
-            let rest = rest(webs, trial);
-            let left = gain.as_ref().map_or_else(|_| rest.clone(), |gain| unexplained(gain, &slopes, &rest));
-            profile.push((parameter.value(at[key]), misfit(&place.weights, &left)));
-            // Polynomials of second order hold within a standard error.
-            if distance.abs() <= 1.0 {
-                reach = reach.max(step.abs());
-            }
-        }
-    }
-    profile.sort_by(|a, b| a.0.total_cmp(&b.0));
-    Ok((profile, 1.05 * reach))
+    let (correlations, alike) = together(&surface, &place.weights, webs.parameters.len());
+    Fit { correlations, alike, ..fit }
 }
 
 /// The keys with their values and intervals.
-fn keys(webs: &Webs<'_>, surface: &Surface, at: &[f64], profiles: Vec<Vec<(f64, f64)>>) -> Vec<FittedKey> {
-    let t = student_t_95(webs.count - 1);
-    let key = |(key, profile): (usize, Vec<(f64, f64)>)| {
+fn keys(
+    webs: &Webs<'_>,
+    (surface, ends): (&Surface, &[Ends]),
+    at: &[f64],
+    profiles: Vec<Vec<(f64, f64)>>,
+) -> Vec<FittedKey> {
+    let key = |(key, mut profile): (usize, Vec<(f64, f64)>)| {
         let parameter = &webs.parameters[key];
         let (parameter, value) = (parameter.clone(), parameter.value(at[key]));
         let Some(own) = surface.known.iter().position(|known| *known == key) else {
             let interval = Err("it changes nothing of what is compared".to_owned());
             return FittedKey { parameter, value, interval, profile, doubt: Some(KeyDoubt::NoEffect) };
         };
-        let half = t * surface.errors.standard_error(own);
         let [low, high] = parameter.ends();
-        let ends = [at[key] - half, at[key] + half];
+        profile.extend(&ends[own].profile);
+        profile.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let ends = ends[own].coordinates;
         let near = |end: f64| (at[key] - end).abs() < 1e-9 * (high - low);
         let doubt = if ends[0] <= low && ends[1] >= high {
             Some(KeyDoubt::Unknown)
@@ -258,7 +157,7 @@ fn keys(webs: &Webs<'_>, surface: &Surface, at: &[f64], profiles: Vec<Vec<(f64, 
 }
 
 /// Correlations of the errors of all keys, and the keys that cannot be told apart.
-fn together(surface: &Surface, weights: &Matrix, keys: usize) -> (Matrix, Vec<Alike>) {
+fn together(surface: &Surface, weights: &Matrix, keys: usize) -> (Matrix, Vec<InseparableKeys>) {
     let Surface { known, slopes, errors, .. } = surface;
     let information = information(weights, slopes);
     let mut correlations: Matrix =
@@ -271,7 +170,7 @@ fn together(surface: &Surface, weights: &Matrix, keys: usize) -> (Matrix, Vec<Al
             correlations[*key][*other] = correlation;
             if i < j && correlation.abs() >= ALIKE {
                 let per_first = -information[i][j] / information[j][j];
-                alike.push(Alike { keys: [*key, *other], correlation, per_first });
+                alike.push(InseparableKeys { keys: [*key, *other], correlation, per_first });
             }
         }
     }
@@ -309,8 +208,8 @@ fn worse(webs: &Webs<'_>, place: &Place, surface: &Surface) -> u64 {
 }
 
 /// All trials with their misfits.
-fn trials(webs: &Webs<'_>, place: &Place) -> Vec<TrialOfFit> {
-    let trial = |trial: usize| TrialOfFit {
+fn trials(webs: &Webs<'_>, place: &Place) -> Vec<FitTrial> {
+    let trial = |trial: usize| FitTrial {
         values: webs.trials[trial].values.clone(),
         misfit: misfit(&place.weights, &rest(webs, trial)),
     };

@@ -78,8 +78,8 @@ impl Target {
         let map = in_cells(&measured.map, cell);
         let sizes = [map.columns, map.rows];
         let cells = [sheet.width, sheet.length].map(|side| (side / cell * (1.0 + 1e-9)) as usize);
-        let sides = [0, 1].map(|of| sizes[of].min(cells[of]));
-        let map = map.part([0, 1].map(|of| (sizes[of] - sides[of]) / 2), sides);
+        let sides = [0, 1].map(|axis| sizes[axis].min(cells[axis]));
+        let map = map.part([0, 1].map(|axis| (sizes[axis] - sides[axis]) / 2), sides);
         let shorter = sides[0].min(sides[1]) as f64 * cell;
         let can_be_laid = |patch: &&MeasuredPatch| {
             let cells = (patch.side / cell).round();
@@ -126,6 +126,15 @@ impl Target {
         Ok(Self { map, textures, logarithms, camera, doubt: measured.doubt.clone() })
     }
 
+    /// A web of which nothing but these logarithms is known.
+    #[cfg(test)]
+    pub(super) fn of_patches(sides: &[f64], logarithms: Vec<f64>) -> Self {
+        let map =
+            Map { columns: 0, rows: 0, cell: 1e-3, quantum: 1.0, closed: [false; 2], cells: Vec::new() };
+        let textures = Textures { all: sides.iter().copied().map(Texture::Patch).collect(), flat: false };
+        Self { map, textures, logarithms, camera: Vec::new(), doubt: None }
+    }
+
     /// What is compared.
     pub fn textures(&self) -> &[Texture] {
         &self.textures.all
@@ -165,7 +174,7 @@ impl Target {
         if sides[0] > sizes[0] || sides[1] > sizes[1] {
             return None;
         }
-        let window = map.part([0, 1].map(|of| (sizes[of] - sides[of]) / 2), sides);
+        let window = map.part([0, 1].map(|axis| (sizes[axis] - sides[axis]) / 2), sides);
         let logarithms = self.textures.logarithms(&window, threads);
         logarithms.iter().all(|number| number.is_finite()).then_some(logarithms)
     }
@@ -184,14 +193,14 @@ fn camera(all: &[Texture], logarithms: &[f64], patches: &[&MeasuredPatch]) -> Ve
         patches.iter().min_by(|a, b| far(a).total_cmp(&far(b)))
     };
     let error = |cause: &dyn Fn(&MeasuredPatch, f64) -> f64| -> Vec<f64> {
-        let of = |(texture, logarithm): (&Texture, &f64)| match texture {
+        let share = |(texture, logarithm): (&Texture, &f64)| match texture {
             Texture::Patch(side) => nearest(*side).map_or(0.0, |patch| cause(patch, libm::exp(*logarithm))),
             Texture::Band { waves, .. } => {
                 // A variance is twice as far off as a CV.
                 nearest(0.5 * waves[0]).map_or(0.0, |patch| 2.0 * cause(patch, f64::INFINITY))
             }
         };
-        all.iter().zip(logarithms).map(of).collect()
+        all.iter().zip(logarithms).map(share).collect()
     };
     let noise = error(&|patch, cv| {
         if cv.is_finite() { -0.5 * libm::log1p(-(patch.noise / cv).powi(2).min(0.99)) } else { 0.0 }

@@ -1,12 +1,11 @@
 //! The simulated webs of each trial, laid or read from the journal.
 
 use super::parameter::Parameter;
+use super::simulator::Simulator;
 use super::target::Target;
 use super::weights::mean_of;
-use crate::error::{Error, Fault};
-use crate::layers::{Flyer, WebSpec};
-use crate::study::{Journal, Landing, Record, seed_of_point};
-use crate::web::{Laying, inner_columns};
+use crate::error::Error;
+use crate::study::{Journal, Landing, Record};
 
 /// A trial: values of the keys, and the numbers of the webs that were laid with them.
 #[derive(Clone, Debug)]
@@ -23,7 +22,7 @@ pub(super) struct Trial {
 
 /// What is being laid.
 #[derive(Clone, Copy, Debug)]
-pub struct Watched<'a> {
+pub struct WebInProgress<'a> {
     /// Number of the trial, from 1.
     pub trial: usize,
     /// Number of its web, from 1.
@@ -37,26 +36,32 @@ pub struct Watched<'a> {
 /// Most trials of a fit.
 pub const MOST_TRIALS: usize = 200;
 
-/// Makes the web of some values.
-pub type MakeWeb<'a> = &'a dyn Fn(&[f64]) -> Result<WebSpec, Error>;
-
-/// Lays the webs of trials.
+/// The webs of trials.
 pub(super) struct Webs<'a> {
     pub(super) parameters: &'a [Parameter],
     pub(super) target: &'a Target,
-    pub(super) make: MakeWeb<'a>,
+    pub(super) simulator: &'a mut dyn Simulator,
     /// Of each trial.
     pub(super) count: u64,
-    pub(super) flyer: Flyer<'a>,
-    pub(super) by: Laying<'a>,
     pub(super) journal: &'a mut Journal,
-    pub(super) watch: &'a dyn Fn(Watched<'_>),
+    pub(super) watch: &'a dyn Fn(WebInProgress<'_>),
     pub(super) trials: Vec<Trial>,
     /// Trials that could not be laid, and why the last of them could not.
     pub(super) refused: Vec<(Vec<f64>, Error)>,
 }
 
-impl Webs<'_> {
+impl<'a> Webs<'a> {
+    /// No webs yet.
+    pub(super) fn new(
+        (parameters, target): (&'a [Parameter], &'a Target),
+        (simulator, count): (&'a mut dyn Simulator, u64),
+        journal: &'a mut Journal,
+        watch: &'a dyn Fn(WebInProgress<'_>),
+    ) -> Self {
+        let (trials, refused) = (Vec::new(), Vec::new());
+        Self { parameters, target, simulator, count, journal, watch, trials, refused }
+    }
+
     /// The values at some coordinates.
     pub(super) fn values(&self, at: &[f64]) -> Vec<f64> {
         self.parameters.iter().zip(at).map(|(parameter, at)| parameter.value(*at)).collect()
@@ -101,7 +106,7 @@ impl Webs<'_> {
             let message = format!("has not come to an end after {MOST_TRIALS} trials");
             return Err(Error::flight(message, "seek fewer keys, or give them narrower ranges"));
         }
-        let spec = (self.make)(values)?;
+        self.simulator.set(values)?;
         let known = self.journal.records(trial, self.count)?;
         let mut webs = Vec::with_capacity(self.count as usize);
         for replicate in 0..self.count {
@@ -110,29 +115,12 @@ impl Webs<'_> {
                 webs.push(measured.to_vec());
                 continue;
             }
-            (self.watch)(Watched { trial: trial + 1, web: replicate + 1, webs: self.count, values });
-            let numbers = self.web(&WebSpec { seed: seed(&spec, replicate), ..spec.clone() })?;
+            (self.watch)(WebInProgress { trial: trial + 1, web: replicate + 1, webs: self.count, values });
+            let numbers = self.simulator.web(replicate)?;
             let landing = Landing::Measured(numbers.clone().into_boxed_slice());
             self.journal.add(&[Record { point: trial as u64, replicate, landing }])?;
             webs.push(numbers);
         }
         Ok(webs)
     }
-
-    fn web(&mut self, spec: &WebSpec) -> Result<Vec<f64>, Error> {
-        let mut flown = self.flyer.web(spec)?;
-        let inner = inner_columns(&flown.web);
-        let map = flown.map(self.by)?;
-        self.target.logarithms_of(&map, inner, self.by.threads).ok_or_else(|| {
-            Error::Flight(Fault::new(
-                "the part of the web that is not edge is smaller than what it is compared with, or empty",
-                "set web.width to more, or web.edges to \"periodic\"",
-            ))
-        })
-    }
-}
-
-/// The seed of a web of a trial. The same webs lie in each trial, as far as the keys allow: what differs is then less by chance.
-pub(super) fn seed(spec: &WebSpec, replicate: u64) -> u64 {
-    if replicate == 0 { spec.seed } else { seed_of_point(spec.seed, replicate) }
 }

@@ -39,7 +39,7 @@ pub use end_node::{EndNodeMotion, EndNodeStatistics};
 use crate::air::{Atmosphere, Eddies, EddyField, Stream, StreamKey};
 use crate::case::Case;
 use crate::chain::Chain;
-use crate::chain::laying::Fed;
+use crate::chain::laying::Feed;
 pub use crate::chain::laying::LaidPoint;
 use crate::chain::schemes::Scheme;
 use crate::chain::work::WorkDone;
@@ -68,11 +68,11 @@ impl<'a> Job<'a> {
 
     /// How its fibre is fed and laid; `None` for a fibre of fixed length. The first ends of successive replicates are off
     /// the axis in directions that spread evenly.
-    pub(crate) fn fed(&self) -> Option<Fed> {
+    pub(crate) fn fed(&self) -> Option<Feed> {
         const RATIOS: [f64; 2] = [0.618_033_988_749_894_9, 0.754_877_666_246_692_7];
         let (seed, fibre) = ((self.case.run.seed % 1_000_003) as f64, self.case.fibre);
         let turn = (self.replicate as f64 * RATIOS[0] + seed * RATIOS[1]).fract();
-        Some(Fed { line: self.case.line?, fibre, turn })
+        Some(Feed { line: self.case.line?, fibre, turn })
     }
 
     /// The source of its turbulence.
@@ -88,7 +88,7 @@ impl<'a> Job<'a> {
 
 /// The run whose air a flight is in, where that is not its own.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct AirOf<'a> {
+pub(crate) struct SurroundingRun<'a> {
     /// Its elements have the eddies: those of the flight, or finer.
     pub(crate) case: &'a Case,
     /// Time until which the air has to last [s]. Which stretches of a record a fibre gets depends on it.
@@ -97,7 +97,7 @@ pub(crate) struct AirOf<'a> {
     pub(crate) field: Option<&'a Arc<EddyField>>,
 }
 
-impl<'a> AirOf<'a> {
+impl<'a> SurroundingRun<'a> {
     /// The air of a run of the case itself.
     pub(crate) fn run(case: &'a Case) -> Self {
         Self { case, horizon: case.air_horizon(), field: None }

@@ -1,7 +1,7 @@
 //! Changes in flight.
 
 use super::start::surrounded;
-use super::{AirOf, Common, Entry, Flight};
+use super::{Common, Entry, Flight, SurroundingRun};
 use crate::case::keys::{self, Value};
 use crate::company::PerLane;
 use crate::energy::Energy;
@@ -43,7 +43,7 @@ impl Flight {
     fn fly_on_as(&mut self, entries: Vec<Entry>, key: &'static str) -> Result<(), Error> {
         let jobs = PerLane::new(entries.iter().map(Entry::job).collect())?;
         let common = Common::of_all(&jobs)?;
-        let air = surrounded(&common, &jobs, self.isa, AirOf::run(&entries[0].case))?;
+        let air = surrounded(&common, &jobs, self.isa, SurroundingRun::run(&entries[0].case))?;
         let strands = jobs.map(|job| job.case.strand());
         let meshed_anew = self.chain.laying.is_none() && common.chain.elements != self.chain.elements();
         if !self.air.has_eddies_of(&air) || meshed_anew {

@@ -1,6 +1,6 @@
 //! Flights at their start: what may fly together, and how the fibres and the air around them begin.
 
-use super::{AirOf, Clock, Common, EndNodeStatistics, Entry, Flight, Job, Start};
+use super::{Clock, Common, EndNodeStatistics, Entry, Flight, Job, Start, SurroundingRun};
 use crate::air::{
     AirInSpace, Atmosphere, EddyField, EddyWind, Stations, StreamKey, Surroundings, Wind, misfit,
 };
@@ -26,11 +26,11 @@ impl Flight {
     /// them are damped.
     pub fn new(jobs: &[Job<'_>], isa: Isa) -> Result<Self, Error> {
         let first = jobs.first().ok_or_else(Error::no_fibre)?;
-        Self::in_air(jobs, isa, AirOf::run(first.case))
+        Self::in_air(jobs, isa, SurroundingRun::run(first.case))
     }
 
     /// As [`Flight::new`], in the air of another run.
-    pub(crate) fn in_air(jobs: &[Job<'_>], isa: Isa, air: AirOf<'_>) -> Result<Self, Error> {
+    pub(crate) fn in_air(jobs: &[Job<'_>], isa: Isa, air: SurroundingRun<'_>) -> Result<Self, Error> {
         let (jobs, common) = checked(jobs)?;
         let air = surrounded(&common, &jobs, isa, air)?;
         let strands = jobs.map(|job| job.case.strand());
@@ -60,7 +60,7 @@ impl Flight {
     ) -> Result<Self, Error> {
         let air = air.into();
         let strands = PerLane::new(strands.to_vec())?;
-        let common = strands.shared(|strand| chain::Common::of(strand, None))?;
+        let common = strands.shared(|strand| chain::Common::new(strand, None))?;
         let elements = common.elements;
         if elements == 0 {
             return Err(Error::Flight(Fault::plain("a fibre needs at least one element")));
@@ -192,7 +192,7 @@ pub(super) fn surrounded(
     common: &Common,
     jobs: &PerLane<Job<'_>>,
     isa: Isa,
-    air: AirOf<'_>,
+    air: SurroundingRun<'_>,
 ) -> Result<Atmosphere, Error> {
     let Common { way, every, chain, .. } = common;
     if let Some(cutoff) = common.lateral_cutoff {
@@ -233,8 +233,8 @@ pub(super) fn surrounded(
     });
     let wind = Wind::sampled(isa, common.wind.clone().of_eddies(eddies.count()), streams, air.horizon);
     if let Some(way) = way {
-        let of = |job: &Job<'_>| Some((job.case.air.clone(), job.case.stations()?));
-        let lanes = PerLane::new(jobs.iter().filter_map(of).collect())?;
+        let air = |job: &Job<'_>| Some((job.case.air.clone(), job.case.stations()?));
+        let lanes = PerLane::new(jobs.iter().filter_map(air).collect())?;
         let places = jobs.map(|job| job.place);
         let stations = Stations::new(way.clone(), &lanes, &places, chain.elements);
         return Ok(Atmosphere::Way(wind, stations));

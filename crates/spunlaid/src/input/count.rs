@@ -1,7 +1,7 @@
 //! Divides what an open case leaves to be counted: the fibre into elements, the time into steps and instants. The case is
 //! checked then.
 
-use super::open::Open;
+use super::open::OpenCase;
 use super::written::{WrittenValues, sorted};
 use crate::air::EddyModel;
 use crate::case::keys::{self, Value};
@@ -12,7 +12,7 @@ use crate::fibre::Fibre;
 /// How many times longer a suitable step must be than the written one to be mentioned.
 const MUCH_LONGER: f64 = 50.0;
 
-impl Open {
+impl OpenCase {
     /// The checked case, with notes and warnings.
     ///
     /// # Errors
@@ -21,7 +21,7 @@ impl Open {
         if self.waits_for_flights() { self.resolve_with_flights() } else { self.resolve_at_once() }
     }
 
-    /// [`Open::resolve`] with the tension at the end of the spinline as it is known.
+    /// [`OpenCase::resolve`] with the tension at the end of the spinline as it is known.
     pub(super) fn resolve_at_once(mut self) -> Result<(Case, Vec<Note>), Error> {
         self.spin()?;
         let fibre = &self.case.fibre;
@@ -55,9 +55,9 @@ impl Open {
     fn look_at_what_no_case_has(&mut self) {
         for key in keys::all() {
             if key.get(&self.case).is_none()
-                && let (Some(of), Some(usual)) = (key.dimension(), key.usual)
+                && let (Some(dimension), Some(usual)) = (key.dimension(), key.usual)
                 && let Some(value) = self.written.number(key.name)
-                && let Some(remark) = unusual(of, usual, value)
+                && let Some(remark) = unusual(dimension, usual, value)
             {
                 self.note(key.name, value, remark);
             }

@@ -1,7 +1,7 @@
 //! The tension at the end of a spinline from flights of the fibre below it: fly, feed the mean tension at the root back, solve the
 //! spinline again, until the speed stands.
 
-use super::open::Open;
+use super::open::OpenCase;
 use crate::case::keys;
 use crate::case::{Case, Neighbours, Note, Remark};
 use crate::ensemble::{Computing, Keep, fly};
@@ -18,7 +18,7 @@ const MOST_ROUNDS: usize = 8;
 const REPLICATES: u64 = 8;
 const DESCENTS: f64 = 25.0;
 
-impl Open {
+impl OpenCase {
     /// Whether the tension at the end of the spinline is that of flights.
     pub(super) fn waits_for_flights(&self) -> bool {
         self.case.spinline.as_ref().is_some_and(|line| matches!(line.end, End::Flown(_)))

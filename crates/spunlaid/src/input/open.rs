@@ -3,7 +3,7 @@
 use super::data::DataFiles;
 use super::written::{WrittenValue, WrittenValues, sorted};
 use crate::air::{Air, EddyModel, Flow, PlacedField, RecordLayout, SpectrumShape};
-use crate::case::keys::{self, Content, FileKind, Key, Kind, LeftOut, TAYLOR, Value};
+use crate::case::keys::{self, Content, FileKind, Key, Kind, Omission, TAYLOR, Value};
 use crate::case::{Case, Note, Remark};
 use crate::chain::schemes::Scheme;
 use crate::error::{Error, Fault, FileError};
@@ -15,7 +15,7 @@ use std::path::PathBuf;
 /// A case in which every independent key is set. Keys that are counted in whole elements, steps and harmonics are
 /// still open.
 #[derive(Clone)]
-pub(super) struct Open {
+pub(super) struct OpenCase {
     /// The values that the case was made from.
     pub(super) written: WrittenValues,
     /// The case. Numbers that the flow gives are NaN.
@@ -27,7 +27,7 @@ pub(super) struct Open {
 ///
 /// # Errors
 /// Every problem with any key.
-pub(super) fn open(written: WrittenValues, files: &DataFiles) -> Result<Open, Error> {
+pub(super) fn open(written: WrittenValues, files: &DataFiles) -> Result<OpenCase, Error> {
     open_part(written, files, |_| true)
 }
 
@@ -36,7 +36,7 @@ pub(super) fn open_part(
     mut written: WrittenValues,
     files: &DataFiles,
     is_wanted: impl Fn(&Key) -> bool,
-) -> Result<Open, Error> {
+) -> Result<OpenCase, Error> {
     let (mut case, mut notes) = (Case::unset(), Vec::new());
     let fed = ["feed", "belt", "spinline"].iter().any(|table| written.has_table(table));
     if written.has_table("spinline") {
@@ -61,11 +61,11 @@ pub(super) fn open_part(
         let Some(WrittenValue { place, shown, value }) = written.get(key.name).cloned() else {
             match key.left_out {
                 // A key without a meaning for this case refuses its default, which is then not needed.
-                LeftOut::Value(text) if !key.counted => {
+                Omission::Value(text) if !key.counted => {
                     drop(key.set(&mut case, if fed { default_if_fed(key.name, text) } else { text }));
                 }
-                LeftOut::Follows(_) if key.is_told(&case) => {}
-                LeftOut::Follows(_) if fed && REQUIRED_IF_FED.iter().any(|(name, _)| *name == key.name) => {
+                Omission::Follows(_) if key.is_told(&case) => {}
+                Omission::Follows(_) if fed && REQUIRED_IF_FED.iter().any(|(name, _)| *name == key.name) => {
                     let (_, line) =
                         REQUIRED_IF_FED.iter().find(|(name, _)| *name == key.name).unwrap_or(&("", ""));
                     let table = key.table();
@@ -86,8 +86,8 @@ pub(super) fn open_part(
                     };
                     written.reject(key.name, fault);
                 }
-                LeftOut::Required(_) if key.is_told(&case) => {}
-                LeftOut::Required(_)
+                Omission::Required(_) if key.is_told(&case) => {}
+                Omission::Required(_)
                     if !(take_told(&mut case.air, key.name)
                         || written.is_excused(key.name)
                         || key.name == "fibre.diameter" && written.get("fibre.linear_density").is_some()) =>
@@ -155,7 +155,7 @@ pub(super) fn open_part(
         placed.root = PlacedField::middle_of_inlet(&placed.field, placed.axis, placed.unit);
     }
     if written.problems.is_empty() {
-        Ok(Open { written, case, notes })
+        Ok(OpenCase { written, case, notes })
     } else {
         Err(sorted(written.problems).into())
     }
@@ -305,7 +305,7 @@ fn take_told(air: &mut Air, key: &str) -> bool {
     tells || file.is_some()
 }
 
-impl Open {
+impl OpenCase {
     /// The number of a key, as written or by default. None if it follows from other keys.
     pub(super) fn number(&self, key: &Key) -> Option<f64> {
         let number = match (self.written.get(key.name), key.left_out) {
@@ -313,7 +313,7 @@ impl Open {
                 Value::Text(_) => key.get(&self.case)?.number(),
                 value => value.number(),
             },
-            (None, LeftOut::Value(text)) if key.counted => key.kind.accept(text.into()).ok()?.number(),
+            (None, Omission::Value(text)) if key.counted => key.kind.accept(text.into()).ok()?.number(),
             (None, _) if key.counted => None,
             (None, _) => key.get(&self.case)?.number(),
         };

@@ -2,7 +2,7 @@
 //! A spinline that a case has gives it diameter, density and feed speed.
 
 use super::data::DataFiles;
-use super::open::{Open, open_part};
+use super::open::{OpenCase, open_part};
 use super::written::{WrittenValues, sorted};
 use super::{FORMAT_VERSION, Overrides, document, file, parse_with, write};
 use crate::air::Flow;
@@ -55,11 +55,11 @@ pub fn parse_spinline<'a>(
         // Only a whole case has a fibre that can fly.
         (open.case, open.notes) = parse_with(&files, text, name, &overrides)?;
     }
-    Ok(SpinFile::of(open))
+    Ok(SpinFile::from_open(open))
 }
 
 /// Sets the values of a spinline alone, which is then complete.
-pub(super) fn open_spinline(mut written: WrittenValues, files: &DataFiles) -> Result<Open, Error> {
+pub(super) fn open_spinline(mut written: WrittenValues, files: &DataFiles) -> Result<OpenCase, Error> {
     if !written.has_table("spinline") {
         let remedy = "describe the line in a table [spinline]; `cases/spinline.toml` is an example";
         written.reject("[spinline]", Fault::new("is missing", remedy));
@@ -106,8 +106,8 @@ pub fn write_spinline(spec: &SpinSpec) -> String {
 }
 
 impl SpinFile {
-    pub(super) fn of(open: Open) -> Self {
-        let Open { written, case, mut notes } = open;
+    pub(super) fn from_open(open: OpenCase) -> Self {
+        let OpenCase { written, case, mut notes } = open;
         notes.extend(case.unusual_in(&TABLES).into_iter().map(|note| written.placed(note)));
         let spinline = case.spinline.map_or(Spinline::UNKNOWN, |spinline| *spinline);
         let takes_field = matches!(spinline.air, Surroundings::Field { .. });
@@ -152,7 +152,7 @@ fn placed(written: &WrittenValues, failure: Failure) -> Problem {
     }
 }
 
-impl Open {
+impl OpenCase {
     /// Solves the spinline of a case, if it has one, and takes diameter, density and feed speed from it.
     ///
     /// # Errors

@@ -8,4 +8,4 @@ mod footprint;
 mod trace;
 
 pub use footprint::Footprint;
-pub use trace::{LaidCurve, Trace, Tracing};
+pub use trace::{LaidCurve, Trace, TraceSettings};

@@ -16,7 +16,7 @@ const LAGS: usize = 257;
 
 /// How a laid curve is looked at.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tracing {
+pub struct TraceSettings {
     /// Fed length from one point to the next [m].
     pub spacing: f64,
     /// Speed of the belt over speed of the feed.
@@ -33,7 +33,7 @@ pub struct Tracing {
 /// trace that a fibre leaves which comes down at one place: `ξ₁ = md + (v_b/v_f) s`, `ξ₂ = cd`.
 #[derive(Clone, Debug)]
 pub struct Trace {
-    tracing: Tracing,
+    tracing: TraceSettings,
     fed: u64,
     /// First and last counted `md` [m].
     md: Option<(f64, f64)>,
@@ -104,7 +104,7 @@ impl LaidCurve {
 
 impl Trace {
     /// No points yet. With a spacing that is not positive and finite, no result has a meaning.
-    pub fn new(tracing: Tracing) -> Self {
+    pub fn new(tracing: TraceSettings) -> Self {
         // Not above a million, so that no request can ask for more memory than there is.
         let steps = |length: f64, round: fn(f64) -> f64| {
             (round(length / tracing.spacing).clamp(1.0, 1e6) as usize).max(1)
@@ -133,7 +133,7 @@ impl Trace {
     ///
     /// * `md`, `cd` – position on the belt, in its own frame: machine and cross direction [m]
     pub fn add(&mut self, md: f64, cd: f64) {
-        let Tracing { spacing, belt_ratio, skip, .. } = self.tracing;
+        let TraceSettings { spacing, belt_ratio, skip, .. } = self.tracing;
         let index = self.fed;
         self.fed += 1;
         if index < skip {
@@ -253,13 +253,14 @@ mod tests {
         (0..points).map(at).collect()
     }
 
-    fn traced(points: &[[f64; 2]], tracing: Tracing) -> LaidCurve {
+    fn traced(points: &[[f64; 2]], tracing: TraceSettings) -> LaidCurve {
         let mut trace = Trace::new(tracing);
         points.iter().for_each(|[md, cd]| trace.add(*md, *cd));
         trace.finish()
     }
 
-    const TRACING: Tracing = Tracing { spacing: SPACING, belt_ratio: RATIO, skip: 100, reach: 0.5 };
+    const TRACING: TraceSettings =
+        TraceSettings { spacing: SPACING, belt_ratio: RATIO, skip: 100, reach: 0.5 };
 
     #[test]
     fn analytic_statistics_of_a_stored_curve() {
@@ -322,7 +323,7 @@ mod tests {
             .map(|i| 2.0 * PI * f64::from(i) / f64::from(points))
             .map(|angle| [radius * angle.cos(), radius * angle.sin()])
             .collect();
-        let curve = traced(&circle, Tracing { spacing, belt_ratio: 0.0, skip: 0, reach: 0.1 });
+        let curve = traced(&circle, TraceSettings { spacing, belt_ratio: 0.0, skip: 0, reach: 0.1 });
         for sigma in [curve.sigma_md, curve.sigma_cd] {
             assert!((sigma / (radius / 2.0_f64.sqrt()) - 1.0).abs() < 1e-9, "{sigma}");
         }
@@ -345,7 +346,7 @@ mod tests {
         let (radius, spacing) = (0.05_f64, 0.004_f64);
         let on = |s: f64| [radius * (s / radius).cos(), radius * (s / radius).sin()];
         let circle: Vec<[f64; 2]> = (0..500).map(|i| on(spacing * f64::from(i))).collect();
-        let laid_circle = traced(&circle, Tracing { spacing, belt_ratio: 0.0, skip: 0, reach: 0.1 });
+        let laid_circle = traced(&circle, TraceSettings { spacing, belt_ratio: 0.0, skip: 0, reach: 0.1 });
         let short = radius * (0.5 * spacing / radius).cos();
         let chord = (radius * radius + short * short - 2.0 * radius * short * (CHORD / radius).cos()).sqrt();
         assert!(
@@ -360,7 +361,7 @@ mod tests {
                 [0, 1].map(|axis| points[at][axis] * (1.0 - part) + points[at + 1][axis] * part)
             };
             let points = curve(1002);
-            let laid = traced(&points[..1001], Tracing { spacing, skip: 0, ..TRACING });
+            let laid = traced(&points[..1001], TraceSettings { spacing, skip: 0, ..TRACING });
             let starts = 0..=1000 - (CHORD / spacing - 1e-9).ceil() as u32;
             let chords: Vec<[f64; 2]> = (starts.map(|i| (i as usize, f64::from(i) * spacing)))
                 .map(|(i, s)| (points[i], walk(&points, s + CHORD)))
@@ -385,8 +386,8 @@ mod tests {
 
     #[test]
     fn a_long_reach_takes_wider_lags() {
-        let coarse = traced(&curve(3000), Tracing { reach: 3.0, ..TRACING });
-        let fine = traced(&curve(3000), Tracing { reach: 1.0, ..TRACING });
+        let coarse = traced(&curve(3000), TraceSettings { reach: 3.0, ..TRACING });
+        let fine = traced(&curve(3000), TraceSettings { reach: 1.0, ..TRACING });
         assert_eq!((coarse.lag_step, fine.lag_step), (6.0 * SPACING, 2.0 * SPACING));
         assert!(coarse.lag_step * (coarse.correlation_md.len() - 1) as f64 >= 3.0 - 1e-9);
         for lag in [0, 1, 80] {
@@ -408,10 +409,10 @@ mod tests {
         broken[200] = [f64::NAN; 2];
         let broken = traced(&broken, TRACING);
         assert!(broken.sigma_md.is_nan() && broken.orientation_md.is_nan());
-        let heap = traced(&[[1.0, 2.0]; 200], Tracing { belt_ratio: 0.0, ..TRACING });
+        let heap = traced(&[[1.0, 2.0]; 200], TraceSettings { belt_ratio: 0.0, ..TRACING });
         assert!(heap.orientation_md.is_nan() && heap.half_correlation_length_md.is_nan());
         assert_eq!((heap.sigma_md, heap.chord_over_arc, heap.slope), (0.0, 0.0, 0.0));
-        let _ = traced(&curve(200), Tracing { spacing: f64::NAN, ..TRACING });
-        let _ = traced(&curve(200), Tracing { spacing: 0.0, reach: f64::INFINITY, ..TRACING });
+        let _ = traced(&curve(200), TraceSettings { spacing: f64::NAN, ..TRACING });
+        let _ = traced(&curve(200), TraceSettings { spacing: 0.0, reach: f64::INFINITY, ..TRACING });
     }
 }

@@ -10,7 +10,7 @@ pub(crate) mod keys;
 mod laid;
 mod shared_air;
 
-pub use flown::{Flights, FlownFibres, FlownWeb, Flyer, Follow, OfLayer};
+pub use flown::{Flights, FlownFibres, FlownWeb, Flyer, Follow, LayerFibres};
 pub use full_names::{place_in_web, web_key};
 pub use keys::{WEB, WEB_KEYS, WEB_TABLES, WebKey};
 pub use laid::{LAID, read as read_laid};
@@ -173,10 +173,10 @@ impl WebSpec {
 
     /// Mass of all filaments that is fed per time over the width of the sheet [kg/(m s)].
     pub fn mass_flow(&self) -> f64 {
-        let of = |layer: &LayerSpec| {
+        let flow = |layer: &LayerSpec| {
             layer.linear_density() * layer.feed_speed * layer.filaments.count(&self.sheet) as f64
         };
-        self.layers.iter().map(of).sum::<f64>() / self.sheet.width
+        self.layers.iter().map(flow).sum::<f64>() / self.sheet.width
     }
 
     /// The speed of a belt on which all layers together have this mass per area [m/s].
@@ -243,7 +243,7 @@ pub(crate) fn too_small(
     let closed = [true, sheet.edges == Edges::Periodic];
     let sides =
         [("web.length", sheet.length, "laydown.sigma_md"), ("web.width", sheet.width, "laydown.sigma_cd")];
-    let of = move |(((key, side, sigma), spread), closed)| {
+    let patch = move |(((key, side, sigma), spread), closed)| {
         let is_short = closed && side < LEAST_SPREADS * spread;
         let [spread, least] = [spread, LEAST_SPREADS * spread].map(|size| Dimension::Length.pretty(size));
         let fault = || {
@@ -257,5 +257,5 @@ pub(crate) fn too_small(
         };
         is_short.then(|| (key, side, fault()))
     };
-    sides.into_iter().zip(spreads).zip(closed).filter_map(of)
+    sides.into_iter().zip(spreads).zip(closed).filter_map(patch)
 }

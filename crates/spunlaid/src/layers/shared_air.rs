@@ -1,7 +1,7 @@
 //! Webs whose filaments all fly in one air, and lay the sheet as they come down.
 
 use super::flown::Flights;
-use super::{FlownFibres, Flyer, LaydownSource, Method, OfLayer, WebSpec};
+use super::{FlownFibres, Flyer, LaydownSource, LayerFibres, Method, WebSpec};
 use crate::air::Lateral;
 use crate::beam::{Airs, Beam, Flying};
 use crate::case::Case;
@@ -9,7 +9,7 @@ use crate::error::{Error, Fault, Place as ErrorPlace, Problem};
 use crate::fibre::Place;
 use crate::lanes::Isa;
 use crate::units::Dimension;
-use crate::web::{Canvas, Fibres, LaidWeb, Together, inlets};
+use crate::web::{Canvas, Fibres, LaidWeb, SharedAirFindings, inlets};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use std::path::Path;
@@ -35,7 +35,7 @@ impl LayerBeam<'_> {
 impl Flyer<'_> {
     /// Flies all filaments of each layer in an air of its own, and lays them. A few curves of each layer are kept, which say what independent filaments
     /// would give.
-    pub(super) fn fly_together(&self, spec: &WebSpec) -> Result<(Vec<OfLayer>, LaidWeb), Error> {
+    pub(super) fn fly_together(&self, spec: &WebSpec) -> Result<(Vec<LayerFibres>, LaidWeb), Error> {
         if let Some(problem) = spec.air_beyond_memory() {
             return Err(vec![problem].into());
         }
@@ -44,7 +44,7 @@ impl Flyer<'_> {
         let elements: Vec<f64> = beams.iter().map(|layer| layer.beam().element_mass()).collect();
         let weight = beams.iter().map(|layer| layer.beam().basis_weight(&spec.sheet)).sum();
         let canvas = Canvas::new(&spec.sheet, &elements, weight)?;
-        let (mut layers, mut together) = (Vec::new(), Together::default());
+        let (mut layers, mut together) = (Vec::new(), SharedAirFindings::default());
         for (number, (layer, element)) in beams.iter().zip(elements).enumerate() {
             let (beam, done) = (layer.beam(), AtomicU64::new(0));
             let by = Flying { threads: self.threads, isa: Isa::detect(), stop: self.stop, steps: &done };
@@ -62,10 +62,11 @@ impl Flyer<'_> {
             let mut flown = flown?;
             together.add(number, flown.together());
             let curves = flown.kept.into_iter().map(|(_, points)| points).collect();
-            let flown = Arc::new(FlownFibres::of(layer.path, &layer.case, curves)?);
+            let flown = Arc::new(FlownFibres::gather(layer.path, &layer.case, curves)?);
             // In machine direction the sheet is not closed.
             spec.check_spreads([0.0, flown.numbers[1].mean])?;
-            layers.push(OfLayer { fibres: Fibres::Curves(Arc::clone(&flown.curves)), flown: Some(flown) });
+            layers
+                .push(LayerFibres { fibres: Fibres::Curves(Arc::clone(&flown.curves)), flown: Some(flown) });
         }
         Ok((layers, LaidWeb { together: Some(together), ..canvas.finish()? }))
     }

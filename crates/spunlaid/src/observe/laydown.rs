@@ -7,7 +7,7 @@ use super::{
 use crate::case::Case;
 use crate::flight::Flight;
 use crate::lanes::WIDTH;
-use crate::laydown::{LaidCurve, Trace, Tracing};
+use crate::laydown::{LaidCurve, Trace, TraceSettings};
 use crate::surrogate::identify;
 
 /// The laid fibre.
@@ -245,7 +245,7 @@ fn trace(case: &Case) -> Trace {
     let (reach, fed) =
         case.line.map_or((0.0, 0.0), |line| (line.distance, line.feed_speed * case.run.spin_up()));
     let skip = (fed / spacing).round() as u64;
-    Trace::new(Tracing { spacing, belt_ratio: belt_ratio(case), skip, reach })
+    Trace::new(TraceSettings { spacing, belt_ratio: belt_ratio(case), skip, reach })
 }
 
 impl Observer for LaidFibres {

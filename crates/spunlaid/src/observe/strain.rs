@@ -23,7 +23,7 @@ pub(super) const USUAL: Declaration = Declaration {
         "99 % of the time",
     )],
     applies: |case| case.fibre.root != Root::Free,
-    observer: |flight| Box::new(Averaged::new(flight)),
+    observer: |flight| Box::new(AveragedStrain::new(flight)),
 };
 
 /// The extreme.
@@ -62,7 +62,7 @@ const fn measure(
 
 /// Strain at the root, averaged over some intervals that end at the recorded instants after the spin-up.       theory.md (57)
 #[derive(Debug)]
-struct Averaged {
+struct AveragedStrain {
     /// Number of intervals over which is averaged, of each fibre.
     intervals: [usize; WIDTH],
     /// Times of the first and the last recorded instants [s], and the integral of the strain over time [s]: as many of the
@@ -72,7 +72,7 @@ struct Averaged {
     means: [Thinned<f64>; WIDTH],
 }
 
-impl Averaged {
+impl AveragedStrain {
     fn new(flight: &Flight) -> Self {
         let intervals =
             of_each(flight, |case| (case.fibre.axial_period() / case.run.output_interval()).round());
@@ -113,7 +113,7 @@ fn mean((from, before): &(f64, Lanes), (to, after): &(f64, Lanes), lane: usize) 
     (after.0[lane] - before.0[lane]) / (to - from)
 }
 
-impl Observer for Averaged {
+impl Observer for AveragedStrain {
     fn see(&mut self, observation: &Observation<'_>) {
         if observation.settled {
             self.add(observation.snapshot.time, observation.snapshot.root_strain_integral);
@@ -156,7 +156,9 @@ mod tests {
         let found = |intervals, integrals: &[(f64, Lanes)]| {
             // The other fibres average over other times.
             let mut averaged =
-                Averaged::over_intervals(std::array::from_fn(|lane| if lane == 3 { intervals } else { 7 }));
+                AveragedStrain::over_intervals(std::array::from_fn(
+                    |lane| if lane == 3 { intervals } else { 7 },
+                ));
             integrals.iter().for_each(|(time, integral)| averaged.add(*time, *integral));
             averaged.usual(3)
         };

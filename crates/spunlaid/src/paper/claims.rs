@@ -1,7 +1,7 @@
 //! The paper's claims. Each gets its evidence and a verdict from the data.
 
 use super::fits::{Spot, line, significance, slopes, worst_step_back};
-use super::{Both, Parameter, TrendPoint};
+use super::{LateralEstimates, Parameter, TrendPoint};
 
 /// Share of the variance that a straight line must explain for a trend to count as almost linear.
 const ALMOST_LINEAR: f64 = 0.97;
@@ -124,7 +124,11 @@ pub fn claims_of_step_errors(errors: &[(f64, f64, f64)]) -> Vec<Claim> {
 }
 
 /// The mean of y and z with its error, in units of `1/scale`. None if a point has no error.
-fn spots(points: &[TrendPoint], quantity: fn(&TrendPoint) -> Both, scale: f64) -> Option<Vec<Spot>> {
+fn spots(
+    points: &[TrendPoint],
+    quantity: fn(&TrendPoint) -> LateralEstimates,
+    scale: f64,
+) -> Option<Vec<Spot>> {
     points
         .iter()
         .map(|point| {

@@ -155,7 +155,7 @@ pub fn choices() -> Result<Vec<(&'static str, Case)>, Error> {
 }
 
 /// For y and for z: mean and standard error of the mean.
-pub type Both = [(f64, Option<f64>); 2];
+pub type LateralEstimates = [(f64, Option<f64>); 2];
 
 /// A point of a figure: mean and standard error of the mean for y and z.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -163,9 +163,9 @@ pub struct TrendPoint {
     /// Value of the parameter [SI].
     pub value: f64,
     /// Amplitudes of y and z [m].
-    pub amplitude: Both,
+    pub amplitude: LateralEstimates,
     /// Frequencies of y and z [Hz].
-    pub frequency: Both,
+    pub frequency: LateralEstimates,
     /// Number of replicates.
     pub n: u64,
 }
@@ -173,7 +173,7 @@ pub struct TrendPoint {
 impl TrendPoint {
     /// Takes the values from the results of a study's point.
     pub fn new(value: f64, results: &PointResults) -> Self {
-        let measure = |name| results.of(name).unwrap_or((f64::NAN, None));
+        let measure = |name| results.find(name).unwrap_or((f64::NAN, None));
         Self {
             value,
             amplitude: ["amplitude_y", "amplitude_z"].map(measure),

@@ -43,7 +43,7 @@ fn read(source: Bytes, layout: &Layout) -> Result<Record, FileError> {
     let used: Vec<Column> = roles.time.iter().chain(&roles.components).cloned().collect();
     let timed = roles.time.is_some();
     let mut rows = Rows::new(roles, layout);
-    let source = Arc::new(Guarded(source));
+    let source = Arc::new(PageGuard(source));
     let mut row = 0;
     for group in 0..metadata.num_row_groups() {
         let mut columns = Vec::new();
@@ -109,7 +109,7 @@ struct Values {
 impl Values {
     /// Opens the column; the inner error says what it holds instead of numbers.
     fn open<S: ChunkReader + 'static>(
-        source: &Arc<Guarded<S>>,
+        source: &Arc<PageGuard<S>>,
         metadata: &ParquetMetaData,
         group: usize,
         index: usize,
@@ -236,15 +236,15 @@ fn missing(what: &str) -> ParquetError {
 
 /// Refuses pages that state an impossible size, because the decoder allocates the memory that a header states before
 /// it reads the page.
-struct Guarded<S>(S);
+struct PageGuard<S>(S);
 
-impl<S: Length> Length for Guarded<S> {
+impl<S: Length> Length for PageGuard<S> {
     fn len(&self) -> u64 {
         self.0.len()
     }
 }
 
-impl<S: ChunkReader> ChunkReader for Guarded<S> {
+impl<S: ChunkReader> ChunkReader for PageGuard<S> {
     type T = std::io::Chain<std::io::Cursor<Vec<u8>>, S::T>;
 
     /// Called where a page's header begins.

@@ -13,7 +13,7 @@ use std::io::Read;
 /// # Errors
 /// When the text is not an evenly sampled velocity record; the message says where and why.
 pub fn parse_csv(source: impl Read, name: &str, layout: &Layout) -> Result<Record, FileError> {
-    let mut source = Summed { source, sum: crc32fast::Hasher::new() };
+    let mut source = ChecksumReader { source, sum: crc32fast::Hasher::new() };
     let mut record = read(&mut source, layout).map_err(|error| error.file(name))?;
     name.clone_into(&mut record.file);
     record.reading.checksum = source.sum.finalize();
@@ -73,12 +73,12 @@ impl Clock {
 }
 
 /// Computes the checksum of what is read.
-struct Summed<R> {
+struct ChecksumReader<R> {
     source: R,
     sum: crc32fast::Hasher,
 }
 
-impl<R: Read> Read for Summed<R> {
+impl<R: Read> Read for ChecksumReader<R> {
     fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
         let read = self.source.read(buffer)?;
         self.sum.update(buffer.get(..read).unwrap_or_default());

@@ -1,6 +1,6 @@
 //! Turns a picture into a map of basis weight and finds out how uneven it is.
 
-use super::aside::Aside;
+use super::aside::ForeignParts;
 use super::chance::scatter;
 use super::doubt::{Doubt, FEWEST};
 use super::findings::{Findings, PatchFindings, SHARP, Settings};
@@ -8,7 +8,7 @@ use super::note::notes;
 use super::optics::{blurred, noise_at_most};
 use super::picture::Picture;
 use super::spots::Spots;
-use super::weigh::{Correction, Light, Weighed, above_zero, beside, weigh};
+use super::weigh::{Correction, Light, WeighedPicture, above_zero, beside, weigh};
 use crate::error::{Fault, FileError};
 use crate::units::{Dimension, shortest};
 use crate::web::uniformity::Unevenness;
@@ -35,7 +35,7 @@ fn found(picture: &Picture, settings: &Settings) -> Result<Findings, Fault> {
     let correction = Correction { lamp: settings.lamp.as_ref(), keep_shading: settings.keep_shading };
     let is_cleaned = matches!(settings.light, Light::Transmitted { .. }) && !settings.keep_spots;
     let spots = if is_cleaned { beside(picture, settings.light, correction)? } else { Spots::none(picture) };
-    let aside = Aside::new(picture, settings.lamp.as_ref(), &spots);
+    let aside = ForeignParts::new(picture, settings.lamp.as_ref(), &spots);
     // Only the part that is web, of the picture and of its lamp.
     let part = |picture: &Picture| if spots.bare.is_empty() { None } else { Some(picture.part(spots.web)) };
     let (own, lamp) = (part(picture), settings.lamp.as_ref().and_then(part));
@@ -86,8 +86,8 @@ fn found(picture: &Picture, settings: &Settings) -> Result<Findings, Fault> {
     let lags = ((LAG / map.cell).round() as usize + 1).min(LAGS);
     let shading = weighed.shading.as_ref().map(|shading| libm::expm1(shading.range()));
     let notes = notes(picture, settings, &weighed, &patches, &aside);
-    let (clouds, autocorrelation) = (Clouds::of(map), autocorrelation(map, lags, 1));
-    let Weighed { map, mean_known, white, density, pixels, .. } = weighed;
+    let (clouds, autocorrelation) = (Clouds::measure(map), autocorrelation(map, lags, 1));
+    let WeighedPicture { map, mean_known, white, density, pixels, .. } = weighed;
     Ok(Findings {
         map,
         mean_known,

@@ -6,7 +6,7 @@ use crate::statistics::median;
 
 /// The parts of a picture that are not web.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Aside {
+pub struct ForeignParts {
     /// Area beside the rectangle that was cut out, because the bare lamp is seen there [m²].
     pub cut_off: f64,
     /// First column and row of the rectangle [pixels].
@@ -30,7 +30,7 @@ pub struct Spot {
     pub place: [f64; 2],
 }
 
-impl Aside {
+impl ForeignParts {
     pub(super) fn new(picture: &Picture, lamp: Option<&Picture>, found: &Spots) -> Self {
         let (pixel, area) = (picture.pixel, picture.pixel * picture.pixel);
         let ([left, top], [columns, rows]) = (found.web.corner, found.web.sides);

@@ -1,6 +1,6 @@
 //! Everything that is found out about a scanned web.
 
-use super::aside::Aside;
+use super::aside::ForeignParts;
 use super::doubt::Doubt;
 use super::picture::Picture;
 use super::weigh::{Light, Pixels};
@@ -53,7 +53,7 @@ pub struct Findings {
     /// What is only a guess about the lamp, if anything: then nothing that depends on it has an interval.
     pub guess: Option<Doubt>,
     /// The parts of the picture that are not web and were left out.
-    pub aside: Aside,
+    pub aside: ForeignParts,
     /// How uneven it is, patch by patch.
     pub patches: Vec<PatchFindings>,
     /// Sizes of the clouds.

@@ -57,7 +57,7 @@ mod spots;
 mod weigh;
 
 pub use analyse::analyse;
-pub use aside::{Aside, Spot};
+pub use aside::{ForeignParts, Spot};
 pub use doubt::{Doubt, FEWEST};
 pub use findings::{Findings, PatchFindings, Settings};
 pub use optics::shortest_sharp_wave;

@@ -1,10 +1,10 @@
 //! What a reader of the results must know about the picture.
 
-use super::aside::Aside;
+use super::aside::ForeignParts;
 use super::doubt::Doubt;
 use super::findings::{PatchFindings, Settings};
 use super::picture::Picture;
-use super::weigh::{Light, Weighed};
+use super::weigh::{Light, WeighedPicture};
 use crate::error::Fault;
 use crate::units::{Dimension, shortest};
 
@@ -21,9 +21,9 @@ const MANY: f64 = 1e-3;
 pub(super) fn notes(
     picture: &Picture,
     settings: &Settings,
-    weighed: &Weighed,
+    weighed: &WeighedPicture,
     patches: &[PatchFindings],
-    aside: &Aside,
+    aside: &ForeignParts,
 ) -> Vec<Fault> {
     let mut notes: Vec<Fault> = side_of_a_pixel(picture).into_iter().collect();
     if picture.colour {
@@ -119,7 +119,7 @@ fn assumed_lamp(white: f64, full_scale: bool) -> Fault {
 /// What is said of the bare lamp beside the web, if it is visible.
 ///
 /// * `pictured` – whether there is a picture of the lamp without web; the level is then relative to it
-fn bare_lamp(aside: &Aside, pictured: bool) -> Option<Fault> {
+fn bare_lamp(aside: &ForeignParts, pictured: bool) -> Option<Fault> {
     let level = aside.bare?;
     let message = format!(
         "the bare lamp is visible beside the web, so the largest rectangle of web was cut out, without {}",
@@ -139,7 +139,7 @@ fn bare_lamp(aside: &Aside, pictured: bool) -> Option<Fault> {
     Some(Fault::new(message, remedy))
 }
 
-fn dark_spots(aside: &Aside) -> Option<Fault> {
+fn dark_spots(aside: &ForeignParts) -> Option<Fault> {
     let largest = aside.spots.first()?;
     let [right, down] = largest.place.map(|place| Dimension::Length.pretty_to(place, 3));
     Some(Fault::plain(format!(
@@ -152,7 +152,7 @@ fn dark_spots(aside: &Aside) -> Option<Fault> {
 }
 
 /// Pixels without a value, as light as can be, or lighter than the lamp.
-fn odd_pixels(picture: &Picture, weighed: &Weighed) -> Vec<Fault> {
+fn odd_pixels(picture: &Picture, weighed: &WeighedPicture) -> Vec<Fault> {
     let share = |pixels: usize| pixels as f64 / picture.values.len() as f64;
     let shown = |pixels: usize| format!("{pixels} ({})", per_cent(share(pixels)));
     let remedy = |pixels: usize, remedy| if share(pixels) > MANY { remedy } else { "" };

@@ -38,7 +38,7 @@ pub struct Pixels {
 
 /// A picture turned into a map.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Weighed {
+pub(super) struct WeighedPicture {
     /// The map; its edges are cut, not closed. Without a known mean, the mean is 1 kg/m².
     pub(super) map: Map,
     /// Whether the mean of the map is that of the sheet.
@@ -55,7 +55,7 @@ pub(super) struct Weighed {
     pub(super) per_noise: f64,
 }
 
-impl Weighed {
+impl WeighedPicture {
     /// What is only a guess about the lamp, if anything.
     pub(super) fn guess(&self, light: Light) -> Option<Doubt> {
         let is_white = matches!(light, Light::Transmitted { white: None, .. }) && self.white.is_some();
@@ -131,7 +131,7 @@ pub(super) fn weigh(
     light: Light,
     correction: Correction<'_>,
     masked: &[bool],
-) -> Result<Weighed, Fault> {
+) -> Result<WeighedPicture, Fault> {
     let (Light::Transmitted { mean, .. } | Light::Weight { mean }) = light;
     above_zero("a mean basis weight [kg/m²]", mean)?;
     match light {
@@ -178,7 +178,7 @@ fn transmitted(
     white: Option<f64>,
     Correction { lamp, keep_shading }: Correction<'_>,
     masked: &[bool],
-) -> Result<Weighed, Fault> {
+) -> Result<WeighedPicture, Fault> {
     above_zero("a level of the lamp", white)?;
     let levels = || picture.values.iter().copied().filter(|level| level.is_finite());
     let white = white.or(picture.full_scale).unwrap_or_else(|| levels().fold(0.0, f64::max));
@@ -207,7 +207,7 @@ fn transmitted(
     logs.iter_mut().for_each(|log| *log = 1.0 - *log / density);
     let saturated = picture.full_scale.map_or(0, |most| levels().filter(|level| *level >= most).count());
     let (map, lighter) = map(picture, logs, mean.unwrap_or(1.0))?;
-    Ok(Weighed {
+    Ok(WeighedPicture {
         map,
         mean_known: mean.is_some(),
         white: lamp.is_none().then_some(white),
@@ -218,7 +218,7 @@ fn transmitted(
     })
 }
 
-fn weights(picture: &Picture, mean: Option<f64>) -> Result<Weighed, Fault> {
+fn weights(picture: &Picture, mean: Option<f64>) -> Result<WeighedPicture, Fault> {
     let usable = |weight: f64| if weight.is_finite() && weight >= 0.0 { weight } else { f64::NAN };
     let mut weights: Vec<f64> = picture.weights().map(usable).collect();
     let advice = "cut out a part of the map where the gauge has seen the web";
@@ -229,7 +229,7 @@ fn weights(picture: &Picture, mean: Option<f64>) -> Result<Weighed, Fault> {
     }
     weights.iter_mut().for_each(|weight| *weight /= found);
     let (map, _) = map(picture, weights, mean.unwrap_or(found))?;
-    Ok(Weighed {
+    Ok(WeighedPicture {
         map,
         mean_known: true,
         white: None,

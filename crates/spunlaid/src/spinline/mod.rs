@@ -25,7 +25,7 @@ pub use material::{Crystals, Material, Polymer, PolymerFile, ZERO_CELSIUS};
 pub use solution::{Freezing, FreezingCause, Solution, Station};
 pub use surroundings::{AirChange, AirState, AirTable, Surroundings};
 
-use crate::air::{Air, FromFile};
+use crate::air::{Air, FileContent};
 use crate::drag::{Drag, FrictionLaw};
 use crate::error::Fault;
 
@@ -101,7 +101,7 @@ pub enum PolymerSource {
     /// A polymer whose constants the program has.
     Known(Polymer),
     /// A file.
-    File(FromFile<PolymerFile>),
+    File(FileContent<PolymerFile>),
 }
 
 /// What gives the viscosity of the melt.

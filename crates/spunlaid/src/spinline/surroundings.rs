@@ -1,6 +1,6 @@
 //! The air along the spinline.
 
-use crate::air::FromFile;
+use crate::air::FileContent;
 
 /// The air along the spinline.
 #[derive(Clone, Debug, PartialEq)]
@@ -8,7 +8,7 @@ pub enum Surroundings {
     /// The same everywhere.
     Uniform(AirState),
     /// Values at distances from the die, from a table.
-    Table(FromFile<AirTable>),
+    Table(FileContent<AirTable>),
     /// The velocity of the case's CFD field upstream of the inlet.
     Field {
         /// Temperature of the air [K].
@@ -47,7 +47,7 @@ impl AirChange {
     pub const NONE: Self = Self { velocity_factor: 1.0, cross_velocity_factor: 1.0, temperature_offset: 0.0 };
 
     /// The changed air.
-    pub(super) fn of(self, air: AirState) -> AirState {
+    pub(super) fn apply(self, air: AirState) -> AirState {
         AirState {
             velocity: self.velocity_factor * air.velocity,
             cross_velocity: self.cross_velocity_factor * air.cross_velocity,

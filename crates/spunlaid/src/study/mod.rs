@@ -195,17 +195,17 @@ impl Study {
 /// The seed of a point without common phases. It depends on the study's seed and the point's index only, and is
 /// below 2⁵³, so that programs which read it as a floating-point number read it exactly.
 pub fn seed_of_point(seed: u64, point: u64) -> u64 {
-    stream(seed, Use::PointSeed, point).next_u64() >> 11
+    stream(seed, RandomUse::PointSeed, point).next_u64() >> 11
 }
 
 /// What a random stream is used for; different uses have different numbers.
 #[derive(Clone, Copy, Debug)]
-enum Use {
+enum RandomUse {
     PointSeed = 1,
     LatinHypercube = 2,
 }
 
-fn stream(seed: u64, purpose: Use, index: u64) -> ChaCha8Rng {
+fn stream(seed: u64, purpose: RandomUse, index: u64) -> ChaCha8Rng {
     let mut key = [0; 32];
     // The turbulence counts velocity components in the last word, so its streams differ from these.
     for (bytes, word) in key.chunks_exact_mut(8).zip([seed, index, purpose as u64, u64::MAX]) {

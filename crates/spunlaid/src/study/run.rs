@@ -41,7 +41,7 @@ pub fn run(
     computing: Computing<'_>,
     progress: &Progress,
 ) -> Result<(), Error> {
-    let mut rounds = Rounds::of(study);
+    let mut rounds = Rounds::new(study);
     loop {
         fly_missing(study, journal, &rounds, computing, progress)?;
         if !rounds.next(study, &mut lock(journal))? {
@@ -93,7 +93,7 @@ fn fly_missing(
     progress: &Progress,
 ) -> Result<(), Error> {
     let batches = rounds.missing(&lock(journal));
-    let lacking = Lacking::new(study, rounds.wanted(), &batches, progress);
+    let lacking = MissingReplicates::new(study, rounds.wanted(), &batches, progress);
     if batches.is_empty() {
         return Ok(());
     }
@@ -166,9 +166,9 @@ impl<F: FnMut()> Drop for OnDrop<F> {
 }
 
 /// Number of replicates that each point still lacks.
-struct Lacking(Vec<AtomicU64>);
+struct MissingReplicates(Vec<AtomicU64>);
 
-impl Lacking {
+impl MissingReplicates {
     fn new(study: &Study, wanted: &[u64], batches: &[Batch], progress: &Progress) -> Self {
         let mut lacking = vec![0; wanted.len()];
         let mut steps = 0;

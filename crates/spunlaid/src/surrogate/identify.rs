@@ -8,7 +8,7 @@ use std::array::from_fn;
 
 /// A surrogate that was found, and how well it fits.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Identified {
+pub struct Identification {
     /// The surrogate.
     pub surrogate: Surrogate,
     /// Rms difference between the measured autocorrelations and those of the surrogate, over the lags of the fit.
@@ -28,7 +28,7 @@ pub struct Residual {
 /// Why no surrogate was found.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum Unidentified {
+pub enum IdentificationFailure {
     /// A standard deviation or the step of the lag is not positive and finite.
     #[error("the laid fibre has no spread, so no surrogate can be fitted to it; lay a longer fibre")]
     NoSpread,
@@ -84,21 +84,25 @@ const NOT_DECAYED: f64 = 0.9;
 /// * `correlations` – autocorrelation coefficients of ξ₁ and ξ₂ from lag zero
 ///
 /// # Errors
-/// [`Unidentified`] if the curves cannot be those of a surrogate, or do not say which.
-pub fn identify(sigmas: [f64; 2], step: f64, correlations: [&[f64]; 2]) -> Result<Identified, Unidentified> {
+/// [`IdentificationFailure`] if the curves cannot be those of a surrogate, or do not say which.
+pub fn identify(
+    sigmas: [f64; 2],
+    step: f64,
+    correlations: [&[f64]; 2],
+) -> Result<Identification, IdentificationFailure> {
     if !sigmas.iter().chain([&step]).all(|x| *x > 0.0 && x.is_finite()) {
-        return Err(Unidentified::NoSpread);
+        return Err(IdentificationFailure::NoSpread);
     }
     let ratio = ratio(sigmas);
     if ratio > LARGEST_RATIO {
-        return Err(Unidentified::Ratio { ratio });
+        return Err(IdentificationFailure::Ratio { ratio });
     }
     let wanted = [
         FitTarget::new(sigmas[0], sigmas[1], step, correlations[0])?,
         FitTarget::new(sigmas[1], sigmas[0], step, correlations[1])?,
     ];
     if wanted.iter().any(FitTarget::goes_on) {
-        return Err(Unidentified::NotDecaying);
+        return Err(IdentificationFailure::NotDecaying);
     }
     let middle = (sigmas[0] * sigmas[1]).sqrt();
     let noise = |x: f64| (libm::exp(x) / middle).sqrt();
@@ -112,13 +116,13 @@ pub fn identify(sigmas: [f64; 2], step: f64, correlations: [&[f64]; 2]) -> Resul
     let (found, mean_square) = fit.least();
     let near = |end: f64| (found - end).abs() < 1e-6;
     if near(ends[0]) {
-        return Err(Unidentified::Regular { noise: noise(ends[0]) });
+        return Err(IdentificationFailure::Regular { noise: noise(ends[0]) });
     }
     if near(ends[1]) {
-        return Err(Unidentified::Slow { noise: noise(ends[1]) });
+        return Err(IdentificationFailure::Slow { noise: noise(ends[1]) });
     }
     let surrogate = Surrogate { sigma_md: sigmas[0], sigma_cd: sigmas[1], noise: noise(found) };
-    Ok(Identified { surrogate, residual: mean_square.max(0.0).sqrt() })
+    Ok(Identification { surrogate, residual: mean_square.max(0.0).sqrt() })
 }
 
 impl Surrogate {
@@ -175,14 +179,18 @@ struct FitTarget {
 }
 
 impl FitTarget {
-    fn new(own: f64, other: f64, step: f64, correlation: &[f64]) -> Result<Self, Unidentified> {
+    fn new(own: f64, other: f64, step: f64, correlation: &[f64]) -> Result<Self, IdentificationFailure> {
         let lags = correlation.iter().enumerate().map(|(lag, c)| (lag as f64 * step / own, *c));
         let coefficients: Vec<(f64, f64)> =
             lags.filter(|(lag, _)| (LAGS[0]..=LAGS[1]).contains(lag)).collect();
         let known = coefficients.len() >= LEAST_LAGS
             && coefficients.last().is_some_and(|(lag, _)| *lag >= LEAST_REACH)
             && coefficients.iter().all(|(_, c)| c.is_finite());
-        if known { Ok(Self { own, other: other / own, coefficients }) } else { Err(Unidentified::TooShort) }
+        if known {
+            Ok(Self { own, other: other / own, coefficients })
+        } else {
+            Err(IdentificationFailure::TooShort)
+        }
     }
 
     fn goes_on(&self) -> bool {

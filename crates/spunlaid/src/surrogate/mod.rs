@@ -19,7 +19,7 @@ mod generator;
 mod identify;
 mod paths;
 
-pub use identify::{Identified, Residual, Unidentified, identify};
+pub use identify::{Identification, IdentificationFailure, Residual, identify};
 pub(crate) use paths::BLOCK as PATH_POINTS;
 pub use paths::{PathKey, Paths};
 

@@ -1,6 +1,6 @@
 //! What has been laid.
 
-use super::laying::Spent;
+use super::laying::TimeSpent;
 use super::map::Map;
 use super::neighbours::{NeighbourCorrelation, SharedVariance};
 use super::window::Strand;
@@ -17,12 +17,12 @@ pub struct LaidWeb {
     /// Mass beyond edges that cut it off [kg].
     pub cut: f64,
     /// What is known of filaments that were flown together and laid as they came down; None of a web of independent filaments.
-    pub together: Option<Together>,
+    pub together: Option<SharedAirFindings>,
 }
 
 /// What is known of filaments that were flown together, in one air.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Together {
+pub struct SharedAirFindings {
     /// Single fibres of a window.
     pub strands: Vec<Strand>,
     /// How filaments of each layer come down together, over their distance.
@@ -34,10 +34,10 @@ pub struct Together {
     /// Length of time that was flown, of the layer that took the longest [s].
     pub time: f64,
     /// What the flights took.
-    pub spent: Spent,
+    pub spent: TimeSpent,
 }
 
-impl Together {
+impl SharedAirFindings {
     /// Adds what is known of another layer.
     pub(crate) fn add(&mut self, layer: usize, other: Self) {
         self.strands.extend(other.strands.into_iter().map(|strand| Strand { layer, ..strand }));

@@ -19,7 +19,7 @@ pub struct Laying<'a> {
 
 /// Time that a computation took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Spent {
+pub struct TimeSpent {
     /// All of it.
     pub whole: Duration,
     /// The parts that are shared among threads.

@@ -4,7 +4,7 @@
 use crate::meshes::{ALL, Block, Made, at, at_points, field, inside, linear, numbers, smooth};
 use proptest::prelude::*;
 use spunlaid::error::Fault;
-use spunlaid::field::{Around, Cells, Field, Hint, Shape, Values};
+use spunlaid::field::{AirAround, Cells, Field, Hint, Shape, Values};
 use spunlaid::vec3::Vec3;
 
 type V = Vec3<f64>;
@@ -97,7 +97,7 @@ fn identical_air_whoever_asks_first() {
     let points: Vec<_> = inside(2000).collect();
     let asked = |order: &mut dyn Iterator<Item = usize>| {
         let field = field(&Block::cube(32, 0.0), Made::Hexahedra, smooth);
-        let (mut hint, mut found) = (Hint::default(), vec![Around::default(); points.len()]);
+        let (mut hint, mut found) = (Hint::default(), vec![AirAround::default(); points.len()]);
         order.for_each(|i| found[i] = field.around(at(points[i]), &mut hint));
         found
     };

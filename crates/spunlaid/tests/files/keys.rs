@@ -1,6 +1,6 @@
 //! The table of keys: what is said of each holds, and a case can be read and set through it.
 
-use spunlaid::case::keys::{self, Kind, LeftOut, Value};
+use spunlaid::case::keys::{self, Kind, Omission, Value};
 use spunlaid::case::{Case, ERROR_TOLERANCE};
 use spunlaid::input::{parse_case, read_case, starter_case};
 use spunlaid::spinline::{Melt, Polymer};
@@ -25,7 +25,7 @@ fn every_row_is_whole() {
     for key in keys::all() {
         assert!(key.meaning.ends_with('.') && key.meaning.len() > 20, "{}", key.name);
         assert!(!key.varies || key.label != key.name, "{} varies and has no label", key.name);
-        let (LeftOut::Required(words) | LeftOut::Value(words) | LeftOut::Follows(words)) = key.left_out;
+        let (Omission::Required(words) | Omission::Value(words) | Omission::Follows(words)) = key.left_out;
         assert!(!words.is_empty(), "{}", key.name);
         if let (Some((least, greatest)), Kind::Quantity(..)) = (key.slider, key.kind) {
             assert!(least < greatest, "{}", key.name);
@@ -165,7 +165,7 @@ fn rejects_values_with_the_way_out() {
 #[test]
 fn identical_default_of_the_tolerance() {
     let tolerance = keys::find("run.error_tolerance").unwrap();
-    assert_eq!(tolerance.left_out, LeftOut::Value("0.003"));
+    assert_eq!(tolerance.left_out, Omission::Value("0.003"));
     assert_eq!("0.003".parse(), Ok(ERROR_TOLERANCE));
 }
 

@@ -2,7 +2,7 @@
 
 use crate::cases;
 use crate::meshes;
-use spunlaid::air::{Air, Axis, Eddies, Flow, FromFile, FromFlow, PlacedField, Profile, StreamKey};
+use spunlaid::air::{Air, Axis, Eddies, FileContent, Flow, FlowNumbers, PlacedField, Profile, StreamKey};
 use spunlaid::air::{Atmosphere, Surroundings, Wind};
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
@@ -42,7 +42,7 @@ fn flights(case: &Case) -> Vec<Trajectory> {
 }
 
 fn profile(profile: Profile) -> Flow {
-    Flow::Profile(FromFile::new(PathBuf::from("profile.csv"), 1, Arc::new(profile)))
+    Flow::Profile(FileContent::new(PathBuf::from("profile.csv"), 1, Arc::new(profile)))
 }
 
 /// A field of 3 × 3 × 3 points in a box from `low` to `high`, values from a function of the place.
@@ -70,11 +70,12 @@ fn field(
 }
 
 fn placed(field: Field, root: Vec3<f64>, axis: Axis, unit: f64) -> Flow {
-    let field = FromFile::new(PathBuf::from("field.vti"), 1, Arc::new(field));
+    let field = FileContent::new(PathBuf::from("field.vti"), 1, Arc::new(field));
     Flow::Field(PlacedField { field, root, axis, unit, length_constant: 0.43, time_constant: 0.3 })
 }
 
-const TOLD: FromFlow = FromFlow { turbulence_intensity: true, length_scale: true, cutoff_frequency: true };
+const TOLD: FlowNumbers =
+    FlowNumbers { turbulence_intensity: true, length_scale: true, cutoff_frequency: true };
 
 /// A profile with the same values everywhere as the uniform case makes the same flight. Only rounding differs,
 /// and the motion of the taut fibre does not amplify it.

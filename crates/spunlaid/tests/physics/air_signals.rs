@@ -2,7 +2,7 @@
 
 use crate::common::*;
 use spunlaid::air::{
-    APART, Air, Eddies, EddyModel, FromFile, Measured, RecordNumbers, SpectrumShape, SpectrumTable,
+    APART, Air, Eddies, EddyModel, FileContent, Measured, RecordNumbers, SpectrumShape, SpectrumTable,
 };
 use spunlaid::air::{Stream, StreamKey, Wind};
 use spunlaid::lanes::{Isa, WIDTH};
@@ -60,7 +60,7 @@ fn spectra(air: &Air, interval: f64, samples: usize) -> [Vec<(f64, f64)>; 2] {
 #[test]
 fn stat_variance_does_not_depend_on_the_shape() {
     let table = SpectrumTable { frequency: vec![5.0, 20.0, 60.0], energy: vec![1.0, 3.0, 0.0] };
-    let table = FromFile::new(PathBuf::from("table.csv"), 1, Arc::new(table));
+    let table = FileContent::new(PathBuf::from("table.csv"), 1, Arc::new(table));
     for shape in [SpectrumShape::Flat, SpectrumShape::VonKarman, SpectrumShape::Measured(table)] {
         for eddies in [EddyModel::Independent, EddyModel::Convected { decay_time: 0.02 }] {
             let air = Air { spectrum: shape.clone(), eddies, harmonics: 128, ..table1_air() };
@@ -127,7 +127,7 @@ fn published_von_karman_spectra_along_and_across() {
 #[test]
 fn stat_realised_spectra_follow_the_shape() {
     let table = SpectrumTable { frequency: vec![10.0, 40.0, 90.0], energy: vec![2.0, 6.0, 1.0] };
-    let table = FromFile::new(PathBuf::from("table.csv"), 1, Arc::new(table));
+    let table = FileContent::new(PathBuf::from("table.csv"), 1, Arc::new(table));
     for shape in [SpectrumShape::VonKarman, SpectrumShape::Measured(table)] {
         let air = Air { spectrum: shape, harmonics: 1024, ..table1_air() };
         let samples = 4096;
@@ -194,13 +194,13 @@ fn stat_a_carried_pattern_forgets_itself_in_its_decay_time() {
     }
 }
 
-fn record(components: usize, samples: usize) -> FromFile<Measured> {
+fn record(components: usize, samples: usize) -> FileContent<Measured> {
     let value = |c: usize, i: usize| ((i * (7 + 2 * c)) % 1009) as f64 + (i as f64 * 0.1).sin();
     let values: Vec<Vec<f64>> =
         (0..components).map(|c| (0..samples).map(|i| value(c, i)).collect()).collect();
     let views: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
     let measured = Measured::new(1e-3, &views, 2e-3, RecordNumbers::default());
-    FromFile::new(PathBuf::from("probe.csv"), 7, Arc::new(measured))
+    FileContent::new(PathBuf::from("probe.csv"), 7, Arc::new(measured))
 }
 
 /// At the instants of its samples the fluctuation is the record's, over its rms and times the air's; stretches
@@ -253,7 +253,7 @@ fn analytic_between_samples_parabolas_are_exact() {
         (mean, (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / 4000.0).sqrt())
     };
     let air = Air {
-        records: vec![FromFile::new(PathBuf::from("p.csv"), 1, Arc::new(measured))],
+        records: vec![FileContent::new(PathBuf::from("p.csv"), 1, Arc::new(measured))],
         length_scale: 1.0,
         ..table1_air()
     };

@@ -6,7 +6,7 @@ use spunlaid::ensemble::{Computing, Keep, LaidCurves, fly};
 use spunlaid::error::Error;
 use spunlaid::flight::{Flight, Job, LaidPoint};
 use spunlaid::lanes::Isa;
-use spunlaid::laydown::{Trace, Tracing};
+use spunlaid::laydown::{Trace, TraceSettings};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// Mean and standard error over replicates.
@@ -19,7 +19,7 @@ fn statistics(case: &Case, duration: f64) -> [Number; 4] {
     let line = case.line.unwrap();
     let spacing = case.fibre.rest_length();
     let skip = (2.0 * line.distance / spacing) as u64;
-    let tracing = Tracing { spacing, belt_ratio: line.belt_ratio(), skip, reach: 0.4 };
+    let tracing = TraceSettings { spacing, belt_ratio: line.belt_ratio(), skip, reach: 0.4 };
     let traced = laid_until(&mut flight(case, 0..8), duration).into_iter().map(|laid| {
         let mut trace = Trace::new(tracing);
         laid.iter().for_each(|point| trace.add(point.md, point.cd));

@@ -1,6 +1,6 @@
 //! A mean flow that widens as it slows (`air.widening = "md"`), against the continuity equation and its streamlines.
 
-use spunlaid::air::{Air, Flow, FromFile, Profile, Widening};
+use spunlaid::air::{Air, FileContent, Flow, Profile, Widening};
 use spunlaid::case::Case;
 use spunlaid::fibre::Place;
 use spunlaid::field::Hint;
@@ -19,7 +19,7 @@ const PLACES: [f64; 3] = [-10e-3, 0.0, 4e-3];
 
 fn profile(x: &[f64], velocity: &[f64]) -> Flow {
     let rows = Profile { x: x.to_vec(), velocity: velocity.to_vec(), ..Profile::default() };
-    Flow::Profile(FromFile::new(PathBuf::from("profile.csv"), 1, Arc::new(rows)))
+    Flow::Profile(FileContent::new(PathBuf::from("profile.csv"), 1, Arc::new(rows)))
 }
 
 /// A light fibre that hangs in the air of the diffuser, without turbulence. Little friction pulls it straight.

@@ -3,9 +3,9 @@
 
 use crate::company_cases::{CASES, FIXED, with_files};
 use crate::short::case_of;
-use spunlaid::air::{Air, EddyModel, Flow, FromFlow};
+use spunlaid::air::{Air, EddyModel, Flow, FlowNumbers};
 use spunlaid::case::Case;
-use spunlaid::case::keys::{self, Key, Kind, LeftOut, Value};
+use spunlaid::case::keys::{self, Key, Kind, Omission, Value};
 use spunlaid::ensemble::{Computing, Job, Keep, Trajectory, fly, fly_together};
 use spunlaid::error::Error;
 use spunlaid::input::{parse_case, parse_study, write_case};
@@ -190,7 +190,7 @@ fn vary_every_key(name: &str, text: &str) -> Found {
             if !differ.is_empty() {
                 found.wrong.push(format!("{name}: {} = {values:?}: {}", key.name, differ.join(", ")));
             }
-            if how == CLOSE && Bundles::of(&points, &batches(&points), 1).count() == 1 {
+            if how == CLOSE && Bundles::from_batches(&points, &batches(&points), 1).count() == 1 {
                 found.shared.insert(key.name);
             }
         }
@@ -232,7 +232,7 @@ fn identical_alone_and_in_company_for_every_key() {
 fn rejects_keys_that_a_study_cannot_vary_with_the_way_out() {
     for key in keys::all().iter().filter(|key| !key.varies) {
         let value = match key.left_out {
-            LeftOut::Value(text) if matches!(key.kind, Kind::Whole(..)) => text.to_owned(),
+            Omission::Value(text) if matches!(key.kind, Kind::Whole(..)) => text.to_owned(),
             _ => "'1 m'".to_owned(),
         };
         let message = points(FIXED, key.name, &[value.clone(), value]).unwrap_err();
@@ -254,7 +254,7 @@ fn identical_alone_and_in_company_of_another_kind_of_flow() {
     let (mut wrong, mut known) = (Vec::new(), BTreeMap::new());
     for (name, case) in varied {
         let air = Air { eddies: EddyModel::Independent, ..case.air.clone() };
-        let uniform = Air { flow: Flow::Uniform, from_flow: FromFlow::default(), ..air.clone() };
+        let uniform = Air { flow: Flow::Uniform, from_flow: FlowNumbers::default(), ..air.clone() };
         let cases = [air, uniform].map(|air| Case { air, ..case.clone() });
         assert!(cases.iter().all(|case| case.check().is_ok()), "{name}");
         for order in [[0, 1], [1, 0]] {

@@ -1,7 +1,7 @@
 //! All filaments of a beam, flown together: limits that hold exactly, and nothing that depends on the threads.
 
 use spunlaid::air::Lateral;
-use spunlaid::beam::{Airs, Beam, Flown, Flying};
+use spunlaid::beam::{Airs, Beam, BeamFindings, Flying};
 use spunlaid::case::Case;
 use spunlaid::error::Error;
 use spunlaid::fibre::Place;
@@ -53,7 +53,7 @@ pub(super) fn lay_by(
     airs: Airs,
     isa: Isa,
     threads: usize,
-) -> (LaidWeb, Flown) {
+) -> (LaidWeb, BeamFindings) {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let window = Window { corner: [10e-3, 20e-3], sides: [10e-3; 2] };
     let beam = Beam { case, places, airs };
@@ -62,7 +62,7 @@ pub(super) fn lay_by(
     laid
 }
 
-fn lay(sheet: &Sheet, places: &[Place], airs: Airs) -> (LaidWeb, Flown) {
+fn lay(sheet: &Sheet, places: &[Place], airs: Airs) -> (LaidWeb, BeamFindings) {
     lay_by((&case(), sheet), places, airs, Isa::detect(), 2)
 }
 
@@ -153,7 +153,7 @@ fn analytic_the_variance_of_filaments_together_over_that_of_independent_ones() {
 }
 
 /// What is found of a laid sheet, beside what the kept curves let expect.
-fn found(sheet: &Sheet, laid: LaidWeb, flown: &Flown, filaments: Filaments) -> Findings {
+fn found(sheet: &Sheet, laid: LaidWeb, flown: &BeamFindings, filaments: Filaments) -> Findings {
     let case = case();
     let (line, spacing) = (case.line.unwrap(), case.fibre.rest_length());
     let start = line.feed_speed * case.run.spin_up();

@@ -1,7 +1,7 @@
 //! The correlation of neighbours in a web whose filaments fly together.
 
 use super::beam::{case_in, lay_by, row, sheet};
-use spunlaid::beam::{Airs, Flown};
+use spunlaid::beam::{Airs, BeamFindings};
 use spunlaid::ensemble::{Computing, Keep, Results, fly};
 use spunlaid::error::Error;
 use spunlaid::fibre::Place;
@@ -9,7 +9,7 @@ use spunlaid::lanes::Isa;
 use spunlaid::web::{Correlation, Edges, NeighbourCorrelation, Row, Sheet};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
-fn flown(lateral: &str, sheet: &Sheet, places: &[Place], airs: Airs, threads: usize) -> Flown {
+fn flown(lateral: &str, sheet: &Sheet, places: &[Place], airs: Airs, threads: usize) -> BeamFindings {
     lay_by((&case_in(lateral), sheet), places, airs, Isa::detect(), threads).1
 }
 

@@ -1,8 +1,8 @@
 //! The surrogate: its autocorrelation against series and simulation, its paths, and the way back from a laid curve to it.
 
 use spunlaid::lanes::{Isa, Lanes};
-use spunlaid::laydown::{LaidCurve, Trace, Tracing};
-use spunlaid::surrogate::{PathKey, Paths, Surrogate, Unidentified, identify};
+use spunlaid::laydown::{LaidCurve, Trace, TraceSettings};
+use spunlaid::surrogate::{IdentificationFailure, PathKey, Paths, Surrogate, identify};
 
 const SIGMA: f64 = 0.018;
 
@@ -21,7 +21,7 @@ fn laid(of: Surrogate, seed: u64, points: usize) -> Vec<LaidCurve> {
     const RATIO: f64 = 0.06;
     let mut paths = Paths::new(Isa::detect(), of, STEP, &keys(seed)).unwrap();
     let reach = 12.0 * of.sigma_md.max(of.sigma_cd);
-    let mut traces = vec![Trace::new(Tracing { spacing: STEP, belt_ratio: RATIO, skip: 0, reach }); 8];
+    let mut traces = vec![Trace::new(TraceSettings { spacing: STEP, belt_ratio: RATIO, skip: 0, reach }); 8];
     let mut block = [[Lanes::ZERO; 2]; 500];
     for start in (0..points).step_by(500) {
         paths.fill(&mut block);
@@ -335,31 +335,31 @@ fn rejects_curves_of_no_surrogate() {
     let [md, cd] = of.autocorrelation(step, 61).unwrap();
     let fit = |sigmas: [f64; 2], md: &[f64], cd: &[f64]| identify(sigmas, step, [md, cd]).unwrap_err();
     let sigmas = [SIGMA; 2];
-    assert_eq!(fit([0.0, SIGMA], &md, &cd), Unidentified::NoSpread);
-    assert_eq!(fit([f64::NAN, SIGMA], &md, &cd), Unidentified::NoSpread);
-    assert_eq!(fit([SIGMA, 6.0 * SIGMA], &md, &cd), Unidentified::Ratio { ratio: 6.0 });
-    assert_eq!(fit(sigmas, &[], &cd), Unidentified::TooShort);
-    assert_eq!(fit(sigmas, &md, &cd[..12]), Unidentified::TooShort);
+    assert_eq!(fit([0.0, SIGMA], &md, &cd), IdentificationFailure::NoSpread);
+    assert_eq!(fit([f64::NAN, SIGMA], &md, &cd), IdentificationFailure::NoSpread);
+    assert_eq!(fit([SIGMA, 6.0 * SIGMA], &md, &cd), IdentificationFailure::Ratio { ratio: 6.0 });
+    assert_eq!(fit(sigmas, &[], &cd), IdentificationFailure::TooShort);
+    assert_eq!(fit(sigmas, &md, &cd[..12]), IdentificationFailure::TooShort);
     let mut hole = md.clone();
     hole[20] = f64::NAN;
-    assert_eq!(fit(sigmas, &hole, &cd), Unidentified::TooShort);
-    assert_eq!(fit(sigmas, &md, &[1.0; 61]), Unidentified::NotDecaying);
+    assert_eq!(fit(sigmas, &hole, &cd), IdentificationFailure::TooShort);
+    assert_eq!(fit(sigmas, &md, &[1.0; 61]), IdentificationFailure::NotDecaying);
     let slow: Vec<f64> = (0..61).map(|lag| (-0.0026 * f64::from(lag)).exp()).collect();
     assert!(
-        matches!(fit(sigmas, &slow, &slow), Unidentified::Slow { noise } if (noise - 57.735).abs() < 0.01)
+        matches!(fit(sigmas, &slow, &slow), IdentificationFailure::Slow { noise } if (noise - 57.735).abs() < 0.01)
     );
     let coil: Vec<f64> = (0..61).map(|lag| (0.25 * f64::from(lag)).cos()).collect();
-    assert_eq!(fit(sigmas, &coil, &coil), Unidentified::NotDecaying);
+    assert_eq!(fit(sigmas, &coil, &coil), IdentificationFailure::NotDecaying);
     // Beyond the least noise, as far from it as a curve with more noise on the other side.
     let [least, more] = [0.25_f64, 0.5].map(|a| surrogate(1.0, (a / SIGMA).sqrt() * (1.0 + 1e-12)));
     let [least, more] = [least, more].map(|of| of.autocorrelation(step, 61).unwrap()[0].clone());
     let beyond: Vec<f64> = least.iter().zip(&more).map(|(least, more)| 2.0 * least - more).collect();
     let regular = fit(sigmas, &beyond, &beyond);
     assert!(
-        matches!(regular, Unidentified::Regular { noise } if (noise - 3.727).abs() < 0.001),
+        matches!(regular, IdentificationFailure::Regular { noise } if (noise - 3.727).abs() < 0.001),
         "{regular:?}"
     );
-    for fault in [Unidentified::Ratio { ratio: 6.0 }, regular, Unidentified::NotDecaying] {
+    for fault in [IdentificationFailure::Ratio { ratio: 6.0 }, regular, IdentificationFailure::NotDecaying] {
         assert!(fault.to_string().len() > 60, "{fault}");
     }
     assert!(of.autocorrelation(1.0, 61).is_none() && surrogate(6.0, 12.0).autocorrelation(step, 9).is_none());

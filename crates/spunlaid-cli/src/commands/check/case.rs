@@ -16,7 +16,7 @@ use spunlaid::line::Line;
 use spunlaid::units::Dimension;
 use spunlaid_results::folders::run::POSITIONS;
 use spunlaid_results::numbers::significant;
-use spunlaid_results::output::in_order::InOrder;
+use spunlaid_results::output::in_order::OrderedObject;
 use spunlaid_results::output::json_text;
 use spunlaid_results::output::spinline::{self, SpinResults, SpinSummary};
 use spunlaid_results::output::summary::resolved;
@@ -83,7 +83,7 @@ fn json(case: &Case, expected: Expected, notes: Vec<String>) -> String {
     struct Checked {
         schema_version: u32,
         spunlaid_version: &'static str,
-        case: InOrder<InOrder<Json>>,
+        case: OrderedObject<OrderedObject<Json>>,
         /// Of a fed fibre.
         #[serde(skip_serializing_if = "Option::is_none")]
         throughput_kg_s: Option<f64>,
@@ -183,7 +183,7 @@ fn mesh(case: &Case) {
 /// What is known of the error of the mesh, and how to find out.
 fn error_of_mesh(case: &Case) {
     let half = Dimension::Length.pretty_to(0.5 * case.fibre.rest_length(), 3);
-    match FinerPlans::of(case).mesh {
+    match FinerPlans::for_case(case).mesh {
         Ok(plan) => say::line(&format!(
             "#   spunlaid run compares it with elements of {half} in the same turbulence, for {} % of the run's time",
             significant(100.0 * plan.share_of_run, 2)
@@ -285,7 +285,7 @@ impl Expected {
         let flights = case.flights();
         let busy = (threads(None) as u64).min(flights);
         // A flight takes as long whether its lanes are full or not. The checks are some more, of their own length.
-        let again = FinerPlans::of(case).share_of_run() * flights as f64;
+        let again = FinerPlans::for_case(case).share_of_run() * flights as f64;
         let rounds = (flights.div_ceil(busy) as f64).max((flights as f64 + again) / busy as f64);
         let flying = pace(case, Isa::detect())? * case.run.steps as f64 * rounds;
         Ok(Self {

@@ -9,7 +9,7 @@ use serde::Serialize;
 use serde_json::Value as Json;
 use spunlaid::input::{Overrides, StudyChanges, StudyFile, StudyNote, read_changed_study};
 use spunlaid::study::{Point, Study};
-use spunlaid_results::output::in_order::InOrder;
+use spunlaid_results::output::in_order::OrderedObject;
 use spunlaid_results::output::json_text;
 
 /// Largest number of points that are listed.
@@ -74,7 +74,7 @@ fn json(file: &StudyFile) -> String {
         spunlaid_version: &'static str,
         design: &'static str,
         replicates: [u64; 2],
-        points: Vec<InOrder<Json>>,
+        points: Vec<OrderedObject<Json>>,
         notes: Vec<String>,
     }
     let study = &file.study;
@@ -83,7 +83,7 @@ fn json(file: &StudyFile) -> String {
         let value = |(value, input): (&f64, spunlaid::study::Input<'_>)| {
             (input.column(), input.word(*value).map_or_else(|| Json::from(*value), Json::from))
         };
-        InOrder(values.map(value).collect())
+        OrderedObject(values.map(value).collect())
     };
     json_text(&Checked {
         schema_version: 1,

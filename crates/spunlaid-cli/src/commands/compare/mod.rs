@@ -16,7 +16,7 @@ use spunlaid::error::Fault;
 use spunlaid::observe::MEASURES;
 use spunlaid::statistics::{Difference, Estimate};
 use spunlaid_results::figures::{MOST_COMPARED, overlaid_figures};
-use spunlaid_results::output::comparison::{self, Compared, Comparison};
+use spunlaid_results::output::comparison::{self, ComparedMeasure, Comparison};
 use spunlaid_results::output::origin::ORIGIN;
 use spunlaid_results::report::{ComparisonReport, comparison_html};
 use std::path::{Path, PathBuf};
@@ -129,7 +129,7 @@ fn compared(first: &Run, other: &Run) -> Comparison {
         let finite =
             |values: &Vec<f64>| Estimate::new(values.iter().copied().filter(|v| v.is_finite()).collect());
         let means = [finite(&values[0]), finite(&values[1])];
-        means.iter().all(|values_of_run| values_of_run.mean.is_finite()).then(|| Compared {
+        means.iter().all(|values_of_run| values_of_run.mean.is_finite()).then(|| ComparedMeasure {
             label: measure.label.to_owned(),
             column: measure.column.to_owned(),
             unit: measure.unit.shown,

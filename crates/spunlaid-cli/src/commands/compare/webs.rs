@@ -10,7 +10,7 @@ use spunlaid::scan::shortest_sharp_wave;
 use spunlaid::statistics::{Difference, Estimate};
 use spunlaid_results::figures::{ComparedPatch, SEEN, overlaid_webs};
 use spunlaid_results::numbers::significant;
-use spunlaid_results::output::comparison::{Compared, Comparison};
+use spunlaid_results::output::comparison::{ComparedMeasure, Comparison};
 use std::path::PathBuf;
 
 /// Reads the folders if the first holds a web.
@@ -78,7 +78,7 @@ fn against(first: &Web, other: &Web) -> Result<Comparison, Failure> {
     sides.extend(other.patches.iter().map(|patch| patch.side).filter(new));
     sides.sort_by(f64::total_cmp);
     let of_map = |side: f64| of_patch(side, ["CV", ""], [first.cv(side), other.cv(side)]);
-    let mut measures: Vec<Compared> = sides.into_iter().map(of_map).collect();
+    let mut measures: Vec<ComparedMeasure> = sides.into_iter().map(of_map).collect();
     let of_flown = |patch: &Patch| {
         let values = [Ok(patch.cv.clone()), Ok(at(&other.flown, patch.side)?)];
         Some(of_patch(patch.side, ["CV of the flown curves", "_flown"], values))
@@ -146,7 +146,7 @@ fn measure(
     column: String,
     (unit, per_si): (&'static str, f64),
     values: [Result<WebNumber, String>; 2],
-) -> Compared {
+) -> ComparedMeasure {
     let doubts: Vec<&str> = values
         .iter()
         .filter_map(|value| match value {
@@ -171,7 +171,7 @@ fn measure(
             number.map_or((f64::NAN, None), |number| (number.value, number.standard_error));
         Estimate { mean, standard_error, values: Vec::new() }
     });
-    Compared { label, column, unit, per_si, means, difference, doubt }
+    ComparedMeasure { label, column, unit, per_si, means, difference, doubt }
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use super::board::{Board, PageId};
 use super::clock::Clock;
 use super::document::{Document, complaints};
 use super::fibres::Fibres;
-use super::frame::{Frame, Lately};
+use super::frame::{Frame, RecentMotion};
 use super::measured::Statistics;
 use super::message::{Answer, Command, Complaint, Pace};
 use spunlaid::error::Error;
@@ -43,7 +43,7 @@ pub(super) struct Session {
     remark: Option<String>,
     fibres: Fibres,
     measured: Statistics,
-    lately: Lately,
+    lately: RecentMotion,
     clock: Clock,
     stands: bool,
     generation: u32,
@@ -70,7 +70,7 @@ impl Session {
     ) -> Result<Self, Vec<Complaint>> {
         let read = document.read()?;
         let fibres = Fibres::new(read.case).map_err(|error| complaints(&error))?;
-        let lately = Lately::new();
+        let lately = RecentMotion::new();
         let board = Arc::new(Board::new(Frame::new(fibres.snapshot(), &lately)));
         let now = Instant::now();
         let mut clock = Clock::new(now);
@@ -222,7 +222,7 @@ fn see(
     fibres: &mut Fibres,
     steps: u64,
     since: f64,
-    lately: &mut Lately,
+    lately: &mut RecentMotion,
     measured: &mut Statistics,
 ) -> Result<(), Error> {
     fibres.fly(steps, |instant| {

@@ -4,7 +4,7 @@ use super::Session;
 use crate::live::board::Topic;
 use crate::live::frame::Frame;
 use crate::live::message::Pace;
-use crate::live::settings::{Present, Setting, present, settings};
+use crate::live::settings::{Setting, SettingValue, present, settings};
 use serde::Serialize;
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
@@ -22,7 +22,7 @@ struct State<'a> {
     title: String,
     text: &'a str,
     command: String,
-    values: Vec<Present>,
+    values: Vec<SettingValue>,
     notes: &'a [String],
     remark: Option<&'a String>,
     /// What a fed case says of its filament.

@@ -14,13 +14,13 @@ const BEYOND_FREEZING: f64 = 1.25;
 type Quantity = fn(&Station) -> f64;
 
 /// A row of filaments that is shown: its name, nothing if there is only one, and its colour.
-struct Shown<'a> {
+struct ThreadQuantity<'a> {
     name: &'static str,
     colour: &'static str,
     solution: &'a Solution,
 }
 
-impl Shown<'_> {
+impl ThreadQuantity<'_> {
     fn points(&self, quantity: Quantity) -> Vec<(f64, f64)> {
         let stations = self.solution.stations.iter();
         stations.map(|station| (station.distance * MM, quantity(station))).collect()
@@ -34,12 +34,12 @@ impl Shown<'_> {
 
 /// The figures of a thread; of a curtain those of its first and of its last row.
 pub(super) fn figures(prefix: &str, rows: &[Solution]) -> Vec<Figure> {
-    let shown: Vec<Shown<'_>> = match rows {
+    let shown: Vec<ThreadQuantity<'_>> = match rows {
         [] => return Vec::new(),
-        [solution] => vec![Shown { name: "", colour: BLUE, solution }],
+        [solution] => vec![ThreadQuantity { name: "", colour: BLUE, solution }],
         [first, .., last] => vec![
-            Shown { name: "first row", colour: BLUE, solution: first },
-            Shown { name: "last row", colour: VERMILION, solution: last },
+            ThreadQuantity { name: "first row", colour: BLUE, solution: first },
+            ThreadQuantity { name: "last row", colour: VERMILION, solution: last },
         ],
     };
     let frozen = shown.iter().map(|row| row.solution.freezing.distance).fold(0.0, f64::max);
@@ -65,13 +65,18 @@ fn chart(prefix: &str, name: &str, title: &str, up: Axis) -> Chart {
 /// A chart with a quantity of each row, and where the row freezes.
 ///
 /// * `is_keyed` – whether the chart has a legend
-fn with_rows(chart: Chart, shown: &[Shown<'_>], quantity: Quantity, is_keyed: bool) -> Chart {
+fn with_rows(chart: Chart, shown: &[ThreadQuantity<'_>], quantity: Quantity, is_keyed: bool) -> Chart {
     let points: Vec<_> = shown.iter().map(|row| row.points(quantity)).collect();
     with_points(chart, shown, &points, is_keyed)
 }
 
 /// The same with points for each row.
-fn with_points(chart: Chart, shown: &[Shown<'_>], points: &[Vec<(f64, f64)>], is_keyed: bool) -> Chart {
+fn with_points(
+    chart: Chart,
+    shown: &[ThreadQuantity<'_>],
+    points: &[Vec<(f64, f64)>],
+    is_keyed: bool,
+) -> Chart {
     shown.iter().zip(points).enumerate().fold(chart, |chart, (i, (row, points))| {
         let keyed = |series: Series, is_keyed: bool| if is_keyed { series } else { series.unlabelled() };
         let line = Series::new(&row.label("thread"), row.colour).width(2.0);
@@ -84,7 +89,7 @@ fn with_points(chart: Chart, shown: &[Shown<'_>], points: &[Vec<(f64, f64)>], is
 }
 
 /// The words of a caption that say what frozen means.
-fn about_freezing(shown: &[Shown<'_>]) -> String {
+fn about_freezing(shown: &[ThreadQuantity<'_>]) -> String {
     let [first, ..] = shown else { return String::new() };
     let rows = if first.name.is_empty() { "" } else { " of each row" };
     format!(
@@ -92,7 +97,7 @@ fn about_freezing(shown: &[Shown<'_>]) -> String {
     )
 }
 
-fn drawing(prefix: &str, shown: &[Shown<'_>]) -> Figure {
+fn drawing(prefix: &str, shown: &[ThreadQuantity<'_>]) -> Figure {
     let title = "Speed and diameter of the thread";
     let speed = chart(prefix, "speed", title, Axis::logarithmic("Speed *v* (m/s)").decades(4));
     let speed = with_rows(speed, shown, |station| station.speed, true);
@@ -112,7 +117,7 @@ fn drawing(prefix: &str, shown: &[Shown<'_>]) -> Figure {
 }
 
 /// The air that the rows meet.
-fn with_air(chart: Chart, shown: &[Shown<'_>], quantity: Quantity) -> Chart {
+fn with_air(chart: Chart, shown: &[ThreadQuantity<'_>], quantity: Quantity) -> Chart {
     let dashes = [None, Some("2 3")];
     shown.iter().zip(dashes).fold(chart, |chart, (row, dash)| {
         let series = Series { dash, ..Series::new(&row.label("air"), GREEN) };
@@ -120,7 +125,7 @@ fn with_air(chart: Chart, shown: &[Shown<'_>], quantity: Quantity) -> Chart {
     })
 }
 
-fn temperature(prefix: &str, shown: &[Shown<'_>]) -> Figure {
+fn temperature(prefix: &str, shown: &[ThreadQuantity<'_>]) -> Figure {
     let title = "Temperature of the thread and of the air";
     let chart = chart(prefix, "temperature", title, Axis::linear("Temperature *T* (°C)"));
     let chart = with_rows(chart, shown, |station| station.temperature - ZERO_CELSIUS, true);
@@ -132,7 +137,7 @@ fn temperature(prefix: &str, shown: &[Shown<'_>]) -> Figure {
     Figure::new(&chart, caption)
 }
 
-fn tension(prefix: &str, shown: &[Shown<'_>]) -> Figure {
+fn tension(prefix: &str, shown: &[ThreadQuantity<'_>]) -> Figure {
     let title = "Tension and stress of the thread";
     let tension = chart(prefix, "tension", title, Axis::linear("Tension *F* (mN)").zero_based());
     let tension = with_rows(tension, shown, |station| station.tension * 1e3, true);
@@ -152,11 +157,11 @@ fn tension(prefix: &str, shown: &[Shown<'_>]) -> Figure {
 }
 
 /// From the freezing point on it is zero, at once.
-fn strain_rate(prefix: &str, shown: &[Shown<'_>], until: f64) -> Figure {
+fn strain_rate(prefix: &str, shown: &[ThreadQuantity<'_>], until: f64) -> Figure {
     let title = "Strain rate of the thread";
     let up = Axis::linear("Strain rate d*v*/d*z* (1/s)").zero_based().in_column("strain_rate_per_s");
     let chart = chart(prefix, "strain_rate", title, up);
-    let rates = |row: &Shown<'_>| {
+    let rates = |row: &ThreadQuantity<'_>| {
         let frozen = row.solution.freezing.distance * MM;
         let points = row.points(|station| station.strain_rate).into_iter();
         points.filter(|(distance, _)| *distance <= frozen).chain([(frozen, 0.0), (until * MM, 0.0)]).collect()
@@ -170,7 +175,7 @@ fn strain_rate(prefix: &str, shown: &[Shown<'_>], until: f64) -> Figure {
     Figure::new(&chart, caption)
 }
 
-fn transformed(prefix: &str, shown: &[Shown<'_>]) -> Figure {
+fn transformed(prefix: &str, shown: &[ThreadQuantity<'_>]) -> Figure {
     let title = "Transformed share of the polymer";
     let up = Axis::linear("Transformed share *θ* (–)").zero_based().in_column("transformed");
     let chart = chart(prefix, "transformed", title, up);

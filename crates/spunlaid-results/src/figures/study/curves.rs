@@ -1,6 +1,6 @@
 //! Results over one factor: alone, as a family of curves for a second factor, or with all others as in the base case.
 
-use super::quantity::{Along, Group, name_of_key};
+use super::quantity::{FactorAxis, Group, name_of_key};
 use super::{FAMILY, file_name};
 use spunlaid::study::{PointResults, Study};
 use spunlaid_charts::{
@@ -67,7 +67,7 @@ fn over_factor(
     points: &[usize],
     words: &str,
 ) -> Figure {
-    let along = Along::of_study(study, factor);
+    let along = FactorAxis::of_study(study, factor);
     let title = format!("{} {}", group.title, words.split(',').next().unwrap_or(words));
     let name = file_name(group, &study.factors[factor].key);
     let mut chart = Chart::new(&name, &title, along.axis.clone(), group.axis());
@@ -90,7 +90,7 @@ pub(super) fn family(
     family: usize,
 ) -> Figure {
     let (parameter, key) = (&study.factors[family], &*study.factors[along].key);
-    let place = Along::of_study(study, along);
+    let place = FactorAxis::of_study(study, along);
     let title = format!("{} over {} and {}", group.title, name_of_key(key), name_of_key(&parameter.key));
     let mut chart = Chart::new(&file_name(group, key), &title, place.axis.clone(), group.axis());
     let levels = parameter.levels();
@@ -141,7 +141,7 @@ fn spots(
     results: &[PointResults],
     group: &Group,
     measure: usize,
-    (factor, along, aside): (usize, &Along, f64),
+    (factor, along, aside): (usize, &FactorAxis, f64),
     points: &[usize],
 ) -> Vec<Spot> {
     let spot = |point: &usize| {

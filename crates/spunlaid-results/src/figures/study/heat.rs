@@ -1,6 +1,6 @@
 //! Results over two factors with many values: a colour map.
 
-use super::quantity::{Along, Group, label_of_key, name_of_key};
+use super::quantity::{FactorAxis, Group, label_of_key, name_of_key};
 use crate::numbers::significant;
 use spunlaid::study::{PointResults, Study};
 use spunlaid_charts::{
@@ -52,9 +52,9 @@ fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, l
         if group.members.len() == 2 { format!("{} in {called}", group.title) } else { group.title.clone() };
     let names = [0, 1].map(|i| name_of_key(&study.factors[i].key));
     let title = format!("{which} over {} and {}", names[1], names[0]);
-    let [of_up, of_along] = [0, 1].map(|i| Along::of_study(study, i));
-    let labels = |of: &Along, values: &[f64]| -> Vec<String> {
-        values.iter().map(|value| significant(of.place(*value), 3)).collect()
+    let [of_up, of_along] = [0, 1].map(|i| FactorAxis::of_study(study, i));
+    let labels = |axis: &FactorAxis, values: &[f64]| -> Vec<String> {
+        values.iter().map(|value| significant(axis.place(*value), 3)).collect()
     };
     let heat = Heat {
         title: title.clone(),

@@ -12,7 +12,7 @@ use quantity::Group;
 use spunlaid::study::{Design, PointResults, Ranking, Study};
 use spunlaid_charts::Figure;
 
-pub(super) use quantity::Along;
+pub(super) use quantity::FactorAxis;
 pub use quantity::name_of_key;
 
 /// Largest number of values of a factor that are drawn as curves; more are drawn as a map.

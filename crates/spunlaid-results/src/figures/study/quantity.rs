@@ -108,7 +108,7 @@ pub fn name_of_key(key: &str) -> String {
 
 /// The axis of a factor.
 #[derive(Clone, Debug)]
-pub struct Along {
+pub struct FactorAxis {
     pub(in crate::figures) axis: Axis,
     /// Where the units of the axis begin, in SI units, and what converts from there.
     pub(in crate::figures) zero: f64,
@@ -118,7 +118,7 @@ pub struct Along {
     words: Vec<f64>,
 }
 
-impl Along {
+impl FactorAxis {
     /// * `base` – a word that comes before those of the factor
     pub(super) fn new(factor: &Factor, base: Option<f64>) -> Self {
         let mut words = if factor.words.is_empty() { Vec::new() } else { factor.levels() };

@@ -1,6 +1,6 @@
 //! Main effects of the factors with their confidence intervals, the largest at the top.
 
-use super::quantity::{Along, Group, label_of_key};
+use super::quantity::{FactorAxis, Group, label_of_key};
 use crate::figures::with_unit;
 use crate::numbers::range;
 use spunlaid::study::{Effect, Ranking, Study};
@@ -22,7 +22,7 @@ fn change_of(study: &Study, effect: &Effect) -> String {
     let factor = &study.factors[effect.factor];
     let [from, to] = [effect.from, effect.to];
     if factor.words.is_empty() {
-        let place = Along::new(factor, None);
+        let place = FactorAxis::new(factor, None);
         return format!("{} {}", range(place.place(from), place.place(to)), place.unit).trim_end().to_owned();
     }
     format!("{} instead of {}", factor.input().pretty(to), factor.input().pretty(from))

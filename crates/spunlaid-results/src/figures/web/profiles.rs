@@ -12,7 +12,7 @@ use spunlaid_charts::{
 const POINTS: usize = 1000;
 
 /// Where a web lies across its sheet.
-struct Across {
+struct SheetPosition {
     /// Its edges [m].
     edges: [f64; 2],
     /// Widths of the strips at both sides of the sheet that do not count [m].
@@ -46,12 +46,12 @@ pub(super) fn laid(web: &Web, findings: &Findings) -> Figure {
     };
     let streaks = "These are streaks, which filaments at fixed places leave in the web; they are weaker where nozzles stand at an even \
                    pitch (line.rows).";
-    profiles(&findings.laid.map, GRAMS, streaks, &Across { edges, margins, label, words })
+    profiles(&findings.laid.map, GRAMS, streaks, &SheetPosition { edges, margins, label, words })
 }
 
 /// The profiles of a scan.
 pub(super) fn scanned(map: &Map, weights: Weights) -> Figure {
-    let across = Across {
+    let across = SheetPosition {
         edges: [0.0, map.columns as f64 * map.cell],
         margins: [0.0; 2],
         label: "edge of the scan",
@@ -61,7 +61,7 @@ pub(super) fn scanned(map: &Map, weights: Weights) -> Figure {
 }
 
 /// Basis weight across the web and along it.
-fn profiles(map: &Map, weights: Weights, streaks: &str, across: &Across) -> Figure {
+fn profiles(map: &Map, weights: Weights, streaks: &str, across: &SheetPosition) -> Figure {
     let [first, last] = across.margins.map(|margin| (margin / map.cell).round() as usize);
     let between = map.between(first..map.columns - last);
     let mean = between.basis_weight() * weights.factor;
@@ -104,7 +104,7 @@ fn profiles(map: &Map, weights: Weights, streaks: &str, across: &Across) -> Figu
 }
 
 /// With lines at the edges of the web, and with the strips that do not count.
-fn with_edges(chart: Chart, across: &Across, width: f64) -> Chart {
+fn with_edges(chart: Chart, across: &SheetPosition, width: f64) -> Chart {
     let [first, last] = across.edges;
     let strips = [(first, across.margins[0]), (width - across.margins[1], last)];
     let strips = strips.into_iter().filter(|(from, to)| to > from).enumerate();

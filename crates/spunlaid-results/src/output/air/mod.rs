@@ -77,7 +77,7 @@ pub struct Slices {
 
 /// What is looked at.
 #[derive(Clone, Copy, Debug)]
-pub struct Looks {
+pub struct AirViews {
     /// Number of the replicate whose air it is, from 0.
     pub replicate: u64,
     /// Number of instants.
@@ -95,7 +95,7 @@ impl Slices {
     ///
     /// # Errors
     /// If the air of the case has no turbulence in space, or `stop` was set.
-    pub fn new(case: &Case, looks: &Looks, done: &AtomicU64, stop: &AtomicBool) -> Result<Self, Failure> {
+    pub fn new(case: &Case, looks: &AirViews, done: &AtomicU64, stop: &AtomicBool) -> Result<Self, Failure> {
         let mut air = case.air_at_places(looks.replicate, looks.threads)?;
         let planes = planes(case, &air);
         let places = planes.each_ref().map(Plane::places);

@@ -1,7 +1,7 @@
 //! `summary.json` of the air.
 
 use super::{PLANES, Plane, Slices};
-use crate::output::in_order::InOrder;
+use crate::output::in_order::OrderedObject;
 use crate::output::json_text;
 use crate::output::summary::resolved;
 use serde::Serialize;
@@ -21,11 +21,11 @@ pub struct Summary {
     /// [s]
     pub times_s: Vec<f64>,
     /// By name: along, across.
-    pub planes: InOrder<PlaneSummary>,
+    pub planes: OrderedObject<PlaneSummary>,
     /// Remarks.
     pub notes: Vec<String>,
     /// The resolved case.
-    pub case: InOrder<InOrder<Json>>,
+    pub case: OrderedObject<OrderedObject<Json>>,
 }
 
 /// What was found in a plane.
@@ -52,7 +52,7 @@ impl Summary {
             repeats_md_m: extent.y,
             repeats_cd_m: extent.z,
             times_s: slices.times.clone(),
-            planes: InOrder((0..PLANES.len()).map(plane).collect()),
+            planes: OrderedObject((0..PLANES.len()).map(plane).collect()),
             notes: notes.to_vec(),
             case: resolved(case),
         }
@@ -70,8 +70,8 @@ fn of_plane(case: &Case, plane: &Plane, velocities: &[Vec<Vec3<f64>>]) -> PlaneS
     let flow: Vec<_> = places.iter().map(|place| case.air.local(*place, &mut hint)).collect();
     let count = (velocities.len() * places.len()).max(1) as f64;
     let axes: [fn(&Vec3<f64>) -> f64; 3] = [|v| v.x, |v| v.y, |v| v.z];
-    let mean = |of: &dyn Fn(&Vec3<f64>, usize) -> f64| {
-        let sum = |all: &Vec<Vec3<f64>>| all.iter().enumerate().map(|(n, v)| of(v, n)).sum::<f64>();
+    let mean = |term: &dyn Fn(&Vec3<f64>, usize) -> f64| {
+        let sum = |all: &Vec<Vec3<f64>>| all.iter().enumerate().map(|(n, v)| term(v, n)).sum::<f64>();
         velocities.iter().map(sum).sum::<f64>() / count
     };
     PlaneSummary {

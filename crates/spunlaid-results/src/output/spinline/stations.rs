@@ -2,7 +2,7 @@
 
 use crate::Failure;
 use crate::output::folder::Staging;
-use crate::output::parquet::{Column, Holds, Parquet};
+use crate::output::parquet::{Column, ColumnValues, Parquet};
 use spunlaid::spinline::{Solution, Station, ZERO_CELSIUS};
 use std::fs;
 
@@ -37,9 +37,9 @@ pub fn write(staging: &Staging<'_>, spinlines: &[(usize, &[Solution])]) -> Resul
     folder.map_err(Failure::unwritable(&place.1))?;
     let layer = (spinlines.len() > 1).then_some("layer");
     let row = spinlines.iter().any(|(_, rows)| rows.len() > 1).then_some("row");
-    let whole = layer.into_iter().chain(row).map(|name| (name, Holds::Whole));
-    let numbers = COLUMNS.iter().map(|(name, _)| (*name, Holds::Number));
-    let column = |(name, holds): (&str, Holds)| Column { name: name.to_owned(), holds };
+    let whole = layer.into_iter().chain(row).map(|name| (name, ColumnValues::Whole));
+    let numbers = COLUMNS.iter().map(|(name, _)| (*name, ColumnValues::Number));
+    let column = |(name, holds): (&str, ColumnValues)| Column { name: name.to_owned(), holds };
     let columns: Vec<Column> = whole.chain(numbers).map(column).collect();
     let first = columns.len() - COLUMNS.len();
     let threads = spinlines.iter().flat_map(|(layer, rows)| {

@@ -3,7 +3,7 @@
 use super::SpinResults;
 use super::measures::MEASURES;
 use super::words::MODEL_ERROR;
-use crate::output::in_order::InOrder;
+use crate::output::in_order::OrderedObject;
 use crate::output::json_text;
 use serde::Serialize;
 use serde_json::Value as Json;
@@ -40,7 +40,7 @@ impl<'a> Summary<'a> {
 /// The measures of a spinline. Those of a curtain are of its first row.
 #[derive(Clone, Debug, Serialize)]
 #[serde(transparent)]
-pub struct SpinSummary(InOrder<Json>);
+pub struct SpinSummary(OrderedObject<Json>);
 
 impl SpinSummary {
     /// * `rows` – the solution of each row, the quenched side first
@@ -53,7 +53,7 @@ impl SpinSummary {
         let influences: Vec<Json> = influences.iter().map(of_influence).collect();
         entries.push(("influences".to_owned(), influences.into()));
         entries.push(("model_error".to_owned(), MODEL_ERROR.into()));
-        Self(InOrder(entries))
+        Self(OrderedObject(entries))
     }
 
     /// That of the spinline from which a case is fed; `None` if it has none.

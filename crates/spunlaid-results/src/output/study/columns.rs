@@ -1,6 +1,6 @@
 //! Names and contents of the columns.
 
-use super::super::parquet::{Column, Holds};
+use super::super::parquet::{Column, ColumnValues};
 use spunlaid::study::{Quantity, Study};
 
 /// A value in a row.
@@ -15,7 +15,7 @@ pub enum Value {
 /// The input columns: the key and its SI unit, `air.velocity_m_s`.
 fn inputs(study: &Study) -> impl Iterator<Item = Column> {
     study.inputs().map(|input| Column {
-        holds: if input.words.is_empty() { Holds::Optional } else { Holds::Text },
+        holds: if input.words.is_empty() { ColumnValues::Optional } else { ColumnValues::Text },
         name: input.column(),
     })
 }
@@ -52,9 +52,9 @@ fn quantity_columns(quantity: &Quantity) -> impl Iterator<Item = String> {
 }
 
 fn whole(name: &str) -> Column {
-    Column { name: name.to_owned(), holds: Holds::Whole }
+    Column { name: name.to_owned(), holds: ColumnValues::Whole }
 }
 
 fn number(name: impl Into<String>) -> Column {
-    Column { name: name.into(), holds: Holds::Optional }
+    Column { name: name.into(), holds: ColumnValues::Optional }
 }

@@ -1,7 +1,7 @@
 //! `results.json`: the points with their results, and the ranking.
 
 use super::super::folder::Staging;
-use super::super::in_order::InOrder;
+use super::super::in_order::OrderedObject;
 use super::columns::{Value, values};
 use crate::Failure;
 use serde::Serialize;
@@ -17,10 +17,10 @@ const SCHEMA_VERSION: u32 = 1;
 struct Point {
     point: usize,
     seed: u64,
-    inputs: InOrder<Json>,
+    inputs: OrderedObject<Json>,
     n: u64,
     lost: u64,
-    results: InOrder<Mean>,
+    results: OrderedObject<Mean>,
 }
 
 #[derive(Serialize)]
@@ -33,14 +33,14 @@ struct Mean {
 }
 
 #[derive(Serialize)]
-struct RankingOf<'a> {
+struct RankingEntry<'a> {
     /// Share of the variation between points that straight lines explain.
     explained: Option<f64>,
-    effects: Vec<EffectOf<'a>>,
+    effects: Vec<EffectEntry<'a>>,
 }
 
 #[derive(Serialize)]
-struct EffectOf<'a> {
+struct EffectEntry<'a> {
     factor: &'a str,
     from: Json,
     to: Json,
@@ -73,10 +73,10 @@ fn document(
     let ranking = |ranking: &Ranking| {
         let explained = Some(ranking.explained).filter(|share| share.is_finite());
         let effects = ranking.effects.iter().map(|effect| effect_of(study, effect)).collect();
-        (study.quantities[ranking.measure].column.clone(), RankingOf { explained, effects })
+        (study.quantities[ranking.measure].column.clone(), RankingEntry { explained, effects })
     };
     // By the columns of the results; empty if the factors cannot be ranked.
-    let ranking = InOrder(rankings.of_measures.iter().map(ranking).collect());
+    let ranking = OrderedObject(rankings.of_measures.iter().map(ranking).collect());
     let refusal = rankings.refusal.as_ref().map(ToString::to_string);
     let (version, design, common) = (env!("CARGO_PKG_VERSION"), study.design.name(), study.common_phases);
     writeln!(out, "{{\n\"schema_version\": {SCHEMA_VERSION},\n\"spunlaid_version\": \"{version}\",")?;
@@ -104,17 +104,17 @@ fn point(study: &Study, index: usize, measured: &PointResults) -> Point {
     Point {
         point: index + 1,
         seed: study.points[index].experiment.seed(),
-        inputs: InOrder(inputs),
+        inputs: OrderedObject(inputs),
         n: measured.n,
         lost: measured.lost,
-        results: InOrder(results),
+        results: OrderedObject(results),
     }
 }
 
-fn effect_of<'a>(study: &'a Study, effect: &Effect) -> EffectOf<'a> {
+fn effect_of<'a>(study: &'a Study, effect: &Effect) -> EffectEntry<'a> {
     let factor = &study.factors[effect.factor];
     let end = |value: f64| factor.input().word(value).map_or_else(|| value.into(), Json::from);
-    EffectOf {
+    EffectEntry {
         factor: &factor.key,
         from: end(effect.from),
         to: end(effect.to),

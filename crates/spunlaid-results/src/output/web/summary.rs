@@ -2,7 +2,7 @@
 
 use super::advice::AdviceSummary;
 use crate::figures::SEEN;
-use crate::output::in_order::InOrder;
+use crate::output::in_order::OrderedObject;
 use crate::output::spinline::SpinSummary;
 use serde::Serialize;
 use serde_json::Value as Json;
@@ -29,7 +29,7 @@ pub struct Summary<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     neighbours: Option<NeighboursSummary<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    scan: Option<InOrder<Json>>,
+    scan: Option<OrderedObject<Json>>,
     performance: Performance,
     notes: &'a [String],
 }
@@ -114,7 +114,7 @@ struct WebSummary {
     /// Where edges cut fibre off: the strips that all but the map leaves out.
     #[serde(skip_serializing_if = "Option::is_none")]
     edges: Option<Margins>,
-    patches: Vec<InOrder<Json>>,
+    patches: Vec<OrderedObject<Json>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     orientation_md: Option<NumberWithError>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -184,7 +184,7 @@ struct NeighbourSummary<'a> {
 
 impl<'a> NeighboursSummary<'a> {
     /// None of a web of independent filaments.
-    fn of(findings: &Findings, layers: &'a [Layer]) -> Option<Self> {
+    fn from_findings(findings: &Findings, layers: &'a [Layer]) -> Option<Self> {
         let entry = |neighbour: &NeighbourCorrelation| NeighbourSummary {
             layer: layers.get(neighbour.layer).map_or("", |layer| layer.name.as_str()),
             distance_m: neighbour.distance,
@@ -212,7 +212,7 @@ struct Levers {
 
 impl WebSummary {
     /// What any map says.
-    fn of_map(map: &Map, clouds: Option<&Clouds>, patches: Vec<InOrder<Json>>) -> Self {
+    fn of_map(map: &Map, clouds: Option<&Clouds>, patches: Vec<OrderedObject<Json>>) -> Self {
         let cloudiness = clouds.map(|clouds| {
             let (index, standard_error) = clouds.cloudiness(SEEN[0], SEEN[1]);
             let interval = standard_error.map(|error| interval_of_deviation(index, error));
@@ -252,7 +252,7 @@ fn numbers_of_patch<'a>(
     errors: &[(&'a str, Option<f64>)],
     interval: Result<[f64; 2], String>,
     more: impl Iterator<Item = (&'a str, Option<f64>)>,
-) -> InOrder<Json> {
+) -> OrderedObject<Json> {
     let Unevenness { patch, cv, standard_error } = *unevenness;
     let known = |(name, number): (&'a str, Option<f64>)| Some((name, number?.into()));
     let chance = [("patch_m", patch.into()), ("cv", cv.into()), ("cv_standard_error", standard_error.into())];
@@ -262,7 +262,7 @@ fn numbers_of_patch<'a>(
     };
     let errors = errors.iter().copied().filter_map(known);
     let all = chance.into_iter().chain(errors).chain([interval]).chain(more.filter_map(known));
-    InOrder(all.map(|(name, value): (&str, Json)| (name.to_owned(), value)).collect())
+    OrderedObject(all.map(|(name, value): (&str, Json)| (name.to_owned(), value)).collect())
 }
 
 impl NumberWithError {
@@ -331,7 +331,7 @@ impl<'a> Summary<'a> {
                 ..WebSummary::of_map(&findings.laid.map, findings.clouds.as_ref(), patches.collect())
             },
             advice: advice.map(AdviceSummary::new),
-            neighbours: NeighboursSummary::of(findings, layers),
+            neighbours: NeighboursSummary::from_findings(findings, layers),
             scan: None,
             performance,
             notes,
@@ -373,7 +373,7 @@ impl<'a> Summary<'a> {
             web: WebSummary { basis_weight_kg_m2, ..web },
             advice: None,
             neighbours: None,
-            scan: Some(InOrder(scan.collect())),
+            scan: Some(OrderedObject(scan.collect())),
             performance,
             notes,
         }

@@ -29,7 +29,7 @@ struct Ring {
 }
 
 /// Where places lie along an axis: the numbers of the first of four points around them, and the weights of these.
-struct Around<S: Register> {
+struct AxisWeights<S: Register> {
     first: [i64; WIDTH],
     weights: [Wide<S>; NEEDED],
 }
@@ -110,7 +110,7 @@ impl<'a> EddyFields<'a> {
             for (rows, weights) in rows.iter().zip(&weights) {
                 for (rows, weights) in rows[lane].iter().zip(weights) {
                     for (m, sum) in of_samples.iter_mut().enumerate() {
-                        *sum = sum.add_weighted(rows.of(m), weights[m][lane]);
+                        *sum = sum.add_weighted(rows.row(m), weights[m][lane]);
                     }
                 }
             }
@@ -178,32 +178,32 @@ impl<'a> EddyFields<'a> {
 impl Ring {
     /// The points around places.
     #[inline(always)]
-    fn around<S: Register>(&self, at: &Lanes) -> Around<S> {
+    fn around<S: Register>(&self, at: &Lanes) -> AxisWeights<S> {
         let turns = Wide::<S>::load(at) * Wide::load(&self.turns_per_length);
         let points = Wide::load(&self.points);
         let place = ((turns - turns.floor()) * points).min(points);
         // A fibre that is lost may be nowhere.
         let place = Wide::select_less(Wide::zero(), place, place, Wide::zero());
-        let Around { mut first, weights } = around(place);
+        let AxisWeights { mut first, weights } = around(place);
         // Rounding may put a place on the point after the last, which is the first.
         for (first, points) in first.iter_mut().zip(self.points.0) {
             let points = points as i64;
             let point = if *first < 0 { *first + points } else { *first };
             *first = if point >= points { point - points } else { point };
         }
-        Around { first, weights }
+        AxisWeights { first, weights }
     }
 }
 
 /// The points around places among evenly spaced ones.
 #[inline(always)]
-fn around<S: Register>(places: Wide<S>) -> Around<S> {
+fn around<S: Register>(places: Wide<S>) -> AxisWeights<S> {
     let floors = places.floor();
     let mut first = integers(floors);
     for first in &mut first {
         *first -= BEFORE;
     }
-    Around { first, weights: weights(places - floors) }
+    AxisWeights { first, weights: weights(places - floors) }
 }
 
 /// Weights of the four points around places between the second and the third of them.

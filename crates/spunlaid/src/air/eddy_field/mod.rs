@@ -31,7 +31,7 @@ pub(crate) use look::EddyFields;
 use self::plan::Plan;
 use self::synthesis::Synthesis;
 use self::tape::{BEFORE, NEEDED, Tape};
-use self::way::WayOfEddies;
+use self::way::EddyPath;
 use super::{Air, StreamKey};
 use crate::lanes::Isa;
 use std::ops::Range;
@@ -110,7 +110,7 @@ impl EddyField {
     /// * `distance` – as of [`EddyField::new`]
     /// * `feed_speed` – [m/s]
     pub(crate) fn time_between_looks(air: &Air, distance: f64, feed_speed: f64) -> f64 {
-        let way = WayOfEddies::new(air, distance);
+        let way = EddyPath::new(air, distance);
         let passing = air.length_scale / air.velocity.abs().max(feed_speed);
         passing.min(1.0 / (LOOKS_IN_PERIOD * way.highest_frequency_at(feed_speed)))
     }

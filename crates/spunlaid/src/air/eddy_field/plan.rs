@@ -1,7 +1,7 @@
 //! The plan of a field: its lattice, its generations, and the shape of the turbulence in each.
 
 use super::lattice::{Extent, Lattice, left, samples};
-use super::way::{Stage, WayOfEddies};
+use super::way::{EddyPath, Stage};
 use crate::air::{Air, Spectrum};
 use std::f64::consts::{SQRT_2, TAU};
 
@@ -15,7 +15,7 @@ pub(super) const BLOCKS: f64 = 8.0;
 /// How a field is made and how it is read.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Plan {
-    pub(super) way: WayOfEddies,
+    pub(super) way: EddyPath,
     pub(super) lattice: Lattice,
     /// Time after which the harmonics repeat with the opposite sign [s].
     pub(super) repeat_time: f64,
@@ -55,7 +55,7 @@ impl Plan {
     /// * `distance` – from the inlet, or the root, to the end of the way [m]
     /// * `cutoff` – largest wave number across, times the length scale [-]
     pub(super) fn new(air: &Air, distance: f64, extent: Extent, cutoff: f64) -> Self {
-        let way = WayOfEddies::new(air, distance);
+        let way = EddyPath::new(air, distance);
         let (lattice, harmonics) = sizes(&way, extent, cutoff);
         let highest = way.stages.iter().map(|stage| stage.cutoff_frequency).fold(0.0, f64::max);
         let repeat_time = harmonics as f64 / highest;
@@ -84,7 +84,7 @@ impl Plan {
 }
 
 /// The lattice and the number of harmonics up to the highest cut-off frequency.
-pub(super) fn sizes(way: &WayOfEddies, extent: Extent, cutoff: f64) -> (Lattice, usize) {
+pub(super) fn sizes(way: &EddyPath, extent: Extent, cutoff: f64) -> (Lattice, usize) {
     let smallest = way.stages.iter().map(|stage| stage.length_scale).fold(f64::INFINITY, f64::min);
     let cutoffs = way.stages.iter().map(|stage| stage.cutoff_frequency);
     let (lowest, highest) =

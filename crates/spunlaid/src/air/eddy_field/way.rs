@@ -30,7 +30,7 @@ pub(super) struct Stage {
 
 /// How eddies pass from the inlet to the belt.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct WayOfEddies {
+pub(super) struct EddyPath {
     pieces_per_length: f64,
     /// At the ends of the pieces: the number of the generation before it and, as its fraction, the way to the next; and the time that the air
     /// has travelled since the inlet [s]. The label of air is the time less this.
@@ -40,14 +40,14 @@ pub(super) struct WayOfEddies {
     pub(super) ageing: f64,
 }
 
-impl WayOfEddies {
+impl EddyPath {
     /// * `distance` – from the inlet, or the root, to the end of the way [m]
     pub(super) fn new(air: &Air, distance: f64) -> Self {
         let mut hint = Hint::default();
         let x = |i: f64| distance * i / PIECES as f64;
         let mut stage = |i: f64| {
             let local = air.local(Vec3::new(x(i), 0.0, 0.0), &mut hint);
-            Stage { travel: 0.0, ..Stage::of(&local, air) }
+            Stage { travel: 0.0, ..Stage::from_air(&local, air) }
         };
         let mut stages: Vec<Stage> = (0..=PIECES).map(|i| stage(i as f64)).collect();
         let mut middles: Vec<Stage> = (0..PIECES).map(|i| stage(i as f64 + 0.5)).collect();
@@ -137,7 +137,7 @@ impl WayOfEddies {
 }
 
 impl Stage {
-    fn of(local: &LocalAir, air: &Air) -> Self {
+    fn from_air(local: &LocalAir, air: &Air) -> Self {
         Self {
             travel: 0.0,
             speed: local.velocity.norm(),

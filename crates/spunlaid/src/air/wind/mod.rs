@@ -94,7 +94,7 @@ impl Wind {
         }
         let mean = means(&sampling, &streams);
         let windows = Windows::repeating(isa, sampling, streams, horizon);
-        Ok(Self::of(isa, windows.spacing(), mean, Signal::Synthesised(windows)))
+        Ok(Self::with_signal(isa, windows.spacing(), mean, Signal::Synthesised(windows)))
     }
 
     /// The wind of up to eight fibres. Lanes left over repeat the first.
@@ -123,10 +123,10 @@ impl Wind {
                 (Signal::Synthesised(windows), spacing)
             }
         };
-        Self::of(isa, spacing, mean, signal)
+        Self::with_signal(isa, spacing, mean, signal)
     }
 
-    fn of(isa: Isa, spacing: f64, mean: Vec<Lanes>, signal: Signal) -> Self {
+    fn with_signal(isa: Isa, spacing: f64, mean: Vec<Lanes>, signal: Signal) -> Self {
         let eddies = mean.len();
         let columns = 3 * eddies;
         let cells_per_sample = match signal {
@@ -196,7 +196,7 @@ impl Wind {
     /// The wind at time `t` [s] of the run straight from the samples, for times of which hardly two lie in a cell: there are
     /// cubics of the weights, and none of each eddy. `None` if the wind is measured.
     #[inline(always)]
-    pub(crate) fn among_samples<S: Register>(&mut self, t: f64) -> Option<AmongSamples<'_, S>> {
+    pub(crate) fn among_samples<S: Register>(&mut self, t: f64) -> Option<InstantWind<'_, S>> {
         let Signal::Synthesised(windows) = &mut self.signal else { return None };
         let cells = t / self.spacing * self.cells_per_sample as f64;
         let cell = cells as u64;
@@ -208,7 +208,7 @@ impl Wind {
             let start = (Wide::splat(a.0), Wide::splat(a.1));
             *weight = along(cubic(start, (Wide::splat(b.0), Wide::splat(b.1))), s);
         }
-        Some(AmongSamples {
+        Some(InstantWind {
             samples: windows.samples(cell / self.cells_per_sample),
             mean: &self.mean,
             weights,
@@ -337,14 +337,14 @@ fn means(sampling: &Sampling, streams: &PerLane<Stream>) -> Vec<Lanes> {
 
 /// The wind at one instant, from the samples around it.
 #[derive(Clone, Copy)]
-pub(crate) struct AmongSamples<'a, S: Register> {
+pub(crate) struct InstantWind<'a, S: Register> {
     /// `[sample][eddy][component]`
     samples: &'a [Lanes],
     mean: &'a [Lanes],
     weights: [Wide<S>; SPREAD],
 }
 
-impl<S: Register> AmongSamples<'_, S> {
+impl<S: Register> InstantWind<'_, S> {
     /// Velocity of the air in an eddy [m/s].
     #[inline(always)]
     pub(crate) fn velocity(&self, eddy: u32) -> Vec3<Wide<S>> {

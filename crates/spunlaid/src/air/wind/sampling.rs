@@ -1,6 +1,6 @@
 //! What the winds of one flight have in common: when samples are made, and what they are made of.
 
-use super::super::{Air, FromFile, Measured};
+use super::super::{Air, FileContent, Measured};
 use super::stream::Stream;
 use crate::company::{Bits, PerLane, shared};
 use crate::error::{Error, Fault};
@@ -19,7 +19,7 @@ shared! {
 
 impl Sampling {
     /// * `eddies` – number of eddies along the fibre
-    pub(crate) fn of(air: &Air, eddies: usize) -> Self {
+    pub(crate) fn new(air: &Air, eddies: usize) -> Self {
         Self {
             eddies,
             cutoff_frequency: air.cutoff_frequency.into(),
@@ -36,7 +36,7 @@ impl Sampling {
     /// That of the fibres of a flight.
     pub(super) fn of_all(streams: Vec<Stream>) -> Result<(Self, PerLane<Stream>), Error> {
         let streams = PerLane::new(streams)?;
-        let sampling = streams.shared(|stream| Self::of(&stream.air, stream.eddies.len()))?;
+        let sampling = streams.shared(|stream| Self::new(&stream.air, stream.eddies.len()))?;
         if sampling.eddies == 0 {
             return Err(Error::Flight(Fault::plain("a wind needs at least one eddy")));
         }
@@ -57,7 +57,7 @@ impl Sampling {
 
 /// A record; two are equal if they are the same file, read in the same way.
 #[derive(Clone, Debug)]
-pub(crate) struct Recording(FromFile<Measured>);
+pub(crate) struct Recording(FileContent<Measured>);
 
 impl Recording {
     fn identity(&self) -> impl Ord {

@@ -51,7 +51,7 @@ pub(crate) const EVEN: &str = "even";
 
 /// What applies if a case leaves a key out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LeftOut {
+pub enum Omission {
     /// The key is required. The text is an example value.
     Required(&'static str),
     /// This default value, written as in a case file.
@@ -67,7 +67,7 @@ pub struct Key<T: 'static = Case> {
     /// Which values it takes.
     pub kind: Kind,
     /// What applies if it is left out.
-    pub left_out: LeftOut,
+    pub left_out: Omission,
     /// Its meaning, in one or two sentences.
     pub meaning: &'static str,
     /// Other words for it, by which it is searched.
@@ -230,8 +230,8 @@ impl<T> Key<T> {
 }
 
 /// An example line of a file: `velocity = "10 m/s"`.
-fn example(name: &str, kind: &Kind, left_out: LeftOut) -> String {
-    let (LeftOut::Required(value) | LeftOut::Value(value) | LeftOut::Follows(value)) = left_out;
+fn example(name: &str, kind: &Kind, left_out: Omission) -> String {
+    let (Omission::Required(value) | Omission::Value(value) | Omission::Follows(value)) = left_out;
     match kind {
         Kind::Quantity(dimension, _) if *dimension != Dimension::Ratio => format!("{name} = \"{value}\""),
         _ => format!("{name} = {value}"),

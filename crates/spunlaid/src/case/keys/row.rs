@@ -1,7 +1,7 @@
 //! How a row of the table of keys is written.
 
 use super::value::{FileKind, Kind, SWITCH, Sign, Value};
-use super::{Key, LeftOut};
+use super::{Key, Omission};
 use crate::air::{Flow, PlacedField};
 use crate::case::Case;
 use crate::error::Fault;
@@ -178,7 +178,7 @@ pub(crate) const fn key<T>(name: &'static str, kind: Kind, access: AccessTo<T>) 
     Key {
         name,
         kind,
-        left_out: LeftOut::Follows(""),
+        left_out: Omission::Follows(""),
         meaning: "",
         synonyms: &[],
         label: name,
@@ -218,15 +218,15 @@ pub(super) const fn file(name: &'static str, kind: FileKind, access: Access) -> 
 
 impl<T> Key<T> {
     pub(crate) const fn required(self, example: &'static str) -> Self {
-        Self { left_out: LeftOut::Required(example), ..self }
+        Self { left_out: Omission::Required(example), ..self }
     }
 
     pub(crate) const fn value(self, value: &'static str) -> Self {
-        Self { left_out: LeftOut::Value(value), ..self }
+        Self { left_out: Omission::Value(value), ..self }
     }
 
     pub(crate) const fn follows(self, words: &'static str) -> Self {
-        Self { left_out: LeftOut::Follows(words), ..self }
+        Self { left_out: Omission::Follows(words), ..self }
     }
 
     pub(crate) const fn meaning(self, meaning: &'static str) -> Self {

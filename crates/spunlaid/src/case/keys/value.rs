@@ -1,6 +1,6 @@
 //! The kinds of values that keys take, and what each kind allows.
 
-use crate::air::{FromFile, Measured, Profile, SpectrumTable};
+use crate::air::{FileContent, Measured, Profile, SpectrumTable};
 use crate::error::{Fault, nearest_word, one_of};
 use crate::field::Field;
 use crate::spinline::{AirTable, Polymer, PolymerFile};
@@ -33,17 +33,17 @@ pub enum Value {
 #[non_exhaustive]
 pub enum Content {
     /// Values along the fibre.
-    Profile(FromFile<Profile>),
+    Profile(FileContent<Profile>),
     /// A CFD solution.
-    Field(FromFile<Field>),
+    Field(FileContent<Field>),
     /// A spectrum.
-    Spectrum(FromFile<SpectrumTable>),
+    Spectrum(FileContent<SpectrumTable>),
     /// Velocity records.
-    Records(Vec<FromFile<Measured>>),
+    Records(Vec<FileContent<Measured>>),
     /// The air along a spinline.
-    SpinlineAir(FromFile<AirTable>),
+    SpinlineAir(FileContent<AirTable>),
     /// The constants of a polymer.
-    Polymer(FromFile<PolymerFile>),
+    Polymer(FileContent<PolymerFile>),
 }
 
 impl Content {
@@ -55,7 +55,7 @@ impl Content {
             Self::Spectrum(file) => vec![file.path()],
             Self::SpinlineAir(file) => vec![file.path()],
             Self::Polymer(file) => vec![file.path()],
-            Self::Records(files) => files.iter().map(FromFile::path).collect(),
+            Self::Records(files) => files.iter().map(FileContent::path).collect(),
         }
     }
 }
@@ -69,7 +69,7 @@ impl Content {
             Self::Spectrum(file) => vec![file.checksum()],
             Self::SpinlineAir(file) => vec![file.checksum()],
             Self::Polymer(file) => vec![file.checksum()],
-            Self::Records(files) => files.iter().map(FromFile::checksum).collect(),
+            Self::Records(files) => files.iter().map(FileContent::checksum).collect(),
         }
     }
 }
@@ -421,8 +421,9 @@ impl Kind {
             (Self::Switch, Value::Text(text)) => text.clone(),
             (_, Value::Text(text)) => format!("\"{}\"", crate::units::excerpt(text, 60)),
             (_, Value::Numbers(values)) => {
-                let shown =
-                    |value: &f64| self.dimension().map_or_else(|| shortest(*value), |of| of.pretty(*value));
+                let shown = |value: &f64| {
+                    self.dimension().map_or_else(|| shortest(*value), |dimension| dimension.pretty(*value))
+                };
                 values.iter().map(shown).collect::<Vec<_>>().join(", ")
             }
             (_, Value::Vector(v)) => format!("[{}, {}, {}]", v.x, v.y, v.z),

@@ -1,6 +1,6 @@
 //! The feed: the start of a fed fibre, the births of its nodes, and its stiffness at the inlet.
 
-use super::{Fed, Friction, Laying};
+use super::{Feed, Friction, Laying};
 use crate::chain::Chain;
 use crate::chain::node::Node;
 use crate::lanes::{Lanes, WIDTH};
@@ -18,7 +18,7 @@ impl Chain {
     ///
     /// * `lanes` – of each fibre
     /// * `steps_per_element` – of all of them
-    pub(crate) fn feed(&mut self, lanes: &[Fed], steps_per_element: u64) {
+    pub(crate) fn feed(&mut self, lanes: &[Feed], steps_per_element: u64) {
         let c = &mut self.constants;
         let elements = self.position.len() - 1;
         let rest_length = c.elements.at(0).rest_length;
@@ -37,7 +37,7 @@ impl Chain {
         self.velocity.iter_mut().chain(self.earlier.iter_mut()).for_each(|v| *v = velocity);
         laying.origin = self.position.clone();
         c.frame = laying.belt_speed;
-        c.friction = Friction::of(lanes, &rest_length);
+        c.friction = Friction::new(lanes, &rest_length);
         if c.friction.is_some() {
             self.tensions.rub();
         }

@@ -16,7 +16,7 @@ mod feed;
 mod friction;
 mod landing;
 
-pub(crate) use carried::Carried;
+pub(crate) use carried::CarriedEnergy;
 pub(crate) use friction::Friction;
 
 use super::Chain;
@@ -43,7 +43,7 @@ pub struct LaidPoint {
 
 /// How a fibre is fed and laid.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Fed {
+pub(crate) struct Feed {
     /// Feed and belt.
     pub(crate) line: Line,
     /// The fibre.
@@ -79,14 +79,14 @@ pub(crate) struct Laying {
     /// Points that have left the chain and have not been taken yet.
     pub(crate) laid: [Vec<LaidPoint>; WIDTH],
     /// Energy that came with fed fibre minus the energy that left with laid fibre [J], in parts.
-    pub(crate) carried: Carried,
+    pub(crate) carried: CarriedEnergy,
 }
 
 impl Laying {
     /// * `lanes` – of up to eight fibres
     /// * `steps_per_element` – of all of them
     /// * `rest_length` – of an element [m]
-    fn new(lanes: &[Fed], steps_per_element: u64, rest_length: Lanes, elements: usize) -> Self {
+    fn new(lanes: &[Feed], steps_per_element: u64, rest_length: Lanes, elements: usize) -> Self {
         let pick = |i: usize| &lanes[if i < lanes.len() { i } else { 0 }];
         let kept = |i: usize| (pick(i).line.kept_length / rest_length.0[i]).ceil().clamp(1.0, 1e9) as u64;
         Self {
@@ -104,7 +104,7 @@ impl Laying {
             landing: Vec::new(),
             origin: Nodes::default(),
             laid: Default::default(),
-            carried: Carried::default(),
+            carried: CarriedEnergy::default(),
         }
     }
 

@@ -22,7 +22,7 @@ use crate::statistics::Estimate;
 
 /// What is finer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Refined {
+pub enum Refinement {
     /// The time step.
     TimeStep,
     /// The elements.
@@ -63,7 +63,7 @@ impl Statistic {
         OF_THE_END.iter().chain(OF_THE_LAID)
     }
 
-    fn of(&self, trajectory: &Trajectory) -> f64 {
+    fn measure(&self, trajectory: &Trajectory) -> f64 {
         let values = self.measures.iter().map(|measure| trajectory.number(measure));
         values.sum::<f64>() / self.measures.len() as f64
     }
@@ -83,7 +83,7 @@ pub struct Change {
 #[derive(Clone, Debug)]
 pub struct FinerCheck {
     /// What is finer.
-    pub refined: Refined,
+    pub refined: Refinement,
     /// Scheme of the finer flights.
     pub scheme: Scheme,
     /// Time step of the finer flights [s].
@@ -132,7 +132,8 @@ impl<T> Refinements<T> {
 
     /// What follows from each, that of the time step first.
     pub(super) fn and_then<U>(&self, mut next: impl FnMut(&T) -> Result<U, String>) -> Refinements<U> {
-        let mut next = |of: &Result<T, String>| of.as_ref().map_err(String::clone).and_then(&mut next);
+        let mut next =
+            |result: &Result<T, String>| result.as_ref().map_err(String::clone).and_then(&mut next);
         Refinements { step: next(&self.step), mesh: next(&self.mesh) }
     }
 }
@@ -142,7 +143,7 @@ impl FinerCheck {
     pub fn differences(&self) -> impl Iterator<Item = (String, &Estimate)> {
         let path = self.path.iter().map(|path| ("path", path));
         let changes = self.changes.iter().map(|change| (change.statistic.name, &change.estimate));
-        path.chain(changes).map(|(name, of)| (format!("{name}_difference"), of))
+        path.chain(changes).map(|(name, change)| (format!("{name}_difference"), change))
     }
 
     /// The error of a statistic over the change that was found [-]; `None` where the order of convergence is not known.
@@ -153,10 +154,10 @@ impl FinerCheck {
     /// validation.md has what was found.
     pub fn error_over_change(&self) -> Option<f64> {
         match self.refined {
-            Refined::TimeStep if self.is_resolved => Some(1.0),
-            Refined::TimeStep => Some(2.5),
-            Refined::Elements if self.is_fed => None,
-            Refined::Elements => Some(4.0 / 3.0),
+            Refinement::TimeStep if self.is_resolved => Some(1.0),
+            Refinement::TimeStep => Some(2.5),
+            Refinement::Elements if self.is_fed => None,
+            Refinement::Elements => Some(4.0 / 3.0),
         }
     }
 }

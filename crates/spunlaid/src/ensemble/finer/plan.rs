@@ -1,6 +1,6 @@
 //! What is flown again for the checks of a run, and how much of it is worth its computing time.
 
-use super::{Refined, Refinements};
+use super::{Refinement, Refinements};
 use crate::case::{Case, ERROR_TOLERANCE, MOST_STEPS};
 use crate::chain::schemes::Scheme;
 use crate::lanes::WIDTH;
@@ -33,7 +33,7 @@ const MOST_COMPARED: u64 = 1 << 14;
 #[derive(Clone, Debug)]
 pub struct FinerPlan {
     /// What is finer.
-    pub refined: Refined,
+    pub refined: Refinement,
     /// As the run; `None` if the paths of the run itself are compared.
     pub(super) own: Option<Case>,
     pub(super) fine: Case,
@@ -52,15 +52,15 @@ pub type FinerPlans = Refinements<FinerPlan>;
 
 impl FinerPlans {
     /// The plans for a case.
-    pub fn of(case: &Case) -> Self {
+    pub fn for_case(case: &Case) -> Self {
         let step = if case.line.is_some() { step_of_the_laid(case) } else { step_of_a_path(case) };
         Self { step, mesh: mesh(case) }
     }
 
     /// Number of steps of single elements of all checks.
     pub fn element_steps(&self) -> f64 {
-        let of = |plan: &FinerPlan| plan.flights().map(cost).sum::<f64>() * plan.replicates as f64;
-        self.all().map(of).sum()
+        let total = |plan: &FinerPlan| plan.flights().map(cost).sum::<f64>() * plan.replicates as f64;
+        self.all().map(total).sum()
     }
 
     /// Number of flights of all checks.
@@ -112,7 +112,7 @@ fn step_of_a_path(case: &Case) -> Result<FinerPlan, String> {
     let share_of_run = cost(&fine) / cost_of_run(case);
     let replicates = run.replicates.min(WIDTH as u64);
     let horizon = case.air_horizon();
-    Ok(FinerPlan { refined: Refined::TimeStep, own: None, fine, every, horizon, replicates, share_of_run })
+    Ok(FinerPlan { refined: Refinement::TimeStep, own: None, fine, every, horizon, replicates, share_of_run })
 }
 
 /// Compares what is laid with what leapfrog lays, with steps in which the axial waves are resolved. That is another scheme,
@@ -128,7 +128,7 @@ fn step_of_the_laid(case: &Case) -> Result<FinerPlan, String> {
         fine.run.scheme = case.run.scheme;
     }
     fine.set_time_step(resolved.min(0.5 * case.run.time_step));
-    statistics(Refined::TimeStep, case, case.clone(), fine)
+    statistics(Refinement::TimeStep, case, case.clone(), fine)
 }
 
 /// Compares the statistics of the case's elements with those of half their length, both with the same long steps of
@@ -156,7 +156,7 @@ fn mesh(case: &Case) -> Result<FinerPlan, String> {
     own.run.scheme = Scheme::ImplicitTension;
     fine.set_time_step(step);
     own.set_time_step(fine.run.time_step);
-    statistics(Refined::Elements, case, own, fine)
+    statistics(Refinement::Elements, case, own, fine)
 }
 
 fn shortest_limit(case: &Case) -> f64 {
@@ -165,7 +165,7 @@ fn shortest_limit(case: &Case) -> f64 {
 }
 
 /// A plan that compares statistics, over as much time as is worth its computing time.
-fn statistics(refined: Refined, case: &Case, mut own: Case, mut fine: Case) -> Result<FinerPlan, String> {
+fn statistics(refined: Refinement, case: &Case, mut own: Case, mut fine: Case) -> Result<FinerPlan, String> {
     let all = case.run.duration();
     let per_second = |case: &Case| case.fibre.elements as f64 / case.run.time_step;
     let per_second = per_second(&own) + per_second(&fine);
@@ -189,11 +189,11 @@ fn statistics(refined: Refined, case: &Case, mut own: Case, mut fine: Case) -> R
         return Err(format!("it would take about {:.0} times the run's computing time", times.ceil()));
     }
     let duration = (share.max(usual) / per_second).max(least).min(all);
-    for of in [&mut own, &mut fine] {
-        let steps = |time: f64| (time / of.run.time_step * (1.0 + 1e-9)) as u64;
-        (of.run.steps, of.run.spin_up_steps) = (steps(duration).max(1), steps(spin_up));
-        of.run.output_steps = of.run.output_steps.min(of.run.steps);
-        if of.run.steps > MOST_STEPS || of.check().is_err() {
+    for case in [&mut own, &mut fine] {
+        let steps = |time: f64| (time / case.run.time_step * (1.0 + 1e-9)) as u64;
+        (case.run.steps, case.run.spin_up_steps) = (steps(duration).max(1), steps(spin_up));
+        case.run.output_steps = case.run.output_steps.min(case.run.steps);
+        if case.run.steps > MOST_STEPS || case.check().is_err() {
             return Err("the finer flights are beyond what the program can fly".to_owned());
         }
     }
@@ -229,6 +229,8 @@ impl FinerPlan {
 
     pub(super) fn is_resolved(&self) -> bool {
         let own = self.own.as_ref();
-        own.is_some_and(|own| self.refined == Refined::TimeStep && own.run.scheme == Scheme::ImplicitTension)
+        own.is_some_and(|own| {
+            self.refined == Refinement::TimeStep && own.run.scheme == Scheme::ImplicitTension
+        })
     }
 }

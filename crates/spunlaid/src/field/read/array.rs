@@ -93,13 +93,13 @@ pub(super) struct Array<'a> {
 }
 
 /// The type that numbers are converted to: `f64`, or `i64` for whole numbers.
-pub(super) trait Read: FromStr {
+pub(super) trait ParseNumber: FromStr {
     fn of_float(x: f64) -> Self;
     fn of_signed(x: i64) -> Self;
     fn of_unsigned(x: u64) -> Self;
 }
 
-impl Read for f64 {
+impl ParseNumber for f64 {
     fn of_float(x: f64) -> Self {
         x
     }
@@ -113,7 +113,7 @@ impl Read for f64 {
     }
 }
 
-impl Read for i64 {
+impl ParseNumber for i64 {
     fn of_float(x: f64) -> Self {
         x as Self
     }
@@ -129,7 +129,7 @@ impl Read for i64 {
 
 impl Array<'_> {
     /// All numbers of the array.
-    pub(super) fn all<T: Read>(&self, budget: &mut Budget) -> Result<Vec<T>, FileError> {
+    pub(super) fn all<T: ParseNumber>(&self, budget: &mut Budget) -> Result<Vec<T>, FileError> {
         let numbers = match &self.source {
             Source::Text(text) => words(text),
             Source::Numbers(numbers) => Ok(numbers.iter().map(|x| T::of_float(*x)).collect()),
@@ -144,7 +144,11 @@ impl Array<'_> {
     }
 
     /// The numbers for `count` points or cells.
-    pub(super) fn numbers<T: Read>(&self, count: usize, budget: &mut Budget) -> Result<Vec<T>, FileError> {
+    pub(super) fn numbers<T: ParseNumber>(
+        &self,
+        count: usize,
+        budget: &mut Budget,
+    ) -> Result<Vec<T>, FileError> {
         let (numbers, wanted) = (self.all(budget)?, count.saturating_mul(self.components));
         if numbers.len() == wanted {
             return Ok(numbers);
@@ -157,7 +161,7 @@ impl Array<'_> {
         FileError::from(fault).array(&self.name).at(self.place)
     }
 
-    fn converted<T: Read>(&self, bytes: &[u8], big_endian: bool) -> Result<Vec<T>, Fault> {
+    fn converted<T: ParseNumber>(&self, bytes: &[u8], big_endian: bool) -> Result<Vec<T>, Fault> {
         let size = self.number.size();
         let rest = bytes.len() % size;
         if rest != 0 {

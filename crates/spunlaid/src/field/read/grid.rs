@@ -1,6 +1,6 @@
 //! The points of a piece of a file, and the cells that they form.
 
-use super::unstructured::{Listed, Solid};
+use super::unstructured::{MeshLists, Solid};
 use crate::error::FileError;
 use crate::field::fault;
 use crate::vec3::Vec3;
@@ -20,7 +20,7 @@ pub(super) enum Grid {
 }
 
 impl Grid {
-    pub(super) fn unstructured(points: Vec<Vec3<f64>>, listed: &Listed) -> Result<Self, FileError> {
+    pub(super) fn unstructured(points: Vec<Vec3<f64>>, listed: &MeshLists) -> Result<Self, FileError> {
         let solid = listed.solid(points.len())?;
         Ok(Self::Unstructured { points, solid, cells: listed.types.len() })
     }

@@ -5,7 +5,7 @@ use super::assembly::Assembly;
 use super::encoding::Budget;
 use super::grid::{Grid, counted, vectors};
 use super::piece::Piece;
-use super::unstructured::{Listed, Polyhedra};
+use super::unstructured::{MeshLists, Polyhedra};
 use crate::error::{Fault, FileError, Position};
 use crate::field::fault;
 use crate::field::{Field, FieldLayout};
@@ -117,11 +117,11 @@ impl<'a> Scanner<'a> {
         Ok(vectors(&array.numbers(wanted.unwrap_or(count), budget)?))
     }
 
-    fn cells(&mut self, with_ends: bool, budget: &mut Budget) -> Result<Listed, FileError> {
+    fn cells(&mut self, with_ends: bool, budget: &mut Budget) -> Result<MeshLists, FileError> {
         self.next_keyword("CELLS")?;
         let count: usize = self.parse("a number of cells")?;
         let size: usize = self.parse("a number of entries")?;
-        let mut listed = Listed { polyhedra: Polyhedra::Inline, ..Listed::default() };
+        let mut listed = MeshLists { polyhedra: Polyhedra::Inline, ..MeshLists::default() };
         if with_ends {
             let mut list = |keyword, size| {
                 self.keyword(keyword)?;

@@ -6,7 +6,7 @@ use crate::field::{Cells, Shape};
 
 /// The lists.
 #[derive(Default)]
-pub(super) struct Listed {
+pub(super) struct MeshLists {
     /// The type of each cell.
     pub(super) types: Vec<i64>,
     /// The points of all cells, one cell after the other.
@@ -69,7 +69,7 @@ fn kind(number: i64) -> Option<Kind> {
     })
 }
 
-impl Listed {
+impl MeshLists {
     /// The cells that have a volume.
     ///
     /// * `points` – number of points

@@ -7,7 +7,7 @@ use super::assembly::Assembly;
 use super::encoding::{Budget, Compressor, Packing};
 use super::grid::{Grid, counted, vectors};
 use super::piece::Piece;
-use super::unstructured::{Listed, Polyhedra};
+use super::unstructured::{MeshLists, Polyhedra};
 use crate::error::{Fault, FileError, Position};
 use crate::field::fault;
 use crate::field::{Field, FieldLayout};
@@ -89,13 +89,13 @@ fn add(bytes: &[u8], announced: Option<&str>, assembly: &mut Assembly<'_>) -> Re
 
 /// The appended bytes at the end of a file.
 #[derive(Clone, Copy)]
-struct Appended<'a> {
+struct AppendedBytes<'a> {
     bytes: &'a [u8],
     base64: bool,
 }
 
 /// Separates the XML text of a file from the appended bytes. The text gets a closing tag if bytes follow.
-fn parted(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<Appended<'_>>), FileError> {
+fn parted(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<AppendedBytes<'_>>), FileError> {
     const TAG: &[u8] = b"<AppendedData";
     let tag = bytes.windows(TAG.len()).position(|window| window == TAG);
     let text = str::from_utf8(&bytes[..tag.unwrap_or(bytes.len())]).map_err(|error| {
@@ -110,7 +110,7 @@ fn parted(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<Appended<'_>>), FileErro
         return Err(Fault::cut_off("the appended data").into());
     };
     let base64 = attributes.windows(6).any(|window| window == b"base64");
-    Ok((Cow::Owned(format!("{text}</VTKFile>")), Some(Appended { bytes, base64 })))
+    Ok((Cow::Owned(format!("{text}</VTKFile>")), Some(AppendedBytes { bytes, base64 })))
 }
 
 /// How the numbers of a file are written.
@@ -151,7 +151,7 @@ fn offsets(grid: Node<'_, '_>) -> Vec<usize> {
 
 struct File<'a> {
     format: Format,
-    appended: Option<Appended<'a>>,
+    appended: Option<AppendedBytes<'a>>,
     offsets: Vec<usize>,
 }
 
@@ -219,7 +219,7 @@ impl<'a> File<'a> {
         Ok(vectors(&array.numbers(count, budget)?))
     }
 
-    fn listed(&self, piece: Node<'a, '_>, count: usize, budget: &mut Budget) -> Result<Listed, FileError> {
+    fn listed(&self, piece: Node<'a, '_>, count: usize, budget: &mut Budget) -> Result<MeshLists, FileError> {
         let arrays = self.arrays(piece, "Cells")?;
         let find = |name: &str| arrays.iter().find(|array| array.name == name);
         let need = |name: &'static str| find(name).ok_or_else(|| Fault::cut_off(name));
@@ -238,7 +238,7 @@ impl<'a> File<'a> {
         } else {
             Polyhedra::Inline
         };
-        Ok(Listed { types, connectivity, ends, polyhedra })
+        Ok(MeshLists { types, connectivity, ends, polyhedra })
     }
 
     /// The arrays of a part of a piece.

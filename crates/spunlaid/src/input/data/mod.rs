@@ -3,7 +3,7 @@
 mod polymer;
 mod profile;
 
-use crate::air::{FromFile, Measured, Profile, RecordLayout, RecordNumbers, SpectrumTable};
+use crate::air::{FileContent, Measured, Profile, RecordLayout, RecordNumbers, SpectrumTable};
 use crate::error::{Fault, FileError, FileKind};
 use crate::field::{Field, FieldLayout, ReadField};
 use crate::file;
@@ -31,11 +31,11 @@ pub(super) struct DataFiles {
 }
 
 /// The content of each file, or the error; the text in the key tells different ways to read it apart.
-type Shelf<T> = RefCell<BTreeMap<(PathBuf, String), Result<FromFile<T>, FileError>>>;
+type Shelf<T> = RefCell<BTreeMap<(PathBuf, String), Result<FileContent<T>, FileError>>>;
 
 impl DataFiles {
     /// A profile of the air.
-    pub(super) fn profile(&self, path: &Path) -> Result<FromFile<Profile>, FileError> {
+    pub(super) fn profile(&self, path: &Path) -> Result<FileContent<Profile>, FileError> {
         once(&self.profiles, path, "", || {
             let bytes = file::read(path, FileKind::Table, LARGEST_TABLE)?;
             Ok(from_file(path, crc32fast::hash(&bytes), profile::profile(&bytes)?))
@@ -43,7 +43,7 @@ impl DataFiles {
     }
 
     /// A spectrum.
-    pub(super) fn spectrum(&self, path: &Path) -> Result<FromFile<SpectrumTable>, FileError> {
+    pub(super) fn spectrum(&self, path: &Path) -> Result<FileContent<SpectrumTable>, FileError> {
         once(&self.spectra, path, "", || {
             let bytes = file::read(path, FileKind::Table, LARGEST_TABLE)?;
             Ok(from_file(path, crc32fast::hash(&bytes), profile::spectrum(&bytes)?))
@@ -51,7 +51,7 @@ impl DataFiles {
     }
 
     /// The air along a spinline.
-    pub(super) fn spinline_air(&self, path: &Path) -> Result<FromFile<AirTable>, FileError> {
+    pub(super) fn spinline_air(&self, path: &Path) -> Result<FileContent<AirTable>, FileError> {
         once(&self.spinline_airs, path, "", || {
             let bytes = file::read(path, FileKind::Table, LARGEST_TABLE)?;
             Ok(from_file(path, crc32fast::hash(&bytes), profile::spinline_air(&bytes)?))
@@ -59,7 +59,7 @@ impl DataFiles {
     }
 
     /// The constants of a polymer.
-    pub(super) fn polymer(&self, path: &Path) -> Result<FromFile<PolymerFile>, FileError> {
+    pub(super) fn polymer(&self, path: &Path) -> Result<FileContent<PolymerFile>, FileError> {
         once(&self.polymers, path, "", || {
             let bytes = file::read(path, FileKind::Case, LARGEST_TABLE)?;
             let polymer = polymer::read(&String::from_utf8_lossy(&bytes), &path.display().to_string())?;
@@ -74,7 +74,7 @@ impl DataFiles {
         &self,
         path: &Path,
         layout: &FieldLayout,
-    ) -> Result<(FromFile<Field>, Vec<Fault>), FileError> {
+    ) -> Result<(FileContent<Field>, Vec<Fault>), FileError> {
         let way = way_of(layout);
         let field = once(&self.fields, path, &way, || {
             let ReadField { field, warnings, checksum, parts } = ReadField::read(path, layout)?;
@@ -88,7 +88,11 @@ impl DataFiles {
     /// A velocity record.
     ///
     /// * `said` – what the case says of the file
-    pub(super) fn record(&self, path: &Path, said: &RecordLayout) -> Result<FromFile<Measured>, FileError> {
+    pub(super) fn record(
+        &self,
+        path: &Path,
+        said: &RecordLayout,
+    ) -> Result<FileContent<Measured>, FileError> {
         once(&self.records, path, &way_of(said), || {
             let columns = said.columns.iter().flat_map(|columns| columns.split(','));
             let layout = Layout {
@@ -121,8 +125,8 @@ fn measured(record: Record) -> Result<Measured, FileError> {
     Ok(Measured::new(record.interval, &components, analysis.integral_time.value, says))
 }
 
-fn from_file<T>(path: &Path, checksum: u32, content: T) -> FromFile<T> {
-    FromFile::new(path.to_owned(), checksum, Arc::new(content))
+fn from_file<T>(path: &Path, checksum: u32, content: T) -> FileContent<T> {
+    FileContent::new(path.to_owned(), checksum, Arc::new(content))
 }
 
 /// A text that tells different ways to read a file apart; empty if the case says nothing of it.
@@ -135,8 +139,8 @@ fn once<T>(
     shelf: &Shelf<T>,
     path: &Path,
     way: &str,
-    read: impl FnOnce() -> Result<FromFile<T>, FileError>,
-) -> Result<FromFile<T>, FileError> {
+    read: impl FnOnce() -> Result<FileContent<T>, FileError>,
+) -> Result<FileContent<T>, FileError> {
     let key = (path.to_owned(), way.to_owned());
     if let Some(known) = shelf.borrow().get(&key) {
         return known.clone();

@@ -56,7 +56,7 @@ struct Line<'a> {
 }
 
 /// Keys that change together, each with the power of the factor by which it changes.
-type Way = Vec<(String, f64)>;
+type KeyPowers = Vec<(String, f64)>;
 
 impl Line<'_> {
     fn spec(&self) -> &WebSpec {
@@ -86,7 +86,7 @@ impl Line<'_> {
     }
 
     /// The settings that all layers share, each with the ways to change it, the best first.
-    fn of_all_layers(&self) -> Vec<(Setting, Vec<Way>)> {
+    fn of_all_layers(&self) -> Vec<(Setting, Vec<KeyPowers>)> {
         let alone = |keys: &[&str]| keys.iter().map(|key| vec![((*key).to_owned(), 1.0)]).collect();
         let is_flown = |layer: &usize| self.spec().layers[layer - 1].source.case().is_some();
         let fed = (1..=self.spec().layers.len()).filter(is_flown).map(|layer| throughput(layer, 0.0));
@@ -142,12 +142,12 @@ impl Line<'_> {
     }
 
     /// What each layer adds to a way.
-    fn of_each(&self, keys: impl Fn(usize, &Filaments) -> Way) -> Way {
-        (1..).zip(&self.spec().layers).flat_map(|(layer, of)| keys(layer, &of.filaments)).collect()
+    fn of_each(&self, keys: impl Fn(usize, &Filaments) -> KeyPowers) -> KeyPowers {
+        (1..).zip(&self.spec().layers).flat_map(|(layer, spec)| keys(layer, &spec.filaments)).collect()
     }
 
     /// The keys of the holes of a layer.
-    fn holes(&self, layer: usize) -> Way {
+    fn holes(&self, layer: usize) -> KeyPowers {
         let line = format!("layer.{layer}.line");
         match &self.spec().layers[layer - 1].filaments {
             Filaments::AtRandom { .. } | Filaments::Slot { .. } => {
@@ -187,8 +187,8 @@ impl Line<'_> {
     }
 
     /// The webs with less and with more of a setting, in the first of some ways in which both can be made; none if there is no such way.
-    fn change(&self, setting: Setting, layer: Option<usize>, ways: &[Way]) -> Vec<Change> {
-        let of_way = |way: &Way| -> Option<Vec<Change>> {
+    fn change(&self, setting: Setting, layer: Option<usize>, ways: &[KeyPowers]) -> Vec<Change> {
+        let of_way = |way: &KeyPowers| -> Option<Vec<Change>> {
             let known: Vec<(VariedKey, f64, f64)> = (way.iter())
                 .map(|(name, power)| {
                     let key = self.base.varied(name).ok()?;

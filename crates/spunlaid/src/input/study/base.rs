@@ -3,12 +3,12 @@
 use super::super::Overrides;
 use super::super::data::DataFiles;
 use super::super::document;
-use super::super::open::{self, Open};
+use super::super::open::{self, OpenCase};
 use super::super::spinline::{self, SpinFile};
 use super::super::written::{WrittenValue, WrittenValues};
 use super::plan::Plan;
 use super::unvaried::advice;
-use super::{Base, MadeExperiment, VariedKey, level};
+use super::{Base, ExperimentWithNotes, VariedKey, level};
 use crate::case::keys::{self, Value};
 use crate::case::{Note, Remark};
 use crate::error::{Error, Fault, FileKind, Place, Problem};
@@ -18,7 +18,7 @@ use crate::study::{Experiment, Point, Quantity, Study};
 /// The case as it is written, with the files that it names.
 pub(super) struct CaseBase {
     text: String,
-    open: Open,
+    open: OpenCase,
     files: DataFiles,
     /// What it is: a case, or a spinline alone.
     kind: FileKind,
@@ -43,7 +43,7 @@ impl CaseBase {
         Ok(Self { text, open, files, kind })
     }
 
-    fn open_again(&self, written: WrittenValues) -> Result<Open, Error> {
+    fn open_again(&self, written: WrittenValues) -> Result<OpenCase, Error> {
         match self.kind {
             FileKind::Spinline => spinline::open_spinline(written, &self.files),
             _ => open::open(written, &self.files),
@@ -100,7 +100,7 @@ impl Base for CaseBase {
         at: &Place,
         plan: &Plan,
         seed: Option<u64>,
-    ) -> MadeExperiment {
+    ) -> ExperimentWithNotes {
         let (mut written, mut faults) = (self.open.written.clone(), Vec::new());
         for (key, value) in values {
             // What says the same in other words, unless it varies too.
@@ -126,7 +126,7 @@ impl Base for CaseBase {
         let seed = seed.unwrap_or(plan.seed);
         if self.kind == FileKind::Spinline {
             let (opened, unneeded) = self.open(written, values);
-            let SpinFile { spec, mut notes, .. } = SpinFile::of(opened?);
+            let SpinFile { spec, mut notes, .. } = SpinFile::from_open(opened?);
             notes.extend(unneeded.into_iter().map(|note| Note { place: at.clone(), ..note }));
             return Ok((Experiment::Spinline(Box::new(spec)), notes));
         }
@@ -137,7 +137,7 @@ impl Base for CaseBase {
             }
         }
         let (opened, unneeded) = self.open(written, values);
-        let (case, mut notes) = opened.and_then(Open::resolve)?;
+        let (case, mut notes) = opened.and_then(OpenCase::resolve)?;
         notes.extend(unneeded.into_iter().map(|note| Note { place: at.clone(), ..note }));
         Ok((Experiment::Case(case), notes))
     }
@@ -154,7 +154,7 @@ impl Base for CaseBase {
 impl CaseBase {
     /// Sets the written values. A word that varies may leave keys of the base case without a meaning, as
     /// another drag law does with the coefficient of the first; these are left out, each with a remark.
-    fn open(&self, written: WrittenValues, set: &[(VariedKey, f64)]) -> (Result<Open, Error>, Vec<Note>) {
+    fn open(&self, written: WrittenValues, set: &[(VariedKey, f64)]) -> (Result<OpenCase, Error>, Vec<Note>) {
         let opened = self.open_again(written.clone());
         let is_unneeded = |problem: &&Problem| {
             problem.what.needs.is_some() && set.iter().all(|(key, _)| key.name != problem.key)

@@ -215,7 +215,7 @@ trait Base {
         at: &Place,
         plan: &Plan,
         seed: Option<u64>,
-    ) -> MadeExperiment;
+    ) -> ExperimentWithNotes;
 
     /// What of the keys that are the same at all points has to stand in the study, because [`Base::text`] does not have it.
     fn set_beside(&self, set: Vec<(String, String)>) -> Vec<(String, String)>;
@@ -225,7 +225,7 @@ trait Base {
 }
 
 /// An experiment, and the remarks on it.
-type MadeExperiment = Result<(Experiment, Vec<Note>), Error>;
+type ExperimentWithNotes = Result<(Experiment, Vec<Note>), Error>;
 
 /// What a study needs to know of a key that it varies, of a case or of a web.
 #[derive(Clone)]

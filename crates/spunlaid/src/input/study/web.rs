@@ -5,7 +5,7 @@ use super::super::{Overrides, document};
 use super::plan::Plan;
 use super::reader::not_varied;
 use super::unvaried::TAKE_A_NUMBER;
-use super::{Base, MadeExperiment, VariedKey, level};
+use super::{Base, ExperimentWithNotes, VariedKey, level};
 use crate::case::Case;
 use crate::case::keys::{self, Value};
 use crate::error::{Error, Place, Problem, nearest_word};
@@ -170,7 +170,13 @@ impl Base for WebBase {
         Study::quantities_of(&[Point { values: Vec::new(), experiment }])
     }
 
-    fn point(&self, values: &[(VariedKey, f64)], _: &Place, _: &Plan, seed: Option<u64>) -> MadeExperiment {
+    fn point(
+        &self,
+        values: &[(VariedKey, f64)],
+        _: &Place,
+        _: &Plan,
+        seed: Option<u64>,
+    ) -> ExperimentWithNotes {
         let WebFile { spec, notes, .. } = self.file(values, seed)?;
         Ok((Experiment::Web(spec), notes))
     }

@@ -3,7 +3,7 @@
 use super::super::Overrides;
 use super::super::open::rival;
 use super::super::written::{WrittenValue, WrittenValues, sorted};
-use crate::case::keys::{Key, LeftOut, Value};
+use crate::case::keys::{Key, Omission, Value};
 use crate::case::{Note, unusual};
 use crate::error::{Error, Fault, Finding};
 use crate::layers::full_names::{web_key, without_numbers};
@@ -105,7 +105,7 @@ impl Reading<'_> {
 
     /// Warnings about written values that are most likely slips.
     fn unusual(&self) -> Vec<Note> {
-        let of = |(full, said): (&str, &WrittenValue)| {
+        let entry = |(full, said): (&str, &WrittenValue)| {
             let key = web_key(full)?;
             let (dimension, usual) = (key.kind.dimension()?, key.usual_range()?);
             let values = match said.value.as_ref()? {
@@ -116,7 +116,7 @@ impl Reading<'_> {
             let what = values.iter().find_map(|value| unusual(dimension, usual, *value))?;
             Some(Note { place: said.place.clone(), key: full.to_owned(), value: said.shown.clone(), what })
         };
-        self.written.all().filter_map(of).collect()
+        self.written.all().filter_map(entry).collect()
     }
 
     /// Keeps the notes about a case, each once.
@@ -158,15 +158,15 @@ impl Reading<'_> {
                     Some((other, remedy)) => Err(Fault::excludes(other, remedy)),
                     None => key.apply(web, &value),
                 },
-                (None, LeftOut::Value(text)) => key.set(web, text).map_err(|problem| problem.what),
-                (None, LeftOut::Required(_)) => {
+                (None, Omission::Value(text)) => key.set(web, text).map_err(|problem| problem.what),
+                (None, Omission::Required(_)) => {
                     let is_given = flown(web, key).is_some()
                         || key.name == BELT_SPEED
                         || WEB.alternative(key.name).is_some_and(|(other, _)| is_there(other));
                     let table = without_numbers(before);
                     if is_given { Ok(()) } else { Err(Fault::missing(&table, &key.example())) }
                 }
-                (None, LeftOut::Follows(_)) => Ok(()),
+                (None, Omission::Follows(_)) => Ok(()),
             };
             if let Err(fault) = set
                 && (self.is_written(&full) || !self.written.is_excused(&full))

@@ -23,7 +23,7 @@ const SQUARE: f64 = 1e-3;
 const MOST_BYTES: u64 = 32 * MOST_PIXELS as u64;
 
 /// What a reader finds in a file.
-struct Raw {
+struct RawPicture {
     values: Vec<f64>,
     columns: usize,
     rows: usize,
@@ -35,7 +35,7 @@ struct Raw {
     more: bool,
 }
 
-impl Raw {
+impl RawPicture {
     /// Plain values without a largest one.
     fn plain(values: Vec<f64>, columns: usize, rows: usize) -> Self {
         let (full_scale, weight_of_black, pixel) = (None, None, None);
@@ -77,7 +77,7 @@ fn parsed(bytes: &[u8], name: &str, pixel: Option<f64>) -> Result<Picture, FileE
         Format::Npy => npy::parse(bytes)?,
         Format::Table => text::parse(bytes)?,
     };
-    let Raw { values, columns, rows, full_scale, weight_of_black, colour, more, .. } = raw;
+    let RawPicture { values, columns, rows, full_scale, weight_of_black, colour, more, .. } = raw;
     if columns.min(rows) < LEAST_SIDE {
         return Err(Fault::new(
             format!("has {columns} × {rows} pixels"),

@@ -2,14 +2,14 @@
 //!
 //! Source: NumPy enhancement proposal 1, "A simple file format for NumPy arrays".
 
-use super::{Raw, broken, unsupported, within_limits};
+use super::{RawPicture, broken, unsupported, within_limits};
 use crate::error::{Fault, FileError};
 use crate::units::excerpt;
 
 /// Bytes before the length of the header: `\x93NUMPY` and the version.
 const MAGIC: usize = 8;
 
-pub(super) fn parse(bytes: &[u8]) -> Result<Raw, FileError> {
+pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, FileError> {
     let cut_off = || Fault::cut_off("the header of the array");
     let count = if bytes.get(6) == Some(&1) { 2 } else { 4 };
     let length = bytes.get(MAGIC..MAGIC + count).ok_or_else(cut_off)?;
@@ -33,7 +33,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Raw, FileError> {
     }
     let values =
         data[..wanted].chunks_exact(size).map(read).map(|x| if x.is_finite() { x } else { f64::NAN });
-    Ok(Raw { full_scale, ..Raw::plain(values.collect(), columns, rows) })
+    Ok(RawPicture { full_scale, ..RawPicture::plain(values.collect(), columns, rows) })
 }
 
 /// What stands after a key of the header, up to the next comma outside of brackets.

@@ -1,6 +1,6 @@
 //! Portable network graphics.
 
-use super::{MOST_PIXELS, Raw, broken, luminance, within_limits};
+use super::{MOST_PIXELS, RawPicture, broken, luminance, within_limits};
 use crate::error::Fault;
 use png::{BitDepth, Decoder, Limits, Transformations, Unit};
 use std::io::Cursor;
@@ -10,7 +10,7 @@ pub const WEIGHT_OF_BLACK: &str = "basis_weight_of_black_kg_m2";
 /// Keyword of the text that tells the side of a cell of a map [m].
 pub const CELL: &str = "cell_m";
 
-pub(super) fn parse(bytes: &[u8]) -> Result<Raw, Fault> {
+pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, Fault> {
     let failed = |error: png::DecodingError| broken(&error);
     // Four channels of two bytes, and as much for decoding.
     let limits = Limits { bytes: 16 * MOST_PIXELS };
@@ -41,10 +41,12 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Raw, Fault> {
         let text = &info.uncompressed_latin1_text.iter().find(|text| text.keyword == key)?.text;
         text.parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0)
     };
-    let per_metre =
-        info.pixel_dims.filter(|density| density.unit == Unit::Meter).map(|of| [of.xppu, of.yppu]);
+    let per_metre = info
+        .pixel_dims
+        .filter(|density| density.unit == Unit::Meter)
+        .map(|density| [density.xppu, density.yppu]);
     let pixel = metadata(CELL).map(|cell| [cell; 2]);
-    Ok(Raw {
+    Ok(RawPicture {
         values,
         columns,
         rows,

@@ -1,10 +1,10 @@
 //! Text tables: a line for each row of the map.
 
-use super::{Raw, within_limits};
+use super::{RawPicture, within_limits};
 use crate::error::{FileError, FileKind};
 use crate::table::Table;
 
-pub(super) fn parse(bytes: &[u8]) -> Result<Raw, FileError> {
+pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, FileError> {
     let mut table = Table::open(bytes, FileKind::Scan, 0)?;
     let columns = table.heads().len();
     let (mut values, mut rows) = (Vec::new(), 0);
@@ -15,5 +15,5 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Raw, FileError> {
             values.push(table.number(column)?);
         }
     }
-    Ok(Raw::plain(values, columns, rows))
+    Ok(RawPicture::plain(values, columns, rows))
 }

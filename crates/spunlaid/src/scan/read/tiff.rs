@@ -1,6 +1,6 @@
 //! Tagged image file format.
 
-use super::{MOST_PIXELS, Raw, broken, luminance, unsupported, within_limits};
+use super::{MOST_PIXELS, RawPicture, broken, luminance, unsupported, within_limits};
 use crate::error::Fault;
 use std::io::Cursor;
 use tiff::ColorType;
@@ -8,7 +8,7 @@ use tiff::decoder::ifd::Value;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
-pub(super) fn parse(bytes: &[u8]) -> Result<Raw, Fault> {
+pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, Fault> {
     let failed = |error: tiff::TiffError| broken(&error);
     let mut limits = Limits::default();
     limits.decoding_buffer_size = 8 * MOST_PIXELS;
@@ -53,7 +53,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Raw, Fault> {
         return Err(unsupported(found, "save the scan in shades of grey"));
     }
     let weight_of_black = None;
-    Ok(Raw { values, columns, rows, full_scale, weight_of_black, pixel, colour: channels > 2, more })
+    Ok(RawPicture { values, columns, rows, full_scale, weight_of_black, pixel, colour: channels > 2, more })
 }
 
 /// Width and height of a pixel [m], if the file tells its resolution.
