@@ -1,7 +1,7 @@
 //! `spunlaid air`: the turbulent air of a case, looked at while it passes.
 
 use super::interrupt::stop_on_ctrl_c;
-use super::{staged, stem, threads};
+use super::{staged, stem};
 use crate::args::{Air, Invocation};
 use crate::failure::Failure;
 use crate::{progress, say};
@@ -28,22 +28,22 @@ pub(crate) fn air(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
         told.push(UNIFORM.to_owned());
     }
     let name = stem(&air.source.case, "case").to_string_lossy().into_owned();
-    let folder = super::folder(air.out.as_ref(), format!("{name}_air"));
+    let folder = super::folder(air.output.out.as_ref(), format!("{name}_air"));
     let stop = stop_on_ctrl_c();
     let origin = invocation.origin(&[&air.source.case], &folder);
-    let mut staging = staged(&folder, ENTRIES, air.force, origin, air.quiet)?;
+    let mut staging = staged(&folder, ENTRIES, air.output.force, origin, air.output.quiet)?;
     staging.set_figures(&air.figures.files());
     let replicate = air.replicate - 1;
     let looks =
-        AirViews { replicate, frames: air.frames, duration: air.duration, threads: threads(air.threads) };
+        AirViews { replicate, frames: air.frames, duration: air.duration, threads: air.threads.number() };
     let done = AtomicU64::new(0);
-    let slices = progress::follow(&done, air.frames, "the air passes", air.quiet, || {
+    let slices = progress::follow(&done, air.frames, "the air passes", air.output.quiet, || {
         Slices::new(&case, &looks, &done, stop)
     })?;
     let results = AirFolder { name: &name, case: &case, slices: &slices, replicate, notes: &told };
     results.write(&staging)?;
     staging.publish()?;
-    if !air.quiet {
+    if !air.output.quiet {
         say::line(&results.headline());
         say::line(&format!("open {}", folder.join("report.html").display()));
     }

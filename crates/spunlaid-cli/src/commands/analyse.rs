@@ -71,9 +71,9 @@ fn of_scans(arguments: &Analyse) -> Option<&'static str> {
 
 fn record(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     let name = stem(&analyse.record, "record");
-    let folder = super::folder(analyse.out.as_ref(), name);
+    let folder = super::folder(analyse.output.out.as_ref(), name);
     let origin = invocation.origin(&[&analyse.record], &folder);
-    let mut staging = staged(&folder, ENTRIES, analyse.force, origin, analyse.quiet)?;
+    let mut staging = staged(&folder, ENTRIES, analyse.output.force, origin, analyse.output.quiet)?;
     staging.set_figures(&analyse.figures.files());
     let record = read_record(&analyse.record, &layout(analyse))?;
     let analysis = spunlaid::record::analyse(&record, &settings(analyse))?;
@@ -86,7 +86,7 @@ fn record(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     staging.publish()?;
     if analyse.json {
         say::text(&json);
-    } else if !analyse.quiet {
+    } else if !analyse.output.quiet {
         say::text(&result_table(&record, &analysis));
         say::line(&format!("\nthe [air] of a case is in {}", folder.join("air.toml").display()));
         say::line(&format!("open {}", folder.join("report.html").display()));

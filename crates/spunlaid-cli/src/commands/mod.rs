@@ -45,11 +45,6 @@ use std::ffi::OsStr;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// The requested number of threads, or one for each core.
-fn threads(count: Option<u16>) -> usize {
-    count.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from)
-}
-
 /// The name of a file without its extension.
 fn stem<'a>(file: &'a Path, otherwise: &'a str) -> &'a OsStr {
     file.file_stem().filter(|_| !is_standard(file)).unwrap_or(otherwise.as_ref())

@@ -1,7 +1,7 @@
 //! `spunlaid reproduce`: draws the paper's figures again and tests its claims.
 
 use super::interrupt::stop_on_ctrl_c;
-use super::{plural, staged, threads};
+use super::{plural, staged};
 use crate::args::{Invocation, Reproduce, SchemeName};
 use crate::failure::Failure;
 use crate::{progress, say};
@@ -43,24 +43,25 @@ pub(crate) fn reproduce(arguments: &Reproduce, invocation: &Invocation) -> Resul
     };
     let mut base = table1(scheme)?;
     base.run.replicates = arguments.replicates;
-    let folder = super::folder(arguments.out.as_ref(), "paper");
+    let folder = super::folder(arguments.output.out.as_ref(), "paper");
     let stop = stop_on_ctrl_c();
     let origin = invocation.origin(&[], &folder);
-    let mut staging = staged(&folder, ENTRIES, arguments.force, origin, arguments.quiet)?;
+    let mut staging = staged(&folder, ENTRIES, arguments.output.force, origin, arguments.output.quiet)?;
     staging.set_figures(&arguments.width.files(&formats));
     let flying = Flying::new(&base, &wanted)?;
 
     let fibre_steps = AtomicU64::new(0);
     let computing = Computing {
-        threads: threads(arguments.threads),
+        threads: arguments.threads.number(),
         isa: Isa::detect(),
         stop,
         fibre_steps: &fibre_steps,
         recorder: None,
     };
     let label = format!("flying {}", plural(flying.fibres(), "fibre"));
-    let flown =
-        progress::follow(&fibre_steps, flying.steps(), &label, arguments.quiet, || flying.fly(computing))?;
+    let flown = progress::follow(&fibre_steps, flying.steps(), &label, arguments.output.quiet, || {
+        flying.fly(computing)
+    })?;
 
     let figures = flown.figures(&base);
     let claims = flown.claims();
@@ -87,7 +88,7 @@ pub(crate) fn reproduce(arguments: &Reproduce, invocation: &Invocation) -> Resul
     staging.write("case.toml", case_toml)?;
     staging.write("summary.json", summary(&claims))?;
     staging.publish()?;
-    if !arguments.quiet {
+    if !arguments.output.quiet {
         for claim in &claims {
             say::line(&format!("{:<4} {:<13} {}", claim.figure, claim.verdict.name(), claim.claim));
             say::line(&format!("                   {}", claim.evidence));

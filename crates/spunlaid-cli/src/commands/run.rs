@@ -2,7 +2,7 @@
 
 use super::finished::continued;
 use super::interrupt::stop_on_ctrl_c;
-use super::{plural, staged, stem, threads};
+use super::{plural, staged, stem};
 use crate::args::{Invocation, Run};
 use crate::failure::Failure;
 use crate::{progress, say};
@@ -27,15 +27,15 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     };
     let name = name(run);
     let folder = match run.until {
-        Some(_) if run.out.is_none() => Some(run.source.case.clone()),
-        _ => (run.out.is_some() || !run.json).then(|| super::folder(run.out.as_ref(), &name)),
+        Some(_) if run.output.out.is_none() => Some(run.source.case.clone()),
+        _ => (run.output.out.is_some() || !run.json).then(|| super::folder(run.output.out.as_ref(), &name)),
     };
     let stop = stop_on_ctrl_c();
     let staging = folder.as_ref().map(|folder| staging(run, invocation, folder)).transpose()?;
 
     let fibre_steps = AtomicU64::new(0);
     let computing = Computing {
-        threads: threads(run.threads),
+        threads: run.threads.number(),
         isa: Isa::detect(),
         stop,
         fibre_steps: &fibre_steps,
@@ -47,7 +47,7 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
         &fibre_steps,
         case.run.steps * case.fibres() + plans.fibre_steps(),
         &format!("flying {}", plural(case.fibres(), "fibre")),
-        run.quiet,
+        run.output.quiet,
         || files::fly(&case, &plans, computing, staging.as_ref()),
     )?;
     let performance = files::performance(&case, &results, &plans, computing, started.elapsed().as_secs_f64());
@@ -77,7 +77,7 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
 
     if run.json {
         say::text(&written.summary());
-    } else if !run.quiet {
+    } else if !run.output.quiet {
         say::text(&table::results(&results));
         say::text(&finer::text(&checks, &case, &results));
         let seconds = performance.wall_s;
@@ -100,7 +100,13 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
 fn staging(run: &Run, invocation: &Invocation, folder: &Path) -> Result<Staging<'static>, Failure> {
     let is_continued = run.until.is_some();
     let origin = (!is_continued).then(|| invocation.origin(&[&run.source.case], folder)).flatten();
-    staged(folder, ENTRIES, run.force || is_continued && run.out.is_none(), origin, run.quiet)
+    staged(
+        folder,
+        ENTRIES,
+        run.output.force || is_continued && run.output.out.is_none(),
+        origin,
+        run.output.quiet,
+    )
 }
 
 /// What the results are called: as the case file, or as the folder of a run that is continued.

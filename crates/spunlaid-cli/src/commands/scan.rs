@@ -22,9 +22,9 @@ pub(super) fn is_picture(file: &Path) -> bool {
 
 pub(super) fn scan(arguments: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     let name = stem(&arguments.record, "scan").to_string_lossy().into_owned();
-    let folder = super::folder(arguments.out.as_ref(), &name);
+    let folder = super::folder(arguments.output.out.as_ref(), &name);
     let origin = invocation.origin(&[&arguments.record], &folder);
-    let mut staging = staged(&folder, ENTRIES, arguments.force, origin, arguments.quiet)?;
+    let mut staging = staged(&folder, ENTRIES, arguments.output.force, origin, arguments.output.quiet)?;
     staging.set_figures(&arguments.figures.files());
     let started = Instant::now();
     let picture = turned(read(&arguments.record, arguments.scan.pixel)?, arguments);
@@ -47,7 +47,7 @@ pub(super) fn scan(arguments: &Analyse, invocation: &Invocation) -> Result<(), F
     staging.publish()?;
     if arguments.json {
         say::text(&summary);
-    } else if !arguments.quiet {
+    } else if !arguments.output.quiet {
         say::text(&table(&findings));
         notes.iter().for_each(|note| say::remark(false, note));
         say::line(&format!("open {}", folder.join("report.html").display()));

@@ -17,17 +17,18 @@ pub(crate) fn spin(spin: &Spin, invocation: &Invocation) -> Result<(), Failure> 
     let found = remarks(&results.rows);
     let notes = [Note::of_results(&file.notes), found.clone()].concat();
     let written = SpinFolder { name: &name, file: &file, results: &results, notes: &notes };
-    let folder = (spin.out.is_some() || !spin.json).then(|| super::folder(spin.out.as_ref(), &name));
+    let folder =
+        (spin.output.out.is_some() || !spin.json).then(|| super::folder(spin.output.out.as_ref(), &name));
     if let Some(folder) = &folder {
         let origin = invocation.origin(&[&spin.file], folder);
-        let mut staging = staged(folder, ENTRIES, spin.force, origin, spin.quiet)?;
+        let mut staging = staged(folder, ENTRIES, spin.output.force, origin, spin.output.quiet)?;
         staging.set_figures(&spin.figures.files());
         written.write(&staging)?;
         staging.publish()?;
     }
     if spin.json {
         say::text(&written.summary());
-    } else if !spin.quiet {
+    } else if !spin.output.quiet {
         say::text(&text(&results.rows, &results.influences));
         found.iter().for_each(|note| say::remark(false, note));
         if let Some(folder) = folder {

@@ -1,7 +1,7 @@
 //! `spunlaid web`: lays a web of many filaments and says how even it is.
 
 use super::interrupt::stop_on_ctrl_c;
-use super::{aligned, plural, staged, stem, threads};
+use super::{aligned, plural, staged, stem};
 use crate::args::{self, Invocation};
 use crate::failure::Failure;
 use crate::{progress, say};
@@ -25,23 +25,24 @@ pub(crate) fn web(asked: &args::Web, invocation: &Invocation) -> Result<(), Fail
     let file = read_web(&asked.file, set)?;
     file.notes.iter().for_each(say::note);
     let name = stem(&asked.file, "web").to_string_lossy().into_owned();
-    let folder = (asked.out.is_some() || !asked.json).then(|| super::folder(asked.out.as_ref(), &name));
+    let folder =
+        (asked.output.out.is_some() || !asked.json).then(|| super::folder(asked.output.out.as_ref(), &name));
     let stop = stop_on_ctrl_c();
     let staged = |folder: &PathBuf| {
         let origin = invocation.origin(&[&asked.file], folder);
-        staged(folder, ENTRIES, asked.force, origin, asked.quiet)
+        staged(folder, ENTRIES, asked.output.force, origin, asked.output.quiet)
     };
     let staging = folder.as_ref().map(staged).transpose()?;
 
     let started = Instant::now();
-    let follow = flying(asked.quiet);
-    let mut flyer = Flyer::new(threads(asked.threads), stop, &follow);
+    let follow = flying(asked.output.quiet);
+    let mut flyer = Flyer::new(asked.threads.number(), stop, &follow);
     let mut flown = flyer.web(&file.spec)?;
 
     let laid = AtomicU64::new(0);
-    let by = Laying { threads: threads(asked.threads), isa: Isa::detect(), stop, laid: &laid };
+    let by = Laying { threads: asked.threads.number(), isa: Isa::detect(), stop, laid: &laid };
     let label = format!("laying {} km of fibre", significant(flown.web.fibre_length() / 1e3, 3));
-    let findings = progress::follow(&laid, flown.pieces()?, &label, asked.quiet, || flown.find(by))?;
+    let findings = progress::follow(&laid, flown.pieces()?, &label, asked.output.quiet, || flown.find(by))?;
     let laying_s = started.elapsed().as_secs_f64();
     let FlownWeb { web, layers, .. } = &flown;
     let changes = if asked.no_advice { None } else { Some(read_changes(&asked.file, set)?) };
@@ -50,7 +51,7 @@ pub(crate) fn web(asked: &args::Web, invocation: &Invocation) -> Result<(), Fail
     let changes = changes.filter(|changes| asked.advice || is_short(changes));
     let tried = changes.as_ref().map(|changes| trying(changes.len()));
     let advice = match changes {
-        Some(changes) => Some(advised(changes, (&file, web, &findings), by, asked.quiet)?),
+        Some(changes) => Some(advised(changes, (&file, web, &findings), by, asked.output.quiet)?),
         None => None,
     };
     let advice_s = started.elapsed().as_secs_f64() - laying_s;
@@ -80,7 +81,7 @@ pub(crate) fn web(asked: &args::Web, invocation: &Invocation) -> Result<(), Fail
     }
     if asked.json {
         say::text(&written.summary());
-    } else if !asked.quiet {
+    } else if !asked.output.quiet {
         say::text(&told(&findings));
         let words = advice_words(&file.spec, &findings, advice.as_ref());
         if !(words.is_empty() || asked.no_advice) {

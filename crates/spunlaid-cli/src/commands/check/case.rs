@@ -1,7 +1,6 @@
 //! A case with all defaults, its mesh, limits and expected cost; a spinline alone.
 
-use crate::args::{CaseSource, Check};
-use crate::commands::threads;
+use crate::args::{CaseSource, Check, Threads};
 use crate::failure::Failure;
 use crate::say;
 use serde::Serialize;
@@ -48,7 +47,7 @@ pub(super) fn case(check: &Check) -> Result<(), Failure> {
         "# expected: {} on {} of {} threads, {:.0} MiB of memory, {} of results",
         duration(expected.wall_s),
         expected.threads,
-        threads(None),
+        Threads::default().number(),
         expected.memory_bytes / f64::from(1 << 20),
         size(expected.disk_bytes)
     ));
@@ -283,7 +282,7 @@ impl Expected {
         const FIGURES: f64 = 0.4;
         const WRITING: f64 = 0.7e-6;
         let flights = case.flights();
-        let busy = (threads(None) as u64).min(flights);
+        let busy = (Threads::default().number() as u64).min(flights);
         // A flight takes as long whether its lanes are full or not. The checks are some more, of their own length.
         let again = FinerPlans::for_case(case).share_of_run() * flights as f64;
         let rounds = (flights.div_ceil(busy) as f64).max((flights as f64 + again) / busy as f64);

@@ -48,10 +48,18 @@ pub(crate) fn compare(compare: &Compare, invocation: &Invocation) -> Result<(), 
         return Err(Fault::new(message, "name fewer").into());
     }
     let names = names(&compare.runs);
-    let folder = compare.out.clone().unwrap_or_else(|| PathBuf::from("results").join(joined(&names)));
+    let folder = compare.output.out.clone().unwrap_or_else(|| PathBuf::from("results").join(joined(&names)));
     let files: Vec<&Path> = compare.runs.iter().map(PathBuf::as_path).collect();
-    let staging = (!compare.json || compare.out.is_some())
-        .then(|| staged(&folder, FILES, compare.force, invocation.origin(&files, &folder), compare.quiet))
+    let staging = (!compare.json || compare.output.out.is_some())
+        .then(|| {
+            staged(
+                &folder,
+                FILES,
+                compare.output.force,
+                invocation.origin(&files, &folder),
+                compare.output.quiet,
+            )
+        })
         .transpose()?;
     let results = match webs::read(&compare.runs, &names)? {
         Some(webs) => webs::compared(&webs)?,
@@ -80,7 +88,7 @@ pub(crate) fn compare(compare: &Compare, invocation: &Invocation) -> Result<(), 
     }
     if compare.json {
         say::text(&json);
-    } else if !compare.quiet {
+    } else if !compare.output.quiet {
         comparisons.iter().for_each(|comparison| say::text(&comparison::table(comparison)));
         notes.iter().for_each(|note| say::remark(false, note));
         say::line(&format!("open {}", folder.join("report.html").display()));
