@@ -1,13 +1,13 @@
 //! What a fit has found: the values with their intervals, the profile of the misfit, and whether such webs can look like the scan at all.
 
-use super::interval::Ends;
+use super::interval::{Ends, IntervalEnd};
 use super::parameter::Parameter;
 use super::search::{Place, rest};
 use super::surface::{Surface, in_place_of_the_scan};
 use super::texture::Texture;
 use super::values::Values;
 use super::webs::Webs;
-use super::weights::{Matrix, gain, information, misfit, unexplained};
+use super::weights::{Matrix, gain, information, misfit, unexplained, weights};
 
 /// What was found.
 #[derive(Clone, Debug)]
@@ -52,6 +52,8 @@ pub struct FittedKey {
     pub value: f64,
     /// The 95 % confidence interval, cut at the range of the key [SI], or why none can be given.
     pub interval: Result<[f64; 2], String>,
+    /// What is known of the ends of the interval.
+    pub ends: [IntervalEnd; 2],
     /// The least misfit for other values of this key: value [SI] and misfit.
     pub profile: Vec<(f64, f64)>,
     /// Why the value is not to be trusted, if so.
@@ -107,7 +109,13 @@ const ALIKE: f64 = 0.95;
 /// The results of the place at which the search has ended.
 ///
 /// * `ends` – of the intervals, of each key that changes something
-pub(super) fn found(webs: &Webs<'_>, place: &Place, values: Values, ends: &[Ends]) -> Fit {
+/// * `others` – standard errors of the logarithms by causes other than chance
+pub(super) fn found(
+    webs: &Webs<'_>,
+    place: &Place,
+    values: Values,
+    (ends, others): (&[Ends], &Matrix),
+) -> Fit {
     let Values { at, surface, profiles, far } = values;
     let fit = Fit {
         keys: keys(webs, (&surface, ends), &at, profiles),
@@ -115,7 +123,7 @@ pub(super) fn found(webs: &Webs<'_>, place: &Place, values: Values, ends: &[Ends
         alike: Vec::new(),
         numbers: numbers(webs, place, &surface),
         misfit: [0, place.trial].map(|trial| misfit(&place.weights, &rest(webs, trial))),
-        worse: worse(webs, place, &surface),
+        worse: worse(webs, place, &surface, others),
         webs: webs.count,
         trials: trials(webs, place),
         settled: place.settled || far < 1.0,
@@ -137,21 +145,22 @@ fn keys(
         let (parameter, value) = (parameter.clone(), parameter.value(at[key]));
         let Some(own) = surface.known.iter().position(|known| *known == key) else {
             let interval = Err("it changes nothing of what is compared".to_owned());
-            return FittedKey { parameter, value, interval, profile, doubt: Some(KeyDoubt::NoEffect) };
+            let (ends, doubt) = ([IntervalEnd::OfRange; 2], Some(KeyDoubt::NoEffect));
+            return FittedKey { parameter, value, interval, ends, profile, doubt };
         };
         let [low, high] = parameter.ends();
         profile.extend(&ends[own].profile);
         profile.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let ends = ends[own].coordinates;
+        let Ends { coordinates, kinds: ends, .. } = &ends[own];
         let near = |end: f64| (at[key] - end).abs() < 1e-9 * (high - low);
-        let doubt = if ends[0] <= low && ends[1] >= high {
+        let doubt = if *ends == [IntervalEnd::OfRange; 2] {
             Some(KeyDoubt::Unknown)
         } else {
             (near(low) || near(high)).then_some(KeyDoubt::AtEnd)
         };
-        let in_range = ends.map(|end| parameter.value(end.clamp(low, high)));
-        let interval = webs.target.doubt().map_or(Ok(in_range), |doubt| Err(doubt.to_owned()));
-        FittedKey { parameter, value, interval, profile, doubt }
+        let interval = coordinates.map(|end| parameter.value(end));
+        let interval = webs.target.doubt().map_or(Ok(interval), |doubt| Err(doubt.to_owned()));
+        FittedKey { parameter, value, interval, ends: *ends, profile, doubt }
     };
     profiles.into_iter().enumerate().map(key).collect()
 }
@@ -195,16 +204,28 @@ fn numbers(webs: &Webs<'_>, place: &Place, surface: &Surface) -> Vec<FittedNumbe
 }
 
 /// How many webs of the place, each taken as the scan, leave a larger misfit.
-fn worse(webs: &Webs<'_>, place: &Place, surface: &Surface) -> u64 {
-    let rest: Vec<f64> =
-        webs.target.logarithms.iter().zip(&surface.here).map(|(scan, here)| scan - here).collect();
-    let of_scan = misfit(&place.weights, &unexplained(&surface.gain, &surface.slopes, &rest));
-    let is_worse = |web: &usize| {
-        let (weights, apart) = in_place_of_the_scan(webs, place, *web);
-        let gain = gain(&weights, &surface.slopes).unwrap_or_else(|_| surface.gain.clone());
-        misfit(&weights, &unexplained(&gain, &surface.slopes, &apart)) >= of_scan
+///
+/// * `others` – standard errors of the logarithms by causes other than chance
+fn worse(webs: &Webs<'_>, place: &Place, surface: &Surface, others: &Matrix) -> u64 {
+    let all = &webs.trials[place.trial].webs;
+    let causes: Matrix = others.iter().chain(&webs.target.camera).cloned().collect();
+    let left = |weights: &Matrix, apart: &[f64]| {
+        let gain = gain(weights, &surface.slopes).unwrap_or_else(|_| surface.gain.clone());
+        misfit(weights, &unexplained(&gain, &surface.slopes, apart))
     };
-    (0..webs.trials[place.trial].webs.len()).filter(is_worse).count() as u64
+    let apart: Vec<f64> =
+        webs.target.logarithms.iter().zip(&surface.here).map(|(scan, here)| scan - here).collect();
+    let of_scan = left(&weights(all.iter(), &causes).unwrap_or_else(|| place.weights.clone()), &apart);
+    let is_worse = |web: &usize| {
+        let (weights, mut apart) = in_place_of_the_scan(webs, place, *web, &causes);
+        // A scan is off by these causes as well, to either side.
+        for (cause, errors) in causes.iter().enumerate() {
+            let side = if (*web >> cause) & 1 == 0 { 1.0 } else { -1.0 };
+            apart.iter_mut().zip(errors).for_each(|(apart, error)| *apart += side * error);
+        }
+        left(&weights, &apart) >= of_scan
+    };
+    (0..all.len()).filter(is_worse).count() as u64
 }
 
 /// All trials with their misfits.

@@ -35,6 +35,7 @@ mod webs;
 mod weights;
 
 pub use found::{Fit, FitTrial, FittedKey, FittedNumber, InseparableKeys, KeyDoubt};
+pub use interval::IntervalEnd;
 pub use parameter::{Parameter, USUAL_FACTOR};
 pub use simulator::MakeWeb;
 pub use target::{MeasuredPatch, MeasuredWeb, Target};
@@ -128,7 +129,7 @@ pub fn fit<'a>(
 fn find(webs: &mut Webs<'_>) -> Result<Fit, Error> {
     let start: Vec<f64> = webs.parameters.iter().map(|sought| sought.coordinate(sought.start)).collect();
     let Some(mut start) = webs.trial(&start)? else {
-        return Err(webs.refused.pop().map_or(Error::Interrupted, |(_, error)| error));
+        return Err(webs.refusal(&start).unwrap_or(Error::Interrupted));
     };
     // The scatter at the start tells where to go, that at the first end what a misfit is worth.
     let weights = search::weights_at(webs, start)?;
@@ -147,7 +148,7 @@ fn find(webs: &mut Webs<'_>) -> Result<Fit, Error> {
             Some(next) if next != start => start = next,
             _ => {
                 let ends = interval::ends(webs, &place, &values, &others)?;
-                return Ok(found::found(webs, &place, values, &ends));
+                return Ok(found::found(webs, &place, values, (&ends, &others)));
             }
         }
     }

@@ -1,11 +1,11 @@
 //! Closed loops with numbers that are drawn, not measured of laid webs: so many that it shows how often the intervals hold the truth.
 
-use super::find;
 use super::parameter::Parameter;
 use super::simulator::Simulator;
 use super::target::Target;
 use super::webs::{MOST_TRIALS, Webs};
 use super::weights::Matrix;
+use super::{Fit, IntervalEnd, KeyDoubt, find};
 use crate::error::Error;
 use crate::study::Journal;
 use crate::units::Dimension;
@@ -106,7 +106,7 @@ fn coverage(parameters: &[Parameter], truth: &[f64], (loops, webs): (u64, u64)) 
 }
 
 #[test]
-fn stat_intervals_hold_the_truth_as_often_as_they_say() {
+fn stat_intervals_of_normal_numbers_hold_the_truth_as_often_as_they_say() {
     let parameters = [parameter("noise", 12.0, [2.4, 60.0]), parameter("filaments", 250.0, [50.0, 1250.0])];
     let counts = coverage(&parameters, &[16.0, 350.0], (1000, 20));
     println!("{counts:?}");
@@ -115,4 +115,103 @@ fn stat_intervals_hold_the_truth_as_often_as_they_say() {
         assert!((930..=975).contains(&within), "{within} of 1000");
         assert!(below.max(above) <= 40 && below.min(above) >= 8, "{below} below, {above} above");
     }
+}
+
+/// What a fit of drawn numbers finds.
+fn fitted(parameters: &[Parameter], truth: &[f64], simulator: &mut dyn Simulator) -> Result<Fit, Error> {
+    let scan = Drawn { values: truth.to_vec(), seed: 77 }.web(0).unwrap();
+    let target = Target::of_patches(&SIDES.map(|side| 1e-3 * side), scan);
+    let mut journal = Journal::in_memory(MOST_TRIALS);
+    find(&mut Webs::new((parameters, &target), (simulator, 20), &mut journal, &|_| {}))
+}
+
+fn drawn() -> Drawn {
+    Drawn { values: Vec::new(), seed: 5 }
+}
+
+/// Few whole numbers lie within a standard error, and a step of a slope must reach the next one.
+#[test]
+fn a_whole_number_is_found_among_few() {
+    let whole = |start: f64| Parameter { whole: true, ..parameter("filaments", start, [2.0, 40.0]) };
+    let parameters = [parameter("noise", 16.0, [15.0, 17.0]), whole(3.0)];
+    let fit = fitted(&parameters, &[16.0, 12.0], &mut drawn()).unwrap();
+    let key = &fit.keys[1];
+    let [low, high] = key.interval.clone().unwrap();
+    assert!(low <= 12.0 && 12.0 <= high && high - low < 12.0, "{key:?}");
+    assert!(
+        key.doubt.is_none() && [key.value, low, high].iter().all(|value| value.fract() == 0.0),
+        "{key:?}"
+    );
+    assert!(fit.trials.iter().all(|trial| trial.values[1].fract() == 0.0), "{fit:?}");
+}
+
+/// A range that is narrower than a step of the search is searched from end to end.
+#[test]
+fn a_narrow_range_is_searched_and_its_ends_are_told() {
+    let parameters = [parameter("filaments", 350.0, [348.0, 352.0])];
+    let mut simulator = OneKey(drawn());
+    let fit = fitted(&parameters, &[16.0, 350.0], &mut simulator).unwrap();
+    assert_eq!(fit.keys[0].ends, [IntervalEnd::OfRange; 2], "{fit:?}");
+    assert_eq!(fit.keys[0].doubt, Some(KeyDoubt::Unknown));
+    let parameters = [Parameter { whole: true, ..parameter("filaments", 3.0, [2.8, 3.2]) }];
+    let error = fitted(&parameters, &[16.0, 3.0], &mut OneKey(drawn())).unwrap_err().to_string();
+    assert!(error.contains("filaments has no second value in its range"), "{error}");
+}
+
+/// The number of filaments alone.
+struct OneKey(Drawn);
+
+impl Simulator for OneKey {
+    fn set(&mut self, values: &[f64]) -> Result<(), Error> {
+        self.0.set(&[16.0, values[0]])
+    }
+    fn web(&mut self, replicate: u64) -> Result<Vec<f64>, Error> {
+        self.0.web(replicate)
+    }
+    fn errors_of_model(&mut self) -> Result<Matrix, Error> {
+        self.0.errors_of_model()
+    }
+}
+
+/// Beyond so many filaments, a web of a trial cannot be laid: that of this replicate.
+struct Fragile(OneKey, f64, u64);
+
+impl Simulator for Fragile {
+    fn set(&mut self, values: &[f64]) -> Result<(), Error> {
+        self.0.set(values)
+    }
+    fn web(&mut self, replicate: u64) -> Result<Vec<f64>, Error> {
+        if replicate == self.2 && self.0.0.values[1] > self.1 {
+            return Err(Error::flight("cannot be laid", "try less"));
+        }
+        self.0.web(replicate)
+    }
+    fn errors_of_model(&mut self) -> Result<Matrix, Error> {
+        self.0.errors_of_model()
+    }
+}
+
+/// Webs of a trial that was given up halfway do not stand for those of another one: what is found in the journal is what is found without it.
+#[test]
+fn identical_after_trials_that_were_refused() {
+    let parameters = [parameter("filaments", 250.0, [50.0, 1250.0])];
+    let scan = Drawn { values: vec![16.0, 350.0], seed: 77 }.web(0).unwrap();
+    let target = Target::of_patches(&SIDES.map(|side| 1e-3 * side), scan);
+    let mut journal = Journal::in_memory(MOST_TRIALS);
+    let mut fit = || {
+        let mut simulator = Fragile(OneKey(drawn()), 380.0, 4);
+        find(&mut Webs::new((&parameters, &target), (&mut simulator, 20), &mut journal, &|_| {})).unwrap()
+    };
+    let first = fit();
+    assert!(!first.refused.is_empty(), "{first:?}");
+    assert_eq!(format!("{:?}", first.keys), format!("{:?}", fit().keys));
+    // The same if such trials are refused before any of their webs is laid.
+    let mut simulator = Fragile(OneKey(drawn()), 380.0, 0);
+    let mut journal = Journal::in_memory(MOST_TRIALS);
+    let at_once =
+        find(&mut Webs::new((&parameters, &target), (&mut simulator, 20), &mut journal, &|_| {})).unwrap();
+    assert_eq!(format!("{:?}", first.keys), format!("{:?}", at_once.keys));
+    // The end of the interval to which no webs can be laid is told as such, or lies before.
+    let [_, high] = first.keys[0].interval.clone().unwrap();
+    assert!(high <= 380.0 || first.keys[0].ends[1] == IntervalEnd::Straight, "{:?}", first.keys[0]);
 }

@@ -103,10 +103,11 @@ fn profile(
                 webs.parameters[key].value(at[key]),
                 least_misfit(webs, place, surface, (own, trial)),
             ));
-            reach = reach.max(step.abs());
+            reach = reach.max((webs.trials[trial].at[key] - here[key]).abs());
         }
     }
-    Ok((profile, 1.05 * reach))
+    // A whole number may have no other value so near.
+    Ok((profile, if reach > 0.0 { 1.05 * reach } else { 1.0 }))
 }
 
 /// The misfit of a trial if all keys but one took their best values. Little is left for them to do, and straight lines serve.

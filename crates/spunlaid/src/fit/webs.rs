@@ -23,7 +23,7 @@ pub(super) struct Trial {
 /// What is being laid.
 #[derive(Clone, Copy, Debug)]
 pub struct WebInProgress<'a> {
-    /// Number of the trial, from 1.
+    /// Number of the trial, from 1; those that cannot be laid count too.
     pub trial: usize,
     /// Number of its web, from 1.
     pub web: u64,
@@ -33,7 +33,7 @@ pub struct WebInProgress<'a> {
     pub values: &'a [f64],
 }
 
-/// Most trials of a fit.
+/// Most trials of a fit, with those that cannot be laid.
 pub const MOST_TRIALS: usize = 200;
 
 /// The webs of trials.
@@ -72,17 +72,24 @@ impl<'a> Webs<'a> {
     /// # Errors
     /// If it is stopped, if the journal cannot be used, or if there are too many trials.
     pub(super) fn trial(&mut self, at: &[f64]) -> Result<Option<usize>, Error> {
-        let values = self.values(at);
+        let at: Vec<f64> =
+            self.parameters.iter().zip(at).map(|(parameter, at)| parameter.taken(*at)).collect();
+        let values = self.values(&at);
         if let Some(known) = self.trials.iter().position(|trial| trial.values == values) {
             return Ok(Some(known));
         }
         if self.refused.iter().any(|(refused, _)| *refused == values) {
             return Ok(None);
         }
-        match self.lay(&values) {
+        let index = self.trials.len() + self.refused.len();
+        if index >= MOST_TRIALS {
+            let message = format!("has not come to an end after {MOST_TRIALS} trials");
+            return Err(Error::flight(message, "seek fewer keys, or give them narrower ranges"));
+        }
+        match self.lay(index, &values) {
             Ok(webs) => {
                 let mean = mean_of(webs.iter());
-                self.trials.push(Trial { at: at.to_vec(), values, webs, mean });
+                self.trials.push(Trial { at, values, webs, mean });
                 Ok(Some(self.trials.len() - 1))
             }
             // Another value of a key may do.
@@ -99,15 +106,20 @@ impl<'a> Webs<'a> {
         }
     }
 
+    /// Why no web can be laid at some coordinates, which were tried.
+    pub(super) fn refusal(&mut self, at: &[f64]) -> Option<Error> {
+        let values: Vec<f64> =
+            self.parameters.iter().zip(at).map(|(parameter, at)| parameter.value(*at)).collect();
+        let place = self.refused.iter().position(|(refused, _)| *refused == values)?;
+        Some(self.refused.swap_remove(place).1)
+    }
+
     /// The numbers of all webs of these values.
-    fn lay(&mut self, values: &[f64]) -> Result<Vec<Vec<f64>>, Error> {
-        let trial = self.trials.len();
-        if trial >= MOST_TRIALS {
-            let message = format!("has not come to an end after {MOST_TRIALS} trials");
-            return Err(Error::flight(message, "seek fewer keys, or give them narrower ranges"));
-        }
+    ///
+    /// * `index` – of the trial in the journal
+    fn lay(&mut self, index: usize, values: &[f64]) -> Result<Vec<Vec<f64>>, Error> {
         self.simulator.set(values)?;
-        let known = self.journal.records(trial, self.count)?;
+        let known = self.journal.records(index, self.count)?;
         let mut webs = Vec::with_capacity(self.count as usize);
         for replicate in 0..self.count {
             let journaled = known.iter().find(|record| record.replicate == replicate);
@@ -115,10 +127,10 @@ impl<'a> Webs<'a> {
                 webs.push(measured.to_vec());
                 continue;
             }
-            (self.watch)(WebInProgress { trial: trial + 1, web: replicate + 1, webs: self.count, values });
+            (self.watch)(WebInProgress { trial: index + 1, web: replicate + 1, webs: self.count, values });
             let numbers = self.simulator.web(replicate)?;
             let landing = Landing::Measured(numbers.clone().into_boxed_slice());
-            self.journal.add(&[Record { point: trial as u64, replicate, landing }])?;
+            self.journal.add(&[Record { point: index as u64, replicate, landing }])?;
             webs.push(numbers);
         }
         Ok(webs)

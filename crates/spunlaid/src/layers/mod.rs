@@ -187,17 +187,20 @@ impl WebSpec {
     /// Puts all layers on a belt of this speed, above which the cases are flown.
     ///
     /// * `belt` – its speed [m/s]
-    pub(crate) fn set_belt_speed(&mut self, belt: f64) {
+    ///
+    /// # Errors
+    /// If a case cannot have it.
+    pub(crate) fn set_belt_speed(&mut self, belt: f64) -> Result<(), Fault> {
         for layer in &mut self.layers {
             if let LaydownSource::Case { case, .. } = &mut layer.source
                 && (layer.belt_speed / belt - 1.0).abs() > SAME
             {
-                let speed = case_keys::find("belt.speed")
-                    .map(|speed| speed.apply(Arc::make_mut(case), &Value::Number(belt)));
-                drop(speed);
+                let speed = case_keys::find("belt.speed");
+                speed.map_or(Ok(()), |speed| speed.apply(Arc::make_mut(case), &Value::Number(belt)))?;
             }
             layer.belt_speed = belt;
         }
+        Ok(())
     }
 
     /// The web of one of its layers alone.

@@ -233,7 +233,7 @@ impl Line<'_> {
         if belt.is_nan() || belt > slowest {
             return None;
         }
-        spec.set_belt_speed(belt);
+        spec.set_belt_speed(belt).ok()?;
         let is_alone = self.spec().layers.len() == 1;
         let changed = |((key, from, _), (_, to)): (&(VariedKey, f64, f64), &(VariedKey, f64))| {
             let name = key.name.strip_prefix("layer.1.").filter(|_| is_alone).unwrap_or(&key.name);
