@@ -52,3 +52,37 @@ impl Invocation {
         is_known.then(|| Origin::new(&self.command, files, &self.options, folder))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn invocation(words: &str) -> Invocation {
+        Invocation::new(&Arguments::command().get_matches_from(words.split(' ')))
+    }
+
+    #[test]
+    fn only_options_that_decide_the_results_count() {
+        let bare = invocation("spunlaid air a.toml");
+        assert!(bare.command == "air" && bare.options.is_empty(), "{bare:?}");
+        let shown = "--out r --threads 2 --quiet --force --figures pdf --figure-width one-column";
+        assert_eq!(invocation(&format!("spunlaid air a.toml {shown}")).options, bare.options);
+        let other = invocation("spunlaid air a.toml --frames 3 --set run.seed=2 --set run.spin_up=0s");
+        assert_eq!(other.options, ["--set run.seed=2 run.spin_up=0s", "--frames 3"]);
+        assert_eq!(invocation("spunlaid sweep s.toml --replicates 9 --json").options, [""; 0]);
+        assert_eq!(invocation("spunlaid run a.toml --replicates 9 --json").options, ["--replicates 9"]);
+        assert_eq!(invocation("spunlaid analyse s.png --keep-shading").options, ["--keep_shading true"]);
+    }
+
+    /// Otherwise an option of another name would count.
+    #[test]
+    fn options_that_do_not_count_exist() {
+        let program = Arguments::command();
+        let all: Vec<&str> = program
+            .get_subcommands()
+            .flat_map(|command| command.get_arguments())
+            .map(|one| one.get_id().as_str())
+            .collect();
+        assert!(NOT_OF_RESULTS.iter().all(|name| all.contains(name)), "{all:?}");
+    }
+}

@@ -46,11 +46,6 @@ impl<'a> Arrays<'a> {
         Self { components: vec![1; names.len()], names, layout }
     }
 
-    /// The array that the case names for a quantity.
-    pub(super) fn asked(&self, measure: Measure) -> Option<&'a str> {
-        measure.asked(self.layout)
-    }
-
     /// The name of an array for a message.
     pub(super) fn shown(&self, array: usize) -> String {
         excerpt(&self.names[array].written, 40)
@@ -63,16 +58,16 @@ impl<'a> Arrays<'a> {
 
     /// Finds the velocity.
     pub(super) fn velocity(&self) -> Result<Option<Velocity>, FileError> {
-        let Some(asked) = self.asked(Measure::Velocity) else {
+        let Some(request) = Measure::Velocity.request(self.layout) else {
             return self.usual_velocity();
         };
-        if let Some(vector) = self.named(asked, Measure::Velocity, 3)? {
+        if let Some(vector) = self.find(request, Measure::Velocity, 3)? {
             return Ok(Some(Velocity::Vector(vector)));
         }
-        if let Some(parts) = self.with_endings(&Name::new(asked).plain)? {
+        if let Some(parts) = self.with_endings(&Name::new(request).plain)? {
             return Ok(Some(Velocity::Components(parts)));
         }
-        let found = asked.split(',').map(|name| self.named(name, Measure::Velocity, 1));
+        let found = request.split(',').map(|name| self.find(name, Measure::Velocity, 1));
         let found: Option<Vec<ScaledColumn>> = found.collect::<Result<_, _>>()?;
         Ok(match found.unwrap_or_default()[..] {
             [u, v] if u.0 != v.0 => Some(Velocity::Components([Some(u), Some(v), None])),
@@ -128,8 +123,8 @@ impl<'a> Arrays<'a> {
 
     /// Finds a quantity of one component.
     pub(super) fn scalar(&self, measure: Measure) -> Result<Option<ScaledColumn>, FileError> {
-        if let Some(asked) = self.asked(measure) {
-            return self.named(asked, measure, 1);
+        if let Some(request) = measure.request(self.layout) {
+            return self.find(request, measure, 1);
         }
         let usual: &[&str] = match measure {
             Measure::K => &K,
@@ -152,16 +147,16 @@ impl<'a> Arrays<'a> {
     }
 
     /// The array with a name that a case gives: as it is written, or else without regard to case, blanks and unit.
-    fn named(
+    fn find(
         &self,
-        asked: &str,
+        request: &str,
         measure: Measure,
         components: usize,
     ) -> Result<Option<ScaledColumn>, FileError> {
-        let plain = Name::new(asked).plain;
+        let plain = Name::new(request).plain;
         let of_size = || self.names.iter().enumerate().filter(|(i, _)| self.components[*i] == components);
         let whole = of_size()
-            .find(|(_, name)| name.written.trim() == asked.trim())
+            .find(|(_, name)| name.written.trim() == request.trim())
             .or_else(|| of_size().find(|(_, name)| name.plain == plain));
         match whole {
             Some((i, name)) => Ok(Some((i, name.unit_at_end(measure)?))),
@@ -170,11 +165,11 @@ impl<'a> Arrays<'a> {
     }
 
     /// The number of components of the array with a name, whatever it is; none if there is none.
-    pub(super) fn components_of(&self, asked: &str, measure: Measure) -> Option<usize> {
+    pub(super) fn components_of(&self, request: &str, measure: Measure) -> Option<usize> {
         self.components
             .iter()
             .copied()
-            .find(|size| matches!(self.named(asked, measure, *size), Ok(Some(_)) | Err(_)))
+            .find(|size| matches!(self.find(request, measure, *size), Ok(Some(_)) | Err(_)))
     }
 
     /// The columns of a table that are used, besides the coordinates.

@@ -62,11 +62,11 @@ impl<'l> Assembly<'l> {
     /// The field of all pieces.
     pub(super) fn finish(self) -> Result<(Field, Vec<Fault>), FileError> {
         let Self { layout, grids, values, mut warnings, ranges, mut sources, lacks, .. } = self;
-        let asked = [Measure::K, Measure::Epsilon, Measure::Omega]
+        let quantity = [Measure::K, Measure::Epsilon, Measure::Omega]
             .into_iter()
-            .find(|measure| measure.asked(layout).is_some());
-        if let (Some(lacks), Some(asked)) = (&lacks, asked) {
-            let (key, Fault { message, remedy, .. }) = (asked.key(), lacks);
+            .find(|measure| measure.request(layout).is_some());
+        if let (Some(lacks), Some(quantity)) = (&lacks, quantity) {
+            let (key, Fault { message, remedy, .. }) = (quantity.key(), lacks);
             let remedy = format!("{remedy}, or leave {key} out");
             return Err(
                 Fault::new(format!("{key} has no effect, because the field {message}"), remedy).into()

@@ -32,18 +32,18 @@ impl Measure {
     /// The value of a unit in SI units, if it is one of this quantity.
     ///
     /// * `unit` – with letters and digits only
-    pub(super) fn known(self, unit: &str) -> Option<f64> {
+    pub(super) fn unit_value(self, unit: &str) -> Option<f64> {
         self.units().iter().find(|(spelt, _)| *spelt == unit).map(|(_, factor)| *factor)
     }
 
     /// The value of a unit in SI units.
     pub(super) fn factor(self, unit: &str) -> Result<f64, FileError> {
-        let known = self.known(&unit.replace('μ', "µ"));
-        known.ok_or_else(|| fault::wrong_unit(unit, self.wanted()).into())
+        let value = self.unit_value(&unit.replace('μ', "µ"));
+        value.ok_or_else(|| fault::wrong_unit(unit, self.wanted()).into())
     }
 
     /// The array that a case names for it.
-    pub(super) fn asked(self, layout: &FieldLayout) -> Option<&str> {
+    pub(super) fn request(self, layout: &FieldLayout) -> Option<&str> {
         match self {
             Self::Length => None,
             Self::Velocity => layout.velocity.as_deref(),

@@ -11,8 +11,8 @@ const LONGEST: usize = 60;
 
 /// The fault of a file without the velocity.
 pub(super) fn velocity(arrays: &Arrays<'_>) -> Fault {
-    if let Some(asked) = arrays.asked(Measure::Velocity) {
-        return array(arrays, asked, Measure::Velocity);
+    if let Some(request) = Measure::Velocity.request(arrays.layout) {
+        return array(arrays, request, Measure::Velocity);
     }
     let (key, likely) = (Measure::Velocity.key(), likely_velocities(arrays));
     let likely: Vec<&str> = likely.iter().map(String::as_str).take(3).collect();
@@ -48,11 +48,11 @@ fn likely_velocities(arrays: &Arrays<'_>) -> Vec<String> {
 }
 
 /// The fault of an array that a case names and the file does not have, or not so.
-pub(super) fn array(arrays: &Arrays<'_>, asked: &str, measure: Measure) -> Fault {
+pub(super) fn array(arrays: &Arrays<'_>, request: &str, measure: Measure) -> Fault {
     let key = measure.key();
     let parts: Vec<&str> = match measure {
-        Measure::Velocity => asked.split(',').map(str::trim).collect(),
-        _ => vec![asked.trim()],
+        Measure::Velocity => request.split(',').map(str::trim).collect(),
+        _ => vec![request.trim()],
     };
     let there_are = format!("the arrays are {}", arrays.listed());
     for part in &parts {

@@ -81,7 +81,7 @@ impl Name {
         let unit: String = unit.strip_prefix('_')?.split('_').collect();
         // A word in brackets can only be a unit.
         measure
-            .known(&unit)
+            .unit_value(&unit)
             .map(Ok)
             .or_else(|| Some(Err(self.wrong_unit(measure).filter(|(word, _)| *word == unit)?.1)))
     }
@@ -89,7 +89,7 @@ impl Name {
     /// The value of the unit at its end in SI units, if there is one.
     fn known_unit(&self, measure: Measure) -> Option<f64> {
         let words: Vec<&str> = self.plain.split('_').collect();
-        (1..words.len()).find_map(|start| measure.known(&words[start..].concat()))
+        (1..words.len()).find_map(|start| measure.unit_value(&words[start..].concat()))
     }
 
     /// Whether it ends with a unit of this quantity.

@@ -101,8 +101,8 @@ impl Reader<'_, '_> {
             numbers.iter_mut().filter(|value| **value < 0.0).for_each(|value| *value = 0.0);
             return Ok(Some(numbers));
         }
-        match measure.asked(self.layout) {
-            Some(asked) => Err(missing::array(&self.piece.arrays(self.layout), asked, measure).into()),
+        match measure.request(self.layout) {
+            Some(request) => Err(missing::array(&self.piece.arrays(self.layout), request, measure).into()),
             None => Ok(None),
         }
     }
