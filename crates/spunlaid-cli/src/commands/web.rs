@@ -7,6 +7,7 @@ use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::advice::{Advice, Change, advise, steps};
 use spunlaid::case::Note;
+use spunlaid::error::Error;
 use spunlaid::input::{Method, Overrides, WebFile, read_changes, read_web};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
@@ -33,6 +34,8 @@ pub(crate) fn web(asked: &args::Web, invocation: &Invocation) -> Result<(), Fail
         staged(folder, ENTRIES, asked.output.force, origin, asked.output.quiet)
     };
     let staging = folder.as_ref().map(staged).transpose()?;
+    // Before anything is flown, because the file may change meanwhile.
+    let changes = if asked.no_advice { None } else { Some(read_changes(&asked.file, set)?) };
 
     let started = Instant::now();
     let follow = flying(asked.output.quiet);
@@ -45,15 +48,18 @@ pub(crate) fn web(asked: &args::Web, invocation: &Invocation) -> Result<(), Fail
     let findings = progress::follow(&laid, flown.pieces()?, &label, asked.output.quiet, || flown.find(by))?;
     let laying_s = started.elapsed().as_secs_f64();
     let FlownWeb { web, layers, .. } = &flown;
-    let changes = if asked.no_advice { None } else { Some(read_changes(&asked.file, set)?) };
     let is_short =
         |changes: &Vec<Change>| file.spec.method != Method::SharedAir && steps(changes) <= MOST_STEPS;
     let changes = changes.filter(|changes| asked.advice || is_short(changes));
     let tried = changes.as_ref().map(|changes| trying(changes.len()));
-    let advice = match changes {
-        Some(changes) => Some(advised(changes, (&file, web, &findings), by, asked.output.quiet)?),
-        None => None,
-    };
+    let advice =
+        match changes.map(|changes| advised(changes, (&file, web, &findings), by, asked.output.quiet)) {
+            Some(Err(Failure::Error(error))) if !matches!(error, Error::Interrupted) => {
+                say::warning(&format!("what makes the web more even was not found: {error}"));
+                None
+            }
+            advice => advice.transpose()?,
+        };
     let advice_s = started.elapsed().as_secs_f64() - laying_s;
     let performance = Performance {
         wall_s: started.elapsed().as_secs_f64(),

@@ -137,3 +137,60 @@ fn what_cannot_be_sought_is_refused_with_the_way_out() {
     }
     assert!(!desk.path("fit/.spunlaid-replacement").exists());
 }
+
+/// The strips at the edges of a cut web are no web, and known noise of the camera is not unevenness.
+#[test]
+fn what_is_compared_is_the_web_without_edges_and_noise() {
+    let desk = desk();
+    let numbers = |to: &str| -> Vec<(f64, f64)> {
+        let key = "line.filaments_per_metre";
+        let fit = format!("fit web.toml --to {to} --vary {key} --webs 8 --out {to}_fit --quiet");
+        success(&mut desk.spunlaid(&fit));
+        let found = json(&desk, &format!("{to}_fit/fit.json"));
+        let numbers = found["numbers"].as_array().unwrap().iter();
+        numbers
+            .map(|number| (number["patch_m"].as_f64().unwrap(), number["scan"].as_f64().unwrap()))
+            .collect()
+    };
+    let cv_of_summary = |folder: &str, side: f64| {
+        let summary = json(&desk, &format!("{folder}/summary.json"));
+        let patches = summary["web"]["patches"].as_array().unwrap().clone();
+        let patch =
+            patches.iter().find(|patch| (patch["patch_m"].as_f64().unwrap() / side - 1.0).abs() < 0.01);
+        patch.unwrap()["cv"].as_f64().unwrap()
+    };
+    success(
+        &mut desk.spunlaid("web web.toml --set web.edges=cut --set web.width=\"180 mm\" --out cut --quiet"),
+    );
+    // The scan of the middle has as many patches within its edges as the summary counts.
+    for (side, cv) in numbers("cut") {
+        let told = cv_of_summary("cut", side);
+        assert!((cv / told - 1.0).abs() < 0.1, "{side}: {cv}, {told}");
+    }
+    success(&mut desk.spunlaid("analyse truth/map.png --out scan --quiet"));
+    success(&mut desk.spunlaid("analyse truth/map.png --noise 3 --out quiet --quiet"));
+    let (with, without) = (numbers("scan"), numbers("quiet"));
+    for ((side, with), (_, without)) in with.iter().zip(&without) {
+        let told = [cv_of_summary("scan", *side), cv_of_summary("quiet", *side)];
+        let taken_out = with * with - without * without;
+        let expected = told[0] * told[0] - told[1] * told[1];
+        assert!(
+            taken_out > 0.0 && (taken_out / expected - 1.0).abs() < 0.02,
+            "{side}: {taken_out}, {expected}"
+        );
+    }
+}
+
+#[test]
+fn what_is_no_key_of_the_line_is_not_sought() {
+    let desk = desk();
+    for (key, words) in [
+        ("web.seed", "says how the web is computed"),
+        ("web.cell", "says how the web is computed"),
+        ("line.filaments_per_metre=600..900", "has 500 in the file, which lies outside its range"),
+    ] {
+        let fit = format!("fit web.toml --to truth --vary {key} --out fit");
+        let message = refusal(&mut desk.spunlaid(&fit), 1);
+        assert!(message.contains(words), "{key}: {message}");
+    }
+}

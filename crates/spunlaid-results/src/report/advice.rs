@@ -149,6 +149,9 @@ impl AdviceSection {
             "which counts both maps as independent"
         } else if is_known(spec) {
             "from paths with the same random numbers before and after; the lay-down itself (σ MD, σ CD, A) is taken as it is, because no fibre was flown"
+        } else if spec.layers.iter().any(|layer| layer.source.case().is_none()) {
+            "from paths with the same random numbers before and after; that few fibres of the flown layers were flown is not in it, and the lay-down of the \
+             others is taken as it is"
         } else {
             "over the flown fibres, each compared with itself in the same gusts before the change"
         };
