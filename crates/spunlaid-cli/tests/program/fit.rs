@@ -160,7 +160,7 @@ fn what_is_compared_is_the_web_without_edges_and_noise() {
         patch.unwrap()["cv"].as_f64().unwrap()
     };
     success(
-        &mut desk.spunlaid("web web.toml --set web.edges=cut --set web.width=\"180 mm\" --out cut --quiet"),
+        &mut desk.spunlaid("web web.toml --set web.edges=cut --set web.width=0.18m --out cut --quiet"),
     );
     // The scan of the middle has as many patches within its edges as the summary counts.
     for (side, cv) in numbers("cut") {
