@@ -16,7 +16,7 @@ pub(crate) fn width(charts: &[Chart]) -> f64 {
 /// The picture of charts one above the other, so many pixels wide.
 pub(crate) fn svg(title: &str, charts: &[Chart], width: f64) -> String {
     let share = width / self::width(charts);
-    let plots: Vec<Plot> = charts.iter().map(|chart| Plot::of(chart, share)).collect();
+    let plots: Vec<Plot> = charts.iter().map(|chart| Plot::new(chart, share)).collect();
     let mut svg = Svg::new(width, plots.iter().map(|plot| plot.height).sum(), title);
     let mut top = 0.0;
     for (chart, plot) in charts.iter().zip(plots) {

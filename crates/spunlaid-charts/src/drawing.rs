@@ -1,6 +1,5 @@
 //! A picture that can be drawn at any width: it is laid out for it, and its text keeps its size.
 
-use crate::svg::in_millimetres;
 use std::fmt;
 use std::sync::Arc;
 
@@ -11,7 +10,7 @@ pub const PRINTED_PIXEL: f64 = 8.0 / 14.0 * 25.4 / 72.0;
 #[derive(Clone)]
 pub struct Drawing {
     /// On the screen [px].
-    width: f64,
+    pub(crate) width: f64,
     draw: Arc<dyn Fn(f64) -> String + Send + Sync>,
 }
 
@@ -23,14 +22,9 @@ impl Drawing {
         Self { width, draw: Arc::new(draw) }
     }
 
-    /// The SVG for the screen.
-    pub fn on_screen(&self) -> String {
-        (self.draw)(self.width)
-    }
-
-    /// The SVG for print, so many millimetres wide.
-    pub fn in_print(&self, width: f64) -> String {
-        in_millimetres(&(self.draw)(width / PRINTED_PIXEL), PRINTED_PIXEL)
+    /// The SVG, so many pixels wide.
+    pub(crate) fn at(&self, width: f64) -> String {
+        (self.draw)(width)
     }
 }
 

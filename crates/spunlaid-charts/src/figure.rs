@@ -2,10 +2,14 @@
 
 use crate::chart::{Chart, Mark, Series};
 use crate::draw;
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, PRINTED_PIXEL};
+use crate::svg::in_millimetres;
 use crate::table::{Table, column};
+use std::borrow::Cow;
+use std::sync::Arc;
 
-/// A figure of a report.
+/// A figure of a report. It keeps its numbers once: pictures and table are made from them when they are asked for, because those of many
+/// points are larger than the points.
 #[derive(Clone, Debug)]
 pub struct Figure {
     /// File name without ending.
@@ -14,10 +18,15 @@ pub struct Figure {
     pub title: String,
     /// What is shown and what the numbers mean.
     pub caption: String,
-    /// The numbers, in the units of the axes.
-    pub table: Table,
-    /// How it is drawn.
-    drawing: Drawing,
+    content: Content,
+}
+
+#[derive(Clone, Debug)]
+enum Content {
+    /// One above the other.
+    Charts(Arc<[Chart]>),
+    /// What no chart can show, and its numbers.
+    Drawn(Drawing, Table),
 }
 
 impl Figure {
@@ -28,11 +37,8 @@ impl Figure {
 
     /// The figure of charts one above the other.
     pub fn stacked(name: &str, title: &str, charts: &[&Chart], caption: impl Into<String>) -> Self {
-        let owned: Vec<Chart> = charts.iter().copied().cloned().collect();
-        let heading = title.to_owned();
-        let width = draw::width(&owned);
-        let drawing = Drawing::new(width, move |width| draw::svg(&heading, &owned, width));
-        Self::drawn(name, title, drawing, table(charts), caption)
+        let charts = charts.iter().copied().cloned().collect();
+        Self::with_content(name, title, Content::Charts(charts), caption)
     }
 
     /// A figure that no chart can show.
@@ -43,18 +49,40 @@ impl Figure {
         table: Table,
         caption: impl Into<String>,
     ) -> Self {
-        let (name, title, caption) = (name.to_owned(), title.to_owned(), unbroken(caption));
-        Self { name, title, caption, table, drawing }
+        Self::with_content(name, title, Content::Drawn(drawing, table), caption)
     }
 
-    /// The picture as SVG for the screen. It is drawn when it is asked for, because that of many points is larger than they are.
+    fn with_content(name: &str, title: &str, content: Content, caption: impl Into<String>) -> Self {
+        Self { name: name.to_owned(), title: title.to_owned(), caption: unbroken(caption), content }
+    }
+
+    /// The picture as SVG for the screen.
     pub fn svg(&self) -> String {
-        self.drawing.on_screen()
+        self.drawn_at(match &self.content {
+            Content::Charts(charts) => draw::width(charts),
+            Content::Drawn(drawing, _) => drawing.width,
+        })
     }
 
     /// The picture as SVG for print, so many millimetres wide.
     pub fn in_print(&self, width: f64) -> String {
-        self.drawing.in_print(width)
+        in_millimetres(&self.drawn_at(width / PRINTED_PIXEL), PRINTED_PIXEL)
+    }
+
+    /// The numbers, in the units of the axes.
+    pub fn table(&self) -> Cow<'_, Table> {
+        match &self.content {
+            Content::Charts(charts) => Cow::Owned(table(charts)),
+            Content::Drawn(_, table) => Cow::Borrowed(table),
+        }
+    }
+
+    /// The picture, so many pixels wide.
+    fn drawn_at(&self, width: f64) -> String {
+        match &self.content {
+            Content::Charts(charts) => draw::svg(&self.title, charts, width),
+            Content::Drawn(drawing, _) => drawing.at(width),
+        }
     }
 }
 
@@ -67,7 +95,7 @@ fn unbroken(text: impl Into<String>) -> String {
 type PointRow = [f64; 3];
 
 /// The points of all named series; charts share the columns that have the same name.
-fn table(charts: &[&Chart]) -> Table {
+fn table(charts: &[Chart]) -> Table {
     let named = || {
         charts.iter().flat_map(|chart| {
             let marks = chart.marks.iter();
@@ -149,7 +177,7 @@ mod tests {
             .band(Series::new("range", "red"), &[(0.0, 0.5, 1.5)]);
         let below = chart("*z* (mm)").scatter(Series::new("spot", "red"), &[(2.0, 3.0, Some(0.25))]);
         assert_eq!(
-            Figure::stacked("s", "", &[&above, &below], "").table.csv(),
+            Figure::stacked("s", "", &[&above, &below], "").table().csv(),
             "series,time_s,y_mm,z_mm,lower,upper,error\nmean,0,1,,,,\nrange,0,,,0.5,1.5,\nspot,2,,3,,,0.25\n"
         );
     }
@@ -159,7 +187,7 @@ mod tests {
         let chart = Chart::new("c", "", Axis::of_words("Law", ["one", "two"]), Axis::linear("*y* (mm)"))
             .scatter(Series::new("*y*", "red"), &[(0.1, 1.0, None), (0.9, 2.0, None)]);
         let figure = Figure::new(&chart, "");
-        assert_eq!(figure.table.csv(), "series,law,y_mm\ny,one,1\ny,two,2\n");
+        assert_eq!(figure.table().csv(), "series,law,y_mm\ny,one,1\ny,two,2\n");
         let svg = figure.svg();
         assert!(svg.contains(">one</text>") && svg.contains(">two</text>"), "{svg}");
     }
@@ -170,6 +198,6 @@ mod tests {
         let chart = chart("*y* (mm)")
             .line(Series::new("zero", "grey").adorning(), &[(0.0, 0.0), (2.0, 0.0)])
             .line(Series::new("*y*", "red").unlabelled().thinned_from(full), &[(0.0, 1.0), (2.0, 3.0)]);
-        assert_eq!(Figure::new(&chart, "").table.csv(), "series,time_s,y_mm\ny,0,1\ny,1,2\ny,2,3\n");
+        assert_eq!(Figure::new(&chart, "").table().csv(), "series,time_s,y_mm\ny,0,1\ny,1,2\ny,2,3\n");
     }
 }

@@ -96,6 +96,6 @@ mod tests {
     fn rejects_pictures_of_different_sizes() {
         let pictures = [square("#000000", 20), square("#000000", 21)];
         assert!(matches!(gif(pictures.iter().map(String::as_str), 20.0), Err(PictureError::Size(21, 21))));
-        assert!(gif([], 20.0).is_err());
+        assert!(gif([""; 0], 20.0).is_err());
     }
 }

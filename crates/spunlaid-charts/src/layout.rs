@@ -33,7 +33,7 @@ impl Plot {
     /// high as the words beside it.
     ///
     /// * `share` – of its own width
-    pub(crate) fn of(chart: &Chart, share: f64) -> Self {
+    pub(crate) fn new(chart: &Chart, share: f64) -> Self {
         let (xs, ys) = chart.extents();
         // Fewer labels have room on less paper.
         let count = |usual: f64| (usual * share.min(1.0)).round() as usize;
@@ -136,7 +136,7 @@ mod tests {
     #[test]
     fn a_narrow_chart_keeps_the_size_of_its_text_and_the_proportions_of_its_plot() {
         let chart = Chart { y: Axis::linear("y"), ..chart() };
-        let [own, narrow] = [1.0, 0.6].map(|share| Plot::of(&chart, share));
+        let [own, narrow] = [1.0, 0.6].map(|share| Plot::new(&chart, share));
         let ratio = |plot: &Plot| (plot.right - plot.left) / (plot.bottom - plot.top);
         assert_eq!((own.width, own.height), (640.0, 400.0));
         assert!((narrow.width - 384.0).abs() < 1e-9 && (ratio(&narrow) / ratio(&own) - 1.0).abs() < 0.1);
@@ -146,7 +146,7 @@ mod tests {
 
     #[test]
     fn a_plot_is_as_high_as_the_words_beside_it() {
-        let narrow = Plot::of(&chart(), 0.5);
+        let narrow = Plot::new(&chart(), 0.5);
         assert!(narrow.bottom - narrow.top >= width_of(&chart().y.label, LABEL));
     }
 

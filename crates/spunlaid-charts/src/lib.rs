@@ -25,7 +25,7 @@
 //! assert!(figure.svg().starts_with("<svg"));
 //! assert!(png(&figure.svg(), 192, &[])?.starts_with(b"\x89PNG"));
 //! assert_eq!(
-//!     figure.table.csv(),
+//!     figure.table().csv(),
 //!     "series,velocity_m_s,amplitude_mm,error\n\
 //!      y,5,4.8,0.1\n\
 //!      y,10,9.8,0.2\n\

@@ -142,8 +142,8 @@ impl Shades {
 
 /// Every colour of a map.
 pub(crate) fn colours() -> impl Iterator<Item = String> {
-    let of = |shades: Shades| (0..LEVELS).map(move |level| shades.colour(level));
-    of(Shades::Amount).chain(of(Shades::Signed))
+    let palette = |shades: Shades| (0..LEVELS).map(move |level| shades.colour(level));
+    palette(Shades::Amount).chain(palette(Shades::Signed))
 }
 
 /// Red, green and blue of a colour.

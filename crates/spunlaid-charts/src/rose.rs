@@ -190,7 +190,8 @@ mod tests {
     fn the_longest_wedge_reaches_as_far_as_its_ring() {
         // Two of four classes: 2 to the upper right, 1 to the lower left. Rings every 0.4 up to 2.
         let rose = rose(vec![(2.0, None), (0.0, None), (1.0, Some(0.1)), (f64::NAN, None)]);
-        let svg = rose.figure("").svg();
+        let figure = rose.figure("");
+        let svg = figure.svg();
         let (centre, radius) = ((290.0, 214.0), 185.0);
         let wedges: Vec<&str> = svg.lines().filter(|line| line.contains("fill-opacity=\"0.28\"")).collect();
         assert_eq!(wedges.len(), 2);
@@ -203,7 +204,7 @@ mod tests {
         )));
         assert!(wedges[1].contains(&format!("L{} {}", centre.0 - 0.5 * radius, centre.1)), "{}", wedges[1]);
         assert_eq!(
-            figure.table.csv(),
+            figure.table().csv(),
             "series,direction_degrees,share,error\nfibre,45,2,\nfibre,135,0,\nfibre,225,1,0.1\nfibre,315,,\n"
         );
     }

@@ -7,16 +7,19 @@ mod live;
 mod progress;
 mod say;
 
-use args::{Arguments, Command};
-use clap::Parser;
+use args::{Arguments, Command, Invocation};
+use clap::{CommandFactory, FromArgMatches};
 use failure::Failure;
 use spunlaid::error::{Error, Fault};
 use std::path::Path;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let arguments = match Arguments::try_parse() {
-        Ok(arguments) => arguments,
+    let parsed = Arguments::command()
+        .try_get_matches()
+        .and_then(|matches| Ok((Invocation::new(&matches), Arguments::from_arg_matches(&matches)?)));
+    let (invocation, arguments) = match parsed {
+        Ok(parsed) => parsed,
         Err(error) => {
             // Help and version are not errors; everything else is wrong input.
             let code = u8::from(error.use_stderr());
@@ -25,16 +28,16 @@ fn main() -> ExitCode {
         }
     };
     let done = Failure::catch_panic(|| match arguments.command {
-        Command::Run(run) => commands::run(&run),
-        Command::Sweep(sweep) => commands::sweep(&sweep),
-        Command::Spin(spin) => commands::spin(&spin),
-        Command::Web(web) => commands::web(&web),
-        Command::Fit(fit) => commands::fit(&fit),
-        Command::Air(air) => commands::air(&air),
+        Command::Run(run) => commands::run(&run, &invocation),
+        Command::Sweep(sweep) => commands::sweep(&sweep, &invocation),
+        Command::Spin(spin) => commands::spin(&spin, &invocation),
+        Command::Web(web) => commands::web(&web, &invocation),
+        Command::Fit(fit) => commands::fit(&fit, &invocation),
+        Command::Air(air) => commands::air(&air, &invocation),
         Command::Live(live) => commands::live(&live),
-        Command::Reproduce(arguments) => commands::reproduce(&arguments),
-        Command::Analyse(analyse) => commands::analyse(&analyse),
-        Command::Compare(compare) => commands::compare(&compare),
+        Command::Reproduce(arguments) => commands::reproduce(&arguments, &invocation),
+        Command::Analyse(analyse) => commands::analyse(&analyse, &invocation),
+        Command::Compare(compare) => commands::compare(&compare, &invocation),
         Command::Check(check) => commands::check(&check),
         Command::Keys(keys) => commands::keys(&keys),
         Command::New(new) => commands::new(&new),

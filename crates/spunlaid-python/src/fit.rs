@@ -62,7 +62,8 @@ pub(crate) fn find_fit(
     let threads = self::threads(threads);
     let watch = Watch::new(webs);
     let found = watched(py, &watch, progress.as_ref(), || {
-        let opened = out.as_ref().map(|out| FitFolder::open(out, &input, false, &watch.stop)).transpose()?;
+        let opened =
+            out.as_ref().map(|out| FitFolder::open(out, &input, false, None, &watch.stop)).transpose()?;
         let (folder, mut journal) = match opened {
             Some((folder, journal, _)) => (Some(folder), journal),
             None => (None, Journal::in_memory(MOST_TRIALS)),
@@ -75,7 +76,7 @@ pub(crate) fn find_fit(
         let laying = Laying { threads, isa: Isa::detect(), stop: &watch.stop, laid: &laid };
         let tell = |now: WebInProgress<'_>| watch.done.store(now.web - 1, Ordering::Relaxed);
         let found = fit(question, flyer, laying, &mut journal, &tell)?;
-        if let Some(folder) = folder {
+        if let Some(mut folder) = folder {
             folder.write(&input, &found)?;
         }
         watch.done.store(webs, Ordering::Relaxed);

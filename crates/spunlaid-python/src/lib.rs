@@ -12,6 +12,7 @@
 
 mod air;
 mod failure;
+mod figures;
 mod value;
 mod watched;
 
@@ -45,6 +46,8 @@ mod _spunlaid {
     use super::bundle::fly_bundle;
     #[pymodule_export]
     use super::case::Case;
+    #[pymodule_export]
+    use super::figures::check_figures;
     #[pymodule_export]
     use super::fit::find_fit;
     #[pymodule_export]

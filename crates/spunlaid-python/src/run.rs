@@ -2,6 +2,7 @@
 
 use crate::case::Case;
 use crate::failure::raised;
+use crate::figures::figure_files;
 use crate::flight::laid_columns;
 use crate::results::RunResults;
 use crate::samples::{SampleCollector, locked};
@@ -43,8 +44,11 @@ pub(crate) fn fly(
     shapes: bool,
 ) -> PyResult<RunResults> {
     let (description, run) = (Arc::clone(&case.case), case.case.run);
-    let plans =
-        if check_step { FinerPlans::of(&description) } else { FinerPlans::none("it was not asked for") };
+    let plans = if check_step {
+        FinerPlans::for_case(&description)
+    } else {
+        FinerPlans::none("it was not asked for")
+    };
     let watch =
         Watch::new(run.steps.saturating_mul(description.fibres()).saturating_add(plans.fibre_steps()));
     let belt = LaidCurves::default();
@@ -230,7 +234,16 @@ impl RunResults {
     }
 
     /// Writes the folder that `spunlaid run` writes.
-    fn save(&self, py: Python<'_>, path: PathBuf, force: bool) -> PyResult<()> {
+    #[pyo3(signature = (path, force, figures = None, figure_width = None))]
+    fn save(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        force: bool,
+        figures: Option<&Bound<'_, PyAny>>,
+        figure_width: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<()> {
+        let figures = figure_files(figures, figure_width)?;
         let Some(samples) = &self.samples else {
             let text = "the run was flown with samples=False, so its tables cannot be written";
             return Err(crate::failure::raised_as(py, "FolderError", text.to_owned()));
@@ -238,7 +251,8 @@ impl RunResults {
         let samples = samples.borrowed(py).all();
         let watch = Watch::default();
         watched(py, &watch, None, || {
-            let staging = Staging::new(&path, ENTRIES, force, &watch.stop)?;
+            let mut staging = Staging::new(&path, ENTRIES, force, &watch.stop)?;
+            staging.set_figures(&figures);
             let recorder = TableRecorder::new(&staging, self.case.line.is_some());
             let mut tables = Tables::create(&staging, &recorder)?;
             for (replicate, samples) in (0..).zip(samples) {

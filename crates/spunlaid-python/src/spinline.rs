@@ -1,5 +1,6 @@
 //! `solve_spinline`: from the hole of the spinneret to the solid filament, and `SolvedSpinline`, its results.
 
+use crate::figures::figure_files;
 use crate::value::overrides;
 use crate::watched::{Watch, guarded, watched};
 use numpy::PyArray1;
@@ -95,10 +96,20 @@ impl SolvedSpinline {
     }
 
     /// Writes the folder that `spunlaid spin` writes.
-    fn save(&self, py: Python<'_>, path: PathBuf, force: bool) -> PyResult<()> {
+    #[pyo3(signature = (path, force, figures = None, figure_width = None))]
+    fn save(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        force: bool,
+        figures: Option<&Bound<'_, PyAny>>,
+        figure_width: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<()> {
+        let figures = figure_files(figures, figure_width)?;
         let watch = Watch::default();
         watched(py, &watch, None, || {
-            let staging = Staging::new(&path, ENTRIES, force, &watch.stop)?;
+            let mut staging = Staging::new(&path, ENTRIES, force, &watch.stop)?;
+            staging.set_figures(&figures);
             self.folder().write(&staging)?;
             staging.publish()
         })

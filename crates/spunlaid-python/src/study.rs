@@ -3,6 +3,7 @@
 use crate::bundle::{BundlePart, parts, records};
 use crate::case::Case;
 use crate::failure::{raised_as, without_lines};
+use crate::figures::figure_files;
 use crate::scale::{AxisScale, scale};
 use crate::value::overrides;
 use crate::watched::{Watch, guarded, threads, watched};
@@ -95,10 +96,10 @@ impl Study {
         };
         let number = file.study.points.len();
         let journal = guarded(py, || match &out {
-            Some(out) => Ok(StudyFolder::open(out, &file, force, &NEVER)?.1),
+            Some(out) => Ok(StudyFolder::open(out, &file, force, None, &NEVER)?.1),
             None => Ok(Journal::in_memory(number)),
         })?;
-        let round = Mutex::new((Rounds::of(&file.study), None));
+        let round = Mutex::new((Rounds::new(&file.study), None));
         Ok(Self { name, file, out, journal: Mutex::new(Some(journal)), round })
     }
 
@@ -147,7 +148,7 @@ impl Study {
         guarded(py, || {
             let mut round = self.round();
             let missing = self.with_journal(|journal| Ok(round.0.missing(journal)))?;
-            let bundles = Bundles::of(&self.file.study.points, &missing, flights);
+            let bundles = Bundles::from_batches(&self.file.study.points, &missing, flights);
             let count = bundles.count();
             round.1 = Some(bundles);
             Ok(count)
@@ -337,7 +338,14 @@ impl Study {
     }
 
     /// Makes tables, figures and report in the folder of the study, and lets go of it.
-    fn write(&self, py: Python<'_>) -> PyResult<()> {
+    #[pyo3(signature = (figures = None, figure_width = None))]
+    fn write(
+        &self,
+        py: Python<'_>,
+        figures: Option<&Bound<'_, PyAny>>,
+        figure_width: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<()> {
+        let figures = figure_files(figures, figure_width)?;
         let Some(out) = &self.out else {
             let text = "the study was flown without a folder; name one: out = \"results/study\"".to_owned();
             return Err(raised_as(py, "FolderError", text));
@@ -345,7 +353,8 @@ impl Study {
         guarded(py, || {
             // The folder is opened anew, which also sees whether it still holds this study.
             *self.journal() = None;
-            let (folder, mut journal, _) = StudyFolder::open(out, &self.file, false, &NEVER)?;
+            let (mut folder, mut journal, _) = StudyFolder::open(out, &self.file, false, None, &NEVER)?;
+            folder.set_figures(&figures);
             folder.write(&self.name, &self.file, &mut journal).map(drop)
         })
     }
@@ -405,9 +414,9 @@ impl Study {
     #[getter]
     fn measures(&self) -> Vec<(&str, &str, &str, &'static str, AxisScale)> {
         let all = self.file.study.quantities.iter();
-        all.map(|of| {
-            let axis = scale(Scale::of_quantity(&of.label, of.unit));
-            (&*of.column, &*of.name, &*of.label, of.meaning, axis)
+        all.map(|quantity| {
+            let axis = scale(Scale::of_quantity(&quantity.label, quantity.unit));
+            (&*quantity.column, &*quantity.name, &*quantity.label, quantity.meaning, axis)
         })
         .collect()
     }
@@ -423,7 +432,7 @@ impl Study {
         let mut kept_open = self.journal();
         match (kept_open.as_mut(), &self.out) {
             (Some(journal), _) => work(journal),
-            (None, Some(out)) => work(&mut StudyFolder::open(out, &self.file, false, &NEVER)?.1),
+            (None, Some(out)) => work(&mut StudyFolder::open(out, &self.file, false, None, &NEVER)?.1),
             (None, None) => work(&mut Journal::in_memory(self.file.study.points.len())),
         }
     }

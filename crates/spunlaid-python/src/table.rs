@@ -50,21 +50,21 @@ fn decode(file: File) -> Decoded<Vec<(String, Values)>> {
                 return Err(foreign());
             }
             match (group.get_column_reader(at)?, columns.get_mut(at)) {
-                (ColumnReader::Int64ColumnReader(mut of), None) => {
+                (ColumnReader::Int64ColumnReader(mut reader), None) => {
                     let mut values = Vec::new();
-                    of.read_records(rows, None, None, &mut values)?;
+                    reader.read_records(rows, None, None, &mut values)?;
                     columns.push((name.to_owned(), Values::Whole(values)));
                 }
-                (ColumnReader::DoubleColumnReader(mut of), None) => {
+                (ColumnReader::DoubleColumnReader(mut reader), None) => {
                     let mut values = Vec::new();
-                    of.read_records(rows, None, None, &mut values)?;
+                    reader.read_records(rows, None, None, &mut values)?;
                     columns.push((name.to_owned(), Values::Number(values)));
                 }
-                (ColumnReader::Int64ColumnReader(mut of), Some((_, Values::Whole(values)))) => {
-                    of.read_records(rows, None, None, values)?;
+                (ColumnReader::Int64ColumnReader(mut reader), Some((_, Values::Whole(values)))) => {
+                    reader.read_records(rows, None, None, values)?;
                 }
-                (ColumnReader::DoubleColumnReader(mut of), Some((_, Values::Number(values)))) => {
-                    of.read_records(rows, None, None, values)?;
+                (ColumnReader::DoubleColumnReader(mut reader), Some((_, Values::Number(values)))) => {
+                    reader.read_records(rows, None, None, values)?;
                 }
                 _ => return Err(foreign()),
             }

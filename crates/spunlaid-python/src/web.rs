@@ -1,5 +1,6 @@
 //! `lay_web`: lays a web of many filaments, and `LaidWeb`, its results.
 
+use crate::figures::figure_files;
 use crate::value::overrides;
 use crate::watched::{Watch, guarded, threads, watched};
 use numpy::{PyArray1, PyArrayMethods};
@@ -195,10 +196,20 @@ impl LaidWeb {
     }
 
     /// Writes the folder that `spunlaid web` writes.
-    fn save(&self, py: Python<'_>, path: PathBuf, force: bool) -> PyResult<()> {
+    #[pyo3(signature = (path, force, figures = None, figure_width = None))]
+    fn save(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        force: bool,
+        figures: Option<&Bound<'_, PyAny>>,
+        figure_width: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<()> {
+        let figures = figure_files(figures, figure_width)?;
         let watch = Watch::default();
         watched(py, &watch, None, || {
-            let staging = Staging::new(&path, ENTRIES, force, &watch.stop)?;
+            let mut staging = Staging::new(&path, ENTRIES, force, &watch.stop)?;
+            staging.set_figures(&figures);
             let threads = threads(None);
             let laying = Laying { threads, isa: Isa::detect(), stop: &watch.stop, laid: &watch.done };
             self.folder().write(&staging, laying)?;

@@ -5,9 +5,11 @@ from __future__ import annotations
 import os
 import pickle
 import signal
+import subprocess
 import threading
 import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -105,6 +107,36 @@ def test_identical_for_any_threads_alone_and_together(short: Case) -> None:
     assert not np.array_equal(other.end_node["z_m"], few.end_node["z_m"])
 
 
+def test_identical_figures_to_those_of_the_program(short: Case, program: Path, tmp_path: Path) -> None:
+    (tmp_path / "case.toml").write_text(short.to_toml(), "utf-8")
+    command = [program, "run", tmp_path / "case.toml", "--out", tmp_path / "program", "--quiet", "--figures", "pdf,png"]
+    subprocess.run([*command, "--figure-width", "90 mm"], check=True, capture_output=True)
+    run = spunlaid.run(tmp_path / "case.toml")
+    run.save(tmp_path / "a", figures=["pdf", "png"], figure_width="90 mm")
+    run.save(tmp_path / "b", figures="pdf, PNG", figure_width=0.09)
+    for name in ("a", "b"):
+        of_program, own = ({path.name: path.read_bytes() for path in (tmp_path / of / "figures").iterdir()} for of in ("program", name))
+        assert {Path(file).suffix for file in own} == {".csv", ".pdf", ".png"} and own == of_program
+    run.save(tmp_path / "usual")
+    assert {path.suffix for path in (tmp_path / "usual" / "figures").iterdir()} == {".csv", ".svg", ".png"}
+
+
+@pytest.mark.parametrize(
+    ("options", "error", "says"),
+    [
+        ({"figures": ["gif"]}, ValueError, "figures: write svg, png or pdf"),
+        ({"figures": 3}, TypeError, "write the names of formats"),
+        ({"figure_width": "90"}, ValueError, "figure_width: write one-column"),
+        ({"figure_width": 0.9}, ValueError, "figure_width: write one-column"),
+        ({"figure_width": []}, TypeError, "figure_width: write a text"),
+    ],
+)
+def test_rejects_figures_that_cannot_be_written(short: Case, options: dict[str, Any], error: type[Exception], says: str, tmp_path: Path) -> None:
+    with pytest.raises(error, match=says):
+        spunlaid.run(short, 1).save(tmp_path / "r", **options)
+    assert not (tmp_path / "r").exists()
+
+
 @pytest.mark.parametrize("kind", ["short", "fed"])
 def test_identical_through_pickle_and_folder(kind: str, tmp_path: Path, request: pytest.FixtureRequest) -> None:
     run = spunlaid.run(request.getfixturevalue(kind))
@@ -124,6 +156,8 @@ def test_identical_through_pickle_and_folder(kind: str, tmp_path: Path, request:
     run.save(tmp_path / "r", force=True)
     loaded.save(tmp_path / "copy")
     same(run, spunlaid.load(tmp_path / "copy"))
+    with pytest.raises(ValueError, match="copied with its figures as they are"):
+        loaded.save(tmp_path / "print", figures=["pdf"])
     with pytest.raises(spunlaid.FolderError, match="is there already"):
         loaded.save(tmp_path / "copy")
 

@@ -35,6 +35,8 @@ def test_identical_to_the_program(program: Path, tmp_path: Path) -> None:
     with pytest.raises(spunlaid.FolderError, match="holds results already"):
         line.save(tmp_path / "python")
     line.save(tmp_path / "python", force=True)
+    line.save(tmp_path / "print", figures=["pdf"], figure_width=0.09)
+    assert {path.suffix for path in (tmp_path / "print" / "figures").iterdir()} == {".csv", ".pdf"}
 
 
 def test_measures_and_stations_agree() -> None:

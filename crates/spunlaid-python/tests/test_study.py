@@ -57,6 +57,17 @@ def test_identical_to_the_program(study: dict[str, object], program: Path, tmp_p
         assert first == second, table
 
 
+def test_figures_are_written_as_asked_for(study: dict[str, object], tmp_path: Path) -> None:
+    small = {**study, "replicates": 2, "vary": {"air.velocity": [5.0, 10.0]}}
+    spunlaid.sweep(small, out=tmp_path / "s", figures=["pdf"], figure_width="one-column")
+    assert {path.suffix for path in (tmp_path / "s" / "figures").iterdir()} == {".csv", ".pdf"}
+    with pytest.raises(ValueError, match="figures: write svg"):
+        spunlaid.sweep(small, out=tmp_path / "none", figures=["gif"])
+    assert not (tmp_path / "none").exists()
+    with pytest.raises(ValueError, match="name one: out"):
+        spunlaid.sweep(small, figures=["pdf"])
+
+
 def test_rounds_go_on_until_the_error_is_small(short: Case) -> None:
     until = {"at_least": 4, "at_most": 64, "until": {"amplitude_y": "20 %"}}
     found = spunlaid.sweep({"case": short, "replicates": until, "vary": {"air.velocity": [10.0, 20.0]}})

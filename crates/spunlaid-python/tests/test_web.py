@@ -32,6 +32,9 @@ def test_identical_to_the_program(web: spunlaid.Web, program: Path, tmp_path: Pa
         assert (tmp_path / "w" / name).read_bytes() == (tmp_path / "python" / name).read_bytes()
     with pytest.raises(spunlaid.FolderError, match="holds results already"):
         web.save(tmp_path / "python")
+    web.save(tmp_path / "print", figures=["pdf"], figure_width="two-columns")
+    suffixes = {path.suffix for path in (tmp_path / "print" / "figures").iterdir()}
+    assert ".pdf" in suffixes and ".svg" not in suffixes
 
 
 def test_advice_only_where_it_is_asked_for(web: spunlaid.Web) -> None:

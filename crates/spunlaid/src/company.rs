@@ -32,7 +32,7 @@ impl<T> PerLane<T> {
 
     /// The entry of a lane.
     #[inline(always)]
-    pub(crate) fn of(&self, lane: usize) -> &T {
+    pub(crate) fn lane(&self, lane: usize) -> &T {
         &self.0[if lane < self.0.len() { lane } else { 0 }]
     }
 
@@ -48,12 +48,12 @@ impl<T> PerLane<T> {
 
     /// A number of each lane.
     pub(crate) fn lanes(&self, number: impl Fn(&T) -> f64) -> Lanes {
-        Lanes::from_fn(|lane| number(self.of(lane)))
+        Lanes::from_fn(|lane| number(self.lane(lane)))
     }
 
     /// A value of each lane.
     pub(crate) fn each<U>(&self, value: impl Fn(&T) -> U) -> [U; WIDTH] {
-        from_fn(|lane| value(self.of(lane)))
+        from_fn(|lane| value(self.lane(lane)))
     }
 
     /// What follows from each.
@@ -63,7 +63,7 @@ impl<T> PerLane<T> {
 
     /// What follows from each together with the same fibre's entry of another kind.
     pub(crate) fn zip<U, V>(&self, other: &PerLane<U>, value: impl Fn(&T, &U) -> V) -> PerLane<V> {
-        PerLane(self.0.iter().enumerate().map(|(lane, entry)| value(entry, other.of(lane))).collect())
+        PerLane(self.0.iter().enumerate().map(|(lane, entry)| value(entry, other.lane(lane))).collect())
     }
 
     /// Whether something holds for any of them.
@@ -125,11 +125,11 @@ impl From<f64> for Bits {
 /// a struct itself.
 macro_rules! shared {
     ($(#[$about:meta])* $visible:vis struct $name:ident {
-        $($(#[$of:meta])* $field:ident: $type:ty $(= $words:literal)?,)*
+        $($(#[$attribute:meta])* $field:ident: $type:ty $(= $words:literal)?,)*
     }) => {
         $(#[$about])*
         #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-        $visible struct $name { $($(#[$of])* $visible $field: $type,)* }
+        $visible struct $name { $($(#[$attribute])* $visible $field: $type,)* }
 
         impl $crate::company::CompanyKey for $name {
             fn difference(&self, other: &Self) -> Option<&'static str> {

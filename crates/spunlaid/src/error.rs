@@ -2,11 +2,13 @@
 
 mod fault;
 mod file;
+mod nearest;
 mod problem;
 mod words;
 
 pub use fault::Fault;
 pub use file::FileKind;
+pub(crate) use nearest::{by_similarity, nearest_word};
 pub use problem::{FileError, Finding, Place, Position, Problem};
 pub(crate) use words::{excerpt, listed, memory, one_of, shortest};
 

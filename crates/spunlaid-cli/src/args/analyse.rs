@@ -1,5 +1,6 @@
 //! `spunlaid analyse`: how a velocity record, or a scan of a web, is read.
 
+use super::output::Output;
 use super::{Figures, quantity};
 use clap::{Args, ValueHint};
 use spunlaid::record::IntegralRule;
@@ -14,9 +15,8 @@ pub(crate) struct Analyse {
     pub(crate) record: PathBuf,
     #[command(flatten)]
     pub(crate) scan: Scan,
-    /// Folder for the results [default: results/<name of the file>]
-    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
-    pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) output: Output,
     /// Sampling rate, as "20 kHz"; a time column is then ignored
     #[arg(long, value_name = "RATE", value_parser = |t: &str| quantity(Dimension::Frequency, t))]
     pub(crate) rate: Option<f64>,
@@ -56,15 +56,9 @@ pub(crate) struct Analyse {
     /// End of the flat part of the spectrum, as "20 Hz" [default: an eighth of the cut-off]
     #[arg(long, value_name = "FREQUENCY", value_parser = |t: &str| quantity(Dimension::Frequency, t))]
     pub(crate) flat_until: Option<f64>,
-    /// No table; warnings and errors are still shown
-    #[arg(long, short)]
-    pub(crate) quiet: bool,
     /// Print analysis.json, or summary.json of a web, instead of the table
     #[arg(long)]
     pub(crate) json: bool,
-    /// Replace the results in the output folder
-    #[arg(long)]
-    pub(crate) force: bool,
     #[command(flatten)]
     pub(crate) figures: Figures,
 }

@@ -1,6 +1,7 @@
 //! The arguments of `spunlaid fit`.
 
 use super::figures::Figures;
+use super::output::{Output, Threads};
 use super::source::key_and_value;
 use clap::{Args, ValueHint};
 use spunlaid::fit::{FEWEST_WEBS, USUAL_WEBS};
@@ -20,27 +21,19 @@ pub(crate) struct Fit {
     /// Compare the spectrum too, across and along the web
     #[arg(long)]
     pub(crate) spectrum: bool,
-    /// Folder for the results [default: results/<name of the web>_fit]
-    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
-    pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) output: Output,
     /// Set a key of the web or of the case that it flies, as line.belt_speed="6 m/s"; can be repeated
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
     pub(crate) set: Vec<(String, String)>,
     /// Simulated webs of each trial; more make the intervals more certain
     #[arg(long, value_name = "N", default_value_t = USUAL_WEBS, value_parser = clap::value_parser!(u64).range(FEWEST_WEBS..=1000))]
     pub(crate) webs: u64,
-    /// Number of threads [default: all cores]; it does not change the results
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    pub(crate) threads: Option<u16>,
-    /// No progress and no table; warnings and errors are still shown
-    #[arg(long, short)]
-    pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) threads: Threads,
     /// Print fit.json instead of the table
     #[arg(long)]
     pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) figures: Figures,
-    /// Start again; deletes the fit in the output folder
-    #[arg(long)]
-    pub(crate) force: bool,
 }

@@ -87,8 +87,8 @@ A study is a small text file beside the case it varies:
   [link]                     # keys that follow from others
   \"air.cutoff_frequency\" = \"air.velocity / (4 * air.length_scale)\"    # or just \"taylor\"
 
-If a sweep is interrupted, the same command continues it and gives the same bits. The results
-folder holds
+If a sweep is interrupted, the same command continues it and gives the same bits. After an edit, the
+same command replaces a finished study when the new one is complete. The results folder holds
   report.html          for the browser: the study, table, figures, ranking
   results.csv          a row per point: seed, inputs, n, lost, then mean and standard error (_se) of every result
   results.json         the same with the ranking
@@ -295,3 +295,6 @@ Examples:
     --basis-weight \"20 g/m²\" --holes-per-metre 5000 --air-speed \"60 m/s\"
   spunlaid new --web two.toml --polymer pp --throughput \"0.4 g/min\" --diameter \"16 µm\" \\
     --basis-weight \"15 g/m²\" --holes 22500 --width \"4.5 m\" --beams 2 --air-speed \"70 m/s\"";
+
+/// Of commands that go on where they were left.
+pub(super) const FORCE_HELP: &str = "Start again; deletes what is in the output folder. A complete one of the same command is replaced without it";

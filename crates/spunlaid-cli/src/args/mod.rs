@@ -4,21 +4,25 @@ mod analyse;
 mod figures;
 mod fit;
 mod help;
+mod invocation;
 mod new;
+mod output;
 mod source;
 
 pub(crate) use analyse::{Analyse, Direction, LightName};
-pub(crate) use figures::{Figures, format};
+pub(crate) use figures::Figures;
 pub(crate) use fit::Fit;
+pub(crate) use invocation::Invocation;
 pub(crate) use new::{LineNumbers, New, polymer, titre};
+pub(crate) use output::{Output, Threads};
 pub(crate) use source::{CaseSource, is_standard, quoted};
 
 use clap::{Args, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
 use figures::FigureWidth;
 use help::{
-    AIR_HELP, ANALYSE_HELP, CHECK_HELP, COMPARE_HELP, EXAMPLES, FIT_HELP, KEYS_HELP, LIVE_HELP, NEW_HELP,
-    REPRODUCE_HELP, RUN_HELP, SPIN_HELP, SWEEP_HELP, WEB_HELP,
+    AIR_HELP, ANALYSE_HELP, CHECK_HELP, COMPARE_HELP, EXAMPLES, FIT_HELP, FORCE_HELP, KEYS_HELP, LIVE_HELP,
+    NEW_HELP, REPRODUCE_HELP, RUN_HELP, SPIN_HELP, SWEEP_HELP, WEB_HELP,
 };
 use source::key_and_value;
 use spunlaid::units::Dimension;
@@ -39,7 +43,7 @@ pub(crate) enum Command {
     #[command(after_help = RUN_HELP)]
     Run(Run),
     /// Fly a case with many values of its keys, and rank which keys matter
-    #[command(after_help = SWEEP_HELP)]
+    #[command(after_help = SWEEP_HELP, mut_arg("force", |force| force.help(FORCE_HELP)))]
     Sweep(Sweep),
     /// Solve a spinline, from the hole of the spinneret to the solid filament: diameter, speed, freezing point
     #[command(after_help = SPIN_HELP)]
@@ -48,22 +52,22 @@ pub(crate) enum Command {
     #[command(after_help = WEB_HELP)]
     Web(Web),
     /// Find the settings whose webs are as uneven as a scanned one, with their intervals
-    #[command(after_help = FIT_HELP)]
+    #[command(after_help = FIT_HELP, mut_arg("out", |out| out.help("Folder for the results [default: results/<name of the web>_fit]")), mut_arg("force", |force| force.help(FORCE_HELP)))]
     Fit(Fit),
     /// Look at the turbulent air of a case: moving pictures of its gusts, slices for ParaView
-    #[command(after_help = AIR_HELP)]
+    #[command(after_help = AIR_HELP, mut_arg("out", |out| out.help("Folder for the results [default: results/<name of the case>_air]")))]
     Air(Air),
     /// Open a page on which eight fibres fly, and change while you look: real or slowed time
     #[command(after_help = LIVE_HELP)]
     Live(Live),
     /// Reproduce every result figure of the paper and test its claims
-    #[command(after_help = REPRODUCE_HELP)]
+    #[command(after_help = REPRODUCE_HELP, mut_arg("out", |out| out.help("Folder for the results [default: results/paper]")))]
     Reproduce(Reproduce),
     /// Make the air of a case from a velocity record, or say how even the web of a scan is
     #[command(after_help = ANALYSE_HELP)]
     Analyse(Box<Analyse>),
     /// Compare the results of runs or of webs: differences, whether they are beyond chance, curves in one picture
-    #[command(after_help = COMPARE_HELP)]
+    #[command(after_help = COMPARE_HELP, mut_arg("out", |out| out.help("Folder for the report [default: results/<name>_against_<name>]")))]
     Compare(Compare),
     /// Show a case, a web or a study with all defaults, and what it means, without flying it
     #[command(after_help = CHECK_HELP)]
@@ -88,9 +92,8 @@ pub(crate) enum Command {
 pub(crate) struct Run {
     #[command(flatten)]
     pub(crate) source: CaseSource,
-    /// Folder for the results [default: results/<name of the case>]
-    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
-    pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) output: Output,
     /// Number of fibres, each in its own turbulence; replaces run.replicates
     #[arg(long, value_name = "N", value_parser = |text: &str| whole(0, text))]
     pub(crate) replicates: Option<u64>,
@@ -101,18 +104,11 @@ pub(crate) struct Run {
     #[arg(long, value_name = "TIME", value_parser = |t: &str| quantity(Dimension::Time, t),
           conflicts_with_all = ["set", "replicates", "seed"])]
     pub(crate) until: Option<f64>,
-    /// Number of threads [default: all cores]; it does not change the results
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    pub(crate) threads: Option<u16>,
-    /// No progress bar and no table; warnings and errors are still shown
-    #[arg(long, short)]
-    pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) threads: Threads,
     /// Print summary.json instead of the table; without --out or --until, write no files
     #[arg(long)]
     pub(crate) json: bool,
-    /// Replace any results in the output folder; those of the same command are replaced without it
-    #[arg(long)]
-    pub(crate) force: bool,
     #[command(flatten)]
     pub(crate) figures: Figures,
 }
@@ -122,18 +118,10 @@ pub(crate) struct Sweep {
     /// Study file (TOML)
     #[arg(value_name = "STUDY", value_hint = ValueHint::FilePath)]
     pub(crate) study: PathBuf,
-    /// Folder for the results [default: results/<name of the study>]
-    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
-    pub(crate) out: Option<PathBuf>,
-    /// Number of threads [default: all cores]; it does not change the results
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    pub(crate) threads: Option<u16>,
-    /// No progress and no table; warnings and errors are still shown
-    #[arg(long, short)]
-    pub(crate) quiet: bool,
-    /// Start again; deletes the study in the output folder
-    #[arg(long)]
-    pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) output: Output,
+    #[command(flatten)]
+    pub(crate) threads: Threads,
     /// Set a key of the case or of the web for all points, as run.duration="2 s"; can be repeated
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
     pub(crate) set: Vec<(String, String)>,
@@ -158,21 +146,14 @@ pub(crate) struct Spin {
     /// File with the table [spinline] (TOML), alone or in a case
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) file: PathBuf,
-    /// Folder for the results [default: results/<name of the file>]
-    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
-    pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) output: Output,
     /// Set a key of the spinline, as spinline.throughput="0.4 g/min"; can be repeated
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
     pub(crate) set: Vec<(String, String)>,
-    /// No table; warnings and errors are still shown
-    #[arg(long, short)]
-    pub(crate) quiet: bool,
     /// Print summary.json instead of the table; without --out, write no files
     #[arg(long)]
     pub(crate) json: bool,
-    /// Replace any results in the output folder; those of the same command are replaced without it
-    #[arg(long)]
-    pub(crate) force: bool,
     #[command(flatten)]
     pub(crate) figures: Figures,
 }
@@ -181,9 +162,8 @@ pub(crate) struct Spin {
 pub(crate) struct Air {
     #[command(flatten)]
     pub(crate) source: CaseSource,
-    /// Folder for the results [default: results/<name of the case>_air]
-    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
-    pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) output: Output,
     /// The replicate whose air it is, as they are numbered in a run
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=u64::from(u32::MAX)))]
     pub(crate) replicate: u64,
@@ -193,15 +173,8 @@ pub(crate) struct Air {
     /// Time from the first picture to the last, as "20 ms" [default: as long as the air needs for the way]
     #[arg(long, value_name = "TIME", value_parser = |t: &str| quantity(Dimension::Time, t))]
     pub(crate) duration: Option<f64>,
-    /// Number of threads [default: all cores]; it does not change the results
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    pub(crate) threads: Option<u16>,
-    /// No progress bar; warnings and errors are still shown
-    #[arg(long, short)]
-    pub(crate) quiet: bool,
-    /// Replace the results in the output folder
-    #[arg(long)]
-    pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) threads: Threads,
     #[command(flatten)]
     pub(crate) figures: Figures,
 }
@@ -211,18 +184,13 @@ pub(crate) struct Web {
     /// File of the web (TOML)
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) file: PathBuf,
-    /// Folder for the results [default: results/<name of the file>]
-    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
-    pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) output: Output,
     /// Set a key of the web, as line.belt_speed="6 m/s"; can be repeated
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
     pub(crate) set: Vec<(String, String)>,
-    /// Number of threads [default: all cores]; it does not change the results
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    pub(crate) threads: Option<u16>,
-    /// No progress bar and no table; warnings and errors are still shown
-    #[arg(long, short)]
-    pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) threads: Threads,
     /// Print summary.json instead of the table; without --out, write no files
     #[arg(long)]
     pub(crate) json: bool,
@@ -232,9 +200,6 @@ pub(crate) struct Web {
     /// Do not try what makes it more even, which takes two flights for each setting
     #[arg(long, conflicts_with = "advice")]
     pub(crate) no_advice: bool,
-    /// Replace any results in the output folder; those of the same command are replaced without it
-    #[arg(long)]
-    pub(crate) force: bool,
     #[command(flatten)]
     pub(crate) figures: Figures,
 }
@@ -254,29 +219,21 @@ pub(crate) struct Live {
 
 #[derive(Debug, Args)]
 pub(crate) struct Reproduce {
-    /// Folder for the results [default: results/paper]
-    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
-    pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) output: Output,
     /// Figures to draw, as 9,10,11a [default: all], and their formats, as 9,10,pdf [default: svg,png]
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub(crate) figures: Vec<String>,
-    #[command(flatten)]
-    pub(crate) width: FigureWidth,
     /// Fibres at each point; the paper has ten
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = |text: &str| whole(1, text))]
     pub(crate) replicates: u64,
     /// Time integration: the paper's with 1 µs, or another with a suitable step
     #[arg(long, value_enum, default_value = "semi-implicit-euler")]
     pub(crate) scheme: SchemeName,
-    /// Number of threads [default: all cores]; it does not change the results
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    pub(crate) threads: Option<u16>,
-    /// No progress bar and no list of claims; errors are still shown
-    #[arg(long, short)]
-    pub(crate) quiet: bool,
-    /// Replace the results in the output folder
-    #[arg(long)]
-    pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) threads: Threads,
+    #[command(flatten)]
+    pub(crate) width: FigureWidth,
 }
 
 /// A scheme by its name in a case file.
@@ -307,18 +264,11 @@ pub(crate) struct Compare {
     /// Results folders of runs, or of webs, the one to compare with first
     #[arg(value_name = "RUN", value_hint = ValueHint::DirPath, num_args = 2.., required = true)]
     pub(crate) runs: Vec<PathBuf>,
-    /// Folder for the report [default: results/<name>_against_<name>]
-    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
-    pub(crate) out: Option<PathBuf>,
-    /// No table; warnings and errors are still shown
-    #[arg(long, short)]
-    pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) output: Output,
     /// Print comparison.json instead of the table; without --out, write no files
     #[arg(long)]
     pub(crate) json: bool,
-    /// Replace the comparison in the output folder
-    #[arg(long)]
-    pub(crate) force: bool,
     #[command(flatten)]
     pub(crate) figures: Figures,
 }

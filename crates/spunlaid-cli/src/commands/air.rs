@@ -1,22 +1,21 @@
 //! `spunlaid air`: the turbulent air of a case, looked at while it passes.
 
 use super::interrupt::stop_on_ctrl_c;
-use super::{stem, threads};
-use crate::args::Air;
+use super::{staged, stem};
+use crate::args::{Air, Invocation};
 use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::air::Lateral;
 use spunlaid::case::Note;
 use spunlaid_results::folders::air::AirFolder;
 use spunlaid_results::output::air::{AirViews, ENTRIES, Slices};
-use spunlaid_results::output::folder::Staging;
 use std::sync::atomic::AtomicU64;
 
 /// What a reader is told of a case whose fibres have turbulence of their own.
 const UNIFORM: &str = "the case has air.lateral = \"uniform\": each of its fibres flies in turbulence of its own, which is the same \
                        across. What is shown is its air with air.lateral = \"von-karman\", as neighbours share it";
 
-pub(crate) fn air(air: &Air) -> Result<(), Failure> {
+pub(crate) fn air(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
     let (mut case, mut notes) = air.source.read(&[])?;
     let is_uniform = case.air.lateral == Lateral::Uniform;
     if is_uniform {
@@ -29,21 +28,22 @@ pub(crate) fn air(air: &Air) -> Result<(), Failure> {
         told.push(UNIFORM.to_owned());
     }
     let name = stem(&air.source.case, "case").to_string_lossy().into_owned();
-    let folder = super::folder(air.out.as_ref(), format!("{name}_air"));
+    let folder = super::folder(air.output.out.as_ref(), format!("{name}_air"));
     let stop = stop_on_ctrl_c();
-    let mut staging = Staging::new(&folder, ENTRIES, air.force, stop)?;
+    let origin = invocation.origin(&[&air.source.case], &folder);
+    let mut staging = staged(&folder, ENTRIES, air.output.force, origin, air.output.quiet)?;
     staging.set_figures(&air.figures.files());
     let replicate = air.replicate - 1;
     let looks =
-        AirViews { replicate, frames: air.frames, duration: air.duration, threads: threads(air.threads) };
+        AirViews { replicate, frames: air.frames, duration: air.duration, threads: air.threads.number() };
     let done = AtomicU64::new(0);
-    let slices = progress::follow(&done, air.frames, "the air passes", air.quiet, || {
+    let slices = progress::follow(&done, air.frames, "the air passes", air.output.quiet, || {
         Slices::new(&case, &looks, &done, stop)
     })?;
     let results = AirFolder { name: &name, case: &case, slices: &slices, replicate, notes: &told };
     results.write(&staging)?;
     staging.publish()?;
-    if !air.quiet {
+    if !air.output.quiet {
         say::line(&results.headline());
         say::line(&format!("open {}", folder.join("report.html").display()));
     }

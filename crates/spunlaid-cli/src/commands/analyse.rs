@@ -1,8 +1,8 @@
 //! `spunlaid analyse` makes the air of a case from a velocity record; a scan of a web goes to `scan`.
 
 use super::scan::{is_picture, scan};
-use super::stem;
-use crate::args::{Analyse, Direction};
+use super::{staged, stem};
+use crate::args::{Analyse, Direction, Invocation};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::error::{Fault, FileError, Problem};
@@ -14,7 +14,7 @@ use spunlaid_results::output::analysis::{
 use spunlaid_results::output::folder::{ENTRIES, Staging};
 use spunlaid_results::report::{AnalysisReport, analysis_html};
 
-pub(crate) fn analyse(analyse: &Analyse) -> Result<(), Failure> {
+pub(crate) fn analyse(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     let is_scan = analyse.scan.pixel.is_some() || is_picture(&analyse.record);
     if let Some(option) = if is_scan { of_records(analyse) } else { of_scans(analyse) } {
         let fault = if is_scan {
@@ -28,7 +28,7 @@ pub(crate) fn analyse(analyse: &Analyse) -> Result<(), Failure> {
         };
         return Err(FileError::from(Problem::with_path(&analyse.record, fault)).into());
     }
-    if is_scan { scan(analyse) } else { record(analyse) }
+    if is_scan { scan(analyse, invocation) } else { record(analyse, invocation) }
 }
 
 /// The first option given that only a velocity record takes.
@@ -69,10 +69,11 @@ fn of_scans(arguments: &Analyse) -> Option<&'static str> {
     given.into_iter().find_map(|(name, given)| given.then_some(name))
 }
 
-fn record(analyse: &Analyse) -> Result<(), Failure> {
+fn record(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     let name = stem(&analyse.record, "record");
-    let folder = super::folder(analyse.out.as_ref(), name);
-    let mut staging = Staging::new(&folder, ENTRIES, analyse.force, super::interrupt::stop_on_ctrl_c())?;
+    let folder = super::folder(analyse.output.out.as_ref(), name);
+    let origin = invocation.origin(&[&analyse.record], &folder);
+    let mut staging = staged(&folder, ENTRIES, analyse.output.force, origin, analyse.output.quiet)?;
     staging.set_figures(&analyse.figures.files());
     let record = read_record(&analyse.record, &layout(analyse))?;
     let analysis = spunlaid::record::analyse(&record, &settings(analyse))?;
@@ -85,7 +86,7 @@ fn record(analyse: &Analyse) -> Result<(), Failure> {
     staging.publish()?;
     if analyse.json {
         say::text(&json);
-    } else if !analyse.quiet {
+    } else if !analyse.output.quiet {
         say::text(&result_table(&record, &analysis));
         say::line(&format!("\nthe [air] of a case is in {}", folder.join("air.toml").display()));
         say::line(&format!("open {}", folder.join("report.html").display()));

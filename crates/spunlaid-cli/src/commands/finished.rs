@@ -114,7 +114,7 @@ pub(super) fn continued(run: &Run, until: f64) -> Result<(Case, Vec<String>), Fa
         ));
         notes.last().iter().for_each(|note| say::warning(note));
     }
-    if !run.quiet {
+    if !run.output.quiet {
         let times = [time, before].map(|time| Dimension::Time.pretty(time));
         say::aside(&format!("flying again from the start, to {} in place of {}", times[0], times[1]));
     }

@@ -1,8 +1,8 @@
 //! `spunlaid fit`: which values of some keys make a web like a scan?
 
 use super::interrupt::stop_on_ctrl_c;
-use super::{aligned, plural, stem, threads};
-use crate::args;
+use super::{aligned, plural, stem};
+use crate::args::{self, Invocation};
 use crate::failure::Failure;
 use crate::say;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -19,7 +19,7 @@ use spunlaid_results::folders::read_measured_web;
 use spunlaid_results::output::fit::{fit_json, pretty, refused, sentences, value_and_interval};
 use std::sync::atomic::AtomicU64;
 
-pub(crate) fn fit(asked: &args::Fit) -> Result<(), Failure> {
+pub(crate) fn fit(asked: &args::Fit, invocation: &Invocation) -> Result<(), Failure> {
     let set = Overrides { values: &asked.set, word: "--set" };
     let file = read_fit(&asked.web, set, &asked.vary, "--vary")?;
     file.start.notes.iter().for_each(say::note);
@@ -37,8 +37,13 @@ pub(crate) fn fit(asked: &args::Fit) -> Result<(), Failure> {
         webs: asked.webs,
         notes: &notes,
     };
-    let path = super::folder(asked.out.as_ref(), format!("{name}_fit"));
-    let (mut folder, mut journal, state) = FitFolder::open(&path, &input, asked.force, stop_on_ctrl_c())?;
+    let path = super::folder(asked.output.out.as_ref(), format!("{name}_fit"));
+    let origin = invocation.origin(&[&asked.web], &path);
+    let (mut folder, mut journal, state) =
+        FitFolder::open(&path, &input, asked.output.force, origin.as_ref(), stop_on_ctrl_c())?;
+    if folder.replaces() {
+        super::say_replaced(&path, asked.output.quiet);
+    }
     report_found(asked, state);
     let found = search(asked, &file, &target, &mut journal).map_err(|error| match error {
         Error::Interrupted => Failure::Paused { done: journal.total(), what: "webs", total: None },
@@ -48,7 +53,7 @@ pub(crate) fn fit(asked: &args::Fit) -> Result<(), Failure> {
     folder.write(&input, &found)?;
     if asked.json {
         say::text(&fit_json(&found, &target, input.paths, &notes));
-    } else if !asked.quiet {
+    } else if !asked.output.quiet {
         say::text(&table(&found));
         sentences(&found).iter().chain(&refused(&found)).for_each(|sentence| say::line(sentence));
         say::line(&format!("open {}", path.join("report.html").display()));
@@ -58,7 +63,7 @@ pub(crate) fn fit(asked: &args::Fit) -> Result<(), Failure> {
 
 fn report_found(asked: &args::Fit, state: Option<JournalState>) {
     let Some(JournalState { fibres, damaged, .. }) = state else { return };
-    if !asked.quiet {
+    if !asked.output.quiet {
         say::aside(&format!("continuing: {} already laid", plural(fibres, "web")));
     }
     if damaged > 0 {
@@ -74,8 +79,8 @@ fn search(asked: &args::Fit, file: &FitFile, target: &Target, journal: &mut Jour
     let (stop, laid) = (stop_on_ctrl_c(), AtomicU64::new(0));
     let bar = bar(asked);
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
-    let flyer = Flyer::new(threads(asked.threads), stop, &follow);
-    let by = Laying { threads: threads(asked.threads), isa: Isa::detect(), stop, laid: &laid };
+    let flyer = Flyer::new(asked.threads.number(), stop, &follow);
+    let by = Laying { threads: asked.threads.number(), isa: Isa::detect(), stop, laid: &laid };
     let watch = |WebInProgress { trial, web, webs, values }: WebInProgress<'_>| {
         let values = file.parameters.iter().zip(values);
         let values = values.map(|(key, value)| format!("{} = {}", key.key, pretty(key, *value)));
@@ -90,7 +95,7 @@ fn search(asked: &args::Fit, file: &FitFile, target: &Target, journal: &mut Jour
 
 /// A bar for the webs of a trial; how many trials there will be is not known.
 fn bar(asked: &args::Fit) -> ProgressBar {
-    let target = if asked.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+    let target = if asked.output.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
     let bar = ProgressBar::with_draw_target(Some(asked.webs), target);
     if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:20}] web {pos} of {len}  {elapsed} elapsed")
     {

@@ -45,11 +45,6 @@ use std::ffi::OsStr;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// The requested number of threads, or one for each core.
-fn threads(count: Option<u16>) -> usize {
-    count.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from)
-}
-
 /// The name of a file without its extension.
 fn stem<'a>(file: &'a Path, otherwise: &'a str) -> &'a OsStr {
     file.file_stem().filter(|_| !is_standard(file)).unwrap_or(otherwise.as_ref())
@@ -65,16 +60,23 @@ fn staged(
     folder: &Path,
     entries: &'static [&'static str],
     force: bool,
-    origin: Origin,
+    origin: Option<Origin>,
     quiet: bool,
 ) -> Result<Staging<'static>, Failure> {
     let staging = Staging::with_origin(folder, entries, force, origin, stop_on_ctrl_c())?;
-    if staging.replaces_own() && !quiet {
+    if staging.replaces_own() {
+        say_replaced(folder, quiet);
+    }
+    Ok(staging)
+}
+
+/// Says that the earlier results of the same command are replaced.
+fn say_replaced(folder: &Path, quiet: bool) {
+    if !quiet {
         let replaced =
             format!("{}: holds earlier results of this command, which are replaced", folder.display());
         say::remark(false, &replaced);
     }
-    Ok(staging)
 }
 
 /// `1 fibre`, `2 fibres`.

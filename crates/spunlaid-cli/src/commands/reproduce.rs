@@ -1,8 +1,8 @@
 //! `spunlaid reproduce`: draws the paper's figures again and tests its claims.
 
 use super::interrupt::stop_on_ctrl_c;
-use super::{plural, threads};
-use crate::args::{Reproduce, SchemeName, format};
+use super::{plural, staged};
+use crate::args::{Invocation, Reproduce, SchemeName};
 use crate::failure::Failure;
 use crate::{progress, say};
 use serde::Serialize;
@@ -22,7 +22,7 @@ use spunlaid::paper::{
 use spunlaid::study::{Journal, PointResults, Progress, Replicates, Study, results_of_point, run};
 use spunlaid_charts::Figure;
 use spunlaid_results::figures::paper as draw;
-use spunlaid_results::output::folder::{ENTRIES, Staging};
+use spunlaid_results::output::folder::ENTRIES;
 use spunlaid_results::output::json_text;
 use spunlaid_results::output::pictures::Format;
 use spunlaid_results::output::study::shown;
@@ -33,9 +33,9 @@ use std::sync::{Mutex, PoisonError};
 /// The figures that can be chosen.
 const FIGURES: [&str; 9] = ["2", "3", "8a", "8b", "9", "10", "11a", "11b", "11c"];
 
-pub(crate) fn reproduce(arguments: &Reproduce) -> Result<(), Failure> {
-    let formats: Vec<Format> = arguments.figures.iter().filter_map(|name| format(name).ok()).collect();
-    let wanted = chosen(arguments.figures.iter().filter(|name| format(name).is_err()).collect())?;
+pub(crate) fn reproduce(arguments: &Reproduce, invocation: &Invocation) -> Result<(), Failure> {
+    let formats: Vec<Format> = arguments.figures.iter().filter_map(|name| Format::named(name).ok()).collect();
+    let wanted = chosen(arguments.figures.iter().filter(|name| Format::named(name).is_err()).collect())?;
     let scheme = match arguments.scheme {
         SchemeName::SemiImplicitEuler => Scheme::SemiImplicitEuler,
         SchemeName::Leapfrog => Scheme::Leapfrog,
@@ -43,23 +43,25 @@ pub(crate) fn reproduce(arguments: &Reproduce) -> Result<(), Failure> {
     };
     let mut base = table1(scheme)?;
     base.run.replicates = arguments.replicates;
-    let folder = super::folder(arguments.out.as_ref(), "paper");
+    let folder = super::folder(arguments.output.out.as_ref(), "paper");
     let stop = stop_on_ctrl_c();
-    let mut staging = Staging::new(&folder, ENTRIES, arguments.force, stop)?;
+    let origin = invocation.origin(&[], &folder);
+    let mut staging = staged(&folder, ENTRIES, arguments.output.force, origin, arguments.output.quiet)?;
     staging.set_figures(&arguments.width.files(&formats));
     let flying = Flying::new(&base, &wanted)?;
 
     let fibre_steps = AtomicU64::new(0);
     let computing = Computing {
-        threads: threads(arguments.threads),
+        threads: arguments.threads.number(),
         isa: Isa::detect(),
         stop,
         fibre_steps: &fibre_steps,
         recorder: None,
     };
     let label = format!("flying {}", plural(flying.fibres(), "fibre"));
-    let flown =
-        progress::follow(&fibre_steps, flying.steps(), &label, arguments.quiet, || flying.fly(computing))?;
+    let flown = progress::follow(&fibre_steps, flying.steps(), &label, arguments.output.quiet, || {
+        flying.fly(computing)
+    })?;
 
     let figures = flown.figures(&base);
     let claims = flown.claims();
@@ -86,7 +88,7 @@ pub(crate) fn reproduce(arguments: &Reproduce) -> Result<(), Failure> {
     staging.write("case.toml", case_toml)?;
     staging.write("summary.json", summary(&claims))?;
     staging.publish()?;
-    if !arguments.quiet {
+    if !arguments.output.quiet {
         for claim in &claims {
             say::line(&format!("{:<4} {:<13} {}", claim.figure, claim.verdict.name(), claim.claim));
             say::line(&format!("                   {}", claim.evidence));

@@ -2,8 +2,8 @@
 
 use super::finished::continued;
 use super::interrupt::stop_on_ctrl_c;
-use super::{plural, staged, stem, threads};
-use crate::args::{Run, is_standard};
+use super::{plural, staged, stem};
+use crate::args::{Invocation, Run};
 use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::case::Note;
@@ -11,13 +11,12 @@ use spunlaid::ensemble::{Computing, FinerPlans};
 use spunlaid::lanes::Isa;
 use spunlaid_results::folders::run as files;
 use spunlaid_results::output::folder::{ENTRIES, Staging};
-use spunlaid_results::output::origin::Origin;
 use spunlaid_results::output::{finer, table};
 use std::path::Path;
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
-pub(crate) fn run(run: &Run) -> Result<(), Failure> {
+pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     let (case, mut notes) = match run.until {
         Some(until) => continued(run, until)?,
         None => {
@@ -28,27 +27,27 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
     };
     let name = name(run);
     let folder = match run.until {
-        Some(_) if run.out.is_none() => Some(run.source.case.clone()),
-        _ => (run.out.is_some() || !run.json).then(|| super::folder(run.out.as_ref(), &name)),
+        Some(_) if run.output.out.is_none() => Some(run.source.case.clone()),
+        _ => (run.output.out.is_some() || !run.json).then(|| super::folder(run.output.out.as_ref(), &name)),
     };
     let stop = stop_on_ctrl_c();
-    let staging = folder.as_ref().map(|folder| staging(run, folder)).transpose()?;
+    let staging = folder.as_ref().map(|folder| staging(run, invocation, folder)).transpose()?;
 
     let fibre_steps = AtomicU64::new(0);
     let computing = Computing {
-        threads: threads(run.threads),
+        threads: run.threads.number(),
         isa: Isa::detect(),
         stop,
         fibre_steps: &fibre_steps,
         recorder: None,
     };
     let started = Instant::now();
-    let plans = FinerPlans::of(&case);
+    let plans = FinerPlans::for_case(&case);
     let (results, checks) = progress::follow(
         &fibre_steps,
         case.run.steps * case.fibres() + plans.fibre_steps(),
         &format!("flying {}", plural(case.fibres(), "fibre")),
-        run.quiet,
+        run.output.quiet,
         || files::fly(&case, &plans, computing, staging.as_ref()),
     )?;
     let performance = files::performance(&case, &results, &plans, computing, started.elapsed().as_secs_f64());
@@ -78,7 +77,7 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
 
     if run.json {
         say::text(&written.summary());
-    } else if !run.quiet {
+    } else if !run.output.quiet {
         say::text(&table::results(&results));
         say::text(&finer::text(&checks, &case, &results));
         let seconds = performance.wall_s;
@@ -98,15 +97,16 @@ pub(crate) fn run(run: &Run) -> Result<(), Failure> {
 
 /// Collects the results. A continued run replaces its own ones. It took longer, so that the run from which it began does not replace
 /// it.
-fn staging(run: &Run, folder: &Path) -> Result<Staging<'static>, Failure> {
-    if run.until.is_some() || is_standard(&run.source.case) {
-        let replace = run.force || run.until.is_some() && run.out.is_none();
-        return Ok(Staging::new(folder, ENTRIES, replace, stop_on_ctrl_c())?);
-    }
-    let own = overrides(run).into_iter().map(|(key, value)| (key.to_owned(), value));
-    let changes: Vec<_> = run.source.set.iter().cloned().chain(own).collect();
-    let origin = Origin::new("run", &run.source.case, &changes, folder);
-    staged(folder, ENTRIES, run.force, origin, run.quiet)
+fn staging(run: &Run, invocation: &Invocation, folder: &Path) -> Result<Staging<'static>, Failure> {
+    let is_continued = run.until.is_some();
+    let origin = (!is_continued).then(|| invocation.origin(&[&run.source.case], folder)).flatten();
+    staged(
+        folder,
+        ENTRIES,
+        run.output.force || is_continued && run.output.out.is_none(),
+        origin,
+        run.output.quiet,
+    )
 }
 
 /// What the results are called: as the case file, or as the folder of a run that is continued.

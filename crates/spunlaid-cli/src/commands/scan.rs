@@ -1,15 +1,13 @@
 //! `spunlaid analyse` of a scan or a map of a web.
 
-use super::interrupt::stop_on_ctrl_c;
-use super::stem;
-use crate::args::{Analyse, Direction, LightName};
+use super::{staged, stem};
+use crate::args::{Analyse, Direction, Invocation, LightName};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::lanes::Isa;
 use spunlaid::scan::{Findings, Light, Picture, Settings, analyse, read};
 use spunlaid_results::figures::scan_figures;
 use spunlaid_results::numbers::{plus_minus, significant};
-use spunlaid_results::output::folder::Staging;
 use spunlaid_results::output::web::{self, ENTRIES, Performance, Summary};
 use spunlaid_results::report::{ScanReport, scan_html};
 use std::path::Path;
@@ -22,10 +20,11 @@ pub(super) fn is_picture(file: &Path) -> bool {
     matches!(extension.as_str(), "png" | "tif" | "tiff" | "npy" | "jpg" | "jpeg" | "gif" | "bmp" | "pdf")
 }
 
-pub(super) fn scan(arguments: &Analyse) -> Result<(), Failure> {
+pub(super) fn scan(arguments: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     let name = stem(&arguments.record, "scan").to_string_lossy().into_owned();
-    let folder = super::folder(arguments.out.as_ref(), &name);
-    let mut staging = Staging::new(&folder, ENTRIES, arguments.force, stop_on_ctrl_c())?;
+    let folder = super::folder(arguments.output.out.as_ref(), &name);
+    let origin = invocation.origin(&[&arguments.record], &folder);
+    let mut staging = staged(&folder, ENTRIES, arguments.output.force, origin, arguments.output.quiet)?;
     staging.set_figures(&arguments.figures.files());
     let started = Instant::now();
     let picture = turned(read(&arguments.record, arguments.scan.pixel)?, arguments);
@@ -48,7 +47,7 @@ pub(super) fn scan(arguments: &Analyse) -> Result<(), Failure> {
     staging.publish()?;
     if arguments.json {
         say::text(&summary);
-    } else if !arguments.quiet {
+    } else if !arguments.output.quiet {
         say::text(&table(&findings));
         notes.iter().for_each(|note| say::remark(false, note));
         say::line(&format!("open {}", folder.join("report.html").display()));

@@ -1,16 +1,15 @@
 //! `spunlaid spin`: solves a spinline, from the hole of the spinneret to the solid filament.
 
 use super::{staged, stem};
-use crate::args::Spin;
+use crate::args::{Invocation, Spin};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::case::Note;
 use spunlaid::input::{Overrides, read_spinline};
 use spunlaid_results::folders::spinline::SpinFolder;
-use spunlaid_results::output::origin::Origin;
 use spunlaid_results::output::spinline::{ENTRIES, SpinResults, remarks, text};
 
-pub(crate) fn spin(spin: &Spin) -> Result<(), Failure> {
+pub(crate) fn spin(spin: &Spin, invocation: &Invocation) -> Result<(), Failure> {
     let file = read_spinline(&spin.file, Overrides { values: &spin.set, word: "--set" })?;
     file.notes.iter().for_each(say::note);
     let name = stem(&spin.file, "spinline").to_string_lossy().into_owned();
@@ -18,17 +17,18 @@ pub(crate) fn spin(spin: &Spin) -> Result<(), Failure> {
     let found = remarks(&results.rows);
     let notes = [Note::of_results(&file.notes), found.clone()].concat();
     let written = SpinFolder { name: &name, file: &file, results: &results, notes: &notes };
-    let folder = (spin.out.is_some() || !spin.json).then(|| super::folder(spin.out.as_ref(), &name));
+    let folder =
+        (spin.output.out.is_some() || !spin.json).then(|| super::folder(spin.output.out.as_ref(), &name));
     if let Some(folder) = &folder {
-        let origin = Origin::new("spin", &spin.file, &spin.set, folder);
-        let mut staging = staged(folder, ENTRIES, spin.force, origin, spin.quiet)?;
+        let origin = invocation.origin(&[&spin.file], folder);
+        let mut staging = staged(folder, ENTRIES, spin.output.force, origin, spin.output.quiet)?;
         staging.set_figures(&spin.figures.files());
         written.write(&staging)?;
         staging.publish()?;
     }
     if spin.json {
         say::text(&written.summary());
-    } else if !spin.quiet {
+    } else if !spin.output.quiet {
         say::text(&text(&results.rows, &results.influences));
         found.iter().for_each(|note| say::remark(false, note));
         if let Some(folder) = folder {

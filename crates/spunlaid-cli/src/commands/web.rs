@@ -1,12 +1,13 @@
 //! `spunlaid web`: lays a web of many filaments and says how even it is.
 
 use super::interrupt::stop_on_ctrl_c;
-use super::{aligned, plural, staged, stem, threads};
-use crate::args;
+use super::{aligned, plural, staged, stem};
+use crate::args::{self, Invocation};
 use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::advice::{Advice, Change, advise, steps};
 use spunlaid::case::Note;
+use spunlaid::error::Error;
 use spunlaid::input::{Method, Overrides, WebFile, read_changes, read_web};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
@@ -14,46 +15,51 @@ use spunlaid::web::{Findings, Laying, PatchFindings, Web};
 use spunlaid_results::folders;
 use spunlaid_results::folders::web::WebFolder;
 use spunlaid_results::numbers::{plus_minus, significant};
-use spunlaid_results::output::origin::Origin;
 use spunlaid_results::output::web::{ENTRIES, Performance};
 use spunlaid_results::report::advice_words;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
-pub(crate) fn web(asked: &args::Web) -> Result<(), Failure> {
+pub(crate) fn web(asked: &args::Web, invocation: &Invocation) -> Result<(), Failure> {
     let set = Overrides { values: &asked.set, word: "--set" };
     let file = read_web(&asked.file, set)?;
     file.notes.iter().for_each(say::note);
     let name = stem(&asked.file, "web").to_string_lossy().into_owned();
-    let folder = (asked.out.is_some() || !asked.json).then(|| super::folder(asked.out.as_ref(), &name));
+    let folder =
+        (asked.output.out.is_some() || !asked.json).then(|| super::folder(asked.output.out.as_ref(), &name));
     let stop = stop_on_ctrl_c();
     let staged = |folder: &PathBuf| {
-        let origin = Origin::new("web", &asked.file, &asked.set, folder);
-        staged(folder, ENTRIES, asked.force, origin, asked.quiet)
+        let origin = invocation.origin(&[&asked.file], folder);
+        staged(folder, ENTRIES, asked.output.force, origin, asked.output.quiet)
     };
     let staging = folder.as_ref().map(staged).transpose()?;
+    // Before anything is flown, because the file may change meanwhile.
+    let changes = if asked.no_advice { None } else { Some(read_changes(&asked.file, set)?) };
 
     let started = Instant::now();
-    let follow = flying(asked.quiet);
-    let mut flyer = Flyer::new(threads(asked.threads), stop, &follow);
+    let follow = flying(asked.output.quiet);
+    let mut flyer = Flyer::new(asked.threads.number(), stop, &follow);
     let mut flown = flyer.web(&file.spec)?;
 
     let laid = AtomicU64::new(0);
-    let by = Laying { threads: threads(asked.threads), isa: Isa::detect(), stop, laid: &laid };
+    let by = Laying { threads: asked.threads.number(), isa: Isa::detect(), stop, laid: &laid };
     let label = format!("laying {} km of fibre", significant(flown.web.fibre_length() / 1e3, 3));
-    let findings = progress::follow(&laid, flown.pieces()?, &label, asked.quiet, || flown.find(by))?;
+    let findings = progress::follow(&laid, flown.pieces()?, &label, asked.output.quiet, || flown.find(by))?;
     let laying_s = started.elapsed().as_secs_f64();
     let FlownWeb { web, layers, .. } = &flown;
-    let changes = if asked.no_advice { None } else { Some(read_changes(&asked.file, set)?) };
     let is_short =
         |changes: &Vec<Change>| file.spec.method != Method::SharedAir && steps(changes) <= MOST_STEPS;
     let changes = changes.filter(|changes| asked.advice || is_short(changes));
     let tried = changes.as_ref().map(|changes| trying(changes.len()));
-    let advice = match changes {
-        Some(changes) => Some(advised(changes, (&file, web, &findings), by, asked.quiet)?),
-        None => None,
-    };
+    let advice =
+        match changes.map(|changes| advised(changes, (&file, web, &findings), by, asked.output.quiet)) {
+            Some(Err(Failure::Error(error))) if !matches!(error, Error::Interrupted) => {
+                say::warning(&format!("what makes the web more even was not found: {error}"));
+                None
+            }
+            advice => advice.transpose()?,
+        };
     let advice_s = started.elapsed().as_secs_f64() - laying_s;
     let performance = Performance {
         wall_s: started.elapsed().as_secs_f64(),
@@ -81,7 +87,7 @@ pub(crate) fn web(asked: &args::Web) -> Result<(), Failure> {
     }
     if asked.json {
         say::text(&written.summary());
-    } else if !asked.quiet {
+    } else if !asked.output.quiet {
         say::text(&told(&findings));
         let words = advice_words(&file.spec, &findings, advice.as_ref());
         if !(words.is_empty() || asked.no_advice) {
@@ -136,19 +142,19 @@ fn flying(quiet: bool) -> impl Fn(Flights<'_>, &mut (dyn FnMut() + Send)) {
 type Column = (&'static str, fn(&PatchFindings) -> Option<(f64, f64)>);
 
 /// The table for the terminal.
-fn told(of: &Findings) -> String {
+fn told(findings: &Findings) -> String {
     let per_cent = |cv: f64, error: Option<f64>| plus_minus(100.0 * cv, error.map(|error| 100.0 * error));
-    let is_shared = of.laid.together.is_some();
+    let is_shared = findings.laid.together.is_some();
     let all: [Column; 2] = match is_shared {
         true => [("airs of their own", |patch| patch.independent), ("", |_| None)],
         false => [("surrogate", |patch| patch.surrogate), ("flown curves", |patch| patch.flown)],
     };
     let mut expected: Vec<Column> =
-        all.into_iter().filter(|(_, cv)| of.patches.iter().any(|patch| cv(patch).is_some())).collect();
+        all.into_iter().filter(|(_, cv)| findings.patches.iter().any(|patch| cv(patch).is_some())).collect();
     if expected.is_empty() {
         expected.push(("single fibres", |patch| Some(patch.one_fibre)));
     }
-    let flown = !is_shared && of.patches.iter().any(|patch| patch.flown.is_some());
+    let flown = !is_shared && findings.patches.iter().any(|patch| patch.flown.is_some());
     let mut heads = vec!["patch", "this map", "by chance", "95 % by chance"];
     if flown {
         heads.extend(["few fibres", "model"]);
@@ -156,7 +162,7 @@ fn told(of: &Findings) -> String {
     heads.extend(expected.iter().map(|(head, _)| *head));
     heads.push("straight fibres");
     let mut rows = vec![heads.into_iter().map(str::to_owned).collect::<Vec<_>>()];
-    for patch in &of.patches {
+    for patch in &findings.patches {
         let error = patch.whole_error();
         let part =
             |part: Option<f64>| part.map_or_else(|| "–".to_owned(), |part| significant(100.0 * part, 2));
@@ -172,10 +178,10 @@ fn told(of: &Findings) -> String {
         if flown {
             row.extend([error.flight, error.model].map(part));
         }
-        let cv = |of: Option<(f64, f64)>| {
-            of.map_or_else(|| "–".to_owned(), |(cv, error)| per_cent(cv, Some(error)))
+        let cv = |value: Option<(f64, f64)>| {
+            value.map_or_else(|| "–".to_owned(), |(cv, error)| per_cent(cv, Some(error)))
         };
-        row.extend(expected.iter().map(|(_, of)| cv(of(patch))));
+        row.extend(expected.iter().map(|(_, cv_of_patch)| cv(cv_of_patch(patch))));
         row.push(significant(100.0 * patch.straight_fibres, 3));
         rows.push(row);
     }
@@ -186,7 +192,7 @@ fn told(of: &Findings) -> String {
     };
     format!(
         "basis weight {} g/m²\nunevenness, CV in %: of this map {whole}, and as expected\n{}",
-        significant(of.within().basis_weight() * 1e3, 4),
+        significant(findings.within().basis_weight() * 1e3, 4),
         aligned(&rows)
     )
 }

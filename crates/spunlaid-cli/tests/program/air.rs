@@ -137,6 +137,8 @@ fn a_study_with_another_part_is_another_study() {
     let part = desk.path("air/blocks/blocks_1.vtu");
     let text = std::fs::read(&part).unwrap();
     std::fs::write(&part, [text, b"\n".to_vec()].concat()).unwrap();
+    // An unfinished study is not replaced.
+    std::fs::remove_file(desk.path("out/report.html")).unwrap();
     let said = refusal(&mut desk.spunlaid("sweep study.toml --out out"), 1);
     assert!(said.contains("another study"), "{said}");
 }
@@ -158,6 +160,8 @@ fn a_study_of_another_field_is_another_study() {
     success(&mut sweep());
     let table = std::fs::read_to_string(desk.path("air.csv")).unwrap();
     std::fs::write(desk.path("air.csv"), table.replace("10.2", "10.3")).unwrap();
+    // An unfinished study is not replaced.
+    std::fs::remove_file(desk.path("out/report.html")).unwrap();
     let said = refusal(&mut sweep(), 1);
     assert!(said.contains("another study"), "{said}");
 }

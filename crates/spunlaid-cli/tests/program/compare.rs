@@ -29,7 +29,7 @@ fn runs_in_the_same_turbulence_are_compared_pair_by_pair() {
     let said = success(&mut desk.spunlaid("compare a b --out c"));
     assert!(said.contains("b against a: paired by replicate") && said.contains("(8 pairs)"), "{said}");
     assert!(said.contains("beyond chance"), "{said}");
-    assert_eq!(desk.entries("c"), names(&["comparison.json", "figures", "report.html"]));
+    assert_eq!(desk.entries("c"), names(&["comparison.json", "figures", "origin.toml", "report.html"]));
     let found = json(&desk, "a b");
     let one = &found["comparisons"][0];
     assert_eq!((one["paired"].as_bool(), one["pairs"].as_u64()), (Some(true), Some(8)));

@@ -157,6 +157,46 @@ fn the_same_command_replaces_its_results_after_an_edit_and_says_so() {
 }
 
 #[test]
+fn every_command_replaces_its_own_results_and_no_others() {
+    let desk = Desk::new();
+    let probe = fs::read_to_string("../../cases/records/probe.csv").unwrap();
+    fs::write(desk.path("probe.csv"), probe.lines().take(4000).collect::<Vec<_>>().join("\n")).unwrap();
+    for run in ["a", "b"] {
+        success(&mut desk.spunlaid(&format!("run brief.toml --quiet --out {run}")));
+    }
+    let ran = |command: &str| {
+        let output = desk.spunlaid(command).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    for (command, other, complete) in [
+        ("air brief.toml --frames 1 --out air", "air brief.toml --frames 2 --out air", "summary.json"),
+        ("analyse probe.csv --out analyse", "analyse probe.csv --segment 512 --out analyse", "analysis.json"),
+        (
+            "analyse a/map.csv --pixel 1mm --out scan",
+            "analyse a/map.csv --pixel 2mm --out scan",
+            "summary.json",
+        ),
+        ("compare a b --out compare", "compare b a --out compare", "comparison.json"),
+        ("reproduce --figures 2 --out reproduce", "reproduce --figures 3 --out reproduce", "summary.json"),
+    ] {
+        let rows =
+            (0..40).map(|i| (0..40).map(|j| format!("{}", 10 + (i * j) % 7)).collect::<Vec<_>>().join(","));
+        fs::write(desk.path("a/map.csv"), rows.collect::<Vec<_>>().join("\n")).unwrap();
+        let folder = command.rsplit(' ').next().unwrap();
+        let (code, said) = ran(command);
+        assert!(code == Some(0) && !said.contains("replaced"), "{command}: {said}");
+        let (code, said) = ran(command);
+        let wanted = format!("note: {folder}: holds earlier results of this command, which are replaced");
+        assert!(code == Some(0) && said.contains(&wanted), "{command}: {said}");
+        assert!(!ran(&format!("{command} --quiet")).1.contains("replaced"), "{command}");
+        let before = desk.read(&format!("{folder}/{complete}"));
+        let (code, said) = ran(other);
+        assert!(code == Some(1) && said.contains(": holds results already (origin.toml)"), "{other}: {said}");
+        assert!(desk.read(&format!("{folder}/{complete}")) == before, "{other}");
+    }
+}
+
+#[test]
 fn force_replaces_results_and_keeps_what_others_put_there() {
     let desk = Desk::new();
     success(&mut desk.with("run brief.toml --out r", &["run.output_interval=0.5 ms"]));

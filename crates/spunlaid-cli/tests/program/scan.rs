@@ -68,7 +68,10 @@ fn a_laid_web_and_its_scan_have_the_same_unevenness() {
     let said = success(&mut desk.spunlaid(&format!("{command} --weight 18gsm --out scan")));
     assert!(said.contains("basis weight 18 g/m²") && said.contains("95 % interval"), "{said}");
     assert!(said.contains("open scan/report.html"), "{said}");
-    assert_eq!(desk.entries("scan"), names(&["figures", "map.npy", "report.html", "summary.json"]));
+    assert_eq!(
+        desk.entries("scan"),
+        names(&["figures", "map.npy", "origin.toml", "report.html", "summary.json"])
+    );
     let [web, found] = ["laid", "scan"].map(|folder| desk.summary(folder)["web"].take());
     assert!((number(&found["basis_weight_kg_m2"]) / 18e-3 - 1.0).abs() < 1e-12);
     assert_eq!((&found["cells"], &found["cell_m"]), (&web["cells"], &web["cell_m"]));
@@ -124,7 +127,7 @@ fn a_laid_web_and_its_scan_have_the_same_unevenness() {
         "{said}"
     );
     assert!(said.contains("CV over patches of 10 mm") && said.contains("  0 of "), "{said}");
-    assert_eq!(desk.entries("both"), names(&["comparison.json", "figures", "report.html"]));
+    assert_eq!(desk.entries("both"), names(&["comparison.json", "figures", "origin.toml", "report.html"]));
     let both: Value = serde_json::from_slice(&desk.read("both/comparison.json")).unwrap();
     let measure = &both["comparisons"][0]["measures"]["cv_10_mm"];
     let [a, b] = [&web, &found].map(|summary| &summary["patches"][2]);

@@ -5,6 +5,7 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::RowAccessor;
 use spunlaid::observe::{LAYDOWN, MEASURES, SURROGATE};
 use std::fs;
+use std::time::Duration;
 
 const STUDY: &str = "case = 'case.toml'
 design = 'grid'
@@ -171,9 +172,11 @@ fn its_results_folder_is_a_study() {
 }
 
 #[test]
-fn rejects_another_study_in_the_same_folder_showing_what_differs() {
+fn rejects_another_study_in_the_folder_of_an_unfinished_one_showing_what_differs() {
     let place = place();
     place.swept("out", &[]);
+    // As if it had been killed at the end.
+    fs::remove_file(place.path("out").join("report.html")).unwrap();
     fs::write(place.path("study.toml"), STUDY.replace("replicates = 3", "common_phases = false")).unwrap();
     let refusal = place.refused("out", &[]);
     assert!(refusal.contains("study.toml: common_phases was true, is false"), "{refusal}");
@@ -193,6 +196,36 @@ fn rejects_another_study_in_the_same_folder_showing_what_differs() {
     place.swept("out", &["--force"]);
     place.swept("new", &[]);
     assert_same(&results(&place.path("out")), &results(&place.path("new")));
+}
+
+#[test]
+fn a_changed_study_replaces_a_finished_one_and_says_so() {
+    let place = place();
+    place.swept("out", &[]);
+    fs::write(place.path("out").join("thesis.tex"), "mine").unwrap();
+    let changed = STUDY.replace("'20 m/s'", "'25 m/s'");
+    fs::write(place.path("study.toml"), &changed).unwrap();
+    // Another command made it, or it has been worked on since its results were written.
+    let refusal = place.refused("out", &["--set", "fibre.density=940 kg/m³"]);
+    assert!(refusal.contains("out: holds results of another study"), "{refusal}");
+    let journal = fs::File::options().append(true).open(place.path("out").join("journal")).unwrap();
+    let written = journal.metadata().unwrap().modified().unwrap();
+    journal.set_modified(written + Duration::from_secs(60)).unwrap();
+    let refusal = place.refused("out", &[]);
+    assert!(refusal.contains("out: holds results of another study"), "{refusal}");
+    journal.set_modified(written).unwrap();
+    drop(journal);
+    let output = said(&place.swept("out", &["--replicates", "4"]));
+    assert!(
+        output.contains("note: out: holds earlier results of this command, which are replaced"),
+        "{output}"
+    );
+    assert_eq!(fs::read(place.path("out").join("thesis.tex")).unwrap(), b"mine");
+    fs::remove_file(place.path("out").join("thesis.tex")).unwrap();
+    place.swept("new", &["--replicates", "4"]);
+    assert_same(&results(&place.path("out")), &results(&place.path("new")));
+    let output = said(&place.swept("out", &["--replicates", "4"]));
+    assert!(output.contains("already complete") && !output.contains("replaced"), "{output}");
 }
 
 #[test]
@@ -378,6 +411,8 @@ fn identical_when_replicates_are_added_to_a_finished_study() {
     place.swept("need_once", &[]);
     assert_same(&results(&place.path("need")), &results(&place.path("need_once")));
     by_need(9, "4 %");
+    // As if it had been killed at the end; a finished one would be replaced.
+    fs::remove_file(place.path("need/report.html")).unwrap();
     assert!(
         place.refused("need", &[]).contains("study.toml: replicates.until.amplitude_y was 0.05, is 0.04")
     );

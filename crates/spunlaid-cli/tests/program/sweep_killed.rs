@@ -1,7 +1,9 @@
 //! A study that is killed at any moment continues, and ends with the same bits.
 
 use crate::common::{Place, assert_same, case, results, said};
+use std::collections::BTreeMap;
 use std::fs;
+use std::path::Path;
 use std::thread::sleep;
 use std::time::Duration;
 
@@ -81,6 +83,87 @@ fn identical_when_killed_while_files_are_begun_and_written() {
     }
     place.swept("killed", &[]);
     assert_same(&results(&place.path("whole")), &results(&place.path("killed")));
+}
+
+#[test]
+fn earlier_results_stay_whole_until_those_of_a_changed_study_are() {
+    let study = STUDY.replace("steps = 6", "steps = 2").replace("'100 mm', ", "");
+    let place = Place::new(&case(0.02), &study);
+    place.swept("out", &["--threads", "2"]);
+    let earlier = results(&place.path("out"));
+    let changed = study.replace("'20 m/s'", "'25 m/s'");
+    fs::write(place.path("study.toml"), &changed).unwrap();
+    place.swept("whole", &["--threads", "2"]);
+    let new = results(&place.path("whole"));
+    let (mut moments, mut kills, mut kept) = (Moments(5), 0, 0);
+    let now = || {
+        let all = results(&place.path("out")).into_iter();
+        // What is being made is in hidden folders.
+        all.filter(|(name, _)| !name.to_string_lossy().starts_with(".spunlaid-")).collect::<BTreeMap<_, _>>()
+    };
+    loop {
+        let mut child = place.under_way("out", &["--threads", "2"]);
+        // Longer each time, so that a slow machine too comes to the end.
+        sleep(moments.next(60 + 10 * kills));
+        child.kill().unwrap();
+        if child.wait().unwrap().success() {
+            break;
+        }
+        kills += 1;
+        if now().contains_key(Path::new("report.html")) {
+            let now = now();
+            let is_new = !place.path("out").join(".spunlaid-replacement").exists();
+            assert_same(&now, if is_new && now != earlier { &new } else { &earlier });
+        }
+        let records = records(&place, "out/.spunlaid-replacement");
+        assert!(
+            records >= kept || !place.path("out").join(".spunlaid-replacement").exists(),
+            "{kept}, {records}"
+        );
+        kept = records;
+        // A third study does not take what has been done for the second.
+        if kills == 3 && kept > 0 {
+            fs::write(place.path("study.toml"), study.replace("'20 m/s'", "'30 m/s'")).unwrap();
+            let refusal = place.refused("out", &[]);
+            assert!(refusal.contains(".spunlaid-replacement: holds results of another study"), "{refusal}");
+            fs::write(place.path("study.toml"), &changed).unwrap();
+        }
+    }
+    assert!(kills >= 3, "only {kills} kills before the end");
+    place.swept("out", &[]);
+    assert_same(&results(&place.path("out")), &new);
+}
+
+#[test]
+fn identical_when_killed_while_complete_results_replace_earlier_ones() {
+    let study = STUDY.replace("steps = 6", "steps = 2").replace("'100 mm', ", "");
+    let changed = study.replace("'20 m/s'", "'25 m/s'");
+    let place = Place::new(&case(0.002), &study);
+    let write = |study: &str| fs::write(place.path("study.toml"), study).unwrap();
+    let [out, hidden] = ["out", "out/.spunlaid-replacement"].map(|folder| place.path(folder));
+    let entries = |folder: &Path| -> Vec<_> {
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+    };
+    // Before the journal is moved, after it, and when all but a few are moved.
+    for moved in
+        [&[][..], &["journal"], &["journal", "origin.toml", "study.toml", "case.toml", "results.csv"]]
+    {
+        write(&study);
+        place.swept("out", &["--force"]);
+        write(&changed);
+        place.swept("whole", &["--force"]);
+        for name in entries(&out).iter().filter(|name| !["journal", "origin.toml"].contains(&name.as_str())) {
+            let path = out.join(name);
+            if path.is_dir() { fs::remove_dir_all(path) } else { fs::remove_file(path) }.unwrap();
+        }
+        fs::create_dir(&hidden).unwrap();
+        for name in entries(&place.path("whole")).iter().filter(|name| *name != "figures") {
+            let to = if moved.contains(&name.as_str()) { &out } else { &hidden };
+            fs::copy(place.path("whole").join(name), to.join(name)).unwrap();
+        }
+        place.swept("out", &[]);
+        assert_same(&results(&place.path("whole")), &results(&out));
+    }
 }
 
 #[test]

@@ -64,6 +64,7 @@ fn identical_web_of_a_point_alone() {
     let folder = [
         "figures",
         "journal",
+        "origin.toml",
         "replicates.parquet",
         "report.html",
         "results.csv",

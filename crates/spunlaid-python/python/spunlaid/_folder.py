@@ -118,8 +118,13 @@ class Folder:
         """Text of report.html."""
         return (self.path / "report.html").read_text("utf-8")
 
-    def save(self, path: str, force: bool) -> None:
+    def save(self, path: str, force: bool, figures: Any = None, figure_width: Any = None) -> None:
         """Copies the folder."""
+        if figures is not None or figure_width is not None:
+            raise ValueError(
+                "figures: a run that was read from a folder is copied with its figures as they are; leave figures and"
+                " figure_width out, or fly it again"
+            )
         if os.path.exists(path) and not force:
             raise FolderError(f"{path}: is there already; name another folder, or replace it with force=True")
         try:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -156,12 +156,21 @@ class Run:
         """The report, one page of HTML that works offline."""
         return self._keep("report", self._flown.report)  # type: ignore[no-any-return]
 
-    def save(self, path: str | os.PathLike[str], *, force: bool = False) -> None:
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        force: bool = False,
+        figures: Sequence[str] | str | None = None,
+        figure_width: str | float | None = None,
+    ) -> None:
         """Writes the folder that `spunlaid run` writes.
 
         force: whether results that the folder holds are replaced.
+        figures: the formats of the figures, `["pdf", "png"]`; SVG and PNG if it is left out
+        figure_width: their width in print, `"one-column"`, `"two-columns"`, `"90 mm"` or in metres; PNG then has 300 dpi
         """
-        self._flown.save(os.fspath(path), force)
+        self._flown.save(os.fspath(path), force, figures, figure_width)
 
     def to_pandas(self) -> pandas.DataFrame:
         """A row for each replicate and recorded instant: the free end and the energies."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _spunlaid
@@ -71,12 +71,21 @@ class Spinline:
     def __dir__(self) -> list[str]:
         return sorted({*super().__dir__(), *self._measures})
 
-    def save(self, path: str | os.PathLike[str], *, force: bool = False) -> None:
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        force: bool = False,
+        figures: Sequence[str] | str | None = None,
+        figure_width: str | float | None = None,
+    ) -> None:
         """Writes the folder that `spunlaid spin` writes.
 
         force: whether results that the folder holds are replaced.
+        figures: the formats of the figures, `["pdf", "png"]`; SVG and PNG if it is left out
+        figure_width: their width in print, `"one-column"`, `"two-columns"`, `"90 mm"` or in metres; PNG then has 300 dpi
         """
-        self._solved.save(os.fspath(path), force)
+        self._solved.save(os.fspath(path), force, figures, figure_width)
 
     def report(self) -> str:
         """The report, one page of HTML that works offline."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -188,6 +188,8 @@ def sweep(
     client: Any = None,
     out: str | os.PathLike[str] | None = None,
     force: bool = False,
+    figures: Sequence[str] | str | None = None,
+    figure_width: str | float | None = None,
     points: int | None = None,
     replicates: int | None = None,
     set: Mapping[str, Any] | None = None,  # noqa: A002 - the word of study files
@@ -204,11 +206,15 @@ def sweep(
     out: the folder for journal, tables, figures and report, as `spunlaid sweep` writes it; a study that was stopped goes
         on from there. Without it, results are kept in memory only
     force: whether other results in the folder are replaced
+    figures, figure_width: how the figures in the folder are written, as of `Run.save`
     points: number of points, which more than 10,000 need
     replicates, set: as of `spunlaid sweep`
     threads: number of threads on this machine
     progress: None, True, False, or a function that gets the fibres or webs done and their number
     """
+    _spunlaid.check_figures(figures, figure_width)
+    if out is None and not (figures is None and figure_width is None):
+        raise ValueError('figures are written to a folder; name one: out = "results/study"')
     begun = _begin(study, out, force, points, replicates, set)
     with shown(progress, f"{len(begun)} points") as show:
         if client is None:
@@ -218,7 +224,7 @@ def sweep(
 
             fly(begun, client, show)
     if out is not None:
-        begun.write()
+        begun.write(figures, figure_width)
     return Study(begun)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _spunlaid
@@ -80,12 +80,21 @@ class Web:
 
         return of_web(self, what, ax)
 
-    def save(self, path: str | os.PathLike[str], *, force: bool = False) -> None:
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        force: bool = False,
+        figures: Sequence[str] | str | None = None,
+        figure_width: str | float | None = None,
+    ) -> None:
         """Writes the folder that `spunlaid web` writes.
 
         force: whether results that the folder holds are replaced.
+        figures: the formats of the figures, `["pdf", "png"]`; SVG and PNG if it is left out
+        figure_width: their width in print, `"one-column"`, `"two-columns"`, `"90 mm"` or in metres; PNG then has 300 dpi
         """
-        self._laid.save(os.fspath(path), force)
+        self._laid.save(os.fspath(path), force, figures, figure_width)
 
     def report(self) -> str:
         """The report, one page of HTML that works offline."""

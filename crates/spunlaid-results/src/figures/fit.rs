@@ -92,19 +92,19 @@ fn spectrum(fit: &Fit, direction: usize) -> Figure {
 
 /// How far the scan is from the fit.
 fn residuals(fit: &Fit) -> Figure {
-    let of = |wanted: fn(&Texture) -> Option<f64>| -> Vec<(f64, f64, Option<f64>)> {
+    let points = |wanted: fn(&Texture) -> Option<f64>| -> Vec<(f64, f64, Option<f64>)> {
         let point = |number: &FittedNumber| Some((wanted(&number.texture)? * MM, number.residual(), None));
         fit.numbers.iter().filter_map(point).collect()
     };
-    let patches = of(|texture| match texture {
+    let patches = points(|texture| match texture {
         Texture::Patch(side) => Some(*side),
         Texture::Band { .. } => None,
     });
-    let across = of(|texture| match texture {
+    let across = points(|texture| match texture {
         Texture::Band { direction: 0, waves } => Some((waves[0] * waves[1]).sqrt()),
         _ => None,
     });
-    let along = of(|texture| match texture {
+    let along = points(|texture| match texture {
         Texture::Band { direction: 1, waves } => Some((waves[0] * waves[1]).sqrt()),
         _ => None,
     });

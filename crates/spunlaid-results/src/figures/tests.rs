@@ -48,7 +48,7 @@ fn the_numbers_of_the_amplitude_are_those_of_the_results() {
     let results = sample::results(&case, 0.01);
     let figures = run_figures(&case, &results, &[]);
     let figure = figures.iter().find(|figure| figure.name == "amplitude_along_fibre").unwrap();
-    let text = figure.table.csv();
+    let text = figure.table().csv();
     let mut lines = text.lines();
     assert_eq!(lines.next(), Some("series,distance_mm,amplitude_along_the_fibre_mm,error"));
     let mut row = |wanted: &str| {
@@ -73,7 +73,7 @@ fn the_numbers_of_the_energies_are_not_thinned() {
     let results = sample::results(&case, 0.01);
     let figures = run_figures(&case, &results, &[]);
     let errors = figures.iter().find(|figure| figure.name == "energy_errors").unwrap();
-    let text = errors.table.csv();
+    let text = errors.table().csv();
     let values = |series: &str| -> Vec<f64> {
         let rows = text.lines().filter_map(|line| line.strip_prefix(series)?.strip_prefix(','));
         rows.map(|row| row.split(',').nth(1).unwrap().parse().unwrap_or(f64::NAN)).collect()

@@ -1,24 +1,23 @@
 //! The folder of a fit: its journal, and what is made from it.
 
+use super::journalled::{Journalled, Work};
 use crate::Failure;
-use crate::failure::{holds_results, not_a_folder, other_version};
+use crate::failure::{holds_results, other_version};
 use crate::figures::fit_figures;
 use crate::output::beside::{self, CASE_FILES};
 use crate::output::fit::{fit_json, trials_csv};
 use crate::output::folder::Staging;
-use crate::output::leftovers;
+use crate::output::origin::Origin;
 use crate::output::pictures::FigureFiles;
 use crate::report::{FitReport, fit_html};
 use spunlaid::error::Fault;
 use spunlaid::fit::{Fit, MOST_TRIALS, Target, identity, numbers_of_record};
 use spunlaid::input::{FitFile, LaydownSource, WebSpec, write_case, write_web};
 use spunlaid::study::{Header, Journal, JournalState};
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-const JOURNAL: &str = "journal";
 /// The files of a fit; the last one marks it as complete.
 const FILES: &[&str] = &["web.toml", "cases", CASE_FILES, "trials.csv", "figures", "report.html", "fit.json"];
 /// Files of other results.
@@ -27,7 +26,7 @@ const OF_OTHERS: &[&str] = &["summary.json", "results.csv", "analysis.json", "co
 /// A results folder that this process has locked.
 #[derive(Debug)]
 pub struct FitFolder<'a> {
-    path: PathBuf,
+    at: Journalled,
     stop: &'a AtomicBool,
     /// How figures are written.
     pub figures: FigureFiles,
@@ -60,6 +59,7 @@ impl<'a> FitFolder<'a> {
     /// Opens the folder to begin a fit, or to continue the same one. Returns its journal, and what that holds if there was one.
     ///
     /// * `force` – what the folder holds is replaced
+    /// * `origin` – the command that asks; a complete fit that the same one made before is replaced too, when this one is complete
     /// * `stop` – if this is set, nothing more is written
     ///
     /// # Errors
@@ -68,22 +68,21 @@ impl<'a> FitFolder<'a> {
         path: &Path,
         input: &FitInput<'_>,
         force: bool,
+        origin: Option<&Origin>,
         stop: &'a AtomicBool,
     ) -> Result<(Self, Journal, Option<JournalState>), Failure> {
-        if path.exists() && !path.is_dir() {
-            return Err(not_a_folder(path));
-        }
         let found = OF_OTHERS.iter().find(|name| path.join(name).exists());
         if let (false, Some(found)) = (force, found) {
             return Err(holds_results(path, found));
         }
-        fs::create_dir_all(path).map_err(Failure::unwritable(path))?;
-        let (mut journal, header) = Journal::open(&path.join(JOURNAL), force)?;
-        leftovers::remove_unclaimed(path);
         let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: input.identity() };
+        let (at, mut journal, header) =
+            Journalled::open(path, &Work { header: &wanted, entries: &[FILES], force, origin })?;
+        let path = at.place.as_path();
         let numbers = numbers_of_record(input.target);
         let state = match header {
             None => {
+                at.sign(origin)?;
                 journal.begin(&wanted, MOST_TRIALS, numbers)?;
                 None
             }
@@ -99,15 +98,20 @@ impl<'a> FitFolder<'a> {
             }
             Some(_) => Some(journal.go_on(MOST_TRIALS, input.webs, numbers)?),
         };
-        Ok((Self { path: path.to_owned(), stop, figures: FigureFiles::default() }, journal, state))
+        Ok((Self { at, stop, figures: FigureFiles::default() }, journal, state))
+    }
+
+    /// Whether it holds a fit that this one will replace.
+    pub const fn replaces(&self) -> bool {
+        self.at.replaces()
     }
 
     /// Writes the values, the figures, the report and the web with the values that were found.
     ///
     /// # Errors
     /// If a file cannot be written.
-    pub fn write(&self, input: &FitInput<'_>, fit: &Fit) -> Result<(), Failure> {
-        let mut staging = Staging::new(&self.path, FILES, true, self.stop)?;
+    pub fn write(&mut self, input: &FitInput<'_>, fit: &Fit) -> Result<(), Failure> {
+        let mut staging = Staging::new(&self.at.place, FILES, true, self.stop)?;
         staging.set_figures(&self.figures);
         let values: Vec<f64> = fit.keys.iter().map(|key| key.value).collect();
         let spec = input.file.web(&values)?.spec;
@@ -129,7 +133,8 @@ impl<'a> FitFolder<'a> {
         staging.write("trials.csv", trials_csv(fit))?;
         staging.write("report.html", report)?;
         staging.write("fit.json", fit_json(fit, target, paths, notes))?;
-        staging.publish()
+        staging.publish()?;
+        self.at.finish()
     }
 }
 

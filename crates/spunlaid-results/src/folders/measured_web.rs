@@ -4,6 +4,7 @@ use serde_json::Value as Json;
 use spunlaid::error::{Error, Fault};
 use spunlaid::fit::{MeasuredPatch, MeasuredWeb};
 use spunlaid::scan::{Doubt, Light, Settings, analyse, read};
+use spunlaid::web::Map;
 use std::fs;
 use std::path::Path;
 
@@ -27,13 +28,26 @@ pub fn read_measured_web(folder: &Path) -> Result<MeasuredWeb, Error> {
     let web = summary.get("web").ok_or_else(|| missing("web"))?;
     let cell = web["cell_m"].as_f64().ok_or_else(|| missing("cell_m of the web"))?;
     let all = web["patches"].as_array().ok_or_else(|| missing("patches of the web"))?;
-    let noise_is_out = summary["scan"]["noise"].as_f64().is_some();
+    let scan = &summary["scan"];
+    let doubt = match &scan["guess"] {
+        // A laid web.
+        _ if scan.is_null() => None,
+        Json::Null if scan.get("guess").is_some() => None,
+        guess => {
+            let known = Doubt::GUESSES.into_iter().find(|(name, _)| guess.as_str() == Some(name));
+            let known = known
+                .ok_or_else(|| refused("it was analysed by another version; analyse it again".to_owned()));
+            Some(known?.1)
+        }
+    };
+    let knows_noise = scan["noise"].as_f64().is_some();
     // A laid web has neither camera nor blur.
     let patch = |patch: &Json| {
         let number = |name: &str| patch[name].as_f64().unwrap_or(0.0);
         Some(MeasuredPatch {
             side: patch["patch_m"].as_f64()?,
-            noise: if noise_is_out { 0.0 } else { number("cv_noise") },
+            noise: number("cv_noise"),
+            knows_noise,
             blur: number("blur_of_a_pixel"),
         })
     };
@@ -47,16 +61,17 @@ pub fn read_measured_web(folder: &Path) -> Result<MeasuredWeb, Error> {
     let settings = Settings { patches: sides, ..Settings::new(Light::Weight { mean: None }) };
     let found = analyse(&read(&map, Some(cell)).map_err(Error::File)?, &settings).map_err(Error::File)?;
     Ok(MeasuredWeb {
-        map: found.map,
+        map: within(found.map, web),
         patches,
-        flat: summary["scan"]["shading"].as_f64().is_some(),
-        doubt: guess(all),
+        flat: scan["shading"].as_f64().is_some(),
+        doubt: doubt.map(|doubt| doubt.to_string()),
     })
 }
 
-/// What of the lamp is only a guess, as it stands beside every patch.
-fn guess(patches: &[Json]) -> Option<String> {
-    let guesses = [Doubt::White, Doubt::Shading].map(|doubt| doubt.to_string());
-    let reason = patches.first()?["no_interval"].as_str()?;
-    guesses.into_iter().find(|guess| guess == reason)
+/// The map without the strips at the edges of a laid web, which count as no web.
+fn within(map: Map, web: &Json) -> Map {
+    let margin =
+        |i: usize| (web["edges"]["margins_m"][i].as_f64().unwrap_or(0.0) / map.cell).round() as usize;
+    let inner = margin(0)..map.columns.saturating_sub(margin(1));
+    if inner.is_empty() { map } else { map.between(inner).into_owned() }
 }

@@ -4,6 +4,7 @@
 //! air        slices of the turbulent air as VTK and moving pictures, report, summary
 //! spinline   a solved spinline: the thread, figures, report, summary
 //! fit        the journal of a fit, and what is made from it
+//! journalled a folder with a journal, which fit and study share: begun, continued, replaced
 //! run        flies a case: tables while it flies, then figures, shapes, report, summary
 //! study      the folder of a study: its journal, and what is made from it
 //! web        map, single fibres, figures, report, summary
@@ -11,6 +12,7 @@
 
 pub mod air;
 pub mod fit;
+mod journalled;
 mod measured_web;
 pub mod run;
 pub mod spinline;

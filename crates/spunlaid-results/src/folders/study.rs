@@ -1,11 +1,12 @@
 //! The results folder of a study: checks its content, and writes the files.
 
+use super::journalled::{JOURNAL, Journalled, Work, remove};
 use crate::Failure;
-use crate::failure::{holds_results, not_a_folder, other_study, other_version};
+use crate::failure::{holds_results, other_study, other_version};
 use crate::figures::study_figures;
 use crate::output::beside::{self, CASE_FILES};
 use crate::output::folder::Staging;
-use crate::output::leftovers;
+use crate::output::origin::Origin;
 use crate::output::pictures::FigureFiles;
 use crate::output::{self};
 use crate::report::{StudyReport, study_html};
@@ -14,14 +15,13 @@ use spunlaid::error::Fault;
 use spunlaid::input::{StudyFile, StudyNote, differences};
 use spunlaid::study::{Experiment, Header, Journal, JournalState, PointResults, rankings};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-const JOURNAL: &str = "journal";
 const STUDY: &str = "study.toml";
 /// Files that describe the study.
 const DESCRIPTION: &[&str] = &[CASE_FILES, "case.toml", "web.toml", "spinline.toml", STUDY];
-/// Files that are made from the journal.
+/// Files that are made from the journal; the last one marks them as complete.
 const MADE: &[&str] =
     &["results.csv", "results.json", "results.parquet", "replicates.parquet", "figures", "report.html"];
 /// Files of other results, and the journal that studies of webs had before they were like all others.
@@ -31,7 +31,7 @@ const OF_OTHERS: &[&str] =
 /// A results folder that this process has locked.
 #[derive(Debug)]
 pub struct StudyFolder<'a> {
-    path: PathBuf,
+    at: Journalled,
     /// If this is set, nothing more is written.
     stop: &'a AtomicBool,
     figures: FigureFiles,
@@ -59,6 +59,7 @@ impl<'a> StudyFolder<'a> {
     /// Opens the folder to begin a study, or to continue the same study.
     ///
     /// * `force` – what the folder holds is replaced
+    /// * `origin` – the command that asks; a complete study that the same one made before is replaced too, when this one is complete
     /// * `stop` – if this is set, nothing more is written
     ///
     /// # Errors
@@ -67,26 +68,24 @@ impl<'a> StudyFolder<'a> {
         path: &Path,
         file: &StudyFile,
         force: bool,
+        origin: Option<&Origin>,
         stop: &'a AtomicBool,
     ) -> Result<(Self, Journal, State), Failure> {
-        if path.exists() && !path.is_dir() {
-            return Err(not_a_folder(path));
-        }
-        let at = path.join(JOURNAL);
-        if !force && !at.exists() {
+        if !force && !path.join(JOURNAL).exists() {
             holds_nothing_else(path)?;
         }
-        fs::create_dir_all(path).map_err(Failure::unwritable(path))?;
-        let folder = Self { path: path.to_owned(), stop, figures: FigureFiles::default() };
-        let (mut journal, header) = Journal::open(&at, force)?;
-        leftovers::remove_unclaimed(path);
         let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: file.study.identity() };
+        let (at, mut journal, header) =
+            Journalled::open(path, &Work { header: &wanted, entries: &[DESCRIPTION, MADE], force, origin })?;
+        let folder = Self { at, stop, figures: FigureFiles::default() };
+        let path = folder.at.place.as_path();
         let state = match header {
             None => {
                 if !force {
                     holds_nothing_else(path)?;
                 }
                 folder.begin(file)?;
+                folder.at.sign(origin)?;
                 journal.begin(&wanted, file.study.points.len(), file.study.quantities.len())?;
                 // The new file must survive a power cut. Some systems cannot sync folders, so an error is ignored.
                 let _ = fs::File::open(path).and_then(|folder| folder.sync_all());
@@ -110,8 +109,8 @@ impl<'a> StudyFolder<'a> {
                 }
                 // These files follow from the study, so they are restored if someone has removed them. They are
                 // renewed for more replicates.
-                let was = fs::read_to_string(folder.path.join(STUDY)).unwrap_or_default();
-                if was != file.text || !folder.path.join(file.base_name()).exists() {
+                let was = fs::read_to_string(path.join(STUDY)).unwrap_or_default();
+                if was != file.text || !path.join(file.base_name()).exists() {
                     folder.describe(file)?;
                 }
                 State::Begun(found)
@@ -127,12 +126,17 @@ impl<'a> StudyFolder<'a> {
 
     /// Where it is.
     pub fn path(&self) -> &Path {
-        &self.path
+        &self.at.path
+    }
+
+    /// Whether it holds a study that this one will replace.
+    pub const fn replaces(&self) -> bool {
+        self.at.replaces()
     }
 
     /// Collects the files that are made from the journal.
     fn staging(&self) -> Result<Staging<'a>, Failure> {
-        let mut staging = Staging::new(&self.path, MADE, true, self.stop)?;
+        let mut staging = Staging::new(&self.at.place, MADE, true, self.stop)?;
         staging.set_figures(&self.figures);
         Ok(staging)
     }
@@ -144,7 +148,7 @@ impl<'a> StudyFolder<'a> {
     /// # Errors
     /// If a file cannot be written, or the journal cannot be read.
     pub fn write(
-        &self,
+        &mut self,
         name: &str,
         file: &StudyFile,
         journal: &mut Journal,
@@ -171,19 +175,20 @@ impl<'a> StudyFolder<'a> {
         });
         staging.write("report.html", report)?;
         staging.publish()?;
+        self.at.finish()?;
         Ok(StudyResults { results, refusal })
     }
 
     /// Removes the files of an earlier study, and describes this one.
     fn begin(&self, file: &StudyFile) -> Result<(), Failure> {
         for name in OF_OTHERS.iter().chain(MADE) {
-            remove(&self.path.join(name))?;
+            remove(&self.at.place.join(name))?;
         }
         self.describe(file)
     }
 
     fn describe(&self, file: &StudyFile) -> Result<(), Failure> {
-        let staging = Staging::new(&self.path, DESCRIPTION, true, self.stop)?;
+        let staging = Staging::new(&self.at.place, DESCRIPTION, true, self.stop)?;
         staging.write(file.base_name(), keep_files(file, &staging)?)?;
         staging.write(STUDY, &file.text)?;
         staging.publish()
@@ -193,10 +198,10 @@ impl<'a> StudyFolder<'a> {
     fn other(self, file: &StudyFile) -> Failure {
         let mut all = Vec::new();
         for (name, now) in [(STUDY, &file.text), (file.base_name(), &file.base_text)] {
-            let was = fs::read_to_string(self.path.join(name)).unwrap_or_default();
+            let was = fs::read_to_string(self.at.place.join(name)).unwrap_or_default();
             all.extend(differences(&was, now).into_iter().map(|line| format!("{name}: {line}")));
         }
-        other_study(&self.path, all)
+        other_study(&self.at.place, all)
     }
 }
 
@@ -223,13 +228,4 @@ fn holds_nothing_else(path: &Path) -> Result<(), Failure> {
         Some(found) => Err(holds_results(path, found)),
         None => Ok(()),
     }
-}
-
-fn remove(path: &Path) -> Result<(), Failure> {
-    let removed = match path.symlink_metadata() {
-        Err(_) => return Ok(()),
-        Ok(about) if about.is_dir() => fs::remove_dir_all(path),
-        Ok(_) => fs::remove_file(path),
-    };
-    removed.map_err(Failure::unwritable(path))
 }

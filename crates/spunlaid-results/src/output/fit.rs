@@ -3,7 +3,9 @@
 use super::json_text;
 use crate::numbers::significant;
 use serde_json::{Value as Json, json};
-use spunlaid::fit::{Fit, FittedKey, FittedNumber, KeyDoubt, Parameter, Target, Texture};
+use spunlaid::fit::{
+    Fit, FittedKey, FittedNumber, IntervalEnd, KeyDoubt, Parameter, Target, Texture, USUAL_WEBS,
+};
 
 /// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
 const SCHEMA_VERSION: u32 = 1;
@@ -24,6 +26,7 @@ pub fn fit_json(fit: &Fit, target: &Target, [web, scan]: [&str; 2], notes: &[Str
             "value": key.value,
             "interval": key.interval.as_ref().ok(),
             "no_interval": key.interval.as_ref().err(),
+            "ends": key.ends.map(name_of_end),
             "doubt": key.doubt.map(doubt),
             "profile": profile,
         })
@@ -88,8 +91,17 @@ pub fn trials_csv(fit: &Fit) -> String {
 pub fn doubt(doubt: KeyDoubt) -> &'static str {
     match doubt {
         KeyDoubt::NoEffect => "it changes nothing of what is compared",
-        KeyDoubt::Unknown => "the scan does not know it: every value of the range will do",
+        KeyDoubt::Unknown => "the scan does not determine it: every value of the range will do",
         KeyDoubt::AtEnd => "it lies at an end of its range",
+    }
+}
+
+/// The name of what is known of an end of an interval.
+const fn name_of_end(end: IntervalEnd) -> &'static str {
+    match end {
+        IntervalEnd::Tried => "tried",
+        IntervalEnd::OfRange => "end-of-range",
+        IntervalEnd::Straight => "straight-line",
     }
 }
 
@@ -102,7 +114,14 @@ pub fn pretty(parameter: &Parameter, value: f64) -> String {
 pub fn value_and_interval(key: &FittedKey) -> [String; 2] {
     let pretty = |value: f64| pretty(&key.parameter, value);
     let interval = match &key.interval {
-        Ok([low, high]) => format!("{} to {}", pretty(*low), pretty(*high)),
+        Ok([low, high]) => {
+            // Brackets where the interval may go on.
+            let brackets = |i: usize, bracket: &'static str| {
+                if key.ends[i] == IntervalEnd::OfRange { bracket } else { "" }
+            };
+            let [open, close] = [brackets(0, "≤ "), brackets(1, " and more")];
+            format!("{open}{} to {}{close}", pretty(*low), pretty(*high))
+        }
         Err(reason) => format!("none: {reason}"),
     };
     [pretty(key.value), interval]
@@ -111,27 +130,48 @@ pub fn value_and_interval(key: &FittedKey) -> [String; 2] {
 /// What the fit says, sentence by sentence: whether such webs can look like the scan, and what the scan does not know.
 pub fn sentences(fit: &Fit) -> Vec<String> {
     let mut all = Vec::new();
-    let share = format!("{} of {} simulated webs", fit.worse, fit.webs);
-    all.push(if fit.worse == 0 {
+    let (worse, webs) = (fit.worse, fit.webs);
+    all.push(if worse > 0 {
         format!(
-            "No value of these keys makes webs like the scan: its misfit is larger than that of each of the {} simulated webs, taken as the scan. \
-             Seek other keys, or look at the figure of what the fit leaves.",
-            fit.webs
+            "Webs of these values can look like the scan: {worse} of {webs} simulated webs differ more from the others than the scan does."
         )
     } else {
-        format!("Webs of these values can look like the scan: {share}, each taken as the scan, have a larger misfit.")
+        let chance = significant(100.0 / (webs as f64 + 1.0), 2);
+        let others = if webs < USUAL_WEBS {
+            format!("Ask again with --webs {USUAL_WEBS} or more before you believe it.")
+        } else {
+            "Seek other keys, or look at the figure of what the fit leaves.".to_owned()
+        };
+        format!(
+            "No value of these keys makes webs like the scan: it differs more from the {webs} simulated webs than any of them from the others. By \
+             chance alone this happens with {chance} % of such scans. {others}"
+        )
     });
     for key in &fit.keys {
+        let name = &key.parameter.key;
         if let Some(found) = key.doubt {
-            let name = &key.parameter.key;
             let advice = match found {
-                KeyDoubt::NoEffect => "leave it out",
+                KeyDoubt::NoEffect => "do not seek it",
                 KeyDoubt::Unknown => {
                     "leave it at a value that you know, or compare the spectrum too (--spectrum)"
                 }
                 KeyDoubt::AtEnd => "give it a wider range, if values beyond it make sense",
             };
             all.push(format!("{name}: {}; {advice}.", doubt(found)));
+        }
+        let Ok(interval) = &key.interval else { continue };
+        for (end, value) in key.ends.iter().zip(interval) {
+            let value = pretty(&key.parameter, *value);
+            match end {
+                IntervalEnd::OfRange if key.doubt.is_none() => all.push(format!(
+                    "{name}: {value} is the end of its range, not that of its interval. Values beyond it may look like the scan as well; give it \
+                     a wider range if they make sense."
+                )),
+                IntervalEnd::Straight => all.push(format!(
+                    "{name}: the end {value} of its interval is an estimate by straight lines, because few or no webs could be laid there."
+                )),
+                _ => {}
+            }
         }
     }
     for pair in &fit.alike {
@@ -147,7 +187,7 @@ pub fn sentences(fit: &Fit) -> Vec<String> {
             "a change of the first with one of the second".to_owned()
         };
         all.push(format!(
-            "The scan cannot tell {} and {} apart (correlation {}): {how} leaves it almost as it is. Measure one of them otherwise, and leave it out.",
+            "The scan cannot tell {} and {} apart (correlation {}): {how} leaves it almost as it is. Measure one of them in another way, write its value in the file, and do not seek it.",
             one.key,
             other.key,
             significant(pair.correlation, 2)

@@ -73,17 +73,16 @@ impl<'a> Staging<'a> {
         Self::prepare(folder, entries, replace, None, stop)
     }
 
-    /// [`Staging::new`]. Results of the same origin are replaced in any case; `entries` have [`ORIGIN`].
+    /// [`Staging::new`]. Results of the same origin, if there is one, are replaced in any case; `entries` have [`ORIGIN`].
     pub fn with_origin(
         folder: &Path,
         entries: &'static [&'static str],
         replace: bool,
-        origin: Origin,
+        origin: Option<Origin>,
         stop: &'a AtomicBool,
     ) -> Result<Self, Failure> {
-        let staging = Self::prepare(folder, entries, replace, Some(origin), stop)?;
-        let text = staging.origin.as_ref().map_or("", Origin::text);
-        staging.write(ORIGIN, text)?;
+        let staging = Self::prepare(folder, entries, replace, origin, stop)?;
+        staging.origin.iter().try_for_each(|origin| staging.write(ORIGIN, origin.text()))?;
         Ok(staging)
     }
 

@@ -13,14 +13,14 @@ pub(super) struct NeighboursSummary {
 }
 
 impl NeighboursSummary {
-    pub(super) fn of(results: &Results) -> Self {
-        let of = |direction: &str| {
+    pub(super) fn new(results: &Results) -> Self {
+        let correlations = |direction: &str| {
             let before = format!("neighbours_{direction}_");
             let is_one = |curve: &&Curve| curve.measure.kind == Kind::Neighbour;
             let curves = results.curves.iter().filter(is_one);
             distances(curves.filter_map(|curve| Some((curve.measure.column.strip_prefix(&before)?, curve))))
         };
-        Self { cd: of("cd"), md: of("md") }
+        Self { cd: correlations("cd"), md: correlations("md") }
     }
 
     pub(super) fn is_empty(&self) -> bool {

@@ -6,7 +6,7 @@ use std::path::{Component, Path, PathBuf};
 /// The file in a results folder.
 pub const ORIGIN: &str = "origin.toml";
 
-/// The command that makes results: its file and the values that it changes. The same command may replace what it wrote before.
+/// The command that makes results: its files and its options. The same command may replace what it wrote before.
 #[derive(Clone, Debug)]
 pub struct Origin {
     text: String,
@@ -14,29 +14,27 @@ pub struct Origin {
 
 impl Origin {
     /// * `command` – its name, `run`
-    /// * `file` – the file that it reads
-    /// * `changes` – keys with the values that replace those of the file
+    /// * `files` – the files or folders that it reads
+    /// * `options` – those that decide what the results are
     /// * `folder` – of the results
-    pub fn new(command: &str, file: &Path, changes: &[(String, String)], folder: &Path) -> Self {
-        let changes: Vec<String> =
-            changes.iter().map(|(key, value)| format!("{:?}", format!("{key}={value}"))).collect();
-        let file = relative(&whole(folder), &whole(file));
+    pub fn new(command: &str, files: &[&Path], options: &[String], folder: &Path) -> Self {
+        let folder = whole(folder);
+        let files = files.iter().map(|file| relative(&folder, &whole(file)).to_string_lossy().into_owned());
         let text = format!(
-            "# `spunlaid {command}` of this file, seen from this folder, replaces these results when it runs again with the same changes.\n\
-             command = \"{command}\"\nfile = {:?}\nchanges = [{}]\n",
-            file.to_string_lossy(),
-            changes.join(", ")
+            "# `spunlaid {command}` of these files, seen from this folder, replaces these results when it runs again with the same options.\n\
+             command = \"{command}\"\nfiles = {:?}\noptions = {options:?}\n",
+            files.collect::<Vec<_>>()
         );
         Self { text }
     }
 
     /// The text of the file.
-    pub(super) fn text(&self) -> &str {
+    pub(crate) fn text(&self) -> &str {
         &self.text
     }
 
     /// Whether the results in a folder were made by this command.
-    pub(super) fn is_of(&self, folder: &Path) -> bool {
+    pub(crate) fn is_of(&self, folder: &Path) -> bool {
         fs::read_to_string(folder.join(ORIGIN)).is_ok_and(|text| text == self.text)
     }
 }
@@ -74,21 +72,21 @@ mod tests {
     }
 
     #[test]
-    fn only_the_same_command_file_and_changes_are_the_same_origin() {
+    fn only_the_same_command_files_and_options_are_the_same_origin() {
         let place = tempfile::tempdir().unwrap();
         let folder = place.path().join("results/my");
         let file = place.path().join("my.toml");
-        let change = [("air.velocity".to_owned(), "20 m/s".to_owned())];
-        let first = Origin::new("run", &file, &change, &folder);
+        let options = ["--set air.velocity=20 m/s".to_owned()];
+        let first = Origin::new("run", &[&file], &options, &folder);
         fs::create_dir_all(&folder).unwrap();
         assert!(!first.is_of(&folder), "an empty folder is of nothing");
         fs::write(folder.join(ORIGIN), first.text()).unwrap();
         // The folder exists now, which changes nothing.
-        assert!(Origin::new("run", &file, &change, &folder).is_of(&folder));
+        assert!(Origin::new("run", &[&file], &options, &folder).is_of(&folder));
         let others = [
-            Origin::new("web", &file, &change, &folder),
-            Origin::new("run", &place.path().join("other.toml"), &change, &folder),
-            Origin::new("run", &file, &[], &folder),
+            Origin::new("web", &[&file], &options, &folder),
+            Origin::new("run", &[&place.path().join("other.toml")], &options, &folder),
+            Origin::new("run", &[&file], &[], &folder),
         ];
         assert!(others.iter().all(|other| !other.is_of(&folder)));
     }

@@ -3,6 +3,7 @@
 use crate::Failure;
 use crate::failure::undrawable;
 use spunlaid::threads::each;
+use spunlaid::units::Dimension;
 use spunlaid_charts::{Figure, PictureError, pdf, png};
 use std::borrow::Borrow;
 use std::thread::available_parallelism;
@@ -29,6 +30,16 @@ impl Format {
             Self::Png => "png",
             Self::Pdf => "pdf",
         }
+    }
+
+    /// The format of this name.
+    ///
+    /// # Errors
+    /// What to write, if there is none.
+    pub fn named(name: &str) -> Result<Self, String> {
+        let known = Self::ALL.into_iter().find(|format| format.name().eq_ignore_ascii_case(name.trim()));
+        known
+            .ok_or_else(|| "write svg, png or pdf, or several of them with commas, as pdf,svg,png".to_owned())
     }
 }
 
@@ -59,6 +70,29 @@ const SCREEN: u32 = 192;
 /// What files say about the program.
 const SOFTWARE: &str = concat!("spunlaid ", env!("CARGO_PKG_VERSION"));
 
+/// The width of figures in print [m] that is named, `one-column`, or given as a length.
+///
+/// # Errors
+/// What to write, if it is none of these or not between the [`WIDTHS`].
+pub fn width_named(text: &str) -> Result<f64, String> {
+    let [one, two] = COLUMNS;
+    let [narrowest, widest] = WIDTHS;
+    let width = match text.trim() {
+        "one-column" => return Ok(one),
+        "two-columns" => return Ok(two),
+        length => Dimension::Length.parse(length).ok(),
+    };
+    width.filter(|width| (narrowest..=widest).contains(width)).ok_or_else(|| {
+        format!(
+            "write one-column ({} mm), two-columns ({} mm), or a width from {} to {} mm, as \"90 mm\"",
+            one * 1e3,
+            two * 1e3,
+            narrowest * 1e3,
+            widest * 1e3
+        )
+    })
+}
+
 impl FigureFiles {
     /// Passes the name and content of each file of the figures to `write`, in order.
     ///
@@ -70,11 +104,14 @@ impl FigureFiles {
         mut write: impl FnMut(String, &[u8]) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
         let threads = available_parallelism().map_or(1, usize::from);
-        let drawn = each(threads, figures.len(), |i| self.drawn(figures[i].borrow()));
-        for (figure, files) in figures.iter().map(F::borrow).zip(drawn) {
-            write(format!("{}.csv", figure.name), figure.table.csv().as_bytes())?;
-            for (format, content) in self.formats.iter().zip(files?) {
-                write(format!("{}.{}", figure.name, format.name()), &content)?;
+        // A few at a time: the pictures of many points are large, and only those of these few are held.
+        for figures in figures.chunks(threads) {
+            let drawn = each(threads, figures.len(), |i| self.drawn(figures[i].borrow()));
+            for (figure, files) in figures.iter().map(F::borrow).zip(drawn) {
+                write(format!("{}.csv", figure.name), figure.table().csv().as_bytes())?;
+                for (format, content) in self.formats.iter().zip(files?) {
+                    write(format!("{}.{}", figure.name, format.name()), &content)?;
+                }
             }
         }
         Ok(())
@@ -93,5 +130,25 @@ impl FigureFiles {
         };
         let undrawable = |reason: PictureError| undrawable(&figure.name, &reason.to_string());
         self.formats.iter().map(|format| file(format).map_err(undrawable)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_and_lengths_are_widths() {
+        assert_eq!(
+            ["one-column", "two-columns", "90 mm", "9cm"].map(|text| width_named(text).unwrap()),
+            [84e-3, 174e-3, 90e-3, 9.0 / 100.0]
+        );
+        for wrong in ["3 columns", "90", "5 mm", "1 m", "NaN mm"] {
+            let message = width_named(wrong).unwrap_err();
+            assert!(
+                message.contains("one-column (84 mm), two-columns (174 mm), or a width from 60 to 400 mm"),
+                "{message}"
+            );
+        }
     }
 }

@@ -152,7 +152,7 @@ impl<'a> Summary<'a> {
             lost: results.lost.len(),
             lost_fibres: results.lost.iter().map(lost_summary).collect(),
             measures,
-            neighbours: NeighboursSummary::of(results),
+            neighbours: NeighboursSummary::new(results),
             step_check: checks.step.as_ref().ok().map(FinerSummary::new),
             mesh_check: checks.mesh.as_ref().ok().map(FinerSummary::new),
             performance,

@@ -134,7 +134,8 @@ impl AdviceSection {
             let key = |changed: &ChangedKey| changed.key.clone();
             let keys = effect.change.keys.iter().map(key).collect::<Vec<_>>().join(", ");
             let cv = |patch: &f64| effect.over(*patch).map_or_else(|| "–".to_owned(), per_cent);
-            let line = [effect.belt_speed[1], HOUR * effect.mass_flow[1]].map(|of| significant(of, 4));
+            let line =
+                [effect.belt_speed[1], HOUR * effect.mass_flow[1]].map(|number| significant(number, 4));
             let cells = patches.iter().map(cv).chain(line).collect();
             (more_or_less(&effect.change, spec), keys, cells)
         };
@@ -148,6 +149,9 @@ impl AdviceSection {
             "which counts both maps as independent"
         } else if is_known(spec) {
             "from paths with the same random numbers before and after; the lay-down itself (σ MD, σ CD, A) is taken as it is, because no fibre was flown"
+        } else if spec.layers.iter().any(|layer| layer.source.case().is_none()) {
+            "from paths with the same random numbers before and after; that few fibres of the flown layers were flown is not in it, and the lay-down of the \
+             others is taken as it is"
         } else {
             "over the flown fibres, each compared with itself in the same gusts before the change"
         };

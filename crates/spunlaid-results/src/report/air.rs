@@ -51,7 +51,7 @@ struct Moving<'a> {
 }
 
 impl<'a> Moving<'a> {
-    fn of(Picture { figure, moving }: &'a Picture) -> Self {
+    fn new(Picture { figure, moving }: &'a Picture) -> Self {
         Self {
             name: &figure.name,
             title: &figure.title,
@@ -71,7 +71,7 @@ pub fn air_html(input: &AirReport<'_>) -> String {
         summary,
         methods_paragraph: Methods::new("air", case_account(input.case), found),
         notes: input.notes,
-        pictures: input.pictures.iter().map(Moving::of).collect(),
+        pictures: input.pictures.iter().map(Moving::new).collect(),
         toml: write_case(input.case),
         version: env!("CARGO_PKG_VERSION"),
     })

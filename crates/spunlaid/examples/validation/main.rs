@@ -5,8 +5,11 @@
 // The tests' shared models come with the licences of tests.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
+#[path = "../../tests/common/closed_loops.rs"]
+mod closed_loops;
 #[path = "../../tests/common/mod.rs"]
 mod common;
+mod fits;
 mod flights;
 mod mechanics;
 #[path = "../../tests/common/scans.rs"]
@@ -19,6 +22,9 @@ fn main() {
     let asked = |what: &str| std::env::args().any(|word| word == what);
     if asked("webs") {
         return webs::intervals();
+    }
+    if asked("fits") {
+        return fits::intervals();
     }
     if asked("scans") {
         scans::intervals();

@@ -180,7 +180,9 @@ impl Unevennesses {
                     let (here, there) =
                         (here.map, there.iter().find(|there| there.map.patch == here.map.patch)?.map);
                     let ratio = there.cv / here.cv;
-                    let share = |of: Unevenness| of.standard_error.map_or(f64::NAN, |error| error / of.cv);
+                    let share = |unevenness: Unevenness| {
+                        unevenness.standard_error.map_or(f64::NAN, |error| error / unevenness.cv)
+                    };
                     let standard_error = ratio * share(here).hypot(share(there));
                     Some(CvChange {
                         patch: here.patch,

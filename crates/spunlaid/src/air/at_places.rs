@@ -110,9 +110,9 @@ impl Task for Look<'_> {
         let mut all = Vec::with_capacity(self.places.len());
         let fields = EddyFields::new([self.field; WIDTH]);
         for eight in self.places.chunks(WIDTH) {
-            let coordinate = |of: fn(&Vec3<f64>) -> f64| {
+            let coordinate = |component: fn(&Vec3<f64>) -> f64| {
                 let mut lanes = Lanes::ZERO;
-                lanes.0.iter_mut().zip(eight).for_each(|(lane, place)| *lane = of(place));
+                lanes.0.iter_mut().zip(eight).for_each(|(lane, place)| *lane = component(place));
                 lanes
             };
             let at = Vec3::new(coordinate(|p| p.x), coordinate(|p| p.y), coordinate(|p| p.z));

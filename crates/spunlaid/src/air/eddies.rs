@@ -38,14 +38,14 @@ impl Eddies {
     pub fn along(length: f64, elements: usize, length_scale: f64) -> Self {
         let size = length / elements as f64;
         // A centre on a border belongs to the next eddy, also when rounding puts it just before the border.
-        Self::of((0..elements).map(|j| ((j as f64 + 0.5) * size / length_scale + 1e-9).floor() as u32))
+        Self::collect((0..elements).map(|j| ((j as f64 + 0.5) * size / length_scale + 1e-9).floor() as u32))
     }
 
     /// Eddies whose length is the length scale [m] at the arc length [m] where they begin, but at least one element.
     pub fn growing(length: f64, elements: usize, length_scale: impl Fn(f64) -> f64) -> Self {
         let size = length / elements as f64;
         let (mut eddy, mut end) = (0, length_scale(0.0).max(size));
-        Self::of((0..elements).map(|j| {
+        Self::collect((0..elements).map(|j| {
             if (j as f64 + 0.5) * size >= end * (1.0 - 1e-9) {
                 (eddy, end) = (eddy + 1, end + length_scale(end).max(size));
             }
@@ -55,7 +55,7 @@ impl Eddies {
 
     /// One eddy for every element, for a pattern that is carried along the fibre.
     pub fn of_each(elements: usize) -> Self {
-        Self::of(0..elements as u32)
+        Self::collect(0..elements as u32)
     }
 
     /// The same eddies along a fibre with fewer elements, each of which feels the one at its middle, or the one before.
@@ -68,7 +68,7 @@ impl Eddies {
         Self { of_element: middles.collect(), count: self.count }
     }
 
-    fn of(eddies: impl Iterator<Item = u32>) -> Self {
+    fn collect(eddies: impl Iterator<Item = u32>) -> Self {
         let of_element: Vec<u32> = eddies.collect();
         let count = of_element.last().map_or(0, |&last| last as usize + 1);
         Self { of_element, count }

@@ -24,8 +24,9 @@ pub struct EddyTurbulence {
 impl EddyTurbulence {
     /// Whether the energy spectra of two eddies are the same.
     pub(super) fn same_spectrum(&self, other: &Self) -> bool {
-        let of = |turbulence: &Self| (turbulence.rms, turbulence.cutoff_frequency, turbulence.integral_time);
-        of(self) == of(other)
+        let numbers =
+            |turbulence: &Self| (turbulence.rms, turbulence.cutoff_frequency, turbulence.integral_time);
+        numbers(self) == numbers(other)
     }
 
     /// Energy spectrum of a component of its signal. The spacing of the harmonics is the same in every eddy, so

@@ -135,18 +135,18 @@ impl Air {
             Flow::Field(placed) => {
                 let mut around = placed.around(at, hint);
                 let [u, v, w, root_k] = around.value.map(|value| value * self.speed_factor);
-                around.gradients = around.gradients.map(|of| of.map(|change| change * self.speed_factor));
+                around.gradients =
+                    around.gradients.map(|gradient| gradient.map(|change| change * self.speed_factor));
                 let rms_per_root = (2.0_f64 / 3.0).sqrt();
                 let rms = if self.from_flow.turbulence_intensity {
-                    around.gradients.iter_mut().for_each(|of| of[3] *= rms_per_root);
+                    around.gradients.iter_mut().for_each(|gradient| gradient[3] *= rms_per_root);
                     rms_per_root * root_k
                 } else {
                     let speed = Vec3::new(u, v, w).norm();
                     let per_speed = if speed > 0.0 { self.turbulence_intensity / speed } else { 0.0 };
-                    around
-                        .gradients
-                        .iter_mut()
-                        .for_each(|of| of[3] = per_speed * (u * of[0] + v * of[1] + w * of[2]));
+                    around.gradients.iter_mut().for_each(|gradient| {
+                        gradient[3] = per_speed * (u * gradient[0] + v * gradient[1] + w * gradient[2])
+                    });
                     self.turbulence_intensity * speed
                 };
                 AirAround { value: [u, v, w, rms], ..around }
@@ -236,7 +236,8 @@ impl Air {
                     std::array::from_fn(|i| (after[i] - before[i]) / (2.0 * h))
                 });
             }
-            let squares: f64 = gradients.iter().flat_map(|of| &of[..3]).map(|change| change * change).sum();
+            let squares: f64 =
+                gradients.iter().flat_map(|gradient| &gradient[..3]).map(|change| change * change).sum();
             if inside { squares.sqrt() } else { 0.0 }
         };
         (0..PLACES).map(gradient).fold(0.0, f64::max)
@@ -309,7 +310,9 @@ impl Air {
             return;
         }
         let local = self.sampled(along);
-        let mean = |of: &dyn Fn(&LocalAir) -> f64| local.iter().map(of).sum::<f64>() / local.len() as f64;
+        let mean = |quantity: &dyn Fn(&LocalAir) -> f64| {
+            local.iter().map(quantity).sum::<f64>() / local.len() as f64
+        };
         let speed = mean(&|air| air.velocity.norm());
         self.velocity = if mean(&|air| air.velocity.x) < 0.0 { -speed } else { speed };
         if self.from_flow.turbulence_intensity && speed > 0.0 {

@@ -26,6 +26,16 @@ impl<T> FileContent<T> {
         Self { parts: parts.into(), ..self }
     }
 
+    /// The same content with a checksum that tells it from the content of the same file read in another way.
+    ///
+    /// * `way` – empty if there is only one
+    #[must_use]
+    pub(crate) fn read_as(self, way: &str) -> Self {
+        let mut sum = crc32fast::Hasher::new_with_initial(self.checksum);
+        sum.update(way.as_bytes());
+        Self { checksum: sum.finalize(), ..self }
+    }
+
     /// Path of the file.
     pub fn path(&self) -> &Path {
         &self.path
@@ -36,7 +46,7 @@ impl<T> FileContent<T> {
         &self.parts
     }
 
-    /// Checksum of the file and its parts.
+    /// Checksum of the file and its parts, and of the way in which they were read.
     pub const fn checksum(&self) -> u32 {
         self.checksum
     }

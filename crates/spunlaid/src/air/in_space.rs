@@ -77,7 +77,7 @@ impl AirInSpace {
     ) -> Self {
         let fields: Vec<&Arc<EddyField>> = lanes.iter().map(|(_, _, field, _)| field).collect();
         let (mut lane, mut last) = (0, None::<(Arc<EddyField>, WayFlow)>);
-        let in_field = lanes.of(0).0.flow.is_field();
+        let in_field = lanes.lane(0).0.flow.is_field();
         Self {
             fields: lanes.map(|(_, _, field, _)| {
                 let same_as = fields.iter().position(|other| Arc::ptr_eq(other, field)).unwrap_or(lane);
@@ -86,7 +86,8 @@ impl AirInSpace {
             }),
             places: lanes.map(|(_, place, _, _)| *place),
             means: lanes.map(|(air, _, field, distance)| {
-                let known = last.take().filter(|(of, _)| of.has_air_of(field)).map(|(_, means)| means);
+                let known =
+                    last.take().filter(|(before, _)| before.has_air_of(field)).map(|(_, means)| means);
                 let means = known.unwrap_or_else(|| WayFlow::new(air, *distance));
                 last = Some((Arc::clone(field), means.clone()));
                 means
@@ -110,7 +111,7 @@ impl AirInSpace {
 
     /// Lets go of what has been made of the fields, so that their owners can forget it.
     pub(crate) fn release(&mut self) {
-        let unmade = Arc::new(self.fields.of(0).field.unmade());
+        let unmade = Arc::new(self.fields.lane(0).field.unmade());
         self.give(&unmade);
     }
 
@@ -184,8 +185,8 @@ impl AirInSpace {
         }
         let per_step = self.elements.per_step();
         let half = Wide::<S>::splat(0.5);
-        let fields = EddyFields::new(from_fn(|lane| &*self.fields.of(lane).field));
-        let means: [&WayFlow; WIDTH] = from_fn(|lane| self.means.of(lane));
+        let fields = EddyFields::new(from_fn(|lane| &*self.fields.lane(lane).field));
+        let means: [&WayFlow; WIDTH] = from_fn(|lane| self.means.lane(lane));
         let places =
             Vec3::new(Lanes::ZERO, self.places.lanes(|place| place.y), self.places.lanes(|place| place.z));
         for (j, (ends, element)) in position.windows(2).zip(self.elements.each()).enumerate() {

@@ -127,17 +127,17 @@ impl Air {
 
     /// The files that the air was read from, each with the parts that it names, relative to its folder.
     pub fn files(&self) -> Vec<(&Path, &[PathBuf])> {
-        fn of<T>(file: &FileContent<T>) -> (&Path, &[PathBuf]) {
+        fn paths<T>(file: &FileContent<T>) -> (&Path, &[PathBuf]) {
             (file.path(), file.parts())
         }
-        let mut files: Vec<_> = self.records.iter().map(of).collect();
+        let mut files: Vec<_> = self.records.iter().map(paths).collect();
         match &self.flow {
             Flow::Uniform => {}
-            Flow::Profile(profile) => files.push(of(profile)),
-            Flow::Field(placed) => files.push(of(&placed.field)),
+            Flow::Profile(profile) => files.push(paths(profile)),
+            Flow::Field(placed) => files.push(paths(&placed.field)),
         }
         if let SpectrumShape::Measured(table) = &self.spectrum {
-            files.push(of(table));
+            files.push(paths(table));
         }
         files
     }

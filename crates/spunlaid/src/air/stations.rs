@@ -71,7 +71,7 @@ impl Air {
     /// The turbulence at each station; its mean is zero. In a uniform flow it has the flow's rms, otherwise rms one.
     pub fn turbulence_at(&self, grid: &StationGrid) -> Vec<EddyTurbulence> {
         let mut turbulence = self.turbulence_along(grid.along(), grid.count, &grid.eddies());
-        turbulence.iter_mut().for_each(|of| of.mean = 0.0);
+        turbulence.iter_mut().for_each(|eddy| eddy.mean = 0.0);
         turbulence
     }
 
@@ -81,7 +81,7 @@ impl Air {
         let (mut common, mut own) = (0.0, (0.0, 0.0));
         let spacing = std::f64::consts::TAU / self.repeat_time();
         for component in 0..3 {
-            let amplitudes = [upper, lower].map(|of| of.spectrum(self, component).amplitudes());
+            let amplitudes = [upper, lower].map(|end| end.spectrum(self, component).amplitudes());
             for (n, (a, b)) in amplitudes[0].iter().zip(&amplitudes[1]).enumerate() {
                 common += a * b * libm::cos((n as f64 + 0.5) * spacing * time);
             }
@@ -105,7 +105,7 @@ shared! {
 
 impl Way {
     /// * `every` – steps from one look to the next
-    pub(crate) fn of(air: &Air, grid: &StationGrid, every: u64) -> Self {
+    pub(crate) fn from_air(air: &Air, grid: &StationGrid, every: u64) -> Self {
         Self {
             stations: grid.count,
             every: every.max(1),
@@ -368,7 +368,7 @@ mod tests {
                 .collect();
             let lanes = PerLane::new(vec![(air.clone(), grid)]).unwrap();
             let middle = PerLane::new(vec![Place::default()]).unwrap();
-            let stations = Stations::new(Way::of(&air, &grid, 1), &lanes, &middle, position.len() - 1);
+            let stations = Stations::new(Way::from_air(&air, &grid, 1), &lanes, &middle, position.len() - 1);
             Self { grid, air: Atmosphere::Way(wind, stations), position, looks: 0 }
         }
 
@@ -464,7 +464,7 @@ mod tests {
             let position: Vec<_> = (1..25)
                 .map(|j| Vec3::splat(Vec3::new(0.02 * f64::from(j), 1e-3 * f64::from(j), 2e-3)))
                 .collect();
-            let stations = Stations::new(Way::of(&air, &grid, 1), &lanes, &places, position.len() - 1);
+            let stations = Stations::new(Way::from_air(&air, &grid, 1), &lanes, &places, position.len() - 1);
             let mut air_at_fibre = Atmosphere::Way(wind, stations);
             let now = Instant { step: 0, time: 0.0 };
             let Velocities::Way(velocities) = air_at_fibre.look::<Plain>(now, &position) else {

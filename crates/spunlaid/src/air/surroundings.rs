@@ -168,7 +168,7 @@ impl Surroundings {
         let (nearby, hints) = (&mut self.nearby[element], &mut self.hints[element]);
         for (lane, hint) in hints.iter_mut().enumerate().filter(|(lane, _)| beyond.0[*lane] > 0.0) {
             let at = centre.lane(lane);
-            let (air, root) = self.airs.of(lane);
+            let (air, root) = self.airs.lane(lane);
             let in_slot = Vec3::new(at.x, at.y + root.y, at.z);
             let AirAround { value, gradients, reach, inside } = air.around(in_slot, hint);
             nearby.at.set_lane(lane, at);

@@ -167,8 +167,8 @@ impl Neighbours {
                 let [a, b] = pair.map(|i| (means[i][direction], sums.filaments[i][direction]));
                 let product = sums.products[distance][*number][direction];
                 moments.product += product - a.0 * b.1[0] - b.0 * a.1[0] + points * a.0 * b.0;
-                for (squares, (mean, [sum, of])) in moments.squares.iter_mut().zip([a, b]) {
-                    *squares += of - 2.0 * mean * sum + points * mean * mean;
+                for (squares, (mean, [sum, square])) in moments.squares.iter_mut().zip([a, b]) {
+                    *squares += square - 2.0 * mean * sum + points * mean * mean;
                 }
             }
             moments
@@ -178,7 +178,7 @@ impl Neighbours {
             let kept = moments.iter().enumerate().filter(|(number, _)| *number != left_out);
             kept.fold(Moments::default(), |all, (_, moments)| all.with(*moments)).correlation()
         };
-        let value = moments.iter().fold(Moments::default(), |all, of| all.with(*of)).correlation();
+        let value = moments.iter().fold(Moments::default(), |all, one| all.with(*one)).correlation();
         let count = moments.len() as f64;
         let squares = (0..moments.len()).map(|left_out| (without(left_out) - value).powi(2)).sum::<f64>();
         let standard_error = (moments.len() >= FEWEST).then(|| ((count - 1.0) / count * squares).sqrt());

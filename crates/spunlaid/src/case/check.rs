@@ -156,7 +156,7 @@ impl Check<'_> {
                 return;
             }
         }
-        for (quantity, of, what, value) in [
+        for (quantity, key, what, value) in [
             (
                 "air.kinematic_viscosity",
                 self.case.air.kinematic_viscosity,
@@ -189,7 +189,7 @@ impl Check<'_> {
             ),
         ] {
             if !value.is_finite() {
-                self.blame(quantity, of, Fault::degenerate(what, value));
+                self.blame(quantity, key, Fault::degenerate(what, value));
                 return;
             }
         }

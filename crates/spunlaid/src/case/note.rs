@@ -234,14 +234,14 @@ pub enum Remark {
     },
     /// Places where a field has turbulence that does not decay.
     #[error(
-        "has k above zero and ε = 0 at {places} of {of} places along the fibre; the eddies there are taken to be as large as the \
+        "has k above zero and ε = 0 at {places} of {sampled} places along the fibre; the eddies there are taken to be as large as the \
          field. Write ε or ω for every point"
     )]
     NoDissipation {
         /// How many places.
         places: usize,
-        /// Of how many.
-        of: usize,
+        /// How many were looked at.
+        sampled: usize,
     },
     /// A field with `k` and `ε` but no turbulence along the fibre.
     #[error(

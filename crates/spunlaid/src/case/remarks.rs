@@ -119,8 +119,8 @@ impl Case {
             return None;
         }
         let shown = |v: Vec3<f64>| {
-            let of = |x: f64| Dimension::Length.pretty_to(x * placed.unit, 4);
-            format!("[{}, {}, {}]", of(v.x), of(v.y), of(v.z))
+            let shown = |x: f64| Dimension::Length.pretty_to(x * placed.unit, 4);
+            format!("[{}, {}, {}]", shown(v.x), shown(v.y), shown(v.z))
         };
         let what = Remark::RootOutside { low: shown(low), high: shown(high) };
         let value = Some(shown(root));

@@ -17,13 +17,13 @@ const OF_AIR: std::ops::RangeInclusive<f64> = 0.18..=2.1;
 const PLACES: usize = 64;
 
 /// What is said of a value whose magnitude is outside the usual range; nothing of zero.
-pub(crate) fn unusual(of: Dimension, (least, greatest): (f64, f64), value: f64) -> Option<Remark> {
+pub(crate) fn unusual(dimension: Dimension, (least, greatest): (f64, f64), value: f64) -> Option<Remark> {
     // Rounding to whole elements and steps must not matter.
     if value == 0.0 || (0.999 * least..=1.001 * greatest).contains(&value.abs()) {
         return None;
     }
-    let instead = of.in_other_units(value, least, greatest);
-    Some(Remark::Unusual { least: of.pretty(least), greatest: of.pretty(greatest), instead })
+    let instead = dimension.in_other_units(value, least, greatest);
+    Some(Remark::Unusual { least: dimension.pretty(least), greatest: dimension.pretty(greatest), instead })
 }
 
 impl Case {
@@ -162,6 +162,6 @@ impl Case {
             return self.of_file(Remark::NoTurbulence);
         }
         let places = turbulence.iter().filter(|(k, epsilon)| *k > 0.0 && *epsilon == 0.0).count();
-        if places == 0 { None } else { self.of_file(Remark::NoDissipation { places, of: PLACES }) }
+        if places == 0 { None } else { self.of_file(Remark::NoDissipation { places, sampled: PLACES }) }
     }
 }

@@ -114,7 +114,8 @@ impl Constants {
             compliance: strands.lanes(|s| 1.0 / element(s, j).axial_stiffness),
             half_drag: DragLanes::pack(common.drag_curves, &strands.each(|s| element(s, j).drag.half())),
         };
-        let direction = |of: &dyn Fn(Vec3<f64>) -> f64| strands.lanes(|s| of(s.fibre.direction));
+        let direction =
+            |component: &dyn Fn(Vec3<f64>) -> f64| strands.lanes(|s| component(s.fibre.direction));
         Self {
             elements: ChainValues::new(elements, constants),
             root: node(&|s| 0.5 * element(s, 0).mass, &|s| s.fibre.root != Root::Free),

@@ -36,14 +36,14 @@ pub(crate) fn step<S: Register, const LEAPFROG: bool, const FED: bool>(
         damped,
         laying: if FED { laying.as_mut() } else { None },
         step: drift,
-        supports: Supports::of(work),
+        supports: Supports::start(work),
         position: &mut position[..=elements],
         velocity: &mut velocity[..=elements],
         earlier: &mut earlier[..=elements],
         c,
         kick: Wide::splat(kick),
         drift: Wide::splat(drift),
-        work: WorkRegisters::of(work, split),
+        work: WorkRegisters::new(work, split),
         dissipation: Wide::zero(),
     };
     force_pass(&mut integrator, c, air, elements, block);

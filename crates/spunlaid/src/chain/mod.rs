@@ -72,7 +72,7 @@ shared! {
 }
 
 impl Common {
-    pub(crate) fn of(strand: &Strand, line: Option<&Line>) -> Self {
+    pub(crate) fn new(strand: &Strand, line: Option<&Line>) -> Self {
         Self {
             elements: strand.fibre.elements,
             drag_curves: strand.drag.curves(),

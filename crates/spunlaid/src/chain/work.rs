@@ -51,7 +51,7 @@ pub(crate) struct Supports {
 
 impl Supports {
     #[inline(always)]
-    pub(crate) fn of(work: &WorkDone) -> Self {
+    pub(crate) fn start(work: &WorkDone) -> Self {
         let anew = |sum: WorkSum| WorkSum { before: Lanes::ZERO, ..sum };
         Self { feed: anew(work.feed), belt: anew(work.belt) }
     }
@@ -166,7 +166,7 @@ pub(crate) struct WorkRegisters<S: Register> {
 
 impl<S: Register> WorkRegisters<S> {
     #[inline(always)]
-    pub(crate) fn of(work: &WorkDone, split: bool) -> Self {
+    pub(crate) fn new(work: &WorkDone, split: bool) -> Self {
         Self {
             split,
             both: [

@@ -1,6 +1,6 @@
 //! Faults that several readers and makers of fields find.
 
-use crate::error::{Fault, listed, memory};
+use crate::error::{Fault, memory};
 use crate::units::excerpt;
 
 /// Something else is written where a certain item is expected.
@@ -43,16 +43,6 @@ pub(super) fn count(found: usize, wanted: usize, parts: &str) -> Fault {
 /// There are no points.
 pub(super) fn empty() -> Fault {
     Fault::new("has no points", "a field needs points with values")
-}
-
-/// There is no array of velocity.
-///
-/// * `found` – the arrays in the file
-pub(super) fn no_velocity(found: &[String]) -> Fault {
-    Fault::new(
-        format!("none of the arrays is a velocity ({})", listed(found)),
-        "name it U or velocity, with three components, or write u, v and w",
-    )
 }
 
 /// The unit does not fit the quantity or is not supported.

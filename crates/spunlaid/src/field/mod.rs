@@ -45,6 +45,7 @@
 mod bricks;
 mod fault;
 mod lattice;
+mod layout;
 mod mesh;
 mod node;
 mod overview;
@@ -54,6 +55,7 @@ mod tree;
 mod values;
 
 pub use bricks::AirAround;
+pub use layout::FieldLayout;
 pub use mesh::cells::{Cells, Shape};
 pub use overview::{Overview, Spread};
 pub use values::Values;
@@ -79,7 +81,11 @@ pub struct Field {
     turbulence: bool,
     bricks: Bricks,
     /// Why there is no turbulence, if it was read from a file.
-    lacks: Option<String>,
+    lacks: Option<Fault>,
+    /// What was read from a file, and from which arrays.
+    sources: Vec<(&'static str, String)>,
+    /// The arrays that were named for the reading.
+    layout: FieldLayout,
 }
 
 /// How the points with the values are arranged.
@@ -213,7 +219,8 @@ impl Field {
 
     fn new(support: Support, values: &Values) -> Self {
         let bricks = Bricks::new(support.bounds());
-        Self { support, turbulence: values.has_turbulence(), bricks, lacks: None }
+        let (sources, layout) = (Vec::new(), FieldLayout::default());
+        Self { support, turbulence: values.has_turbulence(), bricks, lacks: None, sources, layout }
     }
 
     /// Whether the field has `k` and `ε`.
@@ -221,9 +228,20 @@ impl Field {
         self.turbulence
     }
 
-    /// What a file lacks for `k` and `ε`, and the arrays that it has; none if they are there.
-    pub fn why_no_turbulence(&self) -> Option<&str> {
-        self.lacks.as_deref().filter(|_| !self.turbulence)
+    /// What a file lacks for `k` and `ε`, the arrays that it has, and what to do; none if they are there. The text continues
+    /// after `the field`.
+    pub fn why_no_turbulence(&self) -> Option<&Fault> {
+        self.lacks.as_ref().filter(|_| !self.turbulence)
+    }
+
+    /// What was read from a file, and the names of its arrays: `("velocity", "Ux, Uy, Uz")`. Empty for a field from numbers.
+    pub fn sources(&self) -> &[(&'static str, String)] {
+        &self.sources
+    }
+
+    /// The arrays that were named when the file was read.
+    pub const fn layout(&self) -> &FieldLayout {
+        &self.layout
     }
 
     /// The lowest and the highest coordinates [m].

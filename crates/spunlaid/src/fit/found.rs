@@ -1,15 +1,13 @@
 //! What a fit has found: the values with their intervals, the profile of the misfit, and whether such webs can look like the scan at all.
 
+use super::interval::{Ends, IntervalEnd};
 use super::parameter::Parameter;
-use super::polynomials::Polynomials;
 use super::search::{Place, rest};
 use super::surface::{Surface, in_place_of_the_scan};
 use super::texture::Texture;
+use super::values::Values;
 use super::webs::Webs;
-use super::weights::{Matrix, gain, information, misfit, unexplained};
-use crate::error::Error;
-use crate::statistics::linear::inverse;
-use crate::statistics::student_t_95;
+use super::weights::{Matrix, gain, information, misfit, unexplained, weights};
 
 /// What was found.
 #[derive(Clone, Debug)]
@@ -54,6 +52,8 @@ pub struct FittedKey {
     pub value: f64,
     /// The 95 % confidence interval, cut at the range of the key [SI], or why none can be given.
     pub interval: Result<[f64; 2], String>,
+    /// What is known of the ends of the interval.
+    pub ends: [IntervalEnd; 2],
     /// The least misfit for other values of this key: value [SI] and misfit.
     pub profile: Vec<(f64, f64)>,
     /// Why the value is not to be trusted, if so.
@@ -106,153 +106,61 @@ impl FittedNumber {
 
 /// Correlation from which two keys cannot be told apart.
 const ALIKE: f64 = 0.95;
-/// The profile is found at these distances from the value [standard errors].
-const PROFILE: [f64; 5] = [-2.0, -1.0, 0.0, 1.0, 2.0];
-
-/// Most steps on the polynomials, each from where the last one ended.
-const MOST: usize = 20;
-
-/// What a search has found, and how far the best values are from where it ended.
-pub(super) struct Found {
-    pub(super) fit: Fit,
-    /// Coordinates of the values.
-    pub(super) at: Vec<f64>,
-    /// Their distance from the place [standard errors].
-    pub(super) far: f64,
-}
-
-/// Makes the results of the place at which a search has ended. Trials around it tell the profiles, and all of them together the values.
+/// The results of the place at which the search has ended.
 ///
-/// * `other_errors` – standard errors of the logarithms by causes other than chance, each common to all numbers
-///
-/// # Errors
-/// As [`Webs::trial`].
-pub(super) fn found(webs: &mut Webs<'_>, place: &Place, other_errors: &Matrix) -> Result<Found, Error> {
-    let here = webs.trials[place.trial].clone();
-    let all = (0..webs.parameters.len()).collect();
-    let rough = Surface::new(webs, place, all, (here.mean.clone(), &place.slopes), other_errors);
-    let mut profiles = vec![Vec::new(); webs.parameters.len()];
-    let mut reach = vec![0.0; webs.parameters.len()];
-    for (own, key) in rough.known.iter().enumerate() {
-        let error = rough.errors.standard_error(own);
-        (profiles[*key], reach[*key]) = profile(webs, place, &rough, (own, error))?;
-    }
-    let mut step = vec![0.0; reach.len()];
-    let mut exact = rough;
-    let known: Vec<f64> = reach.iter().map(|reach| if *reach > 0.0 { *reach } else { 1.0 }).collect();
-    if let Some(polynomials) = Polynomials::new(webs, place, &known) {
-        for _ in 0..MOST {
-            let (numbers, slopes) = polynomials.at(&step);
-            let next = Surface::new(webs, place, exact.known.clone(), (numbers, &slopes), other_errors);
-            let further = next.step(webs, place, &step);
-            exact = next;
-            // No further than trials have been.
-            let to: Vec<f64> = (step.iter().zip(&further).zip(&known))
-                .map(|((step, further), reach)| (step + 0.7 * further).clamp(-reach, *reach))
-                .collect();
-            let is_still = to.iter().zip(&step).all(|(to, from)| (to - from).abs() < 1e-6);
-            step = to;
-            if is_still {
-                break;
-            }
-        }
-    } else {
-        step = exact.step(webs, place, &step);
-    }
-    let distance = |(own, key): (usize, &usize)| step[*key].abs() / exact.errors.standard_error(own);
-    let far = exact.known.iter().enumerate().map(distance).fold(0.0, f64::max);
-    let at: Vec<f64> = here.at.iter().zip(&step).map(|(here, step)| here + step).collect();
+/// * `ends` – of the intervals, of each key that changes something
+/// * `others` – standard errors of the logarithms by causes other than chance
+pub(super) fn found(
+    webs: &Webs<'_>,
+    place: &Place,
+    values: Values,
+    (ends, others): (&[Ends], &Matrix),
+) -> Fit {
+    let Values { at, surface, profiles, far } = values;
     let fit = Fit {
-        keys: keys(webs, &exact, &at, profiles),
+        keys: keys(webs, (&surface, ends), &at, profiles),
         correlations: Vec::new(),
         alike: Vec::new(),
-        numbers: numbers(webs, place, &exact),
+        numbers: numbers(webs, place, &surface),
         misfit: [0, place.trial].map(|trial| misfit(&place.weights, &rest(webs, trial))),
-        worse: worse(webs, place, &exact),
+        worse: worse(webs, place, &surface, others),
         webs: webs.count,
         trials: trials(webs, place),
         settled: place.settled || far < 1.0,
         refused: webs.refused.iter().map(|(values, error)| (values.clone(), error.to_string())).collect(),
     };
-    let (correlations, alike) = together(&exact, &place.weights, webs.parameters.len());
-    Ok(Found { fit: Fit { correlations, alike, ..fit }, at, far })
-}
-
-/// Values of a key with their least misfits, and how far from the place polynomials hold.
-type Profile = (Vec<(f64, f64)>, f64);
-
-/// The least misfit for other values of a key, and how far from the place they are.
-fn profile(
-    webs: &mut Webs<'_>,
-    place: &Place,
-    surface: &Surface,
-    (own, error): (usize, f64),
-) -> Result<Profile, Error> {
-    let known = &surface.known;
-    let here = webs.trials[place.trial].at.clone();
-    let information = information(&place.weights, &surface.slopes);
-    // The others follow as is best.
-    let others: Vec<usize> = (0..known.len()).filter(|other| *other != own).collect();
-    let of_others: Matrix =
-        others.iter().map(|i| others.iter().map(|j| information[*i][*j]).collect()).collect();
-    let follow: Vec<f64> = (inverse(of_others).unwrap_or_default().iter())
-        .map(|row| -row.iter().zip(&others).map(|(share, i)| share * information[*i][own]).sum::<f64>())
-        .collect();
-    let key = known[own];
-    let parameter = webs.parameters[key].clone();
-    let [low, high] = parameter.ends();
-    let slopes: Matrix = others.iter().map(|i| surface.slopes[*i].clone()).collect();
-    let gain = gain(&place.weights, &slopes);
-    let mut profile = Vec::new();
-    let mut reach = 0.0_f64;
-    for distance in PROFILE {
-        let step = (here[key] + distance * error).clamp(low, high) - here[key];
-        if !step.is_finite() || (distance != 0.0 && step.abs() < 0.1 * error) {
-            continue;
-        }
-        let mut at = here.clone();
-        at[key] += step;
-        for (i, follow) in others.iter().zip(&follow) {
-            let [low, high] = webs.parameters[known[*i]].ends();
-            at[known[*i]] = (at[known[*i]] + follow * step).clamp(low, high);
-        }
-        if let Some(trial) = webs.trial(&at)? {
-            // What is left for the others to do is little, and straight lines serve.
-            let rest = rest(webs, trial);
-            let left = gain.as_ref().map_or_else(|_| rest.clone(), |gain| unexplained(gain, &slopes, &rest));
-            profile.push((parameter.value(at[key]), misfit(&place.weights, &left)));
-            // Polynomials of second order hold within a standard error.
-            if distance.abs() <= 1.0 {
-                reach = reach.max(step.abs());
-            }
-        }
-    }
-    profile.sort_by(|a, b| a.0.total_cmp(&b.0));
-    Ok((profile, 1.05 * reach))
+    let (correlations, alike) = together(&surface, &place.weights, webs.parameters.len());
+    Fit { correlations, alike, ..fit }
 }
 
 /// The keys with their values and intervals.
-fn keys(webs: &Webs<'_>, surface: &Surface, at: &[f64], profiles: Vec<Vec<(f64, f64)>>) -> Vec<FittedKey> {
-    let t = student_t_95(webs.count - 1);
-    let key = |(key, profile): (usize, Vec<(f64, f64)>)| {
+fn keys(
+    webs: &Webs<'_>,
+    (surface, ends): (&Surface, &[Ends]),
+    at: &[f64],
+    profiles: Vec<Vec<(f64, f64)>>,
+) -> Vec<FittedKey> {
+    let key = |(key, mut profile): (usize, Vec<(f64, f64)>)| {
         let parameter = &webs.parameters[key];
         let (parameter, value) = (parameter.clone(), parameter.value(at[key]));
         let Some(own) = surface.known.iter().position(|known| *known == key) else {
             let interval = Err("it changes nothing of what is compared".to_owned());
-            return FittedKey { parameter, value, interval, profile, doubt: Some(KeyDoubt::NoEffect) };
+            let (ends, doubt) = ([IntervalEnd::OfRange; 2], Some(KeyDoubt::NoEffect));
+            return FittedKey { parameter, value, interval, ends, profile, doubt };
         };
-        let half = t * surface.errors.standard_error(own);
         let [low, high] = parameter.ends();
-        let ends = [at[key] - half, at[key] + half];
+        profile.extend(&ends[own].profile);
+        profile.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let Ends { coordinates, kinds: ends, .. } = &ends[own];
         let near = |end: f64| (at[key] - end).abs() < 1e-9 * (high - low);
-        let doubt = if ends[0] <= low && ends[1] >= high {
+        let doubt = if *ends == [IntervalEnd::OfRange; 2] {
             Some(KeyDoubt::Unknown)
         } else {
             (near(low) || near(high)).then_some(KeyDoubt::AtEnd)
         };
-        let in_range = ends.map(|end| parameter.value(end.clamp(low, high)));
-        let interval = webs.target.doubt().map_or(Ok(in_range), |doubt| Err(doubt.to_owned()));
-        FittedKey { parameter, value, interval, profile, doubt }
+        let interval = coordinates.map(|end| parameter.value(end));
+        let interval = webs.target.doubt().map_or(Ok(interval), |doubt| Err(doubt.to_owned()));
+        FittedKey { parameter, value, interval, ends: *ends, profile, doubt }
     };
     profiles.into_iter().enumerate().map(key).collect()
 }
@@ -296,16 +204,28 @@ fn numbers(webs: &Webs<'_>, place: &Place, surface: &Surface) -> Vec<FittedNumbe
 }
 
 /// How many webs of the place, each taken as the scan, leave a larger misfit.
-fn worse(webs: &Webs<'_>, place: &Place, surface: &Surface) -> u64 {
-    let rest: Vec<f64> =
-        webs.target.logarithms.iter().zip(&surface.here).map(|(scan, here)| scan - here).collect();
-    let of_scan = misfit(&place.weights, &unexplained(&surface.gain, &surface.slopes, &rest));
-    let is_worse = |web: &usize| {
-        let (weights, apart) = in_place_of_the_scan(webs, place, *web);
-        let gain = gain(&weights, &surface.slopes).unwrap_or_else(|_| surface.gain.clone());
-        misfit(&weights, &unexplained(&gain, &surface.slopes, &apart)) >= of_scan
+///
+/// * `others` – standard errors of the logarithms by causes other than chance
+fn worse(webs: &Webs<'_>, place: &Place, surface: &Surface, others: &Matrix) -> u64 {
+    let all = &webs.trials[place.trial].webs;
+    let causes: Matrix = others.iter().chain(&webs.target.camera).cloned().collect();
+    let left = |weights: &Matrix, apart: &[f64]| {
+        let gain = gain(weights, &surface.slopes).unwrap_or_else(|_| surface.gain.clone());
+        misfit(weights, &unexplained(&gain, &surface.slopes, apart))
     };
-    (0..webs.trials[place.trial].webs.len()).filter(is_worse).count() as u64
+    let apart: Vec<f64> =
+        webs.target.logarithms.iter().zip(&surface.here).map(|(scan, here)| scan - here).collect();
+    let of_scan = left(&weights(all.iter(), &causes).unwrap_or_else(|| place.weights.clone()), &apart);
+    let is_worse = |web: &usize| {
+        let (weights, mut apart) = in_place_of_the_scan(webs, place, *web, &causes);
+        // A scan is off by these causes as well, to either side.
+        for (cause, errors) in causes.iter().enumerate() {
+            let side = if (*web >> cause) & 1 == 0 { 1.0 } else { -1.0 };
+            apart.iter_mut().zip(errors).for_each(|(apart, error)| *apart += side * error);
+        }
+        left(&weights, &apart) >= of_scan
+    };
+    (0..all.len()).filter(is_worse).count() as u64
 }
 
 /// All trials with their misfits.

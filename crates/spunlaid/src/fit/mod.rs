@@ -9,35 +9,44 @@
 //! **The misfit** (theory.md (100)) is `rᵀ C⁻¹ r`, with the differences r between the logarithms of the scan and the mean of those of n simulated webs, and the
 //! covariance C of these logarithms from web to web, of which a tenth is taken away beside the diagonal.
 //!
-//! **The intervals** come from the webs themselves: each simulated web of the best values takes the place of the scan, and the values
-//! that would be found for it scatter as those for a real scan do (simulated method of moments: D. McFadden, Econometrica 57 (1989) 995–1026;
-//! C. Gouriéroux, A. Monfort, E. Renault, Journal of Applied Econometrics 8 (1993) S85–S118). Errors of the camera, of the few flown fibres and of the surrogate
-//! are added. The values themselves come from polynomials of second order through all trials within a standard error of the best one.
+//! **The values** come from polynomials of second order through all trials within a standard error of the best one.
+//!
+//! **The intervals** come from the webs themselves: each simulated web takes the place of the scan, and the values that would be found for it scatter as those
+//! for a real scan do (simulated method of moments: D. McFadden, Econometrica 57 (1989) 995–1026; C. Gouriéroux, A. Monfort, E. Renault, Journal of
+//! Applied Econometrics 8 (1993) S85–S118). An interval holds the values of which the scan may well be a web, by webs that are laid at its ends. Errors of the
+//! camera, of the few flown fibres and of the surrogate are added.
 //!
 //! **Whether such webs can look like the scan** is said by the misfit itself: that of the scan stands among those that the simulated webs
 //! have when each is taken as the scan.
 
 mod found;
+mod interval;
 mod parameter;
 mod polynomials;
 mod search;
+mod simulator;
 mod surface;
 mod target;
+#[cfg(test)]
+mod tests;
 mod texture;
+mod values;
 mod webs;
 mod weights;
 
 pub use found::{Fit, FitTrial, FittedKey, FittedNumber, InseparableKeys, KeyDoubt};
+pub use interval::IntervalEnd;
 pub use parameter::{Parameter, USUAL_FACTOR};
+pub use simulator::MakeWeb;
 pub use target::{MeasuredPatch, MeasuredWeb, Target};
 pub use texture::Texture;
-pub use webs::{MOST_TRIALS, MakeWeb, WebInProgress};
+pub use webs::{MOST_TRIALS, WebInProgress};
 
 use crate::error::{Error, Fault};
-use crate::layers::{Flyer, Method, WebSpec};
+use crate::layers::{Flyer, WebSpec};
 use crate::study::{Experiment, Journal};
-use crate::web::{Laying, PatchFindings};
-use found::Found;
+use crate::web::Laying;
+use simulator::WebSimulator;
 use webs::Webs;
 
 /// Most keys that are sought at a time.
@@ -109,30 +118,38 @@ pub fn fit<'a>(
     journal: &'a mut Journal,
     watch: &'a dyn Fn(WebInProgress<'_>),
 ) -> Result<Fit, Error> {
-    let Question { parameters, target, make, webs: count } = question;
     check(question)?;
-    let (trials, refused) = (Vec::new(), Vec::new());
-    let mut webs = Webs { parameters, target, make, count, flyer, by, journal, watch, trials, refused };
-    let start: Vec<f64> = parameters.iter().map(|sought| sought.coordinate(sought.start)).collect();
+    let Question { parameters, target, make, webs: count } = question;
+    let start: Vec<f64> = parameters.iter().map(|sought| sought.start).collect();
+    let mut simulator = WebSimulator::new((make, target), flyer, by, &start)?;
+    find(&mut Webs::new((parameters, target), (&mut simulator, count), journal, watch))
+}
+
+/// Searches until the values are near the place where the search has ended.
+fn find(webs: &mut Webs<'_>) -> Result<Fit, Error> {
+    let start: Vec<f64> = webs.parameters.iter().map(|sought| sought.coordinate(sought.start)).collect();
     let Some(mut start) = webs.trial(&start)? else {
-        return Err(webs.refused.pop().map_or(Error::Interrupted, |(_, error)| error));
+        return Err(webs.refusal(&start).unwrap_or(Error::Interrupted));
     };
     // The scatter at the start tells where to go, that at the first end what a misfit is worth.
-    let weights = search::weights_at(&webs, start)?;
-    start = search::search(&mut webs, start, weights)?.trial;
+    let weights = search::weights_at(webs, start)?;
+    start = search::search(webs, start, weights)?.trial;
     let mut rounds = 0;
     loop {
         rounds += 1;
-        let weights = search::weights_at(&webs, start)?;
-        let place = search::search(&mut webs, start, weights)?;
-        let values = webs.trials[place.trial].values.clone();
-        let others = errors_of_model(&mut webs, &make(&values)?)?;
-        let Found { fit, at, far } = found::found(&mut webs, &place, &others)?;
+        let weights = search::weights_at(webs, start)?;
+        let place = search::search(webs, start, weights)?;
+        webs.simulator.set(&webs.trials[place.trial].values)?;
+        let others = webs.simulator.errors_of_model()?;
+        let values = values::values(webs, &place, &others)?;
         // Far from the trials, straight lines do not hold.
-        let next = if far > FAR && rounds < ROUNDS { webs.trial(&at)? } else { None };
+        let next = if values.far > FAR && rounds < ROUNDS { webs.trial(&values.at)? } else { None };
         match next {
             Some(next) if next != start => start = next,
-            _ => return Ok(fit),
+            _ => {
+                let ends = interval::ends(webs, &place, &values, &others)?;
+                return Ok(found::found(webs, &place, values, (&ends, &others)));
+            }
         }
     }
 }
@@ -152,35 +169,4 @@ fn check(question: Question<'_>) -> Result<(), Fault> {
         return Err(Fault::new(message, "name fewer keys, or analyse the scan with more patches"));
     }
     Ok(())
-}
-
-/// Standard errors of the logarithms of CV by the few flown fibres, and by the model that lays the webs in their place.
-fn errors_of_model(webs: &mut Webs<'_>, spec: &WebSpec) -> Result<Vec<Vec<f64>>, Error> {
-    // Of filaments in one air all have been flown, and known numbers say nothing of real fibres.
-    if spec.method == Method::SharedAir || spec.layers.iter().all(|layer| layer.source.case().is_none()) {
-        return Ok(Vec::new());
-    }
-    let sides = webs.target.textures().iter().filter_map(|texture| match texture {
-        Texture::Patch(side) => Some(*side),
-        Texture::Band { .. } => None,
-    });
-    let mut spec = spec.clone();
-    spec.sheet.patches = sides.collect();
-    let mut flown = webs.flyer.web(&spec)?;
-    let found = flown.measure(webs.by)?;
-    let errors = |cause: &dyn Fn(&PatchFindings) -> Option<f64>| -> Vec<f64> {
-        let of_side = |side: f64| {
-            let far = |patch: &&PatchFindings| (patch.map.patch / side).ln().abs();
-            let patch = found.patches.iter().min_by(|a, b| far(a).total_cmp(&far(b)));
-            patch.and_then(|patch| Some(cause(patch)? / patch.map.cv)).unwrap_or(0.0)
-        };
-        let of = |texture: &Texture| match texture {
-            Texture::Patch(side) => of_side(*side),
-            // A variance is twice as far off as the CV over patches as large as its waves.
-            Texture::Band { waves, .. } => 2.0 * of_side(0.5 * waves[0]),
-        };
-        webs.target.textures().iter().map(of).collect()
-    };
-    let causes = [errors(&|patch| patch.whole_error().flight), errors(&|patch| patch.whole_error().model)];
-    Ok(causes.into_iter().filter(|errors| errors.iter().any(|error| *error > 0.0)).collect())
 }

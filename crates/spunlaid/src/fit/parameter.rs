@@ -42,6 +42,18 @@ impl Parameter {
         value.clamp(self.range[0], self.range[1])
     }
 
+    /// The coordinate of the value at a coordinate: another one where the value is a whole number, or beyond the range.
+    pub(super) fn taken(&self, coordinate: f64) -> f64 {
+        let [low, high] = self.ends();
+        if self.whole { self.coordinate(self.value(coordinate)) } else { coordinate.clamp(low, high) }
+    }
+
+    /// The shortest step that changes the value at a coordinate.
+    pub(super) fn shortest_step(&self, coordinate: f64) -> f64 {
+        let value = self.value(coordinate);
+        if self.whole { self.coordinate(value + 1.0) - self.coordinate(value) } else { 0.0 }
+    }
+
     /// The ends of the range as coordinates.
     pub(super) fn ends(&self) -> [f64; 2] {
         self.range.map(|end| self.coordinate(end))

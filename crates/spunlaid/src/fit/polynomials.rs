@@ -16,8 +16,8 @@ pub(super) struct Polynomials {
 impl Polynomials {
     /// * `reach` – how far from the place trials count, by coordinate
     ///
-    /// None if too few trials lie there.
-    pub(super) fn new(webs: &Webs<'_>, place: &Place, reach: &[f64]) -> Option<Self> {
+    /// If too few trials lie there, they are the straight lines of the place.
+    pub(super) fn new(webs: &Webs<'_>, place: &Place, reach: &[f64]) -> Self {
         let keys = reach.len();
         let linear = || std::iter::once(Vec::new()).chain((0..keys).map(|i| vec![i]));
         let squares = || (0..keys).map(|i| vec![i, i]);
@@ -27,7 +27,16 @@ impl Polynomials {
             linear().chain(squares()).collect(),
             linear().collect::<Vec<Vec<usize>>>(),
         ];
-        all.into_iter().find_map(|terms| Self::of_terms(webs, place, reach, terms))
+        let found = all.into_iter().find_map(|terms| Self::of_terms(webs, place, reach, terms));
+        found.unwrap_or_else(|| {
+            let mean = &webs.trials[place.trial].mean;
+            let of_number =
+                |i: usize| std::iter::once(mean[i]).chain(place.slopes.iter().map(move |slope| slope[i]));
+            Self {
+                terms: linear().collect(),
+                factors: (0..mean.len()).map(|i| of_number(i).collect()).collect(),
+            }
+        })
     }
 
     fn of_terms(webs: &Webs<'_>, place: &Place, reach: &[f64], terms: Vec<Vec<usize>>) -> Option<Self> {

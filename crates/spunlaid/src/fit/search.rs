@@ -147,27 +147,33 @@ pub(super) fn weights_at(webs: &Webs<'_>, trial: usize) -> Result<Matrix, Error>
 fn slopes(webs: &mut Webs<'_>, trial: usize, steps: &[f64], both: bool) -> Result<Matrix, Error> {
     let mut slopes = Vec::new();
     for key in 0..steps.len() {
-        let [low, high] = webs.parameters[key].ends();
         let here = webs.trials[trial].at.clone();
-        let to = |step: f64| {
-            let mut to = here.clone();
-            to[key] = (here[key] + step).clamp(low, high);
-            to
-        };
-        let first = if here[key] + steps[key] <= high { steps[key] } else { -steps[key] };
+        let [low, high] = webs.parameters[key].ends();
+        // As far as the range goes, first to the side that has more room.
+        let wanted = steps[key].max(webs.parameters[key].shortest_step(here[key]));
+        let rooms = [wanted.min(high - here[key]), -wanted.min(here[key] - low)];
+        let [first, other] = if rooms[0] >= -rooms[1] { rooms } else { [rooms[1], rooms[0]] };
         let mut ends = Vec::new();
-        for step in [first, -first, 0.4 * first] {
-            let there = to(step);
-            if (there[key] - here[key]).abs() < 0.3 * step.abs() || ends.len() > usize::from(both) {
+        let mut refusal = None;
+        for step in [first, other, 0.4 * first] {
+            if step == 0.0 || ends.len() > usize::from(both) {
                 continue;
             }
-            ends.extend(webs.trial(&there)?);
+            let mut there = here.clone();
+            there[key] += step;
+            match webs.trial(&there)? {
+                // The value is a whole number, and has not changed.
+                Some(end) if end == trial => {}
+                Some(end) => ends.push(end),
+                None => refusal = Some(there),
+            }
         }
         let (one, other) = match ends[..] {
             [one, other] => (one, other),
             [one] => (one, trial),
             _ => {
-                return Err(webs.refused.pop().map_or(Error::Interrupted, |(_, error)| error));
+                let refusal = refusal.and_then(|there| webs.refusal(&there));
+                return Err(refusal.unwrap_or_else(|| no_other_value(&webs.parameters[key].key)));
             }
         };
         let length = webs.trials[one].at[key] - webs.trials[other].at[key];
@@ -177,13 +183,26 @@ fn slopes(webs: &mut Webs<'_>, trial: usize, steps: &[f64], both: bool) -> Resul
     Ok(slopes)
 }
 
+fn no_other_value(key: &str) -> Error {
+    Error::flight(format!("{key} has no second value in its range"), "give it a wider range")
+}
+
 /// Standard errors of the coordinates, by the scatter of the scan and of the simulated webs; without bound for a key that changes nothing.
 fn standard_errors(weights: &Matrix, slopes: &Matrix, count: u64) -> Vec<f64> {
     let scatter = 1.0 + 1.0 / count as f64;
-    match inverse(information(weights, slopes)) {
-        Ok(inverse) => (0..slopes.len()).map(|i| (scatter * inverse[i][i]).sqrt()).collect(),
-        Err(_) => vec![f64::INFINITY; slopes.len()],
+    let mut known: Vec<usize> = (0..slopes.len()).collect();
+    let mut errors = vec![f64::INFINITY; slopes.len()];
+    while !known.is_empty() {
+        let own: Matrix = known.iter().map(|key| slopes[*key].clone()).collect();
+        match inverse(information(weights, &own)) {
+            Ok(inverse) => {
+                known.iter().enumerate().for_each(|(i, key)| errors[*key] = (scatter * inverse[i][i]).sqrt());
+                break;
+            }
+            Err(key) => known.remove(key),
+        };
     }
+    errors
 }
 
 /// The next place: a damped step from a trial, which ends at the ranges of the keys.

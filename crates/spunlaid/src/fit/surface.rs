@@ -61,7 +61,7 @@ impl Surface {
             };
         };
         let by_chance = webs.trials[place.trial].webs.iter().enumerate().map(|(i, _)| {
-            let (weights, apart) = in_place_of_the_scan(webs, place, i);
+            let (weights, apart) = in_place_of_the_scan(webs, place, i, &webs.target.camera);
             let gain = gain(&weights, &slopes).unwrap_or_else(|_| gain_of_all.clone());
             gain.iter().map(|row| dot(row, &apart)).collect()
         });
@@ -90,10 +90,17 @@ impl Surface {
 }
 
 /// A web of a trial as if it were the scan and the others were all that were laid: the weights by these, and how far it is from them.
-pub(super) fn in_place_of_the_scan(webs: &Webs<'_>, place: &Place, web: usize) -> (Matrix, Vec<f64>) {
+///
+/// * `errors` – standard errors of the logarithms by further causes
+pub(super) fn in_place_of_the_scan(
+    webs: &Webs<'_>,
+    place: &Place,
+    web: usize,
+    errors: &[Vec<f64>],
+) -> (Matrix, Vec<f64>) {
     let all = &webs.trials[place.trial].webs;
     let others = || all.iter().enumerate().filter(move |(other, _)| *other != web).map(|(_, web)| web);
-    let weights = weights(others(), &webs.target.camera).unwrap_or_else(|| place.weights.clone());
+    let weights = weights(others(), errors).unwrap_or_else(|| place.weights.clone());
     let mean = mean_of(others());
     (weights, all[web].iter().zip(&mean).map(|(web, mean)| web - mean).collect())
 }

@@ -24,7 +24,8 @@ impl MeasuredWeb {
     pub fn of_scan(findings: &Findings) -> Self {
         let patch = |patch: &PatchFindings| MeasuredPatch {
             side: patch.unevenness.patch,
-            noise: if findings.noise.is_some() { 0.0 } else { patch.noise },
+            noise: patch.noise,
+            knows_noise: findings.noise.is_some(),
             blur: patch.blur,
         };
         Self {
@@ -41,8 +42,10 @@ impl MeasuredWeb {
 pub struct MeasuredPatch {
     /// Their side [m].
     pub side: f64,
-    /// CV of the noise of the camera over such patches, at most; zero if it has been taken out.
+    /// CV of the noise of the camera over such patches, at most.
     pub noise: f64,
+    /// Whether it is exactly this: then its variance is taken out.
+    pub knows_noise: bool,
     /// Share by which one more pixel of blur lowers the CV.
     pub blur: f64,
 }
@@ -78,8 +81,8 @@ impl Target {
         let map = in_cells(&measured.map, cell);
         let sizes = [map.columns, map.rows];
         let cells = [sheet.width, sheet.length].map(|side| (side / cell * (1.0 + 1e-9)) as usize);
-        let sides = [0, 1].map(|of| sizes[of].min(cells[of]));
-        let map = map.part([0, 1].map(|of| (sizes[of] - sides[of]) / 2), sides);
+        let sides = [0, 1].map(|axis| sizes[axis].min(cells[axis]));
+        let map = map.part([0, 1].map(|axis| (sizes[axis] - sides[axis]) / 2), sides);
         let shorter = sides[0].min(sides[1]) as f64 * cell;
         let can_be_laid = |patch: &&MeasuredPatch| {
             let cells = (patch.side / cell).round();
@@ -114,16 +117,35 @@ impl Target {
             all.extend(bands(&map, 2.0 * smallest));
         }
         let textures = Textures { all, flat: measured.flat };
-        let logarithms = textures.logarithms(&map, 1);
-        if let Some(at) = logarithms.iter().position(|number| !number.is_finite()) {
-            let what = match textures.all[at] {
-                Texture::Patch(side) => format!("over patches of {}", Dimension::Length.pretty(side)),
+        let mut logarithms = textures.logarithms(&map, 1);
+        let camera = Camera { patches: &patches, cell };
+        for (texture, logarithm) in textures.all.iter().zip(&mut logarithms) {
+            let what = || match texture {
+                Texture::Patch(side) => format!("over patches of {}", Dimension::Length.pretty(*side)),
                 Texture::Band { .. } => "in its spectrum".to_owned(),
             };
-            return Err(Fault::new(format!("does not vary {what}"), "is it the map of a web?"));
+            if !logarithm.is_finite() {
+                return Err(Fault::new(format!("does not vary {}", what()), "is it the map of a web?"));
+            }
+            if camera.knows_noise() {
+                *logarithm += camera.without_noise(texture, *logarithm);
+                if !logarithm.is_finite() {
+                    let message = format!("varies less {} than the noise of the camera alone would", what());
+                    return Err(Fault::new(message, "analyse it with the noise of a single pixel"));
+                }
+            }
         }
-        let camera = camera(&textures.all, &logarithms, &patches);
+        let camera = camera.errors(&textures.all, &logarithms);
         Ok(Self { map, textures, logarithms, camera, doubt: measured.doubt.clone() })
+    }
+
+    /// A web of which nothing but these logarithms is known.
+    #[cfg(test)]
+    pub(super) fn of_patches(sides: &[f64], logarithms: Vec<f64>) -> Self {
+        let map =
+            Map { columns: 0, rows: 0, cell: 1e-3, quantum: 1.0, closed: [false; 2], cells: Vec::new() };
+        let textures = Textures { all: sides.iter().copied().map(Texture::Patch).collect(), flat: false };
+        Self { map, textures, logarithms, camera: Vec::new(), doubt: None }
     }
 
     /// What is compared.
@@ -165,7 +187,7 @@ impl Target {
         if sides[0] > sizes[0] || sides[1] > sizes[1] {
             return None;
         }
-        let window = map.part([0, 1].map(|of| (sizes[of] - sides[of]) / 2), sides);
+        let window = map.part([0, 1].map(|axis| (sizes[axis] - sides[axis]) / 2), sides);
         let logarithms = self.textures.logarithms(&window, threads);
         logarithms.iter().all(|number| number.is_finite()).then_some(logarithms)
     }
@@ -176,26 +198,62 @@ fn in_cells(map: &Map, cell: f64) -> Map {
     if cell > map.cell * (1.0 + 1e-6) { map.in_cells(cell) } else { map.clone() }
 }
 
-/// Errors of the logarithms by the noise and by the blur of the camera. What is in the CV that the web has not is at most the noise, and
-/// what is missing is about what one more pixel of blur would take away.
-fn camera(all: &[Texture], logarithms: &[f64], patches: &[&MeasuredPatch]) -> Vec<Vec<f64>> {
-    let nearest = |side: f64| {
-        let far = |patch: &&&MeasuredPatch| (patch.side / side).ln().abs();
-        patches.iter().min_by(|a, b| far(a).total_cmp(&far(b)))
-    };
-    let error = |cause: &dyn Fn(&MeasuredPatch, f64) -> f64| -> Vec<f64> {
-        let of = |(texture, logarithm): (&Texture, &f64)| match texture {
-            Texture::Patch(side) => nearest(*side).map_or(0.0, |patch| cause(patch, libm::exp(*logarithm))),
-            Texture::Band { waves, .. } => {
-                // A variance is twice as far off as a CV.
-                nearest(0.5 * waves[0]).map_or(0.0, |patch| 2.0 * cause(patch, f64::INFINITY))
+/// What the camera does to the numbers of a scan.
+struct Camera<'a> {
+    /// The smallest first.
+    patches: &'a [&'a MeasuredPatch],
+    /// Side of a cell of the map [m].
+    cell: f64,
+}
+
+impl Camera<'_> {
+    fn nearest(&self, side: f64) -> &MeasuredPatch {
+        let far = |patch: &MeasuredPatch| (patch.side / side).ln().abs();
+        let others = self.patches[1..].iter().copied();
+        others.fold(self.patches[0], |near, patch| if far(patch) < far(near) { patch } else { near })
+    }
+
+    fn knows_noise(&self) -> bool {
+        self.patches[0].knows_noise
+    }
+
+    /// What the logarithm of a number changes by if the noise is taken out of it; not finite if nothing is left.
+    fn without_noise(&self, texture: &Texture, logarithm: f64) -> f64 {
+        // Noise is independent from pixel to pixel: over squares of side s its variance is a/s².
+        let area = |patch: &MeasuredPatch| (patch.noise * patch.side).powi(2);
+        match texture {
+            Texture::Patch(side) => {
+                let variance = area(self.nearest(*side)) / (side * side);
+                0.5 * libm::log1p(-variance / libm::exp(2.0 * logarithm))
             }
+            // Its variance a/c² in cells of side c lies evenly over the wave numbers from 0 to 1/2c of a direction.
+            Texture::Band { waves, .. } => {
+                let density = 2.0 * area(self.patches[0]) / self.cell;
+                let variance = density * (1.0 / waves[0] - 1.0 / waves[1]);
+                libm::log1p(-variance / libm::exp(logarithm))
+            }
+        }
+    }
+
+    /// Errors of the logarithms by the noise, unless it is known, and by the blur. What is in a number that the web has not is at most the noise,
+    /// and what is missing is about what one more pixel of blur would take away.
+    fn errors(&self, all: &[Texture], logarithms: &[f64]) -> Vec<Vec<f64>> {
+        /// The noise may be most of a number, but not all of it.
+        const MOST: f64 = 2.3;
+        let noise = |(texture, logarithm): (&Texture, &f64)| {
+            if self.knows_noise() {
+                return 0.0;
+            }
+            let change = -self.without_noise(texture, *logarithm);
+            if change.is_finite() { change.min(MOST) } else { MOST }
         };
-        all.iter().zip(logarithms).map(of).collect()
-    };
-    let noise = error(&|patch, cv| {
-        if cv.is_finite() { -0.5 * libm::log1p(-(patch.noise / cv).powi(2).min(0.99)) } else { 0.0 }
-    });
-    let blur = error(&|patch, _| patch.blur.max(0.0));
-    [noise, blur].into_iter().filter(|errors| errors.iter().any(|error| *error > 0.0)).collect()
+        let blur = |texture: &Texture| match texture {
+            Texture::Patch(side) => self.nearest(*side).blur.max(0.0),
+            // A variance is twice as far off as a CV.
+            Texture::Band { waves, .. } => 2.0 * self.nearest(0.5 * waves[0]).blur.max(0.0),
+        };
+        let noise: Vec<f64> = all.iter().zip(logarithms).map(noise).collect();
+        let blur: Vec<f64> = all.iter().map(blur).collect();
+        [noise, blur].into_iter().filter(|errors| errors.iter().any(|error| *error > 0.0)).collect()
+    }
 }

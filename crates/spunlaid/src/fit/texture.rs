@@ -33,7 +33,7 @@ impl Textures {
         let flat = self.flat.then(|| flattened(map));
         let map = flat.as_ref().unwrap_or(map);
         let has_bands = self.all.iter().any(|texture| matches!(texture, Texture::Band { .. }));
-        let clouds = if has_bands { Clouds::of(map) } else { None };
+        let clouds = if has_bands { Clouds::measure(map) } else { None };
         let spectra = clouds.map(|clouds| [0, 1].map(|direction| clouds.spectrum(direction)));
         each(threads, self.all.len(), |i| {
             libm::log(match self.all[i] {
@@ -65,7 +65,7 @@ fn variance(spectrum: &[(f64, f64)], [shortest, longest]: [f64; 2]) -> f64 {
 pub(super) fn bands(map: &Map, shortest: f64) -> Vec<Texture> {
     /// Fewest waves of a tile in the longest one that is told of.
     const FEWEST: f64 = 2.0;
-    let Some(clouds) = Clouds::of(map) else { return Vec::new() };
+    let Some(clouds) = Clouds::measure(map) else { return Vec::new() };
     let tile = clouds.spectrum(0).first().map_or(0.0, |(wave, _)| *wave);
     let mut bands = Vec::new();
     let mut from = shortest.max(clouds.shortest());

@@ -1,12 +1,11 @@
 //! The simulated webs of each trial, laid or read from the journal.
 
 use super::parameter::Parameter;
+use super::simulator::Simulator;
 use super::target::Target;
 use super::weights::mean_of;
-use crate::error::{Error, Fault};
-use crate::layers::{Flyer, WebSpec};
-use crate::study::{Journal, Landing, Record, seed_of_point};
-use crate::web::{Laying, inner_columns};
+use crate::error::Error;
+use crate::study::{Journal, Landing, Record};
 
 /// A trial: values of the keys, and the numbers of the webs that were laid with them.
 #[derive(Clone, Debug)]
@@ -24,7 +23,7 @@ pub(super) struct Trial {
 /// What is being laid.
 #[derive(Clone, Copy, Debug)]
 pub struct WebInProgress<'a> {
-    /// Number of the trial, from 1.
+    /// Number of the trial, from 1; those that cannot be laid count too.
     pub trial: usize,
     /// Number of its web, from 1.
     pub web: u64,
@@ -34,21 +33,16 @@ pub struct WebInProgress<'a> {
     pub values: &'a [f64],
 }
 
-/// Most trials of a fit.
+/// Most trials of a fit, with those that cannot be laid.
 pub const MOST_TRIALS: usize = 200;
 
-/// Makes the web of some values.
-pub type MakeWeb<'a> = &'a dyn Fn(&[f64]) -> Result<WebSpec, Error>;
-
-/// Lays the webs of trials.
+/// The webs of trials.
 pub(super) struct Webs<'a> {
     pub(super) parameters: &'a [Parameter],
     pub(super) target: &'a Target,
-    pub(super) make: MakeWeb<'a>,
+    pub(super) simulator: &'a mut dyn Simulator,
     /// Of each trial.
     pub(super) count: u64,
-    pub(super) flyer: Flyer<'a>,
-    pub(super) by: Laying<'a>,
     pub(super) journal: &'a mut Journal,
     pub(super) watch: &'a dyn Fn(WebInProgress<'_>),
     pub(super) trials: Vec<Trial>,
@@ -56,7 +50,18 @@ pub(super) struct Webs<'a> {
     pub(super) refused: Vec<(Vec<f64>, Error)>,
 }
 
-impl Webs<'_> {
+impl<'a> Webs<'a> {
+    /// No webs yet.
+    pub(super) fn new(
+        (parameters, target): (&'a [Parameter], &'a Target),
+        (simulator, count): (&'a mut dyn Simulator, u64),
+        journal: &'a mut Journal,
+        watch: &'a dyn Fn(WebInProgress<'_>),
+    ) -> Self {
+        let (trials, refused) = (Vec::new(), Vec::new());
+        Self { parameters, target, simulator, count, journal, watch, trials, refused }
+    }
+
     /// The values at some coordinates.
     pub(super) fn values(&self, at: &[f64]) -> Vec<f64> {
         self.parameters.iter().zip(at).map(|(parameter, at)| parameter.value(*at)).collect()
@@ -67,17 +72,24 @@ impl Webs<'_> {
     /// # Errors
     /// If it is stopped, if the journal cannot be used, or if there are too many trials.
     pub(super) fn trial(&mut self, at: &[f64]) -> Result<Option<usize>, Error> {
-        let values = self.values(at);
+        let at: Vec<f64> =
+            self.parameters.iter().zip(at).map(|(parameter, at)| parameter.taken(*at)).collect();
+        let values = self.values(&at);
         if let Some(known) = self.trials.iter().position(|trial| trial.values == values) {
             return Ok(Some(known));
         }
         if self.refused.iter().any(|(refused, _)| *refused == values) {
             return Ok(None);
         }
-        match self.lay(&values) {
+        let index = self.trials.len() + self.refused.len();
+        if index >= MOST_TRIALS {
+            let message = format!("has not come to an end after {MOST_TRIALS} trials");
+            return Err(Error::flight(message, "seek fewer keys, or give them narrower ranges"));
+        }
+        match self.lay(index, &values) {
             Ok(webs) => {
                 let mean = mean_of(webs.iter());
-                self.trials.push(Trial { at: at.to_vec(), values, webs, mean });
+                self.trials.push(Trial { at, values, webs, mean });
                 Ok(Some(self.trials.len() - 1))
             }
             // Another value of a key may do.
@@ -94,15 +106,20 @@ impl Webs<'_> {
         }
     }
 
+    /// Why no web can be laid at some coordinates, which were tried.
+    pub(super) fn refusal(&mut self, at: &[f64]) -> Option<Error> {
+        let values: Vec<f64> =
+            self.parameters.iter().zip(at).map(|(parameter, at)| parameter.value(*at)).collect();
+        let place = self.refused.iter().position(|(refused, _)| *refused == values)?;
+        Some(self.refused.swap_remove(place).1)
+    }
+
     /// The numbers of all webs of these values.
-    fn lay(&mut self, values: &[f64]) -> Result<Vec<Vec<f64>>, Error> {
-        let trial = self.trials.len();
-        if trial >= MOST_TRIALS {
-            let message = format!("has not come to an end after {MOST_TRIALS} trials");
-            return Err(Error::flight(message, "seek fewer keys, or give them narrower ranges"));
-        }
-        let spec = (self.make)(values)?;
-        let known = self.journal.records(trial, self.count)?;
+    ///
+    /// * `index` – of the trial in the journal
+    fn lay(&mut self, index: usize, values: &[f64]) -> Result<Vec<Vec<f64>>, Error> {
+        self.simulator.set(values)?;
+        let known = self.journal.records(index, self.count)?;
         let mut webs = Vec::with_capacity(self.count as usize);
         for replicate in 0..self.count {
             let journaled = known.iter().find(|record| record.replicate == replicate);
@@ -110,29 +127,12 @@ impl Webs<'_> {
                 webs.push(measured.to_vec());
                 continue;
             }
-            (self.watch)(WebInProgress { trial: trial + 1, web: replicate + 1, webs: self.count, values });
-            let numbers = self.web(&WebSpec { seed: seed(&spec, replicate), ..spec.clone() })?;
+            (self.watch)(WebInProgress { trial: index + 1, web: replicate + 1, webs: self.count, values });
+            let numbers = self.simulator.web(replicate)?;
             let landing = Landing::Measured(numbers.clone().into_boxed_slice());
-            self.journal.add(&[Record { point: trial as u64, replicate, landing }])?;
+            self.journal.add(&[Record { point: index as u64, replicate, landing }])?;
             webs.push(numbers);
         }
         Ok(webs)
     }
-
-    fn web(&mut self, spec: &WebSpec) -> Result<Vec<f64>, Error> {
-        let mut flown = self.flyer.web(spec)?;
-        let inner = inner_columns(&flown.web);
-        let map = flown.map(self.by)?;
-        self.target.logarithms_of(&map, inner, self.by.threads).ok_or_else(|| {
-            Error::Flight(Fault::new(
-                "the part of the web that is not edge is smaller than what it is compared with, or empty",
-                "set web.width to more, or web.edges to \"periodic\"",
-            ))
-        })
-    }
-}
-
-/// The seed of a web of a trial. The same webs lie in each trial, as far as the keys allow: what differs is then less by chance.
-pub(super) fn seed(spec: &WebSpec, replicate: u64) -> u64 {
-    if replicate == 0 { spec.seed } else { seed_of_point(spec.seed, replicate) }
 }

@@ -57,7 +57,9 @@ pub(super) fn gain(weights: &Matrix, slopes: &Matrix) -> Result<Matrix, usize> {
     let weighted: Matrix =
         slopes.iter().map(|slope| weights.iter().map(|row| dot(row, slope)).collect()).collect();
     let row = |row: &Vec<f64>| {
-        (0..weights.len()).map(|i| row.iter().zip(&weighted).map(|(share, of)| share * of[i]).sum()).collect()
+        (0..weights.len())
+            .map(|i| row.iter().zip(&weighted).map(|(share, other)| share * other[i]).sum())
+            .collect()
     };
     Ok(inverse.iter().map(row).collect())
 }

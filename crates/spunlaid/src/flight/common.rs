@@ -48,13 +48,13 @@ shared! {
 }
 
 impl Common {
-    pub(crate) fn of(case: &Case) -> Self {
+    pub(crate) fn from_case(case: &Case) -> Self {
         let Case { air, run, line, .. } = case;
         let looks = || case.steps_between_looks();
         let stations = case.stations();
         let eddies = stations.as_ref().map_or_else(|| case.eddies(), |stations| stations.eddies());
         Self {
-            chain: chain::Common::of(&case.strand(), line.as_ref()),
+            chain: chain::Common::new(&case.strand(), line.as_ref()),
             clock: Clock {
                 time_step: run.time_step.into(),
                 steps: run.steps,
@@ -62,8 +62,8 @@ impl Common {
                 output_steps: run.output_steps,
             },
             scheme: run.scheme,
-            way: stations.map(|stations| Way::of(air, &stations, looks())),
-            wind: Sampling::of(air, eddies.count()),
+            way: stations.map(|stations| Way::from_air(air, &stations, looks())),
+            wind: Sampling::new(air, eddies.count()),
             eddies,
             lateral_cutoff: air.field_cutoff().map(Bits::from),
             every: (line.is_none() && !air.is_uniform()).then(looks),
@@ -80,7 +80,7 @@ impl Common {
         jobs.shared(|job| match &last {
             Some((case, common)) if std::ptr::eq(*case, job.case) => common.clone(),
             _ => {
-                let common = Self::of(job.case);
+                let common = Self::from_case(job.case);
                 last = Some((job.case, common.clone()));
                 common
             }

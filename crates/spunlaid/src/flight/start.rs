@@ -60,7 +60,7 @@ impl Flight {
     ) -> Result<Self, Error> {
         let air = air.into();
         let strands = PerLane::new(strands.to_vec())?;
-        let common = strands.shared(|strand| chain::Common::of(strand, None))?;
+        let common = strands.shared(|strand| chain::Common::new(strand, None))?;
         let elements = common.elements;
         if elements == 0 {
             return Err(Error::Flight(Fault::plain("a fibre needs at least one element")));
@@ -233,8 +233,8 @@ pub(super) fn surrounded(
     });
     let wind = Wind::sampled(isa, common.wind.clone().of_eddies(eddies.count()), streams, air.horizon);
     if let Some(way) = way {
-        let of = |job: &Job<'_>| Some((job.case.air.clone(), job.case.stations()?));
-        let lanes = PerLane::new(jobs.iter().filter_map(of).collect())?;
+        let air = |job: &Job<'_>| Some((job.case.air.clone(), job.case.stations()?));
+        let lanes = PerLane::new(jobs.iter().filter_map(air).collect())?;
         let places = jobs.map(|job| job.place);
         let stations = Stations::new(way.clone(), &lanes, &places, chain.elements);
         return Ok(Atmosphere::Way(wind, stations));

@@ -55,7 +55,7 @@ fn flight(strand: Strand, wind: f64, scheme: Scheme, h: f64) -> Flight {
     let mut flight = Flight::assembled(Isa::detect(), &[strand; 2], (&eddies, &wind), scheme, h).unwrap();
     // The second strand is told from the first by its damping, which nothing reads in a flight that is not damped.
     let strands = PerLane::new(vec![strand, Strand { damping: 1.0, ..strand }]).unwrap();
-    let common = chain::Common::of(&strand, None);
+    let common = chain::Common::new(&strand, None);
     let element = |s: &Strand, j| if s.damping > 0.0 { varied(s, j) } else { s.element(j) };
     let constants = Constants::varying(&common, &strands, ELEMENTS, element);
     flight.chain = Chain::with_constants(constants, ELEMENTS, scheme);
@@ -73,7 +73,7 @@ fn identical_a_uniform_fibre_beside_one_that_varies() {
         let mut together = flight(strand, 3.0, scheme, H);
         let mut alone = together.clone();
         let strands = PerLane::new(vec![strand]).unwrap();
-        alone.chain = Chain::straight(&chain::Common::of(&strand, None), &strands, scheme);
+        alone.chain = Chain::straight(&chain::Common::new(&strand, None), &strands, scheme);
         alone.begin();
         for flight in [&mut together, &mut alone] {
             flight.advance(2000);
@@ -120,8 +120,9 @@ fn analytic_drag_of_each_element() {
     let elements: Vec<_> = (0..ELEMENTS).map(|j| varied(&strand, j)).collect();
     for i in 0..=ELEMENTS {
         let around = [i.checked_sub(1).map(|j| &elements[j]), elements.get(i)];
-        let half =
-            |of: fn(&ElementProperties) -> f64| around.iter().flatten().map(|e| 0.5 * of(e)).sum::<f64>();
+        let half = |property: fn(&ElementProperties) -> f64| {
+            around.iter().flatten().map(|e| 0.5 * property(e)).sum::<f64>()
+        };
         let expected = H * half(|e| e.drag.across.factor) / half(|e| e.mass);
         let found = flight.chain().velocity[i].lane(1).x;
         // The power of the drag law is good to 1e-7.

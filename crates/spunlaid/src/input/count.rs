@@ -55,9 +55,9 @@ impl OpenCase {
     fn look_at_what_no_case_has(&mut self) {
         for key in keys::all() {
             if key.get(&self.case).is_none()
-                && let (Some(of), Some(usual)) = (key.dimension(), key.usual)
+                && let (Some(dimension), Some(usual)) = (key.dimension(), key.usual)
                 && let Some(value) = self.written.number(key.name)
-                && let Some(remark) = unusual(of, usual, value)
+                && let Some(remark) = unusual(dimension, usual, value)
             {
                 self.note(key.name, value, remark);
             }

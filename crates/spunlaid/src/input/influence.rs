@@ -48,7 +48,7 @@ impl SpinFile {
         let tables = ["spinline", "spinline.material", "drag"];
         for key in tables.into_iter().flat_map(keys::of_table) {
             let Some(Value::Number(value)) = key.get(&carrier) else { continue };
-            let change = Change::of(key);
+            let change = Change::from_key(key);
             if (value != 0.0 || change == Change::TenKelvin) && is_physical(key) {
                 let changed = |sign: f64| {
                     let mut case = carrier.clone();
@@ -76,7 +76,7 @@ fn solve(case: &Case) -> Result<Option<Solution>, Failure> {
 
 impl Change {
     /// How a key is changed: a temperature, and a difference of temperatures that may be zero, has no share of its value.
-    fn of(key: &Key) -> Self {
+    fn from_key(key: &Key) -> Self {
         match key.kind {
             Kind::Quantity(Dimension::Temperature, _)
             | Kind::Quantity(Dimension::TemperatureDifference, Sign::Any) => Self::TenKelvin,
@@ -103,9 +103,9 @@ impl Change {
             Self::Relative => libm::log((1.0 + STEP) / (1.0 - STEP)),
             Self::TenKelvin => 2.0 * KELVIN / 10.0,
         };
-        let of = |number: fn(&Solution) -> f64| libm::log(number(&more) / number(&less)) / scale;
-        let diameter = of(|filament| filament.final_diameter);
-        let speed = of(|filament| filament.final_speed);
+        let elasticity = |number: fn(&Solution) -> f64| libm::log(number(&more) / number(&less)) / scale;
+        let diameter = elasticity(|filament| filament.final_diameter);
+        let speed = elasticity(|filament| filament.final_speed);
         (diameter.abs() >= LEAST).then_some(Influence { key, label, change: self, diameter, speed })
     }
 }

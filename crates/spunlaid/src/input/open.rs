@@ -7,6 +7,7 @@ use crate::case::keys::{self, Content, FileKind, Key, Kind, Omission, TAYLOR, Va
 use crate::case::{Case, Note, Remark};
 use crate::chain::schemes::Scheme;
 use crate::error::{Error, Fault, FileError};
+use crate::field::FieldLayout;
 use crate::line::Line;
 use crate::spinline::Spinline;
 use std::path::PathBuf;
@@ -97,9 +98,9 @@ pub(super) fn open_part(
                         _ => None,
                     };
                     let fault = match why {
-                        Some(why) => Fault::new(
-                            format!("is missing, and the field does not contain it: {why}"),
-                            format!("write these arrays too, or add {line} to [{table}]"),
+                        Some(Fault { message, remedy, .. }) => Fault::new(
+                            format!("is missing, and the field does not contain it: it {message}"),
+                            format!("{remedy}, or add {line} to [{table}]"),
                         ),
                         None => Fault::missing(table, &line),
                     };
@@ -119,24 +120,22 @@ pub(super) fn open_part(
                 let (other, remedy) = ("air.field", "the air is one or the other; leave one out");
                 Err(Fault::excludes(other, remedy))
             }
-            (Some(Value::Paths(paths)), Kind::File(kind)) => {
-                match load(files, kind, &paths, &layout(&written)) {
-                    Ok((content, warnings)) => {
-                        notes.extend(warnings.into_iter().map(|warning| Note {
-                            place: place.clone(),
-                            key: key.name.to_owned(),
-                            value: shown.clone(),
-                            what: Remark::Field(warning),
-                        }));
-                        key.apply(&mut case, &Value::Content(content))
-                    }
-                    Err(error) => {
-                        written.excuse(missed_with(kind));
-                        written.reject(key.name, error.into());
-                        continue;
-                    }
+            (Some(Value::Paths(paths)), Kind::File(kind)) => match load(files, kind, &paths, &written) {
+                Ok((content, warnings)) => {
+                    notes.extend(warnings.into_iter().map(|warning| Note {
+                        place: place.clone(),
+                        key: key.name.to_owned(),
+                        value: shown.clone(),
+                        what: Remark::Field(warning),
+                    }));
+                    key.apply(&mut case, &Value::Content(content))
                 }
-            }
+                Err(error) => {
+                    written.excuse(missed_with(kind));
+                    written.reject(key.name, error.into());
+                    continue;
+                }
+            },
             (Some(_), _) if key.counted => Ok(()),
             (Some(Value::Text(word)), Kind::Quantity(..)) if word == TAYLOR => by_taylor(&mut case.air),
             (Some(value), _) => match rival(key.name, |other| written.get(other).is_some()) {
@@ -184,6 +183,7 @@ pub(super) fn rival(key: &str, is_written: impl Fn(&str) -> bool) -> Option<(&'s
         "spinline.material.viscosity" => {
             (&["spinline.melt_flow_rate"], "the melt flow rate gives the viscosity; write one of the two")
         }
+        "air.field_omega" => (&["air.field_epsilon"], "either gives ε; write one of the two"),
         "fibre.linear_density" => (&["fibre.diameter"], "either gives the other; write one of the two"),
         "air.temperature" => (
             &["air.density", "air.kinematic_viscosity"],
@@ -215,7 +215,7 @@ const fn missed_with(kind: FileKind) -> &'static str {
 }
 
 /// What the case says of the files of its records.
-fn layout(written: &WrittenValues) -> RecordLayout {
+fn record_layout(written: &WrittenValues) -> RecordLayout {
     let whole = |key: &str| match written.get(key).and_then(|written| written.value.as_ref()) {
         Some(Value::Whole(number)) => Some(*number),
         _ => None,
@@ -229,11 +229,21 @@ fn layout(written: &WrittenValues) -> RecordLayout {
     }
 }
 
+/// The arrays of the field that the case names.
+fn field_layout(written: &WrittenValues) -> FieldLayout {
+    FieldLayout {
+        velocity: written.text("air.field_velocity"),
+        k: written.text("air.field_k"),
+        epsilon: written.text("air.field_epsilon"),
+        omega: written.text("air.field_omega"),
+    }
+}
+
 fn load(
     files: &DataFiles,
     kind: FileKind,
     paths: &[PathBuf],
-    layout: &RecordLayout,
+    written: &WrittenValues,
 ) -> Result<(Content, Vec<Fault>), FileError> {
     let path = paths.first().cloned().unwrap_or_default();
     let content = match kind {
@@ -242,11 +252,12 @@ fn load(
         FileKind::SpinlineAir => Content::SpinlineAir(files.spinline_air(&path)?),
         FileKind::Polymer => Content::Polymer(files.polymer(&path)?),
         FileKind::Records => {
-            let records: Result<_, _> = paths.iter().map(|path| files.record(path, layout)).collect();
+            let layout = record_layout(written);
+            let records: Result<_, _> = paths.iter().map(|path| files.record(path, &layout)).collect();
             Content::Records(records?)
         }
         FileKind::Field => {
-            let (field, warnings) = files.field(&path)?;
+            let (field, warnings) = files.field(&path, &field_layout(written))?;
             return Ok((Content::Field(field), warnings));
         }
     };

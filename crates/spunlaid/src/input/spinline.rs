@@ -55,7 +55,7 @@ pub fn parse_spinline<'a>(
         // Only a whole case has a fibre that can fly.
         (open.case, open.notes) = parse_with(&files, text, name, &overrides)?;
     }
-    Ok(SpinFile::of(open))
+    Ok(SpinFile::from_open(open))
 }
 
 /// Sets the values of a spinline alone, which is then complete.
@@ -106,7 +106,7 @@ pub fn write_spinline(spec: &SpinSpec) -> String {
 }
 
 impl SpinFile {
-    pub(super) fn of(open: OpenCase) -> Self {
+    pub(super) fn from_open(open: OpenCase) -> Self {
         let OpenCase { written, case, mut notes } = open;
         notes.extend(case.unusual_in(&TABLES).into_iter().map(|note| written.placed(note)));
         let spinline = case.spinline.map_or(Spinline::UNKNOWN, |spinline| *spinline);

@@ -11,9 +11,13 @@ use toml::de::{DeInteger, DeValue};
 /// Reads the value of a key of this kind.
 ///
 /// * `beside` – gives the path for the name of a file
-pub(super) fn read(of: &Kind, value: &DeValue<'_>, beside: impl Fn(&str) -> PathBuf) -> Result<Value, Fault> {
-    let wrong = |found| Fault::wrong_type(found, of.wanted());
-    let read = match (of, value) {
+pub(super) fn read(
+    expected: &Kind,
+    value: &DeValue<'_>,
+    beside: impl Fn(&str) -> PathBuf,
+) -> Result<Value, Fault> {
+    let wrong = |found| Fault::wrong_type(found, expected.wanted());
+    let read = match (expected, value) {
         (Kind::Quantity(dimension, _), value) => Value::Number(number(*dimension, value)?),
         (&Kind::Whole(least, most), DeValue::Integer(number)) => {
             Value::Whole(integer(number).ok_or_else(|| Fault::out_of_range(least, most))?)
@@ -43,7 +47,7 @@ pub(super) fn read(of: &Kind, value: &DeValue<'_>, beside: impl Fn(&str) -> Path
         (Kind::File(_), DeValue::String(text)) => Value::Paths(vec![beside(text)]),
         (_, other) => return Err(wrong(kind(other))),
     };
-    of.accept(read)
+    expected.accept(read)
 }
 
 pub(super) fn integer(number: &DeInteger<'_>) -> Option<u64> {

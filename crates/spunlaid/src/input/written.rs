@@ -47,7 +47,7 @@ impl WrittenValues {
 
     /// Whether any key of a table is written.
     pub(super) fn has_table(&self, table: &str) -> bool {
-        self.values.keys().any(|key| key.split_once('.').is_some_and(|(of, _)| of == table))
+        self.values.keys().any(|key| key.split_once('.').is_some_and(|(first, _)| first == table))
     }
 
     pub(super) fn set(&mut self, key: impl Into<Cow<'static, str>>, said: WrittenValue) {

@@ -132,7 +132,7 @@ impl<'a> Flyer<'a> {
             }
         };
         // The points of a study change a case without its path.
-        let known = self.flown.iter().find(|(of, flown, _)| of == path && flown == case);
+        let known = self.flown.iter().find(|(source, flown, _)| source == path && flown == case);
         let flown = match known {
             Some((.., flown)) => Arc::clone(flown),
             None => {
@@ -140,7 +140,7 @@ impl<'a> Flyer<'a> {
                     LaydownSource::Results { folder, .. } => laid::read(folder)?,
                     _ => self.fly(path, case)?,
                 };
-                let flown = Arc::new(FlownFibres::of(path, case, curves)?);
+                let flown = Arc::new(FlownFibres::gather(path, case, curves)?);
                 if self.flown.len() == KEPT {
                     self.flown.remove(0);
                 }
@@ -184,7 +184,7 @@ impl<'a> Flyer<'a> {
 impl FlownFibres {
     /// * `path` – of the case or of the results, for messages
     /// * `laid` – all points of each replicate
-    pub(super) fn of(path: &Path, case: &Case, mut laid: Vec<Vec<LaidPoint>>) -> Result<Self, Error> {
+    pub(super) fn gather(path: &Path, case: &Case, mut laid: Vec<Vec<LaidPoint>>) -> Result<Self, Error> {
         let nothing = |reason: &str| Error::folder(path, Fault::plain(reason.to_owned()));
         let line = case.line.ok_or_else(|| nothing("its fibre is not fed on to a belt"))?;
         let spacing = case.fibre.rest_length();
@@ -198,15 +198,19 @@ impl FlownFibres {
             let mut trace = Trace::new(tracing);
             points.iter().for_each(|point| trace.add(point.md, point.cd));
             points.drain(..points.len().min(skip as usize));
-            let of = trace.finish();
-            let sigmas = [of.sigma_md, of.sigma_cd];
-            let found = identify(sigmas, of.lag_step, [&of.correlation_md, &of.correlation_cd]);
+            let statistics = trace.finish();
+            let sigmas = [statistics.sigma_md, statistics.sigma_cd];
+            let found = identify(
+                sigmas,
+                statistics.lag_step,
+                [&statistics.correlation_md, &statistics.correlation_cd],
+            );
             let noise = found.map(|found| found.surrogate.noise);
             unidentified = unidentified.or(noise.err());
             for (all, value) in numbers.iter_mut().zip([sigmas[0], sigmas[1], noise.unwrap_or(f64::NAN)]) {
                 all.extend(value.is_finite().then_some(value));
             }
-            traces.push(of);
+            traces.push(statistics);
         }
         let places = laid.iter().map(|points| points.iter().map(|point| [point.md, point.cd]).collect());
         let delay = |point: &LaidPoint| line.feed_speed * point.time - point.fed;
@@ -214,9 +218,11 @@ impl FlownFibres {
         let curves = Curves::new(spacing, belt_ratio, places.collect())
             .and_then(|curves| curves.with_delays(delays.collect()))?;
         let numbers = numbers.map(Estimate::new);
-        let correlations: Vec<[&[f64]; 2]> =
-            traces.iter().map(|of| [&of.correlation_md[..], &of.correlation_cd[..]]).collect();
-        let step = traces.first().map_or(f64::NAN, |of| of.lag_step);
+        let correlations: Vec<[&[f64]; 2]> = traces
+            .iter()
+            .map(|statistics| [&statistics.correlation_md[..], &statistics.correlation_cd[..]])
+            .collect();
+        let step = traces.first().map_or(f64::NAN, |statistics| statistics.lag_step);
         let residual = Self::known(&numbers).and_then(|surrogate| surrogate.residual(step, &correlations));
         Ok(Self { curves: Arc::new(curves), numbers, residual, unidentified })
     }
@@ -278,8 +284,8 @@ impl FlownWeb {
 /// The web with the fibres of its layers. Beside flown curves stands their surrogate, and the other way round.
 fn to_lay(spec: &WebSpec, layers: &[LayerFibres]) -> Web {
     let mut web = spec.web(layers.iter().map(|layer| layer.fibres.clone()));
-    for ((layer, of), named) in web.layers.iter_mut().zip(layers).zip(&spec.layers) {
-        layer.compared = of.flown.as_ref().and_then(|flown| match spec.method {
+    for ((layer, fibres), named) in web.layers.iter_mut().zip(layers).zip(&spec.layers) {
+        layer.compared = fibres.flown.as_ref().and_then(|flown| match spec.method {
             Method::Surrogate => Some(Fibres::Curves(Arc::clone(&flown.curves))),
             Method::Dynamics | Method::SharedAir => {
                 flown.surrogate(named.source.path()).ok().map(Fibres::Surrogate)

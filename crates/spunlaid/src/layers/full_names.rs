@@ -28,9 +28,10 @@ pub(crate) fn is_alternative(one: &str, other: &str) -> bool {
 /// What to write if the name does not say of which layer or row it is, or names one that is not there.
 pub(crate) fn full_name(web: &WebSpec, name: &str) -> Result<String, String> {
     let layers = web.layers.len();
-    let named =
-        |of: &LayerSpec| name.strip_prefix("layer.")?.strip_prefix(of.name.as_deref()?)?.strip_prefix('.');
-    let by_name = (1..).zip(&web.layers).find_map(|(number, of)| Some((number, named(of)?)));
+    let named = |layer: &LayerSpec| {
+        name.strip_prefix("layer.")?.strip_prefix(layer.name.as_deref()?)?.strip_prefix('.')
+    };
+    let by_name = (1..).zip(&web.layers).find_map(|(number, layer)| Some((number, named(layer)?)));
     let full = by_name.map_or_else(|| name.to_owned(), |(number, rest)| format!("layer.{number}.{rest}"));
     let table = WEB.find(name).map_or("", WebKey::table);
     if table == "line.rows" {

@@ -41,14 +41,16 @@ fn decode(file: File) -> Decoded<BTreeMap<i64, Vec<LaidPoint>>> {
         let rows = usize::try_from(group.metadata().num_rows()).map_err(|_| missing("rows"))?;
         let mut replicates = Vec::new();
         match group.get_column_reader(replicate)? {
-            ColumnReader::Int64ColumnReader(mut of) => of.read_records(rows, None, None, &mut replicates)?,
+            ColumnReader::Int64ColumnReader(mut reader) => {
+                reader.read_records(rows, None, None, &mut replicates)?
+            }
             _ => return Err(missing(COLUMNS[0])),
         };
         let numbers = |at: usize, name: &str| {
             let mut numbers = Vec::new();
             match group.get_column_reader(at)? {
-                ColumnReader::DoubleColumnReader(mut of) => {
-                    of.read_records(rows, None, None, &mut numbers)?
+                ColumnReader::DoubleColumnReader(mut reader) => {
+                    reader.read_records(rows, None, None, &mut numbers)?
                 }
                 _ => return Err(missing(name)),
             };

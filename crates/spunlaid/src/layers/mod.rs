@@ -173,10 +173,10 @@ impl WebSpec {
 
     /// Mass of all filaments that is fed per time over the width of the sheet [kg/(m s)].
     pub fn mass_flow(&self) -> f64 {
-        let of = |layer: &LayerSpec| {
+        let flow = |layer: &LayerSpec| {
             layer.linear_density() * layer.feed_speed * layer.filaments.count(&self.sheet) as f64
         };
-        self.layers.iter().map(of).sum::<f64>() / self.sheet.width
+        self.layers.iter().map(flow).sum::<f64>() / self.sheet.width
     }
 
     /// The speed of a belt on which all layers together have this mass per area [m/s].
@@ -187,17 +187,20 @@ impl WebSpec {
     /// Puts all layers on a belt of this speed, above which the cases are flown.
     ///
     /// * `belt` – its speed [m/s]
-    pub(crate) fn set_belt_speed(&mut self, belt: f64) {
+    ///
+    /// # Errors
+    /// If a case cannot have it.
+    pub(crate) fn set_belt_speed(&mut self, belt: f64) -> Result<(), Fault> {
         for layer in &mut self.layers {
             if let LaydownSource::Case { case, .. } = &mut layer.source
                 && (layer.belt_speed / belt - 1.0).abs() > SAME
             {
-                let speed = case_keys::find("belt.speed")
-                    .map(|speed| speed.apply(Arc::make_mut(case), &Value::Number(belt)));
-                drop(speed);
+                let speed = case_keys::find("belt.speed");
+                speed.map_or(Ok(()), |speed| speed.apply(Arc::make_mut(case), &Value::Number(belt)))?;
             }
             layer.belt_speed = belt;
         }
+        Ok(())
     }
 
     /// The web of one of its layers alone.
@@ -243,7 +246,7 @@ pub(crate) fn too_small(
     let closed = [true, sheet.edges == Edges::Periodic];
     let sides =
         [("web.length", sheet.length, "laydown.sigma_md"), ("web.width", sheet.width, "laydown.sigma_cd")];
-    let of = move |(((key, side, sigma), spread), closed)| {
+    let patch = move |(((key, side, sigma), spread), closed)| {
         let is_short = closed && side < LEAST_SPREADS * spread;
         let [spread, least] = [spread, LEAST_SPREADS * spread].map(|size| Dimension::Length.pretty(size));
         let fault = || {
@@ -257,5 +260,5 @@ pub(crate) fn too_small(
         };
         is_short.then(|| (key, side, fault()))
     };
-    sides.into_iter().zip(spreads).zip(closed).filter_map(of)
+    sides.into_iter().zip(spreads).zip(closed).filter_map(patch)
 }

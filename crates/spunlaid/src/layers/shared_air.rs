@@ -62,7 +62,7 @@ impl Flyer<'_> {
             let mut flown = flown?;
             together.add(number, flown.together());
             let curves = flown.kept.into_iter().map(|(_, points)| points).collect();
-            let flown = Arc::new(FlownFibres::of(layer.path, &layer.case, curves)?);
+            let flown = Arc::new(FlownFibres::gather(layer.path, &layer.case, curves)?);
             // In machine direction the sheet is not closed.
             spec.check_spreads([0.0, flown.numbers[1].mean])?;
             layers

@@ -173,7 +173,7 @@ pub struct TrendPoint {
 impl TrendPoint {
     /// Takes the values from the results of a study's point.
     pub fn new(value: f64, results: &PointResults) -> Self {
-        let measure = |name| results.of(name).unwrap_or((f64::NAN, None));
+        let measure = |name| results.find(name).unwrap_or((f64::NAN, None));
         Self {
             value,
             amplitude: ["amplitude_y", "amplitude_z"].map(measure),

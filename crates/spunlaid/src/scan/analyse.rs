@@ -86,7 +86,7 @@ fn found(picture: &Picture, settings: &Settings) -> Result<Findings, Fault> {
     let lags = ((LAG / map.cell).round() as usize + 1).min(LAGS);
     let shading = weighed.shading.as_ref().map(|shading| libm::expm1(shading.range()));
     let notes = notes(picture, settings, &weighed, &patches, &aside);
-    let (clouds, autocorrelation) = (Clouds::of(map), autocorrelation(map, lags, 1));
+    let (clouds, autocorrelation) = (Clouds::measure(map), autocorrelation(map, lags, 1));
     let WeighedPicture { map, mean_known, white, density, pixels, .. } = weighed;
     Ok(Findings {
         map,

@@ -28,3 +28,8 @@ impl fmt::Display for Doubt {
         })
     }
 }
+
+impl Doubt {
+    /// All that a guess of the lamp makes doubtful, by its name in files.
+    pub const GUESSES: [(&'static str, Self); 2] = [("lamp", Self::White), ("shading", Self::Shading)];
+}

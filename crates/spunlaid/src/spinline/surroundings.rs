@@ -47,7 +47,7 @@ impl AirChange {
     pub const NONE: Self = Self { velocity_factor: 1.0, cross_velocity_factor: 1.0, temperature_offset: 0.0 };
 
     /// The changed air.
-    pub(super) fn of(self, air: AirState) -> AirState {
+    pub(super) fn apply(self, air: AirState) -> AirState {
         AirState {
             velocity: self.velocity_factor * air.velocity,
             cross_velocity: self.cross_velocity_factor * air.cross_velocity,

@@ -240,7 +240,7 @@ impl<'a> Thread<'a> {
     pub(super) fn rates(&self, distance: f64, state: &State, phase: Phase, hint: &mut usize) -> Rates {
         let (line, material) = (self.line, self.material());
         let (mass_flow, gravity) = (line.throughput, self.gravity);
-        let air = self.air_change.of(self.air.at(distance, hint));
+        let air = self.air_change.apply(self.air.at(distance, hint));
         let (v, temperature) = (libm::exp(state[LN_SPEED]), state[TEMPERATURE]);
         let density = material.melt_density(temperature);
         let area = mass_flow / (density * v);

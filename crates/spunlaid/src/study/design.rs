@@ -131,17 +131,18 @@ impl Design {
             }
             Self::Paired => {
                 let count = values.iter().map(Vec::len).min().unwrap_or(0);
-                (0..count).map(|k| values.iter().map(|of| of[k]).collect()).collect()
+                (0..count).map(|k| values.iter().map(|column| column[k]).collect()).collect()
             }
             Self::LatinHypercube(points) => {
                 let shares: Vec<Vec<f64>> =
                     (0..factors.len()).map(|i| latin(points, seed, i as u64)).collect();
-                let row = |k: usize| factors.iter().zip(&shares).map(|(f, of)| f.at(of[k])).collect();
+                let row = |k: usize| factors.iter().zip(&shares).map(|(f, shares)| f.at(shares[k])).collect();
                 (0..points as usize).map(row).collect()
             }
             Self::Sobol(points) => {
                 let sobol: Vec<Sobol> = (0..factors.len()).map(Sobol::dimension).collect();
-                let row = |k: u64| factors.iter().zip(&sobol).map(|(f, of)| f.at(of.at(k))).collect();
+                let row =
+                    |k: u64| factors.iter().zip(&sobol).map(|(f, sequence)| f.at(sequence.at(k))).collect();
                 (0..points).map(row).collect()
             }
         }
@@ -150,10 +151,10 @@ impl Design {
 
 /// Every combination of values; the last factor varies fastest.
 fn grid(values: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    values.iter().fold(vec![Vec::new()], |rows, of| {
+    values.iter().fold(vec![Vec::new()], |rows, levels| {
         let longer = |row: &Vec<f64>| {
             let row = row.clone();
-            of.iter().map(move |&value| row.iter().copied().chain([value]).collect())
+            levels.iter().map(move |&value| row.iter().copied().chain([value]).collect())
         };
         rows.iter().flat_map(longer).collect()
     })
@@ -208,12 +209,12 @@ impl Factor {
 
     /// Least and greatest value.
     pub fn ends(&self) -> (f64, f64) {
-        let of = |values: &[f64]| {
+        let ends = |values: &[f64]| {
             values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &v| (a.min(v), b.max(v)))
         };
         match &self.levels {
-            Levels::List(values) => of(values),
-            Levels::Range { from, to, .. } => of(&[*from, *to]),
+            Levels::List(values) => ends(values),
+            Levels::Range { from, to, .. } => ends(&[*from, *to]),
         }
     }
 

@@ -243,12 +243,14 @@ impl Journal {
 
     /// Number of recorded replicates of a point.
     pub fn held(&self, point: usize) -> u64 {
-        self.slots.get(point).map_or(0, |of| of.iter().filter(|slot| **slot != 0).count() as u64)
+        self.slots
+            .get(point)
+            .map_or(0, |replicates| replicates.iter().filter(|slot| **slot != 0).count() as u64)
     }
 
     /// One more than the largest replicate that has a record, of any point.
     pub fn most_held(&self) -> u64 {
-        self.slots.iter().map(|of| of.len() as u64).max().unwrap_or(0)
+        self.slots.iter().map(|replicates| replicates.len() as u64).max().unwrap_or(0)
     }
 
     /// Number of recorded replicates of all points.
@@ -258,7 +260,10 @@ impl Journal {
 
     /// Whether a fibre has a record.
     pub fn holds(&self, point: usize, replicate: u64) -> bool {
-        self.slots.get(point).and_then(|of| of.get(replicate as usize)).is_some_and(|slot| *slot != 0)
+        self.slots
+            .get(point)
+            .and_then(|replicates| replicates.get(replicate as usize))
+            .is_some_and(|slot| *slot != 0)
     }
 
     /// The existing records among the first `replicates` of a point, in order.
@@ -290,12 +295,12 @@ fn first(bytes: &[u8], most: usize) -> &[u8] {
 }
 
 fn slot<'a>(slots: &'a mut [Vec<u32>], record: &Record) -> &'a mut u32 {
-    let of = &mut slots[record.point as usize];
+    let replicates = &mut slots[record.point as usize];
     let replicate = record.replicate as usize;
-    if of.len() <= replicate {
-        of.resize(replicate + 1, 0);
+    if replicates.len() <= replicate {
+        replicates.resize(replicate + 1, 0);
     }
-    &mut of[replicate]
+    &mut replicates[replicate]
 }
 
 /// Another process has the journal open.

@@ -95,7 +95,7 @@ pub(super) fn of_webs<'a>(webs: impl Iterator<Item = &'a WebSpec>) -> Vec<Quanti
     for side in sides(webs) {
         let first = all.len();
         let place = |end: &str| {
-            let is_it = |of: &PatchMeasure| of.measure.name.strip_prefix("cv_#") == Some(end);
+            let is_it = |patch: &PatchMeasure| patch.measure.name.strip_prefix("cv_#") == Some(end);
             first + OF_PATCHES.iter().position(is_it).unwrap_or(0)
         };
         // In millimetres, without the rounding of the file.

@@ -49,7 +49,7 @@ impl Packing {
         for batch in batches.iter().filter(|batch| !batch.replicates.is_empty()) {
             let (alike, work, width) = match &points[batch.point].experiment {
                 Experiment::Case(case) => {
-                    (Ok(Common::of(case)), case.run.steps as f64 * case.fibre.elements as f64, WIDTH)
+                    (Ok(Common::from_case(case)), case.run.steps as f64 * case.fibre.elements as f64, WIDTH)
                 }
                 // Spinlines take milliseconds, so that many make a bundle.
                 Experiment::Spinline(_) => (Err(batch.point / 64), 0.0, WIDTH),
@@ -109,7 +109,7 @@ pub struct Bundles {
 
 impl Bundles {
     /// * `flights` – number of flights of a bundle, at least one
-    pub fn of(points: &[Point], batches: &[Batch], flights: usize) -> Self {
+    pub fn from_batches(points: &[Point], batches: &[Batch], flights: usize) -> Self {
         Self { packing: Packing::new(points, batches), flights: flights.max(1) }
     }
 
@@ -235,7 +235,7 @@ mod tests {
             batches.iter().flat_map(|b| b.replicates.clone().map(|r| (b.point, r))).collect();
         assert_eq!(jobs, expected);
         let in_group = |flight: usize| {
-            let common = |job: &(usize, u64)| Common::of(points[job.0].experiment.case().unwrap());
+            let common = |job: &(usize, u64)| Common::from_case(points[job.0].experiment.case().unwrap());
             let jobs = packing.jobs(flight);
             jobs.iter().all(|job| common(job) == common(&jobs[0]))
         };
@@ -247,16 +247,19 @@ mod tests {
         let points = points(&[5.0, 10.0, 20.0], &[0.05, 0.1]);
         let batches: Vec<Batch> = (0..6).map(|point| Batch { point, replicates: 3..14 }).collect();
         for flights in [1, 2, 3, 100] {
-            let bundles = Bundles::of(&points, &batches, flights);
+            let bundles = Bundles::from_batches(&points, &batches, flights);
             // 33 jobs in 5 flights for each of the two meshes of eddies.
             assert_eq!(bundles.count(), 10usize.div_ceil(flights));
             let mut jobs = Vec::new();
             for bundle in 0..bundles.count() {
-                let of = bundles.batches(bundle);
-                let here: u64 = of.iter().map(length).sum();
+                let batches = bundles.batches(bundle);
+                let here: u64 = batches.iter().map(length).sum();
                 assert!(here <= 8 * flights as u64);
-                assert!(Packing::new(&points, &of).count <= flights, "a bundle flies in as many flights");
-                jobs.extend(of.iter().flat_map(|b| b.replicates.clone().map(|r| (b.point, r))));
+                assert!(
+                    Packing::new(&points, &batches).count <= flights,
+                    "a bundle flies in as many flights"
+                );
+                jobs.extend(batches.iter().flat_map(|b| b.replicates.clone().map(|r| (b.point, r))));
             }
             jobs.sort_unstable();
             let all: Vec<_> = (0..6).flat_map(|point| (3..14).map(move |r| (point, r))).collect();
@@ -273,7 +276,7 @@ mod tests {
         };
         let points = [Method::Surrogate, Method::SharedAir, Method::SharedAir].map(of_method);
         let batches: Vec<Batch> = (0..3).map(|point| Batch { point, replicates: 2..5 }).collect();
-        let bundles = Bundles::of(&points, &batches, 1);
+        let bundles = Bundles::from_batches(&points, &batches, 1);
         let mut all: Vec<Vec<Batch>> = (0..bundles.count()).map(|bundle| bundles.batches(bundle)).collect();
         // Those that take minutes come first.
         assert!(all[..6].iter().all(|bundle| bundle[0].point > 0));

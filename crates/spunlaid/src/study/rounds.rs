@@ -24,7 +24,7 @@ pub struct PointResults {
 
 impl PointResults {
     /// Mean and standard error of a measure of fibres. None without a measure of this name.
-    pub fn of(&self, name: &str) -> Option<(f64, Option<f64>)> {
+    pub fn find(&self, name: &str) -> Option<(f64, Option<f64>)> {
         let index = MEASURES.iter().position(|measure| measure.name == name)?;
         Some((*self.mean.get(index)?, self.standard_error(index)))
     }
@@ -87,7 +87,7 @@ pub struct Rounds {
 
 impl Rounds {
     /// The first round of a study.
-    pub fn of(study: &Study) -> Self {
+    pub fn new(study: &Study) -> Self {
         let points = study.points.len();
         Self {
             wanted: vec![study.replicates.at_least; points],

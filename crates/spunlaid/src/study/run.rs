@@ -41,7 +41,7 @@ pub fn run(
     computing: Computing<'_>,
     progress: &Progress,
 ) -> Result<(), Error> {
-    let mut rounds = Rounds::of(study);
+    let mut rounds = Rounds::new(study);
     loop {
         fly_missing(study, journal, &rounds, computing, progress)?;
         if !rounds.next(study, &mut lock(journal))? {

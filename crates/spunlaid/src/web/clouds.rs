@@ -40,7 +40,7 @@ struct Tile {
 }
 
 impl Tile {
-    fn of(powers: Powers, side: usize) -> Self {
+    fn from_powers(powers: Powers, side: usize) -> Self {
         let mut radial = vec![0.0; side];
         let (mut short, mut along) = (0.0, 0.0);
         for (j, i) in powers.numbers().chain([(0, 0)]) {
@@ -90,13 +90,13 @@ const LONG: f64 = 0.25;
 /// Mean square of a Hann window.
 const SQUARE: f64 = 0.375;
 
-fn hann(at: usize, of: usize) -> f64 {
-    libm::sin(PI * (at as f64 + 0.5) / of as f64).powi(2) / SQUARE.sqrt()
+fn hann(at: usize, length: usize) -> f64 {
+    libm::sin(PI * (at as f64 + 0.5) / length as f64).powi(2) / SQUARE.sqrt()
 }
 
 impl Clouds {
     /// [`Clouds::at`] of filaments at places of which nothing is known.
-    pub fn of(map: &Map) -> Option<Self> {
+    pub fn measure(map: &Map) -> Option<Self> {
         Self::at(map, &Places::Unknown, 1)
     }
 
@@ -115,7 +115,7 @@ impl Clouds {
         let mean = total as f64 / map.cells.len() as f64;
         let [across, along] = [map.columns / side, map.rows / side];
         let stride = (across * along).div_ceil(MOST);
-        let (sheet, shortest) = Sheet::of(map, mean, places, threads);
+        let (sheet, shortest) = Sheet::measure(map, mean, places, threads);
         // The border of a ring of the tiles, so that none is missing and none counts twice.
         let tile = side as f64 * map.cell;
         let from = tile / (tile / shortest).floor().max(1.0);
@@ -136,7 +136,7 @@ impl Clouds {
             let value = |i: usize, j: usize| {
                 (f64::from(map.row(row + i)[column + j]) / mean - 1.0) * window[i] * window[j]
             };
-            Tile::of(Powers::of(side, side, 1, value), side)
+            Tile::from_powers(Powers::new(side, side, 1, value), side)
         };
         // As many at a time as there are threads, because a tile takes megabytes.
         for some in tiles.chunks(threads.max(1)) {
@@ -224,7 +224,7 @@ impl Clouds {
 
 impl Sheet {
     /// The waves of a sheet, and the shortest of them that counts [m].
-    fn of(map: &Map, mean: f64, places: &Places, threads: usize) -> (Self, f64) {
+    fn measure(map: &Map, mean: f64, places: &Places, threads: usize) -> (Self, f64) {
         let columns = map.columns.next_power_of_two().min(ACROSS);
         let rows = map.rows.next_power_of_two().min(PARTS / columns);
         let across = Split::new(map.columns, columns);
@@ -249,9 +249,9 @@ impl Sheet {
         }
         let of_part = mean * map.cells.len() as f64 / (columns * rows) as f64;
         let open = map.closed.map(|closed| !closed);
-        let window = |open: bool, at: usize, of: usize| if open { hann(at, of) } else { 1.0 };
+        let window = |open: bool, at: usize, length: usize| if open { hann(at, length) } else { 1.0 };
         let across: Vec<f64> = (0..columns).map(|column| window(open[0], column, columns)).collect();
-        let powers = Powers::of(columns, rows, threads, |row, column| {
+        let powers = Powers::new(columns, rows, threads, |row, column| {
             (sums[row * columns + column] / of_part - 1.0) * across[column] * window(open[1], row, rows)
         });
         let sides = [map.columns, map.rows].map(|cells| cells as f64 * map.cell);

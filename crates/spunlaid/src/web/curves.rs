@@ -42,7 +42,7 @@ impl Curves {
             for (i, point) in curve.iter_mut().enumerate() {
                 point[0] += belt_ratio * spacing * i as f64;
             }
-            let middle = [0, 1].map(|of| curve.iter().map(|p| p[of]).sum::<f64>() / curve.len() as f64);
+            let middle = [0, 1].map(|axis| curve.iter().map(|p| p[axis]).sum::<f64>() / curve.len() as f64);
             for point in curve.iter_mut() {
                 // The place under the nozzle is where the curve is on average.
                 *point = [point[0] - middle[0], point[1] - middle[1]];
@@ -181,10 +181,10 @@ impl Points for Stretches {
         let first = self.taken.saturating_sub(1);
         let count = points.len().min(self.length - first).min(pieces + 1);
         for (i, point) in points[..count].iter_mut().enumerate() {
-            *point = [0, 1].map(|of| {
+            *point = [0, 1].map(|axis| {
                 Lanes::from_fn(|lane| {
                     let (curve, start) = self.from[if lane < self.filaments { lane } else { 0 }];
-                    self.curves.curves[curve][start + first + i][of]
+                    self.curves.curves[curve][start + first + i][axis]
                 })
             });
         }

@@ -116,8 +116,8 @@ pub fn expected_cv(web: &Web, by: Laying<'_>) -> Result<Vec<ExpectedCv>, Error> 
     let layers: Option<Vec<Layer>> = web.layers.iter().map(flown).collect();
     let columns = across(web).columns;
     let sides = sides(&web.sheet, &columns);
-    let of = OneFibre { cell: web.sheet.cell, fibres: ALONE, seed: web.seed };
-    let found = expected(web, layers.unwrap_or_else(|| web.layers.clone()), &sides, (of, columns), by)?;
+    let sample = OneFibre { cell: web.sheet.cell, fibres: ALONE, seed: web.seed };
+    let found = expected(web, layers.unwrap_or_else(|| web.layers.clone()), &sides, (sample, columns), by)?;
     let of_side = |(Expected { cv: (cv, standard_error), parts, .. }, side): (Expected, &usize)| {
         let fibres = parts.first().map_or(0, Vec::len);
         let alike = parts.iter().all(|of_layer| of_layer.len() == fibres);
@@ -147,12 +147,12 @@ pub(super) fn expected(
     web: &Web,
     layers: Vec<Layer>,
     sides: &[usize],
-    (of, columns): (OneFibre, Range<usize>),
+    (sample, columns): (OneFibre, Range<usize>),
     by: Laying<'_>,
 ) -> Result<Vec<Expected>, Error> {
     let sheet = &web.sheet;
     let closed = sheet.edges == Edges::Periodic;
-    let found = try_each(by.threads, layers.len(), |i| one_fibre(&layers[i], sides, of, by))?;
+    let found = try_each(by.threads, layers.len(), |i| one_fibre(&layers[i], sides, sample, by))?;
     let expected = |i: usize| {
         // Places of a patch.
         let count = if closed { columns.len() } else { columns.len() + 1 - sides[i] };
@@ -164,7 +164,7 @@ pub(super) fn expected(
                     let places = places(web, number, layer);
                     let places: Vec<f64> = places.iter().map(|place| place / sheet.cell).collect();
                     let across = found[i].across(&places, (sheet.cells()[0], closed), sides[i]);
-                    across[columns.start..][..count].iter().map(|of| weight * of).collect()
+                    across[columns.start..][..count].iter().map(|place| weight * place).collect()
                 }
             };
             let mean = across.iter().sum::<f64>() / count as f64;
@@ -178,15 +178,15 @@ pub(super) fn expected(
         for ((layer, found), (across, weight)) in layers.iter().zip(&found).zip(&weights) {
             let share = weight / whole;
             let scale = share * share * layer.linear_density / weight;
-            let by_chance = found[i].of(&layer.filaments);
+            let by_chance = found[i].estimate(&layer.filaments);
             square += scale * by_chance.mean;
             parts.push(by_chance.values.iter().map(|value| scale * value).collect());
             error += (scale * by_chance.standard_error.unwrap_or(f64::NAN)).powi(2);
             let patch = sides[i] as f64 * sheet.cell;
             straight += (share * straight_fibres(weight / layer.linear_density, patch)).powi(2);
-            sums.iter_mut().zip(across).for_each(|(sum, of)| *sum += of / whole);
+            sums.iter_mut().zip(across).for_each(|(sum, value)| *sum += value / whole);
         }
-        square += sums.iter().map(|of| (of - 1.0).powi(2)).sum::<f64>() / count as f64;
+        square += sums.iter().map(|value| (value - 1.0).powi(2)).sum::<f64>() / count as f64;
         Expected {
             cv: (square.sqrt(), error.sqrt() / (2.0 * square.sqrt())),
             straight_fibres: straight.sqrt(),

@@ -96,12 +96,13 @@ pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: Laying<'_>) -> Result<Fin
         return Ok(found);
     }
     let sides: Vec<usize> = found.patches.iter().map(|patch| side(&web.sheet, patch.map.patch)).collect();
-    let of = OneFibre { cell: web.sheet.cell, fibres: TURNED, seed: web.seed };
+    let sample = OneFibre { cell: web.sheet.cell, fibres: TURNED, seed: web.seed };
     let aside = AtomicU64::new(0);
-    let mut sensitivities = sensitivities(web, &sides, of, Laying { laid: &aside, ..by })?;
+    let mut sensitivities = sensitivities(web, &sides, sample, Laying { laid: &aside, ..by })?;
     // A surrogate that is not like the flown fibres does not say what would change their web.
-    for of in sensitivities.iter_mut().filter(|of| of.source == Source::Surrogate) {
-        for (elasticity, patch) in of.elasticity.iter_mut().zip(&found.patches) {
+    for sensitivity in sensitivities.iter_mut().filter(|sensitivity| sensitivity.source == Source::Surrogate)
+    {
+        for (elasticity, patch) in sensitivity.elasticity.iter_mut().zip(&found.patches) {
             if patch.surrogate_is_far() {
                 *elasticity = None;
             }
@@ -143,20 +144,23 @@ pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: Laying<'_>) -> Result<
     let aside = AtomicU64::new(0);
     let by = Laying { laid: &aside, ..by };
     let map = laid.map.between(columns.clone());
-    let of = OneFibre { cell: sheet.cell, fibres: ALONE, seed: web.seed };
-    let alone = expected(web, web.layers.clone(), &sides, (of, columns.clone()), by)?;
+    let sample = OneFibre { cell: sheet.cell, fibres: ALONE, seed: web.seed };
+    let alone = expected(web, web.layers.clone(), &sides, (sample, columns.clone()), by)?;
     let other = |layer: &Layer| Some(Layer { fibres: layer.compared.clone()?, ..layer.clone() });
     let compared = match web.layers.iter().map(other).collect() {
-        Some(layers) => Some(expected(web, layers, &sides, (of, columns.clone()), by)?),
+        Some(layers) => Some(expected(web, layers, &sides, (sample, columns.clone()), by)?),
         None => None,
     };
-    let all = |of: fn(&Fibres) -> bool, fibres: fn(&Layer) -> Option<&Fibres>| {
-        web.layers.iter().all(|layer| fibres(layer).is_some_and(of))
+    let all = |is_kind: fn(&Fibres) -> bool, fibres: fn(&Layer) -> Option<&Fibres>| {
+        web.layers.iter().all(|layer| fibres(layer).is_some_and(is_kind))
     };
-    let the_one = |of: fn(&Fibres) -> bool, i: usize| {
-        let laid = all(of, |layer| Some(&layer.fibres)).then_some(alone[i].cv);
+    let the_one = |is_kind: fn(&Fibres) -> bool, i: usize| {
+        let laid = all(is_kind, |layer| Some(&layer.fibres)).then_some(alone[i].cv);
         laid.or_else(|| {
-            compared.as_ref().filter(|_| all(of, |layer| layer.compared.as_ref())).map(|found| found[i].cv)
+            compared
+                .as_ref()
+                .filter(|_| all(is_kind, |layer| layer.compared.as_ref()))
+                .map(|found| found[i].cv)
         })
     };
     // The air displaces neighbours together, so their streaks are chance.

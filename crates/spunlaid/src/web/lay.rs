@@ -54,7 +54,7 @@ pub fn lay(web: &Web, by: Laying<'_>) -> Result<LaidWeb, Error> {
     let sum = Mutex::new((Map::new([columns, rows], sheet.cell, quantum, closed), 0u64, false));
     // Strips are large; a thread uses one again.
     let strips = Mutex::new(Vec::new());
-    let held = |of: &Mutex<Vec<Strip>>| of.lock().unwrap_or_else(PoisonError::into_inner).pop();
+    let held = |strips: &Mutex<Vec<Strip>>| strips.lock().unwrap_or_else(PoisonError::into_inner).pop();
     try_each(by.threads, units.len(), |unit| {
         let (plan, which) = &units[unit];
         let mut strip = held(&strips).unwrap_or_else(|| Strip::new(rows));

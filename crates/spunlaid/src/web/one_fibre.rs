@@ -56,12 +56,12 @@ pub struct SingleFibres {
 pub fn one_fibre(
     layer: &Layer,
     sides: &[usize],
-    of: OneFibre,
+    sample: OneFibre,
     by: Laying<'_>,
 ) -> Result<Vec<SingleFibres>, Error> {
     let largest = sides.iter().copied().max().unwrap_or(1);
     // So far apart that no patch meets two fibres.
-    let reach = (layer.fibres.reach() / of.cell).ceil() as usize + 4;
+    let reach = (layer.fibres.reach() / sample.cell).ceil() as usize + 4;
     let apart = 2 * reach + largest;
     // The first patch that meets a fibre begins in the fibre's own columns.
     let trace = reach + largest;
@@ -71,13 +71,13 @@ pub fn one_fibre(
         Fibres::Surrogate(_) => {
             let rows = (CELLS / (ABREAST * apart)).max(least);
             let abreast = (4 * CELLS / (rows * apart)).clamp(1, ABREAST) as u64;
-            let fibres = of.fibres.max(1);
-            for (seed, first) in (of.seed..).zip((0..fibres).step_by(abreast as usize)) {
+            let fibres = sample.fibres.max(1);
+            for (seed, first) in (sample.seed..).zip((0..fibres).step_by(abreast as usize)) {
                 let count = abreast.min(fibres - first);
                 add(
                     layer,
                     sides,
-                    OneFibre { fibres: count, seed, ..of },
+                    OneFibre { fibres: count, seed, ..sample },
                     [apart, trace, rows],
                     by,
                     &mut found,
@@ -86,16 +86,16 @@ pub fn one_fibre(
         }
         Fibres::Curves(curves) => {
             for curve in curves.single() {
-                let rows = (curve.length() * layer.belt_ratio() / of.cell).floor() as usize;
+                let rows = (curve.length() * layer.belt_ratio() / sample.cell).floor() as usize;
                 if rows < largest {
                     return Err(super::curves::no_curves().into());
                 }
                 let alone = Layer { fibres: Fibres::Curves(Arc::new(curve)), ..layer.clone() };
-                add(&alone, sides, OneFibre { fibres: 1, ..of }, [apart, trace, rows], by, &mut found)?;
+                add(&alone, sides, OneFibre { fibres: 1, ..sample }, [apart, trace, rows], by, &mut found)?;
             }
         }
     }
-    let scales = sides.iter().map(|side| (*side as f64 * of.cell).powi(2));
+    let scales = sides.iter().map(|side| (*side as f64 * sample.cell).powi(2));
     Ok(found.into_iter().zip(scales).map(|(sums, area)| sums.finish(area, trace)).collect())
 }
 
@@ -103,36 +103,36 @@ pub fn one_fibre(
 fn add(
     layer: &Layer,
     sides: &[usize],
-    of: OneFibre,
+    sample: OneFibre,
     [apart, trace, rows]: [usize; 3],
     by: Laying<'_>,
     found: &mut [Sums],
 ) -> Result<(), Error> {
-    let pitch = apart as f64 * of.cell;
-    let row = Row::new((trace as f64 + 0.5) * of.cell, pitch, of.fibres);
+    let pitch = apart as f64 * sample.cell;
+    let row = Row::new((trace as f64 + 0.5) * sample.cell, pitch, sample.fibres);
     let web = Web {
         sheet: Sheet {
-            width: pitch * of.fibres as f64,
-            length: rows as f64 * of.cell,
-            cell: of.cell,
+            width: pitch * sample.fibres as f64,
+            length: rows as f64 * sample.cell,
+            cell: sample.cell,
             patches: Vec::new(),
             edges: Edges::Periodic,
         },
         layers: vec![Layer { filaments: Filaments::Rows(vec![row]), ..layer.clone() }],
-        seed: of.seed,
+        seed: sample.seed,
     };
     let map = lay(&web, by)?.map;
     let metres = map.quantum / layer.linear_density;
     let length = layer.fed_length(&web.sheet);
     let share = metres / (rows as f64);
     let of_sides = try_each(by.threads, sides.len(), |i| {
-        let mut squares = vec![0.0; of.fibres as usize];
-        let mut profiles = vec![vec![0.0; apart]; of.fibres as usize];
+        let mut squares = vec![0.0; sample.fibres as usize];
+        let mut profiles = vec![vec![0.0; apart]; sample.fibres as usize];
         boxes(&map, sides[i], [map.columns, map.rows], |_, boxes| {
             let fibres = squares.iter_mut().zip(&mut profiles);
-            for ((squares, profile), of) in fibres.zip(boxes.chunks_exact(apart)) {
+            for ((squares, profile), cells) in fibres.zip(boxes.chunks_exact(apart)) {
                 // Most patches hold nothing.
-                for (mean, quanta) in profile.iter_mut().zip(of).filter(|(_, quanta)| **quanta > 0) {
+                for (mean, quanta) in profile.iter_mut().zip(cells).filter(|(_, quanta)| **quanta > 0) {
                     let quanta = *quanta as f64;
                     *squares += quanta * quanta;
                     *mean += quanta * share;
@@ -153,7 +153,7 @@ fn add(
 
 impl SingleFibres {
     /// `CV²·τ` of a layer, without what fixed places themselves do.
-    pub fn of(&self, filaments: &Filaments) -> &Estimate {
+    pub fn estimate(&self, filaments: &Filaments) -> &Estimate {
         match filaments {
             Filaments::AtRandom { .. } => &self.at_random,
             Filaments::Slot { .. } | Filaments::Rows(_) => &self.at_places,
@@ -205,8 +205,9 @@ impl Sums {
     fn finish(self, area: f64, trace: usize) -> SingleFibres {
         let fibres = self.profiles.len() as f64;
         let columns = self.profiles.first().map_or(0, Vec::len);
-        let profile: Vec<f64> =
-            (0..columns).map(|i| self.profiles.iter().map(|of| of[i]).sum::<f64>() / fibres).collect();
+        let profile: Vec<f64> = (0..columns)
+            .map(|i| self.profiles.iter().map(|profile| profile[i]).sum::<f64>() / fibres)
+            .collect();
         let each = self.squares.iter().zip(&self.profiles).zip(&self.rows);
         let at_places = each.map(|((squares, own), rows)| {
             // The mean of the others, for the square of the own one has its chance in it. One alone has no others.
@@ -238,7 +239,7 @@ impl Fibres {
     /// Spread about the straight trace in cross direction [m].
     pub(super) fn sigma_cd(&self) -> f64 {
         match self {
-            Self::Surrogate(of) => of.sigma_cd,
+            Self::Surrogate(surrogate) => surrogate.sigma_cd,
             Self::Curves(curves) => curves.sigma_cd(),
         }
     }
@@ -249,7 +250,7 @@ impl Fibres {
     pub(super) fn power_across(&self, wave: f64) -> f64 {
         match self {
             // ξ₂ is normal.
-            Self::Surrogate(of) => libm::exp(-(wave * of.sigma_cd).powi(2)),
+            Self::Surrogate(surrogate) => libm::exp(-(wave * surrogate.sigma_cd).powi(2)),
             Self::Curves(curves) => curves.power_across(wave),
         }
     }
@@ -259,7 +260,7 @@ impl Fibres {
         /// A normal distribution goes beyond once in 26 million points.
         const SIGMAS: f64 = 5.5;
         match self {
-            Self::Surrogate(of) => SIGMAS * of.sigma_cd,
+            Self::Surrogate(surrogate) => SIGMAS * surrogate.sigma_cd,
             Self::Curves(curves) => curves.reach()[0],
         }
     }

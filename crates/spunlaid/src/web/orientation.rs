@@ -70,7 +70,7 @@ pub fn orientation(web: &Web, by: Laying<'_>) -> Result<Orientation, Error> {
         whole += weight;
     }
     // Each value stands for its layer's share of the mass.
-    let count = values.iter().map(|(_, of)| of.len()).min().unwrap_or(0);
-    let mixed = |i: usize| values.iter().map(|(weight, of)| weight * of[i] / whole).sum::<f64>();
+    let count = values.iter().map(|(_, shares)| shares.len()).min().unwrap_or(0);
+    let mixed = |i: usize| values.iter().map(|(weight, shares)| weight * shares[i] / whole).sum::<f64>();
     Ok(Orientation { cos_squared: Estimate::new((0..count).map(mixed).collect()), directions })
 }

@@ -88,9 +88,10 @@ impl<'a> Plan<'a> {
         let sheet = &web.sheet;
         let fed = layer.fed_length(sheet);
         let (wanted, longest) = match &layer.fibres {
-            Fibres::Surrogate(of) => {
-                let least = of.sigma_md.min(of.sigma_cd);
-                let longest = (LONGEST_PIECE[0] * least).min(LONGEST_PIECE[1] / (of.noise * of.noise));
+            Fibres::Surrogate(surrogate) => {
+                let least = surrogate.sigma_md.min(surrogate.sigma_cd);
+                let longest =
+                    (LONGEST_PIECE[0] * least).min(LONGEST_PIECE[1] / (surrogate.noise * surrogate.noise));
                 // A whole number of pieces, none of them longer.
                 let wanted = cheapest_piece(longest, sheet.cell / (1.0 + layer.belt_ratio()));
                 (fed / (fed / wanted).ceil(), None)
@@ -130,7 +131,7 @@ impl<'a> Plan<'a> {
     /// Highest mass of a cell that is reckoned with, without the other filaments [kg].
     pub(super) fn mass_of_trace(&self, sheet: &Sheet) -> f64 {
         let width = match &self.layer.fibres {
-            Fibres::Surrogate(of) => (2.0 * std::f64::consts::PI).sqrt() * of.sigma_cd,
+            Fibres::Surrogate(surrogate) => (2.0 * std::f64::consts::PI).sqrt() * surrogate.sigma_cd,
             Fibres::Curves(_) => self.layer.fibres.reach(),
         };
         self.layer.linear_density / self.layer.belt_ratio() * sheet.cell * (sheet.cell / width).min(1.0)

@@ -86,7 +86,7 @@ struct Crossing<S: Register> {
 
 impl<S: Register> Crossing<S> {
     #[inline(always)]
-    fn of(at: Wide<S>, cell: Wide<S>, by: Wide<S>) -> Self {
+    fn place(at: Wide<S>, cell: Wide<S>, by: Wide<S>) -> Self {
         let (zero, one) = (Wide::<S>::zero(), Wide::<S>::splat(1.0));
         let within = at - cell;
         let way = Wide::select_less(by, zero, within, one - within);
@@ -139,8 +139,8 @@ impl<S: Register> Ink<S> {
     fn part(&mut self, at: [Wide<S>; 2], by: [Wide<S>; 2], strip: &mut Strip) {
         let (zero, one, shift) = (Wide::<S>::zero(), Wide::<S>::splat(1.0), Wide::<S>::splat(TWO_52));
         let cell = [at[0].floor(), at[1].floor()];
-        let x = Crossing::of(at[0], cell[0], by[0]);
-        let y = Crossing::of(at[1], cell[1], by[1]);
+        let x = Crossing::place(at[0], cell[0], by[0]);
+        let y = Crossing::place(at[1], cell[1], by[1]);
         let first = Wide::select_less(x.share, y.share, x.share, y.share);
         let last = Wide::select_less(x.share, y.share, y.share, x.share);
         // Rounded to whole quanta.
@@ -193,8 +193,8 @@ impl<S: Register> Ink<S> {
     fn finish(&mut self, strip: &mut Strip) {
         self.add(strip);
         let entries = entry(self.cell, self.gathered + Wide::splat(TWO_52)).store();
-        for (of, entry) in self.list.iter_mut().zip(entries.0) {
-            *of = entry.to_bits();
+        for (slot, entry) in self.list.iter_mut().zip(entries.0) {
+            *slot = entry.to_bits();
         }
         (self.listed, self.gathered) = (WIDTH, Wide::zero());
         self.add(strip);

@@ -64,8 +64,8 @@ impl Lever {
     fn both(self, layer: &Layer, factor: f64, largest: f64) -> Option<(Source, [Layer; 2])> {
         let fibres = [Some(&layer.fibres), layer.compared.as_ref()].into_iter().flatten();
         let both = |fibres: &Fibres| {
-            let of = Layer { fibres: fibres.clone(), ..layer.clone() };
-            let [less, more] = [factor.recip(), factor].map(|factor| self.turned(&of, factor));
+            let changed = Layer { fibres: fibres.clone(), ..layer.clone() };
+            let [less, more] = [factor.recip(), factor].map(|factor| self.turned(&changed, factor));
             Some([less?, more?])
         };
         let long_enough = |curves: &Arc<Curves>| curves.length() * layer.belt_ratio() / factor > largest;
@@ -75,8 +75,8 @@ impl Lever {
             .and_then(both)
             .map(|both| (Source::FlownFibres, both));
         let surrogate = || {
-            let of = fibres.clone().find(|fibres| matches!(fibres, Fibres::Surrogate(_)))?;
-            Some((Source::Surrogate, both(of)?))
+            let surrogate = fibres.clone().find(|fibres| matches!(fibres, Fibres::Surrogate(_)))?;
+            Some((Source::Surrogate, both(surrogate)?))
         };
         match self {
             Self::Filaments => Some((Source::Law, [layer.clone(), layer.clone()])),
@@ -148,15 +148,15 @@ const STEP: f64 = 0.1;
 pub fn sensitivities(
     web: &Web,
     sides: &[usize],
-    of: OneFibre,
+    sample: OneFibre,
     by: Laying<'_>,
 ) -> Result<Vec<Sensitivity>, Error> {
     let mut found = Vec::new();
     let [layer] = &web.layers[..] else {
         return Ok(found);
     };
-    let largest = sides.iter().copied().max().unwrap_or(1) as f64 * of.cell;
-    let both = |lever: Lever| Some((lever, lever.both(layer, 1.0 + STEP, largest + of.cell)?));
+    let largest = sides.iter().copied().max().unwrap_or(1) as f64 * sample.cell;
+    let both = |lever: Lever| Some((lever, lever.both(layer, 1.0 + STEP, largest + sample.cell)?));
     let turned: Vec<(Lever, (Source, [Layer; 2]))> = Lever::ALL.into_iter().filter_map(both).collect();
     let of_both: Vec<Vec<Estimate>> = try_each(by.threads, 2 * turned.len(), |i| {
         let (lever, (_, layers)) = &turned[i / 2];
@@ -164,8 +164,8 @@ pub fn sensitivities(
         if *lever == Lever::Filaments || (*lever == Lever::BeltSpeed && layer.belt_changes_flight()) {
             return Ok(Vec::new());
         }
-        let found = one_fibre(&layers[i % 2], sides, of, by)?;
-        Ok(found.iter().map(|alone| alone.of(&layer.filaments).clone()).collect())
+        let found = one_fibre(&layers[i % 2], sides, sample, by)?;
+        Ok(found.iter().map(|alone| alone.estimate(&layer.filaments).clone()).collect())
     })?;
     for ((lever, (source, _)), of_both) in turned.into_iter().zip(of_both.chunks_exact(2)) {
         let elasticity = if lever == Lever::BeltSpeed && layer.belt_changes_flight() {

@@ -49,7 +49,7 @@ fn strands_of(
     plan.walk(web, first, count, by, |points| {
         for (lane, open) in open.iter_mut().enumerate().take(count) {
             let at = |i: usize| {
-                let [md, cd] = points[i].each_ref().map(|of: &Lanes| of.0[lane]);
+                let [md, cd] = points[i].each_ref().map(|coordinate: &Lanes| coordinate.0[lane]);
                 [places.0[lane] + cd, along.0[lane] + md - advance * i as f64]
             };
             let mut last = at(0);

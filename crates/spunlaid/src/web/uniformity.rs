@@ -47,7 +47,7 @@ pub fn unevenness_at(map: &Map, side: usize, places_of_filaments: &Places) -> Op
     if side == 0 || sizes.iter().any(|size| side > *size) || mean <= 0.0 {
         return None;
     }
-    let places = [0, 1].map(|of| if map.closed[of] { sizes[of] } else { sizes[of] - side + 1 });
+    let places = [0, 1].map(|axis| if map.closed[axis] { sizes[axis] } else { sizes[axis] - side + 1 });
     // So many of the places, evenly spread, a power of two.
     let [columns, rows] = places.map(|places| 1 << places.min(WAVES).ilog2());
     let mut some = Vec::with_capacity(columns * rows);
@@ -61,7 +61,7 @@ pub fn unevenness_at(map: &Map, side: usize, places_of_filaments: &Places) -> Op
     });
     let squares = squares / (places[0] * places[1]) as f64;
     let powers = (columns.min(rows) >= FEWEST)
-        .then(|| Powers::of(columns, rows, 1, |row, column| some[row * columns + column]));
+        .then(|| Powers::new(columns, rows, 1, |row, column| some[row * columns + column]));
     let of_mean = match places_of_filaments {
         Places::Unknown => powers.as_ref().map_or(0.0, |powers| powers.of_mean(map.closed)),
         Places::AtRandom(streaks) => streaks.variance_of_mean,
@@ -118,9 +118,9 @@ pub(super) fn boxes(map: &Map, side: usize, places: [usize; 2], mut take: impl F
         add(&mut columns, map.row((row + side - 1) % map.rows));
         let mut sum: u64 = columns[..side - 1].iter().sum();
         let mut slide = |boxes: &mut [u64], first: &[u64], last: &[u64]| {
-            for ((of, first), last) in boxes.iter_mut().zip(first).zip(last) {
+            for ((total, first), last) in boxes.iter_mut().zip(first).zip(last) {
                 sum += last;
-                *of = sum;
+                *total = sum;
                 sum -= first;
             }
         };

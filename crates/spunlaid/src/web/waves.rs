@@ -64,7 +64,7 @@ pub(super) const FEWEST: usize = WIDTH;
 impl Powers {
     /// * `columns`, `rows` – powers of two, at least [`FEWEST`]
     /// * `value` – of a row and a column
-    pub(super) fn of(
+    pub(super) fn new(
         columns: usize,
         rows: usize,
         threads: usize,
@@ -73,24 +73,26 @@ impl Powers {
         let mut transform = InverseTransform::new(columns);
         // Eight rows at a time, then eight columns.
         let transformed: Vec<Vec<Complex>> = each(threads, rows / WIDTH, |group| {
-            let of = |column| Complex {
+            let pair = |column| Complex {
                 re: Lanes::from_fn(|lane| value(group * WIDTH + lane, column)),
                 im: Lanes::ZERO,
             };
-            let mut data: Vec<Complex> = (0..columns).map(of).collect();
+            let mut data: Vec<Complex> = (0..columns).map(pair).collect();
             transform.run(&mut data);
             data
         });
         transform = InverseTransform::new(rows);
         let scale = ((columns * rows) as f64).powi(-2);
         let groups: Vec<Vec<f64>> = each(threads, columns / WIDTH, |group| {
-            let of = |row: usize| {
-                let part = |of: fn(&Complex) -> &Lanes| {
-                    Lanes::from_fn(|lane| of(&transformed[row / WIDTH][group * WIDTH + lane]).0[row % WIDTH])
+            let wave = |row: usize| {
+                let part = |component: fn(&Complex) -> &Lanes| {
+                    Lanes::from_fn(|lane| {
+                        component(&transformed[row / WIDTH][group * WIDTH + lane]).0[row % WIDTH]
+                    })
                 };
                 Complex { re: part(|z| &z.re), im: part(|z| &z.im) }
             };
-            let mut data: Vec<Complex> = (0..rows).map(of).collect();
+            let mut data: Vec<Complex> = (0..rows).map(wave).collect();
             transform.run(&mut data);
             let power = |z: &Complex, lane: usize| z.re.0[lane] * z.re.0[lane] + z.im.0[lane] * z.im.0[lane];
             data.iter().flat_map(|z| (0..WIDTH).map(move |lane| power(z, lane) * scale)).collect()

@@ -42,7 +42,7 @@ impl PatchFindings {
         let per_expected = self.map.cv / self.one_fibre.0;
         let parts = self.flown.map(|(flown, error)| [error, flown - self.one_fibre.0]);
         let part = |part: usize| parts.map(|parts| (parts[part] * per_expected).abs());
-        let [flight, model] = [0, 1].map(|i| part(i).filter(|of| of.is_finite()));
+        let [flight, model] = [0, 1].map(|i| part(i).filter(|error| error.is_finite()));
         WholeError { chance: self.map.standard_error, flight, model }
     }
 

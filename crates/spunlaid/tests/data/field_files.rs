@@ -284,7 +284,7 @@ fn names_of_many_programs_are_known() {
     }
     assert_eq!(
         by_names(&[("p", 1), ("T", 1), ("uU", 3)]).unwrap_err(),
-        "a.vti: none of the arrays is a velocity (p, T and uU); name it U or velocity, with three components, or write u, v and w"
+        "a.vti: none of the arrays is a velocity (p, T and uU); write air.field_velocity = \"uU\" if this is it"
     );
     assert_eq!(
         by_names(&[("U [furlong]", 3)]).unwrap_err(),

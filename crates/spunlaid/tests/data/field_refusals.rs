@@ -244,7 +244,7 @@ fn rejects_tables_with_place_and_way_out() {
         ),
         (
             "x,y,z,p,T\n1,2,3,4,5\n",
-            "a.vtu: none of the arrays is a velocity (x, y, z, p and T); name it U or velocity, with three components, or write u, v and w",
+            "a.vtu: none of the arrays is a velocity (x, y, z, p and T); name it U or velocity, with three components, or write u, v and w, or name its arrays with air.field_velocity",
         ),
         (
             "x [inch],y,z,u,v,w\n1,2,3,4,5,6\n",

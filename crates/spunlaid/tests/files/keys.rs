@@ -70,6 +70,13 @@ fn identical_after_getting_and_setting() {
         [("rate", "2 kHz"), ("skip", "2"), ("columns", "u,v"), ("velocity_unit", "m/s"), ("max_gap", "20")];
     let set = of_record.map(|(key, value)| (format!("air.record_{key}"), value.to_owned()));
     cases.push(("../../cases/record.toml".into(), set.to_vec()));
+    let arrays = |dissipation: &str| {
+        let velocity = [("air.field_velocity", "u_m_s, v_m_s, w_m_s"), ("air.field_k", "k_m2_s2")];
+        let set = velocity.into_iter().chain([(dissipation, "epsilon_m2_s3")]);
+        set.map(|(key, value)| (key.to_owned(), value.to_owned())).collect()
+    };
+    cases.push(("../../cases/point_table.toml".into(), arrays("air.field_epsilon")));
+    cases.push(("../../cases/point_table.toml".into(), arrays("air.field_omega")));
     let slides = ("belt.contact".to_owned(), "friction".to_owned());
     let beside = |direction| (format!("neighbours.{direction}"), "['5 mm', '1 mm']".to_owned());
     let shared = ("air.lateral".to_owned(), "von-karman".to_owned());

@@ -195,7 +195,7 @@ fn vary_every_key(name: &str, text: &str) -> Found {
             if !differ.is_empty() {
                 found.wrong.push(format!("{name}: {} = {values:?}: {}", key.name, differ.join(", ")));
             }
-            if how == CLOSE && Bundles::of(&points, &batches(&points), 1).count() == 1 {
+            if how == CLOSE && Bundles::from_batches(&points, &batches(&points), 1).count() == 1 {
                 found.shared.insert(key.name);
             }
         }

@@ -28,7 +28,7 @@ fn checked_by(
     let (stop, fibre_steps) = (AtomicBool::new(stop), AtomicU64::new(0));
     let computing = Computing { threads, isa, stop: &stop, fibre_steps: &fibre_steps, recorder: None };
     let none = || Err("it was not asked for".to_owned());
-    let plans = match (refined, FinerPlans::of(case)) {
+    let plans = match (refined, FinerPlans::for_case(case)) {
         (Refinement::TimeStep, FinerPlans { step, .. }) => FinerPlans { step, mesh: none() },
         (Refinement::Elements, FinerPlans { mesh, .. }) => FinerPlans { step: none(), mesh },
     };
@@ -266,7 +266,7 @@ fn identical_step_checks_for_any_number_of_threads_and_any_instruction_set() {
 #[test]
 fn step_checks_take_a_tenth_of_long_runs_and_leave_out_what_is_too_short_or_still() {
     // One flight of 20 million steps times elements, and ten such flights.
-    let plan = |case: &Case| FinerPlans::of(case).step;
+    let plan = |case: &Case| FinerPlans::for_case(case).step;
     for (replicates, seconds) in [(1, 0.05), (8, 0.05), (73, 0.5), (800, 1.0)] {
         let plan = plan(&table1(1e-6, 1.0, replicates)).expect("long enough");
         assert_eq!(plan.replicates, replicates.min(8));
@@ -286,7 +286,7 @@ fn step_checks_take_a_tenth_of_long_runs_and_leave_out_what_is_too_short_or_stil
         checked_by(Refinement::Elements, &still, 1, Isa::detect(), false).expect("the case flies");
     assert!(mesh.is_err_and(|why| why.contains("does not move")));
     // The mesh of the paper's case takes implicit tension and no more than a hundredth of the run.
-    let mesh = FinerPlans::of(&table1(1e-6, 1.0, 10)).mesh.expect("long enough");
+    let mesh = FinerPlans::for_case(&table1(1e-6, 1.0, 10)).mesh.expect("long enough");
     assert!(mesh.replicates == 8 && mesh.share_of_run < 0.01, "{}", mesh.share_of_run);
     // A second of fed fibre would take many times the run.
     let slow = common::laying::spunbond(&[
@@ -294,5 +294,7 @@ fn step_checks_take_a_tenth_of_long_runs_and_leave_out_what_is_too_short_or_stil
         ("belt.speed", "0.03 m/s"),
         ("run.duration", "20 s"),
     ]);
-    assert!(FinerPlans::of(&slow).step.is_err_and(|why| why.contains("times the run's computing time")));
+    assert!(
+        FinerPlans::for_case(&slow).step.is_err_and(|why| why.contains("times the run's computing time"))
+    );
 }

@@ -74,7 +74,7 @@ fn intervals_of_the_unevenness_hold() {
 fn a_wave_is_found_at_its_length_and_direction() {
     // 16 cells along the machine direction.
     let waves = map(256, 512, true, |row, _| 0.2 * (TAU * row as f64 / 16.0).sin());
-    let clouds = Clouds::of(&waves).expect("clouds");
+    let clouds = Clouds::measure(&waves).expect("clouds");
     let whole = 0.5 * 0.2 * 0.2;
     let found = clouds.variance(10e-3, 24e-3).mean;
     assert!((found / whole - 1.0).abs() < 1e-3, "{found} where {whole} is wanted");
@@ -95,7 +95,7 @@ fn a_wave_is_found_at_its_length_and_direction() {
 fn the_parts_of_white_noise_are_the_areas_of_their_rings() {
     let field = noise(1, [512, 512], 1);
     let noise = map(512, 512, true, |row, column| 0.1 * field[row * 512 + column]);
-    let clouds = Clouds::of(&noise).expect("clouds");
+    let clouds = Clouds::measure(&noise).expect("clouds");
     for ([from, to], found) in clouds.octaves().into_iter().skip(1) {
         // Wave numbers from 1/to to 1/from of a plane of one square wave number per cell.
         let area = std::f64::consts::PI * ((1e-3 / from).powi(2) - (1e-3 / to).powi(2));
@@ -120,7 +120,7 @@ fn analytic_long_streaks_do_not_leak_into_the_clouds() {
             |row: usize, column: usize| 12.0 * row as f64 / 400.0 + 5.0 * column as f64 / columns as f64;
         let map =
             map(columns, 400, true, |row, column| streak(column) + 0.1 * (TAU * turn(row, column)).cos());
-        let clouds = Clouds::of(&map).expect("clouds");
+        let clouds = Clouds::measure(&map).expect("clouds");
         let wave = 1e-3 / (12.0f64 / 400.0).hypot(5.0 / columns as f64);
         let found = clouds.variance(0.9 * wave, 1.1 * wave).mean;
         // Parts that cut across cells mix in a wave of the lattice: less than 1 %.

@@ -1,7 +1,6 @@
 //! A case with all defaults, its mesh, limits and expected cost; a spinline alone.
 
-use crate::args::{CaseSource, Check};
-use crate::commands::threads;
+use crate::args::{CaseSource, Check, Threads};
 use crate::failure::Failure;
 use crate::say;
 use serde::Serialize;
@@ -48,7 +47,7 @@ pub(super) fn case(check: &Check) -> Result<(), Failure> {
         "# expected: {} on {} of {} threads, {:.0} MiB of memory, {} of results",
         duration(expected.wall_s),
         expected.threads,
-        threads(None),
+        Threads::default().number(),
         expected.memory_bytes / f64::from(1 << 20),
         size(expected.disk_bytes)
     ));
@@ -129,6 +128,8 @@ fn field(placed: &PlacedField) {
         let [low, high] = [low, high].map(|end| Dimension::Length.pretty_to(end + 0.0, 3));
         say::line(&format!("#     {name} from {low} to {high}"));
     }
+    let read = placed.field.sources().iter().map(|(quantity, arrays)| format!("{quantity} from {arrays}"));
+    say::line(&format!("#   read: {}", read.collect::<Vec<_>>().join("; ")));
     say::line(&format!("#   velocity {}", spread(overview.speed, "m/s")));
     if placed.field.has_turbulence() {
         say::line(&format!("#   k {}", spread(overview.k, "m²/s²")));
@@ -181,7 +182,7 @@ fn mesh(case: &Case) {
 /// What is known of the error of the mesh, and how to find out.
 fn error_of_mesh(case: &Case) {
     let half = Dimension::Length.pretty_to(0.5 * case.fibre.rest_length(), 3);
-    match FinerPlans::of(case).mesh {
+    match FinerPlans::for_case(case).mesh {
         Ok(plan) => say::line(&format!(
             "#   spunlaid run compares it with elements of {half} in the same turbulence, for {} % of the run's time",
             significant(100.0 * plan.share_of_run, 2)
@@ -281,9 +282,9 @@ impl Expected {
         const FIGURES: f64 = 0.4;
         const WRITING: f64 = 0.7e-6;
         let flights = case.flights();
-        let busy = (threads(None) as u64).min(flights);
+        let busy = (Threads::default().number() as u64).min(flights);
         // A flight takes as long whether its lanes are full or not. The checks are some more, of their own length.
-        let again = FinerPlans::of(case).share_of_run() * flights as f64;
+        let again = FinerPlans::for_case(case).share_of_run() * flights as f64;
         let rounds = (flights.div_ceil(busy) as f64).max((flights as f64 + again) / busy as f64);
         let flying = pace(case, Isa::detect())? * case.run.steps as f64 * rounds;
         Ok(Self {

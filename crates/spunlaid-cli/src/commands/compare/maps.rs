@@ -41,7 +41,7 @@ pub(super) fn maps(webs: &[Web]) -> Maps {
     let mut spectra = Vec::new();
     for (web, map) in known {
         let clouds = map.whole(cell).and_then(|map| {
-            Clouds::of(&map)
+            Clouds::measure(&map)
                 .ok_or_else(|| "its map has fewer than 16 cells of that size either way".to_owned())
         });
         match clouds {

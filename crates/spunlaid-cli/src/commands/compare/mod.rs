@@ -6,8 +6,8 @@ mod results;
 mod web;
 mod webs;
 
-use super::interrupt::stop_on_ctrl_c;
-use crate::args::Compare;
+use super::staged;
+use crate::args::{Compare, Invocation};
 use crate::failure::Failure;
 use crate::say;
 use read::Run;
@@ -17,12 +17,12 @@ use spunlaid::observe::MEASURES;
 use spunlaid::statistics::{Difference, Estimate};
 use spunlaid_results::figures::{MOST_COMPARED, overlaid_figures};
 use spunlaid_results::output::comparison::{self, ComparedMeasure, Comparison};
-use spunlaid_results::output::folder::Staging;
+use spunlaid_results::output::origin::ORIGIN;
 use spunlaid_results::report::{ComparisonReport, comparison_html};
 use std::path::{Path, PathBuf};
 
 /// The files of a comparison; the last one marks it as complete.
-const FILES: &[&str] = &["figures", "report.html", "comparison.json"];
+const FILES: &[&str] = &[ORIGIN, "figures", "report.html", "comparison.json"];
 
 /// What two runs must have in common for their replicates to fly in the same turbulence: where it stands in
 /// `summary.json`.
@@ -39,7 +39,7 @@ const OF_TURBULENCE: [&str; 10] = [
     "/elements",
 ];
 
-pub(crate) fn compare(compare: &Compare) -> Result<(), Failure> {
+pub(crate) fn compare(compare: &Compare, invocation: &Invocation) -> Result<(), Failure> {
     if compare.runs.len() > MOST_COMPARED {
         let message = format!(
             "{} runs are named, and at most {MOST_COMPARED} are compared at a time",
@@ -48,9 +48,18 @@ pub(crate) fn compare(compare: &Compare) -> Result<(), Failure> {
         return Err(Fault::new(message, "name fewer").into());
     }
     let names = names(&compare.runs);
-    let folder = compare.out.clone().unwrap_or_else(|| PathBuf::from("results").join(joined(&names)));
-    let files = (!compare.json || compare.out.is_some())
-        .then(|| Staging::new(&folder, FILES, compare.force, stop_on_ctrl_c()))
+    let folder = compare.output.out.clone().unwrap_or_else(|| PathBuf::from("results").join(joined(&names)));
+    let files: Vec<&Path> = compare.runs.iter().map(PathBuf::as_path).collect();
+    let staging = (!compare.json || compare.output.out.is_some())
+        .then(|| {
+            staged(
+                &folder,
+                FILES,
+                compare.output.force,
+                invocation.origin(&files, &folder),
+                compare.output.quiet,
+            )
+        })
         .transpose()?;
     let results = match webs::read(&compare.runs, &names)? {
         Some(webs) => webs::compared(&webs)?,
@@ -58,7 +67,7 @@ pub(crate) fn compare(compare: &Compare) -> Result<(), Failure> {
     };
     let Results { comparisons, figures, pictures, notes } = &results;
     let json = comparison::json(comparisons, notes);
-    if let Some(mut staging) = files {
+    if let Some(mut staging) = staging {
         staging.set_figures(&compare.figures.files());
         staging.write_figures(figures)?;
         let drawn = pictures.iter().flat_map(|webs| &webs.pictures.files);
@@ -79,7 +88,7 @@ pub(crate) fn compare(compare: &Compare) -> Result<(), Failure> {
     }
     if compare.json {
         say::text(&json);
-    } else if !compare.quiet {
+    } else if !compare.output.quiet {
         comparisons.iter().for_each(|comparison| say::text(&comparison::table(comparison)));
         notes.iter().for_each(|note| say::remark(false, note));
         say::line(&format!("open {}", folder.join("report.html").display()));

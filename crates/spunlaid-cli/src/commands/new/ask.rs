@@ -12,13 +12,13 @@ use std::io::BufRead;
 ///
 /// * `answers` – lines that a person types
 pub(super) fn complete(
-    mut of: LineNumbers,
+    mut numbers: LineNumbers,
     mut answers: Option<&mut impl BufRead>,
 ) -> Result<LineNumbers, Failure> {
     let Some(answers) = &mut answers else {
-        let missing = missing(&of);
+        let missing = missing(&numbers);
         if missing.is_empty() {
-            return Ok(of);
+            return Ok(numbers);
         }
         let message = format!("the numbers of the line are incomplete: {} missing", is_or_are(&missing));
         let remedy =
@@ -33,39 +33,39 @@ pub(super) fn complete(
         Ok(number @ 1..=20) => Ok(number),
         _ => Err("write a whole number from 1 to 20".to_owned()),
     };
-    ask(answers, &mut of.polymer, "Polymer: pp, pet, pa6 or pla", "pp", polymer)?;
-    ask(answers, &mut of.throughput, "Throughput of a hole", "0.5 g/min", |t| {
+    ask(answers, &mut numbers.polymer, "Polymer: pp, pet, pa6 or pla", "pp", polymer)?;
+    ask(answers, &mut numbers.throughput, "Throughput of a hole", "0.5 g/min", |t| {
         quantity(Dimension::MassFlow, t)
     })?;
-    if of.diameter.is_none() {
-        ask(answers, &mut of.dtex, "Titre of a filament", "2 dtex", titre)?;
+    if numbers.diameter.is_none() {
+        ask(answers, &mut numbers.dtex, "Titre of a filament", "2 dtex", titre)?;
     }
-    ask(answers, &mut of.basis_weight, "Basis weight of the web", "20 g/m²", |t| {
+    ask(answers, &mut numbers.basis_weight, "Basis weight of the web", "20 g/m²", |t| {
         quantity(Dimension::BasisWeight, t)
     })?;
-    ask(answers, &mut of.width, "Width of the web", "1 m", |t| quantity(Dimension::Length, t))?;
-    if of.holes.is_none() {
-        ask(answers, &mut of.holes_per_metre, "Holes of a beam per metre of width", "5000", holes)?;
+    ask(answers, &mut numbers.width, "Width of the web", "1 m", |t| quantity(Dimension::Length, t))?;
+    if numbers.holes.is_none() {
+        ask(answers, &mut numbers.holes_per_metre, "Holes of a beam per metre of width", "5000", holes)?;
     }
-    ask(answers, &mut of.beams, "Number of equal beams", "1", beams)?;
-    ask(answers, &mut of.air_speed, "Speed of the air at the end of the slot", "60 m/s", |t| {
+    ask(answers, &mut numbers.beams, "Number of equal beams", "1", beams)?;
+    ask(answers, &mut numbers.air_speed, "Speed of the air at the end of the slot", "60 m/s", |t| {
         quantity(Dimension::Velocity, t)
     })?;
-    ask(answers, &mut of.distance, "Distance from the slot to the belt", "0.5 m", |t| {
+    ask(answers, &mut numbers.distance, "Distance from the slot to the belt", "0.5 m", |t| {
         quantity(Dimension::Length, t)
     })?;
-    Ok(of)
+    Ok(numbers)
 }
 
 /// The options without which there is no line.
-fn missing(of: &LineNumbers) -> Vec<&'static str> {
+fn missing(numbers: &LineNumbers) -> Vec<&'static str> {
     let needed = [
-        (of.polymer.is_some(), "--polymer"),
-        (of.throughput.is_some(), "--throughput"),
-        (of.dtex.is_some() || of.diameter.is_some(), "--dtex (or --diameter)"),
-        (of.basis_weight.is_some(), "--basis-weight"),
-        (of.holes_per_metre.is_some() || of.holes.is_some(), "--holes-per-metre (or --holes)"),
-        (of.air_speed.is_some(), "--air-speed"),
+        (numbers.polymer.is_some(), "--polymer"),
+        (numbers.throughput.is_some(), "--throughput"),
+        (numbers.dtex.is_some() || numbers.diameter.is_some(), "--dtex (or --diameter)"),
+        (numbers.basis_weight.is_some(), "--basis-weight"),
+        (numbers.holes_per_metre.is_some() || numbers.holes.is_some(), "--holes-per-metre (or --holes)"),
+        (numbers.air_speed.is_some(), "--air-speed"),
     ];
     needed.into_iter().filter(|(is_there, _)| !is_there).map(|(_, option)| option).collect()
 }
@@ -112,11 +112,14 @@ mod tests {
         let given = LineNumbers { throughput: Some(1e-5), diameter: Some(16e-6), ..LineNumbers::default() };
         // Polymer, basis weight with two answers that cannot be read, width, holes, beams, air, distance.
         let mut answers = "pet\ntwenty\n15\n15 gsm\n4.5 m\n\n2\n70 m/s\n\n".as_bytes();
-        let of = complete(given, Some(&mut answers)).unwrap_or_default();
-        assert_eq!(of.polymer.map(spunlaid::spinline::Polymer::name), Some("pet"));
-        assert_eq!((of.throughput, of.diameter, of.dtex), (Some(1e-5), Some(16e-6), None));
-        assert_eq!((of.basis_weight, of.width, of.holes_per_metre), (Some(0.015), Some(4.5), Some(5000)));
-        assert_eq!((of.beams, of.air_speed, of.distance), (Some(2), Some(70.0), Some(0.5)));
+        let numbers = complete(given, Some(&mut answers)).unwrap_or_default();
+        assert_eq!(numbers.polymer.map(spunlaid::spinline::Polymer::name), Some("pet"));
+        assert_eq!((numbers.throughput, numbers.diameter, numbers.dtex), (Some(1e-5), Some(16e-6), None));
+        assert_eq!(
+            (numbers.basis_weight, numbers.width, numbers.holes_per_metre),
+            (Some(0.015), Some(4.5), Some(5000))
+        );
+        assert_eq!((numbers.beams, numbers.air_speed, numbers.distance), (Some(2), Some(70.0), Some(0.5)));
         let said = complete(LineNumbers::default(), Some(&mut "pp\n".as_bytes())).unwrap_err().to_string();
         assert!(said.contains("the answers end too early"), "{said}");
     }

@@ -44,21 +44,21 @@ enum Size {
 
 impl Line {
     /// The line of complete numbers.
-    pub(super) fn new(of: &LineNumbers) -> Self {
+    pub(super) fn new(numbers: &LineNumbers) -> Self {
         let nan = f64::NAN;
-        let width = of.width.unwrap_or(WIDTH);
-        let in_all = of.holes.map(|holes| (holes as f64 / width).round().max(1.0) as u64);
+        let width = numbers.width.unwrap_or(WIDTH);
+        let in_all = numbers.holes.map(|holes| (holes as f64 / width).round().max(1.0) as u64);
         Self {
-            polymer: of.polymer.unwrap_or(Polymer::Pp),
-            throughput: of.throughput.unwrap_or(nan),
-            size: of.diameter.map_or(Size::Titre(of.dtex.unwrap_or(nan)), Size::Diameter),
-            basis_weight: of.basis_weight.unwrap_or(nan),
-            holes_per_metre: of.holes_per_metre.or(in_all).unwrap_or(1),
-            holes: of.holes,
-            beams: of.beams.unwrap_or(1),
+            polymer: numbers.polymer.unwrap_or(Polymer::Pp),
+            throughput: numbers.throughput.unwrap_or(nan),
+            size: numbers.diameter.map_or(Size::Titre(numbers.dtex.unwrap_or(nan)), Size::Diameter),
+            basis_weight: numbers.basis_weight.unwrap_or(nan),
+            holes_per_metre: numbers.holes_per_metre.or(in_all).unwrap_or(1),
+            holes: numbers.holes,
+            beams: numbers.beams.unwrap_or(1),
             width,
-            distance: of.distance.unwrap_or(DISTANCE),
-            air_speed: of.air_speed.unwrap_or(nan),
+            distance: numbers.distance.unwrap_or(DISTANCE),
+            air_speed: numbers.air_speed.unwrap_or(nan),
         }
     }
 

@@ -4,8 +4,8 @@ mod progress;
 mod table;
 
 use super::interrupt::stop_on_ctrl_c;
-use super::{plural, stem, threads};
-use crate::args::Sweep;
+use super::{plural, stem};
+use crate::args::{Invocation, Sweep};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::case::keys;
@@ -24,7 +24,7 @@ use std::sync::{Mutex, PoisonError};
 /// Largest number of lost fibres that are listed.
 const LOST_LISTED: u64 = 10;
 
-pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
+pub(crate) fn sweep(sweep: &Sweep, invocation: &Invocation) -> Result<(), Failure> {
     let (points, replicates) = (sweep.points, sweep.replicates);
     let set = Overrides { values: &sweep.set, word: "--set" };
     let file = read_changed_study(&sweep.study, &StudyChanges { points, replicates, set })?;
@@ -32,8 +32,13 @@ pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
         return print_point(&file.study, number);
     }
     file.notes.iter().for_each(say::study_note);
-    let path = super::folder(sweep.out.as_ref(), stem(&sweep.study, "study"));
-    let (mut folder, journal, found) = StudyFolder::open(&path, &file, sweep.force, stop_on_ctrl_c())?;
+    let path = super::folder(sweep.output.out.as_ref(), stem(&sweep.study, "study"));
+    let origin = invocation.origin(&[&sweep.study], &path);
+    let (mut folder, journal, found) =
+        StudyFolder::open(&path, &file, sweep.output.force, origin.as_ref(), stop_on_ctrl_c())?;
+    if folder.replaces() {
+        super::say_replaced(&path, sweep.output.quiet);
+    }
     folder.set_figures(&sweep.figures.files());
     report_found(sweep, &file.study, &found);
 
@@ -43,7 +48,7 @@ pub(crate) fn sweep(sweep: &Sweep) -> Result<(), Failure> {
     let mut journal = journal.into_inner().unwrap_or_else(PoisonError::into_inner);
     let done = (0..file.study.points.len()).map(|point| journal.held(point)).sum();
     let written =
-        outcome.map_err(Failure::from).and_then(|()| write(sweep, &file, &folder, &mut journal, before));
+        outcome.map_err(Failure::from).and_then(|()| write(sweep, &file, &mut folder, &mut journal, before));
     written.map_err(|failure| match failure {
         Failure::Error(Error::Interrupted) => {
             let what = match file.study.noun() {
@@ -75,13 +80,13 @@ fn report_found(sweep: &Sweep, study: &Study, found: &State) {
                 (_, false) => ", independent phases",
             };
             let points = plural(study.points.len() as u64, "point");
-            if !sweep.quiet {
+            if !sweep.output.quiet {
                 say::aside(&format!("{points}, each with {}{phases}", times(study)));
             }
         }
         State::Begun(found) => {
             let done = plural(found.fibres, study.noun());
-            if !sweep.quiet {
+            if !sweep.output.quiet {
                 say::aside(&format!("continuing: {done} of {} already done", study.most_fibres()));
             }
             if found.damaged > 0 {
@@ -119,13 +124,13 @@ fn fibres(journal: &Mutex<Journal>, study: &Study) -> u64 {
 fn fly(sweep: &Sweep, study: &Study, journal: &Mutex<Journal>) -> Result<(), Error> {
     let (fibre_steps, progress) = (AtomicU64::new(0), Progress::default());
     let computing = Computing {
-        threads: threads(sweep.threads),
+        threads: sweep.threads.number(),
         isa: Isa::detect(),
         stop: stop_on_ctrl_c(),
         fibre_steps: &fibre_steps,
         recorder: None,
     };
-    progress::follow(study, &progress, &fibre_steps, sweep.quiet, || {
+    progress::follow(study, &progress, &fibre_steps, sweep.output.quiet, || {
         run(study, journal, computing, &progress)
     })
 }
@@ -133,7 +138,7 @@ fn fly(sweep: &Sweep, study: &Study, journal: &Mutex<Journal>) -> Result<(), Err
 fn write(
     sweep: &Sweep,
     file: &StudyFile,
-    folder: &StudyFolder<'_>,
+    folder: &mut StudyFolder<'_>,
     journal: &mut Journal,
     before: u64,
 ) -> Result<(), Failure> {
@@ -144,7 +149,7 @@ fn write(
     if sweep.json {
         let path = folder.path().join("results.json");
         say::text(&fs::read_to_string(&path).map_err(Error::unwritable(&path))?);
-    } else if !sweep.quiet {
+    } else if !sweep.output.quiet {
         say::text(&table::results(study, &results));
         if let Some(refusal) = &refusal {
             say::line(&format!("the keys are not ranked: {refusal}"));

@@ -32,7 +32,7 @@ fn draws_every_figure_of_a_spinline() {
 fn the_numbers_of_a_figure_are_those_of_the_thread() {
     let rows = rows(&spinline());
     let figures = spinline_figures("l", &rows, &influences());
-    let csv = |name: &str| figures.iter().find(|figure| figure.name == name).unwrap().table.csv();
+    let csv = |name: &str| figures.iter().find(|figure| figure.name == name).unwrap().table().csv();
     let text = csv("l_speed_and_diameter");
     assert_eq!(text.lines().next(), Some("series,distance_from_the_die_mm,speed_m_s,diameter_um"));
     let last = text.lines().rfind(|line| line.starts_with("thread,") && !line.ends_with(',')).unwrap();

@@ -53,8 +53,8 @@ fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, l
     let names = [0, 1].map(|i| name_of_key(&study.factors[i].key));
     let title = format!("{which} over {} and {}", names[1], names[0]);
     let [of_up, of_along] = [0, 1].map(|i| FactorAxis::of_study(study, i));
-    let labels = |of: &FactorAxis, values: &[f64]| -> Vec<String> {
-        values.iter().map(|value| significant(of.place(*value), 3)).collect()
+    let labels = |axis: &FactorAxis, values: &[f64]| -> Vec<String> {
+        values.iter().map(|value| significant(axis.place(*value), 3)).collect()
     };
     let heat = Heat {
         title: title.clone(),

@@ -15,6 +15,7 @@ pub use moving::{PLANES, Picture, pictures};
 pub use summary::Summary;
 pub use vtk::write_vtk;
 
+use super::origin::ORIGIN;
 use crate::Failure;
 use spunlaid::air::AirAtPlaces;
 use spunlaid::case::Case;
@@ -23,6 +24,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// The contents of the folder. The last entry marks it as complete.
 pub const ENTRIES: &[&str] = &[
+    ORIGIN,
     "case_files",
     "case.toml",
     "along.pvd",

@@ -70,8 +70,8 @@ fn of_plane(case: &Case, plane: &Plane, velocities: &[Vec<Vec3<f64>>]) -> PlaneS
     let flow: Vec<_> = places.iter().map(|place| case.air.local(*place, &mut hint)).collect();
     let count = (velocities.len() * places.len()).max(1) as f64;
     let axes: [fn(&Vec3<f64>) -> f64; 3] = [|v| v.x, |v| v.y, |v| v.z];
-    let mean = |of: &dyn Fn(&Vec3<f64>, usize) -> f64| {
-        let sum = |all: &Vec<Vec3<f64>>| all.iter().enumerate().map(|(n, v)| of(v, n)).sum::<f64>();
+    let mean = |term: &dyn Fn(&Vec3<f64>, usize) -> f64| {
+        let sum = |all: &Vec<Vec3<f64>>| all.iter().enumerate().map(|(n, v)| term(v, n)).sum::<f64>();
         velocities.iter().map(sum).sum::<f64>() / count
     };
     PlaneSummary {

@@ -8,7 +8,7 @@ use serde::Serialize;
 use serde_json::Value as Json;
 use spunlaid::advice::Advice;
 use spunlaid::observe::{OF_SCANNED_PATCHES, OF_SCANS, ScanMeasure};
-use spunlaid::scan;
+use spunlaid::scan::{self, Doubt};
 use spunlaid::statistics::{Estimate, interval_of_deviation};
 use spunlaid::web::uniformity::Unevenness;
 use spunlaid::web::{Clouds, Edges, Findings, Map, NeighbourCorrelation, Web};
@@ -184,7 +184,7 @@ struct NeighbourSummary<'a> {
 
 impl<'a> NeighboursSummary<'a> {
     /// None of a web of independent filaments.
-    fn of(findings: &Findings, layers: &'a [Layer]) -> Option<Self> {
+    fn from_findings(findings: &Findings, layers: &'a [Layer]) -> Option<Self> {
         let entry = |neighbour: &NeighbourCorrelation| NeighbourSummary {
             layer: layers.get(neighbour.layer).map_or("", |layer| layer.name.as_str()),
             distance_m: neighbour.distance,
@@ -331,7 +331,7 @@ impl<'a> Summary<'a> {
                 ..WebSummary::of_map(&findings.laid.map, findings.clouds.as_ref(), patches.collect())
             },
             advice: advice.map(AdviceSummary::new),
-            neighbours: NeighboursSummary::of(findings, layers),
+            neighbours: NeighboursSummary::from_findings(findings, layers),
             scan: None,
             performance,
             notes,
@@ -365,7 +365,10 @@ impl<'a> Summary<'a> {
             let json = if is_count { number.map(|count| count as u64).into() } else { number.into() };
             (measure.name.to_owned(), json)
         };
-        let scan = std::iter::once(("file".to_owned(), file.into())).chain(OF_SCANS.iter().map(number));
+        let guess = Doubt::GUESSES.into_iter().find(|(_, doubt)| Some(*doubt) == findings.guess);
+        let guess = guess.map(|(name, _)| name).into();
+        let words = [("file".to_owned(), file.into()), ("guess".to_owned(), guess)];
+        let scan = words.into_iter().chain(OF_SCANS.iter().map(number));
         Self {
             schema_version: SCHEMA_VERSION,
             spunlaid_version: env!("CARGO_PKG_VERSION"),

@@ -110,7 +110,7 @@ impl<'a> EddyFields<'a> {
             for (rows, weights) in rows.iter().zip(&weights) {
                 for (rows, weights) in rows[lane].iter().zip(weights) {
                     for (m, sum) in of_samples.iter_mut().enumerate() {
-                        *sum = sum.add_weighted(rows.of(m), weights[m][lane]);
+                        *sum = sum.add_weighted(rows.row(m), weights[m][lane]);
                     }
                 }
             }

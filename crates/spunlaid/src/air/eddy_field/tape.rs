@@ -48,7 +48,7 @@ impl<'a> Rows<'a> {
     ///
     /// * `sample` – of four
     #[inline(always)]
-    pub(super) fn of(self, sample: usize) -> &'a [f16; READ] {
+    pub(super) fn row(self, sample: usize) -> &'a [f16; READ] {
         self.0[sample * ROW..].first_chunk().unwrap_or(&[f16::ZERO; READ])
     }
 }

@@ -47,7 +47,7 @@ impl EddyPath {
         let x = |i: f64| distance * i / PIECES as f64;
         let mut stage = |i: f64| {
             let local = air.local(Vec3::new(x(i), 0.0, 0.0), &mut hint);
-            Stage { travel: 0.0, ..Stage::of(&local, air) }
+            Stage { travel: 0.0, ..Stage::from_air(&local, air) }
         };
         let mut stages: Vec<Stage> = (0..=PIECES).map(|i| stage(i as f64)).collect();
         let mut middles: Vec<Stage> = (0..PIECES).map(|i| stage(i as f64 + 0.5)).collect();
@@ -137,7 +137,7 @@ impl EddyPath {
 }
 
 impl Stage {
-    fn of(local: &LocalAir, air: &Air) -> Self {
+    fn from_air(local: &LocalAir, air: &Air) -> Self {
         Self {
             travel: 0.0,
             speed: local.velocity.norm(),

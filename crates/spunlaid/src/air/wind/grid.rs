@@ -16,7 +16,7 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    pub(super) fn of(sampling: &Sampling, repeats: bool) -> Self {
+    pub(super) fn new(sampling: &Sampling, repeats: bool) -> Self {
         let period = 4 * sampling.harmonics.next_power_of_two();
         Self { period, spacing: sampling.repeat_time() / period as f64, repeats }
     }

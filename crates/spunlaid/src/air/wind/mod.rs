@@ -94,7 +94,7 @@ impl Wind {
         }
         let mean = means(&sampling, &streams);
         let windows = Windows::repeating(isa, sampling, streams, horizon);
-        Ok(Self::of(isa, windows.spacing(), mean, Signal::Synthesised(windows)))
+        Ok(Self::with_signal(isa, windows.spacing(), mean, Signal::Synthesised(windows)))
     }
 
     /// The wind of up to eight fibres. Lanes left over repeat the first.
@@ -123,10 +123,10 @@ impl Wind {
                 (Signal::Synthesised(windows), spacing)
             }
         };
-        Self::of(isa, spacing, mean, signal)
+        Self::with_signal(isa, spacing, mean, signal)
     }
 
-    fn of(isa: Isa, spacing: f64, mean: Vec<Lanes>, signal: Signal) -> Self {
+    fn with_signal(isa: Isa, spacing: f64, mean: Vec<Lanes>, signal: Signal) -> Self {
         let eddies = mean.len();
         let columns = 3 * eddies;
         let cells_per_sample = match signal {

@@ -19,7 +19,7 @@ shared! {
 
 impl Sampling {
     /// * `eddies` – number of eddies along the fibre
-    pub(crate) fn of(air: &Air, eddies: usize) -> Self {
+    pub(crate) fn new(air: &Air, eddies: usize) -> Self {
         Self {
             eddies,
             cutoff_frequency: air.cutoff_frequency.into(),
@@ -36,7 +36,7 @@ impl Sampling {
     /// That of the fibres of a flight.
     pub(super) fn of_all(streams: Vec<Stream>) -> Result<(Self, PerLane<Stream>), Error> {
         let streams = PerLane::new(streams)?;
-        let sampling = streams.shared(|stream| Self::of(&stream.air, stream.eddies.len()))?;
+        let sampling = streams.shared(|stream| Self::new(&stream.air, stream.eddies.len()))?;
         if sampling.eddies == 0 {
             return Err(Error::Flight(Fault::plain("a wind needs at least one eddy")));
         }

@@ -72,8 +72,8 @@ impl Stretches {
 
     #[inline(never)]
     fn choose(&mut self, choice: u64) {
-        let of = |choice| stretches(&self.sampling, &self.streams, choice, self.horizon);
-        (self.now, self.before) = (of(choice), of(choice.saturating_sub(1)));
+        let stretched = |choice| stretches(&self.sampling, &self.streams, choice, self.horizon);
+        (self.now, self.before) = (stretched(choice), stretched(choice.saturating_sub(1)));
         self.chosen = choice;
     }
 
@@ -123,7 +123,7 @@ fn stretches(sampling: &Sampling, streams: &PerLane<Stream>, choice: u64, horizo
         for (direction, (_, component)) in directions.into_iter().enumerate() {
             stretches.push(Stretch {
                 values: Arc::clone(&record.components[component]),
-                start: starts.each(|of| of[eddy][direction]),
+                start: starts.each(|phases| phases[eddy][direction]),
                 rms: streams.lanes(|stream| stream.eddies[eddy].rms),
             });
         }

@@ -98,7 +98,7 @@ impl<'a> Harmonics<'a> {
         let turns_per_sample = |n: usize| (n as f64 + 0.5) / period as f64;
         let scale = (0..harmonics).map(|n| SQRT_2 / taper.transform(turns_per_sample(n))).collect();
         let zero = || std::array::from_fn(|_| vec![Lanes::ZERO; harmonics]);
-        let first = &streams.of(0).air;
+        let first = &streams.lane(0).air;
         let alike = |stream: &Stream| {
             stream.air.spectrum == first.spectrum && stream.air.repeat_time() == first.repeat_time()
         };
@@ -116,23 +116,26 @@ impl<'a> Harmonics<'a> {
             // Most eddies have the same spectrum.
             let like_above = eddy > 0 && eddies[eddy - 1].same_spectrum(turbulence);
             // So have most lanes, whose air is that of the first.
-            let like_first = self.alike[lane] && self.streams.of(0).eddies[eddy].same_spectrum(turbulence);
+            let like_first = self.alike[lane] && self.streams.lane(0).eddies[eddy].same_spectrum(turbulence);
             if !like_above && like_first && lane > 0 {
-                self.amplitude[component].iter_mut().for_each(|of| of.0[lane] = of.0[0]);
+                self.amplitude[component].iter_mut().for_each(|harmonic| harmonic.0[lane] = harmonic.0[0]);
                 self.within_cutoff[component][lane] = self.within_cutoff[component][0];
             } else if !like_above {
                 let amplitudes = turbulence.spectrum(air, component).amplitudes();
                 self.within_cutoff[component][lane] = amplitudes.len();
                 let amplitudes = amplitudes.into_iter().chain(std::iter::repeat(0.0));
-                for ((of, a), scale) in self.amplitude[component].iter_mut().zip(amplitudes).zip(&self.scale)
+                for ((harmonic, a), scale) in
+                    self.amplitude[component].iter_mut().zip(amplitudes).zip(&self.scale)
                 {
-                    of.0[lane] = a * scale;
+                    harmonic.0[lane] = a * scale;
                 }
             }
             match turbulence.carried {
                 None => {
                     let mut stream = key.stream(self.window, eddy as u64, component);
-                    self.phase[component].iter_mut().for_each(|of| of.0[lane] = uniform(&mut stream));
+                    self.phase[component]
+                        .iter_mut()
+                        .for_each(|harmonic| harmonic.0[lane] = uniform(&mut stream));
                 }
                 Some(time) => {
                     lag.0[lane] = time / air.repeat_time();
@@ -144,8 +147,8 @@ impl<'a> Harmonics<'a> {
             self.carry::<S>(eddy, component, lag, turn);
         }
         for lane in self.streams.fibres()..WIDTH {
-            for of in [&mut self.amplitude[component], &mut self.phase[component]] {
-                of.iter_mut().for_each(|of| of.0[lane] = of.0[0]);
+            for numbers in [&mut self.amplitude[component], &mut self.phase[component]] {
+                numbers.iter_mut().for_each(|harmonic| harmonic.0[lane] = harmonic.0[0]);
             }
         }
     }

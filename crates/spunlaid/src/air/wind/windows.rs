@@ -48,12 +48,12 @@ pub(super) struct Windows {
 
 impl Windows {
     pub(super) fn new(isa: Isa, sampling: Sampling, streams: PerLane<Stream>, horizon: f64) -> Self {
-        Self::on(isa, Grid::of(&sampling, false), sampling, streams, horizon)
+        Self::on(isa, Grid::new(&sampling, false), sampling, streams, horizon)
     }
 
     /// Only one window, which repeats after its repeat time with the opposite sign.
     pub(super) fn repeating(isa: Isa, sampling: Sampling, streams: PerLane<Stream>, horizon: f64) -> Self {
-        Self::on(isa, Grid::of(&sampling, true), sampling, streams, horizon)
+        Self::on(isa, Grid::new(&sampling, true), sampling, streams, horizon)
     }
 
     fn on(isa: Isa, grid: Grid, sampling: Sampling, streams: PerLane<Stream>, horizon: f64) -> Self {
@@ -127,7 +127,7 @@ impl Windows {
 
     /// Memory of the samples [bytes].
     pub(super) fn memory(air: &Air, eddies: usize, horizon: f64) -> f64 {
-        let grid = Grid::of(&Sampling::of(air, eddies), false);
+        let grid = Grid::new(&Sampling::new(air, eddies), false);
         let wanted = (horizon / grid.spacing).ceil() + SPREAD as f64 + 1.0;
         let samples = if wanted > grid.hop() as f64 { (grid.period + SPREAD) as f64 } else { wanted };
         samples * eddies as f64 * 3.0 * size_of::<Lanes>() as f64

@@ -1,8 +1,8 @@
 //! The keys of a kind of input, and how its file is divided into tables.
 
-use super::nearest::by_similarity;
-use super::{Key, nearest_word};
+use super::Key;
 use crate::case::Case;
+use crate::error::{by_similarity, nearest_word};
 
 /// The keys of a kind of input: those of a case, or those of a web.
 #[derive(Debug)]

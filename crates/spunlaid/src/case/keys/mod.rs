@@ -8,7 +8,6 @@
 //! To add a key, add a row to its file in `table`; then write the code that uses its value.
 
 mod key_table;
-mod nearest;
 #[macro_use]
 pub(crate) mod row;
 mod table;
@@ -16,7 +15,6 @@ mod value;
 
 pub use key_table::KeyTable;
 pub(crate) use key_table::{Alternatives, TableList};
-pub(crate) use nearest::nearest_word;
 pub use value::{Content, FileKind, Kind, Sign, Value};
 
 use super::Case;

@@ -71,6 +71,23 @@ macro_rules! of_field {
     };
 }
 
+/// Access to the name of an array that a case gives for a field: `of_field_layout!(velocity)`.
+macro_rules! of_field_layout {
+    ($array:ident) => {
+        Access {
+            get: |case| placed(case)?.field.layout().$array.clone().map(Value::Text),
+            set: |case, value| {
+                let name = text(value)?;
+                match placed_mut(case)?.field.layout().$array == Some(name) {
+                    // The field has been read with it.
+                    true => Ok(()),
+                    false => Err(read_with_case()),
+                }
+            },
+        }
+    };
+}
+
 /// Access to what a case says of the file of a record: `of_record!(rate, Value::Number, number)`.
 macro_rules! of_record {
     ($field:ident, $value:path, $read:ident) => {

@@ -1,7 +1,7 @@
 //! The kinds of values that keys take, and what each kind allows.
 
 use crate::air::{FileContent, Measured, Profile, SpectrumTable};
-use crate::error::{Fault, one_of};
+use crate::error::{Fault, nearest_word, one_of};
 use crate::field::Field;
 use crate::spinline::{AirTable, Polymer, PolymerFile};
 use crate::units::{Dimension, UnitAdvice, shortest};
@@ -290,7 +290,7 @@ impl Kind {
                 if names.contains(&text.as_str()) {
                     return None;
                 }
-                let nearest = super::nearest_word(text, names.iter().copied());
+                let nearest = nearest_word(text, names.iter().copied());
                 Some(Fault::not_one_of(nearest, &names))
             }
             (Self::Text(_), Value::Text(text)) => {
@@ -421,8 +421,9 @@ impl Kind {
             (Self::Switch, Value::Text(text)) => text.clone(),
             (_, Value::Text(text)) => format!("\"{}\"", crate::units::excerpt(text, 60)),
             (_, Value::Numbers(values)) => {
-                let shown =
-                    |value: &f64| self.dimension().map_or_else(|| shortest(*value), |of| of.pretty(*value));
+                let shown = |value: &f64| {
+                    self.dimension().map_or_else(|| shortest(*value), |dimension| dimension.pretty(*value))
+                };
                 values.iter().map(shown).collect::<Vec<_>>().join(", ")
             }
             (_, Value::Vector(v)) => format!("[{}, {}, {}]", v.x, v.y, v.z),

@@ -62,7 +62,7 @@ pub(crate) fn step<S: Register, const FED: bool>(
     if FED {
         chain.hold_landing();
     }
-    let mut sums = (WorkRegisters::of(work, split), Supports::of(work));
+    let mut sums = (WorkRegisters::new(work, split), Supports::start(work));
     let change = correct_and_move::<S, FED>(chain, h, damped, &mut sums);
     sums.0.put(work);
     sums.1.put(work);

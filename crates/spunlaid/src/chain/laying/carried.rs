@@ -36,10 +36,10 @@ impl Chain {
     /// Twice the bending energy at a node with springs of this stiffness [J].
     pub(super) fn bent(&self, node: usize, stiffness: Lanes) -> Lanes {
         let bends = node + 1 < self.position.len();
-        let of = |lane: usize, stiffness: f64| {
+        let energy = |lane: usize, stiffness: f64| {
             if bends && stiffness != 0.0 { stiffness * self.bend_squared_in(node, lane) } else { 0.0 }
         };
-        Lanes::from_fn(|lane| of(lane, stiffness.0[lane]))
+        Lanes::from_fn(|lane| energy(lane, stiffness.0[lane]))
     }
 
     /// Square of the angle at a node.

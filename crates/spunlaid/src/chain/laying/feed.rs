@@ -37,7 +37,7 @@ impl Chain {
         self.velocity.iter_mut().chain(self.earlier.iter_mut()).for_each(|v| *v = velocity);
         laying.origin = self.position.clone();
         c.frame = laying.belt_speed;
-        c.friction = Friction::of(lanes, &rest_length);
+        c.friction = Friction::new(lanes, &rest_length);
         if c.friction.is_some() {
             self.tensions.rub();
         }

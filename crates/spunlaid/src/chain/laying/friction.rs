@@ -18,16 +18,19 @@ pub(crate) struct Friction {
 
 impl Friction {
     /// Friction of up to eight fibres; none if all of them stick.
-    pub(super) fn of(lanes: &[Feed], rest_length: &Lanes) -> Option<Self> {
+    pub(super) fn new(lanes: &[Feed], rest_length: &Lanes) -> Option<Self> {
         let pick = |i: usize| &lanes[if i < lanes.len() { i } else { 0 }];
-        let of = |i: usize| match pick(i).line.contact {
+        let numbers = |i: usize| match pick(i).line.contact {
             Contact::Stick => (f64::INFINITY, 0.0),
             Contact::Friction { coefficient, suction } => {
                 (coefficient, suction * pick(i).fibre.diameter * rest_length.0[i])
             }
         };
         let slides = (0..WIDTH).any(|i| pick(i).line.contact != Contact::Stick);
-        slides.then(|| Self { coefficient: Lanes::from_fn(|i| of(i).0), press: Lanes::from_fn(|i| of(i).1) })
+        slides.then(|| Self {
+            coefficient: Lanes::from_fn(|i| numbers(i).0),
+            press: Lanes::from_fn(|i| numbers(i).1),
+        })
     }
 
     /// The largest friction on a node [N].

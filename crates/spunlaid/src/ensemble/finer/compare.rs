@@ -64,7 +64,7 @@ impl FinerPlan {
                 .trajectories
                 .iter()
                 .zip(&fine.trajectories)
-                .map(|(own, fine)| [statistic.of(own), statistic.of(fine)]);
+                .map(|(own, fine)| [statistic.measure(own), statistic.measure(fine)]);
             let pairs: Vec<[f64; 2]> =
                 pairs.filter(|pair| pair.iter().all(|value| value.is_finite())).collect();
             // Of a fibre that does not move, rounding has no meaning.

@@ -26,8 +26,8 @@ impl FinerPlan {
         let jobs: Vec<Job<'_>> = (0..self.replicates).map(|replicate| Job::new(case, replicate)).collect();
         // A carried pattern has a signal for each element. Both feel the one of the finer elements.
         let carried = case.line.is_none() && matches!(case.air.eddies, EddyModel::Convected { .. });
-        let of = if carried { &self.fine } else { case };
-        let air = SurroundingRun { case: of, horizon: self.horizon, field: None };
+        let flown = if carried { &self.fine } else { case };
+        let air = SurroundingRun { case: flown, horizon: self.horizon, field: None };
         let paths = Paths { every: 1, ..Paths::of_run(Ok(self), None) };
         let computing = Computing { recorder: Some(&paths), ..computing };
         let trajectories = fly_in_air(&jobs, Keep::NUMBERS, air, computing)?;

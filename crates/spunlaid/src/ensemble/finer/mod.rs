@@ -63,7 +63,7 @@ impl Statistic {
         OF_THE_END.iter().chain(OF_THE_LAID)
     }
 
-    fn of(&self, trajectory: &Trajectory) -> f64 {
+    fn measure(&self, trajectory: &Trajectory) -> f64 {
         let values = self.measures.iter().map(|measure| trajectory.number(measure));
         values.sum::<f64>() / self.measures.len() as f64
     }
@@ -132,7 +132,8 @@ impl<T> Refinements<T> {
 
     /// What follows from each, that of the time step first.
     pub(super) fn and_then<U>(&self, mut next: impl FnMut(&T) -> Result<U, String>) -> Refinements<U> {
-        let mut next = |of: &Result<T, String>| of.as_ref().map_err(String::clone).and_then(&mut next);
+        let mut next =
+            |result: &Result<T, String>| result.as_ref().map_err(String::clone).and_then(&mut next);
         Refinements { step: next(&self.step), mesh: next(&self.mesh) }
     }
 }
@@ -142,7 +143,7 @@ impl FinerCheck {
     pub fn differences(&self) -> impl Iterator<Item = (String, &Estimate)> {
         let path = self.path.iter().map(|path| ("path", path));
         let changes = self.changes.iter().map(|change| (change.statistic.name, &change.estimate));
-        path.chain(changes).map(|(name, of)| (format!("{name}_difference"), of))
+        path.chain(changes).map(|(name, change)| (format!("{name}_difference"), change))
     }
 
     /// The error of a statistic over the change that was found [-]; `None` where the order of convergence is not known.

@@ -52,15 +52,15 @@ pub type FinerPlans = Refinements<FinerPlan>;
 
 impl FinerPlans {
     /// The plans for a case.
-    pub fn of(case: &Case) -> Self {
+    pub fn for_case(case: &Case) -> Self {
         let step = if case.line.is_some() { step_of_the_laid(case) } else { step_of_a_path(case) };
         Self { step, mesh: mesh(case) }
     }
 
     /// Number of steps of single elements of all checks.
     pub fn element_steps(&self) -> f64 {
-        let of = |plan: &FinerPlan| plan.flights().map(cost).sum::<f64>() * plan.replicates as f64;
-        self.all().map(of).sum()
+        let total = |plan: &FinerPlan| plan.flights().map(cost).sum::<f64>() * plan.replicates as f64;
+        self.all().map(total).sum()
     }
 
     /// Number of flights of all checks.
@@ -189,11 +189,11 @@ fn statistics(refined: Refinement, case: &Case, mut own: Case, mut fine: Case) -
         return Err(format!("it would take about {:.0} times the run's computing time", times.ceil()));
     }
     let duration = (share.max(usual) / per_second).max(least).min(all);
-    for of in [&mut own, &mut fine] {
-        let steps = |time: f64| (time / of.run.time_step * (1.0 + 1e-9)) as u64;
-        (of.run.steps, of.run.spin_up_steps) = (steps(duration).max(1), steps(spin_up));
-        of.run.output_steps = of.run.output_steps.min(of.run.steps);
-        if of.run.steps > MOST_STEPS || of.check().is_err() {
+    for case in [&mut own, &mut fine] {
+        let steps = |time: f64| (time / case.run.time_step * (1.0 + 1e-9)) as u64;
+        (case.run.steps, case.run.spin_up_steps) = (steps(duration).max(1), steps(spin_up));
+        case.run.output_steps = case.run.output_steps.min(case.run.steps);
+        if case.run.steps > MOST_STEPS || case.check().is_err() {
             return Err("the finer flights are beyond what the program can fly".to_owned());
         }
     }

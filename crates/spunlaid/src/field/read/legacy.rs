@@ -1,22 +1,23 @@
 //! VTK's legacy files, as text or in big-endian binary.
 
 use super::array::{Array, NumberType, Source};
+use super::assembly::Assembly;
 use super::encoding::Budget;
 use super::grid::{Grid, counted, vectors};
-use super::piece::{Assembly, Piece};
+use super::piece::Piece;
 use super::unstructured::{MeshLists, Polyhedra};
 use crate::error::{Fault, FileError, Position};
-use crate::field::Field;
 use crate::field::fault;
+use crate::field::{Field, FieldLayout};
 use crate::vec3::Vec3;
 
 /// How such files begin.
 pub(super) const START: &[u8] = b"# vtk DataFile Version";
 
 /// Reads a file.
-pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<Fault>), FileError> {
+pub(super) fn read(bytes: &[u8], layout: &FieldLayout) -> Result<(Field, Vec<Fault>), FileError> {
     let mut scanner = Scanner { bytes, at: 0, binary: false };
-    let mut assembly = Assembly::new();
+    let mut assembly = Assembly::new(layout);
     let piece = scanner.piece(&mut assembly.budget).map_err(|error| error.at(scanner.place()));
     let added = piece.and_then(|piece| assembly.add(piece));
     added.and_then(|()| assembly.finish()).map_err(|error| match scanner.binary {
@@ -177,7 +178,7 @@ impl<'a> Scanner<'a> {
         if keyword == "FIELD" {
             return self.fields();
         }
-        let name = self.word()?.to_owned();
+        let name = self.name()?;
         let one = |scanner: &mut Self, components| {
             let number = scanner.number()?;
             Ok(vec![scanner.array(name.clone(), number, components, count)?])
@@ -225,7 +226,7 @@ impl<'a> Scanner<'a> {
                 self.word()?;
                 self.metadata();
             }
-            let name = self.word()?.to_owned();
+            let name = self.name()?;
             let components = self.parse("a number of components")?;
             let tuples: usize = self.parse("a number of points or cells")?;
             match self.word()? {
@@ -332,6 +333,20 @@ impl<'a> Scanner<'a> {
         let rest = &self.bytes[self.at..];
         let end = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
         str::from_utf8(&rest[..end]).ok().filter(|word| !word.is_empty())
+    }
+
+    /// The name of an array. VTK writes blanks and letters beyond ASCII as `%20`, the number of a byte.
+    fn name(&mut self) -> Result<String, FileError> {
+        let mut bytes = Vec::new();
+        let mut rest = self.word()?.as_bytes();
+        while let Some((&first, after)) = rest.split_first() {
+            let digits =
+                after.get(..2).filter(|digits| first == b'%' && digits.iter().all(u8::is_ascii_hexdigit));
+            let byte = digits.and_then(|digits| u8::from_str_radix(str::from_utf8(digits).ok()?, 16).ok());
+            bytes.push(byte.unwrap_or(first));
+            rest = if byte.is_some() { &after[2..] } else { after };
+        }
+        Ok(String::from_utf8_lossy(&bytes).into_owned())
     }
 
     fn word(&mut self) -> Result<&'a str, FileError> {

@@ -3,9 +3,10 @@
 //! A list names its parts by their paths from its own folder. They are read one after the other, so that only one file is
 //! in memory at a time.
 
-use super::piece::Assembly;
+use super::assembly::Assembly;
 use super::{ReadField, xml};
 use crate::error::{Fault, FileError, FileKind, Position};
+use crate::field::FieldLayout;
 use crate::field::fault;
 use crate::file;
 use crate::units::excerpt;
@@ -52,10 +53,10 @@ pub(super) fn without_path() -> Fault {
 /// Reads the field that a list and its parts are.
 ///
 /// * `bytes` – of the list
-pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<ReadField, FileError> {
+pub(super) fn read(path: &Path, bytes: &[u8], layout: &FieldLayout) -> Result<ReadField, FileError> {
     let mut reading = Reading {
         folder: path.parent().unwrap_or(Path::new("")),
-        assembly: Assembly::new(),
+        assembly: Assembly::new(layout),
         checksum: crc32fast::Hasher::new(),
         parts: Vec::new(),
         within: Vec::new(),
@@ -80,7 +81,7 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<ReadField, FileError> {
 struct Reading<'a> {
     /// The folder of the list.
     folder: &'a Path,
-    assembly: Assembly,
+    assembly: Assembly<'a>,
     checksum: crc32fast::Hasher,
     /// The files read, relative to the folder.
     parts: Vec<PathBuf>,

@@ -4,10 +4,14 @@
 //! promises.
 
 mod array;
+mod arrays;
+mod assembly;
 mod encoding;
 mod grid;
 mod legacy;
 mod list;
+mod measure;
+mod missing;
 mod names;
 mod piece;
 mod table;
@@ -15,7 +19,7 @@ mod tecplot;
 mod unstructured;
 mod xml;
 
-use super::Field;
+use super::{Field, FieldLayout};
 use crate::error::{Fault, FileError, FileKind};
 use crate::file;
 use std::path::{Path, PathBuf};
@@ -33,12 +37,12 @@ pub(crate) struct ReadField {
 
 impl ReadField {
     /// Reads a field from a file, with the files that this one lists.
-    pub(crate) fn read(path: &Path) -> Result<Self, FileError> {
+    pub(crate) fn read(path: &Path, layout: &FieldLayout) -> Result<Self, FileError> {
         let bytes = file::read(path, FileKind::Field, u64::MAX)?;
         if list::is_list(&bytes) {
-            return list::read(path, &bytes);
+            return list::read(path, &bytes, layout);
         }
-        let (field, warnings) = Field::parse(&bytes, &path.display().to_string())?;
+        let (field, warnings) = Field::parse_as(&bytes, &path.display().to_string(), layout)?;
         Ok(Self { field, warnings, checksum: crc32fast::hash(&bytes), parts: Vec::new() })
     }
 }
@@ -52,7 +56,7 @@ impl Field {
     /// # Errors
     /// When the file cannot be read or holds no field of air. The message says where and why.
     pub fn read(path: &Path) -> Result<(Self, Vec<Fault>), FileError> {
-        ReadField::read(path).map(|read| (read.field, read.warnings))
+        ReadField::read(path, &FieldLayout::default()).map(|read| (read.field, read.warnings))
     }
 
     /// Reads a field from the bytes of a file. Messages call it `name`.
@@ -60,18 +64,26 @@ impl Field {
     /// # Errors
     /// As [`Field::read`].
     pub fn parse(bytes: &[u8], name: &str) -> Result<(Self, Vec<Fault>), FileError> {
+        Self::parse_as(bytes, name, &FieldLayout::default())
+    }
+
+    /// As [`Field::parse`], with the names of arrays that are not usual.
+    ///
+    /// # Errors
+    /// As [`Field::read`], and if an array that the layout names is not there.
+    pub fn parse_as(bytes: &[u8], name: &str, layout: &FieldLayout) -> Result<(Self, Vec<Fault>), FileError> {
         let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         let read = if list::is_list(start) {
             Err(list::without_path().into())
         } else if start.trim_ascii_start().starts_with(b"<") {
-            xml::read(start)
+            xml::read(start, layout)
         } else if start.starts_with(legacy::START) {
-            legacy::read(start)
+            legacy::read(start, layout)
         } else if start.trim_ascii_start().starts_with(b"FoamFile") || start.starts_with(b"/*----") {
             let found = "a file of OpenFOAM’s own";
             Err(Fault::format(found, "convert the case with foamToVTK and name its internal.vtu").into())
         } else {
-            tecplot::as_table(start).and_then(|table| table::read(&table))
+            tecplot::as_table(start).and_then(|table| table::read(&table, layout))
         };
         read.map_err(|error| error.file(name))
     }

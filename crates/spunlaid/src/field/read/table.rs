@@ -1,11 +1,15 @@
 //! Tables of points, one row for each point.
 
 use super::array::{Array, NumberType, Source};
+use super::arrays::Arrays;
+use super::assembly::Assembly;
 use super::grid::Grid;
-use super::names::{self, Measure, Name, ScaledColumn};
-use super::piece::{Assembly, Piece, lacks};
+use super::measure::Measure;
+use super::missing;
+use super::names::{self, Name, ScaledColumn};
+use super::piece::Piece;
 use crate::error::{Fault, FileError, FileKind, Position, listed};
-use crate::field::Field;
+use crate::field::{Field, FieldLayout};
 use crate::table::Table;
 use crate::units::excerpt;
 use crate::vec3::Vec3;
@@ -14,14 +18,19 @@ use crate::vec3::Vec3;
 const EXAMPLE: &str = "x_m,y_m,z_m,u_m_s,v_m_s,w_m_s";
 
 /// Reads a table.
-pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<Fault>), FileError> {
+pub(super) fn read(bytes: &[u8], layout: &FieldLayout) -> Result<(Field, Vec<Fault>), FileError> {
     let mut table = Table::open(bytes, FileKind::Field, 0)?;
     if !table.named() {
         return Err(Fault::no_header(EXAMPLE).into());
     }
     let names: Vec<Name> = table.heads().iter().map(|head| Name::new(&head.text)).collect();
     let coordinates = coordinates(&names)?;
-    let used = names::used(&names)?;
+    let arrays = Arrays::of_table(layout, names);
+    if arrays.velocity()?.is_none() {
+        return Err(missing::velocity(&arrays).into());
+    }
+    let mut used: Vec<usize> = coordinates.into_iter().flatten().map(|(column, _)| column).collect();
+    used.extend(arrays.used()?);
     let mut columns: Vec<Vec<f64>> = vec![Vec::new(); used.len()];
     // Number of rows that lack a number, and the line of the first.
     let mut dropped = (0, 0);
@@ -35,11 +44,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<Fault>), FileError> {
     }
     let unit = length_unit(bytes)?;
     let in_metres = |found: Option<ScaledColumn>| found.map(|(column, factor)| (column, factor * unit));
-    let mut assembly = Assembly::new();
-    assembly.add(piece(&names, &used, &columns, coordinates.map(in_metres)))?;
-    let (mut field, mut warnings) = assembly.finish()?;
-    // The piece has only the columns that are used.
-    field.lacks = lacks(&names, &vec![1; names.len()]);
+    let mut assembly = Assembly::new(layout);
+    assembly.add(piece(&arrays.names, &used, &columns, coordinates.map(in_metres)))?;
+    let (field, mut warnings) = assembly.finish()?;
     if let (rows @ 1.., first) = dropped {
         let message = format!("{rows} rows lack a number and are left out; the first is in line {first}");
         warnings.push(Fault::plain(message));
@@ -92,13 +99,13 @@ fn piece<'a>(
     };
     let [x, y, z] = coordinates;
     let points = (0..rows).map(|row| Vec3::new(along(x, row), along(y, row), along(z, row))).collect();
-    let is_value = |used: usize| coordinates.iter().flatten().all(|(column, _)| *column != used);
-    let values = used.iter().zip(columns).filter(|(used, _)| is_value(**used));
-    let arrays = values.map(|(used, numbers)| Array {
-        name: names[*used].written.clone(),
+    let is_value = |column: &usize| coordinates.iter().flatten().all(|(coordinate, _)| coordinate != column);
+    // A column that is not used is there by its name.
+    let arrays = (0..names.len()).filter(is_value).map(|column| Array {
+        name: names[column].written.clone(),
         number: NumberType::F64,
         components: 1,
-        source: Source::Numbers(numbers),
+        source: Source::Numbers(numbers(column).map_or(&[], Vec::as_slice)),
         place: Position::Whole,
     });
     Piece { grid: Grid::Scattered(points), point_data: arrays.collect(), cell_data: Vec::new() }

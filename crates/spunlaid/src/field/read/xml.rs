@@ -3,13 +3,14 @@
 //! Such a file is a small XML tree, often followed by appended bytes. Arrays are decoded only when they are needed.
 
 use super::array::{Array, NumberType, Source};
+use super::assembly::Assembly;
 use super::encoding::{Budget, Compressor, Packing};
 use super::grid::{Grid, counted, vectors};
-use super::piece::{Assembly, Piece};
+use super::piece::Piece;
 use super::unstructured::{MeshLists, Polyhedra};
 use crate::error::{Fault, FileError, Position};
-use crate::field::Field;
 use crate::field::fault;
+use crate::field::{Field, FieldLayout};
 use crate::units::excerpt;
 use roxmltree::{Document, Node};
 use std::borrow::Cow;
@@ -18,8 +19,8 @@ use std::borrow::Cow;
 const GRIDS: [&str; 4] = ["ImageData", "RectilinearGrid", "StructuredGrid", "UnstructuredGrid"];
 
 /// Reads a file.
-pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<Fault>), FileError> {
-    let mut assembly = Assembly::new();
+pub(super) fn read(bytes: &[u8], layout: &FieldLayout) -> Result<(Field, Vec<Fault>), FileError> {
+    let mut assembly = Assembly::new(layout);
     let added = add(bytes, None, &mut assembly);
     added.and_then(|()| assembly.finish()).map_err(|error| error.in_text(bytes))
 }
@@ -30,7 +31,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Field, Vec<Fault>), FileError> {
 pub(super) fn read_part(
     bytes: &[u8],
     announced: Option<&str>,
-    assembly: &mut Assembly,
+    assembly: &mut Assembly<'_>,
 ) -> Result<(), FileError> {
     let added = add(bytes, announced, assembly);
     added.map_err(|error| error.in_text(bytes))
@@ -57,7 +58,7 @@ pub(super) fn tree(text: &str) -> Result<Document<'_>, FileError> {
     })
 }
 
-fn add(bytes: &[u8], announced: Option<&str>, assembly: &mut Assembly) -> Result<(), FileError> {
+fn add(bytes: &[u8], announced: Option<&str>, assembly: &mut Assembly<'_>) -> Result<(), FileError> {
     let (text, appended) = parted(bytes)?;
     let document = tree(&text)?;
     let root = document.root_element();

@@ -5,12 +5,13 @@ mod profile;
 
 use crate::air::{FileContent, Measured, Profile, RecordLayout, RecordNumbers, SpectrumTable};
 use crate::error::{Fault, FileError, FileKind};
-use crate::field::{Field, ReadField};
+use crate::field::{Field, FieldLayout, ReadField};
 use crate::file;
 use crate::record::{Interval, LONGEST_GAP, Layout, Record, Settings, analyse_fluctuation, read_record};
 use crate::spinline::{AirTable, PolymerFile};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::fmt::Debug;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -26,7 +27,7 @@ pub(super) struct DataFiles {
     fields: Shelf<Field>,
     spinline_airs: Shelf<AirTable>,
     polymers: Shelf<PolymerFile>,
-    field_warnings: RefCell<BTreeMap<PathBuf, Vec<Fault>>>,
+    field_warnings: RefCell<BTreeMap<(PathBuf, String), Vec<Fault>>>,
 }
 
 /// The content of each file, or the error; the text in the key tells different ways to read it apart.
@@ -67,13 +68,21 @@ impl DataFiles {
     }
 
     /// A CFD field, and warnings about it.
-    pub(super) fn field(&self, path: &Path) -> Result<(FileContent<Field>, Vec<Fault>), FileError> {
-        let field = once(&self.fields, path, "", || {
-            let ReadField { field, warnings, checksum, parts } = ReadField::read(path)?;
-            self.field_warnings.borrow_mut().insert(path.to_owned(), warnings);
+    ///
+    /// * `layout` – the arrays that the case names
+    pub(super) fn field(
+        &self,
+        path: &Path,
+        layout: &FieldLayout,
+    ) -> Result<(FileContent<Field>, Vec<Fault>), FileError> {
+        let way = way_of(layout);
+        let field = once(&self.fields, path, &way, || {
+            let ReadField { field, warnings, checksum, parts } = ReadField::read(path, layout)?;
+            self.field_warnings.borrow_mut().insert((path.to_owned(), way.clone()), warnings);
             Ok(from_file(path, checksum, field).with_parts(parts))
         })?;
-        Ok((field, self.field_warnings.borrow().get(path).cloned().unwrap_or_default()))
+        let warnings = self.field_warnings.borrow().get(&(path.to_owned(), way)).cloned();
+        Ok((field, warnings.unwrap_or_default()))
     }
 
     /// A velocity record.
@@ -84,7 +93,7 @@ impl DataFiles {
         path: &Path,
         said: &RecordLayout,
     ) -> Result<FileContent<Measured>, FileError> {
-        once(&self.records, path, &format!("{said:?}"), || {
+        once(&self.records, path, &way_of(said), || {
             let columns = said.columns.iter().flat_map(|columns| columns.split(','));
             let layout = Layout {
                 rate: said.rate,
@@ -120,6 +129,11 @@ fn from_file<T>(path: &Path, checksum: u32, content: T) -> FileContent<T> {
     FileContent::new(path.to_owned(), checksum, Arc::new(content))
 }
 
+/// A text that tells different ways to read a file apart; empty if the case says nothing of it.
+fn way_of<T: Debug + Default + PartialEq>(layout: &T) -> String {
+    if *layout == T::default() { String::new() } else { format!("{layout:?}") }
+}
+
 /// The content kept from an earlier reading, or the content read now.
 fn once<T>(
     shelf: &Shelf<T>,
@@ -132,7 +146,7 @@ fn once<T>(
         return known.clone();
     }
     // The error may be about a file that this one names.
-    let content = read().map_err(|error| error.path(path));
+    let content = read().map(|content| content.read_as(way)).map_err(|error| error.path(path));
     shelf.borrow_mut().insert(key, content.clone());
     content
 }

@@ -143,7 +143,7 @@ impl Line<'_> {
 
     /// What each layer adds to a way.
     fn of_each(&self, keys: impl Fn(usize, &Filaments) -> KeyPowers) -> KeyPowers {
-        (1..).zip(&self.spec().layers).flat_map(|(layer, of)| keys(layer, &of.filaments)).collect()
+        (1..).zip(&self.spec().layers).flat_map(|(layer, spec)| keys(layer, &spec.filaments)).collect()
     }
 
     /// The keys of the holes of a layer.
@@ -233,7 +233,7 @@ impl Line<'_> {
         if belt.is_nan() || belt > slowest {
             return None;
         }
-        spec.set_belt_speed(belt);
+        spec.set_belt_speed(belt).ok()?;
         let is_alone = self.spec().layers.len() == 1;
         let changed = |((key, from, _), (_, to)): (&(VariedKey, f64, f64), &(VariedKey, f64))| {
             let name = key.name.strip_prefix("layer.1.").filter(|_| is_alone).unwrap_or(&key.name);

@@ -126,7 +126,7 @@ impl Base for CaseBase {
         let seed = seed.unwrap_or(plan.seed);
         if self.kind == FileKind::Spinline {
             let (opened, unneeded) = self.open(written, values);
-            let SpinFile { spec, mut notes, .. } = SpinFile::of(opened?);
+            let SpinFile { spec, mut notes, .. } = SpinFile::from_open(opened?);
             notes.extend(unneeded.into_iter().map(|note| Note { place: at.clone(), ..note }));
             return Ok((Experiment::Spinline(Box::new(spec)), notes));
         }

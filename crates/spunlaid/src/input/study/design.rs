@@ -3,8 +3,7 @@
 use super::super::entry::Entry;
 use super::reader::{Reader, not_varied, not_written, unknown_key};
 use super::{Base, MOST_FIBRES, MOST_POINTS, MOST_POINTS_UNASKED, VariedKey};
-use crate::case::keys::nearest_word;
-use crate::error::Fault;
+use crate::error::{Fault, nearest_word};
 use crate::study::{Design, Factor};
 use toml::de::DeValue;
 

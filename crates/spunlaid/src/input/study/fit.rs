@@ -93,8 +93,18 @@ impl FitFile {
     }
 }
 
+/// How the names of keys begin that say how a web is computed.
+const COMPUTATION: [&str; 3] = ["web.", "run.", "fibre.element_length"];
+
 /// A key that is sought, with its range.
 fn parameter(base: &WebBase, key: &VariedKey, range: Option<&str>) -> Result<Parameter, Fault> {
+    if COMPUTATION.iter().any(|start| key.name.starts_with(start)) {
+        let remedy = "seek a key of the line: of its air, fibres, lay-down or rows";
+        return Err(Fault::new(
+            "cannot be sought: it says how the web is computed, not how it is made",
+            remedy,
+        ));
+    }
     let is_share = match key.kind {
         Kind::Quantity(_, sign) => *sign == Sign::Share,
         Kind::Whole(..) => false,
@@ -135,8 +145,14 @@ fn parameter(base: &WebBase, key: &VariedKey, range: Option<&str>) -> Result<Par
             return Err(Fault::new(reason, format!("write {}=FROM..TO", key.name)));
         }
     };
-    let inside = (range[0]..=range[1]).contains(&value);
+    if value < range[0] || value > range[1] {
+        let pretty = |value: f64| if whole { format!("{value}") } else { dimension.pretty(value) };
+        return Err(Fault::new(
+            format!("has {} in the file, which lies outside its range", pretty(value)),
+            format!("write a range that holds it, or another start with --set {}=VALUE", key.name),
+        ));
+    }
     let middle = if range[0] > 0.0 { (range[0] * range[1]).sqrt() } else { 0.5 * (range[0] + range[1]) };
-    let start = if inside { value } else { middle };
+    let start = if value.is_nan() { middle } else { value };
     Ok(Parameter { key: key.name.clone(), dimension, whole, start, range })
 }

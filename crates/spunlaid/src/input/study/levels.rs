@@ -4,8 +4,8 @@ use super::super::entry::{Entry, in_order, kind};
 use super::super::values::{integer, number};
 use super::VariedKey;
 use super::reader::{Reader, missing, unknown_key};
-use crate::case::keys::{Value, nearest_word};
-use crate::error::Fault;
+use crate::case::keys::Value;
+use crate::error::{Fault, nearest_word};
 use crate::study::{Design, Levels, Spacing};
 use toml::de::DeValue;
 

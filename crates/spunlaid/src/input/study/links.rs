@@ -80,7 +80,7 @@ impl Reader<'_> {
 pub(super) fn read(base: &dyn Base, key: &VariedKey, text: &str) -> Result<Link, Fault> {
     let text = text.trim();
     let text = text.strip_prefix('=').unwrap_or(text).trim();
-    let named = READY_MADE.iter().find(|(name, of, _)| *name == text && *of == key.name);
+    let named = READY_MADE.iter().find(|(name, owner, _)| *name == text && *owner == key.name);
     let expression = Expression::parse(named.map_or(text, |(.., formula)| formula))?;
     for name in expression.names() {
         if let Err(advice) = base.numeric(name) {
@@ -157,12 +157,12 @@ pub(super) fn values(
 ) -> Vec<f64> {
     let mut values: Vec<Option<f64>> = vec![None; links.len()];
     for &i in order {
-        let of = |name: &str| {
+        let known = |name: &str| {
             let linked = links.iter().position(|link| link.key == name);
             let value = linked.map_or_else(|| known(name), |other| values[other])?;
             Some((value, Powers::of_dimension(base.numeric(name).ok()?.dimension())))
         };
-        let value = links[i].expression.value(&of).map_or(f64::NAN, |(value, _)| value);
+        let value = links[i].expression.value(&known).map_or(f64::NAN, |(value, _)| value);
         let whole = base.numeric(&links[i].key).is_ok_and(|key| key.is_whole());
         values[i] = Some(if whole { value.round() } else { value });
     }

@@ -35,7 +35,7 @@ impl Plan {
         let quantities = Study::quantities_of(&points);
         // Points may have patches that the web before them has not.
         for (index, _) in &mut replicates.until {
-            let is_same = |of: &Quantity| of.name == before[*index].name;
+            let is_same = |quantity: &Quantity| quantity.name == before[*index].name;
             *index = quantities.iter().position(is_same).unwrap_or(*index);
         }
         Study { factors, links, design, seed, common_phases, replicates, points, quantities }

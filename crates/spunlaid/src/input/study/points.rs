@@ -100,8 +100,9 @@ pub(super) struct Notes(Vec<(Discriminant<Remark>, StudyNote)>);
 impl Notes {
     pub(super) fn add(&mut self, note: Note) {
         let kind = discriminant(&note.what);
-        let same =
-            |(of, told): &&mut (Discriminant<Remark>, StudyNote)| *of == kind && told.note.key == note.key;
+        let same = |(remark, told): &&mut (Discriminant<Remark>, StudyNote)| {
+            *remark == kind && told.note.key == note.key
+        };
         match self.0.iter_mut().find(same) {
             Some((_, told)) => told.points += 1,
             None => self.0.push((kind, StudyNote { note, points: 1, all: false })),

@@ -3,8 +3,8 @@
 use super::super::entry::{Entry, in_order, kind, root};
 use super::super::source::Source;
 use super::super::values::integer;
-use crate::case::keys::{TABLES, nearest_word};
-use crate::error::{Error, Fault, Finding, Problem};
+use crate::case::keys::TABLES;
+use crate::error::{Error, Fault, Finding, Problem, nearest_word};
 use crate::layers::WEB_TABLES;
 use crate::layers::full_names::without_numbers;
 use std::borrow::Cow;

@@ -119,7 +119,7 @@ impl Reading<'_> {
     }
 
     fn read_case(&self, path: &Path, changes: &[Overrides<'_>]) -> Result<(Case, Vec<Note>), Error> {
-        let text = match self.cases.iter().find(|(of, _)| of == path) {
+        let text = match self.cases.iter().find(|(case, _)| case == path) {
             Some((_, text)) => Ok(text.clone()),
             None => file::read(path, FileKind::Case),
         };

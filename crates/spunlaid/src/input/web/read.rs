@@ -105,7 +105,7 @@ impl Reading<'_> {
 
     /// Warnings about written values that are most likely slips.
     fn unusual(&self) -> Vec<Note> {
-        let of = |(full, said): (&str, &WrittenValue)| {
+        let entry = |(full, said): (&str, &WrittenValue)| {
             let key = web_key(full)?;
             let (dimension, usual) = (key.kind.dimension()?, key.usual_range()?);
             let values = match said.value.as_ref()? {
@@ -116,7 +116,7 @@ impl Reading<'_> {
             let what = values.iter().find_map(|value| unusual(dimension, usual, *value))?;
             Some(Note { place: said.place.clone(), key: full.to_owned(), value: said.shown.clone(), what })
         };
-        self.written.all().filter_map(of).collect()
+        self.written.all().filter_map(entry).collect()
     }
 
     /// Keeps the notes about a case, each once.

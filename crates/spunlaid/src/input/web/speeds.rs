@@ -178,7 +178,9 @@ impl Reading<'_> {
                 self.note_change(&key, "belt.speed", Dimension::Velocity, [belt, layer.belt_speed], path);
             }
         }
-        web.set_belt_speed(belt);
+        if let Err(fault) = web.set_belt_speed(belt) {
+            self.written.reject(&key, fault);
+        }
     }
 
     /// Compares the basis weight with that on a belt whose speed is given too.

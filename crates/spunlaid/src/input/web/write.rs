@@ -28,7 +28,7 @@ pub fn write_web(spec: &WebSpec) -> String {
         if let Filaments::Rows(rows) = &layer.filaments {
             let row = |row| {
                 let mut with_row = alone.clone();
-                with_row.layers.iter_mut().for_each(|of| of.filaments = Filaments::Rows(vec![row]));
+                with_row.layers.iter_mut().for_each(|layer| layer.filaments = Filaments::Rows(vec![row]));
                 format!("{{ {} }}", of_table(&with_row, "line.rows").join(", "))
             };
             let rows: Vec<String> = rows.iter().copied().map(row).collect();

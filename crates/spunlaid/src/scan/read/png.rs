@@ -41,8 +41,10 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, Fault> {
         let text = &info.uncompressed_latin1_text.iter().find(|text| text.keyword == key)?.text;
         text.parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0)
     };
-    let per_metre =
-        info.pixel_dims.filter(|density| density.unit == Unit::Meter).map(|of| [of.xppu, of.yppu]);
+    let per_metre = info
+        .pixel_dims
+        .filter(|density| density.unit == Unit::Meter)
+        .map(|density| [density.xppu, density.yppu]);
     let pixel = metadata(CELL).map(|cell| [cell; 2]);
     Ok(RawPicture {
         values,

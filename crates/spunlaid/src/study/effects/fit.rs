@@ -87,7 +87,7 @@ pub(super) fn fits(study: &Study) -> Result<Vec<Fit<'_>>, Refusal> {
 
 impl<'a> Fit<'a> {
     fn new(study: &'a Study, points: Vec<usize>, factors: &[usize]) -> Result<Self, Refusal> {
-        let (mut terms, mut of) = (Vec::new(), Vec::new());
+        let (mut terms, mut spans) = (Vec::new(), Vec::new());
         for &factor in factors {
             let mut levels: Vec<f64> =
                 points.iter().map(|point| study.points[*point].values[factor]).collect();
@@ -102,7 +102,7 @@ impl<'a> Fit<'a> {
             let alone = study.design == Design::OneAtATime;
             if study.factors[factor].words.is_empty() {
                 terms.push(Term::Line(factor));
-                of.push((factor, if alone { (least, last) } else { study.factors[factor].ends() }));
+                spans.push((factor, if alone { (least, last) } else { study.factors[factor].ends() }));
             } else {
                 // The order of the list. A word of the base case that the list does not name comes first.
                 let mut words = study.factors[factor].levels();
@@ -113,10 +113,10 @@ impl<'a> Fit<'a> {
                 }
                 words.retain(|word| levels.contains(word));
                 terms.extend(words[1..].iter().map(|&word| Term::Word(factor, word, words[0])));
-                of.push((factor, (least, last)));
+                spans.push((factor, (least, last)));
             }
         }
-        let mut fit = Self { study, points, factors: of, terms, inverse: Vec::new() };
+        let mut fit = Self { study, points, factors: spans, terms, inverse: Vec::new() };
         if fit.points.len() <= fit.terms.len() {
             let (points, keys, needed) = (fit.points.len(), factors.len(), fit.terms.len() + 2);
             return Err(Refusal::TooFewPoints { points, keys, needed });
@@ -222,7 +222,7 @@ impl<'a> Fit<'a> {
             weights[column] = 2.0;
             match *term {
                 Term::Line(j) => {
-                    let (least, greatest) = self.factors.iter().find(|of| of.0 == j)?.1;
+                    let (least, greatest) = self.factors.iter().find(|span| span.0 == j)?.1;
                     Some((j, least, greatest, weights))
                 }
                 Term::Word(j, this, reference) => {

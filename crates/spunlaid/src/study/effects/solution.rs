@@ -52,12 +52,12 @@ type PerMeasure = Vec<f64>;
 fn deviations(results: &PointResults, records: &[Record]) -> Vec<(usize, PerMeasure)> {
     let n = results.n as f64;
     let scale = if n > 1.0 { 1.0 / (n * (n - 1.0)).sqrt() } else { 0.0 };
-    let of = |record: &Record| {
+    let numbers = |record: &Record| {
         let measured = record.landing.measured()?;
         let deviation = measured.iter().zip(&results.mean).map(|(one, mean)| (one - mean) * scale).collect();
         Some((record.replicate as usize, deviation))
     };
-    records.iter().filter_map(of).collect()
+    records.iter().filter_map(numbers).collect()
 }
 
 /// The fit's coefficients, and what each replicate contributes to them.
@@ -129,7 +129,8 @@ impl Fitted {
         let noise = match (self.replicated, fit.study.common_phases) {
             (false, _) => Variance { value: 0.0, degrees: f64::INFINITY },
             (true, true) => {
-                let of_replicates = self.of_replicates.iter().map(|of| dot(weights, &of[m]).powi(2));
+                let of_replicates =
+                    self.of_replicates.iter().map(|replicate| dot(weights, &replicate[m]).powi(2));
                 Variance { value: of_replicates.sum(), degrees: self.degrees }
             }
             (true, false) => independent,
@@ -242,7 +243,9 @@ struct Variance {
 impl Variance {
     /// The sum of two, with its effective degrees of freedom (Welch and Satterthwaite).
     fn and(self, other: Self) -> Self {
-        let part = |of: Self| if of.value == 0.0 { 0.0 } else { of.value * of.value / of.degrees };
+        let part = |variance: Self| {
+            if variance.value == 0.0 { 0.0 } else { variance.value * variance.value / variance.degrees }
+        };
         let value = self.value + other.value;
         Self { value, degrees: value * value / (part(self) + part(other)) }
     }

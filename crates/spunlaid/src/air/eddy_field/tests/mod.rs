@@ -140,11 +140,11 @@ fn invariant_the_variance_is_one_at_every_phase_of_the_interpolation() {
             (0..3).for_each(|k| sums[k][phase] += value[k] * value[k] / 30_000.0);
         }
     }
-    for (k, of) in sums.iter().enumerate() {
-        let mean = of.iter().sum::<f64>() / 8.0;
+    for (k, squares) in sums.iter().enumerate() {
+        let mean = squares.iter().sum::<f64>() / 8.0;
         assert!((mean - 1.0).abs() < 0.02, "component {k}: {mean}");
-        for variance in of {
-            assert!((variance / mean - 1.0).abs() < 0.03, "component {k}: {of:?}");
+        for variance in squares {
+            assert!((variance / mean - 1.0).abs() < 0.03, "component {k}: {squares:?}");
         }
     }
 }

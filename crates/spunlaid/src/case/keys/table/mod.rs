@@ -18,7 +18,7 @@ const TABLES: [(&str, &[&[Key]]); 9] = [
     ("fibre", &[fibre::KEYS]),
     ("feed", &[feed::KEYS]),
     ("belt", &[belt::KEYS]),
-    ("air", &[air::KEYS]),
+    ("air", air::KEYS),
     ("drag", &[drag::KEYS]),
     ("neighbours", &[neighbours::KEYS]),
     ("run", &[run::KEYS]),

@@ -8,7 +8,7 @@ pub(crate) fn nearest_word<'a>(word: &str, known: impl Iterator<Item = &'a str>)
 /// The candidates that are similar to the word, the most similar first.
 ///
 /// * `known` – candidate, its spelling, and a number that is added to its similarity
-pub(super) fn by_similarity<'a, T>(word: &str, known: impl Iterator<Item = (T, &'a str, f64)>) -> Vec<T> {
+pub(crate) fn by_similarity<'a, T>(word: &str, known: impl Iterator<Item = (T, &'a str, f64)>) -> Vec<T> {
     // So long a word is not a typing error, and comparing it would take long.
     if word.len() > 60 {
         return Vec::new();

@@ -1,0 +1,33 @@
+//! Options that most commands have in common.
+
+use clap::{Args, ValueHint};
+use std::path::PathBuf;
+use std::thread::available_parallelism;
+
+/// Where results go, and what is said meanwhile.
+#[derive(Debug, Args)]
+pub(crate) struct Output {
+    /// Folder for the results [default: results/<name of the case or file>]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub(crate) out: Option<PathBuf>,
+    /// No progress bar and no table; warnings and errors are still shown
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+    /// Replace any results in the output folder; those of the same command are replaced without it
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// The processors that may be used.
+#[derive(Clone, Copy, Debug, Default, Args)]
+pub(crate) struct Threads {
+    /// Number of threads [default: all cores]; it does not change the results
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+}
+
+impl Threads {
+    pub(crate) fn number(self) -> usize {
+        self.threads.map_or_else(|| available_parallelism().map_or(1, usize::from), usize::from)
+    }
+}

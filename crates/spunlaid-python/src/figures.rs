@@ -1,0 +1,53 @@
+//! How the figures of a results folder are written, as a Python user says it.
+
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use spunlaid_results::output::pictures::{FigureFiles, Format, width_named};
+
+/// Formats and width of figures.
+///
+/// * `figures` – names of formats, in a list or in a text with commas between them; None for the usual ones
+/// * `width` – in print: its name, a length with its unit, or a number [m]; None for that of the screen
+pub(crate) fn figure_files(
+    figures: Option<&Bound<'_, PyAny>>,
+    width: Option<&Bound<'_, PyAny>>,
+) -> PyResult<FigureFiles> {
+    let usual = FigureFiles::default();
+    let formats = match figures {
+        None => usual.formats,
+        Some(figures) => names(figures)?
+            .iter()
+            .map(|name| Format::named(name))
+            .collect::<Result<_, _>>()
+            .map_err(|text| PyValueError::new_err(format!("figures: {text}")))?,
+    };
+    let width = width.map(|width| match width.extract::<f64>() {
+        Ok(metres) => Ok(format!("{metres} m")),
+        Err(_) => width.extract::<String>().map_err(|_| {
+            PyTypeError::new_err(
+                "figure_width: write a text, as \"one-column\" or \"90 mm\", or a number of metres",
+            )
+        }),
+    });
+    let width = width.transpose()?.map(|text| width_named(&text)).transpose();
+    let width = width.map_err(|text| PyValueError::new_err(format!("figure_width: {text}")))?;
+    Ok(FigureFiles { formats, width })
+}
+
+/// Refuses figures that could not be written after a long flight.
+#[pyfunction]
+#[pyo3(signature = (figures = None, figure_width = None))]
+pub(crate) fn check_figures(
+    figures: Option<&Bound<'_, PyAny>>,
+    figure_width: Option<&Bound<'_, PyAny>>,
+) -> PyResult<()> {
+    figure_files(figures, figure_width).map(drop)
+}
+
+fn names(figures: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {
+    if let Ok(text) = figures.extract::<String>() {
+        return Ok(text.split(',').map(str::to_owned).collect());
+    }
+    let wanted = "figures: write the names of formats, as [\"pdf\", \"png\"]";
+    figures.extract().map_err(|_| PyTypeError::new_err(wanted))
+}

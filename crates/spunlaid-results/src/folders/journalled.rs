@@ -1,0 +1,140 @@
+//! A folder with a journal: work in it goes on where it was left, and complete results of the same command make room for new ones.
+//!
+//! ```text
+//! new folder → journal begun
+//! journal of this input → goes on
+//! complete results of the same command, from before its input changed → stay whole, while the new work is done in a hidden folder;
+//!   when it is complete, they make room for it
+//! ```
+
+use crate::Failure;
+use crate::failure::not_a_folder;
+use crate::output::leftovers;
+use crate::output::origin::{ORIGIN, Origin};
+use spunlaid::study::{Header, Journal};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+pub(super) const JOURNAL: &str = "journal";
+/// The folder in which new work is done while the results that it will replace are still there. Nobody else uses its name.
+const REPLACEMENT: &str = ".spunlaid-replacement";
+
+/// A folder whose journal this process has locked.
+#[derive(Debug)]
+pub(super) struct Journalled {
+    /// Where the results are when they are complete.
+    pub(super) path: PathBuf,
+    /// Where the work is done: the folder, or one in it.
+    pub(super) place: PathBuf,
+    entries: Entries,
+    /// The journal of the results that will be replaced, which keeps other processes away.
+    earlier: Option<Journal>,
+}
+
+/// The files and folders that results are, besides journal and origin, in the order in which they are moved. The last one marks them
+/// as complete.
+pub(super) type Entries = &'static [&'static [&'static str]];
+
+/// What is to be done in a folder.
+#[derive(Debug)]
+pub(super) struct Work<'a> {
+    /// The journal of the work begins like this.
+    pub(super) header: &'a Header,
+    pub(super) entries: Entries,
+    /// Whether what the folder holds is replaced.
+    pub(super) force: bool,
+    /// The command that does it, if it may replace what it made before.
+    pub(super) origin: Option<&'a Origin>,
+}
+
+impl Journalled {
+    /// Opens the folder and its journal. Returns how the journal begins, if it has begun.
+    pub(super) fn open(path: &Path, work: &Work<'_>) -> Result<(Self, Journal, Option<Header>), Failure> {
+        if path.exists() && !path.is_dir() {
+            return Err(not_a_folder(path));
+        }
+        fs::create_dir_all(path).map_err(Failure::unwritable(path))?;
+        let (journal, header) = Journal::open(&path.join(JOURNAL), work.force)?;
+        leftovers::remove_unclaimed(path);
+        let (path, place, entries) = (path.to_owned(), path.join(REPLACEMENT), work.entries);
+        let is_begun = !work.force && place.join(JOURNAL).exists();
+        if !is_begun {
+            // What a process has left that was killed when all was done.
+            clear(&place, entries)?;
+        }
+        let has_changed =
+            header.as_ref().is_some_and(|found| found.version == work.header.version && found != work.header);
+        let is_own = work.origin.is_some_and(|origin| origin.is_of(&path));
+        if !(has_changed && is_own && (is_begun || is_complete(&path, entries))) {
+            return Ok((Self { place: path.clone(), path, entries, earlier: None }, journal, header));
+        }
+        fs::create_dir_all(&place).map_err(Failure::unwritable(&place))?;
+        let (own, header) = Journal::open(&place.join(JOURNAL), false)?;
+        leftovers::remove_unclaimed(&place);
+        Ok((Self { path, place, entries, earlier: Some(journal) }, own, header))
+    }
+
+    /// Notes which command the results are of.
+    pub(super) fn sign(&self, origin: Option<&Origin>) -> Result<(), Failure> {
+        let file = self.place.join(ORIGIN);
+        match origin {
+            Some(origin) => fs::write(&file, origin.text()).map_err(Failure::unwritable(&file)),
+            None => remove(&file),
+        }
+    }
+
+    /// Whether there are earlier results that these will replace.
+    pub(super) const fn replaces(&self) -> bool {
+        self.earlier.is_some()
+    }
+
+    /// Puts complete results in the place of the earlier ones. A process that is killed meanwhile leaves no mixture: the earlier
+    /// results go first, then comes the journal, from which all else is made again.
+    pub(super) fn finish(&mut self) -> Result<(), Failure> {
+        if self.earlier.is_none() {
+            return Ok(());
+        }
+        let entries = self.entries.concat();
+        entries.iter().rev().try_for_each(|name| remove(&self.path.join(name)))?;
+        // Some operating systems cannot replace an open file.
+        self.earlier = None;
+        for name in [JOURNAL, ORIGIN].into_iter().chain(entries) {
+            let (from, to) = (self.place.join(name), self.path.join(name));
+            if from.symlink_metadata().is_ok() {
+                fs::rename(&from, &to).map_err(Failure::unwritable(&to))?;
+            }
+        }
+        clear(&self.place, self.entries)?;
+        self.place.clone_from(&self.path);
+        Ok(())
+    }
+}
+
+/// Removes the folder of a replacement, unless someone else has put something into it.
+fn clear(place: &Path, entries: Entries) -> Result<(), Failure> {
+    if place.is_dir() {
+        for name in [JOURNAL, ORIGIN].into_iter().chain(entries.concat()) {
+            remove(&place.join(name))?;
+        }
+        let _ = fs::remove_dir(place);
+    }
+    Ok(())
+}
+
+/// Whether the results of a folder were written after the last work for them.
+fn is_complete(path: &Path, entries: Entries) -> bool {
+    let last = entries.last().and_then(|entries| entries.last()).copied().unwrap_or_default();
+    let written = |name: &str| -> Option<SystemTime> { path.join(name).metadata().ok()?.modified().ok() };
+    written(last).zip(written(JOURNAL)).is_some_and(|(last, journal)| last >= journal)
+}
+
+/// Removes a file or a folder, if it is there.
+pub(super) fn remove(path: &Path) -> Result<(), Failure> {
+    let removed = match path.symlink_metadata() {
+        Err(_) => return Ok(()),
+        Ok(about) if about.is_dir() => fs::remove_dir_all(path),
+        Ok(_) => fs::remove_file(path),
+    };
+    removed.map_err(Failure::unwritable(path))
+}

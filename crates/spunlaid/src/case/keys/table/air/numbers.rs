@@ -1,0 +1,80 @@
+//! The numbers of the air: strength and size of its turbulence, density and viscosity.
+
+use crate::air::{SUTHERLAND_RANGE, density_at, kinematic_viscosity_at};
+use crate::case::keys::Key;
+use crate::case::keys::row::{Access, number, quantity};
+use crate::case::keys::value::Sign::{Any, NotNegative, Positive};
+use crate::case::keys::value::Value;
+use crate::error::Fault;
+use crate::units::Dimension;
+
+pub(super) const KEYS: &[Key] = &[
+    quantity("air.turbulence_intensity", Dimension::Ratio, NotNegative, of_air!(turbulence_intensity))
+        .told(|case| case.air.from_flow.turbulence_intensity)
+        .required("0.1")
+        .usual(1e-5, 1.0)
+    .meaning("Rms of each fluctuating velocity component, divided by the mean velocity. A record, a profile or a field may give it instead.")
+        .synonyms(&["turbulence level", "degree of turbulence"])
+.label("Turbulence intensity *Tu*")
+        .slider(0.0, 0.5)
+        .in_flight(),
+    quantity("air.length_scale", Dimension::Length, Positive, of_air!(length_scale))
+        .told(|case| case.air.from_flow.length_scale)
+        .required("50 mm")
+        .usual(1e-5, 10.0)
+    .meaning("Length of an eddy. Within this length the fluctuation is the same along the fibre. A record, a profile or a field may give it instead.")
+        .synonyms(&["eddy size", "integral length scale"])
+.label("Length of the eddies *L*_{T}")
+        .slider(5e-3, 0.2),
+    quantity("air.cutoff_frequency", Dimension::Frequency, Positive, of_air!(cutoff_frequency))
+        .told(|case| case.air.from_flow.cutoff_frequency)
+        .required("100 Hz")
+        .usual(0.1, 50000.0)
+    .meaning("Highest frequency of the turbulence. `taylor` stands for velocity / (4 × length scale). A record, a spectrum, a profile or a field may give it instead.")
+        .label("Cut-off frequency *f*")
+        .slider(10.0, 1000.0),
+    quantity("air.density", Dimension::Density, NotNegative, number!(air.density))
+        .value("1.204 kg/m³")
+        // From a thousandth to fifty times that of the atmosphere.
+    .usual(0.01, 50.0)
+    .meaning("Density of the air. The default is for 20 °C. `0 kg/m³` is a vacuum.")
+        .label("Air density")
+        .slider(0.0, 2.0)
+        .in_flight(),
+    quantity(
+        "air.kinematic_viscosity",
+        Dimension::KinematicViscosity,
+        Positive,
+        number!(air.kinematic_viscosity),
+    )
+    .value("1.51e-5 m²/s")
+    // From compressed to hot thin air.
+    .usual(5e-7, 1e-3)
+    .meaning("Kinematic viscosity of the air. The default is for 20 °C.")
+    .label("Kinematic viscosity *ν*")
+    .slider(1e-5, 6e-5)
+    .in_flight(),
+    quantity("air.temperature", Dimension::Temperature, Any, Access {
+        get: |_| None,
+        set: |case, value| {
+            let temperature = number(value)?;
+            if !SUTHERLAND_RANGE.contains(&temperature) {
+                let (least, most) = (*SUTHERLAND_RANGE.start(), *SUTHERLAND_RANGE.end());
+                return Err(Fault::new(
+                    format!("is not between {least} and {most} K, where the formula of the air's viscosity holds"),
+                    "correct the temperature or its unit, or write air.density and air.kinematic_viscosity instead",
+                ));
+            }
+            case.air.density = density_at(temperature);
+            case.air.kinematic_viscosity = kinematic_viscosity_at(temperature);
+            Ok(())
+        },
+    })
+    .follows("density and viscosity as they are written, or at 20 °C")
+    .meaning(
+        "Temperature of the air, from 170 to 1900 K, which may be written instead of `air.density` and \
+         `air.kinematic_viscosity`; both follow for dry air at 101325 Pa.",
+    )
+    .label("Air temperature")
+    .slider(253.15, 373.15),
+];

@@ -1,0 +1,162 @@
+//! The ends of the intervals: values of which a scan like this one would be found that far away by chance, once in forty times.
+
+use super::polynomials::Polynomials;
+use super::search::{Place, rest, weights_at};
+use super::surface::Surface;
+use super::values::{Values, least_misfit};
+use super::webs::Webs;
+use super::weights::{Matrix, gain};
+use crate::error::Error;
+use crate::statistics::linear::dot;
+use crate::statistics::student_t_95;
+
+/// Most trials that seek an end.
+const MOST: usize = 4;
+/// An end is found when it moves by less than this [standard errors].
+const ENOUGH: f64 = 0.1;
+/// The least share of a step that its errors may leave of it.
+const SLOWEST: f64 = 0.3;
+/// Steps of the other keys on the polynomials.
+const STEPS: usize = 10;
+
+/// What is known of an end of an interval.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum IntervalEnd {
+    /// Webs were laid there, and a scan may just be one of them.
+    Tried,
+    /// The range of the key ends there, and values beyond it may be possible.
+    OfRange,
+    /// No webs could be laid there, or the end was not found in few trials: it follows from straight lines.
+    Straight,
+}
+
+/// The ends of the interval of a key.
+pub(super) struct Ends {
+    /// Coordinates.
+    pub(super) coordinates: [f64; 2],
+    pub(super) kinds: [IntervalEnd; 2],
+    /// Values of the key that were tried [SI], and the least misfit there.
+    pub(super) profile: Vec<(f64, f64)>,
+}
+
+/// The ends of the interval of each key that changes something.
+///
+/// A value belongs to the interval if the scan may well be one of its webs: these are laid, each takes the place of the scan, and the value found for the
+/// scan is no further away than t standard errors of theirs.
+///
+/// # Errors
+/// As [`Webs::trial`].
+pub(super) fn ends(
+    webs: &mut Webs<'_>,
+    place: &Place,
+    values: &Values,
+    other_errors: &Matrix,
+) -> Result<Vec<Ends>, Error> {
+    let t = student_t_95(webs.count - 1);
+    let mut reach = vec![1.0; webs.parameters.len()];
+    for (own, key) in values.surface.known.iter().enumerate() {
+        let from_place = (values.at[*key] - webs.trials[place.trial].at[*key]).abs();
+        reach[*key] = from_place + 1.2 * t * values.surface.errors.standard_error(own);
+    }
+    let mut all = Vec::new();
+    for own in 0..values.surface.known.len() {
+        let mut search =
+            Search { place, values, other_errors, own, t, reach: &mut reach, profile: Vec::new() };
+        let [low, high] = [search.end(webs, -1.0)?, search.end(webs, 1.0)?];
+        all.push(Ends { coordinates: [low.0, high.0], kinds: [low.1, high.1], profile: search.profile });
+    }
+    Ok(all)
+}
+
+/// Seeks the ends of a key's interval.
+struct Search<'a> {
+    place: &'a Place,
+    values: &'a Values,
+    other_errors: &'a Matrix,
+    /// Index of the key among those that change something.
+    own: usize,
+    t: f64,
+    /// How far from the place trials count, by key.
+    reach: &'a mut [f64],
+    profile: Vec<(f64, f64)>,
+}
+
+impl Search<'_> {
+    /// The end of the interval to one side, as a coordinate.
+    fn end(&mut self, webs: &mut Webs<'_>, side: f64) -> Result<(f64, IntervalEnd), Error> {
+        let Self { place, values, own, t, .. } = *self;
+        let key = values.surface.known[own];
+        let here = webs.trials[place.trial].at.clone();
+        let [low, high] = webs.parameters[key].ends();
+        let error = values.surface.errors.standard_error(own);
+        // Where the end would be, and where it is if the range ends before.
+        let mut wanted = values.at[key] + side * t * error;
+        let mut kind = IntervalEnd::Straight;
+        for _ in 0..MOST {
+            let end = wanted.clamp(low, high);
+            if (end - values.at[key]) * side < 1e-9 {
+                break;
+            }
+            let to = self.with_others(webs, end - here[key]);
+            let at: Vec<f64> = here.iter().zip(&to).map(|(here, to)| here + to).collect();
+            let Some(trial) = webs.trial(&at)? else { break };
+            let at = webs.trials[trial].at.clone();
+            let to: Vec<f64> = at.iter().zip(&here).map(|(at, here)| at - here).collect();
+            let distance = (at[key] - values.at[key]) * side;
+            if distance < 1e-9 {
+                // The next whole number lies further away.
+                kind = IntervalEnd::Tried;
+                break;
+            }
+            self.reach.iter_mut().zip(&to).for_each(|(reach, to)| *reach = reach.max(1.05 * to.abs()));
+            let (_, slopes) = Polynomials::new(webs, place, self.reach).at(&to);
+            let there =
+                Place { trial, weights: weights_at(webs, trial)?, slopes: slopes.clone(), settled: true };
+            let mean = webs.trials[trial].mean.clone();
+            let known = values.surface.known.clone();
+            let surface = Surface::new(webs, &there, known, (mean, &slopes), self.other_errors);
+            let Some(own_there) = surface.known.iter().position(|one| *one == key) else { break };
+            self.profile.push((
+                webs.parameters[key].value(at[key]),
+                least_misfit(webs, place, &values.surface, (own, trial)),
+            ));
+            // How far from here the scan's value is found, and how far it would be at the end.
+            let away = -side * dot(&surface.gain[own_there], &rest(webs, trial));
+            let wide = surface.errors.standard_error(own_there);
+            let growth = (wide - error) / distance;
+            let step = (t * wide - away) / (1.0 - t * growth).max(SLOWEST);
+            wanted = at[key] + side * step.clamp(-t * error, t * error);
+            let is_beyond = !(low..=high).contains(&wanted) && (at[key] <= low || at[key] >= high);
+            if is_beyond || step.abs() < ENOUGH * error {
+                kind = IntervalEnd::Tried;
+                break;
+            }
+        }
+        let is_within = (low..=high).contains(&wanted);
+        Ok((wanted.clamp(low, high), if is_within { kind } else { IntervalEnd::OfRange }))
+    }
+
+    /// A step of the key from the place, and those of the others that are best then, on the polynomials.
+    fn with_others(&self, webs: &Webs<'_>, step: f64) -> Vec<f64> {
+        let Self { place, values, own, .. } = *self;
+        let known = &values.surface.known;
+        let polynomials = Polynomials::new(webs, place, self.reach);
+        let here = &webs.trials[place.trial].at;
+        let mut to: Vec<f64> = values.at.iter().zip(here).map(|(at, here)| at - here).collect();
+        to[known[own]] = step;
+        let others: Vec<usize> = known.iter().copied().filter(|key| *key != known[own]).collect();
+        for _ in 0..STEPS {
+            let (numbers, slopes) = polynomials.at(&to);
+            let slopes: Matrix = others.iter().map(|key| slopes[*key].clone()).collect();
+            let Ok(gain) = gain(&place.weights, &slopes) else { break };
+            let left: Vec<f64> =
+                webs.target.logarithms.iter().zip(&numbers).map(|(scan, number)| scan - number).collect();
+            for (key, row) in others.iter().zip(&gain) {
+                let [low, high] = webs.parameters[*key].ends();
+                let further = (to[*key] + 0.7 * dot(row, &left)).clamp(-self.reach[*key], self.reach[*key]);
+                to[*key] = (here[*key] + further).clamp(low, high) - here[*key];
+            }
+        }
+        to
+    }
+}

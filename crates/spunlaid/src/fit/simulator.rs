@@ -1,0 +1,116 @@
+//! Lays the webs that are compared with the scan.
+
+use super::target::Target;
+use super::texture::Texture;
+use super::weights::Matrix;
+use crate::error::{Error, Fault};
+use crate::layers::{Flyer, Method, WebSpec};
+use crate::study::seed_of_point;
+use crate::web::{Laying, PatchFindings, inner_columns};
+
+/// What makes the numbers of simulated self.
+pub(super) trait Simulator {
+    /// Webs of these values follow.
+    ///
+    /// # Errors
+    /// If there are none.
+    fn set(&mut self, values: &[f64]) -> Result<(), Error>;
+
+    /// The logarithms of the numbers of a web. Webs of the same replicate have the same random numbers, as far as the keys allow: what
+    /// differs is then less by chance.
+    ///
+    /// # Errors
+    /// If it cannot be laid.
+    fn web(&mut self, replicate: u64) -> Result<Vec<f64>, Error>;
+
+    /// Standard errors of the logarithms by causes other than chance, each common to all numbers.
+    ///
+    /// # Errors
+    /// As [`Simulator::web`].
+    fn errors_of_model(&mut self) -> Result<Matrix, Error>;
+}
+
+/// Makes the web of some values.
+pub type MakeWeb<'a> = &'a dyn Fn(&[f64]) -> Result<WebSpec, Error>;
+
+/// Lays webs, and flies their fibres.
+pub(super) struct WebSimulator<'a> {
+    make: MakeWeb<'a>,
+    target: &'a Target,
+    flyer: Flyer<'a>,
+    by: Laying<'a>,
+    /// The web of the values that were set last.
+    spec: WebSpec,
+}
+
+impl<'a> WebSimulator<'a> {
+    /// * `start` – values of the keys
+    ///
+    /// # Errors
+    /// If no web has these values.
+    pub(super) fn new(
+        (make, target): (MakeWeb<'a>, &'a Target),
+        flyer: Flyer<'a>,
+        by: Laying<'a>,
+        start: &[f64],
+    ) -> Result<Self, Error> {
+        Ok(Self { make, target, flyer, by, spec: make(start)? })
+    }
+}
+
+impl Simulator for WebSimulator<'_> {
+    fn set(&mut self, values: &[f64]) -> Result<(), Error> {
+        self.spec = (self.make)(values)?;
+        Ok(())
+    }
+
+    fn web(&mut self, replicate: u64) -> Result<Vec<f64>, Error> {
+        let spec = WebSpec { seed: seed(&self.spec, replicate), ..self.spec.clone() };
+        let mut flown = self.flyer.web(&spec)?;
+        let inner = inner_columns(&flown.web);
+        let map = flown.map(self.by)?;
+        self.target.logarithms_of(&map, inner, self.by.threads).ok_or_else(|| {
+            Error::Flight(Fault::new(
+                "the part of the web that is not edge is smaller than what it is compared with, or empty",
+                "set web.width to more, or web.edges to \"periodic\"",
+            ))
+        })
+    }
+
+    /// The errors of the logarithms of CV by the few flown fibres, and by the model that lays the webs in their place.
+    fn errors_of_model(&mut self) -> Result<Matrix, Error> {
+        let mut spec = self.spec.clone();
+        // Of filaments in one air all have been flown, and known numbers say nothing of real fibres.
+        if spec.method == Method::SharedAir || spec.layers.iter().all(|layer| layer.source.case().is_none()) {
+            return Ok(Vec::new());
+        }
+        let sides = self.target.textures().iter().filter_map(|texture| match texture {
+            Texture::Patch(side) => Some(*side),
+            Texture::Band { .. } => None,
+        });
+        spec.sheet.patches = sides.collect();
+        let mut flown = self.flyer.web(&spec)?;
+        let found = flown.measure(self.by)?;
+        let errors = |cause: &dyn Fn(&PatchFindings) -> Option<f64>| -> Vec<f64> {
+            let of_side = |side: f64| {
+                let far = |patch: &&PatchFindings| (patch.map.patch / side).ln().abs();
+                let patch = found.patches.iter().min_by(|a, b| far(a).total_cmp(&far(b)));
+                patch.and_then(|patch| Some(cause(patch)? / patch.map.cv)).unwrap_or(0.0)
+            };
+            let error = |texture: &Texture| match texture {
+                Texture::Patch(side) => of_side(*side),
+                // A variance is twice as far off as the CV over patches as large as its waves.
+                Texture::Band { waves, .. } => 2.0 * of_side(0.5 * waves[0]),
+            };
+            self.target.textures().iter().map(error).collect()
+        };
+        let causes =
+            [errors(&|patch| patch.whole_error().flight), errors(&|patch| patch.whole_error().model)];
+        Ok(causes.into_iter().filter(|errors| errors.iter().any(|error| *error > 0.0)).collect())
+    }
+}
+
+/// The seed of a web of a trial.
+fn seed(spec: &WebSpec, replicate: u64) -> u64 {
+    if replicate == 0 { spec.seed } else { seed_of_point(spec.seed, replicate) }
+}
