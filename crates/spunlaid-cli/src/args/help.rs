@@ -4,25 +4,24 @@ pub(super) const EXAMPLES: &str = "\
 Examples:
   spunlaid new my.toml                              write a commented case to start from
   spunlaid new --fed line.toml                      one of a fibre that is laid on a moving belt
-  spunlaid new --web line.toml                      a web from the numbers of a line: g/min, dtex, g/m²
+  spunlaid new --web line.toml                      a web from the numbers of a line
   spunlaid keys field                               explain the keys about a field
   spunlaid check my.toml                            show mesh, limits, expected time and memory
   spunlaid run my.toml                              fly it; then open results/my/report.html
   spunlaid run my.toml --set air.velocity=\"20 m/s\" --out results/faster
   spunlaid live my.toml                             change it while it flies, on a page
   spunlaid sweep my_study.toml                      fly it with many values of some keys
-  spunlaid spin my_line.toml                        from the die to the solid filament: which diameter?
+  spunlaid spin my_line.toml                        from the die to the solid filament
   spunlaid web my_web.toml                          lay a fabric of many such filaments
   spunlaid run results/my --until \"20 s\"             fly it for longer, in the same turbulence
-  spunlaid web cases/web.toml                       lay thousands of filaments: how even is the fabric?
-  spunlaid fit my_web.toml --to results/scan --vary line.depth    the settings behind a scanned web
+  spunlaid web cases/web.toml                       lay thousands of filaments: how even is it?
+  spunlaid fit my_web.toml --to results/scan --vary air.length_scale   the settings of a scan
   spunlaid compare results/my results/faster        say what differs between two runs
   spunlaid analyse wire.csv                         make the air of a case from a velocity record
   spunlaid analyse scan.png --pixel \"0.1 mm\"       say how even your own web is
 
-A case is a small text file that describes fibre, air and run, and feed and belt of a fibre that is
-laid. Quantities have a unit:
-\"50 µm\" or \"50 um\", \"10 m/s\", \"2 GPa\".
+A case is a small text file that describes fibre, air and run, and feed and belt of a fibre that
+is laid. Quantities have a unit: \"50 µm\" or \"50 um\", \"10 m/s\", \"2 GPa\".
 
 Exit codes: 0 done; 1 the input is wrong (arguments, case, study, record, or the named folder);
 2 another failure (a file cannot be written, a flight diverged); 130 interrupted.";
@@ -38,10 +37,10 @@ Examples:
 
 pub(super) const LIVE_HELP: &str = "\
 The page shows eight fibres of the case in flight. Sliders change air and fibre while they fly;
-amplitude, frequency, their errors and spectra follow. A fed fibre is laid while you look. The page
-works offline; only programs of this machine that know its address can reach it. The program reads
-no other files than those of the case, and writes only what you save on the page by name, into the
-folder where it was started. Ctrl-C ends it.
+amplitude, frequency, their errors and spectra follow. A fed fibre is laid while you look. The
+page works offline; only programs of this machine that know its address can reach it. The
+program reads no other files than those of the case, and writes only what you save on the page
+by name, into the folder where it was started. Ctrl-C ends it.
 
 Examples:
   spunlaid live                        the fibre of Table 1 of the paper
@@ -53,17 +52,18 @@ The results folder holds
   report.html          for the browser: the moving fibre, figures, table; works offline
   summary.json         every result with mean, standard error and the replicates' values
   case.toml            the case with every default; running it gives the same bits
-  origin.toml          the command and the file; the same command replaces these results when it runs again
+  origin.toml          the command and the file; the same command replaces these results
   case_files/          copies of the files that the case names
   end_node.parquet     the free end over time      energy.parquet   both energy ledgers over time
   shape.pvd, shape/    the fibre over time, for ParaView (open shape.pvd)
-  laid.parquet         of a fed fibre, in place of end_node.parquet: where each point lies on the belt
+  laid.parquet         of a fed fibre, in place of end_node.parquet: where each point lies
   laid.vtp             the same of the first fibres as curves, for ParaView
   figures/             the report's figures as SVG and PNG, and their numbers as CSV
 
-With --until, a finished run is flown for longer, again from the start: everything but the duration
-is as in its case.toml, harmonics of the turbulence and time step too, and the first part has the
-same bits. The new results replace the old ones when they are complete, or go to --out.
+With --until, a finished run is flown for longer, again from the start: everything but the
+duration is as in its case.toml, harmonics of the turbulence and time step too, and the first
+part has the same bits. The new results replace the old ones when they are complete, or go to
+--out.
 
 Examples:
   spunlaid run cases/table1.toml
@@ -87,10 +87,11 @@ A study is a small text file beside the case it varies:
   [link]                     # keys that follow from others
   \"air.cutoff_frequency\" = \"air.velocity / (4 * air.length_scale)\"    # or just \"taylor\"
 
-If a sweep is interrupted, the same command continues it and gives the same bits. After an edit, the
-same command replaces a finished study when the new one is complete. The results folder holds
+If a sweep is interrupted, the same command continues it and gives the same bits. After an edit,
+the same command replaces a finished study when the new one is complete. The results folder
+holds
   report.html          for the browser: the study, table, figures, ranking
-  results.csv          a row per point: seed, inputs, n, lost, then mean and standard error (_se) of every result
+  results.csv          a row per point: seed, inputs, n, lost, mean and standard error (_se)
   results.json         the same with the ranking
   results.parquet      the same            replicates.parquet   a row per fibre
   figures/             the report's figures as SVG and PNG, and their numbers as CSV
@@ -98,9 +99,10 @@ same command replaces a finished study when the new one is complete. The results
   case_files/          copies of the files that the case names
   journal              the results of every fibre; with it the study can be continued
 
-A study may vary a web in place of a case, with `web = \"web.toml\"` in place of `case`, keys of the
-web or of the case that it flies, and `replicates` webs of each point. Designs, links, replicates and
-files are the same; the results are the unevenness over patches, and web.toml stands for case.toml.
+A study may vary a web in place of a case, with `web = \"web.toml\"` in place of `case`, keys of
+the web or of the case that it flies, and `replicates` webs of each point. Designs, links,
+replicates and files are the same; the results are the unevenness over patches, and web.toml
+stands for case.toml.
 
 Examples:
   spunlaid sweep cases/studies/velocity.toml
@@ -109,17 +111,17 @@ Examples:
   spunlaid sweep my_study.toml --print-point 7 > point7.toml && spunlaid run point7.toml";
 
 pub(super) const AIR_HELP: &str = "\
-The air is the field of eddies that neighbouring fibres share (air.lateral = \"von-karman\"). A case whose air is the same
-everywhere across is shown as if it had this key.
+The air is the field of eddies that neighbouring fibres share (air.lateral = \"von-karman\"). A
+case whose air is the same everywhere across is shown as if it had this key.
 
 Examples:
-  spunlaid air cases/spunbond_slot.toml                    open report.html in the folder that it names
+  spunlaid air cases/spunbond_slot.toml                    open report.html in the folder it names
   spunlaid air cases/spunbond.toml --duration \"5 ms\"      slower
   paraview results/spunbond_slot_air/along.pvd             all three components of the velocity";
 
 pub(super) const SPIN_HELP: &str = "\
-A spinline is a table of a small text file, or of a case, where it takes the place of feed.speed and
-fibre.diameter:
+A spinline is a table of a small text file, or of a case, where it takes the place of feed.speed
+and fibre.diameter:
 
   [spinline]
   polymer = \"pp\"                 # pp, pet, pa6, pla, or a file with the constants of yours
@@ -141,7 +143,7 @@ fibre.diameter:
   spinline.parquet   the thread and the air around it from the die to the end
   figures/           every figure as SVG, PNG and CSV
   spinline.toml      the spinline with every default; solving it again gives the same bits
-  origin.toml        the command and the file; the same command replaces these results when it runs again
+  origin.toml        the command and the file; the same command replaces these results
   case_files/        copies of the files that it names
 
 If no steady state exists, as where the filament is not solid at the end, the message says why and
@@ -179,7 +181,7 @@ Several beams are [[layer]] tables, each with its own [layer.laydown], [layer.li
   fibres.vtp     the single fibres of a window, for ParaView
   figures/       every figure as SVG, PNG and CSV
   web.toml       the file with every default; laying it again gives the same bits
-  origin.toml    the command and the file; the same command replaces these results when it runs again
+  origin.toml    the command and the file; the same command replaces these results
 
 Examples:
   spunlaid web cases/web.toml
@@ -187,15 +189,16 @@ Examples:
   spunlaid web two_beams.toml --set layer.2.line.filaments_per_metre=4000";
 
 pub(super) const FIT_HELP: &str = "\
-A web is laid again and again with other values of the keys, until its unevenness over patches is that
-of the scan. Each trial lays the same webs with the same random numbers, cut to the size of the scan.
-The scan comes from `spunlaid analyse`; patches that its camera has blurred by more than 10 % are not
-compared. The keys may be those of the web or of the case that it flies; a case is flown anew in each
-trial. Without a range, a value may be five times smaller or larger than that of the file.
+A web is laid again and again with other values of the keys, until its unevenness over patches
+is that of the scan. Each trial lays the same webs with the same random numbers, cut to the size
+of the scan. The scan comes from `spunlaid analyse`; patches that its camera has blurred by more
+than 10 % are not compared. The keys may be those of the web or of the case that it flies; a
+case is flown anew in each trial. Without a range, a value may be five times smaller or larger
+than that of the file.
 
 If a fit is interrupted, the same command continues it and gives the same bits. The results folder
 holds
-  report.html    for the browser: values with 95 % intervals, curves of scan and fit, residuals, profiles
+  report.html    for the browser: values with 95 % intervals, curves, residuals, profiles
   fit.json       all numbers                 trials.csv   the misfit of each trial
   web.toml       the web with the values that were found; with cases/ if it flies some
   figures/       every figure as SVG, PNG and CSV
@@ -203,7 +206,7 @@ holds
 
 Examples:
   spunlaid analyse scan.png --pixel \"0.1 mm\" --lamp empty.png
-  spunlaid fit my_web.toml --to results/scan --vary air.length_scale,line.depth
+  spunlaid fit my_web.toml --to results/scan --vary air.turbulence_intensity,air.length_scale
   spunlaid fit my_web.toml --to results/scan --vary laydown.noise=\"5 m^-0.5..40 m^-0.5\" --spectrum";
 
 pub(super) const REPRODUCE_HELP: &str = "\
@@ -220,8 +223,8 @@ Examples:
   spunlaid reproduce --figures 9,11a --out results/two";
 
 pub(super) const ANALYSE_HELP: &str =
-    "A record is an evenly sampled CSV or Parquet file with one time column and one to three velocity
-columns. CSV cells are separated by comma, semicolon, tab or blanks:
+    "A record is an evenly sampled CSV or Parquet file with one time column and one to three
+velocity columns. CSV cells are separated by comma, semicolon, tab or blanks:
 
   time_s,u_m_s,v_m_s          Zeit [ms];u [m/s]          (or no time column and --rate \"20 kHz\")
   0.00000,10.12,-0.31         0,00;10,12
@@ -234,28 +237,28 @@ The results folder holds
   report.html          for the browser: record, histogram, spectrum, autocorrelation, table
   analysis.json        every result as {value, low, high} with a 95 % confidence interval
   air.toml             the [air] table of a case, to be pasted into a case file
-  spectrum.csv, autocorrelation.csv      the curves          figures/   the figures as SVG, PNG, CSV
+  spectrum.csv, autocorrelation.csv      the curves        figures/   the figures
 
 The integral time is the integral of the autocorrelation up to
   first-zero           its first zero (the usual choice)
   e-fold               the lag where it falls to 1/e (63 % of the integral of an exponential)
   fixed=\"50 ms\"        a given lag
 
-PNG and TIFF are scans of a web in transmitted light; .npy, a CSV with --pixel (a line for each row)
-and the map.png of `spunlaid web` are maps of its basis weight. The results folder then holds what
-that of `spunlaid web` holds: report.html, summary.json, map.npy and figures/. PNG and TIFF state how
-large a pixel is by their resolution; check it, or give --pixel.
+PNG and TIFF are scans of a web in transmitted light; .npy, a CSV with --pixel (a line for each
+row) and the map.png of `spunlaid web` are maps of its basis weight. The results folder then
+holds what that of `spunlaid web` holds: report.html, summary.json, map.npy and figures/. PNG
+and TIFF state how large a pixel is by their resolution; check it, or give --pixel.
 
 Examples:
   spunlaid analyse cases/records/probe.csv
   spunlaid analyse scan.tif --weight \"15 g/m²\" --lamp empty.tif
   spunlaid analyse gauge.csv --pixel \"2 mm\" --md rows --patches \"4 mm,10 mm,20 mm\"
-  spunlaid analyse wire.csv --rate \"20 kHz\" --velocity-unit m/s --integral e-fold --out results/wire";
+  spunlaid analyse wire.csv --rate \"20 kHz\" --velocity-unit m/s --integral e-fold --out results/w";
 
 pub(super) const COMPARE_HELP: &str = "\
 Every run is compared with the first. Runs with the same seed and the same eddies are compared
-replicate by replicate, which shows small differences; others by Welch's t. Webs, laid by `spunlaid web`
-or scanned (`spunlaid analyse scan.png`), are compared patch by patch.
+replicate by replicate, which shows small differences; others by Welch's t. Webs, laid by
+`spunlaid web` or scanned (`spunlaid analyse scan.png`), are compared patch by patch.
 
 The results folder holds
   report.html       for the browser: a table for each pair, and the curves in one picture each
@@ -270,8 +273,8 @@ Examples:
 pub(super) const CHECK_HELP: &str = "\
 Of a case it prints every default, the mesh, the limits of the time step, and the expected time,
 memory and size of the results. Of a web it prints the numbers of its line: grams per minute and
-hole, dtex, holes per metre, g/m², the speed of the belt, kg/h from each metre of width, and in which
-air the filaments hang. Of a study it prints its points. The output is itself such a file.
+hole, dtex, holes per metre, g/m², the speed of the belt, kg/h from each metre of width, and in
+which air the filaments hang. Of a study it prints its points. The output is itself such a file.
 
 Examples:
   spunlaid check cases/table1.toml --set fibre.element_length=\"5 mm\"
@@ -279,11 +282,11 @@ Examples:
   spunlaid check cases/studies/web_evenness.toml";
 
 pub(super) const NEW_HELP: &str = "\
-Without --fed and --web it is the case of Table 1 of the paper. With --web it is the file of a web, from
-the numbers by which a line is known; in a terminal it asks for those that are not given. Beside it
-stand the case of the filament and a table of the air between slot and belt, so FILE line.toml makes
-line.toml, line_filament.toml and line_air.csv. Each number that follows from others has a comment that
-says how.
+Without --fed and --web it is the case of Table 1 of the paper. With --web it is the file of a
+web, from the numbers by which a line is known; in a terminal it asks for those that are not
+given. Beside it stand the case of the filament and a table of the air between slot and belt, so
+FILE line.toml makes line.toml, line_filament.toml and line_air.csv. Each number that follows
+from others has a comment that says how.
 
 Examples:
   spunlaid new my.toml && spunlaid run my.toml
@@ -298,3 +301,20 @@ Examples:
 
 /// Of commands that go on where they were left.
 pub(super) const FORCE_HELP: &str = "Start again; deletes what is in the output folder. A complete one of the same command is replaced without it";
+
+#[cfg(test)]
+mod tests {
+    use crate::args::Arguments;
+    use clap::CommandFactory;
+
+    /// A terminal breaks longer lines, and columns then no longer stand below each other.
+    #[test]
+    fn no_line_of_help_is_longer_than_a_terminal_is_wide() {
+        let program = Arguments::command();
+        for command in program.get_subcommands().chain([&program]) {
+            let help = command.get_after_help().map(ToString::to_string).unwrap_or_default();
+            let long = help.lines().find(|line| line.chars().count() > 99);
+            assert_eq!(long, None, "{}", command.get_name());
+        }
+    }
+}

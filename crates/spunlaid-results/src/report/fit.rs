@@ -93,7 +93,8 @@ fn methods(input: &FitReport<'_>) -> Methods {
     let [width, length] = input.target.sides().map(|side| Dimension::Length.pretty(side));
     sentences.push(format!(
         "These values were found by a simulated method of moments ({}): the logarithms of {} numbers (CV over square patches{}) of a piece of {width} × {length} \
-         were compared with the mean of {} simulated webs, weighted by the inverse of their covariance from web to web.",
+         were compared with the mean of {} simulated webs, weighted by the inverse of their covariance from web to web. A 95 % interval holds the values with \
+         which simulated webs, each in the place of the scan, differ from the others as much as the scan does.",
         MOMENTS.short,
         fit.numbers.len(),
         if fit.numbers.iter().any(|number| matches!(number.texture, Texture::Band { .. })) {

@@ -63,26 +63,36 @@ pub(super) struct Strands<'a> {
 impl Strands<'_> {
     /// What is told of them below the picture.
     pub(super) fn words(&self) -> String {
+        let (drawn, all) = (self.drawn().count(), self.strands.len());
         format!(
-            "In the small frame, {} by {}, the single fibres are drawn in their true width.",
+            "In the small frame, {} by {}, {} drawn in their true width.",
             millimetres(self.window.sides[0]),
-            millimetres(self.window.sides[1])
+            millimetres(self.window.sides[1]),
+            if drawn == all {
+                "the single fibres are".to_owned()
+            } else {
+                format!("{drawn} of the {all} pieces of single fibres are")
+            }
         )
+    }
+
+    /// As many as the page can hold, the first ones.
+    fn drawn(&self) -> impl Iterator<Item = &Strand> {
+        let mut points = 0;
+        self.strands.iter().take_while(move |strand| {
+            points += strand.points.len();
+            points <= POINTS
+        })
     }
 }
 
 impl Fibres {
-    /// As few as the page can hold, the first ones.
-    pub(super) fn new(Strands { window, strands, diameter }: Strands<'_>) -> Self {
-        let mut points = Vec::new();
-        let mut counts = Vec::new();
-        for strand in strands {
-            if points.len() / 8 + strand.points.len() > POINTS {
-                break;
-            }
-            counts.push(strand.points.len());
-            points.extend(strand.points.iter().flatten().flat_map(|x| ((x * MM) as f32).to_le_bytes()));
-        }
+    /// Those that are drawn.
+    pub(super) fn new(strands: Strands<'_>) -> Self {
+        let Strands { window, diameter, .. } = strands;
+        let counts = strands.drawn().map(|strand| strand.points.len()).collect();
+        let coordinates = strands.drawn().flat_map(|strand| strand.points.iter().flatten());
+        let points: Vec<u8> = coordinates.flat_map(|x| ((x * MM) as f32).to_le_bytes()).collect();
         Self {
             corner: window.corner.map(|x| x * MM),
             sides: window.sides.map(|x| x * MM),

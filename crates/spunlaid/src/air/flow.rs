@@ -13,7 +13,7 @@ pub enum Flow {
     /// Along x as in a table.
     Profile(FileContent<Profile>),
     /// In space as in a CFD solution.
-    Field(PlacedField),
+    Field(Box<PlacedField>),
 }
 
 /// Which numbers of the case come from the flow instead.
@@ -66,8 +66,8 @@ impl Flow {
                 length_scale: !profile.length_scale.is_empty(),
                 cutoff_frequency: !profile.cutoff_frequency.is_empty(),
             },
-            Self::Field(PlacedField { field, .. }) => {
-                let turbulent = field.has_turbulence();
+            Self::Field(placed) => {
+                let turbulent = placed.field.has_turbulence();
                 FlowNumbers {
                     turbulence_intensity: turbulent,
                     length_scale: turbulent,

@@ -71,7 +71,7 @@ fn field(
 
 fn placed(field: Field, root: Vec3<f64>, axis: Axis, unit: f64) -> Flow {
     let field = FileContent::new(PathBuf::from("field.vti"), 1, Arc::new(field));
-    Flow::Field(PlacedField { field, root, axis, unit, length_constant: 0.43, time_constant: 0.3 })
+    Flow::Field(Box::new(PlacedField { field, root, axis, unit, length_constant: 0.43, time_constant: 0.3 }))
 }
 
 const TOLD: FlowNumbers =

@@ -94,7 +94,7 @@ mod tests {
     fn the_sources_of_models_are_those_of_the_theory() {
         let theory = file("docs/theory.md").replace('*', "").split_whitespace().collect::<Vec<_>>().join(" ");
         let laws = FrictionLaw::ALL.map(along).into_iter().chain(NormalLaw::ALL.map(across));
-        for reference in laws.chain([CHAIN, SURROGATE]) {
+        for reference in laws.chain([CHAIN, SURROGATE, MOMENTS]) {
             let known = reference.full.trim_end_matches(", 2015.").trim_end_matches('.');
             assert!(theory.contains(known), "{known}");
         }

@@ -61,7 +61,8 @@ pub(super) const KEYS: &[Key] = &[
             let (field, axis, unit) = (field.clone(), Axis::ALL[0], 1.0);
             let root = PlacedField::middle_of_inlet(&field, axis, unit);
             let (length_constant, time_constant) = (LENGTH_CONSTANT, TIME_CONSTANT);
-            case.air.flow = Flow::Field(PlacedField { field, root, axis, unit, length_constant, time_constant });
+            let placed = PlacedField { field, root, axis, unit, length_constant, time_constant };
+            case.air.flow = Flow::Field(Box::new(placed));
             Ok(())
         },
     })
