@@ -166,7 +166,7 @@ fn what_is_compared_is_the_web_without_edges_and_noise() {
         assert!((cv / told - 1.0).abs() < 0.1, "{side}: {cv}, {told}");
     }
     success(&mut desk.spunlaid("analyse truth/map.png --out scan --quiet"));
-    success(&mut desk.spunlaid("analyse truth/map.png --noise 3 --out quiet --quiet"));
+    success(&mut desk.spunlaid("analyse truth/map.png --noise 0.0003 --out quiet --quiet"));
     let (with, without) = (numbers("scan"), numbers("quiet"));
     for ((side, with), (_, without)) in with.iter().zip(&without) {
         let told = [cv_of_summary("scan", *side), cv_of_summary("quiet", *side)];
