@@ -92,6 +92,8 @@ impl Search<'_> {
         // Where the end would be, and where it is if the range ends before.
         let mut wanted = values.at[key] + side * t * error;
         let mut kind = IntervalEnd::Straight;
+        // The trials nearest to the end on either side: where they are, and how much further away the scan's value is found than it may be.
+        let mut beside: [Option<(f64, f64)>; 2] = [None; 2];
         for _ in 0..MOST {
             let end = wanted.clamp(low, high);
             if (end - values.at[key]) * side < 1e-9 {
@@ -124,8 +126,17 @@ impl Search<'_> {
             let away = -side * dot(&surface.gain[own_there], &rest(webs, trial));
             let wide = surface.errors.standard_error(own_there);
             let growth = (wide - error) / distance;
-            let step = (t * wide - away) / (1.0 - t * growth).max(SLOWEST);
-            wanted = at[key] + side * step.clamp(-t * error, t * error);
+            let excess = away - t * wide;
+            beside[usize::from(excess > 0.0)] = Some((at[key], excess));
+            let step = match beside {
+                // Values between which webs are the same, as with few filaments, have an end between them too.
+                [Some((inside, less)), Some((outside, more))] => {
+                    kind = IntervalEnd::Tried;
+                    ((outside - inside) * less / (less - more) + inside - at[key]) * side
+                }
+                _ => (-excess / (1.0 - t * growth).max(SLOWEST)).clamp(-t * error, t * error),
+            };
+            wanted = at[key] + side * step;
             let is_beyond = !(low..=high).contains(&wanted) && (at[key] <= low || at[key] >= high);
             if is_beyond || step.abs() < ENOUGH * error {
                 kind = IntervalEnd::Tried;
