@@ -105,7 +105,7 @@ pub(crate) fn web(asked: &args::Web, invocation: &Invocation) -> Result<(), Fail
     Ok(())
 }
 
-/// Most steps of all fibres that are flown for advice unasked: a minute or two of a processor.
+/// Most steps of all fibres that are flown for advice without `--advice`: a minute or two of a processor.
 const MOST_STEPS: u64 = 4_000_000;
 
 /// What is done while changes are tried.
