@@ -124,6 +124,8 @@ fn earlier_results_stay_whole_until_those_of_a_changed_study_are() {
         // A third study does not take what has been done for the second.
         if kills == 3 && kept > 0 {
             fs::write(place.path("study.toml"), study.replace("'20 m/s'", "'30 m/s'")).unwrap();
+            // The first try removes the files that the killed process had begun; the second one changes nothing.
+            place.sweep("out", &[]).output().unwrap();
             let refusal = place.refused("out", &[]);
             assert!(refusal.contains(".spunlaid-replacement: holds results of another study"), "{refusal}");
             fs::write(place.path("study.toml"), &changed).unwrap();
