@@ -17,6 +17,7 @@ __all__ = [
     "Study",
     "__version__",
     "analyse",
+    "check_figures",
     "find_fit",
     "flown_from",
     "fly",
