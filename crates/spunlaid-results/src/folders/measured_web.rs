@@ -1,10 +1,10 @@
 //! Reads a web that has been scanned or laid from its results folder.
 
+use crate::output::web::MapFile;
 use serde_json::Value as Json;
 use spunlaid::error::{Error, Fault};
 use spunlaid::fit::{MeasuredPatch, MeasuredWeb};
-use spunlaid::scan::{Doubt, Light, Settings, analyse, read};
-use spunlaid::web::Map;
+use spunlaid::scan::Doubt;
 use std::fs;
 use std::path::Path;
 
@@ -26,7 +26,6 @@ pub fn read_measured_web(folder: &Path) -> Result<MeasuredWeb, Error> {
         serde_json::from_str(&text).map_err(|error| refused(format!("summary.json: {error}")))?;
     let missing = |what: &str| refused(format!("summary.json has no {what}"));
     let web = summary.get("web").ok_or_else(|| missing("web"))?;
-    let cell = web["cell_m"].as_f64().ok_or_else(|| missing("cell_m of the web"))?;
     let all = web["patches"].as_array().ok_or_else(|| missing("patches of the web"))?;
     let scan = &summary["scan"];
     let doubt = match &scan["guess"] {
@@ -40,38 +39,23 @@ pub fn read_measured_web(folder: &Path) -> Result<MeasuredWeb, Error> {
             Some(known?.1)
         }
     };
-    let knows_noise = scan["noise"].as_f64().is_some();
     // A laid web has neither camera nor blur.
     let patch = |patch: &Json| {
         let number = |name: &str| patch[name].as_f64().unwrap_or(0.0);
         Some(MeasuredPatch {
             side: patch["patch_m"].as_f64()?,
             noise: number("cv_noise"),
-            knows_noise,
             blur: number("blur_of_a_pixel"),
         })
     };
     let mut patches: Vec<MeasuredPatch> = all.iter().filter_map(patch).collect();
     patches.sort_by(|a, b| a.side.total_cmp(&b.side));
-    let map = folder.join("map.npy");
-    if !map.exists() {
-        return Err(refused("map.npy is missing".to_owned()));
-    }
-    let sides: Vec<f64> = patches.iter().map(|patch| patch.side).take(1).collect();
-    let settings = Settings { patches: sides, ..Settings::new(Light::Weight { mean: None }) };
-    let found = analyse(&read(&map, Some(cell)).map_err(Error::File)?, &settings).map_err(Error::File)?;
+    let map = MapFile::new(folder, web).and_then(|map| map.piece(map.sides(), map.cell));
     Ok(MeasuredWeb {
-        map: within(found.map, web),
+        map: map.map_err(refused)?,
         patches,
+        knows_noise: scan["noise"].as_f64().is_some(),
         flat: scan["shading"].as_f64().is_some(),
         doubt: doubt.map(|doubt| doubt.to_string()),
     })
-}
-
-/// The map without the strips at the edges of a laid web, which count as no web.
-fn within(map: Map, web: &Json) -> Map {
-    let margin =
-        |i: usize| (web["edges"]["margins_m"][i].as_f64().unwrap_or(0.0) / map.cell).round() as usize;
-    let inner = margin(0)..map.columns.saturating_sub(margin(1));
-    if inner.is_empty() { map } else { map.between(inner).into_owned() }
 }

@@ -13,6 +13,8 @@ pub struct MeasuredWeb {
     pub map: Map,
     /// The patches whose CV is known.
     pub patches: Vec<MeasuredPatch>,
+    /// Whether the noise of the camera is known, and not only at most as large: then its variance is taken out.
+    pub knows_noise: bool,
     /// Whether the shading of the lamp was taken out as a polynomial.
     pub flat: bool,
     /// Why no interval can be given for anything of it, if so.
@@ -25,12 +27,12 @@ impl MeasuredWeb {
         let patch = |patch: &PatchFindings| MeasuredPatch {
             side: patch.unevenness.patch,
             noise: patch.noise,
-            knows_noise: findings.noise.is_some(),
             blur: patch.blur,
         };
         Self {
             map: findings.map.clone(),
             patches: findings.patches.iter().map(patch).collect(),
+            knows_noise: findings.noise.is_some(),
             flat: findings.shading.is_some(),
             doubt: findings.guess.map(|doubt| doubt.to_string()),
         }
@@ -44,8 +46,6 @@ pub struct MeasuredPatch {
     pub side: f64,
     /// CV of the noise of the camera over such patches, at most.
     pub noise: f64,
-    /// Whether it is exactly this: then its variance is taken out.
-    pub knows_noise: bool,
     /// Share by which one more pixel of blur lowers the CV.
     pub blur: f64,
 }
@@ -118,7 +118,7 @@ impl Target {
         }
         let textures = Textures { all, flat: measured.flat };
         let mut logarithms = textures.logarithms(&map, 1);
-        let camera = Camera { patches: &patches, cell };
+        let camera = Camera { patches: &patches, cell, knows_noise: measured.knows_noise };
         for (texture, logarithm) in textures.all.iter().zip(&mut logarithms) {
             let what = || match texture {
                 Texture::Patch(side) => format!("over patches of {}", Dimension::Length.pretty(*side)),
@@ -127,7 +127,7 @@ impl Target {
             if !logarithm.is_finite() {
                 return Err(Fault::new(format!("does not vary {}", what()), "is it the map of a web?"));
             }
-            if camera.knows_noise() {
+            if camera.knows_noise {
                 *logarithm += camera.without_noise(texture, *logarithm);
                 if !logarithm.is_finite() {
                     let message = format!("varies less {} than the noise of the camera alone would", what());
@@ -204,6 +204,7 @@ struct Camera<'a> {
     patches: &'a [&'a MeasuredPatch],
     /// Side of a cell of the map [m].
     cell: f64,
+    knows_noise: bool,
 }
 
 impl Camera<'_> {
@@ -211,10 +212,6 @@ impl Camera<'_> {
         let far = |patch: &MeasuredPatch| (patch.side / side).ln().abs();
         let others = self.patches[1..].iter().copied();
         others.fold(self.patches[0], |near, patch| if far(patch) < far(near) { patch } else { near })
-    }
-
-    fn knows_noise(&self) -> bool {
-        self.patches[0].knows_noise
     }
 
     /// What the logarithm of a number changes by if the noise is taken out of it; not finite if nothing is left.
@@ -241,7 +238,7 @@ impl Camera<'_> {
         /// The noise may be most of a number, but not all of it.
         const MOST: f64 = 2.3;
         let noise = |(texture, logarithm): (&Texture, &f64)| {
-            if self.knows_noise() {
+            if self.knows_noise {
                 return 0.0;
             }
             let change = -self.without_noise(texture, *logarithm);
