@@ -115,12 +115,11 @@ pub fn value_and_interval(key: &FittedKey) -> [String; 2] {
     let pretty = |value: f64| pretty(&key.parameter, value);
     let interval = match &key.interval {
         Ok([low, high]) => {
-            // Brackets where the interval may go on.
-            let brackets = |i: usize, bracket: &'static str| {
-                if key.ends[i] == IntervalEnd::OfRange { bracket } else { "" }
-            };
-            let [open, close] = [brackets(0, "≤ "), brackets(1, " and more")];
-            format!("{open}{} to {}{close}", pretty(*low), pretty(*high))
+            // At an end of the range the interval may go on.
+            let mark =
+                |end: IntervalEnd, mark: &'static str| if end == IntervalEnd::OfRange { mark } else { "" };
+            let (less, more) = (mark(key.ends[0], "≤ "), mark(key.ends[1], " and more"));
+            format!("{less}{} to {}{more}", pretty(*low), pretty(*high))
         }
         Err(reason) => format!("none: {reason}"),
     };

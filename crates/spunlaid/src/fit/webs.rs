@@ -108,8 +108,7 @@ impl<'a> Webs<'a> {
 
     /// Why no web can be laid at some coordinates, which were tried.
     pub(super) fn refusal(&mut self, at: &[f64]) -> Option<Error> {
-        let values: Vec<f64> =
-            self.parameters.iter().zip(at).map(|(parameter, at)| parameter.value(*at)).collect();
+        let values = self.values(at);
         let place = self.refused.iter().position(|(refused, _)| *refused == values)?;
         Some(self.refused.swap_remove(place).1)
     }
