@@ -1,6 +1,7 @@
 //! Bundles of a study: what a machine needs to make some of its replicates, and what it gives back.
 
 use crate::failure::raised_as;
+use crate::state::full_path;
 use crate::watched::{Watch, watched};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
@@ -51,18 +52,18 @@ pub(crate) fn parts(points: &[Point], batches: &[Batch]) -> Vec<BundlePart> {
 /// along.
 fn anywhere(experiment: &Experiment) -> Experiment {
     match experiment {
-        Experiment::Case(case) => Experiment::Case(crate::state::absolute(case)),
-        Experiment::Spinline(spec) => Experiment::Spinline(Box::new(crate::state::absolute_spinline(spec))),
+        Experiment::Case(case) => Experiment::Case(case.with_files_at(full_path)),
+        Experiment::Spinline(spec) => Experiment::Spinline(Box::new(spec.with_files_at(full_path))),
         Experiment::Web(web) => {
             let mut web = web.clone();
             for (number, layer) in web.layers.iter_mut().enumerate() {
                 match &mut layer.source {
                     LaydownSource::Case { path, case } => {
                         *path = sent(number);
-                        *case = Arc::new(crate::state::absolute(case));
+                        *case = Arc::new(case.with_files_at(full_path));
                     }
                     LaydownSource::Results { folder, .. } => {
-                        *folder = std::path::absolute(&*folder).unwrap_or_else(|_| folder.clone());
+                        *folder = full_path(folder);
                     }
                     LaydownSource::Surrogate(_) => {}
                 }

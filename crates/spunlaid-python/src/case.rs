@@ -1,6 +1,7 @@
 //! `Case`: a case file with changes, read and checked.
 
 use crate::merged::merged;
+use crate::state::full_path;
 use crate::value::{overrides, to_python};
 use crate::watched::guarded;
 use pyo3::exceptions::PyKeyError;
@@ -233,7 +234,7 @@ impl Case {
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         // Files that the case names are found from another folder too.
-        let file = std::path::absolute(&self.file).unwrap_or_else(|_| PathBuf::from(&self.file));
+        let file = full_path(self.file.as_ref());
         let make = py.get_type::<Self>().getattr("_unpickled")?;
         let file = if self.file == NAME { self.file.clone() } else { file.display().to_string() };
         (make, (&*self.text, file, self.changes.clone())).into_pyobject(py)

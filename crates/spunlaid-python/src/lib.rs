@@ -4,6 +4,7 @@
 //! ```text
 //! failure   errors as exceptions        value     values of Python as those of keys
 //! watched   work without the lock of the interpreter, with Ctrl-C and progress
+//! save      results in a folder
 //! case, run, flight, air, spinline, study, web, record, keys     the classes and functions
 //! ```
 
@@ -12,7 +13,7 @@
 
 mod air;
 mod failure;
-mod figures;
+mod save;
 mod value;
 mod watched;
 
@@ -47,8 +48,6 @@ mod _spunlaid {
     #[pymodule_export]
     use super::case::Case;
     #[pymodule_export]
-    use super::figures::check_figures;
-    #[pymodule_export]
     use super::fit::find_fit;
     #[pymodule_export]
     use super::flight::Flight;
@@ -60,6 +59,8 @@ mod _spunlaid {
     use super::results::RunResults;
     #[pymodule_export]
     use super::run::{fly, measures};
+    #[pymodule_export]
+    use super::save::check_figures;
     #[pymodule_export]
     use super::spinline::{SolvedSpinline, solve_spinline};
     #[pymodule_export]

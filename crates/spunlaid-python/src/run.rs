@@ -2,10 +2,10 @@
 
 use crate::case::Case;
 use crate::failure::raised;
-use crate::figures::figure_files;
 use crate::flight::laid_columns;
 use crate::results::RunResults;
 use crate::samples::{SampleCollector, locked};
+use crate::save::save;
 use crate::scale::scale;
 use crate::watched::{Watch, threads, watched};
 use numpy::{PyArray1, PyArrayMethods};
@@ -21,7 +21,7 @@ use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid::observe::{MEASURES, Measure};
 use spunlaid_results::figures::Scale;
 use spunlaid_results::folders::run::{self as folder, POSITIONS};
-use spunlaid_results::output::folder::{ENTRIES, Staging};
+use spunlaid_results::output::folder::ENTRIES;
 use spunlaid_results::output::tables::{TableRecorder, Tables};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -243,18 +243,14 @@ impl RunResults {
         figures: Option<&Bound<'_, PyAny>>,
         figure_width: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
-        let figures = figure_files(figures, figure_width)?;
         let Some(samples) = &self.samples else {
             let text = "the run was flown with samples=False, so its tables cannot be written";
             return Err(crate::failure::raised_as(py, "FolderError", text.to_owned()));
         };
         let samples = samples.borrowed(py).all();
-        let watch = Watch::default();
-        watched(py, &watch, None, || {
-            let mut staging = Staging::new(&path, ENTRIES, force, &watch.stop)?;
-            staging.set_figures(&figures);
-            let recorder = TableRecorder::new(&staging, self.case.line.is_some());
-            let mut tables = Tables::create(&staging, &recorder)?;
+        save(py, (&path, force), ENTRIES, [figures, figure_width], |staging, watch| {
+            let recorder = TableRecorder::new(staging, self.case.line.is_some());
+            let mut tables = Tables::create(staging, &recorder)?;
             for (replicate, samples) in (0..).zip(samples) {
                 if self.results.lost.iter().any(|fibre| fibre.replicate == replicate) {
                     continue;
@@ -267,8 +263,7 @@ impl RunResults {
                 tables.add(replicate)?;
             }
             tables.finish()?;
-            self.folder().write(&staging, self.computing(&watch.stop, &watch.done))?;
-            staging.publish()
+            self.folder().write(staging, self.computing(&watch.stop, &watch.done))
         })
     }
 

@@ -1,15 +1,14 @@
 //! `solve_spinline`: from the hole of the spinneret to the solid filament, and `SolvedSpinline`, its results.
 
-use crate::figures::figure_files;
+use crate::save::save;
 use crate::value::overrides;
-use crate::watched::{Watch, guarded, watched};
+use crate::watched::guarded;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use spunlaid::case::Note;
 use spunlaid::input::{Overrides, SpinFile, parse_spinline, read_spinline, write_spinline};
 use spunlaid_results::folders::spinline::SpinFolder;
-use spunlaid_results::output::folder::Staging;
 use spunlaid_results::output::spinline::{COLUMNS, ENTRIES, SpinResults, remarks};
 use std::path::PathBuf;
 
@@ -105,13 +104,6 @@ impl SolvedSpinline {
         figures: Option<&Bound<'_, PyAny>>,
         figure_width: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
-        let figures = figure_files(figures, figure_width)?;
-        let watch = Watch::default();
-        watched(py, &watch, None, || {
-            let mut staging = Staging::new(&path, ENTRIES, force, &watch.stop)?;
-            staging.set_figures(&figures);
-            self.folder().write(&staging)?;
-            staging.publish()
-        })
+        save(py, (&path, force), ENTRIES, [figures, figure_width], |staging, _| self.folder().write(staging))
     }
 }

@@ -25,7 +25,7 @@ use std::sync::Arc;
 pub(crate) fn reduced<'py>(py: Python<'py>, run: &RunResults) -> PyResult<Bound<'py, PyAny>> {
     let state = PyDict::new(py);
     state.set_item("name", &run.name)?;
-    state.set_item("case", write_case(&absolute(&run.case)))?;
+    state.set_item("case", write_case(&run.case.with_files_at(full_path)))?;
     state.set_item("notes", &run.notes)?;
     state.set_item("lost", run.lost())?;
     let p = run.performance;
@@ -232,16 +232,7 @@ fn points_of(array: &PyReadonlyArray2<'_, f64>) -> Vec<LaidPoint> {
     if rows.ncols() == 4 { rows.rows().into_iter().map(laid_point).collect() } else { Vec::new() }
 }
 
-/// The case with the full paths of its files, so that they are found from any folder.
-pub(crate) fn absolute(case: &spunlaid::case::Case) -> spunlaid::case::Case {
-    case.with_files_at(full_path)
-}
-
-/// The spinline with the full paths of its files.
-pub(crate) fn absolute_spinline(spec: &spunlaid::spinline::SpinSpec) -> spunlaid::spinline::SpinSpec {
-    spec.with_files_at(full_path)
-}
-
-fn full_path(file: &std::path::Path) -> std::path::PathBuf {
+/// The full path of a file, so that it is found from any folder.
+pub(crate) fn full_path(file: &std::path::Path) -> std::path::PathBuf {
     std::path::absolute(file).unwrap_or_else(|_| file.to_owned())
 }

@@ -3,10 +3,11 @@
 use crate::bundle::{BundlePart, parts, records};
 use crate::case::Case;
 use crate::failure::{raised_as, without_lines};
-use crate::figures::figure_files;
+use crate::save::figure_files;
 use crate::scale::{AxisScale, scale};
+use crate::state::full_path;
 use crate::value::overrides;
-use crate::watched::{Watch, guarded, threads, watched};
+use crate::watched::{LOOK, Watch, guarded, threads, watched};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
@@ -20,6 +21,7 @@ use spunlaid::layers::{Method, WebSpec};
 use spunlaid::study::{
     Bundles, Experiment, Journal, Landing, Progress, Rounds, rankings, results_of_point, run, unsynced,
 };
+use spunlaid::threads::look_while;
 use spunlaid_results::Failure;
 use spunlaid_results::figures::Scale;
 use spunlaid_results::folders::study::StudyFolder;
@@ -118,27 +120,19 @@ impl Study {
         // Progress is counted in fibres, as it is on a cluster.
         let shown = Watch::default();
         let stopped = &watch.stop;
-        let finished = AtomicBool::new(false);
+        let look = || {
+            shown.done.store(counters.fibres_done.load(Ordering::Relaxed), Ordering::Relaxed);
+            shown.total.store(counters.fibres.load(Ordering::Relaxed), Ordering::Relaxed);
+            stopped.fetch_or(shown.stop.load(Ordering::Relaxed), Ordering::Relaxed);
+        };
         watched(py, &shown, progress.as_ref(), || {
-            std::thread::scope(|scope| {
-                scope.spawn(|| {
-                    while !finished.load(Ordering::Acquire) {
-                        shown.done.store(counters.fibres_done.load(Ordering::Relaxed), Ordering::Relaxed);
-                        shown.total.store(counters.fibres.load(Ordering::Relaxed), Ordering::Relaxed);
-                        stopped.fetch_or(shown.stop.load(Ordering::Relaxed), Ordering::Relaxed);
-                        std::thread::park_timeout(std::time::Duration::from_millis(20));
-                    }
-                });
-                let outcome = self.with_journal(|journal| {
+            look_while(LOOK, look, || {
+                self.with_journal(|journal| {
                     let lent = Mutex::new(std::mem::replace(journal, Journal::in_memory(0)));
                     let outcome = run(&self.file.study, &lent, computing, &counters);
                     *journal = lent.into_inner().unwrap_or_else(PoisonError::into_inner);
                     outcome
-                });
-                finished.store(true, Ordering::Release);
-                shown.done.store(counters.fibres_done.load(Ordering::Relaxed), Ordering::Relaxed);
-                shown.total.store(counters.fibres.load(Ordering::Relaxed), Ordering::Relaxed);
-                outcome
+                })
             })
         })
     }
@@ -374,10 +368,8 @@ impl Study {
         let found = self.file.study.points.get(point);
         let found = found.ok_or_else(|| PyIndexError::new_err(format!("there is no point {point}")))?;
         Ok(match &found.experiment {
-            Experiment::Case(case) => spunlaid::input::write_case(&crate::state::absolute(case)),
-            Experiment::Spinline(spec) => {
-                spunlaid::input::write_spinline(&crate::state::absolute_spinline(spec))
-            }
+            Experiment::Case(case) => spunlaid::input::write_case(&case.with_files_at(full_path)),
+            Experiment::Spinline(spec) => spunlaid::input::write_spinline(&spec.with_files_at(full_path)),
             web @ Experiment::Web(_) => write_experiment(web),
         })
     }

@@ -1,8 +1,8 @@
 //! `lay_web`: lays a web of many filaments, and `LaidWeb`, its results.
 
-use crate::figures::figure_files;
+use crate::save::save;
 use crate::value::overrides;
-use crate::watched::{Watch, guarded, threads, watched};
+use crate::watched::{LOOK, Watch, guarded, threads, watched};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -11,12 +11,12 @@ use spunlaid::case::Note;
 use spunlaid::input::{Overrides, WebFile, parse_changes, parse_web, read_changes, read_web};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
+use spunlaid::threads::look_while;
 use spunlaid::web::{Findings, Laying};
 use spunlaid_results::folders::web::{WebFolder, notes};
-use spunlaid_results::output::folder::Staging;
 use spunlaid_results::output::web::{ENTRIES, Performance};
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 /// What is found of a web. spunlaid.Web shows it.
@@ -64,7 +64,8 @@ pub(crate) fn lay_web(
         // The flights have a counter of their own; it is looked at while they fly.
         let follow = |Flights { done, steps, .. }: Flights<'_>, work: &mut (dyn FnMut() + Send)| {
             watch.total.store(steps, Ordering::Relaxed);
-            copied(done, &watch.done, work);
+            let look = || watch.done.store(done.load(Ordering::Relaxed), Ordering::Relaxed);
+            look_while(LOOK, look, work);
         };
         let mut flyer = Flyer::new(threads, &watch.stop, &follow);
         let mut flown = flyer.web(&file.spec)?;
@@ -88,22 +89,6 @@ pub(crate) fn lay_web(
     })?;
     let notes = [Note::of_results(&file.notes), notes(&flown.web, &findings, &flown.layers)].concat();
     Ok(LaidWeb { name, file, flown, findings, advice, notes, performance })
-}
-
-/// Does `work` while another thread copies its counter.
-fn copied(from: &AtomicU64, to: &AtomicU64, work: &mut (dyn FnMut() + Send)) {
-    let finished = std::sync::atomic::AtomicBool::new(false);
-    std::thread::scope(|scope| {
-        let copying = scope.spawn(|| {
-            while !finished.load(Ordering::Acquire) {
-                to.store(from.load(Ordering::Relaxed), Ordering::Relaxed);
-                std::thread::park_timeout(std::time::Duration::from_millis(20));
-            }
-        });
-        work();
-        finished.store(true, Ordering::Release);
-        copying.thread().unpark();
-    });
 }
 
 impl LaidWeb {
@@ -205,15 +190,9 @@ impl LaidWeb {
         figures: Option<&Bound<'_, PyAny>>,
         figure_width: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
-        let figures = figure_files(figures, figure_width)?;
-        let watch = Watch::default();
-        watched(py, &watch, None, || {
-            let mut staging = Staging::new(&path, ENTRIES, force, &watch.stop)?;
-            staging.set_figures(&figures);
-            let threads = threads(None);
-            let laying = Laying { threads, isa: Isa::detect(), stop: &watch.stop, laid: &watch.done };
-            self.folder().write(&staging, laying)?;
-            staging.publish()
+        save(py, (&path, force), ENTRIES, [figures, figure_width], |staging, watch| {
+            let (threads, isa) = (threads(None), Isa::detect());
+            self.folder().write(staging, Laying { threads, isa, stop: &watch.stop, laid: &watch.done })
         })
     }
 }

@@ -1,5 +1,6 @@
 //! Distributes work over threads and takes the results in order.
 
+use crate::threads::OnDrop;
 use std::collections::BTreeMap;
 use std::sync::{Condvar, Mutex, PoisonError};
 
@@ -83,14 +84,6 @@ pub fn in_order<T: Send, E>(
         }
         Ok(())
     })
-}
-
-struct OnDrop<F: FnMut()>(F);
-
-impl<F: FnMut()> Drop for OnDrop<F> {
-    fn drop(&mut self) {
-        (self.0)();
-    }
 }
 
 #[cfg(test)]

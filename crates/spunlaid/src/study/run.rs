@@ -7,7 +7,8 @@ use super::rounds::Rounds;
 use super::{Point, Study, spinlines, webs};
 use crate::ensemble::{Computing, Keep, Trajectory};
 use crate::error::Error;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use crate::threads::look_while;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -129,39 +130,17 @@ fn with_sync<T>(
     let Some(file) = lock(journal).handle()? else {
         return Ok(work(&|| None));
     };
-    let (finished, failure) = (AtomicBool::new(false), Mutex::new(None));
+    let failure = Mutex::new(None);
     let sync = || {
         if let Err(error) = file.sync_data() {
             *failure.lock().unwrap_or_else(PoisonError::into_inner) = Some(unsynced(&error));
         }
     };
     let failed = || failure.lock().unwrap_or_else(PoisonError::into_inner).take();
-    let outcome = std::thread::scope(|scope| {
-        let syncing = scope.spawn(|| {
-            while !finished.load(Ordering::Acquire) {
-                std::thread::park_timeout(SYNC);
-                sync();
-            }
-        });
-        // The other thread must end even if `work` panics.
-        let _end = OnDrop(|| {
-            finished.store(true, Ordering::Release);
-            syncing.thread().unpark();
-        });
-        work(&failed)
-    });
-    sync();
+    let outcome = look_while(SYNC, sync, || work(&failed));
     match failed() {
         Some(error) => Err(error),
         None => Ok(outcome),
-    }
-}
-
-struct OnDrop<F: FnMut()>(F);
-
-impl<F: FnMut()> Drop for OnDrop<F> {
-    fn drop(&mut self) {
-        (self.0)();
     }
 }
 

@@ -1,8 +1,36 @@
-//! How the figures of a results folder are written, as a Python user says it.
+//! Saves results in a folder, with figures as a Python user asks for them.
 
+use crate::watched::{Watch, watched};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
+use spunlaid_results::Failure;
+use spunlaid_results::output::folder::Staging;
 use spunlaid_results::output::pictures::{FigureFiles, Format, width_named};
+use std::path::Path;
+
+/// Formats and width of figures, as [`figure_files`] reads them.
+pub(crate) type Figures<'a, 'py> = [Option<&'a Bound<'py, PyAny>>; 2];
+
+/// Saves results in the folder `path`, which replaces an old one with `force`.
+///
+/// * `entries` – names of all that may be written into it
+/// * `write` – writes the files
+pub(crate) fn save(
+    py: Python<'_>,
+    (path, force): (&Path, bool),
+    entries: &'static [&'static str],
+    [figures, width]: Figures<'_, '_>,
+    write: impl FnOnce(&Staging<'_>, &Watch) -> Result<(), Failure> + Send,
+) -> PyResult<()> {
+    let figures = figure_files(figures, width)?;
+    let watch = Watch::default();
+    watched(py, &watch, None, || {
+        let mut staging = Staging::new(path, entries, force, &watch.stop)?;
+        staging.set_figures(&figures);
+        write(&staging, &watch)?;
+        staging.publish()
+    })
+}
 
 /// Formats and width of figures.
 ///
