@@ -138,15 +138,6 @@ impl Filaments {
     pub const fn are_at_random(&self) -> bool {
         matches!(self, Self::AtRandom { .. })
     }
-
-    /// Farthest that an inlet is from the middle of the slot in machine direction [m].
-    pub fn reach_md(&self) -> f64 {
-        match self {
-            Self::AtRandom { .. } => 0.0,
-            Self::Slot { depth, .. } => 0.5 * depth,
-            Self::Rows(rows) => rows.iter().map(|row| row.md.abs()).fold(0.0, f64::max),
-        }
-    }
 }
 
 /// A row of nozzles.
