@@ -82,7 +82,6 @@ pub(crate) fn reproduce(arguments: &Reproduce, invocation: &Invocation) -> Resul
         how: &how,
         case: &base,
         case_toml: &case_toml,
-        version: env!("CARGO_PKG_VERSION"),
     });
     staging.write("report.html", report)?;
     staging.write("case.toml", case_toml)?;

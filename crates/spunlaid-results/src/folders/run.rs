@@ -157,7 +157,6 @@ impl Run<'_> {
             spinline: spinline.map(|(results, figures)| (results, &figures[..])),
             notes: self.notes,
             performance: self.performance,
-            version: env!("CARGO_PKG_VERSION"),
         })
     }
 }

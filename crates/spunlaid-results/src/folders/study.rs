@@ -171,7 +171,6 @@ impl<'a> StudyFolder<'a> {
             notes: &StudyNote::of_results(&file.notes),
             study_toml: &file.text,
             base_toml: &file.base_text,
-            version: env!("CARGO_PKG_VERSION"),
         });
         staging.write("report.html", report)?;
         staging.publish()?;

@@ -39,7 +39,6 @@ struct AirPage<'a> {
     pictures: Vec<Moving<'a>>,
     methods_paragraph: Methods,
     toml: String,
-    version: &'static str,
 }
 
 /// A moving picture.
@@ -73,7 +72,6 @@ pub fn air_html(input: &AirReport<'_>) -> String {
         notes: input.notes,
         pictures: input.pictures.iter().map(Moving::new).collect(),
         toml: write_case(input.case),
-        version: env!("CARGO_PKG_VERSION"),
     })
 }
 

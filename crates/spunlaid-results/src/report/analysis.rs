@@ -43,7 +43,6 @@ struct AnalysisPage<'a> {
     air: &'a str,
     methods: Vec<(&'static str, String)>,
     methods_paragraph: Methods,
-    version: &'static str,
 }
 
 /// Makes the report as one HTML file.
@@ -70,7 +69,6 @@ pub fn analysis_html(input: &AnalysisReport<'_>) -> String {
         figures: input.figures,
         air: input.air,
         methods,
-        version: env!("CARGO_PKG_VERSION"),
     };
     rendered(&page)
 }

@@ -23,8 +23,6 @@ pub struct ComparisonReport<'a> {
     pub pictures: Option<&'a ComparedPictures>,
     /// What is missing, and why.
     pub notes: &'a [String],
-    /// Version of the program.
-    pub version: &'a str,
 }
 
 /// Pictures of webs with their names.
@@ -46,7 +44,6 @@ struct ComparisonPage<'a> {
     beside: Option<PicturePair<'a>>,
     figures: &'a [Figure],
     methods_paragraph: Methods,
-    version: &'a str,
 }
 
 struct PairTable<'a> {
@@ -183,7 +180,6 @@ pub fn comparison_html(input: &ComparisonReport<'_>) -> String {
         notes: input.notes,
         beside: input.pictures.map(PicturePair::new),
         figures: input.figures,
-        version: input.version,
     };
     rendered(&page)
 }

@@ -49,7 +49,6 @@ struct FitPage<'a> {
     webs: u64,
     figures: &'a [Figure],
     toml: &'a str,
-    version: &'static str,
 }
 
 /// The report as one HTML file.
@@ -81,7 +80,6 @@ pub fn fit_html(input: &FitReport<'_>) -> String {
         webs: fit.webs,
         figures: input.figures,
         toml: input.toml,
-        version: env!("CARGO_PKG_VERSION"),
     };
     rendered(&page)
 }

@@ -69,9 +69,10 @@ pub struct ReportInput<'a> {
     pub notes: &'a [String],
     /// What the run cost.
     pub performance: Performance,
-    /// Version of the program.
-    pub version: &'a str,
 }
+
+/// The version of the program that writes the pages.
+pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// The report as one HTML file of less than 6 MB.
 ///

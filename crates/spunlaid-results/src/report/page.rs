@@ -57,7 +57,6 @@ struct RunPage<'a> {
     methods_paragraph: Methods,
     case_toml: &'a str,
     cost: String,
-    version: &'a str,
     script: String,
 }
 
@@ -130,7 +129,6 @@ pub(super) fn render(input: &ReportInput<'_>) -> Result<String, Failure> {
             p.instruction_set,
             words::quantity(p.ns_per_element_step, "ns"),
         ),
-        version: input.version,
         script: format!("(() => {{\n\"use strict\";\n{}\n}})();", SCRIPTS.join("\n")),
     };
     Ok(rendered(&page))

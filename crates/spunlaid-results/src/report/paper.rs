@@ -22,8 +22,6 @@ pub struct PaperReport<'a> {
     pub case: &'a Case,
     /// The case as a case file.
     pub case_toml: &'a str,
-    /// Version of the program.
-    pub version: &'a str,
 }
 
 #[derive(Template)]
@@ -37,7 +35,6 @@ struct PaperPage<'a> {
     how: &'a str,
     methods_paragraph: Methods,
     case_toml: &'a str,
-    version: &'a str,
 }
 
 struct ClaimRow<'a> {
@@ -77,7 +74,6 @@ pub fn paper_html(input: &PaperReport<'_>) -> String {
         choices: input.choices,
         how: input.how,
         case_toml: input.case_toml,
-        version: input.version,
     };
     rendered(&page)
 }

@@ -85,7 +85,6 @@ pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
                       numbers in summary.json, beside this page.",
         },
         cost: cost(input.performance),
-        version: env!("CARGO_PKG_VERSION"),
     };
     Ok(rendered(&page))
 }

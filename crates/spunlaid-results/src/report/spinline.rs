@@ -47,7 +47,6 @@ struct SpinPage<'a> {
     methods: Vec<(&'static str, String)>,
     methods_paragraph: Methods,
     toml: &'a str,
-    version: &'static str,
 }
 
 /// Content of `assets/spinline_section.html`.
@@ -121,7 +120,6 @@ pub fn spinline_html(input: &SpinReport<'_>) -> String {
         spinline: SpinSection::new("results", "Results", Vec::new(), input.results, input.figures),
         methods: methods(spec),
         toml: input.toml,
-        version: env!("CARGO_PKG_VERSION"),
     };
     rendered(&page)
 }

@@ -37,8 +37,6 @@ pub struct StudyReport<'a> {
     pub study_toml: &'a str,
     /// The case or web that the study varies, as text.
     pub base_toml: &'a str,
-    /// Version of the program.
-    pub version: &'a str,
 }
 
 /// Content of `assets/study.html`, which escapes everything that is not marked safe.
@@ -64,7 +62,6 @@ struct StudyPage<'a> {
     base_toml: &'a str,
     /// What the study varies, a case or a web, and the command that shows a point.
     base: [&'static str; 2],
-    version: &'a str,
 }
 
 struct PointRow {
@@ -121,7 +118,6 @@ pub fn study_html(input: &StudyReport<'_>) -> String {
             "spinline" => ["spinline", "spin"],
             _ => ["case", "run"],
         },
-        version: input.version,
     };
     rendered(&page)
 }

@@ -36,7 +36,6 @@ fn page(case: &Case, results: &Results, name: &str, notes: &[String], case_toml:
         spinline: None,
         notes,
         performance: PERFORMANCE,
-        version: "0.1.0",
     })
     .expect("shapes in memory")
 }
@@ -317,7 +316,6 @@ fn the_report_of_a_run_shows_its_spinline() {
             spinline: Some((&results, &figures)),
             notes: &[],
             performance: PERFORMANCE,
-            version: "0.1.0",
         })
         .unwrap()
     };

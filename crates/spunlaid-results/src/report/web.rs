@@ -79,7 +79,6 @@ pub(super) struct WebPage<'a> {
     pub(super) methods_paragraph: Methods,
     pub(super) file: File<'a>,
     pub(super) cost: String,
-    pub(super) version: &'static str,
 }
 
 /// What the web was made from.
@@ -157,7 +156,6 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
                       the window in fibres.vtp, all numbers in summary.json, beside this page.",
         },
         cost: cost(input.performance),
-        version: env!("CARGO_PKG_VERSION"),
     };
     Ok(rendered(&page))
 }

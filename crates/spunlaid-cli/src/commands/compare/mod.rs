@@ -74,14 +74,8 @@ pub(crate) fn compare(compare: &Compare, invocation: &Invocation) -> Result<(), 
         for (number, picture) in (1..).zip(drawn) {
             staging.write(&format!("figures/web_picture_{number}.png"), picture)?;
         }
-        let version = env!("CARGO_PKG_VERSION");
-        let report = comparison_html(&ComparisonReport {
-            comparisons,
-            figures,
-            pictures: pictures.as_ref(),
-            notes,
-            version,
-        });
+        let report =
+            comparison_html(&ComparisonReport { comparisons, figures, pictures: pictures.as_ref(), notes });
         staging.write("report.html", report)?;
         staging.write("comparison.json", &json)?;
         staging.publish()?;

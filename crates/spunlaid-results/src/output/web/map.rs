@@ -16,7 +16,8 @@ const LONGEST_SIDE: usize = 16_000;
 /// Number of rows in a row group.
 const ROWS: usize = 1 << 18;
 
-pub(super) fn write(staging: &Staging<'_>, map: &Map) -> Result<(), Failure> {
+/// Writes the map as array, table and picture, each on a thread.
+pub fn write(staging: &Staging<'_>, map: &Map) -> Result<(), Failure> {
     if map.cells.len() > MOST_CELLS {
         return write_array(staging, map);
     }
@@ -30,8 +31,8 @@ pub(super) fn write(staging: &Staging<'_>, map: &Map) -> Result<(), Failure> {
     })
 }
 
-/// `map.npy`.
-pub(super) fn write_array(staging: &Staging<'_>, map: &Map) -> Result<(), Failure> {
+/// Writes the map as array only, `map.npy`.
+pub fn write_array(staging: &Staging<'_>, map: &Map) -> Result<(), Failure> {
     let (now, later) = staging.place("map.npy");
     File::create(now).and_then(|file| array(map, BufWriter::new(file))).map_err(Failure::unwritable(&later))
 }

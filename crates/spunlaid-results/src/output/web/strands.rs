@@ -6,8 +6,8 @@ use crate::output::paraview::{Line, poly_data};
 use spunlaid::vec3::Vec3;
 use spunlaid::web::Strand;
 
-/// `fibres.vtp`: a line for each piece of fibre, in machine direction (x) and cross direction (y) from the window's corner [m].
-pub(super) fn write(staging: &Staging<'_>, strands: &[Strand]) -> Result<(), Failure> {
+/// Writes `fibres.vtp`: a line for each piece of fibre, in machine direction (x) and cross direction (y) from the window's corner [m].
+pub fn write(staging: &Staging<'_>, strands: &[Strand]) -> Result<(), Failure> {
     let line = |strand: &Strand| Line {
         number: strand.layer as u64 + 1,
         points: strand.points.iter().map(|[cd, md]| Vec3::new(*md, *cd, 0.0)).collect(),
