@@ -44,7 +44,7 @@ fn main() -> ExitCode {
         Command::Completions(completions) => commands::completions(&completions),
         Command::Man(man) => commands::man(&man),
     });
-    let done = done.and_then(|()| say::lost().map_or(Ok(()), |why| Err(unheard(why))));
+    let done = done.and_then(|()| say::lost().map_or(Ok(()), |why| Err(output_failure(why))));
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
@@ -55,7 +55,7 @@ fn main() -> ExitCode {
 }
 
 /// Standard output cannot be written.
-fn unheard(why: &std::io::Error) -> Failure {
+fn output_failure(why: &std::io::Error) -> Failure {
     let fault = Fault::new(format!("cannot be written: {why}"), "everything else is done");
     Error::system(Path::new("standard output"), fault).into()
 }

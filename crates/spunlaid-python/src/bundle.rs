@@ -7,7 +7,7 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use spunlaid::case::Case;
-use spunlaid::ensemble::Computing;
+use spunlaid::ensemble::RunControl;
 use spunlaid::error::Error;
 use spunlaid::input::{
     parse_case, parse_spinline, parse_web_and_cases, write_case, write_spinline, write_web,
@@ -15,7 +15,7 @@ use spunlaid::input::{
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{LaydownSource, WebSpec};
 use spunlaid::observe::MEASURES;
-use spunlaid::study::{Batch, Experiment, Landing, Point, Record, fly_bundle as fly};
+use spunlaid::study::{Batch, Experiment, Point, Record, ReplicateOutcome, fly_bundle as fly};
 use spunlaid_results::Failure;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -35,7 +35,7 @@ const HEAD: usize = 3;
 /// What a machine needs to make batches of points.
 pub(crate) fn parts(points: &[Point], batches: &[Batch]) -> Vec<BundlePart> {
     let part = |Batch { point, replicates: Range { start, end } }: &Batch| {
-        let experiment = anywhere(&points[*point].experiment);
+        let experiment = make_portable(&points[*point].experiment);
         let (text, cases) = match &experiment {
             Experiment::Case(case) => (write_case(case), None),
             Experiment::Spinline(spec) => (write_spinline(spec), None),
@@ -50,7 +50,7 @@ pub(crate) fn parts(points: &[Point], batches: &[Batch]) -> Vec<BundlePart> {
 
 /// The same on any machine that has the files: full paths of files, and names in place of the paths of cases, which are sent
 /// along.
-fn anywhere(experiment: &Experiment) -> Experiment {
+fn make_portable(experiment: &Experiment) -> Experiment {
     match experiment {
         Experiment::Case(case) => Experiment::Case(case.with_files_at(full_path)),
         Experiment::Spinline(spec) => Experiment::Spinline(Box::new(spec.with_files_at(full_path))),
@@ -59,7 +59,7 @@ fn anywhere(experiment: &Experiment) -> Experiment {
             for (number, layer) in web.layers.iter_mut().enumerate() {
                 match &mut layer.source {
                     LaydownSource::Case { path, case } => {
-                        *path = sent(number);
+                        *path = case_file_name(number);
                         *case = Arc::new(case.with_files_at(full_path));
                     }
                     LaydownSource::Results { folder, .. } => {
@@ -74,7 +74,7 @@ fn anywhere(experiment: &Experiment) -> Experiment {
 }
 
 /// The name of the case of a layer that is sent along.
-fn sent(layer: usize) -> PathBuf {
+fn case_file_name(layer: usize) -> PathBuf {
     PathBuf::from(format!("layer-{}.toml", layer + 1))
 }
 
@@ -95,7 +95,7 @@ fn read(text: &str, cases: &Cases) -> Result<Experiment, Error> {
         }
         return Ok(Experiment::Case(parse_case(text, "case.toml", &[])?.0));
     };
-    let cases: Vec<_> = cases.iter().map(|(layer, text)| (sent(*layer), text.clone())).collect();
+    let cases: Vec<_> = cases.iter().map(|(layer, text)| (case_file_name(*layer), text.clone())).collect();
     Ok(Experiment::Web(parse_web_and_cases(text, "web.toml", &cases)?.spec))
 }
 
@@ -114,7 +114,7 @@ pub(crate) fn fly_bundle(
     threads: usize,
 ) -> PyResult<Bound<'_, PyArray2<f64>>> {
     let watch = Watch::default();
-    let computing = Computing {
+    let computing = RunControl {
         threads: threads.max(1),
         isa: Isa::detect(),
         stop: &watch.stop,
@@ -152,7 +152,7 @@ pub(crate) fn fly_bundle(
     })?;
     // Webs are never lost, so their first record has all their numbers.
     let numbers =
-        records.first().and_then(|record| record.landing.measured()).map_or(MEASURES.len(), <[f64]>::len);
+        records.first().and_then(|record| record.outcome.measured()).map_or(MEASURES.len(), <[f64]>::len);
     // Two points may have the same case, so a record is found by its point here and its replicate there.
     let mut rows = Vec::with_capacity(records.len() * (HEAD + numbers));
     let mut at: BTreeMap<(usize, u64), Vec<u64>> = BTreeMap::new();
@@ -163,9 +163,9 @@ pub(crate) fn fly_bundle(
     }
     for record in &records {
         let owner = at.get_mut(&(record.point as usize, record.replicate)).and_then(Vec::pop);
-        let (lost, values) = match &record.landing {
-            Landing::Measured(values) => (0.0, values.to_vec()),
-            Landing::Lost { node, time } => {
+        let (lost, values) = match &record.outcome {
+            ReplicateOutcome::Measured(values) => (0.0, values.to_vec()),
+            ReplicateOutcome::Lost { node, time } => {
                 let mut values = vec![0.0; numbers];
                 (values[0], values[1]) = (*node as f64, *time);
                 (1.0, values)
@@ -185,12 +185,12 @@ pub(crate) fn records(rows: &PyReadonlyArray2<'_, f64>, numbers: usize) -> PyRes
         return Err(PyValueError::new_err(format!("records have {columns} columns, not {}", rows.ncols())));
     }
     let record = |row: numpy::ndarray::ArrayView1<'_, f64>| {
-        let landing = if row[2] == 0.0 {
-            Landing::Measured((0..numbers).map(|i| row[HEAD + i]).collect())
+        let outcome = if row[2] == 0.0 {
+            ReplicateOutcome::Measured((0..numbers).map(|i| row[HEAD + i]).collect())
         } else {
-            Landing::Lost { node: row[3] as u64, time: row[4] }
+            ReplicateOutcome::Lost { node: row[3] as u64, time: row[4] }
         };
-        Record { point: row[0] as u64, replicate: row[1] as u64, landing }
+        Record { point: row[0] as u64, replicate: row[1] as u64, outcome }
     };
     Ok(rows.rows().into_iter().map(record).collect())
 }

@@ -70,7 +70,7 @@ impl Case {
 
     /// The keys that have a meaning for it and that no file of it gives, in the order of a case file.
     fn own_keys(&self) -> impl Iterator<Item = (&'static Key, Value)> {
-        let all = keys::all().iter().filter(|key| !key.is_told(&self.case));
+        let all = keys::all().iter().filter(|key| !key.is_derived(&self.case));
         all.filter_map(|key| Some((key, key.get(&self.case)?)))
     }
 

@@ -10,7 +10,7 @@ use spunlaid::input::{Overrides, read_fit};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, Flyer};
 use spunlaid::study::Journal;
-use spunlaid::web::Laying;
+use spunlaid::web::LayControl;
 use spunlaid_results::folders::fit::{FitFolder, FitInput};
 use spunlaid_results::folders::read_measured_web;
 use spunlaid_results::output::fit::{fit_json, sentences};
@@ -73,7 +73,7 @@ pub(crate) fn find_fit(
         let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
         let flyer = Flyer::new(threads, &watch.stop, &follow);
         let laid = AtomicU64::new(0);
-        let laying = Laying { threads, isa: Isa::detect(), stop: &watch.stop, laid: &laid };
+        let laying = LayControl { threads, isa: Isa::detect(), stop: &watch.stop, laid: &laid };
         let tell = |now: WebInProgress<'_>| watch.done.store(now.web - 1, Ordering::Relaxed);
         let found = fit(question, flyer, laying, &mut journal, &tell)?;
         if let Some(mut folder) = folder {

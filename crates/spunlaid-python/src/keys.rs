@@ -25,8 +25,8 @@ fn about<'py, T>(py: Python<'py>, key: &Key<T>) -> PyResult<Bound<'py, PyDict>> 
     dict.set_item("unit", key.dimension().map(|dimension| dimension.si_unit()))?;
     dict.set_item("allowed", key.allowed())?;
     dict.set_item("words", key.kind.words())?;
-    dict.set_item("required", matches!(key.left_out, Omission::Required(_)))?;
-    let (Omission::Required(text) | Omission::Value(text) | Omission::Follows(text)) = key.left_out;
+    dict.set_item("required", matches!(key.omission, Omission::Required(_)))?;
+    let (Omission::Required(text) | Omission::Value(text) | Omission::Follows(text)) = key.omission;
     dict.set_item("left_out", text)?;
     dict.set_item("meaning", key.meaning)?;
     dict.set_item("synonyms", key.synonyms)?;

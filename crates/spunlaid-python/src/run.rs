@@ -13,7 +13,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use spunlaid::case::Note;
 use spunlaid::ensemble::{
-    Computing, FinerCheck, FinerPlans, Keep, KeepShapes, LaidCurves, LostFibre, Recorder, Results,
+    FinerCheck, FinerPlans, Keep, KeepShapes, LaidCurves, LostFibre, Recorder, Results, RunControl,
     Trajectory, fly_and_check,
 };
 use spunlaid::error::Error;
@@ -52,7 +52,7 @@ pub(crate) fn fly(
     let watch =
         Watch::new(run.steps.saturating_mul(description.fibres()).saturating_add(plans.fibre_steps()));
     let belt = LaidCurves::default();
-    let computing = Computing {
+    let computing = RunControl {
         threads: self::threads(threads),
         isa: Isa::detect(),
         stop: &watch.stop,
@@ -285,8 +285,8 @@ impl RunResults {
 }
 
 impl RunResults {
-    fn computing<'a>(&self, stop: &'a AtomicBool, fibre_steps: &'a AtomicU64) -> Computing<'a> {
-        Computing { threads: threads(None), isa: Isa::detect(), stop, fibre_steps, recorder: None }
+    fn computing<'a>(&self, stop: &'a AtomicBool, fibre_steps: &'a AtomicU64) -> RunControl<'a> {
+        RunControl { threads: threads(None), isa: Isa::detect(), stop, fibre_steps, recorder: None }
     }
 }
 

@@ -12,14 +12,15 @@ use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use spunlaid::ensemble::Computing;
+use spunlaid::ensemble::RunControl;
 use spunlaid::input::{
     Overrides, StudyChanges, StudyFile, parse_changed_study, read_changed_study, read_text, write_experiment,
 };
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Method, WebSpec};
 use spunlaid::study::{
-    Bundles, Experiment, Journal, Landing, Progress, Rounds, rankings, results_of_point, run, unsynced,
+    Bundles, Experiment, Journal, Progress, ReplicateOutcome, Rounds, rankings, results_of_point, run,
+    unsynced,
 };
 use spunlaid::threads::look_while;
 use spunlaid_results::Failure;
@@ -110,7 +111,7 @@ impl Study {
     fn fly(&self, py: Python<'_>, threads: Option<usize>, progress: Option<Py<PyAny>>) -> PyResult<()> {
         let watch = Watch::default();
         let counters = Progress::default();
-        let computing = Computing {
+        let computing = RunControl {
             threads: self::threads(threads),
             isa: Isa::detect(),
             stop: &watch.stop,
@@ -289,12 +290,12 @@ impl Study {
                 for point in 0..self.file.study.points.len() {
                     for record in journal.records(point, u64::MAX)? {
                         rows.extend([record.point as f64, record.replicate as f64]);
-                        match record.landing {
-                            Landing::Measured(values) => {
+                        match record.outcome {
+                            ReplicateOutcome::Measured(values) => {
                                 rows.push(0.0);
                                 rows.extend(values);
                             }
-                            Landing::Lost { .. } => {
+                            ReplicateOutcome::Lost { .. } => {
                                 rows.push(1.0);
                                 rows.extend(std::iter::repeat_n(f64::NAN, numbers));
                             }

@@ -12,7 +12,7 @@ use spunlaid::input::{Overrides, WebFile, parse_changes, parse_web, read_changes
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
 use spunlaid::threads::look_while;
-use spunlaid::web::{Findings, Laying};
+use spunlaid::web::{Findings, LayControl};
 use spunlaid_results::folders::web::{WebFolder, notes};
 use spunlaid_results::output::web::{ENTRIES, Performance};
 use std::path::PathBuf;
@@ -71,7 +71,7 @@ pub(crate) fn lay_web(
         let mut flown = flyer.web(&file.spec)?;
         watch.done.store(0, Ordering::Relaxed);
         watch.total.store(flown.pieces()?, Ordering::Relaxed);
-        let laying = Laying { threads, isa: Isa::detect(), stop: &watch.stop, laid: &watch.done };
+        let laying = LayControl { threads, isa: Isa::detect(), stop: &watch.stop, laid: &watch.done };
         let findings = flown.find(laying)?;
         let advice = match tried {
             Some(changes) => {
@@ -170,8 +170,8 @@ impl LaidWeb {
             ("cv_flown_standard_error", |patch| patch.flown.map_or(f64::NAN, |patch| patch.1)),
             ("cv_surrogate", |patch| patch.surrogate.map_or(f64::NAN, |patch| patch.0)),
             ("cv_surrogate_standard_error", |patch| patch.surrogate.map_or(f64::NAN, |patch| patch.1)),
-            ("cv_single_fibres", |patch| patch.one_fibre.0),
-            ("cv_single_fibres_standard_error", |patch| patch.one_fibre.1),
+            ("cv_single_fibres", |patch| patch.single_fibres.0),
+            ("cv_single_fibres_standard_error", |patch| patch.single_fibres.1),
             ("cv_straight_fibres", |patch| patch.straight_fibres),
         ];
         for (name, column) in columns {
@@ -192,7 +192,7 @@ impl LaidWeb {
     ) -> PyResult<()> {
         save(py, (&path, force), ENTRIES, [figures, figure_width], |staging, watch| {
             let (threads, isa) = (threads(None), Isa::detect());
-            self.folder().write(staging, Laying { threads, isa, stop: &watch.stop, laid: &watch.done })
+            self.folder().write(staging, LayControl { threads, isa, stop: &watch.stop, laid: &watch.done })
         })
     }
 }

@@ -101,7 +101,7 @@ fn superscript(exponent: i32) -> String {
 }
 
 /// `1 of 10 fibres was lost`.
-pub fn lost_of(lost: u64, all: u64) -> String {
+pub fn lost_fibres_text(lost: u64, all: u64) -> String {
     format!("{lost} of {all} fibres {} lost", if lost == 1 { "was" } else { "were" })
 }
 

@@ -44,7 +44,7 @@ impl Energy {
     ///
     /// * `position`, `velocity` – of the `N+1` nodes at the same instant [m, m/s]
     /// * `start` – positions at time 0, where the work of gravity is zero [m]
-    pub(crate) fn held(
+    pub(crate) fn stored_energy(
         isa: Isa,
         constants: &Constants,
         position: &[Vec3<Lanes>],

@@ -9,7 +9,7 @@
 //! short, the program does this:
 //!
 //! ```
-//! use spunlaid::ensemble::{Computing, Keep, Results, fly};
+//! use spunlaid::ensemble::{RunControl, Keep, Results, fly};
 //! use spunlaid::error::Error;
 //! use spunlaid::input::{parse_case, starter_case};
 //! use spunlaid::lanes::Isa;
@@ -21,7 +21,7 @@
 //! let (case, _notes) = parse_case(starter_case(), "starter.toml", &changes)?;
 //!
 //! let (stop, progress) = (AtomicBool::new(false), AtomicU64::new(0));
-//! let computing = Computing { threads: 2, isa: Isa::detect(), stop: &stop, fibre_steps: &progress, recorder: None };
+//! let computing = RunControl { threads: 2, isa: Isa::detect(), stop: &stop, fibre_steps: &progress, recorder: None };
 //! let mut results = Results::collector(0);
 //! fly::<Error>(&case, Keep::NUMBERS, computing, |flight| {
 //!     results.take(flight);

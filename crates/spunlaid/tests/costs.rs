@@ -15,7 +15,7 @@ use spunlaid::air::{Air, Eddies, EddyField, EddyModel, Extent, StreamKey, Wind};
 use spunlaid::case::Case;
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::{Computing, Job, Keep, Results, Trajectory, fly_together};
+use spunlaid::ensemble::{Job, Keep, Results, RunControl, Trajectory, fly_together};
 use spunlaid::field::Field;
 use spunlaid::flight::Flight;
 use spunlaid::input::read_case;
@@ -79,7 +79,7 @@ fn memory_of<T>(work: impl FnOnce() -> T) -> (T, Memory) {
 fn flights(case: &Case) -> (Vec<Trajectory>, u64) {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing =
-        Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
+        RunControl { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
     let jobs: Vec<Job<'_>> = (0..case.run.replicates).map(|replicate| Job::new(case, replicate)).collect();
     let flights = fly_together(&jobs, Keep::SAMPLES, computing).expect("the case flies");
     (flights, fibre_steps.into_inner())
@@ -222,7 +222,7 @@ fn memory_of_a_flight_does_not_grow_with_its_recorded_instants() {
         let mut case = table1(Scheme::ImplicitTension, 2e-4, 1.0, 2);
         (case.run.steps, case.run.output_steps) = (instants, 1);
         let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-        let computing = Computing {
+        let computing = RunControl {
             threads: 1,
             isa: Isa::detect(),
             stop: &stop,

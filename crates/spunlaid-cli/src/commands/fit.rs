@@ -13,47 +13,47 @@ use spunlaid::input::{FitFile, Overrides, read_fit};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, Flyer};
 use spunlaid::study::{Journal, JournalState};
-use spunlaid::web::Laying;
+use spunlaid::web::LayControl;
 use spunlaid_results::folders::fit::{FitFolder, FitInput};
 use spunlaid_results::folders::read_measured_web;
 use spunlaid_results::output::fit::{fit_json, pretty, refused, sentences, value_and_interval};
 use std::sync::atomic::AtomicU64;
 
-pub(crate) fn fit(asked: &args::Fit, invocation: &Invocation) -> Result<(), Failure> {
-    let set = Overrides { values: &asked.set, word: "--set" };
-    let file = read_fit(&asked.web, set, &asked.vary, "--vary")?;
+pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), Failure> {
+    let set = Overrides { values: &arguments.set, word: "--set" };
+    let file = read_fit(&arguments.web, set, &arguments.vary, "--vary")?;
     file.start.notes.iter().for_each(say::note);
-    let scan = read_measured_web(&asked.to)?;
-    let target = Target::new(&scan, &file.start.spec.sheet, asked.spectrum)
-        .map_err(|fault| Error::folder(&asked.to, fault))?;
+    let scan = read_measured_web(&arguments.to)?;
+    let target = Target::new(&scan, &file.start.spec.sheet, arguments.spectrum)
+        .map_err(|fault| Error::folder(&arguments.to, fault))?;
     let notes = Note::of_results(&file.start.notes);
-    let name = stem(&asked.web, "web").to_string_lossy().into_owned();
-    let paths = [asked.web.display().to_string(), asked.to.display().to_string()];
+    let name = stem(&arguments.web, "web").to_string_lossy().into_owned();
+    let paths = [arguments.web.display().to_string(), arguments.to.display().to_string()];
     let input = FitInput {
         name: &name,
         paths: [&paths[0], &paths[1]],
         file: &file,
         target: &target,
-        webs: asked.webs,
+        webs: arguments.webs,
         notes: &notes,
     };
-    let path = super::folder(asked.output.out.as_ref(), format!("{name}_fit"));
-    let origin = invocation.origin(&[&asked.web], &path);
+    let path = super::folder(arguments.output.out.as_ref(), format!("{name}_fit"));
+    let origin = invocation.origin(&[&arguments.web], &path);
     let (mut folder, mut journal, state) =
-        FitFolder::open(&path, &input, asked.output.force, origin.as_ref(), stop_on_ctrl_c())?;
+        FitFolder::open(&path, &input, arguments.output.force, origin.as_ref(), stop_on_ctrl_c())?;
     if folder.replaces() {
-        super::say_replaced(&path, asked.output.quiet);
+        super::say_replaced(&path, arguments.output.quiet);
     }
-    report_found(asked, state);
-    let found = search(asked, &file, &target, &mut journal).map_err(|error| match error {
+    report_found(arguments, state);
+    let found = search(arguments, &file, &target, &mut journal).map_err(|error| match error {
         Error::Interrupted => Failure::Paused { done: journal.total(), what: "webs", total: None },
         other => other.into(),
     })?;
-    folder.figures = asked.figures.files();
+    folder.figures = arguments.figures.files();
     folder.write(&input, &found)?;
-    if asked.json {
+    if arguments.json {
         say::text(&fit_json(&found, &target, input.paths, &notes));
-    } else if !asked.output.quiet {
+    } else if !arguments.output.quiet {
         say::text(&table(&found));
         sentences(&found).iter().chain(&refused(&found)).for_each(|sentence| say::line(sentence));
         say::line(&format!("open {}", path.join("report.html").display()));
@@ -61,9 +61,9 @@ pub(crate) fn fit(asked: &args::Fit, invocation: &Invocation) -> Result<(), Fail
     Ok(())
 }
 
-fn report_found(asked: &args::Fit, state: Option<JournalState>) {
+fn report_found(arguments: &args::Fit, state: Option<JournalState>) {
     let Some(JournalState { fibres, damaged, .. }) = state else { return };
-    if !asked.output.quiet {
+    if !arguments.output.quiet {
         say::aside(&format!("continuing: {} already laid", plural(fibres, "web")));
     }
     if damaged > 0 {
@@ -73,14 +73,19 @@ fn report_found(asked: &args::Fit, state: Option<JournalState>) {
 }
 
 /// Searches, and shows how far it is.
-fn search(asked: &args::Fit, file: &FitFile, target: &Target, journal: &mut Journal) -> Result<Fit, Error> {
+fn search(
+    arguments: &args::Fit,
+    file: &FitFile,
+    target: &Target,
+    journal: &mut Journal,
+) -> Result<Fit, Error> {
     let make = |values: &[f64]| Ok(file.web(values)?.spec);
-    let question = Question { parameters: &file.parameters, target, make: &make, webs: asked.webs };
+    let question = Question { parameters: &file.parameters, target, make: &make, webs: arguments.webs };
     let (stop, laid) = (stop_on_ctrl_c(), AtomicU64::new(0));
-    let bar = bar(asked);
+    let bar = bar(arguments);
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
-    let flyer = Flyer::new(asked.threads.number(), stop, &follow);
-    let by = Laying { threads: asked.threads.number(), isa: Isa::detect(), stop, laid: &laid };
+    let flyer = Flyer::new(arguments.threads.number(), stop, &follow);
+    let by = LayControl { threads: arguments.threads.number(), isa: Isa::detect(), stop, laid: &laid };
     let watch = |WebInProgress { trial, web, webs, values }: WebInProgress<'_>| {
         let values = file.parameters.iter().zip(values);
         let values = values.map(|(key, value)| format!("{} = {}", key.key, pretty(key, *value)));
@@ -94,9 +99,10 @@ fn search(asked: &args::Fit, file: &FitFile, target: &Target, journal: &mut Jour
 }
 
 /// A bar for the webs of a trial; how many trials there will be is not known.
-fn bar(asked: &args::Fit) -> ProgressBar {
-    let target = if asked.output.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-    let bar = ProgressBar::with_draw_target(Some(asked.webs), target);
+fn bar(arguments: &args::Fit) -> ProgressBar {
+    let target =
+        if arguments.output.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+    let bar = ProgressBar::with_draw_target(Some(arguments.webs), target);
     if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:20}] web {pos} of {len}  {elapsed} elapsed")
     {
         bar.set_style(style.progress_chars("=> "));

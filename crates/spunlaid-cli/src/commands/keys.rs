@@ -18,7 +18,7 @@ const WIDTH: usize = 100;
 struct KeyEntry {
     name: &'static str,
     kind: Kind,
-    left_out: Omission,
+    omission: Omission,
     meaning: &'static str,
     synonyms: Vec<&'static str>,
     /// The file in which it stands, if it is not that of a case.
@@ -31,9 +31,9 @@ struct KeyEntry {
 
 impl KeyEntry {
     fn new<T>(key: &Key<T>) -> Self {
-        let Key { name, kind, left_out, meaning, usual, varies, in_flight, .. } = *key;
+        let Key { name, kind, omission, meaning, usual, varies, in_flight, .. } = *key;
         let synonyms = key.synonyms.to_vec();
-        Self { name, kind, left_out, meaning, synonyms, file: "", usual, may_change: [varies, in_flight] }
+        Self { name, kind, omission, meaning, synonyms, file: "", usual, may_change: [varies, in_flight] }
     }
 
     fn of_web(key: &WebKey) -> Self {
@@ -86,7 +86,7 @@ pub(crate) fn keys(arguments: &Keys) -> Result<(), Failure> {
 /// The description of a key for the terminal.
 fn reference(key: &KeyEntry) -> String {
     let mut text = format!("{}{}\n", key.name, key.file);
-    let default = match key.left_out {
+    let default = match key.omission {
         Omission::Required(example) => format!("none; the key is required, like {example}"),
         Omission::Value(words) | Omission::Follows(words) => words.to_owned(),
     };
@@ -185,7 +185,7 @@ fn markdown(found: &[KeyEntry], head: &str, tables: &[&str]) -> String {
             "\n## {title}\n\n| key | takes | if left out | meaning | |\n|---|---|---|---|---|"
         );
         for (key, short) in rows {
-            let left_out = match key.left_out {
+            let omission = match key.omission {
                 Omission::Required(example) => format!("required, like `{example}`"),
                 Omission::Value(value) => format!("`{value}`"),
                 Omission::Follows(words) => words.to_owned(),
@@ -194,7 +194,7 @@ fn markdown(found: &[KeyEntry], head: &str, tables: &[&str]) -> String {
             let marks: Vec<&str> = marks.filter(|(is, _)| *is).map(|(_, mark)| mark).collect();
             let _ = writeln!(
                 text,
-                "| `{short}` | {} | {left_out} | {}{} | {} |",
+                "| `{short}` | {} | {omission} | {}{} | {} |",
                 takes(key),
                 key.meaning,
                 if key.synonyms.is_empty() {

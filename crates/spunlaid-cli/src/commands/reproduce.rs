@@ -9,7 +9,7 @@ use serde::Serialize;
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::ensemble::{
-    Computing, Keep, KeepShapes, Number, Place, Results, SpectrumPoint, fly, turbulence_spectrum,
+    Keep, KeepShapes, Number, Place, Results, RunControl, SpectrumPoint, fly, turbulence_spectrum,
     velocity_record,
 };
 use spunlaid::error::Fault;
@@ -48,10 +48,10 @@ pub(crate) fn reproduce(arguments: &Reproduce, invocation: &Invocation) -> Resul
     let origin = invocation.origin(&[], &folder);
     let mut staging = staged(&folder, ENTRIES, arguments.output.force, origin, arguments.output.quiet)?;
     staging.set_figures(&arguments.width.files(&formats));
-    let flying = Flying::new(&base, &wanted)?;
+    let flying = PaperFlights::new(&base, &wanted)?;
 
     let fibre_steps = AtomicU64::new(0);
-    let computing = Computing {
+    let computing = RunControl {
         threads: arguments.threads.number(),
         isa: Isa::detect(),
         stop,
@@ -133,7 +133,7 @@ struct Trend {
 }
 
 /// All flights that are needed.
-struct Flying {
+struct PaperFlights {
     figures: Vec<&'static str>,
     /// Table 1 with several time steps, for Figures 8a and 8b.
     steps: Vec<Case>,
@@ -145,7 +145,7 @@ struct Flying {
     base: Case,
 }
 
-impl Flying {
+impl PaperFlights {
     fn new(base: &Case, figures: &[&'static str]) -> Result<Self, Failure> {
         let wants = |figure| figures.contains(&figure);
         // Points that several studies share, such as Table 1, are flown once.
@@ -194,7 +194,7 @@ impl Flying {
         points.chain(steps).sum()
     }
 
-    fn fly(self, computing: Computing<'_>) -> Result<PaperResults, Failure> {
+    fn fly(self, computing: RunControl<'_>) -> Result<PaperResults, Failure> {
         let journal = Mutex::new(Journal::in_memory(self.study.points.len()));
         run(&self.study, &journal, computing, &Progress::default())?;
         let mut journal = journal.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -221,7 +221,7 @@ impl Flying {
 
 /// The results of all flights.
 struct PaperResults {
-    flying: Flying,
+    flying: PaperFlights,
     points: Vec<PointResults>,
     /// Time steps and their results.
     steps: Vec<(f64, Results)>,

@@ -7,7 +7,7 @@ use crate::args::{Invocation, Run};
 use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::case::Note;
-use spunlaid::ensemble::{Computing, FinerPlans};
+use spunlaid::ensemble::{FinerPlans, RunControl};
 use spunlaid::lanes::Isa;
 use spunlaid_results::folders::run as files;
 use spunlaid_results::output::folder::{ENTRIES, Staging};
@@ -34,7 +34,7 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     let staging = folder.as_ref().map(|folder| staging(run, invocation, folder)).transpose()?;
 
     let fibre_steps = AtomicU64::new(0);
-    let computing = Computing {
+    let computing = RunControl {
         threads: run.threads.number(),
         isa: Isa::detect(),
         stop,

@@ -11,7 +11,7 @@ use spunlaid::error::Error;
 use spunlaid::input::{Method, Overrides, WebFile, read_changes, read_web};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
-use spunlaid::web::{Findings, Laying, PatchFindings, Web};
+use spunlaid::web::{Findings, LayControl, PatchFindings, Web};
 use spunlaid_results::folders;
 use spunlaid_results::folders::web::WebFolder;
 use spunlaid_results::numbers::{plus_minus, significant};
@@ -21,45 +21,47 @@ use std::path::PathBuf;
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
-pub(crate) fn web(asked: &args::Web, invocation: &Invocation) -> Result<(), Failure> {
-    let set = Overrides { values: &asked.set, word: "--set" };
-    let file = read_web(&asked.file, set)?;
+pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), Failure> {
+    let set = Overrides { values: &arguments.set, word: "--set" };
+    let file = read_web(&arguments.file, set)?;
     file.notes.iter().for_each(say::note);
-    let name = stem(&asked.file, "web").to_string_lossy().into_owned();
-    let folder =
-        (asked.output.out.is_some() || !asked.json).then(|| super::folder(asked.output.out.as_ref(), &name));
+    let name = stem(&arguments.file, "web").to_string_lossy().into_owned();
+    let folder = (arguments.output.out.is_some() || !arguments.json)
+        .then(|| super::folder(arguments.output.out.as_ref(), &name));
     let stop = stop_on_ctrl_c();
     let staged = |folder: &PathBuf| {
-        let origin = invocation.origin(&[&asked.file], folder);
-        staged(folder, ENTRIES, asked.output.force, origin, asked.output.quiet)
+        let origin = invocation.origin(&[&arguments.file], folder);
+        staged(folder, ENTRIES, arguments.output.force, origin, arguments.output.quiet)
     };
     let staging = folder.as_ref().map(staged).transpose()?;
     // Before anything is flown, because the file may change meanwhile.
-    let changes = if asked.no_advice { None } else { Some(read_changes(&asked.file, set)?) };
+    let changes = if arguments.no_advice { None } else { Some(read_changes(&arguments.file, set)?) };
 
     let started = Instant::now();
-    let follow = flying(asked.output.quiet);
-    let mut flyer = Flyer::new(asked.threads.number(), stop, &follow);
+    let follow = flying(arguments.output.quiet);
+    let mut flyer = Flyer::new(arguments.threads.number(), stop, &follow);
     let mut flown = flyer.web(&file.spec)?;
 
     let laid = AtomicU64::new(0);
-    let by = Laying { threads: asked.threads.number(), isa: Isa::detect(), stop, laid: &laid };
+    let by = LayControl { threads: arguments.threads.number(), isa: Isa::detect(), stop, laid: &laid };
     let label = format!("laying {} km of fibre", significant(flown.web.fibre_length() / 1e3, 3));
-    let findings = progress::follow(&laid, flown.pieces()?, &label, asked.output.quiet, || flown.find(by))?;
+    let findings =
+        progress::follow(&laid, flown.pieces()?, &label, arguments.output.quiet, || flown.find(by))?;
     let laying_s = started.elapsed().as_secs_f64();
     let FlownWeb { web, layers, .. } = &flown;
     let is_short =
         |changes: &Vec<Change>| file.spec.method != Method::SharedAir && steps(changes) <= MOST_STEPS;
-    let changes = changes.filter(|changes| asked.advice || is_short(changes));
+    let changes = changes.filter(|changes| arguments.advice || is_short(changes));
     let tried = changes.as_ref().map(|changes| trying(changes.len()));
-    let advice =
-        match changes.map(|changes| advised(changes, (&file, web, &findings), by, asked.output.quiet)) {
-            Some(Err(Failure::Error(error))) if !matches!(error, Error::Interrupted) => {
-                say::warning(&format!("what makes the web more even was not found: {error}"));
-                None
-            }
-            advice => advice.transpose()?,
-        };
+    let advice = match changes
+        .map(|changes| compute_advice(changes, (&file, web, &findings), by, arguments.output.quiet))
+    {
+        Some(Err(Failure::Error(error))) if !matches!(error, Error::Interrupted) => {
+            say::warning(&format!("what makes the web more even was not found: {error}"));
+            None
+        }
+        advice => advice.transpose()?,
+    };
     let advice_s = started.elapsed().as_secs_f64() - laying_s;
     let performance = Performance {
         wall_s: started.elapsed().as_secs_f64(),
@@ -81,16 +83,16 @@ pub(crate) fn web(asked: &args::Web, invocation: &Invocation) -> Result<(), Fail
         performance,
     };
     if let Some(mut staging) = staging {
-        staging.set_figures(&asked.figures.files());
+        staging.set_figures(&arguments.figures.files());
         written.write(&staging, by)?;
         staging.publish()?;
     }
-    if asked.json {
+    if arguments.json {
         say::text(&written.summary());
-    } else if !asked.output.quiet {
-        say::text(&told(&findings));
+    } else if !arguments.output.quiet {
+        say::text(&terminal_table(&findings));
         let words = advice_words(&file.spec, &findings, advice.as_ref());
-        if !(words.is_empty() || asked.no_advice) {
+        if !(words.is_empty() || arguments.no_advice) {
             say::line(&format!("\n{words}"));
         }
         say::line(&format!("\n{label} took {laying_s:.2} s"));
@@ -114,15 +116,15 @@ fn trying(changes: usize) -> String {
 }
 
 /// What changes of the line do to a web, with their progress.
-fn advised(
+fn compute_advice(
     changes: Vec<Change>,
     (file, web, findings): (&WebFile, &Web, &Findings),
-    by: Laying<'_>,
+    by: LayControl<'_>,
     quiet: bool,
 ) -> Result<Advice, Failure> {
     let done = AtomicU64::new(0);
     let (all, label) = (steps(&changes), trying(changes.len()));
-    let by = Laying { laid: &done, ..by };
+    let by = LayControl { laid: &done, ..by };
     let work = || advise(&file.spec, (web, findings), changes, by);
     Ok(progress::follow(&done, all, &label, quiet, work)?)
 }
@@ -142,9 +144,9 @@ fn flying(quiet: bool) -> impl Fn(Flights<'_>, &mut (dyn FnMut() + Send)) {
 type Column = (&'static str, fn(&PatchFindings) -> Option<(f64, f64)>);
 
 /// The table for the terminal.
-fn told(findings: &Findings) -> String {
+fn terminal_table(findings: &Findings) -> String {
     let per_cent = |cv: f64, error: Option<f64>| plus_minus(100.0 * cv, error.map(|error| 100.0 * error));
-    let is_shared = findings.laid.together.is_some();
+    let is_shared = findings.laid.shared_air.is_some();
     let all: [Column; 2] = match is_shared {
         true => [("airs of their own", |patch| patch.independent), ("", |_| None)],
         false => [("surrogate", |patch| patch.surrogate), ("flown curves", |patch| patch.flown)],
@@ -152,7 +154,7 @@ fn told(findings: &Findings) -> String {
     let mut expected: Vec<Column> =
         all.into_iter().filter(|(_, cv)| findings.patches.iter().any(|patch| cv(patch).is_some())).collect();
     if expected.is_empty() {
-        expected.push(("single fibres", |patch| Some(patch.one_fibre)));
+        expected.push(("single fibres", |patch| Some(patch.single_fibres)));
     }
     let flown = !is_shared && findings.patches.iter().any(|patch| patch.flown.is_some());
     let mut heads = vec!["patch", "this map", "by chance", "95 % by chance"];

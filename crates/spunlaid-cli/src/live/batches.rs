@@ -44,13 +44,13 @@ impl Batch {
 pub(super) struct Batches {
     batches: Vec<Batch>,
     /// The batch that is being put together from those of the first duration.
-    filling: Option<Filling>,
+    filling: Option<OpenBatch>,
     /// How often neighbours have become one.
     merged: u32,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Filling {
+struct OpenBatch {
     so_far: Batch,
     /// Batches of the first duration in it.
     holds: u32,
@@ -74,7 +74,7 @@ impl Batches {
         };
         let count = 1 << self.merged;
         let filling = match self.filling.take() {
-            None => Filling { so_far: batch, holds: 1 },
+            None => OpenBatch { so_far: batch, holds: 1 },
             Some(filling) => filling.with(&batch),
         };
         if filling.holds < count {
@@ -113,7 +113,7 @@ impl Batches {
     }
 }
 
-impl Filling {
+impl OpenBatch {
     fn with(self, batch: &Batch) -> Self {
         let share = 1.0 / f64::from(self.holds + 1);
         let a = &self.so_far;

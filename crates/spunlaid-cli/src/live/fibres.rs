@@ -73,7 +73,7 @@ impl Fibres {
             }
         }
         let mut other = Self::new(case)?;
-        if let Some([position, velocity]) = carried_over(&self.case, &self.snapshot, &other.case) {
+        if let Some([position, velocity]) = transferred_state(&self.case, &self.snapshot, &other.case) {
             other.flight.restart_from(position, velocity)?;
             other.snapshot = other.flight.snapshot();
         }
@@ -127,7 +127,7 @@ impl Fibres {
 
 /// Positions and velocities of the nodes of another case at which fibres of fixed length go on. Their directions stay, along
 /// the share of the length; strain stays as well.
-fn carried_over(old: &Case, snapshot: &Snapshot, new: &Case) -> Option<[Vec<Vec3<Lanes>>; 2]> {
+fn transferred_state(old: &Case, snapshot: &Snapshot, new: &Case) -> Option<[Vec<Vec3<Lanes>>; 2]> {
     let same_hold = (old.fibre.root, old.fibre.direction) == (new.fibre.root, new.fibre.direction);
     if old.line.is_some() || new.line.is_some() || !same_hold {
         return None;

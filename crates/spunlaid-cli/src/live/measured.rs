@@ -237,7 +237,7 @@ mod tests {
 
     #[test]
     fn stat_amplitude_and_curves_agree_with_those_of_a_run() {
-        use spunlaid::ensemble::{Computing, Keep, Results, fly};
+        use spunlaid::ensemble::{Keep, Results, RunControl, fly};
         use spunlaid::error::Error;
         use spunlaid::lanes::Isa;
         use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -253,7 +253,7 @@ mod tests {
         let (case, _) = parse_case(starter_case(), "starter.toml", &values).unwrap();
         let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
         let computing =
-            Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, recorder: None };
+            RunControl { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, recorder: None };
         let mut results = Results::collector(0);
         fly::<Error>(&case, Keep::NUMBERS, computing, |flown| {
             results.take(flown);

@@ -75,9 +75,9 @@ pub(crate) fn live(start: Start, ready: impl FnOnce(&str, Option<&str>)) -> Resu
     let name = start.file.as_ref().map_or_else(|| "the case".to_owned(), |file| file.display().to_string());
     let rejected = |complaints: Vec<Complaint>| {
         let problem = |why: String| Problem::with_path(Path::new(&name), Fault::plain(why));
-        Error::Rejected(in_words(&complaints).into_iter().map(problem).collect())
+        Error::Rejected(complaint_lines(&complaints).into_iter().map(problem).collect())
     };
-    let (document, remark) = at_real_time(Document::new(start.text, start.file)).map_err(rejected)?;
+    let (document, remark) = adapt_to_clock(Document::new(start.text, start.file)).map_err(rejected)?;
     let not_served = |source: std::io::Error| not_served(&source);
     let folder = std::env::current_dir().map_err(not_served)?;
     let session = Session::new(document, remark.clone(), folder).map_err(rejected)?;
@@ -97,7 +97,7 @@ pub(crate) fn live(start: Start, ready: impl FnOnce(&str, Option<&str>)) -> Resu
 }
 
 /// The case with the scheme and the step that keep up with the clock, and what is to be said of it.
-fn at_real_time(document: Document) -> Result<(Document, Option<String>), Vec<Complaint>> {
+fn adapt_to_clock(document: Document) -> Result<(Document, Option<String>), Vec<Complaint>> {
     let case = document.read()?.case;
     let document = document.with_tension_of_flights(&case).unwrap_or(document);
     let run = case.run;
@@ -129,7 +129,7 @@ fn at_real_time(document: Document) -> Result<(Document, Option<String>), Vec<Co
     Ok((other, Some(note)))
 }
 
-fn in_words(complaints: &[Complaint]) -> Vec<String> {
+fn complaint_lines(complaints: &[Complaint]) -> Vec<String> {
     let line = |line: Option<usize>| line.map_or_else(String::new, |line| format!("line {line}: "));
     complaints.iter().map(|complaint| format!("{}{}", line(complaint.line), complaint.text)).collect()
 }

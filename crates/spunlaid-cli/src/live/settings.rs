@@ -79,7 +79,7 @@ pub(super) fn present(case: &Case) -> Vec<SettingValue> {
 fn shown(case: &Case) -> impl Iterator<Item = (&'static Key, Value)> {
     keys::all()
         .iter()
-        .filter(|key| !OF_RUNS.contains(&key.name) && !key.is_told(case))
+        .filter(|key| !OF_RUNS.contains(&key.name) && !key.is_derived(case))
         .filter_map(move |key| Some((key, key.get(case)?)))
 }
 
@@ -96,7 +96,7 @@ fn setting(key: &'static Key, value: &Value) -> Option<Setting> {
         }
         _ => return None,
     };
-    let left_out = match key.left_out {
+    let omission = match key.omission {
         Omission::Required(_) => String::new(),
         Omission::Value(value) => format!(" Default: {value}."),
         Omission::Follows(words) => format!(" If it is left out: {words}."),
@@ -106,13 +106,13 @@ fn setting(key: &'static Key, value: &Value) -> Option<Setting> {
         Some(dimension) => format!(", in {} for example", dimension.si_unit()),
     };
     let first =
-        matches!(key.left_out, Omission::Required(_)) || ["spinline", "feed", "belt"].contains(&key.table());
+        matches!(key.omission, Omission::Required(_)) || ["spinline", "feed", "belt"].contains(&key.table());
     Some(Setting {
         key: key.name,
         table: key.table(),
         label: key.label,
         meaning: key.meaning,
-        about: format!("Takes {}{unit}.{left_out}", key.allowed()),
+        about: format!("Takes {}{unit}.{omission}", key.allowed()),
         in_flight: key.in_flight,
         first: first && !matches!(takes, SettingKind::Word { .. }),
         takes,

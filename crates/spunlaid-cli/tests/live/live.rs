@@ -9,19 +9,19 @@ use tungstenite::Message;
 fn what_can_change_in_flight_changes_at_once_and_the_case_follows() {
     let live = Live::start(&["table1.toml"]);
     let mut page = live.page();
-    let settings = page.told("settings");
+    let settings = page.message("settings");
     let keys: Vec<&str> =
         settings["settings"].as_array().unwrap().iter().map(|s| s["key"].as_str().unwrap()).collect();
     assert!(keys.contains(&"air.velocity") && keys.contains(&"drag.along"), "{keys:?}");
-    let before = page.told("state");
+    let before = page.message("state");
     assert!(before["text"].as_str().unwrap().contains("scheme = \"implicit-tension\""), "{before}");
     assert!(before["remark"].as_str().unwrap().contains("semi-implicit-euler"), "{before}");
     let (_, _, time) = page.frame();
 
     page.ask(&json!({ "do": "set", "key": "air.velocity", "value": 20, "stamp": 5 }));
-    let applied = page.told("applied");
+    let applied = page.message("applied");
     assert_eq!(applied["stamp"], 5);
-    let state = page.told("state");
+    let state = page.message("state");
     assert!(state["text"].as_str().unwrap().contains("velocity = \"20 m/s\""), "{state}");
     assert!(state["command"].as_str().unwrap().contains("--set 'air.velocity=20 m/s'"), "{state}");
     assert_eq!(state["air"], 20.0);
@@ -29,7 +29,7 @@ fn what_can_change_in_flight_changes_at_once_and_the_case_follows() {
     assert!(u64::from(generation) >= applied["generation"].as_u64().unwrap() && later >= time);
 
     page.ask(&json!({ "do": "set", "key": "air.length_scale", "value": "60 mm", "stamp": 6 }));
-    assert_eq!(page.told("applied")["stamp"], 6);
+    assert_eq!(page.message("applied")["stamp"], 6);
     // A new flight, but the time of the page goes on.
     assert!(page.frame().2 >= later);
 }
@@ -38,7 +38,7 @@ fn what_can_change_in_flight_changes_at_once_and_the_case_follows() {
 fn rejects_bad_values_by_key_and_bad_cases_by_line() {
     let live = Live::start(&["table1.toml"]);
     let mut page = live.page();
-    let text = page.told("state")["text"].as_str().unwrap().to_owned();
+    let text = page.message("state")["text"].as_str().unwrap().to_owned();
     let set = |key: &str, value: Value| json!({ "do": "set", "key": key, "value": value, "stamp": 1 });
     for (message, line, wanted) in [
         (set("air.velocitiy", json!(1)), None, "did you mean"),
@@ -56,9 +56,9 @@ fn rejects_bad_values_by_key_and_bad_cases_by_line() {
         assert_eq!(problem["line"].as_u64(), line, "{message}: {problem}");
     }
     page.0.send(Message::binary(vec![1, 2, 3])).unwrap();
-    assert!(page.told("refused")["problems"][0]["text"].as_str().unwrap().contains("messages are text"));
+    assert!(page.message("refused")["problems"][0]["text"].as_str().unwrap().contains("messages are text"));
     page.ask(&json!({ "do": "forget" }));
-    assert_eq!(page.told("state")["text"], text);
+    assert_eq!(page.message("state")["text"], text);
 }
 
 /// What the page says of the filament, the first sentence.
@@ -70,7 +70,7 @@ fn filament(state: &Value) -> String {
 fn a_spinline_is_solved_again_and_the_fibre_flies_with_its_filament() {
     let live = Live::start(&["whole_line_fibre.toml"]);
     let mut page = live.page();
-    let settings = page.told("settings");
+    let settings = page.message("settings");
     let settings = settings["settings"].as_array().unwrap();
     let labels: Vec<&str> = settings
         .iter()
@@ -82,15 +82,15 @@ fn a_spinline_is_solved_again_and_the_fibre_flies_with_its_filament() {
     {
         assert!(labels.contains(&key), "{key}: {labels:?}");
     }
-    let before = page.told("state");
+    let before = page.message("state");
     assert!(filament(&before).contains(": 0.5 g/min from each hole"), "{before}");
     let frozen = before["filament"][1].as_str().unwrap();
     assert!(frozen.contains("below the die, at 110 °C"), "{frozen}");
 
     // A slider sends a number in SI units, which is rounded in the unit of the key.
     page.ask(&json!({ "do": "set", "key": "spinline.throughput", "value": 1.3333e-5, "stamp": 1 }));
-    assert_eq!(page.told("applied")["stamp"], 1);
-    let state = page.told("state");
+    assert_eq!(page.message("applied")["stamp"], 1);
+    let state = page.message("state");
     assert!(
         state["text"].as_str().unwrap().contains("throughput = \"0.8 g/min\"                # per hole"),
         "{state}"
@@ -117,7 +117,7 @@ fn a_spinline_is_solved_again_and_the_fibre_flies_with_its_filament() {
         "{problem}"
     );
     assert_eq!(problem["line"], 8);
-    let after = page.told("state");
+    let after = page.message("state");
     assert_eq!((&after["text"], &after["generation"]), (&state["text"], &state["generation"]));
     let first = page.frame().2;
     while page.frame().2 <= first {}
@@ -128,8 +128,8 @@ fn the_tension_of_flights_is_a_number_on_the_page() {
     let live = Live::start(&["whole_line_fibre.toml"]);
     let mut page = live.page();
     page.ask(&json!({ "do": "set", "key": "spinline.end_tension", "value": "flown", "stamp": 1 }));
-    assert_eq!(page.told("applied")["stamp"], 1);
-    let state = page.told("state");
+    assert_eq!(page.message("applied")["stamp"], 1);
+    let state = page.message("state");
     let text = state["text"].as_str().unwrap();
     let line = text.lines().find(|line| line.starts_with("end_tension")).unwrap();
     assert!(line.ends_with(" N\"") && !line.contains("flown"), "{line}");
@@ -155,7 +155,7 @@ fn after_lost_fibres_the_time_stands_until_go() {
     let mut page = live.page();
     page.ask(&json!({ "do": "pace", "pace": "free" }));
     let until = |page: &mut Page, stands: bool| loop {
-        let state = page.told("state");
+        let state = page.message("state");
         if state["stands"] == stands {
             break state;
         }
@@ -171,7 +171,7 @@ fn after_lost_fibres_the_time_stands_until_go() {
 
 #[test]
 fn without_a_case_it_is_table_1_as_everywhere() {
-    let [own, named] = [&[][..], &["table1.toml"]].map(|case| Live::start(case).page().told("state"));
+    let [own, named] = [&[][..], &["table1.toml"]].map(|case| Live::start(case).page().message("state"));
     assert_eq!(own["text"], named["text"]);
 }
 
@@ -181,7 +181,7 @@ fn a_refusal_says_what_it_is_about() {
     let mut page = live.page();
     let mut about = |message: &Value| {
         page.ask(message);
-        page.told("refused")["about"].clone()
+        page.message("refused")["about"].clone()
     };
     let wrong_unit = json!({ "do": "set", "key": "air.velocity", "value": "10 g", "stamp": 7 });
     assert_eq!(about(&wrong_unit), json!({ "is": "setting", "stamp": 7 }));
@@ -208,11 +208,11 @@ fn only_what_is_saved_by_a_plain_name_is_written() {
     }
     assert_eq!(live.files(), Vec::<String>::new());
     page.ask(&save("mine", false));
-    assert_eq!(page.told("saved")["name"], "mine.toml");
+    assert_eq!(page.message("saved")["name"], "mine.toml");
     page.ask(&save("mine.toml", false));
-    assert_eq!(page.told("exists")["name"], "mine.toml");
+    assert_eq!(page.message("exists")["name"], "mine.toml");
     page.ask(&save("mine.toml", true));
-    assert_eq!(page.told("saved")["name"], "mine.toml");
+    assert_eq!(page.message("saved")["name"], "mine.toml");
     assert_eq!(live.files(), ["mine.toml"]);
     // The saved case runs from where it is, with the profile that it names.
     let done = Command::new(env!("CARGO_BIN_EXE_spunlaid"))
@@ -258,7 +258,7 @@ fn time_stands_goes_step_by_step_and_rests_when_nobody_looks() {
     other.0.close(None).unwrap();
     let rested = |page: &mut Page| {
         page.ask(&json!({ "do": "forget" }));
-        page.told("state");
+        page.message("state");
         page.frame().2
     };
     let first = loop {
@@ -270,5 +270,5 @@ fn time_stands_goes_step_by_step_and_rests_when_nobody_looks() {
     page.ask(&json!({ "do": "look", "visible": true }));
     while page.frame().2 <= first {}
     page.ask(&json!({ "do": "pace", "pace": "free" }));
-    assert_eq!(page.told("state")["pace"], "free");
+    assert_eq!(page.message("state")["pace"], "free");
 }

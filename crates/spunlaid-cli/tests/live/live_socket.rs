@@ -110,7 +110,7 @@ fn whatever_comes_through_the_socket_the_program_goes_on() {
     let messages = std::env::var("SPUNLAID_LIVE_MESSAGES").map_or(20_000, |count| count.parse().unwrap());
     let mut live = Live::start(&["table1.toml"]);
     let mut chance = Chance(7);
-    let case = live.page().told("state")["text"].as_str().unwrap().to_owned();
+    let case = live.page().message("state")["text"].as_str().unwrap().to_owned();
     let mut sent = 0;
     while sent < messages {
         // Frames and answers are read by a thread, so that the program can send them. The answer to the last message comes
@@ -143,7 +143,7 @@ fn whatever_comes_through_the_socket_the_program_goes_on() {
     page.ask(&json!({ "do": "case", "text": case }));
     page.ask(&json!({ "do": "go" }));
     page.ask(&json!({ "do": "set", "key": "air.velocity", "value": 15, "stamp": 99 }));
-    while page.told("applied")["stamp"] != 99 {}
+    while page.message("applied")["stamp"] != 99 {}
     // The fibres fly on.
     let first = page.frame().2;
     while page.frame().2 <= first {}

@@ -111,12 +111,12 @@ impl Page {
     }
 
     /// The next message of a kind.
-    pub fn told(&mut self, is: &str) -> Value {
+    pub fn message(&mut self, is: &str) -> Value {
         loop {
             if let Message::Text(text) = self.0.read().unwrap() {
-                let told: Value = serde_json::from_str(&text).unwrap();
-                if told["is"] == is {
-                    return told;
+                let message: Value = serde_json::from_str(&text).unwrap();
+                if message["is"] == is {
+                    return message;
                 }
             }
         }
@@ -135,6 +135,6 @@ impl Page {
     /// The first problem of a message that is refused.
     pub fn refused(&mut self, message: &Value) -> Value {
         self.ask(message);
-        self.told("refused")["problems"][0].clone()
+        self.message("refused")["problems"][0].clone()
     }
 }

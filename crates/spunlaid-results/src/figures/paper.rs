@@ -34,7 +34,7 @@ pub fn velocity_history(record: &[(f64, f64)], mean: f64) -> Figure {
 
 /// Figure 3: the energy spectrum of the velocity.
 pub fn spectrum(points: &[SpectrumPoint]) -> Figure {
-    let realised: Vec<(f64, f64)> = points.iter().map(|p| (p.frequency, p.realised)).collect();
+    let synthesised: Vec<(f64, f64)> = points.iter().map(|p| (p.frequency, p.synthesised)).collect();
     let model: Vec<(f64, f64)> =
         points.iter().filter(|p| p.wanted > 0.0).map(|p| (p.frequency, p.wanted)).collect();
     let chart = Chart::new(
@@ -43,7 +43,7 @@ pub fn spectrum(points: &[SpectrumPoint]) -> Figure {
         Axis::logarithmic("Frequency *f* (Hz)").tight(),
         Axis::logarithmic("Energy *E* ((m/s)^{2}/Hz)").decades(6),
     )
-    .line(Series::new("synthesised", BLUE).width(1.3), &realised)
+    .line(Series::new("synthesised", BLUE).width(1.3), &synthesised)
     .line(Series::reference("flat model").dashed("6 4").width(1.6), &model);
     Figure::new(
         &chart,

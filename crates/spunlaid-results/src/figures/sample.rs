@@ -196,7 +196,7 @@ fn fed_trajectory(case: &Case, replicate: u64) -> Trajectory {
 pub fn turbulence() -> Vec<SpectrumPoint> {
     let point = |i: i32| {
         let frequency = f64::from(i) * 4.0;
-        SpectrumPoint { frequency, realised: 0.01, wanted: 0.01 }
+        SpectrumPoint { frequency, synthesised: 0.01, wanted: 0.01 }
     };
     (1..100).map(point).collect()
 }

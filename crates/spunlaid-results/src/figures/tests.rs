@@ -116,7 +116,7 @@ fn draws_what_is_left_when_values_are_missing() {
             _ => curve.places.clear(),
         }
     }
-    let odd = SpectrumPoint { frequency: f64::NAN, realised: f64::INFINITY, wanted: 0.0 };
+    let odd = SpectrumPoint { frequency: f64::NAN, synthesised: f64::INFINITY, wanted: 0.0 };
     check(&run_figures(&case, &results, &[odd]));
 }
 

@@ -1,6 +1,6 @@
 //! The folder of a fit: its journal, and what is made from it.
 
-use super::journalled::{Journalled, Work};
+use super::journalled::{JournalFolder, Work};
 use crate::Failure;
 use crate::failure::{holds_results, other_version};
 use crate::figures::fit_figures;
@@ -26,7 +26,7 @@ const OF_OTHERS: &[&str] = &["summary.json", "results.csv", "analysis.json", "co
 /// A results folder that this process has locked.
 #[derive(Debug)]
 pub struct FitFolder<'a> {
-    at: Journalled,
+    at: JournalFolder,
     stop: &'a AtomicBool,
     /// How figures are written.
     pub figures: FigureFiles,
@@ -77,7 +77,7 @@ impl<'a> FitFolder<'a> {
         }
         let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: input.identity() };
         let (at, mut journal, header) =
-            Journalled::open(path, &Work { header: &wanted, entries: &[FILES], force, origin })?;
+            JournalFolder::open(path, &Work { header: &wanted, entries: &[FILES], force, origin })?;
         let path = at.place.as_path();
         let numbers = numbers_of_record(input.target);
         let state = match header {

@@ -22,7 +22,7 @@ const REPLACEMENT: &str = ".spunlaid-replacement";
 
 /// A folder whose journal this process has locked.
 #[derive(Debug)]
-pub(super) struct Journalled {
+pub(super) struct JournalFolder {
     /// Where the results are when they are complete.
     pub(super) path: PathBuf,
     /// Where the work is done: the folder, or one in it.
@@ -48,7 +48,7 @@ pub(super) struct Work<'a> {
     pub(super) origin: Option<&'a Origin>,
 }
 
-impl Journalled {
+impl JournalFolder {
     /// Opens the folder and its journal. Returns how the journal begins, if it has begun.
     pub(super) fn open(path: &Path, work: &Work<'_>) -> Result<(Self, Journal, Option<Header>), Failure> {
         if path.exists() && !path.is_dir() {

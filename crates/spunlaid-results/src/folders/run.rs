@@ -2,7 +2,7 @@
 
 use crate::Failure;
 use crate::figures::{SPINLINE, run_figures, spinline_figures};
-use crate::numbers::{lost_of, significant};
+use crate::numbers::{lost_fibres_text, significant};
 use crate::output::folder::Staging;
 use crate::output::spinline::{SpinResults, write_stations};
 use crate::output::summary::{Performance, Summary};
@@ -11,7 +11,7 @@ use crate::output::{beside, paraview};
 use crate::report::{self, ReportInput};
 use spunlaid::case::Case;
 use spunlaid::ensemble::{
-    Computing, FinerChecks, FinerPlans, Keep, KeepShapes, Recorder, Results, fly_and_check,
+    FinerChecks, FinerPlans, Keep, KeepShapes, Recorder, Results, RunControl, fly_and_check,
     turbulence_spectrum,
 };
 use spunlaid::input::write_case;
@@ -37,7 +37,7 @@ pub const POSITIONS: u64 = 4_000_000;
 pub fn fly(
     case: &Case,
     plans: &FinerPlans,
-    computing: Computing<'_>,
+    computing: RunControl<'_>,
     staging: Option<&Staging<'_>>,
 ) -> Result<(Results, FinerChecks), Failure> {
     let recorder = staging.map(|staging| TableRecorder::new(staging, case.line.is_some()));
@@ -46,7 +46,7 @@ pub fn fly(
         .map(|(staging, recorder)| Tables::create(staging, recorder))
         .transpose()?;
     let computing =
-        Computing { recorder: recorder.as_ref().map(|recorder| recorder as &dyn Recorder), ..computing };
+        RunControl { recorder: recorder.as_ref().map(|recorder| recorder as &dyn Recorder), ..computing };
     let mut collector = Results::collector(KEPT);
     let shapes = if staging.is_some() { KeepShapes::within(case, POSITIONS) } else { KeepShapes::NONE };
     let checks = fly_and_check(case, plans, Keep { shapes, ..Keep::CURVES }, computing, |landed| {
@@ -97,7 +97,7 @@ impl Run<'_> {
     ///
     /// # Errors
     /// If a file cannot be written, or the computation is interrupted.
-    pub fn write(&self, staging: &Staging<'_>, computing: Computing<'_>) -> Result<(), Failure> {
+    pub fn write(&self, staging: &Staging<'_>, computing: RunControl<'_>) -> Result<(), Failure> {
         let copied = beside::copy(self.case.files(), &staging.place(beside::CASE_FILES).0)?;
         let case_toml = write_case(&self.case.with_files_at(beside::place(&copied)));
         let figures = self.figures(computing)?;
@@ -126,11 +126,11 @@ impl Run<'_> {
     ///
     /// # Errors
     /// If the computation is interrupted.
-    pub fn report(&self, computing: Computing<'_>) -> Result<String, Failure> {
+    pub fn report(&self, computing: RunControl<'_>) -> Result<String, Failure> {
         self.page(&write_case(self.case), &self.figures(computing)?, self.spinline().as_ref())
     }
 
-    fn figures(&self, computing: Computing<'_>) -> Result<Vec<Figure>, Failure> {
+    fn figures(&self, computing: RunControl<'_>) -> Result<Vec<Figure>, Failure> {
         Ok(run_figures(self.case, self.results, &turbulence_spectrum(self.case, computing)?))
     }
 
@@ -178,7 +178,7 @@ pub fn outside(results: &Results) -> Option<String> {
 
 /// A warning about fibres that were lost.
 pub fn lost(case: &Case, results: &Results) -> Option<String> {
-    let lost = lost_of(results.lost.len() as u64, case.run.replicates);
+    let lost = lost_fibres_text(results.lost.len() as u64, case.run.replicates);
     let each: String =
         results.lost.iter().take(LOST_LISTED).map(|fibre| format!("\n{}", fibre.reason)).collect();
     (!results.lost.is_empty()).then(|| format!("{lost}; all others are in the results{each}"))
@@ -221,7 +221,7 @@ pub fn performance(
     case: &Case,
     results: &Results,
     plans: &FinerPlans,
-    computing: Computing<'_>,
+    computing: RunControl<'_>,
     wall_s: f64,
 ) -> Performance {
     let flights = case.flights();

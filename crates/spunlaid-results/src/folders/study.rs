@@ -1,6 +1,6 @@
 //! The results folder of a study: checks its content, and writes the files.
 
-use super::journalled::{JOURNAL, Journalled, Work, remove};
+use super::journalled::{JOURNAL, JournalFolder, Work, remove};
 use crate::Failure;
 use crate::failure::{holds_results, other_study, other_version};
 use crate::figures::study_figures;
@@ -31,7 +31,7 @@ const OF_OTHERS: &[&str] =
 /// A results folder that this process has locked.
 #[derive(Debug)]
 pub struct StudyFolder<'a> {
-    at: Journalled,
+    at: JournalFolder,
     /// If this is set, nothing more is written.
     stop: &'a AtomicBool,
     figures: FigureFiles,
@@ -75,8 +75,10 @@ impl<'a> StudyFolder<'a> {
             holds_nothing_else(path)?;
         }
         let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: file.study.identity() };
-        let (at, mut journal, header) =
-            Journalled::open(path, &Work { header: &wanted, entries: &[DESCRIPTION, MADE], force, origin })?;
+        let (at, mut journal, header) = JournalFolder::open(
+            path,
+            &Work { header: &wanted, entries: &[DESCRIPTION, MADE], force, origin },
+        )?;
         let folder = Self { at, stop, figures: FigureFiles::default() };
         let path = folder.at.place.as_path();
         let state = match header {

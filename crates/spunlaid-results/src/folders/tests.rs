@@ -4,7 +4,7 @@ use crate::Failure;
 use crate::output::folder::{ENTRIES, Staging};
 use crate::output::tables::{TableRecorder, Tables};
 use spunlaid::case::Case;
-use spunlaid::ensemble::{Computing, Keep, Results, fly};
+use spunlaid::ensemble::{Keep, Results, RunControl, fly};
 use spunlaid::input::{parse_web, read_case};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flyer, LaydownSource, Method, WebSpec, read_laid};
@@ -49,7 +49,7 @@ fn identical_surrogate_in_a_flight_its_results_and_the_measures_of_a_run() {
     let mut tables = Tables::create(&staging, &recorder).unwrap();
     let (steps, isa) = (AtomicU64::new(0), Isa::detect());
     let computing =
-        Computing { threads: 2, isa, stop: &STOP, fibre_steps: &steps, recorder: Some(&recorder) };
+        RunControl { threads: 2, isa, stop: &STOP, fibre_steps: &steps, recorder: Some(&recorder) };
     let mut results = Results::collector(0);
     fly(&case, Keep::NUMBERS, computing, |trajectory| {
         tables.add(trajectory.replicate)?;

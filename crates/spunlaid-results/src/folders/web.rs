@@ -13,7 +13,7 @@ use spunlaid::input::{LayerSpec, WebFile, WebSpec};
 use spunlaid::layers::LayerFibres;
 use spunlaid::spinline::Solution;
 use spunlaid::surrogate::Residual;
-use spunlaid::web::{Fibres, Findings, Laying, PatchFindings, SharedAirFindings, Web, strands};
+use spunlaid::web::{Fibres, Findings, LayControl, PatchFindings, SharedAirFindings, Web, strands};
 use spunlaid_charts::Figure;
 use std::borrow::Cow;
 
@@ -49,7 +49,7 @@ impl WebFolder<'_> {
     ///
     /// # Errors
     /// If a file cannot be written, or the computation is interrupted.
-    pub fn write(&self, staging: &Staging<'_>, laying: Laying<'_>) -> Result<(), Failure> {
+    pub fn write(&self, staging: &Staging<'_>, laying: LayControl<'_>) -> Result<(), Failure> {
         // The map is packed while everything else is made.
         std::thread::scope(|scope| {
             let map = scope.spawn(|| web::write_map(staging, &self.findings.laid.map));
@@ -59,9 +59,9 @@ impl WebFolder<'_> {
     }
 
     /// Writes all files but those of the map.
-    fn write_others(&self, staging: &Staging<'_>, laying: Laying<'_>) -> Result<(), Failure> {
+    fn write_others(&self, staging: &Staging<'_>, laying: LayControl<'_>) -> Result<(), Failure> {
         let window = self.file.spec.window();
-        let strands = match &self.findings.laid.together {
+        let strands = match &self.findings.laid.shared_air {
             Some(together) => Cow::Borrowed(&together.strands[..]),
             None => Cow::Owned(strands(self.web, window, laying)?),
         };
@@ -110,12 +110,12 @@ impl WebFolder<'_> {
 fn rows(spec: &WebSpec, web: &Web, layers: &[LayerFibres]) -> Vec<Layer> {
     let row = |(i, (layer, drawn)): (usize, (&LayerSpec, &spunlaid::web::Layer))| {
         let fit = residual(layers.get(i));
-        let surrogate =
-            [Some(&drawn.fibres), drawn.compared.as_ref()].into_iter().flatten().find_map(|fibres| {
-                match fibres {
-                    Fibres::Surrogate(surrogate) => Some(*surrogate),
-                    Fibres::Curves(_) => None,
-                }
+        let surrogate = [Some(&drawn.fibres), drawn.other_description.as_ref()]
+            .into_iter()
+            .flatten()
+            .find_map(|fibres| match fibres {
+                Fibres::Surrogate(surrogate) => Some(*surrogate),
+                Fibres::Curves(_) => None,
             });
         Layer {
             name: layer.name.clone().unwrap_or_else(|| (i + 1).to_string()),
@@ -164,9 +164,9 @@ fn residual(layer: Option<&LayerFibres>) -> Option<Residual> {
 
 /// What a reader must know of what was found.
 pub fn notes(web: &Web, findings: &Findings, layers: &[LayerFibres]) -> Vec<String> {
-    let mut notes = match &findings.laid.together {
-        Some(together) => about_lost_filaments(web, together),
-        None => about_the_model(web, findings, layers),
+    let mut notes = match &findings.laid.shared_air {
+        Some(together) => lost_filament_notes(web, together),
+        None => model_notes(web, findings, layers),
     };
     let map = &findings.laid.map;
     if findings.laid.cut > 0.0 {
@@ -204,7 +204,7 @@ pub fn notes(web: &Web, findings: &Findings, layers: &[LayerFibres]) -> Vec<Stri
 }
 
 /// How many filaments of a web in one air were lost.
-fn about_lost_filaments(web: &Web, together: &SharedAirFindings) -> Vec<String> {
+fn lost_filament_notes(web: &Web, together: &SharedAirFindings) -> Vec<String> {
     let all: u64 = web.layers.iter().map(|layer| layer.count(&web.sheet)).sum();
     match together.lost {
         0 => Vec::new(),
@@ -220,7 +220,7 @@ const TOO_FEW: f64 = 0.025;
 const POOR_FIT: f64 = 0.05;
 
 /// Whether the surrogate speaks for the flown fibres, and which of them to believe where it does not.
-fn about_the_model(web: &Web, findings: &Findings, layers: &[LayerFibres]) -> Vec<String> {
+fn model_notes(web: &Web, findings: &Findings, layers: &[LayerFibres]) -> Vec<String> {
     let mut notes = Vec::new();
     let by_surrogate = web.layers.iter().any(|layer| matches!(layer.fibres, Fibres::Surrogate(_)));
     let element = web.longest_element().unwrap_or(0.0);

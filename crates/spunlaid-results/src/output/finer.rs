@@ -94,10 +94,10 @@ impl FinerWords {
             format!("{} differs by {}{error}", statistic.label, percent(estimate))
         }));
         let (what, with, advice) = match check.refined {
-            Refinement::TimeStep => ("time step", shorter(check, case), of_the_step(check, results)),
+            Refinement::TimeStep => ("time step", shorter(check, case), step_advice(check, results)),
             Refinement::Elements => {
                 let length = Dimension::Length.pretty_to(check.element_length, 3);
-                ("mesh", format!("elements of {length}, half the length,"), of_the_mesh(check))
+                ("mesh", format!("elements of {length}, half the length,"), mesh_advice(check))
             }
         };
         let meaning = match check.error_over_change() {
@@ -132,7 +132,7 @@ fn shorter(check: &FinerCheck, case: &Case) -> String {
 }
 
 /// Compares the error of the step with the standard error of the amplitude or the spread, as a share of it.
-fn of_the_step(check: &FinerCheck, results: &Results) -> String {
+fn step_advice(check: &FinerCheck, results: &Results) -> String {
     let Some(Change { statistic, estimate }) = check.changes.first() else {
         return String::new();
     };
@@ -165,7 +165,7 @@ fn scatter(measures: &[&str], results: &Results) -> Option<f64> {
 }
 
 /// Which elements to take.
-fn of_the_mesh(check: &FinerCheck) -> String {
+fn mesh_advice(check: &FinerCheck) -> String {
     let shares = |sure: f64| {
         let factor = check.error_over_change().unwrap_or(1.0);
         // The texture of a laid fibre is that of its elements, and is reported as such.
@@ -233,7 +233,7 @@ mod tests {
 
     #[test]
     fn advice_on_the_mesh_names_an_element_length() {
-        let advice = |mean, error| of_the_mesh(&check(Refinement::Elements, "frequency", mean, error));
+        let advice = |mean, error| mesh_advice(&check(Refinement::Elements, "frequency", mean, error));
         // 4/3 of 18.5 % is 25 %, of which a sixteenth is left at a quarter of 25 mm.
         assert!(advice(0.185, 0.015).contains("fibre.element_length = \"6.25 mm\" and look again"));
         assert!(
@@ -243,13 +243,13 @@ mod tests {
         );
         assert!(advice(0.011, 0.002).contains("below 3 %"));
         assert!(advice(0.01, 0.02).contains("too short to show"));
-        let advice_for_spread = |mean| of_the_mesh(&check(Refinement::Elements, "spread", mean, 1e-3));
+        let advice_for_spread = |mean| mesh_advice(&check(Refinement::Elements, "spread", mean, 1e-3));
         assert!(
             advice_for_spread(0.05).contains("\"12.5 mm\"")
                 && advice_for_spread(3e-3).contains("One halving does not show")
         );
         assert!(
-            of_the_mesh(&check(Refinement::Elements, "chord_over_arc", 0.3, 1e-3))
+            mesh_advice(&check(Refinement::Elements, "chord_over_arc", 0.3, 1e-3))
                 .contains("One halving does not show")
         );
     }

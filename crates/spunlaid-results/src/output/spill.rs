@@ -61,21 +61,21 @@ impl Spill {
     /// If its file cannot be written, an error that ends the flights; [`Spill::failure`] says why.
     pub(super) fn push(&self, replicate: u64, row: impl IntoIterator<Item = f64>) -> Result<(), Error> {
         let full = {
-            let mut waiting = self.waiting();
+            let mut waiting = self.lock_pending();
             let rows = waiting.rows.entry(replicate).or_default();
             rows.extend(row);
             (rows.len() + self.width > IN_MEMORY).then(|| std::mem::take(rows))
         };
         // A replicate flies in one thread only, so its rows stay in their order.
         full.map_or(Ok(()), |full| self.append(replicate, &full)).map_err(|why| {
-            self.waiting().failed.get_or_insert(why);
+            self.lock_pending().failed.get_or_insert(why);
             Error::Interrupted
         })
     }
 
     /// Forgets the rows of a replicate.
     pub(super) fn forget(&self, replicate: u64) {
-        self.waiting().rows.remove(&replicate);
+        self.lock_pending().rows.remove(&replicate);
         // There is usually no file.
         let _ = fs::remove_file(self.file(replicate));
     }
@@ -86,7 +86,7 @@ impl Spill {
         replicate: u64,
         mut to: impl FnMut(&[f64]) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
-        let last = self.waiting().rows.remove(&replicate).unwrap_or_default();
+        let last = self.lock_pending().rows.remove(&replicate).unwrap_or_default();
         let path = self.file(replicate);
         if path.exists() {
             let unreadable = Failure::unwritable(&self.table);
@@ -108,7 +108,7 @@ impl Spill {
 
     /// The failure of a file, if there was one.
     pub(super) fn failure(&self) -> Option<Failure> {
-        let source = self.waiting().failed.take()?;
+        let source = self.lock_pending().failed.take()?;
         Some(Failure::unwritable(&self.table)(source))
     }
 
@@ -116,7 +116,7 @@ impl Spill {
         self.folder.join(format!("{}_{replicate}", self.name))
     }
 
-    fn waiting(&self) -> MutexGuard<'_, PendingRows> {
+    fn lock_pending(&self) -> MutexGuard<'_, PendingRows> {
         self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -179,13 +179,13 @@ mod tests {
             }
         }
         assert!(spill.file(3).exists(), "so many rows do not stay in memory");
-        assert!(spill.waiting().rows.values().all(|rows| rows.len() <= IN_MEMORY));
+        assert!(spill.lock_pending().rows.values().all(|rows| rows.len() <= IN_MEMORY));
         for replicate in [3, 4, 5] {
             let rows = (0..if replicate == 5 { 0 } else { count }).flat_map(|i| row(replicate, i));
             assert!(drained(&spill, replicate) == rows.map(f64::to_bits).collect::<Vec<_>>(), "{replicate}");
         }
         assert_eq!(fs::read_dir(folder.path().join("scratch")).unwrap().count(), 0);
-        assert!(spill.waiting().rows.is_empty());
+        assert!(spill.lock_pending().rows.is_empty());
     }
 
     #[test]

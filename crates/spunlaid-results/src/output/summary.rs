@@ -178,7 +178,7 @@ fn insert<'a>(into: &mut GroupSummary<'a>, group: &'static str, number: &'a Numb
 }
 
 fn summary_of(number: &Number) -> NumberSummary<'_> {
-    let value_if = |aggregate| (number.measure.over_replicates == aggregate).then(|| number.value());
+    let value_if = |aggregate| (number.measure.aggregate == aggregate).then(|| number.value());
     NumberSummary {
         median: value_if(Aggregate::Median),
         largest: value_if(Aggregate::Largest),

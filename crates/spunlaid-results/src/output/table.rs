@@ -19,7 +19,7 @@ pub fn results(results: &Results) -> String {
             heading = Some(measure.group);
         }
         let row = format!("  {:<widest$}  {}", measure.label, value(one));
-        let _ = writeln!(text, "{} {}{}", row, measure.unit.shown, remark(measure.over_replicates, n));
+        let _ = writeln!(text, "{} {}{}", row, measure.unit.shown, remark(measure.aggregate, n));
     }
     text + &neighbours(results)
 }
@@ -46,7 +46,7 @@ fn neighbours(results: &Results) -> String {
 /// The mean and its error, aligned at the sign ±. A median or a largest value has no error.
 fn value(row: &Number) -> String {
     let factor = row.measure.unit.per_si;
-    if row.measure.over_replicates != Aggregate::Mean {
+    if row.measure.aggregate != Aggregate::Mean {
         return format!("{:>10}", number(row.value() * factor));
     }
     let (mean, error) =

@@ -37,21 +37,21 @@ pub fn advice_words(spec: &WebSpec, findings: &Findings, advice: Option<&Advice>
                 case to fly (laydown.case)."
             .to_owned();
     }
-    let lowering = advice.lowering(patch);
+    let improvements = advice.improvements(patch);
     let weight = grams(findings.within().basis_weight());
-    let what = if findings.laid.together.is_some() { "CV" } else { "expected CV" };
+    let what = if findings.laid.shared_air.is_some() { "CV" } else { "expected CV" };
     let place = format!("over patches of {}", millimetres(patch));
-    if lowering.is_empty() {
+    if improvements.is_empty() {
         return format!(
             "At the same {weight}, none of the {} changes of the line that were tried lowers the {what} {place} by more than 1{THIN}% and beyond chance.",
             advice.effects.len()
         );
     }
-    let named: Vec<String> = lowering
+    let named: Vec<String> = improvements
         .iter()
         .take(NAMED)
         .map(|(effect, cv)| {
-            format!("{} ({}{THIN}%), {}", more_or_less(&effect.change, spec), per_cent(cv), cost(effect))
+            format!("{} ({}{THIN}%), {}", describe_change(&effect.change, spec), per_cent(cv), cost(effect))
         })
         .collect();
     let mut words =
@@ -79,7 +79,7 @@ fn per_cent(cv: &CvChange) -> String {
 }
 
 /// `20 % less titre, 2 to 1.6 dtex`.
-fn more_or_less(change: &Change, spec: &WebSpec) -> String {
+fn describe_change(change: &Change, spec: &WebSpec) -> String {
     let whose = match change.layer {
         Some(layer) => format!(" of layer {}", name_of(spec, layer)),
         None => String::new(),
@@ -137,15 +137,15 @@ impl AdviceSection {
             let line =
                 [effect.belt_speed[1], HOUR * effect.mass_flow[1]].map(|number| significant(number, 4));
             let cells = patches.iter().map(cv).chain(line).collect();
-            (more_or_less(&effect.change, spec), keys, cells)
+            (describe_change(&effect.change, spec), keys, cells)
         };
         let heads = (patches.iter().map(|patch| format!("CV at {}, %", millimetres(*patch))))
             .chain(["Belt, m/s".to_owned(), "From each metre, kg/h".to_owned()])
             .collect();
         let failed: Vec<String> = (advice.failed.iter())
-            .map(|(change, why)| format!("{}: {why}", more_or_less(change, spec)))
+            .map(|(change, why)| format!("{}: {why}", describe_change(change, spec)))
             .collect();
-        let error = if findings.laid.together.is_some() {
+        let error = if findings.laid.shared_air.is_some() {
             "which counts both maps as independent"
         } else if is_known(spec) {
             "from paths with the same random numbers before and after; the lay-down itself (σ MD, σ CD, A) is taken as it is, because no fibre was flown"

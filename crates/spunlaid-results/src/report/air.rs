@@ -36,20 +36,20 @@ struct AirPage<'a> {
     headline: &'a str,
     summary: String,
     notes: &'a [String],
-    pictures: Vec<Moving<'a>>,
+    pictures: Vec<MovingPicture<'a>>,
     methods_paragraph: Methods,
     toml: String,
 }
 
 /// A moving picture.
-struct Moving<'a> {
+struct MovingPicture<'a> {
     name: &'a str,
     title: &'a str,
     caption: &'a str,
     gif: String,
 }
 
-impl<'a> Moving<'a> {
+impl<'a> MovingPicture<'a> {
     fn new(Picture { figure, moving }: &'a Picture) -> Self {
         Self {
             name: &figure.name,
@@ -70,7 +70,7 @@ pub fn air_html(input: &AirReport<'_>) -> String {
         summary,
         methods_paragraph: Methods::new("air", case_account(input.case), found),
         notes: input.notes,
-        pictures: input.pictures.iter().map(Moving::new).collect(),
+        pictures: input.pictures.iter().map(MovingPicture::new).collect(),
         toml: write_case(input.case),
     })
 }

@@ -133,7 +133,7 @@ fn thousands(number: f64) -> String {
 /// What is told of a picture below it.
 ///
 /// * `pixel` – side of a pixel of the picture [m]
-pub(super) fn about_sheet(pixel: f64) -> String {
+pub(super) fn picture_note(pixel: f64) -> String {
     format!(
         "Lighter where there is less fibre; black and white are three standard deviations apart from the mean. The machine \
          direction runs downwards. A pixel is {} wide. Drag to move the web, zoom with the wheel, two fingers, the buttons or the keys \

@@ -2,7 +2,7 @@
 
 use super::advice::AdviceSection;
 use super::headline::nearest;
-use super::light_table::{about_sheet, sheet};
+use super::light_table::{picture_note, sheet};
 use super::methods::Methods;
 use super::rendered;
 use super::web::{File, WebPage, cost, headline, largest_clouds, per_cent, unevenness};
@@ -46,7 +46,7 @@ pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
         metres(findings.map.columns as f64 * findings.map.cell),
         metres(findings.map.rows as f64 * findings.map.cell)
     );
-    let facts = facts(input);
+    let facts = reading_rows(input);
     let numbers = facts.iter().map(|fact| fact.join(" ")).collect::<Vec<_>>().join(", ");
     let cvs = findings.patches.iter().map(|patch| patch.unevenness).collect::<Vec<_>>();
     let told = vec![summary.clone(), format!("{numbers}.")];
@@ -58,7 +58,7 @@ pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
         headline,
         summary,
         notes: input.notes,
-        caption: about_sheet(sheet.pixel)
+        caption: picture_note(sheet.pixel)
             + if findings.aside.spots.is_empty() { "" } else { " Black spots were left out." },
         sheet,
         fibres: false,
@@ -141,7 +141,7 @@ fn verdict(findings: &Findings) -> Vec<String> {
 }
 
 /// How the scan was read: a name and a value each.
-fn facts(input: &ScanReport<'_>) -> Vec<Vec<String>> {
+fn reading_rows(input: &ScanReport<'_>) -> Vec<Vec<String>> {
     let findings = input.findings;
     let mut facts = vec![
         ("File", input.file.to_owned()),

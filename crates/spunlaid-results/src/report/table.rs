@@ -52,7 +52,7 @@ pub(super) fn sentence(group: &Group) -> String {
 
 fn row(one: &Number) -> ResultRow {
     let (measure, factor) = (one.measure, one.measure.unit.per_si);
-    let (value, note) = match measure.over_replicates {
+    let (value, note) = match measure.aggregate {
         Aggregate::Mean => (estimate_text(&one.estimate, factor), ""),
         Aggregate::Median => (number(one.value() * factor), "; median over the replicates"),
         Aggregate::Largest => (number(one.value() * factor), "; the largest of all replicates"),

@@ -2,7 +2,7 @@
 
 use super::advice::AdviceSection;
 use super::headline::{grams, headline_patch};
-use super::light_table::{Fibres, Sheet, Strands, about_sheet, sheet};
+use super::light_table::{Fibres, Sheet, Strands, picture_note, sheet};
 use super::methods::{Methods, web_account};
 use super::rendered;
 use super::spinline::{self, LayerSpinline, SpinSection};
@@ -95,7 +95,7 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
     let findings = input.findings;
     let strands = Strands { window: input.window, strands: input.strands, diameter: input.diameter };
     let sheet = sheet(&findings.laid.map, Some(Fibres::new(strands)))?;
-    let is_shared = findings.laid.together.is_some();
+    let is_shared = findings.laid.shared_air.is_some();
     let has_flown = !is_shared && findings.patches.iter().any(|patch| patch.flown.is_some());
     let mut heads = vec!["Patch", "CV of this map", "of its error: chance", "95 % interval by chance"];
     if has_flown {
@@ -109,15 +109,15 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
         headline_patch(findings).map(|i| whole(&findings.patches[i])).as_ref(),
     );
     let cvs = findings.patches.iter().map(whole).collect::<Vec<_>>();
-    let found = [headline.clone(), unevenness(&cvs), about_the_error(findings)];
+    let found = [headline.clone(), unevenness(&cvs), error_sentences(findings)];
     let page = WebPage {
         command: "web",
         name: input.name,
         methods_paragraph: Methods::new("web", web_account(input.spec), found),
         headline,
-        summary: [summary(input.web), about_the_air(findings), about_the_error(findings)].join(" "),
+        summary: [summary(input.web), air_sentence(findings), error_sentences(findings)].join(" "),
         notes: input.notes,
-        caption: format!("{} {}", about_sheet(sheet.pixel), strands.words()),
+        caption: format!("{} {}", picture_note(sheet.pixel), strands.words()),
         sheet,
         fibres: true,
         verdict: verdict(findings, input.advice.is_some()),
@@ -227,9 +227,9 @@ fn whole(patch: &PatchFindings) -> Unevenness {
 
 /// What the filaments of a web without independent filaments have in common, and what those with airs of their own leave out, in
 /// a sentence or two.
-fn about_the_air(findings: &Findings) -> String {
+fn air_sentence(findings: &Findings) -> String {
     let patch = headline_patch(findings).map(|i| &findings.patches[i]);
-    match (&findings.laid.together, patch.and_then(|patch| Some((patch, patch.independent?.0)))) {
+    match (&findings.laid.shared_air, patch.and_then(|patch| Some((patch, patch.independent?.0)))) {
         (Some(_), Some((patch, independent))) => format!(
             "In airs of their own the same filaments would give {}, {} times less: here neighbours hang in the same gusts, which carry them \
              aside together and lay them in ropes and clouds.",
@@ -244,7 +244,7 @@ fn about_the_air(findings: &Findings) -> String {
 }
 
 /// What the error in the headline is made of, and what the flown curves say, in sentences.
-fn about_the_error(findings: &Findings) -> String {
+fn error_sentences(findings: &Findings) -> String {
     let Some(patch) = headline_patch(findings).map(|i| &findings.patches[i]) else { return String::new() };
     if patch.independent.is_some() {
         return "The error is by chance: every filament of the sheet was flown.".to_owned();
@@ -272,7 +272,7 @@ type Column = (&'static str, fn(&PatchFindings) -> Option<(f64, f64)>);
 
 /// The expected CVs that are known.
 fn sources(findings: &Findings) -> Vec<Column> {
-    if findings.laid.together.is_some() {
+    if findings.laid.shared_air.is_some() {
         return vec![
             ("CV of the same filaments in airs of their own", |patch| patch.independent),
             ("CV expected, from pairs of filaments", |patch| Some((patch.pairs?, f64::NAN))),
@@ -285,7 +285,7 @@ fn sources(findings: &Findings) -> Vec<Column> {
     let mut known: Vec<Column> =
         all.into_iter().filter(|(_, cv)| findings.patches.iter().any(|patch| cv(patch).is_some())).collect();
     if known.is_empty() {
-        known.push(("CV expected, from single fibres", |patch| Some(patch.one_fibre)));
+        known.push(("CV expected, from single fibres", |patch| Some(patch.single_fibres)));
     }
     known
 }
@@ -379,7 +379,7 @@ fn verdict(findings: &Findings, has_advice: bool) -> Vec<String> {
     let patch = &findings.patches[i];
     // The flown curves are believed where there are some.
     let is_shared = patch.independent.is_some();
-    let cv = if is_shared { patch.map.cv } else { patch.flown.unwrap_or(patch.one_fibre).0 };
+    let cv = if is_shared { patch.map.cv } else { patch.flown.unwrap_or(patch.single_fibres).0 };
     let ratio = cv / patch.straight_fibres;
     let why = if is_shared {
         "filaments that come down together make clouds"

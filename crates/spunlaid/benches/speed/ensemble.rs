@@ -7,15 +7,15 @@ use crate::title;
 use cpu_time::ProcessTime;
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::{Computing, Keep, Results, fly, turbulence_spectrum};
+use spunlaid::ensemble::{Keep, Results, RunControl, fly, turbulence_spectrum};
 use spunlaid::error::Error;
 use spunlaid::lanes::{Isa, WIDTH};
 use std::hint::black_box;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::Instant;
 
-fn computing<'a>(threads: usize, stop: &'a AtomicBool, fibre_steps: &'a AtomicU64) -> Computing<'a> {
-    Computing { threads, isa: Isa::detect(), stop, fibre_steps, recorder: None }
+fn computing<'a>(threads: usize, stop: &'a AtomicBool, fibre_steps: &'a AtomicU64) -> RunControl<'a> {
+    RunControl { threads, isa: Isa::detect(), stop, fibre_steps, recorder: None }
 }
 
 fn fly_all(case: &Case, threads: usize) {

@@ -2,7 +2,7 @@
 //! paths are off.
 
 use spunlaid::case::Case;
-use spunlaid::ensemble::{Computing, Job, Keep, Sample, Trajectory, fly_together};
+use spunlaid::ensemble::{Job, Keep, RunControl, Sample, Trajectory, fly_together};
 use spunlaid::lanes::{Isa, WIDTH};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 pub fn trajectories_of(case: &Case) -> Vec<Trajectory> {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing =
-        Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
+        RunControl { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
     let jobs: Vec<Job<'_>> = (0..WIDTH as u64).map(|replicate| Job::new(case, replicate)).collect();
     fly_together(&jobs, Keep::SAMPLES, computing).expect("the case flies")
 }

@@ -4,7 +4,7 @@ use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;
 use spunlaid::lanes::{Isa, Lanes, WIDTH};
 use spunlaid::surrogate::{PathKey, Paths, Surrogate};
-use spunlaid::web::{Edges, Fibres, Filaments, Layer, Laying, Sheet, Web, lay};
+use spunlaid::web::{Edges, Fibres, Filaments, LayControl, Layer, Sheet, Web, lay};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 const SURROGATE: Surrogate = Surrogate { sigma_md: 18.4e-3, sigma_cd: 18.3e-3, noise: 12.4 };
@@ -22,7 +22,7 @@ pub fn costs() {
                 Trial::new(metres, move || {
                     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
                     processor_time(|| {
-                        let laying = Laying { threads: 1, isa, stop: &stop, laid: &laid };
+                        let laying = LayControl { threads: 1, isa, stop: &stop, laid: &laid };
                         lay(&web, laying).expect("a web that can be laid");
                     })
                 }),
@@ -43,7 +43,7 @@ fn web(cell: f64) -> Web {
             belt_speed: 3.0,
             filaments: Filaments::AtRandom { per_metre: 1024.0 },
             fibres: Fibres::Surrogate(SURROGATE),
-            compared: None,
+            other_description: None,
         }],
         seed: 1,
     }

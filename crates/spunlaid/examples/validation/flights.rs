@@ -7,7 +7,7 @@ use spunlaid::case::{Case, Neighbours, Run};
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::FrictionLaw;
-use spunlaid::ensemble::{Computing, Keep, Number, Results, fly};
+use spunlaid::ensemble::{Keep, Number, Results, RunControl, fly};
 use spunlaid::error::Error;
 use spunlaid::flight::{Flight, Snapshot};
 use spunlaid::lanes::{Isa, WIDTH};
@@ -45,7 +45,7 @@ fn results(case: &Case) -> Results {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let computing =
-        Computing { threads, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
+        RunControl { threads, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
     let mut collector = Results::collector(0);
     let done: Result<(), Error> = fly(case, Keep::NUMBERS, computing, |flight| {
         collector.take(flight);

@@ -5,7 +5,9 @@ use spunlaid::lanes::Isa;
 use spunlaid::statistics::{difference_of_deviations, interval_of_deviation};
 use spunlaid::surrogate::Surrogate;
 use spunlaid::web::uniformity::{Unevenness, unevenness_at};
-use spunlaid::web::{Clouds, Edges, Fibres, Filaments, Layer, Laying, Map, Row, Sheet, Web, lay, measure};
+use spunlaid::web::{
+    Clouds, Edges, Fibres, Filaments, LayControl, Layer, Map, Row, Sheet, Web, lay, measure,
+};
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -25,7 +27,7 @@ fn web(filaments: Filaments, sizes: [f64; 2], edges: Edges) -> Web {
             belt_speed: 3.86,
             filaments,
             fibres: Fibres::Surrogate(spunbond),
-            compared: None,
+            other_description: None,
         }],
         seed: 0,
     }
@@ -105,7 +107,7 @@ pub fn intervals() {
 
 fn of_kind(web: &Web) {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = Laying { threads: 1, isa: Isa::detect(), stop: &stop, laid: &laid };
+    let by = LayControl { threads: 1, isa: Isa::detect(), stop: &stop, laid: &laid };
     // The edges are as wide for every seed.
     let margins =
         measure(&Web { sheet: Sheet { patches: vec![10.0 * CELL], ..web.sheet.clone() }, ..web.clone() }, by)

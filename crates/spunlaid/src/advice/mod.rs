@@ -14,7 +14,7 @@ use crate::layers::{Flights, Flyer, LaydownSource, LayerSpec, Method, WebSpec};
 use crate::statistics::Difference;
 use crate::threads::try_each;
 use crate::web::uniformity::Unevenness;
-use crate::web::{ExpectedCv, Findings, Laying, PatchFindings, Web, expected_cv};
+use crate::web::{ExpectedCv, Findings, LayControl, PatchFindings, Web, expected_cv};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// What changes of settings do to the CV of a web.
@@ -72,21 +72,21 @@ const LEAST: f64 = 0.01;
 
 impl Advice {
     /// The changes that lower the CV over patches of this side by at least one per cent of it and beyond chance: the best of each setting, and of these the best first.
-    pub fn lowering(&self, patch: f64) -> Vec<(&Effect, &CvChange)> {
+    pub fn improvements(&self, patch: f64) -> Vec<(&Effect, &CvChange)> {
         let lowers = |effect| {
             let cv: &CvChange = Effect::over(effect, patch)?;
             (cv.change <= -LEAST && cv.is_beyond_chance()).then_some((effect, cv))
         };
-        let mut lowering: Vec<(&Effect, &CvChange)> = self.effects.iter().filter_map(lowers).collect();
-        lowering.sort_by(|a, b| a.1.change.total_cmp(&b.1.change));
+        let mut improvements: Vec<(&Effect, &CvChange)> = self.effects.iter().filter_map(lowers).collect();
+        improvements.sort_by(|a, b| a.1.change.total_cmp(&b.1.change));
         let setting = |effect: &Effect| (effect.change.setting, effect.change.layer);
         let mut settings = Vec::new();
-        lowering.retain(|(effect, _)| {
+        improvements.retain(|(effect, _)| {
             let is_new = !settings.contains(&setting(effect));
             settings.push(setting(effect));
             is_new
         });
-        lowering
+        improvements
     }
 }
 
@@ -117,20 +117,20 @@ pub fn advise(
     spec: &WebSpec,
     (web, findings): (&Web, &Findings),
     changes: Vec<Change>,
-    by: Laying<'_>,
+    by: LayControl<'_>,
 ) -> Result<Advice, Error> {
     let is_shared = spec.method == Method::SharedAir;
     let aside = AtomicU64::new(0);
     let base = if is_shared {
         Unevennesses::OfMaps(findings.patches.clone())
     } else {
-        Unevennesses::Expected(expected_cv(web, Laying { laid: &aside, ..by })?)
+        Unevennesses::Expected(expected_cv(web, LayControl { laid: &aside, ..by })?)
     };
     // A flight of eight fibres takes one thread, and many changes are tried side by side. All filaments in one air take all threads.
     let (abreast, threads) = if is_shared { (1, by.threads) } else { (by.threads, 1) };
     let tried = try_each(abreast, changes.len(), |i| {
         let spec = &changes[i].spec;
-        let tried = unevennesses(spec, Laying { threads, laid: &aside, ..by });
+        let tried = unevennesses(spec, LayControl { threads, laid: &aside, ..by });
         by.laid.fetch_add(steps_of_web(spec), Ordering::Relaxed);
         match tried {
             Ok(found) => Ok(Ok(base.changes_to(&found))),
@@ -199,7 +199,7 @@ impl Unevennesses {
     }
 }
 
-fn unevennesses(spec: &WebSpec, by: Laying<'_>) -> Result<Unevennesses, Error> {
+fn unevennesses(spec: &WebSpec, by: LayControl<'_>) -> Result<Unevennesses, Error> {
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
     let is_flown = |layer: &LayerSpec| matches!(layer.source, LaydownSource::Case { .. });
     // The flown curves are compared, whether a surrogate is found in them or not.

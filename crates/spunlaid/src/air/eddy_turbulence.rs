@@ -18,7 +18,7 @@ pub struct EddyTurbulence {
     /// Time that the flow takes from the eddy above to this one [s]; `None` if the two are independent.
     pub carried: Option<f64>,
     /// That time divided by the decay time [-].
-    pub forgotten: f64,
+    pub decay_times: f64,
 }
 
 impl EddyTurbulence {
@@ -46,7 +46,7 @@ impl Air {
             cutoff_frequency: self.cutoff_frequency,
             integral_time: self.length_scale / self.velocity.abs(),
             carried: None,
-            forgotten: 0.0,
+            decay_times: 0.0,
         }
     }
 
@@ -97,7 +97,7 @@ impl Air {
                     let time = (middle - above) * spacing / speed;
                     // Air at rest carries nothing.
                     if eddy > 0 && time.is_finite() {
-                        (turbulence.carried, turbulence.forgotten) = (Some(time), time / decay_time);
+                        (turbulence.carried, turbulence.decay_times) = (Some(time), time / decay_time);
                     }
                 }
                 above = middle;

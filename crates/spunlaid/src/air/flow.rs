@@ -58,7 +58,7 @@ impl Flow {
     }
 
     /// Which numbers the flow contains besides the velocity.
-    pub fn tells(&self) -> FlowNumbers {
+    pub fn numbers(&self) -> FlowNumbers {
         match self {
             Self::Uniform => FlowNumbers::default(),
             Self::Profile(profile) => FlowNumbers {

@@ -89,7 +89,7 @@ impl Air {
             own.1 += amplitudes[1].iter().map(|a| a * a).sum::<f64>();
         }
         let whole = (own.0 * own.1).sqrt();
-        if whole > 0.0 { (common / whole * libm::exp(-lower.forgotten)).clamp(0.0, 1.0) } else { 1.0 }
+        if whole > 0.0 { (common / whole * libm::exp(-lower.decay_times)).clamp(0.0, 1.0) } else { 1.0 }
     }
 }
 

@@ -70,7 +70,7 @@ pub struct Beam<'a> {
 
 /// What computes, and how it is watched and stopped.
 #[derive(Clone, Copy, Debug)]
-pub struct Flying<'a> {
+pub struct BeamControl<'a> {
     /// Number of threads. What is laid does not depend on it.
     pub threads: usize,
     /// Instruction set. What is laid does not depend on it.
@@ -121,13 +121,13 @@ impl Beam<'_> {
         &self,
         sheet: &Sheet,
         window: Window,
-        by: Flying<'_>,
+        by: BeamControl<'_>,
     ) -> Result<(LaidWeb, BeamFindings), Error> {
         let element = self.element_mass();
         let canvas = Canvas::new(sheet, &[element], self.basis_weight(sheet))?;
         let mut flown = self.fly((sheet, window), (&canvas, canvas.quanta(element)), by)?;
-        let together = Some(flown.together());
-        Ok((LaidWeb { together, ..canvas.finish()? }, flown))
+        let shared_air = Some(flown.take_shared_air());
+        Ok((LaidWeb { shared_air, ..canvas.finish()? }, flown))
     }
 
     /// Mass of an element of a filament [kg].
@@ -153,7 +153,7 @@ impl Beam<'_> {
         &self,
         (sheet, window): (&Sheet, Window),
         (canvas, quanta): (&Canvas, u32),
-        by: Flying<'_>,
+        by: BeamControl<'_>,
     ) -> Result<BeamFindings, Error> {
         let started = Instant::now();
         let line = self.case.line.filter(|line| line.belt_speed > 0.0);
@@ -171,7 +171,7 @@ impl Beam<'_> {
         let neighbours = pack::neighbours(self.places);
         let packs: Vec<Mutex<Option<Pack>>> = neighbours.iter().map(|_| Mutex::new(None)).collect();
         let locked = |i: usize| packs[i].lock().unwrap_or_else(PoisonError::into_inner);
-        let start = air_during(&mut shared, 0..steps, &mut making);
+        let start = make_air(&mut shared, 0..steps, &mut making);
         in_parallel(packs.len(), &|i| {
             *locked(i) = Some(Pack::new(self, &neighbours[i], by.isa, start.as_ref())?);
             Ok(Reach::default())
@@ -182,7 +182,7 @@ impl Beam<'_> {
         let mut together = Neighbours::new(self, sheet);
         let mut done = 0;
         while !stretch.is_laid(&reach) {
-            let field = air_during(&mut shared, done..done + steps, &mut making);
+            let field = make_air(&mut shared, done..done + steps, &mut making);
             let (now, before) = (&stretch, reach);
             let reaches = in_parallel(packs.len(), &|i| {
                 if by.stop.load(Ordering::Relaxed) {
@@ -238,8 +238,8 @@ impl Beam<'_> {
 }
 
 impl BeamFindings {
-    /// What is to be known of the web; its single fibres are taken.
-    pub(crate) fn together(&mut self) -> SharedAirFindings {
+    /// The findings on the web in one air. The strands of single fibres are moved out of `self`.
+    pub(crate) fn take_shared_air(&mut self) -> SharedAirFindings {
         let Self { strands, neighbours, pairs, lost, time, spent, .. } = self;
         SharedAirFindings {
             strands: std::mem::take(strands),
@@ -263,7 +263,7 @@ impl BeamFindings {
 /// The air that all filaments share during some steps, if they share one.
 ///
 /// * `making` – becomes longer by the time that it takes to make it
-fn air_during(
+fn make_air(
     shared: &mut Option<SharedField>,
     steps: Range<u64>,
     making: &mut Duration,

@@ -71,7 +71,7 @@ impl Pack {
             let now = left.min(STEPS_UNSEEN);
             self.flight.advance(now);
             left -= now;
-            for (lane, reason) in self.flight.all_lost() {
+            for (lane, reason) in self.flight.losses() {
                 self.filaments[lane].lost.get_or_insert(reason);
             }
         }

@@ -49,7 +49,7 @@ pub(super) struct Pairs {
 }
 
 /// Mean deviation of each filament, in machine and in cross direction [m], and whether it was lost.
-type Known<'a> = (&'a [[f64; 2]], &'a [bool]);
+type Deviations<'a> = (&'a [[f64; 2]], &'a [bool]);
 
 /// Two filaments.
 #[derive(Debug)]
@@ -147,7 +147,7 @@ impl Pairs {
         &self,
         beam: &Beam<'_>,
         sheet: &Sheet,
-        (means, lost): Known<'_>,
+        (means, lost): Deviations<'_>,
         threads: usize,
     ) -> Vec<SharedVariance> {
         let covariances = |pairs: &Vec<Pair>| {

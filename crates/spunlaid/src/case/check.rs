@@ -308,7 +308,7 @@ impl Check<'_> {
         };
         let (records, convected) =
             (self.case.air.records.len(), turbulence.iter().any(|t| t.carried.is_some()));
-        if convected && turbulence.iter().any(|eddy| eddy.forgotten > 0.0) {
+        if convected && turbulence.iter().any(|eddy| eddy.decay_times > 0.0) {
             let (other, remedy) =
                 ("air.decay_time", "a record is carried along unchanged; leave air.decay_time out");
             self.blame_key("air.record", self.names(), Fault::excludes(other, remedy));

@@ -65,7 +65,7 @@ impl Case {
     fn unusual(&self, key: &Key) -> Option<Note> {
         let Value::Number(value) = key.get(self)? else { return None };
         let remark = unusual(key.dimension()?, key.usual?, value)?;
-        if key.is_told(self) {
+        if key.is_derived(self) {
             let Remark::Unusual { least, greatest, .. } = remark else { return None };
             let value = key.kind.pretty(&Value::Number(value));
             return self.of_file(Remark::UnusualInFile { key: key.name, value, least, greatest });

@@ -11,7 +11,7 @@
 use super::constants::{Constants, ElementConstants};
 use super::force_pass::{ElementBlock, Integrator, force_pass};
 use super::forces::Element;
-use super::laying::Laying;
+use super::laying::LayingState;
 use super::work::{Kick, Supports, WorkDone, WorkRegisters};
 use super::{Chain, Stride};
 use crate::air::Velocities;
@@ -56,7 +56,7 @@ pub(crate) fn step<S: Register, const LEAPFROG: bool, const FED: bool>(
 /// The nodes on their way through the step.
 struct ExplicitIntegrator<'a, S: Register, const LEAPFROG: bool, const FED: bool> {
     damped: bool,
-    laying: Option<&'a mut Laying>,
+    laying: Option<&'a mut LayingState>,
     /// The length of the drift [s].
     step: f64,
     supports: Supports,

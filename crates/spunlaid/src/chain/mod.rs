@@ -11,7 +11,7 @@ pub mod schemes;
 pub mod work;
 
 use self::constants::{Constants, ElementProperties};
-use self::laying::Laying;
+use self::laying::LayingState;
 use self::schemes::Scheme;
 use crate::company::{PerLane, shared};
 use crate::drag::{Curve, ElementDrag};
@@ -99,7 +99,7 @@ pub struct Chain {
     /// What only the scheme with implicit tension needs.
     pub(crate) tensions: implicit::Tensions,
     /// How it is fed and laid down; none for a fibre of fixed length.
-    pub(crate) laying: Option<Laying>,
+    pub(crate) laying: Option<LayingState>,
 }
 
 impl Chain {
@@ -161,7 +161,7 @@ impl Chain {
 
     /// Number of elements that have been fed so far.
     pub(crate) fn fed(&self) -> u64 {
-        self.laying.as_ref().map_or(0, Laying::fed)
+        self.laying.as_ref().map_or(0, LayingState::fed)
     }
 
     /// Number of nodes of the fibre in each lane. Nodes after them have been laid down.

@@ -1,6 +1,6 @@
 //! A replicate with its companions in the same air.
 
-use super::{Computing, Job, Keep, Trajectory, fly_each};
+use super::{Job, Keep, RunControl, Trajectory, fly_each};
 use crate::case::Case;
 use crate::error::Error;
 use crate::fibre::Place;
@@ -16,7 +16,7 @@ pub(super) fn fly_beside(
     case: &Case,
     replicate: u64,
     keep: Keep,
-    computing: Computing<'_>,
+    computing: RunControl<'_>,
 ) -> Result<Result<Trajectory, Error>, Error> {
     let places: Vec<Place> = case.neighbours.places().collect();
     let mut whole: Option<Trajectory> = None;
@@ -26,7 +26,7 @@ pub(super) fn fly_beside(
             std::iter::once(first).chain(some.iter().map(|place| Job { place: *place, ..first })).collect();
         let (keep, computing) = match whole {
             None => (keep, computing),
-            Some(_) => (Keep::CURVES, Computing { recorder: None, ..computing }),
+            Some(_) => (Keep::CURVES, RunControl { recorder: None, ..computing }),
         };
         let flown: Result<Vec<Trajectory>, Error> = fly_each(&jobs, keep, computing)?.into_iter().collect();
         let flown = match flown {

@@ -28,7 +28,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// How an ensemble is computed. None of it changes a bit of the results.
 #[derive(Clone, Copy, Debug)]
-pub struct Computing<'a> {
+pub struct RunControl<'a> {
     /// Number of threads.
     pub threads: usize,
     /// Instruction set.
@@ -51,7 +51,7 @@ pub struct Computing<'a> {
 pub fn fly<E: From<Error>>(
     case: &Case,
     keep: Keep,
-    computing: Computing<'_>,
+    computing: RunControl<'_>,
     mut take: impl FnMut(Trajectory) -> Result<(), E>,
 ) -> Result<(), E> {
     in_order(
@@ -74,31 +74,31 @@ pub fn fly_and_check<E: From<Error>>(
     case: &Case,
     plans: &FinerPlans,
     keep: Keep,
-    computing: Computing<'_>,
+    computing: RunControl<'_>,
     mut take: impl FnMut(Result<Trajectory, LostFibre>) -> Result<(), E>,
 ) -> Result<FinerChecks, E> {
-    enum Landed {
+    enum FlightResult {
         Run(Result<Vec<Result<Trajectory, Error>>, Error>),
         Check(Result<finer::Flight, Error>),
     }
     let pieces = pieces(case, keep);
     let more: Vec<_> = plans.all().flat_map(|plan| plan.flights().map(move |case| (plan, case))).collect();
     let paths = finer::Paths::of_run(plans.step.as_ref(), computing.recorder);
-    let watched = Computing { recorder: Some(&paths), ..computing };
+    let watched = RunControl { recorder: Some(&paths), ..computing };
     let (mut flown, mut replicate, mut left, mut first_lost) = (Vec::new(), 0, 0, None);
     in_order(
         pieces + more.len(),
         computing.threads,
         |index| match index.checked_sub(pieces).and_then(|index| more.get(index)) {
-            Some((plan, case)) => Landed::Check(plan.fly(case, computing)),
-            None => Landed::Run(fly_one(case, index, keep, watched)),
+            Some((plan, case)) => FlightResult::Check(plan.fly(case, computing)),
+            None => FlightResult::Run(fly_one(case, index, keep, watched)),
         },
         |landed| {
             match landed {
                 // A run is not lost with a check of it.
-                Landed::Check(Err(Error::Interrupted)) => return Err(Error::Interrupted.into()),
-                Landed::Check(check) => flown.push(check),
-                Landed::Run(landed) => {
+                FlightResult::Check(Err(Error::Interrupted)) => return Err(Error::Interrupted.into()),
+                FlightResult::Check(check) => flown.push(check),
+                FlightResult::Run(landed) => {
                     for landed in landed? {
                         match landed {
                             Ok(trajectory) => {
@@ -148,7 +148,7 @@ fn fly_one(
     case: &Case,
     index: usize,
     keep: Keep,
-    computing: Computing<'_>,
+    computing: RunControl<'_>,
 ) -> Result<Vec<Result<Trajectory, Error>>, Error> {
     if has_companions(case, keep) {
         return Ok(vec![beside::fly_beside(case, index as u64, keep, computing)?]);

@@ -51,7 +51,7 @@ impl Number {
     /// The value that stands for all replicates: mean, median or largest, as the measure declares.
     pub fn value(&self) -> f64 {
         let values = &self.estimate.values;
-        match self.measure.over_replicates {
+        match self.measure.aggregate {
             Aggregate::Mean => self.estimate.mean,
             Aggregate::Median => median(values),
             Aggregate::Largest => values.iter().copied().fold(f64::NAN, f64::max),

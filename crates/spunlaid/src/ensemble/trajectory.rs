@@ -1,6 +1,6 @@
 //! The trajectory of one replicate.
 
-use super::{Computing, EndPath, Shapes};
+use super::{EndPath, RunControl, Shapes};
 use crate::case::Case;
 use crate::error::{Error, Fault};
 use crate::flight::{Flight, Job, LaidPoint, SurroundingRun};
@@ -101,7 +101,7 @@ impl KeepShapes {
 pub fn fly_together(
     jobs: &[Job<'_>],
     keep: Keep,
-    computing: Computing<'_>,
+    computing: RunControl<'_>,
 ) -> Result<Vec<Trajectory>, Error> {
     let first = jobs.first().ok_or_else(Error::no_fibre)?;
     fly_in_air(jobs, keep, SurroundingRun::run(first.case), computing)
@@ -120,7 +120,7 @@ fn first_counted(case: &Case) -> f64 {
 pub fn fly_each(
     jobs: &[Job<'_>],
     keep: Keep,
-    computing: Computing<'_>,
+    computing: RunControl<'_>,
 ) -> Result<Vec<Result<Trajectory, Error>>, Error> {
     let mut lost: Vec<(usize, Error)> = Vec::new();
     loop {
@@ -153,7 +153,7 @@ pub(super) fn fly_in_air(
     jobs: &[Job<'_>],
     keep: Keep,
     air: SurroundingRun<'_>,
-    computing: Computing<'_>,
+    computing: RunControl<'_>,
 ) -> Result<Vec<Trajectory>, Error> {
     fly_until_lost(jobs, keep, air, computing).map_err(|ended| match ended {
         FlightEnd::Lost { error, .. } | FlightEnd::Otherwise(error) => error,
@@ -180,7 +180,7 @@ fn fly_until_lost(
     jobs: &[Job<'_>],
     keep: Keep,
     air: SurroundingRun<'_>,
-    computing: Computing<'_>,
+    computing: RunControl<'_>,
 ) -> Result<Vec<Trajectory>, FlightEnd> {
     let mut flight = Flight::in_air(jobs, computing.isa, air)?;
     if let Some(recorder) = computing.recorder {

@@ -1,6 +1,6 @@
 //! The turbulence around the fibres, measured as a hot wire at a fixed point would.
 
-use super::{Computing, Job};
+use super::{Job, RunControl};
 use crate::air::{Spectrum, Stream, StreamKey, Wind};
 use crate::case::Case;
 use crate::error::Error;
@@ -13,7 +13,7 @@ pub struct SpectrumPoint {
     /// Frequency [Hz].
     pub frequency: f64,
     /// Spectral density of the synthesised turbulence [(m/s)²/Hz].
-    pub realised: f64,
+    pub synthesised: f64,
     /// Spectral density of the model [(m/s)²/Hz].
     pub wanted: f64,
 }
@@ -32,7 +32,7 @@ const STATIONS: usize = 12;
 ///
 /// # Errors
 /// The wind of the case cannot be made, see [`Wind::along`].
-pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Result<Vec<SpectrumPoint>, Error> {
+pub fn turbulence_spectrum(case: &Case, computing: RunControl<'_>) -> Result<Vec<SpectrumPoint>, Error> {
     if case.air.rms() == 0.0 {
         return Ok(Vec::new());
     }
@@ -72,12 +72,12 @@ pub fn turbulence_spectrum(case: &Case, computing: Computing<'_>) -> Result<Vec<
     let spectrum = welch.finish();
     let points = spectrum
         .points()
-        .map(|(frequency, realised)| {
+        .map(|(frequency, synthesised)| {
             let omega = 2.0 * std::f64::consts::PI * frequency;
             // Per hertz instead of per radian per second.
             let sum: f64 = wanted.iter().map(|spectrum| spectrum.energy(omega)).sum();
             let wanted = sum / wanted.len() as f64 * 2.0 * std::f64::consts::PI;
-            SpectrumPoint { frequency, realised, wanted }
+            SpectrumPoint { frequency, synthesised, wanted }
         })
         .collect();
     Ok(points)

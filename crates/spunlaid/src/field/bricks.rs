@@ -136,7 +136,7 @@ impl Bricks {
             }
         }
         let (values, inside) = field.sample(at, hint);
-        AirAround { value: brief(values), gradients: [[0.0; 4]; 3], reach: 0.0, inside }
+        AirAround { value: air_numbers(values), gradients: [[0.0; 4]; 3], reach: 0.0, inside }
     }
 
     fn place(&self, at: [f64; 3]) -> Place {
@@ -218,7 +218,7 @@ impl Bricks {
         let mut hint = Hint::default();
         let mut at = |share: [f64; 3]| {
             let (values, inside) = field.sample(to_point(share), &mut hint);
-            (brief(values), inside)
+            (air_numbers(values), inside)
         };
         let mut values = Values { at: [[0.0; 4]; POINTS], inside: true, margin: 0.0 };
         let mut outside = 0;
@@ -266,7 +266,7 @@ impl Bricks {
                     {
                         let share = [0, 1, 2].map(|axis| (point[axis] - place.corner[axis]) / place.size);
                         let found = values.continued(share.map(|share| share.clamp(0.0, 1.0)), share);
-                        most = most.max(difference(&brief(*exact), &found));
+                        most = most.max(difference(&air_numbers(*exact), &found));
                     }
                 });
                 most
@@ -288,7 +288,7 @@ impl Bricks {
 /// Steps of an evenly spread sequence of points along x, y and z (Roberts' R₃).
 const RATIOS: [f64; 3] = [0.819_172_513_396_164_5, 0.671_043_606_703_789_2, 0.549_700_477_901_967_3];
 
-fn brief([u, v, w, k, _]: Quantities) -> AirNumbers {
+fn air_numbers([u, v, w, k, _]: Quantities) -> AirNumbers {
     [u, v, w, k.max(0.0).sqrt()]
 }
 

@@ -2,7 +2,7 @@
 
 use super::interval::{Ends, IntervalEnd};
 use super::parameter::Parameter;
-use super::search::{Place, rest};
+use super::search::{Place, residuals_of};
 use super::surface::{Surface, in_place_of_the_scan};
 use super::texture::Texture;
 use super::values::Values;
@@ -116,20 +116,20 @@ pub(super) fn found(
     values: Values,
     (ends, others): (&[Ends], &Matrix),
 ) -> Fit {
-    let Values { at, surface, profiles, far } = values;
+    let Values { coordinates, surface, profiles, far } = values;
     let fit = Fit {
-        keys: keys(webs, (&surface, ends), &at, profiles),
+        keys: keys(webs, (&surface, ends), &coordinates, profiles),
         correlations: Vec::new(),
         alike: Vec::new(),
         numbers: numbers(webs, place, &surface),
-        misfit: [0, place.trial].map(|trial| misfit(&place.weights, &rest(webs, trial))),
-        worse: worse(webs, place, &surface, others),
+        misfit: [0, place.trial].map(|trial| misfit(&place.weights, &residuals_of(webs, trial))),
+        worse: count_larger_misfits(webs, place, &surface, others),
         webs: webs.count,
         trials: trials(webs, place),
         settled: place.settled || far < 1.0,
         refused: webs.refused.iter().map(|(values, error)| (values.clone(), error.to_string())).collect(),
     };
-    let (correlations, alike) = together(&surface, &place.weights, webs.parameters.len());
+    let (correlations, alike) = correlate_keys(&surface, &place.weights, webs.parameters.len());
     Fit { correlations, alike, ..fit }
 }
 
@@ -137,22 +137,22 @@ pub(super) fn found(
 fn keys(
     webs: &Webs<'_>,
     (surface, ends): (&Surface, &[Ends]),
-    at: &[f64],
+    coordinates: &[f64],
     profiles: Vec<Vec<(f64, f64)>>,
 ) -> Vec<FittedKey> {
     let key = |(key, mut profile): (usize, Vec<(f64, f64)>)| {
         let parameter = &webs.parameters[key];
-        let (parameter, value) = (parameter.clone(), parameter.value(at[key]));
-        let Some(own) = surface.known.iter().position(|known| *known == key) else {
+        let (parameter, value) = (parameter.clone(), parameter.value(coordinates[key]));
+        let Some(index) = surface.keys.iter().position(|known| *known == key) else {
             let interval = Err("it changes nothing of what is compared".to_owned());
             let (ends, doubt) = ([IntervalEnd::OfRange; 2], Some(KeyDoubt::NoEffect));
             return FittedKey { parameter, value, interval, ends, profile, doubt };
         };
         let [low, high] = parameter.ends();
-        profile.extend(&ends[own].profile);
+        profile.extend(&ends[index].profile);
         profile.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let Ends { coordinates, kinds: ends, .. } = &ends[own];
-        let near = |end: f64| (at[key] - end).abs() < 1e-9 * (high - low);
+        let Ends { coordinates, kinds: ends, .. } = &ends[index];
+        let near = |end: f64| (coordinates[key] - end).abs() < 1e-9 * (high - low);
         let doubt = if *ends == [IntervalEnd::OfRange; 2] {
             Some(KeyDoubt::Unknown)
         } else {
@@ -166,14 +166,14 @@ fn keys(
 }
 
 /// Correlations of the errors of all keys, and the keys that cannot be told apart.
-fn together(surface: &Surface, weights: &Matrix, keys: usize) -> (Matrix, Vec<InseparableKeys>) {
-    let Surface { known, slopes, errors, .. } = surface;
+fn correlate_keys(surface: &Surface, weights: &Matrix, count: usize) -> (Matrix, Vec<InseparableKeys>) {
+    let Surface { keys, slopes, errors, .. } = surface;
     let information = information(weights, slopes);
     let mut correlations: Matrix =
-        (0..keys).map(|i| (0..keys).map(|j| f64::from(u8::from(i == j))).collect()).collect();
+        (0..count).map(|i| (0..count).map(|j| f64::from(u8::from(i == j))).collect()).collect();
     let mut alike = Vec::new();
-    for (i, key) in known.iter().enumerate() {
-        for (j, other) in known.iter().enumerate().filter(|(j, _)| *j != i) {
+    for (i, key) in keys.iter().enumerate() {
+        for (j, other) in keys.iter().enumerate().filter(|(j, _)| *j != i) {
             let scale = errors.standard_error(i) * errors.standard_error(j);
             let correlation = (errors.covariance(i, j) / scale).clamp(-1.0, 1.0);
             correlations[*key][*other] = correlation;
@@ -196,7 +196,7 @@ fn numbers(webs: &Webs<'_>, place: &Place, surface: &Surface) -> Vec<FittedNumbe
             texture: webs.target.textures.all[i],
             scan: libm::exp(webs.target.logarithms[i]),
             start: libm::exp(webs.trials[0].mean[i]),
-            found: libm::exp(surface.here[i]),
+            found: libm::exp(surface.numbers[i]),
             scatter: (squares / (trial.webs.len() as f64 - 1.0)).sqrt(),
         }
     };
@@ -206,7 +206,7 @@ fn numbers(webs: &Webs<'_>, place: &Place, surface: &Surface) -> Vec<FittedNumbe
 /// How many webs of the place, each taken as the scan, leave a larger misfit.
 ///
 /// * `others` – standard errors of the logarithms by causes other than chance
-fn worse(webs: &Webs<'_>, place: &Place, surface: &Surface, others: &Matrix) -> u64 {
+fn count_larger_misfits(webs: &Webs<'_>, place: &Place, surface: &Surface, others: &Matrix) -> u64 {
     let all = &webs.trials[place.trial].webs;
     let causes: Matrix = others.iter().chain(&webs.target.camera).cloned().collect();
     let left = |weights: &Matrix, apart: &[f64]| {
@@ -214,7 +214,7 @@ fn worse(webs: &Webs<'_>, place: &Place, surface: &Surface, others: &Matrix) -> 
         misfit(weights, &unexplained(&gain, &surface.slopes, apart))
     };
     let apart: Vec<f64> =
-        webs.target.logarithms.iter().zip(&surface.here).map(|(scan, here)| scan - here).collect();
+        webs.target.logarithms.iter().zip(&surface.numbers).map(|(scan, here)| scan - here).collect();
     let of_scan = left(&weights(all.iter(), &causes).unwrap_or_else(|| place.weights.clone()), &apart);
     let is_worse = |web: &usize| {
         let (weights, mut apart) = in_place_of_the_scan(webs, place, *web, &causes);
@@ -232,7 +232,7 @@ fn worse(webs: &Webs<'_>, place: &Place, surface: &Surface, others: &Matrix) -> 
 fn trials(webs: &Webs<'_>, place: &Place) -> Vec<FitTrial> {
     let trial = |trial: usize| FitTrial {
         values: webs.trials[trial].values.clone(),
-        misfit: misfit(&place.weights, &rest(webs, trial)),
+        misfit: misfit(&place.weights, &residuals_of(webs, trial)),
     };
     (0..webs.trials.len()).map(trial).collect()
 }

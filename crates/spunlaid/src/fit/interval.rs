@@ -1,7 +1,7 @@
 //! The ends of the intervals: values of which a scan like this one would be found that far away by chance, once in forty times.
 
 use super::polynomials::Polynomials;
-use super::search::{Place, rest, weights_at};
+use super::search::{Place, residuals_of, weights_at};
 use super::surface::Surface;
 use super::values::{Values, least_misfit};
 use super::webs::Webs;
@@ -54,14 +54,14 @@ pub(super) fn ends(
 ) -> Result<Vec<Ends>, Error> {
     let t = student_t_95(webs.count - 1);
     let mut reach = vec![1.0; webs.parameters.len()];
-    for (own, key) in values.surface.known.iter().enumerate() {
-        let from_place = (values.at[*key] - webs.trials[place.trial].at[*key]).abs();
-        reach[*key] = from_place + 1.2 * t * values.surface.errors.standard_error(own);
+    for (index, key) in values.surface.keys.iter().enumerate() {
+        let from_place = (values.coordinates[*key] - webs.trials[place.trial].coordinates[*key]).abs();
+        reach[*key] = from_place + 1.2 * t * values.surface.errors.standard_error(index);
     }
     let mut all = Vec::new();
-    for own in 0..values.surface.known.len() {
+    for index in 0..values.surface.keys.len() {
         let mut search =
-            Search { place, values, other_errors, own, t, reach: &mut reach, profile: Vec::new() };
+            Search { place, values, other_errors, index, t, reach: &mut reach, profile: Vec::new() };
         let [low, high] = [search.end(webs, -1.0)?, search.end(webs, 1.0)?];
         all.push(Ends { coordinates: [low.0, high.0], kinds: [low.1, high.1], profile: search.profile });
     }
@@ -74,7 +74,7 @@ struct Search<'a> {
     values: &'a Values,
     other_errors: &'a Matrix,
     /// Index of the key among those that change something.
-    own: usize,
+    index: usize,
     t: f64,
     /// How far from the place trials count, by key.
     reach: &'a mut [f64],
@@ -84,27 +84,27 @@ struct Search<'a> {
 impl Search<'_> {
     /// The end of the interval to one side, as a coordinate.
     fn end(&mut self, webs: &mut Webs<'_>, side: f64) -> Result<(f64, IntervalEnd), Error> {
-        let Self { place, values, own, t, .. } = *self;
-        let key = values.surface.known[own];
-        let here = webs.trials[place.trial].at.clone();
+        let Self { place, values, index, t, .. } = *self;
+        let key = values.surface.keys[index];
+        let start = webs.trials[place.trial].coordinates.clone();
         let [low, high] = webs.parameters[key].ends();
-        let error = values.surface.errors.standard_error(own);
+        let error = values.surface.errors.standard_error(index);
         // Where the end would be, and where it is if the range ends before.
-        let mut wanted = values.at[key] + side * t * error;
+        let mut wanted = values.coordinates[key] + side * t * error;
         let mut kind = IntervalEnd::Straight;
         // The trials nearest to the end on either side: where they are, and how much further away the scan's value is found than it may be.
         let mut beside: [Option<(f64, f64)>; 2] = [None; 2];
         for _ in 0..MOST {
             let end = wanted.clamp(low, high);
-            if (end - values.at[key]) * side < 1e-9 {
+            if (end - values.coordinates[key]) * side < 1e-9 {
                 break;
             }
-            let to = self.with_others(webs, end - here[key]);
-            let at: Vec<f64> = here.iter().zip(&to).map(|(here, to)| here + to).collect();
+            let to = self.with_others(webs, end - start[key]);
+            let at: Vec<f64> = start.iter().zip(&to).map(|(start, to)| start + to).collect();
             let Some(trial) = webs.trial(&at)? else { break };
-            let at = webs.trials[trial].at.clone();
-            let to: Vec<f64> = at.iter().zip(&here).map(|(at, here)| at - here).collect();
-            let distance = (at[key] - values.at[key]) * side;
+            let at = webs.trials[trial].coordinates.clone();
+            let to: Vec<f64> = at.iter().zip(&start).map(|(at, start)| at - start).collect();
+            let distance = (at[key] - values.coordinates[key]) * side;
             if distance < 1e-9 {
                 // The next whole number lies further away.
                 kind = IntervalEnd::Tried;
@@ -112,19 +112,19 @@ impl Search<'_> {
             }
             self.reach.iter_mut().zip(&to).for_each(|(reach, to)| *reach = reach.max(1.05 * to.abs()));
             let (_, slopes) = Polynomials::new(webs, place, self.reach).at(&to);
-            let there =
+            let end_place =
                 Place { trial, weights: weights_at(webs, trial)?, slopes: slopes.clone(), settled: true };
             let mean = webs.trials[trial].mean.clone();
-            let known = values.surface.known.clone();
-            let surface = Surface::new(webs, &there, known, (mean, &slopes), self.other_errors);
-            let Some(own_there) = surface.known.iter().position(|one| *one == key) else { break };
+            let keys = values.surface.keys.clone();
+            let surface = Surface::new(webs, &end_place, keys, (mean, &slopes), self.other_errors);
+            let Some(index_there) = surface.keys.iter().position(|one| *one == key) else { break };
             self.profile.push((
                 webs.parameters[key].value(at[key]),
-                least_misfit(webs, place, &values.surface, (own, trial)),
+                least_misfit(webs, place, &values.surface, (index, trial)),
             ));
             // How far from here the scan's value is found, and how far it would be at the end.
-            let away = -side * dot(&surface.gain[own_there], &rest(webs, trial));
-            let wide = surface.errors.standard_error(own_there);
+            let away = -side * dot(&surface.gain[index_there], &residuals_of(webs, trial));
+            let wide = surface.errors.standard_error(index_there);
             let growth = (wide - error) / distance;
             let excess = away - t * wide;
             beside[usize::from(excess > 0.0)] = Some((at[key], excess));
@@ -149,13 +149,13 @@ impl Search<'_> {
 
     /// A step of the key from the place, and those of the others that are best then, on the polynomials.
     fn with_others(&self, webs: &Webs<'_>, step: f64) -> Vec<f64> {
-        let Self { place, values, own, .. } = *self;
-        let known = &values.surface.known;
+        let Self { place, values, index, .. } = *self;
+        let keys = &values.surface.keys;
         let polynomials = Polynomials::new(webs, place, self.reach);
-        let here = &webs.trials[place.trial].at;
-        let mut to: Vec<f64> = values.at.iter().zip(here).map(|(at, here)| at - here).collect();
-        to[known[own]] = step;
-        let others: Vec<usize> = known.iter().copied().filter(|key| *key != known[own]).collect();
+        let start = &webs.trials[place.trial].coordinates;
+        let mut to: Vec<f64> = values.coordinates.iter().zip(start).map(|(at, start)| at - start).collect();
+        to[keys[index]] = step;
+        let others: Vec<usize> = keys.iter().copied().filter(|key| *key != keys[index]).collect();
         for _ in 0..STEPS {
             let (numbers, slopes) = polynomials.at(&to);
             let slopes: Matrix = others.iter().map(|key| slopes[*key].clone()).collect();
@@ -165,7 +165,7 @@ impl Search<'_> {
             for (key, row) in others.iter().zip(&gain) {
                 let [low, high] = webs.parameters[*key].ends();
                 let further = (to[*key] + 0.7 * dot(row, &left)).clamp(-self.reach[*key], self.reach[*key]);
-                to[*key] = (here[*key] + further).clamp(low, high) - here[*key];
+                to[*key] = (start[*key] + further).clamp(low, high) - start[*key];
             }
         }
         to

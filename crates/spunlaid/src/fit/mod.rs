@@ -45,7 +45,7 @@ pub use webs::{MOST_TRIALS, WebInProgress};
 use crate::error::{Error, Fault};
 use crate::layers::{Flyer, WebSpec};
 use crate::study::{Experiment, Journal};
-use crate::web::Laying;
+use crate::web::LayControl;
 use simulator::WebSimulator;
 use webs::Webs;
 
@@ -114,7 +114,7 @@ pub fn identity(start: &WebSpec, parameters: &[Parameter], target: &Target, webs
 pub fn fit<'a>(
     question: Question<'a>,
     flyer: Flyer<'a>,
-    by: Laying<'a>,
+    by: LayControl<'a>,
     journal: &'a mut Journal,
     watch: &'a dyn Fn(WebInProgress<'_>),
 ) -> Result<Fit, Error> {
@@ -143,7 +143,7 @@ fn find(webs: &mut Webs<'_>) -> Result<Fit, Error> {
         let others = webs.simulator.errors_of_model()?;
         let values = values::values(webs, &place, &others)?;
         // Far from the trials, straight lines do not hold.
-        let next = if values.far > FAR && rounds < ROUNDS { webs.trial(&values.at)? } else { None };
+        let next = if values.far > FAR && rounds < ROUNDS { webs.trial(&values.coordinates)? } else { None };
         match next {
             Some(next) if next != start => start = next,
             _ => {

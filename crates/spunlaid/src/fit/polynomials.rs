@@ -40,12 +40,12 @@ impl Polynomials {
     }
 
     fn of_terms(webs: &Webs<'_>, place: &Place, reach: &[f64], terms: Vec<Vec<usize>>) -> Option<Self> {
-        let here = &webs.trials[place.trial].at;
+        let here = &webs.trials[place.trial].coordinates;
         // In parts of the reach, so that all terms are of like size.
         let step = |at: &[f64]| -> Vec<f64> {
             at.iter().zip(here).zip(reach).map(|((at, here), reach)| (at - here) / reach).collect()
         };
-        let around = webs.trials.iter().map(|trial| (step(&trial.at), &trial.mean));
+        let around = webs.trials.iter().map(|trial| (step(&trial.coordinates), &trial.mean));
         let around = around.filter(|(step, _)| step.iter().all(|step| step.abs() <= 1.0));
         let rows: Vec<(Vec<f64>, &Vec<f64>)> = around
             .map(|(step, mean)| (terms.iter().map(|term| value(term, &step)).collect(), mean))

@@ -44,27 +44,27 @@ pub(super) struct Place {
 /// As [`Webs::trial`].
 pub(super) fn search(webs: &mut Webs<'_>, mut trial: usize, weights: Matrix) -> Result<Place, Error> {
     let (mut damping, mut steps) = (DAMPING, vec![STEP; webs.parameters.len()]);
-    let mut slopes_here = slopes(webs, trial, &steps, false)?;
+    let mut current_slopes = slopes(webs, trial, &steps, false)?;
     // Whether the slopes were found at this trial, or follow from those of an earlier one.
     let mut are_own = true;
     for _ in 0..MOST {
-        let slopes = &slopes_here;
-        let rest = rest(webs, trial);
-        let here = misfit(&weights, &rest);
+        let slopes = &current_slopes;
+        let residuals = residuals_of(webs, trial);
+        let current_misfit = misfit(&weights, &residuals);
         let errors = standard_errors(&weights, slopes, webs.count);
         steps = errors.iter().map(|error| error.clamp(STEPS[0], STEPS[1])).collect();
         let (mut next, mut is_short) = (None, false);
         for _ in 0..if are_own { TRIES } else { 1 } {
-            let to = stepped(webs, trial, &weights, slopes, &rest, damping);
-            let far = to.iter().zip(&webs.trials[trial].at).zip(&errors);
+            let to = next_coordinates(webs, trial, &weights, slopes, &residuals, damping);
+            let far = to.iter().zip(&webs.trials[trial].coordinates).zip(&errors);
             is_short =
                 far.into_iter().all(|((to, from), error)| (to - from).abs() <= ENOUGH * error.min(1.0));
             if is_short {
                 break;
             }
             if let Some(found) = webs.trial(&to)? {
-                let there = misfit(&weights, &self::rest(webs, found));
-                if there < here {
+                let next_misfit = misfit(&weights, &residuals_of(webs, found));
+                if next_misfit < current_misfit {
                     next = Some(found);
                     break;
                 }
@@ -73,7 +73,7 @@ pub(super) fn search(webs: &mut Webs<'_>, mut trial: usize, weights: Matrix) -> 
         }
         match next {
             Some(found) => {
-                slopes_here = turned(slopes, &webs.trials[trial], &webs.trials[found]);
+                current_slopes = update_slopes(slopes, &webs.trials[trial], &webs.trials[found]);
                 (trial, are_own) = (found, false);
                 damping *= LOOSER;
             }
@@ -81,12 +81,12 @@ pub(super) fn search(webs: &mut Webs<'_>, mut trial: usize, weights: Matrix) -> 
             None if are_own => match best(webs, &weights) {
                 Some(better) if better != trial && !is_short => {
                     trial = better;
-                    slopes_here = self::slopes(webs, trial, &steps, false)?;
+                    current_slopes = self::slopes(webs, trial, &steps, false)?;
                 }
                 _ => break,
             },
             None => {
-                slopes_here = self::slopes(webs, trial, &steps, false)?;
+                current_slopes = self::slopes(webs, trial, &steps, false)?;
                 are_own = true;
             }
         }
@@ -96,36 +96,36 @@ pub(super) fn search(webs: &mut Webs<'_>, mut trial: usize, weights: Matrix) -> 
     let weights = weights_at(webs, trial)?;
     // Where misfits differ by less than slopes of finite steps can tell, no step makes them less.
     let errors = standard_errors(&weights, &slopes, webs.count);
-    let to = stepped(webs, trial, &weights, &slopes, &rest(webs, trial), 0.0);
-    let far = to.iter().zip(&webs.trials[trial].at).map(|(to, from)| (to - from).abs());
+    let to = next_coordinates(webs, trial, &weights, &slopes, &residuals_of(webs, trial), 0.0);
+    let far = to.iter().zip(&webs.trials[trial].coordinates).map(|(to, from)| (to - from).abs());
     let settled = far.zip(&errors).all(|(far, error)| far <= LITTLE * error);
     Ok(Place { trial, slopes, weights, settled })
 }
 
 /// The index of the trial with the least misfit.
 pub(super) fn best(webs: &Webs<'_>, weights: &Matrix) -> Option<usize> {
-    let misfit_of = |trial: &usize| misfit(weights, &rest(webs, *trial));
+    let misfit_of = |trial: &usize| misfit(weights, &residuals_of(webs, *trial));
     (0..webs.trials.len()).min_by(|a, b| misfit_of(a).total_cmp(&misfit_of(b)))
 }
 
 /// What the scan has more than the webs of a trial, in logarithms.
-pub(super) fn rest(webs: &Webs<'_>, trial: usize) -> Vec<f64> {
+pub(super) fn residuals_of(webs: &Webs<'_>, trial: usize) -> Vec<f64> {
     webs.target.logarithms.iter().zip(&webs.trials[trial].mean).map(|(scan, web)| scan - web).collect()
 }
 
 /// Slopes that are right for the step from one trial to the next, and otherwise as they were: C. G. Broyden, Mathematics of Computation 19 (1965) 577–593.
-fn turned(slopes: &Matrix, from: &Trial, to: &Trial) -> Matrix {
-    let step: Vec<f64> = to.at.iter().zip(&from.at).map(|(to, from)| to - from).collect();
+fn update_slopes(slopes: &Matrix, from: &Trial, to: &Trial) -> Matrix {
+    let step: Vec<f64> = to.coordinates.iter().zip(&from.coordinates).map(|(to, from)| to - from).collect();
     let squared = dot(&step, &step);
     let missing = |i: usize| {
         let foreseen: f64 = slopes.iter().zip(&step).map(|(slope, step)| slope[i] * step).sum();
         (to.mean[i] - from.mean[i] - foreseen) / squared
     };
     let missing: Vec<f64> = (0..to.mean.len()).map(missing).collect();
-    let turned = |(slope, step): (&Vec<f64>, &f64)| {
+    let updated = |(slope, step): (&Vec<f64>, &f64)| {
         slope.iter().zip(&missing).map(|(slope, missing)| slope + missing * step).collect()
     };
-    slopes.iter().zip(&step).map(turned).collect()
+    slopes.iter().zip(&step).map(updated).collect()
 }
 
 /// Weights by the scatter of the webs of a trial.
@@ -147,11 +147,11 @@ pub(super) fn weights_at(webs: &Webs<'_>, trial: usize) -> Result<Matrix, Error>
 fn slopes(webs: &mut Webs<'_>, trial: usize, steps: &[f64], both: bool) -> Result<Matrix, Error> {
     let mut slopes = Vec::new();
     for key in 0..steps.len() {
-        let here = webs.trials[trial].at.clone();
+        let start = webs.trials[trial].coordinates.clone();
         let [low, high] = webs.parameters[key].ends();
         // As far as the range goes, first to the side that has more room.
-        let wanted = steps[key].max(webs.parameters[key].shortest_step(here[key]));
-        let rooms = [wanted.min(high - here[key]), -wanted.min(here[key] - low)];
+        let wanted = steps[key].max(webs.parameters[key].shortest_step(start[key]));
+        let rooms = [wanted.min(high - start[key]), -wanted.min(start[key] - low)];
         let [first, other] = if rooms[0] >= -rooms[1] { rooms } else { [rooms[1], rooms[0]] };
         let mut ends = Vec::new();
         let mut refusal = None;
@@ -159,24 +159,24 @@ fn slopes(webs: &mut Webs<'_>, trial: usize, steps: &[f64], both: bool) -> Resul
             if step == 0.0 || ends.len() > usize::from(both) {
                 continue;
             }
-            let mut there = here.clone();
-            there[key] += step;
-            match webs.trial(&there)? {
+            let mut tried = start.clone();
+            tried[key] += step;
+            match webs.trial(&tried)? {
                 // The value is a whole number, and has not changed.
                 Some(end) if end == trial => {}
                 Some(end) => ends.push(end),
-                None => refusal = Some(there),
+                None => refusal = Some(tried),
             }
         }
         let (one, other) = match ends[..] {
             [one, other] => (one, other),
             [one] => (one, trial),
             _ => {
-                let refusal = refusal.and_then(|there| webs.refusal(&there));
+                let refusal = refusal.and_then(|tried| webs.refusal(&tried));
                 return Err(refusal.unwrap_or_else(|| no_other_value(&webs.parameters[key].key)));
             }
         };
-        let length = webs.trials[one].at[key] - webs.trials[other].at[key];
+        let length = webs.trials[one].coordinates[key] - webs.trials[other].coordinates[key];
         let ends = webs.trials[one].mean.iter().zip(&webs.trials[other].mean);
         slopes.push(ends.map(|(one, other)| (one - other) / length).collect());
     }
@@ -206,25 +206,25 @@ fn standard_errors(weights: &Matrix, slopes: &Matrix, count: u64) -> Vec<f64> {
 }
 
 /// The next place: a damped step from a trial, which ends at the ranges of the keys.
-fn stepped(
+fn next_coordinates(
     webs: &Webs<'_>,
     trial: usize,
     weights: &Matrix,
     slopes: &Matrix,
-    rest: &[f64],
+    residuals: &[f64],
     damping: f64,
 ) -> Vec<f64> {
-    let here = &webs.trials[trial].at;
-    let mut to = here.clone();
+    let start = &webs.trials[trial].coordinates;
+    let mut to = start.clone();
     let mut free: Vec<usize> = (0..slopes.len()).collect();
-    let mut rest = rest.to_vec();
+    let mut residuals = residuals.to_vec();
     while !free.is_empty() {
         let own: Matrix = free.iter().map(|key| slopes[*key].clone()).collect();
         let mut information = information(weights, &own);
         (0..own.len()).for_each(|i| information[i][i] *= 1.0 + damping);
         let pull: Vec<f64> = own
             .iter()
-            .map(|slope| weights.iter().zip(&rest).map(|(row, one)| one * dot(row, slope)).sum())
+            .map(|slope| weights.iter().zip(&residuals).map(|(row, one)| one * dot(row, slope)).sum())
             .collect();
         let Ok(inverse) = inverse(information) else {
             // A key that changes nothing stays where it is.
@@ -240,19 +240,22 @@ fn stepped(
         let ends = |i: usize| webs.parameters[free[i]].ends();
         let beyond = (0..free.len()).find(|i| {
             let [low, high] = ends(*i);
-            !(low..=high).contains(&(here[free[*i]] + share * step[*i]))
+            !(low..=high).contains(&(start[free[*i]] + share * step[*i]))
         });
         match beyond {
             Some(i) => {
                 // It stays at its end, and the others go as is best then.
                 let (key, [low, high]) = (free[i], ends(i));
-                to[key] = (here[key] + share * step[i]).clamp(low, high);
-                let moved = to[key] - here[key];
-                rest.iter_mut().zip(&slopes[key]).for_each(|(rest, slope)| *rest -= slope * moved);
+                to[key] = (start[key] + share * step[i]).clamp(low, high);
+                let moved = to[key] - start[key];
+                residuals
+                    .iter_mut()
+                    .zip(&slopes[key])
+                    .for_each(|(residuals, slope)| *residuals -= slope * moved);
                 free.remove(i);
             }
             None => {
-                free.iter().zip(&step).for_each(|(key, step)| to[*key] = here[*key] + share * step);
+                free.iter().zip(&step).for_each(|(key, step)| to[*key] = start[*key] + share * step);
                 break;
             }
         }

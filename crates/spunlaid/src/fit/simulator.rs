@@ -6,7 +6,7 @@ use super::weights::Matrix;
 use crate::error::{Error, Fault};
 use crate::layers::{Flyer, Method, WebSpec};
 use crate::study::seed_of_point;
-use crate::web::{Laying, PatchFindings, inner_columns};
+use crate::web::{LayControl, PatchFindings, inner_columns};
 
 /// What makes the numbers of simulated self.
 pub(super) trait Simulator {
@@ -38,7 +38,7 @@ pub(super) struct WebSimulator<'a> {
     make: MakeWeb<'a>,
     target: &'a Target,
     flyer: Flyer<'a>,
-    by: Laying<'a>,
+    by: LayControl<'a>,
     /// The web of the values that were set last.
     spec: WebSpec,
 }
@@ -51,7 +51,7 @@ impl<'a> WebSimulator<'a> {
     pub(super) fn new(
         (make, target): (MakeWeb<'a>, &'a Target),
         flyer: Flyer<'a>,
-        by: Laying<'a>,
+        by: LayControl<'a>,
         start: &[f64],
     ) -> Result<Self, Error> {
         Ok(Self { make, target, flyer, by, spec: make(start)? })

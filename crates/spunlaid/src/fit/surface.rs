@@ -31,9 +31,9 @@ impl Errors {
 /// What the trials around a place say together.
 pub(super) struct Surface {
     /// Indices of the keys that change something.
-    pub(super) known: Vec<usize>,
+    pub(super) keys: Vec<usize>,
     /// Logarithms of the numbers at the values.
-    pub(super) here: Vec<f64>,
+    pub(super) numbers: Vec<f64>,
     /// Slopes of the numbers by each of these keys.
     pub(super) slopes: Matrix,
     /// What numbers do to the values.
@@ -42,22 +42,22 @@ pub(super) struct Surface {
 }
 
 impl Surface {
-    /// * `known` – indices of the keys that may change something
+    /// * `keys` – indices of the keys that may change something
     /// * `slopes` – by each key
     /// * `other_errors` – of the logarithms, by causes other than chance
     pub(super) fn new(
         webs: &Webs<'_>,
         place: &Place,
-        mut known: Vec<usize>,
-        (here, slopes): (Vec<f64>, &Matrix),
+        mut keys: Vec<usize>,
+        (numbers, slopes): (Vec<f64>, &Matrix),
         other_errors: &Matrix,
     ) -> Self {
         let (slopes, gain_of_all) = loop {
-            let slopes: Matrix = known.iter().map(|key| slopes[*key].clone()).collect();
+            let slopes: Matrix = keys.iter().map(|key| slopes[*key].clone()).collect();
             match gain(&place.weights, &slopes) {
                 Ok(gain) => break (slopes, gain),
                 // A key that changes nothing has no value of its own.
-                Err(key) => known.remove(key),
+                Err(key) => keys.remove(key),
             };
         };
         let by_chance = webs.trials[place.trial].webs.iter().enumerate().map(|(i, _)| {
@@ -69,21 +69,21 @@ impl Surface {
         let causes = other_errors.iter().chain(&webs.target.camera);
         let others = causes.map(|errors| gain_of_all.iter().map(|row| dot(row, errors)).collect()).collect();
         let errors = Errors { by_chance, others };
-        Self { known, here, slopes, gain: gain_of_all, errors }
+        Self { keys, numbers, slopes, gain: gain_of_all, errors }
     }
 
     /// The step to the values with the least misfit, by key.
     ///
     /// * `from` – the step from the place to where these numbers are
     pub(super) fn step(&self, webs: &Webs<'_>, place: &Place, from: &[f64]) -> Vec<f64> {
-        let at = webs.trials[place.trial].at.iter().zip(from).map(|(place, from)| place + from);
+        let at = webs.trials[place.trial].coordinates.iter().zip(from).map(|(place, from)| place + from);
         let at: Vec<f64> = at.collect();
-        let rest: Vec<f64> =
-            webs.target.logarithms.iter().zip(&self.here).map(|(scan, here)| scan - here).collect();
+        let residuals: Vec<f64> =
+            webs.target.logarithms.iter().zip(&self.numbers).map(|(scan, numbers)| scan - numbers).collect();
         let mut step = vec![0.0; at.len()];
-        for (key, row) in self.known.iter().zip(&self.gain) {
+        for (key, row) in self.keys.iter().zip(&self.gain) {
             let [low, high] = webs.parameters[*key].ends();
-            step[*key] = (at[*key] + dot(row, &rest)).clamp(low, high) - at[*key];
+            step[*key] = (at[*key] + dot(row, &residuals)).clamp(low, high) - at[*key];
         }
         step
     }

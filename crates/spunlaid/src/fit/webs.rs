@@ -5,13 +5,13 @@ use super::simulator::Simulator;
 use super::target::Target;
 use super::weights::mean_of;
 use crate::error::Error;
-use crate::study::{Journal, Landing, Record};
+use crate::study::{Journal, Record, ReplicateOutcome};
 
 /// A trial: values of the keys, and the numbers of the webs that were laid with them.
 #[derive(Clone, Debug)]
 pub(super) struct Trial {
     /// Coordinates of the values.
-    pub(super) at: Vec<f64>,
+    pub(super) coordinates: Vec<f64>,
     /// The values [SI].
     pub(super) values: Vec<f64>,
     /// Logarithms of the numbers of each web.
@@ -89,7 +89,7 @@ impl<'a> Webs<'a> {
         match self.lay(index, &values) {
             Ok(webs) => {
                 let mean = mean_of(webs.iter());
-                self.trials.push(Trial { at, values, webs, mean });
+                self.trials.push(Trial { coordinates: at, values, webs, mean });
                 Ok(Some(self.trials.len() - 1))
             }
             // Another value of a key may do.
@@ -122,14 +122,14 @@ impl<'a> Webs<'a> {
         let mut webs = Vec::with_capacity(self.count as usize);
         for replicate in 0..self.count {
             let journaled = known.iter().find(|record| record.replicate == replicate);
-            if let Some(measured) = journaled.and_then(|record| record.landing.measured()) {
+            if let Some(measured) = journaled.and_then(|record| record.outcome.measured()) {
                 webs.push(measured.to_vec());
                 continue;
             }
             (self.watch)(WebInProgress { trial: index + 1, web: replicate + 1, webs: self.count, values });
             let numbers = self.simulator.web(replicate)?;
-            let landing = Landing::Measured(numbers.clone().into_boxed_slice());
-            self.journal.add(&[Record { point: index as u64, replicate, landing }])?;
+            let outcome = ReplicateOutcome::Measured(numbers.clone().into_boxed_slice());
+            self.journal.add(&[Record { point: index as u64, replicate, outcome }])?;
             webs.push(numbers);
         }
         Ok(webs)

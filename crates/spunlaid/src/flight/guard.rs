@@ -24,7 +24,7 @@ impl Flight {
     }
 
     /// The lanes of all fibres that are lost, each with the reason.
-    pub(crate) fn all_lost(&self) -> impl Iterator<Item = (usize, Error)> {
+    pub(crate) fn losses(&self) -> impl Iterator<Item = (usize, Error)> {
         let lost = |lane: usize| self.diverged(lane).or_else(|| self.adrift(lane));
         (0..self.fibres()).filter_map(move |lane| Some((lane, lost(lane)?)))
     }

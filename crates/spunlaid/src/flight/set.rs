@@ -69,7 +69,13 @@ impl Flight {
     /// Energies of the chains from the velocities as the scheme stores them.
     fn held(&self) -> Energy {
         let Self { isa, chain, start, .. } = self;
-        Energy::held(*isa, &chain.constants, &chain.position, &chain.velocity, chain.origin(&start.position))
+        Energy::stored_energy(
+            *isa,
+            &chain.constants,
+            &chain.position,
+            &chain.velocity,
+            chain.origin(&start.position),
+        )
     }
 }
 

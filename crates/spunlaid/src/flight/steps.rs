@@ -84,7 +84,7 @@ impl Flight {
                 }
             }
         }
-        let mut energy = Energy::held(self.isa, &constants, &position, &velocity, &origin);
+        let mut energy = Energy::stored_energy(self.isa, &constants, &position, &velocity, &origin);
         let works = (&before, &self.work);
         energy.enter_work(&self.start.energy, works, &carried, self.scheme, self.h);
         Snapshot { time, position, velocity, tension, nodes, in_air, root_strain_integral, energy }

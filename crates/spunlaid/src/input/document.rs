@@ -199,14 +199,15 @@ impl<'a, T> Document<'a, T> {
             // If the table's name is not similar to a known one, its keys may show which table is meant.
             if let DeValue::Table(inner) = &entry.value {
                 for (key, _) in inner {
-                    table_meant = table_meant.or_else(|| keys.home_of(key.get_ref()).map(Key::table));
+                    table_meant =
+                        table_meant.or_else(|| keys.find_by_short_name(key.get_ref()).map(Key::table));
                 }
             }
             if let Some(meant) = table_meant {
                 self.written.excuse(format!("{before}{meant}."));
                 nearest = Some(self.header(layer, meant));
             }
-        } else if let Some(home) = keys.home_of(name) {
+        } else if let Some(home) = keys.find_by_short_name(name) {
             self.written.excuse(format!("{layer}{}", home.name));
             let what = Fault::misplaced(home.table(), home.short());
             self.reject(&key, entry, what);

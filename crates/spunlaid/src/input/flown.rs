@@ -4,7 +4,7 @@
 use super::open::OpenCase;
 use crate::case::keys;
 use crate::case::{Case, Neighbours, Note, Remark};
-use crate::ensemble::{Computing, Keep, fly};
+use crate::ensemble::{Keep, RunControl, fly};
 use crate::error::{Error, Fault, Finding};
 use crate::lanes::Isa;
 use crate::spinline::End;
@@ -73,7 +73,7 @@ fn mean_tension(case: &Case) -> Result<f64, Error> {
         let descents = DESCENTS * line.distance / line.feed_speed / case.run.time_step;
         case.run.steps = case.run.steps.min(case.run.spin_up_steps + descents.ceil() as u64);
     }
-    let computing = Computing {
+    let computing = RunControl {
         threads: std::thread::available_parallelism().map_or(1, usize::from),
         isa: Isa::detect(),
         stop: &AtomicBool::new(false),

@@ -59,12 +59,12 @@ pub(super) fn open_part(
     in_order.sort_by_key(rank);
     for key in in_order {
         let Some(WrittenValue { place, shown, value }) = written.get(key.name).cloned() else {
-            match key.left_out {
+            match key.omission {
                 // A key without a meaning for this case refuses its default, which is then not needed.
                 Omission::Value(text) if !key.counted => {
                     drop(key.set(&mut case, if fed { default_if_fed(key.name, text) } else { text }));
                 }
-                Omission::Follows(_) if key.is_told(&case) => {}
+                Omission::Follows(_) if key.is_derived(&case) => {}
                 Omission::Follows(_) if fed && REQUIRED_IF_FED.iter().any(|(name, _)| *name == key.name) => {
                     let (_, line) =
                         REQUIRED_IF_FED.iter().find(|(name, _)| *name == key.name).unwrap_or(&("", ""));
@@ -86,9 +86,9 @@ pub(super) fn open_part(
                     };
                     written.reject(key.name, fault);
                 }
-                Omission::Required(_) if key.is_told(&case) => {}
+                Omission::Required(_) if key.is_derived(&case) => {}
                 Omission::Required(_)
-                    if !(take_told(&mut case.air, key.name)
+                    if !(infer_number(&mut case.air, key.name)
                         || written.is_excused(key.name)
                         || key.name == "fibre.diameter" && written.get("fibre.linear_density").is_some()) =>
                 {
@@ -266,8 +266,8 @@ fn load(
 
 /// Takes a number of the air that the case leaves out from the flow or a file, and says whether one of them gives it. A
 /// number from a file is set here; a number from the flow is set later, when the air is settled.
-fn take_told(air: &mut Air, key: &str) -> bool {
-    let (tells, uniform) = (air.flow.tells(), air.is_uniform());
+fn infer_number(air: &mut Air, key: &str) -> bool {
+    let (tells, uniform) = (air.flow.numbers(), air.is_uniform());
     let record = air.records.first().map(|record| record.says);
     let highest = match &air.spectrum {
         SpectrumShape::Measured(table) => Some(table.highest()),
@@ -308,7 +308,7 @@ fn take_told(air: &mut Air, key: &str) -> bool {
 impl OpenCase {
     /// The number of a key, as written or by default. None if it follows from other keys.
     pub(super) fn number(&self, key: &Key) -> Option<f64> {
-        let number = match (self.written.get(key.name), key.left_out) {
+        let number = match (self.written.get(key.name), key.omission) {
             (Some(said), _) => match said.value.as_ref()? {
                 Value::Text(_) => key.get(&self.case)?.number(),
                 value => value.number(),

@@ -8,14 +8,16 @@
 
 use super::{LaydownSource, LayerSpec, Method, WebSpec, laid};
 use crate::case::Case;
-use crate::ensemble::{Computing, Keep, LaidCurves, fly};
+use crate::ensemble::{Keep, LaidCurves, RunControl, fly};
 use crate::error::{Error, Fault};
 use crate::flight::LaidPoint;
 use crate::lanes::Isa;
 use crate::laydown::{Trace, TraceSettings};
 use crate::statistics::Estimate;
 use crate::surrogate::{IdentificationFailure, Residual, Surrogate, identify};
-use crate::web::{Curves, Fibres, Findings, LaidWeb, Laying, Map, Web, find_laid, lay, measure_laid, pieces};
+use crate::web::{
+    Curves, Fibres, Findings, LaidWeb, LayControl, Map, Web, find_laid, lay, measure_laid, pieces,
+};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -39,7 +41,7 @@ pub struct FlownFibres {
     /// How well the surrogate with the mean numbers fits; None without one.
     pub residual: Option<Residual>,
     /// Why the first replicate without a surrogate has none.
-    pub unidentified: Option<IdentificationFailure>,
+    pub identification_failure: Option<IdentificationFailure>,
 }
 
 /// The flights of a case, to be watched.
@@ -58,7 +60,7 @@ pub struct Flights<'a> {
 }
 
 /// Shows the progress of a case's flights while it does the work that it is given.
-pub type Follow<'a> = &'a dyn Fn(Flights<'_>, &mut (dyn FnMut() + Send));
+pub type ProgressDisplay<'a> = &'a dyn Fn(Flights<'_>, &mut (dyn FnMut() + Send));
 
 /// A web with its fibres.
 #[derive(Clone, Debug)]
@@ -78,7 +80,7 @@ const KEPT: usize = 16;
 pub struct Flyer<'a> {
     pub(super) threads: usize,
     pub(super) stop: &'a AtomicBool,
-    pub(super) follow: Follow<'a>,
+    pub(super) follow: ProgressDisplay<'a>,
     /// What the last cases and folders laid, by their paths.
     flown: Vec<(PathBuf, Arc<Case>, Arc<FlownFibres>)>,
 }
@@ -94,7 +96,7 @@ impl std::fmt::Debug for Flyer<'_> {
 
 impl<'a> Flyer<'a> {
     /// * `stop` – set from elsewhere to stop early
-    pub const fn new(threads: usize, stop: &'a AtomicBool, follow: Follow<'a>) -> Self {
+    pub const fn new(threads: usize, stop: &'a AtomicBool, follow: ProgressDisplay<'a>) -> Self {
         Self { threads, stop, follow, flown: Vec::new() }
     }
 
@@ -114,7 +116,7 @@ impl<'a> Flyer<'a> {
                 (layers.collect::<Result<_, _>>()?, None)
             }
         };
-        Ok(FlownWeb { web: to_lay(spec, &layers), layers, laid })
+        Ok(FlownWeb { web: web_to_lay(spec, &layers), layers, laid })
     }
 
     /// The fibres of a layer.
@@ -160,7 +162,7 @@ impl<'a> Flyer<'a> {
     /// Flies a case; the points that each replicate has laid.
     fn fly(&self, path: &Path, case: &Case) -> Result<Vec<Vec<LaidPoint>>, Error> {
         let (fibre_steps, laid) = (AtomicU64::new(0), LaidCurves::default());
-        let computing = Computing {
+        let computing = RunControl {
             threads: self.threads,
             isa: Isa::detect(),
             stop: self.stop,
@@ -192,7 +194,7 @@ impl FlownFibres {
         let skip = (line.feed_speed * case.run.spin_up() / spacing).round() as u64;
         let belt_ratio = line.belt_ratio();
         let tracing = TraceSettings { spacing, belt_ratio, skip, reach: line.distance };
-        let (mut numbers, mut unidentified) = ([const { Vec::new() }; 3], None);
+        let (mut numbers, mut identification_failure) = ([const { Vec::new() }; 3], None);
         let mut traces = Vec::new();
         for points in &mut laid {
             let mut trace = Trace::new(tracing);
@@ -206,7 +208,7 @@ impl FlownFibres {
                 [&statistics.correlation_md, &statistics.correlation_cd],
             );
             let noise = found.map(|found| found.surrogate.noise);
-            unidentified = unidentified.or(noise.err());
+            identification_failure = identification_failure.or(noise.err());
             for (all, value) in numbers.iter_mut().zip([sigmas[0], sigmas[1], noise.unwrap_or(f64::NAN)]) {
                 all.extend(value.is_finite().then_some(value));
             }
@@ -224,7 +226,7 @@ impl FlownFibres {
             .collect();
         let step = traces.first().map_or(f64::NAN, |statistics| statistics.lag_step);
         let residual = Self::known(&numbers).and_then(|surrogate| surrogate.residual(step, &correlations));
-        Ok(Self { curves: Arc::new(curves), numbers, residual, unidentified })
+        Ok(Self { curves: Arc::new(curves), numbers, residual, identification_failure })
     }
 
     /// The surrogate of these numbers, if A is known.
@@ -238,7 +240,7 @@ impl FlownFibres {
         if let Some(surrogate) = Self::known(&self.numbers) {
             return Ok(surrogate);
         }
-        let why = self.unidentified.map_or_else(String::new, |why| format!(": {why}"));
+        let why = self.identification_failure.map_or_else(String::new, |why| format!(": {why}"));
         let message = format!("no surrogate was identified in what its fibres lay{why}");
         let remedy = "write web.method = \"dynamics\" to lay the flown curves themselves, or give laydown.sigma_md, \
                       laydown.sigma_cd and laydown.noise";
@@ -259,7 +261,7 @@ impl FlownWeb {
     ///
     /// # Errors
     /// If the web cannot be laid, or if it is stopped.
-    pub fn map(&mut self, by: Laying<'_>) -> Result<Map, Error> {
+    pub fn map(&mut self, by: LayControl<'_>) -> Result<Map, Error> {
         let laid = self.laid.take().map_or_else(|| lay(&self.web, by), Ok)?;
         Ok(laid.map)
     }
@@ -268,7 +270,7 @@ impl FlownWeb {
     ///
     /// # Errors
     /// If the web cannot be laid, or if it is stopped.
-    pub fn find(&mut self, by: Laying<'_>) -> Result<Findings, Error> {
+    pub fn find(&mut self, by: LayControl<'_>) -> Result<Findings, Error> {
         find_laid(&self.web, self.laid.take(), by)
     }
 
@@ -276,16 +278,16 @@ impl FlownWeb {
     ///
     /// # Errors
     /// As [`FlownWeb::find`].
-    pub fn measure(&mut self, by: Laying<'_>) -> Result<Findings, Error> {
+    pub fn measure(&mut self, by: LayControl<'_>) -> Result<Findings, Error> {
         measure_laid(&self.web, self.laid.take(), by)
     }
 }
 
 /// The web with the fibres of its layers. Beside flown curves stands their surrogate, and the other way round.
-fn to_lay(spec: &WebSpec, layers: &[LayerFibres]) -> Web {
+fn web_to_lay(spec: &WebSpec, layers: &[LayerFibres]) -> Web {
     let mut web = spec.web(layers.iter().map(|layer| layer.fibres.clone()));
     for ((layer, fibres), named) in web.layers.iter_mut().zip(layers).zip(&spec.layers) {
-        layer.compared = fibres.flown.as_ref().and_then(|flown| match spec.method {
+        layer.other_description = fibres.flown.as_ref().and_then(|flown| match spec.method {
             Method::Surrogate => Some(Fibres::Curves(Arc::clone(&flown.curves))),
             Method::Dynamics | Method::SharedAir => {
                 flown.surrogate(named.source.path()).ok().map(Fibres::Surrogate)

@@ -10,7 +10,7 @@ pub(crate) mod keys;
 mod laid;
 mod shared_air;
 
-pub use flown::{Flights, FlownFibres, FlownWeb, Flyer, Follow, LayerFibres};
+pub use flown::{Flights, FlownFibres, FlownWeb, Flyer, LayerFibres, ProgressDisplay};
 pub use full_names::{place_in_web, web_key};
 pub use keys::{WEB, WEB_KEYS, WEB_TABLES, WebKey};
 pub use laid::{LAID, read as read_laid};
@@ -150,7 +150,7 @@ impl LayerSpec {
             belt_speed: self.belt_speed,
             filaments: self.filaments.clone(),
             fibres,
-            compared: None,
+            other_description: None,
         }
     }
 }

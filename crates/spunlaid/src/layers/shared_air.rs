@@ -3,7 +3,7 @@
 use super::flown::Flights;
 use super::{FlownFibres, Flyer, LaydownSource, LayerFibres, Method, WebSpec};
 use crate::air::Lateral;
-use crate::beam::{Airs, Beam, Flying};
+use crate::beam::{Airs, Beam, BeamControl};
 use crate::case::Case;
 use crate::error::{Error, Fault, Place as ErrorPlace, Problem};
 use crate::fibre::Place;
@@ -44,10 +44,10 @@ impl Flyer<'_> {
         let elements: Vec<f64> = beams.iter().map(|layer| layer.beam().element_mass()).collect();
         let weight = beams.iter().map(|layer| layer.beam().basis_weight(&spec.sheet)).sum();
         let canvas = Canvas::new(&spec.sheet, &elements, weight)?;
-        let (mut layers, mut together) = (Vec::new(), SharedAirFindings::default());
+        let (mut layers, mut shared_air) = (Vec::new(), SharedAirFindings::default());
         for (number, (layer, element)) in beams.iter().zip(elements).enumerate() {
             let (beam, done) = (layer.beam(), AtomicU64::new(0));
-            let by = Flying { threads: self.threads, isa: Isa::detect(), stop: self.stop, steps: &done };
+            let by = BeamControl { threads: self.threads, isa: Isa::detect(), stop: self.stop, steps: &done };
             let flights = Flights {
                 path: layer.path,
                 fibres: layer.places.len() as u64,
@@ -60,7 +60,7 @@ impl Flyer<'_> {
                 flown = beam.fly((&spec.sheet, spec.window()), (&canvas, canvas.quanta(element)), by);
             });
             let mut flown = flown?;
-            together.add(number, flown.together());
+            shared_air.add(number, flown.take_shared_air());
             let curves = flown.kept.into_iter().map(|(_, points)| points).collect();
             let flown = Arc::new(FlownFibres::gather(layer.path, &layer.case, curves)?);
             // In machine direction the sheet is not closed.
@@ -68,7 +68,7 @@ impl Flyer<'_> {
             layers
                 .push(LayerFibres { fibres: Fibres::Curves(Arc::clone(&flown.curves)), flown: Some(flown) });
         }
-        Ok((layers, LaidWeb { together: Some(together), ..canvas.finish()? }))
+        Ok((layers, LaidWeb { shared_air: Some(shared_air), ..canvas.finish()? }))
     }
 }
 

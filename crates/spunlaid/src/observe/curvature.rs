@@ -19,7 +19,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         unit: PER_METRE,
         kind: Kind::Profile,
         group: FIBRE,
-        over_replicates: Aggregate::Mean,
+        aggregate: Aggregate::Mean,
         figure: &Figure {
             name: "curvature_along_fibre",
             title: "Curvature along the fibre",

@@ -85,7 +85,7 @@ pub(super) const DISSIPATION: Declaration = Declaration {
             meaning: "energy that the scheme has taken out of the motion by damping axial waves, divided by the \
                 energy that flowed; median over time, the spin-up included. It is not an error: the full balance \
                 counts it",
-            over_replicates: Aggregate::Median,
+            aggregate: Aggregate::Median,
             series: "typical",
             ..TAKEN_OUT
         },
@@ -102,7 +102,7 @@ pub(super) const DISSIPATION: Declaration = Declaration {
     observer: |_| Errors::observer(Sample::tension_dissipation_percent, false),
 };
 
-const TYPICAL: Measure = Measure { over_replicates: Aggregate::Median, figure: &FIGURE, ..ERROR };
+const TYPICAL: Measure = Measure { aggregate: Aggregate::Median, figure: &FIGURE, ..ERROR };
 
 const AT_END: Measure = Measure {
     figure: &Figure {

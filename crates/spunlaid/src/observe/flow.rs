@@ -14,7 +14,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         unit: PERCENT,
         kind: Kind::Number,
         group: FIBRE,
-        over_replicates: Aggregate::Mean,
+        aggregate: Aggregate::Mean,
         figure: &Figure {
             name: "share_outside_flow",
             title: "Time outside the flow",

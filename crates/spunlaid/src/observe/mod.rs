@@ -88,7 +88,7 @@ pub struct Measure {
     /// Its group.
     pub group: Group,
     /// The statistic over the replicates that is shown.
-    pub over_replicates: Aggregate,
+    pub aggregate: Aggregate,
     /// The figure that shows it.
     pub figure: &'static Figure,
     /// Its label in that figure: `*y*`.
@@ -105,7 +105,7 @@ impl Measure {
         unit: Unit { shown: "", per_si: 1.0 },
         kind: Kind::Number,
         group: END_NODE,
-        over_replicates: Aggregate::Mean,
+        aggregate: Aggregate::Mean,
         figure: &Figure { name: "", title: "", words: "", logarithmic: false, from_zero: true, caption: "" },
         series: "",
     };

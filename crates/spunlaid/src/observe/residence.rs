@@ -17,7 +17,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         unit: MILLIMETRES,
         kind: Kind::Number,
         group: END_NODE,
-        over_replicates: Aggregate::Mean,
+        aggregate: Aggregate::Mean,
         figure: &Figure {
             name: "residence",
             title: "Circle of 90 % of the time",

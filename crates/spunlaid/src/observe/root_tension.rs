@@ -21,7 +21,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             label: "Tension at the root, peak",
             meaning: "largest tension of the element at the root at the recorded instants. As with the largest strain, \
                       implicit tension makes it lower",
-            over_replicates: Aggregate::Largest,
+            aggregate: Aggregate::Largest,
             series: "peak",
             ..TENSION
         },

@@ -45,7 +45,7 @@ const fn measure(
     name: &'static str,
     label: &'static str,
     meaning: &'static str,
-    over_replicates: Aggregate,
+    aggregate: Aggregate,
     series: &'static str,
 ) -> Measure {
     let figure = &Figure {
@@ -57,7 +57,7 @@ const fn measure(
         caption: "",
     };
     let (column, unit, kind, group) = (name, PERCENT, Kind::Number, FIBRE);
-    Measure { name, column, label, meaning, unit, kind, group, over_replicates, figure, series }
+    Measure { name, column, label, meaning, unit, kind, group, aggregate, figure, series }
 }
 
 /// Strain at the root, averaged over some intervals that end at the recorded instants after the spin-up.       theory.md (57)

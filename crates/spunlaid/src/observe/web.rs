@@ -61,7 +61,7 @@ pub const OF_PATCHES: &[PatchMeasure] = &[
             series: "# mm",
             ..SHARE
         },
-        number: |patch| patch.one_fibre.0,
+        number: |patch| patch.single_fibres.0,
         error: None,
         causes: &[],
     },
@@ -284,7 +284,7 @@ const STRAIGHT: Figure = figure("cv_straight_fibres", "CV of straight fibres", "
 /// σ_MD and σ_CD [m] and A [m^-½] of the surrogate of the first layer; NaN without one.
 fn surrogate(web: &Web) -> [f64; 3] {
     let layer = web.layers.first();
-    let fibres = layer.into_iter().flat_map(|layer| [Some(&layer.fibres), layer.compared.as_ref()]);
+    let fibres = layer.into_iter().flat_map(|layer| [Some(&layer.fibres), layer.other_description.as_ref()]);
     let found = fibres.flatten().find_map(|fibres| match fibres {
         Fibres::Surrogate(surrogate) => Some([surrogate.sigma_md, surrogate.sigma_cd, surrogate.noise]),
         Fibres::Curves(_) => None,

@@ -57,7 +57,7 @@ fn found(picture: &Picture, settings: &Settings) -> Result<Findings, Fault> {
         };
         let blur = 1.0 - behind.cv() / plain.cv();
         let noise = noise / side as f64;
-        let found = if given.is_some() { plain.without(noise) } else { Some(plain) };
+        let found = if given.is_some() { plain.subtract_noise(noise) } else { Some(plain) };
         let patch = side as f64 * map.cell;
         let found = found.ok_or(
             Fault::new(

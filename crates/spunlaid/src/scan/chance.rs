@@ -109,7 +109,7 @@ fn degrees(waves: &[f64], floor: &[f64]) -> f64 {
 
 impl Scatter {
     /// The scatter without that of independent noise of a known CV; None if nothing is left.
-    pub(super) fn without(self, noise: f64) -> Option<Self> {
+    pub(super) fn subtract_noise(self, noise: f64) -> Option<Self> {
         let less = |variance: f64| (variance - noise * noise).max(0.0);
         let rest = Self { variance: less(self.variance), ends: self.ends.map(less), ..self };
         (rest.variance > 0.0).then_some(rest)

@@ -17,15 +17,15 @@ const LOOKS: usize = 16;
 /// The steady state of a filament in this air.
 pub(super) fn solve(line: &Spinline, friction: FrictionLaw, air: &Surroundings) -> Result<Solution, Failure> {
     let thread = Thread::new(line, friction, air);
-    if let Some(failure) = impossible(&thread) {
+    if let Some(failure) = impossible_line(&thread) {
         return Err(failure);
     }
-    let hit = find(&thread, line.crystallisation).map_err(|miss| missed(&thread, miss))?;
+    let hit = find(&thread, line.crystallisation).map_err(|miss| shooting_failure(&thread, miss))?;
     describe(&thread, &hit)
 }
 
 /// Why no thread can run in this line, as far as this is known before it is solved.
-fn impossible(thread: &Thread<'_>) -> Option<Failure> {
+fn impossible_line(thread: &Thread<'_>) -> Option<Failure> {
     let line = thread.line;
     let celsius = |kelvin: f64| Dimension::Temperature.pretty(kelvin);
     let freezing = line.material.freezing_temperature;
@@ -74,10 +74,10 @@ const NO_THREAD: &str =
     "has no steady state: with any tension at the die the thread is either slack or faster than 2000 m/s";
 
 /// Why no tension at the die meets the end of the line.
-fn missed(thread: &Thread<'_>, miss: Miss) -> Failure {
+fn shooting_failure(thread: &Thread<'_>, miss: Miss) -> Failure {
     let (line, air) = (thread.line, thread.air);
     match (miss, line.end) {
-        (Miss::Liquid(temperature), _) => still_liquid(line, temperature),
+        (Miss::Liquid(temperature), _) => liquid_end(line, temperature),
         (Miss::ElasticWave, _) => Failure::new(
             "spinline.law",
             None,
@@ -126,7 +126,7 @@ fn missed(thread: &Thread<'_>, miss: Miss) -> Failure {
 }
 
 /// The thread is not solid at the end of the line.
-fn still_liquid(line: &Spinline, temperature: f64) -> Failure {
+fn liquid_end(line: &Spinline, temperature: f64) -> Failure {
     let celsius = |kelvin: f64| format!("{:.0} °C", kelvin - ZERO_CELSIUS);
     let (reached, solid) = (celsius(temperature), celsius(line.material.freezing_temperature));
     let message = format!(
@@ -143,7 +143,7 @@ fn still_liquid(line: &Spinline, temperature: f64) -> Failure {
 fn describe(thread: &Thread<'_>, hit: &Hit) -> Result<Solution, Failure> {
     let (line, shot) = (thread.line, &hit.shot);
     let Some((by, at, cooling_rate)) = shot.freezing else {
-        return Err(still_liquid(line, shot.end[TEMPERATURE]));
+        return Err(liquid_end(line, shot.end[TEMPERATURE]));
     };
     let freezing = Freezing {
         distance: at.distance,

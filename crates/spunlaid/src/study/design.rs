@@ -104,7 +104,7 @@ impl Design {
         match self {
             Self::Grid => factors.iter().map(|factor| factor.levels.count() as f64).product(),
             Self::OneAtATime => {
-                1.0 + factors.iter().zip(base).map(|(f, b)| f.besides(*b).len() as f64).sum::<f64>()
+                1.0 + factors.iter().zip(base).map(|(f, b)| f.other_values(*b).len() as f64).sum::<f64>()
             }
             Self::Paired => factors.first().map_or(0.0, |factor| factor.levels.count() as f64),
             Self::LatinHypercube(points) | Self::Sobol(points) => points as f64,
@@ -121,7 +121,7 @@ impl Design {
             Self::OneAtATime => {
                 let mut rows = vec![base.to_vec()];
                 for (i, factor) in factors.iter().enumerate() {
-                    for value in factor.besides(base[i]) {
+                    for value in factor.other_values(base[i]) {
                         let mut row = base.to_vec();
                         row[i] = value;
                         rows.push(row);
@@ -187,7 +187,7 @@ impl Factor {
     }
 
     /// Its values without the value of the base case.
-    fn besides(&self, base: f64) -> Vec<f64> {
+    fn other_values(&self, base: f64) -> Vec<f64> {
         self.values().into_iter().filter(|value| *value != base).collect()
     }
 

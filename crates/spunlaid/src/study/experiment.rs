@@ -104,7 +104,7 @@ fn enter_keys(sum: &mut crc32fast::Hasher, case: &Case) {
         if let Some(value) = key.get(case) {
             sum.update(key.name.as_bytes());
             // A number that the flow tells along the way is another than the same number everywhere.
-            sum.update(&[u8::from(key.is_told(case))]);
+            sum.update(&[u8::from(key.is_derived(case))]);
             sum.update(&value.bytes());
         }
     }

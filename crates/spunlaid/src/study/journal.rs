@@ -8,7 +8,7 @@
 //! Records are appended, never changed. A record that a crash has cut off or damaged fails its checksum; it does not
 //! count, and its replicate is made again.
 
-use super::measures::{Landing, Record};
+use super::measures::{Record, ReplicateOutcome};
 use crate::error::{Error, Fault};
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
@@ -379,9 +379,9 @@ fn read_up_to(reader: &mut impl Read, bytes: &mut [u8]) -> std::io::Result<usize
 /// The bytes of a record of so many numbers.
 fn encode(record: &Record, numbers: usize) -> Vec<u8> {
     let mut bytes = vec![0; 4];
-    let (kind, values) = match &record.landing {
-        Landing::Measured(measured) => (MEASURED, measured.to_vec()),
-        Landing::Lost { node, time } => (LOST, vec![*node as f64, *time]),
+    let (kind, values) = match &record.outcome {
+        ReplicateOutcome::Measured(measured) => (MEASURED, measured.to_vec()),
+        ReplicateOutcome::Lost { node, time } => (LOST, vec![*node as f64, *time]),
     };
     let missing = vec![0.0; numbers.saturating_sub(values.len())];
     bytes.extend(kind.to_le_bytes());
@@ -405,13 +405,13 @@ fn decode(bytes: &[u8]) -> Option<Record> {
     let values: Option<Box<[f64]>> =
         rest.chunks_exact(8).map(|bytes| Some(f64::from_le_bytes(bytes.try_into().ok()?))).collect();
     let values = values.filter(|values| values.len() >= FEWEST)?;
-    let landing = match u32::from_le_bytes(*kind) {
-        MEASURED => Landing::Measured(values),
-        LOST => Landing::Lost { node: values[0] as u64, time: values[1] },
+    let outcome = match u32::from_le_bytes(*kind) {
+        MEASURED => ReplicateOutcome::Measured(values),
+        LOST => ReplicateOutcome::Lost { node: values[0] as u64, time: values[1] },
         _ => return None,
     };
     let (point, replicate) = (u64::from_le_bytes(*point), u64::from_le_bytes(*replicate));
-    Some(Record { point, replicate, landing })
+    Some(Record { point, replicate, outcome })
 }
 
 #[cfg(test)]

@@ -73,7 +73,7 @@ pub(super) fn of_spinlines() -> Vec<Quantity> {
 }
 
 /// The numbers of a spinline, in the order of [`of_spinlines`].
-pub(super) fn measured_of_spinline(found: &Solution) -> Measured {
+pub(super) fn measured_of_spinline(found: &Solution) -> Measurements {
     OF_SPINLINES.iter().map(|declared| (declared.number)(found)).collect()
 }
 
@@ -117,7 +117,7 @@ pub(super) fn of_webs<'a>(webs: impl Iterator<Item = &'a WebSpec>) -> Vec<Quanti
 /// The numbers of a web, in the order of [`of_webs`].
 ///
 /// * `sides` – of the patches of the study [m]
-pub(super) fn measured_of_web(sides: &[f64], web: &Web, found: &Findings) -> Measured {
+pub(super) fn measured_of_web(sides: &[f64], web: &Web, found: &Findings) -> Measurements {
     let of_side = |&side: &f64| {
         let patch = found.patches.iter().find(|patch| is_same(patch.map.patch, side));
         OF_PATCHES.iter().map(move |declared| patch.map_or(f64::NAN, declared.number))
@@ -128,7 +128,7 @@ pub(super) fn measured_of_web(sides: &[f64], web: &Web, found: &Findings) -> Mea
 
 /// The numbers measured on one replicate, in the order of the study's quantities, in SI units and percent. NaN means that a
 /// measure does not apply.
-pub type Measured = Box<[f64]>;
+pub type Measurements = Box<[f64]>;
 
 /// The outcome of one replicate of one point.
 #[derive(Clone, Debug, PartialEq)]
@@ -138,14 +138,14 @@ pub struct Record {
     /// Index of the replicate.
     pub replicate: u64,
     /// The outcome.
-    pub landing: Landing,
+    pub outcome: ReplicateOutcome,
 }
 
 /// How a replicate ended.
 #[derive(Clone, Debug)]
-pub enum Landing {
+pub enum ReplicateOutcome {
     /// It was completed and measured.
-    Measured(Measured),
+    Measured(Measurements),
     /// The computation of the fibre diverged, or it did not reach the belt.
     Lost {
         /// Node, counted from 1 at the root.
@@ -156,7 +156,7 @@ pub enum Landing {
 }
 
 /// Compares bits, so that NaN equals NaN.
-impl PartialEq for Landing {
+impl PartialEq for ReplicateOutcome {
     fn eq(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Measured(a), Self::Measured(b)) => {
@@ -170,7 +170,7 @@ impl PartialEq for Landing {
     }
 }
 
-impl Landing {
+impl ReplicateOutcome {
     /// The results of a completed replicate.
     pub fn measured(&self) -> Option<&[f64]> {
         match self {
@@ -181,6 +181,6 @@ impl Landing {
 }
 
 /// The numbers of a trajectory.
-pub fn measured(trajectory: &Trajectory) -> Measured {
+pub fn measured(trajectory: &Trajectory) -> Measurements {
     MEASURES.iter().map(|measure| trajectory.number(measure.name)).collect()
 }

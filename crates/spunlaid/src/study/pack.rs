@@ -2,7 +2,7 @@
 //! lanes stay empty.
 
 use super::{Experiment, Point};
-use crate::ensemble::{Computing, Job, Keep, Trajectory, fly_each, in_order};
+use crate::ensemble::{Job, Keep, RunControl, Trajectory, fly_each, in_order};
 use crate::error::Error;
 use crate::flight::Common;
 use crate::lanes::WIDTH;
@@ -20,7 +20,7 @@ pub struct Batch {
 }
 
 /// A fibre that was lost: point, replicate and error.
-pub(super) type Lost = (usize, u64, Error);
+pub(super) type LostReplicate = (usize, u64, Error);
 
 /// Batches that may fly together.
 #[derive(Debug)]
@@ -150,13 +150,14 @@ pub fn fly_batches<E: From<Error>>(
     points: &[Point],
     batches: &[Batch],
     keep: Keep,
-    computing: Computing<'_>,
+    computing: RunControl<'_>,
     mut take: impl FnMut(usize, Trajectory) -> Result<(), E>,
 ) -> Result<(), E> {
-    let flown = |trajectories: Vec<(usize, Trajectory)>, lost: Vec<Lost>| match lost.into_iter().next() {
-        Some((.., error)) => Err(error),
-        None => Ok(trajectories),
-    };
+    let flown =
+        |trajectories: Vec<(usize, Trajectory)>, lost: Vec<LostReplicate>| match lost.into_iter().next() {
+            Some((.., error)) => Err(error),
+            None => Ok(trajectories),
+        };
     fly_and_land(points, batches, keep, computing, flown, |trajectories| {
         trajectories.into_iter().try_for_each(|(point, trajectory)| take(point, trajectory))
     })
@@ -169,8 +170,8 @@ pub(super) fn fly_and_land<T: Send, E: From<Error>>(
     points: &[Point],
     batches: &[Batch],
     keep: Keep,
-    computing: Computing<'_>,
-    land: impl Fn(Vec<(usize, Trajectory)>, Vec<Lost>) -> Result<T, Error> + Sync,
+    computing: RunControl<'_>,
+    land: impl Fn(Vec<(usize, Trajectory)>, Vec<LostReplicate>) -> Result<T, Error> + Sync,
     mut take: impl FnMut(T) -> Result<(), E>,
 ) -> Result<(), E> {
     let packing = Packing::new(points, batches);

@@ -58,7 +58,7 @@ fn results_of(
     replicates: u64,
 ) -> Result<PointResults, Error> {
     let records = journal.records(point, replicates)?;
-    let measured: Vec<_> = records.iter().filter_map(|record| record.landing.measured()).collect();
+    let measured: Vec<_> = records.iter().filter_map(|record| record.outcome.measured()).collect();
     let estimate = |i: usize| Estimate::new(measured.iter().map(|values| values[i]).collect());
     let estimates: Vec<Estimate> = (0..quantities.len()).map(estimate).collect();
     let scatter = |i: usize| estimates[i].standard_error.unwrap_or(f64::NAN);

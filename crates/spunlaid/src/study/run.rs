@@ -1,11 +1,11 @@
 //! Makes the missing replicates of a study: flies its fibres, lays its webs or solves its spinlines.
 
 use super::journal::{Journal, unsynced};
-use super::measures::{Landing, Record, measured};
-use super::pack::{Batch, Lost, fly_and_land};
+use super::measures::{Record, ReplicateOutcome, measured};
+use super::pack::{Batch, LostReplicate, fly_and_land};
 use super::rounds::Rounds;
 use super::{Point, Study, spinlines, webs};
-use crate::ensemble::{Computing, Keep, Trajectory};
+use crate::ensemble::{Keep, RunControl, Trajectory};
 use crate::error::Error;
 use crate::threads::look_while;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -24,7 +24,7 @@ pub struct Progress {
     pub fibres_done: AtomicU64,
     /// Points with all replicates planned so far.
     pub points_done: AtomicU64,
-    /// Total steps of the fibres to fly, and pieces of the webs to lay; [`Computing::fibre_steps`] counts up to this number.
+    /// Total steps of the fibres to fly, and pieces of the webs to lay; [`RunControl::fibre_steps`] counts up to this number.
     pub steps: AtomicU64,
 }
 
@@ -39,7 +39,7 @@ pub struct Progress {
 pub fn run(
     study: &Study,
     journal: &Mutex<Journal>,
-    computing: Computing<'_>,
+    computing: RunControl<'_>,
     progress: &Progress,
 ) -> Result<(), Error> {
     let mut rounds = Rounds::new(study);
@@ -61,7 +61,7 @@ pub fn run(
 pub fn fly_bundle(
     (points, sides): (&[Point], &[f64]),
     bundle: &[Batch],
-    computing: Computing<'_>,
+    computing: RunControl<'_>,
 ) -> Result<Vec<Record>, Error> {
     let (mut all, steps) = (Vec::new(), AtomicU64::new(0));
     webs::lay((points, sides), bundle, computing, &steps, |record| {
@@ -90,7 +90,7 @@ fn fly_missing(
     study: &Study,
     journal: &Mutex<Journal>,
     rounds: &Rounds,
-    computing: Computing<'_>,
+    computing: RunControl<'_>,
     progress: &Progress,
 ) -> Result<(), Error> {
     let batches = rounds.missing(&lock(journal));
@@ -103,7 +103,8 @@ fn fly_missing(
         lacking.landed(records, progress);
         Ok(())
     };
-    let land = |trajectories: Vec<(usize, Trajectory)>, lost: Vec<Lost>| keep(&records(trajectories, lost));
+    let land =
+        |trajectories: Vec<(usize, Trajectory)>, lost: Vec<LostReplicate>| keep(&records(trajectories, lost));
     with_sync(journal, |failed| {
         webs::lay((&study.points, &study.patch_sides()), &batches, computing, &progress.steps, |record| {
             failed().map_or(Ok(()), Err)?;
@@ -175,16 +176,16 @@ impl MissingReplicates {
     }
 }
 
-fn records(trajectories: Vec<(usize, Trajectory)>, lost: Vec<Lost>) -> Vec<Record> {
+fn records(trajectories: Vec<(usize, Trajectory)>, lost: Vec<LostReplicate>) -> Vec<Record> {
     let measured = trajectories.into_iter().map(|(point, trajectory)| Record {
         point: point as u64,
         replicate: trajectory.replicate,
-        landing: Landing::Measured(measured(&trajectory)),
+        outcome: ReplicateOutcome::Measured(measured(&trajectory)),
     });
     let lost = lost.into_iter().filter_map(|(point, replicate, error)| {
         let (node, time) = error.lost_fibre()?;
-        let landing = Landing::Lost { node: node as u64, time };
-        Some(Record { point: point as u64, replicate, landing })
+        let outcome = ReplicateOutcome::Lost { node: node as u64, time };
+        Some(Record { point: point as u64, replicate, outcome })
     });
     measured.chain(lost).collect()
 }

@@ -1,9 +1,9 @@
 //! Solves the spinlines of a study.
 
 use super::Point;
-use super::measures::{Landing, Record, measured_of_spinline};
+use super::measures::{Record, ReplicateOutcome, measured_of_spinline};
 use super::pack::Batch;
-use crate::ensemble::{Computing, in_order};
+use crate::ensemble::{RunControl, in_order};
 use crate::error::Error;
 use std::sync::atomic::Ordering;
 
@@ -16,7 +16,7 @@ use std::sync::atomic::Ordering;
 pub(super) fn solve(
     points: &[Point],
     batches: &[Batch],
-    computing: Computing<'_>,
+    computing: RunControl<'_>,
     mut take: impl FnMut(Record) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let of_spinlines = |batch: &&Batch| points[batch.point].experiment.spinline().is_some();
@@ -32,12 +32,12 @@ pub(super) fn solve(
         },
         |(point, replicates, solved)| {
             let Some(solved) = solved else { return Err(Error::Interrupted) };
-            let landing = match &solved {
-                Ok(found) => Landing::Measured(measured_of_spinline(found)),
-                Err(_) => Landing::Lost { node: 0, time: 0.0 },
+            let outcome = match &solved {
+                Ok(found) => ReplicateOutcome::Measured(measured_of_spinline(found)),
+                Err(_) => ReplicateOutcome::Lost { node: 0, time: 0.0 },
             };
             for replicate in replicates {
-                take(Record { point: point as u64, replicate, landing: landing.clone() })?;
+                take(Record { point: point as u64, replicate, outcome: outcome.clone() })?;
             }
             Ok(())
         },

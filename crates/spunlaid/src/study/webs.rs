@@ -1,12 +1,12 @@
 //! Lays the webs of a study, one after another.
 
-use super::measures::{Landing, Record, measured_of_web};
+use super::measures::{Record, ReplicateOutcome, measured_of_web};
 use super::pack::Batch;
 use super::{Point, seed_of_point};
-use crate::ensemble::Computing;
+use crate::ensemble::RunControl;
 use crate::error::Error;
 use crate::layers::{Flights, Flyer, WebSpec};
-use crate::web::Laying;
+use crate::web::LayControl;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Lays the webs of some batches. The fibres of a point are flown once for all its webs, unless all filaments of a web fly in one air.
@@ -20,11 +20,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub(super) fn lay(
     (points, sides): (&[Point], &[f64]),
     batches: &[Batch],
-    computing: Computing<'_>,
+    computing: RunControl<'_>,
     steps: &AtomicU64,
     mut take: impl FnMut(Record) -> Result<(), Error>,
 ) -> Result<(), Error> {
-    let Computing { threads, isa, stop, fibre_steps, .. } = computing;
+    let RunControl { threads, isa, stop, fibre_steps, .. } = computing;
     let follow = |Flights { done, steps: all, .. }: Flights<'_>, work: &mut (dyn FnMut() + Send)| {
         steps.fetch_add(all, Ordering::Relaxed);
         work();
@@ -36,9 +36,9 @@ pub(super) fn lay(
         for replicate in replicates.clone() {
             let mut flown = flyer.web(&WebSpec { seed: seed(spec, replicate), ..spec.clone() })?;
             steps.fetch_add(flown.pieces()?, Ordering::Relaxed);
-            let found = flown.measure(Laying { threads, isa, stop, laid: fibre_steps })?;
-            let landing = Landing::Measured(measured_of_web(sides, &flown.web, &found));
-            take(Record { point: *point as u64, replicate, landing })?;
+            let found = flown.measure(LayControl { threads, isa, stop, laid: fibre_steps })?;
+            let outcome = ReplicateOutcome::Measured(measured_of_web(sides, &flown.web, &found));
+            take(Record { point: *point as u64, replicate, outcome })?;
         }
     }
     Ok(())

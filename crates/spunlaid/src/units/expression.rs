@@ -244,7 +244,7 @@ impl<'a> Reader<'a> {
         Some(plain)
     }
 
-    fn deeper(&mut self) -> Result<(), Fault> {
+    fn enter_level(&mut self) -> Result<(), Fault> {
         self.depth += 1;
         if self.depth > DEEPEST { Err(too_long()) } else { Ok(()) }
     }
@@ -267,7 +267,7 @@ impl<'a> Reader<'a> {
 
     fn power(&mut self) -> Result<Node, Fault> {
         if self.take(&['-']).is_some() {
-            self.deeper()?;
+            self.enter_level()?;
             let inner = self.power()?;
             self.depth -= 1;
             return Ok(Node::Negative(Box::new(inner)));
@@ -280,7 +280,7 @@ impl<'a> Reader<'a> {
         if self.take(&['^']).is_none() {
             return Ok(base);
         }
-        self.deeper()?;
+        self.enter_level()?;
         let exponent = self.power()?;
         self.depth -= 1;
         Ok(Node::Binary('^', Box::new(base), Box::new(exponent)))
@@ -289,7 +289,7 @@ impl<'a> Reader<'a> {
     fn factor(&mut self) -> Result<Node, Fault> {
         const WANTED: &str = "a number, a key or a parenthesis";
         if self.take(&['(']).is_some() {
-            self.deeper()?;
+            self.enter_level()?;
             let inner = self.sum()?;
             self.depth -= 1;
             return match self.take(&[')']) {

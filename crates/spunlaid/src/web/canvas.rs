@@ -132,7 +132,7 @@ impl Canvas {
             closed,
             cells,
         };
-        Ok(LaidWeb { map, cut: self.cut.into_inner() as f64 * self.quantum, together: None })
+        Ok(LaidWeb { map, cut: self.cut.into_inner() as f64 * self.quantum, shared_air: None })
     }
 }
 

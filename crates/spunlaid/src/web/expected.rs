@@ -1,6 +1,6 @@
 //! The unevenness that is expected of webs of independent filaments, from single fibres.
 
-use super::laying::Laying;
+use super::laying::LayControl;
 use super::one_fibre::{OneFibre, SingleFibres, one_fibre, straight_fibres};
 use super::plan::places;
 use super::{Edges, Fibres, Filaments, Layer, Sheet, Web};
@@ -107,9 +107,9 @@ pub(super) const ALONE: u64 = 16;
 ///
 /// # Errors
 /// If the filaments cannot be laid, if their curves are shorter than a patch, or if it is stopped.
-pub fn expected_cv(web: &Web, by: Laying<'_>) -> Result<Vec<ExpectedCv>, Error> {
+pub fn expected_cv(web: &Web, by: LayControl<'_>) -> Result<Vec<ExpectedCv>, Error> {
     let flown = |layer: &Layer| {
-        let curves = [Some(&layer.fibres), layer.compared.as_ref()].into_iter().flatten();
+        let curves = [Some(&layer.fibres), layer.other_description.as_ref()].into_iter().flatten();
         let curves = curves.into_iter().find(|fibres| matches!(fibres, Fibres::Curves(_)))?;
         Some(Layer { fibres: curves.clone(), ..layer.clone() })
     };
@@ -148,7 +148,7 @@ pub(super) fn expected(
     layers: Vec<Layer>,
     sides: &[usize],
     (sample, columns): (OneFibre, Range<usize>),
-    by: Laying<'_>,
+    by: LayControl<'_>,
 ) -> Result<Vec<Expected>, Error> {
     let sheet = &web.sheet;
     let closed = sheet.edges == Edges::Periodic;

@@ -4,7 +4,7 @@ use super::clouds::{Clouds, autocorrelation};
 use super::expected::{ALONE, SheetPosition, across, expected, side, sides};
 use super::laid::{LaidWeb, SharedAirFindings};
 use super::lay::lay;
-use super::laying::Laying;
+use super::laying::LayControl;
 use super::map::Map;
 use super::one_fibre::OneFibre;
 use super::orientation::{Orientation, orientation};
@@ -56,14 +56,14 @@ pub struct PatchFindings {
     /// On the map.
     pub map: Unevenness,
     /// The expected one of independent filaments at the places of the layers, from single fibres, with its standard error.
-    pub one_fibre: (f64, f64),
+    pub single_fibres: (f64, f64),
     /// The expected one of the curves that were flown, with its standard error, NaN for a single curve; None unless all layers have them.
     pub flown: Option<(f64, f64)>,
     /// The expected one of paths of the surrogate, with its standard error; None unless all layers have them.
     pub surrogate: Option<(f64, f64)>,
     /// Of straight fibres in all directions of the same mass.
     pub straight_fibres: f64,
-    /// What the same filaments would give in airs of their own, with its standard error: [`PatchFindings::one_fibre`] where they were flown in one air; None if they
+    /// What the same filaments would give in airs of their own, with its standard error: [`PatchFindings::single_fibres`] where they were flown in one air; None if they
     /// are independent as they are.
     pub independent: Option<(f64, f64)>,
     /// What is expected of filaments in one air from those in airs of their own and from the correlations of pairs; it checks the map. None if the
@@ -81,7 +81,7 @@ const LAGS: usize = 257;
 ///
 /// # Errors
 /// If the web cannot be laid, or if it is stopped.
-pub fn find(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
+pub fn find(web: &Web, by: LayControl<'_>) -> Result<Findings, Error> {
     find_laid(web, None, by)
 }
 
@@ -89,16 +89,16 @@ pub fn find(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
 ///
 /// # Errors
 /// As [`find`].
-pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: Laying<'_>) -> Result<Findings, Error> {
+pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Result<Findings, Error> {
     let found = measure_laid(web, laid, by)?;
-    if found.laid.together.is_some() {
+    if found.laid.shared_air.is_some() {
         // What changes the unevenness of independent filaments says little about that of their clouds.
         return Ok(found);
     }
     let sides: Vec<usize> = found.patches.iter().map(|patch| side(&web.sheet, patch.map.patch)).collect();
     let sample = OneFibre { cell: web.sheet.cell, fibres: TURNED, seed: web.seed };
     let aside = AtomicU64::new(0);
-    let mut sensitivities = sensitivities(web, &sides, sample, Laying { laid: &aside, ..by })?;
+    let mut sensitivities = sensitivities(web, &sides, sample, LayControl { laid: &aside, ..by })?;
     // A surrogate that is not like the flown fibres does not say what would change their web.
     for sensitivity in sensitivities.iter_mut().filter(|sensitivity| sensitivity.source == Source::Surrogate)
     {
@@ -115,7 +115,7 @@ pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: Laying<'_>) -> Result<Fin
 ///
 /// # Errors
 /// As [`find`].
-pub fn measure(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
+pub fn measure(web: &Web, by: LayControl<'_>) -> Result<Findings, Error> {
     measure_laid(web, None, by)
 }
 
@@ -123,7 +123,7 @@ pub fn measure(web: &Web, by: Laying<'_>) -> Result<Findings, Error> {
 ///
 /// # Errors
 /// As [`find`].
-pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: Laying<'_>) -> Result<Findings, Error> {
+pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Result<Findings, Error> {
     let sheet = &web.sheet;
     let SheetPosition { reach, columns } = across(web);
     let sides = sides(sheet, &columns);
@@ -139,14 +139,14 @@ pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: Laying<'_>) -> Result<
         return Err(Fault::new(message, "write web.edges = \"periodic\", or a larger web.width").into());
     }
     let laid = laid.map_or_else(|| lay(web, by), Ok)?;
-    let is_shared = laid.together.is_some();
+    let is_shared = laid.shared_air.is_some();
     // The progress is that of the web; what comes after it is short.
     let aside = AtomicU64::new(0);
-    let by = Laying { laid: &aside, ..by };
+    let by = LayControl { laid: &aside, ..by };
     let map = laid.map.between(columns.clone());
     let sample = OneFibre { cell: sheet.cell, fibres: ALONE, seed: web.seed };
     let alone = expected(web, web.layers.clone(), &sides, (sample, columns.clone()), by)?;
-    let other = |layer: &Layer| Some(Layer { fibres: layer.compared.clone()?, ..layer.clone() });
+    let other = |layer: &Layer| Some(Layer { fibres: layer.other_description.clone()?, ..layer.clone() });
     let compared = match web.layers.iter().map(other).collect() {
         Some(layers) => Some(expected(web, layers, &sides, (sample, columns.clone()), by)?),
         None => None,
@@ -159,7 +159,7 @@ pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: Laying<'_>) -> Result<
         laid.or_else(|| {
             compared
                 .as_ref()
-                .filter(|_| all(is_kind, |layer| layer.compared.as_ref()))
+                .filter(|_| all(is_kind, |layer| layer.other_description.as_ref()))
                 .map(|found| found[i].cv)
         })
     };
@@ -171,11 +171,21 @@ pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: Laying<'_>) -> Result<
         let Some(map) = map else { continue };
         let flown = the_one(|fibres| matches!(fibres, Fibres::Curves(_)), i);
         let surrogate = the_one(|fibres| matches!(fibres, Fibres::Surrogate(_)), i);
-        let (one_fibre, straight_fibres) = (alone[i].cv, alone[i].straight_fibres);
-        let independent = is_shared.then_some(one_fibre);
-        let pairs =
-            laid.together.as_ref().and_then(|together| with_pairs(web, together, one_fibre.0, map.patch));
-        patches.push(PatchFindings { map, one_fibre, flown, surrogate, straight_fibres, independent, pairs });
+        let (single_fibres, straight_fibres) = (alone[i].cv, alone[i].straight_fibres);
+        let independent = is_shared.then_some(single_fibres);
+        let pairs = laid
+            .shared_air
+            .as_ref()
+            .and_then(|together| with_pairs(web, together, single_fibres.0, map.patch));
+        patches.push(PatchFindings {
+            map,
+            single_fibres,
+            flown,
+            surrogate,
+            straight_fibres,
+            independent,
+            pairs,
+        });
     }
     let lags = ((LAG / sheet.cell).round() as usize + 1).min(LAGS);
     let clouds = Clouds::at(&map, &places, by.threads);

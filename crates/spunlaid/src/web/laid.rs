@@ -17,7 +17,7 @@ pub struct LaidWeb {
     /// Mass beyond edges that cut it off [kg].
     pub cut: f64,
     /// What is known of filaments that were flown together and laid as they came down; None of a web of independent filaments.
-    pub together: Option<SharedAirFindings>,
+    pub shared_air: Option<SharedAirFindings>,
 }
 
 /// What is known of filaments that were flown together, in one air.

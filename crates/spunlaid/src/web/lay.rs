@@ -1,7 +1,7 @@
 //! Lays all filaments of a web.
 
 use super::laid::{HIGHEST, LaidWeb, too_full};
-use super::laying::Laying;
+use super::laying::LayControl;
 use super::map::Map;
 use super::plan::{BLOCK, Plan, plans};
 use super::strip::Strip;
@@ -30,7 +30,7 @@ pub fn pieces(web: &Web) -> Result<u64, Error> {
 ///
 /// # Errors
 /// If the web cannot be laid, or if it is stopped.
-pub fn lay(web: &Web, by: Laying<'_>) -> Result<LaidWeb, Error> {
+pub fn lay(web: &Web, by: LayControl<'_>) -> Result<LaidWeb, Error> {
     let sheet = &web.sheet;
     let [columns, rows] = sheet.cells();
     let mut plans = plans(web)?;
@@ -70,7 +70,7 @@ pub fn lay(web: &Web, by: Laying<'_>) -> Result<LaidWeb, Error> {
     if is_full {
         return Err(too_full(sheet.cell).into());
     }
-    Ok(LaidWeb { map, cut: cut as f64 * quantum, together: None })
+    Ok(LaidWeb { map, cut: cut as f64 * quantum, shared_air: None })
 }
 
 /// The quantum of mass [kg]: a part of a piece is a power of two of them, as many as the fullest cell can count.

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 /// What computes, and how it is watched and stopped.
 #[derive(Clone, Copy, Debug)]
-pub struct Laying<'a> {
+pub struct LayControl<'a> {
     /// Number of threads. The map does not depend on it.
     pub threads: usize,
     /// Instruction set. The map does not depend on it.

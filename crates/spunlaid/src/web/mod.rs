@@ -36,7 +36,7 @@ pub use expected::{ExpectedCv, expected_cv, inner_columns};
 pub use findings::{Findings, PatchFindings, find, find_laid, measure, measure_laid};
 pub use laid::{LaidWeb, SharedAirFindings};
 pub use lay::{lay, pieces};
-pub use laying::{Laying, TimeSpent};
+pub use laying::{LayControl, TimeSpent};
 pub use map::Map;
 pub use neighbours::{Correlation, NeighbourCorrelation, SharedVariance};
 pub use one_fibre::{OneFibre, SingleFibres, one_fibre, straight_fibres};
@@ -101,7 +101,7 @@ pub struct Layer {
     /// The curves that they lay.
     pub fibres: Fibres,
     /// Another description of the same filaments, whose unevenness is told beside that of `fibres`.
-    pub compared: Option<Fibres>,
+    pub other_description: Option<Fibres>,
 }
 
 /// Where the filaments of a layer come down in cross direction.

@@ -1,7 +1,7 @@
 //! What one fibre alone says about the unevenness of a web of many.
 
 use super::lay::lay;
-use super::laying::Laying;
+use super::laying::LayControl;
 use super::uniformity::boxes;
 use super::{Edges, Fibres, Filaments, Layer, Row, Sheet, Web};
 use crate::error::Error;
@@ -57,7 +57,7 @@ pub fn one_fibre(
     layer: &Layer,
     sides: &[usize],
     sample: OneFibre,
-    by: Laying<'_>,
+    by: LayControl<'_>,
 ) -> Result<Vec<SingleFibres>, Error> {
     let largest = sides.iter().copied().max().unwrap_or(1);
     // So far apart that no patch meets two fibres.
@@ -105,7 +105,7 @@ fn add(
     sides: &[usize],
     sample: OneFibre,
     [apart, trace, rows]: [usize; 3],
-    by: Laying<'_>,
+    by: LayControl<'_>,
     found: &mut [Sums],
 ) -> Result<(), Error> {
     let pitch = apart as f64 * sample.cell;

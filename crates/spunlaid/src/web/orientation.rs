@@ -1,7 +1,7 @@
 //! The directions of the fibres in a web.
 
 use super::Web;
-use super::laying::Laying;
+use super::laying::LayControl;
 use super::plan::plans;
 use crate::error::Error;
 use crate::lanes::WIDTH;
@@ -34,7 +34,7 @@ const SAMPLE: usize = 8 * WIDTH;
 ///
 /// # Errors
 /// As [`lay`](super::lay).
-pub fn orientation(web: &Web, by: Laying<'_>) -> Result<Orientation, Error> {
+pub fn orientation(web: &Web, by: LayControl<'_>) -> Result<Orientation, Error> {
     let (mut values, mut directions, mut whole) = (Vec::new(), [0.0; Orientation::DIRECTIONS], 0.0);
     for plan in &plans(web)? {
         let groups = plan.places.len().div_ceil(WIDTH);

@@ -1,7 +1,7 @@
 //! How the filaments of a layer are drawn: where they come down, in which pieces, with which random numbers.
 
 use super::curves::Stretches;
-use super::laying::Laying;
+use super::laying::LayControl;
 use super::points::Points;
 use super::raster::{Draw, Pens};
 use super::strip::Strip;
@@ -24,12 +24,12 @@ const PLACES: u64 = 4;
 const STRETCHES: u64 = 5;
 const DEPTHS: u64 = 6;
 /// Paths of the surrogate.
-struct Wandering {
+struct SurrogatePaths {
     paths: Paths,
     last: Option<[Lanes; 2]>,
 }
 
-impl Points for Wandering {
+impl Points for SurrogatePaths {
     fn next(&mut self, pieces: usize, points: &mut [[Lanes; 2]]) -> usize {
         let count = points.len().min(pieces + 1);
         let points = match self.last {
@@ -156,7 +156,7 @@ impl<'a> Plan<'a> {
                         "all must be above zero",
                     )
                 })?;
-                Ok(Box::new(Wandering { paths, last: None }))
+                Ok(Box::new(SurrogatePaths { paths, last: None }))
             }
             Fibres::Curves(curves) => {
                 let random = random(web.seed, self.number << 48 | first as u64, STRETCHES);
@@ -171,7 +171,7 @@ impl<'a> Plan<'a> {
         web: &Web,
         which: Range<usize>,
         strip: &mut Strip,
-        by: Laying<'_>,
+        by: LayControl<'_>,
     ) -> Result<(), Error> {
         let per_cell = 1.0 / web.sheet.cell;
         let (Some(low), Some(high)) = (self.places.get(which.start), self.places.get(which.end - 1)) else {
@@ -214,7 +214,7 @@ impl<'a> Plan<'a> {
         web: &Web,
         first: usize,
         count: usize,
-        by: Laying<'_>,
+        by: LayControl<'_>,
         mut take: impl FnMut(&[[Lanes; 2]]),
     ) -> Result<(), Error> {
         self.walk_together(web, vec![(first, count)], by, |_, points| take(points))
@@ -228,7 +228,7 @@ impl<'a> Plan<'a> {
         &self,
         web: &Web,
         sets: Vec<(usize, usize)>,
-        by: Laying<'_>,
+        by: LayControl<'_>,
         mut take: impl FnMut(usize, &[[Lanes; 2]]),
     ) -> Result<(), Error> {
         let mut points = [[Lanes::ZERO; 2]; BLOCK];

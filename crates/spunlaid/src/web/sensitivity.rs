@@ -1,6 +1,6 @@
 //! What would make a web more even.
 
-use super::laying::Laying;
+use super::laying::LayControl;
 use super::one_fibre::{OneFibre, one_fibre};
 use super::{Curves, Fibres, Layer, Web};
 use crate::error::Error;
@@ -62,7 +62,7 @@ impl Lever {
     ///
     /// * `largest` – side of the largest patch [m]
     fn both(self, layer: &Layer, factor: f64, largest: f64) -> Option<(Source, [Layer; 2])> {
-        let fibres = [Some(&layer.fibres), layer.compared.as_ref()].into_iter().flatten();
+        let fibres = [Some(&layer.fibres), layer.other_description.as_ref()].into_iter().flatten();
         let both = |fibres: &Fibres| {
             let changed = Layer { fibres: fibres.clone(), ..layer.clone() };
             let [less, more] = [factor.recip(), factor].map(|factor| self.turned(&changed, factor));
@@ -149,7 +149,7 @@ pub fn sensitivities(
     web: &Web,
     sides: &[usize],
     sample: OneFibre,
-    by: Laying<'_>,
+    by: LayControl<'_>,
 ) -> Result<Vec<Sensitivity>, Error> {
     let mut found = Vec::new();
     let [layer] = &web.layers[..] else {

@@ -1,6 +1,6 @@
 //! Single fibres of a web, as curves.
 
-use super::laying::Laying;
+use super::laying::LayControl;
 use super::plan::{Plan, plans};
 use super::window::{Strand, Window};
 use super::{Edges, Fibres, Web};
@@ -12,7 +12,7 @@ use crate::threads::try_each;
 ///
 /// # Errors
 /// As [`lay`](super::lay).
-pub fn strands(web: &Web, window: Window, by: Laying<'_>) -> Result<Vec<Strand>, Error> {
+pub fn strands(web: &Web, window: Window, by: LayControl<'_>) -> Result<Vec<Strand>, Error> {
     let plans = plans(web)?;
     let sets = |(layer, plan): (usize, &Plan<'_>)| {
         (0..plan.places.len()).step_by(WIDTH).map(move |first| (layer, first)).collect::<Vec<_>>()
@@ -35,7 +35,7 @@ fn strands_of(
     window: Window,
     (layer, plan): (usize, &Plan<'_>),
     first: usize,
-    by: Laying<'_>,
+    by: LayControl<'_>,
 ) -> Result<Vec<Strand>, Error> {
     let count = WIDTH.min(plan.places.len() - first);
     let mut strands = Vec::new();

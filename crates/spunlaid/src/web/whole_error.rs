@@ -39,8 +39,8 @@ impl PatchFindings {
             return WholeError { chance: self.map.standard_error, flight: Some(0.0), model: Some(0.0) };
         }
         // What is expected of the web is as far off, in parts of itself.
-        let per_expected = self.map.cv / self.one_fibre.0;
-        let parts = self.flown.map(|(flown, error)| [error, flown - self.one_fibre.0]);
+        let per_expected = self.map.cv / self.single_fibres.0;
+        let parts = self.flown.map(|(flown, error)| [error, flown - self.single_fibres.0]);
         let part = |part: usize| parts.map(|parts| (parts[part] * per_expected).abs());
         let [flight, model] = [0, 1].map(|i| part(i).filter(|error| error.is_finite()));
         WholeError { chance: self.map.standard_error, flight, model }
@@ -65,7 +65,8 @@ impl Web {
     /// Longest distance from point to point along the flown curves of the layers [m]: over smaller patches the flight, which
     /// has straight pieces of this length, says little more than the surrogate. None if nothing was flown.
     pub fn longest_element(&self) -> Option<f64> {
-        let fibres = self.layers.iter().flat_map(|layer| [Some(&layer.fibres), layer.compared.as_ref()]);
+        let fibres =
+            self.layers.iter().flat_map(|layer| [Some(&layer.fibres), layer.other_description.as_ref()]);
         let elements = fibres.flatten().filter_map(|fibres| match fibres {
             Fibres::Curves(curves) => Some(curves.spacing()),
             Fibres::Surrogate(_) => None,

@@ -8,7 +8,7 @@ use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, Flyer};
 use spunlaid::scan::{Format, Light, Picture, Settings, analyse};
 use spunlaid::study::Journal;
-use spunlaid::web::{Laying, Map};
+use spunlaid::web::{LayControl, Map};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// A small web that is laid in a tenth of a second.
@@ -44,7 +44,7 @@ pub fn laid(file: &FitFile, values: &[f64], seed: u64) -> Map {
     spec.seed = seed;
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
     let laid = AtomicU64::new(0);
-    let by = Laying { threads: 1, isa: Isa::detect(), stop: &STOP, laid: &laid };
+    let by = LayControl { threads: 1, isa: Isa::detect(), stop: &STOP, laid: &laid };
     Flyer::new(1, &STOP, &follow).web(&spec).unwrap().map(by).unwrap()
 }
 
@@ -82,7 +82,7 @@ pub fn fitted(
     let question = Question { parameters: &file.parameters, target: &target, make: &make, webs };
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
     let laid = AtomicU64::new(0);
-    let by = Laying { threads: 1, isa: Isa::detect(), stop: &STOP, laid: &laid };
+    let by = LayControl { threads: 1, isa: Isa::detect(), stop: &STOP, laid: &laid };
     fit(question, Flyer::new(1, &STOP, &follow), by, journal, &|_| {})
 }
 

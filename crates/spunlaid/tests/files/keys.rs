@@ -25,7 +25,7 @@ fn every_row_is_whole() {
     for key in keys::all() {
         assert!(key.meaning.ends_with('.') && key.meaning.len() > 20, "{}", key.name);
         assert!(!key.varies || key.label != key.name, "{} varies and has no label", key.name);
-        let (Omission::Required(words) | Omission::Value(words) | Omission::Follows(words)) = key.left_out;
+        let (Omission::Required(words) | Omission::Value(words) | Omission::Follows(words)) = key.omission;
         assert!(!words.is_empty(), "{}", key.name);
         if let (Some((least, greatest)), Kind::Quantity(..)) = (key.slider, key.kind) {
             assert!(least < greatest, "{}", key.name);
@@ -86,9 +86,9 @@ fn identical_after_getting_and_setting() {
         let mut again = case.clone();
         for key in keys::all() {
             // The flow tells it, so that it cannot be set.
-            let is_told = key.name == "air.velocity" && !case.air.is_uniform()
-                || case.spinline.is_some() && key.is_told(&case);
-            if let Some(value) = key.get(&case).filter(|_| !is_told) {
+            let is_derived = key.name == "air.velocity" && !case.air.is_uniform()
+                || case.spinline.is_some() && key.is_derived(&case);
+            if let Some(value) = key.get(&case).filter(|_| !is_derived) {
                 key.set(&mut again, value).unwrap();
                 seen.insert(key.name);
             }
@@ -165,7 +165,7 @@ fn rejects_values_with_the_way_out() {
 #[test]
 fn identical_default_of_the_tolerance() {
     let tolerance = keys::find("run.error_tolerance").unwrap();
-    assert_eq!(tolerance.left_out, Omission::Value("0.003"));
+    assert_eq!(tolerance.omission, Omission::Value("0.003"));
     assert_eq!("0.003".parse(), Ok(ERROR_TOLERANCE));
 }
 

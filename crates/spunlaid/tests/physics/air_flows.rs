@@ -6,7 +6,7 @@ use spunlaid::air::{Air, Axis, Eddies, FileContent, Flow, FlowNumbers, PlacedFie
 use spunlaid::air::{Atmosphere, Surroundings, Wind};
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::{Computing, Keep, KeepShapes, Trajectory, fly};
+use spunlaid::ensemble::{Keep, KeepShapes, RunControl, Trajectory, fly};
 use spunlaid::error::Error;
 use spunlaid::field::{Field, Hint, Values};
 use spunlaid::flight::Flight;
@@ -26,7 +26,7 @@ fn table1(changes: &[(&str, &str)]) -> Case {
 fn flights(case: &Case) -> Vec<Trajectory> {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing =
-        Computing { threads: 2, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, recorder: None };
+        RunControl { threads: 2, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, recorder: None };
     let mut flights = Vec::new();
     fly::<Error>(
         case,
@@ -344,7 +344,7 @@ fn check_identical(flow: impl Fn() -> Flow) {
     for isa in Isa::available() {
         for threads in [1, 3] {
             let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
-            let computing = Computing { threads, isa, stop: &stop, fibre_steps: &steps, recorder: None };
+            let computing = RunControl { threads, isa, stop: &stop, fibre_steps: &steps, recorder: None };
             let mut fewer = case.clone();
             fewer.run.replicates = 3;
             fewer.air.flow = flow();

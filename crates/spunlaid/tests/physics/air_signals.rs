@@ -131,14 +131,14 @@ fn stat_realised_spectra_follow_the_shape() {
     for shape in [SpectrumShape::VonKarman, SpectrumShape::Measured(table)] {
         let air = Air { spectrum: shape, harmonics: 1024, ..table1_air() };
         let samples = 4096;
-        let realised = spectra(&air, 1.0 / 800.0, samples);
+        let synthesised = spectra(&air, 1.0 / 800.0, samples);
         let segments = samples / Welch::segment_length(samples);
         let error = 1.0 / ((32 * segments.max(1)) as f64).sqrt();
-        for (component, realised) in realised.iter().enumerate() {
+        for (component, synthesised) in synthesised.iter().enumerate() {
             let wanted = air.energy_spectrum(component);
             for f in [15.0, 30.0, 45.0, 60.0, 80.0] {
                 let nearest =
-                    realised.iter().min_by(|a, b| (a.0 - f).abs().total_cmp(&(b.0 - f).abs())).unwrap();
+                    synthesised.iter().min_by(|a, b| (a.0 - f).abs().total_cmp(&(b.0 - f).abs())).unwrap();
                 let omega = 2.0 * std::f64::consts::PI * nearest.0;
                 let ratio = nearest.1 / (wanted.energy(omega) * 2.0 * std::f64::consts::PI);
                 assert!((ratio - 1.0).abs() < 5.0 * error, "{component} {f} Hz: {ratio} ± {error}");

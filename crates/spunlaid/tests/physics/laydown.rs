@@ -6,7 +6,7 @@ use spunlaid::air::Air;
 use spunlaid::case::Case;
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::{Computing, turbulence_spectrum};
+use spunlaid::ensemble::{RunControl, turbulence_spectrum};
 use spunlaid::fibre::Fibre;
 use spunlaid::flight::Flight;
 use spunlaid::lanes::{Isa, Lanes};
@@ -317,13 +317,13 @@ fn stat_turbulence_on_the_way_has_the_spectrum_that_is_wanted() {
     let case = spunbond(&[("run.duration", "1 s"), ("run.replicates", "8")]);
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing =
-        Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, recorder: None };
+        RunControl { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, recorder: None };
     let points = turbulence_spectrum(&case, computing).unwrap();
     // The air slows down on its way, so the cut-off falls, and the mean of all places falls in steps.
     for (from, to) in [(20.0, 180.0), (260.0, 310.0), (460.0, 500.0), (600.0, 630.0), (800.0, 830.0)] {
         let within = points.iter().filter(|point| (from..to).contains(&point.frequency));
-        let (realised, wanted) =
-            within.fold((0.0, 0.0), |(a, b), point| (a + point.realised, b + point.wanted));
-        assert!((realised / wanted - 1.0).abs() < 0.1, "{from} to {to} Hz: {}", realised / wanted);
+        let (synthesised, wanted) =
+            within.fold((0.0, 0.0), |(a, b), point| (a + point.synthesised, b + point.wanted));
+        assert!((synthesised / wanted - 1.0).abs() < 0.1, "{from} to {to} Hz: {}", synthesised / wanted);
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::common::laying::{flight, laid_until, spunbond};
 use spunlaid::case::Case;
-use spunlaid::ensemble::{Computing, Keep, LaidCurves, fly};
+use spunlaid::ensemble::{Keep, LaidCurves, RunControl, fly};
 use spunlaid::error::Error;
 use spunlaid::flight::{Flight, Job, LaidPoint};
 use spunlaid::lanes::Isa;
@@ -101,7 +101,7 @@ fn identical_lay_down_for_any_packing_instruction_set_and_number_of_threads() {
     let ensemble = |threads| {
         let curves = LaidCurves::default();
         let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-        let computing = Computing {
+        let computing = RunControl {
             threads,
             isa: Isa::detect(),
             stop: &stop,

@@ -1,7 +1,7 @@
 //! Companions of a fibre in the same air: what is common to their motion.
 
 use spunlaid::case::Case;
-use spunlaid::ensemble::{Computing, Keep, Recorder, Results, Sample, fly};
+use spunlaid::ensemble::{Keep, Recorder, Results, RunControl, Sample, fly};
 use spunlaid::error::Error;
 use spunlaid::flight::LaidPoint;
 use spunlaid::input::parse_case;
@@ -98,7 +98,7 @@ impl Recorder for Recorded {
 fn flown(case: &Case, threads: usize) -> (Results, Vec<(u64, u64)>, u64) {
     let (stop, steps, recorded) = (AtomicBool::new(false), AtomicU64::new(0), Recorded::default());
     let isa = Isa::detect();
-    let computing = Computing { threads, isa, stop: &stop, fibre_steps: &steps, recorder: Some(&recorded) };
+    let computing = RunControl { threads, isa, stop: &stop, fibre_steps: &steps, recorder: Some(&recorded) };
     let mut collector = Results::collector(0);
     let done: Result<(), Error> = fly(case, Keep::CURVES, computing, |trajectory| {
         collector.take(trajectory);

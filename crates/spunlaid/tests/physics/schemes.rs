@@ -5,7 +5,7 @@ use spunlaid::air::{Air, Eddies, StreamKey, Wind};
 use spunlaid::case::{Case, Neighbours, Run};
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::{Computing, Job, Keep, fly_together};
+use spunlaid::ensemble::{Job, Keep, RunControl, fly_together};
 use spunlaid::flight::{Flight, Snapshot};
 use spunlaid::lanes::{Isa, WIDTH};
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -228,7 +228,7 @@ fn invariant_strain_99_hardly_depends_on_the_step() {
         (case.run.time_step, case.run.steps, case.run.output_steps) = (h, steps(1.0), steps(1e-3));
         let jobs: Vec<Job<'_>> = (0..WIDTH as u64).map(|replicate| Job::new(&case, replicate)).collect();
         let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-        let computing = Computing {
+        let computing = RunControl {
             threads: 1,
             isa: Isa::detect(),
             stop: &stop,

@@ -6,7 +6,7 @@ use crate::short::case_of;
 use spunlaid::air::{Air, EddyModel, Flow, FlowNumbers};
 use spunlaid::case::Case;
 use spunlaid::case::keys::{self, Key, Kind, Omission, Value};
-use spunlaid::ensemble::{Computing, Job, Keep, Trajectory, fly, fly_together};
+use spunlaid::ensemble::{Job, Keep, RunControl, Trajectory, fly, fly_together};
 use spunlaid::error::Error;
 use spunlaid::input::{parse_case, parse_study, write_case};
 use spunlaid::lanes::Isa;
@@ -82,8 +82,8 @@ fn pairs(key: &Key, case: &Case) -> Vec<(usize, [String; 2])> {
 /// All that may differ.
 const KEPT: Keep = Keep { samples: true, ..Keep::CURVES };
 
-fn computing<'a>(stop: &'a AtomicBool, steps: &'a AtomicU64) -> Computing<'a> {
-    Computing { threads: 1, isa: Isa::detect(), stop, fibre_steps: steps, recorder: None }
+fn computing<'a>(stop: &'a AtomicBool, steps: &'a AtomicU64) -> RunControl<'a> {
+    RunControl { threads: 1, isa: Isa::detect(), stop, fibre_steps: steps, recorder: None }
 }
 
 /// What a run of a case alone gives, or why it gives nothing.
@@ -200,7 +200,7 @@ fn vary_every_key(name: &str, text: &str) -> Found {
             }
         }
         // Some keys have no meaning for a case, some are told by a file or by other keys.
-        let is_there = key.get(&case).is_some() && !key.is_told(&case);
+        let is_there = key.get(&case).is_some() && !key.is_derived(&case);
         let excluded = refused.iter().all(|reason| reason.contains("cannot be combined with"));
         if is_there && !excluded && key.kind.words().is_empty() && !flown.contains(&CLOSE) {
             found.wrong.push(format!("{name}: no two close values of {}: {refused:?}", key.name));
@@ -236,7 +236,7 @@ fn identical_alone_and_in_company_for_every_key() {
 #[test]
 fn rejects_keys_that_a_study_cannot_vary_with_the_way_out() {
     for key in keys::all().iter().filter(|key| !key.varies) {
-        let value = match key.left_out {
+        let value = match key.omission {
             Omission::Value(text) if matches!(key.kind, Kind::Whole(..)) => text.to_owned(),
             _ => "'1 m'".to_owned(),
         };

@@ -4,7 +4,7 @@ use crate::short;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use spunlaid::observe::MEASURES;
-use spunlaid::study::{Journal, Landing, Record, Study, rankings};
+use spunlaid::study::{Journal, Record, ReplicateOutcome, Study, rankings};
 
 /// The case is never flown; its intensity is in the middle of the range that the studies vary.
 fn study(text: &str) -> Study {
@@ -56,8 +56,8 @@ fn flown(study: &Study, replicates: u64, model: Model, noise: Noise, seed: u64) 
         for (replicate, [all, slopes @ ..]) in (0..).zip(&common) {
             let slope: f64 = slopes.iter().zip(&x).map(|(slope, x)| slope * x).sum();
             let y = model(&x) + noise.fibre * normal.next() + noise.replicate * all + noise.slopes * slope;
-            let landing = Landing::Measured(vec![y; study.quantities.len()].into());
-            journal.add(&[Record { point: index as u64, replicate, landing }]).unwrap();
+            let outcome = ReplicateOutcome::Measured(vec![y; study.quantities.len()].into());
+            journal.add(&[Record { point: index as u64, replicate, outcome }]).unwrap();
         }
     }
     journal
@@ -213,7 +213,7 @@ fn the_differences_of_a_smallest_design_are_ranked_without_a_share() {
     assert!(ranking.explained.is_nan());
     let mean = |point: usize, journal: &mut Journal| {
         let values = journal.records(point, 9).unwrap();
-        values.iter().map(|record| record.landing.measured().unwrap()[0]).sum::<f64>() / 4.0
+        values.iter().map(|record| record.outcome.measured().unwrap()[0]).sum::<f64>() / 4.0
     };
     let wanted = mean(1, &mut journal) - mean(0, &mut journal);
     let effect = ranking.effects.iter().find(|effect| effect.factor == 0).unwrap();
@@ -253,8 +253,8 @@ fn effects_of_words(
         let y = WORDS.0[word] + WORDS.1 * study.factors[1].place(point.values[1]);
         for (replicate, all) in (0..).zip(&common) {
             let y = y + noise.fibre * normal.next() + noise.replicate * all;
-            let landing = Landing::Measured(vec![y; study.quantities.len()].into());
-            journal.add(&[Record { point: index as u64, replicate, landing }]).unwrap();
+            let outcome = ReplicateOutcome::Measured(vec![y; study.quantities.len()].into());
+            journal.add(&[Record { point: index as u64, replicate, outcome }]).unwrap();
         }
     }
     let rankings = rankings(&study, &mut journal).unwrap();

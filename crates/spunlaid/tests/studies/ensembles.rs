@@ -5,7 +5,7 @@ use crate::common::*;
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::ensemble::{
-    Computing, FinerPlans, Keep, Number, Recorder, Results, Sample, Trajectory, fly, fly_and_check,
+    FinerPlans, Keep, Number, Recorder, Results, RunControl, Sample, Trajectory, fly, fly_and_check,
     fly_together,
 };
 use spunlaid::error::Error;
@@ -25,7 +25,7 @@ pub fn table1(time_step: f64, duration: f64, replicates: u64) -> Case {
 pub fn flights(case: &Case, threads: usize) -> Vec<Trajectory> {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing =
-        Computing { threads, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
+        RunControl { threads, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
     let mut flights = Vec::new();
     let done: Result<(), Error> = fly(case, Keep::SAMPLES, computing, |flight| {
         flights.push(flight);
@@ -180,7 +180,7 @@ fn rejects_a_flight_that_diverges() {
     (case.fibre.diameter, case.air.velocity) = (2e-6, 3000.0);
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing =
-        Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
+        RunControl { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
     let done: Result<(), Error> = fly(&case, Keep::SAMPLES, computing, |_| Ok(()));
     let message = done.expect_err("must blow up").to_string();
     assert!(
@@ -243,7 +243,7 @@ replicates = 12
     for threads in [1, 2] {
         let (stop, fibre_steps, told) =
             (AtomicBool::new(false), AtomicU64::new(0), RecordedSamples::default());
-        let computing = Computing {
+        let computing = RunControl {
             threads,
             isa: Isa::detect(),
             stop: &stop,
@@ -280,7 +280,7 @@ replicates = 12
             let alone = fly_together(
                 &jobs,
                 Keep::SAMPLES,
-                Computing { recorder: None, fibre_steps: &AtomicU64::new(0), ..computing },
+                RunControl { recorder: None, fibre_steps: &AtomicU64::new(0), ..computing },
             );
             assert_same(&alone.unwrap()[0], &flight);
             assert!(told[&flight.replicate].1 == flight.samples);

@@ -7,7 +7,7 @@ use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::NormalLaw;
 use spunlaid::ensemble::{
-    Computing, FinerCheck, FinerPlans, Keep, Refinement, Trajectory, fly_and_check, fly_together,
+    FinerCheck, FinerPlans, Keep, Refinement, RunControl, Trajectory, fly_and_check, fly_together,
 };
 use spunlaid::error::Error;
 use spunlaid::flight::Job;
@@ -26,7 +26,7 @@ fn checked_by(
     stop: bool,
 ) -> Result<(Vec<Trajectory>, Result<FinerCheck, String>), Error> {
     let (stop, fibre_steps) = (AtomicBool::new(stop), AtomicU64::new(0));
-    let computing = Computing { threads, isa, stop: &stop, fibre_steps: &fibre_steps, recorder: None };
+    let computing = RunControl { threads, isa, stop: &stop, fibre_steps: &fibre_steps, recorder: None };
     let none = || Err("it was not asked for".to_owned());
     let plans = match (refined, FinerPlans::for_case(case)) {
         (Refinement::TimeStep, FinerPlans { step, .. }) => FinerPlans { step, mesh: none() },
@@ -117,7 +117,7 @@ fn invariant_the_step_check_of_a_fed_fibre_compares_it_with_resolved_axial_waves
     let jobs: Vec<Job<'_>> = (0..8).map(|replicate| Job::new(&fine, replicate)).collect();
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing =
-        Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
+        RunControl { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
     let resolved = fly_together(&jobs, Keep::SAMPLES, computing).unwrap();
     let spread = off(&flown, &resolved, ["sigma_md", "sigma_cd"]);
     let found = change(&check, "spread");

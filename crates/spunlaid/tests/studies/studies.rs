@@ -4,14 +4,14 @@ use crate::short;
 use crate::short::{SHORT, case_of};
 use spunlaid::case::Case;
 use spunlaid::case::keys::{self, Value};
-use spunlaid::ensemble::{Computing, Keep, Results, Trajectory, fly};
+use spunlaid::ensemble::{Keep, Results, RunControl, Trajectory, fly};
 use spunlaid::error::Error;
 use spunlaid::input::{StudyFile, parse_case, parse_study, starter_case, write_case};
 use spunlaid::lanes::Isa;
 use spunlaid::statistics::Estimate;
 use spunlaid::study::{
-    Batch, Journal, Landing, PointResults, Progress, Record, Replicates, Study, fly_batches, measured,
-    results_of_point, run,
+    Batch, Journal, PointResults, Progress, Record, ReplicateOutcome, Replicates, Study, fly_batches,
+    measured, results_of_point, run,
 };
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -20,8 +20,8 @@ fn study(text: &str) -> StudyFile {
     short::study(SHORT, text)
 }
 
-fn computing<'a>(threads: usize, stop: &'a AtomicBool, steps: &'a AtomicU64) -> Computing<'a> {
-    Computing { threads, isa: Isa::detect(), stop, fibre_steps: steps, recorder: None }
+fn computing<'a>(threads: usize, stop: &'a AtomicBool, steps: &'a AtomicU64) -> RunControl<'a> {
+    RunControl { threads, isa: Isa::detect(), stop, fibre_steps: steps, recorder: None }
 }
 
 fn flown(study: &Study, threads: usize) -> Journal {
@@ -78,8 +78,8 @@ fn identical_to_single_runs_whether_phases_are_common_or_not() {
             for (flight, record) in flights.iter().zip(&records) {
                 assert_eq!(record.replicate, flight.replicate);
                 // Text, because NaN differs from NaN.
-                let expected = Landing::Measured(measured(flight));
-                assert_eq!(format!("{:?}", record.landing), format!("{expected:?}"), "point {index}");
+                let expected = ReplicateOutcome::Measured(measured(flight));
+                assert_eq!(format!("{:?}", record.outcome), format!("{expected:?}"), "point {index}");
             }
             // The means have the same bits, too.
             let mut collector = Results::collector(0);
@@ -209,10 +209,10 @@ fn a_lost_fibre_costs_its_neighbours_nothing() {
     let alone = flown(&Study::of_cases([good], Replicates::fixed(3)), 1).records(0, 9).unwrap();
     for point in [0, 2] {
         let records = journal.records(point, 9).unwrap();
-        assert!(records.iter().zip(&alone).all(|(a, b)| a.landing == b.landing));
+        assert!(records.iter().zip(&alone).all(|(a, b)| a.outcome == b.outcome));
     }
     let lost = journal.records(1, 9).unwrap();
-    assert!(lost.iter().all(|record| matches!(record.landing, Landing::Lost { .. })), "{lost:?}");
+    assert!(lost.iter().all(|record| matches!(record.outcome, ReplicateOutcome::Lost { .. })), "{lost:?}");
     let results: PointResults = results_of_point(&study, &mut journal, 1).unwrap();
     assert_eq!((results.n, results.lost), (0, 3));
     assert!(results.mean[0].is_nan() && results.standard_error(0).is_none());
@@ -379,9 +379,9 @@ fn identical_to_single_runs_where_words_vary() {
         let records = journal.records(index, 99).unwrap();
         assert_eq!(records.len(), 3);
         for (flight, record) in single(&case).iter().zip(&records) {
-            assert_eq!(record.landing, Landing::Measured(measured(flight)), "point {index}");
+            assert_eq!(record.outcome, ReplicateOutcome::Measured(measured(flight)), "point {index}");
         }
-        different.insert(format!("{:?}", records[0].landing));
+        different.insert(format!("{:?}", records[0].outcome));
     }
     assert_eq!(different.len(), study.points.len(), "every word changes the flight");
 }
@@ -394,9 +394,11 @@ fn identical_to_single_runs_where_elements_of_equal_number_differ_in_length() {
     let mut journal = flown(&study, 1);
     for (index, point) in study.points.iter().enumerate() {
         let records = journal.records(index, 9).unwrap();
-        let landings: Vec<Landing> = records.iter().map(|record| record.landing.clone()).collect();
-        let alone: Vec<Landing> =
-            single(case_of(point)).iter().map(|flight| Landing::Measured(measured(flight))).collect();
+        let landings: Vec<ReplicateOutcome> = records.iter().map(|record| record.outcome.clone()).collect();
+        let alone: Vec<ReplicateOutcome> = single(case_of(point))
+            .iter()
+            .map(|flight| ReplicateOutcome::Measured(measured(flight)))
+            .collect();
         assert_eq!(landings, alone, "point {index}");
     }
 }

@@ -1,14 +1,14 @@
 //! Every key of a web that can vary, varied in a study, gives what single webs give, in every measure.
 
 use crate::web_studies::{study_beside_cases, web_beside_cases};
-use spunlaid::ensemble::Computing;
+use spunlaid::ensemble::RunControl;
 use spunlaid::input::{LaydownSource, WEB_KEYS, WebFile, WebKey, WebSpec};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, Flyer, web_key};
 use spunlaid::observe::{OF_PATCHES, OF_WEBS};
 use spunlaid::study::{Batch, fly_bundle};
 use spunlaid::units::Dimension;
-use spunlaid::web::Laying;
+use spunlaid::web::LayControl;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -134,7 +134,8 @@ fn measured(spec: &WebSpec) -> Vec<u64> {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
     let mut flown = Flyer::new(1, &stop, &follow).web(spec).unwrap();
-    let found = flown.measure(Laying { threads: 1, isa: Isa::detect(), stop: &stop, laid: &laid }).unwrap();
+    let found =
+        flown.measure(LayControl { threads: 1, isa: Isa::detect(), stop: &stop, laid: &laid }).unwrap();
     // The strips that are cut off at the edges may leave no room for large patches.
     let patch = |side: f64| found.patches.iter().find(|patch| (patch.map.patch / side - 1.0).abs() < 1e-9);
     let patches = spec.sheet.patches.iter().flat_map(|side| {
@@ -155,11 +156,11 @@ fn together(text: &str, key: &str, values: &[String; 2]) -> Result<[Vec<u64>; 2]
     assert_ne!(study.points[0].experiment, study.points[1].experiment, "{key} is not set");
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing =
-        Computing { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, recorder: None };
+        RunControl { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, recorder: None };
     let bundle = [0, 1].map(|point| Batch { point, replicates: 0..1 });
     let records = fly_bundle((&study.points, &study.patch_sides()), &bundle, computing).unwrap();
     Ok([0, 1].map(|point| {
-        let measured = records[point].landing.measured().unwrap();
+        let measured = records[point].outcome.measured().unwrap();
         // A web has nothing of the patches of the other one.
         let sides = study.patch_sides();
         let own = &study.points[point].experiment.web().unwrap().sheet.patches;

@@ -5,7 +5,7 @@ use spunlaid::error::Error;
 use spunlaid::input::{LaydownSource, Overrides, WebFile, WebSpec, parse_changes, parse_web};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, Flyer};
-use spunlaid::web::Laying;
+use spunlaid::web::LayControl;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -67,11 +67,11 @@ fn read(text: &str, set: &[(&str, &str)]) -> (WebFile, Vec<Change>) {
 fn advice(text: &str, threads: usize, stop: &AtomicBool) -> Result<Advice, Error> {
     let (file, changes) = read(text, &[]);
     let (laid, on) = (AtomicU64::new(0), AtomicBool::new(false));
-    let by = Laying { threads, isa: Isa::detect(), stop: &on, laid: &laid };
+    let by = LayControl { threads, isa: Isa::detect(), stop: &on, laid: &laid };
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
     let mut flown = Flyer::new(threads, &on, &follow).web(&file.spec).unwrap();
     let findings = flown.measure(by).unwrap();
-    advise(&file.spec, (&flown.web, &findings), changes, Laying { stop, ..by })
+    advise(&file.spec, (&flown.web, &findings), changes, LayControl { stop, ..by })
 }
 
 fn weight(spec: &WebSpec) -> f64 {
@@ -179,7 +179,7 @@ fn analytic_titre_of_straight_filaments() {
         // With more throughput the belt is as much faster, and the same paths lie on it.
         assert!(change(Setting::Throughput, more).change.abs() < 1e-9);
     }
-    let [(effect, cv), ..] = advice.lowering(2e-3)[..] else { panic!("nothing lowers it") };
+    let [(effect, cv), ..] = advice.improvements(2e-3)[..] else { panic!("nothing lowers it") };
     assert_eq!((effect.change.setting, cv.change < -0.05), (Setting::Titre, true));
     assert!((effect.mass_flow[1] / effect.mass_flow[0] - 1.0).abs() < 1e-9);
 }

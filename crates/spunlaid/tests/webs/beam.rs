@@ -1,7 +1,7 @@
 //! All filaments of a beam, flown together: limits that hold exactly, and nothing that depends on the threads.
 
 use spunlaid::air::Lateral;
-use spunlaid::beam::{Airs, Beam, BeamFindings, Flying};
+use spunlaid::beam::{Airs, Beam, BeamControl, BeamFindings};
 use spunlaid::case::Case;
 use spunlaid::error::Error;
 use spunlaid::fibre::Place;
@@ -10,7 +10,7 @@ use spunlaid::input::read_case;
 use spunlaid::lanes::Isa;
 use spunlaid::web::uniformity::unevenness;
 use spunlaid::web::{
-    Curves, Edges, Fibres, Filaments, Findings, LaidWeb, Layer, Laying, Map, Row, Sheet, Web, Window,
+    Curves, Edges, Fibres, Filaments, Findings, LaidWeb, LayControl, Layer, Map, Row, Sheet, Web, Window,
     measure_laid,
 };
 use std::path::Path;
@@ -57,7 +57,7 @@ pub(super) fn lay_by(
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let window = Window { corner: [10e-3, 20e-3], sides: [10e-3; 2] };
     let beam = Beam { case, places, airs };
-    let laid = beam.lay(sheet, window, Flying { threads, isa, stop: &stop, steps: &steps }).unwrap();
+    let laid = beam.lay(sheet, window, BeamControl { threads, isa, stop: &stop, steps: &steps }).unwrap();
     assert!(steps.into_inner() > 0);
     laid
 }
@@ -167,11 +167,11 @@ fn found(sheet: &Sheet, laid: LaidWeb, flown: &BeamFindings, filaments: Filament
         belt_speed: line.belt_speed,
         filaments,
         fibres: Fibres::Curves(Arc::new(curves.unwrap())),
-        compared: None,
+        other_description: None,
     };
     let web = Web { sheet: sheet.clone(), layers: vec![layer], seed: 1 };
     let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = Laying { threads: 2, isa: Isa::detect(), stop: &stop, laid: &done };
+    let by = LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &done };
     measure_laid(&web, Some(laid), by).unwrap()
 }
 
@@ -202,7 +202,7 @@ fn identical_on_any_threads_and_instruction_sets() {
         let (case, places) = (case_in(lateral), slot(&sheet, 12));
         let lay = |isa, threads| lay_by((&case, &sheet), &places, airs, isa, threads);
         let (one, flown) = lay(Isa::detect(), 1);
-        let strands = |laid: &LaidWeb| laid.together.clone().unwrap().strands;
+        let strands = |laid: &LaidWeb| laid.shared_air.clone().unwrap().strands;
         assert!(!strands(&one).is_empty());
         for (isa, threads) in Isa::available().into_iter().zip([2, 3, 1].into_iter().cycle()) {
             let (other, again) = lay(isa, threads);
@@ -260,7 +260,7 @@ fn rejects_a_beam_that_loses_its_filaments() {
     let (stop, steps, places) = (AtomicBool::new(false), AtomicU64::new(0), slot(&sheet, 12));
     let window = Window { corner: [10e-3, 20e-3], sides: [10e-3; 2] };
     let beam = Beam { case: &case, places: &places, airs: Airs::Shared };
-    let by = Flying { threads: 2, isa: Isa::detect(), stop: &stop, steps: &steps };
+    let by = BeamControl { threads: 2, isa: Isa::detect(), stop: &stop, steps: &steps };
     let said = beam.lay(&sheet, window, by).unwrap_err().to_string();
     assert!(said.contains("of 12 filaments were lost"), "{said}");
 

@@ -2,7 +2,7 @@
 
 use super::beam::{case_in, lay_by, row, sheet};
 use spunlaid::beam::{Airs, BeamFindings};
-use spunlaid::ensemble::{Computing, Keep, Results, fly};
+use spunlaid::ensemble::{Keep, Results, RunControl, fly};
 use spunlaid::error::Error;
 use spunlaid::fibre::Place;
 use spunlaid::lanes::Isa;
@@ -71,7 +71,7 @@ fn stat_the_neighbours_of_a_web_are_the_companions_of_a_case() {
     (case.run.replicates, case.run.seed) = (16, 5);
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing =
-        Computing { threads: 2, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, recorder: None };
+        RunControl { threads: 2, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, recorder: None };
     let mut collector = Results::collector(0);
     fly::<Error>(&case, Keep::CURVES, computing, |trajectory| {
         collector.take(trajectory);

@@ -5,7 +5,7 @@ use spunlaid::lanes::Isa;
 use spunlaid::surrogate::Surrogate;
 use spunlaid::web::uniformity::unevenness;
 use spunlaid::web::{
-    Curves, Edges, Fibres, Filaments, LaidWeb, Layer, Laying, Lever, Map, OneFibre, Row, Sheet, Source,
+    Curves, Edges, Fibres, Filaments, LaidWeb, LayControl, Layer, Lever, Map, OneFibre, Row, Sheet, Source,
     Strand, Web, Window, find, lay, one_fibre, orientation, pieces, straight_fibres, strands,
 };
 use std::f64::consts::PI;
@@ -28,13 +28,13 @@ fn layer(fibres: Fibres, per_metre: f64) -> Layer {
         belt_speed: 3.0,
         filaments,
         fibres,
-        compared: None,
+        other_description: None,
     }
 }
 
 fn laid_by(web: &Web, isa: Isa, threads: usize) -> LaidWeb {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-    lay(web, Laying { threads, isa, stop: &stop, laid: &laid }).expect("a web that can be laid")
+    lay(web, LayControl { threads, isa, stop: &stop, laid: &laid }).expect("a web that can be laid")
 }
 
 fn laid(web: &Web) -> LaidWeb {
@@ -65,7 +65,7 @@ fn straight(count: usize, length: f64, width: f64, cell: f64) -> Web {
             belt_speed: ratio,
             filaments,
             fibres,
-            compared: None,
+            other_description: None,
         }],
         seed: 7,
     }
@@ -93,7 +93,7 @@ fn one_fibre_says_how_uneven_the_web_is() {
     let tau = web.basis_weight() / LINEAR_DENSITY;
     let sides = [1, 2, 5, 10, 20, 50];
     let (stop, pieces) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = Laying { threads: 2, isa: Isa::detect(), stop: &stop, laid: &pieces };
+    let by = LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &pieces };
     let of = OneFibre { cell: 1e-3, fibres: 64, seed: 1 };
     let alone = one_fibre(&by_surrogate, &sides, of, by).expect("single fibres");
     for (side, alone) in sides.into_iter().zip(alone.into_iter().map(|alone| alone.at_random)) {
@@ -115,9 +115,9 @@ fn rows_of_nozzles_have_the_unevenness_that_is_expected_of_them() {
         let sheet = Sheet { patches: [2e-3, 10e-3, 40e-3].to_vec(), ..sheet(0.5, 1.0, 1e-3) };
         let web = Web { sheet, layers: vec![layer], seed: 4 };
         let (stop, pieces) = (AtomicBool::new(false), AtomicU64::new(0));
-        let by = Laying { threads: 2, isa: Isa::detect(), stop: &stop, laid: &pieces };
+        let by = LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &pieces };
         for patch in find(&web, by).expect("findings").patches {
-            let (wanted, own) = patch.one_fibre;
+            let (wanted, own) = patch.single_fibres;
             let error = patch.map.standard_error.expect("an error");
             assert!(
                 (patch.map.cv - wanted).abs() < 4.0 * error.hypot(own) && error < 0.1 * wanted,
@@ -152,7 +152,8 @@ fn inside(web: &Web, off: usize) -> Window {
 
 fn fibres(web: &Web, window: Window) -> Vec<Strand> {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-    strands(web, window, Laying { threads: 1, isa: Isa::detect(), stop: &stop, laid: &laid }).expect("fibres")
+    strands(web, window, LayControl { threads: 1, isa: Isa::detect(), stop: &stop, laid: &laid })
+        .expect("fibres")
 }
 
 /// Mass of a straight piece in each cell, by Liang and Barsky's clipping [kg].
@@ -223,7 +224,7 @@ proptest! {
         let filaments = Filaments::Rows(vec![Row::new(offset, pitch, filaments)]);
         let fibres = Fibres::Surrogate(Surrogate { sigma_md: sigma, sigma_cd: 0.7 * sigma, noise });
         let belt_speed = 50.0 * ratio;
-        let layer = Layer { linear_density: LINEAR_DENSITY, feed_speed: 50.0, belt_speed, filaments, fibres, compared: None };
+        let layer = Layer { linear_density: LINEAR_DENSITY, feed_speed: 50.0, belt_speed, filaments, fibres, other_description: None };
         let web = Web { sheet: Sheet { edges, ..sheet(width, length, cell) }, layers: vec![layer], seed };
         let laid = laid(&web);
         let whole = LINEAR_DENSITY * web.fibre_length();
@@ -241,7 +242,7 @@ fn half_of_the_mass_lies_along_the_machine_direction() {
         let layer = Layer { belt_speed, ..layer(Fibres::Surrogate(SPUNBOND), 640.0) };
         let web = Web { sheet: sheet(0.1, belt_speed / 3.0, 1e-3), layers: vec![layer], seed: 2 };
         let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-        let by = Laying { threads: 1, isa: Isa::detect(), stop: &stop, laid: &laid };
+        let by = LayControl { threads: 1, isa: Isa::detect(), stop: &stop, laid: &laid };
         let found = orientation(&web, by).expect("an orientation");
         let error = found.cos_squared.standard_error.expect("an error");
         assert!(
@@ -287,18 +288,21 @@ fn the_error_of_a_surrogates_map_reaches_to_the_flown_curves() {
     let (surrogate, curves) = rosettes();
     let rows = Filaments::Rows(vec![Row::new(0.2e-3, 0.5e-3, 400)]);
     let curves = Fibres::Curves(Arc::new(curves));
-    let mut layer =
-        Layer { filaments: rows, compared: Some(curves.clone()), ..layer(Fibres::Surrogate(surrogate), 0.0) };
+    let mut layer = Layer {
+        filaments: rows,
+        other_description: Some(curves.clone()),
+        ..layer(Fibres::Surrogate(surrogate), 0.0)
+    };
     let sheet = Sheet { patches: [5e-3, 10e-3].to_vec(), ..sheet(0.2, 0.6, 1e-3) };
     let (stop, pieces) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = Laying { threads: 2, isa: Isa::detect(), stop: &stop, laid: &pieces };
+    let by = LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &pieces };
     let by_surrogate =
         find(&Web { sheet: sheet.clone(), layers: vec![layer.clone()], seed: 1 }, by).expect("findings");
-    layer.compared = Some(std::mem::replace(&mut layer.fibres, curves));
+    layer.other_description = Some(std::mem::replace(&mut layer.fibres, curves));
     let by_curves = find(&Web { sheet, layers: vec![layer], seed: 1 }, by).expect("findings");
     for (i, (patch, other)) in by_surrogate.patches.iter().zip(&by_curves.patches).enumerate() {
-        assert_eq!((patch.flown, patch.surrogate), (Some(other.one_fibre), Some(patch.one_fibre)));
-        assert_eq!(other.flown, Some(other.one_fibre));
+        assert_eq!((patch.flown, patch.surrogate), (Some(other.single_fibres), Some(patch.single_fibres)));
+        assert_eq!(other.flown, Some(other.single_fibres));
         let (apart, of_apart) = patch.surrogate_over_flown().expect("both");
         assert!(patch.surrogate_is_far() && apart.abs() > 0.05 && apart.abs() > 2.0 * of_apart, "{patch:?}");
         let error = patch.whole_error();
@@ -330,7 +334,7 @@ fn the_whole_error_of_a_surrogate_alone_is_not_known() {
     let sheet = Sheet { patches: vec![5e-3], ..sheet(0.2, 0.2, 1e-3) };
     let web = Web { sheet, layers: vec![layer(Fibres::Surrogate(SPUNBOND), 500.0)], seed: 1 };
     let (stop, pieces) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = Laying { threads: 2, isa: Isa::detect(), stop: &stop, laid: &pieces };
+    let by = LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &pieces };
     let found = find(&web, by).expect("findings");
     let patch = found.patches[0];
     let error = patch.whole_error();

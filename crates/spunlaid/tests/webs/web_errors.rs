@@ -6,7 +6,7 @@ use spunlaid::statistics::difference_of_deviations;
 use spunlaid::surrogate::Surrogate;
 use spunlaid::web::uniformity::{Unevenness, unevenness_at};
 use spunlaid::web::{
-    Clouds, Edges, Fibres, Filaments, Findings, Layer, Laying, Row, Sheet, Web, lay, measure,
+    Clouds, Edges, Fibres, Filaments, Findings, LayControl, Layer, Row, Sheet, Web, lay, measure,
 };
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -27,7 +27,7 @@ fn web(filaments: Filaments, edges: Edges, [width, length]: [f64; 2]) -> Web {
             belt_speed: 10.0,
             filaments,
             fibres: Fibres::Surrogate(Surrogate { sigma_md: 18e-3, sigma_cd: 16e-3, noise: 12.0 }),
-            compared: None,
+            other_description: None,
         }],
         seed: 1,
     }
@@ -37,9 +37,9 @@ fn rows(pitch: f64, filaments: u64) -> Filaments {
     Filaments::Rows(vec![Row::new(0.5 * pitch, pitch, filaments)])
 }
 
-fn with<T>(run: impl FnOnce(Laying<'_>) -> T) -> T {
+fn with<T>(run: impl FnOnce(LayControl<'_>) -> T) -> T {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-    run(Laying { threads: 2, isa: Isa::detect(), stop: &stop, laid: &laid })
+    run(LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &laid })
 }
 
 /// Deviations of independent webs, each with its standard error: intervals cover the truth, errors are those of the scatter, and equal webs do not differ.
@@ -126,12 +126,12 @@ fn stat_edges_that_cut_do_not_count() {
         assert!((0.0..=CELL + 1e-9).contains(&(margin - 3.0 * 16e-3)), "{margin}");
     }
     for (whole, cut) in whole.patches.iter().zip(&cut.patches) {
-        let (wanted, own) = cut.one_fibre;
+        let (wanted, own) = cut.single_fibres;
         let error = cut.map.standard_error.expect("an error");
         assert!((cut.map.cv - wanted).abs() < 4.0 * error.hypot(own), "{cut:?}");
         // The edges add 0.14 % of the mean at most, to 2 % or more.
-        let both = own.hypot(whole.one_fibre.1);
-        assert!((wanted - whole.one_fibre.0).abs() < 4.0 * both + 0.01 * wanted, "{cut:?} {whole:?}");
+        let both = own.hypot(whole.single_fibres.1);
+        assert!((wanted - whole.single_fibres.0).abs() < 4.0 * both + 0.01 * wanted, "{cut:?} {whole:?}");
     }
     let [sheet, between] = [&cut.laid.map, &*cut.within()].map(|map| map.basis_weight());
     let dense = web(rows(1e-3, 480), Edges::Periodic, sizes).basis_weight();

@@ -38,7 +38,8 @@ pub(super) fn read(folders: &[PathBuf], names: &[String]) -> Result<Option<Vec<W
 /// # Errors
 /// If a web has no patches like those of the first.
 pub(super) fn compared(webs: &[Web]) -> Result<Results, Failure> {
-    let comparisons = webs.iter().skip(1).map(|other| against(&webs[0], other)).collect::<Result<_, _>>()?;
+    let comparisons =
+        webs.iter().skip(1).map(|other| compare_webs(&webs[0], other)).collect::<Result<_, _>>()?;
     let drawn = |patch: &Patch| ComparedPatch {
         side: patch.side,
         cv: patch.cv.value,
@@ -52,7 +53,7 @@ pub(super) fn compared(webs: &[Web]) -> Result<Results, Failure> {
     Ok(Results { comparisons, figures, pictures: maps.pictures, notes: maps.notes })
 }
 
-fn against(first: &Web, other: &Web) -> Result<Comparison, Failure> {
+fn compare_webs(first: &Web, other: &Web) -> Result<Comparison, Failure> {
     if !first.patches.iter().any(|patch| at(&other.patches, patch.side).is_some()) {
         let sides = |web: &Web| {
             let sides: Vec<String> =
@@ -93,8 +94,8 @@ fn against(first: &Web, other: &Web) -> Result<Comparison, Failure> {
     }
     for measure in &mut measures {
         let doubt = match measure.column.as_str() {
-            "cloudiness" => below_blur([first, other]),
-            "texture_md" => in_other_waves(first, other),
+            "cloudiness" => blur_objection([first, other]),
+            "texture_md" => wave_mismatch(first, other),
             _ => None,
         };
         if let Some(doubt) = doubt {
@@ -123,7 +124,7 @@ fn against(first: &Web, other: &Web) -> Result<Comparison, Failure> {
 }
 
 /// Why the cloudiness of webs cannot be compared, if blur has lowered the shortest of its waves.
-fn below_blur(webs: [&Web; 2]) -> Option<String> {
+fn blur_objection(webs: [&Web; 2]) -> Option<String> {
     let is_below = |cell: f64| SEEN[0] < shortest_sharp_wave(cell);
     let blurred = webs.iter().filter(|web| web.is_scan && web.cell.is_some_and(is_below));
     let names: Vec<&str> = blurred.map(|web| web.name.as_str()).collect();
@@ -133,7 +134,7 @@ fn below_blur(webs: [&Web; 2]) -> Option<String> {
 }
 
 /// Why the texture of two webs cannot be compared: it is that of waves of four to sixteen cells, and says nothing about other waves.
-fn in_other_waves(first: &Web, other: &Web) -> Option<String> {
+fn wave_mismatch(first: &Web, other: &Web) -> Option<String> {
     let (a, b) = (first.cell?, other.cell?);
     let shown = |cell: f64| significant(cell * 1e3, 3);
     (!are_alike(a, b)).then(|| {

@@ -102,7 +102,7 @@ impl Line {
         let flow = self.mass_flow();
         let times_beams = if beams > 1 { format!("{beams} beams × ") } else { String::new() };
         let holes = match self.holes {
-            Some(holes) => format!("{holes} holes / {}; ", given(Dimension::Length, width)),
+            Some(holes) => format!("{holes} holes / {}; ", exact_text(Dimension::Length, width)),
             None => String::new(),
         };
         let mut text = format!(
@@ -120,7 +120,7 @@ impl Line {
             text += &header;
             let weight = format!(
                 "basis_weight = \"{}\"   # of the whole web: {times_beams}{holes_per_metre} holes/m × {} / {} = a belt of {}\n",
-                given(Dimension::BasisWeight, basis_weight),
+                exact_text(Dimension::BasisWeight, basis_weight),
                 flow_of_hole(throughput),
                 Dimension::BasisWeight.pretty(basis_weight),
                 speed(self.belt_speed()),
@@ -129,7 +129,7 @@ impl Line {
                 "\n[{prefix}laydown]\ncase = \"{case}\"   # the filament, its air and the way to the belt\n\n\
                  [{prefix}line]\nthroughput = \"{}\"   # of each hole: {} / {} dtex = fed at {}\n{}\
                  filaments_per_metre = {holes_per_metre}   # {holes}{} kg/h from each metre of width, {} kg/h in all\n",
-                given(Dimension::MassFlow, throughput),
+                exact_text(Dimension::MassFlow, throughput),
                 flow_of_hole(throughput),
                 significant(self.titre() * 1e7, 4),
                 speed(self.feed_speed()),
@@ -144,7 +144,7 @@ impl Line {
              method = \"dynamics\"   # the curves of the flown filaments, independent of each other: a lower bound\n\
              # method = \"shared-air\"   # all filaments in one air, as in the line: some minutes, with a width of 0.5 m\n\
              # edges = \"cut\"   # if the edges of the web are to be seen; without, it is a part of a wide web\n",
-            given(Dimension::Length, width)
+            exact_text(Dimension::Length, width)
         )
     }
 
@@ -159,7 +159,7 @@ impl Line {
             ),
             Size::Diameter(diameter) => format!(
                 "diameter = \"{}\"   # {} dtex: π/4 × diameter² × density",
-                given(Dimension::Length, diameter),
+                exact_text(Dimension::Length, diameter),
                 significant(self.titre() * 1e7, 4)
             ),
         };
@@ -184,7 +184,7 @@ impl Line {
             speed(self.feed_speed()),
             flow_of_hole(self.throughput),
             significant(self.titre() * 1e7, 4),
-            given(Dimension::Length, self.distance),
+            exact_text(Dimension::Length, self.distance),
             speed(self.belt_speed()),
             format_args!("{} kg/h and metre", significant(self.mass_flow() * 3600.0, 4)),
             Dimension::BasisWeight.pretty(self.basis_weight),
@@ -207,7 +207,7 @@ impl Line {
 }
 
 /// A number that was given, with all its digits.
-fn given(dimension: Dimension, value: f64) -> String {
+fn exact_text(dimension: Dimension, value: f64) -> String {
     dimension.pretty_to(value, GIVEN)
 }
 

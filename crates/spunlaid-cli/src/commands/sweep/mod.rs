@@ -9,14 +9,14 @@ use crate::args::{Invocation, Sweep};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::case::keys;
-use spunlaid::ensemble::Computing;
+use spunlaid::ensemble::RunControl;
 use spunlaid::error::{Error, Fault};
 use spunlaid::input::{Overrides, StudyChanges, StudyFile, read_changed_study, write_experiment};
 use spunlaid::lanes::Isa;
 use spunlaid::spinline::{self, SpinSpec};
-use spunlaid::study::{Journal, Landing, Progress, Study, run};
+use spunlaid::study::{Journal, Progress, ReplicateOutcome, Study, run};
 use spunlaid_results::folders::study::{State, StudyFolder, StudyResults};
-use spunlaid_results::numbers::lost_of;
+use spunlaid_results::numbers::lost_fibres_text;
 use std::fs;
 use std::sync::atomic::AtomicU64;
 use std::sync::{Mutex, PoisonError};
@@ -123,7 +123,7 @@ fn fibres(journal: &Mutex<Journal>, study: &Study) -> u64 {
 
 fn fly(sweep: &Sweep, study: &Study, journal: &Mutex<Journal>) -> Result<(), Error> {
     let (fibre_steps, progress) = (AtomicU64::new(0), Progress::default());
-    let computing = Computing {
+    let computing = RunControl {
         threads: sweep.threads.number(),
         isa: Isa::detect(),
         stop: stop_on_ctrl_c(),
@@ -172,7 +172,7 @@ fn lost(study: &Study, journal: &mut Journal, fibres: u64) -> Result<(), Failure
     let (mut lost, mut first) = (0, String::new());
     for (index, point) in study.points.iter().enumerate() {
         for record in journal.records(index, u64::MAX)? {
-            if let Landing::Lost { node, time } = record.landing {
+            if let ReplicateOutcome::Lost { node, time } = record.outcome {
                 lost += 1;
                 if lost <= LOST_LISTED {
                     let number = index + 1;
@@ -196,7 +196,7 @@ fn lost(study: &Study, journal: &mut Journal, fibres: u64) -> Result<(), Failure
     let what = match study.noun() {
         "spinline" if lost == 1 => format!("1 of {fibres} spinlines has no steady state"),
         "spinline" => format!("{lost} of {fibres} spinlines have no steady state"),
-        _ => lost_of(lost, fibres),
+        _ => lost_fibres_text(lost, fibres),
     };
     let lost = format!("{what}; all others are in the results{first}");
     Err(Failure::FibresLost { lost })

@@ -181,7 +181,7 @@ impl Session {
         let step = self.fibres.flight().time_step();
         let Self { fibres, measured, lately, clock, since, .. } = self;
         if let Err(error) = clock.tick(step, |steps| see(fibres, steps, *since, lately, measured)) {
-            self.lost(error.to_string());
+            self.handle_lost_fibres(error.to_string());
         }
         self.show_frame();
         if self.statistics_shown.elapsed() >= TELLING {
@@ -197,20 +197,20 @@ impl Session {
             let steps = left.min(PIECE);
             left -= steps;
             if let Err(error) = see(fibres, steps, *since, lately, measured) {
-                return self.lost(error.to_string());
+                return self.handle_lost_fibres(error.to_string());
             }
         }
     }
 
     /// The fibres are lost: they start anew, and stand.
-    fn lost(&mut self, why: String) {
+    fn handle_lost_fibres(&mut self, why: String) {
         self.since = self.now();
         if !self.since.is_finite() {
             self.since = 0.0;
         }
         // A case that has been flown can be started again.
         let _ = self.fibres.reset();
-        self.began_anew();
+        self.restart_statistics();
         self.stands = true;
         self.trouble = Some(why);
         self.show_all();

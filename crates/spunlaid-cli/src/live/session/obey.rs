@@ -41,7 +41,7 @@ impl Session {
             Command::Reset {} => {
                 self.fibres.reset().map_err(|error| Answer::rejected(complaints(&error)))?;
                 self.since = 0.0;
-                self.began_anew();
+                self.restart_statistics();
             }
             Command::Forget {} => self.changed(),
             Command::Look { .. } => {}
@@ -78,14 +78,14 @@ impl Session {
         (self.document, self.notes, self.trouble) = (document, read.warnings, None);
         if anew {
             self.since = since;
-            self.began_anew();
+            self.restart_statistics();
         } else {
             self.changed();
         }
         Ok(())
     }
 
-    pub(super) fn began_anew(&mut self) {
+    pub(super) fn restart_statistics(&mut self) {
         self.lately.clear_belt();
         self.trouble = None;
         self.changed();

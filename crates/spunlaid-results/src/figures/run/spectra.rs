@@ -11,7 +11,7 @@ pub(super) fn turbulence(case: &Case, turbulence: &[SpectrumPoint]) -> Figure {
     let air = &case.air;
     let cutoff = air.cutoff_frequency;
     let shown: Vec<_> = turbulence.iter().filter(|p| p.frequency <= 2.0 * cutoff).collect();
-    let realised: Vec<_> = shown.iter().map(|p| (p.frequency, p.realised)).collect();
+    let synthesised: Vec<_> = shown.iter().map(|p| (p.frequency, p.synthesised)).collect();
     let chart = Chart::new(
         "turbulence_spectrum",
         "Spectrum of the turbulence",
@@ -23,7 +23,7 @@ pub(super) fn turbulence(case: &Case, turbulence: &[SpectrumPoint]) -> Figure {
         })
         .zero_based(),
     )
-    .line(Series::new("realised", GREEN), &realised);
+    .line(Series::new("realised", GREEN), &synthesised);
     let what =
         "Spectrum of the simulated turbulence, averaged over components, eddies and up to eight replicates";
     let rms = if air.is_uniform() {

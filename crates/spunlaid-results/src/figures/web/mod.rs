@@ -39,7 +39,7 @@ pub fn web_figures(web: &Web, findings: &Findings) -> Vec<Figure> {
         unevenness::histogram(&findings.within(), GRAMS),
         profiles::laid(web, findings),
     ];
-    let together = findings.laid.together.as_ref();
+    let together = findings.laid.shared_air.as_ref();
     figures.extend(together.and_then(|together| neighbours::figure(&together.neighbours)));
     figures.extend(clouds::figures(findings.clouds.as_ref(), &findings.autocorrelation, map.cell));
     figures.push(directions(findings));

@@ -57,8 +57,11 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
     };
     let pairs = curve(|patch| Some((patch.pairs?, f64::NAN)));
     let (flown, surrogate) = (curve(|patch| patch.flown), curve(|patch| patch.surrogate));
-    let single: Vec<(f64, f64)> =
-        findings.patches.iter().map(|patch| (patch.map.patch * MM, patch.one_fibre.0 * PER_CENT)).collect();
+    let single: Vec<(f64, f64)> = findings
+        .patches
+        .iter()
+        .map(|patch| (patch.map.patch * MM, patch.single_fibres.0 * PER_CENT))
+        .collect();
     let straight: Vec<(f64, f64)> = findings
         .patches
         .iter()
@@ -66,7 +69,7 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
         .collect();
     let mut chart =
         empty_chart().line(Series::new("straight fibres at random", GREY).dashed("6 4"), &straight);
-    let is_shared = findings.laid.together.is_some();
+    let is_shared = findings.laid.shared_air.is_some();
     chart = match (flown.is_empty(), surrogate.is_empty()) {
         _ if is_shared => chart
             .line(Series::new("the same filaments in airs of their own", VERMILION).width(1.8), &single)

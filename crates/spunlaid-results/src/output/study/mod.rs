@@ -11,7 +11,7 @@ use self::columns::Value;
 use super::folder::Staging;
 use super::parquet::{Column, Parquet};
 use crate::Failure;
-use spunlaid::study::{Journal, Landing, PointResults, Record, Study, results_of_point};
+use spunlaid::study::{Journal, PointResults, Record, ReplicateOutcome, Study, results_of_point};
 
 /// Number of values that are collected before they are written.
 const VALUES: usize = 1 << 18;
@@ -72,9 +72,11 @@ fn replicate_row(study: &Study, index: usize, record: &Record) -> Vec<Value> {
         Value::Whole(point.experiment.seed() as i64),
     ];
     row.extend(columns::values(study, index));
-    match &record.landing {
-        Landing::Measured(measured) => row.extend(measured.iter().map(|value| Value::Number(*value))),
-        Landing::Lost { .. } => {
+    match &record.outcome {
+        ReplicateOutcome::Measured(measured) => {
+            row.extend(measured.iter().map(|value| Value::Number(*value)))
+        }
+        ReplicateOutcome::Lost { .. } => {
             row.extend(std::iter::repeat_n(Value::Number(f64::NAN), study.quantities.len()))
         }
     }

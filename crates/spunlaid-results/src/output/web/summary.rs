@@ -88,7 +88,7 @@ impl Performance {
     /// With the times of flights in one air, if there were some.
     #[must_use]
     pub fn with_flights(self, findings: &Findings) -> Self {
-        let spent = findings.laid.together.as_ref().map(|together| together.spent);
+        let spent = findings.laid.shared_air.as_ref().map(|together| together.spent);
         Self {
             flights_s: spent.map(|spent| spent.whole.as_secs_f64()),
             flights_in_parallel_s: spent.map(|spent| spent.in_parallel.as_secs_f64()),
@@ -193,7 +193,7 @@ impl<'a> NeighboursSummary<'a> {
             correlation_cd: neighbour.cd.value,
             correlation_cd_se: neighbour.cd.standard_error,
         };
-        let neighbours = &findings.laid.together.as_ref()?.neighbours;
+        let neighbours = &findings.laid.shared_air.as_ref()?.neighbours;
         (!neighbours.is_empty()).then(|| Self { cd: neighbours.iter().map(entry).collect() })
     }
 }
@@ -290,8 +290,8 @@ impl<'a> Summary<'a> {
             let expected = [
                 ("cv_independent", patch.independent.map(|cv| cv.0)),
                 ("cv_independent_standard_error", patch.independent.map(|cv| cv.1)),
-                ("cv_one_fibre", Some(patch.one_fibre.0)),
-                ("cv_one_fibre_standard_error", Some(patch.one_fibre.1)),
+                ("cv_one_fibre", Some(patch.single_fibres.0)),
+                ("cv_one_fibre_standard_error", Some(patch.single_fibres.1)),
                 ("cv_flown", patch.flown.map(|cv| cv.0)),
                 ("cv_pairs", patch.pairs),
                 ("cv_flown_standard_error", patch.flown.map(|cv| cv.1)),
@@ -319,7 +319,7 @@ impl<'a> Summary<'a> {
             web: WebSummary {
                 fibre_length_m: Some(web.fibre_length()),
                 cut_off_kg: Some(findings.laid.cut),
-                lost_filaments: findings.laid.together.as_ref().map(|together| together.lost),
+                lost_filaments: findings.laid.shared_air.as_ref().map(|together| together.lost),
                 edges: (web.sheet.edges == Edges::Cut).then(|| Margins {
                     margins_m: findings.margins,
                     basis_weight_between_kg_m2: findings.within().basis_weight(),

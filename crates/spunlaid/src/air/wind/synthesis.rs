@@ -139,7 +139,7 @@ impl<'a> Harmonics<'a> {
                 }
                 Some(time) => {
                     lag.0[lane] = time / air.repeat_time();
-                    turn.0[lane] = libm::acos(libm::exp(-turbulence.forgotten)) / (2.0 * PI);
+                    turn.0[lane] = libm::acos(libm::exp(-turbulence.decay_times)) / (2.0 * PI);
                 }
             }
         }

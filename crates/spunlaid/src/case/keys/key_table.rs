@@ -64,7 +64,7 @@ impl<T> KeyTable<T> {
     }
 
     /// The key with this short name, if exactly one table has such a key.
-    pub(crate) fn home_of(&self, name: &str) -> Option<&'static Key<T>> {
+    pub(crate) fn find_by_short_name(&self, name: &str) -> Option<&'static Key<T>> {
         // The air of a spinline has the names of the air, which are meant more often.
         let of_spinline = |key: &&Key<T>| key.table().starts_with("spinline");
         let only = |is_wanted: &dyn Fn(&&Key<T>) -> bool| {

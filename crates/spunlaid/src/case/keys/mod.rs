@@ -67,7 +67,7 @@ pub struct Key<T: 'static = Case> {
     /// Which values it takes.
     pub kind: Kind,
     /// What applies if it is left out.
-    pub left_out: Omission,
+    pub omission: Omission,
     /// Its meaning, in one or two sentences.
     pub meaning: &'static str,
     /// Other words for it, by which it is searched.
@@ -86,7 +86,7 @@ pub struct Key<T: 'static = Case> {
     pub(crate) counted: bool,
     get: fn(&T) -> Option<Value>,
     set: fn(&mut T, &Value) -> Result<(), Fault>,
-    told: fn(&T) -> bool,
+    derived: fn(&T) -> bool,
 }
 
 // Derived ones would ask the same of `T`.
@@ -207,8 +207,8 @@ impl<T> Key<T> {
     }
 
     /// Whether a flow or a file gives the value, so that a case file leaves it out.
-    pub fn is_told(&self, input: &T) -> bool {
-        (self.told)(input)
+    pub fn is_derived(&self, input: &T) -> bool {
+        (self.derived)(input)
     }
 
     /// Whether it is found by this word: in its name, its meaning or its synonyms, or as one of its units.
@@ -220,7 +220,7 @@ impl<T> Key<T> {
 
     /// An example line of a case file.
     pub(crate) fn example(&self) -> String {
-        example(self.short(), &self.kind, self.left_out)
+        example(self.short(), &self.kind, self.omission)
     }
 
     /// The allowed values in words: `a length above zero`.
@@ -230,8 +230,8 @@ impl<T> Key<T> {
 }
 
 /// An example line of a file: `velocity = "10 m/s"`.
-fn example(name: &str, kind: &Kind, left_out: Omission) -> String {
-    let (Omission::Required(value) | Omission::Value(value) | Omission::Follows(value)) = left_out;
+fn example(name: &str, kind: &Kind, omission: Omission) -> String {
+    let (Omission::Required(value) | Omission::Value(value) | Omission::Follows(value)) = omission;
     match kind {
         Kind::Quantity(dimension, _) if *dimension != Dimension::Ratio => format!("{name} = \"{value}\""),
         _ => format!("{name} = {value}"),

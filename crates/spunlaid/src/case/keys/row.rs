@@ -178,7 +178,7 @@ pub(crate) const fn key<T>(name: &'static str, kind: Kind, access: AccessTo<T>) 
     Key {
         name,
         kind,
-        left_out: Omission::Follows(""),
+        omission: Omission::Follows(""),
         meaning: "",
         synonyms: &[],
         label: name,
@@ -189,7 +189,7 @@ pub(crate) const fn key<T>(name: &'static str, kind: Kind, access: AccessTo<T>) 
         counted: false,
         get,
         set,
-        told: |_| false,
+        derived: |_| false,
     }
 }
 
@@ -218,15 +218,15 @@ pub(super) const fn file(name: &'static str, kind: FileKind, access: Access) -> 
 
 impl<T> Key<T> {
     pub(crate) const fn required(self, example: &'static str) -> Self {
-        Self { left_out: Omission::Required(example), ..self }
+        Self { omission: Omission::Required(example), ..self }
     }
 
     pub(crate) const fn value(self, value: &'static str) -> Self {
-        Self { left_out: Omission::Value(value), ..self }
+        Self { omission: Omission::Value(value), ..self }
     }
 
     pub(crate) const fn follows(self, words: &'static str) -> Self {
-        Self { left_out: Omission::Follows(words), ..self }
+        Self { omission: Omission::Follows(words), ..self }
     }
 
     pub(crate) const fn meaning(self, meaning: &'static str) -> Self {
@@ -265,8 +265,8 @@ impl<T> Key<T> {
         Self { counted: true, ..self }
     }
 
-    pub(crate) const fn told(self, told: fn(&T) -> bool) -> Self {
-        Self { told, ..self }
+    pub(crate) const fn derived(self, derived: fn(&T) -> bool) -> Self {
+        Self { derived, ..self }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::Tensions;
 use crate::chain::Chain;
 use crate::chain::constants::Constants;
-use crate::chain::laying::Laying;
+use crate::chain::laying::LayingState;
 use crate::chain::work::{Kick, Supports, WorkRegisters};
 use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
@@ -52,7 +52,7 @@ pub(super) fn correct_and_move<S: Register, const FED: bool>(
         }
         above = below;
     }
-    motion.off()
+    motion.length_error()
 }
 
 /// The pull of an element, or the sum of those on a node [N].
@@ -72,7 +72,7 @@ struct Motion<'a, S: Register, const FED: bool> {
     earlier: &'a mut [Vec3<Lanes>],
     c: &'a Constants,
     t: &'a mut Tensions,
-    laying: Option<&'a Laying>,
+    laying: Option<&'a LayingState>,
     work: &'a mut WorkRegisters<S>,
     supports: &'a mut Supports,
     /// The time step [s], and its inverse.
@@ -136,7 +136,7 @@ impl<S: Register, const FED: bool> Motion<'_, S, FED> {
         let unexplained = kick.force - Vec3::load(&self.t.links[i].force) - pull.change;
         let mut free = Wide::load(&self.c.node(i, nodes).inverse_mass);
         if let Some(laying) = self.laying {
-            free = laying.unless_it_lands(i, free);
+            free = laying.mass_unless_landing(i, free);
         }
         let held = self.supports.add(i, free, unexplained, kick.velocities(), self.c);
         if i > 0 && self.c.friction.is_some() {
@@ -181,7 +181,7 @@ impl<S: Register, const FED: bool> Motion<'_, S, FED> {
 
     /// By how much a squared length is off at most, in parts of that of an element of a fed fibre, all of which are equal.
     #[inline(always)]
-    fn off(&self) -> Wide<S> {
+    fn length_error(&self) -> Wide<S> {
         let rest_length = Wide::load(&self.c.elements.at(0).rest_length);
         self.furthest.over(rest_length * rest_length)
     }

@@ -22,7 +22,7 @@ pub(crate) struct CarriedEnergy {
 
 impl Chain {
     /// Energy of the element below a node, and of the bending at the node [J].
-    pub(super) fn held_by(&self, node: usize, lane: usize) -> (f64, f64) {
+    pub(super) fn element_energy(&self, node: usize, lane: usize) -> (f64, f64) {
         let c = &self.constants;
         let Some(below) = self.position.get(node + 1) else { return (0.0, 0.0) };
         let edge = below.lane(lane) - self.position[node].lane(lane);

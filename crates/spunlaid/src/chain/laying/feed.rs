@@ -1,6 +1,6 @@
 //! The feed: the start of a fed fibre, the births of its nodes, and its stiffness at the inlet.
 
-use super::{Feed, Friction, Laying};
+use super::{Feed, Friction, LayingState};
 use crate::chain::Chain;
 use crate::chain::node::Node;
 use crate::lanes::{Lanes, WIDTH};
@@ -22,7 +22,7 @@ impl Chain {
         let c = &mut self.constants;
         let elements = self.position.len() - 1;
         let rest_length = c.elements.at(0).rest_length;
-        let mut laying = Laying::new(lanes, steps_per_element, rest_length, elements);
+        let mut laying = LayingState::new(lanes, steps_per_element, rest_length, elements);
         let above = c.root_direction * (rest_length * Lanes::splat(BORN - 0.5));
         self.position.iter_mut().for_each(|position| *position += above);
         let pick =

@@ -1,6 +1,6 @@
 //! The lay-down: nodes touch down, move with the belt, and leave the chain.
 
-use super::{LaidPoint, Laying};
+use super::{LaidPoint, LayingState};
 use crate::chain::Chain;
 use crate::lanes::{Lanes, Register, WIDTH, Wide};
 use crate::vec3::Vec3;
@@ -10,7 +10,7 @@ const HOLDING: usize = 2;
 /// Nodes that leave the arrays together.
 const TOGETHER: usize = 4;
 
-impl Laying {
+impl LayingState {
     /// Whether a node passes the belt within a step, in any lane.
     #[inline(always)]
     pub(crate) fn reached<S: Register>(&self, x: Wide<S>, vx: Wide<S>, h: Wide<S>) -> bool {
@@ -39,10 +39,10 @@ impl Laying {
     }
 }
 
-impl Laying {
+impl LayingState {
     /// The inverse mass along the belt of a node, zero in the lanes where it lands in this step.
     #[inline(always)]
-    pub(crate) fn unless_it_lands<S: Register>(&self, node: usize, inverse_mass: Wide<S>) -> Wide<S> {
+    pub(crate) fn mass_unless_landing<S: Register>(&self, node: usize, inverse_mass: Wide<S>) -> Wide<S> {
         let Some((_, shares)) = self.landing.iter().find(|(landing, _)| *landing == node) else {
             return inverse_mass;
         };
@@ -151,7 +151,7 @@ impl Chain {
             laying.carried.gravity_work.0[lane] += c.tail[from_end].weight.0[lane] * fallen;
             c.tail[from_end].weight.0[lane] = 0.0;
             c.tail[from_end].mass.0[lane] = 0.0;
-            let (axial, bending) = self.held_by(node, lane);
+            let (axial, bending) = self.element_energy(node, lane);
             if let Some(laying) = &mut self.laying {
                 laying.carried.axial.0[lane] -= axial;
                 laying.carried.bending.0[lane] -= bending;

@@ -54,7 +54,7 @@ pub(crate) struct Feed {
 
 /// Feed and belt of eight fibres, and what has been fed and laid so far.
 #[derive(Clone, Debug)]
-pub(crate) struct Laying {
+pub(crate) struct LayingState {
     clamped: [bool; WIDTH],
     feed_speed: Lanes,
     height: Lanes,
@@ -82,7 +82,7 @@ pub(crate) struct Laying {
     pub(crate) carried: CarriedEnergy,
 }
 
-impl Laying {
+impl LayingState {
     /// * `lanes` – of up to eight fibres
     /// * `steps_per_element` – of all of them
     /// * `rest_length` – of an element [m]

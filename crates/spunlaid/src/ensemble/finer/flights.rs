@@ -4,7 +4,7 @@ use super::FinerPlan;
 use crate::air::EddyModel;
 use crate::case::Case;
 use crate::ensemble::trajectory::fly_in_air;
-use crate::ensemble::{Computing, Keep, Recorder, Sample, Shapes, Trajectory};
+use crate::ensemble::{Keep, Recorder, RunControl, Sample, Shapes, Trajectory};
 use crate::error::Error;
 use crate::flight::{Job, LaidPoint, SurroundingRun};
 use std::collections::BTreeMap;
@@ -22,14 +22,14 @@ pub(in crate::ensemble) struct Flight {
 
 impl FinerPlan {
     /// Flies one of its cases. Nothing that is recorded is kept, but for the paths that are compared.
-    pub(in crate::ensemble) fn fly(&self, case: &Case, computing: Computing<'_>) -> Result<Flight, Error> {
+    pub(in crate::ensemble) fn fly(&self, case: &Case, computing: RunControl<'_>) -> Result<Flight, Error> {
         let jobs: Vec<Job<'_>> = (0..self.replicates).map(|replicate| Job::new(case, replicate)).collect();
         // A carried pattern has a signal for each element. Both feel the one of the finer elements.
         let carried = case.line.is_none() && matches!(case.air.eddies, EddyModel::Convected { .. });
         let flown = if carried { &self.fine } else { case };
         let air = SurroundingRun { case: flown, horizon: self.horizon, field: None };
         let paths = Paths { every: 1, ..Paths::of_run(Ok(self), None) };
-        let computing = Computing { recorder: Some(&paths), ..computing };
+        let computing = RunControl { recorder: Some(&paths), ..computing };
         let trajectories = fly_in_air(&jobs, Keep::NUMBERS, air, computing)?;
         Ok(Flight { trajectories, paths: paths.into_paths() })
     }

@@ -68,7 +68,7 @@ impl FinerPlans {
         self.all().map(|plan| plan.flights().count()).sum()
     }
 
-    /// Number of fibre steps of all checks, as in [`Computing::fibre_steps`](crate::ensemble::Computing::fibre_steps).
+    /// Number of fibre steps of all checks, as in [`RunControl::fibre_steps`](crate::ensemble::RunControl::fibre_steps).
     pub fn fibre_steps(&self) -> u64 {
         self.all().map(FinerPlan::fibre_steps).sum()
     }
@@ -222,7 +222,7 @@ impl FinerPlan {
         self.own.iter().chain([&self.fine])
     }
 
-    /// Number of fibre steps, as in [`Computing::fibre_steps`](crate::ensemble::Computing::fibre_steps).
+    /// Number of fibre steps, as in [`RunControl::fibre_steps`](crate::ensemble::RunControl::fibre_steps).
     pub fn fibre_steps(&self) -> u64 {
         self.flights().map(|case| case.run.steps).sum::<u64>() * self.replicates
     }

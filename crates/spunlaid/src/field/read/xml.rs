@@ -59,7 +59,7 @@ pub(super) fn tree(text: &str) -> Result<Document<'_>, FileError> {
 }
 
 fn add(bytes: &[u8], announced: Option<&str>, assembly: &mut Assembly<'_>) -> Result<(), FileError> {
-    let (text, appended) = parted(bytes)?;
+    let (text, appended) = split_appended(bytes)?;
     let document = tree(&text)?;
     let root = document.root_element();
     if root.tag_name().name() != "VTKFile" {
@@ -95,7 +95,7 @@ struct AppendedBytes<'a> {
 }
 
 /// Separates the XML text of a file from the appended bytes. The text gets a closing tag if bytes follow.
-fn parted(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<AppendedBytes<'_>>), FileError> {
+fn split_appended(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<AppendedBytes<'_>>), FileError> {
     const TAG: &[u8] = b"<AppendedData";
     let tag = bytes.windows(TAG.len()).position(|window| window == TAG);
     let text = str::from_utf8(&bytes[..tag.unwrap_or(bytes.len())]).map_err(|error| {

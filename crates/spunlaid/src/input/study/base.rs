@@ -142,7 +142,7 @@ impl Base for CaseBase {
         Ok((Experiment::Case(case), notes))
     }
 
-    fn set_beside(&self, set: Vec<(String, String)>) -> Vec<(String, String)> {
+    fn keys_to_write(&self, set: Vec<(String, String)>) -> Vec<(String, String)> {
         set
     }
 

@@ -160,7 +160,7 @@ pub fn parse_changed_study(
         notes.push(StudyNote { note, points: resolved.len() as u64, all: true });
     }
     let study = plan.study(resolved);
-    let text = write::write_study(&study, &base.set_beside(set));
+    let text = write::write_study(&study, &base.keys_to_write(set));
     Ok(StudyFile { study, notes, base_path: PathBuf::from(base_name), base_text: base.text(), text })
 }
 
@@ -218,7 +218,7 @@ trait Base {
     ) -> ExperimentWithNotes;
 
     /// What of the keys that are the same at all points has to stand in the study, because [`Base::text`] does not have it.
-    fn set_beside(&self, set: Vec<(String, String)>) -> Vec<(String, String)>;
+    fn keys_to_write(&self, set: Vec<(String, String)>) -> Vec<(String, String)>;
 
     /// The file of what is varied.
     fn text(&self) -> String;

@@ -181,7 +181,7 @@ impl Base for WebBase {
         Ok((Experiment::Web(spec), notes))
     }
 
-    fn set_beside(&self, set: Vec<(String, String)>) -> Vec<(String, String)> {
+    fn keys_to_write(&self, set: Vec<(String, String)>) -> Vec<(String, String)> {
         // What is set is in the web already, but for its case.
         Sides::new(set, self.flies).of_case
     }

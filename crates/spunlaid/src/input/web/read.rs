@@ -150,7 +150,7 @@ impl Reading<'_> {
                 let (_, short) = name.rsplit_once('.').unwrap_or(("", name));
                 self.is_written(&format!("{before}{short}"))
             };
-            let set = match (self.written.get(&full).map(|written| written.value.clone()), key.left_out) {
+            let set = match (self.written.get(&full).map(|written| written.value.clone()), key.omission) {
                 (Some(None), _) => Ok(()),
                 // They are settled when all else is known.
                 (Some(Some(_)), _) if [THROUGHPUT, BASIS_WEIGHT].contains(&key.name) => Ok(()),

@@ -50,7 +50,7 @@ pub const WEB_KEYS: &[WebKey] = &[
             Ok(())
         },
     })
-        .told(is_flown)
+        .derived(is_flown)
         .required("18 µm")
         .meaning("Diameter of the round filaments. With `laydown.case` or `laydown.results` it is that of the case.")
         .label("Fibre diameter *d*"),
@@ -61,7 +61,7 @@ pub const WEB_KEYS: &[WebKey] = &[
             Ok(())
         },
     })
-        .told(is_flown)
+        .derived(is_flown)
         .required("910 kg/m³")
         .meaning("Density of the polymer. With `laydown.case` or `laydown.results` it is that of the case.")
         .label("Fibre density"),
@@ -107,7 +107,7 @@ pub const WEB_KEYS: &[WebKey] = &[
             Ok(())
         },
     })
-        .told(is_flown)
+        .derived(is_flown)
         .required("50 m/s")
         .meaning(
             "Speed at which each filament is fed: the spinning speed. With `laydown.case` or `laydown.results` it is that of the case.",
@@ -139,7 +139,7 @@ pub const WEB_KEYS: &[WebKey] = &[
             Ok(())
         },
     })
-        .told(is_flown)
+        .derived(is_flown)
         .required("3 m/s")
         .meaning("Speed of the belt. It is written once, in any of the layers, because all lie on one belt. With `laydown.case` or \
              `laydown.results` it is that of the case.")

@@ -23,7 +23,7 @@ pub(super) struct Solution {
 impl Solution {
     /// Reads the points of the fit twice, so that a large study takes no more memory than a small one.
     pub(super) fn new(fit: &Fit<'_>, journal: &mut Journal) -> Result<Result<Self, Refusal>, Error> {
-        let fitted = match Fitted::read(fit, journal)? {
+        let fitted = match FittedCoefficients::read(fit, journal)? {
             Ok(fitted) => fitted,
             Err(refusal) => return Ok(Err(refusal)),
         };
@@ -53,7 +53,7 @@ fn deviations(results: &PointResults, records: &[Record]) -> Vec<(usize, PerMeas
     let n = results.n as f64;
     let scale = if n > 1.0 { 1.0 / (n * (n - 1.0)).sqrt() } else { 0.0 };
     let numbers = |record: &Record| {
-        let measured = record.landing.measured()?;
+        let measured = record.outcome.measured()?;
         let deviation = measured.iter().zip(&results.mean).map(|(one, mean)| (one - mean) * scale).collect();
         Some((record.replicate as usize, deviation))
     };
@@ -61,7 +61,7 @@ fn deviations(results: &PointResults, records: &[Record]) -> Vec<(usize, PerMeas
 }
 
 /// The fit's coefficients, and what each replicate contributes to them.
-struct Fitted {
+struct FittedCoefficients {
     /// By measure.
     coefficients: Vec<Vec<f64>>,
     /// By measure: mean over the points.
@@ -74,7 +74,7 @@ struct Fitted {
     replicated: bool,
 }
 
-impl Fitted {
+impl FittedCoefficients {
     fn read(fit: &Fit<'_>, journal: &mut Journal) -> Result<Result<Self, Refusal>, Error> {
         let zeros = || vec![vec![0.0; fit.size()]; fit.study.quantities.len()];
         let (mut xy, mut of_replicates, mut weights) = (zeros(), Vec::new(), Vec::new());
@@ -176,7 +176,7 @@ impl Rest {
     fn read(
         fit: &Fit<'_>,
         journal: &mut Journal,
-        fitted: &Fitted,
+        fitted: &FittedCoefficients,
         contrasts: &[Contrast],
     ) -> Result<Vec<Self>, Error> {
         let none = Self { contrasts: vec![Variance::default(); contrasts.len()], ..Self::default() };

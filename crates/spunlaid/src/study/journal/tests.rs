@@ -7,7 +7,7 @@ const RECORD: usize = HEAD + 8 * NUMBERS;
 fn record(point: u64, replicate: u64) -> Record {
     let number = |i: usize| (point * 100 + replicate * 10) as f64 + i as f64 / 8.0;
     let measured = (0..NUMBERS).map(number).collect();
-    Record { point, replicate, landing: Landing::Measured(measured) }
+    Record { point, replicate, outcome: ReplicateOutcome::Measured(measured) }
 }
 
 fn header() -> Header {
@@ -44,7 +44,7 @@ fn records_come_back_in_order_of_replicates() {
         assert_eq!(journal.held(point), 2);
         assert!(journal.holds(point, 1) && !journal.holds(point, 2));
     }
-    let lost = Record { point: 0, replicate: 0, landing: Landing::Lost { node: 7, time: 0.25 } };
+    let lost = Record { point: 0, replicate: 0, outcome: ReplicateOutcome::Lost { node: 7, time: 0.25 } };
     journal.begin(&header(), 3, NUMBERS).unwrap();
     journal.add(std::slice::from_ref(&lost)).unwrap();
     assert_eq!(journal.records(0, 1).unwrap(), [lost]);

@@ -15,7 +15,7 @@ pub(super) const KEYS: &[Key] = &[
             Ok(())
         },
     })
-        .told(|case| case.spinline.is_some())
+        .derived(|case| case.spinline.is_some())
         .follows("a fibre of fixed length")
         // From coiling threads to the fastest spinning.
     .usual(1e-3, 200.0)

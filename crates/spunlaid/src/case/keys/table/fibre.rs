@@ -36,14 +36,14 @@ pub(super) const KEYS: &[Key] = &[
             Ok(())
         },
     })
-        .told(|case| case.line.is_some())
+        .derived(|case| case.line.is_some())
         .required("1 m")
         .usual(0.001, 30.0)
     .meaning("Length of the fibre, from its root to its free end. A fibre that is fed on to a belt has none.")
         .label("Fibre length *L*")
         .slider(0.1, 2.0),
     quantity("fibre.diameter", Dimension::Length, Positive, from_spinline!(diameter))
-        .told(|case| case.spinline.is_some())
+        .derived(|case| case.spinline.is_some())
         .required("50 µm")
         // From nanofibres to thick threads.
     .usual(1e-7, 2e-3)
@@ -52,7 +52,7 @@ pub(super) const KEYS: &[Key] = &[
         .slider(5e-6, 2e-4)
         .in_flight(),
     quantity("fibre.density", Dimension::Density, Positive, from_spinline!(density))
-        .told(|case| case.spinline.is_some())
+        .derived(|case| case.spinline.is_some())
         .required("950 kg/m³")
         // From foams to the heaviest metals.
     .usual(100.0, 25_000.0)
@@ -84,7 +84,7 @@ pub(super) const KEYS: &[Key] = &[
             Ok(())
         },
     })
-        .told(|case| case.spinline.as_ref().is_some_and(|line| line.gives_modulus))
+        .derived(|case| case.spinline.as_ref().is_some_and(|line| line.gives_modulus))
         .required("2 GPa")
         // From rubber to the stiffest carbon fibres.
     .usual(1e7, 9e11)

@@ -28,7 +28,7 @@ pub(super) const KEYS: &[Key] = &[
             ))
         },
     })
-    .told(|case| !case.air.is_uniform())
+    .derived(|case| !case.air.is_uniform())
     .required("10 m/s")
     // Up to the speed of sound.
     .usual(1e-3, 340.0)

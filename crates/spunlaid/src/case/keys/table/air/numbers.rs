@@ -10,7 +10,7 @@ use crate::units::Dimension;
 
 pub(super) const KEYS: &[Key] = &[
     quantity("air.turbulence_intensity", Dimension::Ratio, NotNegative, of_air!(turbulence_intensity))
-        .told(|case| case.air.from_flow.turbulence_intensity)
+        .derived(|case| case.air.from_flow.turbulence_intensity)
         .required("0.1")
         .usual(1e-5, 1.0)
     .meaning("Rms of each fluctuating velocity component, divided by the mean velocity. A record, a profile or a field may give it instead.")
@@ -19,7 +19,7 @@ pub(super) const KEYS: &[Key] = &[
         .slider(0.0, 0.5)
         .in_flight(),
     quantity("air.length_scale", Dimension::Length, Positive, of_air!(length_scale))
-        .told(|case| case.air.from_flow.length_scale)
+        .derived(|case| case.air.from_flow.length_scale)
         .required("50 mm")
         .usual(1e-5, 10.0)
     .meaning("Length of an eddy. Within this length the fluctuation is the same along the fibre. A record, a profile or a field may give it instead.")
@@ -27,7 +27,7 @@ pub(super) const KEYS: &[Key] = &[
 .label("Length of the eddies *L*_{T}")
         .slider(5e-3, 0.2),
     quantity("air.cutoff_frequency", Dimension::Frequency, Positive, of_air!(cutoff_frequency))
-        .told(|case| case.air.from_flow.cutoff_frequency)
+        .derived(|case| case.air.from_flow.cutoff_frequency)
         .required("100 Hz")
         .usual(0.1, 50000.0)
     .meaning("Highest frequency of the turbulence. `taylor` stands for velocity / (4 × length scale). A record, a spectrum, a profile or a field may give it instead.")

@@ -29,7 +29,7 @@ pub(super) const KEYS: &[Key] = &[
         },
     })
     .required("\"pp\"")
-    .told(no_spinline)
+    .derived(no_spinline)
     .meaning(
         "The polymer: one of these, or a file with the table [spinline.material] and all of its constants. Each constant can \
          be given in [spinline.material] too.",
@@ -57,14 +57,14 @@ pub(super) const KEYS: &[Key] = &[
     .slider(5.0, 100.0),
     quantity("spinline.die_temperature", Dimension::Temperature, Positive, of_spinline!(die_temperature))
         .required("230 °C")
-        .told(no_spinline)
+        .derived(no_spinline)
         .usual(373.15, 723.15)
         .meaning("Temperature of the melt in the hole.")
         .label("Die temperature")
         .slider(453.15, 573.15),
     quantity("spinline.hole_diameter", Dimension::Length, Positive, of_spinline!(hole_diameter))
         .required("0.6 mm")
-        .told(no_spinline)
+        .derived(no_spinline)
         .usual(5e-5, 3e-3)
         .meaning("Diameter of the hole of the spinneret.")
         .synonyms(&["capillary", "nozzle diameter"])
@@ -76,7 +76,7 @@ pub(super) const KEYS: &[Key] = &[
         .label("Die swell"),
     quantity("spinline.throughput", Dimension::MassFlow, Positive, of_spinline!(throughput))
         .required("0.5 g/min")
-        .told(no_spinline)
+        .derived(no_spinline)
         .usual(1e-8, 1e-3)
         .meaning("Mass flow of a hole: g/min, kg/h, g/s or kg/s.")
         .synonyms(&["output per hole", "mass flow", "grams per minute"])
@@ -84,7 +84,7 @@ pub(super) const KEYS: &[Key] = &[
         .slider(1e-6, 3e-5),
     quantity("spinline.length", Dimension::Length, Positive, of_spinline!(length))
         .required("1.6 m")
-        .told(no_spinline)
+        .derived(no_spinline)
         .usual(0.02, 30.0)
         .meaning("Length of the spinline, from the die to the inlet at which the flown fibre begins, or to the take-up.")
         .label("Length of the spinline"),
