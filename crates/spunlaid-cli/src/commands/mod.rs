@@ -5,7 +5,7 @@ mod analyse;
 mod check;
 mod compare;
 mod completions;
-mod finished;
+mod finished_run;
 mod fit;
 mod interrupt;
 mod keys;

@@ -1,6 +1,6 @@
 //! `spunlaid run`: flies a case and writes the results.
 
-use super::finished::continued;
+use super::finished_run::continued;
 use super::interrupt::stop_on_ctrl_c;
 use super::{plural, staged, stem};
 use crate::args::{Invocation, Run};

@@ -168,8 +168,8 @@ fn profile(key: &FittedKey) -> Figure {
     Figure::new(
         &chart,
         format!(
-            "The least misfit for values of {} beside the one that was found, {}: at each of them webs were laid, with the other keys as is best then. A flat curve \
-             says that the scan does not know this key.",
+            "The smallest misfit for other values of {} than the fitted one, {}. Webs were laid with each of these values, and with the values of the other keys \
+             that suit it best. A flat curve means that the scan does not determine this key.",
             key.parameter.key,
             significant(key.value * factor, 4)
         ),

@@ -3,7 +3,7 @@
 use crate::Failure;
 use crate::numbers::{THIN, significant};
 use crate::output::air::{PLANES, Picture, Slices, Summary, pictures, write_vtk};
-use crate::output::beside;
+use crate::output::copied_files;
 use crate::output::folder::Staging;
 use crate::report::{AirReport, air_html};
 use spunlaid::case::Case;
@@ -48,8 +48,8 @@ impl AirFolder<'_> {
     /// # Errors
     /// If a file cannot be written.
     pub fn write(&self, staging: &Staging<'_>) -> Result<(), Failure> {
-        let copied = beside::copy(self.case.files(), &staging.place(beside::CASE_FILES).0)?;
-        staging.write("case.toml", write_case(&self.case.with_files_at(beside::place(&copied))))?;
+        let copied = copied_files::copy(self.case.files(), &staging.place(copied_files::CASE_FILES).0)?;
+        staging.write("case.toml", write_case(&self.case.with_files_at(copied_files::place(&copied))))?;
         write_vtk(staging, self.slices)?;
         let pictures = pictures(self.case, self.slices)?;
         for (name, picture) in PLANES.iter().zip(&pictures) {

@@ -4,7 +4,7 @@ use super::journalled::{JournalFolder, Work};
 use crate::Failure;
 use crate::failure::{holds_results, other_version};
 use crate::figures::fit_figures;
-use crate::output::beside::{self, CASE_FILES};
+use crate::output::copied_files::{self, CASE_FILES};
 use crate::output::fit::{fit_json, trials_csv};
 use crate::output::folder::Staging;
 use crate::output::origin::Origin;
@@ -142,8 +142,8 @@ impl<'a> FitFolder<'a> {
 fn write_found(staging: &Staging<'_>, mut spec: WebSpec) -> Result<String, Failure> {
     for (number, layer) in (1..).zip(&mut spec.layers) {
         if let LaydownSource::Case { path, case } = &mut layer.source {
-            let copied = beside::copy(case.files(), &staging.place(CASE_FILES).0)?;
-            let place = beside::place(&copied);
+            let copied = copied_files::copy(case.files(), &staging.place(CASE_FILES).0)?;
+            let place = copied_files::place(&copied);
             let text = write_case(&case.with_files_at(|file| Path::new("..").join(place(file))));
             let name = format!("cases/layer_{number}.toml");
             staging.write(&name, text)?;

@@ -7,7 +7,7 @@ use crate::output::folder::Staging;
 use crate::output::spinline::{SpinResults, write_stations};
 use crate::output::summary::{Performance, Summary};
 use crate::output::tables::{TableRecorder, Tables};
-use crate::output::{beside, paraview};
+use crate::output::{copied_files, paraview};
 use crate::report::{self, ReportInput};
 use spunlaid::case::Case;
 use spunlaid::ensemble::{
@@ -98,8 +98,8 @@ impl Run<'_> {
     /// # Errors
     /// If a file cannot be written, or the computation is interrupted.
     pub fn write(&self, staging: &Staging<'_>, computing: RunControl<'_>) -> Result<(), Failure> {
-        let copied = beside::copy(self.case.files(), &staging.place(beside::CASE_FILES).0)?;
-        let case_toml = write_case(&self.case.with_files_at(beside::place(&copied)));
+        let copied = copied_files::copy(self.case.files(), &staging.place(copied_files::CASE_FILES).0)?;
+        let case_toml = write_case(&self.case.with_files_at(copied_files::place(&copied)));
         let figures = self.figures(computing)?;
         let spinline = self.spinline();
         if let Some((results, _)) = &spinline {

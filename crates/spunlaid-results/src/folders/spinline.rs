@@ -2,7 +2,7 @@
 
 use crate::Failure;
 use crate::figures::{SPINLINE, spinline_figures};
-use crate::output::beside;
+use crate::output::copied_files;
 use crate::output::folder::Staging;
 use crate::output::spinline::{SpinResults, Summary, write_stations};
 use crate::report::{SpinReport, spinline_html};
@@ -34,8 +34,8 @@ impl SpinFolder<'_> {
     /// If a file cannot be written.
     pub fn write(&self, staging: &Staging<'_>) -> Result<(), Failure> {
         let spec = &self.file.spec;
-        let copied = beside::copy(spec.files(), &staging.place(beside::CASE_FILES).0)?;
-        let toml = write_spinline(&spec.with_files_at(beside::place(&copied)));
+        let copied = copied_files::copy(spec.files(), &staging.place(copied_files::CASE_FILES).0)?;
+        let toml = write_spinline(&spec.with_files_at(copied_files::place(&copied)));
         write_stations(staging, &[(1, &self.results.rows)])?;
         let figures = self.figures();
         staging.write_figures(&figures)?;

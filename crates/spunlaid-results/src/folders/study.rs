@@ -4,7 +4,7 @@ use super::journalled::{JOURNAL, JournalFolder, Work, remove};
 use crate::Failure;
 use crate::failure::{holds_results, other_study, other_version};
 use crate::figures::study_figures;
-use crate::output::beside::{self, CASE_FILES};
+use crate::output::copied_files::{self, CASE_FILES};
 use crate::output::folder::Staging;
 use crate::output::origin::Origin;
 use crate::output::pictures::FigureFiles;
@@ -213,7 +213,7 @@ fn keep_files(file: &StudyFile, staging: &Staging<'_>) -> Result<String, Failure
         Experiment::Spinline(spec) => spec.files(),
         Experiment::Web(_) => Vec::new(),
     });
-    let copied = beside::copy(files, &staging.place(CASE_FILES).0)?;
+    let copied = copied_files::copy(files, &staging.place(CASE_FILES).0)?;
     let folder = file.base_path.parent().unwrap_or(Path::new(""));
     Ok(copied.iter().fold(file.base_text.clone(), |text, (from, to)| {
         let written = from.strip_prefix(folder).unwrap_or(from);

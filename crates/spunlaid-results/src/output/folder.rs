@@ -1,6 +1,6 @@
 //! A results folder that is written completely or not at all.
 
-use super::beside::CASE_FILES;
+use super::copied_files::CASE_FILES;
 use super::leftovers::{self, Claim};
 use super::origin::{ORIGIN, Origin};
 use super::pictures::FigureFiles;

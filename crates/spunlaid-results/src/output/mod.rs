@@ -2,8 +2,8 @@
 
 pub mod air;
 pub mod analysis;
-pub mod beside;
 pub mod comparison;
+pub mod copied_files;
 pub mod finer;
 pub mod fit;
 pub mod folder;

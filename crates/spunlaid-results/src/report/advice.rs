@@ -150,14 +150,14 @@ impl AdviceSection {
         } else if is_known(spec) {
             "from paths with the same random numbers before and after; the lay-down itself (σ MD, σ CD, A) is taken as it is, because no fibre was flown"
         } else if spec.layers.iter().any(|layer| layer.source.case().is_none()) {
-            "from paths with the same random numbers before and after; that few fibres of the flown layers were flown is not in it, and the lay-down of the \
-             others is taken as it is"
+            "from paths with the same random numbers before and after the change, which leaves out the chance of the few flown fibres and takes the lay-down of the \
+             other layers as exact"
         } else {
             "over the flown fibres, each compared with itself in the same gusts before the change"
         };
         let mut caption = format!(
             "Change of the CV as a share of it when one setting of the line is changed and the belt follows, so that the basis weight stays {}: over patches of \
-             each size, ± one standard error, {error}. All that is not named stays; with another titre the throughput of a hole stays and the filament is fed \
+             each size, ± one standard error, {error}. All other settings stay as they are; with another titre the throughput of a hole stays and the filament is fed \
              slower or faster.",
             grams(findings.within().basis_weight())
         );

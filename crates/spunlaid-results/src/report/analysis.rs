@@ -167,8 +167,8 @@ fn methods(analysis: &Analysis) -> Vec<(&'static str, String)> {
                      what the spectra of an exponential correlation and of von Kármán have fallen there."
                 } else {
                     "The mean ends at an eighth of the cut-off unless --flat-until gives another frequency. There most \
-                     spectra have begun to fall, which makes the plateau one to two per cent too low and the cut-off as \
-                     much too high."
+                     spectra have begun to fall, which makes the plateau one to two per cent too low and the cut-off \
+                     too high by the same share."
                 }
             ),
         ),

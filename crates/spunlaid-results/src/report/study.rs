@@ -321,7 +321,7 @@ fn intervals(study: &Study) -> &'static str {
 
 fn phases(study: &Study) -> &'static str {
     if study.noun() == "spinline" {
-        "Nothing of a spinline is by chance, so the numbers have no error bars. How far the model is from a real line is not known: \
+        "A spinline has no random part, so the numbers have no error bars. How far the model is from a real line is not known: \
          no diameter that it gives has been compared with a measured one."
     } else if study.noun() == "web" {
         "Replicate 1 of every point has the same random numbers, and likewise replicate 2 and so on, as far as the \

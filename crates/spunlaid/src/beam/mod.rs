@@ -68,7 +68,7 @@ pub struct Beam<'a> {
     pub airs: Airs,
 }
 
-/// What computes, and how it is watched and stopped.
+/// Threads and instruction set of the computation, its progress and its stop flag.
 #[derive(Clone, Copy, Debug)]
 pub struct BeamControl<'a> {
     /// Number of threads. What is laid does not depend on it.
@@ -274,7 +274,7 @@ fn make_air(
     field
 }
 
-/// The error of filaments so many of which are lost that what is left is no web.
+/// The error that is returned when so many filaments are lost that no usable web remains.
 fn too_many_lost(flown: BeamFindings, filaments: usize) -> Error {
     let count = flown.lost.len();
     match flown.lost.into_iter().next() {

@@ -1,6 +1,6 @@
 //! Ensembles: replicates packed eight to a flight, flights shared out to threads.
 
-mod beside;
+mod companions;
 mod end_path;
 mod finer;
 mod order;
@@ -151,7 +151,7 @@ fn fly_one(
     computing: RunControl<'_>,
 ) -> Result<Vec<Result<Trajectory, Error>>, Error> {
     if has_companions(case, keep) {
-        return Ok(vec![beside::fly_beside(case, index as u64, keep, computing)?]);
+        return Ok(vec![companions::fly_beside(case, index as u64, keep, computing)?]);
     }
     let first = index as u64 * WIDTH as u64;
     let last = case.run.replicates.min(first + WIDTH as u64);

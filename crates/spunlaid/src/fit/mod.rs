@@ -19,10 +19,10 @@
 //! **Whether such webs can look like the scan** is said by the misfit itself: that of the scan stands among those that the simulated webs
 //! have when each is taken as the scan.
 
-mod found;
 mod interval;
 mod parameter;
 mod polynomials;
+mod results;
 mod search;
 mod simulator;
 mod surface;
@@ -34,9 +34,9 @@ mod values;
 mod webs;
 mod weights;
 
-pub use found::{Fit, FitTrial, FittedKey, FittedNumber, InseparableKeys, KeyDoubt};
 pub use interval::IntervalEnd;
 pub use parameter::{Parameter, USUAL_FACTOR};
+pub use results::{Fit, FitTrial, FittedKey, FittedNumber, InseparableKeys, KeyDoubt};
 pub use simulator::MakeWeb;
 pub use target::{MeasuredPatch, MeasuredWeb, Target};
 pub use texture::Texture;
@@ -148,7 +148,7 @@ fn find(webs: &mut Webs<'_>) -> Result<Fit, Error> {
             Some(next) if next != start => start = next,
             _ => {
                 let ends = interval::ends(webs, &place, &values, &others)?;
-                return Ok(found::found(webs, &place, values, (&ends, &others)));
+                return Ok(results::collect_results(webs, &place, values, (&ends, &others)));
             }
         }
     }

@@ -2,7 +2,7 @@
 //! checked then.
 
 use super::open::OpenCase;
-use super::written::{WrittenValues, sorted};
+use super::written_values::{WrittenValues, sorted};
 use crate::air::EddyModel;
 use crate::case::keys::{self, Value};
 use crate::case::{Case, MOST_STEPS, Note, Remark, too_many_steps, unusual, whole_parts};

@@ -5,7 +5,7 @@
 
 use super::entry::{Entry, VERSION, check_version, in_order, kind, root};
 use super::source::{Source, fit};
-use super::written::{WrittenValue, WrittenValues};
+use super::written_values::{WrittenValue, WrittenValues};
 use super::{Overrides, values};
 use crate::case::keys::{CASE, EVEN, FLOWN, Key, KeyTable, TAYLOR, TableList, Value};
 use crate::error::{Error, Fault, Finding, Place};

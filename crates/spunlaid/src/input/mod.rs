@@ -7,8 +7,8 @@ mod count;
 mod data;
 mod document;
 mod entry;
+mod fed_back_tension;
 mod file;
-mod flown;
 mod influence;
 mod kind;
 mod open;
@@ -19,7 +19,7 @@ mod study;
 mod values;
 mod web;
 mod write;
-mod written;
+mod written_values;
 
 pub use crate::layers::{LaydownSource, LayerSpec, Method, WEB_KEYS, WEB_TABLES, WebKey, WebSpec};
 pub use influence::{Change, Influence};

@@ -1,7 +1,7 @@
 //! Makes a case from the written values, the files that they name and the defaults of the other keys.
 
 use super::data::DataFiles;
-use super::written::{WrittenValue, WrittenValues, sorted};
+use super::written_values::{WrittenValue, WrittenValues, sorted};
 use crate::air::{Air, EddyModel, Flow, PlacedField, RecordLayout, SpectrumShape};
 use crate::case::keys::{self, Content, FileKind, Key, Kind, Omission, TAYLOR, Value};
 use crate::case::{Case, Note, Remark};

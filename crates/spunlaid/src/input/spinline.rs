@@ -3,7 +3,7 @@
 
 use super::data::DataFiles;
 use super::open::{OpenCase, open_part};
-use super::written::{WrittenValues, sorted};
+use super::written_values::{WrittenValues, sorted};
 use super::{FORMAT_VERSION, Overrides, document, file, parse_with, write};
 use crate::air::Flow;
 use crate::case::keys::{self, Key};

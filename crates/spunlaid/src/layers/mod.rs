@@ -4,16 +4,16 @@
 //! WebSpec (sheet and layers) → Flyer: the fibres of each layer, flown or read or known → Web, which `web` lays
 //! ```
 
-mod flown;
+mod finished_run;
+mod flyer;
 pub(crate) mod full_names;
 pub(crate) mod keys;
-mod laid;
 mod shared_air;
 
-pub use flown::{Flights, FlownFibres, FlownWeb, Flyer, LayerFibres, ProgressDisplay};
+pub use finished_run::{LAID, read as read_laid};
+pub use flyer::{Flights, FlownFibres, FlownWeb, Flyer, LayerFibres, ProgressDisplay};
 pub use full_names::{place_in_web, web_key};
 pub use keys::{WEB, WEB_KEYS, WEB_TABLES, WebKey};
-pub use laid::{LAID, read as read_laid};
 
 use crate::case::Case;
 use crate::case::keys::{self as case_keys, Value};

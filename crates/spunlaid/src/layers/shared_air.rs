@@ -1,6 +1,6 @@
 //! Webs whose filaments all fly in one air, and lay the sheet as they come down.
 
-use super::flown::Flights;
+use super::flyer::Flights;
 use super::{FlownFibres, Flyer, LaydownSource, LayerFibres, Method, WebSpec};
 use crate::air::Lateral;
 use crate::beam::{Airs, Beam, BeamControl};

@@ -1,9 +1,9 @@
 //! Turns a picture into a map of basis weight and finds out how uneven it is.
 
-use super::aside::ForeignParts;
 use super::chance::scatter;
 use super::doubt::{Doubt, FEWEST};
 use super::findings::{Findings, PatchFindings, SHARP, Settings};
+use super::foreign_parts::ForeignParts;
 use super::note::notes;
 use super::optics::{blurred, noise_at_most};
 use super::picture::Picture;

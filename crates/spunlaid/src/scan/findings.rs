@@ -1,7 +1,7 @@
 //! Everything that is found out about a scanned web.
 
-use super::aside::ForeignParts;
 use super::doubt::Doubt;
+use super::foreign_parts::ForeignParts;
 use super::picture::Picture;
 use super::weigh::{Light, Pixels};
 use crate::error::Fault;

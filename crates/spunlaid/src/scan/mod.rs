@@ -44,10 +44,10 @@
 //! ```
 
 mod analyse;
-mod aside;
 mod chance;
 mod doubt;
 mod findings;
+mod foreign_parts;
 mod note;
 mod optics;
 mod picture;
@@ -57,9 +57,9 @@ mod spots;
 mod weigh;
 
 pub use analyse::analyse;
-pub use aside::{ForeignParts, Spot};
 pub use doubt::{Doubt, FEWEST};
 pub use findings::{Findings, PatchFindings, Settings};
+pub use foreign_parts::{ForeignParts, Spot};
 pub use optics::shortest_sharp_wave;
 pub use picture::{Format, Picture};
 pub use read::{CELL, LEAST_SIDE, MOST_PIXELS, WEIGHT_OF_BLACK, parse, read};

@@ -1,8 +1,8 @@
 //! What a reader of the results must know about the picture.
 
-use super::aside::ForeignParts;
 use super::doubt::Doubt;
 use super::findings::{PatchFindings, Settings};
+use super::foreign_parts::ForeignParts;
 use super::picture::Picture;
 use super::weigh::{Light, WeighedPicture};
 use crate::error::Fault;

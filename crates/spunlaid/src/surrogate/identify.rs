@@ -172,7 +172,7 @@ impl Surrogate {
 struct FitTarget {
     /// σ of the coordinate [m].
     own: f64,
-    /// σ of the other one over its own.
+    /// σ of the other coordinate divided by that of this one.
     other: f64,
     /// Lags [own σ] and coefficients.
     coefficients: Vec<(f64, f64)>,

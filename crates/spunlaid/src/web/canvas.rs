@@ -1,6 +1,6 @@
 //! A map on which many threads draw at once.
 
-use super::laid::{HIGHEST, LaidWeb, too_full};
+use super::laid_web::{HIGHEST, LaidWeb, too_full};
 use super::map::Map;
 use super::{Edges, Sheet};
 use crate::error::Fault;
@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 const ROPE: f64 = 64.0;
 /// Most quanta of a piece.
 const MOST: f64 = 1_048_576.0;
-/// Fewest, so that its parts in several cells are told well enough.
+/// Fewest quanta of a piece, so that its share in each cell is accurate enough.
 const FEWEST: f64 = 16.0;
 
 /// The cells of a sheet while straight pieces are drawn on it. The masses are whole numbers of a quantum, so the map does not

@@ -2,7 +2,7 @@
 
 use super::clouds::{Clouds, autocorrelation};
 use super::expected::{ALONE, SheetPosition, across, expected, side, sides};
-use super::laid::{LaidWeb, SharedAirFindings};
+use super::laid_web::{LaidWeb, SharedAirFindings};
 use super::lay::lay;
 use super::laying::LayControl;
 use super::map::Map;
@@ -23,8 +23,7 @@ use std::sync::atomic::AtomicU64;
 pub struct Findings {
     /// The map of the basis weight, and what was cut off at the edges.
     pub laid: LaidWeb,
-    /// Widths of the strips at the edges in cross direction, the first columns and the last ones, where the web is thinner and of which nothing below tells [m].
-    /// They reach 3 σ_CD inwards of the outermost place of a filament; a web with periodic edges has none.
+    /// Widths of the strips at the two edges in cross direction [m]. The web is thinner there, and the fields below leave these strips out. They reach 3 σ_CD inwards of the outermost place of a filament; a web with periodic edges has none.
     pub margins: [f64; 2],
     /// Where the web begins and ends across the sheet: where the reach of the outermost filaments ends, or at the edges of the sheet, which cut it or where it goes
     /// on [m].

@@ -1,6 +1,6 @@
 //! Lays all filaments of a web.
 
-use super::laid::{HIGHEST, LaidWeb, too_full};
+use super::laid_web::{HIGHEST, LaidWeb, too_full};
 use super::laying::LayControl;
 use super::map::Map;
 use super::plan::{BLOCK, Plan, plans};

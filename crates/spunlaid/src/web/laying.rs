@@ -4,7 +4,7 @@ use crate::lanes::Isa;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::Duration;
 
-/// What computes, and how it is watched and stopped.
+/// Threads and instruction set of the computation, its progress and its stop flag.
 #[derive(Clone, Copy, Debug)]
 pub struct LayControl<'a> {
     /// Number of threads. The map does not depend on it.

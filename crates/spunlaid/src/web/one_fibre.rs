@@ -99,7 +99,7 @@ pub fn one_fibre(
     Ok(found.into_iter().zip(scales).map(|(sums, area)| sums.finish(area, trace)).collect())
 }
 
-/// Adds what fibres say that are laid at the same time, so many columns apart on a ring of so many rows.
+/// Lays several fibres at once, `apart` columns from each other on a ring of rows, and adds the sums that they give.
 fn add(
     layer: &Layer,
     sides: &[usize],
@@ -160,8 +160,8 @@ impl SingleFibres {
         }
     }
 
-    /// The mean mass in patches across a sheet, by the first column of the patch, for filaments at fixed places. It is told over that of the same
-    /// filaments if they were spread evenly over the sheet.
+    /// The mean mass in patches across a sheet, by the first column of the patch, for filaments at fixed places, divided by the
+    /// mean mass that the same filaments would give if they were spread evenly over the sheet.
     ///
     /// * `places` – of the filaments [columns]
     /// * `columns` – of the sheet, and whether it is closed

@@ -160,7 +160,7 @@ pub fn sensitivities(
     let turned: Vec<(Lever, (Source, [Layer; 2]))> = Lever::ALL.into_iter().filter_map(both).collect();
     let of_both: Vec<Vec<Estimate>> = try_each(by.threads, 2 * turned.len(), |i| {
         let (lever, (_, layers)) = &turned[i / 2];
-        // Of the number of filaments, the law is known; of a fast belt, nothing is told.
+        // The effect of the number of filaments follows from a known law. A fast belt changes the flight, so its effect is not given.
         if *lever == Lever::Filaments || (*lever == Lever::BeltSpeed && layer.belt_changes_flight()) {
             return Ok(Vec::new());
         }

@@ -22,7 +22,7 @@ impl Unevenness {
     }
 }
 
-/// A variance is told with an error if it has as many degrees of freedom at least: as many independent values say as much.
+/// A variance is given with an error only if it has at least this many degrees of freedom: the number of independent values that would tell as much.
 pub(super) const DEGREES: f64 = 5.0;
 /// Most places of a patch each way whose waves are looked at.
 const WAVES: usize = 512;

@@ -1,6 +1,6 @@
 //! Reads the results folders of runs.
 
-use super::super::finished::summary;
+use super::super::finished_run::summary;
 use crate::failure::Failure;
 use serde_json::Value as Json;
 use spunlaid_results::figures::{CurvePoint, Curves};

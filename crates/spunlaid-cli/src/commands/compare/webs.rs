@@ -1,6 +1,6 @@
 //! Webs side by side, laid or scanned: their CV over patches, their clouds, their pictures and spectra.
 
-use super::super::finished::any_summary;
+use super::super::finished_run::any_summary;
 use super::maps::maps;
 use super::results::Results;
 use super::web::{Patch, Web, WebNumber, are_alike, at};

@@ -1,6 +1,6 @@
 //! The thread in which the fibres fly: hears what pages ask, flies, shows frames. It never waits for a page.
 
-mod obey;
+mod commands;
 mod show;
 
 use super::board::{Board, PageId};

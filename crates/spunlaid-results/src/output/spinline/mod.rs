@@ -12,7 +12,7 @@ pub use summary::{SpinSummary, Summary};
 pub use table::text;
 pub use words::{MODEL_ERROR, filament, freezing, influence, numerical_error, remarks};
 
-use super::beside::CASE_FILES;
+use super::copied_files::CASE_FILES;
 use super::origin::ORIGIN;
 use spunlaid::case::Case;
 use spunlaid::error::Error;

@@ -44,7 +44,7 @@ pub(crate) struct Alternatives {
 }
 
 impl<T> KeyTable<T> {
-    /// The key that one can stand in place of, and whether it does so for all layers.
+    /// The key that the named key can replace, and whether it replaces it for all layers.
     pub(crate) fn alternative(&self, name: &str) -> Option<(&'static str, bool)> {
         self.alternatives.iter().find_map(|Alternatives { keys: [one, other], of_all_layers }| match name {
             _ if name == *one => Some((*other, *of_all_layers)),

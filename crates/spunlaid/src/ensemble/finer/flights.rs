@@ -41,8 +41,9 @@ pub(in crate::ensemble) struct Paths<'a> {
     passed_on: Option<&'a dyn Recorder>,
     /// Number of replicates, from the first on, whose paths are kept.
     replicates: u64,
-    /// Of so many recorded instants after the start one is kept, and most of them that are.
+    /// One recorded instant in this many is kept after the start.
     every: u64,
+    /// Largest number of instants that are kept.
     most: u64,
     /// Recorded instants so far, and the path, by replicate.
     paths: Mutex<BTreeMap<u64, (u64, Path)>>,

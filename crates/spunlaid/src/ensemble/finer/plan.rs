@@ -34,10 +34,10 @@ const MOST_COMPARED: u64 = 1 << 14;
 pub struct FinerPlan {
     /// What is finer.
     pub refined: Refinement,
-    /// As the run; `None` if the paths of the run itself are compared.
+    /// The case with the step and mesh of the run, to compare with; `None` if the paths of the run itself are compared.
     pub(super) own: Option<Case>,
     pub(super) fine: Case,
-    /// Of so many recorded instants of the run, one is compared in a path.
+    /// One recorded instant of the run in this many is compared.
     pub(super) every: u64,
     /// Until when the air has to last [s].
     pub(super) horizon: f64,

@@ -5,6 +5,7 @@ mod base;
 mod design;
 mod differences;
 mod fit;
+mod fixed_keys;
 mod levels;
 mod links;
 mod plan;
@@ -12,7 +13,6 @@ mod points;
 mod reader;
 mod replicates;
 mod starter;
-mod unvaried;
 mod web;
 mod write;
 

@@ -2,9 +2,9 @@
 
 use super::super::web::{WebFile, parse_web_of_case, write_web};
 use super::super::{Overrides, document};
+use super::fixed_keys::TAKE_A_NUMBER;
 use super::plan::Plan;
 use super::reader::not_varied;
-use super::unvaried::TAKE_A_NUMBER;
 use super::{Base, ExperimentWithNotes, VariedKey, level};
 use crate::case::Case;
 use crate::case::keys::{self, Value};

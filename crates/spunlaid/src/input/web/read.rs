@@ -2,7 +2,7 @@
 
 use super::super::Overrides;
 use super::super::open::rival;
-use super::super::written::{WrittenValue, WrittenValues, sorted};
+use super::super::written_values::{WrittenValue, WrittenValues, sorted};
 use crate::case::keys::{Key, Omission, Value};
 use crate::case::{Note, unusual};
 use crate::error::{Error, Fault, Finding};

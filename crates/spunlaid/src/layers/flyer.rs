@@ -6,7 +6,7 @@
 //! results folder ┘
 //! ```
 
-use super::{LaydownSource, LayerSpec, Method, WebSpec, laid};
+use super::{LaydownSource, LayerSpec, Method, WebSpec, finished_run};
 use crate::case::Case;
 use crate::ensemble::{Keep, LaidCurves, RunControl, fly};
 use crate::error::{Error, Fault};
@@ -139,7 +139,7 @@ impl<'a> Flyer<'a> {
             Some((.., flown)) => Arc::clone(flown),
             None => {
                 let curves = match &layer.source {
-                    LaydownSource::Results { folder, .. } => laid::read(folder)?,
+                    LaydownSource::Results { folder, .. } => finished_run::read(folder)?,
                     _ => self.fly(path, case)?,
                 };
                 let flown = Arc::new(FlownFibres::gather(path, case, curves)?);

@@ -22,7 +22,7 @@ pub struct Fit {
     pub numbers: Vec<FittedNumber>,
     /// The misfit at the start and at the end.
     pub misfit: [f64; 2],
-    /// So many of the simulated webs, each taken as the scan, would have had a larger misfit.
+    /// Number of simulated webs that would have a larger misfit than the scan, if each of them were taken as the scan.
     pub worse: u64,
     /// Simulated webs of each trial.
     pub webs: u64,
@@ -78,7 +78,8 @@ pub struct InseparableKeys {
     pub keys: [usize; 2],
     /// Correlation of their errors.
     pub correlation: f64,
-    /// By so many steps of its coordinate the second changes when the first grows by one: of logarithms, the ratio of their relative changes.
+    /// When the coordinate of the first key grows by one, that of the second changes by this number. For logarithmic coordinates it is the ratio of the relative
+    /// changes of the two keys.
     pub per_first: f64,
 }
 
@@ -110,7 +111,7 @@ const ALIKE: f64 = 0.95;
 ///
 /// * `ends` – of the intervals, of each key that changes something
 /// * `others` – standard errors of the logarithms by causes other than chance
-pub(super) fn found(
+pub(super) fn collect_results(
     webs: &Webs<'_>,
     place: &Place,
     values: Values,
