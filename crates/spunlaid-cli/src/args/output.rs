@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::thread::available_parallelism;
 
 /// Where results go, and what is said meanwhile.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(crate) struct Output {
     /// Folder for the results [default: results/<name of the case or file>]
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]

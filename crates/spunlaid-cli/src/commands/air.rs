@@ -31,8 +31,7 @@ pub(crate) fn air(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
     let folder = super::folder(air.output.out.as_ref(), format!("{name}_air"));
     let stop = stop_on_ctrl_c();
     let origin = invocation.origin(&[&air.source.case], &folder);
-    let mut staging = staged(&folder, ENTRIES, air.output.force, origin, air.output.quiet)?;
-    staging.set_figures(&air.figures.files());
+    let staging = staged((&folder, ENTRIES), &air.output, origin, &air.figures.files())?;
     let replicate = air.replicate - 1;
     let looks =
         AirViews { replicate, frames: air.frames, duration: air.duration, threads: air.threads.number() };

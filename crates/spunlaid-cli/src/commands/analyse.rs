@@ -73,8 +73,7 @@ fn record(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     let name = stem(&analyse.record, "record");
     let folder = super::folder(analyse.output.out.as_ref(), name);
     let origin = invocation.origin(&[&analyse.record], &folder);
-    let mut staging = staged(&folder, ENTRIES, analyse.output.force, origin, analyse.output.quiet)?;
-    staging.set_figures(&analyse.figures.files());
+    let staging = staged((&folder, ENTRIES), &analyse.output, origin, &analyse.figures.files())?;
     let record = read_record(&analyse.record, &layout(analyse))?;
     let analysis = spunlaid::record::analyse(&record, &settings(analyse))?;
     let remarks = remarks(&record);

@@ -35,12 +35,13 @@ pub(crate) use spin::spin;
 pub(crate) use sweep::sweep;
 pub(crate) use web::web;
 
-use crate::args::is_standard;
+use crate::args::{Output, is_standard};
 use crate::failure::Failure;
 use crate::say;
 use interrupt::stop_on_ctrl_c;
 use spunlaid_results::output::folder::Staging;
 use spunlaid_results::output::origin::Origin;
+use spunlaid_results::output::pictures::FigureFiles;
 use std::ffi::OsStr;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -57,15 +58,15 @@ fn folder(out: Option<&PathBuf>, name: impl AsRef<Path>) -> PathBuf {
 
 /// Collects the results of a command. What the same command wrote before is replaced, and a note says so.
 fn staged(
-    folder: &Path,
-    entries: &'static [&'static str],
-    force: bool,
+    (folder, entries): (&Path, &'static [&'static str]),
+    output: &Output,
     origin: Option<Origin>,
-    quiet: bool,
+    figures: &FigureFiles,
 ) -> Result<Staging<'static>, Failure> {
-    let staging = Staging::with_origin(folder, entries, force, origin, stop_on_ctrl_c())?;
+    let mut staging = Staging::with_origin(folder, entries, output.force, origin, stop_on_ctrl_c())?;
+    staging.set_figures(figures);
     if staging.replaces_own() {
-        say_replaced(folder, quiet);
+        say_replaced(folder, output.quiet);
     }
     Ok(staging)
 }

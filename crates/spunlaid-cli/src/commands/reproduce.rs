@@ -46,8 +46,7 @@ pub(crate) fn reproduce(arguments: &Reproduce, invocation: &Invocation) -> Resul
     let folder = super::folder(arguments.output.out.as_ref(), "paper");
     let stop = stop_on_ctrl_c();
     let origin = invocation.origin(&[], &folder);
-    let mut staging = staged(&folder, ENTRIES, arguments.output.force, origin, arguments.output.quiet)?;
-    staging.set_figures(&arguments.width.files(&formats));
+    let staging = staged((&folder, ENTRIES), &arguments.output, origin, &arguments.width.files(&formats))?;
     let flying = PaperFlights::new(&base, &wanted)?;
 
     let fibre_steps = AtomicU64::new(0);

@@ -3,7 +3,7 @@
 use super::finished_run::continued;
 use super::interrupt::stop_on_ctrl_c;
 use super::{plural, staged, stem};
-use crate::args::{Invocation, Run};
+use crate::args::{Invocation, Output, Run};
 use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::case::Note;
@@ -68,8 +68,7 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
         notes: &notes,
         performance,
     };
-    if let Some(mut staging) = staging {
-        staging.set_figures(&run.figures.files());
+    if let Some(staging) = staging {
         written.write(&staging, computing)?;
         staging.publish()?;
         coarse.iter().for_each(|coarse| say::remark(false, coarse));
@@ -100,13 +99,8 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
 fn staging(run: &Run, invocation: &Invocation, folder: &Path) -> Result<Staging<'static>, Failure> {
     let is_continued = run.until.is_some();
     let origin = (!is_continued).then(|| invocation.origin(&[&run.source.case], folder)).flatten();
-    staged(
-        folder,
-        ENTRIES,
-        run.output.force || is_continued && run.output.out.is_none(),
-        origin,
-        run.output.quiet,
-    )
+    let force = run.output.force || is_continued && run.output.out.is_none();
+    staged((folder, ENTRIES), &Output { force, ..run.output.clone() }, origin, &run.figures.files())
 }
 
 /// What the results are called: as the case file, or as the folder of a run that is continued.

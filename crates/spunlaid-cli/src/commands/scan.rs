@@ -24,8 +24,7 @@ pub(super) fn scan(arguments: &Analyse, invocation: &Invocation) -> Result<(), F
     let name = stem(&arguments.record, "scan").to_string_lossy().into_owned();
     let folder = super::folder(arguments.output.out.as_ref(), &name);
     let origin = invocation.origin(&[&arguments.record], &folder);
-    let mut staging = staged(&folder, ENTRIES, arguments.output.force, origin, arguments.output.quiet)?;
-    staging.set_figures(&arguments.figures.files());
+    let staging = staged((&folder, ENTRIES), &arguments.output, origin, &arguments.figures.files())?;
     let started = Instant::now();
     let picture = turned(read(&arguments.record, arguments.scan.pixel)?, arguments);
     let findings = analyse(&picture, &settings(arguments, &picture)?)?;

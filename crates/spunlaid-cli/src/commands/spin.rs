@@ -21,8 +21,7 @@ pub(crate) fn spin(spin: &Spin, invocation: &Invocation) -> Result<(), Failure> 
         (spin.output.out.is_some() || !spin.json).then(|| super::folder(spin.output.out.as_ref(), &name));
     if let Some(folder) = &folder {
         let origin = invocation.origin(&[&spin.file], folder);
-        let mut staging = staged(folder, ENTRIES, spin.output.force, origin, spin.output.quiet)?;
-        staging.set_figures(&spin.figures.files());
+        let staging = staged((folder, ENTRIES), &spin.output, origin, &spin.figures.files())?;
         written.write(&staging)?;
         staging.publish()?;
     }

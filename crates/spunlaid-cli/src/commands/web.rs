@@ -31,7 +31,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     let stop = stop_on_ctrl_c();
     let staged = |folder: &PathBuf| {
         let origin = invocation.origin(&[&arguments.file], folder);
-        staged(folder, ENTRIES, arguments.output.force, origin, arguments.output.quiet)
+        staged((folder, ENTRIES), &arguments.output, origin, &arguments.figures.files())
     };
     let staging = folder.as_ref().map(staged).transpose()?;
     // Before anything is flown, because the file may change meanwhile.
@@ -82,8 +82,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
         notes: &notes,
         performance,
     };
-    if let Some(mut staging) = staging {
-        staging.set_figures(&arguments.figures.files());
+    if let Some(staging) = staging {
         written.write(&staging, by)?;
         staging.publish()?;
     }

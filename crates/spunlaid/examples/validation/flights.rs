@@ -3,7 +3,7 @@
 use crate::common::*;
 use crate::title;
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
-use spunlaid::case::{Case, Neighbours, Run};
+use spunlaid::case::Case;
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::FrictionLaw;
@@ -18,27 +18,7 @@ use std::time::Instant;
 const SCHEMES: [Scheme; 2] = [Scheme::SemiImplicitEuler, Scheme::Leapfrog];
 
 fn case(h: f64, replicates: u64) -> Case {
-    let run = Run {
-        time_step: h,
-        steps: (1.0 / h).round() as u64,
-        spin_up_steps: 0,
-        output_steps: (1e-3 / h).round() as u64,
-        replicates,
-        seed: 1,
-        scheme: Scheme::SemiImplicitEuler,
-        gravity: 9.81,
-        damping: 0.0,
-        shapes: None,
-    };
-    Case {
-        fibre: table1_fibre(),
-        air: table1_air(),
-        drag: paper_drag(),
-        line: None,
-        spinline: None,
-        neighbours: Neighbours::default(),
-        run,
-    }
+    crate::common::table1(Scheme::SemiImplicitEuler, h, 1.0, replicates)
 }
 
 fn results(case: &Case) -> Results {

@@ -1,5 +1,6 @@
 //! Forces, statics and vibrations.
 
+use crate::common::beams::{at_rest, slender_beam};
 use crate::common::modes::{frequency_of, vibrations};
 use crate::common::reference::{ReferenceDrag, forces as scalar_forces};
 use crate::common::*;
@@ -8,7 +9,7 @@ use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::fibre::{Fibre, Root};
 use spunlaid::flight::Flight;
-use spunlaid::lanes::{Isa, Lanes, WIDTH};
+use spunlaid::lanes::Isa;
 use spunlaid::vec3::Vec3;
 use std::f64::consts::PI;
 
@@ -71,41 +72,6 @@ pub fn terminal_velocity() {
             found / expected - 1.0
         );
     }
-}
-
-fn slender_beam(elements: usize) -> Fibre {
-    Fibre {
-        length: 1.0,
-        diameter: 2e-3,
-        density: 1000.0,
-        youngs_modulus: 1e9,
-        bending_viscosity_time: 0.0,
-        elements,
-        root: Root::Clamped,
-        direction: Y,
-    }
-}
-
-/// Tip deflection and shortening of each lane's beam under a tip load and its weight, at rest.
-fn at_rest(elements: usize, load: [f64; WIDTH], gravity: [f64; WIDTH]) -> Vec<(f64, f64)> {
-    let fibre = slender_beam(elements);
-    let stiffness = fibre.youngs_modulus * fibre.second_moment();
-    let w1 = 3.516 * (stiffness / (fibre.density * fibre.cross_section())).sqrt();
-    let strands: Vec<Strand> =
-        gravity.iter().map(|&g| Strand { fibre, drag: NO_DRAG, gravity: g, damping: 2.0 * w1 }).collect();
-    let h = 0.6 * fibre.axial_step_limit().min(fibre.bending_step_limit());
-    let duration = 25.0 / w1;
-    let (eddies, turbulence) = steady_air(0.0, elements, duration);
-    let mut flight =
-        Flight::assembled(Isa::detect(), &strands, (&eddies, &turbulence), Scheme::SemiImplicitEuler, h)
-            .expect("fibres that agree");
-    let kick = Vec3::new(Lanes(load), Lanes::ZERO, Lanes::ZERO) * Lanes::splat(h / fibre.node_mass(elements));
-    for _ in 0..(duration / h) as u64 {
-        flight.push(elements, kick);
-        flight.advance(1);
-    }
-    let tip = flight.chain().position[elements];
-    (0..WIDTH).map(|i| (tip.x.0[i], 1.0 - tip.y.0[i])).collect()
 }
 
 pub fn cantilevers() {

@@ -1,6 +1,7 @@
 //! What the tests share: still air, a flight to start from, a plain scalar force model.
 #![allow(dead_code, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+pub mod beams;
 pub mod coiling;
 pub mod laying;
 pub mod modes;

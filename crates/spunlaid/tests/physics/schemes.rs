@@ -2,7 +2,7 @@
 
 use crate::common::*;
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
-use spunlaid::case::{Case, Neighbours, Run};
+use spunlaid::case::{Case, Run};
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::ensemble::{Job, Keep, RunControl, fly_together};
@@ -111,27 +111,9 @@ fn invariant_a_chosen_time_step_keeps_the_error_tolerance() {
 
 /// Table 1 by a scheme; its times do not matter here.
 fn table1(scheme: Scheme) -> Case {
-    let run = Run {
-        time_step: 1e-6,
-        steps: 1_000_000,
-        spin_up_steps: 0,
-        output_steps: 1000,
-        replicates: WIDTH as u64,
-        seed: 4,
-        scheme,
-        gravity: 9.81,
-        damping: 0.0,
-        shapes: None,
-    };
-    Case {
-        fibre: table1_fibre(),
-        air: table1_air(),
-        drag: paper_drag(),
-        line: None,
-        spinline: None,
-        neighbours: Neighbours::default(),
-        run,
-    }
+    let mut case = crate::common::table1(scheme, 1e-6, 1.0, WIDTH as u64);
+    case.run.seed = 4;
+    case
 }
 
 /// End nodes of eight replicates every millisecond (lateral components), and the rms amplitude.

@@ -3,56 +3,11 @@
 //! The discrete clamped chain is second order in the element length, so two meshes extrapolate (Richardson)
 //! to fourth order, and what is left is bounded by the difference of the two meshes.
 
+use crate::common::beams::{at_rest, slender_beam};
 use crate::common::*;
-use spunlaid::chain::Strand;
-use spunlaid::chain::schemes::Scheme;
-use spunlaid::fibre::{Fibre, Root};
-use spunlaid::flight::Flight;
-use spunlaid::lanes::{Isa, Lanes, WIDTH};
-use spunlaid::vec3::Vec3;
 
 /// Half a unit of the last digit published, and as much for the mesh and the stretch.
 const PUBLISHED: f64 = 1e-5;
-
-/// A beam along y, so slender that it bends and hardly stretches: `(d/L)² α/16` is a strain of 1e-5 at most.
-fn beam(elements: usize) -> Fibre {
-    Fibre {
-        length: 1.0,
-        diameter: 2e-3,
-        density: 1000.0,
-        youngs_modulus: 1e9,
-        bending_viscosity_time: 0.0,
-        elements,
-        root: Root::Clamped,
-        direction: Y,
-    }
-}
-
-/// Tip deflection along x and shortening along y, by the length, of each lane's beam under a load at its
-/// tip (lane by lane) and its own weight, once all motion has died out.
-fn at_rest(elements: usize, tip_load: [f64; WIDTH], gravity: [f64; WIDTH]) -> Vec<(f64, f64)> {
-    let fibre = beam(elements);
-    // First mode: 3.516 √(EI/ρA)/L² = 0.88 rad/s; damping near critical for it stops everything.
-    let stiffness = fibre.youngs_modulus * fibre.second_moment();
-    let w1 = 3.516 * (stiffness / (fibre.density * fibre.cross_section())).sqrt();
-    let strands: Vec<Strand> =
-        gravity.iter().map(|&g| Strand { fibre, drag: NO_DRAG, gravity: g, damping: 2.0 * w1 }).collect();
-    let h = 0.6 * fibre.axial_step_limit().min(fibre.bending_step_limit());
-    let duration = 25.0 / w1;
-    let (eddies, turbulence) = steady_air(0.0, elements, duration);
-    let mut flight =
-        Flight::assembled(Isa::detect(), &strands, (&eddies, &turbulence), Scheme::SemiImplicitEuler, h)
-            .expect("fibres that agree");
-    // The tip load as a kick of the tip's momentum before every step.
-    let kick =
-        Vec3::new(Lanes(tip_load), Lanes::ZERO, Lanes::ZERO) * Lanes::splat(h / fibre.node_mass(elements));
-    for _ in 0..(duration / h) as u64 {
-        flight.push(elements, kick);
-        flight.advance(1);
-    }
-    let tip = flight.chain().position[elements];
-    (0..WIDTH).map(|i| (tip.x.0[i], 1.0 - tip.y.0[i])).collect()
-}
 
 /// Richardson's extrapolation of a second-order result.
 fn extrapolated(coarse: f64, fine: f64) -> f64 {
@@ -61,7 +16,7 @@ fn extrapolated(coarse: f64, fine: f64) -> f64 {
 
 #[test]
 fn published_cantilevers_under_end_load_and_own_weight() {
-    let fibre = beam(32);
+    let fibre = slender_beam(32);
     let stiffness = fibre.youngs_modulus * fibre.second_moment();
     let weight = fibre.density * fibre.cross_section();
     // α = PL²/EI in the first three lanes, Γ = wL³/EI in the next two.
@@ -94,7 +49,7 @@ fn analytic_pure_end_moment_bends_to_a_circle() {
     // All nodes turned alike (the clamped root's half cell by half) is the equilibrium under a moment
     // M = k_θ θ at the tip: no force anywhere but the couple ±M/l on the last two nodes.
     let elements = 40;
-    let strand = in_vacuum(beam(elements), 0.0);
+    let strand = in_vacuum(slender_beam(elements), 0.0);
     let l = strand.fibre.rest_length();
     for turned in [0.5, 2.0, 2.0 * std::f64::consts::PI, 9.0] {
         // Half a cell at the root and half at the tip, which carries no node: N cells in all.

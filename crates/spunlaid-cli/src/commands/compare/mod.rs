@@ -52,13 +52,8 @@ pub(crate) fn compare(compare: &Compare, invocation: &Invocation) -> Result<(), 
     let files: Vec<&Path> = compare.runs.iter().map(PathBuf::as_path).collect();
     let staging = (!compare.json || compare.output.out.is_some())
         .then(|| {
-            staged(
-                &folder,
-                FILES,
-                compare.output.force,
-                invocation.origin(&files, &folder),
-                compare.output.quiet,
-            )
+            let origin = invocation.origin(&files, &folder);
+            staged((&folder, FILES), &compare.output, origin, &compare.figures.files())
         })
         .transpose()?;
     let results = match webs::read(&compare.runs, &names)? {
@@ -67,8 +62,7 @@ pub(crate) fn compare(compare: &Compare, invocation: &Invocation) -> Result<(), 
     };
     let Results { comparisons, figures, pictures, notes } = &results;
     let json = comparison::json(comparisons, notes);
-    if let Some(mut staging) = staging {
-        staging.set_figures(&compare.figures.files());
+    if let Some(staging) = staging {
         staging.write_figures(figures)?;
         let drawn = pictures.iter().flat_map(|webs| &webs.pictures.files);
         for (number, picture) in (1..).zip(drawn) {
