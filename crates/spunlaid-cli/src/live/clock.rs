@@ -19,7 +19,7 @@ pub(super) struct Clock {
     pub(super) pace: Pace,
     last: Instant,
     /// Time of the fibres that is still to be flown [s].
-    owed: f64,
+    backlog: f64,
     /// Steps that are flown at once: pieces of a tick, so that its end is kept.
     piece: u64,
     /// Ticks of the last second: when, and how much time of the fibres had gone by since the start of the program [s].
@@ -29,12 +29,12 @@ pub(super) struct Clock {
 
 impl Clock {
     pub(super) fn new(now: Instant) -> Self {
-        Self { pace: Pace::Real, last: now, owed: 0.0, piece: 1, past: VecDeque::new(), flown: 0.0 }
+        Self { pace: Pace::Real, last: now, backlog: 0.0, piece: 1, past: VecDeque::new(), flown: 0.0 }
     }
 
     /// Begins to count now: after a pause, at another pace, or with fibres that may take longer for a step.
     pub(super) fn begin(&mut self, now: Instant) {
-        (self.last, self.owed, self.piece) = (now, 0.0, 1);
+        (self.last, self.backlog, self.piece) = (now, 0.0, 1);
         self.past.clear();
     }
 
@@ -50,16 +50,19 @@ impl Clock {
         let until = now + TICK.mul_f64(BUSY);
         let gone = (now - self.last).min(LONGEST_DEBT).as_secs_f64();
         self.last = now;
-        self.owed = match self.pace.ratio() {
-            Some(ratio) => (self.owed + ratio * gone).min((ratio * LONGEST_DEBT.as_secs_f64()).max(step)),
+        self.backlog = match self.pace.ratio() {
+            Some(ratio) => (self.backlog + ratio * gone).min((ratio * LONGEST_DEBT.as_secs_f64()).max(step)),
             None => f64::INFINITY,
         };
-        while self.owed >= step && Instant::now() < until {
-            let steps =
-                if self.owed.is_finite() { ((self.owed / step) as u64).min(self.piece) } else { self.piece };
+        while self.backlog >= step && Instant::now() < until {
+            let steps = if self.backlog.is_finite() {
+                ((self.backlog / step) as u64).min(self.piece)
+            } else {
+                self.piece
+            };
             let begun = Instant::now();
             fly(steps)?;
-            self.owed -= steps as f64 * step;
+            self.backlog -= steps as f64 * step;
             self.flown += steps as f64 * step;
             let took = begun.elapsed();
             if took > TICK.mul_f64(0.3) {
@@ -68,8 +71,8 @@ impl Clock {
                 self.piece *= 2;
             }
         }
-        if !self.owed.is_finite() {
-            self.owed = 0.0;
+        if !self.backlog.is_finite() {
+            self.backlog = 0.0;
         }
         self.past.push_back((now, self.flown));
         while self.past.front().is_some_and(|(then, _)| now - *then > MEASURED) {

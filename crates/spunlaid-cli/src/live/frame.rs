@@ -113,12 +113,12 @@ pub(super) struct Frame {
     pub(super) belt_run: f64,
     nodes: [u16; WIDTH],
     positions: Vec<f32>,
-    lately: RecentMotion,
+    recent_motion: RecentMotion,
 }
 
 impl Frame {
     /// A frame that shows these shapes; its other fields are to be set.
-    pub(super) fn new(snapshot: &Snapshot, lately: &RecentMotion) -> Self {
+    pub(super) fn new(snapshot: &Snapshot, recent_motion: &RecentMotion) -> Self {
         let mut nodes = [0; WIDTH];
         let mut positions = Vec::new();
         for (lane, count) in nodes.iter_mut().enumerate() {
@@ -140,17 +140,18 @@ impl Frame {
             belt_run: 0.0,
             nodes,
             positions,
-            lately: lately.clone(),
+            recent_motion: recent_motion.clone(),
         }
     }
 
     /// The bytes for a page that has had so much.
     pub(super) fn bytes(&self, had: &mut PageProgress) -> Vec<u8> {
-        let (first_sample, samples) = self.lately.samples.since(had.samples);
-        let (first_point, points) = self.lately.laid.since(had.laid);
+        let (first_sample, samples) = self.recent_motion.samples.since(had.samples);
+        let (first_point, points) = self.recent_motion.laid.since(had.laid);
         let samples: Vec<[f64; 4]> = samples.collect();
         let points: Vec<[f64; 2]> = points.collect();
-        *had = PageProgress { samples: self.lately.samples.count, laid: self.lately.laid.count };
+        *had =
+            PageProgress { samples: self.recent_motion.samples.count, laid: self.recent_motion.laid.count };
 
         let bits = u8::from(self.stands) | u8::from(self.behind) << 1 | u8::from(self.fed) << 2;
         let mut bytes =
@@ -205,12 +206,12 @@ mod tests {
         let set = set.map(|(key, value)| (key.to_owned(), value.to_owned()));
         let (case, _) = parse_case(starter_case(), "a.toml", &set).unwrap();
         let mut fibres = Fibres::new(case).unwrap();
-        let mut lately = RecentMotion::new();
-        let see = |fibres: &mut Fibres, lately: &mut RecentMotion, steps| {
-            fibres.fly(steps, |i| lately.add(i.snapshot.time, i.snapshot, &i.laid[0])).unwrap();
+        let mut recent_motion = RecentMotion::new();
+        let see = |fibres: &mut Fibres, recent_motion: &mut RecentMotion, steps| {
+            fibres.fly(steps, |i| recent_motion.add(i.snapshot.time, i.snapshot, &i.laid[0])).unwrap();
         };
-        see(&mut fibres, &mut lately, 4001);
-        let mut frame = Frame::new(fibres.snapshot(), &lately);
+        see(&mut fibres, &mut recent_motion, 4001);
+        let mut frame = Frame::new(fibres.snapshot(), &recent_motion);
         (frame.generation, frame.behind, frame.speed) = (7, true, 0.5);
         let (mut had, mut other) = (PageProgress::default(), PageProgress::default());
         let bytes = frame.bytes(&mut had);
@@ -229,8 +230,8 @@ mod tests {
         let at = 48 + 12 * 8 * nodes + 16 * 3;
         assert!((number(&bytes, at) - (fibres.snapshot().time - 3e-3) as f32).abs() < 1e-7);
 
-        see(&mut fibres, &mut lately, 2000);
-        let frame = Frame::new(fibres.snapshot(), &lately);
+        see(&mut fibres, &mut recent_motion, 2000);
+        let frame = Frame::new(fibres.snapshot(), &recent_motion);
         assert_eq!(u16_at(&frame.bytes(&mut had), 6), 2);
         assert_eq!(u16_at(&frame.bytes(&mut had), 6), 0);
         assert_eq!(u16_at(&frame.bytes(&mut other), 6), 7);

@@ -166,32 +166,32 @@ impl Unevennesses {
     /// The changes from these numbers to others, over the patches that both have.
     fn changes_to(&self, other: &Self) -> Vec<CvChange> {
         match (self, other) {
-            (Self::Expected(here), Self::Expected(there)) => {
-                let to = |here: &ExpectedCv| {
-                    let there = there.iter().find(|there| there.patch == here.patch)?;
-                    let (change, standard_error) = here.change_to(there);
-                    let degrees = here.fibres().min(there.fibres()).max(2) as f64 - 1.0;
-                    Some(CvChange { patch: here.patch, change, standard_error, degrees })
+            (Self::Expected(before), Self::Expected(after)) => {
+                let to = |before: &ExpectedCv| {
+                    let after = after.iter().find(|after| after.patch == before.patch)?;
+                    let (change, standard_error) = before.change_to(after);
+                    let degrees = before.fibres().min(after.fibres()).max(2) as f64 - 1.0;
+                    Some(CvChange { patch: before.patch, change, standard_error, degrees })
                 };
-                here.iter().filter_map(to).collect()
+                before.iter().filter_map(to).collect()
             }
-            (Self::OfMaps(here), Self::OfMaps(there)) => {
-                let to = |here: &PatchFindings| {
-                    let (here, there) =
-                        (here.map, there.iter().find(|there| there.map.patch == here.map.patch)?.map);
-                    let ratio = there.cv / here.cv;
+            (Self::OfMaps(before), Self::OfMaps(after)) => {
+                let to = |before: &PatchFindings| {
+                    let (before, after) =
+                        (before.map, after.iter().find(|after| after.map.patch == before.map.patch)?.map);
+                    let ratio = after.cv / before.cv;
                     let share = |unevenness: Unevenness| {
                         unevenness.standard_error.map_or(f64::NAN, |error| error / unevenness.cv)
                     };
-                    let standard_error = ratio * share(here).hypot(share(there));
+                    let standard_error = ratio * share(before).hypot(share(after));
                     Some(CvChange {
-                        patch: here.patch,
+                        patch: before.patch,
                         change: ratio - 1.0,
                         standard_error,
                         degrees: f64::INFINITY,
                     })
                 };
-                here.iter().filter_map(to).collect()
+                before.iter().filter_map(to).collect()
             }
             // Both webs are laid by the same method.
             _ => Vec::new(),

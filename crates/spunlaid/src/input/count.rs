@@ -30,22 +30,23 @@ impl OpenCase {
         let chosen = self.find_step();
         self.count_steps()?;
         self.count_instants();
-        self.case.air.harmonics = match self.written.get("air.harmonics").map(|said| &said.value) {
-            Some(Some(Value::Whole(harmonics))) => usize::try_from(*harmonics).unwrap_or(usize::MAX),
-            _ => self.case.default_harmonics(),
-        };
+        self.case.air.harmonics =
+            match self.key_values.get("air.harmonics").map(|written_value| &written_value.value) {
+                Some(Some(Value::Whole(harmonics))) => usize::try_from(*harmonics).unwrap_or(usize::MAX),
+                _ => self.case.default_harmonics(),
+            };
         if let Some((time_step, remark)) = chosen {
-            let place = self.written.whole();
+            let place = self.key_values.whole();
             self.notes.push(Finding { place, ..keys::finding("run.time_step", time_step, remark) });
         }
         self.look_at_what_no_case_has();
         match self.case.check() {
             Ok(more) => {
-                self.notes.extend(more.into_iter().map(|note| self.written.placed(note)));
+                self.notes.extend(more.into_iter().map(|note| self.key_values.placed(note)));
                 Ok((self.case, sorted(self.notes)))
             }
             Err(problems) => {
-                let placed = problems.into_iter().map(|problem| self.written.placed(problem)).collect();
+                let placed = problems.into_iter().map(|problem| self.key_values.placed(problem)).collect();
                 Err(sorted(placed).into())
             }
         }
@@ -56,7 +57,7 @@ impl OpenCase {
         for key in keys::all() {
             if key.get(&self.case).is_none()
                 && let (Some(dimension), Some(usual)) = (key.dimension(), key.usual)
-                && let Some(value) = self.written.number(key.name)
+                && let Some(value) = self.key_values.number(key.name)
                 && let Some(remark) = unusual(dimension, usual, value)
             {
                 self.note(key.name, value, remark);
@@ -65,7 +66,7 @@ impl OpenCase {
     }
 
     fn note(&mut self, key: &str, value: f64, remark: Remark) {
-        self.notes.push(self.written.placed(keys::finding(key, value, remark)));
+        self.notes.push(self.key_values.placed(keys::finding(key, value, remark)));
     }
 
     fn number_of(&self, key: &str) -> f64 {
@@ -73,15 +74,15 @@ impl OpenCase {
     }
 
     fn is_written(&self, key: &str) -> bool {
-        self.written.get(key).is_some()
+        self.key_values.get(key).is_some()
     }
 
     /// Divides the fibre into elements.
     fn count_elements(&mut self) {
-        let Self { written, case, .. } = self;
-        let written_length = written.number("fibre.element_length");
+        let Self { key_values, case, .. } = self;
+        let written_length = key_values.number("fibre.element_length");
         if case.line.is_some() {
-            feed(case, written, written_length);
+            feed(case, key_values, written_length);
             return;
         }
         let (fibre, length_scale) = (&mut case.fibre, case.air.length_scale);
@@ -95,7 +96,7 @@ impl OpenCase {
     /// Sets the time step as written, or chooses one and returns it [s] with the reason.
     fn find_step(&mut self) -> Option<(f64, Remark)> {
         let [duration, tolerance] = ["run.duration", "run.error_tolerance"].map(|key| self.number_of(key));
-        let written_step = self.written.number("run.time_step");
+        let written_step = self.key_values.number("run.time_step");
         self.case.run.time_step = written_step.unwrap_or(duration);
         let (suggested, choice) = self.case.suggested_time_step(tolerance, duration);
         let Some(step) = written_step else {
@@ -122,9 +123,10 @@ impl OpenCase {
             let fault = too_many_steps(steps, time_step);
             let mut problems = vec![keys::finding("run.duration", duration, fault)];
             self.case.blame_slips(&mut problems);
-            return Err(
-                sorted(problems.into_iter().map(|problem| self.written.placed(problem)).collect()).into()
-            );
+            return Err(sorted(
+                problems.into_iter().map(|problem| self.key_values.placed(problem)).collect(),
+            )
+            .into());
         }
         let (nearest, whole) = whole_parts(duration, time_step);
         self.case.run.steps = nearest;
@@ -187,16 +189,16 @@ fn divide(fibre: &mut Fibre, written_length: Option<f64>, length_scale: f64) -> 
 
 /// Sets what follows from the distance to the belt: the elements, the length that still moves on the belt, and the decay
 /// time of the eddies.
-fn feed(case: &mut Case, written: &WrittenValues, written_length: Option<f64>) {
+fn feed(case: &mut Case, key_values: &WrittenValues, written_length: Option<f64>) {
     let Some(line) = &mut case.line else { return };
     case.fibre.span(line.distance, written_length.unwrap_or(line.distance / 125.0));
-    if written.get("belt.kept_length").is_none() {
+    if key_values.get("belt.kept_length").is_none() {
         line.kept_length = 0.06 * line.distance;
     }
     // An eddy turns over in this time. Air at rest has none.
     let turnover = case.air.length_scale / case.air.rms();
     if let EddyModel::Convected { decay_time } = &mut case.air.eddies
-        && written.get("air.decay_time").is_none()
+        && key_values.get("air.decay_time").is_none()
         && case.air.records.is_empty()
     {
         *decay_time = turnover;

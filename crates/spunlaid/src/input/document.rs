@@ -22,7 +22,7 @@ pub(super) struct Document<'a, T: 'static> {
     source: Source<'a>,
     version: Option<Entry<'a>>,
     pub(super) entries: BTreeMap<String, (&'static Key<T>, Entry<'a>)>,
-    pub(super) written: WrittenValues,
+    pub(super) key_values: WrittenValues,
     /// Whether the file has a list of tables at its top, whose entries have tables of their own.
     pub(super) layered: bool,
 }
@@ -38,7 +38,7 @@ pub(super) fn read<'a, T>(
     overrides: &[Overrides<'a>],
 ) -> Result<WrittenValues, Error> {
     let source = Source::new(text, name);
-    let written = WrittenValues::new(source.whole());
+    let key_values = WrittenValues::new(source.whole());
     let root = root(&source, text)?;
     for (key, value) in &root {
         if let Some(what) = other_file(keys, key.get_ref()) {
@@ -50,7 +50,7 @@ pub(super) fn read<'a, T>(
     }
     let layered = keys.lists.iter().any(|list| root.contains_key(list.name));
     let (name, entries) = (name.to_owned(), BTreeMap::new());
-    let mut document = Document { keys, name, source, version: None, entries, written, layered };
+    let mut document = Document { keys, name, source, version: None, entries, key_values, layered };
     document.take_table("", "", root, None);
     for Overrides { values, word } in overrides {
         values.iter().for_each(|(key, value)| document.take_override(word, key.trim(), value));
@@ -60,7 +60,7 @@ pub(super) fn read<'a, T>(
     for (full, (key, entry)) in std::mem::take(&mut document.entries) {
         document.read_entry(full, key, entry);
     }
-    Ok(document.written)
+    Ok(document.key_values)
 }
 
 /// What a file is that has this key or table at its top, if it is of another kind.
@@ -99,7 +99,7 @@ impl<'a, T> Document<'a, T> {
     }
 
     fn reject(&mut self, key: &str, entry: &Entry<'_>, what: Fault) {
-        self.written.problems.push(entry.problem(key, what));
+        self.key_values.problems.push(entry.problem(key, what));
     }
 
     /// Takes what stands in a table by its name: a key, a table or a list. What is unknown is rejected.
@@ -136,7 +136,7 @@ impl<'a, T> Document<'a, T> {
             (_, DeValue::Table(keys)) => return self.take_table(&format!("{full}."), table, keys, None),
             (_, other) => Fault::wrong_type(kind(&other), format!("a table, {header}")),
         };
-        self.written.excuse(format!("{full}."));
+        self.key_values.excuse(format!("{full}."));
         self.reject(full, &entry, what);
     }
 
@@ -150,7 +150,7 @@ impl<'a, T> Document<'a, T> {
         };
         let value = tables.as_ref().ok().map(|tables| Value::Whole(tables.len() as u64));
         let (place, shown) = (entry.place.clone(), entry.shown.clone());
-        self.written.set(full.to_owned(), WrittenValue { place, shown, value });
+        self.key_values.set(full.to_owned(), WrittenValue { place, shown, value });
         if let Err(found) = tables {
             self.reject(full, &entry, Fault::wrong_type(found, list.wanted));
         }
@@ -162,7 +162,7 @@ impl<'a, T> Document<'a, T> {
                 self.take_table(&format!("{full}."), list.name, keys, of_override);
             } else {
                 self.reject(&full, &item, Fault::wrong_type(kind(&item.value), list.wanted));
-                self.written.excuse(format!("{full}."));
+                self.key_values.excuse(format!("{full}."));
             }
         }
     }
@@ -174,7 +174,7 @@ impl<'a, T> Document<'a, T> {
 
     /// Removes a key, or a list with all its entries.
     pub(super) fn remove(&mut self, full: &str) {
-        self.written.remove(full);
+        self.key_values.remove(full);
         let in_list = |name: &str| name.strip_prefix(full).is_some_and(|rest| rest.starts_with('.'));
         self.entries.retain(|name, _| name != full && !in_list(name));
     }
@@ -204,11 +204,11 @@ impl<'a, T> Document<'a, T> {
                 }
             }
             if let Some(meant) = table_meant {
-                self.written.excuse(format!("{before}{meant}."));
+                self.key_values.excuse(format!("{before}{meant}."));
                 nearest = Some(self.header(layer, meant));
             }
         } else if let Some(home) = keys.find_by_short_name(name) {
-            self.written.excuse(format!("{layer}{}", home.name));
+            self.key_values.excuse(format!("{layer}{}", home.name));
             let what = Fault::misplaced(home.table(), home.short());
             self.reject(&key, entry, what);
             return;
@@ -218,7 +218,7 @@ impl<'a, T> Document<'a, T> {
             } else {
                 format!("{layer}{}", meant.name)
             };
-            self.written.excuse(full.clone());
+            self.key_values.excuse(full.clone());
             nearest = Some(full);
         }
         let message = format!("is not a {} of {}", if is_table { "table" } else { "key" }, keys.file);
@@ -229,7 +229,7 @@ impl<'a, T> Document<'a, T> {
         };
         let what = Fault::unknown(message, nearest, &takes, &self.known(table));
         let value = entry.shown.clone().filter(|_| !is_table);
-        self.written.problems.push(Finding { value, ..entry.problem(&key, what) });
+        self.key_values.problems.push(Finding { value, ..entry.problem(&key, what) });
     }
 
     /// A table of the file as it is written.
@@ -272,9 +272,9 @@ impl<'a, T> Document<'a, T> {
             Ok(value) => (Some(value), None),
             Err(fault) => (None, Some(fault)),
         };
-        self.written.set(full.clone(), WrittenValue { place, shown, value });
+        self.key_values.set(full.clone(), WrittenValue { place, shown, value });
         if let Some(fault) = fault {
-            self.written.reject(&full, fault);
+            self.key_values.reject(&full, fault);
         }
     }
 

@@ -38,7 +38,7 @@ impl OpenCase {
                 let End::Flown(tension) = self.end() else { break };
                 self.set_end(End::Tension(tension));
                 let what = Remark::TensionFlown { tension, speed: line.feed_speed, change };
-                let note = self.written.placed(keys::finding("spinline.end_tension", tension, what));
+                let note = self.key_values.placed(keys::finding("spinline.end_tension", tension, what));
                 let (case, mut notes) = self.resolve_at_once()?;
                 notes.push(Note { value: None, ..note });
                 return Ok((case, notes));
@@ -51,7 +51,7 @@ impl OpenCase {
             "write a tension, as the run of this case with \"0 N\" says it, and look again",
         );
         let finding = Finding { value: None, ..keys::finding("spinline.end_tension", 0.0, what) };
-        Err(vec![self.written.placed(finding)].into())
+        Err(vec![self.key_values.placed(finding)].into())
     }
 
     fn end(&self) -> End {

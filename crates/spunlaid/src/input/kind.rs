@@ -14,7 +14,8 @@ pub fn kind_of(path: &Path) -> FileKind {
     let has = |name: &str| root.get_ref().contains_key(name);
     let is_table = |name: &str| root.get_ref().get(name).is_some_and(|value| value.get_ref().is_table());
     let is_spinline = || {
-        document::read(&keys::CASE, &text, "", &[]).is_ok_and(|written| spinline::is_spinline_alone(&written))
+        document::read(&keys::CASE, &text, "", &[])
+            .is_ok_and(|key_values| spinline::is_spinline_alone(&key_values))
     };
     if has("vary") || has("design") {
         FileKind::Study

@@ -112,16 +112,16 @@ fn parse_with(
     name: &str,
     overrides: &[Overrides<'_>],
 ) -> Result<(Case, Vec<Note>), Error> {
-    let mut written = document::read(&keys::CASE, text, name, overrides)?;
-    if spinline::is_spinline_alone(&written) {
+    let mut key_values = document::read(&keys::CASE, text, name, overrides)?;
+    if spinline::is_spinline_alone(&key_values) {
         let fault = Fault::new(
             "stands alone in this file, so that no fibre flies",
             "solve the spinline alone, or add [belt], [air] and [run] for the fibre that flies on below it",
         );
-        written.reject("[spinline]", fault.option("`spunlaid spin`"));
-        return Err(written.problems.into());
+        key_values.reject("[spinline]", fault.option("`spunlaid spin`"));
+        return Err(key_values.problems.into());
     }
-    open::open(written, files)?.resolve()
+    open::open(key_values, files)?.resolve()
 }
 
 /// Writes what a point of a study repeats, a case or a web, as a file.

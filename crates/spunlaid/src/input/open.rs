@@ -17,7 +17,7 @@ use std::path::PathBuf;
 #[derive(Clone)]
 pub(super) struct OpenCase {
     /// The values that the case was made from.
-    pub(super) written: WrittenValues,
+    pub(super) key_values: WrittenValues,
     /// The case. Numbers that the flow gives are NaN.
     pub(super) case: Case,
     pub(super) notes: Vec<Note>,
@@ -27,25 +27,25 @@ pub(super) struct OpenCase {
 ///
 /// # Errors
 /// Every problem with any key.
-pub(super) fn open(written: WrittenValues, files: &DataFiles) -> Result<OpenCase, Error> {
-    open_part(written, files, |_| true)
+pub(super) fn open(key_values: WrittenValues, files: &DataFiles) -> Result<OpenCase, Error> {
+    open_part(key_values, files, |_| true)
 }
 
 /// [`open`] for a part of the keys.
 pub(super) fn open_part(
-    mut written: WrittenValues,
+    mut key_values: WrittenValues,
     files: &DataFiles,
     is_wanted: impl Fn(&Key) -> bool,
 ) -> Result<OpenCase, Error> {
     let (mut case, mut notes) = (Case::unset(), Vec::new());
-    let fed = ["feed", "belt", "spinline"].iter().any(|table| written.has_table(table));
-    if written.has_table("spinline") {
+    let fed = ["feed", "belt", "spinline"].iter().any(|table| key_values.has_table(table));
+    if key_values.has_table("spinline") {
         case.spinline = Some(Box::new(Spinline::UNKNOWN));
     }
     if fed {
         case.line = Some(Line::UNKNOWN);
     }
-    let twice = ["air.profile", "air.field"].map(|key| written.get(key).is_some()) == [true; 2];
+    let twice = ["air.profile", "air.field"].map(|key| key_values.get(key).is_some()) == [true; 2];
     // Files come first, because they may give the values of other keys. Names come next, because a law or a model
     // decides which numbers have a meaning.
     let rank = |key: &&Key| match key.kind {
@@ -58,7 +58,7 @@ pub(super) fn open_part(
     let mut in_order: Vec<&Key> = keys::all().iter().filter(|key| is_wanted(key)).collect();
     in_order.sort_by_key(rank);
     for key in in_order {
-        let Some(WrittenValue { place, shown, value }) = written.get(key.name).cloned() else {
+        let Some(WrittenValue { place, shown, value }) = key_values.get(key.name).cloned() else {
             match key.omission {
                 // A key without a meaning for this case refuses its default, which is then not needed.
                 Omission::Value(text) if !key.counted => {
@@ -71,12 +71,12 @@ pub(super) fn open_part(
                     let table = key.table();
                     let other = if table == "feed" {
                         "belt"
-                    } else if written.has_table("feed") {
+                    } else if key_values.has_table("feed") {
                         "feed"
                     } else {
                         "spinline"
                     };
-                    let fault = if written.has_table(table) {
+                    let fault = if key_values.has_table(table) {
                         Fault::missing(table, line)
                     } else {
                         Fault::new(
@@ -84,13 +84,14 @@ pub(super) fn open_part(
                             format!("add {line} to [{table}], or leave out [{other}]"),
                         )
                     };
-                    written.reject(key.name, fault);
+                    key_values.reject(key.name, fault);
                 }
                 Omission::Required(_) if key.is_derived(&case) => {}
                 Omission::Required(_)
                     if !(infer_number(&mut case.air, key.name)
-                        || written.is_excused(key.name)
-                        || key.name == "fibre.diameter" && written.get("fibre.linear_density").is_some()) =>
+                        || key_values.is_excused(key.name)
+                        || key.name == "fibre.diameter"
+                            && key_values.get("fibre.linear_density").is_some()) =>
                 {
                     let (table, line) = (key.table(), key.example());
                     let why = match &case.air.flow {
@@ -104,7 +105,7 @@ pub(super) fn open_part(
                         ),
                         None => Fault::missing(table, &line),
                     };
-                    written.reject(key.name, fault);
+                    key_values.reject(key.name, fault);
                 }
                 _ => {}
             }
@@ -112,7 +113,7 @@ pub(super) fn open_part(
         };
         let set = match (value, key.kind) {
             (None, Kind::File(kind)) => {
-                written.excuse(missed_with(kind));
+                key_values.excuse(missed_with(kind));
                 continue;
             }
             (None, _) => continue,
@@ -120,7 +121,7 @@ pub(super) fn open_part(
                 let (other, remedy) = ("air.field", "the air is one or the other; leave one out");
                 Err(Fault::excludes(other, remedy))
             }
-            (Some(Value::Paths(paths)), Kind::File(kind)) => match load(files, kind, &paths, &written) {
+            (Some(Value::Paths(paths)), Kind::File(kind)) => match load(files, kind, &paths, &key_values) {
                 Ok((content, warnings)) => {
                     notes.extend(warnings.into_iter().map(|warning| Note {
                         place: place.clone(),
@@ -131,33 +132,33 @@ pub(super) fn open_part(
                     key.apply(&mut case, &Value::Content(content))
                 }
                 Err(error) => {
-                    written.excuse(missed_with(kind));
-                    written.reject(key.name, error.into());
+                    key_values.excuse(missed_with(kind));
+                    key_values.reject(key.name, error.into());
                     continue;
                 }
             },
             (Some(_), _) if key.counted => Ok(()),
             (Some(Value::Text(word)), Kind::Quantity(..)) if word == TAYLOR => by_taylor(&mut case.air),
-            (Some(value), _) => match rival(key.name, |other| written.get(other).is_some()) {
+            (Some(value), _) => match rival(key.name, |other| key_values.get(other).is_some()) {
                 Some((other, remedy)) => Err(Fault::excludes(other, remedy)),
                 None => key.apply(&mut case, &value),
             },
         };
         if let Err(fault) = set
-            && !written.is_excused(key.name)
+            && !key_values.is_excused(key.name)
         {
-            written.reject(key.name, fault);
+            key_values.reject(key.name, fault);
         }
     }
     if let Flow::Field(placed) = &mut case.air.flow
-        && written.get("air.field_root").is_none()
+        && key_values.get("air.field_root").is_none()
     {
         placed.root = PlacedField::middle_of_inlet(&placed.field, placed.axis, placed.unit);
     }
-    if written.problems.is_empty() {
-        Ok(OpenCase { written, case, notes })
+    if key_values.problems.is_empty() {
+        Ok(OpenCase { key_values, case, notes })
     } else {
-        Err(sorted(written.problems).into())
+        Err(sorted(key_values.problems).into())
     }
 }
 
@@ -215,27 +216,27 @@ const fn missed_with(kind: FileKind) -> &'static str {
 }
 
 /// What the case says of the files of its records.
-fn record_layout(written: &WrittenValues) -> RecordLayout {
-    let whole = |key: &str| match written.get(key).and_then(|written| written.value.as_ref()) {
+fn record_layout(key_values: &WrittenValues) -> RecordLayout {
+    let whole = |key: &str| match key_values.get(key).and_then(|key_values| key_values.value.as_ref()) {
         Some(Value::Whole(number)) => Some(*number),
         _ => None,
     };
     RecordLayout {
-        rate: written.number("air.record_rate"),
+        rate: key_values.number("air.record_rate"),
         skip: whole("air.record_skip"),
-        columns: written.text("air.record_columns"),
-        velocity_unit: written.text("air.record_velocity_unit"),
+        columns: key_values.text("air.record_columns"),
+        velocity_unit: key_values.text("air.record_velocity_unit"),
         max_gap: whole("air.record_max_gap"),
     }
 }
 
 /// The arrays of the field that the case names.
-fn field_layout(written: &WrittenValues) -> FieldLayout {
+fn field_layout(key_values: &WrittenValues) -> FieldLayout {
     FieldLayout {
-        velocity: written.text("air.field_velocity"),
-        k: written.text("air.field_k"),
-        epsilon: written.text("air.field_epsilon"),
-        omega: written.text("air.field_omega"),
+        velocity: key_values.text("air.field_velocity"),
+        k: key_values.text("air.field_k"),
+        epsilon: key_values.text("air.field_epsilon"),
+        omega: key_values.text("air.field_omega"),
     }
 }
 
@@ -243,7 +244,7 @@ fn load(
     files: &DataFiles,
     kind: FileKind,
     paths: &[PathBuf],
-    written: &WrittenValues,
+    key_values: &WrittenValues,
 ) -> Result<(Content, Vec<Fault>), FileError> {
     let path = paths.first().cloned().unwrap_or_default();
     let content = match kind {
@@ -252,12 +253,12 @@ fn load(
         FileKind::SpinlineAir => Content::SpinlineAir(files.spinline_air(&path)?),
         FileKind::Polymer => Content::Polymer(files.polymer(&path)?),
         FileKind::Records => {
-            let layout = record_layout(written);
+            let layout = record_layout(key_values);
             let records: Result<_, _> = paths.iter().map(|path| files.record(path, &layout)).collect();
             Content::Records(records?)
         }
         FileKind::Field => {
-            let (field, warnings) = files.field(&path, &field_layout(written))?;
+            let (field, warnings) = files.field(&path, &field_layout(key_values))?;
             return Ok((Content::Field(field), warnings));
         }
     };
@@ -308,8 +309,8 @@ fn infer_number(air: &mut Air, key: &str) -> bool {
 impl OpenCase {
     /// The number of a key, as written or by default. None if it follows from other keys.
     pub(super) fn number(&self, key: &Key) -> Option<f64> {
-        let number = match (self.written.get(key.name), key.omission) {
-            (Some(said), _) => match said.value.as_ref()? {
+        let number = match (self.key_values.get(key.name), key.omission) {
+            (Some(written_value), _) => match written_value.value.as_ref()? {
                 Value::Text(_) => key.get(&self.case)?.number(),
                 value => value.number(),
             },

@@ -27,7 +27,7 @@ impl<'a, T> Document<'a, T> {
                     self.take(&before, table, name, entry);
                 }
             }
-            Err(what) => self.written.problems.push(entry.problem(key, what)),
+            Err(what) => self.key_values.problems.push(entry.problem(key, what)),
         }
     }
 
@@ -73,7 +73,7 @@ impl<'a, T> Document<'a, T> {
 
     /// The number of an entry of a list, which an override gives by its number or its name, and the rest of its key.
     fn numbered<'k>(&self, full: &str, list: &TableList, key: &'k str) -> Result<(u64, &'k str), Fault> {
-        let count = self.written.number(full).map_or(0, |count| count as u64);
+        let count = self.key_values.number(full).map_or(0, |count| count as u64);
         let after = |name: &str| key.strip_prefix(name)?.strip_prefix('.');
         let is_alone = count == 0 && !list.tables.is_empty() && !self.layered;
         let by_number = (1..=count.max(u64::from(is_alone)))

@@ -27,7 +27,7 @@ pub struct SpinFile {
     pub spec: SpinSpec,
     /// Notes and warnings.
     pub notes: Vec<Note>,
-    written: WrittenValues,
+    key_values: WrittenValues,
 }
 
 /// Reads a spinline.
@@ -49,8 +49,8 @@ pub fn parse_spinline<'a>(
     overrides: impl Into<Overrides<'a>>,
 ) -> Result<SpinFile, Error> {
     let (files, overrides) = (DataFiles::default(), [overrides.into()]);
-    let written = document::read(&keys::CASE, text, name, &overrides)?;
-    let mut open = open_spinline(written, &files)?;
+    let key_values = document::read(&keys::CASE, text, name, &overrides)?;
+    let mut open = open_spinline(key_values, &files)?;
     if open.waits_for_flights() {
         // Only a whole case has a fibre that can fly.
         (open.case, open.notes) = parse_with(&files, text, name, &overrides)?;
@@ -59,21 +59,21 @@ pub fn parse_spinline<'a>(
 }
 
 /// Sets the values of a spinline alone, which is then complete.
-pub(super) fn open_spinline(mut written: WrittenValues, files: &DataFiles) -> Result<OpenCase, Error> {
-    if !written.has_table("spinline") {
+pub(super) fn open_spinline(mut key_values: WrittenValues, files: &DataFiles) -> Result<OpenCase, Error> {
+    if !key_values.has_table("spinline") {
         let remedy = "describe the line in a table [spinline]; `cases/spinline.toml` is an example";
-        written.reject("[spinline]", Fault::new("is missing", remedy));
+        key_values.reject("[spinline]", Fault::new("is missing", remedy));
     }
-    let has_field = takes_field(&written);
+    let has_field = takes_field(&key_values);
     let wanted = |key: &Key| TABLES.contains(&key.table()) || has_field && is_of_field(key.name);
-    let mut open = open_part(written, files, wanted)?;
+    let mut open = open_part(key_values, files, wanted)?;
     open.complete_spinline()?;
     Ok(open)
 }
 
 /// Whether the velocity of the air along the line is that of a CFD field.
-fn takes_field(written: &WrittenValues) -> bool {
-    written.text("spinline.field").is_some_and(|word| word == "true")
+fn takes_field(key_values: &WrittenValues) -> bool {
+    key_values.text("spinline.field").is_some_and(|word| word == "true")
 }
 
 /// Whether a key says where a CFD field is, or how fast it flows.
@@ -82,10 +82,10 @@ fn is_of_field(key: &str) -> bool {
 }
 
 /// Whether a spinline is written, and nothing of a fibre that flies.
-pub(super) fn is_spinline_alone(written: &WrittenValues) -> bool {
+pub(super) fn is_spinline_alone(key_values: &WrittenValues) -> bool {
     const OF_FLIGHTS: [&str; 5] = ["fibre", "feed", "belt", "air", "run"];
-    let is_of_flight = |table| written.has_table(table) && !(table == "air" && takes_field(written));
-    written.has_table("spinline") && !OF_FLIGHTS.into_iter().any(is_of_flight)
+    let is_of_flight = |table| key_values.has_table(table) && !(table == "air" && takes_field(key_values));
+    key_values.has_table("spinline") && !OF_FLIGHTS.into_iter().any(is_of_flight)
 }
 
 /// Writes a spinline as a file that reads back to the same bits.
@@ -107,20 +107,20 @@ pub fn write_spinline(spec: &SpinSpec) -> String {
 
 impl SpinFile {
     pub(super) fn from_open(open: OpenCase) -> Self {
-        let OpenCase { written, case, mut notes } = open;
-        notes.extend(case.unusual_in(&TABLES).into_iter().map(|note| written.placed(note)));
+        let OpenCase { key_values, case, mut notes } = open;
+        notes.extend(case.unusual_in(&TABLES).into_iter().map(|note| key_values.placed(note)));
         let spinline = case.spinline.map_or(Spinline::UNKNOWN, |spinline| *spinline);
         let takes_field = matches!(spinline.air, Surroundings::Field { .. });
         let air = takes_field.then(|| Box::new(case.air));
-        Self { spec: SpinSpec { spinline, drag: case.drag, air }, notes, written }
+        Self { spec: SpinSpec { spinline, drag: case.drag, air }, notes, key_values }
     }
 
     /// The spinline from which a case is fed; `None` if it has none.
     pub fn of_case(case: &Case) -> Option<Self> {
-        let (spinline, written) = (case.spinline.as_deref()?.clone(), WrittenValues::new(Place::Code));
+        let (spinline, key_values) = (case.spinline.as_deref()?.clone(), WrittenValues::new(Place::Code));
         let takes_field = matches!(spinline.air, Surroundings::Field { .. });
         let air = takes_field.then(|| Box::new(case.air.clone()));
-        Some(Self { spec: SpinSpec { spinline, drag: case.drag, air }, notes: Vec::new(), written })
+        Some(Self { spec: SpinSpec { spinline, drag: case.drag, air }, notes: Vec::new(), key_values })
     }
 
     /// The steady state of each row of the curtain, the quenched side first; one if there is no curtain.
@@ -131,24 +131,24 @@ impl SpinFile {
         self.spec
             .spinline
             .solve_rows(self.spec.drag.along)
-            .map_err(|failure| rejected(&self.written, &Case::from(&self.spec), failure))
+            .map_err(|failure| rejected(&self.key_values, &Case::from(&self.spec), failure))
     }
 }
 
 /// A failure at the place of the key to blame, after the unusual values that may be why.
-fn rejected(written: &WrittenValues, case: &Case, failure: Failure) -> Error {
+fn rejected(key_values: &WrittenValues, case: &Case, failure: Failure) -> Error {
     let slips = case.unusual_in(&TABLES).into_iter().filter(|slip| slip.key != failure.key);
-    let mut problems: Vec<Problem> = slips.map(|slip| written.placed(slip.into())).collect();
-    problems.push(placed(written, failure));
+    let mut problems: Vec<Problem> = slips.map(|slip| key_values.placed(slip.into())).collect();
+    problems.push(placed(key_values, failure));
     problems.into()
 }
 
 /// A failure at the place of the key to blame.
-fn placed(written: &WrittenValues, failure: Failure) -> Problem {
+fn placed(key_values: &WrittenValues, failure: Failure) -> Problem {
     let Failure { key, value, fault } = failure;
     match value {
-        Some(value) => written.placed(keys::finding(key, value, fault)),
-        None => Problem { key: key.to_owned(), ..written.placed(keys::finding(key, f64::NAN, fault)) },
+        Some(value) => key_values.placed(keys::finding(key, value, fault)),
+        None => Problem { key: key.to_owned(), ..key_values.placed(keys::finding(key, f64::NAN, fault)) },
     }
 }
 
@@ -161,57 +161,57 @@ impl OpenCase {
         self.complete_spinline()?;
         let Some(spinline) = &self.case.spinline else { return Ok(()) };
         let solved = spinline.solve(self.case.drag.along);
-        let filament = solved.map_err(|failure| rejected(&self.written, &self.case, failure))?;
+        let filament = solved.map_err(|failure| rejected(&self.key_values, &self.case, failure))?;
         self.case.take_filament(&filament);
         Ok(())
     }
 
     /// Checks that everything is known, and looks up the air in a CFD field.
     fn complete_spinline(&mut self) -> Result<(), Error> {
-        let Self { written, case, notes } = self;
+        let Self { key_values, case, notes } = self;
         let Some(spinline) = &case.spinline else { return Ok(()) };
         if spinline.melt == Melt::Viscosity && spinline.material.viscosity.is_nan() {
             let remedy =
                 "add melt_flow_rate = 35 to [spinline], or viscosity = \"220 Pa s\" to [spinline.material]";
-            written.reject(
+            key_values.reject(
                 "spinline.melt_flow_rate",
                 Fault::new("is missing, and this polymer has no usual viscosity", remedy),
             );
         }
         if spinline.crystallisation && !spinline.material.crystals.is_known() {
             let remedy = "leave it out, or give the constants from avrami_exponent to heat_of_fusion in [spinline.material]";
-            written.reject(
+            key_values.reject(
                 "spinline.crystallisation",
                 Fault::new("needs constants of crystallisation, which are not known of this polymer", remedy),
             );
         }
         if matches!(spinline.end, End::TakeUp(speed) if speed.is_nan()) {
-            written.reject(
+            key_values.reject(
                 "spinline.take_up_speed",
                 Fault::missing("spinline", "take_up_speed = \"3000 m/min\""),
             );
         }
         if spinline.curtain.is_some_and(|curtain| curtain.filaments_per_metre.is_nan()) {
             let line = "filaments_per_metre_and_row = 250";
-            written.reject("spinline.filaments_per_metre_and_row", Fault::missing("spinline", line));
+            key_values.reject("spinline.filaments_per_metre_and_row", Fault::missing("spinline", line));
         }
         if let Surroundings::Field { temperature, .. } = spinline.air {
             match field_along(case, spinline.length, temperature) {
                 Ok(table) => {
                     let what = Remark::AirOfField { temperature };
                     let finding = keys::finding("spinline.field", f64::NAN, what);
-                    notes.push(written.placed(Note { value: None, ..finding }));
+                    notes.push(key_values.placed(Note { value: None, ..finding }));
                     if let Some(line) = &mut case.spinline {
                         line.air = Surroundings::Field { temperature, table };
                     }
                 }
-                Err(fault) => written.reject("spinline.field", fault),
+                Err(fault) => key_values.reject("spinline.field", fault),
             }
         }
-        if written.problems.is_empty() {
+        if key_values.problems.is_empty() {
             Ok(())
         } else {
-            Err(sorted(std::mem::take(&mut written.problems)).into())
+            Err(sorted(std::mem::take(&mut key_values.problems)).into())
         }
     }
 }

@@ -42,7 +42,7 @@ impl WrittenValues {
 
     /// Every value with its key.
     pub(super) fn all(&self) -> impl Iterator<Item = (&str, &WrittenValue)> {
-        self.values.iter().map(|(key, said)| (key.as_ref(), said))
+        self.values.iter().map(|(key, written_value)| (key.as_ref(), written_value))
     }
 
     /// Whether any key of a table is written.
@@ -50,8 +50,8 @@ impl WrittenValues {
         self.values.keys().any(|key| key.split_once('.').is_some_and(|(first, _)| first == table))
     }
 
-    pub(super) fn set(&mut self, key: impl Into<Cow<'static, str>>, said: WrittenValue) {
-        self.values.insert(key.into(), said);
+    pub(super) fn set(&mut self, key: impl Into<Cow<'static, str>>, written_value: WrittenValue) {
+        self.values.insert(key.into(), written_value);
     }
 
     /// Takes a value out, as if it had not been written.
@@ -85,7 +85,7 @@ impl WrittenValues {
     /// Records a problem with a key: with its value, or that it is missing.
     pub(super) fn reject(&mut self, key: &str, what: Fault) {
         let (place, value) = match self.get(key) {
-            Some(said) => (said.place.clone(), said.shown.clone()),
+            Some(written_value) => (written_value.place.clone(), written_value.shown.clone()),
             None => (self.file.clone(), None),
         };
         self.problems.push(Finding { place, key: key.to_owned(), value, what });
@@ -94,7 +94,9 @@ impl WrittenValues {
     /// Adds the place and the written text of the value to a finding.
     pub(super) fn placed<W>(&self, mut finding: Finding<W>) -> Finding<W> {
         match self.get(&finding.key) {
-            Some(said) => (finding.place, finding.value) = (said.place.clone(), said.shown.clone()),
+            Some(written_value) => {
+                (finding.place, finding.value) = (written_value.place.clone(), written_value.shown.clone())
+            }
             None => {
                 finding.place = self.file.clone();
                 finding.value = finding.value.map(|value| format!("{value} (the default)"));

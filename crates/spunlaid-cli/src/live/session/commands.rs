@@ -86,7 +86,7 @@ impl Session {
     }
 
     pub(super) fn restart_statistics(&mut self) {
-        self.lately.clear_belt();
+        self.recent_motion.clear_belt();
         self.trouble = None;
         self.changed();
     }

@@ -43,7 +43,7 @@ pub(super) struct Session {
     remark: Option<String>,
     fibres: Fibres,
     measured: Statistics,
-    lately: RecentMotion,
+    recent_motion: RecentMotion,
     clock: Clock,
     stands: bool,
     generation: u32,
@@ -70,8 +70,8 @@ impl Session {
     ) -> Result<Self, Vec<Complaint>> {
         let read = document.read()?;
         let fibres = Fibres::new(read.case).map_err(|error| complaints(&error))?;
-        let lately = RecentMotion::new();
-        let board = Arc::new(Board::new(Frame::new(fibres.snapshot(), &lately)));
+        let recent_motion = RecentMotion::new();
+        let board = Arc::new(Board::new(Frame::new(fibres.snapshot(), &recent_motion)));
         let now = Instant::now();
         let mut clock = Clock::new(now);
         if fibres.case().line.is_some() {
@@ -84,7 +84,7 @@ impl Session {
             notes: read.warnings,
             remark,
             fibres,
-            lately,
+            recent_motion,
             clock,
             stands: false,
             generation: 0,
@@ -179,8 +179,8 @@ impl Session {
     /// Flies as many steps as the clock asks for.
     fn tick(&mut self) {
         let step = self.fibres.flight().time_step();
-        let Self { fibres, measured, lately, clock, since, .. } = self;
-        if let Err(error) = clock.tick(step, |steps| see(fibres, steps, *since, lately, measured)) {
+        let Self { fibres, measured, recent_motion, clock, since, .. } = self;
+        if let Err(error) = clock.tick(step, |steps| see(fibres, steps, *since, recent_motion, measured)) {
             self.handle_lost_fibres(error.to_string());
         }
         self.show_frame();
@@ -191,12 +191,12 @@ impl Session {
 
     /// Flies on by a recorded instant, as far as it goes without letting anybody wait.
     fn step(&mut self) {
-        let Self { fibres, measured, lately, since, .. } = self;
+        let Self { fibres, measured, recent_motion, since, .. } = self;
         let (begun, mut left) = (Instant::now(), fibres.case().run.output_steps);
         while left > 0 && begun.elapsed() < LONGEST_STEP {
             let steps = left.min(PIECE);
             left -= steps;
-            if let Err(error) = see(fibres, steps, *since, lately, measured) {
+            if let Err(error) = see(fibres, steps, *since, recent_motion, measured) {
                 return self.handle_lost_fibres(error.to_string());
             }
         }
@@ -222,11 +222,11 @@ fn see(
     fibres: &mut Fibres,
     steps: u64,
     since: f64,
-    lately: &mut RecentMotion,
+    recent_motion: &mut RecentMotion,
     measured: &mut Statistics,
 ) -> Result<(), Error> {
     fibres.fly(steps, |instant| {
-        lately.add(since + instant.snapshot.time, instant.snapshot, &instant.laid[0]);
+        recent_motion.add(since + instant.snapshot.time, instant.snapshot, &instant.laid[0]);
         measured.see(instant);
     })
 }

@@ -62,7 +62,7 @@ fn json(value: &impl Serialize) -> String {
 impl Session {
     pub(super) fn show_frame(&self) {
         let fed = self.fibres.case().line;
-        let mut frame = Frame::new(self.fibres.snapshot(), &self.lately);
+        let mut frame = Frame::new(self.fibres.snapshot(), &self.recent_motion);
         frame.generation = self.generation;
         frame.stands = self.stands;
         frame.behind = self.clock.is_behind();

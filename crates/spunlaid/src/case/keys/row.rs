@@ -94,11 +94,11 @@ macro_rules! of_record {
         Access {
             get: |case| case.air.records.first()?.layout.clone().$field.map($value),
             set: |case, value| {
-                let said = $read(value)?;
+                let setting = $read(value)?;
                 match case.air.records.first() {
                     None => Err(Fault::needs("air.record", "leave it out")),
                     // The records have been read with it.
-                    Some(record) if record.layout.$field == Some(said) => Ok(()),
+                    Some(record) if record.layout.$field == Some(setting) => Ok(()),
                     Some(_) => Err(read_with_case()),
                 }
             },
@@ -271,7 +271,7 @@ impl<T> Key<T> {
 }
 
 /// The fault of a value of the wrong kind. It only occurs if the caller has not checked the value.
-fn unfit(value: &Value, wanted: &str) -> Fault {
+fn wrong_type(value: &Value, wanted: &str) -> Fault {
     Fault::wrong_type(value.what(), wanted)
 }
 
@@ -284,20 +284,20 @@ pub(crate) fn read_with_case() -> Fault {
 }
 
 pub(crate) fn number(value: &Value) -> Result<f64, Fault> {
-    value.number().ok_or_else(|| unfit(value, "a number"))
+    value.number().ok_or_else(|| wrong_type(value, "a number"))
 }
 
 pub(crate) fn whole(value: &Value) -> Result<u64, Fault> {
     match value {
         Value::Whole(number) => Ok(*number),
-        _ => Err(unfit(value, "a whole number")),
+        _ => Err(wrong_type(value, "a whole number")),
     }
 }
 
 pub(crate) fn text(value: &Value) -> Result<String, Fault> {
     match value {
         Value::Text(text) => Ok(text.clone()),
-        _ => Err(unfit(value, "a text")),
+        _ => Err(wrong_type(value, "a text")),
     }
 }
 
@@ -305,14 +305,14 @@ pub(super) fn switch(value: &Value) -> Result<bool, Fault> {
     match value {
         Value::Text(text) if text == SWITCH[1] => Ok(true),
         Value::Text(text) if text == SWITCH[0] => Ok(false),
-        _ => Err(unfit(value, "true or false")),
+        _ => Err(wrong_type(value, "true or false")),
     }
 }
 
 pub(super) fn vector(value: &Value) -> Result<Vec3<f64>, Fault> {
     match value {
         Value::Vector(vector) => Ok(*vector),
-        _ => Err(unfit(value, "a vector")),
+        _ => Err(wrong_type(value, "a vector")),
     }
 }
 
@@ -321,7 +321,7 @@ pub(crate) fn named<T: Copy>(value: &Value, all: &[T], name: impl Fn(T) -> &'sta
         Value::Text(text) => all.iter().copied().find(|one| name(*one) == text),
         _ => None,
     };
-    found.ok_or_else(|| unfit(value, "a name"))
+    found.ok_or_else(|| wrong_type(value, "a name"))
 }
 
 /// Changes to another of several named options. One that is chosen already keeps its numbers.

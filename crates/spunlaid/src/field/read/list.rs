@@ -24,14 +24,14 @@ struct List {
     element: &'static str,
     attribute: &'static str,
     /// The kind of grid that all parts are.
-    announced: Option<&'static str>,
+    grid_kind: Option<&'static str>,
 }
 
 /// The list that a file of this type is, if it is one.
 fn list_type(kind: &str) -> Option<List> {
-    let pieces = |announced| List { element: "Piece", attribute: "Source", announced: Some(announced) };
+    let pieces = |grid_kind| List { element: "Piece", attribute: "Source", grid_kind: Some(grid_kind) };
     Some(match kind {
-        "vtkMultiBlockDataSet" => List { element: "DataSet", attribute: "file", announced: None },
+        "vtkMultiBlockDataSet" => List { element: "DataSet", attribute: "file", grid_kind: None },
         "PUnstructuredGrid" => pieces("UnstructuredGrid"),
         "PStructuredGrid" => pieces("StructuredGrid"),
         "PRectilinearGrid" => pieces("RectilinearGrid"),
@@ -95,13 +95,13 @@ impl Reading<'_> {
     /// Reads a list.
     ///
     /// * `from` – the folder that its parts are relative to, relative to the folder of the first list
-    /// * `announced` – the kind of grid that a list which names this one says it is
+    /// * `grid_kind` – the kind of grid that a list which names this one says it is
     fn list(
         &mut self,
         path: &Path,
         from: &Path,
         bytes: &[u8],
-        announced: Option<&str>,
+        grid_kind: Option<&str>,
     ) -> Result<(), FileError> {
         self.checksum.update(bytes);
         self.within.push(same_place(path));
@@ -112,7 +112,7 @@ impl Reading<'_> {
         })?;
         let document = xml::tree(text).map_err(placed)?;
         let list = list_type(document.root_element().attribute("type").unwrap_or_default());
-        let Some(List { element, attribute, announced: own }) = list else {
+        let Some(List { element, attribute, grid_kind: own }) = list else {
             return Err(placed(Fault::cut_off("the list of parts").into()));
         };
         for node in document.descendants().filter(|node| node.has_tag_name(element)) {
@@ -138,17 +138,17 @@ impl Reading<'_> {
             }
             let bytes = file::read(&path, FileKind::Field, u64::MAX)?;
             self.parts.push(relative.clone());
-            let announced = own.or(announced);
+            let grid_kind = own.or(grid_kind);
             if is_list(&bytes) {
                 let from = relative.parent().unwrap_or(Path::new(""));
-                self.list(&path, from, &bytes, announced)?;
+                self.list(&path, from, &bytes, grid_kind)?;
             } else {
                 self.checksum.update(&bytes);
                 if xml::kind(&bytes).is_none() {
                     let fault = Fault::format("not a VTK file", "write this part as one");
                     return Err(FileError::from(fault).path(&path));
                 }
-                xml::read_part(&bytes, announced, &mut self.assembly).map_err(|error| error.path(&path))?;
+                xml::read_part(&bytes, grid_kind, &mut self.assembly).map_err(|error| error.path(&path))?;
             }
         }
         self.within.pop();

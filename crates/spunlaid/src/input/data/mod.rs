@@ -87,25 +87,25 @@ impl DataFiles {
 
     /// A velocity record.
     ///
-    /// * `said` – what the case says of the file
+    /// * `layout` – what the case says of the file
     pub(super) fn record(
         &self,
         path: &Path,
-        said: &RecordLayout,
+        layout: &RecordLayout,
     ) -> Result<FileContent<Measured>, FileError> {
-        once(&self.records, path, &way_of(said), || {
-            let columns = said.columns.iter().flat_map(|columns| columns.split(','));
-            let layout = Layout {
-                rate: said.rate,
-                skip_lines: said.skip.unwrap_or(0),
+        once(&self.records, path, &way_of(layout), || {
+            let columns = layout.columns.iter().flat_map(|columns| columns.split(','));
+            let settings = Layout {
+                rate: layout.rate,
+                skip_lines: layout.skip.unwrap_or(0),
                 columns: columns.map(|column| column.trim().to_owned()).collect(),
-                velocity_unit: said.velocity_unit.clone(),
-                longest_gap: said.max_gap.map_or(LONGEST_GAP, |samples| samples as usize),
+                velocity_unit: layout.velocity_unit.clone(),
+                longest_gap: layout.max_gap.map_or(LONGEST_GAP, |samples| samples as usize),
                 ..Layout::default()
             };
-            let record = read_record(path, &layout)?;
+            let record = read_record(path, &settings)?;
             let checksum = record.reading.checksum;
-            Ok(from_file(path, checksum, Measured { layout: said.clone(), ..measured(record)? }))
+            Ok(from_file(path, checksum, Measured { layout: layout.clone(), ..measured(record)? }))
         })
     }
 }
@@ -114,11 +114,11 @@ impl DataFiles {
 fn measured(record: Record) -> Result<Measured, FileError> {
     let analysis = analyse_fluctuation(&record, &Settings::default())?;
     let with_mean = analysis.has_mean();
-    let said = |interval: &Interval| with_mean.then_some(interval.value);
+    let known_value = |interval: &Interval| with_mean.then_some(interval.value);
     let says = RecordNumbers {
-        velocity: said(&analysis.mean_velocity),
-        turbulence_intensity: said(&analysis.turbulence_intensity),
-        length_scale: said(&analysis.length_scale),
+        velocity: known_value(&analysis.mean_velocity),
+        turbulence_intensity: known_value(&analysis.turbulence_intensity),
+        length_scale: known_value(&analysis.length_scale),
         cutoff_frequency: analysis.cutoff_frequency.value,
     };
     let components: Vec<&[f64]> = record.components.iter().map(|c| c.values.as_slice()).collect();

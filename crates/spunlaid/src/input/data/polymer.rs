@@ -16,22 +16,22 @@ pub(super) fn read(text: &str, name: &str) -> Result<PolymerFile, FileError> {
         let place = Place::in_file(name, Position::Whole);
         Box::new(Finding { place, key: key.to_owned(), value: None, what })
     };
-    let written = document::read(&keys::CASE, text, name, &[]).map_err(|error| {
+    let key_values = document::read(&keys::CASE, text, name, &[]).map_err(|error| {
         let first = error.problems().first().cloned();
         first.map_or_else(|| problem("", Fault::plain(error.to_string())), Box::new)
     })?;
-    if let Some(first) = written.problems.first() {
+    if let Some(first) = key_values.problems.first() {
         return Err(Box::new(first.clone()));
     }
     let mut case = Case { spinline: Some(Box::new(Spinline::UNKNOWN)), ..Case::unset() };
-    for (key, said) in written.all() {
+    for (key, written_value) in key_values.all() {
         let constant = keys::find(key).filter(|key| key.table() == TABLE);
-        let (Some(constant), Some(value)) = (constant, &said.value) else {
+        let (Some(constant), Some(value)) = (constant, &written_value.value) else {
             let what = Fault::new(
                 "does not belong in the file of a polymer",
                 format!("it takes the table [{TABLE}] only"),
             );
-            return Err(Box::new(Finding { place: said.place.clone(), ..*problem(key, what) }));
+            return Err(Box::new(Finding { place: written_value.place.clone(), ..*problem(key, what) }));
         };
         constant.apply(&mut case, value).map_err(|what| problem(key, what))?;
     }

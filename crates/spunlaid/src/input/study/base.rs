@@ -35,18 +35,18 @@ impl CaseBase {
         kind: FileKind,
     ) -> Result<Self, Error> {
         let files = DataFiles::default();
-        let written = document::read(&keys::CASE, &text, name, set)?;
+        let key_values = document::read(&keys::CASE, &text, name, set)?;
         let open = match kind {
-            FileKind::Spinline => spinline::open_spinline(written, &files)?,
-            _ => open::open(written, &files)?,
+            FileKind::Spinline => spinline::open_spinline(key_values, &files)?,
+            _ => open::open(key_values, &files)?,
         };
         Ok(Self { text, open, files, kind })
     }
 
-    fn open_again(&self, written: WrittenValues) -> Result<OpenCase, Error> {
+    fn open_again(&self, key_values: WrittenValues) -> Result<OpenCase, Error> {
         match self.kind {
-            FileKind::Spinline => spinline::open_spinline(written, &self.files),
-            _ => open::open(written, &self.files),
+            FileKind::Spinline => spinline::open_spinline(key_values, &self.files),
+            _ => open::open(key_values, &self.files),
         }
     }
 }
@@ -101,18 +101,18 @@ impl Base for CaseBase {
         plan: &Plan,
         seed: Option<u64>,
     ) -> ExperimentWithNotes {
-        let (mut written, mut faults) = (self.open.written.clone(), Vec::new());
+        let (mut key_values, mut faults) = (self.open.key_values.clone(), Vec::new());
         for (key, value) in values {
             // What says the same in other words, unless it varies too.
             if let Some((other, _)) = keys::CASE.alternative(&key.name)
                 && values.iter().all(|(key, _)| key.name != other)
             {
-                written.remove(other);
+                key_values.remove(other);
             }
             let shown = Some(key.pretty(*value));
             match value_of(key, *value) {
                 Ok(value) => {
-                    written
+                    key_values
                         .set(key.name.clone(), WrittenValue { place: at.clone(), shown, value: Some(value) });
                 }
                 Err(what) => {
@@ -125,7 +125,7 @@ impl Base for CaseBase {
         }
         let seed = seed.unwrap_or(plan.seed);
         if self.kind == FileKind::Spinline {
-            let (opened, unneeded) = self.open(written, values);
+            let (opened, unneeded) = self.open(key_values, values);
             let SpinFile { spec, mut notes, .. } = SpinFile::from_open(opened?);
             notes.extend(unneeded.into_iter().map(|note| Note { place: at.clone(), ..note }));
             return Ok((Experiment::Spinline(Box::new(spec)), notes));
@@ -133,10 +133,10 @@ impl Base for CaseBase {
         for (name, value) in [("run.seed", seed), ("run.replicates", plan.replicates.at_most)] {
             if let Some(key) = keys::find(name) {
                 let (shown, value) = (Some(value.to_string()), Some(Value::Whole(value)));
-                written.set(key.name, WrittenValue { place: at.clone(), shown, value });
+                key_values.set(key.name, WrittenValue { place: at.clone(), shown, value });
             }
         }
-        let (opened, unneeded) = self.open(written, values);
+        let (opened, unneeded) = self.open(key_values, values);
         let (case, mut notes) = opened.and_then(OpenCase::resolve)?;
         notes.extend(unneeded.into_iter().map(|note| Note { place: at.clone(), ..note }));
         Ok((Experiment::Case(case), notes))
@@ -154,8 +154,12 @@ impl Base for CaseBase {
 impl CaseBase {
     /// Sets the written values. A word that varies may leave keys of the base case without a meaning, as
     /// another drag law does with the coefficient of the first; these are left out, each with a remark.
-    fn open(&self, written: WrittenValues, set: &[(VariedKey, f64)]) -> (Result<OpenCase, Error>, Vec<Note>) {
-        let opened = self.open_again(written.clone());
+    fn open(
+        &self,
+        key_values: WrittenValues,
+        set: &[(VariedKey, f64)],
+    ) -> (Result<OpenCase, Error>, Vec<Note>) {
+        let opened = self.open_again(key_values.clone());
         let is_unneeded = |problem: &&Problem| {
             problem.what.needs.is_some() && set.iter().all(|(key, _)| key.name != problem.key)
         };
@@ -173,7 +177,7 @@ impl CaseBase {
         if unneeded.is_empty() {
             return (opened, unneeded);
         }
-        let mut fewer = written;
+        let mut fewer = key_values;
         unneeded.iter().for_each(|note| drop(fewer.remove(&note.key)));
         (self.open_again(fewer), unneeded)
     }

@@ -54,8 +54,8 @@ impl WebBase {
     pub(super) fn new(text: String, path: String, set: [Overrides<'_>; 2]) -> Result<Self, Error> {
         let of_web = set.map(|set| Sides::new(set.values.to_vec(), false).of_web);
         let of_web = [0, 1].map(|i| Overrides { values: &of_web[i], word: set[i].word });
-        let written = document::read(&WEB, &text, &path, &of_web)?;
-        let flies = written.all().any(|(full, _)| full.ends_with("laydown.case"));
+        let key_values = document::read(&WEB, &text, &path, &of_web)?;
+        let flies = key_values.all().any(|(full, _)| full.ends_with("laydown.case"));
         let set = set.map(|Overrides { values, word }| (Sides::new(values.to_vec(), flies), word.to_owned()));
         let no_case = |(sides, word): &(Sides, String)| -> Vec<Problem> {
             let problem = |(key, value): &(String, String)| Problem {

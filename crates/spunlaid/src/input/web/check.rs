@@ -17,14 +17,14 @@ impl Reading<'_> {
         let mut seen: BTreeMap<String, usize> = BTreeMap::new();
         for (i, prefix) in prefixes.iter().enumerate() {
             let key = format!("{prefix}name");
-            let Some(name) = self.written.text(&key) else { continue };
+            let Some(name) = self.key_values.text(&key) else { continue };
             match seen.get(&name) {
                 Some(other) => {
                     let fault = Fault::new(
                         format!("is also the name of layer {}", other + 1),
                         "give each layer a name of its own",
                     );
-                    self.written.reject(&key, fault);
+                    self.key_values.reject(&key, fault);
                 }
                 None => drop(seen.insert(name, i)),
             }
@@ -57,7 +57,7 @@ impl Reading<'_> {
                     format!("write {laydown}.case, or method = \"surrogate\""),
                 ),
             };
-            self.written.reject("web.method", fault);
+            self.key_values.reject("web.method", fault);
             return;
         }
     }
@@ -82,7 +82,7 @@ impl Reading<'_> {
                     format!("lays no filament on a web of web.width = {width}"),
                     format!("write {least} or more"),
                 );
-                self.written.reject(&format!("{prefix}line.filaments_per_metre"), fault);
+                self.key_values.reject(&format!("{prefix}line.filaments_per_metre"), fault);
             }
             Filaments::AtRandom { .. } | Filaments::Slot { .. } => {}
             Filaments::Rows(rows) => {
@@ -100,7 +100,7 @@ impl Reading<'_> {
         let density = layer.linear_density();
         if !density.is_normal() {
             let fault = Fault::degenerate("the mass per length", density);
-            self.written.reject(&format!("{prefix}fibre.diameter"), fault);
+            self.key_values.reject(&format!("{prefix}fibre.diameter"), fault);
         }
         // A belt whose speed is not known has been reported.
         if fed.is_infinite() {
@@ -109,7 +109,7 @@ impl Reading<'_> {
                 None => (format!("{prefix}{BELT_SPEED}"), "small", "write a higher speed"),
             };
             let message = format!("is so {how} that a filament would lay an infinite length on the web");
-            self.written.reject(&key, Fault::new(message, remedy));
+            self.key_values.reject(&key, Fault::new(message, remedy));
         }
     }
 
@@ -131,7 +131,7 @@ impl Reading<'_> {
                      left out of the CV"
                 ),
             );
-            self.written.reject(&format!("{before}filaments"), fault);
+            self.key_values.reject(&format!("{before}filaments"), fault);
         } else if sheet.edges == Edges::Cut && (offset > width || last < 0.0) {
             let [offset, last, width] = [offset, last, width].map(|size| Dimension::Length.pretty(size));
             let fault = Fault::new(

@@ -28,14 +28,14 @@ impl Reading<'_> {
         let ways: Vec<&'static str> =
             [&CASE, &RESULTS].into_iter().chain(numbers).filter(is_written).copied().collect();
         match ways[..] {
-            [] if self.written.is_excused(&format!("{prefix}laydown.")) => Ok(None),
+            [] if self.key_values.is_excused(&format!("{prefix}laydown.")) => Ok(None),
             [] => {
                 let fault = Fault::new(
                     "says nothing of how the fibres lie",
                     "write in it case = \"spunbond.toml\" (a case to fly), results = \"results/spunbond\" (a finished run), \
                      or sigma_md, sigma_cd and noise",
                 );
-                self.written.reject(&format!("{prefix}laydown"), fault);
+                self.key_values.reject(&format!("{prefix}laydown"), fault);
                 Ok(None)
             }
             [CASE] => self.case(prefix),
@@ -44,7 +44,7 @@ impl Reading<'_> {
             [other, ref more @ ..] => {
                 let remedy = "keep one of a case, results, and the numbers sigma_md, sigma_cd and noise";
                 for way in more {
-                    self.written.reject(&format!("{prefix}{way}"), Fault::excludes(other, remedy));
+                    self.key_values.reject(&format!("{prefix}{way}"), Fault::excludes(other, remedy));
                 }
                 Ok(None)
             }
@@ -55,9 +55,9 @@ impl Reading<'_> {
     fn numbers(&mut self, prefix: &str) -> LaydownSource {
         for (name, line) in NUMBERS {
             let full = format!("{prefix}{name}");
-            if !self.is_written(&full) && !self.written.is_excused(&full) {
+            if !self.is_written(&full) && !self.key_values.is_excused(&full) {
                 let table = without_numbers(&format!("{prefix}laydown"));
-                self.written.reject(&full, Fault::missing(&table, line));
+                self.key_values.reject(&full, Fault::missing(&table, line));
             }
         }
         LaydownSource::UNKNOWN
@@ -82,7 +82,7 @@ impl Reading<'_> {
                         path.display()
                     );
                     let fault = Fault::new(message, "write another throughput, or change the case");
-                    self.written.reject(&format!("{prefix}{THROUGHPUT}"), fault);
+                    self.key_values.reject(&format!("{prefix}{THROUGHPUT}"), fault);
                 }
                 read
             }
@@ -100,7 +100,7 @@ impl Reading<'_> {
                 format!("does not hold the results of a run ({missing} is not there)"),
                 "name a folder that `spunlaid run` has written",
             );
-            self.written.reject(key, fault);
+            self.key_values.reject(key, fault);
             return Ok(None);
         }
         let read = self.read_case(&folder.join(CASE_OF_RESULTS), &[]);
@@ -110,9 +110,9 @@ impl Reading<'_> {
 
     /// The path that a key names: of the file, relative to its folder.
     fn path(&self, key: &str) -> Option<PathBuf> {
-        let said = self.written.get(key)?;
-        let Some(Value::Text(named)) = &said.value else { return None };
-        Some(match &said.place {
+        let written_value = self.key_values.get(key)?;
+        let Some(Value::Text(named)) = &written_value.value else { return None };
+        Some(match &written_value.place {
             Place::Override(_) => PathBuf::from(named),
             _ => self.folder.join(named),
         })
@@ -136,11 +136,11 @@ impl Reading<'_> {
         let (case, notes) = match read {
             Ok(read) => read,
             Err(Error::File(error)) => {
-                self.written.reject(key, error.into());
+                self.key_values.reject(key, error.into());
                 return Ok(None);
             }
             Err(Error::Rejected(problems)) => {
-                self.written.problems.extend(problems);
+                self.key_values.problems.extend(problems);
                 return Ok(None);
             }
             Err(other) => return Err(other),
@@ -157,13 +157,14 @@ impl Reading<'_> {
             Some(_) => {
                 self.note(notes);
                 if let Some(what) = case.slows_only() {
-                    let note = Note { place: self.written.whole(), key: key.to_owned(), value: None, what };
-                    self.note(vec![self.written.placed(note)]);
+                    let note =
+                        Note { place: self.key_values.whole(), key: key.to_owned(), value: None, what };
+                    self.note(vec![self.key_values.placed(note)]);
                 }
                 return Ok(Some(Arc::new(case)));
             }
         };
-        self.written.reject(key, fault);
+        self.key_values.reject(key, fault);
         Ok(None)
     }
 }

@@ -63,8 +63,8 @@ pub(super) fn parse_web_of_case(
     of_case: &[Overrides<'_>],
     cases: &[(PathBuf, String)],
 ) -> Result<WebFile, Error> {
-    let written = document::read(&WEB, text, name, overrides)?;
-    let (spec, notes) = read::spec(written, name, (of_case, cases))?;
+    let key_values = document::read(&WEB, text, name, overrides)?;
+    let (spec, notes) = read::spec(key_values, name, (of_case, cases))?;
     let text = write_web(&spec);
     Ok(WebFile { spec, notes, text })
 }

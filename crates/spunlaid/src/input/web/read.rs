@@ -28,7 +28,7 @@ pub(super) const ROUNDED: f64 = 5e-3;
 
 /// A file while it is read.
 pub(super) struct Reading<'a> {
-    pub(super) written: WrittenValues,
+    pub(super) key_values: WrittenValues,
     /// The folder of the file.
     pub(super) folder: PathBuf,
     /// Changes to the cases that are flown.
@@ -45,13 +45,13 @@ pub(super) struct Reading<'a> {
 /// # Errors
 /// Every problem with any key.
 pub(super) fn spec(
-    written: WrittenValues,
+    key_values: WrittenValues,
     name: &str,
     (of_case, cases): (&[Overrides<'_>], &[(PathBuf, String)]),
 ) -> Result<(WebSpec, Vec<Note>), Error> {
     let folder = Path::new(name).parent().unwrap_or(Path::new("")).to_owned();
     let (notes, basis_weight_key) = (Vec::new(), String::new());
-    let mut reading = Reading { written, folder, of_case, cases, notes, basis_weight_key };
+    let mut reading = Reading { key_values, folder, of_case, cases, notes, basis_weight_key };
     let (mut web, prefixes) = (WebSpec::unknown(), reading.prefixes());
     reading.leave_to_case(&prefixes);
     for prefix in &prefixes {
@@ -68,20 +68,20 @@ pub(super) fn spec(
     }
     let unusual = reading.unusual();
     reading.note(unusual.clone());
-    let Reading { mut written, notes, .. } = reading;
-    if written.problems.is_empty() {
+    let Reading { mut key_values, notes, .. } = reading;
+    if key_values.problems.is_empty() {
         if let Some(problem) = web.air_beyond_memory() {
-            return Err(vec![written.placed(problem)].into());
+            return Err(vec![key_values.placed(problem)].into());
         }
         return Ok((web, sorted(notes)));
     }
     // Unusual values may be why the web cannot be laid.
     for note in unusual {
-        if !written.problems.iter().any(|problem| problem.key == note.key) {
-            written.problems.push(note.into());
+        if !key_values.problems.iter().any(|problem| problem.key == note.key) {
+            key_values.problems.push(note.into());
         }
     }
-    Err(sorted(written.problems).into())
+    Err(sorted(key_values.problems).into())
 }
 
 /// Changes a layer through the keys, which are those of a web.
@@ -94,10 +94,10 @@ fn as_web(layer: &mut LayerSpec, change: impl FnOnce(&mut WebSpec)) {
 impl Reading<'_> {
     /// What comes before the names of each layer's keys: `layer.2.`, or nothing in a file without `[[layer]]`.
     fn prefixes(&self) -> Vec<String> {
-        match self.written.get("layer") {
+        match self.key_values.get("layer") {
             None => vec![String::new()],
             Some(_) => {
-                let layers = self.written.number("layer").unwrap_or(0.0) as usize;
+                let layers = self.key_values.number("layer").unwrap_or(0.0) as usize;
                 (1..=layers).map(|number| format!("layer.{number}.")).collect()
             }
         }
@@ -105,18 +105,23 @@ impl Reading<'_> {
 
     /// Warnings about written values that are most likely slips.
     fn unusual(&self) -> Vec<Note> {
-        let entry = |(full, said): (&str, &WrittenValue)| {
+        let entry = |(full, written_value): (&str, &WrittenValue)| {
             let key = web_key(full)?;
             let (dimension, usual) = (key.kind.dimension()?, key.usual_range()?);
-            let values = match said.value.as_ref()? {
+            let values = match written_value.value.as_ref()? {
                 Value::Number(value) => std::slice::from_ref(value),
                 Value::Numbers(values) => values.as_slice(),
                 _ => return None,
             };
             let what = values.iter().find_map(|value| unusual(dimension, usual, *value))?;
-            Some(Note { place: said.place.clone(), key: full.to_owned(), value: said.shown.clone(), what })
+            Some(Note {
+                place: written_value.place.clone(),
+                key: full.to_owned(),
+                value: written_value.shown.clone(),
+                what,
+            })
         };
-        self.written.all().filter_map(entry).collect()
+        self.key_values.all().filter_map(entry).collect()
     }
 
     /// Keeps the notes about a case, each once.
@@ -130,14 +135,15 @@ impl Reading<'_> {
 
     /// Records a problem with a value, which may be a default.
     pub(super) fn refuse(&mut self, key: &str, value: String, what: Fault) {
-        let finding = Finding { place: self.written.whole(), key: key.to_owned(), value: Some(value), what };
-        let problem = self.written.placed(finding);
-        self.written.problems.push(problem);
+        let finding =
+            Finding { place: self.key_values.whole(), key: key.to_owned(), value: Some(value), what };
+        let problem = self.key_values.placed(finding);
+        self.key_values.problems.push(problem);
     }
 
     /// Whether a key is written, with a value that can be read or not.
     pub(super) fn is_written(&self, full: &str) -> bool {
-        self.written.get(full).is_some()
+        self.key_values.get(full).is_some()
     }
 
     /// Sets the keys of a table: what is written, or else the default. What is missing is noted, unless a flown case gives it.
@@ -150,28 +156,29 @@ impl Reading<'_> {
                 let (_, short) = name.rsplit_once('.').unwrap_or(("", name));
                 self.is_written(&format!("{before}{short}"))
             };
-            let set = match (self.written.get(&full).map(|written| written.value.clone()), key.omission) {
-                (Some(None), _) => Ok(()),
-                // They are settled when all else is known.
-                (Some(Some(_)), _) if [THROUGHPUT, BASIS_WEIGHT].contains(&key.name) => Ok(()),
-                (Some(Some(value)), _) => match rival(key.name, is_there) {
-                    Some((other, remedy)) => Err(Fault::excludes(other, remedy)),
-                    None => key.apply(web, &value),
-                },
-                (None, Omission::Value(text)) => key.set(web, text).map_err(|problem| problem.what),
-                (None, Omission::Required(_)) => {
-                    let is_given = flown(web, key).is_some()
-                        || key.name == BELT_SPEED
-                        || WEB.alternative(key.name).is_some_and(|(other, _)| is_there(other));
-                    let table = without_numbers(before);
-                    if is_given { Ok(()) } else { Err(Fault::missing(&table, &key.example())) }
-                }
-                (None, Omission::Follows(_)) => Ok(()),
-            };
+            let set =
+                match (self.key_values.get(&full).map(|key_values| key_values.value.clone()), key.omission) {
+                    (Some(None), _) => Ok(()),
+                    // They are settled when all else is known.
+                    (Some(Some(_)), _) if [THROUGHPUT, BASIS_WEIGHT].contains(&key.name) => Ok(()),
+                    (Some(Some(value)), _) => match rival(key.name, is_there) {
+                        Some((other, remedy)) => Err(Fault::excludes(other, remedy)),
+                        None => key.apply(web, &value),
+                    },
+                    (None, Omission::Value(text)) => key.set(web, text).map_err(|problem| problem.what),
+                    (None, Omission::Required(_)) => {
+                        let is_given = flown(web, key).is_some()
+                            || key.name == BELT_SPEED
+                            || WEB.alternative(key.name).is_some_and(|(other, _)| is_there(other));
+                        let table = without_numbers(before);
+                        if is_given { Ok(()) } else { Err(Fault::missing(&table, &key.example())) }
+                    }
+                    (None, Omission::Follows(_)) => Ok(()),
+                };
             if let Err(fault) = set
-                && (self.is_written(&full) || !self.written.is_excused(&full))
+                && (self.is_written(&full) || !self.key_values.is_excused(&full))
             {
-                self.written.reject(&full, fault);
+                self.key_values.reject(&full, fault);
             }
         }
     }
@@ -181,10 +188,10 @@ impl Reading<'_> {
         let source = self.laydown(prefix)?;
         let by_case =
             ["case", "results"].iter().any(|way| self.is_written(&format!("{prefix}laydown.{way}")));
-        if source.is_none() && (by_case || self.written.is_excused(&format!("{prefix}laydown."))) {
+        if source.is_none() && (by_case || self.key_values.is_excused(&format!("{prefix}laydown."))) {
             // The case would give them.
             for name in ["fibre.diameter", "fibre.density", "line.feed_speed", BELT_SPEED] {
-                self.written.excuse(format!("{prefix}{name}"));
+                self.key_values.excuse(format!("{prefix}{name}"));
             }
         }
         let numbers = matches!(source, Some(LaydownSource::Surrogate(_)));
@@ -221,7 +228,7 @@ impl Reading<'_> {
                     of_case.kind.pretty(&value)
                 );
                 let remedy = "leave it out here, and set it in the case";
-                self.written.reject(&format!("{prefix}{}", key.name), Fault::new(message, remedy));
+                self.key_values.reject(&format!("{prefix}{}", key.name), Fault::new(message, remedy));
             }
         }
         for key in WEB.rows.iter().filter(|key| key.name != "fibre.linear_density") {
@@ -239,21 +246,21 @@ impl Reading<'_> {
         let [at_random, rows, depth] =
             ["filaments_per_metre", "rows", "depth"].map(|name| format!("{before}{name}"));
         if self.is_written(&depth) && self.is_written(&rows) {
-            self.written.reject(&depth, in_rows());
+            self.key_values.reject(&depth, in_rows());
         }
         match (self.is_written(&at_random), self.is_written(&rows)) {
             (true, true) => {
                 let remedy = "filaments come down at random places or in rows; keep one";
-                self.written.reject(&at_random, Fault::excludes("line.rows", remedy));
+                self.key_values.reject(&at_random, Fault::excludes("line.rows", remedy));
             }
-            (false, false) if !self.written.is_excused(&at_random) => {
+            (false, false) if !self.key_values.is_excused(&at_random) => {
                 let add = format!("add filaments_per_metre = 5000 to [{}]", without_numbers(before));
                 let rows = "rows = [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }]";
-                self.written.reject(&at_random, Fault::new("is missing", format!("{add}, or {rows}")));
+                self.key_values.reject(&at_random, Fault::new("is missing", format!("{add}, or {rows}")));
             }
             _ => {}
         }
-        let count = self.written.number(&rows).unwrap_or(0.0) as u64;
+        let count = self.key_values.number(&rows).unwrap_or(0.0) as u64;
         let row = |number| {
             let row = Row::new(f64::NAN, f64::NAN, 0);
             let mut layer = LayerSpec {
@@ -261,7 +268,7 @@ impl Reading<'_> {
                 ..LayerSpec::unknown(LaydownSource::UNKNOWN)
             };
             as_web(&mut layer, |web| {
-                web.sheet.width = self.written.number("web.width").unwrap_or(f64::NAN);
+                web.sheet.width = self.key_values.number("web.width").unwrap_or(f64::NAN);
                 self.fill(web, "line.rows", &format!("{rows}.{number}."));
             });
             match layer.filaments {
@@ -287,7 +294,7 @@ impl Reading<'_> {
                         format!("lays the curves of flown fibres, and {prefix}laydown gives numbers"),
                         "write method = \"surrogate\", or name a case or results there",
                     );
-                    self.written.reject("web.method", fault);
+                    self.key_values.reject("web.method", fault);
                 }
             }
             Method::Surrogate => {}

@@ -43,7 +43,7 @@ impl Reading<'_> {
         for (key, size) in [("web.width", width), ("web.length", length)] {
             if !is_whole(size, cell) {
                 whole = false;
-                self.written.reject(key, not_whole("is", size, cell));
+                self.key_values.reject(key, not_whole("is", size, cell));
             }
         }
         let side = width.min(length);
@@ -56,7 +56,7 @@ impl Reading<'_> {
             let side = Dimension::Length.pretty(side);
             let fault =
                 Fault::new(format!("is larger than the web's smaller side, {side}"), "write a smaller one");
-            self.written.reject("web.window", fault);
+            self.key_values.reject("web.window", fault);
         }
     }
 
@@ -66,7 +66,7 @@ impl Reading<'_> {
         if !self.is_written(KEY) {
             let fits = |patch: &f64| is_whole(*patch, cell) && *patch <= 0.5 * side;
             *patches = PATCHES.into_iter().filter(fits).collect();
-            if patches.is_empty() && !self.written.is_excused(KEY) {
+            if patches.is_empty() && !self.key_values.is_excused(KEY) {
                 let [shown, exact] = [4, 12].map(|digits| Dimension::Length.pretty_to(cell, digits));
                 let fault = Fault::new(
                     format!(
@@ -75,7 +75,7 @@ impl Reading<'_> {
                     ),
                     format!("add patches = [\"{exact}\"] to [web], or change web.cell"),
                 );
-                self.written.reject(KEY, fault);
+                self.key_values.reject(KEY, fault);
             }
             return;
         }
@@ -86,14 +86,14 @@ impl Reading<'_> {
                 format!("lists {} patches", patches.len()),
                 format!("at most {MOST_PATCHES} are compared"),
             );
-            self.written.reject(KEY, fault);
+            self.key_values.reject(KEY, fault);
             return;
         }
         for &patch in &*patches {
             if !is_whole(patch, cell) {
                 let shown = Dimension::Length.pretty(patch);
                 let fault = not_whole(&format!("has {shown}, which is"), patch, cell);
-                self.written.reject(KEY, fault);
+                self.key_values.reject(KEY, fault);
             } else if patch > 0.5 * side {
                 let [patch, side] = [patch, side].map(|size| Dimension::Length.pretty(size));
                 let fault = Fault::new(
@@ -103,7 +103,7 @@ impl Reading<'_> {
                     ),
                     "leave it out, or make the web larger",
                 );
-                self.written.reject(KEY, fault);
+                self.key_values.reject(KEY, fault);
             }
         }
     }

@@ -26,12 +26,12 @@ impl Reading<'_> {
             }
             for prefix in if key == BASIS_WEIGHT { prefixes } else { &flying } {
                 let full = format!("{prefix}{key}");
-                match self.written.get(&full).map(|written| &written.place) {
+                match self.key_values.get(&full).map(|key_values| &key_values.place) {
                     Some(Place::Override(_)) => {
                         let fault = Fault::excludes(of_case, "either gives the other; set one of the two");
-                        self.written.reject(&full, fault);
+                        self.key_values.reject(&full, fault);
                     }
-                    Some(_) => drop(self.written.remove(&full)),
+                    Some(_) => drop(self.key_values.remove(&full)),
                     None => {}
                 }
             }
@@ -46,7 +46,7 @@ impl Reading<'_> {
         path: &Path,
     ) -> Option<(String, String)> {
         let full = format!("{prefix}{THROUGHPUT}");
-        let (wanted, own) = (self.written.number(&full)?, case.throughput()?);
+        let (wanted, own) = (self.key_values.number(&full)?, case.throughput()?);
         if (own / wanted - 1.0).abs() <= SAME {
             return None;
         }
@@ -73,15 +73,15 @@ impl Reading<'_> {
         if (own / used - 1.0).abs() > ROUNDED {
             let [used, own] = [used, own].map(|value| dimension.pretty(value));
             let what = Remark::CaseChanged { of_case, used, own, case: path.display().to_string() };
-            let note = Note { place: self.written.whole(), key: full.to_owned(), value: None, what };
-            self.note(vec![self.written.placed(note)]);
+            let note = Note { place: self.key_values.whole(), key: full.to_owned(), value: None, what };
+            self.note(vec![self.key_values.placed(note)]);
         }
     }
 
     /// Takes the throughput of a layer in place of its feed speed, or compares the two.
     pub(super) fn settle_throughput(&mut self, web: &mut WebSpec, prefix: &str) {
         let full = format!("{prefix}{THROUGHPUT}");
-        let (Some(throughput), Some(layer)) = (self.written.number(&full), web.layers.first_mut()) else {
+        let (Some(throughput), Some(layer)) = (self.key_values.number(&full), web.layers.first_mut()) else {
             return;
         };
         let own = layer.linear_density() * layer.feed_speed;
@@ -109,7 +109,7 @@ impl Reading<'_> {
             let own = Dimension::MassFlow.pretty(own);
             let titre = Dimension::LinearDensity.pretty(layer.linear_density());
             let message = format!("disagrees with {of_speed} and filaments of {titre}, which make {own}");
-            self.written.reject(&full, Fault::new(message, format!("write {own}, {remedy}")));
+            self.key_values.reject(&full, Fault::new(message, format!("write {own}, {remedy}")));
         }
     }
 
@@ -137,9 +137,9 @@ impl Reading<'_> {
         let keys: Vec<String> = keys.filter(|key| self.is_written(key)).collect();
         let first = keys.first()?;
         self.basis_weight_key.clone_from(first);
-        let weight = self.written.number(first);
+        let weight = self.key_values.number(first);
         for key in &keys[1..] {
-            if let (Some(weight), Some(other)) = (weight, self.written.number(key))
+            if let (Some(weight), Some(other)) = (weight, self.key_values.number(key))
                 && (other / weight - 1.0).abs() > SAME
             {
                 let weight = Dimension::BasisWeight.pretty(weight);
@@ -147,7 +147,7 @@ impl Reading<'_> {
                     format!("differs from {first} = {weight}, and it is the weight of all layers together"),
                     "write it in one layer and leave it out of the others",
                 );
-                self.written.reject(key, fault);
+                self.key_values.reject(key, fault);
             }
         }
         weight
@@ -168,7 +168,7 @@ impl Reading<'_> {
             let message = format!(
                 "takes a belt of {belt}, which is more than line.feed_speed = {feed} and would tear the fibre"
             );
-            self.written.reject(&key, Fault::new(message, "lay more, or feed faster"));
+            self.key_values.reject(&key, Fault::new(message, "lay more, or feed faster"));
             return;
         }
         for layer in &web.layers {
@@ -179,7 +179,7 @@ impl Reading<'_> {
             }
         }
         if let Err(fault) = web.set_belt_speed(belt) {
-            self.written.reject(&key, fault);
+            self.key_values.reject(&key, fault);
         }
     }
 
@@ -200,7 +200,7 @@ impl Reading<'_> {
                 _ => (format!("line.belt_speed = {belt}"), "or leave out one of the two"),
             };
             let message = format!("disagrees with {of_belt}: on this belt the filaments lay {own}");
-            self.written.reject(&key, Fault::new(message, format!("write {own}, {remedy}")));
+            self.key_values.reject(&key, Fault::new(message, format!("write {own}, {remedy}")));
         }
     }
 
@@ -210,11 +210,11 @@ impl Reading<'_> {
         // Flown fibres come first, because they would lie otherwise on another belt.
         let known = (0..layers.len()).filter(|&layer| !layers[layer].belt_speed.is_nan());
         let Some(first) = known.min_by_key(|&layer| layers[layer].source.case().is_none()) else {
-            let is_there = |key: &String| self.is_written(key) || self.written.is_excused(key);
+            let is_there = |key: &String| self.is_written(key) || self.key_values.is_excused(key);
             let is_replaced = !self.basis_weight_key.is_empty();
             if let Some(key) = keys.first().filter(|_| !is_replaced && !keys.iter().any(is_there)) {
                 let table = without_numbers(key.trim_end_matches(".belt_speed"));
-                self.written.reject(key, Fault::missing(&table, "belt_speed = \"3 m/s\""));
+                self.key_values.reject(key, Fault::missing(&table, "belt_speed = \"3 m/s\""));
             }
             return;
         };
@@ -242,7 +242,7 @@ impl Reading<'_> {
                 };
                 let ways = ["case", "results"].map(|way| format!("{prefix}laydown.{way}"));
                 let way = ways.iter().find(|way| self.is_written(way)).filter(|_| !is_written);
-                self.written.reject(way.unwrap_or(key), Fault::new(message, remedy));
+                self.key_values.reject(way.unwrap_or(key), Fault::new(message, remedy));
             }
             if layer.belt_speed > layer.feed_speed {
                 let message = format!("is more than line.feed_speed = {feed}, which would tear the fibre");

@@ -135,7 +135,7 @@ fn rejects_a_second_process() {
 fn rejects_other_files_and_other_formats() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("journal");
-    let said = |text: &[u8]| {
+    let refusal_of = |text: &[u8]| {
         std::fs::write(&path, text).unwrap();
         Journal::open(&path, false).unwrap_err()
     };
@@ -145,14 +145,14 @@ fn rejects_other_files_and_other_formats() {
         &[0xff; 500],
         b"spunlaid-journal format=4 study=zz version=1\n",
     ] {
-        let refusal = said(text);
+        let refusal = refusal_of(text);
         assert!(matches!(refusal, Error::Folder(_)));
         assert!(refusal.to_string().contains("is not the journal of a study"), "{refusal}");
     }
-    let format = said(b"spunlaid-journal format=9 version=9.9.9 study=00000000\n");
+    let format = refusal_of(b"spunlaid-journal format=9 version=9.9.9 study=00000000\n");
     assert!(format.to_string().contains("format 9, but this spunlaid reads format 4"), "{format}");
     // Of a build whose identities nobody else can compute.
-    let former = said(b"spunlaid-journal format=3 version=0.1.0 study=00000000\n").to_string();
+    let former = refusal_of(b"spunlaid-journal format=3 version=0.1.0 study=00000000\n").to_string();
     assert!(
         former.contains("format 3, but this spunlaid reads format 4; continue with the version"),
         "{former}"
