@@ -196,7 +196,7 @@ impl Study {
         guarded(py, || {
             let points = 0..self.file.study.points.len();
             let count = self.with_journal(|journal| Ok(points.map(|point| journal.held(point)).sum()))?;
-            Ok((count, self.round().0.wanted().iter().sum()))
+            Ok((count, self.round().0.required().iter().sum()))
         })
     }
 

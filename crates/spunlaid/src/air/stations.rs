@@ -124,11 +124,11 @@ pub struct Stations {
     /// Stations to a length [1/m].
     per_length: Lanes,
     /// Mean velocity along x [m/s], and factor of the signal.
-    still: Vec<[Lanes; 2]>,
+    mean_flow: Vec<[Lanes; 2]>,
     /// `2(1−ρ)` with the correlation `ρ` of a station's signal and the next one's.
-    apart: Vec<Lanes>,
+    decorrelation: Vec<Lanes>,
     /// Of each station, at the last look, in each lane: fluctuation, and mean velocity along x [m/s].
-    now: Vec<[[f64; 4]; WIDTH]>,
+    last_look: Vec<[[f64; 4]; WIDTH]>,
     elements: AirAtElements,
     /// The mean flow and the rms in a field.
     field: Option<Surroundings>,
@@ -146,7 +146,7 @@ impl Stations {
     ) -> Self {
         let mut hint = Hint::default();
         let here = lanes.map(|(air, grid)| {
-            let still = (0..way.stations).map(|k| {
+            let mean_flow = (0..way.stations).map(|k| {
                 let x = (k as f64 + 0.5) * grid.spacing;
                 match air.flow {
                     Flow::Uniform => (air.velocity, 1.0),
@@ -157,13 +157,15 @@ impl Stations {
                     Flow::Field(_) => (0.0, 1.0),
                 }
             });
-            let still: Vec<(f64, f64)> = still.collect();
+            let mean_flow: Vec<(f64, f64)> = mean_flow.collect();
             let turbulence = air.turbulence_at(grid);
             let correlations = turbulence.windows(2).map(|pair| air.correlation(&pair[0], &pair[1]));
-            (still, correlations.collect::<Vec<f64>>())
+            (mean_flow, correlations.collect::<Vec<f64>>())
         });
-        let still = |k: usize| [here.lanes(|(still, _)| still[k].0), here.lanes(|(still, _)| still[k].1)];
-        let apart = |k: usize| match k + 1 < way.stations {
+        let mean_flow = |k: usize| {
+            [here.lanes(|(mean_flow, _)| mean_flow[k].0), here.lanes(|(mean_flow, _)| mean_flow[k].1)]
+        };
+        let decorrelation = |k: usize| match k + 1 < way.stations {
             true => here.lanes(|(_, correlations)| 2.0 * (1.0 - correlations[k])),
             false => Lanes::ZERO,
         };
@@ -174,9 +176,9 @@ impl Stations {
         Self {
             off_middle: places.lanes(|place| place.y),
             per_length: lanes.lanes(|(_, grid)| 1.0 / grid.spacing),
-            still: (0..way.stations).map(still).collect(),
-            apart: (0..way.stations).map(apart).collect(),
-            now: vec![[[0.0; 4]; WIDTH]; way.stations],
+            mean_flow: (0..way.stations).map(mean_flow).collect(),
+            decorrelation: (0..way.stations).map(decorrelation).collect(),
+            last_look: vec![[[0.0; 4]; WIDTH]; way.stations],
             elements: AirAtElements::new(elements, way.every),
             field,
             way,
@@ -198,8 +200,9 @@ impl Stations {
 
     /// Replaces the air by another one with as many stations. The values of the last look are kept until the next.
     pub(crate) fn change(&mut self, by: Self) {
-        let Self { way, per_length, still, apart, field, .. } = by;
-        (self.way, self.per_length, self.still, self.apart) = (way, per_length, still, apart);
+        let Self { way, per_length, mean_flow, decorrelation, field, .. } = by;
+        (self.way, self.per_length, self.mean_flow, self.decorrelation) =
+            (way, per_length, mean_flow, decorrelation);
         self.elements.every = self.way.every;
         if let (Some(field), Some(new)) = (&mut self.field, field) {
             field.change(new);
@@ -232,10 +235,10 @@ impl Stations {
     /// Keeps the velocity at a station, which has this signal.
     #[inline(always)]
     fn hear<S: Register>(&mut self, station: usize, signal: Vec3<Wide<S>>) {
-        let [mean, factor] = &self.still[station];
+        let [mean, factor] = &self.mean_flow[station];
         let Vec3 { x, y, z } = (signal * Wide::load(factor)).store();
-        for (lane, now) in self.now[station].iter_mut().enumerate() {
-            *now = [x.0[lane], y.0[lane], z.0[lane], mean.0[lane]];
+        for (lane, last_look) in self.last_look[station].iter_mut().enumerate() {
+            *last_look = [x.0[lane], y.0[lane], z.0[lane], mean.0[lane]];
         }
     }
 
@@ -270,17 +273,17 @@ impl Stations {
             let start = place.floor();
             let start = Wide::select_less(start, before_end, start, before_end);
             let mut rows = [[&[0.0; 4]; WIDTH]; 2];
-            let mut apart = Lanes::ZERO;
+            let mut decorrelation = Lanes::ZERO;
             for (lane, k) in indices(start).into_iter().enumerate() {
                 let k = k.min(self.way.stations - 2);
-                apart.0[lane] = self.apart[k].0[lane];
-                rows[0][lane] = &self.now[k][lane];
-                rows[1][lane] = &self.now[k + 1][lane];
+                decorrelation.0[lane] = self.decorrelation[k].0[lane];
+                rows[0][lane] = &self.last_look[k][lane];
+                rows[1][lane] = &self.last_look[k + 1][lane];
             }
             let share = place - start;
             let rest = one - share;
             // (1−w)² + w² + 2w(1−w)ρ = 1 − 2w(1−w)(1−ρ)
-            let scale = one.over((share * rest).neg_mul_add(Wide::load(&apart), one).sqrt());
+            let scale = one.over((share * rest).neg_mul_add(Wide::load(&decorrelation), one).sqrt());
             let [[x, y, z, upper], [u, v, w, lower]] = [S::load_rows(rows[0]), S::load_rows(rows[1])];
             let [above, below] = [Vec3::new(Wide(x), Wide(y), Wide(z)), Vec3::new(Wide(u), Wide(v), Wide(w))];
             let mut fluctuation = below.mul_add(share * scale, above * (rest * scale));

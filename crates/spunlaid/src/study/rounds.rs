@@ -80,7 +80,7 @@ fn results_of(
 /// The decision for a point depends on its own replicates only, never on threads, machines or interruptions.
 #[derive(Clone, Debug)]
 pub struct Rounds {
-    wanted: Vec<u64>,
+    required: Vec<u64>,
     /// Points that may need more replicates.
     open: Vec<bool>,
 }
@@ -90,20 +90,20 @@ impl Rounds {
     pub fn new(study: &Study) -> Self {
         let points = study.points.len();
         Self {
-            wanted: vec![study.replicates.at_least; points],
+            required: vec![study.replicates.at_least; points],
             open: vec![!study.replicates.until.is_empty(); points],
         }
     }
 
     /// Number of replicates of each point in this round.
-    pub fn wanted(&self) -> &[u64] {
-        &self.wanted
+    pub fn required(&self) -> &[u64] {
+        &self.required
     }
 
     /// The replicates of every point that the journal does not hold yet.
     pub fn missing(&self, journal: &Journal) -> Vec<Batch> {
         let mut batches = Vec::new();
-        for (point, &wanted) in self.wanted.iter().enumerate() {
+        for (point, &wanted) in self.required.iter().enumerate() {
             let mut start = None;
             for replicate in 0..=wanted {
                 let lacks = replicate < wanted && !journal.holds(point, replicate);
@@ -128,10 +128,10 @@ impl Rounds {
         let mut more = false;
         for point in 0..self.open.len() {
             if self.open[point] {
-                let results = results_of(&study.quantities, journal, point, self.wanted[point])?;
-                let next = more_replicates(&study.replicates, &results, self.wanted[point]);
+                let results = results_of(&study.quantities, journal, point, self.required[point])?;
+                let next = more_replicates(&study.replicates, &results, self.required[point]);
                 self.open[point] = next.is_some();
-                self.wanted[point] = next.unwrap_or(self.wanted[point]);
+                self.required[point] = next.unwrap_or(self.required[point]);
                 more |= self.open[point];
             }
         }

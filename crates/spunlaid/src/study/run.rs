@@ -94,7 +94,7 @@ fn fly_missing(
     progress: &Progress,
 ) -> Result<(), Error> {
     let batches = rounds.missing(&lock(journal));
-    let lacking = MissingReplicates::new(study, rounds.wanted(), &batches, progress);
+    let lacking = MissingReplicates::new(study, rounds.required(), &batches, progress);
     if batches.is_empty() {
         return Ok(());
     }

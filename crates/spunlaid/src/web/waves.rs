@@ -132,22 +132,22 @@ impl Powers {
         to: &mut Parts,
     ) {
         if along.abs() > reach {
-            to.rest.add(gain * self.at(across, along));
+            to.other_waves.add(gain * self.at(across, along));
         } else if along == 0 && across != 0 {
             let power = gain * (-reach..=reach).map(|along| self.at(across, along)).sum::<f64>();
-            to.found += power;
+            to.streak_power += power;
             match places {
                 Places::Unknown => to.streaks.add(power),
                 Places::AtRandom(streaks) => {
                     let mean = streaks.power(across);
                     to.expected += mean;
-                    to.of_expected += 2.0 * mean * mean;
+                    to.expected_variance += 2.0 * mean * mean;
                 }
                 Places::Fixed => {
                     // Chance has as much of this wave as of the next ones.
                     let beside = 0.5 * gain * (self.at(across, reach + 1) + self.at(across, -reach - 1));
                     to.expected += power;
-                    to.of_expected += 4.0 * power * beside;
+                    to.expected_variance += 4.0 * power * beside;
                 }
             }
         }
@@ -175,14 +175,14 @@ impl Powers {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Parts {
     /// Waves across the web that are the same along all of it: their sum as it has been found.
-    found: f64,
+    streak_power: f64,
     /// These waves where nothing else is known of them.
     streaks: Sums,
     /// Where it is known, their mean over webs and the variance of what is found.
     expected: f64,
-    of_expected: f64,
+    expected_variance: f64,
     /// All other waves.
-    rest: Sums,
+    other_waves: Sums,
 }
 
 /// Sums over waves and those that run the other way, which are the same.
@@ -213,7 +213,7 @@ impl Sums {
 impl Parts {
     /// The variance of the field in these waves.
     pub(super) fn sum(&self) -> f64 {
-        self.found + self.rest.powers
+        self.streak_power + self.other_waves.powers
     }
 
     /// The variance of that variance over webs of the kind, over its square. Where it is known how strong streaks are on average, it does not depend on how strong
@@ -222,8 +222,9 @@ impl Parts {
     /// * `open` – directions, cross and machine, in which a Hann window makes one wave of two
     pub(super) fn share(&self, open: [bool; 2]) -> f64 {
         let [across, along] = open.map(|open| if open { HANN } else { 1.0 });
-        let mean = self.streaks.powers + self.expected + self.rest.powers;
-        let variance = across * (self.streaks.variance() + along * self.rest.variance() + self.of_expected);
+        let mean = self.streaks.powers + self.expected + self.other_waves.powers;
+        let variance =
+            across * (self.streaks.variance() + along * self.other_waves.variance() + self.expected_variance);
         if mean > 0.0 { variance / (mean * mean) } else { 0.0 }
     }
 }

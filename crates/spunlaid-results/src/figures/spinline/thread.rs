@@ -13,14 +13,14 @@ const BEYOND_FREEZING: f64 = 1.25;
 /// A quantity of the thread, in the unit of its axis.
 type Quantity = fn(&Station) -> f64;
 
-/// A row of filaments that is shown: its name, nothing if there is only one, and its colour.
-struct ThreadQuantity<'a> {
+/// A row of filaments to draw: its name, nothing if there is only one, and its colour.
+struct ThreadRow<'a> {
     name: &'static str,
     colour: &'static str,
     solution: &'a Solution,
 }
 
-impl ThreadQuantity<'_> {
+impl ThreadRow<'_> {
     fn points(&self, quantity: Quantity) -> Vec<(f64, f64)> {
         let stations = self.solution.stations.iter();
         stations.map(|station| (station.distance * MM, quantity(station))).collect()
@@ -33,25 +33,25 @@ impl ThreadQuantity<'_> {
 }
 
 /// The figures of a thread; of a curtain those of its first and of its last row.
-pub(super) fn figures(prefix: &str, rows: &[Solution]) -> Vec<Figure> {
-    let shown: Vec<ThreadQuantity<'_>> = match rows {
+pub(super) fn figures(prefix: &str, solutions: &[Solution]) -> Vec<Figure> {
+    let rows: Vec<ThreadRow<'_>> = match solutions {
         [] => return Vec::new(),
-        [solution] => vec![ThreadQuantity { name: "", colour: BLUE, solution }],
+        [solution] => vec![ThreadRow { name: "", colour: BLUE, solution }],
         [first, .., last] => vec![
-            ThreadQuantity { name: "first row", colour: BLUE, solution: first },
-            ThreadQuantity { name: "last row", colour: VERMILION, solution: last },
+            ThreadRow { name: "first row", colour: BLUE, solution: first },
+            ThreadRow { name: "last row", colour: VERMILION, solution: last },
         ],
     };
-    let frozen = shown.iter().map(|row| row.solution.freezing.distance).fold(0.0, f64::max);
-    let crystallises = rows.iter().any(|row| row.end().transformed > 0.0);
+    let frozen = rows.iter().map(|row| row.solution.freezing.distance).fold(0.0, f64::max);
+    let crystallises = solutions.iter().any(|solution| solution.end().transformed > 0.0);
     let mut figures = vec![
-        drawing(prefix, &shown),
-        temperature(prefix, &shown),
-        tension(prefix, &shown),
-        strain_rate(prefix, &shown, BEYOND_FREEZING * frozen),
+        drawing(prefix, &rows),
+        temperature(prefix, &rows),
+        tension(prefix, &rows),
+        strain_rate(prefix, &rows, BEYOND_FREEZING * frozen),
     ];
     if crystallises {
-        figures.push(transformed(prefix, &shown));
+        figures.push(transformed(prefix, &rows));
     }
     figures
 }
@@ -65,19 +65,14 @@ fn chart(prefix: &str, name: &str, title: &str, up: Axis) -> Chart {
 /// A chart with a quantity of each row, and where the row freezes.
 ///
 /// * `is_keyed` – whether the chart has a legend
-fn with_rows(chart: Chart, shown: &[ThreadQuantity<'_>], quantity: Quantity, is_keyed: bool) -> Chart {
-    let points: Vec<_> = shown.iter().map(|row| row.points(quantity)).collect();
-    with_points(chart, shown, &points, is_keyed)
+fn with_rows(chart: Chart, rows: &[ThreadRow<'_>], quantity: Quantity, is_keyed: bool) -> Chart {
+    let points: Vec<_> = rows.iter().map(|row| row.points(quantity)).collect();
+    with_points(chart, rows, &points, is_keyed)
 }
 
 /// The same with points for each row.
-fn with_points(
-    chart: Chart,
-    shown: &[ThreadQuantity<'_>],
-    points: &[Vec<(f64, f64)>],
-    is_keyed: bool,
-) -> Chart {
-    shown.iter().zip(points).enumerate().fold(chart, |chart, (i, (row, points))| {
+fn with_points(chart: Chart, rows: &[ThreadRow<'_>], points: &[Vec<(f64, f64)>], is_keyed: bool) -> Chart {
+    rows.iter().zip(points).enumerate().fold(chart, |chart, (i, (row, points))| {
         let keyed = |series: Series, is_keyed: bool| if is_keyed { series } else { series.unlabelled() };
         let line = Series::new(&row.label("thread"), row.colour).width(2.0);
         let freezing = Series::new("freezing point", row.colour).named(&row.label("freezing point"));
@@ -89,24 +84,24 @@ fn with_points(
 }
 
 /// The words of a caption that say what frozen means.
-fn about_freezing(shown: &[ThreadQuantity<'_>]) -> String {
-    let [first, ..] = shown else { return String::new() };
+fn about_freezing(rows: &[ThreadRow<'_>]) -> String {
+    let [first, ..] = rows else { return String::new() };
     let rows = if first.name.is_empty() { "" } else { " of each row" };
     format!(
         "The dashed line marks the freezing point{rows}: from there on the filament is solid and keeps its speed."
     )
 }
 
-fn drawing(prefix: &str, shown: &[ThreadQuantity<'_>]) -> Figure {
+fn drawing(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
     let title = "Speed and diameter of the thread";
     let speed = chart(prefix, "speed", title, Axis::logarithmic("Speed *v* (m/s)").decades(4));
-    let speed = with_rows(speed, shown, |station| station.speed, true);
-    let speed = with_air(speed, shown, |station| station.air_velocity);
+    let speed = with_rows(speed, rows, |station| station.speed, true);
+    let speed = with_air(speed, rows, |station| station.air_velocity);
     let diameter = chart(prefix, "diameter", title, Axis::logarithmic("Diameter *d* (µm)"));
-    let diameter = with_rows(diameter, shown, |station| station.diameter * MICROMETRES, false);
+    let diameter = with_rows(diameter, rows, |station| station.diameter * MICROMETRES, false);
     let caption = format!(
         "Speed and diameter of the thread, averaged over its cross-section, and the velocity of the air along it. {}",
-        about_freezing(shown)
+        about_freezing(rows)
     );
     Figure::stacked(
         &format!("{prefix}_speed_and_diameter"),
@@ -117,36 +112,36 @@ fn drawing(prefix: &str, shown: &[ThreadQuantity<'_>]) -> Figure {
 }
 
 /// The air that the rows meet.
-fn with_air(chart: Chart, shown: &[ThreadQuantity<'_>], quantity: Quantity) -> Chart {
+fn with_air(chart: Chart, rows: &[ThreadRow<'_>], quantity: Quantity) -> Chart {
     let dashes = [None, Some("2 3")];
-    shown.iter().zip(dashes).fold(chart, |chart, (row, dash)| {
+    rows.iter().zip(dashes).fold(chart, |chart, (row, dash)| {
         let series = Series { dash, ..Series::new(&row.label("air"), GREEN) };
         chart.line(series, &row.points(quantity))
     })
 }
 
-fn temperature(prefix: &str, shown: &[ThreadQuantity<'_>]) -> Figure {
+fn temperature(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
     let title = "Temperature of the thread and of the air";
     let chart = chart(prefix, "temperature", title, Axis::linear("Temperature *T* (°C)"));
-    let chart = with_rows(chart, shown, |station| station.temperature - ZERO_CELSIUS, true);
-    let chart = with_air(chart, shown, |station| station.air_temperature - ZERO_CELSIUS);
+    let chart = with_rows(chart, rows, |station| station.temperature - ZERO_CELSIUS, true);
+    let chart = with_air(chart, rows, |station| station.air_temperature - ZERO_CELSIUS);
     let caption = format!(
         "Temperature of the thread, averaged over its cross-section, and of the air around it. {}",
-        about_freezing(shown)
+        about_freezing(rows)
     );
     Figure::new(&chart, caption)
 }
 
-fn tension(prefix: &str, shown: &[ThreadQuantity<'_>]) -> Figure {
+fn tension(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
     let title = "Tension and stress of the thread";
     let tension = chart(prefix, "tension", title, Axis::linear("Tension *F* (mN)").zero_based());
-    let tension = with_rows(tension, shown, |station| station.tension * 1e3, true);
+    let tension = with_rows(tension, rows, |station| station.tension * 1e3, true);
     let stress = chart(prefix, "stress", title, Axis::linear("Stress *N*_{1} (MPa)").zero_based());
-    let stress = with_rows(stress, shown, |station| station.stress * 1e-6, false);
+    let stress = with_rows(stress, rows, |station| station.stress * 1e-6, false);
     let caption = format!(
         "Above, the force in the thread; below, the stress in its cross-section. The stress at the freezing point orients the \
          polymer, and so decides birefringence and modulus. {}",
-        about_freezing(shown)
+        about_freezing(rows)
     );
     Figure::stacked(
         &format!("{prefix}_tension_and_stress"),
@@ -157,32 +152,32 @@ fn tension(prefix: &str, shown: &[ThreadQuantity<'_>]) -> Figure {
 }
 
 /// From the freezing point on it is zero, at once.
-fn strain_rate(prefix: &str, shown: &[ThreadQuantity<'_>], until: f64) -> Figure {
+fn strain_rate(prefix: &str, rows: &[ThreadRow<'_>], until: f64) -> Figure {
     let title = "Strain rate of the thread";
     let up = Axis::linear("Strain rate d*v*/d*z* (1/s)").zero_based().in_column("strain_rate_per_s");
     let chart = chart(prefix, "strain_rate", title, up);
-    let rates = |row: &ThreadQuantity<'_>| {
+    let rates = |row: &ThreadRow<'_>| {
         let frozen = row.solution.freezing.distance * MM;
         let points = row.points(|station| station.strain_rate).into_iter();
         points.filter(|(distance, _)| *distance <= frozen).chain([(frozen, 0.0), (until * MM, 0.0)]).collect()
     };
-    let points: Vec<_> = shown.iter().map(rates).collect();
-    let chart = with_points(chart, shown, &points, true);
+    let points: Vec<_> = rows.iter().map(rates).collect();
+    let chart = with_points(chart, rows, &points, true);
     let caption = format!(
         "How fast the thread is stretched, up to a little below the freezing point. {}",
-        about_freezing(shown)
+        about_freezing(rows)
     );
     Figure::new(&chart, caption)
 }
 
-fn transformed(prefix: &str, shown: &[ThreadQuantity<'_>]) -> Figure {
+fn transformed(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
     let title = "Transformed share of the polymer";
     let up = Axis::linear("Transformed share *θ* (–)").zero_based().in_column("transformed");
     let chart = chart(prefix, "transformed", title, up);
-    let chart = with_rows(chart, shown, |station| station.transformed, true);
+    let chart = with_rows(chart, rows, |station| station.transformed, true);
     let caption = format!(
         "The share of the crystals that could form which has formed; 1 is the crystallinity that the polymer reaches. {}",
-        about_freezing(shown)
+        about_freezing(rows)
     );
     Figure::new(&chart, caption)
 }

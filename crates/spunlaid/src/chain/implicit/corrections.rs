@@ -28,7 +28,7 @@ pub(super) fn predict_and_eliminate<S: Register, const FED: bool>(chain: &mut Ch
     let mut lower = (Vec3::zero(), Vec3::zero());
     let none = Weight { x: Wide::zero(), across: Wide::zero() };
     let (mut mobility_below, mut weights) = (none, (none, none));
-    let (mut below, mut here, mut wanted) = (Vec3::zero(), Vec3::zero(), Wide::zero());
+    let (mut below, mut here, mut residual) = (Vec3::zero(), Vec3::zero(), Wide::zero());
     let (mut value, mut slope) = (Wide::zero(), Wide::zero());
     for i in (0..nodes).rev() {
         let link = &mut t.links[i];
@@ -68,19 +68,19 @@ pub(super) fn predict_and_eliminate<S: Register, const FED: bool>(chain: &mut Ch
             // Row `i+1`, between the directions above and below it.
             if i + 1 < elements {
                 let above = -weights.0.between::<FED>(here, direction);
-                let row = Row { weights, here, below, wanted };
+                let row = Row { weights, here, below, residual };
                 (value, slope) = row.eliminate::<FED>(above, (value, slope));
                 t.links[i + 1].correction = (value.store(), slope.store());
             }
             (below, here) = (here, direction);
-            wanted = stiffness * (length - Wide::load(&element.rest_length)) - Wide::load(&t.tension[i]);
+            residual = stiffness * (length - Wide::load(&element.rest_length)) - Wide::load(&t.tension[i]);
             let scale = h_squared * stiffness;
             weights = (mobility.times(scale), mobility_below.times(scale));
         }
         mobility_below = mobility;
         lower = (at, predicted);
     }
-    let row = Row { weights, here, below, wanted };
+    let row = Row { weights, here, below, residual };
     (value, slope) = row.eliminate::<FED>(Wide::zero(), (value, slope));
     t.links[0].correction = (value.store(), slope.store());
 }
@@ -117,7 +117,7 @@ struct Row<S: Register> {
     here: Vec3<Wide<S>>,
     below: Vec3<Wide<S>>,
     /// The right-hand side.
-    wanted: Wide<S>,
+    residual: Wide<S>,
 }
 
 impl<S: Register> Row<S> {
@@ -137,6 +137,6 @@ impl<S: Register> Row<S> {
             upper.across + lower.across
         };
         let pivot = one.over(below.neg_mul_add(next.1, one + own));
-        (below.neg_mul_add(next.0, self.wanted) * pivot, above * pivot)
+        (below.neg_mul_add(next.0, self.residual) * pivot, above * pivot)
     }
 }

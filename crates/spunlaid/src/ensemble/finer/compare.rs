@@ -15,7 +15,7 @@ impl FinerPlan {
         paths: &BTreeMap<u64, Path>,
         flights: &[Flight],
     ) -> Result<FinerCheck, String> {
-        let (Some(own), Some(fine)) = (flights.first(), flights.last()) else {
+        let (Some(coarse), Some(fine)) = (flights.first(), flights.last()) else {
             return Err("it was not flown".to_owned());
         };
         let still = || {
@@ -37,17 +37,17 @@ impl FinerPlan {
             path: None,
             changes: Vec::new(),
         };
-        if self.own.is_none() {
+        if self.coarse.is_none() {
             let (mut apart, mut amplitudes) = (Vec::new(), Vec::new());
             // A fibre that the run has lost has no path.
-            for (own, fine) in
+            for (coarse, fine) in
                 fine.paths.iter().filter_map(|(replicate, fine)| Some((paths.get(replicate)?, fine)))
             {
-                let fine = &fine[..own.len().min(fine.len())];
+                let fine = &fine[..coarse.len().min(fine.len())];
                 let amplitude = amplitude(fine);
                 if amplitude > least {
-                    apart.push(rms_distance(own, fine) / amplitude);
-                    amplitudes.push(self::amplitude(own) / amplitude - 1.0);
+                    apart.push(rms_distance(coarse, fine) / amplitude);
+                    amplitudes.push(self::amplitude(coarse) / amplitude - 1.0);
                 }
             }
             if apart.is_empty() || apart.iter().chain(&amplitudes).any(|value| !value.is_finite()) {
@@ -60,11 +60,11 @@ impl FinerPlan {
         }
         let statistics = if self.fine.line.is_some() { OF_THE_LAID } else { OF_THE_END };
         for statistic in statistics {
-            let pairs = own
+            let pairs = coarse
                 .trajectories
                 .iter()
                 .zip(&fine.trajectories)
-                .map(|(own, fine)| [statistic.measure(own), statistic.measure(fine)]);
+                .map(|(coarse, fine)| [statistic.measure(coarse), statistic.measure(fine)]);
             let pairs: Vec<[f64; 2]> =
                 pairs.filter(|pair| pair.iter().all(|value| value.is_finite())).collect();
             // Of a fibre that does not move, rounding has no meaning.

@@ -28,7 +28,7 @@ impl FinerPlan {
         let carried = case.line.is_none() && matches!(case.air.eddies, EddyModel::Convected { .. });
         let flown = if carried { &self.fine } else { case };
         let air = SurroundingRun { case: flown, horizon: self.horizon, field: None };
-        let paths = Paths { every: 1, ..Paths::of_run(Ok(self), None) };
+        let paths = Paths { stride: 1, ..Paths::of_run(Ok(self), None) };
         let computing = RunControl { recorder: Some(&paths), ..computing };
         let trajectories = fly_in_air(&jobs, Keep::NUMBERS, air, computing)?;
         Ok(Flight { trajectories, paths: paths.into_paths() })
@@ -42,7 +42,7 @@ pub(in crate::ensemble) struct Paths<'a> {
     /// Number of replicates, from the first on, whose paths are kept.
     replicates: u64,
     /// One recorded instant in this many is kept after the start.
-    every: u64,
+    stride: u64,
     /// Largest number of instants that are kept.
     most: u64,
     /// Recorded instants so far, and the path, by replicate.
@@ -55,13 +55,13 @@ impl<'a> Paths<'a> {
         plan: Result<&FinerPlan, &String>,
         passed_on: Option<&'a dyn Recorder>,
     ) -> Self {
-        let (replicates, every, most) = match plan {
-            Ok(plan) if plan.own.is_none() => {
-                (plan.replicates, plan.every, plan.fine.run.steps / plan.fine.run.output_steps)
+        let (replicates, stride, most) = match plan {
+            Ok(plan) if plan.coarse.is_none() => {
+                (plan.replicates, plan.stride, plan.fine.run.steps / plan.fine.run.output_steps)
             }
             _ => (0, 1, 0),
         };
-        Self { passed_on, replicates, every, most, paths: Mutex::default() }
+        Self { passed_on, replicates, stride, most, paths: Mutex::default() }
     }
 
     /// Leaves out the path of a fibre that was lost.
@@ -92,7 +92,7 @@ impl Recorder for Paths<'_> {
         if replicate < self.replicates {
             let mut paths = self.paths();
             let (instants, path) = paths.entry(replicate).or_default();
-            if *instants > 0 && instants.is_multiple_of(self.every) && *instants / self.every <= self.most {
+            if *instants > 0 && instants.is_multiple_of(self.stride) && *instants / self.stride <= self.most {
                 path.push([sample.end.y, sample.end.z]);
             }
             *instants += 1;

@@ -35,10 +35,10 @@ pub struct FinerPlan {
     /// What is finer.
     pub refined: Refinement,
     /// The case with the step and mesh of the run, to compare with; `None` if the paths of the run itself are compared.
-    pub(super) own: Option<Case>,
+    pub(super) coarse: Option<Case>,
     pub(super) fine: Case,
     /// One recorded instant of the run in this many is compared.
-    pub(super) every: u64,
+    pub(super) stride: u64,
     /// Until when the air has to last [s].
     pub(super) horizon: f64,
     /// Number of replicates, from the first on. A flight costs the same for all its lanes.
@@ -100,19 +100,27 @@ fn step_of_a_path(case: &Case) -> Result<FinerPlan, String> {
     let affordable = 0.5 * (SHARE * cost_of_run(case)).max(ALWAYS) / case.fibre.elements as f64;
     let most = affordable.min(LONGEST / run.time_step).min(run.steps as f64);
     let instants = (most / run.output_steps as f64 * (1.0 + 1e-9)) as u64;
-    let every = instants.div_ceil(MOST_COMPARED).max(1);
+    let stride = instants.div_ceil(MOST_COMPARED).max(1);
     if instants < FEWEST || 2 * instants * run.output_steps > MOST_STEPS {
         return Err(too_short());
     }
     let mut fine = case.clone();
     fine.run.time_step *= 0.5;
-    fine.run.output_steps *= 2 * every;
-    fine.run.steps = instants / every * fine.run.output_steps;
+    fine.run.output_steps *= 2 * stride;
+    fine.run.steps = instants / stride * fine.run.output_steps;
     fine.run.spin_up_steps = 0;
     let share_of_run = cost(&fine) / cost_of_run(case);
     let replicates = run.replicates.min(WIDTH as u64);
     let horizon = case.air_horizon();
-    Ok(FinerPlan { refined: Refinement::TimeStep, own: None, fine, every, horizon, replicates, share_of_run })
+    Ok(FinerPlan {
+        refined: Refinement::TimeStep,
+        coarse: None,
+        fine,
+        stride,
+        horizon,
+        replicates,
+        share_of_run,
+    })
 }
 
 /// Compares what is laid with what leapfrog lays, with steps in which the axial waves are resolved. That is another scheme,
@@ -134,7 +142,7 @@ fn step_of_the_laid(case: &Case) -> Result<FinerPlan, String> {
 /// Compares the statistics of the case's elements with those of half their length, both with the same long steps of
 /// implicit tension: the elements matter whatever the scheme.
 fn mesh(case: &Case) -> Result<FinerPlan, String> {
-    let (mut own, mut fine) = (case.clone(), case.clone());
+    let (mut coarse, mut fine) = (case.clone(), case.clone());
     fine.fibre.elements *= 2;
     fine.run.scheme = Scheme::ImplicitTension;
     let suggested = fine.suggested_time_step(ERROR_TOLERANCE, case.run.duration()).0;
@@ -142,8 +150,8 @@ fn mesh(case: &Case) -> Result<FinerPlan, String> {
     let suggested = match case.line {
         Some(_) => suggested,
         None => {
-            own.run.scheme = Scheme::ImplicitTension;
-            let accurate = own.suggested_time_step(ERROR_TOLERANCE, case.run.duration()).0;
+            coarse.run.scheme = Scheme::ImplicitTension;
+            let accurate = coarse.suggested_time_step(ERROR_TOLERANCE, case.run.duration()).0;
             suggested.max(accurate.min(PART_OF_LIMIT * shortest_limit(&fine)))
         }
     };
@@ -153,10 +161,10 @@ fn mesh(case: &Case) -> Result<FinerPlan, String> {
     let interval = case.run.output_interval();
     let step =
         if case.line.is_some() { longest } else { interval / (interval / longest - 1e-9).ceil().max(1.0) };
-    own.run.scheme = Scheme::ImplicitTension;
+    coarse.run.scheme = Scheme::ImplicitTension;
     fine.set_time_step(step);
-    own.set_time_step(fine.run.time_step);
-    statistics(Refinement::Elements, case, own, fine)
+    coarse.set_time_step(fine.run.time_step);
+    statistics(Refinement::Elements, case, coarse, fine)
 }
 
 fn shortest_limit(case: &Case) -> f64 {
@@ -165,10 +173,15 @@ fn shortest_limit(case: &Case) -> f64 {
 }
 
 /// A plan that compares statistics, over as much time as is worth its computing time.
-fn statistics(refined: Refinement, case: &Case, mut own: Case, mut fine: Case) -> Result<FinerPlan, String> {
+fn statistics(
+    refined: Refinement,
+    case: &Case,
+    mut coarse: Case,
+    mut fine: Case,
+) -> Result<FinerPlan, String> {
     let all = case.run.duration();
     let per_second = |case: &Case| case.fibre.elements as f64 / case.run.time_step;
-    let per_second = per_second(&own) + per_second(&fine);
+    let per_second = per_second(&coarse) + per_second(&fine);
     let (spin_up, least) = match &case.line {
         Some(line) => {
             let way = way(line);
@@ -189,7 +202,7 @@ fn statistics(refined: Refinement, case: &Case, mut own: Case, mut fine: Case) -
         return Err(format!("it would take about {:.0} times the run's computing time", times.ceil()));
     }
     let duration = (share.max(usual) / per_second).max(least).min(all);
-    for case in [&mut own, &mut fine] {
+    for case in [&mut coarse, &mut fine] {
         let steps = |time: f64| (time / case.run.time_step * (1.0 + 1e-9)) as u64;
         (case.run.steps, case.run.spin_up_steps) = (steps(duration).max(1), steps(spin_up));
         case.run.output_steps = case.run.output_steps.min(case.run.steps);
@@ -203,12 +216,12 @@ fn statistics(refined: Refinement, case: &Case, mut own: Case, mut fine: Case) -
     if case.line.as_ref().is_some_and(|line| duration < (COMES_DOWN + COMPARED) * way(line) * (1.0 - 1e-9)) {
         return Err(too_short());
     }
-    let share_of_run = (cost(&own) + cost(&fine)) / cost_of_run(case);
+    let share_of_run = (cost(&coarse) + cost(&fine)) / cost_of_run(case);
     // Replicates of a record need a record that is long enough.
     let replicates =
         if case.air.records.is_empty() { WIDTH as u64 } else { case.run.replicates.min(WIDTH as u64) };
     let horizon = case.air_horizon();
-    Ok(FinerPlan { refined, own: Some(own), fine, every: 1, horizon, replicates, share_of_run })
+    Ok(FinerPlan { refined, coarse: Some(coarse), fine, stride: 1, horizon, replicates, share_of_run })
 }
 
 /// Time in which a fed fibre comes down at the speed of its feed [s].
@@ -219,7 +232,7 @@ fn way(line: &Line) -> f64 {
 impl FinerPlan {
     /// The cases that are flown: as the run where its own paths are not compared, and finer.
     pub(in crate::ensemble) fn flights(&self) -> impl Iterator<Item = &Case> {
-        self.own.iter().chain([&self.fine])
+        self.coarse.iter().chain([&self.fine])
     }
 
     /// Number of fibre steps, as in [`RunControl::fibre_steps`](crate::ensemble::RunControl::fibre_steps).
@@ -228,9 +241,9 @@ impl FinerPlan {
     }
 
     pub(super) fn is_resolved(&self) -> bool {
-        let own = self.own.as_ref();
-        own.is_some_and(|own| {
-            self.refined == Refinement::TimeStep && own.run.scheme == Scheme::ImplicitTension
+        let coarse = self.coarse.as_ref();
+        coarse.is_some_and(|coarse| {
+            self.refined == Refinement::TimeStep && coarse.run.scheme == Scheme::ImplicitTension
         })
     }
 }

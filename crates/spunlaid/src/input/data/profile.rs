@@ -37,7 +37,7 @@ pub(super) fn profile(text: &[u8]) -> Result<Profile, FileError> {
         required,
         sign,
     };
-    let wanted = [
+    let rules = [
         column("of distances", &["x", "distance", "position"], Dimension::Length, "x_mm", true, Sign::Any),
         column(
             "of mean velocities",
@@ -73,7 +73,7 @@ pub(super) fn profile(text: &[u8]) -> Result<Profile, FileError> {
         ),
     ];
     let [x, velocity, turbulence_intensity, length_scale, cutoff_frequency] =
-        read(text, &wanted, "x_mm,velocity_m_s")?;
+        read(text, &rules, "x_mm,velocity_m_s")?;
     Ok(Profile { x, velocity, turbulence_intensity, length_scale, cutoff_frequency })
 }
 
@@ -87,7 +87,7 @@ pub(super) fn spinline_air(text: &[u8]) -> Result<AirTable, FileError> {
         required: true,
         sign,
     };
-    let wanted = [
+    let rules = [
         column(
             "of distances from the die",
             &["z", "distance", "x"],
@@ -118,13 +118,13 @@ pub(super) fn spinline_air(text: &[u8]) -> Result<AirTable, FileError> {
         ),
     ];
     let [distance, velocity, cross_velocity, temperature] =
-        read(text, &wanted, "z_mm,velocity_m_s,cross_velocity_m_s,temperature_c")?;
+        read(text, &rules, "z_mm,velocity_m_s,cross_velocity_m_s,temperature_c")?;
     Ok(AirTable { distance, velocity, cross_velocity, temperature })
 }
 
 /// Reads a spectrum: `frequency_hz, energy`.
 pub(super) fn spectrum(text: &[u8]) -> Result<SpectrumTable, FileError> {
-    let wanted = [
+    let rules = [
         ColumnRule {
             what: "of frequencies",
             names: &["frequency", "f"],
@@ -143,17 +143,17 @@ pub(super) fn spectrum(text: &[u8]) -> Result<SpectrumTable, FileError> {
             sign: Sign::NotNegative,
         },
     ];
-    let [frequency, energy] = read(text, &wanted, "frequency_hz,energy")?;
+    let [frequency, energy] = read(text, &rules, "frequency_hz,energy")?;
     if energy.iter().all(|e| *e == 0.0) {
         return Err(Fault::new("is zero at every frequency", "at least one value must be positive").into());
     }
     Ok(SpectrumTable { frequency, energy })
 }
 
-/// The wanted columns in SI units; an optional column that is not there is empty. The first column must rise.
+/// The columns in SI units; an optional column that is not there is empty. The first column must rise.
 fn read<const N: usize>(
     text: &[u8],
-    wanted: &[ColumnRule; N],
+    rules: &[ColumnRule; N],
     example: &'static str,
 ) -> Result<[Vec<f64>; N], FileError> {
     let mut table = Table::open(text, FileKind::Table, 0)?;
@@ -161,12 +161,12 @@ fn read<const N: usize>(
         return Err(Fault::no_header(example).into());
     }
     let mut columns = [None; N];
-    for (column, wanted) in columns.iter_mut().zip(wanted) {
-        *column = find(table.heads(), wanted).map_err(|error| error.at(table.header()))?;
+    for (column, rule) in columns.iter_mut().zip(rules) {
+        *column = find(table.heads(), rule).map_err(|error| error.at(table.header()))?;
     }
     let mut values: [Vec<f64>; N] = std::array::from_fn(|_| Vec::new());
     while table.next_row()? {
-        for (i, (column, wanted)) in columns.iter().zip(wanted).enumerate() {
+        for (i, (column, rule)) in columns.iter().zip(rules).enumerate() {
             let Some((index, unit)) = *column else { continue };
             let value = match table.number(index) {
                 Ok(number) => number * unit.factor + unit.zero,
@@ -183,15 +183,15 @@ fn read<const N: usize>(
                     ),
                 ));
             }
-            let zero = wanted.sign == Sign::NotNegative;
-            if wanted.dimension == Dimension::Temperature && value <= 0.0 {
+            let zero = rule.sign == Sign::NotNegative;
+            if rule.dimension == Dimension::Temperature && value <= 0.0 {
                 let text = excerpt(table.text(index), 40);
                 let remedy = "a temperature above 0 K, which is -273.15 °C, is needed";
                 return Err(
                     table.blame(index, Fault::new(format!("{text} is not above absolute zero"), remedy))
                 );
             }
-            if wanted.sign != Sign::Any && (value < 0.0 || value == 0.0 && !zero) {
+            if rule.sign != Sign::Any && (value < 0.0 || value == 0.0 && !zero) {
                 let sign = if value < 0.0 { "negative" } else { "zero" };
                 let needed = if zero { "zero or more is needed" } else { "more than zero is needed" };
                 let fault = Fault::new(format!("{} is {sign}", shortest(value)), needed);
@@ -224,17 +224,17 @@ struct ColumnUnit {
 }
 
 /// Index of the column, and its unit.
-fn find(heads: &[Head], wanted: &ColumnRule) -> Result<Option<(usize, ColumnUnit)>, FileError> {
+fn find(heads: &[Head], rule: &ColumnRule) -> Result<Option<(usize, ColumnUnit)>, FileError> {
     let named = heads.iter().enumerate();
     let matching: Vec<(usize, Option<&str>)> =
-        named.filter_map(|(i, head)| Some((i, head.named(wanted.names)?))).collect();
+        named.filter_map(|(i, head)| Some((i, head.named(rule.names)?))).collect();
     let text = |i: usize| excerpt(&heads[i].text, 60);
     let (index, unit) = match matching[..] {
-        [] if wanted.required => {
-            let (wanted, example) = (wanted.what, wanted.example);
+        [] if rule.required => {
+            let (name, example) = (rule.what, rule.example);
             let found: Vec<String> = (0..heads.len()).map(text).collect();
             return Err(Fault::new(
-                format!("has no column {wanted} (it has {})", listed(&found)),
+                format!("has no column {name} (it has {})", listed(&found)),
                 format!("name one like {example}"),
             )
             .into());
@@ -244,17 +244,17 @@ fn find(heads: &[Head], wanted: &ColumnRule) -> Result<Option<(usize, ColumnUnit
         [(first, _), (second, _), ..] => {
             let (first, second) = (text(first), text(second));
             return Err(Fault::new(
-                format!("the columns \"{first}\" and \"{second}\" both are columns {}", wanted.what),
+                format!("the columns \"{first}\" and \"{second}\" both are columns {}", rule.what),
                 "keep one",
             )
             .into());
         }
     };
     // The unit of an energy does not matter.
-    if wanted.names.contains(&"energy") || unit.is_none() && wanted.dimension == Dimension::Ratio {
+    if rule.names.contains(&"energy") || unit.is_none() && rule.dimension == Dimension::Ratio {
         return Ok(Some((index, ColumnUnit { factor: 1.0, zero: 0.0 })));
     }
-    if wanted.dimension == Dimension::Temperature
+    if rule.dimension == Dimension::Temperature
         && let Some(unit) = unit.map(|unit| unit.trim_matches(['[', ']', '(', ')', ' ']))
     {
         let celsius = ["c", "C", "°C", "degc", "degC", "deg_c", "celsius"].contains(&unit);
@@ -264,5 +264,5 @@ fn find(heads: &[Head], wanted: &ColumnRule) -> Result<Option<(usize, ColumnUnit
         }
     }
     let head = Head { unit: unit.map(str::to_owned), ..heads[index].clone() };
-    Ok(Some((index, ColumnUnit { factor: head.factor(wanted.dimension, wanted.example)?, zero: 0.0 })))
+    Ok(Some((index, ColumnUnit { factor: head.factor(rule.dimension, rule.example)?, zero: 0.0 })))
 }
