@@ -128,7 +128,7 @@ fn a_folder_without_its_map_is_compared_without_a_picture() {
     let said = success(&mut desk.spunlaid("compare laid scan --out both --force"));
     assert!(said.contains("CV over patches of 10 mm"), "{said}");
     let found: Value = serde_json::from_slice(&desk.read("both/comparison.json")).unwrap();
-    let note = "laid has neither picture nor spectrum here: its folder has no map.npy";
+    let note = "laid has neither picture nor spectrum here: there is no map.npy";
     assert!(found["notes"][0].as_str().unwrap().starts_with(note), "{found}");
     assert!(page(&desk).contains(note));
     // That of the other is still there.

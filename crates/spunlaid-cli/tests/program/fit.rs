@@ -98,7 +98,15 @@ fn a_fit_that_is_killed_goes_on_and_ends_with_the_same_bits() {
 #[test]
 fn what_cannot_be_sought_is_refused_with_the_way_out() {
     let desk = desk();
+    for folder in ["mapless", "torn"] {
+        fs::create_dir(desk.path(folder)).unwrap();
+        fs::copy(desk.path("truth/summary.json"), desk.path(&format!("{folder}/summary.json"))).unwrap();
+    }
+    let map = desk.read("truth/map.npy");
+    fs::write(desk.path("torn/map.npy"), &map[..map.len() / 2]).unwrap();
     for (arguments, words) in [
+        ("--to mapless --vary laydown.noise", "holds no map that can be used: there is no map.npy"),
+        ("--to torn --vary laydown.noise", "holds no map that can be used: its map.npy cannot be read"),
         ("--to truth --vary line.depht", "cannot be sought"),
         ("--to truth --vary web.method", "cannot be sought"),
         ("--to truth --vary laydown.noise,laydown.noise", "is named twice"),

@@ -51,8 +51,12 @@ pub fn read_measured_web(folder: &Path) -> Result<MeasuredWeb, Error> {
     let mut patches: Vec<MeasuredPatch> = all.iter().filter_map(patch).collect();
     patches.sort_by(|a, b| a.side.total_cmp(&b.side));
     let map = MapFile::new(folder, web).and_then(|map| map.piece(map.sides(), map.cell));
+    let unusable = |reason: String| {
+        let remedy = "analyse the scan again, or lay the web again";
+        Error::folder(folder, Fault::new(format!("holds no map that can be used: {reason}"), remedy))
+    };
     Ok(MeasuredWeb {
-        map: map.map_err(refused)?,
+        map: map.map_err(unusable)?,
         patches,
         knows_noise: scan["noise"].as_f64().is_some(),
         flat: scan["shading"].as_f64().is_some(),

@@ -152,14 +152,14 @@ fn keys(
         let [low, high] = parameter.ends();
         profile.extend(&ends[index].profile);
         profile.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let Ends { coordinates, kinds: ends, .. } = &ends[index];
+        let Ends { coordinates: interval, kinds: ends, .. } = &ends[index];
         let near = |end: f64| (coordinates[key] - end).abs() < 1e-9 * (high - low);
         let doubt = if *ends == [IntervalEnd::OfRange; 2] {
             Some(KeyDoubt::Unknown)
         } else {
             (near(low) || near(high)).then_some(KeyDoubt::AtEnd)
         };
-        let interval = coordinates.map(|end| parameter.value(end));
+        let interval = interval.map(|end| parameter.value(end));
         let interval = webs.target.doubt().map_or(Ok(interval), |doubt| Err(doubt.to_owned()));
         FittedKey { parameter, value, interval, ends: *ends, profile, doubt }
     };

@@ -251,7 +251,7 @@ fn next_coordinates(
                 residuals
                     .iter_mut()
                     .zip(&slopes[key])
-                    .for_each(|(residuals, slope)| *residuals -= slope * moved);
+                    .for_each(|(residual, slope)| *residual -= slope * moved);
                 free.remove(i);
             }
             None => {

@@ -79,7 +79,7 @@ impl Surface {
         let at = webs.trials[place.trial].coordinates.iter().zip(from).map(|(place, from)| place + from);
         let at: Vec<f64> = at.collect();
         let residuals: Vec<f64> =
-            webs.target.logarithms.iter().zip(&self.numbers).map(|(scan, numbers)| scan - numbers).collect();
+            webs.target.logarithms.iter().zip(&self.numbers).map(|(scan, number)| scan - number).collect();
         let mut step = vec![0.0; at.len()];
         for (key, row) in self.keys.iter().zip(&self.gain) {
             let [low, high] = webs.parameters[*key].ends();

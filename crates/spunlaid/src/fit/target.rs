@@ -13,7 +13,7 @@ pub struct MeasuredWeb {
     pub map: Map,
     /// The patches whose CV is known.
     pub patches: Vec<MeasuredPatch>,
-    /// Whether the noise of the camera is known, and not only at most as large: then its variance is taken out.
+    /// Whether the noise of the patches is known exactly, so that its variance is taken out; otherwise it is an upper bound.
     pub knows_noise: bool,
     /// Whether the shading of the lamp was taken out as a polynomial.
     pub flat: bool,
@@ -44,7 +44,7 @@ impl MeasuredWeb {
 pub struct MeasuredPatch {
     /// Their side [m].
     pub side: f64,
-    /// CV of the noise of the camera over such patches, at most.
+    /// CV of the noise of the camera over such patches, or an upper bound of it.
     pub noise: f64,
     /// Share by which one more pixel of blur lowers the CV.
     pub blur: f64,

@@ -145,6 +145,54 @@ fn a_whole_number_is_found_among_few() {
     assert!(fit.trials.iter().all(|trial| trial.values[1].fract() == 0.0), "{fit:?}");
 }
 
+/// An interval that only ends with the range says nothing against a value within it.
+#[test]
+fn a_value_within_its_range_is_not_at_its_end() {
+    let parameters = [parameter("filaments", 250.0, [50.0, 360.0])];
+    let fit = fitted(&parameters, &[16.0, 300.0], &mut OneKey(drawn())).unwrap();
+    let key = &fit.keys[0];
+    assert!(key.value < 350.0, "{key:?}");
+    assert_eq!((key.ends[1], key.doubt), (IntervalEnd::OfRange, None), "{key:?}");
+    let parameters = [parameter("filaments", 150.0, [50.0, 200.0])];
+    let fit = fitted(&parameters, &[16.0, 300.0], &mut OneKey(drawn())).unwrap();
+    assert_eq!(fit.keys[0].doubt, Some(KeyDoubt::AtEnd), "{fit:?}");
+}
+
+#[test]
+fn three_keys_are_found_together() {
+    let parameters = [
+        parameter("noise", 14.0, [2.4, 60.0]),
+        parameter("filaments", 250.0, [50.0, 1250.0]),
+        parameter("share", 0.9, [0.5, 2.0]),
+    ];
+    let fit = fitted(&parameters, &[16.0, 350.0], &mut ThreeKeys(drawn(), 1.0)).unwrap();
+    for (key, truth) in fit.keys.iter().zip([16.0, 350.0, 1.0]) {
+        let [low, high] = key.interval.clone().unwrap();
+        assert!(low < truth && truth < high, "{key:?}");
+    }
+    assert_eq!(fit.keys[2].doubt, None, "{fit:?}");
+}
+
+/// Both keys, and a share of the CV over the largest patches.
+struct ThreeKeys(Drawn, f64);
+
+impl Simulator for ThreeKeys {
+    fn set(&mut self, values: &[f64]) -> Result<(), Error> {
+        self.1 = values[2];
+        self.0.set(&values[..2])
+    }
+    fn web(&mut self, replicate: u64) -> Result<Vec<f64>, Error> {
+        let mut numbers = self.0.web(replicate)?;
+        if let Some(last) = numbers.last_mut() {
+            *last += self.1.ln();
+        }
+        Ok(numbers)
+    }
+    fn errors_of_model(&mut self) -> Result<Matrix, Error> {
+        self.0.errors_of_model()
+    }
+}
+
 /// A range that is narrower than a step of the search is searched from end to end.
 #[test]
 fn a_narrow_range_is_searched_and_its_ends_are_told() {

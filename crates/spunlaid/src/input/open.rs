@@ -217,7 +217,7 @@ const fn missed_with(kind: FileKind) -> &'static str {
 
 /// What the case says of the files of its records.
 fn record_layout(key_values: &WrittenValues) -> RecordLayout {
-    let whole = |key: &str| match key_values.get(key).and_then(|key_values| key_values.value.as_ref()) {
+    let whole = |key: &str| match key_values.get(key).and_then(|written_value| written_value.value.as_ref()) {
         Some(Value::Whole(number)) => Some(*number),
         _ => None,
     };

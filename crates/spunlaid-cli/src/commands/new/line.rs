@@ -6,8 +6,9 @@ use spunlaid::units::Dimension;
 use spunlaid_results::numbers::significant;
 use std::f64::consts::PI;
 
-/// Width of a line and its distance to the belt [m], where the user gives none.
+/// Width of a line [m], if the user gives none.
 const WIDTH: f64 = 1.0;
+/// Distance to the belt [m], if the user gives none.
 const DISTANCE: f64 = 0.5;
 /// Turbulence of the air between slot and belt, of the usual size: intensity, length of an eddy [m], and the velocity at the belt
 /// over that at the slot.

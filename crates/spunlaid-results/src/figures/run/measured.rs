@@ -158,7 +158,7 @@ fn rose(declared: &observe::Figure, curve: &Curve, replicates: usize) -> Figure 
         columns: ["direction_degrees", "share_of_chords_times_classes"].map(str::to_owned),
         series: "laid fibre".to_owned(),
     };
-    rose.figure(format!("{} {}.{}", declared.caption, declared.title, aggregate(replicates)))
+    rose.figure(format!("{} {}.{}", declared.caption, declared.title, mean_sentence(replicates)))
 }
 
 /// `1 replicate`, `8 replicates`.
@@ -166,7 +166,7 @@ pub(super) fn one_of(n: usize, thing: &str) -> String {
     format!("{n} {thing}{}", if n == 1 { "" } else { "s" })
 }
 
-fn aggregate(replicates: usize) -> String {
+fn mean_sentence(replicates: usize) -> String {
     if replicates > 1 { format!(" Mean over {replicates} replicates.") } else { String::new() }
 }
 
@@ -221,7 +221,7 @@ fn caption(declared: &observe::Figure, kind: Kind, places: &[Place], replicates:
                 " Mean over {n} replicates; bands: ± one standard error of the mean. Dashed: the surrogate."
             )
         }
-        (Kind::Direction, n) => aggregate(n),
+        (Kind::Direction, n) => mean_sentence(n),
         (Kind::Profile | Kind::Way | Kind::Neighbour, n) => {
             let marked = if kind == Kind::Profile && places.len() > MARKED {
                 format!(" {MARKED} of {} places carry a marker.", places.len())

@@ -40,11 +40,13 @@ impl MapFile {
         let margin = |i: usize| web["edges"]["margins_m"][i].as_f64().unwrap_or(0.0);
         let cell = web["cell_m"].as_f64().filter(|cell| *cell > 0.0);
         let (Some(rows), Some(columns), Some(cell)) = (count(0), count(1), cell) else {
-            return Err("its summary.json does not say how many cells its map has".to_owned());
+            return Err(
+                "its summary.json does not say how many cells the map has, and how large they are".to_owned()
+            );
         };
         let path = folder.join("map.npy");
         if !path.is_file() {
-            return Err("its folder has no map.npy".to_owned());
+            return Err("there is no map.npy".to_owned());
         }
         Ok(Self { path, cells: [columns, rows], cell, margins: [0, 1].map(margin) })
     }
@@ -241,7 +243,7 @@ mod tests {
         assert!(MapFile::new(folder.path(), &json!({})).unwrap_err().contains("summary.json"));
         std::fs::remove_file(folder.path().join("map.npy")).unwrap();
         let web = json!({ "cells": [6, 6], "cell_m": 0.5 });
-        assert_eq!(MapFile::new(folder.path(), &web).unwrap_err(), "its folder has no map.npy");
+        assert_eq!(MapFile::new(folder.path(), &web).unwrap_err(), "there is no map.npy");
     }
 
     #[test]

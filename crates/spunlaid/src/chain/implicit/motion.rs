@@ -136,7 +136,7 @@ impl<S: Register, const FED: bool> Motion<'_, S, FED> {
         let unexplained = kick.force - Vec3::load(&self.t.links[i].force) - pull.change;
         let mut free = Wide::load(&self.c.node(i, nodes).inverse_mass);
         if let Some(laying) = self.laying {
-            free = laying.mass_unless_landing(i, free);
+            free = laying.inverse_mass_unless_landing(i, free);
         }
         let held = self.supports.add(i, free, unexplained, kick.velocities(), self.c);
         if i > 0 && self.c.friction.is_some() {

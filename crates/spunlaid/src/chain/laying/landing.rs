@@ -42,7 +42,11 @@ impl LayingState {
 impl LayingState {
     /// The inverse mass along the belt of a node, zero in the lanes where it lands in this step.
     #[inline(always)]
-    pub(crate) fn mass_unless_landing<S: Register>(&self, node: usize, inverse_mass: Wide<S>) -> Wide<S> {
+    pub(crate) fn inverse_mass_unless_landing<S: Register>(
+        &self,
+        node: usize,
+        inverse_mass: Wide<S>,
+    ) -> Wide<S> {
         let Some((_, shares)) = self.landing.iter().find(|(landing, _)| *landing == node) else {
             return inverse_mass;
         };

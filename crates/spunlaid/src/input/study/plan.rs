@@ -95,9 +95,9 @@ impl<'a> Reader<'a> {
             let key = key.trim().to_owned();
             let entry = Entry::of_override(asked.word, text);
             self.check_set(&key, &entry, base);
-            let key_values = if DeValue::parse(text).is_ok() { text.clone() } else { quoted(text) };
+            let value_text = if DeValue::parse(text).is_ok() { text.clone() } else { quoted(text) };
             set.retain(|(other, _)| *other != key);
-            set.push((key, key_values));
+            set.push((key, value_text));
         }
         set
     }

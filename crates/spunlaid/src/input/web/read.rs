@@ -156,25 +156,27 @@ impl Reading<'_> {
                 let (_, short) = name.rsplit_once('.').unwrap_or(("", name));
                 self.is_written(&format!("{before}{short}"))
             };
-            let set =
-                match (self.key_values.get(&full).map(|key_values| key_values.value.clone()), key.omission) {
-                    (Some(None), _) => Ok(()),
-                    // They are settled when all else is known.
-                    (Some(Some(_)), _) if [THROUGHPUT, BASIS_WEIGHT].contains(&key.name) => Ok(()),
-                    (Some(Some(value)), _) => match rival(key.name, is_there) {
-                        Some((other, remedy)) => Err(Fault::excludes(other, remedy)),
-                        None => key.apply(web, &value),
-                    },
-                    (None, Omission::Value(text)) => key.set(web, text).map_err(|problem| problem.what),
-                    (None, Omission::Required(_)) => {
-                        let is_given = flown(web, key).is_some()
-                            || key.name == BELT_SPEED
-                            || WEB.alternative(key.name).is_some_and(|(other, _)| is_there(other));
-                        let table = without_numbers(before);
-                        if is_given { Ok(()) } else { Err(Fault::missing(&table, &key.example())) }
-                    }
-                    (None, Omission::Follows(_)) => Ok(()),
-                };
+            let set = match (
+                self.key_values.get(&full).map(|written_value| written_value.value.clone()),
+                key.omission,
+            ) {
+                (Some(None), _) => Ok(()),
+                // They are settled when all else is known.
+                (Some(Some(_)), _) if [THROUGHPUT, BASIS_WEIGHT].contains(&key.name) => Ok(()),
+                (Some(Some(value)), _) => match rival(key.name, is_there) {
+                    Some((other, remedy)) => Err(Fault::excludes(other, remedy)),
+                    None => key.apply(web, &value),
+                },
+                (None, Omission::Value(text)) => key.set(web, text).map_err(|problem| problem.what),
+                (None, Omission::Required(_)) => {
+                    let is_given = flown(web, key).is_some()
+                        || key.name == BELT_SPEED
+                        || WEB.alternative(key.name).is_some_and(|(other, _)| is_there(other));
+                    let table = without_numbers(before);
+                    if is_given { Ok(()) } else { Err(Fault::missing(&table, &key.example())) }
+                }
+                (None, Omission::Follows(_)) => Ok(()),
+            };
             if let Err(fault) = set
                 && (self.is_written(&full) || !self.key_values.is_excused(&full))
             {

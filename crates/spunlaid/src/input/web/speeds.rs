@@ -26,7 +26,7 @@ impl Reading<'_> {
             }
             for prefix in if key == BASIS_WEIGHT { prefixes } else { &flying } {
                 let full = format!("{prefix}{key}");
-                match self.key_values.get(&full).map(|key_values| &key_values.place) {
+                match self.key_values.get(&full).map(|written_value| &written_value.place) {
                     Some(Place::Override(_)) => {
                         let fault = Fault::excludes(of_case, "either gives the other; set one of the two");
                         self.key_values.reject(&full, fault);
