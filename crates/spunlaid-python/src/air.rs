@@ -6,9 +6,10 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArra
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use spunlaid::air::AirAtPlaces;
+use spunlaid::threads::lock;
 use spunlaid::vec3::Vec3;
 use spunlaid_results::Failure;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 /// The turbulent air of a case. spunlaid.Air shows it.
 #[pyclass(frozen, module = "spunlaid._spunlaid")]
@@ -43,7 +44,7 @@ impl AirSampler {
         }
         let places: Vec<Vec3<f64>> = places.rows().into_iter().map(|p| Vec3::new(p[0], p[1], p[2])).collect();
         let found = guarded(py, || {
-            let mut air = self.air.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut air = lock(&self.air);
             // In the order of the times, in which the turbulence is made.
             let mut order: Vec<usize> = (0..times.len()).collect();
             order.sort_by(|a, b| times[*a].total_cmp(&times[*b]));
@@ -63,7 +64,7 @@ impl AirSampler {
     /// After what distances the turbulence repeats itself along y and z [m].
     #[getter]
     fn extent(&self) -> (f64, f64) {
-        let extent = self.air.lock().unwrap_or_else(PoisonError::into_inner).extent();
+        let extent = lock(&self.air).extent();
         (extent.y, extent.z)
     }
 }

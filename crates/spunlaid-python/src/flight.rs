@@ -10,10 +10,11 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use spunlaid::flight::{self, Job, LaidPoint, Snapshot};
 use spunlaid::lanes::{Isa, WIDTH};
+use spunlaid::threads::lock;
 use spunlaid::vec3::Vec3;
 use spunlaid_results::Failure;
 use std::sync::atomic::Ordering;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard};
 
 /// Most fibres that are stepped together.
 const MOST: u64 = 4096;
@@ -185,7 +186,7 @@ impl Flight {
 
 impl Flight {
     fn lock(&self) -> MutexGuard<'_, Vec<flight::Flight>> {
-        self.packs.lock().unwrap_or_else(PoisonError::into_inner)
+        lock(&self.packs)
     }
 
     fn fly_to(&self, py: Python<'_>, time: f64) -> PyResult<()> {

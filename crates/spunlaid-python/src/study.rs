@@ -22,13 +22,13 @@ use spunlaid::study::{
     Bundles, Experiment, Journal, Progress, ReplicateOutcome, Rounds, rankings, results_of_point, run,
     unsynced,
 };
-use spunlaid::threads::look_while;
+use spunlaid::threads::{lock, look_while, unlock};
 use spunlaid_results::Failure;
 use spunlaid_results::figures::Scale;
 use spunlaid_results::folders::study::StudyFolder;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard};
 
 /// Writing the files of a study is never stopped.
 static NEVER: AtomicBool = AtomicBool::new(false);
@@ -131,7 +131,7 @@ impl Study {
                 self.with_journal(|journal| {
                     let lent = Mutex::new(std::mem::replace(journal, Journal::in_memory(0)));
                     let outcome = run(&self.file.study, &lent, computing, &counters);
-                    *journal = lent.into_inner().unwrap_or_else(PoisonError::into_inner);
+                    *journal = unlock(lent);
                     outcome
                 })
             })
@@ -417,7 +417,7 @@ impl Study {
 
 impl Study {
     fn journal(&self) -> MutexGuard<'_, Option<Journal>> {
-        self.journal.lock().unwrap_or_else(PoisonError::into_inner)
+        lock(&self.journal)
     }
 
     /// Does something with the journal. One that was let go of is opened for that only.
@@ -431,6 +431,6 @@ impl Study {
     }
 
     fn round(&self) -> MutexGuard<'_, (Rounds, Option<Bundles>)> {
-        self.round.lock().unwrap_or_else(PoisonError::into_inner)
+        lock(&self.round)
     }
 }

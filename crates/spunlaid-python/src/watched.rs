@@ -2,6 +2,7 @@
 
 use crate::failure::{raised, raised_of_panic};
 use pyo3::prelude::*;
+use spunlaid::threads::lock;
 use spunlaid_results::Failure;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -52,13 +53,13 @@ pub(crate) fn watched<T: Send>(
         std::thread::scope(|scope| {
             let worker = scope.spawn(|| {
                 let outcome = catch_unwind(AssertUnwindSafe(work));
-                *finished.lock().unwrap_or_else(PoisonError::into_inner) = true;
+                *lock(&finished) = true;
                 changed.notify_all();
                 outcome
             });
             let mut ended = Ok(());
             loop {
-                let guard = finished.lock().unwrap_or_else(PoisonError::into_inner);
+                let guard = lock(&finished);
                 let waited = changed.wait_timeout_while(guard, LOOK, |finished| !*finished);
                 let (guard, _) = waited.unwrap_or_else(PoisonError::into_inner);
                 if *guard {

@@ -57,6 +57,7 @@ pub mod nodes;
 pub mod vec3;
 
 mod fft;
+mod sort;
 pub mod units;
 
 pub mod error;

@@ -3,6 +3,8 @@
 use crate::error::Error;
 use std::convert::Infallible;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread::{Scope, ScopedJoinHandle};
 use std::time::Duration;
 
 /// Does pieces of work on some threads; the results are in the order of the pieces.
@@ -30,30 +32,45 @@ fn share<T: Send, E: Send>(
     pieces: usize,
     work: impl Fn(usize) -> Result<T, E> + Sync,
 ) -> Result<Vec<T>, E> {
+    let results: Vec<Mutex<Option<Result<T, E>>>> = (0..pieces).map(|_| Mutex::new(None)).collect();
+    distribute(threads, pieces, &|piece| {
+        let result = work(piece);
+        let goes_on = result.is_ok();
+        *lock(&results[piece]) = Some(result);
+        goes_on
+    });
+    // Pieces begin in order, so that those without a result come after one that failed.
+    results.into_iter().map_while(unlock).collect()
+}
+
+/// Does pieces of work on some threads, each of which ends when a piece returns false. As it knows no type of a result, it is compiled once.
+fn distribute(threads: usize, pieces: usize, work: &(dyn Fn(usize) -> bool + Sync)) {
     let next = AtomicUsize::new(0);
     let some = || {
-        let mut done = Vec::new();
         loop {
             let piece = next.fetch_add(1, Ordering::Relaxed);
-            if piece >= pieces {
-                return Ok::<_, E>(done);
+            if piece >= pieces || !work(piece) {
+                return;
             }
-            done.push((piece, work(piece)?));
         }
     };
-    let done: Vec<Result<_, E>> = std::thread::scope(|scope| {
+    std::thread::scope(|scope| {
         let helpers: Vec<_> = (1..threads.min(pieces)).map(|_| scope.spawn(some)).collect();
-        let own = some();
-        let helpers = helpers.into_iter().map(|helper| helper.join());
-        let others = helpers.map(|done| done.unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
-        std::iter::once(own).chain(others).collect()
+        some();
+        for helper in helpers {
+            helper.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        }
     });
-    let mut all = Vec::new();
-    for some in done {
-        all.extend(some?);
-    }
-    all.sort_by_key(|(piece, _)| *piece);
-    Ok(all.into_iter().map(|(_, result)| result).collect())
+}
+
+/// What a mutex holds, also if a thread panicked while it held the lock. For what such a thread cannot leave half changed.
+pub fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// As [`lock`], when no thread uses the mutex any more.
+pub fn unlock<T>(mutex: Mutex<T>) -> T {
+    mutex.into_inner().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Does `work` while another thread looks at it: at once, after each `interval`, and once more when the work has ended, also
@@ -61,22 +78,32 @@ fn share<T: Send, E: Send>(
 pub fn look_while<T>(interval: Duration, mut look: impl FnMut() + Send, work: impl FnOnce() -> T) -> T {
     let finished = AtomicBool::new(false);
     std::thread::scope(|scope| {
-        let looking = scope.spawn(|| {
-            loop {
-                let last = finished.load(Ordering::Acquire);
-                look();
-                if last {
-                    return;
-                }
-                std::thread::park_timeout(interval);
-            }
-        });
+        let looking = look_until(&finished, interval, &mut look, scope);
         // Without it the scope would wait for that thread for ever if the work panics.
         let _end = OnDrop(|| {
             finished.store(true, Ordering::Release);
             looking.thread().unpark();
         });
         work()
+    })
+}
+
+/// A thread that looks until the work has ended, and then once more.
+fn look_until<'scope>(
+    finished: &'scope AtomicBool,
+    interval: Duration,
+    look: &'scope mut (dyn FnMut() + Send),
+    scope: &'scope Scope<'scope, '_>,
+) -> ScopedJoinHandle<'scope, ()> {
+    scope.spawn(move || {
+        loop {
+            let last = finished.load(Ordering::Acquire);
+            look();
+            if last {
+                return;
+            }
+            std::thread::park_timeout(interval);
+        }
     })
 }
 

@@ -20,6 +20,7 @@ use spunlaid::paper::{
     in_scheme, table1, time_steps,
 };
 use spunlaid::study::{Journal, PointResults, Progress, Replicates, Study, results_of_point, run};
+use spunlaid::threads::unlock;
 use spunlaid_charts::Figure;
 use spunlaid_results::figures::paper as draw;
 use spunlaid_results::output::folder::ENTRIES;
@@ -27,8 +28,8 @@ use spunlaid_results::output::json_text;
 use spunlaid_results::output::pictures::Format;
 use spunlaid_results::output::study::shown;
 use spunlaid_results::report::{PaperReport, paper_html};
+use std::sync::Mutex;
 use std::sync::atomic::AtomicU64;
-use std::sync::{Mutex, PoisonError};
 
 /// The figures that can be chosen.
 const FIGURES: [&str; 9] = ["2", "3", "8a", "8b", "9", "10", "11a", "11b", "11c"];
@@ -196,7 +197,7 @@ impl PaperFlights {
     fn fly(self, computing: RunControl<'_>) -> Result<PaperResults, Failure> {
         let journal = Mutex::new(Journal::in_memory(self.study.points.len()));
         run(&self.study, &journal, computing, &Progress::default())?;
-        let mut journal = journal.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let mut journal = unlock(journal);
         let points = (0..self.study.points.len())
             .map(|point| results_of_point(&self.study, &mut journal, point))
             .collect::<Result<Vec<_>, _>>()?;

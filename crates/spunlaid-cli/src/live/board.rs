@@ -2,6 +2,7 @@
 //! The flight never waits for a page.
 
 use super::frame::Frame;
+use spunlaid::threads::lock;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
@@ -83,7 +84,7 @@ impl Board {
 
     /// The notices; they are whole even after a thread that had them has panicked.
     fn notices(&self) -> MutexGuard<'_, Notices> {
-        self.notices.lock().unwrap_or_else(PoisonError::into_inner)
+        lock(&self.notices)
     }
 
     /// Shows a text to all pages.

@@ -7,11 +7,12 @@
 use super::folder::Staging;
 use crate::Failure;
 use spunlaid::error::Error;
+use spunlaid::threads::lock;
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufReader, Read, Write};
 use std::path::PathBuf;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard};
 
 /// Numbers of a fibre that stay in memory before they go to its file.
 const IN_MEMORY: usize = 1 << 12;
@@ -117,7 +118,7 @@ impl Spill {
     }
 
     fn lock_pending(&self) -> MutexGuard<'_, PendingRows> {
-        self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
+        lock(&self.waiting)
     }
 
     fn append(&self, replicate: u64, numbers: &[f64]) -> io::Result<()> {

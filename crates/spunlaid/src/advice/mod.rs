@@ -11,6 +11,7 @@ pub use setting::{Change, ChangedKey, Setting};
 
 use crate::error::Error;
 use crate::layers::{Flights, Flyer, LaydownSource, LayerSpec, Method, WebSpec};
+use crate::sort::sort_by_key;
 use crate::statistics::Difference;
 use crate::threads::try_each;
 use crate::web::uniformity::Unevenness;
@@ -78,7 +79,7 @@ impl Advice {
             (cv.change <= -LEAST && cv.is_beyond_chance()).then_some((effect, cv))
         };
         let mut improvements: Vec<(&Effect, &CvChange)> = self.effects.iter().filter_map(lowers).collect();
-        improvements.sort_by(|a, b| a.1.change.total_cmp(&b.1.change));
+        sort_by_key(&mut improvements, |(_, cv)| cv.change);
         let setting = |effect: &Effect| (effect.change.setting, effect.change.layer);
         let mut settings = Vec::new();
         improvements.retain(|(effect, _)| {

@@ -25,7 +25,8 @@ use crate::error::{Error, Fault};
 use crate::fibre::Place;
 use crate::flight::LaidPoint;
 use crate::lanes::Isa;
-use crate::threads::try_each;
+use crate::sort::sort_by_key;
+use crate::threads::{lock, try_each, unlock};
 use crate::web::{
     Canvas, LaidWeb, NeighbourCorrelation, SharedAirFindings, SharedVariance, Sheet, Strand, TimeSpent,
     Window,
@@ -36,7 +37,7 @@ use neighbours::Neighbours;
 use pack::Pack;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 /// Filaments whose whole curves are kept, spread over the beam: some hundred kilobytes each.
@@ -170,7 +171,7 @@ impl Beam<'_> {
         };
         let neighbours = pack::neighbours(self.places);
         let packs: Vec<Mutex<Option<Pack>>> = neighbours.iter().map(|_| Mutex::new(None)).collect();
-        let locked = |i: usize| packs[i].lock().unwrap_or_else(PoisonError::into_inner);
+        let locked = |i: usize| lock(&packs[i]);
         let start = make_air(&mut shared, 0..steps, &mut making);
         in_parallel(packs.len(), &|i| {
             *locked(i) = Some(Pack::new(self, &neighbours[i], by.isa, start.as_ref())?);
@@ -210,7 +211,7 @@ impl Beam<'_> {
             ..BeamFindings::default()
         };
         for pack in packs {
-            let pack = pack.into_inner().unwrap_or_else(PoisonError::into_inner);
+            let pack = unlock(pack);
             pack.into_iter().for_each(|pack| pack.finish(&mut flown));
         }
         flown.sort();
@@ -253,10 +254,10 @@ impl BeamFindings {
 
     /// Puts what packs have given into the order across the web.
     fn sort(&mut self) {
-        self.kept.sort_by_key(|(filament, _)| *filament);
-        self.lost.sort_by_key(|(filament, _)| *filament);
+        sort_by_key(&mut self.kept, |(filament, _)| *filament);
+        sort_by_key(&mut self.lost, |(filament, _)| *filament);
         // A filament comes through the window in the order of its strands.
-        self.strands.sort_by_key(|strand| strand.filament);
+        sort_by_key(&mut self.strands, |strand| strand.filament);
     }
 }
 

@@ -8,6 +8,7 @@ use crate::error::Error;
 use crate::fibre::Place;
 use crate::flight::{Flight, Job, SurroundingRun};
 use crate::lanes::{Isa, WIDTH};
+use crate::sort::sort_by_key;
 use crate::web::Canvas;
 use std::sync::Arc;
 
@@ -20,7 +21,7 @@ const STEPS_UNSEEN: u64 = 256;
 pub(super) fn neighbours(places: &[Place]) -> Vec<Vec<usize>> {
     let mut order: Vec<usize> = (0..places.len()).collect();
     for area in order.chunks_mut(AREA) {
-        area.sort_by(|a, b| places[*a].y.total_cmp(&places[*b].y));
+        sort_by_key(area, |filament| places[*filament].y);
     }
     order.chunks(WIDTH).map(<[usize]>::to_vec).collect()
 }

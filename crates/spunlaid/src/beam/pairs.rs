@@ -10,7 +10,6 @@ use super::Beam;
 use crate::fibre::Place;
 use crate::threads::each;
 use crate::web::{Edges, SharedVariance, Sheet};
-use std::collections::BTreeMap;
 use std::f64::consts::{SQRT_2, TAU};
 
 /// Filaments whose pairs are looked at, spread over the beam.
@@ -42,8 +41,8 @@ pub(super) struct Pairs {
     references: Vec<usize>,
     /// Points from one lag to the next.
     unit: usize,
-    /// The last deviations of each filament that has a partner, as many as the longest lag needs.
-    points: BTreeMap<usize, Vec<[f64; 2]>>,
+    /// The last deviations of each filament, as many as the longest lag needs; none of one that has no partner.
+    points: Vec<Option<Vec<[f64; 2]>>>,
     /// Number of these.
     before: usize,
 }
@@ -101,9 +100,11 @@ impl Pairs {
         let nodes: Vec<Vec<Pair>> =
             z.iter().flat_map(|z| y.iter().map(move |y| [*z, *y])).map(node).collect();
         let unit = (LAG * way / beam.case.fibre.rest_length()).round().max(1.0) as usize;
-        let points =
-            nodes.iter().flatten().flat_map(|pair| pair.filaments).map(|filament| (filament, Vec::new()));
-        Self { points: points.collect(), distances, nodes, references, unit, before: 0 }
+        let mut points = vec![None; places.len()];
+        for filament in nodes.iter().flatten().flat_map(|pair| pair.filaments) {
+            points[filament] = Some(Vec::new());
+        }
+        Self { points, distances, nodes, references, unit, before: 0 }
     }
 
     /// Adds points that all filaments have laid.
@@ -113,12 +114,11 @@ impl Pairs {
     pub(super) fn add(&mut self, waiting: &[Vec<[f64; 2]>], count: usize) {
         let longest = LAGS[LAGS.len() - 1] * self.unit;
         let before = self.before;
-        for (filament, points) in &mut self.points {
-            points.extend(waiting[*filament].iter().take(count));
+        for (points, waiting) in self.points.iter_mut().zip(waiting) {
+            points.iter_mut().for_each(|points| points.extend(waiting.iter().take(count)));
         }
         for Pair { filaments, products } in self.nodes.iter_mut().flatten() {
-            let [a, b] =
-                filaments.map(|filament| self.points.get(&filament).map_or(&[][..], |points| points));
+            let [a, b] = filaments.map(|filament| self.points[filament].as_deref().unwrap_or_default());
             for (lag, (sums, number)) in LAGS.iter().map(|lag| lag * self.unit).zip(products) {
                 for (earlier, later) in [(a, b), (b, a)] {
                     let start = before.max(lag);
@@ -134,7 +134,7 @@ impl Pairs {
             }
         }
         self.before = (before + count).min(longest);
-        for points in self.points.values_mut() {
+        for points in self.points.iter_mut().flatten() {
             points.drain(..points.len().saturating_sub(longest));
         }
     }

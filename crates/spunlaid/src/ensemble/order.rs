@@ -1,16 +1,7 @@
 //! Distributes work over threads and takes the results in order.
 
-use crate::threads::OnDrop;
-use std::collections::BTreeMap;
+use crate::threads::{OnDrop, lock};
 use std::sync::{Condvar, Mutex, PoisonError};
-
-/// Finished results that wait for their turn, and the next items to start and to take.
-struct Queue<T> {
-    next_to_start: usize,
-    next_to_take: usize,
-    stopped: bool,
-    finished: BTreeMap<usize, T>,
-}
 
 /// Computes `work(0) … work(count−1)` on `threads` threads and passes the results in that order to `take` on
 /// the calling thread. At most `4 × threads` results wait at once, so that memory does not grow.
@@ -25,65 +16,104 @@ pub fn in_order<T: Send, E>(
 ) -> Result<(), E> {
     let threads = threads.clamp(1, count.max(1));
     let window = 4 * threads;
-    let state =
-        Mutex::new(Queue { next_to_start: 0, next_to_take: 0, stopped: false, finished: BTreeMap::new() });
-    let changed = Condvar::new();
-    // A panic in another thread cannot leave the queue half changed.
-    let lock = || state.lock().unwrap_or_else(PoisonError::into_inner);
-    let wait = |guard| changed.wait(guard).unwrap_or_else(PoisonError::into_inner);
+    // One place more than may wait, for the result that is being taken.
+    let places = window + 1;
+    let waiting: Vec<Mutex<Option<T>>> = (0..places).map(|_| Mutex::new(None)).collect();
+    let work = |item: usize| {
+        let result = work(item);
+        *lock(&waiting[item % places]) = Some(result);
+    };
+    let mut outcome = Ok(());
+    let mut take = |item: usize| {
+        let result = lock(&waiting[item % places]).take();
+        outcome = result.map_or(Ok(()), &mut take);
+        outcome.is_ok()
+    };
+    let queue = Queue {
+        count,
+        window,
+        next_to_start: 0,
+        next_to_take: 0,
+        stopped: false,
+        finished: vec![false; places],
+    };
+    queue.run(threads, &work, &mut take);
+    outcome
+}
 
-    std::thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| {
-                // Wakes the waiting threads, also if this thread panics.
-                let _wake = OnDrop(|| {
-                    if std::thread::panicking() {
-                        lock().stopped = true;
-                    }
-                    changed.notify_all();
-                });
-                loop {
-                    let mut queue = lock();
-                    while !queue.stopped
-                        && queue.next_to_start < count
-                        && queue.next_to_start >= queue.next_to_take + window
-                    {
-                        queue = wait(queue);
-                    }
-                    if queue.stopped || queue.next_to_start >= count {
-                        return;
-                    }
-                    let item = queue.next_to_start;
-                    queue.next_to_start += 1;
-                    drop(queue);
-                    let result = work(item);
-                    lock().finished.insert(item, result);
-                    changed.notify_all();
+/// The next items to start and to take, and which of those between them are finished.
+struct Queue {
+    count: usize,
+    window: usize,
+    next_to_start: usize,
+    next_to_take: usize,
+    stopped: bool,
+    finished: Vec<bool>,
+}
+
+impl Queue {
+    /// Does the items on some threads and takes them in order until `take` returns false. As it knows no type of a result,
+    /// it is compiled once.
+    fn run(self, threads: usize, work: &(dyn Fn(usize) + Sync), take: &mut dyn FnMut(usize) -> bool) {
+        let (count, places) = (self.count, self.finished.len());
+        let (state, changed) = (Mutex::new(self), Condvar::new());
+        let wait = |guard| changed.wait(guard).unwrap_or_else(PoisonError::into_inner);
+        let stop = || {
+            lock(&state).stopped = true;
+            changed.notify_all();
+        };
+        let start_next = || {
+            let mut queue = lock(&state);
+            while queue.must_wait() {
+                queue = wait(queue);
+            }
+            let item = queue.next_to_start;
+            queue.next_to_start += 1;
+            (!queue.stopped && item < count).then_some(item)
+        };
+        let work_until_the_end = || {
+            let _stop = OnDrop(|| {
+                if std::thread::panicking() {
+                    stop();
                 }
             });
-        }
-        for item in 0..count {
-            let mut queue = lock();
-            let result = loop {
-                if let Some(result) = queue.finished.remove(&item) {
-                    break result;
-                }
-                if queue.stopped {
-                    return Ok(());
-                }
-                queue = wait(queue);
-            };
-            queue.next_to_take = item + 1;
-            drop(queue);
-            changed.notify_all();
-            if let Err(error) = take(result) {
-                lock().stopped = true;
+            while let Some(item) = start_next() {
+                work(item);
+                lock(&state).finished[item % places] = true;
                 changed.notify_all();
-                return Err(error);
             }
-        }
-        Ok(())
-    })
+        };
+        std::thread::scope(|scope| {
+            // Lets the threads end, also if `take` panics.
+            let _stop = OnDrop(stop);
+            for _ in 0..threads {
+                scope.spawn(work_until_the_end);
+            }
+            for item in 0..count {
+                let mut queue = lock(&state);
+                while !queue.finished[item % places] {
+                    if queue.stopped {
+                        return;
+                    }
+                    queue = wait(queue);
+                }
+                queue.finished[item % places] = false;
+                queue.next_to_take = item + 1;
+                drop(queue);
+                changed.notify_all();
+                if !take(item) {
+                    return;
+                }
+            }
+        });
+    }
+
+    /// Whether a thread that wants to start an item waits until one is taken.
+    fn must_wait(&self) -> bool {
+        !self.stopped
+            && self.next_to_start < self.count
+            && self.next_to_start >= self.next_to_take + self.window
+    }
 }
 
 #[cfg(test)]
@@ -117,5 +147,16 @@ mod tests {
         let done = in_order(1_000_000, 2, work, |i| if i == 5 { Err(i) } else { Ok(()) });
         assert_eq!(done, Err(5));
         assert!(begun.into_inner() <= 5 + 1 + 2 * 8, "only work within the window has begun");
+    }
+
+    #[test]
+    fn a_panic_ends_the_work_and_comes_through() {
+        use std::panic::{AssertUnwindSafe, catch_unwind};
+        let run = |work: fn(usize) -> usize, take: fn(usize) -> Result<(), ()>| {
+            catch_unwind(AssertUnwindSafe(|| in_order(1_000, 2, work, take)))
+        };
+        assert!(run(|i| i, |i| if i == 5 { panic!("as a test of it") } else { Ok(()) }).is_err());
+        assert!(run(|i| if i == 5 { panic!("as a test of it") } else { i }, |_| Ok(())).is_err());
+        assert_eq!(run(|i| i, |_| Ok(())).ok(), Some(Ok(())));
     }
 }

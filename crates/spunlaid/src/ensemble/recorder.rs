@@ -4,8 +4,9 @@ use super::Shapes;
 use crate::error::Error;
 use crate::flight::LaidPoint;
 use crate::observe::Sample;
+use crate::threads::lock;
 use std::collections::BTreeMap;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard};
 
 /// Takes what is recorded of the fibres of a case, instant by instant.
 ///
@@ -48,7 +49,7 @@ impl LaidCurves {
     }
 
     fn curves(&self) -> MutexGuard<'_, BTreeMap<u64, Vec<LaidPoint>>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+        lock(&self.0)
     }
 }
 

@@ -1,11 +1,12 @@
 //! The whole shapes of a fibre over time.
 
 use crate::error::Error;
+use crate::threads::lock;
 use crate::vec3::Vec3;
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 
 /// Numbers that stay in memory before they go to the file.
 const IN_MEMORY: usize = 1 << 14;
@@ -181,7 +182,7 @@ impl ShapeFile {
     }
 
     fn with(&self, act: impl FnOnce(&mut File) -> io::Result<()>) -> Result<(), Error> {
-        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut file = lock(&self.file);
         act(&mut file).map_err(Error::unwritable(&self.path))
     }
 }

@@ -6,6 +6,7 @@ use crate::error::{Error, Fault};
 use crate::flight::{Flight, Job, LaidPoint, SurroundingRun};
 use crate::lanes::{Isa, WIDTH};
 use crate::observe::{Measure, Observation, Observers, Sample, Value};
+use crate::sort::sort_by_key;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
@@ -138,7 +139,7 @@ pub fn fly_each(
             Ok(flown) => {
                 let mut all: Vec<_> = flying.into_iter().zip(flown.into_iter().map(Ok)).collect();
                 all.extend(lost.into_iter().map(|(job, error)| (job, Err(error))));
-                all.sort_by_key(|(job, _)| *job);
+                sort_by_key(&mut all, |(job, _)| *job);
                 return Ok(all.into_iter().map(|(_, flown)| flown).collect());
             }
             // The others fly again without it, with the same bits.

@@ -1,5 +1,8 @@
 //! Suggestions for misspelt keys and words.
 
+use crate::sort::sort_by_key;
+use std::cmp::Reverse;
+
 /// The most similar word, if any is similar.
 pub(crate) fn nearest_word<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     by_similarity(word, known.map(|known| (known, known, 0.0))).first().copied()
@@ -25,6 +28,6 @@ pub(crate) fn by_similarity<'a, T>(word: &str, known: impl Iterator<Item = (T, &
         .collect();
     // Of equals, take the last: the tables go from general to specific keys.
     like.reverse();
-    like.sort_by(|a, b| b.0.total_cmp(&a.0));
+    sort_by_key(&mut like, |(similarity, _)| Reverse(*similarity));
     like.into_iter().map(|(_, candidate)| candidate).collect()
 }

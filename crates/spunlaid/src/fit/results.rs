@@ -8,6 +8,7 @@ use super::texture::Texture;
 use super::values::Values;
 use super::webs::Webs;
 use super::weights::{Matrix, gain, information, misfit, unexplained, weights};
+use crate::sort::sort_by_key;
 
 /// What was found.
 #[derive(Clone, Debug)]
@@ -151,7 +152,7 @@ fn keys(
         };
         let [low, high] = parameter.ends();
         profile.extend(&ends[index].profile);
-        profile.sort_by(|a, b| a.0.total_cmp(&b.0));
+        sort_by_key(&mut profile, |(value, _)| *value);
         let Ends { coordinates: interval, kinds: ends, .. } = &ends[index];
         let near = |end: f64| (coordinates[key] - end).abs() < 1e-9 * (high - low);
         let doubt = if *ends == [IntervalEnd::OfRange; 2] {

@@ -3,6 +3,7 @@
 use super::FORMAT_VERSION;
 use super::source::{Source, fit};
 use crate::error::{Fault, Finding, Place, Problem};
+use crate::sort::sort_by_key;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -67,7 +68,7 @@ pub(super) fn in_order<'a>(table: DeTable<'a>) -> Vec<((usize, String), Spanned<
         .into_iter()
         .map(|(key, value)| ((key.span().start, key.into_inner().into_owned()), value))
         .collect();
-    entries.sort_by_key(|((at, _), _)| *at);
+    sort_by_key(&mut entries, |((at, _), _)| *at);
     entries
 }
 

@@ -3,8 +3,10 @@
 use super::spinline::SpinFile;
 use crate::case::Case;
 use crate::case::keys::{self, Key, Kind, Sign, Value};
+use crate::sort::sort_by_key;
 use crate::spinline::{Failure, Solution};
 use crate::units::Dimension;
+use std::cmp::Reverse;
 
 /// The change of a number, either way.
 const STEP: f64 = 0.02;
@@ -60,7 +62,7 @@ impl SpinFile {
                 found.extend(change.influence(key.name, label, changed));
             }
         }
-        found.sort_by(|a, b| b.diameter.abs().total_cmp(&a.diameter.abs()));
+        sort_by_key(&mut found, |influence| Reverse(influence.diameter.abs()));
         found
     }
 }

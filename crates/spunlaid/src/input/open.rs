@@ -9,6 +9,7 @@ use crate::chain::schemes::Scheme;
 use crate::error::{Error, Fault, FileError};
 use crate::field::FieldLayout;
 use crate::line::Line;
+use crate::sort::sort_by_key;
 use crate::spinline::Spinline;
 use std::path::PathBuf;
 
@@ -49,14 +50,14 @@ pub(super) fn open_part(
     // Files come first, because they may give the values of other keys. Names come next, because a law or a model
     // decides which numbers have a meaning.
     let rank = |key: &&Key| match key.kind {
-        Kind::File(_) => 0,
+        Kind::File(_) => 0_usize,
         Kind::Choice(_) => 1,
         // It may follow from velocity and length scale.
         _ if key.name == "air.cutoff_frequency" => 3,
         _ => 2,
     };
     let mut in_order: Vec<&Key> = keys::all().iter().filter(|key| is_wanted(key)).collect();
-    in_order.sort_by_key(rank);
+    sort_by_key(&mut in_order, rank);
     for key in in_order {
         let Some(WrittenValue { place, shown, value }) = key_values.get(key.name).cloned() else {
             match key.omission {

@@ -25,7 +25,7 @@ pub fn read(folder: &Path) -> Result<Vec<Vec<LaidPoint>>, Error> {
     Ok(curves.into_values().collect())
 }
 
-fn decode(file: File) -> Decoded<BTreeMap<i64, Vec<LaidPoint>>> {
+fn decode(file: File) -> Decoded<BTreeMap<u64, Vec<LaidPoint>>> {
     let reader = SerializedFileReader::new(file)?;
     let schema = reader.metadata().file_metadata().schema_descr();
     let missing = |name: &str| ParquetError::General(format!("it has no column {name} of numbers"));
@@ -35,7 +35,7 @@ fn decode(file: File) -> Decoded<BTreeMap<i64, Vec<LaidPoint>>> {
     };
     let [replicate, fed, time, md, cd] = COLUMNS.map(column);
     let (replicate, fed, time, md, cd) = (replicate?, fed?, time?, md?, cd?);
-    let mut curves: BTreeMap<i64, Vec<LaidPoint>> = BTreeMap::new();
+    let mut curves: BTreeMap<u64, Vec<LaidPoint>> = BTreeMap::new();
     for group in 0..reader.num_row_groups() {
         let group = reader.get_row_group(group)?;
         let rows = usize::try_from(group.metadata().num_rows()).map_err(|_| missing("rows"))?;
@@ -60,7 +60,7 @@ fn decode(file: File) -> Decoded<BTreeMap<i64, Vec<LaidPoint>>> {
         let (md, cd) = (numbers(md, COLUMNS[3])?, numbers(cd, COLUMNS[4])?);
         let points = fed.into_iter().zip(time).zip(md).zip(cd);
         for (replicate, (((fed, time), md), cd)) in replicates.into_iter().zip(points) {
-            curves.entry(replicate).or_default().push(LaidPoint { fed, time, md, cd });
+            curves.entry(replicate as u64).or_default().push(LaidPoint { fed, time, md, cd });
         }
     }
     Ok(curves)

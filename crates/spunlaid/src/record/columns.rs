@@ -2,6 +2,7 @@
 
 use super::Layout;
 use crate::error::{Fault, FileError, listed};
+use crate::sort::sort_by_key;
 use crate::table::{Head, scale};
 use crate::units::{Dimension, excerpt};
 
@@ -83,7 +84,7 @@ pub(super) fn roles(
         }
     }
     if layout.columns.is_empty() {
-        chosen.sort_by_key(|&i| !ALONG.contains(&heads[i].name.to_lowercase().as_str()));
+        sort_by_key(&mut chosen, |&i| !ALONG.contains(&heads[i].name.to_lowercase().as_str()));
     }
     let column = |index: usize, name: &str, dimension, asked: &Option<String>| {
         // A time stamp says its unit itself.

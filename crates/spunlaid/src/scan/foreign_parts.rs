@@ -2,7 +2,9 @@
 
 use super::picture::Picture;
 use super::spots::{Spots, region};
+use crate::sort::sort_by_key;
 use crate::statistics::median;
+use std::cmp::Reverse;
 
 /// The parts of a picture that are not web.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -50,7 +52,7 @@ impl ForeignParts {
                 spots.push(Spot { area: count * area, place });
             }
         }
-        spots.sort_by(|a, b| b.area.total_cmp(&a.area));
+        sort_by_key(&mut spots, |spot| Reverse(spot.area));
         let pixels = masked.iter().filter(|is| **is).count();
         Self {
             cut_off: (picture.values.len() - columns * rows) as f64 * area,

@@ -7,6 +7,8 @@ use crate::error::Error;
 use crate::flight::Common;
 use crate::lanes::WIDTH;
 use crate::layers::Method;
+use crate::sort::sort_by_key;
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -69,7 +71,7 @@ impl Packing {
             members.push((before, batch.clone()));
         }
         // The longest flights come first, so that no thread is busy alone at the end.
-        groups.sort_by(|a, b| b.work.total_cmp(&a.work));
+        sort_by_key(&mut groups, |group| Reverse(group.work));
         let mut packing = Self::default();
         for group in groups {
             let jobs = group.members.last().map_or(0, |(before, batch)| before + length(batch));

@@ -7,9 +7,9 @@ use super::rounds::Rounds;
 use super::{Point, Study, spinlines, webs};
 use crate::ensemble::{Keep, RunControl, Trajectory};
 use crate::error::Error;
-use crate::threads::look_while;
+use crate::threads::{lock, look_while};
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 /// Time between two flushes of the journal to the disk.
@@ -134,10 +134,10 @@ fn with_sync<T>(
     let failure = Mutex::new(None);
     let sync = || {
         if let Err(error) = file.sync_data() {
-            *failure.lock().unwrap_or_else(PoisonError::into_inner) = Some(unsynced(&error));
+            *lock(&failure) = Some(unsynced(&error));
         }
     };
-    let failed = || failure.lock().unwrap_or_else(PoisonError::into_inner).take();
+    let failed = || lock(&failure).take();
     let outcome = look_while(SYNC, sync, || work(&failed));
     match failed() {
         Some(error) => Err(error),
@@ -188,9 +188,4 @@ fn records(trajectories: Vec<(usize, Trajectory)>, lost: Vec<LostReplicate>) -> 
         Some(Record { point: point as u64, replicate, outcome })
     });
     measured.chain(lost).collect()
-}
-
-/// Locks the journal. A panic of another thread leaves it whole, because records are added one at a time.
-fn lock(journal: &Mutex<Journal>) -> MutexGuard<'_, Journal> {
-    journal.lock().unwrap_or_else(PoisonError::into_inner)
 }

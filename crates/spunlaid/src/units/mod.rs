@@ -8,7 +8,9 @@ pub(crate) use expression::unknown_name;
 pub use expression::{Expression, Powers};
 
 use crate::error::Fault;
+use crate::sort::sort_by_key;
 use std::borrow::Cow;
+use std::cmp::Reverse;
 use std::fmt;
 use table::Scale::{Above, Over, Ten, Times};
 
@@ -291,7 +293,7 @@ impl Dimension {
                     Above(_) => None,
                 })
                 .collect();
-            sizes.sort_by(|a, b| b.0.total_cmp(&a.0));
+            sort_by_key(&mut sizes, |(size, _)| Reverse(*size));
             let rounded: f64 = format!("{:.decimals$e}", value.abs()).parse().unwrap_or(value);
             let smallest = sizes.last().filter(|(size, _)| rounded >= 0.01 * size);
             let fits = sizes.iter().find(|(size, _)| rounded >= *size).or(smallest);

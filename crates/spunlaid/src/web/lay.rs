@@ -8,9 +8,9 @@ use super::strip::Strip;
 use super::{Edges, Web};
 use crate::error::{Error, Fault};
 use crate::lanes::WIDTH;
-use crate::threads::try_each;
+use crate::threads::{lock, try_each, unlock};
 use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 /// Filaments that a thread lays before it adds them to the map.
 const TOGETHER: usize = 8 * WIDTH;
@@ -54,19 +54,18 @@ pub fn lay(web: &Web, by: LayControl<'_>) -> Result<LaidWeb, Error> {
     let sum = Mutex::new((Map::new([columns, rows], sheet.cell, quantum, closed), 0u64, false));
     // Strips are large; a thread uses one again.
     let strips = Mutex::new(Vec::new());
-    let held = |strips: &Mutex<Vec<Strip>>| strips.lock().unwrap_or_else(PoisonError::into_inner).pop();
     try_each(by.threads, units.len(), |unit| {
         let (plan, which) = &units[unit];
-        let mut strip = held(&strips).unwrap_or_else(|| Strip::new(rows));
+        let mut strip = lock(&strips).pop().unwrap_or_else(|| Strip::new(rows));
         plan.draw(web, which.clone(), &mut strip, by)?;
-        let mut sum = sum.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut sum = lock(&sum);
         let (cut, is_full) = strip.add_to(&mut sum.0);
         sum.1 += cut;
         sum.2 |= is_full;
-        strips.lock().unwrap_or_else(PoisonError::into_inner).push(strip);
+        lock(&strips).push(strip);
         Ok(())
     })?;
-    let (map, cut, is_full) = sum.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let (map, cut, is_full) = unlock(sum);
     if is_full {
         return Err(too_full(sheet.cell).into());
     }

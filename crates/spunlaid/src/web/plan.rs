@@ -8,6 +8,7 @@ use super::strip::Strip;
 use super::{Fibres, Filaments, Layer, Sheet, Web};
 use crate::error::{Error, Fault};
 use crate::lanes::{Isa, Lanes, WIDTH};
+use crate::sort::sort_by_key;
 use crate::surrogate::{PATH_POINTS, PathKey, Paths, Surrogate};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -300,7 +301,7 @@ pub(crate) fn inlets(sheet: &Sheet, seed: u64, number: usize, filaments: &Filame
             nozzles.collect()
         }
     };
-    inlets.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    sort_by_key(&mut inlets, |inlet| inlet[0]);
     inlets
 }
 

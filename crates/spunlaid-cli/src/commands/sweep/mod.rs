@@ -15,11 +15,12 @@ use spunlaid::input::{Overrides, StudyChanges, StudyFile, read_changed_study, wr
 use spunlaid::lanes::Isa;
 use spunlaid::spinline::{self, SpinSpec};
 use spunlaid::study::{Journal, Progress, ReplicateOutcome, Study, run};
+use spunlaid::threads::{lock, unlock};
 use spunlaid_results::folders::study::{State, StudyFolder, StudyResults};
 use spunlaid_results::numbers::lost_fibres_text;
 use std::fs;
+use std::sync::Mutex;
 use std::sync::atomic::AtomicU64;
-use std::sync::{Mutex, PoisonError};
 
 /// Largest number of lost fibres that are listed.
 const LOST_LISTED: u64 = 10;
@@ -45,7 +46,7 @@ pub(crate) fn sweep(sweep: &Sweep, invocation: &Invocation) -> Result<(), Failur
     let journal = Mutex::new(journal);
     let before = fibres(&journal, &file.study);
     let outcome = fly(sweep, &file.study, &journal);
-    let mut journal = journal.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let mut journal = unlock(journal);
     let done = (0..file.study.points.len()).map(|point| journal.held(point)).sum();
     let written =
         outcome.map_err(Failure::from).and_then(|()| write(sweep, &file, &mut folder, &mut journal, before));
@@ -117,7 +118,7 @@ fn times(study: &Study) -> String {
 }
 
 fn fibres(journal: &Mutex<Journal>, study: &Study) -> u64 {
-    let journal = journal.lock().unwrap_or_else(PoisonError::into_inner);
+    let journal = lock(journal);
     (0..study.points.len()).map(|point| journal.held(point)).sum()
 }
 

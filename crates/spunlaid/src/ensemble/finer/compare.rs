@@ -3,7 +3,6 @@
 use super::flights::{Flight, Path};
 use super::{Change, FinerCheck, FinerPlan, OF_THE_END, OF_THE_LAID};
 use crate::statistics::Estimate;
-use std::collections::BTreeMap;
 
 /// Amplitude below which the fibre does not move but for rounding, as a share of its length.
 const ROUNDING: f64 = 1e-12;
@@ -12,7 +11,7 @@ impl FinerPlan {
     /// Compares its flights, or the last one with paths of the run. An error is the reason why nothing can be said.
     pub(in crate::ensemble) fn compare(
         &self,
-        paths: &BTreeMap<u64, Path>,
+        paths: &[Option<Path>],
         flights: &[Flight],
     ) -> Result<FinerCheck, String> {
         let (Some(coarse), Some(fine)) = (flights.first(), flights.last()) else {
@@ -40,9 +39,8 @@ impl FinerPlan {
         if self.coarse.is_none() {
             let (mut apart, mut amplitudes) = (Vec::new(), Vec::new());
             // A fibre that the run has lost has no path.
-            for (coarse, fine) in
-                fine.paths.iter().filter_map(|(replicate, fine)| Some((paths.get(replicate)?, fine)))
-            {
+            let pairs = paths.iter().zip(&fine.paths);
+            for (coarse, fine) in pairs.filter_map(|(coarse, fine)| coarse.as_ref().zip(fine.as_ref())) {
                 let fine = &fine[..coarse.len().min(fine.len())];
                 let amplitude = amplitude(fine);
                 if amplitude > least {

@@ -7,8 +7,8 @@ use crate::ensemble::trajectory::fly_in_air;
 use crate::ensemble::{Keep, Recorder, RunControl, Sample, Shapes, Trajectory};
 use crate::error::Error;
 use crate::flight::{Job, LaidPoint, SurroundingRun};
-use std::collections::BTreeMap;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use crate::threads::{lock, unlock};
+use std::sync::{Mutex, MutexGuard};
 
 /// The position across the flow at the recorded instants after the start [m].
 pub(super) type Path = Vec<[f64; 2]>;
@@ -17,7 +17,7 @@ pub(super) type Path = Vec<[f64; 2]>;
 #[derive(Debug)]
 pub(in crate::ensemble) struct Flight {
     pub(super) trajectories: Vec<Trajectory>,
-    pub(super) paths: BTreeMap<u64, Path>,
+    pub(super) paths: Vec<Option<Path>>,
 }
 
 impl FinerPlan {
@@ -39,14 +39,12 @@ impl FinerPlan {
 #[derive(Debug)]
 pub(in crate::ensemble) struct Paths<'a> {
     passed_on: Option<&'a dyn Recorder>,
-    /// Number of replicates, from the first on, whose paths are kept.
-    replicates: u64,
     /// One recorded instant in this many is kept after the start.
     stride: u64,
     /// Largest number of instants that are kept.
     most: u64,
-    /// Recorded instants so far, and the path, by replicate.
-    paths: Mutex<BTreeMap<u64, (u64, Path)>>,
+    /// Recorded instants so far and the path, of each of the first replicates, as many as are kept.
+    paths: Mutex<Vec<Option<(u64, Path)>>>,
 }
 
 impl<'a> Paths<'a> {
@@ -61,22 +59,23 @@ impl<'a> Paths<'a> {
             }
             _ => (0, 1, 0),
         };
-        Self { passed_on, replicates, stride, most, paths: Mutex::default() }
+        Self { passed_on, stride, most, paths: Mutex::new(vec![None; replicates as usize]) }
     }
 
     /// Leaves out the path of a fibre that was lost.
     pub(in crate::ensemble) fn forget(&self, replicate: u64) {
-        self.paths().remove(&replicate);
+        if let Some(path) = self.paths().get_mut(replicate as usize) {
+            *path = None;
+        }
     }
 
-    /// The paths.
-    pub(in crate::ensemble) fn into_paths(self) -> BTreeMap<u64, Path> {
-        let paths = self.paths.into_inner().unwrap_or_else(PoisonError::into_inner);
-        paths.into_iter().map(|(replicate, (_, path))| (replicate, path)).collect()
+    /// The path of each of the first replicates, if its fibre was not lost.
+    pub(in crate::ensemble) fn into_paths(self) -> Vec<Option<Path>> {
+        unlock(self.paths).into_iter().map(|path| Some(path?.1)).collect()
     }
 
-    fn paths(&self) -> MutexGuard<'_, BTreeMap<u64, (u64, Path)>> {
-        self.paths.lock().unwrap_or_else(PoisonError::into_inner)
+    fn paths(&self) -> MutexGuard<'_, Vec<Option<(u64, Path)>>> {
+        lock(&self.paths)
     }
 }
 
@@ -89,9 +88,8 @@ impl Recorder for Paths<'_> {
     }
 
     fn sample(&self, replicate: u64, sample: &Sample) -> Result<(), Error> {
-        if replicate < self.replicates {
-            let mut paths = self.paths();
-            let (instants, path) = paths.entry(replicate).or_default();
+        if let Some(path) = self.paths().get_mut(replicate as usize) {
+            let (instants, path) = path.get_or_insert_default();
             if *instants > 0 && instants.is_multiple_of(self.stride) && *instants / self.stride <= self.most {
                 path.push([sample.end.y, sample.end.z]);
             }

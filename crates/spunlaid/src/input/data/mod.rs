@@ -10,7 +10,6 @@ use crate::file;
 use crate::record::{Interval, LONGEST_GAP, Layout, Record, Settings, analyse_fluctuation, read_record};
 use crate::spinline::{AirTable, PolymerFile};
 use std::cell::RefCell;
-use std::collections::BTreeMap;
 use std::fmt::Debug;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -21,17 +20,19 @@ const LARGEST_TABLE: u64 = 1 << 24;
 /// The files read so far, by path.
 #[derive(Default)]
 pub(super) struct DataFiles {
-    profiles: Shelf<Profile>,
-    spectra: Shelf<SpectrumTable>,
-    records: Shelf<Measured>,
-    fields: Shelf<Field>,
-    spinline_airs: Shelf<AirTable>,
-    polymers: Shelf<PolymerFile>,
-    field_warnings: RefCell<BTreeMap<(PathBuf, String), Vec<Fault>>>,
+    profiles: Shelf<FileContent<Profile>>,
+    spectra: Shelf<FileContent<SpectrumTable>>,
+    records: Shelf<FileContent<Measured>>,
+    fields: Shelf<(FileContent<Field>, Vec<Fault>)>,
+    spinline_airs: Shelf<FileContent<AirTable>>,
+    polymers: Shelf<FileContent<PolymerFile>>,
 }
 
-/// The content of each file, or the error; the text in the key tells different ways to read it apart.
-type Shelf<T> = RefCell<BTreeMap<(PathBuf, String), Result<FileContent<T>, FileError>>>;
+/// Files, of which a study names few; the text tells different ways to read a file apart.
+type FileKey = (PathBuf, String);
+
+/// What was read of each file, or the error.
+type Shelf<T> = RefCell<Vec<(FileKey, Result<T, FileError>)>>;
 
 impl DataFiles {
     /// A profile of the air.
@@ -76,13 +77,10 @@ impl DataFiles {
         layout: &FieldLayout,
     ) -> Result<(FileContent<Field>, Vec<Fault>), FileError> {
         let way = way_of(layout);
-        let field = once(&self.fields, path, &way, || {
+        once(&self.fields, path, &way, || {
             let ReadField { field, warnings, checksum, parts } = ReadField::read(path, layout)?;
-            self.field_warnings.borrow_mut().insert((path.to_owned(), way.clone()), warnings);
-            Ok(from_file(path, checksum, field).with_parts(parts))
-        })?;
-        let warnings = self.field_warnings.borrow().get(&(path.to_owned(), way)).cloned();
-        Ok((field, warnings.unwrap_or_default()))
+            Ok((from_file(path, checksum, field).with_parts(parts).read_as(&way), warnings))
+        })
     }
 
     /// A velocity record.
@@ -93,7 +91,8 @@ impl DataFiles {
         path: &Path,
         layout: &RecordLayout,
     ) -> Result<FileContent<Measured>, FileError> {
-        once(&self.records, path, &way_of(layout), || {
+        let way = way_of(layout);
+        once(&self.records, path, &way, || {
             let columns = layout.columns.iter().flat_map(|columns| columns.split(','));
             let settings = Layout {
                 rate: layout.rate,
@@ -105,7 +104,8 @@ impl DataFiles {
             };
             let record = read_record(path, &settings)?;
             let checksum = record.reading.checksum;
-            Ok(from_file(path, checksum, Measured { layout: layout.clone(), ..measured(record)? }))
+            let measured = Measured { layout: layout.clone(), ..measured(record)? };
+            Ok(from_file(path, checksum, measured).read_as(&way))
         })
     }
 }
@@ -134,19 +134,19 @@ fn way_of<T: Debug + Default + PartialEq>(layout: &T) -> String {
     if *layout == T::default() { String::new() } else { format!("{layout:?}") }
 }
 
-/// The content kept from an earlier reading, or the content read now.
-fn once<T>(
+/// What was kept from an earlier reading, or what is read now.
+fn once<T: Clone>(
     shelf: &Shelf<T>,
     path: &Path,
     way: &str,
-    read: impl FnOnce() -> Result<FileContent<T>, FileError>,
-) -> Result<FileContent<T>, FileError> {
-    let key = (path.to_owned(), way.to_owned());
-    if let Some(known) = shelf.borrow().get(&key) {
+    read: impl FnOnce() -> Result<T, FileError>,
+) -> Result<T, FileError> {
+    let is_it = |(file, by): &FileKey| file == path && by == way;
+    if let Some((_, known)) = shelf.borrow().iter().find(|(key, _)| is_it(key)) {
         return known.clone();
     }
     // The error may be about a file that this one names.
-    let content = read().map(|content| content.read_as(way)).map_err(|error| error.path(path));
-    shelf.borrow_mut().insert(key, content.clone());
+    let content = read().map_err(|error| error.path(path));
+    shelf.borrow_mut().push(((path.to_owned(), way.to_owned()), content.clone()));
     content
 }

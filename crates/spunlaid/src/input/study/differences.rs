@@ -1,7 +1,7 @@
 //! Differences between two TOML files.
 
 use super::super::source::fit;
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 use toml::de::{DeTable, DeValue};
 
 /// The keys whose values differ between two TOML texts: `air.velocity was "10 m/s", is "12 m/s"`.
@@ -9,35 +9,38 @@ use toml::de::{DeTable, DeValue};
 /// Comments, order and spaces are ignored.
 pub fn differences(was: &str, is: &str) -> Vec<String> {
     let (was, is) = (entries(was), entries(is));
-    let keys: std::collections::BTreeSet<&String> = was.keys().chain(is.keys()).collect();
+    let keys: BTreeSet<&str> = was.iter().chain(&is).map(|(key, _)| &**key).collect();
+    let value = |entries: &[(String, String)], key| {
+        entries.iter().find_map(|(name, value)| (name == key).then(|| value.clone()))
+    };
     keys.into_iter()
-        .filter_map(|key| match (was.get(key), is.get(key)) {
-            (Some(was), Some(is)) if was == is => None,
-            (Some(was), Some(is)) => Some(format!("{key} was {was}, is {is}")),
-            (Some(was), None) => Some(format!("{key} was {was}, is missing")),
-            (None, Some(is)) => Some(format!("{key} was missing, is {is}")),
-            (None, None) => None,
+        .filter_map(|key| match (value(&was, key), value(&is, key)) {
+            (was, is) if was == is => None,
+            (was, is) => {
+                let [was, is] = [was, is].map(|value| value.unwrap_or_else(|| "missing".to_owned()));
+                Some(format!("{key} was {was}, is {is}"))
+            }
         })
         .collect()
 }
 
 /// Full keys and the text of their values; a single entry if the text is not TOML.
-fn entries(text: &str) -> BTreeMap<String, String> {
-    let mut entries = BTreeMap::new();
+fn entries(text: &str) -> Vec<(String, String)> {
+    let mut entries = Vec::new();
     match DeTable::parse(text) {
         Ok(root) => gather(text, "", root.get_ref(), &mut entries),
-        Err(_) => drop(entries.insert("the file".to_owned(), "damaged".to_owned())),
+        Err(_) => entries.push(("the file".to_owned(), "damaged".to_owned())),
     }
     entries
 }
 
-fn gather(text: &str, above: &str, table: &DeTable<'_>, entries: &mut BTreeMap<String, String>) {
+fn gather(text: &str, above: &str, table: &DeTable<'_>, entries: &mut Vec<(String, String)>) {
     for (key, value) in table {
         let key =
             if above.is_empty() { key.get_ref().to_string() } else { format!("{above}.{}", key.get_ref()) };
         match value.get_ref() {
             DeValue::Table(inner) => gather(text, &key, inner, entries),
-            _ => drop(entries.insert(fit(&key), fit(text.get(value.span()).unwrap_or_default()))),
+            _ => entries.push((fit(&key), fit(text.get(value.span()).unwrap_or_default()))),
         }
     }
 }

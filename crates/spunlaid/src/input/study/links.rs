@@ -6,7 +6,6 @@ use super::{Base, VariedKey};
 use crate::error::{Fault, Finding};
 use crate::study::{Factor, Link};
 use crate::units::{Expression, Powers, unknown_name};
-use std::collections::BTreeMap;
 use toml::de::DeValue;
 
 /// Formulas with a name: the name, the key it is for, the formula.
@@ -105,13 +104,12 @@ pub(super) fn read(base: &dyn Base, key: &VariedKey, text: &str) -> Result<Link,
 /// Index of a link that depends on itself, and the keys of the circle.
 pub(super) fn order(links: &[Link]) -> Result<Vec<usize>, (usize, Fault)> {
     let mut order: Vec<usize> = Vec::new();
-    let of_key: BTreeMap<&str, usize> = links.iter().enumerate().map(|(i, link)| (&*link.key, i)).collect();
     while order.len() < links.len() {
         let waits_for = |i: usize| {
             let names = links[i].expression.names();
             names
                 .into_iter()
-                .filter_map(|name| of_key.get(name).copied())
+                .filter_map(|name| links.iter().position(|link| link.key == name))
                 .find(|other| !order.contains(other))
         };
         let ready = (0..links.len()).filter(|i| !order.contains(i)).find(|i| waits_for(*i).is_none());

@@ -7,6 +7,7 @@ use crate::case::keys::TABLES;
 use crate::error::{Error, Fault, Finding, Problem, nearest_word};
 use crate::layers::WEB_TABLES;
 use crate::layers::full_names::without_numbers;
+use crate::sort::sort_by_key;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use toml::Spanned;
@@ -81,7 +82,7 @@ impl<'a> Reader<'a> {
                 reader.reject(&entry, &name, unknown_key(advice));
             }
         }
-        tables.sort_by_key(|(entry, _)| entry.at);
+        sort_by_key(&mut tables, |(entry, _)| entry.at);
         if let Some((entry, name)) = tables.first() {
             if !reader.entries.contains_key("case") {
                 // The file is a case, so all other problems would only repeat this one.
@@ -163,7 +164,7 @@ impl<'a> Reader<'a> {
     pub(super) fn flat(&mut self, table: DeTable<'a>) -> Vec<(String, Entry<'a>)> {
         let mut flat = Vec::new();
         self.gather("", table, &mut flat);
-        flat.sort_by_key(|(_, entry)| entry.at);
+        sort_by_key(&mut flat, |(_, entry)| entry.at);
         flat
     }
 

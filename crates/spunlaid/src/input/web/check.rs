@@ -8,25 +8,18 @@ use crate::layers::keys::{METHODS, WEB};
 use crate::layers::{LaydownSource, LayerSpec, SAME, WebKey, WebSpec, too_small};
 use crate::units::Dimension;
 use crate::web::{Edges, Filaments, Row, Sheet};
-use std::collections::BTreeMap;
 use std::path::Path;
 
 impl Reading<'_> {
     /// Refuses two layers of one name.
     pub(super) fn check_names(&mut self, prefixes: &[String]) {
-        let mut seen: BTreeMap<String, usize> = BTreeMap::new();
-        for (i, prefix) in prefixes.iter().enumerate() {
-            let key = format!("{prefix}name");
-            let Some(name) = self.key_values.text(&key) else { continue };
-            match seen.get(&name) {
-                Some(other) => {
-                    let fault = Fault::new(
-                        format!("is also the name of layer {}", other + 1),
-                        "give each layer a name of its own",
-                    );
-                    self.key_values.reject(&key, fault);
-                }
-                None => drop(seen.insert(name, i)),
+        let name_of = |prefix| self.key_values.text(&format!("{prefix}name"));
+        let names: Vec<Option<String>> = prefixes.iter().map(name_of).collect();
+        for (i, prefix) in prefixes.iter().enumerate().filter(|(i, _)| names[*i].is_some()) {
+            if let Some(other) = names[..i].iter().position(|name| *name == names[i]) {
+                let message = format!("is also the name of layer {}", other + 1);
+                let fault = Fault::new(message, "give each layer a name of its own");
+                self.key_values.reject(&format!("{prefix}name"), fault);
             }
         }
     }

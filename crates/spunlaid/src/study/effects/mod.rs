@@ -34,8 +34,10 @@ pub use refusal::Refusal;
 use super::journal::Journal;
 use super::{Design, Study};
 use crate::error::Error;
+use crate::sort::sort_by_key;
 use fit::{Fit, fits};
 use solution::Solution;
+use std::cmp::Reverse;
 
 /// Main effects of a study.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -107,7 +109,7 @@ pub fn rankings(study: &Study, journal: &mut Journal) -> Result<Rankings, Error>
     let ranking = |measure: usize| {
         let mut effects: Vec<Effect> =
             solved.iter().flat_map(|solution| &solution.effects[measure]).copied().collect();
-        effects.sort_by(|a, b| b.change.abs().total_cmp(&a.change.abs()));
+        sort_by_key(&mut effects, |effect| Reverse(effect.change.abs()));
         let terms = fits.iter().zip(&solved).flat_map(|(fit, solution)| {
             fit.terms.iter().copied().zip(solution.coefficients[measure].iter().skip(1).copied())
         });
