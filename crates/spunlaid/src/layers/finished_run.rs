@@ -2,17 +2,20 @@
 
 use crate::error::Error;
 use crate::flight::LaidPoint;
-use parquet::column::reader::ColumnReader;
+use crate::table::{NumberColumn, PageGuard};
 use parquet::errors::{ParquetError, Result as Decoded};
-use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::file::metadata::ParquetMetaDataReader;
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::path::Path;
+use std::sync::Arc;
 
 /// The table of laid points in the folder of a run.
 pub const LAID: &str = "laid.parquet";
 /// The columns that are read: number of the replicate; length fed before a point, time of its touch-down, and place on the belt.
 const COLUMNS: [&str; 5] = ["replicate", "s_m", "time_s", "md_m", "cd_m"];
+
+/// Rows read at a time.
+const ROWS: usize = 1 << 16;
 
 /// The points of each replicate, in the order of feed.
 ///
@@ -20,46 +23,35 @@ const COLUMNS: [&str; 5] = ["replicate", "s_m", "time_s", "md_m", "cd_m"];
 /// If the folder has no table of laid points, or one that cannot be read.
 pub fn read(folder: &Path) -> Result<Vec<Vec<LaidPoint>>, Error> {
     let not_a_run = |reason: String| Error::not_a_run(folder, &format!("{LAID}: {reason}"));
-    let file = File::open(folder.join(LAID)).map_err(|error| not_a_run(error.to_string()))?;
-    let curves = decode(file).map_err(|error| not_a_run(error.to_string()))?;
+    let bytes = std::fs::read(folder.join(LAID)).map_err(|error| not_a_run(error.to_string()))?;
+    let curves = decode(bytes).map_err(|error| not_a_run(error.to_string()))?;
     Ok(curves.into_values().collect())
 }
 
-fn decode(file: File) -> Decoded<BTreeMap<u64, Vec<LaidPoint>>> {
-    let reader = SerializedFileReader::new(file)?;
-    let schema = reader.metadata().file_metadata().schema_descr();
-    let missing = |name: &str| ParquetError::General(format!("it has no column {name} of numbers"));
-    let column = |name: &str| {
-        let at = schema.columns().iter().position(|column| column.name() == name);
-        at.ok_or_else(|| missing(name))
-    };
-    let [replicate, fed, time, md, cd] = COLUMNS.map(column);
-    let (replicate, fed, time, md, cd) = (replicate?, fed?, time?, md?, cd?);
+fn decode(bytes: Vec<u8>) -> Decoded<BTreeMap<u64, Vec<LaidPoint>>> {
+    let source = PageGuard(bytes.into());
+    let metadata = ParquetMetaDataReader::new().parse_and_finish(&source.0)?;
+    let source = Arc::new(source);
+    let about = metadata.file_metadata().schema_descr();
     let mut curves: BTreeMap<u64, Vec<LaidPoint>> = BTreeMap::new();
-    for group in 0..reader.num_row_groups() {
-        let group = reader.get_row_group(group)?;
-        let rows = usize::try_from(group.metadata().num_rows()).map_err(|_| missing("rows"))?;
-        let mut replicates = Vec::new();
-        match group.get_column_reader(replicate)? {
-            ColumnReader::Int64ColumnReader(mut reader) => {
-                reader.read_records(rows, None, None, &mut replicates)?
-            }
-            _ => return Err(missing(COLUMNS[0])),
-        };
-        let numbers = |at: usize, name: &str| {
+    for group in 0..metadata.num_row_groups() {
+        let read = |name: &str| {
+            let missing = || ParquetError::General(format!("it has no column {name} of numbers"));
+            let index =
+                about.columns().iter().position(|column| column.name() == name).ok_or_else(missing)?;
+            let mut column = NumberColumn::open(&source, &metadata, group, index)?.map_err(|_| missing())?;
             let mut numbers = Vec::new();
-            match group.get_column_reader(at)? {
-                ColumnReader::DoubleColumnReader(mut reader) => {
-                    reader.read_records(rows, None, None, &mut numbers)?
+            loop {
+                column.next(ROWS)?;
+                if column.numbers.is_empty() {
+                    return Ok::<_, ParquetError>(numbers);
                 }
-                _ => return Err(missing(name)),
-            };
-            Ok(numbers)
+                numbers.append(&mut column.numbers);
+            }
         };
-        let (fed, time) = (numbers(fed, COLUMNS[1])?, numbers(time, COLUMNS[2])?);
-        let (md, cd) = (numbers(md, COLUMNS[3])?, numbers(cd, COLUMNS[4])?);
-        let points = fed.into_iter().zip(time).zip(md).zip(cd);
-        for (replicate, (((fed, time), md), cd)) in replicates.into_iter().zip(points) {
+        let [replicate, fed, time, md, cd] = COLUMNS.map(read);
+        let places = time?.into_iter().zip(md?).zip(cd?);
+        for ((replicate, fed), ((time, md), cd)) in replicate?.into_iter().zip(fed?).zip(places) {
             curves.entry(replicate as u64).or_default().push(LaidPoint { fed, time, md, cd });
         }
     }

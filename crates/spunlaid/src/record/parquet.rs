@@ -2,28 +2,19 @@
 
 use super::columns::{Column, roles};
 use super::rows::Rows;
-use super::{Layout, MOST_NUMBERS, Record};
+use super::{Layout, Record};
 use crate::error::{Fault, FileError, Position};
-use crate::table::Head;
+use crate::table::{Head, NumberColumn, PageGuard};
 use crate::units::excerpt;
 use bytes::Bytes;
-use parquet::basic::Encoding;
-use parquet::column::page::{Page, PageMetadata, PageReader};
-use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
-use parquet::data_type::DataType;
-use parquet::errors::{ParquetError, Result as Decoded};
-use parquet::file::metadata::{ParquetMetaData, ParquetMetaDataReader};
-use parquet::file::reader::{ChunkReader, Length};
-use parquet::file::serialized_reader::SerializedPageReader;
-use std::io::Read;
+use parquet::errors::ParquetError;
+use parquet::file::metadata::ParquetMetaDataReader;
 use std::sync::Arc;
 
 /// First bytes of a Parquet file.
 pub(super) const MAGIC: &[u8] = b"PAR1";
 /// Rows read at a time.
 const ROWS: usize = 1 << 13;
-/// Largest number of bytes that Snappy makes of one: a copy of 64 bytes takes three.
-const EXPANSION: u64 = 22;
 
 /// Reads a record; messages call it `name`.
 pub(super) fn parse(bytes: Bytes, name: &str, layout: &Layout) -> Result<Record, FileError> {
@@ -48,8 +39,9 @@ fn read(source: Bytes, layout: &Layout) -> Result<Record, FileError> {
     for group in 0..metadata.num_row_groups() {
         let mut columns = Vec::new();
         for column in &used {
-            let values = Values::open(&source, &metadata, group, column.index).map_err(undecodable).and_then(
-                |values| {
+            let values = NumberColumn::open(&source, &metadata, group, column.index)
+                .map_err(undecodable)
+                .and_then(|values| {
                     values.map_err(|found| {
                         Fault::new(
                             format!("holds {found}"),
@@ -57,8 +49,7 @@ fn read(source: Bytes, layout: &Layout) -> Result<Record, FileError> {
                         )
                         .into()
                     })
-                },
-            );
+                });
             columns.push(values.map_err(|error| error.column(&column.header))?);
         }
         loop {
@@ -98,215 +89,10 @@ fn read(source: Bytes, layout: &Layout) -> Result<Record, FileError> {
     rows.finish()
 }
 
-/// A column of a row group while it is read.
-struct Values {
-    reader: ColumnReader,
-    nullable: bool,
-    /// The numbers read last; NaN if a value is missing.
-    numbers: Vec<f64>,
-}
-
-impl Values {
-    /// Opens the column; the inner error says what it holds instead of numbers.
-    fn open<S: ChunkReader + 'static>(
-        source: &Arc<PageGuard<S>>,
-        metadata: &ParquetMetaData,
-        group: usize,
-        index: usize,
-    ) -> Decoded<Result<Self, String>> {
-        let group = metadata.row_group(group);
-        let chunk = group.columns().get(index).ok_or_else(|| missing("a column of a row group"))?;
-        let about = chunk.column_descr_ptr();
-        if about.max_rep_level() > 0 || about.max_def_level() > 1 {
-            return Ok(Err("nested values".to_owned()));
-        }
-        // The decoder does not check these.
-        let places =
-            [chunk.data_page_offset(), chunk.dictionary_page_offset().unwrap_or(0), chunk.compressed_size()];
-        if places.iter().any(|place| *place < 0) {
-            return Err(missing("the place of a column"));
-        }
-        let rows = usize::try_from(group.num_rows()).map_err(|_| missing("a number of rows"))?;
-        let pages = SerializedPageReader::new(Arc::clone(source), chunk, rows.min(MOST_NUMBERS), None)?;
-        let nullable = about.max_def_level() > 0;
-        let reader = get_column_reader(about, Box::new(Pages { pages, dictionary: false }));
-        Ok(match reader {
-            ColumnReader::DoubleColumnReader(_)
-            | ColumnReader::FloatColumnReader(_)
-            | ColumnReader::Int32ColumnReader(_)
-            | ColumnReader::Int64ColumnReader(_) => Ok(Self { reader, nullable, numbers: Vec::new() }),
-            ColumnReader::BoolColumnReader(_) => Err("true and false".to_owned()),
-            ColumnReader::Int96ColumnReader(_) => Err("dates".to_owned()),
-            _ => Err("text or bytes".to_owned()),
-        })
-    }
-
-    /// Reads up to `rows` rows.
-    fn next(&mut self, rows: usize) -> Decoded<()> {
-        let Self { reader, nullable, numbers } = self;
-        numbers.clear();
-        match reader {
-            ColumnReader::DoubleColumnReader(reader) => read_into(reader, rows, *nullable, numbers, |x| *x),
-            ColumnReader::FloatColumnReader(reader) => {
-                read_into(reader, rows, *nullable, numbers, |x| f64::from(*x))
-            }
-            ColumnReader::Int32ColumnReader(reader) => {
-                read_into(reader, rows, *nullable, numbers, |x| f64::from(*x))
-            }
-            ColumnReader::Int64ColumnReader(reader) => {
-                read_into(reader, rows, *nullable, numbers, |x| *x as f64)
-            }
-            _ => Ok(()),
-        }
-    }
-
-    /// The unit of the last digit of a number of this column.
-    fn last_place(&self, number: f64) -> f64 {
-        match &self.reader {
-            ColumnReader::DoubleColumnReader(_) => number.abs() * f64::EPSILON,
-            ColumnReader::FloatColumnReader(_) => number.abs() * f64::from(f32::EPSILON),
-            _ => 1.0,
-        }
-    }
-}
-
-fn read_into<T: DataType>(
-    reader: &mut ColumnReaderImpl<T>,
-    rows: usize,
-    nullable: bool,
-    numbers: &mut Vec<f64>,
-    number: impl Fn(&T::T) -> f64,
-) -> Decoded<()> {
-    let (mut levels, mut values) = (Vec::new(), Vec::new());
-    let (read, _, _) = reader.read_records(rows, nullable.then_some(&mut levels), None, &mut values)?;
-    if !nullable {
-        numbers.extend(values.iter().map(number));
-        return if numbers.len() == read { Ok(()) } else { Err(missing("a value")) };
-    }
-    let mut present = values.iter();
-    for level in &levels {
-        let value =
-            if *level > 0 { number(present.next().ok_or_else(|| missing("a value"))?) } else { f64::NAN };
-        numbers.push(value);
-    }
-    Ok(())
-}
-
-/// Checks the pages before they reach the decoder.
-struct Pages<S: ChunkReader> {
-    pages: SerializedPageReader<S>,
-    /// Whether a dictionary has been read.
-    dictionary: bool,
-}
-
-impl<S: ChunkReader> PageReader for Pages<S> {
-    fn get_next_page(&mut self) -> Decoded<Option<Page>> {
-        let page = self.pages.get_next_page()?;
-        if let Some(page) = &page {
-            self.dictionary |= page.is_dictionary_page();
-            let by_dictionary =
-                matches!(page.encoding(), Encoding::RLE_DICTIONARY | Encoding::PLAIN_DICTIONARY);
-            if by_dictionary && !self.dictionary {
-                return Err(missing("a dictionary"));
-            }
-        }
-        Ok(page)
-    }
-
-    fn peek_next_page(&mut self) -> Decoded<Option<PageMetadata>> {
-        self.pages.peek_next_page()
-    }
-
-    fn skip_next_page(&mut self) -> Decoded<()> {
-        self.pages.skip_next_page()
-    }
-}
-
-impl<S: ChunkReader> Iterator for Pages<S> {
-    type Item = Decoded<Page>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        self.get_next_page().transpose()
-    }
-}
-
-fn missing(what: &str) -> ParquetError {
-    ParquetError::EOF(format!("{what} is missing"))
-}
-
-/// Refuses pages that state an impossible size, because the decoder allocates the memory that a header states before
-/// it reads the page.
-struct PageGuard<S>(S);
-
-impl<S: Length> Length for PageGuard<S> {
-    fn len(&self) -> u64 {
-        self.0.len()
-    }
-}
-
-impl<S: ChunkReader> ChunkReader for PageGuard<S> {
-    type T = std::io::Chain<std::io::Cursor<Vec<u8>>, S::T>;
-
-    /// Called where a page's header begins.
-    fn get_read(&self, start: u64) -> Decoded<Self::T> {
-        let mut source = self.0.get_read(start)?;
-        let mut head = Vec::new();
-        source.by_ref().take(24).read_to_end(&mut head)?;
-        let (uncompressed, compressed) = page_sizes(&head).ok_or_else(|| missing("a page’s header"))?;
-        if uncompressed > compressed.saturating_mul(EXPANSION).saturating_add(64) {
-            return Err(ParquetError::General(format!(
-                "a page of {compressed} bytes states that it holds {uncompressed}, which is more than Snappy can compress into it"
-            )));
-        }
-        Ok(std::io::Cursor::new(head).chain(source))
-    }
-
-    fn get_bytes(&self, start: u64, length: usize) -> Decoded<Bytes> {
-        let end = start.checked_add(length as u64).filter(|end| *end <= self.0.len());
-        end.ok_or_else(|| missing("the end of a page"))?;
-        self.0.get_bytes(start, length)
-    }
-}
-
-/// Reads the uncompressed and the compressed size from the start of a page's header. It begins with fields 1 to 3 in
-/// Thrift's compact form, each a byte 0x15 and a zigzag number of 32 bits.
-fn page_sizes(head: &[u8]) -> Option<(u64, u64)> {
-    let mut bytes = head.iter().copied();
-    let mut field = || {
-        (bytes.next()? == 0x15).then_some(())?;
-        let mut value = 0u64;
-        for shift in (0..35).step_by(7) {
-            let byte = bytes.next()?;
-            value |= u64::from(byte & 0x7f) << shift;
-            if byte < 0x80 {
-                return (value & 1 == 0).then_some(value >> 1);
-            }
-        }
-        None
-    };
-    let (_kind, uncompressed, compressed) = (field()?, field()?, field()?);
-    Some((uncompressed, compressed))
-}
-
 /// The fault of a file that cannot be decoded.
 fn unreadable(message: &str) -> Fault {
     Fault::new(
         format!("is not a readable Parquet file: {message}"),
         "write it with Snappy compression or without compression",
     )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::page_sizes;
-
-    #[test]
-    fn sizes_stand_at_the_start_of_a_header() {
-        // Kind 0, 300 bytes from 150.
-        assert_eq!(page_sizes(&[0x15, 0, 0x15, 0xd8, 0x04, 0x15, 0xac, 0x02, 0x2c]), Some((300, 150)));
-        assert_eq!(page_sizes(&[0x15, 0, 0x15, 0xd8]), None);
-        // Negative.
-        assert_eq!(page_sizes(&[0x15, 0, 0x15, 1, 0x15, 2]), None);
-        assert_eq!(page_sizes(&[]), None);
-    }
 }

@@ -35,10 +35,12 @@
 
 mod cells;
 mod head;
+mod parquet;
 mod stamp;
 mod start;
 
 pub use head::{Head, scale};
+pub(crate) use parquet::{NumberColumn, PageGuard};
 pub(crate) use stamp::Stamp;
 
 use crate::error::{Fault, FileError, FileKind, Position};
