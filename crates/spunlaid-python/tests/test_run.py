@@ -240,12 +240,15 @@ def test_progress_is_told_and_its_errors_come_through(short: Case) -> None:
 
 def test_ctrl_c_stops_a_run(short: Case) -> None:
     slow = short.with_({"run.duration": 100.0, "run.replicates": 8})
+    # A shell starts what runs in the background with the signal ignored.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
     timer.start()
     began = time.monotonic()
     with pytest.raises(KeyboardInterrupt):
         spunlaid.run(slow, threads=1)
     timer.join()
+    signal.signal(signal.SIGINT, before)
     assert time.monotonic() - began > 0.25, "it ran until the signal came"
     # The next one flies.
     assert spunlaid.run(short).measures

@@ -44,22 +44,27 @@ fn intervals_of_the_unevenness_hold() {
     const FIELDS: u64 = 200;
     const SIDE: usize = 6;
     const STRENGTH: f64 = 0.5;
-    for closed in [true, false] {
-        for patch in [1, 4, 10] {
-            let truth = STRENGTH * variance(patch, SIDE).sqrt();
-            let mut held = 0;
-            let mut mean = 0.0;
-            for seed in 0..FIELDS {
-                let size = [240, 300];
-                let field = noise(seed, size, SIDE);
-                // A sheet that is cut out of a larger one.
-                let [columns, rows] = if closed { size } else { [200, 250] };
-                let map = map(columns, rows, closed, |row, column| STRENGTH * field[row * size[0] + column]);
-                let found = unevenness(&map, patch).expect("an unevenness");
-                let error = found.standard_error.expect("an error");
-                held += u64::from((found.cv - truth).abs() < 1.96 * error);
-                mean += found.cv / FIELDS as f64;
+    const SIZE: [usize; 2] = [240, 300];
+    // Closed on itself, and cut out of a larger sheet.
+    const SHEETS: [(bool, [usize; 2]); 2] = [(true, SIZE), (false, [200, 250])];
+    const PATCHES: [usize; 3] = [1, 4, 10];
+    let truth = PATCHES.map(|patch| STRENGTH * variance(patch, SIDE).sqrt());
+    // Number of intervals that hold, and the mean of the values.
+    let mut found = [[(0, 0.0); PATCHES.len()]; SHEETS.len()];
+    for seed in 0..FIELDS {
+        let field = noise(seed, SIZE, SIDE);
+        for ((closed, [columns, rows]), found) in SHEETS.into_iter().zip(&mut found) {
+            let map = map(columns, rows, closed, |row, column| STRENGTH * field[row * SIZE[0] + column]);
+            for ((patch, truth), (held, mean)) in PATCHES.into_iter().zip(truth).zip(found) {
+                let one = unevenness(&map, patch).expect("an unevenness");
+                let error = one.standard_error.expect("an error");
+                *held += u64::from((one.cv - truth).abs() < 1.96 * error);
+                *mean += one.cv / FIELDS as f64;
             }
+        }
+    }
+    for ((closed, _), found) in SHEETS.into_iter().zip(found) {
+        for ((patch, truth), (held, mean)) in PATCHES.into_iter().zip(truth).zip(found) {
             let share = held as f64 / FIELDS as f64;
             assert!(
                 (0.90..=0.995).contains(&share),
