@@ -1,15 +1,13 @@
 //! Moving pictures.
 
 use crate::map::colours;
-use crate::picture::{Picture, PictureError};
+use crate::picture::{PER_INCH, Picture, PictureError};
 use crate::pixels::drawn;
 use gif::{Encoder, Frame, Repeat};
 use std::collections::HashMap;
 
 /// Shades of grey for lines and text.
 const GREYS: usize = 64;
-/// Pixels of a screen in an inch.
-const PER_INCH: u32 = 96;
 
 /// Pictures one after the other as GIF, for ever, in the colours of maps and in greys.
 ///

@@ -91,10 +91,9 @@ impl Page {
         let stroke = stroke.or(seam);
         self.content.save_state();
         if let Some(fill) = fill {
-            let opacity = fill.of_255();
-            if opacity < u8::MAX {
-                self.opacities.insert(opacity);
-                self.content.set_parameters(Name(name(opacity).as_bytes()));
+            if fill.opacity < u8::MAX {
+                self.opacities.insert(fill.opacity);
+                self.content.set_parameters(Name(name(fill.opacity).as_bytes()));
             }
             let [red, green, blue] = shares(fill.colour);
             self.content.set_fill_rgb(red, green, blue);

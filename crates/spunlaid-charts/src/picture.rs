@@ -48,15 +48,8 @@ pub struct Text {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fill {
     pub(crate) colour: Colour,
-    /// From 0 to 1.
-    pub(crate) opacity: f64,
-}
-
-impl Fill {
-    /// The opacity from 0 to 255.
-    pub(crate) fn of_255(self) -> u8 {
-        (self.opacity * 255.0).round() as u8
-    }
+    /// From 0 to 255.
+    pub(crate) opacity: u8,
 }
 
 /// A place [px].
@@ -112,7 +105,7 @@ pub enum PictureError {
 }
 
 /// Pixels of the screen in an inch, as CSS has it.
-const PER_INCH: f64 = 96.0;
+pub(crate) const PER_INCH: u32 = 96;
 const MM_PER_INCH: f64 = 25.4;
 
 /// A picture on white.
@@ -156,7 +149,7 @@ impl Picture {
     pub(crate) fn extent(&self, per_inch: f64) -> Result<[f64; 2], PictureError> {
         let extent = match self.millimetres() {
             Some(sides) => sides.map(|side| side / MM_PER_INCH * per_inch),
-            None => self.size.map(|side| side * (per_inch / PER_INCH)),
+            None => self.size.map(|side| side * (per_inch / f64::from(PER_INCH))),
         };
         let [width, height] = extent.map(|side| side.round() as u32);
         if extent.iter().all(|side| *side > 0.0) {
@@ -195,8 +188,11 @@ impl Picture {
     }
 
     /// A filled polygon, with an outline where `stroke` is given.
+    ///
+    /// * `opacity` – from 0 to 1
     pub fn polygon(&mut self, points: &[(f64, f64)], fill: Colour, opacity: f64, stroke: Option<&Stroke>) {
         if let Some(points) = corners(points) {
+            let opacity = (opacity * f64::from(u8::MAX)).round() as u8;
             self.draw(Outline::Polygon(points), Some(Fill { colour: fill, opacity }), stroke);
         }
     }
@@ -250,7 +246,7 @@ impl Picture {
 }
 
 const fn opaque(colour: Colour) -> Fill {
-    Fill { colour, opacity: 1.0 }
+    Fill { colour, opacity: u8::MAX }
 }
 
 /// The places of points, if they are finite.

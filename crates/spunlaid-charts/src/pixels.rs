@@ -26,7 +26,7 @@ fn draw(shapes: &mut Iter<'_, Shape>, pixels: &mut Pixmap, place: Transform, mas
                 let Some((path, own)) = outline.path() else { continue };
                 let place = place.pre_concat(own);
                 if let Some(fill) = fill {
-                    let paint = paint(fill.colour, fill.of_255(), !outline.is_sharp());
+                    let paint = paint(fill.colour, fill.opacity, !outline.is_sharp());
                     pixels.fill_path(&path, &paint, FillRule::Winding, place, mask);
                 }
                 if let Some(stroke) = stroke {

@@ -45,16 +45,8 @@ fn draw(
 ) -> std::fmt::Result {
     let colour = fill.map_or_else(|| "none".to_owned(), |fill| fill.colour.to_string());
     match outline {
-        Outline::Line(points) => {
-            svg.push_str("<path d=\"");
-            write_points(svg, points)?;
-            svg.push('"');
-        }
-        Outline::Polygon(points) => {
-            svg.push_str("<path d=\"");
-            write_points(svg, points)?;
-            svg.push_str("Z\"");
-        }
+        Outline::Line(points) => write!(svg, "<path d=\"{}\"", lines(points))?,
+        Outline::Polygon(points) => write!(svg, "<path d=\"{}Z\"", lines(points))?,
         Outline::Rectangles(rectangles) => {
             write!(svg, "<path fill=\"{colour}\" shape-rendering=\"crispEdges\" d=\"")?;
             for ((left, bottom), (right, top)) in rectangles {
@@ -66,26 +58,26 @@ fn draw(
         Outline::Text(at, text, style) => return write_text(svg, *at, text, style, &colour),
     }
     write!(svg, " fill=\"{colour}\"")?;
-    if let Some(opacity) = fill.map(|fill| fill.opacity).filter(|opacity| *opacity < 1.0) {
-        write!(svg, " fill-opacity=\"{}\"", hundredth(opacity))?;
+    if let Some(opacity) = fill.map(|fill| fill.opacity).filter(|opacity| *opacity < u8::MAX) {
+        write!(svg, " fill-opacity=\"{}\"", hundredth(f64::from(opacity) / f64::from(u8::MAX)))?;
     }
     if let Some(Stroke { colour, width, dash }) = stroke {
         let width = hundredth(*width);
         write!(svg, " stroke=\"{colour}\" stroke-width=\"{width}\" stroke-linejoin=\"round\"")?;
-        for (i, length) in dash.iter().enumerate() {
-            write!(svg, "{}{length}", if i == 0 { " stroke-dasharray=\"" } else { " " })?;
+        if !dash.is_empty() {
+            let lengths: Vec<String> = dash.iter().map(f32::to_string).collect();
+            write!(svg, " stroke-dasharray=\"{}\"", lengths.join(" "))?;
         }
-        svg.push_str(if dash.is_empty() { "" } else { "\"" });
     }
     writeln!(svg, "/>")
 }
 
-fn write_points(svg: &mut String, points: &[Point]) -> std::fmt::Result {
-    svg.reserve(points.len() * 12);
-    points
-        .iter()
-        .enumerate()
-        .try_for_each(|(i, (x, y))| write!(svg, "{}{x} {y}", if i == 0 { 'M' } else { 'L' }))
+fn lines(points: &[Point]) -> String {
+    let mut d = String::with_capacity(points.len() * 12);
+    for (i, (x, y)) in points.iter().enumerate() {
+        let _ = write!(d, "{}{x} {y}", if i == 0 { 'M' } else { 'L' });
+    }
+    d
 }
 
 fn write_text(svg: &mut String, (x, y): Point, text: &str, style: &Text, colour: &str) -> std::fmt::Result {
@@ -108,18 +100,9 @@ fn write_text(svg: &mut String, (x, y): Point, text: &str, style: &Text, colour:
 
 /// The five characters that mean something to XML.
 fn escape(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            '\'' => escaped.push_str("&#39;"),
-            _ => escaped.push(c),
-        }
-    }
-    escaped
+    [('&', "&amp;"), ('<', "&lt;"), ('>', "&gt;"), ('"', "&quot;"), ('\'', "&#39;")]
+        .iter()
+        .fold(text.to_owned(), |text, (character, name)| text.replace(*character, name))
 }
 
 fn spans(text: &str, size: f64) -> String {
@@ -156,7 +139,7 @@ mod tests {
 
     #[test]
     fn labels_are_marked_up_and_escaped() {
-        assert_eq!(spans("a<b", 10.0), "a&lt;b");
+        assert_eq!(spans("a<b & \"c\"", 10.0), "a&lt;b &amp; &quot;c&quot;");
         assert_eq!(
             spans("10^{2} x", 10.0),
             "10<tspan dy=\"-3.8\" font-size=\"7.2\">2</tspan><tspan dy=\"3.8\"> x</tspan>"
