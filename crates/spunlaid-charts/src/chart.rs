@@ -2,10 +2,10 @@
 //!
 //! Built from data, in the units of the axes.
 
+use crate::label::plain;
 use crate::map::Map;
-use crate::palette::{BLUE, GREY, INK, Marker, VERMILION};
+use crate::palette::{BLUE, Colour, GREY, INK, Marker, VERMILION};
 use crate::scale::Axis;
-use crate::svg::plain;
 
 /// How one quantity is drawn throughout a chart.
 #[derive(Clone, Debug)]
@@ -16,22 +16,22 @@ pub struct Series {
     pub name: Option<String>,
     /// All points, x, y, ± error, where only some of them are drawn.
     pub full: Option<Vec<(f64, f64, Option<f64>)>>,
-    /// Colour, as SVG has it.
-    pub colour: &'static str,
+    /// Colour.
+    pub colour: Colour,
     /// Sign of its points.
     pub marker: Option<Marker>,
     /// Width of its line [px].
     pub width: f64,
-    /// Dashes and gaps of its line, as SVG has them.
-    pub dash: Option<&'static str>,
+    /// Dashes and gaps of its line, as many of one as of the other [px]; none of a solid one.
+    pub dash: &'static [f32],
 }
 
 impl Series {
     /// A solid line or dots of one colour.
-    pub fn new(label: &str, colour: &'static str) -> Self {
+    pub fn new(label: &str, colour: Colour) -> Self {
         let name = Some(plain(label));
         let label = (!label.is_empty()).then(|| label.to_owned());
-        Self { label, name, full: None, colour, marker: None, width: 1.5, dash: None }
+        Self { label, name, full: None, colour, marker: None, width: 1.5, dash: &[] }
     }
 
     /// Blue circles, for the first of two quantities.
@@ -45,13 +45,13 @@ impl Series {
     }
 
     /// Spots of one colour.
-    pub fn spots(label: &str, colour: &'static str) -> Self {
+    pub fn spots(label: &str, colour: Colour) -> Self {
         Self { marker: Some(Marker::Spot), ..Self::new(label, colour) }
     }
 
     /// A grey reference.
     pub fn reference(label: &str) -> Self {
-        Self { dash: Some("6 4"), ..Self::new(label, GREY) }
+        Self { dash: &[6.0, 4.0], ..Self::new(label, GREY) }
     }
 
     /// Without an entry in the legend.
@@ -79,9 +79,9 @@ impl Series {
         Self { full: Some(full), ..self }
     }
 
-    /// With dashes as SVG has them.
-    pub fn dashed(self, dash: &'static str) -> Self {
-        Self { dash: Some(dash), ..self }
+    /// With dashes and gaps, as many of one as of the other [px].
+    pub fn dashed(self, dash: &'static [f32]) -> Self {
+        Self { dash, ..self }
     }
 
     /// With a line of this width [px].

@@ -1,5 +1,6 @@
 //! A picture that can be drawn at any width: it is laid out for it, and its text keeps its size.
 
+use crate::picture::Picture;
 use std::fmt;
 use std::sync::Arc;
 
@@ -11,19 +12,19 @@ pub const PRINTED_PIXEL: f64 = 8.0 / 14.0 * 25.4 / 72.0;
 pub struct Drawing {
     /// On the screen [px].
     pub(crate) width: f64,
-    draw: Arc<dyn Fn(f64) -> String + Send + Sync>,
+    draw: Arc<dyn Fn(f64) -> Picture + Send + Sync>,
 }
 
 impl Drawing {
-    /// The drawing that a function makes as SVG for each width [px].
+    /// The drawing whose picture a function makes for each width [px].
     ///
     /// * `width` – on the screen [px]
-    pub fn new(width: f64, draw: impl Fn(f64) -> String + Send + Sync + 'static) -> Self {
+    pub fn new(width: f64, draw: impl Fn(f64) -> Picture + Send + Sync + 'static) -> Self {
         Self { width, draw: Arc::new(draw) }
     }
 
-    /// The SVG, so many pixels wide.
-    pub(crate) fn at(&self, width: f64) -> String {
+    /// The picture, so many pixels wide.
+    pub(crate) fn at(&self, width: f64) -> Picture {
         (self.draw)(width)
     }
 }

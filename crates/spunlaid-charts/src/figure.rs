@@ -3,7 +3,8 @@
 use crate::chart::{Chart, Mark, Series};
 use crate::draw;
 use crate::drawing::{Drawing, PRINTED_PIXEL};
-use crate::svg::in_millimetres;
+use crate::picture::Picture;
+use crate::svg::svg;
 use crate::table::{Table, column};
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -58,15 +59,20 @@ impl Figure {
 
     /// The picture as SVG for the screen.
     pub fn svg(&self) -> String {
+        svg(&self.picture())
+    }
+
+    /// The picture for the screen.
+    pub fn picture(&self) -> Picture {
         self.drawn_at(match &self.content {
             Content::Charts(charts) => draw::width(charts),
             Content::Drawn(drawing, _) => drawing.width,
         })
     }
 
-    /// The picture as SVG for print, so many millimetres wide.
-    pub fn in_print(&self, width: f64) -> String {
-        in_millimetres(&self.drawn_at(width / PRINTED_PIXEL), PRINTED_PIXEL)
+    /// The picture for print, so many millimetres wide.
+    pub fn in_print(&self, width: f64) -> Picture {
+        self.drawn_at(width / PRINTED_PIXEL).printed(PRINTED_PIXEL)
     }
 
     /// The numbers, in the units of the axes.
@@ -78,9 +84,9 @@ impl Figure {
     }
 
     /// The picture, so many pixels wide.
-    fn drawn_at(&self, width: f64) -> String {
+    fn drawn_at(&self, width: f64) -> Picture {
         match &self.content {
-            Content::Charts(charts) => draw::svg(&self.title, charts, width),
+            Content::Charts(charts) => draw::picture(&self.title, charts, width),
             Content::Drawn(drawing, _) => drawing.at(width),
         }
     }
@@ -164,6 +170,7 @@ fn content<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::palette::BLUE;
     use crate::scale::Axis;
 
     fn chart(y: &str) -> Chart {
@@ -173,9 +180,9 @@ mod tests {
     #[test]
     fn charts_share_columns_of_the_same_name() {
         let above = chart("*y* (mm)")
-            .line(Series::new("mean", "red"), &[(0.0, 1.0)])
-            .band(Series::new("range", "red"), &[(0.0, 0.5, 1.5)]);
-        let below = chart("*z* (mm)").scatter(Series::new("spot", "red"), &[(2.0, 3.0, Some(0.25))]);
+            .line(Series::new("mean", BLUE), &[(0.0, 1.0)])
+            .band(Series::new("range", BLUE), &[(0.0, 0.5, 1.5)]);
+        let below = chart("*z* (mm)").scatter(Series::new("spot", BLUE), &[(2.0, 3.0, Some(0.25))]);
         assert_eq!(
             Figure::stacked("s", "", &[&above, &below], "").table().csv(),
             "series,time_s,y_mm,z_mm,lower,upper,error\nmean,0,1,,,,\nrange,0,,,0.5,1.5,\nspot,2,,3,,,0.25\n"
@@ -185,7 +192,7 @@ mod tests {
     #[test]
     fn words_stand_in_the_table() {
         let chart = Chart::new("c", "", Axis::of_words("Law", ["one", "two"]), Axis::linear("*y* (mm)"))
-            .scatter(Series::new("*y*", "red"), &[(0.1, 1.0, None), (0.9, 2.0, None)]);
+            .scatter(Series::new("*y*", BLUE), &[(0.1, 1.0, None), (0.9, 2.0, None)]);
         let figure = Figure::new(&chart, "");
         assert_eq!(figure.table().csv(), "series,law,y_mm\ny,one,1\ny,two,2\n");
         let svg = figure.svg();
@@ -196,8 +203,8 @@ mod tests {
     fn the_table_has_what_was_thinned_and_leaves_out_what_only_adorns() {
         let full = vec![(0.0, 1.0, None), (1.0, 2.0, None), (2.0, 3.0, None)];
         let chart = chart("*y* (mm)")
-            .line(Series::new("zero", "grey").adorning(), &[(0.0, 0.0), (2.0, 0.0)])
-            .line(Series::new("*y*", "red").unlabelled().thinned_from(full), &[(0.0, 1.0), (2.0, 3.0)]);
+            .line(Series::new("zero", BLUE).adorning(), &[(0.0, 0.0), (2.0, 0.0)])
+            .line(Series::new("*y*", BLUE).unlabelled().thinned_from(full), &[(0.0, 1.0), (2.0, 3.0)]);
         assert_eq!(Figure::new(&chart, "").table().csv(), "series,time_s,y_mm\ny,0,1\ny,1,2\ny,2,3\n");
     }
 }

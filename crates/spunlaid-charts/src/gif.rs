@@ -1,7 +1,8 @@
 //! Moving pictures.
 
-use crate::map::{colours, parts};
-use crate::picture::{PictureError, drawn};
+use crate::map::colours;
+use crate::picture::{PER_INCH, Picture, PictureError};
+use crate::pixels::drawn;
 use gif::{Encoder, Frame, Repeat};
 use std::collections::HashMap;
 
@@ -10,22 +11,19 @@ const GREYS: usize = 64;
 
 /// Pictures one after the other as GIF, for ever, in the colours of maps and in greys.
 ///
-/// * `frames` – SVG pictures of one size
+/// * `frames` – of one size
 /// * `per_second` – how many of them are seen in a second
 ///
 /// # Errors
-/// A string that is not an SVG picture, or one of another size.
-pub fn gif<S: AsRef<str>>(
-    frames: impl IntoIterator<Item = S>,
-    per_second: f64,
-) -> Result<Vec<u8>, PictureError> {
+/// No picture, one that has no pixels, or one of another size.
+pub fn gif(frames: impl IntoIterator<Item = Picture>, per_second: f64) -> Result<Vec<u8>, PictureError> {
     let greys = (0..GREYS).map(|grey| [(grey * 255 / (GREYS - 1)) as u8; 3]);
-    let palette: Vec<[u8; 3]> = colours().map(|colour| parts(&colour)).chain(greys).collect();
+    let palette: Vec<[u8; 3]> = colours().map(|colour| colour.0).chain(greys).collect();
     let failed = |error: gif::EncodingError| PictureError::Encoding(error.to_string());
     let mut nearest: HashMap<[u8; 3], u8> = HashMap::new();
     let mut encoder: Option<(Encoder<Vec<u8>>, [u16; 2])> = None;
-    for svg in frames {
-        let pixels = drawn(svg.as_ref(), 1.0)?;
+    for picture in frames {
+        let pixels = drawn(&picture, PER_INCH)?;
         let size = match [pixels.width(), pixels.height()].map(u16::try_from) {
             [Ok(width), Ok(height)] => [width, height],
             _ => return Err(PictureError::Size(pixels.width(), pixels.height())),
@@ -68,19 +66,21 @@ fn number_of_nearest(palette: &[[u8; 3]], colour: [u8; 3]) -> u8 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::palette::Colour;
 
-    fn square(colour: &str, side: u32) -> String {
-        format!(
-            r#"<svg xmlns="http://www.w3.org/2000/svg" width="{side}" height="{side}"><rect width="100" height="100" fill="{colour}"/></svg>"#
-        )
+    const BLACK: Colour = Colour([0; 3]);
+
+    fn square(colour: Colour, side: f64) -> Picture {
+        let mut picture = Picture::new(side, side, "");
+        picture.rectangles(&[((0.0, 0.0), (side, side))], colour);
+        picture
     }
 
     #[test]
     fn frames_have_the_colours_of_their_pictures() {
-        let shades: Vec<String> = colours().collect();
-        let (low, high) = (&shades[0], &shades[shades.len() - 1]);
-        let pictures = [square(low, 20), square(high, 20), square("#000000", 20)];
-        let file = gif(pictures.iter().map(String::as_str), 20.0).unwrap();
+        let shades: Vec<Colour> = colours().collect();
+        let (low, high) = (shades[0], shades[shades.len() - 1]);
+        let file = gif([low, high, BLACK].map(|colour| square(colour, 20.0)), 20.0).unwrap();
         let mut options = gif::DecodeOptions::new();
         options.set_color_output(gif::ColorOutput::RGBA);
         let mut decoder = options.read_info(&file[..]).unwrap();
@@ -89,13 +89,13 @@ mod tests {
             assert_eq!((frame.delay, frame.width), (5, 20));
             found.push([frame.buffer[0], frame.buffer[1], frame.buffer[2]]);
         }
-        assert_eq!(found, [parts(low), parts(high), [0, 0, 0]]);
+        assert_eq!(found, [low.0, high.0, BLACK.0]);
     }
 
     #[test]
     fn rejects_pictures_of_different_sizes() {
-        let pictures = [square("#000000", 20), square("#000000", 21)];
-        assert!(matches!(gif(pictures.iter().map(String::as_str), 20.0), Err(PictureError::Size(21, 21))));
-        assert!(gif([""; 0], 20.0).is_err());
+        let pictures = [20.0, 21.0].map(|side| square(BLACK, side));
+        assert!(matches!(gif(pictures, 20.0), Err(PictureError::Size(21, 21))));
+        assert!(gif([], 20.0).is_err());
     }
 }

@@ -1,8 +1,7 @@
 //! The embedded font: the widths of texts, and texts as outlines, so that a picture needs no other font and no text layout.
 
-use resvg::usvg::roxmltree::{Document, Node};
-use std::fmt::Write;
 use std::sync::LazyLock;
+use tiny_skia::{Path, PathBuilder};
 use ttf_parser::gpos::{PairAdjustment, PositioningSubtable};
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
@@ -20,51 +19,6 @@ fn font(italic: bool) -> Option<&'static Font<'static>> {
 pub(crate) fn width(text: &str, italic: bool, size: f64) -> f64 {
     font(italic)
         .map_or(0.0, |font| font.glyphs(text).map(|(_, advance)| advance).sum::<f64>() * font.scale(size))
-}
-
-/// The SVG with each text replaced by a path. It knows what [`Svg`](crate::svg::Svg) writes: texts with one position,
-/// and pieces in them with a size, a style and a shift of the line.
-///
-/// # Errors
-/// A string that is not XML.
-pub(crate) fn outlined(svg: &str) -> Result<String, resvg::usvg::roxmltree::Error> {
-    let document = Document::parse(svg)?;
-    let mut outlined = String::with_capacity(2 * svg.len());
-    let mut done = 0;
-    for text in document.descendants().filter(|node| node.has_tag_name((SVG, "text"))) {
-        outlined.push_str(&svg[done..text.range().start]);
-        path(&mut outlined, text);
-        done = text.range().end;
-    }
-    outlined.push_str(&svg[done..]);
-    Ok(outlined)
-}
-
-const SVG: &str = "http://www.w3.org/2000/svg";
-
-fn path(svg: &mut String, text: Node<'_, '_>) {
-    let number = |node: Node<'_, '_>, name| -> Option<f64> { node.attribute(name)?.parse().ok() };
-    let size = number(text, "font-size").unwrap_or(16.0);
-    let (x, y) = (number(text, "x").unwrap_or(0.0), number(text, "y").unwrap_or(0.0));
-    let mut pen = Pen { d: String::new(), x: 0.0, y: 0.0, scale: 1.0 };
-    for piece in text.children() {
-        let span = if piece.is_text() { None } else { Some(piece) };
-        let of_span = |name| number(span?, name);
-        pen.y += of_span("dy").unwrap_or(0.0);
-        let italic = span.is_some_and(|span| span.attribute("font-style") == Some("italic"));
-        if let Some(font) = font(italic) {
-            font.write(piece.text().unwrap_or_default(), of_span("font-size").unwrap_or(size), &mut pen);
-        }
-    }
-    let start = match text.attribute("text-anchor") {
-        Some("middle") => x - 0.5 * pen.x,
-        Some("end") => x - pen.x,
-        _ => x,
-    };
-    let turn = text.attribute("transform").unwrap_or_default();
-    let fill = text.attribute("fill").unwrap_or("#000000");
-    let _ =
-        write!(svg, "<path transform=\"{turn} translate({start} {y})\" fill=\"{fill}\" d=\"{}\"/>", pen.d);
 }
 
 /// A face with the distances of its pairs of glyphs.
@@ -109,15 +63,6 @@ impl<'a> Font<'a> {
         })
     }
 
-    /// Draws a piece of text and moves the pen behind it.
-    fn write(&self, text: &str, size: f64, pen: &mut Pen) {
-        pen.scale = self.scale(size);
-        for (glyph, advance) in self.glyphs(text) {
-            self.face.outline_glyph(glyph, pen);
-            pen.x += advance * pen.scale;
-        }
-    }
-
     /// How much closer a pair of glyphs stands, in units of the font.
     fn closer(&self, first: GlyphId, second: GlyphId) -> i16 {
         let adjustment = |pair: &PairAdjustment<'_>| match pair {
@@ -133,114 +78,66 @@ impl<'a> Font<'a> {
     }
 }
 
-/// Writes the outlines of glyphs.
-struct Pen {
-    /// What a path is drawn by.
-    d: String,
-    /// Where the next glyph begins, from the start of the text [px].
-    x: f64,
-    y: f64,
+/// Draws the outlines of glyphs along a line that begins at zero.
+#[derive(Default)]
+pub(crate) struct Pen {
+    path: PathBuilder,
+    /// Where the next glyph begins, along the line and below it [px].
+    along: f64,
+    below: f64,
     /// Pixels per unit of the font.
     scale: f64,
 }
 
 impl Pen {
-    fn go(&mut self, command: char, points: &[(f32, f32)]) {
-        self.d.push(command);
-        for (x, y) in points {
-            let (x, y) = (self.x + f64::from(*x) * self.scale, self.y - f64::from(*y) * self.scale);
-            let _ = write!(self.d, "{x:.3} {y:.3} ");
+    /// Draws a piece of text and moves behind it.
+    ///
+    /// * `below` – how far below the line [px]
+    pub(crate) fn write(&mut self, text: &str, italic: bool, size: f64, below: f64) {
+        let Some(font) = font(italic) else { return };
+        self.below = below;
+        self.scale = font.scale(size);
+        for (glyph, advance) in font.glyphs(text) {
+            font.face.outline_glyph(glyph, self);
+            self.along += advance * self.scale;
         }
+    }
+
+    /// What was drawn; nothing of mere blanks.
+    pub(crate) fn finish(self) -> Option<Path> {
+        self.path.finish()
+    }
+
+    /// The place of a point of a glyph, to a thousandth of a pixel: more would only make files longer.
+    fn place(&self, x: f32, y: f32) -> (f32, f32) {
+        let thousandth = |x: f64| ((x * 1e3).round() / 1e3) as f32;
+        let (along, up) = (f64::from(x) * self.scale, f64::from(y) * self.scale);
+        (thousandth(self.along + along), thousandth(self.below - up))
     }
 }
 
 impl OutlineBuilder for Pen {
     fn move_to(&mut self, x: f32, y: f32) {
-        self.go('M', &[(x, y)]);
+        let (x, y) = self.place(x, y);
+        self.path.move_to(x, y);
     }
 
     fn line_to(&mut self, x: f32, y: f32) {
-        self.go('L', &[(x, y)]);
+        let (x, y) = self.place(x, y);
+        self.path.line_to(x, y);
     }
 
     fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
-        self.go('Q', &[(x1, y1), (x, y)]);
+        let ((x1, y1), (x, y)) = (self.place(x1, y1), self.place(x, y));
+        self.path.quad_to(x1, y1, x, y);
     }
 
     fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
-        self.go('C', &[(x1, y1), (x2, y2), (x, y)]);
+        let ((x1, y1), (x2, y2), (x, y)) = (self.place(x1, y1), self.place(x2, y2), self.place(x, y));
+        self.path.cubic_to(x1, y1, x2, y2, x, y);
     }
 
     fn close(&mut self) {
-        self.d.push('Z');
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The corners of a text's outlines [px].
-    fn corners(text: &str) -> Vec<(f64, f64)> {
-        let svg = outlined(&format!("<svg xmlns=\"{SVG}\">{text}</svg>")).unwrap();
-        assert!(!svg.contains("<text"), "{svg}");
-        let (transform, d) = (between(&svg, "translate(", ")"), between(&svg, " d=\"", "\""));
-        let numbers = |text: &str| -> Vec<f64> {
-            text.split(|c: char| c.is_ascii_alphabetic() || c == ' ').filter_map(|n| n.parse().ok()).collect()
-        };
-        let at = numbers(transform);
-        numbers(d).chunks(2).map(|point| (point[0] + at[0], point[1] + at[1])).collect()
-    }
-
-    fn between<'a>(text: &'a str, before: &str, after: &str) -> &'a str {
-        text.split_once(before).unwrap().1.split_once(after).unwrap().0
-    }
-
-    fn extent(points: &[(f64, f64)]) -> [f64; 2] {
-        points
-            .iter()
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], (x, _)| [low.min(*x), high.max(*x)])
-    }
-
-    #[test]
-    fn texts_stand_where_they_are_anchored() {
-        let text = |anchor: &str| {
-            extent(&corners(&format!(
-                "<text x=\"50\" y=\"20\" font-size=\"10\" text-anchor=\"{anchor}\">HHHH</text>"
-            )))
-        };
-        let [start, middle, end] = ["start", "middle", "end"].map(text);
-        // An H of Arimo is 1479 of 2048 units wide.
-        let width = 40.0 * 1479.0 / 2048.0;
-        assert!((start[0] - middle[0] - 0.5 * width).abs() < 2e-3, "{start:?} {middle:?}");
-        assert!((start[1] - end[1] - width).abs() < 2e-3, "{start:?} {end:?}");
-        assert!(start[0] > 50.0 && end[1] < 50.0);
-    }
-
-    #[test]
-    fn pairs_of_letters_stand_closer() {
-        let width = |text: &str| {
-            let [low, high] = extent(&corners(&format!("<text font-size=\"10\">{text}</text>")));
-            high - low
-        };
-        // Against the same letters without a close pair.
-        assert!(
-            width("HAV") < width("HVH") - width("H") + width("A") - 0.5,
-            "{} {}",
-            width("HAV"),
-            width("HVH")
-        );
-    }
-
-    #[test]
-    fn pieces_are_italic_small_and_raised() {
-        let plain = corners("<text y=\"20\" font-size=\"10\">x</text>");
-        let italic = corners("<text y=\"20\" font-size=\"10\"><tspan font-style=\"italic\">x</tspan></text>");
-        let raised =
-            corners("<text y=\"20\" font-size=\"10\"><tspan dy=\"-4\" font-size=\"5\">x</tspan></text>");
-        assert_ne!(plain, italic);
-        for ((x, y), (small_x, small_y)) in plain.iter().zip(&raised) {
-            assert!((0.5 * x - small_x).abs() < 2e-3 && (16.0 + 0.5 * (y - 20.0) - small_y).abs() < 2e-3);
-        }
+        self.path.close();
     }
 }

@@ -1,10 +1,10 @@
 //! The layout of a chart at any width: its size, the rectangle of the data, scales.
 
 use crate::chart::{Chart, Mark};
+use crate::label::width as width_of;
 use crate::legend;
 use crate::map::{KEY, Map};
 use crate::scale::{Scale, Spacing};
-use crate::svg::width as width_of;
 
 /// Sizes of labels and of what stands at ticks [px].
 pub(crate) const LABEL: f64 = 14.0;
@@ -122,6 +122,7 @@ fn widened((lo, hi): (f64, f64), range: f64) -> (f64, f64) {
 mod tests {
     use super::*;
     use crate::chart::Series;
+    use crate::palette::VERMILION;
     use crate::scale::Axis;
 
     fn chart() -> Chart {
@@ -130,7 +131,7 @@ mod tests {
         Chart::new("c", "", Axis::linear("Time (s)"), Axis::linear(long))
             .scatter(Series::circles("*y*"), &points)
             .scatter(Series::triangles("a long name of a series"), &points)
-            .scatter(Series::spots("another long name of a series", "red"), &points)
+            .scatter(Series::spots("another long name of a series", VERMILION), &points)
     }
 
     #[test]

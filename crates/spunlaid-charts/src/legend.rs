@@ -1,8 +1,9 @@
 //! The legend: rows above the plot, where there are no data to cover.
 
 use crate::chart::{Chart, Mark, Series};
+use crate::label::width;
 use crate::palette::{INK, Marker};
-use crate::svg::{Anchor, Stroke, Svg, Text, width};
+use crate::picture::{Anchor, Picture, Stroke, Text};
 
 const SIZE: f64 = 13.0;
 const ROW: f64 = 20.0;
@@ -50,20 +51,20 @@ fn rows<'a>(entries: &[Entry<'a>], room: f64) -> Vec<Vec<Entry<'a>>> {
 }
 
 /// Draws the legend between two edges.
-pub(crate) fn draw(svg: &mut Svg, entries: &[Entry<'_>], left: f64, right: f64) {
+pub(crate) fn draw(picture: &mut Picture, entries: &[Entry<'_>], left: f64, right: f64) {
     for (i, row) in rows(entries, right - left).into_iter().enumerate() {
         let y = 16.0 + i as f64 * ROW;
         let mut x = left + 4.0;
         for entry in row {
-            draw_key(svg, &entry, x, y);
+            draw_key(picture, &entry, x, y);
             let style = Text { size: SIZE, colour: INK, anchor: Anchor::Start, upright: true };
-            svg.text((x + KEY + 6.0, y + 4.5), entry.label, style);
+            picture.text((x + KEY + 6.0, y + 4.5), entry.label, style);
             x += extent(&entry) + GAP;
         }
     }
 }
 
-fn draw_key(svg: &mut Svg, &Entry { series, mark, .. }: &Entry<'_>, x: f64, y: f64) {
+fn draw_key(picture: &mut Picture, &Entry { series, mark, .. }: &Entry<'_>, x: f64, y: f64) {
     let stroke = Stroke { colour: series.colour, width: series.width, dash: series.dash };
     let middle = (x + KEY / 2.0, y);
     match mark {
@@ -71,19 +72,19 @@ fn draw_key(svg: &mut Svg, &Entry { series, mark, .. }: &Entry<'_>, x: f64, y: f
         Mark::Map(_) => {}
         Mark::Band(_) | Mark::Stretch(..) => {
             let corners = [(x, y - 6.0), (x + KEY, y - 6.0), (x + KEY, y + 6.0), (x, y + 6.0)];
-            svg.polygon(&corners, series.colour, 0.2, None);
+            picture.polygon(&corners, series.colour, 0.2, None);
         }
         Mark::Scatter(points) => {
             if points.iter().any(|p| p.2.is_some()) {
                 let bar = Stroke::solid(series.colour, 1.2);
-                svg.line((middle.0, y - 8.0), (middle.0, y + 8.0), &bar);
+                picture.line((middle.0, y - 8.0), (middle.0, y + 8.0), &bar);
             }
-            svg.marker(middle, series.marker.unwrap_or(Marker::Spot), series.colour);
+            picture.marker(middle, series.marker.unwrap_or(Marker::Spot), series.colour);
         }
         Mark::Line(_) | Mark::Path(_) | Mark::Vertical(_) => {
-            svg.line((x, y), (x + KEY, y), &stroke);
+            picture.line((x, y), (x + KEY, y), &stroke);
             if let Some(marker) = series.marker {
-                svg.marker(middle, marker, series.colour);
+                picture.marker(middle, marker, series.colour);
             }
         }
     }

@@ -4,10 +4,9 @@
 //! time, the locale or the number of threads.
 //!
 //! ```text
-//! data → Chart (axes, series, marks) → Figure ─ svg    layout, ticks, thinning, legend; for the screen, or for a width in print
-//!                                             ├ png    from the SVG, with the crate's own fonts
-//!                                             ├ pdf    the same as outlines, a page of the picture's size
-//!                                             └ table  every point that the figure shows, as CSV
+//! data → Chart (axes, series, marks) → Figure ─ picture   layout, ticks, thinning, legend: a list of shapes, for the screen or for a
+//!                                             │            width in print, written as svg, png, gif or pdf with the crate's own fonts
+//!                                             └ table     every point that the figure shows, as CSV
 //! ```
 //!
 //! # Example
@@ -23,7 +22,7 @@
 //! let figure = Figure::new(&chart, "Mean over ten replicates; bars are one standard error.");
 //!
 //! assert!(figure.svg().starts_with("<svg"));
-//! assert!(png(&figure.svg(), 192, &[])?.starts_with(b"\x89PNG"));
+//! assert!(png(&figure.picture(), 192, &[])?.starts_with(b"\x89PNG"));
 //! assert_eq!(
 //!     figure.table().csv(),
 //!     "series,velocity_m_s,amplitude_mm,error\n\
@@ -36,7 +35,8 @@
 //! ```
 //!
 //! Labels have a small mark-up: `*t*` is italic, `^{2}` is raised, `_{n}` is lowered.
-//! Directions are shown by a [`Rose`]. What neither can show is drawn with [`svg`], in the colours of [`palette`].
+//! Directions are shown by a [`Rose`]. What neither can show is a [`Drawing`]: a [`Picture`] is made of lines,
+//! areas and texts, in the colours of [`palette`].
 
 // Units stand in brackets, [px], which rustdoc takes for links that lead nowhere.
 #![allow(rustdoc::broken_intra_doc_links)]
@@ -48,17 +48,20 @@ mod drawing;
 mod figure;
 mod gif;
 mod glyphs;
+pub mod label;
 mod layout;
 mod legend;
 mod map;
 mod numbers;
+mod outline;
 pub mod palette;
 mod pdf;
-mod picture;
+pub mod picture;
+mod pixels;
 mod png;
 mod rose;
 mod scale;
-pub mod svg;
+mod svg;
 mod table;
 
 pub use chart::{Chart, Mark, Series};
@@ -70,8 +73,9 @@ pub use map::{Map, Shades};
 pub use numbers::{shortest, signed, significant};
 pub use palette::Marker;
 pub use pdf::pdf;
-pub use picture::PictureError;
+pub use picture::{Picture, PictureError};
 pub use png::png;
 pub use rose::Rose;
 pub use scale::{Axis, Scale, Spacing, Tick};
+pub use svg::svg;
 pub use table::Table;

@@ -1,8 +1,8 @@
 //! A quantity over a plane, in colours, with their key beside it.
 
 use crate::numbers::signed;
-use crate::palette::INK;
-use crate::svg::{Anchor, Stroke, Svg, Text};
+use crate::palette::{Colour, INK};
+use crate::picture::{Anchor, Picture, Stroke, Text};
 
 /// Values over a rectangle of the plane.
 #[derive(Clone, Debug)]
@@ -38,7 +38,7 @@ pub(crate) const KEY: f64 = 84.0;
 /// Shades; the eye does not see the step from one to the next.
 const LEVELS: usize = 64;
 /// Of places without a value: a grey, which no value has.
-const OUTSIDE: &str = "#c9c7c2";
+const OUTSIDE: Colour = Colour([0xc9, 0xc7, 0xc2]);
 
 impl Map {
     /// The middle of each cell with its value: x, y, value.
@@ -59,7 +59,7 @@ impl Map {
     }
 
     /// Draws the rectangles; `at` places a point. Those of one shade are one path.
-    pub(crate) fn draw(&self, svg: &mut Svg, at: impl Fn((f64, f64)) -> (f64, f64)) {
+    pub(crate) fn draw(&self, picture: &mut Picture, at: impl Fn((f64, f64)) -> (f64, f64)) {
         let columns = self.columns.max(1);
         let rows = self.values.len() / columns;
         let place = |i: usize, j: usize| {
@@ -67,7 +67,7 @@ impl Map {
                 |ends: (f64, f64), k: usize, n: usize| ends.0 + (ends.1 - ends.0) * k as f64 / n as f64;
             at((share(self.x, i, columns), share(self.y, j, rows)))
         };
-        svg.rectangles(&[(place(0, 0), place(columns, rows))], OUTSIDE);
+        picture.rectangles(&[(place(0, 0), place(columns, rows))], OUTSIDE);
         let mut shades: Vec<Vec<_>> = vec![Vec::new(); LEVELS];
         for (j, row) in self.values.chunks(columns).enumerate() {
             let levels: Vec<Option<usize>> =
@@ -82,30 +82,30 @@ impl Map {
             }
         }
         for (level, rectangles) in shades.iter().enumerate().filter(|(_, some)| !some.is_empty()) {
-            svg.rectangles(rectangles, &self.shades.colour(level));
+            picture.rectangles(rectangles, self.shades.colour(level));
         }
     }
 
     /// Draws the key: from the bottom to the top of the chart, `left` of it the picture.
-    pub(crate) fn draw_key(&self, svg: &mut Svg, left: f64, (top, bottom): (f64, f64)) {
+    pub(crate) fn draw_key(&self, picture: &mut Picture, left: f64, (top, bottom): (f64, f64)) {
         let (low, high) = self.range;
         let at = |share: f64| bottom - share * (bottom - top);
         let (l, r) = (left + 14.0, left + 28.0);
         for level in 0..LEVELS {
             let (b, t) = (at(level as f64 / LEVELS as f64), at((level + 1) as f64 / LEVELS as f64));
-            svg.rectangles(&[((l, b), (r, t))], &self.shades.colour(level));
+            picture.rectangles(&[((l, b), (r, t))], self.shades.colour(level));
         }
         let stroke = Stroke::solid(INK, 0.9);
-        svg.path(&[(l, bottom), (r, bottom), (r, top), (l, top), (l, bottom)], &stroke);
+        picture.path(&[(l, bottom), (r, bottom), (r, top), (l, top), (l, bottom)], &stroke);
         let decimals = if high - low < 1.0 { 2 } else { usize::from(high - low < 20.0) };
         for share in [0.0, 0.5, 1.0] {
             let y = at(share);
-            svg.line((r, y), (r + 4.0, y), &stroke);
+            picture.line((r, y), (r + 4.0, y), &stroke);
             let text = Text { size: 13.0, colour: INK, anchor: Anchor::Start, upright: true };
-            svg.text((r + 7.0, y + 4.5), &signed(low + share * (high - low), decimals), text);
+            picture.text((r + 7.0, y + 4.5), &signed(low + share * (high - low), decimals), text);
         }
         let text = Text { size: 13.0, colour: INK, anchor: Anchor::End, upright: true };
-        svg.text((left + KEY - 4.0, top - 10.0), &self.label, text);
+        picture.text((left + KEY - 4.0, top - 10.0), &self.label, text);
     }
 }
 
@@ -127,7 +127,7 @@ const SIGNED: [[f64; 3]; 5] = [
 ];
 
 impl Shades {
-    fn colour(self, level: usize) -> String {
+    fn colour(self, level: usize) -> Colour {
         let stops = match self {
             Self::Amount => AMOUNT,
             Self::Signed => SIGNED,
@@ -136,25 +136,22 @@ impl Shades {
         let below = (place as usize).min(stops.len() - 2);
         let mix =
             |i: usize| stops[below][i] + (place - below as f64) * (stops[below + 1][i] - stops[below][i]);
-        format!("#{:02x}{:02x}{:02x}", mix(0) as u8, mix(1) as u8, mix(2) as u8)
+        Colour([0, 1, 2].map(|i| mix(i) as u8))
     }
 }
 
 /// Every colour of a map.
-pub(crate) fn colours() -> impl Iterator<Item = String> {
+pub(crate) fn colours() -> impl Iterator<Item = Colour> {
     let palette = |shades: Shades| (0..LEVELS).map(move |level| shades.colour(level));
     palette(Shades::Amount).chain(palette(Shades::Signed))
 }
 
-/// Red, green and blue of a colour.
-pub(crate) fn parts(colour: &str) -> [u8; 3] {
-    [1, 3, 5].map(|i| colour.get(i..i + 2).and_then(|two| u8::from_str_radix(two, 16).ok()).unwrap_or(0))
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{LEVELS, Map, OUTSIDE, Shades, parts};
-    use crate::svg::Svg;
+    use super::{LEVELS, Map, OUTSIDE, Shades};
+    use crate::palette::Colour;
+    use crate::picture::Picture;
+    use crate::svg::svg;
 
     #[test]
     fn zero_and_outside_look_different() {
@@ -168,21 +165,23 @@ mod tests {
             label: "".into(),
             shades: Shades::Amount,
         };
-        let mut svg = Svg::new(100.0, 100.0, "");
-        map.draw(&mut svg, |(x, y)| (100.0 * x, 100.0 * (1.0 - y)));
-        let svg = svg.finish();
-        let shade = |fill: &str| svg.split("<path ").filter(|path| path.contains(fill)).collect::<String>();
+        let mut picture = Picture::new(100.0, 100.0, "");
+        map.draw(&mut picture, |(x, y)| (100.0 * x, 100.0 * (1.0 - y)));
+        let svg = svg(&picture);
+        let shade = |fill: Colour| -> String {
+            svg.split("<path ").filter(|path| path.contains(&fill.to_string())).collect()
+        };
         // Below everything the grey of outside, then a quarter for zero and the upper half for one.
         assert!(shade(OUTSIDE).contains("M0 100H100V0H0Z"), "{svg}");
-        assert!(shade(&Shades::Amount.colour(0)).contains("M0 100H50V50H0Z"), "{svg}");
-        assert!(shade(&Shades::Amount.colour(LEVELS - 1)).contains("M0 50H100V0H0Z"), "{svg}");
+        assert!(shade(Shades::Amount.colour(0)).contains("M0 100H50V50H0Z"), "{svg}");
+        assert!(shade(Shades::Amount.colour(LEVELS - 1)).contains("M0 50H100V0H0Z"), "{svg}");
     }
 
     #[test]
     fn neighbouring_shades_cannot_be_told_apart() {
         for level in 1..LEVELS {
             for (shades, most) in [(Shades::Amount, 6), (Shades::Signed, 12)] {
-                let [a, b] = [level, level - 1].map(|level| parts(&shades.colour(level)));
+                let [a, b] = [level, level - 1].map(|level| shades.colour(level).0);
                 let steps = a.into_iter().zip(b).map(|(a, b)| a.abs_diff(b));
                 assert!(steps.max() <= Some(most), "{shades:?} {level}");
             }

@@ -1,33 +1,36 @@
-//! From SVG to PDF: one page of the picture's size. Texts are outlines, so that it looks alike everywhere.
+//! From a picture to PDF: one page of its size. Texts are outlines, so that it looks alike everywhere.
 
-use crate::picture::{PER_INCH, PictureError, shapes};
+use crate::palette::{Colour, PAPER};
+use crate::picture::{Fill, Outline, Picture, PictureError, Shape, Stroke};
 use flate2::{Compression, write::ZlibEncoder};
-use pdf_writer::types::{LineCapStyle, LineJoinStyle};
+use pdf_writer::types::LineJoinStyle;
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
-use resvg::tiny_skia::{Path, PathSegment, Transform};
-use resvg::usvg::{FillRule, Group, LineCap, LineJoin, Node, Paint, ShapeRendering, Stroke};
 use std::collections::BTreeSet;
 use std::io::Write;
+use tiny_skia::{Path, PathSegment};
 
-/// Points of a PDF per pixel of the SVG.
-const SCALE: f32 = 72.0 / PER_INCH;
+/// Points of a PDF in an inch.
+const PER_INCH: f64 = 72.0;
 /// Width of the line around shapes with sharp edges [px]: without it, viewers leave pale gaps between neighbours.
-const SEAM: f32 = 0.3;
+const SEAM: f64 = 0.3;
 
-/// The picture as PDF, a page as large as the SVG. It knows shapes of one colour each, which are all that
-/// [`Svg`](crate::svg::Svg) writes.
+/// The picture as PDF, a page as large as it is.
 ///
 /// * `title`, `software` – what the file says about itself
 ///
 /// # Errors
-/// A string that is not an SVG picture.
-pub fn pdf(svg: &str, title: &str, software: &str) -> Result<Vec<u8>, PictureError> {
-    let tree = shapes(svg)?;
-    let (width, height) = (tree.size().width() * SCALE, tree.size().height() * SCALE);
+/// A picture without extent.
+pub fn pdf(picture: &Picture, title: &str, software: &str) -> Result<Vec<u8>, PictureError> {
+    let extent = picture.extent(PER_INCH)?;
+    let [width, height] = extent.map(|side| side as f32);
+    let [x, y] = [0, 1].map(|i| (extent[i] / picture.size[i]) as f32);
     let mut page = Page { content: Content::new(), opacities: BTreeSet::new() };
     // PDF counts upwards from the lower left corner.
-    page.content.transform([SCALE, 0.0, 0.0, -SCALE, 0.0, height]);
-    page.group(tree.root());
+    page.content.transform([x, 0.0, 0.0, -y, 0.0, height]).set_line_join(LineJoinStyle::RoundJoin);
+    let [red, green, blue] = shares(PAPER);
+    let paper = page.content.set_fill_rgb(red, green, blue);
+    paper.rect(0.0, 0.0, picture.size[0] as f32, picture.size[1] as f32).fill_nonzero();
+    picture.shapes.iter().for_each(|shape| page.add(shape));
     let mut packed = ZlibEncoder::new(Vec::new(), Compression::default());
     let failed = |error: std::io::Error| PictureError::Encoding(error.to_string());
     packed.write_all(&page.content.finish()).map_err(failed)?;
@@ -44,8 +47,7 @@ pub fn pdf(svg: &str, title: &str, software: &str) -> Result<Vec<u8>, PictureErr
     let mut states = resources.ext_g_states();
     for opacity in &page.opacities {
         let mut state = states.insert(Name(name(*opacity).as_bytes())).dict();
-        let share = f32::from(*opacity) / 255.0;
-        state.pair(Name(b"ca"), share).pair(Name(b"CA"), share);
+        state.pair(Name(b"ca"), f32::from(*opacity) / 255.0);
     }
     states.finish();
     resources.finish();
@@ -55,7 +57,7 @@ pub fn pdf(svg: &str, title: &str, software: &str) -> Result<Vec<u8>, PictureErr
     Ok(file.finish())
 }
 
-/// Name of the state in which shapes have this opacity, of 255.
+/// Name of the state in which areas have this opacity, of 255.
 fn name(opacity: u8) -> String {
     format!("a{opacity}")
 }
@@ -63,86 +65,56 @@ fn name(opacity: u8) -> String {
 /// The shapes of a page as they are written.
 struct Page {
     content: Content,
-    /// Those that shapes have, other than 255.
+    /// Those that areas have, other than 255.
     opacities: BTreeSet<u8>,
 }
 
 impl Page {
-    fn group(&mut self, group: &Group) {
+    fn add(&mut self, shape: &Shape) {
+        match shape {
+            Shape::Drawn { outline, fill, stroke } => self.draw(outline, *fill, *stroke),
+            Shape::Clip { corner: (x, y), size: (width, height), .. } => {
+                self.content.save_state().rect(*x, *y, *width, *height).clip_nonzero().end_path();
+            }
+            Shape::Shift(down) => {
+                self.content.save_state().transform([1.0, 0.0, 0.0, 1.0, 0.0, *down]);
+            }
+            Shape::Close => {
+                self.content.restore_state();
+            }
+        }
+    }
+
+    fn draw(&mut self, outline: &Outline, fill: Option<Fill>, stroke: Option<Stroke>) {
+        let Some((path, own)) = outline.path() else { return };
+        let seam = fill.filter(|_| outline.is_sharp()).map(|fill| Stroke::solid(fill.colour, SEAM));
+        let stroke = stroke.or(seam);
         self.content.save_state();
-        if let Some(clip) = group.clip_path() {
-            let placed = group.abs_transform().pre_concat(clip.transform());
-            for node in clip.root().children() {
-                if let Node::Path(path) = node {
-                    let outline = path.data().clone().transform(placed.pre_concat(path.abs_transform()));
-                    outline.iter().for_each(|outline| self.outline(outline));
-                }
+        if let Some(fill) = fill {
+            if fill.opacity < u8::MAX {
+                self.opacities.insert(fill.opacity);
+                self.content.set_parameters(Name(name(fill.opacity).as_bytes()));
             }
-            self.content.clip_nonzero().end_path();
+            let [red, green, blue] = shares(fill.colour);
+            self.content.set_fill_rgb(red, green, blue);
         }
-        for node in group.children() {
-            match node {
-                Node::Group(inner) => self.group(inner),
-                Node::Path(path) if path.is_visible() => self.path(path),
-                Node::Path(_) | Node::Image(_) | Node::Text(_) => {}
+        if let Some(Stroke { colour, width, dash }) = stroke {
+            let [red, green, blue] = shares(colour);
+            self.content.set_stroke_rgb(red, green, blue).set_line_width(width as f32);
+            if !dash.is_empty() {
+                self.content.set_dash_pattern(dash.iter().copied(), 0.0);
             }
         }
+        if !own.is_identity() {
+            self.content.transform([own.sx, own.ky, own.kx, own.sy, own.tx, own.ty]);
+        }
+        self.outline(&path);
+        match (fill, stroke) {
+            (Some(_), Some(_)) => self.content.fill_nonzero_and_stroke(),
+            (Some(_), None) => self.content.fill_nonzero(),
+            (None, _) => self.content.stroke(),
+        };
         self.content.restore_state();
-    }
-
-    fn path(&mut self, path: &resvg::usvg::Path) {
-        let fill =
-            path.fill().and_then(|fill| Some((colour(fill.paint())?, fill.opacity().to_u8(), fill.rule())));
-        let stroke = path
-            .stroke()
-            .and_then(|stroke| Some((colour(stroke.paint())?, stroke.opacity().to_u8(), stroke)));
-        let Transform { sx, ky, kx, sy, tx, ty } = path.abs_transform();
-        self.content.save_state().transform([sx, ky, kx, sy, tx, ty]);
-        if let Some((colour, opacity, rule)) = fill {
-            self.content.save_state();
-            self.opacity(opacity);
-            let [r, g, b] = colour;
-            self.content.set_fill_rgb(r, g, b).set_stroke_rgb(r, g, b).set_line_width(SEAM);
-            self.outline(path.data());
-            match (path.rendering_mode(), rule) {
-                (ShapeRendering::CrispEdges, _) => self.content.fill_nonzero_and_stroke(),
-                (_, FillRule::NonZero) => self.content.fill_nonzero(),
-                (_, FillRule::EvenOdd) => self.content.fill_even_odd(),
-            };
-            self.content.restore_state();
-        }
-        if let Some(([r, g, b], opacity, stroke)) = stroke {
-            self.opacity(opacity);
-            self.content.set_stroke_rgb(r, g, b);
-            self.line(stroke);
-            self.outline(path.data());
-            self.content.stroke();
-        }
-        self.content.restore_state();
-    }
-
-    fn opacity(&mut self, opacity: u8) {
-        if opacity < u8::MAX {
-            self.opacities.insert(opacity);
-            self.content.set_parameters(Name(name(opacity).as_bytes()));
-        }
-    }
-
-    fn line(&mut self, stroke: &Stroke) {
-        self.content.set_line_width(stroke.width().get());
-        self.content.set_line_cap(match stroke.linecap() {
-            LineCap::Butt => LineCapStyle::ButtCap,
-            LineCap::Round => LineCapStyle::RoundCap,
-            LineCap::Square => LineCapStyle::ProjectingSquareCap,
-        });
-        self.content.set_line_join(match stroke.linejoin() {
-            LineJoin::Miter | LineJoin::MiterClip => LineJoinStyle::MiterJoin,
-            LineJoin::Round => LineJoinStyle::RoundJoin,
-            LineJoin::Bevel => LineJoinStyle::BevelJoin,
-        });
-        if let Some(dashes) = stroke.dasharray() {
-            self.content.set_dash_pattern(dashes.iter().copied(), stroke.dashoffset());
-        }
     }
 
     fn outline(&mut self, path: &Path) {
@@ -178,18 +150,15 @@ impl Page {
 }
 
 /// Red, green and blue, 0 to 1.
-fn colour(paint: &Paint) -> Option<[f32; 3]> {
-    match paint {
-        Paint::Color(colour) => {
-            Some([colour.red, colour.green, colour.blue].map(|part| f32::from(part) / 255.0))
-        }
-        _ => None,
-    }
+fn shares(colour: Colour) -> [f32; 3] {
+    colour.0.map(|part| f32::from(part) / 255.0)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::palette::INK;
+    use crate::picture::{Anchor, Text};
     use flate2::read::ZlibDecoder;
     use std::io::Read;
 
@@ -204,45 +173,60 @@ mod tests {
 
     #[test]
     fn the_page_is_as_large_as_the_picture_in_print_and_shapes_keep_colour_dash_and_opacity() {
-        let svg = r##"<svg xmlns="http://www.w3.org/2000/svg" width="25.4mm" height="50.8mm" viewBox="0 0 10 20"><path d="M1 2L3 4Z" fill="#ff0000" fill-opacity="0.2"/><path d="M0 0L5 5" fill="none" stroke="#00ff00" stroke-width="2" stroke-dasharray="6 4"/></svg>"##;
-        let file = pdf(svg, "A title", "spunlaid").unwrap();
+        let mut picture = Picture::new(10.0, 20.0, "").printed(2.54);
+        picture.polygon(&[(1.0, 2.0), (3.0, 4.0)], Colour([255, 0, 0]), 0.2, None);
+        let stroke = Stroke { colour: Colour([0, 255, 0]), width: 2.0, dash: &[6.0, 4.0] };
+        picture.line((0.0, 0.0), (5.0, 5.0), &stroke);
+        picture.circle((5.0, 5.0), 1.0, Colour([255, 0, 0]), &stroke);
+        let file = pdf(&picture, "A title", "spunlaid").unwrap();
         let text = String::from_utf8_lossy(&file);
         assert!(text.starts_with("%PDF-"), "{text}");
         assert!(text.contains("/MediaBox [0 0 72 144]"), "{text}");
-        assert!(
-            text.contains("/Title (A title)") && text.contains("/ca 0.2\n") && text.contains("/CA 0.2\n"),
-            "{text}"
-        );
+        assert!(text.contains("/Title (A title)") && text.contains("/ca 0.2\n"), "{text}");
         let content = content(&file);
-        for operators in
-            ["1 0 0 rg", "/a51 gs", "1 2 m\n3 4 l\nh\nf", "0 1 0 RG", "2 w", "[6 4] 0 d", "0 0 m\n5 5 l\nS"]
-        {
+        for operators in [
+            "1 0 0 rg",
+            "/a51 gs",
+            "1 2 m\n3 4 l\nh\nf\n",
+            "0 1 0 RG",
+            "2 w",
+            "[6 4] 0 d",
+            "0 0 m\n5 5 l\nS",
+            // The area first, the line on it.
+            "6 5 m\n",
+            "h\nB\n",
+        ] {
             assert!(content.contains(operators), "{operators}: {content}");
         }
     }
 
     #[test]
     fn clips_hide_what_lies_outside_and_texts_are_outlines() {
-        let mut svg = crate::svg::Svg::new(100.0, 50.0, "");
-        svg.open_clip("c", 10.0, 10.0, 30.0, 20.0);
-        svg.line((0.0, 0.0), (100.0, 50.0), &crate::svg::Stroke::solid("#000000", 1.0));
-        svg.close();
-        let style = crate::svg::Text {
-            size: 10.0,
-            colour: "#0000ff",
-            anchor: crate::svg::Anchor::Start,
-            upright: true,
-        };
-        svg.text((10.0, 40.0), "*µ*m", style);
-        let content = content(&pdf(&svg.finish(), "", "").unwrap());
-        let clip = content.split("W\nn").next().unwrap();
-        assert!(clip.ends_with("10 10 m\n40 10 l\n40 30 l\n10 30 l\nh\n"), "{content}");
-        let text = content.split("0 0 1 rg").nth(1).unwrap();
+        let mut picture = Picture::new(100.0, 50.0, "");
+        picture.open_clip("c", 10.0, 10.0, 30.0, 20.0);
+        picture.line((0.0, 0.0), (100.0, 50.0), &Stroke::solid(INK, 1.0));
+        picture.close();
+        let style = Text { size: 10.0, colour: Colour([0, 0, 255]), anchor: Anchor::Start, upright: true };
+        picture.text((10.0, 40.0), "*µ*m", style);
+        let content = content(&pdf(&picture, "", "").unwrap());
+        let (clip, line) = content.split_once("W\nn\n").unwrap();
+        assert!(clip.ends_with("q\n10 10 30 20 re\n"), "{content}");
+        let (line, text) = line.split_once("0 0 1 rg").unwrap();
+        assert!(line.contains("0 0 m\n100 50 l\nS\nQ\nQ\n"), "{content}");
         assert!(text.contains(" c\n"), "{content}");
     }
 
     #[test]
-    fn rejects_what_is_no_picture() {
-        assert!(pdf("<html></html>", "", "").is_err());
+    fn sharp_edges_have_a_seam() {
+        let mut picture = Picture::new(10.0, 10.0, "");
+        picture.rectangles(&[((1.0, 4.0), (3.0, 2.0))], Colour([255, 0, 0]));
+        let content = content(&pdf(&picture, "", "").unwrap());
+        let seam = "1 0 0 rg\n1 0 0 RG\n0.3 w\n1 4 m\n3 4 l\n3 2 l\n1 2 l\nh\nB\n";
+        assert!(content.contains(seam), "{content}");
+    }
+
+    #[test]
+    fn rejects_a_picture_without_extent() {
+        assert!(pdf(&Picture::new(10.0, 0.0, ""), "", "").is_err());
     }
 }

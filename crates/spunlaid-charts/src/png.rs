@@ -1,19 +1,20 @@
-//! From SVG to PNG, with the embedded fonts: the same on every machine.
+//! From a picture to PNG: the same on every machine.
 
-use crate::picture::{PER_INCH, PictureError, drawn};
+use crate::picture::{Picture, PictureError};
+use crate::pixels::drawn;
 use png::{BitDepth, ColorType, Encoder, PixelDimensions, Unit};
 
 const METRES_PER_INCH: f64 = 0.0254;
 
-/// The picture as PNG on white. The file says how many pixels an inch has, so that it has the size of the SVG in print.
+/// The picture as PNG. The file says how many pixels an inch has, so that it has the size of the picture in print.
 ///
-/// * `dpi` – pixels per inch; an SVG has 96 units in an inch
+/// * `dpi` – pixels per inch; a screen has 96
 /// * `texts` – what the file says about itself: keyword and text, as `Title` and `Software`
 ///
 /// # Errors
-/// A string that is not an SVG picture or has no size.
-pub fn png(svg: &str, dpi: u32, texts: &[(&str, &str)]) -> Result<Vec<u8>, PictureError> {
-    let pixels = drawn(svg, dpi as f32 / PER_INCH)?;
+/// A picture that has no pixels.
+pub fn png(picture: &Picture, dpi: u32, texts: &[(&str, &str)]) -> Result<Vec<u8>, PictureError> {
+    let pixels = drawn(picture, dpi)?;
     let failed = |error: png::EncodingError| PictureError::Encoding(error.to_string());
     let mut file = Vec::new();
     let mut encoder = Encoder::new(&mut file, pixels.width(), pixels.height());
@@ -35,12 +36,16 @@ pub fn png(svg: &str, dpi: u32, texts: &[(&str, &str)]) -> Result<Vec<u8>, Pictu
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::palette::INK;
+    use crate::picture::{Anchor, Text};
 
     #[test]
     fn draws_text_in_the_embedded_font() {
-        let blank = r##"<svg xmlns="http://www.w3.org/2000/svg" width="60" height="20"></svg>"##;
-        let text = blank.replace("></svg>", r##" font-family="Nowhere"><text y="15">µ m²</text></svg>"##);
-        let (blank, text) = (png(blank, 192, &[]).unwrap(), png(&text, 192, &[]).unwrap());
+        let mut picture = Picture::new(60.0, 20.0, "");
+        let blank = png(&picture, 192, &[]).unwrap();
+        let style = Text { size: 16.0, colour: INK, anchor: Anchor::Start, upright: true };
+        picture.text((0.0, 15.0), "µ m²", style);
+        let text = png(&picture, 192, &[]).unwrap();
         assert_eq!(&text[1..4], b"PNG");
         assert!(text.len() > blank.len() + 200);
     }
@@ -48,8 +53,8 @@ mod tests {
     #[test]
     fn has_the_pixels_of_its_size_in_print_and_says_so() {
         // 84 mm at 300 dpi are 992 pixels; 300 dpi are 11 811 pixels per metre.
-        let svg = r##"<svg xmlns="http://www.w3.org/2000/svg" width="84mm" height="42mm" viewBox="0 0 2 1"></svg>"##;
-        let file = png(svg, 300, &[("Title", "Amplitude’s ± error")]).unwrap();
+        let picture = Picture::new(420.0, 210.0, "").printed(0.2);
+        let file = png(&picture, 300, &[("Title", "Amplitude’s ± error")]).unwrap();
         let reader = png::Decoder::new(std::io::Cursor::new(file)).read_info().unwrap();
         let info = reader.info();
         assert_eq!((info.width, info.height), (992, 496));
@@ -63,7 +68,7 @@ mod tests {
     }
 
     #[test]
-    fn rejects_what_is_no_picture() {
-        assert!(png("<html></html>", 96, &[]).is_err());
+    fn rejects_a_picture_without_extent() {
+        assert!(png(&Picture::new(0.0, 10.0, ""), 96, &[]).is_err());
     }
 }

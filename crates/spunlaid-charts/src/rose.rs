@@ -2,9 +2,10 @@
 
 use crate::drawing::Drawing;
 use crate::figure::Figure;
+use crate::label::width as width_of;
 use crate::numbers::shortest;
-use crate::palette::{BLUE, GREY, GRID, INK};
-use crate::svg::{Anchor, Stroke, Svg, Text};
+use crate::palette::{BLUE, GREY, GRID, INK, PAPER};
+use crate::picture::{Anchor, Picture, Stroke, Text};
 use crate::table::Table;
 use std::f64::consts::{PI, TAU};
 
@@ -39,36 +40,36 @@ impl Rose {
     /// The figure. Wedges are as long as their values.
     pub fn figure(&self, caption: impl Into<String>) -> Figure {
         let rose = self.clone();
-        let drawing = Drawing::new(WIDTH, move |width| rose.svg(width));
+        let drawing = Drawing::new(WIDTH, move |width| rose.picture(width));
         Figure::drawn(&self.name, &self.title, drawing, self.table(), caption)
     }
 
-    fn svg(&self, width: f64) -> String {
+    fn picture(&self, width: f64) -> Picture {
         let disc = Disc { radius: 0.5 * width - BESIDE };
-        let mut svg = Svg::new(width, ABOVE + 2.0 * disc.radius + BELOW, &self.title);
+        let mut picture = Picture::new(width, ABOVE + 2.0 * disc.radius + BELOW, &self.title);
         let reference = self.reference.as_ref().map_or(0.0, |reference| reference.0);
         let values = self.classes.iter().map(|class| class.0).filter(|value| value.is_finite());
         let largest = values.fold(reference, f64::max);
         let step = ring_step(largest);
         let rings = (largest / step - 1e-9).ceil().max(1.0);
         let at = |value: f64| value / (rings * step) * disc.radius;
-        self.draw_wedges(&mut svg, disc, at);
+        self.draw_wedges(&mut picture, disc, at);
         let grid = Stroke::solid(GREY, 0.5);
         for ring in 1..=rings as u32 {
-            svg.path(&disc.circle(at(f64::from(ring) * step)), &grid);
+            picture.path(&disc.circle(at(f64::from(ring) * step)), &grid);
         }
         for turn in 0..4 {
             let far = disc.place(disc.radius, f64::from(turn) * PI / 2.0);
-            svg.line(disc.centre(), far, &grid);
+            picture.line(disc.centre(), far, &grid);
         }
         if let Some((value, _)) = &self.reference {
-            svg.path(&disc.circle(at(*value)), &Stroke { colour: INK, width: 1.3, dash: Some("5 4") });
+            picture.path(&disc.circle(at(*value)), &Stroke { colour: INK, width: 1.3, dash: &[5.0, 4.0] });
         }
-        self.draw_labels(&mut svg, disc, [rings, step], at);
-        svg.finish()
+        self.draw_labels(&mut picture, disc, [rings, step], at);
+        picture
     }
 
-    fn draw_wedges(&self, svg: &mut Svg, disc: Disc, at: impl Fn(f64) -> f64) {
+    fn draw_wedges(&self, picture: &mut Picture, disc: Disc, at: impl Fn(f64) -> f64) {
         let width = TAU / self.classes.len().max(1) as f64;
         let edge = Stroke::solid(BLUE, 0.8);
         for (i, (value, _)) in self.classes.iter().enumerate() {
@@ -80,11 +81,17 @@ impl Rose {
             let parts = (width / (TAU / 120.0)).ceil().max(1.0) as usize;
             let angle = |k: usize| width * (i as f64 + k as f64 / parts as f64);
             corners.extend((0..=parts).map(|k| disc.place(at(*value), angle(k))));
-            svg.polygon(&corners, BLUE, 0.28, Some(&edge));
+            picture.polygon(&corners, BLUE, 0.28, Some(&edge));
         }
     }
 
-    fn draw_labels(&self, svg: &mut Svg, disc: Disc, [rings, step]: [f64; 2], at: impl Fn(f64) -> f64) {
+    fn draw_labels(
+        &self,
+        picture: &mut Picture,
+        disc: Disc,
+        [rings, step]: [f64; 2],
+        at: impl Fn(f64) -> f64,
+    ) {
         let radius = disc.radius;
         let text = |anchor, colour, size| Text { size, colour, anchor, upright: true };
         for ring in 1..=rings as u32 {
@@ -92,33 +99,33 @@ impl Rose {
             let (x, y) = disc.place(at(value), PI * 0.375);
             // Readable on the wedges below.
             let label = shortest((value * 1e6).round() / 1e6);
-            let half = 0.5 * crate::svg::width(&label, 12.0) + 2.0;
+            let half = 0.5 * width_of(&label, 12.0) + 2.0;
             let box_ = [(x - half, y - 8.0), (x + half, y - 8.0), (x + half, y + 7.0), (x - half, y + 7.0)];
-            svg.polygon(&box_, "#ffffff", 0.8, None);
-            svg.text((x, y + 4.0), &label, text(Anchor::Middle, GREY, 12.0));
+            picture.polygon(&box_, PAPER, 0.8, None);
+            picture.text((x, y + 4.0), &label, text(Anchor::Middle, GREY, 12.0));
         }
         let [right, up, left, down] = &self.sides;
         let (x, y) = disc.centre();
-        svg.text((x + radius + 8.0, y + 5.0), right, text(Anchor::Start, INK, 13.0));
-        svg.text((x, y - radius - 10.0), up, text(Anchor::Middle, INK, 13.0));
-        svg.text((x - radius - 8.0, y + 5.0), left, text(Anchor::End, INK, 13.0));
-        svg.text((x, y + radius + 22.0), down, text(Anchor::Middle, INK, 13.0));
+        picture.text((x + radius + 8.0, y + 5.0), right, text(Anchor::Start, INK, 13.0));
+        picture.text((x, y - radius - 10.0), up, text(Anchor::Middle, INK, 13.0));
+        picture.text((x - radius - 8.0, y + 5.0), left, text(Anchor::End, INK, 13.0));
+        picture.text((x, y + radius + 22.0), down, text(Anchor::Middle, INK, 13.0));
         if let Some((_, words)) = &self.reference {
             let y = y + radius + BELOW - 9.0;
-            let width = crate::svg::width(words, 13.0);
+            let width = width_of(words, 13.0);
             let left = x - 0.5 * (width + 34.0);
-            svg.line(
+            picture.line(
                 (left, y - 4.5),
                 (left + 28.0, y - 4.5),
-                &Stroke { colour: INK, width: 1.3, dash: Some("5 4") },
+                &Stroke { colour: INK, width: 1.3, dash: &[5.0, 4.0] },
             );
-            svg.text((left + 34.0, y), words, text(Anchor::Start, INK, 13.0));
+            picture.text((left + 34.0, y), words, text(Anchor::Start, INK, 13.0));
         }
         if self.classes.iter().all(|class| !class.0.is_finite()) {
             let box_ =
                 [(x - 90.0, y - 14.0), (x + 90.0, y - 14.0), (x + 90.0, y + 12.0), (x - 90.0, y + 12.0)];
-            svg.polygon(&box_, "#ffffff", 1.0, Some(&Stroke::solid(GRID, 0.8)));
-            svg.text((x, y + 4.0), "no values to show", text(Anchor::Middle, GREY, 14.0));
+            picture.polygon(&box_, PAPER, 1.0, Some(&Stroke::solid(GRID, 0.8)));
+            picture.text((x, y + 4.0), "no values to show", text(Anchor::Middle, GREY, 14.0));
         }
     }
 
@@ -172,6 +179,7 @@ impl Disc {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::svg::svg;
 
     fn rose(classes: Vec<(f64, Option<f64>)>) -> Rose {
         let words = |text: &str| text.to_owned();
@@ -221,7 +229,7 @@ mod tests {
     #[test]
     fn nothing_to_show_is_said() {
         for classes in [vec![], vec![(f64::NAN, None); 36], vec![(f64::INFINITY, None); 4]] {
-            let svg = rose(classes).svg(300.0);
+            let svg = svg(&rose(classes).picture(300.0));
             assert!(svg.contains("no values to show") && !svg.contains("NaN") && !svg.contains("inf"));
         }
     }

@@ -1,7 +1,7 @@
 //! The numbers behind a figure.
 
+use crate::label::{plain, upright};
 use crate::numbers::shortest;
-use crate::svg::{plain, upright};
 
 /// The numbers that a figure shows: a row per point, which begins with the name of the point's series.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -21,9 +21,10 @@ const RESULTS: &[&[&str]] = &[&["failure", "numbers"], &["figures"], &["output"]
 
 const CHARTS: &[&[&str]] = &[
     &["decimate", "glyphs", "numbers", "palette"],
-    &["picture", "svg"],
-    &["pdf", "png", "drawing", "table", "map"],
-    &["gif", "scale"],
+    &["label", "picture"],
+    &["outline", "svg"],
+    &["pixels", "pdf", "drawing", "table", "map"],
+    &["png", "gif", "scale"],
     &["chart"],
     &["legend"],
     &["layout"],

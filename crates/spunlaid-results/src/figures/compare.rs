@@ -4,7 +4,7 @@ use super::run::measured::axes;
 use spunlaid::observe::{DECLARED, Kind, Measure};
 use spunlaid_charts::{
     Chart, Figure, Series,
-    palette::{BLUE, GREEN, INK, ORANGE, PURPLE, VERMILION},
+    palette::{BLUE, Colour, GREEN, INK, ORANGE, PURPLE, VERMILION},
 };
 use std::collections::BTreeMap;
 
@@ -12,9 +12,9 @@ use std::collections::BTreeMap;
 pub const MOST: usize = 6;
 
 /// Colours of the runs.
-pub(super) const COLOURS: [&str; MOST] = [BLUE, VERMILION, GREEN, ORANGE, PURPLE, INK];
+pub(super) const COLOURS: [Colour; MOST] = [BLUE, VERMILION, GREEN, ORANGE, PURPLE, INK];
 /// Dashes of the series of one run.
-const DASHES: [Option<&str>; 4] = [None, Some("8 4"), Some("2 3"), Some("8 3 2 3")];
+const DASHES: [&[f32]; 4] = [&[], &[8.0, 4.0], &[2.0, 3.0], &[8.0, 3.0, 2.0, 3.0]];
 
 /// A point of a curve, in the units of the axes.
 #[derive(Clone, Debug, PartialEq)]

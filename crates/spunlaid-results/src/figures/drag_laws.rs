@@ -2,7 +2,7 @@
 
 use spunlaid::drag::{FrictionLaw, NormalLaw};
 use spunlaid_charts::{
-    Axis, Chart, Series,
+    Axis, Chart, Figure, Series,
     palette::{BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILION},
 };
 use std::fs;
@@ -44,7 +44,7 @@ fn across() -> Chart {
     for (diameter, colour) in [(20e-6, GREEN), (50e-6, ORANGE), (150e-6, PURPLE)] {
         let label = format!("Ju & Shambaugh, {:.0} µm", diameter * 1e6);
         let fitted = law((-1.5, 3.0), |re| NormalLaw::JuShambaugh.coefficient(re, diameter));
-        chart = chart.line(Series::new(&label, colour).dashed("7 3"), &fitted);
+        chart = chart.line(Series::new(&label, colour).dashed(&[7.0, 3.0]), &fitted);
     }
     let cotton: Vec<(f64, f64)> = cotton().into_iter().flatten().collect();
     chart = chart.line(Series::new("single cotton fibres, 9 to 16 µm", VERMILION), &cotton);
@@ -60,9 +60,9 @@ fn along() -> Chart {
         Axis::logarithmic("Coefficient *C*_{f} (–)"),
     );
     for (factor, label, dash) in [
-        (0.9, "Matsui, *β* = 0.9", "7 3"),
-        (0.78, "Majumdar & Shambaugh", "3 3"),
-        (0.37, "Matsui, *β* = 0.37", "1 3"),
+        (0.9, "Matsui, *β* = 0.9", &[7.0, 3.0][..]),
+        (0.78, "Majumdar & Shambaugh", &[3.0, 3.0]),
+        (0.37, "Matsui, *β* = 0.37", &[1.0, 3.0]),
     ] {
         let turbulent = FrictionLaw::Matsui { factor };
         let line = law((-1.0, 3.0), |re| turbulent.coefficient(re, 1.0));
@@ -71,8 +71,8 @@ fn along() -> Chart {
     for (distance, words, colour) in [(0.01, "10 mm", VERMILION), (0.1, "100 mm", BLUE), (1.0, "1 m", GREEN)]
     {
         for (laminar, name, dash) in [
-            (FrictionLaw::GlauertLighthill, "Glauert & Lighthill", None),
-            (FrictionLaw::Sakiadis, "Sakiadis", Some("7 3")),
+            (FrictionLaw::GlauertLighthill, "Glauert & Lighthill", &[][..]),
+            (FrictionLaw::Sakiadis, "Sakiadis", &[7.0, 3.0]),
         ] {
             let line = law((-1.0, 3.0), |re| laminar.coefficient(re, distance / diameter));
             let series = Series { dash, ..Series::new(&format!("{name}, {words}"), colour) };
@@ -86,7 +86,7 @@ fn along() -> Chart {
 fn identical_pictures_in_the_theory() {
     for chart in [across(), along()] {
         let path = format!("{}/../../docs/images/{}.svg", env!("CARGO_MANIFEST_DIR"), chart.name);
-        let svg = chart.svg();
+        let svg = Figure::new(&chart, "").svg();
         if std::env::var_os("BLESS").is_some() {
             fs::write(&path, &svg).unwrap();
         }

@@ -38,7 +38,7 @@ fn curves(chart: Chart, drawn: &[CurveRow]) -> Chart {
     let scan: Vec<(f64, f64, Option<f64>)> = drawn.iter().map(|one| (one.0, one.1, None)).collect();
     chart
         .band(Series::new("95 of 100 simulated webs", VERMILION), &band)
-        .line(Series::new("start", GREY).dashed("6 4"), &line(|one| one.2))
+        .line(Series::new("start", GREY).dashed(&[6.0, 4.0]), &line(|one| one.2))
         .line(Series::new("fit, mean of the simulated webs", VERMILION).width(1.8), &line(|one| one.3))
         .scatter(Series::spots("scan", BLUE), &scan)
 }

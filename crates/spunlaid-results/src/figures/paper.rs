@@ -21,7 +21,7 @@ pub fn velocity_history(record: &[(f64, f64)], mean: f64) -> Figure {
     )
     .line(Series::new("velocity along x in one eddy", BLUE).width(1.0), record)
     .line(
-        Series::reference("mean").dashed("6 4"),
+        Series::reference("mean").dashed(&[6.0, 4.0]),
         &[(record.first().map_or(0.0, |r| r.0), mean), (record.last().map_or(1.0, |r| r.0), mean)],
     );
     Figure::new(
@@ -44,7 +44,7 @@ pub fn spectrum(points: &[SpectrumPoint]) -> Figure {
         Axis::logarithmic("Energy *E* ((m/s)^{2}/Hz)").decades(6),
     )
     .line(Series::new("synthesised", BLUE).width(1.3), &synthesised)
-    .line(Series::reference("flat model").dashed("6 4").width(1.6), &model);
+    .line(Series::reference("flat model").dashed(&[6.0, 4.0]).width(1.6), &model);
     Figure::new(
         &chart,
         "Figure 3. The spectrum of the synthesised velocity (Welch’s estimate over components, eddies and \

@@ -3,18 +3,19 @@
 use super::{run_figures, sample};
 use spunlaid::ensemble::SpectrumPoint;
 use spunlaid::observe::Kind;
-use spunlaid_charts::{Figure, pdf, png};
+use spunlaid_charts::{Figure, pdf, png, svg};
 
 fn check(figures: &[Figure]) {
     for figure in figures {
-        let svg = &figure.svg();
-        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{}:\n{svg}", figure.name);
-        assert!(svg.len() < 400_000, "{}: {} bytes", figure.name, svg.len());
+        let text = figure.svg();
+        assert!(!text.contains("NaN") && !text.contains("inf"), "{}:\n{text}", figure.name);
+        assert!(text.len() < 400_000, "{}: {} bytes", figure.name, text.len());
         assert!(!figure.title.is_empty() && !figure.caption.contains("NaN"), "{figure:?}");
-        assert!(png(svg, 192, &[]).unwrap().len() > 1000, "{}", figure.name);
-        let narrow = figure.in_print(84.0);
+        assert!(png(&figure.picture(), 192, &[]).unwrap().len() > 1000, "{}", figure.name);
+        let print = figure.in_print(84.0);
+        let narrow = svg(&print);
         assert!(narrow.contains(" width=\"84mm\" ") && !narrow.contains("NaN"), "{narrow}");
-        assert!(pdf(&narrow, &figure.title, "").unwrap().len() > 1000, "{}", figure.name);
+        assert!(pdf(&print, &figure.title, "").unwrap().len() > 1000, "{}", figure.name);
     }
 }
 

@@ -4,7 +4,7 @@ use crate::Failure;
 use crate::failure::undrawable;
 use spunlaid::threads::each;
 use spunlaid::units::Dimension;
-use spunlaid_charts::{Figure, PictureError, pdf, png};
+use spunlaid_charts::{Figure, PictureError, pdf, png, svg};
 use std::borrow::Borrow;
 use std::thread::available_parallelism;
 
@@ -65,7 +65,7 @@ pub const COLUMNS: [f64; 2] = [84e-3, 174e-3];
 pub const WIDTHS: [f64; 2] = [60e-3, 400e-3];
 /// Pixels per inch of a PNG for print, as journals ask for.
 const PRINT: u32 = 300;
-/// Pixels per inch of a PNG as on the screen: two for each pixel of the SVG.
+/// Pixels per inch of a PNG as on the screen: two for each pixel of the picture.
 const SCREEN: u32 = 192;
 /// What files say about the program.
 const SOFTWARE: &str = concat!("spunlaid ", env!("CARGO_PKG_VERSION"));
@@ -119,14 +119,14 @@ impl FigureFiles {
 
     /// The figure in each format.
     fn drawn(&self, figure: &Figure) -> Result<Vec<Vec<u8>>, Failure> {
-        let (svg, dpi) = match self.width {
+        let (picture, dpi) = match self.width {
             Some(width) => (figure.in_print(width * 1e3), PRINT),
-            None => (figure.svg(), SCREEN),
+            None => (figure.picture(), SCREEN),
         };
         let file = |format: &Format| match format {
-            Format::Svg => Ok(svg.as_bytes().to_vec()),
-            Format::Png => png(&svg, dpi, &[("Title", &figure.title), ("Software", SOFTWARE)]),
-            Format::Pdf => pdf(&svg, &figure.title, SOFTWARE),
+            Format::Svg => Ok(svg(&picture).into_bytes()),
+            Format::Png => png(&picture, dpi, &[("Title", &figure.title), ("Software", SOFTWARE)]),
+            Format::Pdf => pdf(&picture, &figure.title, SOFTWARE),
         };
         let undrawable = |reason: PictureError| undrawable(&figure.name, &reason.to_string());
         self.formats.iter().map(|format| file(format).map_err(undrawable)).collect()

@@ -46,7 +46,7 @@ pub(super) fn density(analysis: &Analysis) -> Figure {
     let (level, cutoff) = (flat.density.value, flat.cutoff.value);
     let bottom = spectrum.density.iter().copied().filter(|p| *p > 0.0).fold(level, f64::min);
     let model = [(flat.from, level), (cutoff, level), (cutoff, bottom)];
-    let chart = chart.path(Series::new("flat, same plateau and variance", INK).dashed("6 4"), &model);
+    let chart = chart.path(Series::new("flat, same plateau and variance", INK).dashed(&[6.0, 4.0]), &model);
     let caption = format!(
         "Power spectral density by Welch’s method with {} segments of {} samples, {} window, {} % overlap; the shaded \
          band is its 95 % interval. The plateau is the mean over the orange range. The dashed line is the flat spectrum \

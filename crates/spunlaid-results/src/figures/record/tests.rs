@@ -11,7 +11,7 @@ fn check(figures: &[Figure]) {
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{}:\n{svg}", figure.name);
         assert!(svg.len() < 400_000, "{}: {} bytes", figure.name, svg.len());
         assert!(!figure.title.is_empty() && !figure.caption.contains("NaN"), "{figure:?}");
-        assert!(png(svg, 192, &[]).unwrap().len() > 1000, "{}", figure.name);
+        assert!(png(&figure.picture(), 192, &[]).unwrap().len() > 1000, "{}", figure.name);
     }
 }
 

@@ -152,7 +152,7 @@ pub(super) fn autocorrelation(analysis: &Analysis) -> Figure {
     let chart = chart
         .line(Series::new("", GREY).adorning().width(0.8), &zero)
         .line(Series::reference("of the flat spectrum"), &flat)
-        .vertical(Series::new("limit of the integral", GREY).dashed("2 3").width(1.2), limit);
+        .vertical(Series::new("limit of the integral", GREY).dashed(&[2.0, 3.0]).width(1.2), limit);
     let caption = format!(
         "Mean product of two fluctuations one lag apart, over the variance. The integral over the shaded part, {}, is \
          the integral time of {} ms. The dashed line is the autocorrelation of the simulated turbulence with the flat \

@@ -8,8 +8,8 @@ use spunlaid::ensemble::{Results, Trajectory};
 use spunlaid::flight::LaidPoint;
 use spunlaid_charts::{
     Axis, Chart, Drawing, Figure, Map, Series, Shades, Table,
-    palette::{GREY, INK, VERMILION},
-    svg::{Anchor, Stroke, Svg, Text},
+    palette::{Colour, GREY, INK, VERMILION},
+    picture::{Anchor, Picture, Stroke, Text},
 };
 use std::f64::consts::TAU;
 
@@ -24,8 +24,9 @@ const MARGIN: f64 = 14.0;
 const BELOW: f64 = 40.0;
 /// Length of belt that is shown, in widths of the trace.
 const ASPECT: f64 = 3.0;
-/// The light table.
-const LIGHT: &str = "#fdfaf0";
+/// The light table and its edge.
+const LIGHT: Colour = Colour([0xfd, 0xfa, 0xf0]);
+const EDGE: Colour = Colour([0xd8, 0xd2, 0xbf]);
 
 /// The first replicate's trace, as it lies on the belt.
 fn trace(results: &Results) -> Figure {
@@ -35,10 +36,10 @@ fn trace(results: &Results) -> Figure {
     let mut table = Table::new(["md_mm", "cd_mm", "fed_m"]);
     let Some(window) = Window::new(points) else {
         let drawing = Drawing::new(WIDTH, |width| {
-            let mut svg = Svg::new(width, 120.0, TITLE);
+            let mut picture = Picture::new(width, 120.0, TITLE);
             let style = Text { size: 14.0, colour: GREY, anchor: Anchor::Middle, upright: true };
-            svg.text((width / 2.0, 64.0), "too little has been laid to be shown", style);
-            svg.finish()
+            picture.text((width / 2.0, 64.0), "too little has been laid to be shown", style);
+            picture
         });
         table.add("fibre", std::iter::empty::<[f64; 3]>());
         return Figure::drawn(NAME, TITLE, drawing, table, "Nothing was laid after the spin-up.");
@@ -55,19 +56,19 @@ fn trace(results: &Results) -> Figure {
     let drawing = Drawing::new(WIDTH, move |width| {
         let scale = (width - 2.0 * MARGIN) / window.length;
         let height = window.width * scale;
-        let mut svg = Svg::new(width, height + 2.0 * MARGIN + BELOW, TITLE);
+        let mut picture = Picture::new(width, height + 2.0 * MARGIN + BELOW, TITLE);
         let (left, top) = (MARGIN, MARGIN);
         let (right, bottom) = (width - MARGIN, MARGIN + height);
         let frame = [(left, top), (right, top), (right, bottom), (left, bottom)];
-        svg.polygon(&frame, LIGHT, 1.0, Some(&Stroke::solid("#d8d2bf", 1.0)));
-        svg.open_clip("clip_laid_trace", left, top, right - left, height);
+        picture.polygon(&frame, LIGHT, 1.0, Some(&Stroke::solid(EDGE, 1.0)));
+        picture.open_clip("clip_laid_trace", left, top, right - left, height);
         let place =
             |p: &LaidPoint| (left + (p.md - window.from) * scale, bottom - (p.cd - window.low) * scale);
-        svg.path(&window.points.iter().map(place).collect::<Vec<_>>(), &Stroke::solid(INK, 0.9));
-        svg.close();
-        draw_scale(&mut svg, scale, bottom + 24.0, window.length);
-        draw_run_of_belt(&mut svg, right, bottom + 24.0);
-        svg.finish()
+        picture.path(&window.points.iter().map(place).collect::<Vec<_>>(), &Stroke::solid(INK, 0.9));
+        picture.close();
+        draw_scale(&mut picture, scale, bottom + 24.0, window.length);
+        draw_run_of_belt(&mut picture, right, bottom + 24.0);
+        picture
     });
     Figure::drawn(NAME, TITLE, drawing, table, caption)
 }
@@ -113,26 +114,26 @@ impl Window {
 }
 
 /// A bar of a round length, about a fifth of the picture.
-fn draw_scale(svg: &mut Svg, scale: f64, y: f64, length: f64) {
+fn draw_scale(picture: &mut Picture, scale: f64, y: f64, length: f64) {
     let rough = length * MM / 5.0;
     let power = 10f64.powf(rough.log10().floor());
     let bar = [1.0, 2.0, 5.0].into_iter().rfind(|step| step * power <= rough).unwrap_or(1.0) * power;
     let (from, to) = (MARGIN, MARGIN + bar / MM * scale);
     let stroke = Stroke::solid(INK, 2.5);
-    svg.line((from, y), (to, y), &stroke);
+    picture.line((from, y), (to, y), &stroke);
     for x in [from, to] {
-        svg.line((x, y - 5.0), (x, y + 5.0), &Stroke::solid(INK, 1.5));
+        picture.line((x, y - 5.0), (x, y + 5.0), &Stroke::solid(INK, 1.5));
     }
     let style = Text { size: 14.0, colour: INK, anchor: Anchor::Start, upright: true };
-    svg.text((to + 9.0, y + 5.0), &format!("{} mm", significant(bar, 2)), style);
+    picture.text((to + 9.0, y + 5.0), &format!("{} mm", significant(bar, 2)), style);
 }
 
 /// An arrow along the belt's run.
-fn draw_run_of_belt(svg: &mut Svg, right: f64, y: f64) {
+fn draw_run_of_belt(picture: &mut Picture, right: f64, y: f64) {
     let style = Text { size: 14.0, colour: INK, anchor: Anchor::End, upright: true };
-    svg.text((right - 62.0, y + 5.0), "run of the belt (MD)", style);
-    svg.line((right - 52.0, y), (right - 8.0, y), &Stroke::solid(INK, 1.8));
-    svg.polygon(&[(right, y), (right - 12.0, y - 5.0), (right - 12.0, y + 5.0)], INK, 1.0, None);
+    picture.text((right - 62.0, y + 5.0), "run of the belt (MD)", style);
+    picture.line((right - 52.0, y), (right - 8.0, y), &Stroke::solid(INK, 1.8));
+    picture.polygon(&[(right, y), (right - 12.0, y - 5.0), (right - 12.0, y + 5.0)], INK, 1.0, None);
 }
 
 /// Cells along each side of the footprint, and its half width in spreads.
@@ -185,7 +186,7 @@ fn footprint(case: &Case, results: &Results) -> Figure {
     let chart = chart
         .map(map)
         .path(Series::new("1 *σ*", VERMILION).width(1.8), &ellipse(1.0))
-        .path(Series::new("2 *σ*", VERMILION).width(1.8).dashed("7 4"), &ellipse(2.0));
+        .path(Series::new("2 *σ*", VERMILION).width(1.8).dashed(&[7.0, 4.0]), &ellipse(2.0));
     let caption = format!(
         "Share of the fibre per square centimetre of belt, about the straight trace, which a fibre would leave \
          that came down at one place; {} of fibre from {}. The ellipses have the half axes σ and 2σ of the table: \

@@ -135,7 +135,7 @@ fn correlation(chart: Chart, i: usize, curve: &Curve, places: &[Place]) -> Chart
     let full = places.iter().map(|place| (place.at, place.mean, place.standard_error)).collect();
     let series = Series::new(curve.measure.series, colour).thinned_from(full);
     if i >= MEASURED {
-        return chart.line(series.dashed("7 4").width(1.4), &points);
+        return chart.line(series.dashed(&[7.0, 4.0]).width(1.4), &points);
     }
     let error = |place: &Place| place.standard_error.filter(|error| error.is_finite()).unwrap_or(0.0);
     let band: Vec<_> =
@@ -205,7 +205,7 @@ fn with_crossings(chart: Chart, i: usize, series: &str, results: &Results) -> Ch
     }
     let label = format!("{series} crosses at {} Hz", significant(frequency, 3));
     // The dashes of one fill the gaps of the other, where both are at the same place.
-    let dash = if i == 0 { "5 5" } else { "0 5 5 0" };
+    let dash = if i == 0 { &[5.0, 5.0][..] } else { &[0.0, 5.0, 5.0, 0.0] };
     let line = Series { label: Some(label), ..styled(i, "") }.named(&format!("{axis} crossing frequency"));
     chart.vertical(line.dashed(dash).width(1.2), frequency)
 }

@@ -3,9 +3,10 @@
 use spunlaid::input::{Change, Influence};
 use spunlaid_charts::{
     Axis, Drawing, Figure, Scale, Table,
+    label::{plain, width as width_of},
     palette::{BLUE, GREY, GRID, INK, VERMILION},
+    picture::{Anchor, Picture, Stroke, Text},
     signed,
-    svg::{Anchor, Stroke, Svg, Text, plain, width as width_of},
 };
 
 const WIDTH: f64 = 720.0;
@@ -66,27 +67,27 @@ pub(super) fn figure(prefix: &str, influences: &[Influence]) -> Figure {
          model: d ln d / d ln x, and the change for 10 K. Blue is finer, orange is thicker.{others} These are slopes: they hold for \
          small changes."
     );
-    let drawing = Drawing::new(WIDTH, move |width| svg(title, &panels, width));
+    let drawing = Drawing::new(WIDTH, move |width| picture(title, &panels, width));
     Figure::drawn(&format!("{prefix}_influences"), title, drawing, table(influences), caption)
 }
 
 /// The panels one above the other, so many pixels wide.
-fn svg(title: &str, panels: &[Panel], width: f64) -> String {
+fn picture(title: &str, panels: &[Panel], width: f64) -> Picture {
     let influences = || panels.iter().flat_map(|panel| &panel.influences);
     let names = influences().map(|influence| width_of(influence.label, SIZE));
     let left = names.fold(120.0, f64::max).min(0.55 * width) + 22.0;
-    let mut svg = Svg::new(width, panels.iter().map(Panel::height).sum(), title);
+    let mut picture = Picture::new(width, panels.iter().map(Panel::height).sum(), title);
     let mut top = 0.0;
     for panel in panels {
-        svg.open_shifted(top);
-        draw(&mut svg, panel, left, width - 12.0);
-        svg.close();
+        picture.open_shifted(top);
+        draw(&mut picture, panel, left, width - 12.0);
+        picture.close();
         top += panel.height();
     }
-    svg.finish()
+    picture
 }
 
-fn draw(svg: &mut Svg, panel: &Panel, left: f64, right: f64) {
+fn draw(picture: &mut Picture, panel: &Panel, left: f64, right: f64) {
     let value = |influence: &Influence| influence.diameter * panel.factor;
     // Room for the numbers at the ends of the bars.
     const ROOM: f64 = 52.0;
@@ -98,29 +99,29 @@ fn draw(svg: &mut Svg, panel: &Panel, left: f64, right: f64) {
     let along = |value: f64| inner_left + scale.place(value) * (inner_right - inner_left);
 
     let heading = Text { size: SIZE, colour: GREY, anchor: Anchor::End, upright: true };
-    svg.text((left - 10.0, ABOVE - 14.0), panel.title, heading);
+    picture.text((left - 10.0, ABOVE - 14.0), panel.title, heading);
     for tick in scale.ticks.iter().filter(|tick| tick.label.is_some()) {
         let x = along(tick.value);
-        svg.line((x, ABOVE - 4.0), (x, bottom), &Stroke::solid(GRID, 0.8));
+        picture.line((x, ABOVE - 4.0), (x, bottom), &Stroke::solid(GRID, 0.8));
         let style = Text { size: SMALL, colour: INK, anchor: Anchor::Middle, upright: true };
-        svg.text((x, bottom + 19.0), tick.label.as_deref().unwrap_or_default(), style);
+        picture.text((x, bottom + 19.0), tick.label.as_deref().unwrap_or_default(), style);
     }
-    svg.line((left, bottom), (right, bottom), &Stroke::solid(INK, 0.9));
+    picture.line((left, bottom), (right, bottom), &Stroke::solid(INK, 0.9));
     for (row, influence) in panel.influences.iter().enumerate() {
         let y = ABOVE + ROW * (row as f64 + 0.5);
         let name = Text { size: SIZE, colour: INK, anchor: Anchor::End, upright: true };
-        svg.text((left - 10.0, y + 4.5), influence.label, name);
+        picture.text((left - 10.0, y + 4.5), influence.label, name);
         let (from, to, value) = (along(0.0), along(value(influence)), value(influence));
         let colour = if value < 0.0 { BLUE } else { VERMILION };
-        svg.rectangles(&[((from.min(to), y - 0.5 * BAR), (from.max(to), y + 0.5 * BAR))], colour);
+        picture.rectangles(&[((from.min(to), y - 0.5 * BAR), (from.max(to), y + 0.5 * BAR))], colour);
         let (x, anchor) = if value < 0.0 { (to - 6.0, Anchor::End) } else { (to + 6.0, Anchor::Start) };
         let style = Text { size: SMALL, colour: INK, anchor, upright: true };
         let plus = if value > 0.0 { "+" } else { "" };
-        svg.text((x, y + 4.5), &format!("{plus}{}", signed(value, panel.decimals)), style);
+        picture.text((x, y + 4.5), &format!("{plus}{}", signed(value, panel.decimals)), style);
     }
-    svg.line((along(0.0), ABOVE - 4.0), (along(0.0), bottom), &Stroke::solid(GREY, 1.2));
+    picture.line((along(0.0), ABOVE - 4.0), (along(0.0), bottom), &Stroke::solid(GREY, 1.2));
     let style = Text { size: SIZE, colour: INK, anchor: Anchor::Middle, upright: true };
-    svg.text(((inner_left + inner_right) / 2.0, bottom + 42.0), panel.label, style);
+    picture.text(((inner_left + inner_right) / 2.0, bottom + 42.0), panel.label, style);
 }
 
 /// All influences, on the diameter and on the speed.

@@ -11,7 +11,7 @@ fn check(figures: &[Figure], names: &[&str]) {
         let svg = &figure.svg();
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{}:\n{svg}", figure.name);
         assert!(svg.len() < 200_000, "{}: {} bytes", figure.name, svg.len());
-        let picture = png(svg, 192, &[]).unwrap();
+        let picture = png(&figure.picture(), 192, &[]).unwrap();
         assert!(picture.len() > 1000, "{}", figure.name);
     }
 }

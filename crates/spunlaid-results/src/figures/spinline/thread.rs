@@ -4,7 +4,7 @@ use super::{MICROMETRES, MM};
 use spunlaid::spinline::{Solution, Station, ZERO_CELSIUS};
 use spunlaid_charts::{
     Axis, Chart, Figure, Series,
-    palette::{BLUE, GREEN, VERMILION},
+    palette::{BLUE, Colour, GREEN, VERMILION},
 };
 
 /// The strain rate is shown to this multiple of the distance at which the thread freezes, because it is zero from there on.
@@ -16,7 +16,7 @@ type Quantity = fn(&Station) -> f64;
 /// A row of filaments to draw: its name, nothing if there is only one, and its colour.
 struct ThreadRow<'a> {
     name: &'static str,
-    colour: &'static str,
+    colour: Colour,
     solution: &'a Solution,
 }
 
@@ -79,7 +79,7 @@ fn with_points(chart: Chart, rows: &[ThreadRow<'_>], points: &[Vec<(f64, f64)>],
         let frozen = row.solution.freezing.distance * MM;
         chart
             .line(keyed(line, is_keyed), points)
-            .vertical(keyed(freezing.dashed("5 4").width(1.2), is_keyed && i == 0), frozen)
+            .vertical(keyed(freezing.dashed(&[5.0, 4.0]).width(1.2), is_keyed && i == 0), frozen)
     })
 }
 
@@ -113,7 +113,7 @@ fn drawing(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
 
 /// The air that the rows meet.
 fn with_air(chart: Chart, rows: &[ThreadRow<'_>], quantity: Quantity) -> Chart {
-    let dashes = [None, Some("2 3")];
+    let dashes = [&[][..], &[2.0, 3.0]];
     rows.iter().zip(dashes).fold(chart, |chart, (row, dash)| {
         let series = Series { dash, ..Series::new(&row.label("air"), GREEN) };
         chart.line(series, &row.points(quantity))

@@ -5,14 +5,14 @@ use super::{FAMILY, file_name};
 use spunlaid::study::{PointResults, Study};
 use spunlaid_charts::{
     Chart, Figure, Marker, Series,
-    palette::{BLUE, GREEN, INK, ORANGE, PURPLE, VERMILION},
+    palette::{BLUE, Colour, GREEN, INK, ORANGE, PURPLE, VERMILION},
 };
 
-const COLOURS: [&str; FAMILY] = [BLUE, VERMILION, GREEN, ORANGE, PURPLE, INK];
+const COLOURS: [Colour; FAMILY] = [BLUE, VERMILION, GREEN, ORANGE, PURPLE, INK];
 
 /// Dashes of the lines, so that curves can be distinguished without their colours.
-const DASHES: [Option<&str>; FAMILY] =
-    [None, Some("8 4"), Some("2 3"), Some("8 3 2 3"), Some("14 4"), Some("8 3 2 3 2 3")];
+const DASHES: [&[f32]; FAMILY] =
+    [&[], &[8.0, 4.0], &[2.0, 3.0], &[8.0, 3.0, 2.0, 3.0], &[14.0, 4.0], &[8.0, 3.0, 2.0, 3.0, 2.0, 3.0]];
 
 /// The end of a caption: what the points are, and the meaning of the error bars. Nothing of a spinline is by chance.
 pub(super) fn means(study: &Study) -> String {
@@ -101,7 +101,7 @@ pub(super) fn family(
             let marker = if position == 0 { Marker::Circle } else { Marker::Triangle };
             let label = parameter.input().pretty(level);
             // Markers without lines have shapes of their own, as long as the shape does not tell the results apart.
-            let dash = dash.filter(|_| place.is_joined() || group.members.len() > 1);
+            let dash = if place.is_joined() || group.members.len() > 1 { dash } else { &[] };
             let series = Series { marker: Some(marker), dash, ..Series::new(&label, colour) }
                 .named(&format!("{called} at {label}"));
             let series_count = levels.len() * group.members.len();

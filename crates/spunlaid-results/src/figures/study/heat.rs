@@ -5,8 +5,8 @@ use crate::numbers::significant;
 use spunlaid::study::{PointResults, Study};
 use spunlaid_charts::{
     Drawing, Figure, Table,
-    palette::{INK, PAPER},
-    svg::{Anchor, Stroke, Svg, Text},
+    palette::{Colour, INK, PAPER},
+    picture::{Anchor, Picture, Stroke, Text},
 };
 
 /// Width on the screen, and room around the map [px].
@@ -71,8 +71,8 @@ fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, l
     let caption = format!(
         "{which}, mean over the replicates, over {} (horizontal) and {} (vertical). The values and their standard \
          errors are in results.csv.",
-        spunlaid_charts::svg::plain(&label_of_key(&study.factors[1].key)),
-        spunlaid_charts::svg::plain(&label_of_key(&study.factors[0].key)),
+        spunlaid_charts::label::plain(&label_of_key(&study.factors[1].key)),
+        spunlaid_charts::label::plain(&label_of_key(&study.factors[0].key)),
     );
     let axis =
         if group.members.len() == 2 { format!("_{}", called.replace(' ', "_")) } else { String::new() };
@@ -86,7 +86,7 @@ fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, l
             [of_along.place(along[j]), of_up.place(up[i]), value, error.unwrap_or(f64::NAN)]
         }),
     );
-    let drawing = Drawing::new(WIDTH, move |width| heat.svg(width));
+    let drawing = Drawing::new(WIDTH, move |width| heat.picture(width));
     Figure::drawn(&format!("{}{axis}_map", group.figure.name), &title, drawing, table, caption)
 }
 
@@ -106,70 +106,70 @@ struct Heat {
 
 impl Heat {
     /// The map, so many pixels wide.
-    fn svg(&self, width: f64) -> String {
+    fn picture(&self, width: f64) -> Picture {
         let (left, top, right) = (LEFT, TOP, width - BESIDE);
         let bottom = top + (right - left) * RATIO;
-        let mut svg = Svg::new(width, bottom + BELOW, &self.title);
+        let mut picture = Picture::new(width, bottom + BELOW, &self.title);
         let (rows, columns) = (self.up.len(), self.along.len());
         let (w, h) = ((right - left) / columns as f64, (bottom - top) / rows as f64);
         for (k, share) in self.shares.iter().enumerate() {
             let (i, j) = (k / columns, k % columns);
             let (x, y) = (left + j as f64 * w, bottom - (i + 1) as f64 * h);
             // The small overlap prevents visible gaps.
-            let fill = share.map_or_else(|| PAPER.to_owned(), colour);
-            rectangle(&mut svg, (x, y), (w + 0.3, h + 0.3), &fill);
+            let fill = share.map_or(PAPER, colour);
+            rectangle(&mut picture, (x, y), (w + 0.3, h + 0.3), fill);
         }
         let text = |anchor| Text { size: 13.0, colour: INK, anchor, upright: true };
         // Labels along are wider than high.
         for j in some(columns, (8.0 * width / WIDTH) as usize) {
             let x = left + (j as f64 + 0.5) * w;
-            svg.text((x, bottom + 18.0), &self.along[j], text(Anchor::Middle));
+            picture.text((x, bottom + 18.0), &self.along[j], text(Anchor::Middle));
         }
         for i in some(rows, 8) {
             let y = bottom - (i as f64 + 0.5) * h + 4.5;
-            svg.text((left - 8.0, y), &self.up[i], text(Anchor::End));
+            picture.text((left - 8.0, y), &self.up[i], text(Anchor::End));
         }
         let title_text = |upright| Text { size: 14.0, colour: INK, anchor: Anchor::Middle, upright };
         let [up, along] = &self.labels;
-        svg.text(((left + right) / 2.0, bottom + 42.0), along, title_text(true));
-        svg.text((18.0, (top + bottom) / 2.0), up, title_text(false));
-        self.draw_scale(&mut svg, right, (top, bottom));
-        svg.finish()
+        picture.text(((left + right) / 2.0, bottom + 42.0), along, title_text(true));
+        picture.text((18.0, (top + bottom) / 2.0), up, title_text(false));
+        self.draw_scale(&mut picture, right, (top, bottom));
+        picture
     }
 
     /// The colour scale.
-    fn draw_scale(&self, svg: &mut Svg, right: f64, (top, bottom): (f64, f64)) {
+    fn draw_scale(&self, picture: &mut Picture, right: f64, (top, bottom): (f64, f64)) {
         let (least, most) = self.ends;
         let (left, width, steps) = (right + 24.0, 16.0, 64);
         let height = (bottom - top) / f64::from(steps);
         for k in 0..steps {
             let y = bottom - f64::from(k + 1) * height;
-            rectangle(svg, (left, y), (width, height + 0.3), &colour(f64::from(k) / f64::from(steps - 1)));
+            rectangle(picture, (left, y), (width, height + 0.3), colour(f64::from(k) / f64::from(steps - 1)));
         }
         let style = Text { size: 13.0, colour: INK, anchor: Anchor::Start, upright: true };
         for k in 0..=4 {
             let share = f64::from(k) / 4.0;
             let y = bottom - share * (bottom - top);
-            svg.line((left + width, y), (left + width + 4.0, y), &Stroke::solid(INK, 0.9));
+            picture.line((left + width, y), (left + width + 4.0, y), &Stroke::solid(INK, 0.9));
             if least.is_finite() {
                 let value = significant(least + share * (most - least), 3);
-                svg.text((left + width + 8.0, y + 4.5), &value, style);
+                picture.text((left + width + 8.0, y + 4.5), &value, style);
             }
         }
-        svg.text((left, bottom + 18.0), self.unit, style);
+        picture.text((left, bottom + 18.0), self.unit, style);
     }
 }
 
-fn rectangle(svg: &mut Svg, (x, y): (f64, f64), (w, h): (f64, f64), fill: &str) {
-    svg.polygon(&[(x, y), (x + w, y), (x + w, y + h), (x, y + h)], fill, 1.0, None);
+fn rectangle(picture: &mut Picture, (x, y): (f64, f64), (w, h): (f64, f64), fill: Colour) {
+    picture.polygon(&[(x, y), (x + w, y), (x + w, y + h), (x, y + h)], fill, 1.0, None);
 }
 
-fn colour(share: f64) -> String {
+fn colour(share: f64) -> Colour {
     let place = share.clamp(0.0, 1.0) * (COLOURS.len() - 1) as f64;
     let below = (place.floor() as usize).min(COLOURS.len() - 2);
     let (a, b, rest) = (COLOURS[below], COLOURS[below + 1], place - below as f64);
     let mixed = |a: f64, b: f64| (a + (b - a) * rest).round() as u8;
-    format!("#{:02x}{:02x}{:02x}", mixed(a.0, b.0), mixed(a.1, b.1), mixed(a.2, b.2))
+    Colour([mixed(a.0, b.0), mixed(a.1, b.1), mixed(a.2, b.2)])
 }
 
 /// Indices of at most so many evenly spaced labels.

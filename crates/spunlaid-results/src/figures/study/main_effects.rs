@@ -41,7 +41,7 @@ pub(super) fn figure(
             let line: Vec<_> =
                 line.into_iter().map(|(x, y)| (along.place(x), y * group.unit.per_si)).collect();
             let fit = series.clone().unlabelled().named(&format!("{label} line of best fit"));
-            chart = chart.line(fit.unmarked().dashed("2 4").width(1.2), &line);
+            chart = chart.line(fit.unmarked().dashed(&[2.0, 4.0]).width(1.2), &line);
         }
         let drawn: Vec<_> = even(spots.len(), DRAWN).iter().map(|&i| spots[i]).collect();
         left_out |= drawn.len() < spots.len();

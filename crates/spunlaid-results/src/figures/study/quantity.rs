@@ -92,7 +92,7 @@ fn plain_label(key: &str) -> &str {
 
 /// Name of a key within a sentence: `mean velocity`.
 pub fn name_of_key(key: &str) -> String {
-    let label = spunlaid_charts::svg::plain(plain_label(key));
+    let label = spunlaid_charts::label::plain(plain_label(key));
     // The letter at the end is left out.
     let words = match label.rsplit_once(' ') {
         Some((words, letter)) if letter.chars().count() <= 2 => words,

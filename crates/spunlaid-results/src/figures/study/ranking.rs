@@ -6,8 +6,9 @@ use crate::numbers::range;
 use spunlaid::study::{Effect, Ranking, Study};
 use spunlaid_charts::{
     Axis, Drawing, Figure, Marker, Scale, Table,
-    palette::{BLUE, GREY, GRID, INK, VERMILION},
-    svg::{Anchor, Stroke, Svg, Text, lines, width as width_of},
+    label::{lines, width as width_of},
+    palette::{BLUE, Colour, GREY, GRID, INK, VERMILION},
+    picture::{Anchor, Picture, Stroke, Text},
 };
 
 const WIDTH: f64 = 640.0;
@@ -31,7 +32,7 @@ fn change_of(study: &Study, effect: &Effect) -> String {
 /// The effects of all factors on a group of results.
 pub(super) fn figure(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
     let of_measure = |measure: usize| rankings.iter().find(|ranking| ranking.measure == measure);
-    let shown: Vec<(&Ranking, Marker, &'static str, &str)> = (group.members.iter())
+    let shown: Vec<(&Ranking, Marker, Colour, &str)> = (group.members.iter())
         .zip([(Marker::Circle, BLUE), (Marker::Triangle, VERMILION)])
         .filter_map(|((measure, label), (marker, colour))| {
             Some((of_measure(*measure)?, marker, colour, label.as_str()))
@@ -56,7 +57,7 @@ pub(super) fn figure(study: &Study, rankings: &[Ranking], group: &Group) -> Figu
                 let effect = ranking.effects.iter().find(|effect| effect.is_like(main_effect))?;
                 let down = if shown.len() == 1 { 0.0 } else { 16.0 * index as f64 - 8.0 };
                 let value = effect.change * group.unit.per_si;
-                Some(Bar { down, ends: ends(effect), value, marker: *marker, colour })
+                Some(Bar { down, ends: ends(effect), value, marker: *marker, colour: *colour })
             })
             .collect(),
     };
@@ -113,7 +114,7 @@ pub(super) fn figure(study: &Study, rankings: &[Ranking], group: &Group) -> Figu
             table.add(&series, [[effect.change * group.unit.per_si, half]]);
         }
     }
-    let drawing = Drawing::new(WIDTH, move |width| effects.svg(width));
+    let drawing = Drawing::new(WIDTH, move |width| effects.picture(width));
     Figure::drawn(&format!("{}_ranking", group.figure.name), &title, drawing, table, caption)
 }
 
@@ -121,7 +122,7 @@ pub(super) fn figure(study: &Study, rankings: &[Ranking], group: &Group) -> Figu
 struct Effects {
     title: String,
     /// Marker, colour and label of each result.
-    keys: Vec<(Marker, &'static str, String)>,
+    keys: Vec<(Marker, Colour, String)>,
     rows: Vec<Row>,
     axis: Axis,
     /// All that lies on the axis.
@@ -142,16 +143,16 @@ struct Bar {
     ends: [f64; 2],
     value: f64,
     marker: Marker,
-    colour: &'static str,
+    colour: Colour,
 }
 
 impl Effects {
     /// The picture, so many pixels wide.
-    fn svg(&self, width: f64) -> String {
+    fn picture(&self, width: f64) -> Picture {
         let label = lines(&self.axis.label, SIZE, width - 40.0);
         let below = 40.0 + LINE * label.len() as f64;
         let height = TOP + ROW * self.rows.len() as f64 + below;
-        let mut svg = Svg::new(width, height, &self.title);
+        let mut picture = Picture::new(width, height, &self.title);
         let names =
             self.rows.iter().flat_map(|row| [width_of(&row.name, SIZE), width_of(&row.change, SMALL)]);
         let left = names.fold(120.0, f64::max).min(0.5 * width) + 24.0;
@@ -162,45 +163,45 @@ impl Effects {
 
         for tick in scale.ticks.iter().filter(|tick| tick.label.is_some()) {
             let x = along(tick.value);
-            svg.line((x, TOP), (x, bottom), &Stroke::solid(GRID, 0.8));
+            picture.line((x, TOP), (x, bottom), &Stroke::solid(GRID, 0.8));
             let style = Text { size: 13.0, colour: INK, anchor: Anchor::Middle, upright: true };
-            svg.text((x, bottom + 20.0), tick.label.as_deref().unwrap_or_default(), style);
+            picture.text((x, bottom + 20.0), tick.label.as_deref().unwrap_or_default(), style);
         }
-        svg.line((along(0.0), TOP), (along(0.0), bottom), &Stroke::solid(GREY, 1.2));
-        svg.line((left, bottom), (right, bottom), &Stroke::solid(INK, 0.9));
+        picture.line((along(0.0), TOP), (along(0.0), bottom), &Stroke::solid(GREY, 1.2));
+        picture.line((left, bottom), (right, bottom), &Stroke::solid(INK, 0.9));
         let longest = label.iter().map(|line| width_of(line, SIZE)).fold(0.0, f64::max);
         let middle = (0.5 * (left + right)).min(width - 20.0 - 0.5 * longest);
         for (number, line) in label.iter().enumerate() {
             let style = Text { size: SIZE, colour: INK, anchor: Anchor::Middle, upright: true };
-            svg.text((middle, bottom + 44.0 + LINE * number as f64), line, style);
+            picture.text((middle, bottom + 44.0 + LINE * number as f64), line, style);
         }
 
         let mut key = left;
         for (marker, colour, label) in self.keys.iter().filter(|(.., label)| !label.is_empty()) {
-            svg.marker((key + 8.0, 18.0), *marker, colour);
+            picture.marker((key + 8.0, 18.0), *marker, *colour);
             let style = Text { size: 13.0, colour: INK, anchor: Anchor::Start, upright: true };
-            svg.text((key + 20.0, 22.5), label, style);
+            picture.text((key + 20.0, 22.5), label, style);
             key += 60.0;
         }
         for (number, row) in self.rows.iter().enumerate() {
             let y = TOP + ROW * (number as f64 + 0.5);
             let name = Text { size: SIZE, colour: INK, anchor: Anchor::End, upright: true };
-            svg.text((left - 12.0, y - 2.0), &row.name, name);
+            picture.text((left - 12.0, y - 2.0), &row.name, name);
             let style = Text { size: SMALL, colour: GREY, anchor: Anchor::End, upright: true };
             for (line, words) in lines(&row.change, SMALL, left - 16.0).iter().enumerate() {
-                svg.text((left - 12.0, y + 14.0 * (line as f64 + 1.0)), words, style);
+                picture.text((left - 12.0, y + 14.0 * (line as f64 + 1.0)), words, style);
             }
             for bar in &row.bars {
                 let y = y + bar.down;
                 let [low, high] = bar.ends.map(along);
                 let stroke = Stroke::solid(bar.colour, 1.4);
-                svg.line((low, y), (high, y), &stroke);
+                picture.line((low, y), (high, y), &stroke);
                 for end in [low, high] {
-                    svg.line((end, y - 3.5), (end, y + 3.5), &stroke);
+                    picture.line((end, y - 3.5), (end, y + 3.5), &stroke);
                 }
-                svg.marker((along(bar.value), y), bar.marker, bar.colour);
+                picture.marker((along(bar.value), y), bar.marker, bar.colour);
             }
         }
-        svg.finish()
+        picture
     }
 }

@@ -4,11 +4,11 @@ use super::MM;
 use spunlaid::web::{Correlation, NeighbourCorrelation};
 use spunlaid_charts::{
     Axis, Chart, Figure, Series,
-    palette::{BLUE, GREEN, ORANGE, VERMILION},
+    palette::{BLUE, Colour, GREEN, ORANGE, VERMILION},
 };
 
 /// Colours in machine and in cross direction, of the first layer and of the others.
-const COLOURS: [[&str; 2]; 2] = [[BLUE, VERMILION], [GREEN, ORANGE]];
+const COLOURS: [[Colour; 2]; 2] = [[BLUE, VERMILION], [GREEN, ORANGE]];
 
 /// What it is called, which correlation it has, and with which sign it is drawn.
 type Direction = (&'static str, fn(&NeighbourCorrelation) -> Correlation, fn(&str) -> Series);

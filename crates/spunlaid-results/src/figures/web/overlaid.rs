@@ -86,7 +86,7 @@ pub fn overlaid_spectra(webs: &[ComparedSpectrum], cell: f64) -> Option<Figure> 
         chart = chart.stretch(series, shortest * MM, wave * MM);
     }
     for (web, colour) in webs.iter().zip(COLOURS) {
-        let directions = [(1, "machine direction", None), (0, "cross direction", Some("6 4"))];
+        let directions = [(1, "machine direction", &[][..]), (0, "cross direction", &[6.0, 4.0])];
         for (direction, words, dash) in directions {
             let series = Series::new(&format!("{}, {words}", web.name), colour);
             chart = chart.line(Series { dash, ..series }.width(1.5), &density(&web.clouds, direction));

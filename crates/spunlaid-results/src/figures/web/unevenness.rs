@@ -31,7 +31,7 @@ pub(super) fn scanned(findings: &scan::Findings) -> Figure {
     let noise: Vec<(f64, f64)> =
         findings.patches.iter().map(|patch| (patch.unevenness.patch * MM, patch.noise * PER_CENT)).collect();
     let chart = empty_chart()
-        .line(Series::new("noise of the camera", GREY).dashed("6 4"), &noise)
+        .line(Series::new("noise of the camera", GREY).dashed(&[6.0, 4.0]), &noise)
         .line(Series::new("", BLUE).unlabelled().adorning().width(1.0), &line)
         .scatter(Series::spots("this scan", BLUE), &found);
     Figure::new(
@@ -68,12 +68,12 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
         .map(|patch| (patch.map.patch * MM, patch.straight_fibres * PER_CENT))
         .collect();
     let mut chart =
-        empty_chart().line(Series::new("straight fibres at random", GREY).dashed("6 4"), &straight);
+        empty_chart().line(Series::new("straight fibres at random", GREY).dashed(&[6.0, 4.0]), &straight);
     let is_shared = findings.laid.shared_air.is_some();
     chart = match (flown.is_empty(), surrogate.is_empty()) {
         _ if is_shared => chart
             .line(Series::new("the same filaments in airs of their own", VERMILION).width(1.8), &single)
-            .line(Series::new("expected, from pairs of filaments", GREEN).dashed("6 4"), &pairs)
+            .line(Series::new("expected, from pairs of filaments", GREEN).dashed(&[6.0, 4.0]), &pairs)
             .line(Series::new("", BLUE).unlabelled().adorning().width(1.0), &line),
         (false, false) => chart
             .line(Series::new("expected, from the surrogate", VERMILION).width(1.8), &surrogate)
@@ -149,7 +149,7 @@ pub(super) fn histogram(map: &Map, weights: Weights) -> Figure {
         Axis::linear(&format!("Share of the cells (% per {})", weights.unit.replace('²', "^{2}")))
             .zero_based(),
     )
-    .path(Series::new("normal distribution", GREY).dashed("6 4").adorning(), &normal)
+    .path(Series::new("normal distribution", GREY).dashed(&[6.0, 4.0]).adorning(), &normal)
     .path(Series::new("web", BLUE).unlabelled().width(1.8), &steps);
     let caption = format!(
         "Cells of {} mm: mean {} {unit}, standard deviation {} {unit}. Dashed: the normal distribution with both.",

@@ -34,7 +34,7 @@ pub fn pictures(case: &Case, slices: &Slices) -> Result<Vec<Picture>, Failure> {
         let range = if deviation > 0.0 { DEVIATIONS * deviation } else { 1.0 };
         let figures = (0..slices.times.len()).map(|frame| figure(case, slices, (i, frame), range));
         let figures: Vec<Figure> = figures.collect();
-        let moving = gif(figures.iter().map(Figure::svg), PER_SECOND)
+        let moving = gif(figures.iter().map(Figure::picture), PER_SECOND)
             .map_err(|error| undrawable(PLANES[i], &error.to_string()))?;
         let first = figures.into_iter().next();
         Ok(first.map(|figure| Picture { figure, moving }))

@@ -10,7 +10,7 @@ use serde_json::Value as Json;
 use spunlaid::case::Case;
 use spunlaid::input::{Change, Influence};
 use spunlaid::spinline::Solution;
-use spunlaid_charts::svg::plain;
+use spunlaid_charts::label::plain;
 
 /// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
 const SCHEMA_VERSION: u32 = 1;

@@ -5,7 +5,7 @@ use spunlaid::case::Case;
 use spunlaid::input::{Change, Influence};
 use spunlaid::spinline::{FreezingCause, Solution};
 use spunlaid::units::Dimension;
-use spunlaid_charts::svg::plain;
+use spunlaid_charts::label::plain;
 
 /// What is known of the error of the model.
 pub const MODEL_ERROR: &str = "How far the model is from a real line is not known: no diameter that it gives has been compared with a measured one. \
