@@ -133,7 +133,6 @@ pub const OF_PATCHES: &[PatchMeasure] = &[
             heads: ["few fibres flown", "few fibres"],
             is_shown: is_flown_alone,
             digits: Some(2),
-            ..PatchColumn::NUMBER
         }),
         study: Some(Measure {
             label: "Error of the CV by the few fibres, # mm",
@@ -152,7 +151,6 @@ pub const OF_PATCHES: &[PatchMeasure] = &[
             heads: ["model", "model"],
             is_shown: is_flown_alone,
             digits: Some(2),
-            ..PatchColumn::NUMBER
         }),
         study: Some(Measure {
             label: "Error of the CV by the model, # mm",
