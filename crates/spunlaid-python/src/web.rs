@@ -11,8 +11,9 @@ use spunlaid::case::Note;
 use spunlaid::input::{Overrides, WebFile, parse_changes, parse_web, read_changes, read_web};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
+use spunlaid::observe::OF_PATCHES;
 use spunlaid::threads::look_while;
-use spunlaid::web::{Findings, LayControl};
+use spunlaid::web::{Findings, LayControl, PatchFindings};
 use spunlaid_results::folders::web::{WebFolder, notes};
 use spunlaid_results::output::web::{ENTRIES, Performance};
 use std::path::PathBuf;
@@ -146,37 +147,23 @@ impl LaidWeb {
         crate::samples::locked(array.as_any())
     }
 
-    /// The unevenness over patches: side of the patch [m], CV of the map with its standard errors by cause and the ends of its 95 % interval by
-    /// chance, the CV expected from single fibres, from flown curves and from the surrogate with their standard errors, CV of straight fibres. What is not known is NaN.
+    /// The unevenness over patches: side of the patch [m], every declared number of them, and the ends of the 95 % interval of the CV by chance.
+    /// What is not known is NaN.
     #[getter]
     fn patches<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let patches = &self.findings.patches;
         let all = PyDict::new(py);
-        type Number = fn(&spunlaid::web::PatchFindings) -> f64;
-        let columns: [(&str, Number); 17] = [
-            ("patch_m", |patches| patches.map.patch),
-            ("cv", |patch| patch.map.cv),
-            ("cv_standard_error", |patch| patch.map.standard_error.unwrap_or(f64::NAN)),
-            ("cv_low", |patch| patch.map.interval().map_or(f64::NAN, |ends| ends[0])),
-            ("cv_high", |patch| patch.map.interval().map_or(f64::NAN, |ends| ends[1])),
-            ("cv_flight_error", |patch| patch.whole_error().flight.unwrap_or(f64::NAN)),
-            ("cv_model_error", |patch| patch.whole_error().model.unwrap_or(f64::NAN)),
-            ("cv_whole_error", |patch| patch.whole_error().whole().unwrap_or(f64::NAN)),
-            ("cv_independent", |patch| patch.independent.map_or(f64::NAN, |expected| expected.0)),
-            ("cv_independent_standard_error", |patch| {
-                patch.independent.map_or(f64::NAN, |expected| expected.1)
-            }),
-            ("cv_flown", |patch| patch.flown.map_or(f64::NAN, |patch| patch.0)),
-            ("cv_flown_standard_error", |patch| patch.flown.map_or(f64::NAN, |patch| patch.1)),
-            ("cv_surrogate", |patch| patch.surrogate.map_or(f64::NAN, |patch| patch.0)),
-            ("cv_surrogate_standard_error", |patch| patch.surrogate.map_or(f64::NAN, |patch| patch.1)),
-            ("cv_single_fibres", |patch| patch.single_fibres.0),
-            ("cv_single_fibres_standard_error", |patch| patch.single_fibres.1),
-            ("cv_straight_fibres", |patch| patch.straight_fibres),
-        ];
-        for (name, column) in columns {
-            all.set_item(name, PyArray1::from_vec(py, patches.iter().map(column).collect()))?;
+        let put = |name: &str, number: fn(&PatchFindings) -> Option<f64>| {
+            let column = patches.iter().map(|patch| number(patch).unwrap_or(f64::NAN)).collect();
+            all.set_item(name, PyArray1::from_vec(py, column))
+        };
+        put("patch_m", |patch| Some(patch.map.patch))?;
+        for measure in OF_PATCHES {
+            // The older name of these.
+            put(&measure.name.replace("one_fibre", "single_fibres"), measure.number)?;
         }
+        put("cv_low", |patch| Some(patch.map.interval()?[0]))?;
+        put("cv_high", |patch| Some(patch.map.interval()?[1]))?;
         Ok(all)
     }
 

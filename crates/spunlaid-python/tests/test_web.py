@@ -60,6 +60,16 @@ def test_analytic_basis_weight(web: spunlaid.Web) -> None:
     assert [len(numbers) for numbers in web.neighbours.values()] == [0] * 5
 
 
+def test_patches_hold_every_number_of_the_summary(web: spunlaid.Web) -> None:
+    for i, patch in enumerate(web.summary["web"]["patches"]):
+        numbers = {name: value for name, value in patch.items() if name not in ("cv_interval", "no_interval")}
+        assert len(numbers) > 4
+        for name, value in numbers.items():
+            # Python has another name for it.
+            of_python = web.patches[name.replace("one_fibre", "single_fibres")][i]
+            assert of_python == value or (value is None and np.isnan(of_python)), name
+
+
 def test_a_dict_is_a_web(web: spunlaid.Web) -> None:
     same = spunlaid.web(
         {

@@ -14,8 +14,8 @@ use spunlaid::layers::{Flights, FlownWeb, Flyer};
 use spunlaid::web::{Findings, LayControl, PatchFindings, Web};
 use spunlaid_results::folders;
 use spunlaid_results::folders::web::WebFolder;
-use spunlaid_results::numbers::{plus_minus, significant};
-use spunlaid_results::output::web::{ENTRIES, Performance};
+use spunlaid_results::numbers::significant;
+use spunlaid_results::output::web::{ENTRIES, PatchTable, Performance, Reader};
 use spunlaid_results::report::advice_words;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicU64;
@@ -139,54 +139,13 @@ fn flying(quiet: bool) -> impl Fn(Flights<'_>, &mut (dyn FnMut() + Send)) {
     }
 }
 
-/// A head of the table, and the expected CV that stands below it.
-type Column = (&'static str, fn(&PatchFindings) -> Option<(f64, f64)>);
-
 /// The table for the terminal.
 fn terminal_table(findings: &Findings) -> String {
-    let per_cent = |cv: f64, error: Option<f64>| plus_minus(100.0 * cv, error.map(|error| 100.0 * error));
-    let is_shared = findings.laid.shared_air.is_some();
-    let all: [Column; 2] = match is_shared {
-        true => [("airs of their own", |patch| patch.independent), ("", |_| None)],
-        false => [("surrogate", |patch| patch.surrogate), ("flown curves", |patch| patch.flown)],
-    };
-    let mut expected: Vec<Column> =
-        all.into_iter().filter(|(_, cv)| findings.patches.iter().any(|patch| cv(patch).is_some())).collect();
-    if expected.is_empty() {
-        expected.push(("single fibres", |patch| Some(patch.single_fibres)));
-    }
-    let flown = !is_shared && findings.patches.iter().any(|patch| patch.flown.is_some());
-    let mut heads = vec!["patch", "this map", "by chance", "95 % by chance"];
-    if flown {
-        heads.extend(["few fibres", "model"]);
-    }
-    heads.extend(expected.iter().map(|(head, _)| *head));
-    heads.push("straight fibres");
-    let mut rows = vec![heads.into_iter().map(str::to_owned).collect::<Vec<_>>()];
-    for patch in &findings.patches {
-        let error = patch.whole_error();
-        let part =
-            |part: Option<f64>| part.map_or_else(|| "–".to_owned(), |part| significant(100.0 * part, 2));
-        let mut row = vec![
-            format!("{} mm", significant(patch.map.patch * 1e3, 3)),
-            per_cent(patch.map.cv, error.whole().or(error.chance)),
-            part(error.chance),
-            patch.map.interval().map_or_else(
-                || "–".to_owned(),
-                |ends| ends.map(|end| significant(100.0 * end, 3)).join(" to "),
-            ),
-        ];
-        if flown {
-            row.extend([error.flight, error.model].map(part));
-        }
-        let cv = |value: Option<(f64, f64)>| {
-            value.map_or_else(|| "–".to_owned(), |(cv, error)| per_cent(cv, Some(error)))
-        };
-        row.extend(expected.iter().map(|(_, cv_of_patch)| cv(cv_of_patch(patch))));
-        row.push(significant(100.0 * patch.straight_fibres, 3));
-        rows.push(row);
-    }
-    let whole = if flown {
+    let PatchTable { heads, rows } = PatchTable::new(findings, Reader::Terminal);
+    let heads = heads.into_iter().map(str::to_owned).collect();
+    let rows: Vec<Vec<String>> = std::iter::once(heads).chain(rows).collect();
+    let is_flown = |patch: &PatchFindings| patch.independent.is_none() && patch.flown.is_some();
+    let whole = if findings.patches.iter().any(is_flown) {
         "± its standard error by all causes (chance, few fibres flown, model: the surrogate against the flown curves)"
     } else {
         "± its standard error by chance alone"

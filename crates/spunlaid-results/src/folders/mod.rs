@@ -11,6 +11,8 @@
 //! ```
 
 pub mod air;
+#[cfg(test)]
+mod declared;
 pub mod fit;
 mod journalled;
 mod measured_web;

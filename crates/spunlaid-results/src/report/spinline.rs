@@ -4,13 +4,12 @@ use super::methods::{Account, Methods, along};
 use super::rendered;
 use super::words::length;
 use crate::numbers::{THIN, number_to, significant};
-use crate::output::spinline::{
-    MEASURES, MODEL_ERROR, SpinMeasure, SpinResults, freezing, influence, numerical_error,
-};
+use crate::output::spinline::{MODEL_ERROR, SpinResults, freezing, influence, numerical_error, shown};
 use crate::output::web::Layer;
 use askama::Template;
 use spunlaid::case::Case;
 use spunlaid::input::SpinFile;
+use spunlaid::observe::{OF_SPINLINES, SpinlineMeasure};
 use spunlaid::spinline::{End, Law, PolymerSource, Solution, SpinSpec, Surroundings, ZERO_CELSIUS};
 use spunlaid::web::Web;
 use spunlaid_charts::Figure;
@@ -78,13 +77,13 @@ impl<'a> SpinSection<'a> {
         figures: &'a [Figure],
     ) -> Self {
         let of_row = |solution: &Solution| {
-            let row = |measure: &'static SpinMeasure| Row {
+            let row = |measure: &'static SpinlineMeasure| Row {
                 name: measure.label,
-                value: measure.shown(solution),
+                value: shown(measure, solution),
                 unit: measure.unit.shown,
                 meaning: measure.meaning,
             };
-            MEASURES.iter().map(row).collect()
+            OF_SPINLINES.iter().map(row).collect()
         };
         Self {
             id: id.to_owned(),
@@ -102,13 +101,13 @@ impl<'a> SpinSection<'a> {
 pub fn spinline_html(input: &SpinReport<'_>) -> String {
     let (spec, rows) = (&input.file.spec, &input.results.rows);
     let headline = rows.first().map_or_else(String::new, headline);
-    let result = |(measure, solution): (&SpinMeasure, &Solution)| {
-        format!("{} {} {}", measure.label, measure.shown(solution), measure.unit.shown).trim_end().to_owned()
+    let result = |(measure, solution): (&SpinlineMeasure, &Solution)| {
+        format!("{} {} {}", measure.label, shown(measure, solution), measure.unit.shown).trim_end().to_owned()
     };
     let results: Vec<String> = rows
         .first()
         .into_iter()
-        .flat_map(|row| MEASURES.iter().map(move |measure| result((measure, row))))
+        .flat_map(|row| OF_SPINLINES.iter().map(move |measure| result((measure, row))))
         .collect();
     let found = [headline.clone(), format!("{}.", results.join(", ")), numerical_error(rows)];
     let page = SpinPage {

@@ -9,7 +9,7 @@ use super::spinline::{self, LayerSpinline, SpinSection};
 use super::words::{count, metres, millimetres, time};
 use crate::Failure;
 use crate::numbers::{THIN, number, plus_minus, significant};
-use crate::output::web::{Layer, Performance};
+use crate::output::web::{Layer, PatchTable, Performance, Reader};
 use askama::Template;
 use spunlaid::advice::Advice;
 use spunlaid::layers::WebSpec;
@@ -97,13 +97,7 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
     let sheet = sheet(&findings.laid.map, Some(Fibres::new(strands)))?;
     let is_shared = findings.laid.shared_air.is_some();
     let has_flown = !is_shared && findings.patches.iter().any(|patch| patch.flown.is_some());
-    let mut heads = vec!["Patch", "CV of this map", "of its error: chance", "95 % interval by chance"];
-    if has_flown {
-        heads.extend(["few fibres flown", "model"]);
-    }
-    let sources = sources(findings);
-    heads.extend(sources.iter().map(|(head, _)| *head));
-    heads.push("Straight fibres");
+    let PatchTable { heads, rows: patches } = PatchTable::new(findings, Reader::Report);
     let headline = headline(
         Some(findings.within().basis_weight()),
         headline_patch(findings).map(|i| whole(&findings.patches[i])).as_ref(),
@@ -122,7 +116,7 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
         fibres: true,
         verdict: verdict(findings, input.advice.is_some()),
         heads,
-        patches: patches(findings, has_flown, &sources),
+        patches,
         about_patches: if is_shared {
             "All filaments were flown in one air. The error is by chance: another piece of the same web, in other gusts, has another CV."
         } else if has_flown {
@@ -193,16 +187,6 @@ pub(super) fn per_cent(cv: f64, error: Option<f64>) -> String {
     format!("{}{THIN}%", plus_minus(cv * PER_CENT, error.map(|error| error * PER_CENT)))
 }
 
-/// `5.1 to 7.2 %`, or a dash.
-pub(super) fn interval(ends: Option<[f64; 2]>) -> String {
-    ends.map_or_else(
-        || "–".to_owned(),
-        |[low, high]| {
-            format!("{} to {}{THIN}%", significant(PER_CENT * low, 3), significant(PER_CENT * high, 3))
-        },
-    )
-}
-
 fn summary(web: &Web) -> String {
     let filaments: u64 = web.layers.iter().map(|layer| layer.count(&web.sheet)).sum();
     let length = web.fibre_length();
@@ -265,55 +249,6 @@ fn error_sentences(findings: &Findings) -> String {
         part(error.model),
         per_cent(flown, Some(of_flown))
     )
-}
-
-/// A head of the table, and the expected CV that stands below it.
-type Column = (&'static str, fn(&PatchFindings) -> Option<(f64, f64)>);
-
-/// The expected CVs that are known.
-fn sources(findings: &Findings) -> Vec<Column> {
-    if findings.laid.shared_air.is_some() {
-        return vec![
-            ("CV of the same filaments in airs of their own", |patch| patch.independent),
-            ("CV expected, from pairs of filaments", |patch| Some((patch.pairs?, f64::NAN))),
-        ];
-    }
-    let all: [Column; 2] = [
-        ("CV expected, from the surrogate", |patch| patch.surrogate),
-        ("CV expected, from the flown curves", |patch| patch.flown),
-    ];
-    let mut known: Vec<Column> =
-        all.into_iter().filter(|(_, cv)| findings.patches.iter().any(|patch| cv(patch).is_some())).collect();
-    if known.is_empty() {
-        known.push(("CV expected, from single fibres", |patch| Some(patch.single_fibres)));
-    }
-    known
-}
-
-fn patches(findings: &Findings, has_flown: bool, sources: &[Column]) -> Vec<Vec<String>> {
-    let row = |patch: &PatchFindings| {
-        let (map, error) = (whole(patch), patch.whole_error());
-        let part = |part: Option<f64>| {
-            part.map_or_else(|| "–".to_owned(), |part| format!("{}{THIN}%", significant(part * PER_CENT, 2)))
-        };
-        let mut cells = vec![
-            millimetres(map.patch),
-            per_cent(map.cv, map.standard_error),
-            part(error.chance),
-            interval(patch.map.interval()),
-        ];
-        if has_flown {
-            cells.extend([error.flight, error.model].map(part));
-        }
-        let expected = sources.iter().map(|(_, cv)| cv(patch));
-        cells.extend(expected.map(|estimate| {
-            let known = |error: f64| error.is_finite().then_some(error);
-            estimate.map_or_else(|| "–".to_owned(), |(cv, error)| per_cent(cv, known(error)))
-        }));
-        cells.push(format!("{}{THIN}%", significant(patch.straight_fibres * PER_CENT, 3)));
-        cells
-    };
-    findings.patches.iter().map(row).collect()
 }
 
 const fn words(lever: Lever) -> &'static str {

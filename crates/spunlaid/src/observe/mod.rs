@@ -6,6 +6,9 @@
 //!
 //! A new measure is a file of this folder with a [`Declaration`], and a line in [`DECLARED`]. The summary, the
 //! tables, the report with its figures and CSV files, and the studies loop over the declarations.
+//!
+//! Webs, scans, records and spinlines have tables of their own, with an entry for each measure: [`OF_WEBS`] and [`OF_PATCHES`],
+//! [`OF_SCANS`] and [`OF_SCANNED_PATCHES`], [`OF_RECORDS`] and [`OF_COMPONENTS`], [`OF_SPINLINES`].
 
 mod along_fibre;
 mod along_way;
@@ -16,6 +19,7 @@ mod energy;
 mod flow;
 mod laydown;
 mod neighbours;
+mod record;
 mod residence;
 mod root_tension;
 mod sample;
@@ -26,10 +30,11 @@ mod strain;
 mod web;
 
 pub use laydown::{LAYDOWN, SURROGATE};
+pub use record::{OF_COMPONENTS, OF_RECORDS, RecordMeasure, RecordNumber};
 pub use sample::Sample;
 pub use scan::{OF_SCANNED_PATCHES, OF_SCANS, ScanMeasure};
 pub use spinline::{OF_SPINLINES, SpinlineMeasure};
-pub use web::{Deviation, OF_PATCHES, OF_WEBS, PatchMeasure, WebMeasure};
+pub use web::{Deviation, OF_PATCHES, OF_WEBS, PatchColumn, PatchMeasure, WebMeasure, WebNumber};
 
 use crate::case::Case;
 use crate::flight::{Flight, LaidPoint, Snapshot};
@@ -109,6 +114,20 @@ impl Measure {
         figure: &Figure { name: "", title: "", words: "", logarithmic: false, from_zero: true, caption: "" },
         series: "",
     };
+}
+
+/// The declared measures that studies keep, in the order of their columns. It is not that of the declarations, and it stays: a journal can be
+/// continued only while the columns keep their order.
+///
+/// * `column` – the measure as studies keep it, and its place
+pub(crate) fn in_studies<T>(
+    declared: &'static [T],
+    column: fn(&'static T) -> (&'static Option<Measure>, usize),
+) -> Vec<(&'static T, &'static Measure)> {
+    let kept = declared.iter().filter_map(|one| column(one).0.as_ref().map(|measure| (one, measure)));
+    let mut kept: Vec<_> = kept.collect();
+    kept.sort_by_key(|(one, _)| column(one).1);
+    kept
 }
 
 /// A group of measures: a heading of tables, and a part of `summary.json`.
@@ -218,6 +237,11 @@ pub struct Figure {
     pub from_zero: bool,
     /// Sentences under a curve.
     pub caption: &'static str,
+}
+
+/// A figure of numbers without a caption of its own, whose axis begins at zero.
+const fn figure(name: &'static str, title: &'static str, words: &'static str) -> Figure {
+    Figure { name, title, words, logarithmic: false, from_zero: true, caption: "" }
 }
 
 /// The state of the fibres at a recorded instant.
@@ -353,5 +377,56 @@ mod tests {
             assert!(measure.column.starts_with(measure.name), "{}", measure.name);
             assert!(!measure.meaning.is_empty() && !measure.label.is_empty(), "{}", measure.name);
         }
+    }
+
+    /// Fails unless names are unique and not empty.
+    fn check_names(names: impl Iterator<Item = &'static str>) {
+        let names: Vec<&str> = names.collect();
+        assert!(names.iter().all(|name| !name.is_empty()), "{names:?}");
+        assert_eq!(names.iter().collect::<BTreeSet<_>>().len(), names.len(), "{names:?}");
+    }
+
+    /// Fails unless places are 0, 1, 2 and so on, each once.
+    fn check_places(places: impl Iterator<Item = usize>) {
+        let mut places: Vec<usize> = places.collect();
+        places.sort_unstable();
+        assert_eq!(places, (0..places.len()).collect::<Vec<_>>());
+    }
+
+    /// Fails unless the columns of a study have a name, a label and a meaning each, and a place of their own.
+    fn check_columns(columns: impl Iterator<Item = (&'static Measure, usize)> + Clone) {
+        let measures = || columns.clone().map(|(measure, _)| measure);
+        check_names(measures().map(|measure| measure.name));
+        check_names(measures().map(|measure| measure.column));
+        check_names(measures().map(|measure| measure.label));
+        assert!(measures().all(|measure| !measure.meaning.is_empty()));
+        check_places(columns.map(|(_, place)| place));
+    }
+
+    #[test]
+    fn measures_of_webs_spinlines_and_records_have_names_and_places_of_their_own() {
+        check_names(OF_SPINLINES.iter().map(|declared| declared.name));
+        check_names(OF_SPINLINES.iter().map(|declared| declared.label));
+        check_columns(OF_SPINLINES.iter().filter_map(|one| Some((one.study.as_ref()?, one.study_place))));
+        check_names(OF_WEBS.iter().map(|declared| declared.measure.name));
+        check_names(OF_WEBS.iter().map(|declared| declared.measure.column));
+        check_names(OF_PATCHES.iter().map(|declared| declared.name));
+        let columns = OF_PATCHES.iter().filter_map(|one| Some((one.study.as_ref()?, one.study_place)));
+        check_columns(columns.clone());
+        check_places(
+            OF_PATCHES.iter().filter_map(|declared| declared.column.as_ref()).map(|column| column.place),
+        );
+        // Errors are told by the ends of names.
+        for declared in OF_PATCHES {
+            let error = declared.error.map(|error| match error {
+                Deviation::OfOne(end) | Deviation::Always(end) => end,
+            });
+            for end in error.iter().chain(declared.causes) {
+                let mut names = columns.clone().map(|(measure, _)| measure.name);
+                assert!(names.any(|name| name.strip_prefix("cv_#") == Some(end)), "{end}");
+            }
+        }
+        check_names(OF_RECORDS.iter().map(|declared| declared.name));
+        check_names(OF_COMPONENTS.iter().map(|declared| declared.name));
     }
 }

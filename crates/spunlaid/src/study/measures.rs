@@ -3,7 +3,8 @@
 use crate::ensemble::Trajectory;
 use crate::layers::WebSpec;
 use crate::observe::{
-    Deviation, Figure, MEASURES, Measure, OF_PATCHES, OF_SPINLINES, OF_WEBS, PatchMeasure, Unit,
+    Deviation, Figure, MEASURES, Measure, OF_PATCHES, OF_SPINLINES, OF_WEBS, PatchMeasure, SpinlineMeasure,
+    Unit, WebNumber, in_studies,
 };
 use crate::spinline::Solution;
 use crate::units::shortest;
@@ -62,6 +63,16 @@ impl Quantity {
     }
 }
 
+/// The measures of spinlines that studies keep, in the order of their columns.
+fn spinline_columns() -> Vec<(&'static SpinlineMeasure, &'static Measure)> {
+    in_studies(OF_SPINLINES, |declared| (&declared.study, declared.study_place))
+}
+
+/// The measures of patches that studies keep, in the order of their columns.
+fn patch_columns() -> Vec<(&'static PatchMeasure, &'static Measure)> {
+    in_studies(OF_PATCHES, |declared| (&declared.study, declared.study_place))
+}
+
 /// The quantities of a fibre.
 pub(super) fn of_fibres() -> Vec<Quantity> {
     MEASURES.iter().map(|measure| Quantity::new(measure, "")).collect()
@@ -69,12 +80,12 @@ pub(super) fn of_fibres() -> Vec<Quantity> {
 
 /// The quantities of a spinline.
 pub(super) fn of_spinlines() -> Vec<Quantity> {
-    OF_SPINLINES.iter().map(|declared| Quantity::new(&declared.measure, "")).collect()
+    spinline_columns().into_iter().map(|(_, measure)| Quantity::new(measure, "")).collect()
 }
 
 /// The numbers of a spinline, in the order of [`of_spinlines`].
 pub(super) fn measured_of_spinline(found: &Solution) -> Measurements {
-    OF_SPINLINES.iter().map(|declared| (declared.number)(found)).collect()
+    spinline_columns().into_iter().map(|(declared, _)| (declared.number)(found)).collect()
 }
 
 /// The sides of the patches of some webs, each once, the smallest first [m].
@@ -91,23 +102,23 @@ fn is_same(a: f64, b: f64) -> bool {
 
 /// The quantities of some webs.
 pub(super) fn of_webs<'a>(webs: impl Iterator<Item = &'a WebSpec>) -> Vec<Quantity> {
-    let mut all = Vec::new();
+    let (mut all, columns) = (Vec::new(), patch_columns());
     for side in sides(webs) {
         let first = all.len();
         let place = |end: &str| {
-            let is_it = |patch: &PatchMeasure| patch.measure.name.strip_prefix("cv_#") == Some(end);
-            first + OF_PATCHES.iter().position(is_it).unwrap_or(0)
+            let is_it = |(_, measure): &(_, &Measure)| measure.name.strip_prefix("cv_#") == Some(end);
+            first + columns.iter().position(is_it).unwrap_or(0)
         };
         // In millimetres, without the rounding of the file.
         let side = shortest((side * 1e9).round() / 1e6);
-        all.extend(OF_PATCHES.iter().map(|declared| Quantity {
+        all.extend(columns.iter().map(|(declared, measure)| Quantity {
             error: match declared.error {
                 None => ErrorSource::Replicates,
                 Some(Deviation::OfOne(end)) => ErrorSource::OfOne(place(end)),
                 Some(Deviation::Always(end)) => ErrorSource::Always(place(end)),
             },
             causes: declared.causes.iter().map(|end| place(end)).collect(),
-            ..Quantity::new(&declared.measure, &side)
+            ..Quantity::new(measure, &side)
         }));
     }
     all.extend(OF_WEBS.iter().map(|declared| Quantity::new(&declared.measure, "")));
@@ -118,11 +129,13 @@ pub(super) fn of_webs<'a>(webs: impl Iterator<Item = &'a WebSpec>) -> Vec<Quanti
 ///
 /// * `sides` – of the patches of the study [m]
 pub(super) fn measured_of_web(sides: &[f64], web: &Web, found: &Findings) -> Measurements {
+    let columns = patch_columns();
     let of_side = |&side: &f64| {
         let patch = found.patches.iter().find(|patch| is_same(patch.map.patch, side));
-        OF_PATCHES.iter().map(move |declared| patch.map_or(f64::NAN, declared.number))
+        columns.iter().map(move |(declared, _)| patch.and_then(declared.number).unwrap_or(f64::NAN))
     };
-    let of_web = OF_WEBS.iter().map(|declared| (declared.number)(web, found));
+    let of_web =
+        OF_WEBS.iter().map(|declared| (declared.number)(web, found).map_or(f64::NAN, WebNumber::value));
     sides.iter().flat_map(of_side).chain(of_web).collect()
 }
 

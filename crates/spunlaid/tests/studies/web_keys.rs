@@ -5,7 +5,7 @@ use spunlaid::ensemble::RunControl;
 use spunlaid::input::{LaydownSource, WEB_KEYS, WebFile, WebKey, WebSpec};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, Flyer, web_key};
-use spunlaid::observe::{OF_PATCHES, OF_WEBS};
+use spunlaid::observe::{OF_PATCHES, OF_WEBS, PatchMeasure, WebNumber};
 use spunlaid::study::{Batch, fly_bundle};
 use spunlaid::units::Dimension;
 use spunlaid::web::LayControl;
@@ -140,9 +140,17 @@ fn measured(spec: &WebSpec) -> Vec<u64> {
     let patch = |side: f64| found.patches.iter().find(|patch| (patch.map.patch / side - 1.0).abs() < 1e-9);
     let patches = spec.sheet.patches.iter().flat_map(|side| {
         let patch = patch(*side);
-        OF_PATCHES.iter().map(move |of| patch.map_or(f64::NAN, |patch| (of.number)(patch)))
+        patch_columns().into_iter().map(move |of| patch.and_then(of.number).unwrap_or(f64::NAN))
     });
-    patches.chain(OF_WEBS.iter().map(|of| (of.number)(&flown.web, &found))).map(f64::to_bits).collect()
+    let of_web = OF_WEBS.iter().map(|of| (of.number)(&flown.web, &found).map_or(f64::NAN, WebNumber::value));
+    patches.chain(of_web).map(f64::to_bits).collect()
+}
+
+/// The measures of patches that studies keep, in the order of their columns.
+fn patch_columns() -> Vec<&'static PatchMeasure> {
+    let mut columns: Vec<_> = OF_PATCHES.iter().filter(|of| of.study.is_some()).collect();
+    columns.sort_by_key(|of| of.study_place);
+    columns
 }
 
 /// What the two points of a study give, or why it is refused.
@@ -164,7 +172,7 @@ fn together(text: &str, key: &str, values: &[String; 2]) -> Result<[Vec<u64>; 2]
         // A web has nothing of the patches of the other one.
         let sides = study.patch_sides();
         let own = &study.points[point].experiment.web().unwrap().sheet.patches;
-        let has = |i: usize| sides.get(i / OF_PATCHES.len()).is_none_or(|side| own.contains(side));
+        let has = |i: usize| sides.get(i / patch_columns().len()).is_none_or(|side| own.contains(side));
         (0..measured.len()).filter(|i| has(*i)).map(|i| measured[i].to_bits()).collect()
     }))
 }

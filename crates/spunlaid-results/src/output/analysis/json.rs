@@ -1,8 +1,10 @@
 //! Writes `analysis.json` with every result of an analysis.
 
+use crate::output::in_order::OrderedObject;
 use crate::output::json_text;
 use serde::Serialize;
-use spunlaid::record::{Analysis, Component, Interval, Record};
+use spunlaid::observe::{OF_COMPONENTS, OF_RECORDS, RecordMeasure, RecordNumber};
+use spunlaid::record::{Analysis, Component, Record};
 
 /// Version of the layout; raised when a field is renamed, removed or changes its meaning.
 const SCHEMA_VERSION: u32 = 1;
@@ -13,11 +15,8 @@ struct Json<'a> {
     spunlaid_version: &'static str,
     record: RecordJson<'a>,
     method: Method,
-    mean_velocity_m_s: Interval,
-    turbulence_intensity: Interval,
-    integral_time_s: Interval,
-    length_scale_m: Interval,
-    cutoff_frequency_hz: Interval,
+    #[serde(flatten)]
+    findings: OrderedObject<RecordNumber>,
     components: Vec<ComponentJson<'a>>,
     /// Durations for intervals of ± 5 %.
     duration_for_5_percent_s: Durations,
@@ -54,20 +53,8 @@ struct Method {
 #[derive(Serialize)]
 struct ComponentJson<'a> {
     name: &'a str,
-    mean_m_s: Interval,
-    rms_m_s: Interval,
-    skewness: Interval,
-    flatness: Interval,
-    minimum_m_s: f64,
-    maximum_m_s: f64,
-    integral_time_s: Interval,
-    integral_limit_s: f64,
-    integral_time_of_plateau_s: f64,
-    plateau_m2_s2_per_hz: Interval,
-    plateau_until_hz: f64,
-    cutoff_frequency_hz: Interval,
-    drift_of_mean_m_s: Interval,
-    drift_of_rms_m_s: Interval,
+    #[serde(flatten)]
+    findings: OrderedObject<RecordNumber>,
 }
 
 #[derive(Serialize)]
@@ -106,11 +93,7 @@ pub fn analysis_json(record: &Record, analysis: &Analysis) -> String {
             segment_samples: spectrum.map_or(0, |s| s.segment),
             segments: spectrum.map_or(0, |s| s.segments),
         },
-        mean_velocity_m_s: analysis.mean_velocity,
-        turbulence_intensity: analysis.turbulence_intensity,
-        integral_time_s: analysis.integral_time,
-        length_scale_m: analysis.length_scale,
-        cutoff_frequency_hz: analysis.cutoff_frequency,
+        findings: findings(OF_RECORDS, analysis),
         components: analysis.components.iter().map(component).collect(),
         duration_for_5_percent_s: Durations {
             turbulence_intensity: analysis.duration_for(&analysis.turbulence_intensity, 0.05),
@@ -123,21 +106,10 @@ pub fn analysis_json(record: &Record, analysis: &Analysis) -> String {
 }
 
 fn component(component: &Component) -> ComponentJson<'_> {
-    ComponentJson {
-        name: &component.name,
-        mean_m_s: component.mean,
-        rms_m_s: component.rms,
-        skewness: component.skewness,
-        flatness: component.flatness,
-        minimum_m_s: component.range.0,
-        maximum_m_s: component.range.1,
-        integral_time_s: component.integral_time,
-        integral_limit_s: component.autocorrelation.limit,
-        integral_time_of_plateau_s: component.flat.integral_time(),
-        plateau_m2_s2_per_hz: component.flat.density,
-        plateau_until_hz: component.flat.until,
-        cutoff_frequency_hz: component.flat.cutoff,
-        drift_of_mean_m_s: component.mean_trend.change,
-        drift_of_rms_m_s: component.rms_trend.change,
-    }
+    ComponentJson { name: &component.name, findings: findings(OF_COMPONENTS, component) }
+}
+
+/// The value of every declared measure under its name.
+fn findings<T>(declared: &[RecordMeasure<T>], found: &T) -> OrderedObject<RecordNumber> {
+    OrderedObject(declared.iter().map(|one| (one.name.to_owned(), (one.number)(found))).collect())
 }

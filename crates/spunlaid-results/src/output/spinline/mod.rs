@@ -1,16 +1,14 @@
-//! What leaves a solved spinline: measures, `summary.json`, `spinline.parquet` and the table of the terminal.
+//! What leaves a solved spinline: `summary.json`, `spinline.parquet` and the table of the terminal.
 
-mod measures;
 mod stations;
 mod summary;
 mod table;
 mod words;
 
-pub use measures::{MEASURES, SpinMeasure};
 pub use stations::{COLUMNS, STATIONS, write as write_stations};
 pub use summary::{SpinSummary, Summary};
 pub use table::text;
-pub use words::{MODEL_ERROR, filament, freezing, influence, numerical_error, remarks};
+pub use words::{MODEL_ERROR, filament, freezing, influence, numerical_error, remarks, shown};
 
 use super::copied_files::CASE_FILES;
 use super::origin::ORIGIN;

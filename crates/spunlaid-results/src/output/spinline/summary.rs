@@ -1,7 +1,6 @@
 //! `summary.json` of a spinline, and the part `spinline` of the summaries of runs and of webs.
 
 use super::SpinResults;
-use super::measures::MEASURES;
 use super::words::MODEL_ERROR;
 use crate::output::in_order::OrderedObject;
 use crate::output::json_text;
@@ -9,6 +8,7 @@ use serde::Serialize;
 use serde_json::Value as Json;
 use spunlaid::case::Case;
 use spunlaid::input::{Change, Influence};
+use spunlaid::observe::OF_SPINLINES;
 use spunlaid::spinline::Solution;
 use spunlaid_charts::label::plain;
 
@@ -83,8 +83,8 @@ fn measured(solution: &Solution) -> Vec<(String, Json)> {
             }
         }
     };
-    for measure in MEASURES {
-        put(measure.name, (measure.value)(solution).into());
+    for measure in OF_SPINLINES {
+        put(measure.name, measure.value(solution).into());
     }
     put("freezing.by", solution.freezing.by.name().into());
     put("second_steady_state", solution.has_second.into());

@@ -1,9 +1,9 @@
 //! The table of a spinline for the terminal.
 
-use super::measures::{MEASURES, SpinMeasure};
-use super::words::{MODEL_ERROR, influence, numerical_error};
+use super::words::{MODEL_ERROR, influence, numerical_error, shown};
 use crate::numbers::number_to;
 use spunlaid::input::Influence;
+use spunlaid::observe::{OF_SPINLINES, SpinlineMeasure};
 use spunlaid::spinline::{FreezingCause, Solution};
 use std::fmt::Write;
 
@@ -19,9 +19,10 @@ pub fn text(rows: &[Solution], influences: &[Influence]) -> String {
         1 => "spinline, steady state\n".to_owned(),
         count => format!("spinline, steady state: the first of {count} rows\n"),
     };
-    let widest = MEASURES.iter().map(|measure| measure.label.chars().count()).max().unwrap_or(0);
-    for measure in MEASURES.iter().filter(|measure| !measure.name.ends_with("_residual")) {
-        let row = format!("  {:<widest$}  {:>8} {}", measure.label, measure.shown(first), measure.unit.shown);
+    let widest = OF_SPINLINES.iter().map(|measure| measure.label.chars().count()).max().unwrap_or(0);
+    for measure in OF_SPINLINES.iter().filter(|measure| !measure.is_residual) {
+        let row =
+            format!("  {:<widest$}  {:>8} {}", measure.label, shown(measure, first), measure.unit.shown);
         let _ = writeln!(text, "{}{}", row.trim_end(), cause(measure, first));
     }
     if let [first, .., last] = rows {
@@ -44,7 +45,7 @@ pub fn text(rows: &[Solution], influences: &[Influence]) -> String {
 }
 
 /// By what the thread freezes, beside its temperature.
-fn cause(measure: &SpinMeasure, solution: &Solution) -> &'static str {
+fn cause(measure: &SpinlineMeasure, solution: &Solution) -> &'static str {
     match (measure.name, solution.freezing.by) {
         ("freezing.temperature_c", FreezingCause::Temperature) => "  (it freezes by its temperature)",
         ("freezing.temperature_c", FreezingCause::Crystallisation) => "  (it freezes by crystallisation)",

@@ -3,6 +3,7 @@
 use crate::numbers::{number_to, significant, to_decimals};
 use spunlaid::case::Case;
 use spunlaid::input::{Change, Influence};
+use spunlaid::observe::SpinlineMeasure;
 use spunlaid::spinline::{FreezingCause, Solution};
 use spunlaid::units::Dimension;
 use spunlaid_charts::label::plain;
@@ -10,6 +11,16 @@ use spunlaid_charts::label::plain;
 /// What is known of the error of the model.
 pub const MODEL_ERROR: &str = "How far the model is from a real line is not known: no diameter that it gives has been compared with a measured one. \
      The modulus can be wrong by a factor of two.";
+
+/// The value of a measure in the unit in which it is shown, as text.
+pub fn shown(measure: &SpinlineMeasure, solution: &Solution) -> String {
+    /// A smaller force than this part of the one at the die is zero, but for rounding.
+    const ZERO: f64 = 1e-9;
+    let is_zero =
+        measure.name == "force_at_end_n" && solution.force_at_end.abs() < ZERO * solution.force_at_die;
+    let value = if is_zero { 0.0 } else { measure.value(solution) * measure.unit.per_si };
+    number_to(value, if measure.is_residual { 1 } else { 4 })
+}
 
 /// How well the equations are solved, in a sentence.
 pub fn numerical_error(rows: &[Solution]) -> String {

@@ -2,12 +2,14 @@
 
 mod advice;
 mod map;
+mod patches;
 mod pieces;
 mod strands;
 mod summary;
 
 pub(crate) use advice::HOUR;
 pub use map::{light_table, write as write_map, write_array as write_scan};
+pub use patches::{PatchTable, Reader};
 pub use pieces::{MapFile, Pictures};
 pub use strands::write as write_strands;
 pub use summary::{Layer, Performance, Summary};

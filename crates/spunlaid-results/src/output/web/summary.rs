@@ -5,9 +5,11 @@ use crate::figures::SEEN;
 use crate::output::in_order::OrderedObject;
 use crate::output::spinline::SpinSummary;
 use serde::Serialize;
-use serde_json::Value as Json;
+use serde_json::{Value as Json, json};
 use spunlaid::advice::Advice;
-use spunlaid::observe::{OF_SCANNED_PATCHES, OF_SCANS, ScanMeasure};
+use spunlaid::observe::{
+    OF_PATCHES, OF_SCANNED_PATCHES, OF_SCANS, OF_WEBS, ScanMeasure, WebMeasure, WebNumber,
+};
 use spunlaid::scan::{self, Doubt};
 use spunlaid::statistics::{Estimate, interval_of_deviation};
 use spunlaid::web::uniformity::Unevenness;
@@ -115,10 +117,9 @@ struct WebSummary {
     #[serde(skip_serializing_if = "Option::is_none")]
     edges: Option<Margins>,
     patches: Vec<OrderedObject<Json>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    orientation_md: Option<NumberWithError>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    md_cd_ratio: Option<f64>,
+    /// The declared measures of a laid web, but for those that stand elsewhere.
+    #[serde(flatten)]
+    declared: OrderedObject<Json>,
     /// Share of the texture along the machine direction, ½ without orientation.
     texture_md: Option<NumberWithError>,
     cloudiness: Option<Cloudiness>,
@@ -233,8 +234,7 @@ impl WebSummary {
             lost_filaments: None,
             edges: None,
             patches,
-            orientation_md: None,
-            md_cd_ratio: None,
+            declared: OrderedObject(Vec::new()),
             texture_md: clouds.map(|clouds| NumberWithError::new(&clouds.texture_md())),
             cloudiness,
             clouds: clouds.into_iter().flat_map(Clouds::octaves).map(octave).collect(),
@@ -249,7 +249,7 @@ impl WebSummary {
 /// * `interval` – 95 % confidence interval of the CV of all such webs, or why it cannot be told
 fn numbers_of_patch<'a>(
     unevenness: &Unevenness,
-    errors: &[(&'a str, Option<f64>)],
+    errors: impl Iterator<Item = (&'a str, Option<f64>)>,
     interval: Result<[f64; 2], String>,
     more: impl Iterator<Item = (&'a str, Option<f64>)>,
 ) -> OrderedObject<Json> {
@@ -260,9 +260,26 @@ fn numbers_of_patch<'a>(
         Ok(ends) => ("cv_interval", ends.to_vec().into()),
         Err(why) => ("no_interval", why.into()),
     };
-    let errors = errors.iter().copied().filter_map(known);
-    let all = chance.into_iter().chain(errors).chain([interval]).chain(more.filter_map(known));
+    let all =
+        chance.into_iter().chain(errors.filter_map(known)).chain([interval]).chain(more.filter_map(known));
     OrderedObject(all.map(|(name, value): (&str, Json)| (name.to_owned(), value)).collect())
+}
+
+/// The declared measures that stand elsewhere in the file: with the map, and with each layer.
+const ELSEWHERE: [&str; 5] =
+    ["basis_weight_kg_m2", "fibre_length_m", "sigma_md_m", "sigma_cd_m", "noise_per_sqrt_m"];
+
+/// All other declared measures of a whole web. Those that it does not have are left out.
+fn declared_of_web(web: &Web, findings: &Findings) -> OrderedObject<Json> {
+    let entry = |declared: &WebMeasure| {
+        let json = match (declared.number)(web, findings)? {
+            WebNumber::Plain(value) => value.into(),
+            WebNumber::Mean(mean, error) => json!({ "mean": mean, "standard_error": error }),
+        };
+        Some((declared.measure.column.to_owned(), json))
+    };
+    let others = OF_WEBS.iter().filter(|declared| !ELSEWHERE.contains(&declared.measure.column));
+    OrderedObject(others.filter_map(entry).collect())
 }
 
 impl NumberWithError {
@@ -281,26 +298,13 @@ impl<'a> Summary<'a> {
         notes: &'a [String],
     ) -> Self {
         let patches = findings.patches.iter().map(|patch| {
-            let (whole, too_small) = (patch.whole_error(), || "the map is too small".to_owned());
-            let errors = [
-                ("cv_flight_error", whole.flight),
-                ("cv_model_error", whole.model),
-                ("cv_whole_error", whole.whole()),
-            ];
-            let expected = [
-                ("cv_independent", patch.independent.map(|cv| cv.0)),
-                ("cv_independent_standard_error", patch.independent.map(|cv| cv.1)),
-                ("cv_one_fibre", Some(patch.single_fibres.0)),
-                ("cv_one_fibre_standard_error", Some(patch.single_fibres.1)),
-                ("cv_flown", patch.flown.map(|cv| cv.0)),
-                ("cv_pairs", patch.pairs),
-                ("cv_flown_standard_error", patch.flown.map(|cv| cv.1)),
-                ("cv_surrogate", patch.surrogate.map(|cv| cv.0)),
-                ("cv_surrogate_standard_error", patch.surrogate.map(|cv| cv.1)),
-                ("cv_straight_fibres", Some(patch.straight_fibres)),
-            ];
-            let interval = patch.map.interval().ok_or_else(too_small);
-            numbers_of_patch(&patch.map, &errors, interval, expected.into_iter())
+            let interval = patch.map.interval().ok_or_else(|| "the map is too small".to_owned());
+            let declared = |is_of_map: bool| {
+                let declared = OF_PATCHES.iter().filter(move |measure| measure.is_of_map == is_of_map);
+                declared.map(|measure| (measure.name, (measure.number)(patch)))
+            };
+            // The CV of the map and its error by chance stand there already, as for a scan.
+            numbers_of_patch(&patch.map, declared(true).skip(2), interval, declared(false))
         });
         let levers = findings.sensitivities.iter().flat_map(|sensitivity| {
             let each = sensitivity.elasticity.iter().zip(&findings.patches);
@@ -325,8 +329,7 @@ impl<'a> Summary<'a> {
                     basis_weight_between_kg_m2: findings.within().basis_weight(),
                     basis_weight_sheet_kg_m2: findings.laid.map.basis_weight(),
                 }),
-                orientation_md: Some(NumberWithError::new(&findings.orientation.cos_squared)),
-                md_cd_ratio: Some(findings.orientation.md_cd_ratio()),
+                declared: declared_of_web(web, findings),
                 sensitivities: levers.collect(),
                 ..WebSummary::of_map(&findings.laid.map, findings.clouds.as_ref(), patches.collect())
             },
@@ -348,7 +351,7 @@ impl<'a> Summary<'a> {
         let patches = findings.patches.iter().map(|patch| {
             let declared = OF_SCANNED_PATCHES.iter().map(|measure| (measure.name, (measure.number)(patch)));
             let interval = patch.interval.map_err(|doubt| doubt.to_string());
-            numbers_of_patch(&patch.unevenness, &[], interval, declared)
+            numbers_of_patch(&patch.unevenness, std::iter::empty(), interval, declared)
         });
         let mut web = WebSummary::of_map(&findings.map, findings.clouds.as_ref(), patches.collect());
         if let Some(guess) = findings.guess {

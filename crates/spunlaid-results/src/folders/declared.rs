@@ -1,0 +1,204 @@
+//! Whatever is declared of a web, a scan, a spinline or a record is in its files.
+
+use super::spinline::SpinFolder;
+use super::web::WebFolder;
+use crate::figures::{record_figures, record_sample};
+use crate::output::analysis::{analysis_json, result_table};
+use crate::output::folder::Staging;
+use crate::output::spinline::{SpinResults, text};
+use crate::output::web::{ENTRIES, PatchTable, Performance, Reader, Summary};
+use crate::report::{AnalysisReport, ScanReport, analysis_html, scan_html};
+use serde_json::Value as Json;
+use spunlaid::input::{parse_spinline, parse_web};
+use spunlaid::lanes::Isa;
+use spunlaid::layers::Flyer;
+use spunlaid::observe::{
+    OF_COMPONENTS, OF_PATCHES, OF_RECORDS, OF_SCANNED_PATCHES, OF_SCANS, OF_SPINLINES, OF_WEBS, RecordMeasure,
+};
+use spunlaid::scan::{self, Format, Light, Picture};
+use spunlaid::web::{Findings, LayControl, PatchFindings};
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, AtomicU64};
+
+const WEB: &str = r#"
+version = 1
+[fibre]
+diameter = "18 µm"
+density = "910 kg/m³"
+[laydown]
+sigma_md = "9 mm"
+sigma_cd = "8 mm"
+noise = "15 m^-0.5"
+[line]
+feed_speed = "50 m/s"
+belt_speed = "5 m/s"
+filaments_per_metre = 400
+[web]
+width = "0.2 m"
+length = "0.2 m"
+cell = "1 mm"
+patches = ["5 mm", "10 mm"]
+"#;
+
+/// Webs that know different numbers of their patches: from the surrogate alone, from flown curves too, from neither, and of filaments in one
+/// air.
+fn kinds(found: &Findings) -> [Findings; 4] {
+    let with = |change: &dyn Fn(&mut PatchFindings)| {
+        let mut kind = found.clone();
+        kind.patches.iter_mut().for_each(change);
+        kind
+    };
+    [
+        found.clone(),
+        with(&|patch| patch.flown = Some((0.08, 0.002))),
+        with(&|patch| patch.surrogate = None),
+        with(&|patch| (patch.independent, patch.pairs) = (Some((0.05, 0.001)), Some(0.06))),
+    ]
+}
+
+#[test]
+fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
+    static STOP: AtomicBool = AtomicBool::new(false);
+    let file = parse_web(WEB, "web.toml", &[]).unwrap();
+    let mut flown = Flyer::new(2, &STOP, &|_, work| work()).web(&file.spec).unwrap();
+    let laid = AtomicU64::new(0);
+    let laying = LayControl { threads: 2, isa: Isa::detect(), stop: &STOP, laid: &laid };
+    let found = flown.find(laying).unwrap();
+    let (mut names, mut heads) = (BTreeSet::new(), BTreeSet::new());
+    for findings in &kinds(&found) {
+        let desk = tempfile::tempdir().unwrap();
+        let folder = desk.path().join("w");
+        let staging = Staging::new(&folder, ENTRIES, false, &STOP).unwrap();
+        let written = WebFolder {
+            name: "web",
+            file: &file,
+            web: &flown.web,
+            layers: &flown.layers,
+            findings,
+            advice: None,
+            notes: &[],
+            performance: Performance::default(),
+        };
+        written.write(&staging, laying).unwrap();
+        staging.publish().unwrap();
+        let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
+        let (summary, report): (Json, _) =
+            (serde_json::from_str(&read("summary.json")).unwrap(), read("report.html"));
+        for declared in OF_WEBS {
+            let column = declared.measure.column;
+            let places = [&summary["web"], &summary["layers"][0]];
+            let json = places.into_iter().find_map(|place| place.get(column)).cloned();
+            let mean = json.as_ref().map(|json| json.get("mean").unwrap_or(json).as_f64().unwrap());
+            assert_eq!(mean, (declared.number)(&flown.web, findings).map(|found| found.value()), "{column}");
+        }
+        let terminal = PatchTable::new(findings, Reader::Terminal).heads;
+        for (patch, json) in findings.patches.iter().zip(summary["web"]["patches"].as_array().unwrap()) {
+            for declared in OF_PATCHES {
+                let number = (declared.number)(patch);
+                assert_eq!(json.get(declared.name).and_then(Json::as_f64), number, "{}", declared.name);
+                names.extend(number.map(|_| declared.name));
+                let Some(column) = &declared.column else { continue };
+                if (column.is_shown)(patch) {
+                    assert!(report.contains(&format!(">{}</th>", column.heads[0])), "{}", declared.name);
+                    assert!(column.heads[1].is_empty() || terminal.contains(&column.heads[1]));
+                    heads.insert(declared.name);
+                }
+            }
+        }
+    }
+    // Each of them has been looked at.
+    assert_eq!(names, OF_PATCHES.iter().map(|declared| declared.name).collect());
+    let with_column = OF_PATCHES.iter().filter(|declared| declared.column.is_some());
+    assert_eq!(heads, with_column.map(|declared| declared.name).collect());
+}
+
+#[test]
+fn every_declared_measure_of_a_scan_is_in_summary_and_report() {
+    let (columns, rows) = (60, 80);
+    let levels = (0..columns * rows).map(|i| 30_000.0 + 5_000.0 * f64::sin((i * i % 997) as f64));
+    let picture = Picture {
+        file: "scan.png".to_owned(),
+        format: Format::Png,
+        values: levels.collect(),
+        columns,
+        rows,
+        pixel: 1e-3,
+        pixel_of_file: None,
+        full_scale: Some(65_535.0),
+        weight_of_black: None,
+        colour: false,
+        more: false,
+    };
+    let light = Light::Transmitted { mean: Some(0.02), white: Some(60_000.0) };
+    let settings = scan::Settings { noise: Some(50.0), ..scan::Settings::new(light) };
+    let findings = scan::analyse(&picture, &settings).unwrap();
+    let performance = Performance::default();
+    let summary = Summary::of_scan(&picture.file, &findings, performance, &[]).to_json();
+    let summary: Json = serde_json::from_str(&summary).unwrap();
+    let report = ScanReport {
+        name: "scan",
+        file: &picture.file,
+        findings: &findings,
+        figures: &[],
+        notes: &[],
+        performance,
+    };
+    let report = scan_html(&report).unwrap();
+    for declared in OF_SCANS {
+        let number = (declared.number)(&findings);
+        assert_eq!(summary["scan"].get(declared.name).unwrap().as_f64(), number, "{}", declared.name);
+        let is_told = !declared.label.is_empty() && number.is_some_and(|number| number != 0.0);
+        assert!(!is_told || report.contains(declared.label), "{}", declared.name);
+    }
+    for declared in OF_SCANNED_PATCHES {
+        let json = summary["web"]["patches"][0][declared.name].as_f64();
+        assert_eq!(json, (declared.number)(&findings.patches[0]), "{}", declared.name);
+        assert!(report.contains(declared.label), "{}", declared.name);
+    }
+}
+
+#[test]
+fn every_declared_measure_of_a_spinline_is_in_summary_terminal_and_report() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/melt_spinning.toml");
+    let source = std::fs::read_to_string(&path).unwrap();
+    let file = parse_spinline(&source, &path.display().to_string(), &[]).unwrap();
+    let results = SpinResults::new(&file).unwrap();
+    let folder = SpinFolder { name: "line", file: &file, results: &results, notes: &[] };
+    let summary: Json = serde_json::from_str(&folder.summary()).unwrap();
+    let (report, terminal) = (folder.report(), text(&results.rows, &results.influences));
+    for declared in OF_SPINLINES {
+        let json = summary.pointer(&format!("/spinline/{}", declared.name.replace('.', "/")));
+        let value = Some(declared.value(&results.rows[0]));
+        assert_eq!(json.and_then(Json::as_f64), value, "{}", declared.name);
+        assert!(report.contains(declared.label), "{}", declared.name);
+        assert!(declared.is_residual || terminal.contains(declared.label), "{}", declared.name);
+    }
+}
+
+#[test]
+fn every_declared_measure_of_a_record_is_in_summary_terminal_and_report() {
+    let (record, analysis) = record_sample::autoregression(3, 20_000);
+    let json: Json = serde_json::from_str(&analysis_json(&record, &analysis)).unwrap();
+    let (figures, remarks) = (record_figures(&record, &analysis), []);
+    let report = AnalysisReport {
+        name: "wire",
+        record: &record,
+        analysis: &analysis,
+        figures: &figures,
+        remarks: &remarks,
+        air: "[air]\n",
+    };
+    let pages = [analysis_html(&report), result_table(&record, &analysis)];
+    fn check<T>(declared: &[RecordMeasure<T>], found: &T, json: &Json, pages: &[String; 2]) {
+        for declared in declared {
+            let number = serde_json::to_value((declared.number)(found)).unwrap();
+            assert_eq!(json.get(declared.name), Some(&number), "{}", declared.name);
+            assert!(pages.iter().all(|page| page.contains(declared.label)), "{}", declared.name);
+        }
+    }
+    check(OF_RECORDS, &analysis, &json, &pages);
+    for (component, json) in analysis.components.iter().zip(json["components"].as_array().unwrap()) {
+        check(OF_COMPONENTS, component, json, &pages);
+    }
+}

@@ -1,0 +1,100 @@
+//! The table of the unevenness over patches, for the report and for the terminal.
+
+use crate::numbers::{THIN, plus_minus, significant};
+use spunlaid::observe::{OF_PATCHES, PatchColumn, PatchMeasure};
+use spunlaid::web::{Findings, PatchFindings};
+
+/// Who reads a table; its heads differ, and in the report every number has its unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reader {
+    /// The reader of the report.
+    Report,
+    /// The reader of the terminal.
+    Terminal,
+}
+
+/// The unevenness over patches, a row for each size: what the map says, then every declared column that the web has.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PatchTable {
+    /// Heads of the columns.
+    pub heads: Vec<&'static str>,
+    /// The cells of each row.
+    pub rows: Vec<Vec<String>>,
+}
+
+impl PatchTable {
+    /// The table of a web that has been laid.
+    pub fn new(findings: &Findings, reader: Reader) -> Self {
+        let of_map = match reader {
+            Reader::Report => ["Patch", "CV of this map", "of its error: chance", "95 % interval by chance"],
+            Reader::Terminal => ["patch", "this map", "by chance", "95 % by chance"],
+        };
+        let declared = columns(findings, reader);
+        let row = |patch: &PatchFindings| {
+            let cells = declared.iter().map(|(measure, column)| {
+                let cv = (measure.number)(patch);
+                reader.cell(cv.map(|cv| match column.digits {
+                    Some(digits) => significant(100.0 * cv, digits),
+                    None => plus_minus(100.0 * cv, error_of(measure, patch).map(|error| 100.0 * error)),
+                }))
+            });
+            reader.cells_of_map(patch).into_iter().chain(cells).collect()
+        };
+        Self {
+            heads: of_map.into_iter().chain(declared.iter().map(|(_, column)| reader.head(column))).collect(),
+            rows: findings.patches.iter().map(row).collect(),
+        }
+    }
+}
+
+/// The declared columns that a reader sees of a web, in their order.
+fn columns(findings: &Findings, reader: Reader) -> Vec<(&'static PatchMeasure, &'static PatchColumn)> {
+    let column = |measure: &'static PatchMeasure| Some((measure, measure.column.as_ref()?));
+    let is_shown = |(_, column): &(&PatchMeasure, &PatchColumn)| {
+        !reader.head(column).is_empty() && findings.patches.iter().any(column.is_shown)
+    };
+    let mut shown: Vec<_> = OF_PATCHES.iter().filter_map(column).filter(is_shown).collect();
+    shown.sort_by_key(|(_, column)| column.place);
+    shown
+}
+
+/// The standard error of a measure, if one is declared and known.
+fn error_of(measure: &PatchMeasure, patch: &PatchFindings) -> Option<f64> {
+    let is_its_error =
+        |other: &&PatchMeasure| other.name.strip_suffix("_standard_error") == Some(measure.name);
+    OF_PATCHES.iter().find(is_its_error).and_then(|error| (error.number)(patch))
+}
+
+impl Reader {
+    const fn head(self, column: &PatchColumn) -> &'static str {
+        let [report, terminal] = column.heads;
+        match self {
+            Self::Report => report,
+            Self::Terminal => terminal,
+        }
+    }
+
+    /// A number in per cent, or a dash.
+    fn cell(self, number: Option<String>) -> String {
+        match (number, self) {
+            (None, _) => "–".to_owned(),
+            (Some(number), Self::Report) => format!("{number}{THIN}%"),
+            (Some(number), Self::Terminal) => number,
+        }
+    }
+
+    /// Side of the patches, CV with its error by all causes, or by chance alone if the others are not known, error by chance,
+    /// and interval.
+    fn cells_of_map(self, patch: &PatchFindings) -> [String; 4] {
+        let (cv, error) = (patch.map.cv, patch.whole_error());
+        let whole = error.whole().or(error.chance);
+        let space = if self == Self::Report { THIN } else { ' ' };
+        let ends = |ends: [f64; 2]| ends.map(|end| significant(100.0 * end, 3)).join(" to ");
+        [
+            format!("{}{space}mm", significant(patch.map.patch * 1e3, 3)),
+            self.cell(Some(plus_minus(100.0 * cv, whole.map(|error| 100.0 * error)))),
+            self.cell(error.chance.map(|error| significant(100.0 * error, 2))),
+            self.cell(patch.map.interval().map(ends)),
+        ]
+    }
+}
