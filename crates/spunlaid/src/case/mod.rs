@@ -81,6 +81,20 @@ pub struct Run {
 }
 
 impl Run {
+    /// A run of which nothing is known yet; its keys are set one after another.
+    const UNKNOWN: Self = Self {
+        time_step: f64::NAN,
+        steps: 0,
+        spin_up_steps: 0,
+        output_steps: 0,
+        replicates: 1,
+        seed: 0,
+        scheme: Scheme::SemiImplicitEuler,
+        gravity: f64::NAN,
+        damping: f64::NAN,
+        shapes: None,
+    };
+
     /// Simulated time [s].
     pub fn duration(&self) -> f64 {
         self.steps as f64 * self.time_step
