@@ -8,11 +8,13 @@ mod boundary_layer;
 mod curve;
 mod friction;
 mod normal;
+mod source;
 
 pub use boundary_layer::BoundaryLayer;
 pub use curve::Curve;
 pub use friction::FrictionLaw;
 pub use normal::NormalLaw;
+pub use source::Source;
 
 use crate::fibre::Fibre;
 use crate::lanes::{Lanes, Register, Simd, WIDTH, Wide, exp2, log2, power};
@@ -45,11 +47,11 @@ impl Drag {
         let (along, across) = (self.along, self.across);
         ElementDrag {
             along: match along.form() {
-                friction::Form::Power(exponent) => {
+                friction::Form::Power { exponent, .. } => {
                     let coefficient = along.coefficient(re_per_velocity, 1.0);
                     power(PI * pressure_area * coefficient, 1.0 - exponent)
                 }
-                friction::Form::Layer(curve) => layer(curve),
+                friction::Form::Layer(_, curve) => layer(curve),
             },
             across: match across.form() {
                 normal::Form::Power { exponent, coefficient } => {

@@ -61,6 +61,18 @@ pub struct Fibre {
 }
 
 impl Fibre {
+    /// A fibre of which nothing is known yet; its keys are set one after another.
+    pub(crate) const UNKNOWN: Self = Self {
+        length: f64::NAN,
+        diameter: f64::NAN,
+        density: f64::NAN,
+        youngs_modulus: f64::NAN,
+        bending_viscosity_time: 0.0,
+        elements: 0,
+        root: Root::Pinned,
+        direction: Vec3::new(1.0, 0.0, 0.0),
+    };
+
     /// Makes the fibre about as long as a distance [m], in whole elements of exactly the given length [m].
     pub fn span(&mut self, distance: f64, element_length: f64) {
         let elements = (distance / element_length).round().clamp(1.0, 1e15);

@@ -1,6 +1,6 @@
 //! `report.html` of a spinline, and the section about it in the reports of runs and of webs.
 
-use super::methods::{Account, Methods, along};
+use super::methods::{Account, Methods};
 use super::rendered;
 use super::words::length;
 use crate::numbers::{THIN, number_to, significant};
@@ -256,7 +256,7 @@ fn curtain(rows: &[Solution]) -> Option<String> {
 pub(super) fn account(spec: &SpinSpec, rows: &[Solution]) -> Account {
     let texts = methods(spec).into_iter().map(|(_, text)| text);
     let length = format!("The line is {} long.", length(spec.spinline.length));
-    ([summary(spec, rows), length].into_iter().chain(texts).collect(), vec![along(spec.drag.along)])
+    ([summary(spec, rows), length].into_iter().chain(texts).collect(), vec![spec.drag.along.source()])
 }
 
 /// What the model is, in a few words each.

@@ -4,7 +4,7 @@ use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;
 use spunlaid::lanes::{Isa, Lanes, WIDTH};
 use spunlaid::surrogate::{PathKey, Paths, Surrogate};
-use spunlaid::web::{Edges, Fibres, Filaments, LayControl, Layer, Sheet, Web, lay};
+use spunlaid::web::{Fibres, Filaments, LayControl, Layer, Sheet, Web, lay};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 const SURROGATE: Surrogate = Surrogate { sigma_md: 18.4e-3, sigma_cd: 18.3e-3, noise: 12.4 };
@@ -36,7 +36,7 @@ pub fn costs() {
 
 fn web(cell: f64) -> Web {
     Web {
-        sheet: Sheet { width: 0.5, length: 0.6, cell, patches: Vec::new(), edges: Edges::Periodic },
+        sheet: Sheet::new(0.5, 0.6, cell),
         layers: vec![Layer {
             linear_density: 2.3e-7,
             feed_speed: 50.0,

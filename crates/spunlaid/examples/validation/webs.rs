@@ -20,7 +20,7 @@ const SIDES: [usize; 6] = [1, 2, 5, 10, 20, 50];
 fn web(filaments: Filaments, sizes: [f64; 2], edges: Edges) -> Web {
     let spunbond = Surrogate { sigma_md: 18.4e-3, sigma_cd: 18.3e-3, noise: 12.4 };
     Web {
-        sheet: Sheet { width: sizes[0], length: sizes[1], cell: CELL, patches: Vec::new(), edges },
+        sheet: Sheet { edges, ..Sheet::new(sizes[0], sizes[1], CELL) },
         layers: vec![Layer {
             linear_density: 2.3e-7,
             feed_speed: 50.0,

@@ -131,17 +131,20 @@ impl Atmosphere {
             true => Ok(()),
             false => Err(misfit(what, parts, found, wanted)),
         };
-        if let Self::Uniform(air) | Self::Flow(air, _) = self {
+        let with_eddies = |air: &EddyWind| {
             fits("air", "elements", air.eddies.of_element().len(), elements)?;
-            fits("wind", "eddies", air.wind.eddies(), air.eddies.count())?;
+            fits("wind", "eddies", air.wind.eddies(), air.eddies.count())
+        };
+        match self {
+            Self::Uniform(air) => with_eddies(air),
+            Self::Flow(air, flow) => {
+                with_eddies(air)?;
+                fits("surrounding flow", "elements", flow.elements(), elements)
+            }
+            // It is made for fed fibres only, together with them.
+            Self::Way(..) => Ok(()),
+            Self::Space(air) => fits("air in space", "elements", air.elements(), elements),
         }
-        if let Self::Flow(_, flow) = self {
-            fits("surrounding flow", "elements", flow.elements(), elements)?;
-        }
-        if let Self::Space(air) = self {
-            fits("air in space", "elements", air.elements(), elements)?;
-        }
-        Ok(())
     }
 
     /// Makes the samples around time 0, which clones made later share.
@@ -176,13 +179,15 @@ impl Atmosphere {
 
     /// Whether each element lies in the same eddy of another air of this kind.
     pub(crate) fn has_eddies_of(&self, other: &Self) -> bool {
-        match (self, other) {
-            (Self::Uniform(one), Self::Uniform(other)) => one.eddies == other.eddies,
-            (Self::Flow(one, _), Self::Flow(other, _)) => one.eddies == other.eddies,
-            (Self::Way(one, _), Self::Way(other, _)) => one.eddies() == other.eddies(),
-            (Self::Space(_), Self::Space(_)) => true,
-            _ => false,
+        // Along a way it is enough that there are as many stations.
+        fn eddies(air: &Atmosphere) -> (Option<&Eddies>, usize) {
+            match air {
+                Atmosphere::Uniform(air) | Atmosphere::Flow(air, _) => (Some(&air.eddies), 0),
+                Atmosphere::Way(wind, _) => (None, wind.eddies()),
+                Atmosphere::Space(_) => (None, 0),
+            }
         }
+        std::mem::discriminant(self) == std::mem::discriminant(other) && eddies(self) == eddies(other)
     }
 
     /// Replaces the air by another one of the same kind and eddies.

@@ -1,11 +1,12 @@
 //! The conditions that a case must meet before it can be run.
 
+use super::Case;
 use super::keys::{self, finding};
 use super::limits::{MOST_INSTANTS, MOST_STEPS};
 use super::memory::FLIGHT_MEMORY_LIMIT;
 use super::neighbours::without_shared_air;
 use super::note::Note;
-use super::{Case, FEEDING, StepLimit};
+use super::step::{FEEDING, StepLimit};
 use crate::air::{FileContent, Lateral, Measured};
 use crate::chain::schemes::Scheme;
 use crate::error::{self, Fault, Finding, Place, Problem};
@@ -43,24 +44,6 @@ impl Case {
             self.blame_slips(&mut check.problems);
         }
         Err(check.problems)
-    }
-
-    /// The limits on the time step of the case's scheme [s], with damping taken into account.
-    ///
-    /// A mode whose limit without damping is `h₀` is stable while `(h/h₀)² + κ c h < 1`, where `c` is the damping
-    /// and `κ` is ½ for semi-implicit Euler and 1 for leapfrog.                                    theory.md (32)
-    pub fn stable_step_limits(&self) -> Vec<StepLimit> {
-        let share = match self.run.scheme {
-            Scheme::SemiImplicitEuler => 0.5,
-            Scheme::Leapfrog | Scheme::ImplicitTension => 1.0,
-        };
-        let rate = share * self.run.damping;
-        let tightened = |StepLimit { cause, limit }| {
-            // Without a limit there is none to tighten.
-            let half = if rate > 0.0 { 0.5 * rate * limit } else { 0.0 };
-            StepLimit { cause, limit: limit / (half + half.hypot(1.0)) }
-        };
-        self.step_limits().into_iter().map(tightened).collect()
     }
 }
 

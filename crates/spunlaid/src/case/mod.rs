@@ -18,7 +18,8 @@ pub use limits::{INSTANT_ON_DISK, MOST_INSTANTS, MOST_REPLICATES, MOST_SHAPES, M
 pub use memory::{FLIGHT_MEMORY_LIMIT, FlightMemory};
 pub use neighbours::Neighbours;
 pub use note::{Note, Remark};
-pub use step::{ERROR_TOLERANCE, StepChoice};
+use step::FEEDING;
+pub use step::{ERROR_TOLERANCE, StepChoice, StepLimit};
 pub(crate) use usual::unusual;
 
 use crate::air::{
@@ -81,6 +82,20 @@ pub struct Run {
 }
 
 impl Run {
+    /// A run of which nothing is known yet; its keys are set one after another.
+    const UNKNOWN: Self = Self {
+        time_step: f64::NAN,
+        steps: 0,
+        spin_up_steps: 0,
+        output_steps: 0,
+        replicates: 1,
+        seed: 0,
+        scheme: Scheme::SemiImplicitEuler,
+        gravity: f64::NAN,
+        damping: f64::NAN,
+        shapes: None,
+    };
+
     /// Simulated time [s].
     pub fn duration(&self) -> f64 {
         self.steps as f64 * self.time_step
@@ -97,56 +112,8 @@ impl Run {
     }
 }
 
-/// The limit that the feed sets, see [`Line::fewest_steps`].
-const FEEDING: &str = "feed of an element";
-const STRING: &str = "waves of the taut string";
-const GUSTS: &str = "gusts that turn an element";
-const AXIAL: &str = "axial waves";
-const BENDING: &str = "bending waves";
-
-/// Factor of the root of a fed fibre on the limit of the bending waves: its largest stiffness is sixteen times that of
-/// other nodes, the bending waves are 18 % faster then.
-const FED_ROOT: f64 = 0.84;
-
 /// Elements of a fed fibre at its start.
 const FIRST_ELEMENTS: usize = 2;
-
-/// A limit on the time step and what sets it.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-pub struct StepLimit {
-    /// What sets the limit, for example `axial waves`.
-    pub cause: &'static str,
-    /// The longest stable step [s]; steps must stay below it.
-    #[serde(rename = "limit_s")]
-    pub limit: f64,
-}
-
-impl StepLimit {
-    /// Where it comes from, and what allows longer steps.
-    pub fn reason(&self) -> &'static str {
-        match self.cause {
-            AXIAL => {
-                "sound crosses an element in this time, all along the fibre; run.scheme = \"implicit-tension\" knows no such limit, and longer \
-                 elements (fibre.element_length) lengthen it"
-            }
-            BENDING => {
-                "the shortest bending wave swings once in this time, at the root first; longer elements (fibre.element_length) or a thinner or \
-                 softer fibre lengthen it"
-            }
-            STRING => {
-                "a wave of the taut fibre crosses an element in this time at the root, where the tension is largest; longer elements \
-                 (fibre.element_length) or less drag lengthen it"
-            }
-            FEEDING => {
-                "an element is fed at the inlet in whole steps; longer elements (fibre.element_length) or a lower feed.speed lengthen it"
-            }
-            GUSTS => {
-                "gusts may turn an element only a little in a step; longer elements (fibre.element_length) or weaker turbulence lengthen it"
-            }
-            _ => "",
-        }
-    }
-}
 
 impl Case {
     /// Takes diameter, density and feed speed from a solved spinline, and the modulus where the case leaves it out.
@@ -170,62 +137,6 @@ impl Case {
     /// Mass flow of a fed fibre, which is that of its hole [kg/s]; `None` if the fibre has a fixed length.
     pub fn throughput(&self) -> Option<f64> {
         Some(self.linear_density() * self.line?.feed_speed)
-    }
-
-    /// The limits on the time step of an undamped flight with this mesh and the case's scheme.
-    pub fn step_limits(&self) -> Vec<StepLimit> {
-        let axial = StepLimit { cause: AXIAL, limit: self.fibre.axial_step_limit() };
-        let bending = StepLimit { cause: BENDING, limit: self.bending_step_limit() };
-        let mut limits = match self.run.scheme {
-            Scheme::SemiImplicitEuler | Scheme::Leapfrog => vec![axial, bending],
-            Scheme::ImplicitTension => vec![bending, self.string_step_limit()],
-        };
-        if let Some(line) = self.line {
-            // A step may be exactly this part of the time in which an element is fed.
-            let limit =
-                self.fibre.rest_length() / line.feed_speed / line.fewest_steps() as f64 * (1.0 + 1e-9);
-            limits.push(StepLimit { cause: FEEDING, limit });
-            if self.run.scheme == Scheme::ImplicitTension && self.air.density > 0.0 && self.air.rms() > 0.0 {
-                // The tensions are found where gusts turn an element little in a step. Flights of spunbond.toml at 40 %
-                // of turbulence were seen to fail at 1.7 times this.                                    theory.md (63)
-                let limit = self.fibre.rest_length() / (12.0 * self.air.rms());
-                limits.push(StepLimit { cause: GUSTS, limit });
-            }
-        }
-        limits
-    }
-
-    /// Longest stable step for bending waves [s], with the stiff root of a fed fibre and the bending viscosity.
-    ///
-    /// The bending viscosity damps a wave of angular frequency `ω = 2/h₀` by `ω²τ`, so `(h/h₀)² + κ ω²τ h < 1`, `κ` as
-    /// of [`Case::stable_step_limits`].                                                 theory.md (63)
-    fn bending_step_limit(&self) -> f64 {
-        let stiff_root = if self.line.is_some() { FED_ROOT } else { 1.0 };
-        let alone = self.fibre.bending_step_limit() * stiff_root;
-        let share = if self.run.scheme.is_staggered() { 1.0 } else { 0.5 };
-        let half = 2.0 * share * self.fibre.bending_viscosity_time / alone;
-        alone / (half + half.hypot(1.0))
-    }
-
-    /// Longest step of implicit tension at which the waves of the taut fibre stay stable [s].
-    ///
-    /// It is 1.5 times the time in which such a wave passes an element. Flights were seen to fail at twice this
-    /// step.                                                                   theory.md (55)
-    ///
-    /// The tension is estimated at the root, from the fibre's weight and the friction of the mean flow at half
-    /// the fibre's length.
-    fn string_step_limit(&self) -> StepLimit {
-        let strand = self.strand();
-        let elements = self.fibre.elements as f64;
-        let weight = self.fibre.element_mass() * elements * self.run.gravity.abs();
-        let feed = self.line.map_or(0.0, |line| line.feed_speed);
-        let relative = (self.air.velocity - feed).abs();
-        let there_is_air = self.air.density > 0.0 && relative > 0.0;
-        let friction =
-            if there_is_air { strand.drag.along.force(relative, 0.5 * elements) * elements } else { 0.0 };
-        let line_density = self.fibre.density * self.fibre.cross_section();
-        let speed = ((weight + friction) / line_density).sqrt();
-        StepLimit { cause: STRING, limit: 1.5 * self.fibre.rest_length() / speed }
     }
 
     /// Vector from the root to the free end of the straight fibre [m].

@@ -2,11 +2,9 @@
 
 use super::{Case, Neighbours, Run};
 use crate::air::Air;
-use crate::chain::schemes::Scheme;
 use crate::drag::{Drag, FrictionLaw, NormalLaw};
-use crate::fibre::{Fibre, Root};
+use crate::fibre::Fibre;
 use crate::spinline::SpinSpec;
-use crate::vec3::Vec3;
 
 impl From<&SpinSpec> for Case {
     /// A case with nothing but a spinline, its drag laws and its field of air, whose keys can be read and set.
@@ -22,33 +20,13 @@ impl Case {
     pub(crate) fn unset() -> Self {
         let nan = f64::NAN;
         Self {
-            fibre: Fibre {
-                length: nan,
-                diameter: nan,
-                density: nan,
-                youngs_modulus: nan,
-                bending_viscosity_time: 0.0,
-                elements: 0,
-                root: Root::Pinned,
-                direction: Vec3::new(1.0, 0.0, 0.0),
-            },
+            fibre: Fibre::UNKNOWN,
             air: Air::uniform(nan, nan, nan, nan),
             drag: Drag { along: FrictionLaw::ALL[0], across: NormalLaw::ALL[0] },
             line: None,
             spinline: None,
             neighbours: Neighbours::default(),
-            run: Run {
-                time_step: nan,
-                steps: 0,
-                spin_up_steps: 0,
-                output_steps: 0,
-                replicates: 1,
-                seed: 0,
-                scheme: Scheme::SemiImplicitEuler,
-                gravity: nan,
-                damping: nan,
-                shapes: None,
-            },
+            run: Run::UNKNOWN,
         }
     }
 }

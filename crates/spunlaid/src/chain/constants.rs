@@ -3,7 +3,7 @@
 //! What belongs to an element or to a node is held along the chain, so that mass, length, diameter and stiffness may vary along
 //! a fibre. Fibres whose elements are all alike hold it once.
 
-use super::laying::Friction;
+use super::friction::Friction;
 use super::node::Node;
 use super::{Common, Strand};
 use crate::company::PerLane;

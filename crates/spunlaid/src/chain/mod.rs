@@ -4,6 +4,7 @@ pub(crate) mod constants;
 pub(crate) mod explicit;
 pub(crate) mod force_pass;
 pub(crate) mod forces;
+pub(crate) mod friction;
 pub(crate) mod implicit;
 pub(crate) mod laying;
 pub(crate) mod node;

@@ -2,6 +2,7 @@
 
 use super::boundary_layer::BoundaryLayer;
 use super::curve::Curve;
+use super::source::Source;
 
 /// Drag law along the fibre.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,16 +22,29 @@ pub enum FrictionLaw {
 
 /// Exponent of the Reynolds number in Matsui's form.
 const MATSUI: f64 = 0.61;
-/// `β` of [`FrictionLaw::MajumdarShambaugh`] [-].
-const MAJUMDAR_SHAMBAUGH: f64 = 0.78;
+
+/// What is known of a law.
+struct Law {
+    /// Name in the case file.
+    name: &'static str,
+    /// Where it was published.
+    source: Source,
+    /// `β` [-] of the law, if it is an input.
+    input: Option<f64>,
+    form: Form,
+}
 
 /// How the kernel computes a law.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Form {
-    /// As a power of the velocity: `p` in `C_f ∝ Re^-p`, between 0 and 1 [-].
-    Power(f64),
+    /// `C_f = factor Re^-exponent`, as a power of the velocity.
+    Power {
+        /// Between 0 and 1 [-].
+        exponent: f64,
+        factor: f64,
+    },
     /// From the table of a boundary layer.
-    Layer(Curve),
+    Layer(BoundaryLayer, Curve),
 }
 
 impl FrictionLaw {
@@ -38,30 +52,66 @@ impl FrictionLaw {
     pub const ALL: [Self; 4] =
         [Self::Matsui { factor: 0.9 }, Self::MajumdarShambaugh, Self::Sakiadis, Self::GlauertLighthill];
 
+    const fn law(self) -> Law {
+        match self {
+            Self::Matsui { factor } => Law {
+                name: "matsui",
+                source: Source {
+                    short: "Matsui 1976",
+                    full: "M. Matsui: Air drag on a continuous filament in melt spinning. Transactions of the Society of Rheology 20(3), 465–473, 1976.",
+                },
+                input: Some(factor),
+                form: Form::Power { exponent: MATSUI, factor },
+            },
+            Self::MajumdarShambaugh => Law {
+                name: "majumdar-shambaugh",
+                source: Source {
+                    short: "Majumdar and Shambaugh 1990",
+                    full: "B. Majumdar, R. L. Shambaugh: Air drag on filaments in the melt blowing process. Journal of Rheology 34(4), 591–601, 1990.",
+                },
+                input: None,
+                form: Form::Power { exponent: MATSUI, factor: 0.78 },
+            },
+            Self::Sakiadis => Law {
+                name: "sakiadis",
+                source: Source {
+                    short: "Sakiadis 1961",
+                    full: "B. C. Sakiadis: Boundary-layer behavior on continuous solid surfaces: III. The boundary layer on a continuous cylindrical \
+                           surface. AIChE Journal 7(3), 467–472, 1961.",
+                },
+                input: None,
+                form: Form::Layer(BoundaryLayer::Moving, Curve::Moving),
+            },
+            Self::GlauertLighthill => Law {
+                name: "glauert-lighthill",
+                source: Source {
+                    short: "Glauert and Lighthill 1955",
+                    full: "M. B. Glauert, M. J. Lighthill: The axisymmetric boundary layer on a long thin cylinder. Proceedings of the Royal \
+                           Society A 230, 188–203, 1955.",
+                },
+                input: None,
+                form: Form::Layer(BoundaryLayer::Held, Curve::Held),
+            },
+        }
+    }
+
     /// Name in the case file.
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Matsui { .. } => "matsui",
-            Self::MajumdarShambaugh => "majumdar-shambaugh",
-            Self::Sakiadis => "sakiadis",
-            Self::GlauertLighthill => "glauert-lighthill",
-        }
+        self.law().name
+    }
+
+    /// Where it was published.
+    pub const fn source(self) -> Source {
+        self.law().source
     }
 
     /// `β` [-] of the law, if it is an input.
     pub const fn factor(self) -> Option<f64> {
-        match self {
-            Self::Matsui { factor } => Some(factor),
-            Self::MajumdarShambaugh | Self::Sakiadis | Self::GlauertLighthill => None,
-        }
+        self.law().input
     }
 
     pub(super) const fn form(self) -> Form {
-        match self {
-            Self::Matsui { .. } | Self::MajumdarShambaugh => Form::Power(MATSUI),
-            Self::Sakiadis => Form::Layer(Curve::Moving),
-            Self::GlauertLighthill => Form::Layer(Curve::Held),
-        }
+        self.law().form
     }
 
     /// Friction coefficient `C_f` [-] along the fibre.
@@ -75,15 +125,10 @@ impl FrictionLaw {
     ///
     /// The Reynolds numbers to which Matsui's form was fitted are not known here. The laminar laws are theory for an
     /// undisturbed layer that begins at the root, for either direction of the air.
-    ///
-    /// Sources: Matsui 1976; Majumdar & Shambaugh 1990; Sakiadis 1961; Glauert & Lighthill 1955.
     pub fn coefficient(self, re: f64, distance: f64) -> f64 {
-        let laminar = |layer: BoundaryLayer| 4.0 / (re * layer.thickness(4.0 * distance / re));
-        match self {
-            Self::Matsui { factor } => factor * libm::pow(re, -MATSUI),
-            Self::MajumdarShambaugh => MAJUMDAR_SHAMBAUGH * libm::pow(re, -MATSUI),
-            Self::Sakiadis => laminar(BoundaryLayer::Moving),
-            Self::GlauertLighthill => laminar(BoundaryLayer::Held),
+        match self.form() {
+            Form::Power { exponent, factor } => factor * libm::pow(re, -exponent),
+            Form::Layer(layer, _) => 4.0 / (re * layer.thickness(4.0 * distance / re)),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Laws of the drag across the fibre: each is a file of this folder and a line in the list.
 
+use super::source::Source;
 use std::ops::RangeInclusive;
 
 mod ju_shambaugh;
@@ -39,6 +40,8 @@ laws! {
 struct Law {
     /// Name in the case file.
     name: &'static str,
+    /// Where it was published.
+    source: Source,
     /// The diameters it was fitted to [m]; none if it depends on the Reynolds number alone.
     fitted_diameters: Option<RangeInclusive<f64>>,
     /// The Reynolds numbers it holds for [-], if they are known.
@@ -69,6 +72,11 @@ impl NormalLaw {
     /// Name in the case file.
     pub const fn name(self) -> &'static str {
         self.law().name
+    }
+
+    /// Where it was published.
+    pub const fn source(self) -> Source {
+        self.law().source
     }
 
     /// The diameters the law was fitted to [m]; none if it depends on the Reynolds number alone.

@@ -159,9 +159,8 @@ impl WebSpec {
     /// A web without layers, whose keys are set one after another.
     pub(crate) const fn unknown() -> Self {
         let nan = f64::NAN;
-        let sheet = Sheet { width: nan, length: nan, cell: nan, patches: Vec::new(), edges: Edges::Periodic };
         Self {
-            sheet,
+            sheet: Sheet::new(nan, nan, nan),
             layers: Vec::new(),
             seed: 0,
             method: Method::Surrogate,

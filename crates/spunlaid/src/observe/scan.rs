@@ -1,5 +1,5 @@
 //! What is measured of a scanned web. Each measure is declared once: its name, label, unit, and how it is found. `summary.json`
-//! and the report follow from it.
+//! and the report follow from it; the table of the terminal has its own columns.
 
 use super::{PERCENT, Unit};
 use crate::scan::{Findings, PatchFindings};

@@ -144,7 +144,7 @@ mod tests {
     const CELL: f64 = 1e-3;
 
     fn canvas(edges: Edges) -> Canvas {
-        let sheet = Sheet { width: 10e-3, length: 20e-3, cell: CELL, patches: Vec::new(), edges };
+        let sheet = Sheet { edges, ..Sheet::new(10e-3, 20e-3, CELL) };
         Canvas::new(&sheet, &[1e-9], 1e-3).unwrap()
     }
 
@@ -189,7 +189,7 @@ mod tests {
 
     #[test]
     fn rejects_cells_that_cannot_count_the_fibre() {
-        let sheet = Sheet { width: 10.0, length: 10.0, cell: 1.0, patches: Vec::new(), edges: Edges::Cut };
+        let sheet = Sheet { edges: Edges::Cut, ..Sheet::new(10.0, 10.0, 1.0) };
         assert!(Canvas::new(&sheet, &[1e-12], 1.0).is_err());
         assert!(Canvas::new(&sheet, &[f64::NAN], 1.0).is_err());
         assert!(Canvas::new(&sheet, &[], 1.0).is_err());

@@ -239,6 +239,14 @@ impl Web {
 }
 
 impl Sheet {
+    /// A sheet with periodic edges and without patches.
+    ///
+    /// * `width`, `length` – whole numbers of cells [m]
+    /// * `cell` – side of a cell [m]
+    pub const fn new(width: f64, length: f64, cell: f64) -> Self {
+        Self { width, length, cell, patches: Vec::new(), edges: Edges::Periodic }
+    }
+
     /// Number of cells in cross and in machine direction.
     pub fn cells(&self) -> [usize; 2] {
         [self.width, self.length].map(|size| (size / self.cell).round() as usize)

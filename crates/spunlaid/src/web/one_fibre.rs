@@ -3,7 +3,7 @@
 use super::lay::lay;
 use super::laying::LayControl;
 use super::uniformity::boxes;
-use super::{Edges, Fibres, Filaments, Layer, Row, Sheet, Web};
+use super::{Fibres, Filaments, Layer, Row, Sheet, Web};
 use crate::error::Error;
 use crate::statistics::Estimate;
 use crate::threads::try_each;
@@ -111,13 +111,7 @@ fn add(
     let pitch = apart as f64 * sample.cell;
     let row = Row::new((trace as f64 + 0.5) * sample.cell, pitch, sample.fibres);
     let web = Web {
-        sheet: Sheet {
-            width: pitch * sample.fibres as f64,
-            length: rows as f64 * sample.cell,
-            cell: sample.cell,
-            patches: Vec::new(),
-            edges: Edges::Periodic,
-        },
+        sheet: Sheet::new(pitch * sample.fibres as f64, rows as f64 * sample.cell, sample.cell),
         layers: vec![Layer { filaments: Filaments::Rows(vec![row]), ..layer.clone() }],
         seed: sample.seed,
     };

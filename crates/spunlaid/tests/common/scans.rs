@@ -5,7 +5,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use spunlaid::lanes::Isa;
 use spunlaid::surrogate::Surrogate;
-use spunlaid::web::{Edges, Fibres, Filaments, LayControl, Layer, Map, Row, Sheet, Web, lay};
+use spunlaid::web::{Fibres, Filaments, LayControl, Layer, Map, Row, Sheet, Web, lay};
 use std::f64::consts::PI;
 use std::io::Cursor;
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -41,7 +41,7 @@ pub fn web(sides: [f64; 2], cell: f64, sigma: f64, filaments: f64, in_rows: bool
         fibres,
         other_description: None,
     };
-    let sheet = Sheet { width, length, cell, patches: Vec::new(), edges: Edges::Periodic };
+    let sheet = Sheet::new(width, length, cell);
     let web = Web { sheet, layers: vec![layer], seed };
     let (stop, pieces) = (AtomicBool::new(false), AtomicU64::new(0));
     lay(&web, LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &pieces })

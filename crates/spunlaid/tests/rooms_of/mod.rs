@@ -218,18 +218,27 @@ impl Files {
     }
 }
 
-/// Imports between the files below `root` that lead back to where they start, a line each.
+/// Imports between the modules below `root` that lead back to where they start, a line each. A folder counts as a whole for what
+/// stands beside it: its files may use each other's through its `mod.rs`, so a circle may go through any of them.
 pub fn circles(root: &Path) -> Vec<String> {
     let files = Files::read(root);
-    let imports: BTreeMap<_, _> = files.0.keys().map(|module| (module, files.imports(module))).collect();
+    let mut imports = BTreeMap::<_, BTreeSet<_>>::new();
+    for module in files.0.keys() {
+        for other in files.imports(module) {
+            let common = module.iter().zip(&other).take_while(|(one, other)| one == other).count();
+            if common < module.len() {
+                imports.entry(module[..=common].to_vec()).or_default().insert(other[..=common].to_vec());
+            }
+        }
+    }
     let leads_to = |start: &Module, end: &Module| {
         let (mut reached, mut open) = (BTreeSet::new(), vec![start]);
         while let Some(module) = open.pop() {
-            open.extend(imports[module].iter().filter(|next| reached.insert(*next)));
+            open.extend(imports.get(module).into_iter().flatten().filter(|next| reached.insert(*next)));
         }
         reached.contains(end)
     };
-    let all = imports.iter().flat_map(|(module, others)| others.iter().map(move |other| (*module, other)));
+    let all = imports.iter().flat_map(|(module, others)| others.iter().map(move |other| (module, other)));
     let wrong = all.filter(|(module, other)| leads_to(other, module));
     wrong
         .map(|(module, other)| format!("{} and {} import each other", module.join("/"), other.join("/")))
@@ -271,4 +280,7 @@ fn circles_are_found_through_what_a_module_passes_on() {
         "fn two() -> crate::b::B {}\n#[cfg(test)]\nmod tests {\n    use super::super::one::One;\n}",
     );
     assert_eq!(circles(folder.path()), [""; 0]);
+    // Through the folder that holds the file.
+    write("b.rs", "fn b() -> crate::a::Own {}");
+    assert_eq!(circles(folder.path()), ["a and b import each other", "b and a import each other"]);
 }

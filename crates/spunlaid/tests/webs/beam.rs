@@ -10,7 +10,7 @@ use spunlaid::input::read_case;
 use spunlaid::lanes::Isa;
 use spunlaid::web::uniformity::unevenness;
 use spunlaid::web::{
-    Curves, Edges, Fibres, Filaments, Findings, LaidWeb, LayControl, Layer, Map, Row, Sheet, Web, Window,
+    Curves, Fibres, Filaments, Findings, LaidWeb, LayControl, Layer, Map, Row, Sheet, Web, Window,
     measure_laid,
 };
 use std::path::Path;
@@ -38,7 +38,7 @@ pub(super) fn case_in(lateral: &str) -> Case {
 
 pub(super) fn sheet(columns: usize, rows: usize) -> Sheet {
     let [width, length] = [columns, rows].map(|cells| cells as f64 * CELL);
-    Sheet { width, length, cell: CELL, patches: Vec::new(), edges: Edges::Periodic }
+    Sheet::new(width, length, CELL)
 }
 
 /// Filaments at an even pitch over the width.

@@ -16,10 +16,6 @@ const SPUNBOND: Surrogate = Surrogate { sigma_md: 18.4e-3, sigma_cd: 18.3e-3, no
 /// 18 µm at 910 kg/m³ [kg/m].
 const LINEAR_DENSITY: f64 = 910.0 * PI * 18e-6 * 18e-6 / 4.0;
 
-fn sheet(width: f64, length: f64, cell: f64) -> Sheet {
-    Sheet { width, length, cell, patches: Vec::new(), edges: Edges::Periodic }
-}
-
 fn layer(fibres: Fibres, per_metre: f64) -> Layer {
     let filaments = Filaments::AtRandom { per_metre };
     Layer {
@@ -58,7 +54,7 @@ fn straight(count: usize, length: f64, width: f64, cell: f64) -> Web {
     let filaments = Filaments::AtRandom { per_metre: count as f64 / width };
     let fibres = Fibres::Curves(Arc::new(curves));
     Web {
-        sheet: sheet(width, width, cell),
+        sheet: Sheet::new(width, width, cell),
         layers: vec![Layer {
             linear_density: LINEAR_DENSITY,
             feed_speed: 1.0,
@@ -87,7 +83,7 @@ fn straight_fibres_at_random_have_the_unevenness_of_the_law() {
 #[test]
 fn one_fibre_says_how_uneven_the_web_is() {
     let by_surrogate = layer(Fibres::Surrogate(SPUNBOND), 5000.0);
-    let web = Web { sheet: sheet(1.0, 1.0, 1e-3), layers: vec![by_surrogate.clone()], seed: 3 };
+    let web = Web { sheet: Sheet::new(1.0, 1.0, 1e-3), layers: vec![by_surrogate.clone()], seed: 3 };
     let map = laid(&web).map;
     close(map.basis_weight(), web.basis_weight(), 1e-9);
     let tau = web.basis_weight() / LINEAR_DENSITY;
@@ -112,7 +108,7 @@ fn rows_of_nozzles_have_the_unevenness_that_is_expected_of_them() {
         let rows = Filaments::Rows(vec![Row::new(0.1e-3, pitch, count)]);
         let narrow = Surrogate { sigma_cd: 12e-3, ..SPUNBOND };
         let layer = Layer { filaments: rows, ..layer(Fibres::Surrogate(narrow), 0.0) };
-        let sheet = Sheet { patches: [2e-3, 10e-3, 40e-3].to_vec(), ..sheet(0.5, 1.0, 1e-3) };
+        let sheet = Sheet { patches: [2e-3, 10e-3, 40e-3].to_vec(), ..Sheet::new(0.5, 1.0, 1e-3) };
         let web = Web { sheet, layers: vec![layer], seed: 4 };
         let (stop, pieces) = (AtomicBool::new(false), AtomicU64::new(0));
         let by = LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &pieces };
@@ -132,7 +128,7 @@ fn a_web_has_the_same_bits_on_all_machines_and_threads() {
     let rows = Filaments::Rows(vec![Row::new(1e-3, 2e-3, 50)]);
     let one = Layer { filaments: rows, ..layer(Fibres::Surrogate(SPUNBOND), 0.0) };
     let two = layer(Fibres::Surrogate(Surrogate { sigma_cd: 30e-3, ..SPUNBOND }), 700.0);
-    let web = Web { sheet: sheet(0.1, 0.2, 0.5e-3), layers: vec![one, two], seed: 5 };
+    let web = Web { sheet: Sheet::new(0.1, 0.2, 0.5e-3), layers: vec![one, two], seed: 5 };
     let first = laid_by(&web, Isa::Baseline, 1).map;
     close(first.basis_weight(), web.basis_weight(), 1e-5);
     for isa in Isa::available() {
@@ -179,7 +175,7 @@ fn clipped(map: &Map, from: [f64; 2], to: [f64; 2], mass: f64, into: &mut [f64])
 #[test]
 fn a_cell_holds_what_independent_clipping_gives_it() {
     for (edges, cell) in [(Edges::Cut, 2e-3), (Edges::Periodic, 2e-3), (Edges::Periodic, 0.4e-3)] {
-        let sheet = Sheet { width: 0.04, length: 0.06, cell, patches: Vec::new(), edges };
+        let sheet = Sheet { edges, ..Sheet::new(0.04, 0.06, cell) };
         let web = Web { sheet, layers: vec![layer(Fibres::Surrogate(SPUNBOND), 250.0)], seed: 11 };
         let map = laid(&web).map;
         // Further off than a piece is long.
@@ -225,7 +221,7 @@ proptest! {
         let fibres = Fibres::Surrogate(Surrogate { sigma_md: sigma, sigma_cd: 0.7 * sigma, noise });
         let belt_speed = 50.0 * ratio;
         let layer = Layer { linear_density: LINEAR_DENSITY, feed_speed: 50.0, belt_speed, filaments, fibres, other_description: None };
-        let web = Web { sheet: Sheet { edges, ..sheet(width, length, cell) }, layers: vec![layer], seed };
+        let web = Web { sheet: Sheet { edges, ..Sheet::new(width, length, cell) }, layers: vec![layer], seed };
         let laid = laid(&web);
         let whole = LINEAR_DENSITY * web.fibre_length();
         let found = laid.map.total() as f64 * laid.map.quantum + laid.cut;
@@ -240,7 +236,7 @@ proptest! {
 fn half_of_the_mass_lies_along_the_machine_direction() {
     for belt_speed in [3.0, 25.0] {
         let layer = Layer { belt_speed, ..layer(Fibres::Surrogate(SPUNBOND), 640.0) };
-        let web = Web { sheet: sheet(0.1, belt_speed / 3.0, 1e-3), layers: vec![layer], seed: 2 };
+        let web = Web { sheet: Sheet::new(0.1, belt_speed / 3.0, 1e-3), layers: vec![layer], seed: 2 };
         let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
         let by = LayControl { threads: 1, isa: Isa::detect(), stop: &stop, laid: &laid };
         let found = orientation(&web, by).expect("an orientation");
@@ -293,7 +289,7 @@ fn the_error_of_a_surrogates_map_reaches_to_the_flown_curves() {
         other_description: Some(curves.clone()),
         ..layer(Fibres::Surrogate(surrogate), 0.0)
     };
-    let sheet = Sheet { patches: [5e-3, 10e-3].to_vec(), ..sheet(0.2, 0.6, 1e-3) };
+    let sheet = Sheet { patches: [5e-3, 10e-3].to_vec(), ..Sheet::new(0.2, 0.6, 1e-3) };
     let (stop, pieces) = (AtomicBool::new(false), AtomicU64::new(0));
     let by = LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &pieces };
     let by_surrogate =
@@ -331,7 +327,7 @@ fn the_error_of_a_surrogates_map_reaches_to_the_flown_curves() {
 /// Without a flight beside it nothing is known of the error of a surrogate, and nothing is made up.
 #[test]
 fn the_whole_error_of_a_surrogate_alone_is_not_known() {
-    let sheet = Sheet { patches: vec![5e-3], ..sheet(0.2, 0.2, 1e-3) };
+    let sheet = Sheet { patches: vec![5e-3], ..Sheet::new(0.2, 0.2, 1e-3) };
     let web = Web { sheet, layers: vec![layer(Fibres::Surrogate(SPUNBOND), 500.0)], seed: 1 };
     let (stop, pieces) = (AtomicBool::new(false), AtomicU64::new(0));
     let by = LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &pieces };

@@ -1,11 +1,10 @@
 //! What a case, a web or a spinline adds to the methods: model, numbers, and what they were taken from.
 
-use super::reference::{CHAIN, Reference, SURROGATE, across, along};
+use super::reference::{CHAIN, Reference, SURROGATE};
 use crate::numbers::{THIN, number, number_to, significant};
 use crate::report::words::{self, count, length, quantity};
 use spunlaid::air::{EddyModel, Flow, Lateral, SpectrumShape};
 use spunlaid::case::Case;
-use spunlaid::drag::FrictionLaw;
 use spunlaid::layers::{LaydownSource, LayerSpec, Method, WebSpec};
 
 /// Sentences, and the works that they cite.
@@ -14,11 +13,9 @@ pub(in crate::report) type Account = (Vec<String>, Vec<Reference>);
 /// The model of a fibre in flight, and all its numbers.
 pub(in crate::report) fn case_account(case: &Case) -> Account {
     let (fibre, air, run) = (&case.fibre, &case.air, &case.run);
-    let [along, across] = [along(case.drag.along), across(case.drag.across)];
-    let factor = match case.drag.along {
-        FrictionLaw::Matsui { factor } => format!(" with β = {}", number(factor)),
-        _ => String::new(),
-    };
+    let [along, across] = [case.drag.along.source(), case.drag.across.source()];
+    let factor =
+        case.drag.along.factor().map_or(String::new(), |factor| format!(" with β = {}", number(factor)));
     let mut sentences = vec![
         format!(
             "The fibre is a chain of beads joined by elastic elements, under tension, bending, gravity and the drag of the air ({}).",

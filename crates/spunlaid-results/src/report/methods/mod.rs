@@ -8,7 +8,7 @@ mod case;
 mod reference;
 
 pub(super) use case::{Account, case_account, web_account};
-pub(super) use reference::{MOMENTS, PROGRAM, Reference, along};
+pub(super) use reference::{MOMENTS, PROGRAM, Reference};
 
 /// A paragraph to copy, and the works that it cites.
 #[derive(Debug)]

@@ -1,15 +1,7 @@
 //! What a paper cites beside its numbers: the program, and the sources of the models that the numbers rest on.
 
-use spunlaid::drag::{FrictionLaw, NormalLaw};
-
-/// A work that is cited.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::report) struct Reference {
-    /// How the text names it: `Matsui 1976`.
-    pub(in crate::report) short: &'static str,
-    /// Its entry in the list of references.
-    pub(super) full: &'static str,
-}
+/// A work that is cited. A law of the drag names its own.
+pub(in crate::report) use spunlaid::drag::Source as Reference;
 
 /// The program itself.
 pub(in crate::report) const PROGRAM: Reference = Reference {
@@ -42,49 +34,10 @@ pub(in crate::report) const MOMENTS: Reference = Reference {
            995–1026, 1989.",
 };
 
-/// The source of a law of the friction along the fibre.
-pub(in crate::report) const fn along(law: FrictionLaw) -> Reference {
-    match law {
-        FrictionLaw::Matsui { .. } => Reference {
-            short: "Matsui 1976",
-            full: "M. Matsui: Air drag on a continuous filament in melt spinning. Transactions of the Society of Rheology 20(3), 465–473, 1976.",
-        },
-        FrictionLaw::MajumdarShambaugh => Reference {
-            short: "Majumdar and Shambaugh 1990",
-            full: "B. Majumdar, R. L. Shambaugh: Air drag on filaments in the melt blowing process. Journal of Rheology 34(4), 591–601, 1990.",
-        },
-        FrictionLaw::Sakiadis => Reference {
-            short: "Sakiadis 1961",
-            full: "B. C. Sakiadis: Boundary-layer behavior on continuous solid surfaces: III. The boundary layer on a continuous cylindrical surface. AIChE \
-                   Journal 7(3), 467–472, 1961.",
-        },
-        FrictionLaw::GlauertLighthill => Reference {
-            short: "Glauert and Lighthill 1955",
-            full: "M. B. Glauert, M. J. Lighthill: The axisymmetric boundary layer on a long thin cylinder. Proceedings of the Royal Society A 230, \
-                   188–203, 1955.",
-        },
-    }
-}
-
-/// The source of a law of the drag across the fibre.
-pub(in crate::report) const fn across(law: NormalLaw) -> Reference {
-    match law {
-        NormalLaw::JuShambaugh => Reference {
-            short: "Ju and Shambaugh 1994",
-            full: "Y. D. Ju, R. L. Shambaugh: Air drag on fine filaments at oblique and normal angles to the air stream. Polymer Engineering and Science \
-                   34(12), 958–964, 1994.",
-        },
-        NormalLaw::MarheinekeWegener => Reference {
-            short: "Marheineke and Wegener 2011",
-            full: "N. Marheineke, R. Wegener: Modeling and application of a stochastic drag for fibers in turbulent flows. International Journal of \
-                   Multiphase Flow 37(2), 136–148, 2011.",
-        },
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use spunlaid::drag::{FrictionLaw, NormalLaw};
 
     fn file(name: &str) -> String {
         std::fs::read_to_string(format!("{}/../../{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
@@ -93,7 +46,10 @@ mod tests {
     #[test]
     fn the_sources_of_models_are_those_of_the_theory() {
         let theory = file("docs/theory.md").replace('*', "").split_whitespace().collect::<Vec<_>>().join(" ");
-        let laws = FrictionLaw::ALL.map(along).into_iter().chain(NormalLaw::ALL.map(across));
+        let laws = FrictionLaw::ALL
+            .map(FrictionLaw::source)
+            .into_iter()
+            .chain(NormalLaw::ALL.map(NormalLaw::source));
         for reference in laws.chain([CHAIN, SURROGATE, MOMENTS]) {
             let known = reference.full.trim_end_matches(", 2015.").trim_end_matches('.');
             assert!(theory.contains(known), "{known}");

@@ -1,7 +1,8 @@
 //! The feed: the start of a fed fibre, the births of its nodes, and its stiffness at the inlet.
 
-use super::{Feed, Friction, LayingState};
+use super::{Feed, LayingState};
 use crate::chain::Chain;
+use crate::chain::friction::Friction;
 use crate::chain::node::Node;
 use crate::lanes::{Lanes, WIDTH};
 use crate::vec3::Vec3;
@@ -25,19 +26,21 @@ impl Chain {
         let mut laying = LayingState::new(lanes, steps_per_element, rest_length, elements);
         let above = c.root_direction * (rest_length * Lanes::splat(BORN - 0.5));
         self.position.iter_mut().for_each(|position| *position += above);
-        let pick =
-            |lane: usize| lanes[if lane < lanes.len() { lane } else { 0 }].turn * std::f64::consts::TAU;
+        let pick = |lane: usize| &lanes[if lane < lanes.len() { lane } else { 0 }];
         let end = &mut self.position[elements];
         for lane in 0..WIDTH {
             let off = 1e-3 * rest_length.0[lane];
-            end.y.0[lane] += off * libm::cos(pick(lane));
-            end.z.0[lane] += off * libm::sin(pick(lane));
+            let angle = pick(lane).turn * std::f64::consts::TAU;
+            end.y.0[lane] += off * libm::cos(angle);
+            end.z.0[lane] += off * libm::sin(angle);
         }
         let velocity = c.root_direction * laying.feed_speed;
         self.velocity.iter_mut().chain(self.earlier.iter_mut()).for_each(|v| *v = velocity);
         laying.origin = self.position.clone();
         c.frame = laying.belt_speed;
-        c.friction = Friction::new(lanes, &rest_length);
+        let contact = std::array::from_fn(|lane| pick(lane).line.contact);
+        let diameter = Lanes::from_fn(|lane| pick(lane).fibre.diameter);
+        c.friction = Friction::new(contact, &diameter, &rest_length);
         if c.friction.is_some() {
             self.tensions.rub();
         }

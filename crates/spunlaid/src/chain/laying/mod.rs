@@ -13,11 +13,10 @@
 
 mod carried;
 mod feed;
-mod friction;
 mod landing;
+mod sliding;
 
 pub(crate) use carried::CarriedEnergy;
-pub(crate) use friction::Friction;
 
 use super::Chain;
 use super::constants::Constants;

@@ -1,15 +1,20 @@
 //! The law of Marheineke & Wegener: slow flow in theory, measured cylinders, boundary layer and wake.
 
-use super::{Form, Law};
+use super::{Form, Law, Source};
 use std::f64::consts::PI;
 
 /// `C_n = 2 c_n(Re)` in three pieces                                       theory.md (44)
 ///
 /// It follows measured cylinders up to a Reynolds number of 1e4.
 ///
-/// Sources: Marheineke & Wegener 2011; Tomotika & Aoi 1951 for slow flow.
+/// Tomotika & Aoi 1951 gave the theory of slow flow.
 pub(super) const LAW: Law = Law {
     name: "marheineke-wegener",
+    source: Source {
+        short: "Marheineke and Wegener 2011",
+        full: "N. Marheineke, R. Wegener: Modeling and application of a stochastic drag for fibers in turbulent flows. International Journal of \
+               Multiphase Flow 37(2), 136–148, 2011.",
+    },
     fitted_diameters: None,
     fitted_reynolds: Some(0.0..=1e4),
     form: Form::Curve { resistance, joins: Some(PIECES) },

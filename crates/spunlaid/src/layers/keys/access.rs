@@ -65,8 +65,8 @@ macro_rules! of_row {
 macro_rules! of_sheet {
     ($($field:ident).+) => {
         $crate::case::keys::row::AccessTo {
-            get: |web| Some(web.$($field).+.into()),
-            set: |web, value| {
+            get: |web: &$crate::layers::WebSpec| Some(web.$($field).+.into()),
+            set: |web: &mut $crate::layers::WebSpec, value| {
                 web.$($field).+ = number(value)?;
                 Ok(())
             },
