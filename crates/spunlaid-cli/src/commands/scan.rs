@@ -1,6 +1,6 @@
 //! `spunlaid analyse` of a scan or a map of a web.
 
-use super::{staged, stem};
+use super::{say_report, staged, stem};
 use crate::args::{Analyse, Direction, Invocation, LightName};
 use crate::failure::Failure;
 use crate::say;
@@ -22,7 +22,7 @@ pub(super) fn is_picture(file: &Path) -> bool {
 
 pub(super) fn scan(arguments: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     let name = stem(&arguments.record, "scan").to_string_lossy().into_owned();
-    let folder = super::folder(arguments.output.out.as_ref(), &name);
+    let folder = arguments.output.folder(&name);
     let origin = invocation.origin(&[&arguments.record], &folder);
     let staging = staged((&folder, ENTRIES), &arguments.output, origin, &arguments.figures.files())?;
     let started = Instant::now();
@@ -49,7 +49,7 @@ pub(super) fn scan(arguments: &Analyse, invocation: &Invocation) -> Result<(), F
     } else if !arguments.output.quiet {
         say::text(&table(&findings));
         notes.iter().for_each(|note| say::remark(false, note));
-        say::line(&format!("open {}", folder.join("report.html").display()));
+        say_report(&folder);
     }
     Ok(())
 }

@@ -4,15 +4,13 @@ mod progress;
 mod table;
 
 use super::interrupt::stop_on_ctrl_c;
-use super::{plural, stem};
-use crate::args::{Invocation, Sweep};
+use super::{plural, run_control, say_report, stem};
+use crate::args::{Invocation, Sweep, overrides};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::case::keys;
-use spunlaid::ensemble::RunControl;
 use spunlaid::error::{Error, Fault};
-use spunlaid::input::{Overrides, StudyChanges, StudyFile, read_changed_study, write_experiment};
-use spunlaid::lanes::Isa;
+use spunlaid::input::{StudyChanges, StudyFile, read_changed_study, write_experiment};
 use spunlaid::spinline::{self, SpinSpec};
 use spunlaid::study::{Journal, Progress, ReplicateOutcome, Study, run};
 use spunlaid::threads::{lock, unlock};
@@ -27,13 +25,13 @@ const LOST_LISTED: u64 = 10;
 
 pub(crate) fn sweep(sweep: &Sweep, invocation: &Invocation) -> Result<(), Failure> {
     let (points, replicates) = (sweep.points, sweep.replicates);
-    let set = Overrides { values: &sweep.set, word: "--set" };
+    let set = overrides(&sweep.set);
     let file = read_changed_study(&sweep.study, &StudyChanges { points, replicates, set })?;
     if let Some(number) = sweep.print_point {
         return print_point(&file.study, number);
     }
     file.notes.iter().for_each(say::study_note);
-    let path = super::folder(sweep.output.out.as_ref(), stem(&sweep.study, "study"));
+    let path = sweep.output.folder(stem(&sweep.study, "study"));
     let origin = invocation.origin(&[&sweep.study], &path);
     let (mut folder, journal, found) =
         StudyFolder::open(&path, &file, sweep.output.force, origin.as_ref(), stop_on_ctrl_c())?;
@@ -124,13 +122,7 @@ fn fibres(journal: &Mutex<Journal>, study: &Study) -> u64 {
 
 fn fly(sweep: &Sweep, study: &Study, journal: &Mutex<Journal>) -> Result<(), Error> {
     let (fibre_steps, progress) = (AtomicU64::new(0), Progress::default());
-    let computing = RunControl {
-        threads: sweep.threads.number(),
-        isa: Isa::detect(),
-        stop: stop_on_ctrl_c(),
-        fibre_steps: &fibre_steps,
-        recorder: None,
-    };
+    let computing = run_control(sweep.threads, &fibre_steps);
     progress::follow(study, &progress, &fibre_steps, sweep.output.quiet, || {
         run(study, journal, computing, &progress)
     })
@@ -163,7 +155,7 @@ fn write(
             ));
         }
         say::line(&format!("{} at {}", plural(fibres, study.noun()), plural(results.len() as u64, "point")));
-        say::line(&format!("open {}", folder.path().join("report.html").display()));
+        say_report(folder.path());
     }
     lost(study, journal, fibres)
 }
