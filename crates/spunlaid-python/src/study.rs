@@ -18,8 +18,7 @@ use spunlaid::input::{
 };
 use spunlaid::layers::{Method, WebSpec};
 use spunlaid::study::{
-    Bundles, Experiment, Journal, Progress, ReplicateOutcome, Rounds, rankings, results_of_point, run,
-    unsynced,
+    Bundles, Experiment, Journal, Progress, Rounds, rankings, results_of_point, run, unsynced,
 };
 use spunlaid::threads::{lock, look_while, unlock};
 use spunlaid_results::Failure;
@@ -188,8 +187,7 @@ impl Study {
     #[getter]
     fn fibres(&self, py: Python<'_>) -> PyResult<(u64, u64)> {
         guarded(py, || {
-            let points = 0..self.file.study.points.len();
-            let count = self.with_journal(|journal| Ok(points.map(|point| journal.held(point)).sum()))?;
+            let count = self.with_journal(|journal| Ok(journal.total()))?;
             Ok((count, self.round().0.required().iter().sum()))
         })
     }
@@ -275,23 +273,16 @@ impl Study {
     /// Every fibre: point, replicate, whether it was lost, and its measures (NaN if lost): an array of fibres x columns.
     fn replicates<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let numbers = self.file.study.quantities.len();
-        let columns = 3 + numbers;
+        let (columns, lost) = (3 + numbers, vec![f64::NAN; numbers]);
         let rows = guarded(py, || {
             self.with_journal(|journal| {
                 let mut rows = Vec::new();
                 for point in 0..self.file.study.points.len() {
                     for record in journal.records(point, u64::MAX)? {
-                        rows.extend([record.point as f64, record.replicate as f64]);
-                        match record.outcome {
-                            ReplicateOutcome::Measured(values) => {
-                                rows.push(0.0);
-                                rows.extend(values);
-                            }
-                            ReplicateOutcome::Lost { .. } => {
-                                rows.push(1.0);
-                                rows.extend(std::iter::repeat_n(f64::NAN, numbers));
-                            }
-                        }
+                        let measured = record.outcome.measured();
+                        let is_lost = f64::from(u8::from(measured.is_none()));
+                        rows.extend([record.point as f64, record.replicate as f64, is_lost]);
+                        rows.extend_from_slice(measured.unwrap_or(&lost));
                     }
                 }
                 Ok(rows)

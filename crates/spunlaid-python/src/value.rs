@@ -59,10 +59,13 @@ fn name_of(name: &Bound<'_, PyAny>) -> PyResult<String> {
             type_name(name)
         ))
     })?;
-    // A lone surrogate has no UTF-8.
-    text.to_str()
-        .map(str::to_owned)
-        .map_err(|_| PyValueError::new_err("the name of a key is not valid Unicode"))
+    unicode(text, || "the name of a key is".to_owned())
+}
+
+/// The text of a `str`, of which a message says what is not valid: a lone surrogate has no UTF-8.
+fn unicode(text: &Bound<'_, PyString>, what: impl Fn() -> String) -> PyResult<String> {
+    let text = text.to_str().map(str::to_owned);
+    text.map_err(|_| PyValueError::new_err(format!("{} not valid Unicode", what())))
 }
 
 /// A value as it stands after `key =` in a case file.
@@ -74,10 +77,7 @@ fn text_of(key: &str, kind: Option<Kind>, value: &Bound<'_, PyAny>) -> PyResult<
         return Ok(flag.is_true().to_string());
     }
     if let Ok(text) = value.cast::<PyString>() {
-        return text
-            .to_str()
-            .map(str::to_owned)
-            .map_err(|_| PyValueError::new_err(format!("the value of {key} is not valid Unicode")));
+        return unicode(text, || format!("the value of {key} is"));
     }
     if let Some(number) = number(value)? {
         return Ok(match &kind {
@@ -112,8 +112,7 @@ const MOST_PARTS: usize = 100_000;
 
 fn part_text(key: &str, dimension: Dimension, part: &Bound<'_, PyAny>) -> PyResult<String> {
     if let Ok(text) = part.cast::<PyString>() {
-        let text = text.to_str().map_err(|_| PyValueError::new_err(format!("{key}: not valid Unicode")))?;
-        return Ok(quoted(text));
+        return Ok(quoted(&unicode(text, || format!("{key}:"))?));
     }
     if let Some(number) = number(part)? {
         return Ok(quantity(dimension, &number));
@@ -203,8 +202,7 @@ pub(crate) fn value_of(value: &Bound<'_, PyAny>) -> PyResult<Value> {
         ));
     }
     if let Ok(text) = value.cast::<PyString>() {
-        let text = text.to_str().map_err(|_| PyValueError::new_err("the value is not valid Unicode"))?;
-        return Ok(text.into());
+        return Ok(unicode(text, || "the value is".to_owned())?.as_str().into());
     }
     if let Some(number) = number(value)? {
         return Ok(Value::Number(number.float()));

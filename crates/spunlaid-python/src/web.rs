@@ -74,13 +74,7 @@ pub(crate) fn lay_web(
             }
             None => None,
         };
-        let performance = Performance {
-            wall_s: started.elapsed().as_secs_f64(),
-            threads: laying.threads,
-            instruction_set: laying.isa.name(),
-            ..Performance::default()
-        };
-        let performance = performance.with_flights(&findings);
+        let performance = Performance::since(started, laying.threads, laying.isa).with_flights(&findings);
         Ok((flown, findings, advice, performance))
     })?;
     let notes = [Note::of_results(&file.notes), notes(&flown.web, &findings, &flown.layers)].concat();

@@ -45,8 +45,7 @@ const link = new Link({
       change.generation = generation;
       controls.accept(change.key);
     }
-    problems([]);
-    refusal([]);
+    forgive();
   },
   refused({ about, problems: all }) {
     const written = about.is === "setting" ? asked.get(about.stamp) : null;
@@ -238,6 +237,12 @@ function refusal(all) {
   box.replaceChildren(...lines, kept);
 }
 
+/** Takes back what was said of a case or a value that could not be flown. */
+function forgive() {
+  problems([]);
+  refusal([]);
+}
+
 /** Marks a line of the case. */
 function mark(line) {
   const area = byId("text");
@@ -259,14 +264,12 @@ byId("text").addEventListener("input", () => {
 byId("text").addEventListener("scroll", () => (byId("lines").scrollTop = byId("text").scrollTop));
 byId("fly").addEventListener("click", () => {
   edited(false);
-  problems([]);
-  refusal([]);
+  forgive();
   link.ask({ do: "case", text: byId("text").value });
 });
 byId("undo").addEventListener("click", () => {
   edited(false);
-  problems([]);
-  refusal([]);
+  forgive();
   editor(page.state.text);
 });
 byId("save").addEventListener("click", () => {

@@ -4,8 +4,7 @@ use super::interrupt::stop_on_ctrl_c;
 use super::{aligned, lay_control, plural, say_report, stem};
 use crate::args::{self, Invocation, overrides};
 use crate::failure::Failure;
-use crate::say;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use crate::{progress, say};
 use spunlaid::case::Note;
 use spunlaid::error::Error;
 use spunlaid::fit::{Fit, Question, Target, WebInProgress, fit as find};
@@ -81,7 +80,9 @@ fn search(
     let question = Question { parameters: &file.parameters, target, make: &make, webs: arguments.webs };
     let laid = AtomicU64::new(0);
     let by = lay_control(arguments.threads, &laid);
-    let bar = bar(arguments);
+    // How many trials there will be is not known.
+    let template = "{msg} [{bar:20}] web {pos} of {len}  {elapsed} elapsed";
+    let bar = progress::bar(arguments.webs, template, arguments.output.quiet);
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
     let flyer = Flyer::new(by.threads, by.stop, &follow);
     let watch = |WebInProgress { trial, web, webs, values }: WebInProgress<'_>| {
@@ -94,18 +95,6 @@ fn search(
     let found = find(question, flyer, by, journal, &watch);
     bar.finish_and_clear();
     found
-}
-
-/// A bar for the webs of a trial; how many trials there will be is not known.
-fn bar(arguments: &args::Fit) -> ProgressBar {
-    let target =
-        if arguments.output.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-    let bar = ProgressBar::with_draw_target(Some(arguments.webs), target);
-    if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:20}] web {pos} of {len}  {elapsed} elapsed")
-    {
-        bar.set_style(style.progress_chars("=> "));
-    }
-    bar
 }
 
 /// The table for the terminal.

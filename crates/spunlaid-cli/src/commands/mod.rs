@@ -1,39 +1,23 @@
 //! The commands of the program.
 
-mod air;
-mod analyse;
-mod check;
-mod compare;
-mod completions;
+pub(crate) mod air;
+pub(crate) mod analyse;
+pub(crate) mod check;
+pub(crate) mod compare;
+pub(crate) mod completions;
 mod finished_run;
-mod fit;
+pub(crate) mod fit;
 mod interrupt;
-mod keys;
-mod live;
-mod man;
-mod new;
-mod reproduce;
-mod run;
+pub(crate) mod keys;
+pub(crate) mod live;
+pub(crate) mod man;
+pub(crate) mod new;
+pub(crate) mod reproduce;
+pub(crate) mod run;
 mod scan;
-mod spin;
-mod sweep;
-mod web;
-
-pub(crate) use air::air;
-pub(crate) use analyse::analyse;
-pub(crate) use check::check;
-pub(crate) use compare::compare;
-pub(crate) use completions::completions;
-pub(crate) use fit::fit;
-pub(crate) use keys::keys;
-pub(crate) use live::live;
-pub(crate) use man::man;
-pub(crate) use new::new;
-pub(crate) use reproduce::reproduce;
-pub(crate) use run::run;
-pub(crate) use spin::spin;
-pub(crate) use sweep::sweep;
-pub(crate) use web::web;
+pub(crate) mod spin;
+pub(crate) mod sweep;
+pub(crate) mod web;
 
 use crate::args::{Output, Threads, is_standard};
 use crate::failure::Failure;
@@ -51,6 +35,9 @@ use std::ffi::OsStr;
 use std::fmt::Write;
 use std::path::Path;
 use std::sync::atomic::AtomicU64;
+
+/// Largest number of points of a study that are listed.
+const LISTED: usize = 24;
 
 /// The name of a file without its extension.
 fn stem<'a>(file: &'a Path, otherwise: &'a str) -> &'a OsStr {

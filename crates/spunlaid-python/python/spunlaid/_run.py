@@ -88,22 +88,24 @@ class Run(Results):
     def to_pandas(self) -> pandas.DataFrame:
         """A row for each replicate and recorded instant: the free end and the energies."""
         pd = needed("pandas", "pandas", "to_pandas()")
-        columns = {**self.end_node, **self.energy}
-        times = columns.pop("time_s")
-        replicates = len(next(iter(columns.values())))
-        index = pd.MultiIndex.from_product([range(1, replicates + 1), times], names=["replicate", "time_s"])
+        replicates, times, columns = self._over_time()
+        index = pd.MultiIndex.from_product([replicates, times], names=["replicate", "time_s"])
         return pd.DataFrame({name: values.ravel() for name, values in columns.items()}, index=index)
 
     def to_xarray(self) -> xarray.Dataset:
         """The same with dimensions `replicate` and `time_s`, and the measures over `replicate`."""
         xr = needed("xarray", "xarray", "to_xarray()")
-        columns = {**self.end_node, **self.energy}
-        times = columns.pop("time_s")
+        replicates, times, columns = self._over_time()
         data: dict[str, Any] = {name: (("replicate", "time_s"), values) for name, values in columns.items()}
         for name, measure in self.measures.items():
             data[name] = ("replicate", measure.values, {"long_name": measure.label, "description": measure.meaning})
-        replicates = len(next(iter(columns.values())))
-        return xr.Dataset(data, {"replicate": np.arange(1, replicates + 1), "time_s": times})
+        return xr.Dataset(data, {"replicate": replicates, "time_s": times})
+
+    def _over_time(self) -> tuple[NDArray[np.int64], NDArray[np.float64], dict[str, NDArray[np.float64]]]:
+        """Numbers of the replicates, times, and columns of replicates × times."""
+        columns = {**self.end_node, **self.energy}
+        times = columns.pop("time_s")
+        return np.arange(1, len(next(iter(columns.values()))) + 1), times, columns
 
     def plot(self, column: str | None = None, *, ax: Axes | None = None) -> Axes:
         """Draws with matplotlib, and returns the axes.

@@ -227,7 +227,8 @@ def sweep(
     progress: None, True, False, or a function that gets the fibres or webs done and their number
     """
     asked = check_figures(figures, figure_width, out, "results/study")
-    begun = _begin(study, out, force, points, replicates, set)
+    folder = None if out is None else os.fspath(out)
+    begun = _spunlaid.Study(*_split_study(study), folder, force, points, replicates, set)
     with shown(progress, f"{len(begun)} points") as show:
         if client is None:
             begun.fly(check_threads(threads), show)
@@ -240,20 +241,13 @@ def sweep(
     return Study(begun)
 
 
-def _begin(
-    study: Any,
-    out: Any = None,
-    force: bool = False,
-    points: int | None = None,
-    replicates: int | None = None,
-    changes: Mapping[str, Any] | None = None,
-) -> _spunlaid.Study:
-    options = (None if out is None else os.fspath(out), force, points, replicates, changes)
-    if isinstance(study, Mapping):
-        if "case" not in study:
-            for name in ("web", "spinline"):
-                if name in study:
-                    return _spunlaid.Study(study_toml(study), None, os.fspath(study[name]), *options)
-            raise ValueError('a study needs a case: {"case": spunlaid.Case.starter(), "vary": {...}}')
-        return _spunlaid.Study(study_toml(study), case_of(study["case"]), None, *options)
-    return _spunlaid.Study(os.fspath(study), None, None, *options)
+def _split_study(study: str | os.PathLike[str] | Mapping[str, Any]) -> tuple[str, Case | None, str | None]:
+    """The path of a study; or the text of one with the case that it varies, or with the path of its web or spinline."""
+    if not isinstance(study, Mapping):
+        return os.fspath(study), None, None
+    if "case" in study:
+        return study_toml(study), case_of(study["case"]), None
+    for name in ("web", "spinline"):
+        if name in study:
+            return study_toml(study), None, os.fspath(study[name])
+    raise ValueError('a study needs a case: {"case": spunlaid.Case.starter(), "vary": {...}}')

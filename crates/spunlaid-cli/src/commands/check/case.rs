@@ -122,7 +122,7 @@ fn field(placed: &PlacedField) -> Vec<String> {
     }
     let (axis, share) = placed.main_direction();
     let along = format!(
-        "#   the air flows along {} of the field ({} of its mean velocity)",
+        "  the air flows along {} of the field ({} of its mean velocity)",
         axis.name(),
         significant(share, 2)
     );

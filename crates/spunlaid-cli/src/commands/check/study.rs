@@ -3,7 +3,7 @@
 use super::show;
 use super::web::numbers;
 use crate::args::{Check, overrides};
-use crate::commands::{aligned, plural, versioned_json};
+use crate::commands::{LISTED, aligned, plural, versioned_json};
 use crate::failure::Failure;
 use crate::say;
 use serde::Serialize;
@@ -11,9 +11,6 @@ use serde_json::Value as Json;
 use spunlaid::input::{StudyChanges, StudyFile, StudyNote, read_changed_study};
 use spunlaid::study::{Point, Study};
 use spunlaid_results::output::in_order::OrderedObject;
-
-/// Largest number of points that are listed.
-const LISTED: usize = 24;
 
 /// Checks the file of a study.
 pub(super) fn study(check: &Check) -> Result<(), Failure> {

@@ -42,10 +42,10 @@ pub(crate) fn sweep(sweep: &Sweep, invocation: &Invocation) -> Result<(), Failur
     report_found(sweep, &file.study, &found);
 
     let journal = Mutex::new(journal);
-    let before = fibres(&journal, &file.study);
+    let before = lock(&journal).total();
     let outcome = fly(sweep, &file.study, &journal);
     let mut journal = unlock(journal);
-    let done = (0..file.study.points.len()).map(|point| journal.held(point)).sum();
+    let done = journal.total();
     let written =
         outcome.map_err(Failure::from).and_then(|()| write(sweep, &file, &mut folder, &mut journal, before));
     written.map_err(|failure| match failure {
@@ -113,11 +113,6 @@ fn times(study: &Study) -> String {
     } else {
         format!("{} to {} replicates", replicates.at_least, replicates.at_most)
     }
-}
-
-fn fibres(journal: &Mutex<Journal>, study: &Study) -> u64 {
-    let journal = lock(journal);
-    (0..study.points.len()).map(|point| journal.held(point)).sum()
 }
 
 fn fly(sweep: &Sweep, study: &Study, journal: &Mutex<Journal>) -> Result<(), Error> {

@@ -7,11 +7,13 @@ use crate::output::spinline::SpinSummary;
 use serde::Serialize;
 use serde_json::Value as Json;
 use spunlaid::advice::Advice;
+use spunlaid::lanes::Isa;
 use spunlaid::observe::{OF_SCANNED_PATCHES, OF_SCANS, ScanMeasure};
 use spunlaid::scan::{self, Doubt};
 use spunlaid::statistics::{Estimate, interval_of_deviation};
 use spunlaid::web::uniformity::Unevenness;
 use spunlaid::web::{Clouds, Edges, Findings, Map, NeighbourCorrelation, Web};
+use std::time::Instant;
 
 /// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
 const SCHEMA_VERSION: u32 = 2;
@@ -85,6 +87,12 @@ pub struct Performance {
 }
 
 impl Performance {
+    /// The time since an instant, on so many threads.
+    pub fn since(started: Instant, threads: usize, isa: Isa) -> Self {
+        let wall_s = started.elapsed().as_secs_f64();
+        Self { wall_s, threads, instruction_set: isa.name(), ..Self::default() }
+    }
+
     /// With the times of flights in one air, if there were some.
     #[must_use]
     pub fn with_flights(self, findings: &Findings) -> Self {
