@@ -74,7 +74,7 @@ pub(crate) fn lay_web(
             }
             None => None,
         };
-        let performance = Performance::since(started, laying.threads, laying.isa).with_flights(&findings);
+        let performance = Performance::measure(started, laying.threads, laying.isa).with_flights(&findings);
         Ok((flown, findings, advice, performance))
     })?;
     let notes = [Note::of_results(&file.notes), notes(&flown.web, &findings, &flown.layers)].concat();

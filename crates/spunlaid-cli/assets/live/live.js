@@ -93,7 +93,7 @@ function state(told) {
     if (page.frame && told.generation < page.state?.generation) page.before = null;
   }
   page.state = told;
-  view.setState(told);
+  view.state = told;
   plots.cutoff = told.cutoff;
   controls.show(told.values);
   byId("title").textContent = `· ${told.title}`;

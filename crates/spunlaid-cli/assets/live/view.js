@@ -28,10 +28,6 @@ class View {
     this.scene.resize();
   }
 
-  setState(state) {
-    this.state = state;
-  }
-
   /** Takes what is new in a frame, whether it will be drawn or not. */
   take(frame) {
     const { samples } = frame;

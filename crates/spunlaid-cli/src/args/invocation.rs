@@ -43,7 +43,7 @@ impl Invocation {
     }
 
     /// The first option of these that is written, `--keep-shading`.
-    pub(crate) fn first_of<O: clap::Args>(&self) -> Option<String> {
+    pub(crate) fn first_option<O: clap::Args>(&self) -> Option<String> {
         let options = O::augment_args(clap::Command::new(""));
         let is_written = |id: &str| self.options.iter().any(|option| option.starts_with(&format!("--{id} ")));
         let found = options.get_arguments().find(|option| is_written(option.get_id().as_str()))?;
@@ -86,8 +86,8 @@ mod tests {
     #[test]
     fn the_first_option_of_a_kind_is_found_by_its_name() {
         let written = invocation("spunlaid analyse s.png --noise 3 --out r --keep-shading");
-        assert_eq!(written.first_of::<Scan>().as_deref(), Some("--keep-shading"));
-        assert_eq!(written.first_of::<RecordOptions>(), None);
+        assert_eq!(written.first_option::<Scan>().as_deref(), Some("--keep-shading"));
+        assert_eq!(written.first_option::<RecordOptions>(), None);
     }
 
     /// Otherwise an option of another name would count.

@@ -25,7 +25,7 @@ impl Output {
     }
 
     /// The same; with `json`, results go to a folder only if one is requested.
-    pub(crate) fn folder_beside(&self, json: bool, name: impl AsRef<Path>) -> Option<PathBuf> {
+    pub(crate) fn optional_folder(&self, json: bool, name: impl AsRef<Path>) -> Option<PathBuf> {
         (self.out.is_some() || !json).then(|| self.folder(name))
     }
 }

@@ -17,7 +17,7 @@ use spunlaid_results::report::{AnalysisReport, analysis_html};
 pub(crate) fn analyse(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     let is_scan = analyse.scan.pixel.is_some() || is_picture(&analyse.record);
     let foreign =
-        if is_scan { invocation.first_of::<RecordOptions>() } else { invocation.first_of::<Scan>() };
+        if is_scan { invocation.first_option::<RecordOptions>() } else { invocation.first_option::<Scan>() };
     if let Some(option) = foreign {
         let fault = if is_scan {
             let message =

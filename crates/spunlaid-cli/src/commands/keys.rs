@@ -41,7 +41,7 @@ impl KeyEntry {
     }
 
     /// Those of two words, for studies and for flights, in which it may change.
-    fn changes(&self, words: [&'static str; 2]) -> Vec<&'static str> {
+    fn name_changes(&self, words: [&'static str; 2]) -> Vec<&'static str> {
         self.may_change.into_iter().zip(words).filter_map(|(may, word)| may.then_some(word)).collect()
     }
 
@@ -140,7 +140,7 @@ fn takes(key: &KeyEntry) -> String {
 
 /// Where its value may change.
 fn may_change(key: &KeyEntry) -> String {
-    key.changes(["in a study", "during a flight"]).join(", and ")
+    key.name_changes(["in a study", "during a flight"]).join(", and ")
 }
 
 const HEAD: &str = "# The keys of a case
@@ -199,7 +199,7 @@ fn markdown(found: &[KeyEntry], head: &str, tables: &[&str]) -> String {
                 } else {
                     format!(" Also: {}.", key.synonyms.join(", "))
                 },
-                key.changes(["study", "flight"]).join(", ")
+                key.name_changes(["study", "flight"]).join(", ")
             );
         }
     }

@@ -26,7 +26,7 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     let name = name(run);
     let folder = match run.until {
         Some(_) if run.output.out.is_none() => Some(run.source.case.clone()),
-        _ => run.output.folder_beside(run.json, &name),
+        _ => run.output.optional_folder(run.json, &name),
     };
     let staging = folder.as_ref().map(|folder| staging(run, invocation, folder)).transpose()?;
 

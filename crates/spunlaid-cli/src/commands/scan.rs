@@ -28,7 +28,7 @@ pub(super) fn scan(arguments: &Analyse, invocation: &Invocation) -> Result<(), F
     let started = Instant::now();
     let picture = turned(read(&arguments.record, arguments.scan.pixel)?, arguments);
     let findings = analyse(&picture, &settings(arguments, &picture)?)?;
-    let performance = Performance::since(started, 1, Isa::detect());
+    let performance = Performance::measure(started, 1, Isa::detect());
     let notes: Vec<String> = findings.notes.iter().map(ToString::to_string).collect();
     let summary = Summary::of_scan(&picture.file, &findings, performance, &notes).to_json();
     web::write_scan(&staging, &findings.map)?;

@@ -17,7 +17,7 @@ pub(crate) fn spin(spin: &Spin, invocation: &Invocation) -> Result<(), Failure> 
     let found = remarks(&results.rows);
     let notes = [Note::of_results(&file.notes), found.clone()].concat();
     let written = SpinFolder { name: &name, file: &file, results: &results, notes: &notes };
-    let folder = spin.output.folder_beside(spin.json, &name);
+    let folder = spin.output.optional_folder(spin.json, &name);
     if let Some(folder) = &folder {
         let origin = invocation.origin(&[&spin.file], folder);
         let staging = staged((folder, ENTRIES), &spin.output, origin, &spin.figures.files())?;

@@ -24,7 +24,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     let file = read_web(&arguments.file, set)?;
     file.notes.iter().for_each(say::note);
     let name = stem(&arguments.file, "web").to_string_lossy().into_owned();
-    let folder = arguments.output.folder_beside(arguments.json, &name);
+    let folder = arguments.output.optional_folder(arguments.json, &name);
     let staged = |folder: &PathBuf| {
         let origin = invocation.origin(&[&arguments.file], folder);
         staged((folder, ENTRIES), &arguments.output, origin, &arguments.figures.files())
@@ -59,7 +59,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
         advice => advice.transpose()?,
     };
     let advice_s = started.elapsed().as_secs_f64() - laying_s;
-    let performance = Performance::since(started, by.threads, by.isa).with_flights(&findings);
+    let performance = Performance::measure(started, by.threads, by.isa).with_flights(&findings);
     let found = folders::web::notes(web, &findings, layers);
     let notes = [Note::of_results(&file.notes), found.clone()].concat();
     let written = WebFolder {
@@ -133,7 +133,7 @@ type Column = (&'static str, fn(&PatchFindings) -> Option<(f64, f64)>);
 /// The table for the terminal.
 fn terminal_table(findings: &Findings) -> String {
     let per_cent = |cv: f64, error: Option<f64>| plus_minus(100.0 * cv, error.map(|error| 100.0 * error));
-    let or_dash = |text: Option<String>| text.unwrap_or_else(|| "–".to_owned());
+    let text_or_dash = |text: Option<String>| text.unwrap_or_else(|| "–".to_owned());
     let is_shared = findings.laid.shared_air.is_some();
     let all: [Column; 2] = match is_shared {
         true => [("airs of their own", |patch| patch.independent), ("", |_| None)],
@@ -154,19 +154,19 @@ fn terminal_table(findings: &Findings) -> String {
     let mut rows = vec![heads.into_iter().map(str::to_owned).collect::<Vec<_>>()];
     for patch in &findings.patches {
         let error = patch.whole_error();
-        let part = |part: Option<f64>| or_dash(part.map(|part| significant(100.0 * part, 2)));
+        let part = |part: Option<f64>| text_or_dash(part.map(|part| significant(100.0 * part, 2)));
         let mut row = vec![
             format!("{} mm", significant(patch.map.patch * 1e3, 3)),
             per_cent(patch.map.cv, error.whole().or(error.chance)),
             part(error.chance),
-            or_dash(
+            text_or_dash(
                 patch.map.interval().map(|ends| ends.map(|end| significant(100.0 * end, 3)).join(" to ")),
             ),
         ];
         if flown {
             row.extend([error.flight, error.model].map(part));
         }
-        let cv = |value: Option<(f64, f64)>| or_dash(value.map(|(cv, error)| per_cent(cv, Some(error))));
+        let cv = |value: Option<(f64, f64)>| text_or_dash(value.map(|(cv, error)| per_cent(cv, Some(error))));
         row.extend(expected.iter().map(|(_, cv_of_patch)| cv(cv_of_patch(patch))));
         row.push(significant(100.0 * patch.straight_fibres, 3));
         rows.push(row);

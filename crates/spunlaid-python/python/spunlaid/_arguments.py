@@ -38,6 +38,6 @@ def check_figures(
     """
     asked = (figures, figure_width)
     _spunlaid.check_figures(asked)
-    if out is None and asked != (None, None):
+    if out is None and any(option is not None for option in asked):
         raise ValueError(f'figures are written to a folder; name one: out = "{example}"')
     return asked

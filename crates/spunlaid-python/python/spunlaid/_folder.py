@@ -118,7 +118,7 @@ class Folder:
 
     def save(self, path: str, force: bool, figures: tuple[Any, Any]) -> None:
         """Copies the folder."""
-        if figures != (None, None):
+        if any(option is not None for option in figures):
             raise ValueError(
                 "figures: a run that was read from a folder is copied with its figures as they are; leave figures and"
                 " figure_width out, or fly it again"

@@ -27,7 +27,7 @@ pub(super) fn complete(
     };
     let [flow, weight, length, speed] =
         [Dimension::MassFlow, Dimension::BasisWeight, Dimension::Length, Dimension::Velocity].map(quantity);
-    let [holes, beams] = [MOST_HOLES, MOST_BEAMS].map(number_to);
+    let [holes, beams] = [MOST_HOLES, MOST_BEAMS].map(read_number);
     ask(answers, &mut numbers.polymer, "Polymer: pp, pet, pa6 or pla", "pp", polymer)?;
     ask(answers, &mut numbers.throughput, "Throughput of a hole", "0.5 g/min", flow)?;
     if numbers.diameter.is_none() {
@@ -45,7 +45,7 @@ pub(super) fn complete(
 }
 
 /// Reads a whole number from 1.
-fn number_to(most: u64) -> impl Fn(&str) -> Result<u64, String> {
+fn read_number(most: u64) -> impl Fn(&str) -> Result<u64, String> {
     move |text| {
         let number = text.parse().ok().filter(|number| (1..=most).contains(number));
         number.ok_or_else(|| format!("write a whole number from 1 to {most}"))

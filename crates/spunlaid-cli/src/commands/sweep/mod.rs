@@ -64,7 +64,9 @@ pub(crate) fn sweep(sweep: &Sweep, invocation: &Invocation) -> Result<(), Failur
 fn print_point(study: &Study, number: u64) -> Result<(), Failure> {
     let points = study.points.len() as u64;
     let point = number.checked_sub(1).and_then(|index| study.points.get(usize::try_from(index).ok()?));
-    let point = point.ok_or_else(|| no_such_point(number, points))?;
+    let point = point.ok_or_else(|| {
+        Fault::plain(format!("--print-point {number}: the study has {points} points, counted from 1"))
+    })?;
     say::line(&format!("# point {number} of {points}"));
     say::text(&write_experiment(&point.experiment));
     Ok(())
@@ -196,9 +198,4 @@ fn no_steady_state(failure: &spinline::Failure) -> String {
     let value =
         failure.value.zip(dimension).map(|(value, dimension)| format!(" = {}", dimension.pretty(value)));
     format!("{}{} {}", failure.key, value.unwrap_or_default(), failure.fault)
-}
-
-/// The study has fewer points.
-fn no_such_point(number: u64, points: u64) -> Fault {
-    Fault::plain(format!("--print-point {number}: the study has {points} points, counted from 1"))
 }

@@ -88,7 +88,7 @@ pub struct Performance {
 
 impl Performance {
     /// The time since an instant, on so many threads.
-    pub fn since(started: Instant, threads: usize, isa: Isa) -> Self {
+    pub fn measure(started: Instant, threads: usize, isa: Isa) -> Self {
         let wall_s = started.elapsed().as_secs_f64();
         Self { wall_s, threads, instruction_set: isa.name(), ..Self::default() }
     }
