@@ -28,21 +28,21 @@ fn main() -> ExitCode {
         }
     };
     let done = Failure::catch_panic(|| match arguments.command {
-        Command::Run(run) => commands::run(&run, &invocation),
-        Command::Sweep(sweep) => commands::sweep(&sweep, &invocation),
-        Command::Spin(spin) => commands::spin(&spin, &invocation),
-        Command::Web(web) => commands::web(&web, &invocation),
-        Command::Fit(fit) => commands::fit(&fit, &invocation),
-        Command::Air(air) => commands::air(&air, &invocation),
-        Command::Live(live) => commands::live(&live),
-        Command::Reproduce(arguments) => commands::reproduce(&arguments, &invocation),
-        Command::Analyse(analyse) => commands::analyse(&analyse, &invocation),
-        Command::Compare(compare) => commands::compare(&compare, &invocation),
-        Command::Check(check) => commands::check(&check),
-        Command::Keys(keys) => commands::keys(&keys),
-        Command::New(new) => commands::new(&new),
-        Command::Completions(completions) => commands::completions(&completions),
-        Command::Man(man) => commands::man(&man),
+        Command::Run(run) => commands::run::run(&run, &invocation),
+        Command::Sweep(sweep) => commands::sweep::sweep(&sweep, &invocation),
+        Command::Spin(spin) => commands::spin::spin(&spin, &invocation),
+        Command::Web(web) => commands::web::web(&web, &invocation),
+        Command::Fit(fit) => commands::fit::fit(&fit, &invocation),
+        Command::Air(air) => commands::air::air(&air, &invocation),
+        Command::Live(live) => commands::live::live(&live),
+        Command::Reproduce(arguments) => commands::reproduce::reproduce(&arguments, &invocation),
+        Command::Analyse(analyse) => commands::analyse::analyse(&analyse, &invocation),
+        Command::Compare(compare) => commands::compare::compare(&compare, &invocation),
+        Command::Check(check) => commands::check::check(&check),
+        Command::Keys(keys) => commands::keys::keys(&keys),
+        Command::New(new) => commands::new::new(&new),
+        Command::Completions(completions) => commands::completions::completions(&completions),
+        Command::Man(man) => commands::man::man(&man),
     });
     let done = done.and_then(|()| say::lost().map_or(Ok(()), |why| Err(output_failure(why))));
     match done {

@@ -13,18 +13,22 @@ pub(crate) fn follow<T>(
     quiet: bool,
     work: impl FnOnce() -> T,
 ) -> T {
-    let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-    let bar = ProgressBar::with_draw_target(Some(total), target);
+    let bar = bar(total, "{msg} [{bar:32}] {percent:>3} %  {elapsed} elapsed, {eta} left", quiet);
     if bar.is_hidden() {
         return work();
     }
-    let style =
-        ProgressStyle::with_template("{msg} [{bar:32}] {percent:>3} %  {elapsed} elapsed, {eta} left");
-    if let Ok(style) = style {
-        bar.set_style(style.progress_chars("=> "));
-    }
     bar.set_message(label.to_owned());
     show_while(&bar, Duration::from_millis(50), || bar.set_position(done.load(Ordering::Relaxed)), work)
+}
+
+/// A bar of so many parts, which is hidden without a terminal or if `quiet`.
+pub(crate) fn bar(total: u64, template: &str, quiet: bool) -> ProgressBar {
+    let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+    let bar = ProgressBar::with_draw_target(Some(total), target);
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style.progress_chars("=> "));
+    }
+    bar
 }
 
 /// Runs `work` while another thread shows how far it is, again and again. Then the bar is cleared, also if the work panics.

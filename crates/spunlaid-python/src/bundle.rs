@@ -7,12 +7,10 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use spunlaid::case::Case;
-use spunlaid::ensemble::RunControl;
 use spunlaid::error::Error;
 use spunlaid::input::{
     parse_case, parse_spinline, parse_web_and_cases, write_case, write_spinline, write_web,
 };
-use spunlaid::lanes::Isa;
 use spunlaid::layers::{LaydownSource, WebSpec};
 use spunlaid::observe::MEASURES;
 use spunlaid::study::{Batch, Experiment, Point, Record, ReplicateOutcome, fly_bundle as fly};
@@ -114,13 +112,6 @@ pub(crate) fn fly_bundle(
     threads: usize,
 ) -> PyResult<Bound<'_, PyArray2<f64>>> {
     let watch = Watch::default();
-    let computing = RunControl {
-        threads: threads.max(1),
-        isa: Isa::detect(),
-        stop: &watch.stop,
-        fibre_steps: &watch.done,
-        recorder: None,
-    };
     let flown = watched(py, &watch, None, || {
         let mut points: Vec<Point> = Vec::new();
         let mut known: BTreeMap<(&str, &Cases), usize> = BTreeMap::new();
@@ -140,7 +131,7 @@ pub(crate) fn fly_bundle(
             };
             batches.push(Batch { point, replicates: *start..*end });
         }
-        Ok::<_, Failure>(Ok((fly((&points, &sides), &batches, computing)?, batches)))
+        Ok::<_, Failure>(Ok((fly((&points, &sides), &batches, watch.run_control(Some(threads)))?, batches)))
     })?;
     let (records, batches) = flown.map_err(|number| {
         let text = format!(

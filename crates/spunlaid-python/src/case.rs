@@ -1,6 +1,7 @@
 //! `Case`: a case file with changes, read and checked.
 
 use crate::merged::merged;
+use crate::source::{Source, stem};
 use crate::state::full_path;
 use crate::value::{overrides, to_python};
 use crate::watched::guarded;
@@ -10,7 +11,7 @@ use pyo3::types::{PyBytes, PyDict, PyIterator, PyList, PyMapping, PyTuple, PyTyp
 use spunlaid::case::keys::{self, Key, Value};
 use spunlaid::case::{self, Note};
 use spunlaid::error::FileKind;
-use spunlaid::input::{Overrides, parse_case, read_text, starter_case, starter_case_of_fed, write_case};
+use spunlaid::input::{Overrides, parse_case, starter_case, starter_case_of_fed, write_case};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -59,8 +60,7 @@ impl Case {
 
     /// What results of it are called.
     pub(crate) fn stem(&self) -> String {
-        let path = Path::new(&self.file);
-        path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+        stem(Path::new(&self.file))
     }
 
     /// Whether values differ from those of its text.
@@ -94,8 +94,8 @@ impl Case {
     /// Raises FileError if the file cannot be read, and CaseError with every problem if the case cannot be run.
     #[classmethod]
     fn read(_class: &Bound<'_, PyType>, py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let text = guarded(py, || read_text(&path, FileKind::Case))?;
-        Self::parsed(py, text.into(), path.display().to_string(), Vec::new())
+        let Source { text, file, .. } = Source::read(py, Some(path), FileKind::Case, NAME)?;
+        Self::parsed(py, text.into(), file, Vec::new())
     }
 
     /// A case from the text of a case file (TOML). Files that it names are looked for beside `name`.

@@ -1,13 +1,14 @@
 //! `find_fit`: which values of some keys make a web like a scan?
 
+use crate::save::{Figures, figure_files};
+use crate::source::stem;
 use crate::value::overrides;
-use crate::watched::{Watch, guarded, threads, watched};
+use crate::watched::{Watch, guarded, watched};
 use pyo3::prelude::*;
 use spunlaid::case::Note;
 use spunlaid::error::Error;
 use spunlaid::fit::{MOST_TRIALS, Question, Target, WebInProgress, fit};
 use spunlaid::input::{Overrides, read_fit};
-use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, Flyer};
 use spunlaid::study::Journal;
 use spunlaid::web::LayControl;
@@ -21,9 +22,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Finds the values. See spunlaid.fit, which calls it. Returns the text of fit.json and what it says in sentences.
 ///
 /// * `vary` – names of the keys, and of those that have a range its ends
-/// * `out` – the folder of the results; without one, nothing is kept when it is interrupted
+/// * `out` – the folder of the results, with figures as asked; without one, nothing is kept when it is interrupted
 #[pyfunction]
-#[pyo3(signature = (path, to, vary, changes, spectrum, webs, out = None, threads = None, progress = None))]
+#[pyo3(signature = (path, to, vary, changes, spectrum, webs, out, figures, threads = None, progress = None))]
 #[expect(clippy::too_many_arguments, reason = "the function of Python has them by name")]
 pub(crate) fn find_fit(
     py: Python<'_>,
@@ -34,6 +35,7 @@ pub(crate) fn find_fit(
     spectrum: bool,
     webs: u64,
     out: Option<PathBuf>,
+    figures: Figures<'_>,
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(String, Vec<String>)> {
@@ -55,11 +57,10 @@ pub(crate) fn find_fit(
         Ok((file, target))
     })?;
     let notes = Note::of_results(&file.start.notes);
-    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let (name, figures) = (stem(&path), figure_files(figures)?);
     let paths = [&path, &to].map(|path| path.display().to_string());
     let paths = [&*paths[0], &*paths[1]];
     let input = FitInput { name: &name, paths, file: &file, target: &target, webs, notes: &notes };
-    let threads = self::threads(threads);
     let watch = Watch::new(webs);
     let found = watched(py, &watch, progress.as_ref(), || {
         let opened =
@@ -71,12 +72,14 @@ pub(crate) fn find_fit(
         let make = |values: &[f64]| Ok(file.web(values)?.spec);
         let question = Question { parameters: &file.parameters, target: &target, make: &make, webs };
         let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
-        let flyer = Flyer::new(threads, &watch.stop, &follow);
+        // Progress is counted in webs.
         let laid = AtomicU64::new(0);
-        let laying = LayControl { threads, isa: Isa::detect(), stop: &watch.stop, laid: &laid };
+        let laying = LayControl { laid: &laid, ..watch.lay_control(threads) };
+        let flyer = Flyer::new(laying.threads, laying.stop, &follow);
         let tell = |now: WebInProgress<'_>| watch.done.store(now.web - 1, Ordering::Relaxed);
         let found = fit(question, flyer, laying, &mut journal, &tell)?;
         if let Some(mut folder) = folder {
+            folder.figures = figures;
             folder.write(&input, &found)?;
         }
         watch.done.store(webs, Ordering::Relaxed);

@@ -36,9 +36,6 @@ pub(crate) struct Flight {
     fibres: u64,
 }
 
-/// A number of a vector, and a vector of eight lanes.
-type VectorField = fn(&Snapshot) -> &[Vec3<spunlaid::lanes::Lanes>];
-
 #[pymethods]
 impl Flight {
     #[new]
@@ -108,30 +105,21 @@ impl Flight {
     /// nodes.
     #[getter]
     fn positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        self.vectors(py, |snapshot| &snapshot.position)
+        self.array(py, |nodes| nodes, |snapshot, lane, node| numbers(snapshot.position[node].lane(lane)))
     }
 
     /// Velocities of the nodes now [m/s], in the same order.
     #[getter]
     fn velocities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        self.vectors(py, |snapshot| &snapshot.velocity)
+        self.array(py, |nodes| nodes, |snapshot, lane, node| numbers(snapshot.velocity[node].lane(lane)))
     }
 
     /// Tensions of the elements now [N], negative in compression: fibres x elements.
     #[getter]
     fn tensions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let snapshots = self.snapshots(py)?;
-        let width = snapshots.iter().flat_map(Self::lanes).map(|(_, nodes)| nodes).max().unwrap_or(1) - 1;
-        let mut flat = Vec::new();
-        for snapshot in &snapshots {
-            for (lane, nodes) in Self::lanes(snapshot) {
-                let elements = nodes.saturating_sub(1);
-                flat.extend(snapshot.tension.iter().take(elements).map(|tension| tension.0[lane]));
-                flat.extend(std::iter::repeat_n(f64::NAN, width - elements));
-            }
-        }
-        flat.truncate(self.fibres as usize * width);
-        Ok(PyArray1::from_vec(py, flat).reshape([self.fibres as usize, width])?.into_any())
+        let elements = |nodes: usize| nodes.saturating_sub(1);
+        let all = self.array(py, elements, |snapshot, lane, element| [snapshot.tension[element].0[lane]])?;
+        all.call_method1("squeeze", (2,))
     }
 
     /// Energies and works now [J]: an array with a number for each fibre, by name.
@@ -213,26 +201,34 @@ impl Flight {
         guarded(py, || Ok(self.lock().iter().map(flight::Flight::snapshot).collect()))
     }
 
-    /// The lanes of a snapshot with the number of nodes of their fibres.
-    fn lanes(snapshot: &Snapshot) -> impl Iterator<Item = (usize, usize)> {
-        snapshot.nodes.into_iter().enumerate()
-    }
-
-    fn vectors<'py>(&self, py: Python<'py>, field: VectorField) -> PyResult<Bound<'py, PyAny>> {
+    /// Numbers of all fibres now: fibres x places x `N`, NaN where a fibre has fewer places than another one.
+    ///
+    /// * `places` – of a fibre with so many nodes
+    /// * `numbers` – of a snapshot, a lane and a place
+    fn array<'py, const N: usize>(
+        &self,
+        py: Python<'py>,
+        places: impl Fn(usize) -> usize,
+        numbers: impl Fn(&Snapshot, usize, usize) -> [f64; N],
+    ) -> PyResult<Bound<'py, PyAny>> {
         let snapshots = self.snapshots(py)?;
-        let width = snapshots.iter().flat_map(Self::lanes).map(|(_, nodes)| nodes).max().unwrap_or(0);
+        let width = snapshots.iter().flat_map(|snapshot| snapshot.nodes).map(&places).max().unwrap_or(0);
         let mut flat = Vec::new();
         for snapshot in &snapshots {
-            for (lane, nodes) in Self::lanes(snapshot) {
-                let vectors = field(snapshot).iter().take(nodes).map(|vector| vector.lane(lane));
-                flat.extend(vectors.flat_map(|vector| [vector.x, vector.y, vector.z]));
-                flat.extend(std::iter::repeat_n(f64::NAN, 3 * (width - nodes)));
+            for (lane, nodes) in snapshot.nodes.into_iter().enumerate() {
+                let places = places(nodes);
+                flat.extend((0..places).flat_map(|place| numbers(snapshot, lane, place)));
+                flat.extend(std::iter::repeat_n(f64::NAN, N * (width - places)));
             }
         }
         // The lanes that no fibre uses come last.
-        flat.truncate(self.fibres as usize * width * 3);
-        Ok(PyArray1::from_vec(py, flat).reshape([self.fibres as usize, width, 3])?.into_any())
+        flat.truncate(self.fibres as usize * width * N);
+        Ok(PyArray1::from_vec(py, flat).reshape([self.fibres as usize, width, N])?.into_any())
     }
+}
+
+const fn numbers(vector: Vec3<f64>) -> [f64; 3] {
+    [vector.x, vector.y, vector.z]
 }
 
 /// What a fibre laid: fed length, time, place along and across the belt.

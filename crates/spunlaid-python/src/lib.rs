@@ -4,7 +4,7 @@
 //! ```text
 //! failure   errors as exceptions        value     values of Python as those of keys
 //! watched   work without the lock of the interpreter, with Ctrl-C and progress
-//! save      results in a folder
+//! save      results in a folder         source    the file that a user names
 //! case, run, flight, air, spinline, study, web, record, keys     the classes and functions
 //! ```
 
@@ -14,6 +14,7 @@
 mod air;
 mod failure;
 mod save;
+mod source;
 mod value;
 mod watched;
 
@@ -41,37 +42,25 @@ use pyo3::prelude::*;
 /// The compiled part of spunlaid. Use the package `spunlaid`.
 #[pymodule]
 mod _spunlaid {
-    #[pymodule_export]
-    use super::air::AirSampler;
-    #[pymodule_export]
-    use super::bundle::fly_bundle;
-    #[pymodule_export]
-    use super::case::Case;
-    #[pymodule_export]
-    use super::fit::find_fit;
-    #[pymodule_export]
-    use super::flight::Flight;
-    #[pymodule_export]
-    use super::keys::keys;
-    #[pymodule_export]
-    use super::record::analyse;
-    #[pymodule_export]
-    use super::results::RunResults;
-    #[pymodule_export]
-    use super::run::{fly, measures};
-    #[pymodule_export]
-    use super::save::check_figures;
-    #[pymodule_export]
-    use super::spinline::{SolvedSpinline, solve_spinline};
-    #[pymodule_export]
-    use super::state::flown_from;
-    #[pymodule_export]
-    use super::study::Study;
-    #[pymodule_export]
-    use super::table::read_table;
-    #[pymodule_export]
-    use super::web::{LaidWeb, lay_web};
     use super::{Bound, PyModule, PyModuleMethods, PyResult};
+    #[pymodule_export]
+    use super::{
+        air::AirSampler,
+        bundle::fly_bundle,
+        case::Case,
+        fit::find_fit,
+        flight::Flight,
+        keys::keys,
+        record::analyse,
+        results::RunResults,
+        run::{fly, measures},
+        save::check_figures,
+        spinline::{SolvedSpinline, solve_spinline},
+        state::flown_from,
+        study::Study,
+        table::read_table,
+        web::{LaidWeb, lay_web},
+    };
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

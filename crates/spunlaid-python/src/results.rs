@@ -15,6 +15,7 @@ pub(crate) struct RunResults {
     pub(crate) case: Arc<spunlaid::case::Case>,
     pub(crate) results: Results,
     pub(crate) checks: FinerChecks,
+    #[pyo3(get)]
     pub(crate) notes: Vec<String>,
     pub(crate) performance: Performance,
     pub(crate) samples: Option<Samples>,

@@ -5,9 +5,9 @@ use crate::failure::raised;
 use crate::flight::laid_columns;
 use crate::results::RunResults;
 use crate::samples::{SampleCollector, locked};
-use crate::save::save;
+use crate::save::{Figures, save};
 use crate::scale::scale;
-use crate::watched::{Watch, threads, watched};
+use crate::watched::{Watch, watched};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -17,7 +17,7 @@ use spunlaid::ensemble::{
     Trajectory, fly_and_check,
 };
 use spunlaid::error::Error;
-use spunlaid::lanes::{Isa, WIDTH};
+use spunlaid::lanes::WIDTH;
 use spunlaid::observe::{MEASURES, Measure};
 use spunlaid_results::figures::Scale;
 use spunlaid_results::folders::run::{self as folder, POSITIONS};
@@ -25,7 +25,6 @@ use spunlaid_results::output::folder::ENTRIES;
 use spunlaid_results::output::tables::{TableRecorder, Tables};
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::Instant;
 
 /// Number of trajectories that are kept whole, for the report.
@@ -52,13 +51,8 @@ pub(crate) fn fly(
     let watch =
         Watch::new(run.steps.saturating_mul(description.fibres()).saturating_add(plans.fibre_steps()));
     let belt = LaidCurves::default();
-    let computing = RunControl {
-        threads: self::threads(threads),
-        isa: Isa::detect(),
-        stop: &watch.stop,
-        fibre_steps: &watch.done,
-        recorder: description.line.is_some().then_some(&belt as &dyn Recorder),
-    };
+    let recorder = description.line.is_some().then_some(&belt as &dyn Recorder);
+    let computing = RunControl { recorder, ..watch.run_control(threads) };
     let started = Instant::now();
     let (results, checks, collected) = watched(py, &watch, progress.as_ref(), || {
         let shapes = if shapes { KeepShapes::within(&description, POSITIONS) } else { KeepShapes::NONE };
@@ -136,11 +130,6 @@ impl RunResults {
     #[getter]
     fn summary(&self) -> String {
         self.folder().summary()
-    }
-
-    #[getter]
-    fn notes(&self) -> Vec<String> {
-        self.notes.clone()
     }
 
     /// The fibres that were lost: replicate, counted from 1, time and reason of each.
@@ -230,25 +219,17 @@ impl RunResults {
     /// The report, a page of HTML.
     fn report(&self, py: Python<'_>) -> PyResult<String> {
         let watch = Watch::default();
-        watched(py, &watch, None, || self.folder().report(self.computing(&watch.stop, &watch.done)))
+        watched(py, &watch, None, || self.folder().report(watch.run_control(None)))
     }
 
     /// Writes the folder that `spunlaid run` writes.
-    #[pyo3(signature = (path, force, figures = None, figure_width = None))]
-    fn save(
-        &self,
-        py: Python<'_>,
-        path: PathBuf,
-        force: bool,
-        figures: Option<&Bound<'_, PyAny>>,
-        figure_width: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<()> {
+    fn save(&self, py: Python<'_>, path: PathBuf, force: bool, figures: Figures<'_>) -> PyResult<()> {
         let Some(samples) = &self.samples else {
             let text = "the run was flown with samples=False, so its tables cannot be written";
             return Err(crate::failure::raised_as(py, "FolderError", text.to_owned()));
         };
         let samples = samples.borrowed(py).all();
-        save(py, (&path, force), ENTRIES, [figures, figure_width], |staging, watch| {
+        save(py, (&path, force, figures), ENTRIES, |staging, watch| {
             let recorder = TableRecorder::new(staging, self.case.line.is_some());
             let mut tables = Tables::create(staging, &recorder)?;
             for (replicate, samples) in (0..).zip(samples) {
@@ -263,7 +244,7 @@ impl RunResults {
                 tables.add(replicate)?;
             }
             tables.finish()?;
-            self.folder().write(staging, self.computing(&watch.stop, &watch.done))
+            self.folder().write(staging, watch.run_control(None))
         })
     }
 
@@ -281,12 +262,6 @@ impl RunResults {
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         crate::state::reduced(py, self)
-    }
-}
-
-impl RunResults {
-    fn computing<'a>(&self, stop: &'a AtomicBool, fibre_steps: &'a AtomicU64) -> RunControl<'a> {
-        RunControl { threads: threads(None), isa: Isa::detect(), stop, fibre_steps, recorder: None }
     }
 }
 

@@ -9,7 +9,7 @@ use spunlaid_results::output::pictures::{FigureFiles, Format, width_named};
 use std::path::Path;
 
 /// Formats and width of figures, as [`figure_files`] reads them.
-pub(crate) type Figures<'a, 'py> = [Option<&'a Bound<'py, PyAny>>; 2];
+pub(crate) type Figures<'py> = (Option<Bound<'py, PyAny>>, Option<Bound<'py, PyAny>>);
 
 /// Saves results in the folder `path`, which replaces an old one with `force`.
 ///
@@ -17,12 +17,11 @@ pub(crate) type Figures<'a, 'py> = [Option<&'a Bound<'py, PyAny>>; 2];
 /// * `write` – writes the files
 pub(crate) fn save(
     py: Python<'_>,
-    (path, force): (&Path, bool),
+    (path, force, figures): (&Path, bool, Figures<'_>),
     entries: &'static [&'static str],
-    [figures, width]: Figures<'_, '_>,
     write: impl FnOnce(&Staging<'_>, &Watch) -> Result<(), Failure> + Send,
 ) -> PyResult<()> {
-    let figures = figure_files(figures, width)?;
+    let figures = figure_files(figures)?;
     let watch = Watch::default();
     watched(py, &watch, None, || {
         let mut staging = Staging::new(path, entries, force, &watch.stop)?;
@@ -36,14 +35,11 @@ pub(crate) fn save(
 ///
 /// * `figures` – names of formats, in a list or in a text with commas between them; None for the usual ones
 /// * `width` – in print: its name, a length with its unit, or a number [m]; None for that of the screen
-pub(crate) fn figure_files(
-    figures: Option<&Bound<'_, PyAny>>,
-    width: Option<&Bound<'_, PyAny>>,
-) -> PyResult<FigureFiles> {
+pub(crate) fn figure_files((figures, width): Figures<'_>) -> PyResult<FigureFiles> {
     let usual = FigureFiles::default();
     let formats = match figures {
         None => usual.formats,
-        Some(figures) => names(figures)?
+        Some(figures) => names(&figures)?
             .iter()
             .map(|name| Format::named(name))
             .collect::<Result<_, _>>()
@@ -64,12 +60,8 @@ pub(crate) fn figure_files(
 
 /// Refuses figures that could not be written after a long flight.
 #[pyfunction]
-#[pyo3(signature = (figures = None, figure_width = None))]
-pub(crate) fn check_figures(
-    figures: Option<&Bound<'_, PyAny>>,
-    figure_width: Option<&Bound<'_, PyAny>>,
-) -> PyResult<()> {
-    figure_files(figures, figure_width).map(drop)
+pub(crate) fn check_figures(figures: Figures<'_>) -> PyResult<()> {
+    figure_files(figures).map(drop)
 }
 
 fn names(figures: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {

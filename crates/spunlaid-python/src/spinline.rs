@@ -1,13 +1,15 @@
 //! `solve_spinline`: from the hole of the spinneret to the solid filament, and `SolvedSpinline`, its results.
 
-use crate::save::save;
+use crate::save::{Figures, save};
+use crate::source::Source;
 use crate::value::overrides;
 use crate::watched::guarded;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use spunlaid::case::Note;
-use spunlaid::input::{Overrides, SpinFile, parse_spinline, read_spinline, write_spinline};
+use spunlaid::error::FileKind;
+use spunlaid::input::{Overrides, SpinFile, parse_spinline, write_spinline};
 use spunlaid_results::folders::spinline::SpinFolder;
 use spunlaid_results::output::spinline::{COLUMNS, ENTRIES, SpinResults, remarks};
 use std::path::PathBuf;
@@ -16,9 +18,11 @@ use std::path::PathBuf;
 #[pyclass(frozen, module = "spunlaid._spunlaid")]
 #[derive(Debug)]
 pub(crate) struct SolvedSpinline {
+    #[pyo3(get)]
     name: String,
     file: SpinFile,
     results: SpinResults,
+    #[pyo3(get)]
     notes: Vec<String>,
 }
 
@@ -32,13 +36,8 @@ pub(crate) fn solve_spinline(
 ) -> PyResult<SolvedSpinline> {
     let changes = overrides(changes)?;
     let set = Overrides { values: &changes, word: "spin:" };
-    let (name, file) = match path {
-        Some(path) => {
-            let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            (name, guarded(py, || read_spinline(&path, set))?)
-        }
-        None => ("spinline".to_owned(), guarded(py, || parse_spinline("", "spinline", set))?),
-    };
+    let Source { name, text, file } = Source::read(py, path, FileKind::Case, "spinline")?;
+    let file = guarded(py, || parse_spinline(&text, &file, set))?;
     let results = guarded(py, || SpinResults::new(&file))?;
     let notes = [Note::of_results(&file.notes), remarks(&results.rows)].concat();
     Ok(SolvedSpinline { name, file, results, notes })
@@ -56,16 +55,6 @@ impl SolvedSpinline {
     #[getter]
     fn summary(&self) -> String {
         self.folder().summary()
-    }
-
-    #[getter]
-    fn notes(&self) -> Vec<String> {
-        self.notes.clone()
-    }
-
-    #[getter]
-    fn name(&self) -> &str {
-        &self.name
     }
 
     /// The spinline with every default written out, as a file.
@@ -95,15 +84,7 @@ impl SolvedSpinline {
     }
 
     /// Writes the folder that `spunlaid spin` writes.
-    #[pyo3(signature = (path, force, figures = None, figure_width = None))]
-    fn save(
-        &self,
-        py: Python<'_>,
-        path: PathBuf,
-        force: bool,
-        figures: Option<&Bound<'_, PyAny>>,
-        figure_width: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<()> {
-        save(py, (&path, force), ENTRIES, [figures, figure_width], |staging, _| self.folder().write(staging))
+    fn save(&self, py: Python<'_>, path: PathBuf, force: bool, figures: Figures<'_>) -> PyResult<()> {
+        save(py, (&path, force, figures), ENTRIES, |staging, _| self.folder().write(staging))
     }
 }

@@ -168,9 +168,6 @@ fn check_state<'py>(py: Python<'py>, check: &FinerCheck) -> PyResult<Bound<'py, 
 
 /// The check that [`check_state`] wrote.
 fn check_of(state: &Bound<'_, PyAny>, refined: Refinement) -> PyResult<FinerCheck> {
-    let unknown = |what: &str, name: &str| {
-        PyValueError::new_err(format!("this version of spunlaid has no {what} {name}"))
-    };
     let name: String = state.get_item("scheme")?.extract()?;
     let scheme = Scheme::ALL.into_iter().find(|scheme| scheme.name() == name);
     let (time_step, element_length, duration, replicates, share_of_run) =
@@ -211,8 +208,11 @@ fn restored_estimate((mean, standard_error, values): EstimateState<'_>) -> PyRes
 
 fn measure(name: &str) -> PyResult<&'static Measure> {
     let mut all = DECLARED.iter().flat_map(|declaration| declaration.measures);
-    all.find(|measure| measure.name == name)
-        .ok_or_else(|| PyValueError::new_err(format!("this version of spunlaid has no measure {name}")))
+    all.find(|measure| measure.name == name).ok_or_else(|| unknown("measure", name))
+}
+
+fn unknown(what: &str, name: &str) -> PyErr {
+    PyValueError::new_err(format!("this version of spunlaid has no {what} {name}"))
 }
 
 fn points<'py>(py: Python<'py>, curve: &[LaidPoint]) -> Bound<'py, PyArray2<f64>> {

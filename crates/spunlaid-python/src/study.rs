@@ -3,24 +3,22 @@
 use crate::bundle::{BundlePart, parts, records};
 use crate::case::Case;
 use crate::failure::{raised_as, without_lines};
-use crate::save::figure_files;
+use crate::save::{Figures, figure_files};
 use crate::scale::{AxisScale, scale};
+use crate::source::stem;
 use crate::state::full_path;
 use crate::value::overrides;
-use crate::watched::{LOOK, Watch, guarded, threads, watched};
+use crate::watched::{LOOK, Watch, guarded, watched};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use spunlaid::ensemble::RunControl;
 use spunlaid::input::{
     Overrides, StudyChanges, StudyFile, parse_changed_study, read_changed_study, read_text, write_experiment,
 };
-use spunlaid::lanes::Isa;
 use spunlaid::layers::{Method, WebSpec};
 use spunlaid::study::{
-    Bundles, Experiment, Journal, Progress, ReplicateOutcome, Rounds, rankings, results_of_point, run,
-    unsynced,
+    Bundles, Experiment, Journal, Progress, Rounds, rankings, results_of_point, run, unsynced,
 };
 use spunlaid::threads::{lock, look_while, unlock};
 use spunlaid_results::Failure;
@@ -40,6 +38,7 @@ const STUDY: &str = "study";
 #[pyclass(frozen, module = "spunlaid._spunlaid")]
 #[derive(Debug)]
 pub(crate) struct Study {
+    #[pyo3(get)]
     name: String,
     file: StudyFile,
     out: Option<PathBuf>,
@@ -94,7 +93,7 @@ impl Study {
             (None, None) => {
                 let path: PathBuf = study.extract()?;
                 let file = guarded(py, || read_changed_study(&path, &changes))?;
-                (path.file_stem().unwrap_or_default().to_string_lossy().into_owned(), file)
+                (stem(&path), file)
             }
         };
         let number = file.study.points.len();
@@ -111,13 +110,7 @@ impl Study {
     fn fly(&self, py: Python<'_>, threads: Option<usize>, progress: Option<Py<PyAny>>) -> PyResult<()> {
         let watch = Watch::default();
         let counters = Progress::default();
-        let computing = RunControl {
-            threads: self::threads(threads),
-            isa: Isa::detect(),
-            stop: &watch.stop,
-            fibre_steps: &watch.done,
-            recorder: None,
-        };
+        let computing = watch.run_control(threads);
         // Progress is counted in fibres, as it is on a cluster.
         let shown = Watch::default();
         let stopped = &watch.stop;
@@ -194,8 +187,7 @@ impl Study {
     #[getter]
     fn fibres(&self, py: Python<'_>) -> PyResult<(u64, u64)> {
         guarded(py, || {
-            let points = 0..self.file.study.points.len();
-            let count = self.with_journal(|journal| Ok(points.map(|point| journal.held(point)).sum()))?;
+            let count = self.with_journal(|journal| Ok(journal.total()))?;
             Ok((count, self.round().0.required().iter().sum()))
         })
     }
@@ -262,19 +254,17 @@ impl Study {
         })?;
         let all = PyDict::new(py);
         let numbers = self.file.study.quantities.len();
-        let shape = [points.len(), numbers];
-        let mean =
-            PyArray1::from_vec(py, results.iter().flat_map(|point| point.mean.iter().copied()).collect())
-                .reshape(shape)?;
+        let mean = results.iter().flat_map(|point| point.mean.iter().copied()).collect();
         let errors = (results.iter())
             .flat_map(|point| (0..numbers).map(|i| point.standard_error(i).unwrap_or(f64::NAN)));
-        all.set_item("mean", mean)?;
-        all.set_item("standard_error", PyArray1::from_vec(py, errors.collect()).reshape(shape)?)?;
-        all.set_item("n", PyArray1::from_vec(py, results.iter().map(|point| point.n as i64).collect()))?;
-        all.set_item(
-            "lost",
-            PyArray1::from_vec(py, results.iter().map(|point| point.lost as i64).collect()),
-        )?;
+        for (name, values) in [("mean", mean), ("standard_error", errors.collect())] {
+            all.set_item(name, PyArray1::from_vec(py, values).reshape([points.len(), numbers])?)?;
+        }
+        let n = results.iter().map(|point| point.n as i64).collect();
+        let lost = results.iter().map(|point| point.lost as i64).collect();
+        for (name, counts) in [("n", n), ("lost", lost)] {
+            all.set_item(name, PyArray1::from_vec(py, counts))?;
+        }
         let seeds = points.iter().map(|point| point.experiment.seed()).collect();
         all.set_item("seed", PyArray1::from_vec(py, seeds))?;
         Ok(all)
@@ -283,23 +273,16 @@ impl Study {
     /// Every fibre: point, replicate, whether it was lost, and its measures (NaN if lost): an array of fibres x columns.
     fn replicates<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let numbers = self.file.study.quantities.len();
-        let columns = 3 + numbers;
+        let (columns, lost) = (3 + numbers, vec![f64::NAN; numbers]);
         let rows = guarded(py, || {
             self.with_journal(|journal| {
                 let mut rows = Vec::new();
                 for point in 0..self.file.study.points.len() {
                     for record in journal.records(point, u64::MAX)? {
-                        rows.extend([record.point as f64, record.replicate as f64]);
-                        match record.outcome {
-                            ReplicateOutcome::Measured(values) => {
-                                rows.push(0.0);
-                                rows.extend(values);
-                            }
-                            ReplicateOutcome::Lost { .. } => {
-                                rows.push(1.0);
-                                rows.extend(std::iter::repeat_n(f64::NAN, numbers));
-                            }
-                        }
+                        let measured = record.outcome.measured();
+                        let is_lost = f64::from(u8::from(measured.is_none()));
+                        rows.extend([record.point as f64, record.replicate as f64, is_lost]);
+                        rows.extend_from_slice(measured.unwrap_or(&lost));
                     }
                 }
                 Ok(rows)
@@ -333,14 +316,8 @@ impl Study {
     }
 
     /// Makes tables, figures and report in the folder of the study, and lets go of it.
-    #[pyo3(signature = (figures = None, figure_width = None))]
-    fn write(
-        &self,
-        py: Python<'_>,
-        figures: Option<&Bound<'_, PyAny>>,
-        figure_width: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<()> {
-        let figures = figure_files(figures, figure_width)?;
+    fn write(&self, py: Python<'_>, figures: Figures<'_>) -> PyResult<()> {
+        let figures = figure_files(figures)?;
         let Some(out) = &self.out else {
             let text = "the study was flown without a folder; name one: out = \"results/study\"".to_owned();
             return Err(raised_as(py, "FolderError", text));
@@ -375,11 +352,6 @@ impl Study {
         })
     }
 
-    #[getter]
-    fn name(&self) -> &str {
-        &self.name
-    }
-
     /// What a replicate is called: fibre or web.
     #[getter]
     fn noun(&self) -> &'static str {
@@ -390,12 +362,6 @@ impl Study {
     #[getter]
     fn design(&self) -> &'static str {
         self.file.study.design.name()
-    }
-
-    /// The study with every default written out.
-    #[getter]
-    fn text(&self) -> &str {
-        &self.file.text
     }
 
     #[getter]

@@ -49,25 +49,23 @@ fn decode(file: File) -> Decoded<Vec<(String, Values)>> {
             if column.max_def_level() > 0 {
                 return Err(foreign());
             }
-            match (group.get_column_reader(at)?, columns.get_mut(at)) {
-                (ColumnReader::Int64ColumnReader(mut reader), None) => {
-                    let mut values = Vec::new();
-                    reader.read_records(rows, None, None, &mut values)?;
-                    columns.push((name.to_owned(), Values::Whole(values)));
+            let reader = group.get_column_reader(at)?;
+            if columns.len() == at {
+                let values = match reader {
+                    ColumnReader::Int64ColumnReader(_) => Values::Whole(Vec::new()),
+                    _ => Values::Number(Vec::new()),
+                };
+                columns.push((name.to_owned(), values));
+            }
+            match (reader, &mut columns[at].1) {
+                (ColumnReader::Int64ColumnReader(mut reader), Values::Whole(values)) => {
+                    reader.read_records(rows, None, None, values)?
                 }
-                (ColumnReader::DoubleColumnReader(mut reader), None) => {
-                    let mut values = Vec::new();
-                    reader.read_records(rows, None, None, &mut values)?;
-                    columns.push((name.to_owned(), Values::Number(values)));
-                }
-                (ColumnReader::Int64ColumnReader(mut reader), Some((_, Values::Whole(values)))) => {
-                    reader.read_records(rows, None, None, values)?;
-                }
-                (ColumnReader::DoubleColumnReader(mut reader), Some((_, Values::Number(values)))) => {
-                    reader.read_records(rows, None, None, values)?;
+                (ColumnReader::DoubleColumnReader(mut reader), Values::Number(values)) => {
+                    reader.read_records(rows, None, None, values)?
                 }
                 _ => return Err(foreign()),
-            }
+            };
         }
     }
     Ok(columns)

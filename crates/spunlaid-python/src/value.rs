@@ -1,6 +1,7 @@
 //! Values of Python as those of keys, and back.
 
 use crate::failure::raised;
+use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyMapping, PyString};
@@ -15,7 +16,6 @@ use std::path::PathBuf;
 /// `{"air": {"velocity": 20.0}}`; of a layer of a web with its number, `layer.2.line.belt_speed`. Numbers are in SI units;
 /// `None` takes a key out.
 pub(crate) fn overrides(values: &Bound<'_, PyAny>) -> PyResult<Vec<(String, String)>> {
-    let kind = |name: &str| keys::find(name).map(|key| key.kind).or_else(|| Some(web_key(name)?.kind));
     let values = values.cast::<PyMapping>().map_err(|_| {
         let found = type_name(values);
         PyTypeError::new_err(format!(
@@ -26,33 +26,30 @@ pub(crate) fn overrides(values: &Bound<'_, PyAny>) -> PyResult<Vec<(String, Stri
     for item in values.items()?.iter() {
         let (name, value): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item.extract()?;
         let name = name_of(&name)?;
-        match value.cast::<PyDict>() {
-            Ok(table) if !name.contains('.') => {
-                for (key, value) in table.iter() {
-                    let key = format!("{name}.{}", name_of(&key)?);
-                    match value.cast::<PyDict>() {
-                        // A table within a table, as spinline.material.
-                        Ok(inner) => {
-                            for (own, value) in inner.iter() {
-                                let key = format!("{key}.{}", name_of(&own)?);
-                                let text = text_of(&key, kind(&key), &value)?;
-                                all.push((key, text));
-                            }
-                        }
-                        Err(_) => {
-                            let text = text_of(&key, kind(&key), &value)?;
-                            all.push((key, text));
-                        }
-                    }
-                }
-            }
-            _ => {
-                let text = text_of(&name, kind(&name), &value)?;
-                all.push((name, text));
-            }
-        }
+        // A table may stand within a table, as spinline.material.
+        let depth = if name.contains('.') { 0 } else { 2 };
+        put(&mut all, name, &value, depth)?;
     }
     Ok(all)
+}
+
+/// Adds a key with its value, or all keys of a table and of so many tables within one another.
+fn put(
+    all: &mut Vec<(String, String)>,
+    name: String,
+    value: &Bound<'_, PyAny>,
+    depth: usize,
+) -> PyResult<()> {
+    if let (Ok(table), 1..) = (value.cast::<PyDict>(), depth) {
+        for (key, value) in table.iter() {
+            put(all, format!("{name}.{}", name_of(&key)?), &value, depth - 1)?;
+        }
+        return Ok(());
+    }
+    let kind = keys::find(&name).map(|key| key.kind).or_else(|| Some(web_key(&name)?.kind));
+    let text = text_of(&name, kind, value)?;
+    all.push((name, text));
+    Ok(())
 }
 
 fn name_of(name: &Bound<'_, PyAny>) -> PyResult<String> {
@@ -62,10 +59,13 @@ fn name_of(name: &Bound<'_, PyAny>) -> PyResult<String> {
             type_name(name)
         ))
     })?;
-    // A lone surrogate has no UTF-8.
-    text.to_str()
-        .map(str::to_owned)
-        .map_err(|_| PyValueError::new_err("the name of a key is not valid Unicode"))
+    unicode(text, || "the name of a key is".to_owned())
+}
+
+/// The text of a `str`, of which a message says what is not valid: a lone surrogate has no UTF-8.
+fn unicode(text: &Bound<'_, PyString>, what: impl Fn() -> String) -> PyResult<String> {
+    let text = text.to_str().map(str::to_owned);
+    text.map_err(|_| PyValueError::new_err(format!("{} not valid Unicode", what())))
 }
 
 /// A value as it stands after `key =` in a case file.
@@ -77,10 +77,7 @@ fn text_of(key: &str, kind: Option<Kind>, value: &Bound<'_, PyAny>) -> PyResult<
         return Ok(flag.is_true().to_string());
     }
     if let Ok(text) = value.cast::<PyString>() {
-        return text
-            .to_str()
-            .map(str::to_owned)
-            .map_err(|_| PyValueError::new_err(format!("the value of {key} is not valid Unicode")));
+        return unicode(text, || format!("the value of {key} is"));
     }
     if let Some(number) = number(value)? {
         return Ok(match &kind {
@@ -115,8 +112,7 @@ const MOST_PARTS: usize = 100_000;
 
 fn part_text(key: &str, dimension: Dimension, part: &Bound<'_, PyAny>) -> PyResult<String> {
     if let Ok(text) = part.cast::<PyString>() {
-        let text = text.to_str().map_err(|_| PyValueError::new_err(format!("{key}: not valid Unicode")))?;
-        return Ok(quoted(text));
+        return Ok(quoted(&unicode(text, || format!("{key}:"))?));
     }
     if let Some(number) = number(part)? {
         return Ok(quantity(dimension, &number));
@@ -206,8 +202,7 @@ pub(crate) fn value_of(value: &Bound<'_, PyAny>) -> PyResult<Value> {
         ));
     }
     if let Ok(text) = value.cast::<PyString>() {
-        let text = text.to_str().map_err(|_| PyValueError::new_err("the value is not valid Unicode"))?;
-        return Ok(text.into());
+        return Ok(unicode(text, || "the value is".to_owned())?.as_str().into());
     }
     if let Some(number) = number(value)? {
         return Ok(Value::Number(number.float()));
@@ -245,16 +240,16 @@ pub(crate) fn seconds(value: &Bound<'_, PyAny>) -> PyResult<f64> {
 /// The value of a key for Python, in SI units.
 pub(crate) fn to_python(py: Python<'_>, value: Option<Value>) -> PyResult<Py<PyAny>> {
     Ok(match value {
-        Some(Value::Number(value)) => value.into_pyobject(py)?.into_any().unbind(),
-        Some(Value::Whole(value)) => value.into_pyobject(py)?.into_any().unbind(),
-        Some(Value::Text(text)) => text.into_pyobject(py)?.into_any().unbind(),
-        Some(Value::Numbers(values)) => values.into_pyobject(py)?.into_any().unbind(),
-        Some(Value::Vector(v)) => (v.x, v.y, v.z).into_pyobject(py)?.into_any().unbind(),
+        Some(Value::Number(value)) => value.into_py_any(py)?,
+        Some(Value::Whole(value)) => value.into_py_any(py)?,
+        Some(Value::Text(text)) => text.into_py_any(py)?,
+        Some(Value::Numbers(values)) => values.into_py_any(py)?,
+        Some(Value::Vector(v)) => (v.x, v.y, v.z).into_py_any(py)?,
         Some(Value::Content(content)) => {
             let paths: Vec<String> = content.paths().iter().map(|path| path.display().to_string()).collect();
             match &paths[..] {
-                [one] => one.into_pyobject(py)?.into_any().unbind(),
-                _ => paths.into_pyobject(py)?.into_any().unbind(),
+                [one] => one.into_py_any(py)?,
+                _ => paths.into_py_any(py)?,
             }
         }
         _ => py.None(),

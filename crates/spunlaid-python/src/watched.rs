@@ -2,7 +2,10 @@
 
 use crate::failure::{raised, raised_of_panic};
 use pyo3::prelude::*;
+use spunlaid::ensemble::RunControl;
+use spunlaid::lanes::Isa;
 use spunlaid::threads::lock;
+use spunlaid::web::LayControl;
 use spunlaid_results::Failure;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -25,6 +28,29 @@ pub(crate) struct Watch {
 impl Watch {
     pub(crate) fn new(parts: u64) -> Self {
         Self { total: AtomicU64::new(parts), ..Self::default() }
+    }
+
+    /// Begins another part of the work.
+    pub(crate) fn begin(&self, parts: u64) {
+        self.done.store(0, Ordering::Relaxed);
+        self.total.store(parts, Ordering::Relaxed);
+    }
+
+    /// How an ensemble is computed that is watched, on so many threads.
+    pub(crate) fn run_control(&self, threads: Option<usize>) -> RunControl<'_> {
+        RunControl {
+            threads: self::threads(threads),
+            isa: Isa::detect(),
+            stop: &self.stop,
+            fibre_steps: &self.done,
+            recorder: None,
+        }
+    }
+
+    /// How a web is laid that is watched, likewise.
+    pub(crate) fn lay_control(&self, threads: Option<usize>) -> LayControl<'_> {
+        let threads = self::threads(threads);
+        LayControl { threads, isa: Isa::detect(), stop: &self.stop, laid: &self.done }
     }
 }
 

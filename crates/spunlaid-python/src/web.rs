@@ -1,19 +1,20 @@
 //! `lay_web`: lays a web of many filaments, and `LaidWeb`, its results.
 
-use crate::save::save;
+use crate::save::{Figures, save};
+use crate::source::Source;
 use crate::value::overrides;
-use crate::watched::{LOOK, Watch, guarded, threads, watched};
+use crate::watched::{LOOK, Watch, guarded, watched};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use spunlaid::advice::{Advice, advise, steps};
 use spunlaid::case::Note;
-use spunlaid::input::{Overrides, WebFile, parse_changes, parse_web, read_changes, read_web};
-use spunlaid::lanes::Isa;
+use spunlaid::error::FileKind;
+use spunlaid::input::{Overrides, WebFile, parse_changes, parse_web};
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
 use spunlaid::observe::OF_PATCHES;
 use spunlaid::threads::look_while;
-use spunlaid::web::{Findings, LayControl, PatchFindings};
+use spunlaid::web::{Findings, PatchFindings};
 use spunlaid_results::folders::web::{WebFolder, notes};
 use spunlaid_results::output::web::{ENTRIES, Performance};
 use std::path::PathBuf;
@@ -24,11 +25,13 @@ use std::time::Instant;
 #[pyclass(frozen, module = "spunlaid._spunlaid")]
 #[derive(Debug)]
 pub(crate) struct LaidWeb {
+    #[pyo3(get)]
     name: String,
     file: WebFile,
     flown: FlownWeb,
     findings: Findings,
     advice: Option<Advice>,
+    #[pyo3(get)]
     notes: Vec<String>,
     performance: Performance,
 }
@@ -46,19 +49,11 @@ pub(crate) fn lay_web(
 ) -> PyResult<LaidWeb> {
     let changes = overrides(changes)?;
     let set = Overrides { values: &changes, word: "web:" };
-    let tried = advice.then(|| match &path {
-        Some(path) => guarded(py, || read_changes(path, set)),
-        None => guarded(py, || parse_changes(String::new(), "web", set)),
-    });
-    let tried = tried.transpose()?;
-    let (name, file) = match path {
-        Some(path) => {
-            let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            (name, guarded(py, || read_web(&path, set))?)
-        }
-        None => ("web".to_owned(), guarded(py, || parse_web("", "web", set))?),
-    };
-    let threads = self::threads(threads);
+    let Source { name, text, file } = Source::read(py, path, FileKind::Web, "web")?;
+    let (tried, file) = guarded(py, || {
+        let tried = advice.then(|| parse_changes(text.clone(), &file, set)).transpose()?;
+        Ok((tried, parse_web(&text, &file, set)?))
+    })?;
     let watch = Watch::default();
     let (flown, findings, advice, performance) = watched(py, &watch, progress.as_ref(), || {
         let started = Instant::now();
@@ -68,24 +63,19 @@ pub(crate) fn lay_web(
             let look = || watch.done.store(done.load(Ordering::Relaxed), Ordering::Relaxed);
             look_while(LOOK, look, work);
         };
-        let mut flyer = Flyer::new(threads, &watch.stop, &follow);
+        let laying = watch.lay_control(threads);
+        let mut flyer = Flyer::new(laying.threads, laying.stop, &follow);
         let mut flown = flyer.web(&file.spec)?;
-        watch.done.store(0, Ordering::Relaxed);
-        watch.total.store(flown.pieces()?, Ordering::Relaxed);
-        let laying = LayControl { threads, isa: Isa::detect(), stop: &watch.stop, laid: &watch.done };
+        watch.begin(flown.pieces()?);
         let findings = flown.find(laying)?;
         let advice = match tried {
             Some(changes) => {
-                watch.done.store(0, Ordering::Relaxed);
-                watch.total.store(steps(&changes), Ordering::Relaxed);
+                watch.begin(steps(&changes));
                 Some(advise(&file.spec, (&flown.web, &findings), changes, laying)?)
             }
             None => None,
         };
-        let wall_s = started.elapsed().as_secs_f64();
-        let instruction_set = laying.isa.name();
-        let performance = Performance { wall_s, threads, instruction_set, ..Performance::default() };
-        let performance = performance.with_flights(&findings);
+        let performance = Performance::measure(started, laying.threads, laying.isa).with_flights(&findings);
         Ok((flown, findings, advice, performance))
     })?;
     let notes = [Note::of_results(&file.notes), notes(&flown.web, &findings, &flown.layers)].concat();
@@ -113,22 +103,6 @@ impl LaidWeb {
     #[getter]
     fn summary(&self) -> String {
         self.folder().summary()
-    }
-
-    #[getter]
-    fn notes(&self) -> Vec<String> {
-        self.notes.clone()
-    }
-
-    #[getter]
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    /// The file of the web with every default written out.
-    #[getter]
-    fn text(&self) -> &str {
-        &self.file.text
     }
 
     /// Side of a cell of the map [m].
@@ -168,18 +142,9 @@ impl LaidWeb {
     }
 
     /// Writes the folder that `spunlaid web` writes.
-    #[pyo3(signature = (path, force, figures = None, figure_width = None))]
-    fn save(
-        &self,
-        py: Python<'_>,
-        path: PathBuf,
-        force: bool,
-        figures: Option<&Bound<'_, PyAny>>,
-        figure_width: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<()> {
-        save(py, (&path, force), ENTRIES, [figures, figure_width], |staging, watch| {
-            let (threads, isa) = (threads(None), Isa::detect());
-            self.folder().write(staging, LayControl { threads, isa, stop: &watch.stop, laid: &watch.done })
+    fn save(&self, py: Python<'_>, path: PathBuf, force: bool, figures: Figures<'_>) -> PyResult<()> {
+        save(py, (&path, force, figures), ENTRIES, |staging, watch| {
+            self.folder().write(staging, watch.lay_control(None))
         })
     }
 }

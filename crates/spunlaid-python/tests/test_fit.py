@@ -33,7 +33,7 @@ def scan(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_the_number_is_found_as_by_the_program(scan: Path, program: Path, tmp_path: Path) -> None:
     start = {**SMALL, "line.filaments_per_metre": 500}
     web = CASES / "web_known.toml"
-    found = spunlaid.fit(web, scan, KEYS, webs=8, set=start, out=tmp_path / "python", threads=1)
+    found = spunlaid.fit(web, scan, KEYS, webs=8, set=start, out=tmp_path / "python", figures="pdf", threads=1)
     low, high = found.intervals["line.filaments_per_metre"]
     assert low < 900 < high
     assert high / low < 3
@@ -45,10 +45,15 @@ def test_the_number_is_found_as_by_the_program(scan: Path, program: Path, tmp_pa
     subprocess.run([*command, "--out", tmp_path / "program"], check=True, capture_output=True)
     told = json.loads((tmp_path / "program" / "fit.json").read_text())
     assert told == found.summary == json.loads((tmp_path / "python" / "fit.json").read_text())
+    assert {path.suffix for path in (tmp_path / "python" / "figures").iterdir()} == {".csv", ".pdf"}
 
 
 def test_what_is_wrong_is_said(scan: Path, tmp_path: Path) -> None:
     with pytest.raises(spunlaid.CaseError, match=r"line\.depht cannot be sought"):
         spunlaid.fit(CASES / "web_known.toml", scan, ["line.depht"])
+    with pytest.raises(ValueError, match="figures: "):
+        spunlaid.fit(CASES / "web_known.toml", scan, ["laydown.noise"], out=tmp_path / "fit", figures="gif")
+    with pytest.raises(ValueError, match="name one: out"):
+        spunlaid.fit(CASES / "web_known.toml", scan, ["laydown.noise"], figure_width="one-column")
     with pytest.raises(spunlaid.FolderError, match="holds no scanned or laid web"):
         spunlaid.fit(CASES / "web_known.toml", tmp_path, ["laydown.noise"])

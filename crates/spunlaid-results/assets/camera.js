@@ -113,3 +113,60 @@ class Camera {
 function cornersOf(box) {
   return [...Array(8).keys()].map((i) => [0, 1, 2].map((k) => ((i >> k) & 1 ? box.high[k] : box.low[k])));
 }
+
+/**
+ * Turns, moves and zooms by mouse, touch and keys on a canvas. `changed` is called after each change; `zooms(event)` says whether the
+ * wheel zooms, or scrolls the page; `keys` says what further keys do.
+ */
+function steer(canvas, camera, { changed, zooms, keys }) {
+  const pointers = new Map();
+  const apart = () => {
+    const [a, b] = [...pointers.values()];
+    return Math.hypot(a.x - b.x, a.y - b.y);
+  };
+  canvas.addEventListener("pointerdown", (e) => {
+    canvas.setPointerCapture(e.pointerId);
+    pointers.set(e.pointerId, { x: e.clientX, y: e.clientY });
+  });
+  canvas.addEventListener("pointermove", (e) => {
+    const last = pointers.get(e.pointerId);
+    if (!last) return;
+    const gap = pointers.size === 2 ? apart() : 0;
+    const [dx, dy] = [e.clientX - last.x, e.clientY - last.y];
+    pointers.set(e.pointerId, { x: e.clientX, y: e.clientY });
+    // Two fingers pinch and turn; one turns sideways only, since up and down it scrolls the page.
+    const gain = 0.008 / pointers.size;
+    if (e.shiftKey || e.buttons === 4) camera.move(dx, dy);
+    else camera.turn(-dx * gain, dy * gain);
+    if (pointers.size === 2) camera.zoomBy(apart() / Math.max(gap, 1));
+    changed();
+  });
+  for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, (e) => pointers.delete(e.pointerId));
+  canvas.addEventListener(
+    "wheel",
+    (e) => {
+      if (!zooms(e)) return;
+      e.preventDefault();
+      camera.zoomBy(Math.exp(-e.deltaY * (e.deltaMode === 1 ? 0.05 : 0.0015)), e.offsetX, e.offsetY);
+      changed();
+    },
+    { passive: false },
+  );
+  const acts = {
+    ArrowLeft: () => camera.turn(0.1, 0),
+    ArrowRight: () => camera.turn(-0.1, 0),
+    ArrowUp: () => camera.turn(0, -0.1),
+    ArrowDown: () => camera.turn(0, 0.1),
+    "+": () => camera.zoomBy(1.2),
+    "=": () => camera.zoomBy(1.2),
+    "-": () => camera.zoomBy(1 / 1.2),
+    ...keys,
+  };
+  canvas.addEventListener("keydown", (e) => {
+    const act = acts[e.key] ?? acts[e.key.toLowerCase()];
+    if (!act || e.ctrlKey || e.metaKey || e.altKey) return;
+    e.preventDefault();
+    act();
+    changed();
+  });
+}

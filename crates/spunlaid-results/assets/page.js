@@ -82,63 +82,18 @@ function startMotion(canvas) {
   // A fed fibre has no free end to follow.
   trail.closest("label").hidden = Boolean(frames.belt);
 
-  // Turning and zooming: mouse, touch, keys
-  const pointers = new Map();
-  const apart = () => {
-    const [a, b] = [...pointers.values()];
-    return Math.hypot(a.x - b.x, a.y - b.y);
-  };
-  canvas.addEventListener("pointerdown", (e) => {
-    canvas.setPointerCapture(e.pointerId);
-    pointers.set(e.pointerId, { x: e.clientX, y: e.clientY });
-  });
-  canvas.addEventListener("pointermove", (e) => {
-    const last = pointers.get(e.pointerId);
-    if (!last) return;
-    const gap = pointers.size === 2 ? apart() : 0;
-    const [dx, dy] = [e.clientX - last.x, e.clientY - last.y];
-    pointers.set(e.pointerId, { x: e.clientX, y: e.clientY });
-    // Two fingers pinch and turn; one turns sideways only, since up and down it scrolls the page.
-    const gain = 0.008 / pointers.size;
-    if (e.shiftKey || e.buttons === 4) camera.move(dx, dy);
-    else camera.turn(-dx * gain, dy * gain);
-    if (pointers.size === 2) camera.zoomBy(apart() / Math.max(gap, 1));
-    refresh();
-  });
-  for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, (e) => pointers.delete(e.pointerId));
   // A page that is being scrolled past the picture goes on scrolling.
   let scrolled = -Infinity;
   addEventListener("scroll", () => (scrolled = performance.now()), { passive: true });
-  canvas.addEventListener(
-    "wheel",
-    (e) => {
-      if (performance.now() - scrolled < 300 && !e.ctrlKey) return;
-      e.preventDefault();
-      camera.zoomBy(Math.exp(-e.deltaY * (e.deltaMode === 1 ? 0.05 : 0.0015)), e.offsetX, e.offsetY);
-      refresh();
+  steer(canvas, camera, {
+    changed: refresh,
+    zooms: (e) => performance.now() - scrolled >= 300 || e.ctrlKey,
+    keys: {
+      " ": () => play(!player.playing),
+      ",": () => play(false) || player.step(-1),
+      ".": () => play(false) || player.step(1),
+      r: reset,
     },
-    { passive: false },
-  );
-  const keys = {
-    ArrowLeft: () => camera.turn(0.1, 0),
-    ArrowRight: () => camera.turn(-0.1, 0),
-    ArrowUp: () => camera.turn(0, -0.1),
-    ArrowDown: () => camera.turn(0, 0.1),
-    "+": () => camera.zoomBy(1.2),
-    "=": () => camera.zoomBy(1.2),
-    "-": () => camera.zoomBy(1 / 1.2),
-    " ": () => play(!player.playing),
-    ",": () => play(false) || player.step(-1),
-    ".": () => play(false) || player.step(1),
-    r: reset,
-    R: reset,
-  };
-  canvas.addEventListener("keydown", (e) => {
-    const act = keys[e.key];
-    if (!act || e.ctrlKey || e.metaKey || e.altKey) return;
-    e.preventDefault();
-    act();
-    show();
   });
 
   // The clock

@@ -2,18 +2,19 @@
 
 const NOTCHES = 1000;
 
+/** A new element of the page with these properties. */
+const element = (tag, properties = {}) => Object.assign(document.createElement(tag), properties);
+
 /** A label of the table of keys: `*italics*`, `_{subscripts}`. */
-function labelled(element, label) {
+function labelled(place, label) {
   for (const part of label.split(/(\*[^*]+\*|_\{[^}]+\})/)) {
     if (!part) continue;
     const tag = part.startsWith("*") ? "i" : part.startsWith("_{") ? "sub" : null;
     if (!tag) {
-      element.append(part);
+      place.append(part);
       continue;
     }
-    const inner = document.createElement(tag);
-    inner.textContent = tag === "i" ? part.slice(1, -1) : part.slice(2, -1);
-    element.append(inner);
+    place.append(element(tag, { textContent: tag === "i" ? part.slice(1, -1) : part.slice(2, -1) }));
   }
 }
 
@@ -33,40 +34,31 @@ class Controls {
     this.group(this.form, "What matters most", settings.filter((s) => s.first));
     const rest = settings.filter((s) => !s.first);
     for (const table of new Set(rest.map((s) => s.table))) {
-      const more = document.createElement("details");
-      const summary = document.createElement("summary");
-      summary.textContent = `More: ${TITLES[table].toLowerCase()}`;
-      more.append(summary);
+      const more = element("details");
+      more.append(element("summary", { textContent: `More: ${TITLES[table].toLowerCase()}` }));
       this.group(more, TITLES[table], rest.filter((s) => s.table === table));
       this.form.append(more);
     }
   }
 
   group(place, title, settings) {
-    const set = document.createElement("fieldset");
-    const legend = document.createElement("legend");
-    legend.textContent = title;
-    set.append(legend, ...settings.map((s) => this.control(s)));
+    const set = element("fieldset");
+    set.append(element("legend", { textContent: title }), ...settings.map((s) => this.control(s)));
     place.append(set);
   }
 
   control(setting) {
-    const row = document.createElement("div");
-    row.className = "setting";
+    const row = element("div", { className: "setting" });
     const id = `key-${setting.key.replace(".", "-")}`;
-    const about = document.createElement("details");
-    const name = document.createElement("summary");
-    name.id = `${id}-name`;
+    const about = element("details");
+    const name = element("summary", { id: `${id}-name`, title: `${setting.meaning} ${setting.about}` });
     labelled(name, setting.label === setting.key ? this.plain(setting.key) : setting.label);
-    name.title = `${setting.meaning} ${setting.about}`;
-    const meaning = document.createElement("p");
-    meaning.textContent = `${setting.meaning.replace(/`/g, "")} ${setting.about} ${setting.in_flight ? "It changes at once." : "The fibres start anew with it."}`;
-    about.append(name, meaning);
-    const head = document.createElement("div");
-    head.className = "head";
+    const effect = setting.in_flight ? "It changes at once." : "The fibres start anew with it.";
+    about.append(name, element("p", { textContent: `${setting.meaning.replace(/`/g, "")} ${setting.about} ${effect}` }));
+    const head = element("div", { className: "head" });
     row.append(head);
     const control = { setting };
-    const text = document.createElement(setting.takes === "word" ? "select" : "input");
+    const text = element(setting.takes === "word" ? "select" : "input");
     text.setAttribute("aria-labelledby", name.id);
     text.dataset.key = setting.key;
     if (setting.takes === "word") setting.words.forEach((word) => text.add(new Option(word)));
@@ -80,11 +72,11 @@ class Controls {
     });
     head.append(about, text);
     control.text = text;
-    control.wrong = Object.assign(document.createElement("p"), { className: "wrong", id: `${id}-wrong`, hidden: true });
+    control.wrong = element("p", { className: "wrong", id: `${id}-wrong`, hidden: true });
     control.wrong.setAttribute("role", "alert");
     row.append(control.wrong);
     if (setting.takes === "quantity") {
-      const slider = Object.assign(document.createElement("input"), { type: "range", min: 0, max: NOTCHES, step: 1, id });
+      const slider = element("input", { type: "range", min: 0, max: NOTCHES, step: 1, id });
       slider.setAttribute("aria-labelledby", name.id);
       slider.dataset.key = setting.key;
       slider.addEventListener("input", () => this.set(setting.key, this.value(setting, Number(slider.value))));

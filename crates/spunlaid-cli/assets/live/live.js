@@ -45,8 +45,7 @@ const link = new Link({
       change.generation = generation;
       controls.accept(change.key);
     }
-    problems([]);
-    refusal([]);
+    forgive();
   },
   refused({ about, problems: all }) {
     const written = about.is === "setting" ? asked.get(about.stamp) : null;
@@ -94,7 +93,7 @@ function state(told) {
     if (page.frame && told.generation < page.state?.generation) page.before = null;
   }
   page.state = told;
-  view.setState(told);
+  view.state = told;
   plots.cutoff = told.cutoff;
   controls.show(told.values);
   byId("title").textContent = `· ${told.title}`;
@@ -110,7 +109,7 @@ function state(told) {
   byId("filament").hidden = told.filament.length === 0;
   byId("filament").replaceChildren(...told.filament.map(sentence));
   byId("notes").hidden = notes.length === 0;
-  byId("notes").replaceChildren(...notes.map((note) => Object.assign(document.createElement("li"), { textContent: note })));
+  byId("notes").replaceChildren(...notes.map((note) => element("li", { textContent: note })));
   if (!page.dirty) editor(told.text);
   status();
 }
@@ -118,7 +117,7 @@ function state(told) {
 /** An entry of a list that begins with a capital and ends with a full stop. */
 function sentence(text) {
   const textContent = `${text[0].toUpperCase()}${text.slice(1)}${text.endsWith(".") ? "" : "."}`;
-  return Object.assign(document.createElement("li"), { textContent });
+  return element("li", { textContent });
 }
 
 /** Keeps the numbers and curves of the setting that ends, if they had been taken for a while. */
@@ -157,12 +156,8 @@ function measured(told) {
   if (list.children.length !== told.numbers.length) {
     list.replaceChildren(
       ...told.numbers.map(({ label, meaning }) => {
-        const card = document.createElement("div");
-        card.title = meaning;
-        const name = Object.assign(document.createElement("dt"), { textContent: label });
-        const now = Object.assign(document.createElement("dd"), { className: "now" });
-        const old = Object.assign(document.createElement("dd"), { className: "before" });
-        card.append(name, now, old);
+        const card = element("div", { title: meaning });
+        card.append(element("dt", { textContent: label }), element("dd", { className: "now" }), element("dd", { className: "before" }));
         return card;
       }),
     );
@@ -206,10 +201,9 @@ function editor(text, wrong = new Map()) {
   const lines = byId("lines");
   lines.replaceChildren(
     ...area.value.split("\n").map((_, i) => {
-      const line = document.createElement("span");
-      line.textContent = `${wrong.has(i + 1) ? "▸ " : ""}${i + 1}\n`;
-      if (wrong.has(i + 1)) Object.assign(line, { className: "wrong", title: wrong.get(i + 1) });
-      return line;
+      const number = i + 1;
+      if (!wrong.has(number)) return element("span", { textContent: `${number}\n` });
+      return element("span", { textContent: `▸ ${number}\n`, className: "wrong", title: wrong.get(number) });
     }),
   );
   lines.scrollTop = area.scrollTop;
@@ -220,9 +214,9 @@ function problems(all) {
   list.hidden = all.length === 0;
   list.replaceChildren(
     ...all.map(({ line, text }) => {
-      const item = document.createElement("li");
+      const item = element("li");
       if (line) {
-        const go = Object.assign(document.createElement("button"), { type: "button", textContent: `line ${line}` });
+        const go = element("button", { type: "button", textContent: `line ${line}` });
         go.addEventListener("click", () => mark(line));
         item.append(go);
       }
@@ -238,9 +232,15 @@ function problems(all) {
 function refusal(all) {
   const box = byId("refused");
   box.hidden = all.length === 0;
-  const lines = all.map(({ text }) => Object.assign(document.createElement("p"), { textContent: text }));
-  const kept = Object.assign(document.createElement("p"), { textContent: "The setting before flies on." });
+  const lines = all.map(({ text }) => element("p", { textContent: text }));
+  const kept = element("p", { textContent: "The setting before flies on." });
   box.replaceChildren(...lines, kept);
+}
+
+/** Takes back what was said of a case or a value that could not be flown. */
+function forgive() {
+  problems([]);
+  refusal([]);
 }
 
 /** Marks a line of the case. */
@@ -264,14 +264,12 @@ byId("text").addEventListener("input", () => {
 byId("text").addEventListener("scroll", () => (byId("lines").scrollTop = byId("text").scrollTop));
 byId("fly").addEventListener("click", () => {
   edited(false);
-  problems([]);
-  refusal([]);
+  forgive();
   link.ask({ do: "case", text: byId("text").value });
 });
 byId("undo").addEventListener("click", () => {
   edited(false);
-  problems([]);
-  refusal([]);
+  forgive();
   editor(page.state.text);
 });
 byId("save").addEventListener("click", () => {

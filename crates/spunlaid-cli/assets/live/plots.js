@@ -98,14 +98,18 @@ function text(c, words, x, y, align = "left", baseline = "alphabetic") {
   c.fillText(words, x, y);
 }
 
+/** Strokes straight lines, each through its points. */
+function stroke(c, ...lines) {
+  c.beginPath();
+  for (const points of lines) points.forEach(([x, y], i) => (i ? c.lineTo(x, y) : c.moveTo(x, y)));
+  c.stroke();
+}
+
 /** A bar of a round length at the lower left; `scale` in pixels per millimetre. */
 function scaleBar(c, height, scale) {
   const length = roundUp(50 / scale);
   Object.assign(c, { strokeStyle: colours.ink, lineWidth: 2 });
-  c.beginPath();
-  c.moveTo(10, height - 10);
-  c.lineTo(10 + length * scale, height - 10);
-  c.stroke();
+  stroke(c, [[10, height - 10], [10 + length * scale, height - 10]]);
   text(c, `${length >= 1000 ? `${length / 1000} m` : `${length} mm`}`, 10, height - 16);
 }
 
@@ -253,10 +257,7 @@ class Plots {
     c.save();
     Object.assign(c, { strokeStyle: colours.muted, lineWidth: devicePixelRatio });
     c.setLineDash([5 * devicePixelRatio, 4 * devicePixelRatio]);
-    c.beginPath();
-    c.moveTo(x, top);
-    c.lineTo(x, top + height);
-    c.stroke();
+    stroke(c, [[x, top], [x, top + height]]);
     Object.assign(c, { fillStyle: colours.muted, font: `${12 * devicePixelRatio}px system-ui, sans-serif`, textAlign: "left" });
     c.fillText("cut-off", x + 4 * devicePixelRatio, top + 14 * devicePixelRatio);
     c.restore();
@@ -269,12 +270,7 @@ class Plots {
     const scale = (0.46 * Math.min(width, height)) / roundUp(reach);
     const [cx, cy] = [width / 2, height / 2];
     Object.assign(c, { strokeStyle: colours.rule, lineWidth: 1, lineJoin: "round" });
-    c.beginPath();
-    c.moveTo(0, cy);
-    c.lineTo(width, cy);
-    c.moveTo(cx, 0);
-    c.lineTo(cx, height);
-    c.stroke();
+    stroke(c, [[0, cy], [width, cy]], [[cx, 0], [cx, height]]);
     const trace = (points) => {
       c.beginPath();
       let on = false;
@@ -319,9 +315,7 @@ class Plots {
     Object.assign(c, { strokeStyle: colours.fibre, lineWidth: 1, lineJoin: "round", globalAlpha: 0.8 });
     const box = { low: [0, -cx / scale, -1e9], high: [0, (width - cx) / scale, cy / scale] };
     for (const points of laid.lines(0, box, null)) {
-      c.beginPath();
-      points.forEach(([, y, z], i) => (i ? c.lineTo(cx + scale * y, cy - scale * z) : c.moveTo(cx + scale * y, cy - scale * z)));
-      c.stroke();
+      stroke(c, points.map(([, y, z]) => [cx + scale * y, cy - scale * z]));
     }
     c.globalAlpha = 1;
     text(c, "the belt runs this way →", width - 10, 16, "right");
@@ -344,12 +338,7 @@ class Plots {
       c.fillRect(x, y, side + 0.5, side + 0.5);
     });
     Object.assign(c, { strokeStyle: colours.muted, lineWidth: 1 });
-    c.beginPath();
-    c.moveTo(cx - 6, cy);
-    c.lineTo(cx + 6, cy);
-    c.moveTo(cx, cy - 6);
-    c.lineTo(cx, cy + 6);
-    c.stroke();
+    stroke(c, [[cx - 6, cy], [cx + 6, cy]], [[cx, cy - 6], [cx, cy + 6]]);
     text(c, "MD →", width - 10, height - 10, "right");
     text(c, "CD ↑", 10, 16);
     scaleBar(c, height, scale);

@@ -28,10 +28,6 @@ class View {
     this.scene.resize();
   }
 
-  setState(state) {
-    this.state = state;
-  }
-
   /** Takes what is new in a frame, whether it will be drawn or not. */
   take(frame) {
     const { samples } = frame;
@@ -116,57 +112,11 @@ class View {
   listen(act) {
     this.changed = act.changed;
     const { canvas } = this.scene;
-    const pointers = new Map();
-    const apart = () => {
-      const [a, b] = [...pointers.values()];
-      return Math.hypot(a.x - b.x, a.y - b.y);
-    };
-    canvas.addEventListener("pointerdown", (e) => {
-      canvas.setPointerCapture(e.pointerId);
-      pointers.set(e.pointerId, { x: e.clientX, y: e.clientY });
-    });
-    canvas.addEventListener("pointermove", (e) => {
-      const last = pointers.get(e.pointerId);
-      if (!last) return;
-      const gap = pointers.size === 2 ? apart() : 0;
-      pointers.set(e.pointerId, { x: e.clientX, y: e.clientY });
-      const [dx, dy] = [e.clientX - last.x, e.clientY - last.y];
-      const gain = 0.008 / pointers.size;
-      if (e.shiftKey || e.buttons === 4) this.camera.move(dx, dy);
-      else this.camera.turn(-dx * gain, dy * gain);
-      if (pointers.size === 2) this.camera.zoomBy(apart() / Math.max(gap, 1));
-      act.changed();
-    });
-    for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, (e) => pointers.delete(e.pointerId));
-    canvas.addEventListener(
-      "wheel",
-      (e) => {
-        // The wheel scrolls the page; with the control key, or a pinch, it zooms.
-        if (!e.ctrlKey && document.activeElement !== canvas) return;
-        e.preventDefault();
-        this.camera.zoomBy(Math.exp(-e.deltaY * (e.deltaMode === 1 ? 0.05 : 0.0015)), e.offsetX, e.offsetY);
-        act.changed();
-      },
-      { passive: false },
-    );
-    const keys = {
-      ArrowLeft: () => this.camera.turn(0.1, 0),
-      ArrowRight: () => this.camera.turn(-0.1, 0),
-      ArrowUp: () => this.camera.turn(0, -0.1),
-      ArrowDown: () => this.camera.turn(0, 0.1),
-      "+": () => this.camera.zoomBy(1.2),
-      "=": () => this.camera.zoomBy(1.2),
-      "-": () => this.camera.zoomBy(1 / 1.2),
-      r: () => this.camera.look("oblique"),
-      " ": act.play,
-      ".": act.step,
-    };
-    canvas.addEventListener("keydown", (e) => {
-      const key = keys[e.key] ?? keys[e.key.toLowerCase()];
-      if (!key || e.ctrlKey || e.metaKey || e.altKey) return;
-      e.preventDefault();
-      key();
-      act.changed();
+    steer(canvas, this.camera, {
+      changed: act.changed,
+      // The wheel scrolls the page; with the control key, or a pinch, it zooms.
+      zooms: (e) => e.ctrlKey || document.activeElement === canvas,
+      keys: { r: () => this.camera.look("oblique"), " ": act.play, ".": act.step },
     });
   }
 }

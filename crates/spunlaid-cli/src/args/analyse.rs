@@ -17,8 +17,20 @@ pub(crate) struct Analyse {
     pub(crate) scan: Scan,
     #[command(flatten)]
     pub(crate) output: Output,
+    #[command(flatten)]
+    pub(crate) reading: RecordOptions,
+    /// Print analysis.json, or summary.json of a web, instead of the table
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) figures: Figures,
+}
+
+/// How a velocity record is read.
+#[derive(Debug, Args)]
+pub(crate) struct RecordOptions {
     /// Sampling rate, as "20 kHz"; a time column is then ignored
-    #[arg(long, value_name = "RATE", value_parser = |t: &str| quantity(Dimension::Frequency, t))]
+    #[arg(long, value_name = "RATE", value_parser = quantity(Dimension::Frequency))]
     pub(crate) rate: Option<f64>,
     /// Unit of the time if the header has none: s, ms, us
     #[arg(long, value_name = "UNIT")]
@@ -39,7 +51,7 @@ pub(crate) struct Analyse {
     #[arg(long, value_name = "SAMPLES", default_value_t = spunlaid::record::LONGEST_GAP)]
     pub(crate) max_gap: usize,
     /// Mean velocity, as "10 m/s", if the record holds the fluctuation only
-    #[arg(long, value_name = "SPEED", value_parser = |t: &str| quantity(Dimension::Velocity, t))]
+    #[arg(long, value_name = "SPEED", value_parser = quantity(Dimension::Velocity))]
     pub(crate) mean_velocity: Option<f64>,
     /// End of the integral of the autocorrelation: first-zero, e-fold or fixed="50 ms"
     #[arg(long, value_name = "RULE", default_value = "first-zero", value_parser = integral)]
@@ -54,13 +66,8 @@ pub(crate) struct Analyse {
     #[arg(long, value_name = "SHARE", default_value_t = 0.5, value_parser = overlap)]
     pub(crate) overlap: f64,
     /// End of the flat part of the spectrum, as "20 Hz" [default: an eighth of the cut-off]
-    #[arg(long, value_name = "FREQUENCY", value_parser = |t: &str| quantity(Dimension::Frequency, t))]
+    #[arg(long, value_name = "FREQUENCY", value_parser = quantity(Dimension::Frequency))]
     pub(crate) flat_until: Option<f64>,
-    /// Print analysis.json, or summary.json of a web, instead of the table
-    #[arg(long)]
-    pub(crate) json: bool,
-    #[command(flatten)]
-    pub(crate) figures: Figures,
 }
 
 /// How a scan of a web is read.
@@ -68,10 +75,10 @@ pub(crate) struct Analyse {
 #[command(next_help_heading = "Scan or map of a web")]
 pub(crate) struct Scan {
     /// Side of a pixel, as "0.1 mm" [default for PNG and TIFF: as the file says]
-    #[arg(long, value_name = "LENGTH", value_parser = |t: &str| quantity(Dimension::Length, t))]
+    #[arg(long, value_name = "LENGTH", value_parser = quantity(Dimension::Length))]
     pub(crate) pixel: Option<f64>,
     /// Mean basis weight of the sheet, as "15 g/m²" or "15 gsm"
-    #[arg(long, value_name = "WEIGHT", value_parser = |t: &str| quantity(Dimension::BasisWeight, t))]
+    #[arg(long, value_name = "WEIGHT", value_parser = quantity(Dimension::BasisWeight))]
     pub(crate) weight: Option<f64>,
     /// What the values are [default: transmitted for PNG and TIFF, weight for .npy and CSV]
     #[arg(long, value_enum)]
@@ -96,7 +103,7 @@ pub(crate) struct Scan {
     pub(crate) md: Direction,
     /// Sides of the patches, as "1 mm,5 mm,10 mm" [default: from 0.5 mm to a fifth of the picture]
     #[arg(long, value_name = "LENGTHS", value_delimiter = ',',
-          value_parser = |t: &str| quantity(Dimension::Length, t))]
+          value_parser = quantity(Dimension::Length))]
     pub(crate) patches: Vec<f64>,
 }
 

@@ -42,6 +42,14 @@ impl Invocation {
         Self { command: name.to_owned(), options: written.map(words).collect() }
     }
 
+    /// The first option of these that is written, `--keep-shading`.
+    pub(crate) fn first_option<O: clap::Args>(&self) -> Option<String> {
+        let options = O::augment_args(clap::Command::new(""));
+        let is_written = |id: &str| self.options.iter().any(|option| option.starts_with(&format!("--{id} ")));
+        let found = options.get_arguments().find(|option| is_written(option.get_id().as_str()))?;
+        Some(format!("--{}", found.get_long()?))
+    }
+
     /// What its results are made from.
     ///
     /// * `files` – the files or folders that it reads
@@ -55,6 +63,7 @@ impl Invocation {
 
 #[cfg(test)]
 mod tests {
+    use super::super::{RecordOptions, Scan};
     use super::*;
 
     fn invocation(words: &str) -> Invocation {
@@ -72,6 +81,13 @@ mod tests {
         assert_eq!(invocation("spunlaid sweep s.toml --replicates 9 --json").options, [""; 0]);
         assert_eq!(invocation("spunlaid run a.toml --replicates 9 --json").options, ["--replicates 9"]);
         assert_eq!(invocation("spunlaid analyse s.png --keep-shading").options, ["--keep_shading true"]);
+    }
+
+    #[test]
+    fn the_first_option_of_a_kind_is_found_by_its_name() {
+        let written = invocation("spunlaid analyse s.png --noise 3 --out r --keep-shading");
+        assert_eq!(written.first_option::<Scan>().as_deref(), Some("--keep-shading"));
+        assert_eq!(written.first_option::<RecordOptions>(), None);
     }
 
     /// Otherwise an option of another name would count.

@@ -9,13 +9,13 @@ mod new;
 mod output;
 mod source;
 
-pub(crate) use analyse::{Analyse, Direction, LightName};
+pub(crate) use analyse::{Analyse, Direction, LightName, RecordOptions, Scan};
 pub(crate) use figures::Figures;
 pub(crate) use fit::Fit;
 pub(crate) use invocation::Invocation;
-pub(crate) use new::{LineNumbers, New, polymer, titre};
+pub(crate) use new::{LineNumbers, MOST_BEAMS, MOST_HOLES, New, polymer, titre};
 pub(crate) use output::{Output, Threads};
-pub(crate) use source::{CaseSource, is_standard, quoted};
+pub(crate) use source::{CaseSource, is_standard, overrides, quoted};
 
 use clap::{Args, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
@@ -95,13 +95,13 @@ pub(crate) struct Run {
     #[command(flatten)]
     pub(crate) output: Output,
     /// Number of fibres, each in its own turbulence; replaces run.replicates
-    #[arg(long, value_name = "N", value_parser = |text: &str| whole(0, text))]
+    #[arg(long, value_name = "N", value_parser = whole(0))]
     pub(crate) replicates: Option<u64>,
     /// Seed of the turbulence; replaces run.seed
-    #[arg(long, value_name = "S", value_parser = |text: &str| whole(0, text))]
+    #[arg(long, value_name = "S", value_parser = whole(0))]
     pub(crate) seed: Option<u64>,
     /// Fly a finished run again for longer, to this time, as "20 s"; CASE is its results folder
-    #[arg(long, value_name = "TIME", value_parser = |t: &str| quantity(Dimension::Time, t),
+    #[arg(long, value_name = "TIME", value_parser = quantity(Dimension::Time),
           conflicts_with_all = ["set", "replicates", "seed"])]
     pub(crate) until: Option<f64>,
     #[command(flatten)]
@@ -126,16 +126,16 @@ pub(crate) struct Sweep {
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
     pub(crate) set: Vec<(String, String)>,
     /// Fibres or webs at each point, in place of the study's; with more than before, a finished study goes on
-    #[arg(long, value_name = "N", value_parser = |text: &str| whole(1, text))]
+    #[arg(long, value_name = "N", value_parser = whole(1))]
     pub(crate) replicates: Option<u64>,
     /// Print results.json instead of the table
     #[arg(long)]
     pub(crate) json: bool,
     /// Confirm the number of points; needed above 10000 points
-    #[arg(long, value_name = "N", value_parser = |text: &str| whole(0, text))]
+    #[arg(long, value_name = "N", value_parser = whole(0))]
     pub(crate) points: Option<u64>,
     /// Print the case or the web of point K, counted from 1, and fly nothing
-    #[arg(long, value_name = "K", value_parser = |text: &str| whole(0, text))]
+    #[arg(long, value_name = "K", value_parser = whole(0))]
     pub(crate) print_point: Option<u64>,
     #[command(flatten)]
     pub(crate) figures: Figures,
@@ -171,7 +171,7 @@ pub(crate) struct Air {
     #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u64).range(1..=200))]
     pub(crate) frames: u64,
     /// Time from the first picture to the last, as "20 ms" [default: as long as the air needs for the way]
-    #[arg(long, value_name = "TIME", value_parser = |t: &str| quantity(Dimension::Time, t))]
+    #[arg(long, value_name = "TIME", value_parser = quantity(Dimension::Time))]
     pub(crate) duration: Option<f64>,
     #[command(flatten)]
     pub(crate) threads: Threads,
@@ -225,7 +225,7 @@ pub(crate) struct Reproduce {
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub(crate) figures: Vec<String>,
     /// Fibres at each point; the paper has ten
-    #[arg(long, value_name = "N", default_value_t = 10, value_parser = |text: &str| whole(1, text))]
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = whole(1))]
     pub(crate) replicates: u64,
     /// Time integration: the paper's with 1 µs, or another with a suitable step
     #[arg(long, value_enum, default_value = "semi-implicit-euler")]
@@ -247,16 +247,21 @@ pub(crate) enum SchemeName {
     ImplicitTension,
 }
 
-/// A whole number from `least`.
-fn whole(least: u64, text: &str) -> Result<u64, String> {
-    let number = text.trim().parse().ok().filter(|number| *number >= least);
-    number.ok_or_else(|| format!("write a whole number from {least} in digits, like 1000"))
+/// Reads a whole number from `least`.
+fn whole(least: u64) -> impl Fn(&str) -> Result<u64, String> + Clone {
+    move |text| {
+        let number = text.trim().parse().ok().filter(|number| *number >= least);
+        number.ok_or_else(|| format!("write a whole number from {least} in digits, like 1000"))
+    }
 }
 
-pub(crate) fn quantity(dimension: Dimension, text: &str) -> Result<f64, String> {
-    let value = dimension.parse(text).map_err(|fault| fault.to_string())?;
-    let signed = dimension == Dimension::Velocity;
-    if value > 0.0 || (signed && value < 0.0) { Ok(value) } else { Err("is not above zero".to_owned()) }
+/// Reads a quantity in SI units.
+pub(crate) fn quantity(dimension: Dimension) -> impl Fn(&str) -> Result<f64, String> + Clone {
+    move |text| {
+        let value = dimension.parse(text).map_err(|fault| fault.to_string())?;
+        let signed = dimension == Dimension::Velocity;
+        if value > 0.0 || (signed && value < 0.0) { Ok(value) } else { Err("is not above zero".to_owned()) }
+    }
 }
 
 #[derive(Debug, Args)]

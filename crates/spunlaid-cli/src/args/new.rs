@@ -6,6 +6,10 @@ use spunlaid::spinline::Polymer;
 use spunlaid::units::Dimension;
 use std::path::PathBuf;
 
+/// Most beams of a line, and most holes of a beam.
+pub(crate) const MOST_BEAMS: u64 = 20;
+pub(crate) const MOST_HOLES: u64 = 10_000_000;
+
 #[derive(Debug, Args)]
 pub(crate) struct New {
     /// File to write; it must not exist yet. A single - is standard output
@@ -32,16 +36,16 @@ pub(crate) struct LineNumbers {
     #[arg(long, value_name = "NAME", requires = "web", value_parser = polymer)]
     pub(crate) polymer: Option<Polymer>,
     /// Throughput of a hole, as "0.5 g/min"
-    #[arg(long, value_name = "FLOW", requires = "web", value_parser = |t: &str| quantity(Dimension::MassFlow, t))]
+    #[arg(long, value_name = "FLOW", requires = "web", value_parser = quantity(Dimension::MassFlow))]
     pub(crate) throughput: Option<f64>,
     /// Titre of a filament in dtex, or with its unit, as "1.8 den"
     #[arg(long, value_name = "TITRE", requires = "web", conflicts_with = "diameter", value_parser = titre)]
     pub(crate) dtex: Option<f64>,
     /// Diameter of a filament in place of the titre, as "16 µm"
-    #[arg(long, value_name = "LENGTH", requires = "web", value_parser = |t: &str| quantity(Dimension::Length, t))]
+    #[arg(long, value_name = "LENGTH", requires = "web", value_parser = quantity(Dimension::Length))]
     pub(crate) diameter: Option<f64>,
     /// Basis weight of the web, of all beams together, as "20 g/m²" or "20 gsm"
-    #[arg(long, value_name = "WEIGHT", requires = "web", value_parser = |t: &str| quantity(Dimension::BasisWeight, t))]
+    #[arg(long, value_name = "WEIGHT", requires = "web", value_parser = quantity(Dimension::BasisWeight))]
     pub(crate) basis_weight: Option<f64>,
     /// Holes of a beam per metre of width
     #[arg(long, value_name = "N", requires = "web", value_parser = holes())]
@@ -50,21 +54,21 @@ pub(crate) struct LineNumbers {
     #[arg(long, value_name = "N", requires_all = ["web", "width"], conflicts_with = "holes_per_metre", value_parser = holes())]
     pub(crate) holes: Option<u64>,
     /// Speed of the air at the end of the slot, as "60 m/s"
-    #[arg(long, value_name = "SPEED", requires = "web", value_parser = |t: &str| quantity(Dimension::Velocity, t))]
+    #[arg(long, value_name = "SPEED", requires = "web", value_parser = quantity(Dimension::Velocity))]
     pub(crate) air_speed: Option<f64>,
     /// Width of the web [default: "1 m"]
-    #[arg(long, value_name = "LENGTH", requires = "web", value_parser = |t: &str| quantity(Dimension::Length, t))]
+    #[arg(long, value_name = "LENGTH", requires = "web", value_parser = quantity(Dimension::Length))]
     pub(crate) width: Option<f64>,
     /// Distance from the slot to the belt [default: "0.5 m"]
-    #[arg(long, value_name = "LENGTH", requires = "web", value_parser = |t: &str| quantity(Dimension::Length, t))]
+    #[arg(long, value_name = "LENGTH", requires = "web", value_parser = quantity(Dimension::Length))]
     pub(crate) distance: Option<f64>,
     /// Number of equal beams, one behind the other [default: 1]
-    #[arg(long, value_name = "N", requires = "web", value_parser = clap::value_parser!(u64).range(1..=20))]
+    #[arg(long, value_name = "N", requires = "web", value_parser = clap::value_parser!(u64).range(1..=MOST_BEAMS))]
     pub(crate) beams: Option<u64>,
 }
 
 fn holes() -> impl clap::builder::TypedValueParser<Value = u64> {
-    clap::value_parser!(u64).range(1..=10_000_000)
+    clap::value_parser!(u64).range(1..=MOST_HOLES)
 }
 
 pub(crate) fn polymer(name: &str) -> Result<Polymer, String> {
@@ -78,5 +82,5 @@ pub(crate) fn titre(text: &str) -> Result<f64, String> {
         Ok(_) => format!("{} dtex", text.trim()),
         Err(_) => text.to_owned(),
     };
-    quantity(Dimension::LinearDensity, &with_unit)
+    quantity(Dimension::LinearDensity)(&with_unit)
 }

@@ -1,7 +1,7 @@
 //! Options that most commands have in common.
 
 use clap::{Args, ValueHint};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::thread::available_parallelism;
 
 /// Where results go, and what is said meanwhile.
@@ -16,6 +16,18 @@ pub(crate) struct Output {
     /// Replace any results in the output folder; those of the same command are replaced without it
     #[arg(long)]
     pub(crate) force: bool,
+}
+
+impl Output {
+    /// The requested folder, or `results/NAME`.
+    pub(crate) fn folder(&self, name: impl AsRef<Path>) -> PathBuf {
+        self.out.clone().unwrap_or_else(|| Path::new("results").join(name))
+    }
+
+    /// The same; with `json`, results go to a folder only if one is requested.
+    pub(crate) fn optional_folder(&self, json: bool, name: impl AsRef<Path>) -> Option<PathBuf> {
+        (self.out.is_some() || !json).then(|| self.folder(name))
+    }
 }
 
 /// The processors that may be used.

@@ -18,12 +18,17 @@ pub(crate) struct CaseSource {
     pub(crate) set: Vec<(String, String)>,
 }
 
+/// The values of `--set`, as messages name them.
+pub(crate) fn overrides(values: &[(String, String)]) -> Overrides<'_> {
+    Overrides { values, word: "--set" }
+}
+
 impl CaseSource {
     /// Reads the case with the values of `--set` and these.
     pub(crate) fn read(&self, more: &[(&str, String)]) -> Result<(Case, Vec<Note>), Error> {
         let more = more.iter().map(|(key, value)| ((*key).to_owned(), value.clone()));
         let values: Vec<_> = self.set.iter().cloned().chain(more).collect();
-        let overrides = Overrides { values: &values, word: "--set" };
+        let overrides = overrides(&values);
         if is_standard(&self.case) {
             return parse_case(&standard_input()?, STANDARD_INPUT, overrides);
         }

@@ -1,7 +1,7 @@
 //! `spunlaid air`: the turbulent air of a case, looked at while it passes.
 
 use super::interrupt::stop_on_ctrl_c;
-use super::{staged, stem};
+use super::{say_report, staged, stem};
 use crate::args::{Air, Invocation};
 use crate::failure::Failure;
 use crate::{progress, say};
@@ -28,7 +28,7 @@ pub(crate) fn air(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
         told.push(UNIFORM.to_owned());
     }
     let name = stem(&air.source.case, "case").to_string_lossy().into_owned();
-    let folder = super::folder(air.output.out.as_ref(), format!("{name}_air"));
+    let folder = air.output.folder(format!("{name}_air"));
     let stop = stop_on_ctrl_c();
     let origin = invocation.origin(&[&air.source.case], &folder);
     let staging = staged((&folder, ENTRIES), &air.output, origin, &air.figures.files())?;
@@ -44,7 +44,7 @@ pub(crate) fn air(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
     staging.publish()?;
     if !air.output.quiet {
         say::line(&results.headline());
-        say::line(&format!("open {}", folder.join("report.html").display()));
+        say_report(&folder);
     }
     Ok(())
 }

@@ -1,12 +1,12 @@
 //! `spunlaid analyse` makes the air of a case from a velocity record; a scan of a web goes to `scan`.
 
 use super::scan::{is_picture, scan};
-use super::{staged, stem};
-use crate::args::{Analyse, Direction, Invocation};
+use super::{say_report, staged, stem};
+use crate::args::{Analyse, Invocation, RecordOptions, Scan};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::error::{Fault, FileError, Problem};
-use spunlaid::record::{Analysis, LONGEST_GAP, Layout, Record, Settings, SpectrumSettings, read_record};
+use spunlaid::record::{Analysis, Layout, Record, Settings, SpectrumSettings, read_record};
 use spunlaid_results::figures::record_figures;
 use spunlaid_results::output::analysis::{
     air_block, analysis_json, autocorrelation_csv, result_table, spectrum_csv,
@@ -16,7 +16,9 @@ use spunlaid_results::report::{AnalysisReport, analysis_html};
 
 pub(crate) fn analyse(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     let is_scan = analyse.scan.pixel.is_some() || is_picture(&analyse.record);
-    if let Some(option) = if is_scan { of_records(analyse) } else { of_scans(analyse) } {
+    let foreign =
+        if is_scan { invocation.first_option::<RecordOptions>() } else { invocation.first_option::<Scan>() };
+    if let Some(option) = foreign {
         let fault = if is_scan {
             let message =
                 format!("is read as a scan or a map of a web, and {option} is for velocity records only");
@@ -31,51 +33,13 @@ pub(crate) fn analyse(analyse: &Analyse, invocation: &Invocation) -> Result<(), 
     if is_scan { scan(analyse, invocation) } else { record(analyse, invocation) }
 }
 
-/// The first option given that only a velocity record takes.
-fn of_records(arguments: &Analyse) -> Option<&'static str> {
-    let usual = Settings::default();
-    let given = [
-        ("--rate", arguments.rate.is_some()),
-        ("--time-unit", arguments.time_unit.is_some()),
-        ("--velocity-unit", arguments.velocity_unit.is_some()),
-        ("--columns", !arguments.columns.is_empty()),
-        ("--time-column", arguments.time_column.is_some()),
-        ("--skip", arguments.skip != 0),
-        ("--max-gap", arguments.max_gap != LONGEST_GAP),
-        ("--mean-velocity", arguments.mean_velocity.is_some()),
-        ("--integral", arguments.integral != usual.integral),
-        ("--segment", arguments.segment.is_some()),
-        ("--window", arguments.window != usual.spectrum.window),
-        ("--overlap", arguments.overlap != usual.spectrum.overlap),
-        ("--flat-until", arguments.flat_until.is_some()),
-    ];
-    given.into_iter().find_map(|(name, given)| given.then_some(name))
-}
-
-/// The first option given that only a scan or a map takes.
-fn of_scans(arguments: &Analyse) -> Option<&'static str> {
-    let scan_options = &arguments.scan;
-    let given = [
-        ("--weight", scan_options.weight.is_some()),
-        ("--light", scan_options.light.is_some()),
-        ("--lamp", scan_options.lamp.is_some()),
-        ("--white", scan_options.white.is_some()),
-        ("--keep-shading", scan_options.keep_shading),
-        ("--keep-spots", scan_options.keep_spots),
-        ("--noise", scan_options.noise.is_some()),
-        ("--md", scan_options.md != Direction::Columns),
-        ("--patches", !scan_options.patches.is_empty()),
-    ];
-    given.into_iter().find_map(|(name, given)| given.then_some(name))
-}
-
 fn record(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     let name = stem(&analyse.record, "record");
-    let folder = super::folder(analyse.output.out.as_ref(), name);
+    let folder = analyse.output.folder(name);
     let origin = invocation.origin(&[&analyse.record], &folder);
     let staging = staged((&folder, ENTRIES), &analyse.output, origin, &analyse.figures.files())?;
-    let record = read_record(&analyse.record, &layout(analyse))?;
-    let analysis = spunlaid::record::analyse(&record, &settings(analyse))?;
+    let record = read_record(&analyse.record, &layout(&analyse.reading))?;
+    let analysis = spunlaid::record::analyse(&record, &settings(&analyse.reading))?;
     let remarks = remarks(&record);
     remarks.iter().for_each(|remark| say::aside(&format!("note: {remark}")));
     analysis.warnings.iter().for_each(|warning| say::warning(&warning.to_string()));
@@ -88,33 +52,33 @@ fn record(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     } else if !analyse.output.quiet {
         say::text(&result_table(&record, &analysis));
         say::line(&format!("\nthe [air] of a case is in {}", folder.join("air.toml").display()));
-        say::line(&format!("open {}", folder.join("report.html").display()));
+        say_report(&folder);
     }
     Ok(())
 }
 
-fn layout(analyse: &Analyse) -> Layout {
+fn layout(options: &RecordOptions) -> Layout {
     Layout {
-        rate: analyse.rate,
-        time_unit: analyse.time_unit.clone(),
-        velocity_unit: analyse.velocity_unit.clone(),
-        columns: analyse.columns.clone(),
-        time_column: analyse.time_column.clone(),
-        skip_lines: analyse.skip,
-        longest_gap: analyse.max_gap,
+        rate: options.rate,
+        time_unit: options.time_unit.clone(),
+        velocity_unit: options.velocity_unit.clone(),
+        columns: options.columns.clone(),
+        time_column: options.time_column.clone(),
+        skip_lines: options.skip,
+        longest_gap: options.max_gap,
     }
 }
 
-fn settings(analyse: &Analyse) -> Settings {
+fn settings(options: &RecordOptions) -> Settings {
     Settings {
-        integral: analyse.integral,
+        integral: options.integral,
         spectrum: SpectrumSettings {
-            window: analyse.window,
-            overlap: analyse.overlap,
-            segment: analyse.segment,
+            window: options.window,
+            overlap: options.overlap,
+            segment: options.segment,
         },
-        flat_until: analyse.flat_until,
-        mean_velocity: analyse.mean_velocity,
+        flat_until: options.flat_until,
+        mean_velocity: options.mean_velocity,
     }
 }
 

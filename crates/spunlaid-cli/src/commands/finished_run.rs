@@ -34,14 +34,15 @@ pub(super) fn summary(folder: &Path) -> Result<Json, Failure> {
 /// If the folder has none.
 pub(super) fn any_summary(folder: &Path) -> Result<Json, Failure> {
     let not_a_run = |reason: String| Error::not_a_run(folder, &reason);
-    if folder.is_file() {
-        return Err(not_a_run("it is a file".to_owned()).into());
-    }
-    if !folder.is_dir() {
-        return Err(not_a_run("there is no such folder".to_owned()).into());
-    }
-    if folder.join("results.csv").exists() || folder.join("analysis.json").exists() {
-        return Err(not_a_run("it holds a study or an analysis".to_owned()).into());
+    let holds_other = ["results.csv", "analysis.json"].iter().any(|file| folder.join(file).exists());
+    for (is_so, reason) in [
+        (folder.is_file(), "it is a file"),
+        (!folder.is_dir(), "there is no such folder"),
+        (holds_other, "it holds a study or an analysis"),
+    ] {
+        if is_so {
+            return Err(not_a_run(reason.to_owned()).into());
+        }
     }
     let path = folder.join(SUMMARY);
     let text = fs::read_to_string(&path).map_err(|error| not_a_run(format!("{SUMMARY}: {error}")))?;

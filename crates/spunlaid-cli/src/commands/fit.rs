@@ -1,26 +1,23 @@
 //! `spunlaid fit`: which values of some keys make a web like a scan?
 
 use super::interrupt::stop_on_ctrl_c;
-use super::{aligned, plural, stem};
-use crate::args::{self, Invocation};
+use super::{aligned, lay_control, plural, say_report, stem};
+use crate::args::{self, Invocation, overrides};
 use crate::failure::Failure;
-use crate::say;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use crate::{progress, say};
 use spunlaid::case::Note;
 use spunlaid::error::Error;
 use spunlaid::fit::{Fit, Question, Target, WebInProgress, fit as find};
-use spunlaid::input::{FitFile, Overrides, read_fit};
-use spunlaid::lanes::Isa;
+use spunlaid::input::{FitFile, read_fit};
 use spunlaid::layers::{Flights, Flyer};
 use spunlaid::study::{Journal, JournalState};
-use spunlaid::web::LayControl;
 use spunlaid_results::folders::fit::{FitFolder, FitInput};
 use spunlaid_results::folders::read_measured_web;
 use spunlaid_results::output::fit::{fit_json, pretty, refused, sentences, value_and_interval};
 use std::sync::atomic::AtomicU64;
 
 pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), Failure> {
-    let set = Overrides { values: &arguments.set, word: "--set" };
+    let set = overrides(&arguments.set);
     let file = read_fit(&arguments.web, set, &arguments.vary, "--vary")?;
     file.start.notes.iter().for_each(say::note);
     let scan = read_measured_web(&arguments.to)?;
@@ -37,7 +34,7 @@ pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), 
         webs: arguments.webs,
         notes: &notes,
     };
-    let path = super::folder(arguments.output.out.as_ref(), format!("{name}_fit"));
+    let path = arguments.output.folder(format!("{name}_fit"));
     let origin = invocation.origin(&[&arguments.web], &path);
     let (mut folder, mut journal, state) =
         FitFolder::open(&path, &input, arguments.output.force, origin.as_ref(), stop_on_ctrl_c())?;
@@ -56,7 +53,7 @@ pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), 
     } else if !arguments.output.quiet {
         say::text(&table(&found));
         sentences(&found).iter().chain(&refused(&found)).for_each(|sentence| say::line(sentence));
-        say::line(&format!("open {}", path.join("report.html").display()));
+        say_report(&path);
     }
     Ok(())
 }
@@ -81,11 +78,13 @@ fn search(
 ) -> Result<Fit, Error> {
     let make = |values: &[f64]| Ok(file.web(values)?.spec);
     let question = Question { parameters: &file.parameters, target, make: &make, webs: arguments.webs };
-    let (stop, laid) = (stop_on_ctrl_c(), AtomicU64::new(0));
-    let bar = bar(arguments);
+    let laid = AtomicU64::new(0);
+    let by = lay_control(arguments.threads, &laid);
+    // How many trials there will be is not known.
+    let template = "{msg} [{bar:20}] web {pos} of {len}  {elapsed} elapsed";
+    let bar = progress::bar(arguments.webs, template, arguments.output.quiet);
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
-    let flyer = Flyer::new(arguments.threads.number(), stop, &follow);
-    let by = LayControl { threads: arguments.threads.number(), isa: Isa::detect(), stop, laid: &laid };
+    let flyer = Flyer::new(by.threads, by.stop, &follow);
     let watch = |WebInProgress { trial, web, webs, values }: WebInProgress<'_>| {
         let values = file.parameters.iter().zip(values);
         let values = values.map(|(key, value)| format!("{} = {}", key.key, pretty(key, *value)));
@@ -96,18 +95,6 @@ fn search(
     let found = find(question, flyer, by, journal, &watch);
     bar.finish_and_clear();
     found
-}
-
-/// A bar for the webs of a trial; how many trials there will be is not known.
-fn bar(arguments: &args::Fit) -> ProgressBar {
-    let target =
-        if arguments.output.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-    let bar = ProgressBar::with_draw_target(Some(arguments.webs), target);
-    if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:20}] web {pos} of {len}  {elapsed} elapsed")
-    {
-        bar.set_style(style.progress_chars("=> "));
-    }
-    bar
 }
 
 /// The table for the terminal.

@@ -40,6 +40,11 @@ impl KeyEntry {
         Self { synonyms: key.all_synonyms(), usual: key.usual_range(), ..Self::new(key) }
     }
 
+    /// Those of two words, for studies and for flights, in which it may change.
+    fn name_changes(&self, words: [&'static str; 2]) -> Vec<&'static str> {
+        self.may_change.into_iter().zip(words).filter_map(|(may, word)| may.then_some(word)).collect()
+    }
+
     /// Its name within a table, if it belongs there.
     fn within(&self, table: &str) -> Option<&'static str> {
         self.name.strip_prefix(table)?.strip_prefix('.')
@@ -135,13 +140,7 @@ fn takes(key: &KeyEntry) -> String {
 
 /// Where its value may change.
 fn may_change(key: &KeyEntry) -> String {
-    match (key.may_change[0], key.may_change[1]) {
-        (true, true) => "in a study, and during a flight",
-        (true, false) => "in a study",
-        (false, true) => "during a flight",
-        (false, false) => "",
-    }
-    .to_owned()
+    key.name_changes(["in a study", "during a flight"]).join(", and ")
 }
 
 const HEAD: &str = "# The keys of a case
@@ -190,8 +189,6 @@ fn markdown(found: &[KeyEntry], head: &str, tables: &[&str]) -> String {
                 Omission::Value(value) => format!("`{value}`"),
                 Omission::Follows(words) => words.to_owned(),
             };
-            let marks = key.may_change.into_iter().zip(["study", "flight"]);
-            let marks: Vec<&str> = marks.filter(|(is, _)| *is).map(|(_, mark)| mark).collect();
             let _ = writeln!(
                 text,
                 "| `{short}` | {} | {omission} | {}{} | {} |",
@@ -202,7 +199,7 @@ fn markdown(found: &[KeyEntry], head: &str, tables: &[&str]) -> String {
                 } else {
                     format!(" Also: {}.", key.synonyms.join(", "))
                 },
-                marks.join(", ")
+                key.name_changes(["study", "flight"]).join(", ")
             );
         }
     }

@@ -1,59 +1,47 @@
 //! The commands of the program.
 
-mod air;
-mod analyse;
-mod check;
-mod compare;
-mod completions;
+pub(crate) mod air;
+pub(crate) mod analyse;
+pub(crate) mod check;
+pub(crate) mod compare;
+pub(crate) mod completions;
 mod finished_run;
-mod fit;
+pub(crate) mod fit;
 mod interrupt;
-mod keys;
-mod live;
-mod man;
-mod new;
-mod reproduce;
-mod run;
+pub(crate) mod keys;
+pub(crate) mod live;
+pub(crate) mod man;
+pub(crate) mod new;
+pub(crate) mod reproduce;
+pub(crate) mod run;
 mod scan;
-mod spin;
-mod sweep;
-mod web;
+pub(crate) mod spin;
+pub(crate) mod sweep;
+pub(crate) mod web;
 
-pub(crate) use air::air;
-pub(crate) use analyse::analyse;
-pub(crate) use check::check;
-pub(crate) use compare::compare;
-pub(crate) use completions::completions;
-pub(crate) use fit::fit;
-pub(crate) use keys::keys;
-pub(crate) use live::live;
-pub(crate) use man::man;
-pub(crate) use new::new;
-pub(crate) use reproduce::reproduce;
-pub(crate) use run::run;
-pub(crate) use spin::spin;
-pub(crate) use sweep::sweep;
-pub(crate) use web::web;
-
-use crate::args::{Output, is_standard};
+use crate::args::{Output, Threads, is_standard};
 use crate::failure::Failure;
 use crate::say;
 use interrupt::stop_on_ctrl_c;
+use serde::Serialize;
+use spunlaid::ensemble::RunControl;
+use spunlaid::lanes::Isa;
+use spunlaid::web::LayControl;
 use spunlaid_results::output::folder::Staging;
+use spunlaid_results::output::json_text;
 use spunlaid_results::output::origin::Origin;
 use spunlaid_results::output::pictures::FigureFiles;
 use std::ffi::OsStr;
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
+use std::sync::atomic::AtomicU64;
+
+/// Largest number of points of a study that are listed.
+const LISTED: usize = 24;
 
 /// The name of a file without its extension.
 fn stem<'a>(file: &'a Path, otherwise: &'a str) -> &'a OsStr {
     file.file_stem().filter(|_| !is_standard(file)).unwrap_or(otherwise.as_ref())
-}
-
-/// The requested folder, or `results/NAME`.
-fn folder(out: Option<&PathBuf>, name: impl AsRef<Path>) -> PathBuf {
-    out.cloned().unwrap_or_else(|| Path::new("results").join(name))
 }
 
 /// Collects the results of a command. What the same command wrote before is replaced, and a note says so.
@@ -78,6 +66,34 @@ fn say_replaced(folder: &Path, quiet: bool) {
             format!("{}: holds earlier results of this command, which are replaced", folder.display());
         say::remark(false, &replaced);
     }
+}
+
+/// Says which report to open.
+fn say_report(folder: impl AsRef<Path>) {
+    say::line(&format!("open {}", folder.as_ref().join("report.html").display()));
+}
+
+/// How fibres are flown; Ctrl-C ends it.
+fn run_control(threads: Threads, fibre_steps: &AtomicU64) -> RunControl<'_> {
+    let (threads, isa, stop) = (threads.number(), Isa::detect(), stop_on_ctrl_c());
+    RunControl { threads, isa, stop, fibre_steps, recorder: None }
+}
+
+/// How a web is laid; Ctrl-C ends it.
+fn lay_control(threads: Threads, laid: &AtomicU64) -> LayControl<'_> {
+    LayControl { threads: threads.number(), isa: Isa::detect(), stop: stop_on_ctrl_c(), laid }
+}
+
+/// A text of JSON that says which version wrote it.
+fn versioned_json(content: &impl Serialize) -> String {
+    #[derive(Serialize)]
+    struct Versioned<'a, T> {
+        schema_version: u32,
+        spunlaid_version: &'static str,
+        #[serde(flatten)]
+        content: &'a T,
+    }
+    json_text(&Versioned { schema_version: 1, spunlaid_version: env!("CARGO_PKG_VERSION"), content })
 }
 
 /// `1 fibre`, `2 fibres`.

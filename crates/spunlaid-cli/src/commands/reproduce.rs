@@ -1,7 +1,6 @@
 //! `spunlaid reproduce`: draws the paper's figures again and tests its claims.
 
-use super::interrupt::stop_on_ctrl_c;
-use super::{plural, staged};
+use super::{plural, run_control, say_report, staged, versioned_json};
 use crate::args::{Invocation, Reproduce, SchemeName};
 use crate::failure::Failure;
 use crate::{progress, say};
@@ -14,7 +13,6 @@ use spunlaid::ensemble::{
 };
 use spunlaid::error::Fault;
 use spunlaid::input::write_case;
-use spunlaid::lanes::Isa;
 use spunlaid::paper::{
     Claim, Parameter, TrendPoint, choices as choices_of_the_paper, claims_of_step_errors, claims_of_trend,
     in_scheme, table1, time_steps,
@@ -24,7 +22,6 @@ use spunlaid::threads::unlock;
 use spunlaid_charts::Figure;
 use spunlaid_results::figures::paper as draw;
 use spunlaid_results::output::folder::ENTRIES;
-use spunlaid_results::output::json_text;
 use spunlaid_results::output::pictures::Format;
 use spunlaid_results::output::study::shown;
 use spunlaid_results::report::{PaperReport, paper_html};
@@ -44,20 +41,13 @@ pub(crate) fn reproduce(arguments: &Reproduce, invocation: &Invocation) -> Resul
     };
     let mut base = table1(scheme)?;
     base.run.replicates = arguments.replicates;
-    let folder = super::folder(arguments.output.out.as_ref(), "paper");
-    let stop = stop_on_ctrl_c();
+    let folder = arguments.output.folder("paper");
     let origin = invocation.origin(&[], &folder);
     let staging = staged((&folder, ENTRIES), &arguments.output, origin, &arguments.width.files(&formats))?;
     let flying = PaperFlights::new(&base, &wanted)?;
 
     let fibre_steps = AtomicU64::new(0);
-    let computing = RunControl {
-        threads: arguments.threads.number(),
-        isa: Isa::detect(),
-        stop,
-        fibre_steps: &fibre_steps,
-        recorder: None,
-    };
+    let computing = run_control(arguments.threads, &fibre_steps);
     let label = format!("flying {}", plural(flying.fibres(), "fibre"));
     let flown = progress::follow(&fibre_steps, flying.steps(), &label, arguments.output.quiet, || {
         flying.fly(computing)
@@ -92,7 +82,7 @@ pub(crate) fn reproduce(arguments: &Reproduce, invocation: &Invocation) -> Resul
             say::line(&format!("{:<4} {:<13} {}", claim.figure, claim.verdict.name(), claim.claim));
             say::line(&format!("                   {}", claim.evidence));
         }
-        say::line(&format!("open {}", folder.join("report.html").display()));
+        say_report(&folder);
     }
     Ok(())
 }
@@ -299,9 +289,7 @@ impl PaperResults {
 fn summary(claims: &[Claim]) -> String {
     #[derive(Serialize)]
     struct Summary<'a> {
-        schema_version: u32,
-        spunlaid_version: &'static str,
         claims: &'a [Claim],
     }
-    json_text(&Summary { schema_version: 1, spunlaid_version: env!("CARGO_PKG_VERSION"), claims })
+    versioned_json(&Summary { claims })
 }

@@ -1,14 +1,12 @@
 //! `spunlaid run`: flies a case and writes the results.
 
 use super::finished_run::continued;
-use super::interrupt::stop_on_ctrl_c;
-use super::{plural, staged, stem};
+use super::{plural, run_control, say_report, staged, stem};
 use crate::args::{Invocation, Output, Run};
 use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::case::Note;
-use spunlaid::ensemble::{FinerPlans, RunControl};
-use spunlaid::lanes::Isa;
+use spunlaid::ensemble::FinerPlans;
 use spunlaid_results::folders::run as files;
 use spunlaid_results::output::folder::{ENTRIES, Staging};
 use spunlaid_results::output::{finer, table};
@@ -28,19 +26,12 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     let name = name(run);
     let folder = match run.until {
         Some(_) if run.output.out.is_none() => Some(run.source.case.clone()),
-        _ => (run.output.out.is_some() || !run.json).then(|| super::folder(run.output.out.as_ref(), &name)),
+        _ => run.output.optional_folder(run.json, &name),
     };
-    let stop = stop_on_ctrl_c();
     let staging = folder.as_ref().map(|folder| staging(run, invocation, folder)).transpose()?;
 
     let fibre_steps = AtomicU64::new(0);
-    let computing = RunControl {
-        threads: run.threads.number(),
-        isa: Isa::detect(),
-        stop,
-        fibre_steps: &fibre_steps,
-        recorder: None,
-    };
+    let computing = run_control(run.threads, &fibre_steps);
     let started = Instant::now();
     let plans = FinerPlans::for_case(&case);
     let (results, checks) = progress::follow(
@@ -87,9 +78,7 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
             performance.instruction_set,
             plural(performance.threads as u64, "thread")
         ));
-        if let Some(folder) = folder {
-            say::line(&format!("open {}", folder.join("report.html").display()));
-        }
+        folder.iter().for_each(say_report);
     }
     lost.map_or(Ok(()), |lost| Err(Failure::FibresLost { lost }))
 }

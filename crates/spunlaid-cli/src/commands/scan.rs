@@ -1,6 +1,6 @@
 //! `spunlaid analyse` of a scan or a map of a web.
 
-use super::{staged, stem};
+use super::{say_report, staged, stem};
 use crate::args::{Analyse, Direction, Invocation, LightName};
 use crate::failure::Failure;
 use crate::say;
@@ -22,18 +22,13 @@ pub(super) fn is_picture(file: &Path) -> bool {
 
 pub(super) fn scan(arguments: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     let name = stem(&arguments.record, "scan").to_string_lossy().into_owned();
-    let folder = super::folder(arguments.output.out.as_ref(), &name);
+    let folder = arguments.output.folder(&name);
     let origin = invocation.origin(&[&arguments.record], &folder);
     let staging = staged((&folder, ENTRIES), &arguments.output, origin, &arguments.figures.files())?;
     let started = Instant::now();
     let picture = turned(read(&arguments.record, arguments.scan.pixel)?, arguments);
     let findings = analyse(&picture, &settings(arguments, &picture)?)?;
-    let performance = Performance {
-        wall_s: started.elapsed().as_secs_f64(),
-        threads: 1,
-        instruction_set: Isa::detect().name(),
-        ..Performance::default()
-    };
+    let performance = Performance::measure(started, 1, Isa::detect());
     let notes: Vec<String> = findings.notes.iter().map(ToString::to_string).collect();
     let summary = Summary::of_scan(&picture.file, &findings, performance, &notes).to_json();
     web::write_scan(&staging, &findings.map)?;
@@ -49,7 +44,7 @@ pub(super) fn scan(arguments: &Analyse, invocation: &Invocation) -> Result<(), F
     } else if !arguments.output.quiet {
         say::text(&table(&findings));
         notes.iter().for_each(|note| say::remark(false, note));
-        say::line(&format!("open {}", folder.join("report.html").display()));
+        say_report(&folder);
     }
     Ok(())
 }

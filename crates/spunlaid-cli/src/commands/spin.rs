@@ -1,24 +1,23 @@
 //! `spunlaid spin`: solves a spinline, from the hole of the spinneret to the solid filament.
 
-use super::{staged, stem};
-use crate::args::{Invocation, Spin};
+use super::{say_report, staged, stem};
+use crate::args::{Invocation, Spin, overrides};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::case::Note;
-use spunlaid::input::{Overrides, read_spinline};
+use spunlaid::input::read_spinline;
 use spunlaid_results::folders::spinline::SpinFolder;
 use spunlaid_results::output::spinline::{ENTRIES, SpinResults, remarks, text};
 
 pub(crate) fn spin(spin: &Spin, invocation: &Invocation) -> Result<(), Failure> {
-    let file = read_spinline(&spin.file, Overrides { values: &spin.set, word: "--set" })?;
+    let file = read_spinline(&spin.file, overrides(&spin.set))?;
     file.notes.iter().for_each(say::note);
     let name = stem(&spin.file, "spinline").to_string_lossy().into_owned();
     let results = SpinResults::new(&file)?;
     let found = remarks(&results.rows);
     let notes = [Note::of_results(&file.notes), found.clone()].concat();
     let written = SpinFolder { name: &name, file: &file, results: &results, notes: &notes };
-    let folder =
-        (spin.output.out.is_some() || !spin.json).then(|| super::folder(spin.output.out.as_ref(), &name));
+    let folder = spin.output.optional_folder(spin.json, &name);
     if let Some(folder) = &folder {
         let origin = invocation.origin(&[&spin.file], folder);
         let staging = staged((folder, ENTRIES), &spin.output, origin, &spin.figures.files())?;
@@ -30,9 +29,7 @@ pub(crate) fn spin(spin: &Spin, invocation: &Invocation) -> Result<(), Failure> 
     } else if !spin.output.quiet {
         say::text(&text(&results.rows, &results.influences));
         found.iter().for_each(|note| say::remark(false, note));
-        if let Some(folder) = folder {
-            say::line(&format!("open {}", folder.join("report.html").display()));
-        }
+        folder.iter().for_each(say_report);
     }
     Ok(())
 }

@@ -1,15 +1,13 @@
 //! `spunlaid web`: lays a web of many filaments and says how even it is.
 
-use super::interrupt::stop_on_ctrl_c;
-use super::{aligned, plural, staged, stem};
-use crate::args::{self, Invocation};
+use super::{aligned, lay_control, plural, say_report, staged, stem};
+use crate::args::{self, Invocation, overrides};
 use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::advice::{Advice, Change, advise, steps};
 use spunlaid::case::Note;
 use spunlaid::error::Error;
-use spunlaid::input::{Method, Overrides, WebFile, read_changes, read_web};
-use spunlaid::lanes::Isa;
+use spunlaid::input::{Method, WebFile, read_changes, read_web};
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
 use spunlaid::web::{Findings, LayControl, PatchFindings, Web};
 use spunlaid_results::folders;
@@ -22,13 +20,11 @@ use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
 pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), Failure> {
-    let set = Overrides { values: &arguments.set, word: "--set" };
+    let set = overrides(&arguments.set);
     let file = read_web(&arguments.file, set)?;
     file.notes.iter().for_each(say::note);
     let name = stem(&arguments.file, "web").to_string_lossy().into_owned();
-    let folder = (arguments.output.out.is_some() || !arguments.json)
-        .then(|| super::folder(arguments.output.out.as_ref(), &name));
-    let stop = stop_on_ctrl_c();
+    let folder = arguments.output.optional_folder(arguments.json, &name);
     let staged = |folder: &PathBuf| {
         let origin = invocation.origin(&[&arguments.file], folder);
         staged((folder, ENTRIES), &arguments.output, origin, &arguments.figures.files())
@@ -39,11 +35,11 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
 
     let started = Instant::now();
     let follow = flying(arguments.output.quiet);
-    let mut flyer = Flyer::new(arguments.threads.number(), stop, &follow);
+    let laid = AtomicU64::new(0);
+    let by = lay_control(arguments.threads, &laid);
+    let mut flyer = Flyer::new(by.threads, by.stop, &follow);
     let mut flown = flyer.web(&file.spec)?;
 
-    let laid = AtomicU64::new(0);
-    let by = LayControl { threads: arguments.threads.number(), isa: Isa::detect(), stop, laid: &laid };
     let label = format!("laying {} km of fibre", significant(flown.web.fibre_length() / 1e3, 3));
     let findings =
         progress::follow(&laid, flown.pieces()?, &label, arguments.output.quiet, || flown.find(by))?;
@@ -63,13 +59,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
         advice => advice.transpose()?,
     };
     let advice_s = started.elapsed().as_secs_f64() - laying_s;
-    let performance = Performance {
-        wall_s: started.elapsed().as_secs_f64(),
-        threads: by.threads,
-        instruction_set: by.isa.name(),
-        ..Performance::default()
-    }
-    .with_flights(&findings);
+    let performance = Performance::measure(started, by.threads, by.isa).with_flights(&findings);
     let found = folders::web::notes(web, &findings, layers);
     let notes = [Note::of_results(&file.notes), found.clone()].concat();
     let written = WebFolder {
@@ -99,9 +89,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
             say::line(&format!("{tried} took {advice_s:.2} s; --no-advice leaves it out"));
         }
         found.iter().for_each(|note| say::remark(false, note));
-        if let Some(folder) = folder {
-            say::line(&format!("open {}", folder.join("report.html").display()));
-        }
+        folder.iter().for_each(say_report);
     }
     Ok(())
 }

@@ -35,7 +35,7 @@ pub(super) struct LoadedCase {
 impl Document {
     /// * `file` – the file that the text was read from
     pub(super) fn new(text: String, file: Option<PathBuf>) -> Self {
-        let files = text.parse().map_or_else(|_| BTreeSet::new(), |document| files_of(&document));
+        let files = text.parse().map_or_else(|_| BTreeSet::new(), files_of);
         let name = file.clone().unwrap_or_else(|| PathBuf::from("live.toml"));
         Self { file: file.map(|path| (path, text.clone())), text, name, files }
     }
@@ -58,7 +58,7 @@ impl Document {
             return Err(complaint("the case is larger than a case file may be"));
         }
         if let Ok(document) = self.text.parse::<DocumentMut>()
-            && let Some(other) = files_of(&document).difference(&self.files).next()
+            && let Some(other) = files_of(document).difference(&self.files).next()
         {
             let text = format!(
                 "\"{other}\": a page may not name other files than the case that the program was started with; start \
@@ -157,30 +157,16 @@ impl Document {
         if folder == Path::new("") {
             return self.text.clone();
         }
-        for key in keys::all() {
-            let words = key.kind.words();
-            // No file is named in a table within a table.
-            let item = document.get_mut(key.table()).and_then(Item::as_table_like_mut);
-            let Some(old) = item.and_then(|table| table.get_mut(key.short())).and_then(Item::as_value_mut)
-            else {
-                continue;
-            };
-            if matches!(key.kind, Kind::File(_)) {
-                for_each_text(old, &mut |text| {
-                    let path = folder.join(text.value());
-                    if !words.contains(&text.value().as_str()) {
-                        *text = toml_edit::Formatted::new(path.to_string_lossy().into_owned());
-                    }
-                });
-            }
-        }
+        for_each_file(&mut document, &mut |text| {
+            let path = folder.join(text.value());
+            *text = toml_edit::Formatted::new(path.to_string_lossy().into_owned());
+        });
         document.to_string()
     }
 
     /// The document after it has been saved under a name in the present folder.
-    pub(super) fn saved(&self, name: &str, text: String) -> Self {
-        let files = text.parse().map_or_else(|_| BTreeSet::new(), |document| files_of(&document));
-        Self { text: text.clone(), file: Some((PathBuf::from(name), text)), name: PathBuf::from(name), files }
+    pub(super) fn saved(name: &str, text: String) -> Self {
+        Self::new(text, Some(PathBuf::from(name)))
     }
 }
 
@@ -199,20 +185,26 @@ fn for_each_text(value: &mut Value, act: &mut impl FnMut(&mut toml_edit::Formatt
     }
 }
 
-/// The files that a case names.
-fn files_of(document: &DocumentMut) -> BTreeSet<String> {
-    let mut files = BTreeSet::new();
+/// The texts of a document that name files.
+fn for_each_file(document: &mut DocumentMut, act: &mut impl FnMut(&mut toml_edit::Formatted<String>)) {
     for key in keys::all().iter().filter(|key| matches!(key.kind, Kind::File(_))) {
-        let table = table_of(document, key.table());
-        let Some(found) = table.and_then(|table| table.get(key.short())).and_then(Item::as_value) else {
-            continue;
-        };
-        for_each_text(&mut found.clone(), &mut |text| {
-            if !key.kind.words().contains(&text.value().as_str()) {
-                files.insert(text.value().clone());
-            }
-        });
+        let top: &mut dyn TableLike = document.as_table_mut();
+        let table =
+            key.table().split('.').try_fold(top, |table, name| table.get_mut(name)?.as_table_like_mut());
+        if let Some(found) = table.and_then(|table| table.get_mut(key.short())).and_then(Item::as_value_mut) {
+            for_each_text(found, &mut |text| {
+                if !key.kind.words().contains(&text.value().as_str()) {
+                    act(text);
+                }
+            });
+        }
     }
+}
+
+/// The files that a case names.
+fn files_of(mut document: DocumentMut) -> BTreeSet<String> {
+    let mut files = BTreeSet::new();
+    for_each_file(&mut document, &mut |text| files.extend([text.value().clone()]));
     files
 }
 
@@ -291,7 +283,7 @@ mod tests {
             "spunlaid run 'some where/a.toml' --set 'fibre.diameter=20 µm' --set air.turbulence_intensity=0.2 \
              --set run.duration=auto --replicates 8"
         );
-        let saved = new.saved("b.toml", new.to_save());
+        let saved = Document::saved("b.toml", new.to_save());
         assert_eq!(saved.command(8), "spunlaid run b.toml --replicates 8");
         assert!(Document::new(CASE.to_owned(), None).command(8).starts_with("save the case first"));
     }

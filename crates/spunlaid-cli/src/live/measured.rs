@@ -42,7 +42,7 @@ enum Motion {
 struct FixedFibreMeasures {
     y: Batches,
     z: Batches,
-    along: Box<dyn Observer>,
+    along: Option<Box<dyn Observer>>,
     /// The last positions of each free end in y and z [m], one segment at most.
     recent: [[Vec<f64>; 2]; WIDTH],
     spectrum: [Welch; 2],
@@ -149,8 +149,7 @@ impl FixedFibreMeasures {
         Self {
             y: Batches::default(),
             z: Batches::default(),
-            along: observer
-                .map_or_else(|| Box::new(NoObserver) as Box<dyn Observer>, |found| (found.observer)(flight)),
+            along: observer.map(|found| (found.observer)(flight)),
             recent: from_fn(|_| Default::default()),
             spectrum: [welch.clone(), welch],
         }
@@ -160,7 +159,9 @@ impl FixedFibreMeasures {
         let samples = [Sample::default(); WIDTH];
         let observation =
             Observation { snapshot: instant.snapshot, samples: &samples, settled: true, laid: instant.laid };
-        self.along.see(&observation);
+        if let Some(along) = &mut self.along {
+            along.see(&observation);
+        }
         let Some(end) = instant.snapshot.position.last() else {
             return;
         };
@@ -196,7 +197,8 @@ impl FixedFibreMeasures {
     fn curves(&self, flight: &Flight) -> Curves {
         let mut along = [Vec::new(), Vec::new(), Vec::new()];
         for lane in 0..WIDTH {
-            for (axis, value) in self.along.finish(lane, flight).into_iter().enumerate() {
+            let values = self.along.as_ref().map(|along| along.finish(lane, flight)).unwrap_or_default();
+            for (axis, value) in values.into_iter().enumerate() {
                 if let Value::Curve(distance, values) = value {
                     along[0] = distance;
                     let mean = &mut along[axis + 1];
@@ -213,18 +215,6 @@ impl FixedFibreMeasures {
         let density =
             |spectrum: &spunlaid::statistics::Spectrum| spectrum.density.iter().map(|p| p * 1e6).collect();
         Curves { along, spectrum: [frequency, density(&y), density(&z)] }
-    }
-}
-
-/// Sees nothing, in place of an observer that is not declared.
-#[derive(Debug)]
-struct NoObserver;
-
-impl Observer for NoObserver {
-    fn see(&mut self, _: &Observation<'_>) {}
-
-    fn finish(&self, _: usize, _: &Flight) -> Vec<Value> {
-        Vec::new()
     }
 }
 

@@ -27,7 +27,8 @@ from ._errors import (
     Problem,
 )
 from ._keys import Key, keys
-from ._run import Curve, Measure, Measures, Run, Shapes, load, run
+from ._measures import Curve, Measure, Measures, Shapes
+from ._run import Run, load, run
 from ._spunlaid import Case, Flight, __version__
 
 if TYPE_CHECKING:

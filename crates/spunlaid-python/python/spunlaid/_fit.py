@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _spunlaid
+from ._arguments import check_figures, check_threads
+from ._plot import plot_fit
 from ._progress import Progress, shown
-from ._run import _threads
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -40,9 +41,7 @@ class Fit:
 
         ax: the axes to draw on; new ones by default
         """
-        from ._plot import of_fit
-
-        return of_fit(self, ax)
+        return plot_fit(self.summary["numbers"], ax)
 
     def __repr__(self) -> str:
         values = ", ".join(f"{key} = {value:.4g}" for key, value in self.values.items())
@@ -58,6 +57,8 @@ def fit(
     webs: int = 20,
     set: Mapping[str, Any] | None = None,  # noqa: A002 - the word of the program
     out: str | os.PathLike[str] | None = None,
+    figures: Sequence[str] | str | None = None,
+    figure_width: str | float | None = None,
     threads: int | None = None,
     progress: Progress = None,
 ) -> Fit:
@@ -71,6 +72,7 @@ def fit(
     webs: simulated webs of each trial
     set: keys that replace those of the file, `{"line.belt_speed": 5.0}`
     out: the folder of the results. The same call continues there when it has been interrupted; without a folder, nothing is kept
+    figures, figure_width: how the figures in the folder are written, as of `Run.save`
     threads: number of threads, by default one for each processor; the results do not depend on it
     progress: None, True, False, or a function that gets the webs of a trial that are laid and their number
     """
@@ -78,6 +80,7 @@ def fit(
     ranges = dict(named) if isinstance(named, Mapping) else dict.fromkeys(named)
     ends = [{key: pair[end] for key, pair in ranges.items() if pair is not None} for end in (0, 1)]
     folder = None if out is None else os.fspath(out)
+    asked = check_figures(figures, figure_width, out, "results/fit")
     with shown(progress, "fit") as show:
         text, sentences = _spunlaid.find_fit(
             os.fspath(web),
@@ -87,7 +90,8 @@ def fit(
             spectrum,
             webs,
             folder,
-            _threads(threads),
+            asked,
+            check_threads(threads),
             show,
         )
     return Fit(text, sentences)

@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from ._errors import FolderError
-from ._spunlaid import Case
+from ._spunlaid import Case, measures, read_table
 
 
 class Folder:
@@ -37,8 +37,6 @@ class Folder:
     @property
     def numbers(self) -> list[dict[str, Any]]:
         """The measures of summary.json."""
-        from ._spunlaid import measures
-
         found: list[dict[str, Any]] = []
         for of in measures():
             group: Any = self._read
@@ -118,9 +116,9 @@ class Folder:
         """Text of report.html."""
         return (self.path / "report.html").read_text("utf-8")
 
-    def save(self, path: str, force: bool, figures: Any = None, figure_width: Any = None) -> None:
+    def save(self, path: str, force: bool, figures: tuple[Any, Any]) -> None:
         """Copies the folder."""
-        if figures is not None or figure_width is not None:
+        if any(option is not None for option in figures):
             raise ValueError(
                 "figures: a run that was read from a folder is copied with its figures as they are; leave figures and"
                 " figure_width out, or fly it again"
@@ -153,8 +151,6 @@ class Folder:
     def _table(self, name: str) -> dict[str, Any]:
         if not (self.path / name).exists():
             return {}
-        from ._spunlaid import read_table
-
         return read_table(self.path / name)
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ._measures import Curve, Measure
 from ._optional import needed
-from ._run import unknown_measure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
-    from ._fit import Fit
-    from ._run import Run
-    from ._study import Study
-    from ._web import Web
+Scale = tuple[str, float, float, bool]
+"""What the compiled part says of an `Axis`."""
 
 _MOST_LINES = 8
 """More fibres in one plot hide each other."""
@@ -38,12 +37,20 @@ class Axis(NamedTuple):
         """The values in the unit of the axis."""
         return (np.asarray(values, dtype=np.float64) - self.zero) * self.per_si
 
+    def name_level(self, value: Any) -> str:
+        """`Diameter d = 50 µm` of a factor with this value."""
+        name, _, unit = self.shown_label().partition(" (")
+        return f"{name} {value}" if isinstance(value, str) else f"{name} = {float(self.place(value)):.4g} {unit.rstrip(')')}".rstrip()
+
+    def shown_label(self) -> str:
+        """The label as matplotlib writes it."""
+        return re.sub(r"\*(.+?)\*", r"$\1$", self.label)
+
 
 def label(ax: Axes, along: Axis, up: Axis) -> Axes:
     """Labels both axes, and scales them."""
-    letters = [re.sub(r"\*(.+?)\*", r"$\1$", axis.label) for axis in (along, up)]
-    ax.set_xlabel(letters[0])
-    ax.set_ylabel(letters[1])
+    ax.set_xlabel(along.shown_label())
+    ax.set_ylabel(up.shown_label())
     if along.logarithmic:
         ax.set_xscale("log")
     if up.logarithmic:
@@ -57,28 +64,22 @@ def axes(ax: Axes | None) -> Axes:
     return ax if ax is not None else plt.subplots(layout="constrained")[1]
 
 
-def of_run(run: Run, column: str | None, ax: Axes | None) -> Axes:
-    """See `Run.plot`."""
-    if column is None:
-        return _free_ends(run, axes(ax)) if run.end_node else _laid(run, axes(ax))
-    for measures, draw in ((run.curves, _curve), (run.measures, _number)):
-        if column in measures:
-            return draw(run, column, axes(ax))
-    raise unknown_measure(column, [*run.measures, *run.curves])
-
-
-def _free_ends(run: Run, ax: Axes) -> Axes:
+def plot_free_ends(end_node: dict[str, Any], ax: Axes | None) -> Axes:
+    """The free ends of some replicates over time."""
+    ax = axes(ax)
     time, up = Axis("Time (s)"), Axis("Free end, displacement in *y* (mm)", per_si=1e3)
-    for number, y in enumerate(run.end_node["y_m"][:_MOST_LINES], start=1):
-        ax.plot(run.end_node["time_s"], up.place(y), linewidth=0.8, label=f"replicate {number}")
+    for number, y in enumerate(end_node["y_m"][:_MOST_LINES], start=1):
+        ax.plot(end_node["time_s"], up.place(y), linewidth=0.8, label=f"replicate {number}")
     return label(ax, time, up)
 
 
-def _laid(run: Run, ax: Axes) -> Axes:
-    if not any(len(laid["s_m"]) for laid in run.laid):
+def plot_laid_fibre(laid: list[dict[str, Any]], ax: Axes | None) -> Axes:
+    """A piece of what the first fibre laid."""
+    ax = axes(ax)
+    first = next((fibre for fibre in laid if len(fibre["s_m"])), None)
+    if first is None:
         raise ValueError("nothing to plot: the run was flown with samples=False, or its fibres laid nothing")
     along, up = Axis("Machine direction (mm)", per_si=1e3), Axis("Cross direction (mm)", per_si=1e3)
-    first = next(laid for laid in run.laid if len(laid["s_m"]))
     md, cd = along.place(first["md_m"]), up.place(first["cd_m"])
     # A piece of the belt, three times as long as the trace is wide, without the end that further loops would cover.
     width = np.ptp(cd)
@@ -89,9 +90,10 @@ def _laid(run: Run, ax: Axes) -> Axes:
     return label(ax, along, up)
 
 
-def _curve(run: Run, column: str, ax: Axes) -> Axes:
-    curve = run.curves[column]
-    along, up = (Axis(*scale) for scale in run.scales(column))
+def plot_curve(curve: Curve, scales: Sequence[Scale], ax: Axes | None) -> Axes:
+    """A curve with its standard error."""
+    ax = axes(ax)
+    along, up = (Axis(*scale) for scale in scales)
     at, mean, error = along.place(curve.at), up.place(curve.mean), up.place(curve.standard_error)
     (line,) = ax.plot(at, mean, label=curve.label)
     if np.isfinite(error).any():
@@ -99,9 +101,10 @@ def _curve(run: Run, column: str, ax: Axes) -> Axes:
     return label(ax, along, up)
 
 
-def _number(run: Run, column: str, ax: Axes) -> Axes:
-    measure = run.measures[column]
-    (up,) = (Axis(*scale) for scale in run.scales(column))
+def plot_number(measure: Measure, scales: Sequence[Scale], ax: Axes | None) -> Axes:
+    """A number of each replicate, and its mean with the standard error."""
+    ax = axes(ax)
+    (up,) = (Axis(*scale) for scale in scales)
     ax.plot(np.arange(1, len(measure.values) + 1), up.place(measure.values), "o", label="replicates")
     mean, error = float(up.place(measure.mean)), measure.standard_error
     line = ax.axhline(mean, color="black", linewidth=0.8, label="mean")
@@ -113,92 +116,71 @@ def _number(run: Run, column: str, ax: Axes) -> Axes:
     return label(ax, Axis("Replicate"), up)
 
 
-def of_study(study: Study, column: str, along: str, ax: Axes | None) -> Axes:
-    """See `Study.plot`."""
+def plot_points(
+    factor: tuple[Axis, NDArray[Any]],
+    measure: tuple[Axis, NDArray[np.float64], NDArray[np.float64]],
+    families: list[tuple[str | None, NDArray[np.intp]]],
+    is_ordered: bool,
+    ax: Axes | None,
+) -> Axes:
+    """The points of a study: a measure over a factor.
+
+    factor: its axis, and its value at each point
+    measure: its axis, and mean and standard error at each point
+    families: name and points of each line
+    is_ordered: whether the points of a line are joined from the left to the right
+    """
     ax = axes(ax)
-    x, up = study.scale_of_factor(along), study.scale_of_measure(column)
-    values = study.inputs[along]
+    (x, values), (up, mean, error) = factor, measure
     places = x.place(values) if values.dtype.kind == "f" else values
-    mean, error = up.place(study.mean[column]), up.place(study.standard_error[column])
-    others = [key for key in study.factors if key != along]
-    # Neither words nor the points of a random design have an order.
-    joined = values.dtype.kind == "f" and study.design not in ("latin-hypercube", "sobol")
-    for name, points in _families(study, others):
-        order = points[np.argsort(places[points], kind="stable")] if joined else points
+    mean, error = up.place(mean), up.place(error)
+    for name, points in families:
+        order = points[np.argsort(places[points], kind="stable")] if is_ordered else points
         bars = error[order] if np.isfinite(error[order]).any() else None
-        ax.errorbar(places[order], mean[order], yerr=bars, fmt="o-" if joined else "o", capsize=2, markersize=4, label=name)
-    if others and ax.get_legend_handles_labels()[1]:
+        ax.errorbar(places[order], mean[order], yerr=bars, fmt="o-" if is_ordered else "o", capsize=2, markersize=4, label=name)
+    if any(name is not None for name, _ in families):
         ax.legend()
     return label(ax, x, up)
 
 
-def _families(study: Study, others: list[str]) -> list[tuple[str | None, NDArray[np.intp]]]:
-    """The points of each line of a plot, with its name: those that have the other factors in common."""
-    every = np.arange(len(study))
-    columns = [study.inputs[key] for key in others]
-    if study.design == "one-at-a-time":
-        # The first point is the one from which the factors go.
-        alike = [column == column[0] for column in columns]
-        return [(None, every[np.logical_and.reduce(alike)] if alike else every)]
-    if study.design != "grid" or not others:
-        return [(None, every)]
-    families: dict[str, list[int]] = {}
-    for point in range(len(study)):
-        names = [_level(study, key, column[point]) for key, column in zip(others, columns, strict=True)]
-        families.setdefault(", ".join(names), []).append(point)
-    return [(name, np.array(points)) for name, points in families.items()]
-
-
-def _level(study: Study, key: str, value: Any) -> str:
-    """`Diameter d = 50 µm` of a factor with this value."""
-    axis = study.scale_of_factor(key)
-    name, _, unit = re.sub(r"\*(.+?)\*", r"$\1$", axis.label).partition(" (")
-    return f"{name} {value}" if isinstance(value, str) else f"{name} = {float(axis.place(value)):.4g} {unit.rstrip(')')}".rstrip()
-
-
-def of_web(web: Web, what: str, ax: Axes | None) -> Axes:
-    """See `Web.plot`."""
-    draw = {"map": _map, "cv": _cv}.get(what)
-    if draw is None:
-        raise ValueError(f'a web plots "map" or "cv", not {what!r}')
-    return draw(web, axes(ax))
-
-
-def of_fit(fit: Fit, ax: Axes | None) -> Axes:
-    """See `Fit.plot`."""
+def plot_map(basis_weight: NDArray[np.float64], cell: float, ax: Axes | None) -> Axes:
+    """The basis weight [kg/m²] of every cell of a web, whose side is `cell` [m]."""
     ax = axes(ax)
-    along = Axis("Side of the patches (mm)", per_si=1e3, logarithmic=True)
-    up = Axis("CV of the basis weight (%)", per_si=1e2, logarithmic=True)
-    patches = [number for number in fit.summary["numbers"] if "patch_m" in number]
-    at = along.place([patch["patch_m"] for patch in patches])
-    found, scatter = (np.array([patch[name] for patch in patches]) for name in ("fit", "scatter"))
-    ends = [up.place(found * np.exp(sign * 1.96 * scatter)) for sign in (-1.0, 1.0)]
-    ax.fill_between(at, ends[0], ends[1], alpha=0.25, label="95 of 100 simulated webs")
-    ax.plot(at, up.place(found), label="fit")
-    ax.plot(at, up.place([patch["scan"] for patch in patches]), "o", markersize=4, label="scan")
-    ax.legend()
-    return label(ax, along, up)
-
-
-def _map(web: Web, ax: Axes) -> Axes:
-    weight = 1e3 * web.map
-    across, along = (1e3 * web.cell * cells for cells in (weight.shape[1], weight.shape[0]))
+    weight = 1e3 * basis_weight
+    across, along = (1e3 * cell * cells for cells in (weight.shape[1], weight.shape[0]))
     image = ax.imshow(weight, cmap="Greys", origin="lower", extent=(0, across, 0, along), interpolation="nearest")
     bar = ax.figure.colorbar(image, ax=ax)
     bar.set_label("Basis weight (g/m²)")
     return label(ax, Axis("Cross direction (mm)"), Axis("Machine direction (mm)"))
 
 
-def _cv(web: Web, ax: Axes) -> Axes:
-    along = Axis("Side of the patches (mm)", per_si=1e3, logarithmic=True)
-    up = Axis("CV of the basis weight (%)", per_si=1e2, logarithmic=True)
-    patches = web.patches
-    at, cv = along.place(patches["patch_m"]), up.place(patches["cv"])
+_SIDE = Axis("Side of the patches (mm)", per_si=1e3, logarithmic=True)
+_CV = Axis("CV of the basis weight (%)", per_si=1e2, logarithmic=True)
+
+
+def plot_unevenness(patches: dict[str, NDArray[np.float64]], ax: Axes | None) -> Axes:
+    """How uneven a web is over the size of the patches; see `Web.patches`."""
+    ax = axes(ax)
+    at, cv = _SIDE.place(patches["patch_m"]), _CV.place(patches["cv"])
     known = np.isfinite(patches["cv_low"] + patches["cv_high"])
-    ends = np.where(known, np.abs(up.place([patches["cv_low"], patches["cv_high"]]) - cv), 0.0)
+    ends = np.where(known, np.abs(_CV.place([patches["cv_low"], patches["cv_high"]]) - cv), 0.0)
     ax.errorbar(at, cv, yerr=ends if known.any() else None, fmt="o-", capsize=2, markersize=4, label="this web")
     for name, words in (("cv_independent", "each filament in its own air"), ("cv_single_fibres", "expected from single fibres")):
         if np.isfinite(patches[name]).any():
-            ax.plot(at, up.place(patches[name]), "--", label=words)
+            ax.plot(at, _CV.place(patches[name]), "--", label=words)
     ax.legend()
-    return label(ax, along, up)
+    return label(ax, _SIDE, _CV)
+
+
+def plot_fit(numbers: list[dict[str, Any]], ax: Axes | None) -> Axes:
+    """The CV of a scan and of the webs that are like it; `numbers` as in `fit.json`."""
+    ax = axes(ax)
+    patches = [number for number in numbers if "patch_m" in number]
+    at = _SIDE.place([patch["patch_m"] for patch in patches])
+    found, scatter = (np.array([patch[name] for patch in patches]) for name in ("fit", "scatter"))
+    ends = [_CV.place(found * np.exp(sign * 1.96 * scatter)) for sign in (-1.0, 1.0)]
+    ax.fill_between(at, ends[0], ends[1], alpha=0.25, label="95 of 100 simulated webs")
+    ax.plot(at, _CV.place(found), label="fit")
+    ax.plot(at, _CV.place([patch["scan"] for patch in patches]), "o", markersize=4, label="scan")
+    ax.legend()
+    return label(ax, _SIDE, _CV)

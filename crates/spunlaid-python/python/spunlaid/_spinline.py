@@ -2,27 +2,30 @@
 
 from __future__ import annotations
 
-import json
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from . import _spunlaid
+from ._arguments import split_source
+from ._results import Results
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
 
-class Spinline:
+class Spinline(Results):
     """A spinline in steady state. `spunlaid.spin` returns it; a notebook shows its report.
 
     Each measure is an attribute, in SI units: `line.final_diameter_m`, `line.freezing["distance_m"]`.
     """
 
+    _computed: _spunlaid.SolvedSpinline
+
     def __init__(self, solved: _spunlaid.SolvedSpinline) -> None:
-        self._solved = solved
-        self._measures: dict[str, Any] = json.loads(solved.summary)["spinline"]
+        super().__init__(solved)
+        self._measures: dict[str, Any] = self.summary["spinline"]
 
     @property
     def measures(self) -> dict[str, Any]:
@@ -34,12 +37,12 @@ class Spinline:
         """The thread and the air around it from the die to the end, a NumPy array for each column of `spinline.parquet`: `z_m`,
         `speed_m_s`, `diameter_m`, `temperature_c`, `tension_n`, `stress_pa`, `transformed`, `strain_rate_per_s`, and
         `air_velocity_m_s`, `air_cross_velocity_m_s`, `air_temperature_c`. Of a curtain those of its first row."""
-        return self._solved.stations[0]
+        return self.rows[0]
 
     @property
     def rows(self) -> list[dict[str, NDArray[np.float64]]]:
         """The same for each row of the curtain, the quenched side first; one if there is no curtain."""
-        return self._solved.stations
+        return self._computed.stations
 
     @property
     def influences(self) -> list[dict[str, Any]]:
@@ -48,19 +51,9 @@ class Spinline:
         return self._measures["influences"]  # type: ignore[no-any-return]
 
     @property
-    def summary(self) -> dict[str, Any]:
-        """What `summary.json` of a results folder holds."""
-        return json.loads(self._solved.summary)  # type: ignore[no-any-return]
-
-    @property
     def text(self) -> str:
         """The spinline with every default written out, as a file."""
-        return self._solved.text
-
-    @property
-    def notes(self) -> list[str]:
-        """Notes and warnings."""
-        return self._solved.notes
+        return self._computed.text
 
     def __getattr__(self, name: str) -> Any:
         measures = self.__dict__.get("_measures", {})
@@ -71,36 +64,10 @@ class Spinline:
     def __dir__(self) -> list[str]:
         return sorted({*super().__dir__(), *self._measures})
 
-    def save(
-        self,
-        path: str | os.PathLike[str],
-        *,
-        force: bool = False,
-        figures: Sequence[str] | str | None = None,
-        figure_width: str | float | None = None,
-    ) -> None:
-        """Writes the folder that `spunlaid spin` writes.
-
-        force: whether results that the folder holds are replaced.
-        figures: the formats of the figures, `["pdf", "png"]`; SVG and PNG if it is left out
-        figure_width: their width in print, `"one-column"`, `"two-columns"`, `"90 mm"` or in metres; PNG then has 300 dpi
-        """
-        self._solved.save(os.fspath(path), force, figures, figure_width)
-
-    def report(self) -> str:
-        """The report, one page of HTML that works offline."""
-        return self._solved.report()
-
     def __repr__(self) -> str:
         diameter, speed = 1e6 * self._measures["final_diameter_m"], self._measures["final_speed_m_s"]
         decitex = 1e7 * self._measures["linear_density_kg_m"]
-        return f"<Spinline {self._solved.name}: {diameter:.4g} µm, {decitex:.3g} dtex, {speed:.4g} m/s>"
-
-    def _repr_html_(self) -> str:
-        from html import escape
-
-        page = escape(self.report(), quote=True)
-        return f'<iframe srcdoc="{page}" style="width: 100%; height: 720px; border: 1px solid #ccc"></iframe>'
+        return f"<Spinline {self._computed.name}: {diameter:.4g} µm, {decitex:.3g} dtex, {speed:.4g} m/s>"
 
 
 def spin(
@@ -114,10 +81,4 @@ def spin(
         "drag": {...}}`, with texts that have a unit, and numbers in SI units. `spunlaid keys spinline` lists the keys
     set: keys that replace those of the file, `{"spinline.throughput": "0.4 g/min"}`
     """
-    changes = dict(set or {})
-    path = None
-    if isinstance(spinline, Mapping):
-        changes = {**spinline, **changes}
-    else:
-        path = os.fspath(spinline)
-    return Spinline(_spunlaid.solve_spinline(path, changes))
+    return Spinline(_spunlaid.solve_spinline(*split_source(spinline, set)))

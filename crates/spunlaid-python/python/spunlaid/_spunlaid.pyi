@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Callable, ItemsView, Iterator, KeysView, Mapping, Sequence, ValuesView
-from typing import Any, final
+from typing import Any, Final, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -33,6 +33,7 @@ __version__: str
 
 _Floats = NDArray[np.float64]
 _Progress = Callable[[int, int], object] | None
+_Figures = tuple[Any, str | float | None]
 _Scale = tuple[str, float, float, bool]
 _Part = tuple[int, str, list[tuple[int, str]] | None, int, int, int]
 
@@ -103,8 +104,7 @@ class Case(Mapping[str, Any]):
 class AirSampler:
     def __new__(cls, case: Case, replicate: int) -> AirSampler: ...
     def velocities(self, times: _Floats, places: _Floats) -> _Floats: ...
-    @property
-    def extent(self) -> tuple[float, float]: ...
+    extent: Final[tuple[float, float]]
 
 @final
 class Flight:
@@ -153,36 +153,27 @@ class Flight:
     def energies(self) -> dict[str, _Floats]:
         """Energies and works now [J], a number for each fibre."""
 
+class _Results:
+    """What all results have in common."""
+
+    summary: Final[str]
+    notes: Final[list[str]]
+    def save(self, path: str, force: bool, figures: _Figures) -> None: ...
+
 @final
-class RunResults:
+class RunResults(_Results):
     """Results of a run."""
 
-    @property
-    def summary(self) -> str: ...
-    @property
-    def notes(self) -> list[str]: ...
-    @property
-    def lost(self) -> list[tuple[int, float, str]]: ...
-    @property
-    def end_node(self) -> dict[str, _Floats]: ...
-    @property
-    def energy(self) -> dict[str, _Floats]: ...
-    @property
-    def numbers(self) -> list[dict[str, Any]]: ...
-    @property
-    def curves(self) -> list[dict[str, Any]]: ...
-    @property
-    def shapes(self) -> tuple[_Floats, _Floats]: ...
-    @property
-    def laid(self) -> list[dict[str, _Floats]]: ...
-    @property
-    def step_check(self) -> dict[str, float | None] | None: ...
-    @property
-    def mesh_check(self) -> dict[str, float | None] | None: ...
+    lost: Final[list[tuple[int, float, str]]]
+    end_node: Final[dict[str, _Floats]]
+    energy: Final[dict[str, _Floats]]
+    numbers: Final[list[dict[str, Any]]]
+    curves: Final[list[dict[str, Any]]]
+    shapes: Final[tuple[_Floats, _Floats]]
+    laid: Final[list[dict[str, _Floats]]]
+    step_check: Final[dict[str, float | None] | None]
+    mesh_check: Final[dict[str, float | None] | None]
     def report(self) -> str: ...
-    def save(
-        self, path: str, force: bool, figures: Any = None, figure_width: str | float | None = None
-    ) -> None: ...
 
 @final
 class Study:
@@ -208,72 +199,38 @@ class Study:
     def results(self) -> dict[str, Any]: ...
     def replicates(self) -> _Floats: ...
     def effects(self) -> tuple[list[dict[str, Any]], str | None]: ...
-    def write(self, figures: Any = None, figure_width: str | float | None = None) -> None: ...
+    def write(self, figures: _Figures) -> None: ...
     def close(self) -> None: ...
     def point_text(self, point: int) -> str: ...
-    @property
-    def fibres(self) -> tuple[int, int]: ...
-    @property
-    def noun(self) -> str: ...
-    @property
-    def work(self) -> float: ...
-    @property
-    def one_web_a_machine(self) -> bool: ...
-    @property
-    def inputs(self) -> list[dict[str, Any]]: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def design(self) -> str: ...
-    @property
-    def text(self) -> str: ...
-    @property
-    def notes(self) -> list[str]: ...
-    @property
-    def measures(self) -> list[tuple[str, str, str, str, _Scale]]: ...
+    fibres: Final[tuple[int, int]]
+    noun: Final[str]
+    work: Final[float]
+    one_web_a_machine: Final[bool]
+    inputs: Final[list[dict[str, Any]]]
+    name: Final[str]
+    design: Final[str]
+    notes: Final[list[str]]
+    measures: Final[list[tuple[str, str, str, str, _Scale]]]
 
 @final
-class LaidWeb:
+class LaidWeb(_Results):
     """What is found of a web."""
 
-    @property
-    def summary(self) -> str: ...
-    @property
-    def notes(self) -> list[str]: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def text(self) -> str: ...
-    @property
-    def cell(self) -> float: ...
-    @property
-    def map(self) -> _Floats: ...
-    @property
-    def patches(self) -> dict[str, _Floats]: ...
-    def save(
-        self, path: str, force: bool, figures: Any = None, figure_width: str | float | None = None
-    ) -> None: ...
+    name: Final[str]
+    cell: Final[float]
+    map: Final[_Floats]
+    patches: Final[dict[str, _Floats]]
 
 @final
-class SolvedSpinline:
+class SolvedSpinline(_Results):
     """A solved spinline."""
 
-    @property
-    def summary(self) -> str: ...
-    @property
-    def notes(self) -> list[str]: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def text(self) -> str: ...
-    @property
-    def stations(self) -> list[dict[str, _Floats]]: ...
+    name: Final[str]
+    text: Final[str]
+    stations: Final[list[dict[str, _Floats]]]
     def report(self) -> str: ...
-    def save(
-        self, path: str, force: bool, figures: Any = None, figure_width: str | float | None = None
-    ) -> None: ...
 
-def check_figures(figures: Any = None, figure_width: str | float | None = None) -> None: ...
+def check_figures(figures: _Figures) -> None: ...
 def solve_spinline(path: str | None, changes: Mapping[str, Any]) -> SolvedSpinline: ...
 def fly(
     case: Case,
@@ -300,7 +257,8 @@ def find_fit(
     changes: Mapping[str, Any],
     spectrum: bool,
     webs: int,
-    out: str | None = None,
+    out: str | None,
+    figures: _Figures,
     threads: int | None = None,
     progress: _Progress = None,
 ) -> tuple[str, list[str]]: ...

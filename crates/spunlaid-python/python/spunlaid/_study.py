@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _spunlaid
+from ._arguments import check_figures, check_threads
 from ._case import case_of
 from ._optional import needed
+from ._plot import Axis, plot_points
 from ._progress import Progress, shown
-from ._run import _threads
 from ._spunlaid import Case
 from ._toml import study_toml
 
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
-
-    from ._plot import Axis
 
 
 class Study:
@@ -143,8 +142,6 @@ class Study:
         along: the key that is varied along the axis; the first factor by default
         ax: the axes to draw on; new ones by default
         """
-        from ._plot import of_study
-
         measured, factors = self.mean, self.factors
         if column is None:
             column = next((name for name in _FIRST if name in measured), next(iter(measured), ""))
@@ -153,18 +150,35 @@ class Study:
         for name, known, what in ((column, list(measured), "measure"), (along, factors, "factor")):
             if name not in known:
                 raise KeyError(f"no {what} {name!r} in this study; there are {', '.join(known) or 'none'}")
-        return of_study(self, column, along, ax)
+        values = self.inputs[along]
+        # Neither words nor the points of a random design have an order.
+        is_ordered = values.dtype.kind == "f" and self.design not in ("latin-hypercube", "sobol")
+        measure = (self.scale_of_measure(column), self.mean[column], self.standard_error[column])
+        return plot_points((self.scale_of_factor(along), values), measure, self._families(along), is_ordered, ax)
+
+    def _families(self, along: str) -> list[tuple[str | None, NDArray[np.intp]]]:
+        """The points of each line of a plot, with its name: those that have the other factors in common."""
+        others = [key for key in self.factors if key != along]
+        every = np.arange(len(self))
+        columns = [self.inputs[key] for key in others]
+        if self.design == "one-at-a-time":
+            # The first point is the one from which the factors go.
+            alike = [column == column[0] for column in columns]
+            return [(None, every[np.logical_and.reduce(alike)] if alike else every)]
+        if self.design != "grid" or not others:
+            return [(None, every)]
+        families: dict[str, list[int]] = {}
+        for point in range(len(self)):
+            names = [self.scale_of_factor(key).name_level(column[point]) for key, column in zip(others, columns, strict=True)]
+            families.setdefault(", ".join(names), []).append(point)
+        return [(name, np.array(points)) for name, points in families.items()]
 
     def scale_of_factor(self, key: str) -> Axis:
         """How the values of a factor stand on an axis."""
-        from ._plot import Axis
-
         return next(Axis(*of["scale"]) for of in self._study.inputs if of["key"] == key and of["factor"])
 
     def scale_of_measure(self, column: str) -> Axis:
         """How the values of a measure stand on an axis."""
-        from ._plot import Axis
-
         return next(Axis(*scale) for name, _, _, _, scale in self._study.measures if name == column)
 
     def __repr__(self) -> str:
@@ -212,37 +226,28 @@ def sweep(
     threads: number of threads on this machine
     progress: None, True, False, or a function that gets the fibres or webs done and their number
     """
-    _spunlaid.check_figures(figures, figure_width)
-    if out is None and not (figures is None and figure_width is None):
-        raise ValueError('figures are written to a folder; name one: out = "results/study"')
-    begun = _begin(study, out, force, points, replicates, set)
+    asked = check_figures(figures, figure_width, out, "results/study")
+    folder = None if out is None else os.fspath(out)
+    begun = _spunlaid.Study(*_split_study(study), folder, force, points, replicates, set)
     with shown(progress, f"{len(begun)} points") as show:
         if client is None:
-            begun.fly(_threads(threads), show)
+            begun.fly(check_threads(threads), show)
         else:
             from ._dask import fly
 
             fly(begun, client, show)
     if out is not None:
-        begun.write(figures, figure_width)
+        begun.write(asked)
     return Study(begun)
 
 
-def _begin(
-    study: Any,
-    out: Any = None,
-    force: bool = False,
-    points: int | None = None,
-    replicates: int | None = None,
-    changes: Mapping[str, Any] | None = None,
-) -> _spunlaid.Study:
-    out = None if out is None else os.fspath(out)
-    if isinstance(study, Mapping):
-        if "case" not in study:
-            for name in ("web", "spinline"):
-                if name in study:
-                    path = os.fspath(study[name])
-                    return _spunlaid.Study(study_toml(study), None, path, out, force, points, replicates, changes)
-            raise ValueError('a study needs a case: {"case": spunlaid.Case.starter(), "vary": {...}}')
-        return _spunlaid.Study(study_toml(study), case_of(study["case"]), None, out, force, points, replicates, changes)
-    return _spunlaid.Study(os.fspath(study), None, None, out, force, points, replicates, changes)
+def _split_study(study: str | os.PathLike[str] | Mapping[str, Any]) -> tuple[str, Case | None, str | None]:
+    """The path of a study; or the text of one with the case that it varies, or with the path of its web or spinline."""
+    if not isinstance(study, Mapping):
+        return os.fspath(study), None, None
+    if "case" in study:
+        return study_toml(study), case_of(study["case"]), None
+    for name in ("web", "spinline"):
+        if name in study:
+            return study_toml(study), None, os.fspath(study[name])
+    raise ValueError('a study needs a case: {"case": spunlaid.Case.starter(), "vary": {...}}')

@@ -43,7 +43,7 @@ use spunlaid::case::Case;
 use spunlaid::ensemble::{FinerChecks, Results};
 use spunlaid_charts::Figure;
 
-/// Script with the class `Camera`: how the space of the moving fibre is seen, for other pages that show one.
+/// Script with the class `Camera`: how the space of the moving fibre is seen and turned, for other pages that show one.
 pub const CAMERA: &str = include_str!("../../assets/camera.js");
 /// Script with the class `Scene`, which draws the fibre on a canvas as a `Camera` sees it.
 pub const SCENE: &str = include_str!("../../assets/scene.js");

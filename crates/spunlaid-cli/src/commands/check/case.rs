@@ -1,6 +1,8 @@
 //! A case with all defaults, its mesh, limits and expected cost; a spinline alone.
 
-use crate::args::{CaseSource, Check, Threads};
+use super::show;
+use crate::args::{Check, Threads, overrides};
+use crate::commands::versioned_json;
 use crate::failure::Failure;
 use crate::say;
 use serde::Serialize;
@@ -9,14 +11,13 @@ use spunlaid::air::{Air, Flow, PlacedField};
 use spunlaid::case::{Case, INSTANT_ON_DISK, Note, StepLimit};
 use spunlaid::ensemble::{FinerPlans, KeepShapes, pace};
 use spunlaid::field::Spread;
-use spunlaid::input::{Overrides, read_spinline, write_case, write_spinline};
+use spunlaid::input::{read_spinline, write_case, write_spinline};
 use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid::line::Line;
 use spunlaid::units::Dimension;
 use spunlaid_results::folders::run::POSITIONS;
 use spunlaid_results::numbers::significant;
 use spunlaid_results::output::in_order::OrderedObject;
-use spunlaid_results::output::json_text;
 use spunlaid_results::output::spinline::{self, SpinResults, SpinSummary};
 use spunlaid_results::output::summary::resolved;
 use std::fs;
@@ -33,32 +34,26 @@ pub(super) fn case(check: &Check) -> Result<(), Failure> {
         say::text(&json(&case, expected, notes.iter().map(Note::to_string).collect()));
         return Ok(());
     }
-    // All remarks are comments, so that the output is a case file.
-    say::line("# the case with every default");
-    say::text(&write_case(&case));
-    say::line("");
-    if let Flow::Field(placed) = &case.air.flow {
-        field(placed);
-    }
-    mesh(&case);
-    error_of_mesh(&case);
-    limits(&case);
-    say::line(&format!(
-        "# expected: {} on {} of {} threads, {:.0} MiB of memory, {} of results",
+    let field = match &case.air.flow {
+        Flow::Field(placed) => field(placed),
+        Flow::Uniform | Flow::Profile(_) => Vec::new(),
+    };
+    let mut comments = [field, mesh(&case), error_of_mesh(&case), limits(&case)].concat();
+    comments.push(format!(
+        "expected: {} on {} of {} threads, {:.0} MiB of memory, {} of results",
         duration(expected.wall_s),
         expected.threads,
         Threads::default().number(),
         expected.memory_bytes / f64::from(1 << 20),
         size(expected.disk_bytes)
     ));
-    say::line(&format!("# ready: spunlaid run {}", check.source.words()));
+    show("case", &write_case(&case), &comments, "run", &check.source);
     Ok(())
 }
 
 /// Checks a file that describes a spinline and no fibre that flies.
 pub(super) fn spinline_alone(check: &Check) -> Result<(), Failure> {
-    let CaseSource { case: path, set } = &check.source;
-    let file = read_spinline(path, Overrides { values: set, word: "--set" })?;
+    let file = read_spinline(&check.source.case, overrides(&check.source.set))?;
     file.notes.iter().for_each(say::note);
     let results = SpinResults::new(&file)?;
     if check.json {
@@ -66,13 +61,8 @@ pub(super) fn spinline_alone(check: &Check) -> Result<(), Failure> {
         say::text(&spinline::Summary::new(&results.rows, &results.influences, &notes).to_json());
         return Ok(());
     }
-    say::line("# the spinline with every default");
-    say::text(&write_spinline(&file.spec));
-    say::line("");
-    for line in spinline::text(&results.rows, &[]).lines() {
-        say::line(&format!("# {line}"));
-    }
-    say::line(&format!("# ready: spunlaid spin {}", check.source.words()));
+    let comments: Vec<String> = spinline::text(&results.rows, &[]).lines().map(str::to_owned).collect();
+    show("spinline", &write_spinline(&file.spec), &comments, "spin", &check.source);
     Ok(())
 }
 
@@ -80,8 +70,6 @@ pub(super) fn spinline_alone(check: &Check) -> Result<(), Failure> {
 fn json(case: &Case, expected: Expected, notes: Vec<String>) -> String {
     #[derive(Serialize)]
     struct Checked {
-        schema_version: u32,
-        spunlaid_version: &'static str,
         case: OrderedObject<OrderedObject<Json>>,
         /// Of a fed fibre.
         #[serde(skip_serializing_if = "Option::is_none")]
@@ -97,9 +85,7 @@ fn json(case: &Case, expected: Expected, notes: Vec<String>) -> String {
         expected: Expected,
         notes: Vec<String>,
     }
-    json_text(&Checked {
-        schema_version: 1,
-        spunlaid_version: env!("CARGO_PKG_VERSION"),
+    versioned_json(&Checked {
         case: resolved(case),
         throughput_kg_s: case.throughput(),
         linear_density_kg_m: case.line.map(|_| case.linear_density()),
@@ -114,55 +100,55 @@ fn json(case: &Case, expected: Expected, notes: Vec<String>) -> String {
 }
 
 /// What was read from a CFD solution, and whether the fibre hangs along the air.
-fn field(placed: &PlacedField) {
+fn field(placed: &PlacedField) -> Vec<String> {
     let overview = placed.field.overview();
     let (low, high) = placed.extent();
     let spread = |Spread { least, mean, largest }: Spread, unit: &str| {
         let [least, mean, largest] = [least, mean, largest].map(|value| significant(value, 3));
         format!("{least} to {largest} {unit}, {mean} {unit} on average")
     };
-    say::line("# field");
-    say::line(&format!("#   {}, around the root:", placed.field.describe()));
+    let mut lines = vec!["field".to_owned(), format!("  {}, around the root:", placed.field.describe())];
     for (name, low, high) in [("x", low.x, high.x), ("y", low.y, high.y), ("z", low.z, high.z)] {
         // Without the sign of a zero.
         let [low, high] = [low, high].map(|end| Dimension::Length.pretty_to(end + 0.0, 3));
-        say::line(&format!("#     {name} from {low} to {high}"));
+        lines.push(format!("    {name} from {low} to {high}"));
     }
     let read = placed.field.sources().iter().map(|(quantity, arrays)| format!("{quantity} from {arrays}"));
-    say::line(&format!("#   read: {}", read.collect::<Vec<_>>().join("; ")));
-    say::line(&format!("#   velocity {}", spread(overview.speed, "m/s")));
+    lines.push(format!("  read: {}", read.collect::<Vec<_>>().join("; ")));
+    lines.push(format!("  velocity {}", spread(overview.speed, "m/s")));
     if placed.field.has_turbulence() {
-        say::line(&format!("#   k {}", spread(overview.k, "m²/s²")));
-        say::line(&format!("#   ε {}", spread(overview.epsilon, "m²/s³")));
+        lines.push(format!("  k {}", spread(overview.k, "m²/s²")));
+        lines.push(format!("  ε {}", spread(overview.epsilon, "m²/s³")));
     }
     let (axis, share) = placed.main_direction();
     let along = format!(
-        "#   the air flows along {} of the field ({} of its mean velocity)",
+        "  the air flows along {} of the field ({} of its mean velocity)",
         axis.name(),
         significant(share, 2)
     );
-    match axis == placed.axis || share.is_nan() {
-        true => say::line(&format!("{along}, as the fibre hangs")),
-        false => say::line(&format!(
+    lines.push(match axis == placed.axis || share.is_nan() {
+        true => format!("{along}, as the fibre hangs"),
+        false => format!(
             "{along}, but the fibre hangs along {}; write air.field_axis = \"{}\" if it hangs along the air",
             placed.axis.name(),
             axis.name()
-        )),
-    }
+        ),
+    });
+    lines
 }
 
-fn mesh(case: &Case) {
+fn mesh(case: &Case) -> Vec<String> {
     let fibre = &case.fibre;
-    say::line("# mesh");
+    let mut lines = vec!["mesh".to_owned()];
     match case.line {
-        None => say::line(&format!(
-            "#   {} elements of {}, {} eddies of {} along the fibre",
+        None => lines.push(format!(
+            "  {} elements of {}, {} eddies of {} along the fibre",
             fibre.elements,
             Dimension::Length.pretty(fibre.rest_length()),
             case.eddies().count(),
             Dimension::Length.pretty(case.air.length_scale)
         )),
-        Some(line) => fed(case, line),
+        Some(line) => lines.extend(fed(case, line)),
     }
     if case.air.rms() > 0.0 {
         let source = match case.air.records.len() {
@@ -175,32 +161,34 @@ fn mesh(case: &Case) {
             records => format!("from {records} records"),
         };
         let rms = Dimension::Velocity.pretty(case.air.rms());
-        say::line(&format!("#   turbulence of {rms} rms {source}"));
+        lines.push(format!("  turbulence of {rms} rms {source}"));
     }
+    lines
 }
 
 /// What is known of the error of the mesh, and how to find out.
-fn error_of_mesh(case: &Case) {
+fn error_of_mesh(case: &Case) -> Vec<String> {
     let half = Dimension::Length.pretty_to(0.5 * case.fibre.rest_length(), 3);
-    match FinerPlans::for_case(case).mesh {
-        Ok(plan) => say::line(&format!(
-            "#   spunlaid run compares it with elements of {half} in the same turbulence, for {} % of the run's time",
+    let mut lines = vec![match FinerPlans::for_case(case).mesh {
+        Ok(plan) => format!(
+            "  spunlaid run compares it with elements of {half} in the same turbulence, for {} % of the run's time",
             significant(100.0 * plan.share_of_run, 2)
-        )),
-        Err(why) => say::line(&format!(
-            "#   a run does not find its error, because {why}; to find it, fly the case again with --set \
+        ),
+        Err(why) => format!(
+            "  a run does not find its error, because {why}; to find it, fly the case again with --set \
              fibre.element_length=\"{half}\""
-        )),
-    }
+        ),
+    }];
     if case.line.is_none() && case.air.rms() > 0.0 {
         let parts = case.air.length_scale / case.fibre.rest_length();
         let (_, cost) =
             OF_STARTER.iter().rev().find(|(least, _)| parts >= 0.9 * least).unwrap_or(&OF_STARTER[0]);
-        say::line(&format!(
-            "#   {} elements to an eddy; in the case of `spunlaid new`, about as many made {cost}",
+        lines.push(format!(
+            "  {} elements to an eddy; in the case of `spunlaid new`, about as many made {cost}",
             significant(parts, 2)
         ));
     }
+    lines
 }
 
 /// Elements to an eddy, and what they cost in the case of `spunlaid new`; validation.md has the measurement.
@@ -213,12 +201,13 @@ const OF_STARTER: [(f64, &str); 5] = [
 ];
 
 /// What comes out of the hole, feed, belt and stations of the air.
-fn fed(case: &Case, line: Line) {
-    spinline::filament(case).iter().for_each(|sentence| say::line(&format!("#   {sentence}")));
+fn fed(case: &Case, line: Line) -> Vec<String> {
+    let mut lines: Vec<String> =
+        spinline::filament(case).iter().map(|sentence| format!("  {sentence}")).collect();
     let length = |metres: f64| Dimension::Length.pretty_to(metres, 3);
     let rest_length = case.fibre.rest_length();
-    say::line(&format!(
-        "#   elements of {}, one fed every {} ({} step{}); {} from the inlet to the belt",
+    lines.push(format!(
+        "  elements of {}, one fed every {} ({} step{}); {} from the inlet to the belt",
         length(rest_length),
         Dimension::Time.pretty_to(rest_length / line.feed_speed, 3),
         line.steps_per_element,
@@ -229,39 +218,42 @@ fn fed(case: &Case, line: Line) {
         ratio if ratio.is_finite() => format!("{} of fibre on each metre of belt; ", length(ratio)),
         _ => String::new(),
     };
-    say::line(&format!(
-        "#   {on_belt}{} are fed in the run, {} of them after the spin-up",
+    lines.push(format!(
+        "  {on_belt}{} are fed in the run, {} of them after the spin-up",
         length(line.feed_speed * case.run.duration()),
         length(line.feed_speed * (case.run.duration() - case.run.spin_up())),
     ));
     if let Some(stations) = case.stations() {
-        say::line(&format!("#   the air at {} stations, {} apart", stations.count, length(stations.spacing)));
+        lines.push(format!("  the air at {} stations, {} apart", stations.count, length(stations.spacing)));
     }
+    lines
 }
 
-fn limits(case: &Case) {
+fn limits(case: &Case) -> Vec<String> {
     let h = case.run.time_step;
-    say::line(&format!("# time step {}, {} steps; stable below", Dimension::Time.pretty(h), case.run.steps));
+    let mut lines =
+        vec![format!("time step {}, {} steps; stable below", Dimension::Time.pretty(h), case.run.steps)];
     let limits = case.stable_step_limits();
     for limit in &limits {
-        say::line(&format!(
-            "#   {:<10} {} ({:.3} of it used)",
+        lines.push(format!(
+            "  {:<10} {} ({:.3} of it used)",
             Dimension::Time.pretty(limit.limit),
             limit.cause,
             h / limit.limit
         ));
     }
     if let Some(shortest) = limits.iter().min_by(|a, b| a.limit.total_cmp(&b.limit)) {
-        say::line(&format!("#   the shortest, {}: {}", shortest.cause, shortest.reason()));
+        lines.push(format!("  the shortest, {}: {}", shortest.cause, shortest.reason()));
     }
     if let Some(share) = case.air.place_of_cutoff(case.along()).filter(|_| case.line.is_none()) {
-        say::line(&format!(
-            "#   the turbulence changes fastest {} from the root, where its cut-off frequency is {}; a step that keeps run.error_tolerance \
+        lines.push(format!(
+            "  the turbulence changes fastest {} from the root, where its cut-off frequency is {}; a step that keeps run.error_tolerance \
              follows it",
             Dimension::Length.pretty_to(share * case.fibre.length, 3),
             Dimension::Frequency.pretty_to(case.air.cutoff_frequency, 3)
         ));
     }
+    lines
 }
 
 /// What a run is expected to need.

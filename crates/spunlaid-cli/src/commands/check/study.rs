@@ -1,48 +1,36 @@
 //! A study with all defaults, and its points.
 
+use super::show;
 use super::web::numbers;
-use crate::args::Check;
-use crate::commands::{aligned, plural};
+use crate::args::{Check, overrides};
+use crate::commands::{LISTED, aligned, plural, versioned_json};
 use crate::failure::Failure;
 use crate::say;
 use serde::Serialize;
 use serde_json::Value as Json;
-use spunlaid::input::{Overrides, StudyChanges, StudyFile, StudyNote, read_changed_study};
+use spunlaid::input::{StudyChanges, StudyFile, StudyNote, read_changed_study};
 use spunlaid::study::{Point, Study};
 use spunlaid_results::output::in_order::OrderedObject;
-use spunlaid_results::output::json_text;
-
-/// Largest number of points that are listed.
-const LISTED: usize = 24;
 
 /// Checks the file of a study.
 pub(super) fn study(check: &Check) -> Result<(), Failure> {
-    let set = Overrides { values: &check.source.set, word: "--set" };
+    let set = overrides(&check.source.set);
     let file = read_changed_study(&check.source.case, &StudyChanges { set, ..StudyChanges::points(None) })?;
     file.notes.iter().for_each(say::study_note);
     if check.json {
         say::text(&json(&file));
         return Ok(());
     }
-    // All remarks are comments, so that the output is the file of a study.
-    say::line("# the study with every default");
-    say::text(&file.text);
     let study = &file.study;
     let replicates = &study.replicates;
     let each = match (replicates.at_least, replicates.at_most) {
         (least, most) if least == most => plural(most, study.noun()),
         (least, most) => format!("{least} to {}", plural(most, study.noun())),
     };
-    say::line("");
-    say::line(&format!(
-        "# {} of {}, each with {each}",
-        plural(study.points.len() as u64, "point"),
-        file.base_path.display()
-    ));
-    for line in points(study).lines() {
-        say::line(&format!("# {line}"));
-    }
-    say::line(&format!("# ready: spunlaid sweep {}", check.source.words()));
+    let count = plural(study.points.len() as u64, "point");
+    let mut comments = vec![format!("{count} of {}, each with {each}", file.base_path.display())];
+    comments.extend(points(study).lines().map(str::to_owned));
+    show("study", &file.text, &comments, "sweep", &check.source);
     Ok(())
 }
 
@@ -70,8 +58,6 @@ fn points(study: &Study) -> String {
 fn json(file: &StudyFile) -> String {
     #[derive(Serialize)]
     struct Checked {
-        schema_version: u32,
-        spunlaid_version: &'static str,
         design: &'static str,
         replicates: [u64; 2],
         points: Vec<OrderedObject<Json>>,
@@ -85,9 +71,7 @@ fn json(file: &StudyFile) -> String {
         };
         OrderedObject(values.map(value).collect())
     };
-    json_text(&Checked {
-        schema_version: 1,
-        spunlaid_version: env!("CARGO_PKG_VERSION"),
+    versioned_json(&Checked {
         design: study.design.name(),
         replicates: [study.replicates.at_least, study.replicates.at_most],
         points: study.points.iter().map(point).collect(),

@@ -1,45 +1,36 @@
 //! A web with all defaults, and the numbers of its line.
 
-use crate::args::Check;
-use crate::commands::plural;
+use super::show;
+use crate::args::{Check, overrides};
+use crate::commands::{plural, versioned_json};
 use crate::failure::Failure;
 use crate::say;
 use serde::Serialize;
 use spunlaid::air::Lateral;
 use spunlaid::case::Note;
-use spunlaid::input::{LaydownSource, LayerSpec, Method, Overrides, WebSpec, read_web};
+use spunlaid::input::{LaydownSource, LayerSpec, Method, WebSpec, read_web};
 use spunlaid::units::Dimension;
 use spunlaid::web::Filaments;
 use spunlaid_results::numbers::significant;
-use spunlaid_results::output::json_text;
 use spunlaid_results::output::spinline::SpinSummary;
 
 /// Checks the file of a web.
 pub(super) fn web(check: &Check) -> Result<(), Failure> {
-    let set = Overrides { values: &check.source.set, word: "--set" };
-    let file = read_web(&check.source.case, set)?;
+    let file = read_web(&check.source.case, overrides(&check.source.set))?;
     file.notes.iter().for_each(say::note);
     let notes: Vec<String> = file.notes.iter().map(Note::to_string).collect();
     if check.json {
-        say::text(&json_text(&Checked::new(&file.spec, notes)));
+        say::text(&versioned_json(&Checked::new(&file.spec, notes)));
         return Ok(());
     }
-    // All remarks are comments, so that the output is the file of a web.
-    say::line("# the web with every default");
-    say::text(&file.text);
-    say::line("");
-    for line in line(&file.spec).into_iter().chain(sheet(&file.spec)).chain(air(&file.spec)) {
-        say::line(&format!("# {line}"));
-    }
-    say::line(&format!("# ready: spunlaid web {}", check.source.words()));
+    let comments = [line(&file.spec), sheet(&file.spec).to_vec(), air(&file.spec)].concat();
+    show("web", &file.text, &comments, "web", &check.source);
     Ok(())
 }
 
 /// The same as JSON.
 #[derive(Serialize)]
 struct Checked {
-    schema_version: u32,
-    spunlaid_version: &'static str,
     basis_weight_kg_m2: f64,
     belt_speed_m_s: Option<f64>,
     /// From each metre of width.
@@ -78,8 +69,6 @@ impl Checked {
             }
         };
         Self {
-            schema_version: 1,
-            spunlaid_version: env!("CARGO_PKG_VERSION"),
             basis_weight_kg_m2: weight(spec),
             belt_speed_m_s: belt(spec),
             mass_flow_kg_s_m: spec.mass_flow(),

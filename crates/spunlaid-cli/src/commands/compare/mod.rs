@@ -6,7 +6,7 @@ mod results;
 mod web;
 mod webs;
 
-use super::staged;
+use super::{say_report, staged};
 use crate::args::{Compare, Invocation};
 use crate::failure::Failure;
 use crate::say;
@@ -48,7 +48,7 @@ pub(crate) fn compare(compare: &Compare, invocation: &Invocation) -> Result<(), 
         return Err(Fault::new(message, "name fewer").into());
     }
     let names = names(&compare.runs);
-    let folder = compare.output.out.clone().unwrap_or_else(|| PathBuf::from("results").join(joined(&names)));
+    let folder = compare.output.folder(joined(&names));
     let files: Vec<&Path> = compare.runs.iter().map(PathBuf::as_path).collect();
     let staging = (!compare.json || compare.output.out.is_some())
         .then(|| {
@@ -79,7 +79,7 @@ pub(crate) fn compare(compare: &Compare, invocation: &Invocation) -> Result<(), 
     } else if !compare.output.quiet {
         comparisons.iter().for_each(|comparison| say::text(&comparison::table(comparison)));
         notes.iter().for_each(|note| say::remark(false, note));
-        say::line(&format!("open {}", folder.join("report.html").display()));
+        say_report(&folder);
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! Asks for the numbers of a line that are not given.
 
-use crate::args::{LineNumbers, polymer, quantity, titre};
+use crate::args::{LineNumbers, MOST_BEAMS, MOST_HOLES, polymer, quantity, titre};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::error::Fault;
@@ -25,36 +25,31 @@ pub(super) fn complete(
             "give them, or call the command in a terminal, where it asks; `spunlaid new --help` has examples";
         return Err(Fault::new(message, remedy).into());
     };
-    let holes = |text: &str| match text.parse() {
-        Ok(number @ 1..=10_000_000) => Ok(number),
-        _ => Err("write a whole number from 1 to 10000000".to_owned()),
-    };
-    let beams = |text: &str| match text.parse() {
-        Ok(number @ 1..=20) => Ok(number),
-        _ => Err("write a whole number from 1 to 20".to_owned()),
-    };
+    let [flow, weight, length, speed] =
+        [Dimension::MassFlow, Dimension::BasisWeight, Dimension::Length, Dimension::Velocity].map(quantity);
+    let [holes, beams] = [MOST_HOLES, MOST_BEAMS].map(read_number);
     ask(answers, &mut numbers.polymer, "Polymer: pp, pet, pa6 or pla", "pp", polymer)?;
-    ask(answers, &mut numbers.throughput, "Throughput of a hole", "0.5 g/min", |t| {
-        quantity(Dimension::MassFlow, t)
-    })?;
+    ask(answers, &mut numbers.throughput, "Throughput of a hole", "0.5 g/min", flow)?;
     if numbers.diameter.is_none() {
         ask(answers, &mut numbers.dtex, "Titre of a filament", "2 dtex", titre)?;
     }
-    ask(answers, &mut numbers.basis_weight, "Basis weight of the web", "20 g/m²", |t| {
-        quantity(Dimension::BasisWeight, t)
-    })?;
-    ask(answers, &mut numbers.width, "Width of the web", "1 m", |t| quantity(Dimension::Length, t))?;
+    ask(answers, &mut numbers.basis_weight, "Basis weight of the web", "20 g/m²", weight)?;
+    ask(answers, &mut numbers.width, "Width of the web", "1 m", &length)?;
     if numbers.holes.is_none() {
         ask(answers, &mut numbers.holes_per_metre, "Holes of a beam per metre of width", "5000", holes)?;
     }
     ask(answers, &mut numbers.beams, "Number of equal beams", "1", beams)?;
-    ask(answers, &mut numbers.air_speed, "Speed of the air at the end of the slot", "60 m/s", |t| {
-        quantity(Dimension::Velocity, t)
-    })?;
-    ask(answers, &mut numbers.distance, "Distance from the slot to the belt", "0.5 m", |t| {
-        quantity(Dimension::Length, t)
-    })?;
+    ask(answers, &mut numbers.air_speed, "Speed of the air at the end of the slot", "60 m/s", speed)?;
+    ask(answers, &mut numbers.distance, "Distance from the slot to the belt", "0.5 m", length)?;
     Ok(numbers)
+}
+
+/// Reads a whole number from 1.
+fn read_number(most: u64) -> impl Fn(&str) -> Result<u64, String> {
+    move |text| {
+        let number = text.parse().ok().filter(|number| (1..=most).contains(number));
+        number.ok_or_else(|| format!("write a whole number from 1 to {most}"))
+    }
 }
 
 /// The options without which there is no line.

@@ -39,11 +39,7 @@ fn web(new: &New) -> Result<(), Failure> {
     let mut answers = is_terminal.then(|| stdin().lock());
     let line = Line::new(&complete(new.line.clone(), answers.as_mut())?);
     let path = &new.file;
-    if is_standard(path) {
-        let fault =
-            Fault::new("is standard output, and a web is written with two files beside it", "name a file");
-        return Err(Error::folder(path, fault).into());
-    }
+    need_file(path, "a web is written with two files beside it")?;
     let name = super::stem(path, "line").to_string_lossy().into_owned();
     let [case, air] = [format!("{name}_filament.toml"), format!("{name}_air.csv")];
     let files = [
@@ -73,6 +69,15 @@ fn web(new: &New) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Refuses standard output where a file is needed.
+fn need_file(path: &Path, why: &str) -> Result<(), Failure> {
+    if is_standard(path) {
+        let fault = Fault::new(format!("is standard output, and {why}"), "name a file");
+        return Err(Error::folder(path, fault).into());
+    }
+    Ok(())
+}
+
 /// Writes a file that does not exist yet.
 fn write(path: &Path, text: &str) -> Result<(), Failure> {
     let written = OpenOptions::new().write(true).create_new(true).open(path).and_then(|mut file| {
@@ -80,13 +85,11 @@ fn write(path: &Path, text: &str) -> Result<(), Failure> {
             let _ = remove_file(path);
         })
     });
-    written.map_err(|error| {
-        if error.kind() == ErrorKind::AlreadyExists {
-            let fault = Fault::new("exists already and is not overwritten", "name another file");
-            Error::folder(path, fault).into()
-        } else {
-            let fault = Fault::new(format!("cannot be written: {error}"), "name another file");
-            Error::system(path, fault).into()
+    let fault = |message: String| Fault::new(message, "name another file");
+    written.map_err(|error| match error.kind() {
+        ErrorKind::AlreadyExists => {
+            Error::folder(path, fault("exists already and is not overwritten".to_owned())).into()
         }
+        _ => Error::system(path, fault(format!("cannot be written: {error}"))).into(),
     })
 }

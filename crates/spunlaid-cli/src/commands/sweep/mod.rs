@@ -4,15 +4,13 @@ mod progress;
 mod table;
 
 use super::interrupt::stop_on_ctrl_c;
-use super::{plural, stem};
-use crate::args::{Invocation, Sweep};
+use super::{plural, run_control, say_report, stem};
+use crate::args::{Invocation, Sweep, overrides};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::case::keys;
-use spunlaid::ensemble::RunControl;
 use spunlaid::error::{Error, Fault};
-use spunlaid::input::{Overrides, StudyChanges, StudyFile, read_changed_study, write_experiment};
-use spunlaid::lanes::Isa;
+use spunlaid::input::{StudyChanges, StudyFile, read_changed_study, write_experiment};
 use spunlaid::spinline::{self, SpinSpec};
 use spunlaid::study::{Journal, Progress, ReplicateOutcome, Study, run};
 use spunlaid::threads::{lock, unlock};
@@ -27,13 +25,13 @@ const LOST_LISTED: u64 = 10;
 
 pub(crate) fn sweep(sweep: &Sweep, invocation: &Invocation) -> Result<(), Failure> {
     let (points, replicates) = (sweep.points, sweep.replicates);
-    let set = Overrides { values: &sweep.set, word: "--set" };
+    let set = overrides(&sweep.set);
     let file = read_changed_study(&sweep.study, &StudyChanges { points, replicates, set })?;
     if let Some(number) = sweep.print_point {
         return print_point(&file.study, number);
     }
     file.notes.iter().for_each(say::study_note);
-    let path = super::folder(sweep.output.out.as_ref(), stem(&sweep.study, "study"));
+    let path = sweep.output.folder(stem(&sweep.study, "study"));
     let origin = invocation.origin(&[&sweep.study], &path);
     let (mut folder, journal, found) =
         StudyFolder::open(&path, &file, sweep.output.force, origin.as_ref(), stop_on_ctrl_c())?;
@@ -44,10 +42,10 @@ pub(crate) fn sweep(sweep: &Sweep, invocation: &Invocation) -> Result<(), Failur
     report_found(sweep, &file.study, &found);
 
     let journal = Mutex::new(journal);
-    let before = fibres(&journal, &file.study);
+    let before = lock(&journal).total();
     let outcome = fly(sweep, &file.study, &journal);
     let mut journal = unlock(journal);
-    let done = (0..file.study.points.len()).map(|point| journal.held(point)).sum();
+    let done = journal.total();
     let written =
         outcome.map_err(Failure::from).and_then(|()| write(sweep, &file, &mut folder, &mut journal, before));
     written.map_err(|failure| match failure {
@@ -66,7 +64,9 @@ pub(crate) fn sweep(sweep: &Sweep, invocation: &Invocation) -> Result<(), Failur
 fn print_point(study: &Study, number: u64) -> Result<(), Failure> {
     let points = study.points.len() as u64;
     let point = number.checked_sub(1).and_then(|index| study.points.get(usize::try_from(index).ok()?));
-    let point = point.ok_or_else(|| no_such_point(number, points))?;
+    let point = point.ok_or_else(|| {
+        Fault::plain(format!("--print-point {number}: the study has {points} points, counted from 1"))
+    })?;
     say::line(&format!("# point {number} of {points}"));
     say::text(&write_experiment(&point.experiment));
     Ok(())
@@ -117,20 +117,9 @@ fn times(study: &Study) -> String {
     }
 }
 
-fn fibres(journal: &Mutex<Journal>, study: &Study) -> u64 {
-    let journal = lock(journal);
-    (0..study.points.len()).map(|point| journal.held(point)).sum()
-}
-
 fn fly(sweep: &Sweep, study: &Study, journal: &Mutex<Journal>) -> Result<(), Error> {
     let (fibre_steps, progress) = (AtomicU64::new(0), Progress::default());
-    let computing = RunControl {
-        threads: sweep.threads.number(),
-        isa: Isa::detect(),
-        stop: stop_on_ctrl_c(),
-        fibre_steps: &fibre_steps,
-        recorder: None,
-    };
+    let computing = run_control(sweep.threads, &fibre_steps);
     progress::follow(study, &progress, &fibre_steps, sweep.output.quiet, || {
         run(study, journal, computing, &progress)
     })
@@ -163,7 +152,7 @@ fn write(
             ));
         }
         say::line(&format!("{} at {}", plural(fibres, study.noun()), plural(results.len() as u64, "point")));
-        say::line(&format!("open {}", folder.path().join("report.html").display()));
+        say_report(folder.path());
     }
     lost(study, journal, fibres)
 }
@@ -209,9 +198,4 @@ fn no_steady_state(failure: &spinline::Failure) -> String {
     let value =
         failure.value.zip(dimension).map(|(value, dimension)| format!(" = {}", dimension.pretty(value)));
     format!("{}{} {}", failure.key, value.unwrap_or_default(), failure.fault)
-}
-
-/// The study has fewer points.
-fn no_such_point(number: u64, points: u64) -> Fault {
-    Fault::plain(format!("--print-point {number}: the study has {points} points, counted from 1"))
 }

@@ -1,8 +1,7 @@
 //! Progress of a study: a bar on a terminal, or a line from time to time in a log file.
 
-use crate::progress::show_while;
+use crate::progress::{bar, show_while};
 use crate::say;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use spunlaid::study::{Progress, Study};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
@@ -23,10 +22,7 @@ pub(super) fn follow<T>(
     if quiet {
         return work();
     }
-    let bar = ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::stderr());
-    if let Ok(style) = ProgressStyle::with_template("[{bar:24}] {percent:>3} %  {msg}") {
-        bar.set_style(style.progress_chars("=> "));
-    }
+    let bar = bar(1, "[{bar:24}] {percent:>3} %  {msg}", false);
     let mut log = Log { last: Instant::now(), share: 0.0 };
     let begun = Instant::now();
     let mut before = None;

@@ -1,12 +1,10 @@
 //! The table of a study on the terminal.
 
-use super::super::aligned;
+use super::super::{LISTED, aligned};
 use spunlaid::study::{PointResults, Study};
 use spunlaid_results::output::study::shown;
 use std::fmt::Write;
 
-/// Largest number of points that are listed.
-const LISTED: usize = 24;
 /// Number of measures that are shown.
 const SHOWN: usize = 4;
 

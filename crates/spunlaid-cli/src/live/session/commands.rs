@@ -49,7 +49,7 @@ impl Session {
                 let name = save::plain_name(name).map_err(Answer::refused)?;
                 let text = self.document.to_save();
                 save::save(&self.folder, &name, &text, *replace)?;
-                self.document = self.document.saved(&name, text);
+                self.document = Document::saved(&name, text);
                 return Ok(Some(Answer::Saved { name }));
             }
         }

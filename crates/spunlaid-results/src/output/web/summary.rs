@@ -7,6 +7,7 @@ use crate::output::spinline::SpinSummary;
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 use spunlaid::advice::Advice;
+use spunlaid::lanes::Isa;
 use spunlaid::observe::{
     OF_PATCHES, OF_SCANNED_PATCHES, OF_SCANS, OF_WEBS, ScanMeasure, WebMeasure, WebNumber,
 };
@@ -14,6 +15,7 @@ use spunlaid::scan::{self, Doubt};
 use spunlaid::statistics::{Estimate, interval_of_deviation};
 use spunlaid::web::uniformity::Unevenness;
 use spunlaid::web::{Clouds, Edges, Findings, Map, NeighbourCorrelation, Web};
+use std::time::Instant;
 
 /// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
 const SCHEMA_VERSION: u32 = 2;
@@ -87,6 +89,12 @@ pub struct Performance {
 }
 
 impl Performance {
+    /// The time since an instant, on so many threads.
+    pub fn measure(started: Instant, threads: usize, isa: Isa) -> Self {
+        let wall_s = started.elapsed().as_secs_f64();
+        Self { wall_s, threads, instruction_set: isa.name(), ..Self::default() }
+    }
+
     /// With the times of flights in one air, if there were some.
     #[must_use]
     pub fn with_flights(self, findings: &Findings) -> Self {
