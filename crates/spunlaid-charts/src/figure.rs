@@ -191,7 +191,7 @@ mod tests {
 
     #[test]
     fn words_stand_in_the_table() {
-        let chart = Chart::new("c", "", Axis::of_words("Law", ["one", "two"]), Axis::linear("*y* (mm)"))
+        let chart = Chart::new("c", "", Axis::from_words("Law", ["one", "two"]), Axis::linear("*y* (mm)"))
             .scatter(Series::new("*y*", BLUE), &[(0.1, 1.0, None), (0.9, 2.0, None)]);
         let figure = Figure::new(&chart, "");
         assert_eq!(figure.table().csv(), "series,law,y_mm\ny,one,1\ny,two,2\n");

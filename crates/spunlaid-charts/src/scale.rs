@@ -53,7 +53,7 @@ impl Axis {
     }
 
     /// An axis of words, evenly spaced; the word nearest to a value is the one meant.
-    pub fn of_words<W: Into<String>>(label: &str, words: impl IntoIterator<Item = W>) -> Self {
+    pub fn from_words<W: Into<String>>(label: &str, words: impl IntoIterator<Item = W>) -> Self {
         Self { words: words.into_iter().map(Into::into).collect(), ..Self::linear(label) }
     }
 
@@ -129,7 +129,7 @@ impl Scale {
     /// The scale that shows `values`, with about `count` ticks.
     pub fn fit(axis: &Axis, values: impl Iterator<Item = f64>, count: usize) -> Self {
         if !axis.words.is_empty() {
-            return Self::of_words(&axis.words);
+            return Self::from_words(&axis.words);
         }
         let values: Vec<f64> =
             values.chain(axis.include.iter().copied()).filter(|&v| axis.shows(v)).collect();
@@ -146,7 +146,7 @@ impl Scale {
         Self::between(axis.spacing, ends, count)
     }
 
-    fn of_words(words: &[String]) -> Self {
+    fn from_words(words: &[String]) -> Self {
         let tick = |(i, word): (usize, &String)| Tick { value: i as f64, label: Some(word.clone()) };
         let ends = (-0.5, words.len() as f64 - 0.5);
         Self {
@@ -329,7 +329,7 @@ mod tests {
 
     #[test]
     fn words_lie_at_their_numbers() {
-        let scale = Scale::fit(&Axis::of_words("Law", ["one", "two", "three"]), std::iter::empty(), 2);
+        let scale = Scale::fit(&Axis::from_words("Law", ["one", "two", "three"]), std::iter::empty(), 2);
         assert_eq!(labels(&scale), ["one", "two", "three"]);
         assert!((scale.place(1.0) - 0.5).abs() < 1e-12 && scale.holds(2.3) && !scale.holds(3.0));
     }

@@ -56,7 +56,7 @@ pub(crate) fn find_fit(
         let target = target.map_err(|fault| Error::folder(&to, fault))?;
         Ok((file, target))
     })?;
-    let notes = Note::of_results(&file.start.notes);
+    let notes = Note::notes_of_results(&file.start.notes);
     let (name, figures) = (stem(&path), figure_files(figures)?);
     let paths = [&path, &to].map(|path| path.display().to_string());
     let paths = [&*paths[0], &*paths[1]];

@@ -80,7 +80,7 @@ pub(crate) fn fly(
     })?;
     let performance =
         folder::performance(&description, &results, &plans, computing, started.elapsed().as_secs_f64());
-    let mut notes = Note::of_results(&case.notes);
+    let mut notes = Note::notes_of_results(&case.notes);
     notes.extend(folder::lost(&description, &results));
     notes.extend(folder::outside(&results));
     notes.extend(folder::coarse_shapes(&description, &results));
@@ -286,9 +286,9 @@ fn described<'py>(py: Python<'py>, measure: &Measure) -> PyResult<Bound<'py, PyD
     dict.set_item("label", measure.label)?;
     dict.set_item("meaning", measure.meaning)?;
     dict.set_item("group", measure.group.name)?;
-    let scales = match Scale::of_curve(measure) {
+    let scales = match Scale::from_curve(measure) {
         Some(scales) => scales.map(scale).to_vec(),
-        None => vec![scale(Scale::of_quantity(measure.label, measure.unit))],
+        None => vec![scale(Scale::from_quantity(measure.label, measure.unit))],
     };
     dict.set_item("scales", scales)?;
     Ok(dict)

@@ -39,7 +39,7 @@ pub(crate) fn solve_spinline(
     let Source { name, text, file } = Source::read(py, path, FileKind::Case, "spinline")?;
     let file = guarded(py, || parse_spinline(&text, &file, set))?;
     let results = guarded(py, || SpinResults::new(&file))?;
-    let notes = [Note::of_results(&file.notes), remarks(&results.rows)].concat();
+    let notes = [Note::notes_of_results(&file.notes), remarks(&results.rows)].concat();
     Ok(SolvedSpinline { name, file, results, notes })
 }
 

@@ -228,7 +228,7 @@ impl Study {
             dict.set_item("unit", input.dimension.si_unit())?;
             let is_factor = index < study.factors.len();
             dict.set_item("factor", is_factor)?;
-            dict.set_item("scale", is_factor.then(|| scale(Scale::of_factor(study, index))))?;
+            dict.set_item("scale", is_factor.then(|| scale(Scale::from_factor(study, index))))?;
             let values =
                 study.points.iter().map(|point| point.values.get(index).copied().unwrap_or(f64::NAN));
             if input.words.is_empty() {
@@ -374,7 +374,7 @@ impl Study {
     fn measures(&self) -> Vec<(&str, &str, &str, &'static str, AxisScale)> {
         let all = self.file.study.quantities.iter();
         all.map(|quantity| {
-            let axis = scale(Scale::of_quantity(&quantity.label, quantity.unit));
+            let axis = scale(Scale::from_quantity(&quantity.label, quantity.unit));
             (&*quantity.column, &*quantity.name, &*quantity.label, quantity.meaning, axis)
         })
         .collect()

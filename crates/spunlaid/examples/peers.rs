@@ -66,7 +66,7 @@ fn forces() -> String {
             .enumerate()
     {
         let fibre = Fibre { root: Root::Free, ..fibre };
-        let drag = paper_drag().of_element(&fibre, 1.204, 1.51e-5);
+        let drag = paper_drag().element_drag(&fibre, 1.204, 1.51e-5);
         let strand = Strand { fibre, drag, gravity: 9.81, damping: 0.0 };
         let (mut at, mut heading) = (V::default(), X);
         let mut position = vec![at];

@@ -32,7 +32,7 @@ pub struct Drag {
 
 impl Drag {
     /// The laws for an element of a fibre in air of `density` [kg/m³] and kinematic `viscosity` [m²/s].
-    pub fn of_element(&self, fibre: &Fibre, density: f64, viscosity: f64) -> ElementDrag {
+    pub fn element_drag(&self, fibre: &Fibre, density: f64, viscosity: f64) -> ElementDrag {
         let d = fibre.diameter;
         let l = fibre.rest_length();
         let re_per_velocity = d / viscosity;

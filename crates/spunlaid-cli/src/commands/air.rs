@@ -22,7 +22,7 @@ pub(crate) fn air(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
         (case, notes) = air.source.read(&[("air.lateral", "von-karman".to_owned())])?;
     }
     notes.iter().for_each(say::note);
-    let mut told = Note::of_results(&notes);
+    let mut told = Note::notes_of_results(&notes);
     if is_uniform {
         say::remark(false, &UNIFORM);
         told.push(UNIFORM.to_owned());

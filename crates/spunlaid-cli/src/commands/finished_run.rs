@@ -96,7 +96,7 @@ pub(super) fn continued(run: &Run, until: f64) -> Result<(Case, Vec<String>), Fa
         });
     }
     notes.iter().for_each(say::note);
-    let mut notes = Note::of_results(&notes);
+    let mut notes = Note::notes_of_results(&notes);
     let (harmonics, usual) = (case.air.harmonics, case.air.default_harmonics(time));
     if case.air.rms() > 0.0 && harmonics != usual {
         notes.push(format!(

@@ -23,7 +23,7 @@ pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), 
     let scan = read_measured_web(&arguments.to)?;
     let target = Target::new(&scan, &file.start.spec.sheet, arguments.spectrum)
         .map_err(|fault| Error::folder(&arguments.to, fault))?;
-    let notes = Note::of_results(&file.start.notes);
+    let notes = Note::notes_of_results(&file.start.notes);
     let name = stem(&arguments.web, "web").to_string_lossy().into_owned();
     let paths = [arguments.web.display().to_string(), arguments.to.display().to_string()];
     let input = FitInput {

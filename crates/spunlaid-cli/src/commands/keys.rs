@@ -36,7 +36,7 @@ impl KeyEntry {
         Self { name, kind, omission, meaning, synonyms, file: "", usual, may_change: [varies, in_flight] }
     }
 
-    fn of_web(key: &WebKey) -> Self {
+    fn from_web_key(key: &WebKey) -> Self {
         Self { synonyms: key.all_synonyms(), usual: key.usual_range(), ..Self::new(key) }
     }
 
@@ -55,16 +55,16 @@ pub(crate) fn keys(arguments: &Keys) -> Result<(), Failure> {
     let pattern = arguments.pattern.clone().unwrap_or_default();
     let word = pattern.trim().to_lowercase();
     let is_of_web =
-        |key: &&WebKey| key.has_word(&word) || key.of_case().is_some_and(|key| key.has_word(&word));
-    let of_web = || WEB_KEYS.iter().filter(is_of_web).map(KeyEntry::of_web);
-    let of_case = || keys::all().iter().filter(|key| key.has_word(&word)).map(KeyEntry::new);
+        |key: &&WebKey| key.has_word(&word) || key.key_of_case().is_some_and(|key| key.has_word(&word));
+    let web_keys = || WEB_KEYS.iter().filter(is_of_web).map(KeyEntry::from_web_key);
+    let case_keys = || keys::all().iter().filter(|key| key.has_word(&word)).map(KeyEntry::new);
     let found: Vec<KeyEntry> = match arguments {
-        Keys { web: true, .. } => of_web().collect(),
-        _ if word.is_empty() || arguments.markdown => of_case().collect(),
+        Keys { web: true, .. } => web_keys().collect(),
+        _ if word.is_empty() || arguments.markdown => case_keys().collect(),
         // Who searches a word need not know whose key it is.
         _ => {
-            let of_web = of_web().filter(|key| keys::find(key.name).is_none());
-            of_case().chain(of_web.map(|key| KeyEntry { file: "  (of a web file)", ..key })).collect()
+            let further = web_keys().filter(|key| keys::find(key.name).is_none());
+            case_keys().chain(further.map(|key| KeyEntry { file: "  (of a web file)", ..key })).collect()
         }
     };
     if found.is_empty() {

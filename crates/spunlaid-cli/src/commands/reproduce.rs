@@ -168,7 +168,7 @@ impl PaperFlights {
         for case in &mut steps {
             case.run.replicates = base.run.replicates;
         }
-        let study = Study::of_cases(cases, Replicates::fixed(base.run.replicates));
+        let study = Study::from_cases(cases, Replicates::fixed(base.run.replicates));
         Ok(Self { figures: figures.to_vec(), steps, trends, choices, study, base: base.clone() })
     }
 

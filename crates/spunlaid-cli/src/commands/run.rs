@@ -20,7 +20,7 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
         None => {
             let (case, notes) = run.source.read(&overrides(run))?;
             notes.iter().for_each(say::note);
-            (case, Note::of_results(&notes))
+            (case, Note::notes_of_results(&notes))
         }
     };
     let name = name(run);

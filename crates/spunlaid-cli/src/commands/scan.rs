@@ -30,7 +30,7 @@ pub(super) fn scan(arguments: &Analyse, invocation: &Invocation) -> Result<(), F
     let findings = analyse(&picture, &settings(arguments, &picture)?)?;
     let performance = Performance::measure(started, 1, Isa::detect());
     let notes: Vec<String> = findings.notes.iter().map(ToString::to_string).collect();
-    let summary = Summary::of_scan(&picture.file, &findings, performance, &notes).to_json();
+    let summary = Summary::from_scan(&picture.file, &findings, performance, &notes).to_json();
     web::write_scan(&staging, &findings.map)?;
     let figures = scan_figures(&findings);
     staging.write_figures(&figures)?;

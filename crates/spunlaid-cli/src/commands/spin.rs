@@ -15,7 +15,7 @@ pub(crate) fn spin(spin: &Spin, invocation: &Invocation) -> Result<(), Failure> 
     let name = stem(&spin.file, "spinline").to_string_lossy().into_owned();
     let results = SpinResults::new(&file)?;
     let found = remarks(&results.rows);
-    let notes = [Note::of_results(&file.notes), found.clone()].concat();
+    let notes = [Note::notes_of_results(&file.notes), found.clone()].concat();
     let written = SpinFolder { name: &name, file: &file, results: &results, notes: &notes };
     let folder = spin.output.optional_folder(spin.json, &name);
     if let Some(folder) = &folder {

@@ -61,7 +61,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     let advice_s = started.elapsed().as_secs_f64() - laying_s;
     let performance = Performance::measure(started, by.threads, by.isa).with_flights(&findings);
     let found = folders::web::notes(web, &findings, layers);
-    let notes = [Note::of_results(&file.notes), found.clone()].concat();
+    let notes = [Note::notes_of_results(&file.notes), found.clone()].concat();
     let written = WebFolder {
         name: &name,
         file: &file,

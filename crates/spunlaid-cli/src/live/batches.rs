@@ -141,9 +141,9 @@ fn mean_of(values: &[[f64; WIDTH]]) -> f64 {
 ///
 /// Source: H. Flyvbjerg, H. G. Petersen, Journal of Chemical Physics 91 (1989) 461–466.
 fn standard_error(mut values: Vec<[f64; WIDTH]>) -> Option<f64> {
-    let mut largest = of_independent(&over_fibres(&values));
+    let mut largest = error_of_independent(&over_fibres(&values));
     while values.len() >= LEAST {
-        let error = of_independent(&values.iter().flatten().copied().collect::<Vec<f64>>());
+        let error = error_of_independent(&values.iter().flatten().copied().collect::<Vec<f64>>());
         largest = largest.into_iter().chain(error).reduce(f64::max);
         values = values.chunks_exact(2).map(|two| from_fn(|i| 0.5 * (two[0][i] + two[1][i]))).collect();
     }
@@ -158,7 +158,7 @@ fn over_fibres(values: &[[f64; WIDTH]]) -> Vec<f64> {
     (0..WIDTH).map(|i| values.iter().map(|v| v[i]).sum::<f64>() / values.len() as f64).collect()
 }
 
-fn of_independent(values: &[f64]) -> Option<f64> {
+fn error_of_independent(values: &[f64]) -> Option<f64> {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;
     let squares = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>();

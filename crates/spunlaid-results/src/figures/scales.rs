@@ -27,20 +27,20 @@ impl Scale {
     }
 
     /// The scale of a number that is measured.
-    pub fn of_quantity(label: &str, unit: Unit) -> Self {
+    pub fn from_quantity(label: &str, unit: Unit) -> Self {
         Self::new(Axis::linear(&with_unit(label, unit.shown)), unit.per_si)
     }
 
     /// The scales of a curve, along and up; `None` for a number.
-    pub fn of_curve(measure: &Measure) -> Option<[Self; 2]> {
+    pub fn from_curve(measure: &Measure) -> Option<[Self; 2]> {
         let (.., unit) = measure.kind.abscissa()?;
         let (along, up) = axes(measure, true);
         Some([Self::new(along, unit.per_si), Self::new(up, measure.unit.per_si)])
     }
 
     /// The scale of a factor of a study.
-    pub fn of_factor(study: &Study, factor: usize) -> Self {
-        let FactorAxis { axis, zero, scale, .. } = FactorAxis::of_study(study, factor);
+    pub fn from_factor(study: &Study, factor: usize) -> Self {
+        let FactorAxis { axis, zero, scale, .. } = FactorAxis::from_study(study, factor);
         Self { zero, ..Self::new(axis, scale) }
     }
 }

@@ -134,7 +134,7 @@ fn every_declared_measure_of_a_scan_is_in_summary_and_report() {
     let settings = scan::Settings { noise: Some(50.0), ..scan::Settings::new(light) };
     let findings = scan::analyse(&picture, &settings).unwrap();
     let performance = Performance::default();
-    let summary = Summary::of_scan(&picture.file, &findings, performance, &[]).to_json();
+    let summary = Summary::from_scan(&picture.file, &findings, performance, &[]).to_json();
     let summary: Json = serde_json::from_str(&summary).unwrap();
     let report = ScanReport {
         name: "scan",

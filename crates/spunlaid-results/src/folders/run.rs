@@ -136,7 +136,7 @@ impl Run<'_> {
 
     /// The spinline from which the fibre is fed, with its figures.
     fn spinline(&self) -> Option<(SpinResults, Vec<Figure>)> {
-        let results = SpinResults::of_case(self.case)?;
+        let results = SpinResults::from_case(self.case)?;
         let figures = spinline_figures(SPINLINE, &results.rows, &results.influences);
         Some((results, figures))
     }

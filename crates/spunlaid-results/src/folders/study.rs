@@ -170,7 +170,7 @@ impl<'a> StudyFolder<'a> {
             rankings: &rankings.of_measures,
             refusal: refusal.as_deref(),
             figures: &figures,
-            notes: &StudyNote::of_results(&file.notes),
+            notes: &StudyNote::notes_of_results(&file.notes),
             study_toml: &file.text,
             base_toml: &file.base_text,
         });

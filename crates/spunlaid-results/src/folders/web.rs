@@ -130,7 +130,7 @@ fn rows(spec: &WebSpec, web: &Web, layers: &[LayerFibres]) -> Vec<Layer> {
             fit_residual: fit.map(|fit| fit.rms),
             fit_residual_by_chance: fit.and_then(|fit| fit.by_chance),
             lateral_cutoff: spec.lateral_cutoff(i),
-            spinline: layer.source.case().and_then(SpinSummary::of_case),
+            spinline: layer.source.case().and_then(SpinSummary::from_case),
         }
     };
     spec.layers.iter().zip(&web.layers).enumerate().map(row).collect()
@@ -148,7 +148,7 @@ fn spinlines(spec: &WebSpec) -> Vec<LayerSpinline> {
         }
     }
     let solved = |(number, (case, layers)): (usize, (&Case, Vec<usize>))| {
-        let results = SpinResults::of_case(case)?;
+        let results = SpinResults::from_case(case)?;
         let prefix = if number == 0 { SPINLINE.to_owned() } else { format!("{SPINLINE}_{}", number + 1) };
         let figures = spinline_figures(&prefix, &results.rows, &results.influences);
         let throughput = case.spinline.as_ref()?.throughput;

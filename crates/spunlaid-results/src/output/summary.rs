@@ -84,7 +84,10 @@ impl<'a> FinerSummary<'a> {
             finer_time_step_s: check.time_step,
             finer_element_length_m: check.element_length,
             error_over_difference: check.error_over_change(),
-            differences: check.differences().map(|(name, difference)| (name, of_mean(difference))).collect(),
+            differences: check
+                .differences()
+                .map(|(name, difference)| (name, summarise_mean(difference)))
+                .collect(),
         }
     }
 }
@@ -145,7 +148,7 @@ impl<'a> Summary<'a> {
             schema_version: SCHEMA_VERSION,
             spunlaid_version: env!("CARGO_PKG_VERSION"),
             case: resolved(case),
-            spinline: SpinSummary::of_case(case),
+            spinline: SpinSummary::from_case(case),
             elements: case.fibre.elements,
             steps: case.run.steps,
             replicates: case.run.replicates,
@@ -182,7 +185,7 @@ fn summary_of(number: &Number) -> NumberSummary<'_> {
     NumberSummary {
         median: value_if(Aggregate::Median),
         largest: value_if(Aggregate::Largest),
-        ..of_mean(&number.estimate)
+        ..summarise_mean(&number.estimate)
     }
 }
 
@@ -190,7 +193,7 @@ fn lost_summary(fibre: &LostFibre) -> LostSummary<'_> {
     LostSummary { replicate: fibre.replicate + 1, time_s: fibre.time, reason: &fibre.reason }
 }
 
-fn of_mean(estimate: &Estimate) -> NumberSummary<'_> {
+fn summarise_mean(estimate: &Estimate) -> NumberSummary<'_> {
     let Estimate { mean, standard_error, values } = estimate;
     NumberSummary { median: None, largest: None, mean: *mean, standard_error: *standard_error, values }
 }
@@ -203,7 +206,7 @@ pub fn resolved(case: &Case) -> OrderedObject<OrderedObject<Json>> {
             let unit = key.dimension().map(Dimension::suffix).unwrap_or_default();
             (format!("{}{unit}", key.short()), key.get(case).map_or(Json::Null, json))
         };
-        let mut entries: Vec<(String, Json)> = keys::of_table(name).map(entry).collect();
+        let mut entries: Vec<(String, Json)> = keys::keys_of_table(name).map(entry).collect();
         if name == "air" {
             entries.push(("flow".to_owned(), case.air.flow.name().into()));
             entries.push(("records".to_owned(), case.air.records.len().into()));

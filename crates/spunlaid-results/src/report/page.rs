@@ -114,7 +114,9 @@ pub(super) fn render(input: &ReportInput<'_>) -> Result<String, Failure> {
         replicate_heads: table::replicate_heads(results),
         replicate_rows: table::replicate_rows(results, LISTED),
         unlisted: replicates.saturating_sub(LISTED),
-        spinline: input.spinline.map(|(results, figures)| spinline::of_fibre(input.case, results, figures)),
+        spinline: input
+            .spinline
+            .map(|(results, figures)| spinline::section_of_fibre(input.case, results, figures)),
         sections: sections(input.figures),
         balance_error: number(results.number("balance_error").map_or(f64::NAN, Number::value)),
         work_error: results.number("work_error").map(|error| number(error.value())),

@@ -164,7 +164,11 @@ fn celsius(temperature: f64) -> String {
 }
 
 /// The spinline from which a fibre in flight is fed.
-pub(super) fn of_fibre<'a>(case: &Case, results: &SpinResults, figures: &'a [Figure]) -> SpinSection<'a> {
+pub(super) fn section_of_fibre<'a>(
+    case: &Case,
+    results: &SpinResults,
+    figures: &'a [Figure],
+) -> SpinSection<'a> {
     let gives = match results.rows.first() {
         Some(solution) if solution.modulus_estimate == case.fibre.youngs_modulus => {
             "diameter, density and speed, and an estimate of its Young’s modulus"
@@ -191,7 +195,7 @@ pub struct LayerSpinline {
 }
 
 /// The spinlines of a web, a section for each.
-pub(super) fn of_web<'a>(
+pub(super) fn sections_of_web<'a>(
     web: &Web,
     layers: &[Layer],
     spinlines: &'a [LayerSpinline],

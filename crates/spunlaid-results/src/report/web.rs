@@ -131,7 +131,7 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
         lever_heads: findings.patches.iter().map(|patch| millimetres(patch.map.patch)).collect(),
         levers: findings.sensitivities.iter().map(levers).collect(),
         figures: input.figures,
-        spinlines: spinline::of_web(input.web, input.layers, input.spinlines),
+        spinlines: spinline::sections_of_web(input.web, input.layers, input.spinlines),
         file: File {
             title: "The web file",
             heads: &[

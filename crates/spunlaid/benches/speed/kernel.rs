@@ -41,7 +41,7 @@ impl Setup {
         let horizon = (steps + 3) as f64 * h;
         let turbulence =
             Wind::uniform(Isa::detect(), &streams, eddies.count(), horizon).expect("fibres that agree");
-        let drag = paper_drag().of_element(&fibre, air.density, air.kinematic_viscosity);
+        let drag = paper_drag().element_drag(&fibre, air.density, air.kinematic_viscosity);
         Self { strand: Strand { fibre, drag, gravity: 9.81, damping }, eddies, turbulence, h, steps }
     }
 

@@ -43,7 +43,7 @@ fn flown(scheme: Scheme, h: f64, duration: f64) -> (Snapshot, Snapshot) {
         (0..WIDTH as u64).map(|replicate| (air.clone(), StreamKey { seed: 4, replicate })).collect();
     let turbulence = Wind::uniform(Isa::detect(), &streams, eddies.count(), duration + 2.0 * h)
         .expect("fibres that agree");
-    let drag = paper_drag().of_element(&fibre, air.density, air.kinematic_viscosity);
+    let drag = paper_drag().element_drag(&fibre, air.density, air.kinematic_viscosity);
     let strands = [Strand { fibre, drag, gravity: 9.81, damping: 0.0 }; WIDTH];
     let mut flight = Flight::assembled(Isa::detect(), &strands, (&eddies, &turbulence), scheme, h)
         .expect("fibres that agree");

@@ -18,7 +18,7 @@ const AIR: ReferenceDrag = ReferenceDrag { air_density: 1.204, viscosity: 1.51e-
 fn stubby(root: Root) -> Strand {
     let fibre =
         Fibre { length: 0.05, diameter: 300e-6, youngs_modulus: 1e6, elements: 10, root, ..table1_fibre() };
-    let drag = paper_drag().of_element(&fibre, AIR.air_density, AIR.viscosity);
+    let drag = paper_drag().element_drag(&fibre, AIR.air_density, AIR.viscosity);
     Strand { fibre, drag, gravity: 9.81, damping: 0.0 }
 }
 

@@ -132,7 +132,7 @@ impl Atmosphere {
             false => Err(misfit(what, parts, found, wanted)),
         };
         let with_eddies = |air: &EddyWind| {
-            fits("air", "elements", air.eddies.of_element().len(), elements)?;
+            fits("air", "elements", air.eddies.index_of_element().len(), elements)?;
             fits("wind", "eddies", air.wind.eddies(), air.eddies.count())
         };
         match self {

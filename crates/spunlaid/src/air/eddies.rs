@@ -28,7 +28,7 @@ impl EddyModel {
 /// The eddy of each element of a fibre.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Eddies {
-    of_element: Vec<u32>,
+    index_of_element: Vec<u32>,
     count: usize,
 }
 
@@ -54,29 +54,29 @@ impl Eddies {
     }
 
     /// One eddy for every element, for a pattern that is carried along the fibre.
-    pub fn of_each(elements: usize) -> Self {
+    pub fn one_for_each(elements: usize) -> Self {
         Self::collect(0..elements as u32)
     }
 
     /// The same eddies along a fibre with fewer elements, each of which feels the one at its middle, or the one before.
-    pub fn of_coarser(&self, elements: usize) -> Self {
-        let parts = self.of_element.len() / elements.max(1);
+    pub fn coarsen(&self, elements: usize) -> Self {
+        let parts = self.index_of_element.len() / elements.max(1);
         if parts < 2 {
             return self.clone();
         }
-        let middles = (0..elements).map(|j| self.of_element[j * parts + (parts - 1) / 2]);
-        Self { of_element: middles.collect(), count: self.count }
+        let middles = (0..elements).map(|j| self.index_of_element[j * parts + (parts - 1) / 2]);
+        Self { index_of_element: middles.collect(), count: self.count }
     }
 
     fn collect(eddies: impl Iterator<Item = u32>) -> Self {
-        let of_element: Vec<u32> = eddies.collect();
-        let count = of_element.last().map_or(0, |&last| last as usize + 1);
-        Self { of_element, count }
+        let index_of_element: Vec<u32> = eddies.collect();
+        let count = index_of_element.last().map_or(0, |&last| last as usize + 1);
+        Self { index_of_element, count }
     }
 
     /// Index of the eddy of each element.
-    pub fn of_element(&self) -> &[u32] {
-        &self.of_element
+    pub fn index_of_element(&self) -> &[u32] {
+        &self.index_of_element
     }
 
     /// Number of eddies.
@@ -88,8 +88,8 @@ impl Eddies {
     pub fn middles(&self) -> Vec<f64> {
         let mut middles = vec![0.0; self.count];
         let mut first = 0;
-        for (j, &eddy) in self.of_element.iter().enumerate() {
-            if j > 0 && self.of_element[j - 1] != eddy {
+        for (j, &eddy) in self.index_of_element.iter().enumerate() {
+            if j > 0 && self.index_of_element[j - 1] != eddy {
                 first = j;
             }
             middles[eddy as usize] = 0.5 * (first + j + 1) as f64;

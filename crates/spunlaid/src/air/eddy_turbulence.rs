@@ -56,7 +56,7 @@ impl Air {
     pub fn eddies_along(&self, along: Vec3<f64>, elements: usize) -> Eddies {
         let length = along.norm();
         match self.eddies {
-            EddyModel::Convected { .. } => Eddies::of_each(elements),
+            EddyModel::Convected { .. } => Eddies::one_for_each(elements),
             EddyModel::Independent if self.from_flow.length_scale => {
                 let place = |s: f64| along * (s / length).min(1.0);
                 Eddies::growing(length, elements, |s| self.local(place(s), &mut Hint::default()).length_scale)

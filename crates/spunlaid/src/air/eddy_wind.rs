@@ -18,7 +18,7 @@ impl EddyWind {
     /// Looks at the wind at a time [s].
     #[inline(always)]
     pub(super) fn look<S: Register>(&mut self, time: f64) -> InstantEddies<'_, S> {
-        InstantEddies { now: self.wind.blow(time), of_element: self.eddies.of_element() }
+        InstantEddies { now: self.wind.blow(time), of_element: self.eddies.index_of_element() }
     }
 }
 

@@ -96,15 +96,15 @@ impl Air {
                 cutoff_frequency: self.cutoff_frequency,
                 inside: true,
             },
-            Flow::Profile(profile) => self.of_profile(profile, at),
-            Flow::Field(field) => self.of_field(field, at, hint),
+            Flow::Profile(profile) => self.profile_air(profile, at),
+            Flow::Field(field) => self.field_air(field, at, hint),
         }
     }
 
     /// Turbulence from `k` and `ε`: rms √(2k/3), length scale `C_L k^1.5/ε`, and the cut-off frequency `1/(4T)` of
     /// a flat spectrum with the integral time `T`. Eddies pass by and decay: `1/T = |U|/L + ε/(C_T k)`.
     /// theory.md (48), (49)
-    fn of_field(&self, placed: &PlacedField, at: Vec3<f64>, hint: &mut Hint) -> LocalAir {
+    fn field_air(&self, placed: &PlacedField, at: Vec3<f64>, hint: &mut Hint) -> LocalAir {
         let Local { velocity, k, epsilon, inside } = self.in_field(placed, at, hint);
         let speed = velocity.norm();
         let from = self.from_flow;
@@ -270,7 +270,7 @@ impl Air {
             .then(|| -self.speed_factor * profile.velocity_gradient(x))
     }
 
-    fn of_profile(&self, profile: &Profile, at: Vec3<f64>) -> LocalAir {
+    fn profile_air(&self, profile: &Profile, at: Vec3<f64>) -> LocalAir {
         let x = at.x;
         let column = |wanted: bool, column: &[f64], otherwise: f64| {
             if wanted { profile.at(column, x).unwrap_or(otherwise) } else { otherwise }

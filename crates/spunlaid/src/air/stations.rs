@@ -40,7 +40,7 @@ impl StationGrid {
 
     /// The eddies, one for each station.
     pub fn eddies(&self) -> Eddies {
-        Eddies::of_each(self.count)
+        Eddies::one_for_each(self.count)
     }
 }
 

@@ -341,7 +341,7 @@ impl Check<'_> {
     /// Companions share the air, so that there must be one to share.
     fn neighbours(&mut self) {
         if self.case.air.lateral == Lateral::Uniform {
-            for key in keys::of_table("neighbours") {
+            for key in keys::keys_of_table("neighbours") {
                 if let Some(value) = key.get(self.case) {
                     self.blame_key(key.name, key.kind.pretty(&value), without_shared_air());
                 }

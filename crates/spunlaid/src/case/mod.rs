@@ -264,7 +264,7 @@ impl Case {
     pub fn strand(&self) -> Strand {
         Strand {
             fibre: self.strand_at_start(),
-            drag: self.drag.of_element(&self.fibre, self.air.density, self.air.kinematic_viscosity),
+            drag: self.drag.element_drag(&self.fibre, self.air.density, self.air.kinematic_viscosity),
             gravity: self.run.gravity,
             damping: self.run.damping,
         }

@@ -366,7 +366,7 @@ impl From<Note> for Problem {
 impl Note {
     /// The notes that go with results. A step that was chosen is not among them: it is no flaw, and the case with every
     /// default written out says it.
-    pub fn of_results(notes: &[Self]) -> Vec<String> {
+    pub fn notes_of_results(notes: &[Self]) -> Vec<String> {
         notes.iter().filter(|note| note.is_of_results()).map(Self::to_string).collect()
     }
 

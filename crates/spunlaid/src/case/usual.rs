@@ -68,13 +68,13 @@ impl Case {
         if key.is_derived(self) {
             let Remark::Unusual { least, greatest, .. } = remark else { return None };
             let value = key.kind.pretty(&Value::Number(value));
-            return self.of_file(Remark::UnusualInFile { key: key.name, value, least, greatest });
+            return self.note_of_file(Remark::UnusualInFile { key: key.name, value, least, greatest });
         }
         Some(finding(key.name, value, remark))
     }
 
     /// A note about the file that the air comes from; none if it comes from no file.
-    fn of_file(&self, what: Remark) -> Option<Note> {
+    fn note_of_file(&self, what: Remark) -> Option<Note> {
         let key = match (&self.air.flow, self.air.records.is_empty()) {
             (Flow::Profile(_), _) => "air.profile",
             (Flow::Field(_), _) => "air.field",
@@ -119,7 +119,7 @@ impl Case {
                  k and ε likewise, k_mm2_s2 and epsilon_mm2_s3",
             )),
         };
-        self.of_file(note)
+        self.note_of_file(note)
     }
 
     /// Turbulence of a file that is stronger than its mean flow.
@@ -138,7 +138,7 @@ impl Case {
             Flow::Profile(_) => "if it is in per cent, call the column turbulence_intensity_percent",
             Flow::Uniform => "check the mean velocity",
         };
-        self.of_file(Remark::IntensityOfFile { intensity, advice })
+        self.note_of_file(Remark::IntensityOfFile { intensity, advice })
     }
 
     /// A profile whose distances seem to have another unit.
@@ -146,7 +146,7 @@ impl Case {
         let Flow::Profile(table) = &self.air.flow else { return None };
         let ((first, last), fibre) = (table.range(), self.fibre.length);
         let profile = last - first;
-        if profile > 100.0 * fibre { self.of_file(Remark::ProfileSize { profile, fibre }) } else { None }
+        if profile > 100.0 * fibre { self.note_of_file(Remark::ProfileSize { profile, fibre }) } else { None }
     }
 
     /// Turbulence of a field without a length of its own, and a field without any.
@@ -159,9 +159,9 @@ impl Case {
         let places = (0..PLACES).map(|i| along * ((i as f64 + 0.5) / PLACES as f64));
         let turbulence = places.map(|at| placed.turbulence(at, &mut hint)).collect::<Vec<_>>();
         if turbulence.iter().all(|(k, _)| *k == 0.0) {
-            return self.of_file(Remark::NoTurbulence);
+            return self.note_of_file(Remark::NoTurbulence);
         }
         let places = turbulence.iter().filter(|(k, epsilon)| *k > 0.0 && *epsilon == 0.0).count();
-        if places == 0 { None } else { self.of_file(Remark::NoDissipation { places, sampled: PLACES }) }
+        if places == 0 { None } else { self.note_of_file(Remark::NoDissipation { places, sampled: PLACES }) }
     }
 }

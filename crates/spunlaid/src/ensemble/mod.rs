@@ -83,7 +83,7 @@ pub fn fly_and_check<E: From<Error>>(
     }
     let pieces = pieces(case, keep);
     let more: Vec<_> = plans.all().flat_map(|plan| plan.flights().map(move |case| (plan, case))).collect();
-    let paths = finer::Paths::of_run(plans.step.as_ref(), computing.recorder);
+    let paths = finer::Paths::from_run(plans.step.as_ref(), computing.recorder);
     let watched = RunControl { recorder: Some(&paths), ..computing };
     let (mut flown, mut replicate, mut left, mut first_lost) = (Vec::new(), 0, 0, None);
     in_order(

@@ -203,7 +203,7 @@ impl Collector {
         });
         Results {
             numbers: numbers
-                .map(|(measure, values)| Number { measure, estimate: of_the_defined(with_gaps(values)) })
+                .map(|(measure, values)| Number { measure, estimate: estimate_finite(with_gaps(values)) })
                 .collect(),
             curves: curves.collect(),
             trajectories: self.trajectories,
@@ -213,7 +213,7 @@ impl Collector {
 }
 
 /// Mean and standard error of the finite values, together with all values.
-fn of_the_defined(values: Vec<f64>) -> Estimate {
+fn estimate_finite(values: Vec<f64>) -> Estimate {
     let defined = values.iter().copied().filter(|value| value.is_finite()).collect();
     Estimate { values, ..Estimate::new(defined) }
 }

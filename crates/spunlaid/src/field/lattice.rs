@@ -41,7 +41,7 @@ impl Lattice {
 
     /// The lattice that the points form, in any order. `None` unless they are all combinations of three rows
     /// of coordinates, each of them once.
-    pub(super) fn of_points(nodes: &[Node]) -> Option<Self> {
+    pub(super) fn from_points(nodes: &[Node]) -> Option<Self> {
         let axes = [0, 1, 2].map(|axis| levels(nodes.iter().map(|node| node.at[axis]).collect()));
         let size = axes.each_ref().map(Vec::len);
         let count = size.iter().try_fold(1usize, |product, n| product.checked_mul(*n))?;

@@ -200,7 +200,7 @@ impl Field {
     /// When points are too few, or values are too few, too many or not finite.
     pub fn points(points: &[Vec3<f64>], values: &Values) -> Result<(Self, Vec<Fault>), FileError> {
         let (nodes, warnings) = node::distinct(points, values)?;
-        let support = match Lattice::of_points(&nodes) {
+        let support = match Lattice::from_points(&nodes) {
             Some(lattice) => Support::Lattice(lattice),
             None => Support::Points(Points::new(nodes)?),
         };
@@ -213,7 +213,7 @@ impl Field {
         values: &Values,
     ) -> Result<Option<(Self, Vec<Fault>)>, FileError> {
         let (nodes, warnings) = node::distinct(points, values)?;
-        let lattice = Lattice::of_points(&nodes);
+        let lattice = Lattice::from_points(&nodes);
         Ok(lattice.map(|lattice| (Self::new(Support::Lattice(lattice), values), warnings)))
     }
 

@@ -27,7 +27,7 @@ impl Polynomials {
             linear().chain(squares()).collect(),
             linear().collect::<Vec<Vec<usize>>>(),
         ];
-        let found = all.into_iter().find_map(|terms| Self::of_terms(webs, place, reach, terms));
+        let found = all.into_iter().find_map(|terms| Self::from_terms(webs, place, reach, terms));
         found.unwrap_or_else(|| {
             let mean = &webs.trials[place.trial].mean;
             let of_number =
@@ -39,7 +39,7 @@ impl Polynomials {
         })
     }
 
-    fn of_terms(webs: &Webs<'_>, place: &Place, reach: &[f64], terms: Vec<Vec<usize>>) -> Option<Self> {
+    fn from_terms(webs: &Webs<'_>, place: &Place, reach: &[f64], terms: Vec<Vec<usize>>) -> Option<Self> {
         let here = &webs.trials[place.trial].coordinates;
         // In parts of the reach, so that all terms are of like size.
         let step = |at: &[f64]| -> Vec<f64> {

@@ -23,7 +23,7 @@ pub struct MeasuredWeb {
 
 impl MeasuredWeb {
     /// A scanned web.
-    pub fn of_scan(findings: &Findings) -> Self {
+    pub fn from_scan(findings: &Findings) -> Self {
         let patch = |patch: &PatchFindings| MeasuredPatch {
             side: patch.unevenness.patch,
             noise: patch.noise,
@@ -141,7 +141,7 @@ impl Target {
 
     /// A web of which nothing but these logarithms is known.
     #[cfg(test)]
-    pub(super) fn of_patches(sides: &[f64], logarithms: Vec<f64>) -> Self {
+    pub(super) fn from_patches(sides: &[f64], logarithms: Vec<f64>) -> Self {
         let map =
             Map { columns: 0, rows: 0, cell: 1e-3, quantum: 1.0, closed: [false; 2], cells: Vec::new() };
         let textures = Textures { all: sides.iter().copied().map(Texture::Patch).collect(), flat: false };

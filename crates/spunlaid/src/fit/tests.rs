@@ -91,7 +91,7 @@ fn coverage(parameters: &[Parameter], truth: &[f64], (loops, webs): (u64, u64)) 
     let mut counts = vec![[0; 3]; parameters.len()];
     for seed in 1..=loops {
         let scan = Drawn { values: truth.to_vec(), seed: seed + loops }.web(0).unwrap();
-        let target = Target::of_patches(&SIDES.map(|side| 1e-3 * side), scan);
+        let target = Target::from_patches(&SIDES.map(|side| 1e-3 * side), scan);
         let mut simulator = Drawn { values: truth.to_vec(), seed };
         let mut journal = Journal::in_memory(MOST_TRIALS);
         let found =
@@ -120,7 +120,7 @@ fn stat_intervals_of_normal_numbers_hold_the_truth_as_often_as_they_say() {
 /// What a fit of drawn numbers finds.
 fn fitted(parameters: &[Parameter], truth: &[f64], simulator: &mut dyn Simulator) -> Result<Fit, Error> {
     let scan = Drawn { values: truth.to_vec(), seed: 77 }.web(0).unwrap();
-    let target = Target::of_patches(&SIDES.map(|side| 1e-3 * side), scan);
+    let target = Target::from_patches(&SIDES.map(|side| 1e-3 * side), scan);
     let mut journal = Journal::in_memory(MOST_TRIALS);
     find(&mut Webs::new((parameters, &target), (simulator, 20), &mut journal, &|_| {}))
 }
@@ -244,7 +244,7 @@ impl Simulator for Fragile {
 fn identical_after_trials_that_were_refused() {
     let parameters = [parameter("filaments", 250.0, [50.0, 1250.0])];
     let scan = Drawn { values: vec![16.0, 350.0], seed: 77 }.web(0).unwrap();
-    let target = Target::of_patches(&SIDES.map(|side| 1e-3 * side), scan);
+    let target = Target::from_patches(&SIDES.map(|side| 1e-3 * side), scan);
     let mut journal = Journal::in_memory(MOST_TRIALS);
     let mut fit = || {
         let mut simulator = Fragile(OneKey(drawn()), 380.0, 4);

@@ -20,7 +20,7 @@ shared! {
 
 impl Clock {
     /// A clock of steps of `h` [s] that may go on for any time.
-    pub(crate) fn of_steps(h: f64) -> Self {
+    pub(crate) fn from_step(h: f64) -> Self {
         Self { time_step: h.into(), steps: u64::MAX, spin_up_steps: 0, output_steps: 1 }
     }
 
@@ -74,7 +74,7 @@ impl Common {
     ///
     /// # Errors
     /// If one differs from the first.
-    pub(crate) fn of_all(jobs: &PerLane<Job<'_>>) -> Result<Self, Error> {
+    pub(crate) fn from_jobs(jobs: &PerLane<Job<'_>>) -> Result<Self, Error> {
         // Replicates of one case usually share one reference.
         let mut last: Option<(*const Case, Self)> = None;
         jobs.shared(|job| match &last {

@@ -42,7 +42,7 @@ impl Flight {
 
     fn fly_on_as(&mut self, entries: Vec<Entry>, key: &'static str) -> Result<(), Error> {
         let jobs = PerLane::new(entries.iter().map(Entry::job).collect())?;
-        let common = Common::of_all(&jobs)?;
+        let common = Common::from_jobs(&jobs)?;
         let air = surrounded(&common, &jobs, self.isa, SurroundingRun::run(&entries[0].case))?;
         let strands = jobs.map(|job| job.case.strand());
         let meshed_anew = self.chain.laying.is_none() && common.chain.elements != self.chain.elements();

@@ -72,7 +72,7 @@ impl Flight {
             common.damped,
             air,
             scheme,
-            Clock::of_steps(h),
+            Clock::from_step(h),
         )
     }
 
@@ -183,7 +183,7 @@ fn checked<'a>(jobs: &[Job<'a>]) -> Result<(PerLane<Job<'a>>, Common), Error> {
             job.case.check().map_err(Error::Rejected)?;
         }
     }
-    let common = Common::of_all(&jobs)?;
+    let common = Common::from_jobs(&jobs)?;
     Ok((jobs, common))
 }
 
@@ -231,7 +231,7 @@ pub(super) fn surrounded(
         let case = Case { fibre: Fibre { elements, ..job.case.fibre }, ..job.case.clone() };
         Job { case: &case, ..*job }.stream(&eddies)
     });
-    let wind = Wind::sampled(isa, common.wind.clone().of_eddies(eddies.count()), streams, air.horizon);
+    let wind = Wind::sampled(isa, common.wind.clone().with_eddies(eddies.count()), streams, air.horizon);
     if let Some(way) = way {
         let air = |job: &Job<'_>| Some((job.case.air.clone(), job.case.stations()?));
         let lanes = PerLane::new(jobs.iter().filter_map(air).collect())?;
@@ -240,7 +240,7 @@ pub(super) fn surrounded(
         return Ok(Atmosphere::Way(wind, stations));
     }
     let wind = wind.for_steps_of(common.clock.time_step());
-    let air = EddyWind { eddies: eddies.of_coarser(chain.elements), wind };
+    let air = EddyWind { eddies: eddies.coarsen(chain.elements), wind };
     Ok(match every {
         None => Atmosphere::Uniform(air),
         Some(every) => {

@@ -91,7 +91,7 @@ impl<'a, T> Document<'a, T> {
 
     /// An entry that stands at byte `at` of the file, or in an override; a position in it is not one in the file.
     fn entry(&self, at: usize, value: Spanned<DeValue<'a>>, list: Option<&Entry<'a>>) -> Entry<'a> {
-        let mut entry = Entry::of_file(&self.source, at, value);
+        let mut entry = Entry::from_file(&self.source, at, value);
         if let Some(Entry { place, shown, .. }) = list {
             (entry.place, entry.shown) = (place.clone(), shown.clone());
         }
@@ -242,7 +242,7 @@ impl<'a, T> Document<'a, T> {
     fn known(&self, table: &'static str) -> Vec<String> {
         let keys = self.keys;
         let version = table.is_empty().then(|| VERSION.to_owned());
-        let names = keys.of_table(table).map(|key| key.short().to_owned());
+        let names = keys.keys_of_table(table).map(|key| key.short().to_owned());
         let tables = keys
             .tables_in(table)
             .into_iter()

@@ -24,7 +24,7 @@ pub(super) struct Entry<'a> {
 
 impl<'a> Entry<'a> {
     /// The value of a key that stands at byte `at` of a file.
-    pub(super) fn of_file(source: &Source<'a>, at: usize, value: Spanned<DeValue<'a>>) -> Self {
+    pub(super) fn from_file(source: &Source<'a>, at: usize, value: Spanned<DeValue<'a>>) -> Self {
         let shown = source.shown(value.span());
         let is_headed = value.get_ref().is_table() && !shown.starts_with('{') || shown.starts_with("[[");
         let shown = Some(shown).filter(|_| !is_headed);
@@ -33,7 +33,7 @@ impl<'a> Entry<'a> {
     }
 
     /// The value of an override. What is not TOML is a text.
-    pub(super) fn of_override(word: &str, text: &'a str) -> Self {
+    pub(super) fn from_override(word: &str, text: &'a str) -> Self {
         let value = DeValue::parse(text).map_or(DeValue::String(text.into()), Spanned::into_inner);
         let shown = if value.is_str() && !text.trim_start().starts_with(['"', '\'']) {
             format!("\"{}\"", fit(text))

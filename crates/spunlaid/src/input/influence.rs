@@ -48,7 +48,7 @@ impl SpinFile {
         let carrier = Case::from(&self.spec);
         let mut found = Vec::new();
         let tables = ["spinline", "spinline.material", "drag"];
-        for key in tables.into_iter().flat_map(keys::of_table) {
+        for key in tables.into_iter().flat_map(keys::keys_of_table) {
             let Some(Value::Number(value)) = key.get(&carrier) else { continue };
             let change = Change::from_key(key);
             if (value != 0.0 || change == Change::TenKelvin) && is_physical(key) {

@@ -15,7 +15,7 @@ type Target<'k> = (String, &'static str, &'k str);
 impl<'a, T> Document<'a, T> {
     /// Takes an override, which replaces the value in the file. The value `auto` removes it.
     pub(super) fn take_override(&mut self, word: &str, key: &str, text: &'a str) {
-        let entry = Entry::of_override(word, text);
+        let entry = Entry::from_override(word, text);
         match self.target(key) {
             Ok((before, table, name)) => {
                 let path = format!("{table}.{name}");

@@ -116,7 +116,7 @@ impl SpinFile {
     }
 
     /// The spinline from which a case is fed; `None` if it has none.
-    pub fn of_case(case: &Case) -> Option<Self> {
+    pub fn from_case(case: &Case) -> Option<Self> {
         let (spinline, key_values) = (case.spinline.as_deref()?.clone(), WrittenValues::new(Place::Code));
         let takes_field = matches!(spinline.air, Surroundings::Field { .. });
         let air = takes_field.then(|| Box::new(case.air.clone()));

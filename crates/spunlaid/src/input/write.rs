@@ -37,7 +37,7 @@ pub(super) fn lines<T>(
         };
         Some(format!("{} = {}", key.short(), toml_value(&key.kind, value)))
     };
-    keys.of_table(table).filter(|key| !key.is_derived(input)).filter_map(line).collect()
+    keys.keys_of_table(table).filter(|key| !key.is_derived(input)).filter_map(line).collect()
 }
 
 /// Lines as a text.

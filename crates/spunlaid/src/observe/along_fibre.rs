@@ -1,7 +1,8 @@
 //! Amplitude of each node of the fibre.
 
 use super::{
-    Declaration, FIBRE, Figure, Kind, MILLIMETRES, Measure, Observation, Observer, Value, fixed, of_each,
+    Declaration, FIBRE, Figure, Kind, MILLIMETRES, Measure, Observation, Observer, Value, fixed,
+    number_of_each,
 };
 use crate::flight::Flight;
 use crate::lanes::{Lanes, WIDTH};
@@ -56,7 +57,7 @@ struct Spread {
 impl Spread {
     fn new(flight: &Flight) -> Self {
         let nodes = vec![Default::default(); flight.chain().elements() + 1];
-        Self { rest_length: of_each(flight, |case| case.fibre.rest_length()), count: 0.0, nodes }
+        Self { rest_length: number_of_each(flight, |case| case.fibre.rest_length()), count: 0.0, nodes }
     }
 }
 

@@ -1,7 +1,8 @@
 //! Speed and tension of a fed fibre on its way from the inlet to the belt.
 
 use super::{
-    Declaration, FIBRE, Figure, Kind, MILLINEWTONS, Measure, Observation, Observer, Unit, Value, fed, of_each,
+    Declaration, FIBRE, Figure, Kind, MILLINEWTONS, Measure, Observation, Observer, Unit, Value, fed,
+    number_of_each,
 };
 use crate::flight::Flight;
 use crate::lanes::WIDTH;
@@ -64,7 +65,7 @@ struct Way {
 
 impl Way {
     fn new(flight: &Flight) -> Self {
-        let distance = of_each(flight, |case| case.line.map_or(f64::NAN, |line| line.distance));
+        let distance = number_of_each(flight, |case| case.line.map_or(f64::NAN, |line| line.distance));
         Self { distance, classes: vec![[[0.0; 3]; CLASSES]; WIDTH] }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{
     Aggregate, Declaration, FIBRE, Figure, Kind, Measure, Observation, Observer, PER_METRE, Value, fixed,
-    of_each,
+    number_of_each,
 };
 use crate::chain::forces::Element;
 use crate::flight::Flight;
@@ -48,7 +48,7 @@ struct Curvature {
 impl Curvature {
     fn new(flight: &Flight) -> Self {
         let squares = vec![Lanes::ZERO; flight.chain().elements().saturating_sub(1)];
-        let rest_length = of_each(flight, |case| case.fibre.rest_length());
+        let rest_length = number_of_each(flight, |case| case.fibre.rest_length());
         Self { isa: flight.isa(), rest_length, count: 0.0, squares }
     }
 }

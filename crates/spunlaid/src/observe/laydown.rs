@@ -2,7 +2,7 @@
 
 use super::{
     Declaration, Figure, Group, Kind, MILLIMETRES, Measure, Observation, Observer, RATIO, Unit, Value, fed,
-    of_each,
+    number_of_each,
 };
 use crate::case::Case;
 use crate::flight::Flight;
@@ -230,7 +230,7 @@ struct LaidFibres {
 impl LaidFibres {
     fn new(flight: &Flight) -> Self {
         let traces = (0..WIDTH).filter_map(|lane| flight.case(lane)).map(trace).collect();
-        Self { traces, belt_ratio: of_each(flight, belt_ratio), count: 0.0, in_air: [0.0; WIDTH] }
+        Self { traces, belt_ratio: number_of_each(flight, belt_ratio), count: 0.0, in_air: [0.0; WIDTH] }
     }
 }
 

@@ -342,7 +342,7 @@ fn applies(declared: &Declaration, flight: &Flight, lane: usize) -> bool {
 }
 
 /// A number of the case in each lane; NaN in unused lanes.
-fn of_each(flight: &Flight, number: impl Fn(&Case) -> f64) -> [f64; WIDTH] {
+fn number_of_each(flight: &Flight, number: impl Fn(&Case) -> f64) -> [f64; WIDTH] {
     std::array::from_fn(|lane| flight.case(lane).map_or(f64::NAN, &number))
 }
 

@@ -2,7 +2,7 @@
 
 use super::{
     Aggregate, Declaration, FIBRE, Figure, Kind, Measure, Observation, Observer, PERCENT, Value, fixed,
-    of_each,
+    number_of_each,
 };
 use crate::fibre::Root;
 use crate::flight::Flight;
@@ -75,7 +75,7 @@ struct AveragedStrain {
 impl AveragedStrain {
     fn new(flight: &Flight) -> Self {
         let intervals =
-            of_each(flight, |case| (case.fibre.axial_period() / case.run.output_interval()).round());
+            number_of_each(flight, |case| (case.fibre.axial_period() / case.run.output_interval()).round());
         // More intervals than the run has mean the whole run.
         Self::over_intervals(intervals.map(|intervals| intervals.clamp(1.0, 1e15) as usize))
     }

@@ -245,7 +245,13 @@ fn component(
     let variance = (rms * rms, error(&variances));
     let time = integral_time.value.abs().max(0.25 * record.interval);
     let flat = if short {
-        FlatPart::of_short(&samples.values, record.interval, (mean, variance), settings.flat_until, time)
+        FlatPart::from_short_record(
+            &samples.values,
+            record.interval,
+            (mean, variance),
+            settings.flat_until,
+            time,
+        )
     } else {
         FlatPart::new(&spectrum, variance, settings.flat_until, time, record.duration())
     };

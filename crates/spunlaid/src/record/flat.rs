@@ -92,7 +92,7 @@ impl FlatPart {
     ///
     /// * `mean` – [m/s], with the variance [(m/s)²] and the standard error of its logarithm
     /// * `until` – end of the flat part [Hz]; by default it follows from the integral time [s]
-    pub(super) fn of_short(
+    pub(super) fn from_short_record(
         values: &[f64],
         interval: f64,
         (mean, (variance, variance_error)): (f64, (f64, f64)),
@@ -113,9 +113,9 @@ impl FlatPart {
         // The variance shares some of the scatter of the plateau.
         let shared = 1.0 / (rough * duration);
         let error = (scatter + variance_error * variance_error - shared).max(0.25 * scatter).sqrt();
-        let inverse = Interval::of_squares(density / variance, median / variance, error);
+        let inverse = Interval::from_squares(density / variance, median / variance, error);
         Self {
-            density: Interval::of_squares(density, median, scatter.sqrt()),
+            density: Interval::from_squares(density, median, scatter.sqrt()),
             from: 1.0 / duration,
             until: end,
             cutoff: Interval { value: 1.0 / inverse.value, low: 1.0 / inverse.high, high: 1.0 / inverse.low },

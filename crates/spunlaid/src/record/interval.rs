@@ -38,7 +38,7 @@ impl Interval {
     /// The interval of a mean of independent squares about `value`; `error` is the standard error of its logarithm.
     ///
     /// The mean is distributed like a chi-square of `2/error²` degrees of freedom; `value` is the median estimate.
-    pub(super) fn of_squares(mean: f64, value: f64, error: f64) -> Self {
+    pub(super) fn from_squares(mean: f64, value: f64, error: f64) -> Self {
         let share = |z: f64| chi_square(2.0 / (error * error), z);
         Self { value, low: mean / share(NORMAL_95), high: mean / share(-NORMAL_95) }
     }

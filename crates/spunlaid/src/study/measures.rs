@@ -74,12 +74,12 @@ fn patch_columns() -> Vec<(&'static PatchMeasure, &'static Measure)> {
 }
 
 /// The quantities of a fibre.
-pub(super) fn of_fibres() -> Vec<Quantity> {
+pub(super) fn quantities_of_fibres() -> Vec<Quantity> {
     MEASURES.iter().map(|measure| Quantity::new(measure, "")).collect()
 }
 
 /// The quantities of a spinline.
-pub(super) fn of_spinlines() -> Vec<Quantity> {
+pub(super) fn quantities_of_spinlines() -> Vec<Quantity> {
     spinline_columns().into_iter().map(|(_, measure)| Quantity::new(measure, "")).collect()
 }
 
@@ -101,7 +101,7 @@ fn is_same(a: f64, b: f64) -> bool {
 }
 
 /// The quantities of some webs.
-pub(super) fn of_webs<'a>(webs: impl Iterator<Item = &'a WebSpec>) -> Vec<Quantity> {
+pub(super) fn quantities_of_webs<'a>(webs: impl Iterator<Item = &'a WebSpec>) -> Vec<Quantity> {
     let (mut all, columns) = (Vec::new(), patch_columns());
     for side in sides(webs) {
         let first = all.len();

@@ -139,7 +139,7 @@ impl Replicates {
 
 impl Study {
     /// A study of given cases. It keeps their seeds and replaces their replicates.
-    pub fn of_cases(cases: impl IntoIterator<Item = Case>, replicates: Replicates) -> Self {
+    pub fn from_cases(cases: impl IntoIterator<Item = Case>, replicates: Replicates) -> Self {
         let mut cases: Vec<Case> = cases.into_iter().collect();
         cases.iter_mut().for_each(|case| case.run.replicates = replicates.at_most);
         let seed = cases.first().map_or(0, |case| case.run.seed);
@@ -153,16 +153,16 @@ impl Study {
             common_phases,
             replicates,
             points: cases.into_iter().map(point).collect(),
-            quantities: measures::of_fibres(),
+            quantities: measures::quantities_of_fibres(),
         }
     }
 
     /// The quantities that are kept of these points.
     pub(crate) fn quantities_of(points: &[Point]) -> Vec<Quantity> {
         match points.first().map(|point| &point.experiment) {
-            Some(Experiment::Web(_)) => measures::of_webs(webs(points)),
-            Some(Experiment::Spinline(_)) => measures::of_spinlines(),
-            _ => measures::of_fibres(),
+            Some(Experiment::Web(_)) => measures::quantities_of_webs(webs(points)),
+            Some(Experiment::Spinline(_)) => measures::quantities_of_spinlines(),
+            _ => measures::quantities_of_fibres(),
         }
     }
 

@@ -221,7 +221,7 @@ impl<const SETS: usize> Task for Next<'_, SETS> {
                 }
             }
             for k in 0..SETS {
-                along[k] = of_length_one(along[k]);
+                along[k] = normalise(along[k]);
                 // The noise of the next block.
                 let Paths { noise, bits, turns: into, .. } = &mut *sets[k];
                 turns::<S>(*noise, &bits[pair], &mut into[2 * pair..][..2]);
@@ -238,7 +238,7 @@ impl<const SETS: usize> Task for Next<'_, SETS> {
 /// Sets right the length of a direction that rounding has changed: on the way out from the centre the steps would
 /// enlarge the error.
 #[inline(always)]
-fn of_length_one<S: Register>([a, b]: [Wide<S>; 2]) -> [Wide<S>; 2] {
+fn normalise<S: Register>([a, b]: [Wide<S>; 2]) -> [Wide<S>; 2] {
     let squared = a.mul_add(a, b * b);
     let factor = squared.mul_add(Wide::splat(-0.5), Wide::splat(1.5));
     [a * factor, b * factor]

@@ -29,7 +29,7 @@ impl Parting {
     }
 
     /// The separator that makes a line a row of numbers; `None` where no separator does.
-    pub(super) fn of_numbers(text: &str) -> Option<Self> {
+    pub(super) fn from_numbers(text: &str) -> Option<Self> {
         let mut cells = Vec::new();
         Self::ALL.into_iter().filter(|parting| parting.occurs(text)).find(|parting| {
             parting.split(text, &mut cells);

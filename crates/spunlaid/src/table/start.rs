@@ -81,7 +81,7 @@ pub(super) fn find(lines: &[Line]) -> Option<Start> {
 /// The first row of nothing but numbers.
 fn numbers<'a>(lines: usize, text: impl Fn(usize) -> &'a str) -> Option<(usize, Parting)> {
     let rows: Vec<Option<(Parting, usize)>> = (0..lines)
-        .map(|i| Parting::of_numbers(text(i)).map(|parting| (parting, parting.cells(text(i)).len())))
+        .map(|i| Parting::from_numbers(text(i)).map(|parting| (parting, parting.cells(text(i)).len())))
         .collect();
     let mut first = None;
     for (i, row) in rows.iter().enumerate() {

@@ -34,7 +34,7 @@ impl Powers {
     }
 
     /// The powers of a dimension.
-    pub const fn of_dimension(dimension: Dimension) -> Self {
+    pub const fn from_dimension(dimension: Dimension) -> Self {
         match dimension {
             Dimension::Length => Self::new(1.0, 0.0, 0.0),
             Dimension::Velocity => Self::new(1.0, 0.0, -1.0),
@@ -356,7 +356,7 @@ fn exact(number: &str, symbol: &str) -> Option<Node> {
     let text = format!("{number} {symbol}");
     ALL.into_iter().find_map(|dimension| {
         let value = dimension.parse(&text).ok()?;
-        Some(Node::Quantity(value, Powers::of_dimension(dimension)))
+        Some(Node::Quantity(value, Powers::from_dimension(dimension)))
     })
 }
 
@@ -375,9 +375,9 @@ mod tests {
 
     fn value(text: &str) -> Result<(f64, Powers), Fault> {
         let value_of_key = |name: &str| match name {
-            "air.velocity" => Some((10.0, Powers::of_dimension(Dimension::Velocity))),
-            "air.length_scale" => Some((0.05, Powers::of_dimension(Dimension::Length))),
-            "air.turbulence_intensity" => Some((0.1, Powers::of_dimension(Dimension::Ratio))),
+            "air.velocity" => Some((10.0, Powers::from_dimension(Dimension::Velocity))),
+            "air.length_scale" => Some((0.05, Powers::from_dimension(Dimension::Length))),
+            "air.turbulence_intensity" => Some((0.1, Powers::from_dimension(Dimension::Ratio))),
             _ => None,
         };
         Expression::parse(text)?.value(&value_of_key)
@@ -387,7 +387,7 @@ mod tests {
     fn taylors_hypothesis() {
         let (hertz, powers) = value("air.velocity / (4 * air.length_scale)").unwrap();
         assert_eq!(hertz, 50.0);
-        assert!(powers.agree(Powers::of_dimension(Dimension::Frequency)));
+        assert!(powers.agree(Powers::from_dimension(Dimension::Frequency)));
     }
 
     #[test]
@@ -413,8 +413,8 @@ mod tests {
             assert_eq!(found, expected, "{text}");
             assert!(powers.agree(Powers::default()), "{text} comes out in {powers}");
         }
-        assert_eq!(value("50 µm").unwrap(), (5e-5, Powers::of_dimension(Dimension::Length)));
-        assert_eq!(value("1.2 kg/m^3").unwrap(), (1.2, Powers::of_dimension(Dimension::Density)));
+        assert_eq!(value("50 µm").unwrap(), (5e-5, Powers::from_dimension(Dimension::Length)));
+        assert_eq!(value("1.2 kg/m^3").unwrap(), (1.2, Powers::from_dimension(Dimension::Density)));
     }
 
     #[test]

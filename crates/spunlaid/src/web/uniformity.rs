@@ -63,7 +63,7 @@ pub fn unevenness_at(map: &Map, side: usize, places_of_filaments: &Places) -> Op
     let powers = (columns.min(rows) >= FEWEST)
         .then(|| Powers::new(columns, rows, 1, |row, column| some[row * columns + column]));
     let of_mean = match places_of_filaments {
-        Places::Unknown => powers.as_ref().map_or(0.0, |powers| powers.of_mean(map.closed)),
+        Places::Unknown => powers.as_ref().map_or(0.0, |powers| powers.variance_of_mean(map.closed)),
         Places::AtRandom(streaks) => streaks.variance_of_mean,
         Places::Fixed => 0.0,
     };

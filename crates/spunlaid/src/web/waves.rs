@@ -156,7 +156,7 @@ impl Powers {
     /// Variance of the mean of a sheet that is cut out of a larger one: the power of its longest waves, which the mean continues.
     ///
     /// * `closed` – directions in which the sheet is closed, so that the mean is known
-    pub(super) fn of_mean(&self, closed: [bool; 2]) -> f64 {
+    pub(super) fn variance_of_mean(&self, closed: [bool; 2]) -> f64 {
         let line = |waves: [(i64, i64); 4]| {
             0.25 * waves.map(|(across, along)| self.at(across, along)).iter().sum::<f64>()
         };

@@ -67,7 +67,7 @@ pub fn scanned(map: &Map) -> MeasuredWeb {
     };
     let light = Light::Transmitted { mean: None, white: Some(50_000.0) };
     let settings = Settings { keep_shading: true, keep_spots: true, ..Settings::new(light) };
-    MeasuredWeb::of_scan(&analyse(&picture, &settings).unwrap())
+    MeasuredWeb::from_scan(&analyse(&picture, &settings).unwrap())
 }
 
 pub fn fitted(

@@ -17,7 +17,7 @@ fn refusal(case: &Case, key: &str, value: impl Into<Value>) -> String {
 #[test]
 fn every_row_is_whole() {
     let mut names: Vec<&str> = keys::all().iter().map(|key| key.name).collect();
-    let by_table = keys::TABLES.iter().flat_map(|table| keys::of_table(table)).map(|key| key.name);
+    let by_table = keys::TABLES.iter().flat_map(|table| keys::keys_of_table(table)).map(|key| key.name);
     assert!(by_table.eq(keys::all().iter().map(|key| key.name)), "in the order of the tables");
     names.sort_unstable();
     names.dedup();
@@ -214,7 +214,7 @@ fn identical_constants_of_polymers_on_their_page() {
         }
         seen.push(key.name);
     }
-    for key in keys::of_table(TABLE).filter(|key| key.dimension().is_some()) {
+    for key in keys::keys_of_table(TABLE).filter(|key| key.dimension().is_some()) {
         assert!(seen.contains(&key.name), "{} has no row", key.name);
     }
     assert!(compared > 100, "{compared} constants are compared");

@@ -292,7 +292,7 @@ fn analytic_eddies_grow_with_the_length_scale() {
     // L(s) = 0.1 + 0.5 s: borders 0, 0.1, 0.25, 0.475, 0.8125.
     let eddies = Eddies::growing(1.0, 40, |s| 0.1 + 0.5 * s);
     let borders = [0.1, 0.25, 0.475, 0.8125, 2.0];
-    for (j, &eddy) in eddies.of_element().iter().enumerate() {
+    for (j, &eddy) in eddies.index_of_element().iter().enumerate() {
         let centre = (j as f64 + 0.5) / 40.0;
         assert_eq!(eddy as usize, borders.iter().filter(|border| **border <= centre).count(), "{j}");
     }

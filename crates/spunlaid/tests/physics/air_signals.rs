@@ -28,14 +28,14 @@ fn along(air: &Air, elements: usize, times: &[f64]) -> Vec<Vec<[Vec3<f64>; WIDTH
     let made = if air.records.is_empty() { Wind::repeating } else { Wind::along };
     let mut wind = made(Isa::detect(), streams, longest).expect("fibres that agree");
     let mean = Vec3::new(air.velocity, 0.0, 0.0);
-    let of_element = |eddies: &Eddies, now: &[Vec3<spunlaid::lanes::Lanes>]| {
+    let at_elements = |eddies: &Eddies, now: &[Vec3<spunlaid::lanes::Lanes>]| {
         eddies
-            .of_element()
+            .index_of_element()
             .iter()
             .map(|&e| std::array::from_fn(|lane| now[e as usize].lane(lane) - mean))
             .collect()
     };
-    times.iter().map(|&t| of_element(&eddies, &wind.at(t))).collect()
+    times.iter().map(|&t| at_elements(&eddies, &wind.at(t))).collect()
 }
 
 /// One-sided spectra of the components along and across, averaged over replicates and elements.

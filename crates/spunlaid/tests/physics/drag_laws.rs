@@ -22,7 +22,7 @@ fn pairs() -> impl Iterator<Item = Drag> {
 
 fn strand(drag: Drag, root: Root, diameter: f64, direction: V) -> Strand {
     let fibre = Fibre { length: 0.0625, diameter, elements: 8, root, direction, ..table1_fibre() };
-    Strand { fibre, drag: drag.of_element(&fibre, DENSITY, VISCOSITY), gravity: 9.81, damping: 0.0 }
+    Strand { fibre, drag: drag.element_drag(&fibre, DENSITY, VISCOSITY), gravity: 9.81, damping: 0.0 }
 }
 
 /// Force of a stream of velocity `v` on element `j` of a fibre [N], from the coefficients.

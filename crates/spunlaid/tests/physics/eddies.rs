@@ -14,7 +14,7 @@ fn analytic_every_element_feels_its_own_eddy() {
     // Straight and unstretched, so that the drag is the only force.
     let fibre = Fibre { elements: 30, root: Root::Free, ..table1_fibre() };
     let air = Air { turbulence_intensity: 0.5, ..table1_air() };
-    let drag = paper_drag().of_element(&fibre, air.density, air.kinematic_viscosity);
+    let drag = paper_drag().element_drag(&fibre, air.density, air.kinematic_viscosity);
     let strand = Strand { fibre, drag, gravity: 0.0, damping: 0.0 };
     let law = ReferenceDrag { air_density: air.density, viscosity: air.kinematic_viscosity, beta: 0.9 };
     let l = fibre.rest_length();

@@ -119,7 +119,7 @@ fn identical_to_a_fibre_of_fixed_length_in_air_of_its_own_speed() {
 
     let length = elements as f64 * case.fibre.rest_length();
     let fibre = Fibre { length, elements: elements as usize, ..case.fibre };
-    let drag = case.drag.of_element(&fibre, case.air.density, case.air.kinematic_viscosity);
+    let drag = case.drag.element_drag(&fibre, case.air.density, case.air.kinematic_viscosity);
     let strand = Strand { fibre, drag, gravity: 0.0, damping: 0.0 };
     let (eddies, wind) = steady_air(0.0, fibre.elements, 1.0);
     let mut fixed = Flight::assembled(

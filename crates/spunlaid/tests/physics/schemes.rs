@@ -14,7 +14,7 @@ const SCHEMES: [Scheme; 3] = Scheme::ALL;
 
 fn table1_strand(damping: f64) -> Strand {
     let (fibre, air) = (table1_fibre(), table1_air());
-    let drag = paper_drag().of_element(&fibre, air.density, air.kinematic_viscosity);
+    let drag = paper_drag().element_drag(&fibre, air.density, air.kinematic_viscosity);
     Strand { fibre, drag, gravity: 9.81, damping }
 }
 
@@ -143,7 +143,7 @@ fn invariant_implicit_tension_is_stable_far_beyond_the_axial_limit() {
     let mut fibre = table1_fibre();
     (fibre.length, fibre.diameter, fibre.elements) = (0.4, 18e-6, 400);
     let air = table1_air();
-    let drag = paper_drag().of_element(&fibre, air.density, air.kinematic_viscosity);
+    let drag = paper_drag().element_drag(&fibre, air.density, air.kinematic_viscosity);
     let strand = Strand { fibre, drag, gravity: 9.81, damping: 0.0 };
     let eddies = Eddies::along(fibre.length, fibre.elements, 0.02);
     let streams = [(air.clone(), StreamKey { seed: 4, replicate: 0 })];

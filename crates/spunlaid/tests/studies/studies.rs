@@ -204,9 +204,9 @@ fn a_lost_fibre_costs_its_neighbours_nothing() {
     good.run.steps = 5000;
     let mut bad = good.clone();
     (bad.fibre.diameter, bad.air.velocity) = (2e-6, 3000.0);
-    let study = Study::of_cases([good.clone(), bad, good.clone()], Replicates::fixed(3));
+    let study = Study::from_cases([good.clone(), bad, good.clone()], Replicates::fixed(3));
     let mut journal = flown(&study, 1);
-    let alone = flown(&Study::of_cases([good], Replicates::fixed(3)), 1).records(0, 9).unwrap();
+    let alone = flown(&Study::from_cases([good], Replicates::fixed(3)), 1).records(0, 9).unwrap();
     for point in [0, 2] {
         let records = journal.records(point, 9).unwrap();
         assert!(records.iter().zip(&alone).all(|(a, b)| a.outcome == b.outcome));
@@ -265,7 +265,7 @@ fn the_identity_of_a_study_is_that_of_the_keys_of_its_points() {
     let grid = study(MIXED).study;
     // The same points, said in other words.
     let mut again =
-        Study::of_cases(grid.points.iter().map(|point| case_of(point).clone()), Replicates::fixed(9));
+        Study::from_cases(grid.points.iter().map(|point| case_of(point).clone()), Replicates::fixed(9));
     assert_eq!(again.identity(), grid.identity());
     // Every key of a point counts, to the last bit.
     let mut counted = 0;

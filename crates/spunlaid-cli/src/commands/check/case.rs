@@ -57,7 +57,7 @@ pub(super) fn spinline_alone(check: &Check) -> Result<(), Failure> {
     file.notes.iter().for_each(say::note);
     let results = SpinResults::new(&file)?;
     if check.json {
-        let notes = Note::of_results(&file.notes);
+        let notes = Note::notes_of_results(&file.notes);
         say::text(&spinline::Summary::new(&results.rows, &results.influences, &notes).to_json());
         return Ok(());
     }
@@ -89,7 +89,7 @@ fn json(case: &Case, expected: Expected, notes: Vec<String>) -> String {
         case: resolved(case),
         throughput_kg_s: case.throughput(),
         linear_density_kg_m: case.line.map(|_| case.linear_density()),
-        spinline: SpinSummary::of_case(case),
+        spinline: SpinSummary::from_case(case),
         elements: case.fibre.elements,
         eddies: case.stations().map_or_else(|| case.eddies().count(), |stations| stations.count),
         steps: case.run.steps,

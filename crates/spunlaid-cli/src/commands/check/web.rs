@@ -65,7 +65,7 @@ impl Checked {
                 throughput_kg_s: layer.linear_density() * layer.feed_speed,
                 filaments,
                 filaments_per_m: filaments as f64 / spec.sheet.width,
-                spinline: layer.source.case().and_then(SpinSummary::of_case),
+                spinline: layer.source.case().and_then(SpinSummary::from_case),
             }
         };
         Self {

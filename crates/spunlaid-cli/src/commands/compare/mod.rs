@@ -58,7 +58,7 @@ pub(crate) fn compare(compare: &Compare, invocation: &Invocation) -> Result<(), 
         .transpose()?;
     let results = match webs::read(&compare.runs, &names)? {
         Some(webs) => webs::compared(&webs)?,
-        None => of_runs(&compare.runs, names)?,
+        None => compare_runs(&compare.runs, names)?,
     };
     let Results { comparisons, figures, pictures, notes } = &results;
     let json = comparison::json(comparisons, notes);
@@ -85,7 +85,7 @@ pub(crate) fn compare(compare: &Compare, invocation: &Invocation) -> Result<(), 
 }
 
 /// Every run against the first, and their curves in one picture each.
-fn of_runs(folders: &[PathBuf], names: Vec<String>) -> Result<Results, Failure> {
+fn compare_runs(folders: &[PathBuf], names: Vec<String>) -> Result<Results, Failure> {
     let runs = folders.iter().zip(names).map(|(folder, name)| Run::read(folder, name));
     let runs: Vec<Run> = runs.collect::<Result<_, _>>()?;
     let comparisons = runs.iter().skip(1).map(|other| compared(&runs[0], other)).collect();

@@ -67,7 +67,7 @@ fn over_factor(
     points: &[usize],
     words: &str,
 ) -> Figure {
-    let along = FactorAxis::of_study(study, factor);
+    let along = FactorAxis::from_study(study, factor);
     let title = format!("{} {}", group.title, words.split(',').next().unwrap_or(words));
     let name = file_name(group, &study.factors[factor].key);
     let mut chart = Chart::new(&name, &title, along.axis.clone(), group.axis());
@@ -90,7 +90,7 @@ pub(super) fn family(
     family: usize,
 ) -> Figure {
     let (parameter, key) = (&study.factors[family], &*study.factors[along].key);
-    let place = FactorAxis::of_study(study, along);
+    let place = FactorAxis::from_study(study, along);
     let title = format!("{} over {} and {}", group.title, name_of_key(key), name_of_key(&parameter.key));
     let mut chart = Chart::new(&file_name(group, key), &title, place.axis.clone(), group.axis());
     let levels = parameter.levels();

@@ -52,7 +52,7 @@ fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, l
         if group.members.len() == 2 { format!("{} in {called}", group.title) } else { group.title.clone() };
     let names = [0, 1].map(|i| name_of_key(&study.factors[i].key));
     let title = format!("{which} over {} and {}", names[1], names[0]);
-    let [of_up, of_along] = [0, 1].map(|i| FactorAxis::of_study(study, i));
+    let [of_up, of_along] = [0, 1].map(|i| FactorAxis::from_study(study, i));
     let labels = |axis: &FactorAxis, values: &[f64]| -> Vec<String> {
         values.iter().map(|value| significant(axis.place(*value), 3)).collect()
     };

@@ -20,7 +20,7 @@ pub(super) fn figure(
     factor: usize,
 ) -> Figure {
     let varied = &study.factors[factor];
-    let along = FactorAxis::of_study(study, factor);
+    let along = FactorAxis::from_study(study, factor);
     let title = format!("{} over {}", group.title, name_of_key(&varied.key));
     let mut chart = Chart::new(&file_name(group, &varied.key), &title, along.axis.clone(), group.axis());
     let (mut is_adjusted, mut left_out) = (false, false);

@@ -23,7 +23,7 @@ pub fn study_figures(study: &Study, results: &[PointResults], rankings: &[Rankin
     let groups = quantity::groups(study).into_iter().filter_map(|group| group.applying(results));
     let groups: Vec<_> = match (study.design, study.factors.len()) {
         (_, 0 | 1) | (Design::Paired, _) => groups.collect(),
-        _ => groups.map(quantity::Group::of_few).collect(),
+        _ => groups.map(quantity::Group::with_few_series).collect(),
     };
     let mut figures = Vec::new();
     match (study.design, study.factors.len()) {

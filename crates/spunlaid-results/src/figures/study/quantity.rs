@@ -40,7 +40,7 @@ pub(super) fn groups(study: &Study) -> Vec<Group> {
 
 impl Group {
     /// The same group with one size of patches, the middle one, if it has many series.
-    pub(super) fn of_few(mut self) -> Self {
+    pub(super) fn with_few_series(mut self) -> Self {
         if self.members.len() > 2 {
             let middle = self.members.swap_remove(self.members.len() / 2);
             self.title = format!("{} over {}", self.title, middle.1);
@@ -127,7 +127,7 @@ impl FactorAxis {
         }
         if !words.is_empty() {
             let names = words.iter().map(|word| factor.input().pretty(*word));
-            let axis = Axis::of_words(&label_of_key(&factor.key), names);
+            let axis = Axis::from_words(&label_of_key(&factor.key), names);
             return Self { axis, zero: 0.0, scale: 1.0, unit: "", words };
         }
         let (least, greatest) = factor.ends();
@@ -146,7 +146,7 @@ impl FactorAxis {
     }
 
     /// The axis of a factor of a study.
-    pub(in crate::figures) fn of_study(study: &Study, factor: usize) -> Self {
+    pub(in crate::figures) fn from_study(study: &Study, factor: usize) -> Self {
         let base = study.points.first().filter(|_| study.design == Design::OneAtATime);
         Self::new(&study.factors[factor], base.map(|point| point.values[factor]))
     }

@@ -36,7 +36,7 @@ fn study(design: Design, counts: &[usize]) -> (Study, Vec<PointResults>) {
             errors: vec![1e-3; MEASURES.len()].into(),
         })
         .collect();
-    let of_fibres = Study::of_cases([case], Replicates::fixed(10));
+    let of_fibres = Study::from_cases([case], Replicates::fixed(10));
     (Study { factors, design, seed: 1, points, ..of_fibres }, results)
 }
 

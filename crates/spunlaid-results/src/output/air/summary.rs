@@ -45,8 +45,9 @@ impl Summary {
     /// * `replicate` – from 0
     pub fn new(case: &Case, slices: &Slices, replicate: u64, notes: &[String]) -> Self {
         let extent = case.extent_of_air();
-        let plane =
-            |i: usize| (PLANES[i].to_owned(), of_plane(case, &slices.planes[i], &slices.velocities[i]));
+        let plane = |i: usize| {
+            (PLANES[i].to_owned(), summarise_plane(case, &slices.planes[i], &slices.velocities[i]))
+        };
         Self {
             replicate: replicate + 1,
             repeats_md_m: extent.y,
@@ -64,7 +65,7 @@ impl Summary {
     }
 }
 
-fn of_plane(case: &Case, plane: &Plane, velocities: &[Vec<Vec3<f64>>]) -> PlaneSummary {
+fn summarise_plane(case: &Case, plane: &Plane, velocities: &[Vec<Vec3<f64>>]) -> PlaneSummary {
     let places = plane.places();
     let mut hint = spunlaid::field::Hint::default();
     let flow: Vec<_> = places.iter().map(|place| case.air.local(*place, &mut hint)).collect();

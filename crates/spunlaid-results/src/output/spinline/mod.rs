@@ -40,8 +40,8 @@ impl SpinResults {
     }
 
     /// The spinline from which a case is fed, solved again, which takes milliseconds; `None` if the case has none.
-    pub fn of_case(case: &Case) -> Option<Self> {
+    pub fn from_case(case: &Case) -> Option<Self> {
         // The case could be read, so its spinline can be solved.
-        Self::new(&SpinFile::of_case(case)?).ok()
+        Self::new(&SpinFile::from_case(case)?).ok()
     }
 }

@@ -50,15 +50,15 @@ impl SpinSummary {
             let rows: Vec<Json> = rows.iter().map(|row| object(measured(row))).collect();
             entries.push(("rows".to_owned(), rows.into()));
         }
-        let influences: Vec<Json> = influences.iter().map(of_influence).collect();
+        let influences: Vec<Json> = influences.iter().map(summarise_influence).collect();
         entries.push(("influences".to_owned(), influences.into()));
         entries.push(("model_error".to_owned(), MODEL_ERROR.into()));
         Self(OrderedObject(entries))
     }
 
     /// That of the spinline from which a case is fed; `None` if it has none.
-    pub fn of_case(case: &Case) -> Option<Self> {
-        let results = SpinResults::of_case(case)?;
+    pub fn from_case(case: &Case) -> Option<Self> {
+        let results = SpinResults::from_case(case)?;
         Some(Self::new(&results.rows, &results.influences))
     }
 }
@@ -92,7 +92,7 @@ fn measured(solution: &Solution) -> Vec<(String, Json)> {
 }
 
 /// An influence: what is changed, how, and what it does.
-fn of_influence(influence: &Influence) -> Json {
+fn summarise_influence(influence: &Influence) -> Json {
     let Influence { key, label, change, diameter, speed } = influence;
     let change = match change {
         Change::Relative => "relative",

@@ -26,7 +26,7 @@ pub(super) fn values(study: &Study, point: usize) -> impl Iterator<Item = Value>
     values.map(|(input, value)| input.word(*value).map_or(Value::Number(*value), Value::Word))
 }
 
-pub(super) fn of_points(study: &Study) -> Vec<Column> {
+pub(super) fn columns_of_points(study: &Study) -> Vec<Column> {
     let mut columns = vec![whole("point"), whole("seed")];
     columns.extend(inputs(study));
     columns.extend([whole("n"), whole("lost")]);
@@ -36,7 +36,7 @@ pub(super) fn of_points(study: &Study) -> Vec<Column> {
     columns
 }
 
-pub(super) fn of_replicates(study: &Study) -> Vec<Column> {
+pub(super) fn columns_of_replicates(study: &Study) -> Vec<Column> {
     let mut columns = vec![whole("point"), whole("replicate"), whole("seed")];
     columns.extend(inputs(study));
     columns.extend(study.quantities.iter().map(|quantity| number(&quantity.column)));

@@ -27,10 +27,10 @@ pub fn write(
     let create = |name: &str, columns: &[Column]| {
         Parquet::create(staging.place(name), columns, VALUES.div_ceil(columns.len()))
     };
-    let points = columns::of_points(study);
+    let points = columns::columns_of_points(study);
     let mut csv = csv::Csv::create(staging.place("results.csv"), &points)?;
     let mut results = create("results.parquet", &points)?;
-    let mut replicates = create("replicates.parquet", &columns::of_replicates(study))?;
+    let mut replicates = create("replicates.parquet", &columns::columns_of_replicates(study))?;
     let mut all = Vec::with_capacity(study.points.len());
     for index in 0..study.points.len() {
         let point = results_of_point(study, journal, index)?;

@@ -6,7 +6,7 @@ use spunlaid::study::{PointResults, Quantity, Study};
 /// The quantities that tables show, the most important first, by their indices.
 pub fn quantities(study: &Study) -> Vec<usize> {
     let names: &[&str] = match study.points.first().map(|point| &point.experiment) {
-        Some(spunlaid::study::Experiment::Web(_)) => return of_webs(study),
+        Some(spunlaid::study::Experiment::Web(_)) => return quantities_of_webs(study),
         Some(spunlaid::study::Experiment::Case(case)) if case.line.is_some() => &[
             "sigma_md",
             "sigma_cd",
@@ -29,7 +29,7 @@ pub fn quantities(study: &Study) -> Vec<usize> {
 }
 
 /// The unevenness of the maps, the one expected from the flown curves if anything is flown, and what else is in a web.
-fn of_webs(study: &Study) -> Vec<usize> {
+fn quantities_of_webs(study: &Study) -> Vec<usize> {
     let flies = |point: &spunlaid::study::Point| {
         let web = point.experiment.web();
         web.is_some_and(|web| web.layers.iter().any(|layer| layer.source.case().is_some()))

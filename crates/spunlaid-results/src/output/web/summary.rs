@@ -221,7 +221,7 @@ struct Levers {
 
 impl WebSummary {
     /// What any map says.
-    fn of_map(map: &Map, clouds: Option<&Clouds>, patches: Vec<OrderedObject<Json>>) -> Self {
+    fn from_map(map: &Map, clouds: Option<&Clouds>, patches: Vec<OrderedObject<Json>>) -> Self {
         let cloudiness = clouds.map(|clouds| {
             let (index, standard_error) = clouds.cloudiness(SEEN[0], SEEN[1]);
             let interval = standard_error.map(|error| interval_of_deviation(index, error));
@@ -339,7 +339,7 @@ impl<'a> Summary<'a> {
                 }),
                 declared: declared_of_web(web, findings),
                 sensitivities: levers.collect(),
-                ..WebSummary::of_map(&findings.laid.map, findings.clouds.as_ref(), patches.collect())
+                ..WebSummary::from_map(&findings.laid.map, findings.clouds.as_ref(), patches.collect())
             },
             advice: advice.map(AdviceSummary::new),
             neighbours: NeighboursSummary::from_findings(findings, layers),
@@ -350,7 +350,7 @@ impl<'a> Summary<'a> {
     }
 
     /// Of a scanned web, which was read from a file.
-    pub fn of_scan(
+    pub fn from_scan(
         file: &'a str,
         findings: &scan::Findings,
         performance: Performance,
@@ -361,7 +361,7 @@ impl<'a> Summary<'a> {
             let interval = patch.interval.map_err(|doubt| doubt.to_string());
             numbers_of_patch(&patch.unevenness, std::iter::empty(), interval, declared)
         });
-        let mut web = WebSummary::of_map(&findings.map, findings.clouds.as_ref(), patches.collect());
+        let mut web = WebSummary::from_map(&findings.map, findings.clouds.as_ref(), patches.collect());
         if let Some(guess) = findings.guess {
             // Chance is not all that the error of a variance is made of.
             web.clouds.iter_mut().for_each(|octave| octave.standard_error = None);

@@ -111,7 +111,7 @@ pub(in crate::report) fn web_account(spec: &WebSpec) -> Account {
     let mut references = if spec.method == Method::Surrogate { vec![SURROGATE] } else { Vec::new() };
     let mut described: Vec<&Case> = Vec::new();
     for (number, layer) in spec.layers.iter().enumerate() {
-        sentences.push(of_layer(spec, layer, number));
+        sentences.push(describe_layer(spec, layer, number));
         let Some(case) = layer.source.case().filter(|case| !described.contains(case)) else { continue };
         let (case_account, cited) = case_account(case);
         sentences.extend(case_account);
@@ -121,7 +121,7 @@ pub(in crate::report) fn web_account(spec: &WebSpec) -> Account {
     (sentences, references)
 }
 
-fn of_layer(spec: &WebSpec, layer: &LayerSpec, number: usize) -> String {
+fn describe_layer(spec: &WebSpec, layer: &LayerSpec, number: usize) -> String {
     let name = match (&layer.name, spec.layers.len()) {
         (Some(name), _) => format!("Layer {name}"),
         (None, 1) => "The web".to_owned(),

@@ -88,7 +88,7 @@ impl Wind {
     /// # Errors
     /// As of [`Wind::along`], and for air with records.
     pub fn repeating(isa: Isa, streams: Vec<Stream>, horizon: f64) -> Result<Self, Error> {
-        let (sampling, streams) = Sampling::of_all(streams)?;
+        let (sampling, streams) = Sampling::from_streams(streams)?;
         if !sampling.records.is_empty() {
             return Err(Error::flight("a repeating wind is made from harmonics", "leave air.record out"));
         }
@@ -105,7 +105,7 @@ impl Wind {
     /// No fibre or more than eight, and fibres that do not agree in number of eddies, cut-off frequency, number
     /// of harmonics and records; an air without harmonics.
     pub fn along(isa: Isa, streams: Vec<Stream>, horizon: f64) -> Result<Self, Error> {
-        let (sampling, streams) = Sampling::of_all(streams)?;
+        let (sampling, streams) = Sampling::from_streams(streams)?;
         Ok(Self::sampled(isa, sampling, streams, horizon))
     }
 

@@ -29,12 +29,12 @@ impl Sampling {
     }
 
     /// The same for another number of eddies.
-    pub(crate) fn of_eddies(self, eddies: usize) -> Self {
+    pub(crate) fn with_eddies(self, eddies: usize) -> Self {
         Self { eddies, ..self }
     }
 
     /// That of the fibres of a flight.
-    pub(super) fn of_all(streams: Vec<Stream>) -> Result<(Self, PerLane<Stream>), Error> {
+    pub(super) fn from_streams(streams: Vec<Stream>) -> Result<(Self, PerLane<Stream>), Error> {
         let streams = PerLane::new(streams)?;
         let sampling = streams.shared(|stream| Self::new(&stream.air, stream.eddies.len()))?;
         if sampling.eddies == 0 {

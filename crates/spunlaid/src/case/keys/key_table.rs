@@ -59,7 +59,7 @@ impl<T> KeyTable<T> {
     }
 
     /// The keys of a table.
-    pub fn of_table(&self, table: &str) -> impl Iterator<Item = &'static Key<T>> {
+    pub fn keys_of_table(&self, table: &str) -> impl Iterator<Item = &'static Key<T>> {
         self.rows.iter().filter(move |key| key.table() == table)
     }
 

@@ -121,7 +121,7 @@ pub fn find(name: &str) -> Option<&'static Key> {
 pub fn named(name: &str) -> Result<&'static Key, Box<Problem>> {
     find(name).ok_or_else(|| {
         let (table, _) = name.split_once('.').unwrap_or(("", name));
-        let known: Vec<&str> = of_table(table).map(Key::short).collect();
+        let known: Vec<&str> = keys_of_table(table).map(Key::short).collect();
         let (takes, known) = if known.is_empty() {
             ("a case takes".to_owned(), all().iter().map(|key| key.name).collect())
         } else {
@@ -153,8 +153,8 @@ pub(crate) fn finding<W>(key: &str, value: f64, what: W) -> Finding<W> {
 }
 
 /// The keys of a table.
-pub fn of_table(table: &str) -> impl Iterator<Item = &'static Key> {
-    CASE.of_table(table)
+pub fn keys_of_table(table: &str) -> impl Iterator<Item = &'static Key> {
+    CASE.keys_of_table(table)
 }
 
 impl<T> Key<T> {

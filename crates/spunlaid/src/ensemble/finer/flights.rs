@@ -28,7 +28,7 @@ impl FinerPlan {
         let carried = case.line.is_none() && matches!(case.air.eddies, EddyModel::Convected { .. });
         let flown = if carried { &self.fine } else { case };
         let air = SurroundingRun { case: flown, horizon: self.horizon, field: None };
-        let paths = Paths { stride: 1, ..Paths::of_run(Ok(self), None) };
+        let paths = Paths { stride: 1, ..Paths::from_run(Ok(self), None) };
         let computing = RunControl { recorder: Some(&paths), ..computing };
         let trajectories = fly_in_air(&jobs, Keep::NUMBERS, air, computing)?;
         Ok(Flight { trajectories, paths: paths.into_paths() })
@@ -49,7 +49,7 @@ pub(in crate::ensemble) struct Paths<'a> {
 
 impl<'a> Paths<'a> {
     /// The paths of a run that the plan of its time step needs; none where it needs none.
-    pub(in crate::ensemble) fn of_run(
+    pub(in crate::ensemble) fn from_run(
         plan: Result<&FinerPlan, &String>,
         passed_on: Option<&'a dyn Recorder>,
     ) -> Self {

@@ -87,10 +87,10 @@ impl Mesh {
         if cut.tetrahedra.is_empty() {
             return Err(fault::no_volume(0).into());
         }
-        Ok((Self::of_tetrahedra(nodes, cut, points.len()), warnings))
+        Ok((Self::from_tetrahedra(nodes, cut, points.len()), warnings))
     }
 
-    fn of_tetrahedra(nodes: Vec<Node>, cut: Cut, points: usize) -> Self {
+    fn from_tetrahedra(nodes: Vec<Node>, cut: Cut, points: usize) -> Self {
         let surface = surface(&cut.triangles, &nodes);
         let cells = boxes(&cut, &nodes);
         let tetrahedra = neighbours(&cut.tetrahedra, nodes.len());

@@ -22,7 +22,7 @@ pub(super) enum NumberType {
 
 impl NumberType {
     /// The type with this name in VTK's XML files.
-    pub(super) fn of_xml(name: &str) -> Option<Self> {
+    pub(super) fn from_xml(name: &str) -> Option<Self> {
         Some(match name {
             "Int8" => Self::I8,
             "UInt8" => Self::U8,
@@ -39,7 +39,7 @@ impl NumberType {
     }
 
     /// The type with this name in VTK's legacy files.
-    pub(super) fn of_legacy(name: &str) -> Option<Self> {
+    pub(super) fn from_legacy(name: &str) -> Option<Self> {
         Some(match name.to_ascii_lowercase().as_str() {
             "char" | "signed_char" | "vtktypeint8" => Self::I8,
             "unsigned_char" | "vtktypeuint8" => Self::U8,
@@ -94,35 +94,35 @@ pub(super) struct Array<'a> {
 
 /// The type that numbers are converted to: `f64`, or `i64` for whole numbers.
 pub(super) trait ParseNumber: FromStr {
-    fn of_float(x: f64) -> Self;
-    fn of_signed(x: i64) -> Self;
-    fn of_unsigned(x: u64) -> Self;
+    fn from_float(x: f64) -> Self;
+    fn from_signed(x: i64) -> Self;
+    fn from_unsigned(x: u64) -> Self;
 }
 
 impl ParseNumber for f64 {
-    fn of_float(x: f64) -> Self {
+    fn from_float(x: f64) -> Self {
         x
     }
 
-    fn of_signed(x: i64) -> Self {
+    fn from_signed(x: i64) -> Self {
         x as Self
     }
 
-    fn of_unsigned(x: u64) -> Self {
+    fn from_unsigned(x: u64) -> Self {
         x as Self
     }
 }
 
 impl ParseNumber for i64 {
-    fn of_float(x: f64) -> Self {
+    fn from_float(x: f64) -> Self {
         x as Self
     }
 
-    fn of_signed(x: i64) -> Self {
+    fn from_signed(x: i64) -> Self {
         x
     }
 
-    fn of_unsigned(x: u64) -> Self {
+    fn from_unsigned(x: u64) -> Self {
         x as Self
     }
 }
@@ -132,7 +132,7 @@ impl Array<'_> {
     pub(super) fn all<T: ParseNumber>(&self, budget: &mut Budget) -> Result<Vec<T>, FileError> {
         let numbers = match &self.source {
             Source::Text(text) => words(text),
-            Source::Numbers(numbers) => Ok(numbers.iter().map(|x| T::of_float(*x)).collect()),
+            Source::Numbers(numbers) => Ok(numbers.iter().map(|x| T::from_float(*x)).collect()),
             Source::Bytes { bytes, big_endian } => self.converted(bytes, *big_endian),
             Source::Packed { bytes, packing, big_endian } => {
                 let bytes = encoding::unpack(bytes, *packing, *big_endian, self.number.size(), budget);
@@ -175,13 +175,15 @@ impl Array<'_> {
             }
             let bits = u64::from_le_bytes(bits);
             match self.number {
-                NumberType::F32 => T::of_float(f32::from_bits(bits as u32).into()),
-                NumberType::F64 => T::of_float(f64::from_bits(bits)),
-                NumberType::I8 => T::of_signed((bits as i8).into()),
-                NumberType::I16 => T::of_signed((bits as i16).into()),
-                NumberType::I32 => T::of_signed((bits as i32).into()),
-                NumberType::I64 => T::of_signed(bits as i64),
-                NumberType::U8 | NumberType::U16 | NumberType::U32 | NumberType::U64 => T::of_unsigned(bits),
+                NumberType::F32 => T::from_float(f32::from_bits(bits as u32).into()),
+                NumberType::F64 => T::from_float(f64::from_bits(bits)),
+                NumberType::I8 => T::from_signed((bits as i8).into()),
+                NumberType::I16 => T::from_signed((bits as i16).into()),
+                NumberType::I32 => T::from_signed((bits as i32).into()),
+                NumberType::I64 => T::from_signed(bits as i64),
+                NumberType::U8 | NumberType::U16 | NumberType::U32 | NumberType::U64 => {
+                    T::from_unsigned(bits)
+                }
             }
         };
         Ok(bytes.chunks_exact(size).map(number).collect())

@@ -42,7 +42,7 @@ impl<'a> Arrays<'a> {
     }
 
     /// The columns of a table, each of one component.
-    pub(super) fn of_table(layout: &'a FieldLayout, names: Vec<Name>) -> Self {
+    pub(super) fn from_table(layout: &'a FieldLayout, names: Vec<Name>) -> Self {
         Self { components: vec![1; names.len()], names, layout }
     }
 

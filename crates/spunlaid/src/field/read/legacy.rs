@@ -238,7 +238,7 @@ impl<'a> Scanner<'a> {
                 }
                 word => {
                     let number =
-                        NumberType::of_legacy(word).ok_or_else(|| wrong(word, "a type of number"))?;
+                        NumberType::from_legacy(word).ok_or_else(|| wrong(word, "a type of number"))?;
                     arrays.push(self.array(name, number, components, tuples)?);
                 }
             }
@@ -294,7 +294,7 @@ impl<'a> Scanner<'a> {
 
     fn number(&mut self) -> Result<NumberType, FileError> {
         let word = self.word()?;
-        NumberType::of_legacy(word).ok_or_else(|| wrong(word, "a type of number"))
+        NumberType::from_legacy(word).ok_or_else(|| wrong(word, "a type of number"))
     }
 
     fn parse<T: std::str::FromStr>(&mut self, wanted: &'static str) -> Result<T, FileError> {

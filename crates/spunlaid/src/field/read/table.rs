@@ -25,7 +25,7 @@ pub(super) fn read(bytes: &[u8], layout: &FieldLayout) -> Result<(Field, Vec<Fau
     }
     let names: Vec<Name> = table.heads().iter().map(|head| Name::new(&head.text)).collect();
     let coordinates = coordinates(&names)?;
-    let arrays = Arrays::of_table(layout, names);
+    let arrays = Arrays::from_table(layout, names);
     if arrays.velocity()?.is_none() {
         return Err(missing::velocity(&arrays).into());
     }

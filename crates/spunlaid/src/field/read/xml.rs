@@ -251,7 +251,7 @@ impl<'a> File<'a> {
     fn array(&self, node: Node<'a, '_>) -> Result<Array<'a>, FileError> {
         let name = node.attribute("Name").unwrap_or_default().to_owned();
         let written = node.attribute("type").unwrap_or_default();
-        let Some(number_type) = NumberType::of_xml(written) else {
+        let Some(number_type) = NumberType::from_xml(written) else {
             let fault = fault::syntax(written, "a type of number");
             return Err(FileError::from(fault).array(&name));
         };

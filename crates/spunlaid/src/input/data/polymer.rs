@@ -45,7 +45,7 @@ pub(super) fn read(text: &str, name: &str) -> Result<PolymerFile, FileError> {
     };
     let usual = Case { spinline: Some(Box::new(usual)), ..Case::unset() };
     let missing = |key: &'static Key| Some((key, key.get(&usual)?)).filter(|_| key.get(&case).is_none());
-    if let Some((key, value)) = keys::of_table(TABLE).find_map(missing) {
+    if let Some((key, value)) = keys::keys_of_table(TABLE).find_map(missing) {
         let example = format!("a line like {} = {}", key.short(), toml_value(&key.kind, value));
         let what =
             Fault::new("is missing", format!("the file of a polymer needs every constant; add {example}"));

@@ -79,14 +79,14 @@ impl Line<'_> {
             let way = vec![(format!("layer.{layer}.fibre.linear_density"), 1.0), throughput(layer, 0.0)];
             changes.extend(self.change(Setting::Titre, numbered(layer), &[way]));
         }
-        for (setting, ways) in self.of_all_layers() {
+        for (setting, ways) in self.settings_of_all_layers() {
             changes.extend(self.change(setting, None, &ways));
         }
         changes
     }
 
     /// The settings that all layers share, each with the ways to change it, the best first.
-    fn of_all_layers(&self) -> Vec<(Setting, Vec<KeyPowers>)> {
+    fn settings_of_all_layers(&self) -> Vec<(Setting, Vec<KeyPowers>)> {
         let alone = |keys: &[&str]| keys.iter().map(|key| vec![((*key).to_owned(), 1.0)]).collect();
         let is_flown = |layer: &usize| self.spec().layers[layer - 1].source.case().is_some();
         let fed = (1..=self.spec().layers.len()).filter(is_flown).map(|layer| throughput(layer, 0.0));
@@ -107,14 +107,14 @@ impl Line<'_> {
         if self.spec().method == Method::SharedAir {
             all.push((
                 Setting::Depth,
-                vec![self.of_each(|layer, filaments| match filaments {
+                vec![self.powers_of_each(|layer, filaments| match filaments {
                     Filaments::Slot { .. } => vec![(format!("layer.{layer}.line.depth"), 1.0)],
                     _ => Vec::new(),
                 })],
             ));
             all.push((
                 Setting::RowPlaces,
-                vec![self.of_each(|layer, filaments| {
+                vec![self.powers_of_each(|layer, filaments| {
                     match filaments {
                         Filaments::Rows(rows) => (1..)
                             .zip(rows)
@@ -142,7 +142,7 @@ impl Line<'_> {
     }
 
     /// What each layer adds to a way.
-    fn of_each(&self, keys: impl Fn(usize, &Filaments) -> KeyPowers) -> KeyPowers {
+    fn powers_of_each(&self, keys: impl Fn(usize, &Filaments) -> KeyPowers) -> KeyPowers {
         (1..).zip(&self.spec().layers).flat_map(|(layer, spec)| keys(layer, &spec.filaments)).collect()
     }
 

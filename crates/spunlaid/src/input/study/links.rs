@@ -87,9 +87,9 @@ pub(super) fn read(base: &dyn Base, key: &VariedKey, text: &str) -> Result<Link,
         }
     }
     // Units do not depend on values, so any value serves for this check.
-    let (_, found) =
-        expression.value(&|name| Some((1.0, Powers::of_dimension(base.numeric(name).ok()?.dimension()))))?;
-    let wanted = Powers::of_dimension(key.dimension());
+    let (_, found) = expression
+        .value(&|name| Some((1.0, Powers::from_dimension(base.numeric(name).ok()?.dimension()))))?;
+    let wanted = Powers::from_dimension(key.dimension());
     if !found.agree(wanted) {
         let name = key.dimension().name();
         let message = format!("gives a value in {found}, but {name} in {wanted} is needed");
@@ -158,7 +158,7 @@ pub(super) fn values(
         let known = |name: &str| {
             let linked = links.iter().position(|link| link.key == name);
             let value = linked.map_or_else(|| known(name), |other| values[other])?;
-            Some((value, Powers::of_dimension(base.numeric(name).ok()?.dimension())))
+            Some((value, Powers::from_dimension(base.numeric(name).ok()?.dimension())))
         };
         let value = links[i].expression.value(&known).map_or(f64::NAN, |(value, _)| value);
         let whole = base.numeric(&links[i].key).is_ok_and(|key| key.is_whole());

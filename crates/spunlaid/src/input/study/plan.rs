@@ -93,7 +93,7 @@ impl<'a> Reader<'a> {
         }
         for (key, text) in asked.values {
             let key = key.trim().to_owned();
-            let entry = Entry::of_override(asked.word, text);
+            let entry = Entry::from_override(asked.word, text);
             self.check_set(&key, &entry, base);
             let value_text = if DeValue::parse(text).is_ok() { text.clone() } else { quoted(text) };
             set.retain(|(other, _)| *other != key);
@@ -155,7 +155,7 @@ impl<'a> Reader<'a> {
         }
         let order = links::order(&links).ok()?;
         if let Some(entry) = &design_entry {
-            let base: Vec<f64> = factors.iter().map(|factor| of_base(base, factor)).collect();
+            let base: Vec<f64> = factors.iter().map(|factor| base_value(base, factor)).collect();
             self.combination(entry, design, &factors, &base);
             if self.problems.is_empty() {
                 let count = design.count(&factors, &base);
@@ -176,6 +176,6 @@ impl<'a> Reader<'a> {
 }
 
 /// The value of a factor before anything varies; NaN if it has none.
-pub(super) fn of_base(base: &dyn Base, factor: &Factor) -> f64 {
+pub(super) fn base_value(base: &dyn Base, factor: &Factor) -> f64 {
     base.varied(&factor.key).map_or(f64::NAN, |key| base.value(&key))
 }

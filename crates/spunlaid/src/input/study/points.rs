@@ -1,6 +1,6 @@
 //! Makes a checked experiment of every point of a study.
 
-use super::plan::{Plan, of_base};
+use super::plan::{Plan, base_value};
 use super::{Base, VariedKey, links};
 use crate::case::{Note, Remark};
 use crate::error::{Error, Place};
@@ -21,7 +21,7 @@ pub struct StudyNote {
 
 impl StudyNote {
     /// The remarks that go with results, see [`Note::of_results`].
-    pub fn of_results(notes: &[Self]) -> Vec<String> {
+    pub fn notes_of_results(notes: &[Self]) -> Vec<String> {
         notes.iter().filter(|remark| remark.note.is_of_results()).map(Self::to_string).collect()
     }
 }
@@ -49,7 +49,7 @@ impl Resolver<'_> {
     /// All points, or the problems of all of them.
     pub(super) fn points(&self) -> Result<(Vec<Point>, Vec<StudyNote>), Error> {
         let Plan { factors, design, seed, .. } = self.plan;
-        let base: Vec<f64> = factors.iter().map(|factor| of_base(self.base, factor)).collect();
+        let base: Vec<f64> = factors.iter().map(|factor| base_value(self.base, factor)).collect();
         let rows = design.rows(factors, &base, *seed);
         let count = rows.len() as u64;
         let (mut points, mut problems, mut notes) =

@@ -99,7 +99,7 @@ impl<'a> Reader<'a> {
     }
 
     pub(super) fn entry(&self, at: usize, value: Spanned<DeValue<'a>>) -> Entry<'a> {
-        Entry::of_file(&self.source, at, value)
+        Entry::from_file(&self.source, at, value)
     }
 
     pub(super) fn reject(&mut self, entry: &Entry<'_>, key: &str, fault: Fault) {

@@ -68,7 +68,7 @@ impl Reading<'_> {
         let Some(path) = self.path(&key) else { return Ok(None) };
         let read = self.read_case(&path, self.of_case);
         let change = match &read {
-            Ok((case, _)) => self.of_throughput(prefix, case, &path),
+            Ok((case, _)) => self.change_throughput(prefix, case, &path),
             Err(_) => None,
         };
         let read = match change {

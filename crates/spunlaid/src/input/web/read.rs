@@ -150,7 +150,7 @@ impl Reading<'_> {
     ///
     /// * `before` – what comes before the names of its keys, `layer.2.line.`
     fn fill(&mut self, web: &mut WebSpec, table: &str, before: &str) {
-        for key in WEB.of_table(table) {
+        for key in WEB.keys_of_table(table) {
             let full = format!("{before}{}", key.short());
             let is_there = |name: &str| {
                 let (_, short) = name.rsplit_once('.').unwrap_or(("", name));
@@ -306,7 +306,7 @@ impl Reading<'_> {
 
 /// What the case of a layer's flown fibres gives for a key of the web: the key of the case, and its value.
 fn flown(web: &WebSpec, key: &WebKey) -> Option<(&'static Key, Value)> {
-    let (of_case, case) = (key.of_case()?, web.layers.first()?.source.case()?);
+    let (of_case, case) = (key.key_of_case()?, web.layers.first()?.source.case()?);
     // The diameter of a case stands for it.
     let titre = (of_case.name == "fibre.linear_density").then(|| case.linear_density().into());
     Some((of_case, titre.or_else(|| of_case.get(case))?))

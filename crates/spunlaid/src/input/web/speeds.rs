@@ -39,7 +39,7 @@ impl Reading<'_> {
     }
 
     /// The change to a flown case that makes its throughput the one that the web gives; none if it has that already.
-    pub(super) fn of_throughput(
+    pub(super) fn change_throughput(
         &mut self,
         prefix: &str,
         case: &Case,

@@ -50,7 +50,7 @@ pub static WEB: KeyTable<WebSpec> = KeyTable {
 
 impl WebKey {
     /// The key of a case that means the same, if there is one.
-    pub fn of_case(&self) -> Option<&'static Key> {
+    pub fn key_of_case(&self) -> Option<&'static Key> {
         keys::find(match self.name {
             "line.feed_speed" => "feed.speed",
             "line.belt_speed" => "belt.speed",
@@ -60,13 +60,13 @@ impl WebKey {
 
     /// Other words for it: with those of the same key of a case, where there is one.
     pub fn all_synonyms(&self) -> Vec<&'static str> {
-        let of_case = self.of_case().map_or(&[][..], |key| key.synonyms);
+        let of_case = self.key_of_case().map_or(&[][..], |key| key.synonyms);
         self.synonyms.iter().chain(of_case).copied().collect()
     }
 
     /// Outside of these a value, unless it is zero, is most likely a slip, in SI units: as for the same key of a case, where
     /// there is one.
     pub fn usual_range(&self) -> Option<(f64, f64)> {
-        self.of_case().map_or(self.usual, |key| key.usual)
+        self.key_of_case().map_or(self.usual, |key| key.usual)
     }
 }
