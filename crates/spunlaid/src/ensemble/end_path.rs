@@ -1,7 +1,7 @@
 //! Where the free end of a fibre was, with a memory that does not grow.
 
 use crate::observe::Sample;
-use crate::statistics::Thinned;
+use crate::statistics::EvenSample;
 use crate::vec3::Vec3;
 use std::collections::VecDeque;
 
@@ -12,7 +12,7 @@ pub type EndPoint = (f64, Vec3<f64>);
 #[derive(Clone, Debug, Default)]
 pub struct EndPath {
     last: VecDeque<EndPoint>,
-    whole: Thinned<EndPoint>,
+    whole: EvenSample<EndPoint>,
 }
 
 impl EndPath {

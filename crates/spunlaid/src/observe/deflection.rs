@@ -3,7 +3,7 @@
 use super::{Declaration, Figure, MILLIMETRES, Measure, Observation, Observer, Value, fixed};
 use crate::flight::Flight;
 use crate::lanes::WIDTH;
-use crate::statistics::{Thinned, quantile};
+use crate::statistics::{EvenSample, quantile};
 
 pub(super) const DECLARATION: Declaration = Declaration {
     measures: &[
@@ -45,7 +45,7 @@ const DEFLECTION: Measure = Measure {
 /// Distances of the free ends from the axis at the recorded instants after the spin-up, and the largest ones [m].
 #[derive(Debug)]
 struct Deflection {
-    distances: [Thinned<f64>; WIDTH],
+    distances: [EvenSample<f64>; WIDTH],
     largest: [f64; WIDTH],
 }
 

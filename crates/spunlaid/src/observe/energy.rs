@@ -7,7 +7,7 @@ use super::{
 use crate::chain::schemes::Scheme;
 use crate::flight::Flight;
 use crate::lanes::WIDTH;
-use crate::statistics::{Thinned, median};
+use crate::statistics::{EvenSample, median};
 
 /// The paper's work check. Under implicit tension it does not apply: there it is tens of per cent where the amplitudes
 /// agree with those of the other schemes.
@@ -157,9 +157,9 @@ struct Errors {
     error: fn(&Sample) -> f64,
     /// Whether it is drawn over time.
     drawn: bool,
-    times: Thinned<f64>,
+    times: EvenSample<f64>,
     /// By lane [%].
-    percent: [Thinned<f64>; WIDTH],
+    percent: [EvenSample<f64>; WIDTH],
     /// The newest [%].
     newest: [f64; WIDTH],
 }

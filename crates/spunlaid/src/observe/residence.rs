@@ -5,7 +5,7 @@ use super::{
 };
 use crate::flight::Flight;
 use crate::lanes::WIDTH;
-use crate::statistics::{Thinned, quantile};
+use crate::statistics::{EvenSample, quantile};
 
 pub(super) const DECLARATION: Declaration = Declaration {
     measures: &[Measure {
@@ -37,7 +37,7 @@ const SHARE: f64 = 0.9;
 
 /// y and z of the free ends at the recorded instants after the spin-up [m].
 #[derive(Debug, Default)]
-struct Residence([Thinned<(f64, f64)>; WIDTH]);
+struct Residence([EvenSample<(f64, f64)>; WIDTH]);
 
 impl Observer for Residence {
     fn see(&mut self, observation: &Observation<'_>) {

@@ -7,7 +7,7 @@ use super::{
 use crate::fibre::Root;
 use crate::flight::Flight;
 use crate::lanes::{Lanes, WIDTH};
-use crate::statistics::{Thinned, quantile};
+use crate::statistics::{EvenSample, quantile};
 use std::collections::VecDeque;
 
 /// The strain that does not depend on the time step.
@@ -69,7 +69,7 @@ struct AveragedStrain {
     /// last as the longest average needs. The period of an axial wave is a few times as many stable steps as there are elements.
     first: Option<(f64, Lanes)>,
     last: VecDeque<(f64, Lanes)>,
-    means: [Thinned<f64>; WIDTH],
+    means: [EvenSample<f64>; WIDTH],
 }
 
 impl AveragedStrain {

@@ -2,14 +2,14 @@
 
 mod covariance;
 mod difference;
+mod even_sample;
 pub(crate) mod linear;
 mod spectrum;
-mod thinned;
 
 pub use covariance::Covariance;
 pub use difference::{Difference, difference_of_deviations, student_t_95_at};
+pub use even_sample::EvenSample;
 pub use spectrum::{Spectrum, Welch, Window};
-pub use thinned::Thinned;
 
 /// A result over the replicates of an ensemble.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -52,7 +52,7 @@ pub(super) fn across(web: &Web) -> SheetPosition {
 }
 
 /// What is expected of patches of one side.
-pub(super) struct Expected {
+pub(super) struct PatchExpectation {
     /// CV and its standard error.
     pub(super) cv: (f64, f64),
     /// CV of straight fibres of the same mass.
@@ -118,13 +118,14 @@ pub fn expected_cv(web: &Web, by: LayControl<'_>) -> Result<Vec<ExpectedCv>, Err
     let sides = sides(&web.sheet, &columns);
     let sample = OneFibre { cell: web.sheet.cell, fibres: ALONE, seed: web.seed };
     let found = expected(web, layers.unwrap_or_else(|| web.layers.clone()), &sides, (sample, columns), by)?;
-    let of_side = |(Expected { cv: (cv, standard_error), parts, .. }, side): (Expected, &usize)| {
-        let fibres = parts.first().map_or(0, Vec::len);
-        let alike = parts.iter().all(|of_layer| of_layer.len() == fibres);
-        let sum = |fibre: usize| parts.iter().map(|of_layer| of_layer[fibre]).sum();
-        let parts = if alike { (0..fibres).map(sum).collect() } else { Vec::new() };
-        ExpectedCv { patch: *side as f64 * web.sheet.cell, cv, standard_error, parts }
-    };
+    let of_side =
+        |(PatchExpectation { cv: (cv, standard_error), parts, .. }, side): (PatchExpectation, &usize)| {
+            let fibres = parts.first().map_or(0, Vec::len);
+            let alike = parts.iter().all(|of_layer| of_layer.len() == fibres);
+            let sum = |fibre: usize| parts.iter().map(|of_layer| of_layer[fibre]).sum();
+            let parts = if alike { (0..fibres).map(sum).collect() } else { Vec::new() };
+            ExpectedCv { patch: *side as f64 * web.sheet.cell, cv, standard_error, parts }
+        };
     Ok(found.into_iter().zip(&sides).map(of_side).collect())
 }
 
@@ -149,7 +150,7 @@ pub(super) fn expected(
     sides: &[usize],
     (sample, columns): (OneFibre, Range<usize>),
     by: LayControl<'_>,
-) -> Result<Vec<Expected>, Error> {
+) -> Result<Vec<PatchExpectation>, Error> {
     let sheet = &web.sheet;
     let closed = sheet.edges == Edges::Periodic;
     let found = try_each(by.threads, layers.len(), |i| one_fibre(&layers[i], sides, sample, by))?;
@@ -187,7 +188,7 @@ pub(super) fn expected(
             sums.iter_mut().zip(across).for_each(|(sum, value)| *sum += value / whole);
         }
         square += sums.iter().map(|value| (value - 1.0).powi(2)).sum::<f64>() / count as f64;
-        Expected {
+        PatchExpectation {
             cv: (square.sqrt(), error.sqrt() / (2.0 * square.sqrt())),
             straight_fibres: straight.sqrt(),
             parts,

@@ -29,7 +29,7 @@ pub(super) fn case(check: &Check) -> Result<(), Failure> {
     let started = Instant::now();
     let (case, notes) = check.source.read(&[])?;
     notes.iter().for_each(say::note);
-    let expected = Expected::new(&case, started.elapsed().as_secs_f64())?;
+    let expected = Needs::new(&case, started.elapsed().as_secs_f64())?;
     if check.json {
         say::text(&json(&case, expected, notes.iter().map(Note::to_string).collect()));
         return Ok(());
@@ -67,9 +67,9 @@ pub(super) fn spinline_alone(check: &Check) -> Result<(), Failure> {
 }
 
 /// The same as JSON.
-fn json(case: &Case, expected: Expected, notes: Vec<String>) -> String {
+fn json(case: &Case, expected: Needs, notes: Vec<String>) -> String {
     #[derive(Serialize)]
-    struct Checked {
+    struct Summary {
         case: OrderedObject<OrderedObject<Json>>,
         /// Of a fed fibre.
         #[serde(skip_serializing_if = "Option::is_none")]
@@ -82,10 +82,10 @@ fn json(case: &Case, expected: Expected, notes: Vec<String>) -> String {
         eddies: usize,
         steps: u64,
         step_limits: Vec<StepLimit>,
-        expected: Expected,
+        expected: Needs,
         notes: Vec<String>,
     }
-    versioned_json(&Checked {
+    versioned_json(&Summary {
         case: resolved(case),
         throughput_kg_s: case.throughput(),
         linear_density_kg_m: case.line.map(|_| case.linear_density()),
@@ -258,14 +258,14 @@ fn limits(case: &Case) -> Vec<String> {
 
 /// What a run is expected to need.
 #[derive(Clone, Copy, Serialize)]
-struct Expected {
+struct Needs {
     wall_s: f64,
     threads: u64,
     memory_bytes: f64,
     disk_bytes: f64,
 }
 
-impl Expected {
+impl Needs {
     /// Measures the time of a few steps.
     ///
     /// * `reading` – time that it took to read the case and its files [s]

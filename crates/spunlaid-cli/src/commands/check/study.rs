@@ -57,7 +57,7 @@ fn points(study: &Study) -> String {
 /// The same as JSON.
 fn json(file: &StudyFile) -> String {
     #[derive(Serialize)]
-    struct Checked {
+    struct Summary {
         design: &'static str,
         replicates: [u64; 2],
         points: Vec<OrderedObject<Json>>,
@@ -71,7 +71,7 @@ fn json(file: &StudyFile) -> String {
         };
         OrderedObject(values.map(value).collect())
     };
-    versioned_json(&Checked {
+    versioned_json(&Summary {
         design: study.design.name(),
         replicates: [study.replicates.at_least, study.replicates.at_most],
         points: study.points.iter().map(point).collect(),

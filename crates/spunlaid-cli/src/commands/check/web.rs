@@ -20,7 +20,7 @@ pub(super) fn web(check: &Check) -> Result<(), Failure> {
     file.notes.iter().for_each(say::note);
     let notes: Vec<String> = file.notes.iter().map(Note::to_string).collect();
     if check.json {
-        say::text(&versioned_json(&Checked::new(&file.spec, notes)));
+        say::text(&versioned_json(&Summary::new(&file.spec, notes)));
         return Ok(());
     }
     let comments = [line(&file.spec), sheet(&file.spec).to_vec(), air(&file.spec)].concat();
@@ -30,7 +30,7 @@ pub(super) fn web(check: &Check) -> Result<(), Failure> {
 
 /// The same as JSON.
 #[derive(Serialize)]
-struct Checked {
+struct Summary {
     basis_weight_kg_m2: f64,
     belt_speed_m_s: Option<f64>,
     /// From each metre of width.
@@ -53,7 +53,7 @@ struct CheckedLayer {
     spinline: Option<SpinSummary>,
 }
 
-impl Checked {
+impl Summary {
     fn new(spec: &WebSpec, notes: Vec<String>) -> Self {
         let layer = |layer: &LayerSpec| {
             let filaments = layer.filaments.count(&spec.sheet);

@@ -12,7 +12,7 @@ pub(super) struct AdviceSummary {
     changes: Vec<ChangeSummary>,
     /// Changes that could not be flown or laid.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    failed: Vec<Failed>,
+    failed: Vec<Failure>,
 }
 
 #[derive(Debug, Serialize)]
@@ -51,7 +51,7 @@ struct Patch {
 }
 
 #[derive(Debug, Serialize)]
-struct Failed {
+struct Failure {
     setting: &'static str,
     layer: Option<usize>,
     keys: Vec<Key>,
@@ -91,7 +91,7 @@ impl AdviceSummary {
             throughput_change: effect.mass_flow[1] / effect.mass_flow[0] - 1.0,
             patches: effect.cvs.iter().map(patch).collect(),
         };
-        let failed = |(change, why): &(Change, String)| Failed {
+        let failed = |(change, why): &(Change, String)| Failure {
             setting: change.setting.name(),
             layer: change.layer,
             keys: keys(change),

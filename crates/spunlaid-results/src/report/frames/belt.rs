@@ -67,9 +67,9 @@ struct Outline {
 }
 
 /// A replicate, and the outlines of its shapes.
-type Outlined<'a> = (&'a Trajectory, Vec<Outline>);
+type Replicate<'a> = (&'a Trajectory, Vec<Outline>);
 
-fn outlined(trajectory: &Trajectory) -> Result<Outlined<'_>, Error> {
+fn outline_shapes(trajectory: &Trajectory) -> Result<Replicate<'_>, Error> {
     let outline = |shape: Shape| Outline { time: shape.time, nodes: shape.position.len() };
     let outlines = trajectory.shapes.iter().map(|shape| shape.map(outline));
     Ok((trajectory, outlines.collect::<Result<_, _>>()?))
@@ -95,7 +95,7 @@ pub(super) fn pack(case: &Case, line: Line, results: &Results) -> Result<Option<
     let trajectories: Vec<&Trajectory> =
         flown.iter().filter(|t| t.shapes.len() == shapes.len()).take(replicates).copied().collect();
     let most = (POSITIONS / (nodes * trajectories.len())).clamp(2, MOST_INSTANTS);
-    let fibres = trajectories.iter().map(|t| outlined(t)).collect::<Result<Vec<_>, _>>()?;
+    let fibres = trajectories.iter().map(|t| outline_shapes(t)).collect::<Result<Vec<_>, _>>()?;
     let instants = instants(&chosen, &fibres, most);
 
     type Nodes = (u64, Vec<Vec3<f64>>);
@@ -130,7 +130,7 @@ pub(super) fn pack(case: &Case, line: Line, results: &Results) -> Result<Option<
 }
 
 /// The last instants at which the laid points that are kept go on where the fibre in the air ends, in all replicates.
-fn instants(chosen: &NodeChoice<'_>, fibres: &[Outlined<'_>], most: usize) -> std::ops::Range<usize> {
+fn instants(chosen: &NodeChoice<'_>, fibres: &[Replicate<'_>], most: usize) -> std::ops::Range<usize> {
     let goes_on = |instant: usize| {
         fibres.iter().all(|(t, outlines)| {
             let number = |point: Option<&spunlaid::flight::LaidPoint>| point.map(|p| chosen.number(p.fed));
