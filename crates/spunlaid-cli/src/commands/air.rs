@@ -22,10 +22,10 @@ pub(crate) fn air(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
         (case, notes) = air.source.read(&[("air.lateral", "von-karman".to_owned())])?;
     }
     notes.iter().for_each(say::note);
-    let mut told = Note::notes_of_results(&notes);
+    let mut remarks = Note::notes_of_results(&notes);
     if is_uniform {
         say::remark(false, &UNIFORM);
-        told.push(UNIFORM.to_owned());
+        remarks.push(UNIFORM.to_owned());
     }
     let name = stem(&air.source.case, "case").to_string_lossy().into_owned();
     let folder = air.output.folder(format!("{name}_air"));
@@ -39,7 +39,7 @@ pub(crate) fn air(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
     let slices = progress::follow(&done, air.frames, "the air passes", air.output.quiet, || {
         Slices::new(&case, &looks, &done, stop)
     })?;
-    let results = AirFolder { name: &name, case: &case, slices: &slices, replicate, notes: &told };
+    let results = AirFolder { name: &name, case: &case, slices: &slices, replicate, notes: &remarks };
     results.write(&staging)?;
     staging.publish()?;
     if !air.output.quiet {

@@ -65,10 +65,10 @@ mod tests {
 
     #[test]
     fn a_file_is_seen_from_the_folder() {
-        let seen = |folder: &str, file: &str| relative(Path::new(folder), Path::new(file));
-        assert_eq!(seen("/a/results/my", "/a/my.toml"), Path::new("../../my.toml"));
-        assert_eq!(seen("/a/my", "/a/my/case.toml"), Path::new("case.toml"));
-        assert_eq!(seen("/a", "/b/c/my.toml"), Path::new("../b/c/my.toml"));
+        let path = |folder: &str, file: &str| relative(Path::new(folder), Path::new(file));
+        assert_eq!(path("/a/results/my", "/a/my.toml"), Path::new("../../my.toml"));
+        assert_eq!(path("/a/my", "/a/my/case.toml"), Path::new("case.toml"));
+        assert_eq!(path("/a", "/b/c/my.toml"), Path::new("../b/c/my.toml"));
     }
 
     #[test]

@@ -51,14 +51,14 @@ pub fn analysis_html(input: &AnalysisReport<'_>) -> String {
     let (air_rows, components) = results(analysis);
     let (headline, summary) = (headline(analysis), summary(input.record, analysis));
     let methods = methods(analysis);
-    let told = [summary.clone()].into_iter().chain(methods.iter().map(|(_, text)| text.clone()));
+    let texts = [summary.clone()].into_iter().chain(methods.iter().map(|(_, text)| text.clone()));
     let value = |row: &ResultRow| {
         format!("{} {} ({} to {}) {}", row.name, row.value, row.low, row.high, row.unit).trim_end().to_owned()
     };
     let found = format!("{}.", air_rows.iter().map(value).collect::<Vec<_>>().join(", "));
     let page = AnalysisPage {
         name: input.name,
-        methods_paragraph: Methods::new("analyse", (told.collect(), Vec::new()), [headline.clone(), found]),
+        methods_paragraph: Methods::new("analyse", (texts.collect(), Vec::new()), [headline.clone(), found]),
         headline,
         summary,
         notes: analysis.warnings.iter().map(ToString::to_string).collect(),

@@ -172,9 +172,9 @@ pub fn comparison_html(input: &ComparisonReport<'_>) -> String {
     });
     let title = title(input.comparisons);
     let found = [format!("{title}.")].into_iter().chain(input.comparisons.iter().flat_map(differences));
-    let told = input.comparisons.iter().map(method).collect();
+    let sentences = input.comparisons.iter().map(method).collect();
     let page = ComparisonPage {
-        methods_paragraph: Methods::new("compare", (told, Vec::new()), found),
+        methods_paragraph: Methods::new("compare", (sentences, Vec::new()), found),
         title,
         tables: tables.collect(),
         notes: input.notes,

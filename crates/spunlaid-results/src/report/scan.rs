@@ -49,12 +49,12 @@ pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
     let facts = reading_rows(input);
     let numbers = facts.iter().map(|fact| fact.join(" ")).collect::<Vec<_>>().join(", ");
     let cvs = findings.patches.iter().map(|patch| patch.unevenness).collect::<Vec<_>>();
-    let told = vec![summary.clone(), format!("{numbers}.")];
+    let texts = vec![summary.clone(), format!("{numbers}.")];
     let found = [headline.clone(), unevenness(&cvs)].into_iter().chain(verdict(findings));
     let page = WebPage {
         command: "analyse",
         name: input.name,
-        methods_paragraph: Methods::new("analyse", (told, Vec::new()), found),
+        methods_paragraph: Methods::new("analyse", (texts, Vec::new()), found),
         headline,
         summary,
         notes: input.notes,

@@ -202,8 +202,8 @@ fn answer(study: &Study, rankings: &[Ranking]) -> Option<String> {
     let size = |effect: &&Effect| effect.change.abs();
     let largest = known.filter(|effect| !is_by_chance(effect)).max_by(|a, b| size(a).total_cmp(&size(b)));
     let Some(effect) = largest else {
-        let told = effects.iter().all(|effect| effect.half_width.is_some_and(f64::is_finite));
-        return told.then(|| format!("{label} does not change beyond chance"));
+        let all_known = effects.iter().all(|effect| effect.half_width.is_some_and(f64::is_finite));
+        return all_known.then(|| format!("{label} does not change beyond chance"));
     };
     let factor = &study.factors[effect.factor];
     let name = name_of_key(&factor.key);
@@ -213,15 +213,15 @@ fn answer(study: &Study, rankings: &[Ranking]) -> Option<String> {
     let unit = Some(result.unit.shown)
         .filter(|unit| !unit.is_empty())
         .map_or(String::new(), |unit| format!("{THIN}{unit}"));
-    let over = if factor.words.is_empty() {
+    let difference = if factor.words.is_empty() {
         format!("from {from} to {to}")
     } else {
         format!("with {to} instead of {from}")
     };
     Some(if study.factors.len() == 1 {
-        format!("{label}: {sign}{change}{unit} {over} of the {name}")
+        format!("{label}: {sign}{change}{unit} {difference} of the {name}")
     } else {
-        format!("{label}: the {name} matters most, {sign}{change}{unit} {over}")
+        format!("{label}: the {name} matters most, {sign}{change}{unit} {difference}")
     })
 }
 

@@ -109,8 +109,8 @@ impl Air {
         let speed = velocity.norm();
         let from = self.from_flow;
         let turbulent = k > 0.0 && epsilon > 0.0;
-        let told = if turbulent { placed.length_constant * k * k.sqrt() / epsilon } else { f64::INFINITY };
-        let length_scale = if from.length_scale { told.min(placed.size()) } else { self.length_scale };
+        let length = if turbulent { placed.length_constant * k * k.sqrt() / epsilon } else { f64::INFINITY };
+        let length_scale = if from.length_scale { length.min(placed.size()) } else { self.length_scale };
         let turnover = if turbulent { epsilon / (placed.time_constant * k) } else { 0.0 };
         LocalAir {
             velocity,

@@ -223,10 +223,10 @@ impl Check<'_> {
         let limits = self.case.stable_step_limits();
         let tightest = limits.into_iter().min_by(|a, b| a.limit.total_cmp(&b.limit));
         // The memory check may have reported these keys already.
-        let told: Vec<String> = self.problems.iter().map(|problem| problem.key.clone()).collect();
-        let told = |key: &str| told.iter().any(|told| told == key);
+        let reported: Vec<String> = self.problems.iter().map(|problem| problem.key.clone()).collect();
+        let is_reported = |key: &str| reported.iter().any(|other| other == key);
         if let Some(StepLimit { limit, cause }) = tightest
-            && !told("fibre.element_length")
+            && !is_reported("fibre.element_length")
             && run.time_step >= limit
         {
             let element_length = Dimension::Length.pretty(fibre.rest_length());
@@ -264,7 +264,7 @@ impl Check<'_> {
             self.blame("run.output_interval", run.output_interval(), fault);
         }
         let instants = (run.steps / run.output_steps + 1) as f64 * run.replicates as f64;
-        if !told("run.output_interval") && instants > MOST_INSTANTS {
+        if !is_reported("run.output_interval") && instants > MOST_INSTANTS {
             let fault = Fault::new(
                 format!("records {instants:.1e} instants over all replicates, more than {MOST_INSTANTS:e}"),
                 "lengthen it or lower run.replicates",

@@ -70,18 +70,18 @@ impl Case {
         if felt && self.air.length_scale < l * (1.0 - 1e-9) {
             note("air.length_scale", self.air.length_scale, Remark::EddiesSkipped { element_length: l });
         }
-        let (air, told) = (&self.air, self.air.from_flow);
+        let (air, from_flow) = (&self.air, self.air.from_flow);
         let times = air.length_scale / fibre.length;
         if felt && air.records.is_empty() {
-            if !told.turbulence_intensity && air.turbulence_intensity > 1.0 {
+            if !from_flow.turbulence_intensity && air.turbulence_intensity > 1.0 {
                 let value = air.turbulence_intensity;
                 note("air.turbulence_intensity", value, Remark::IntensityAboveOne { value });
             }
-            if !told.length_scale && times > 2.0 {
+            if !from_flow.length_scale && times > 2.0 {
                 note("air.length_scale", air.length_scale, Remark::EddiesLong { times });
             }
             let passing = air.velocity.abs() / air.length_scale;
-            if !told.cutoff_frequency
+            if !from_flow.cutoff_frequency
                 && air.spectrum == SpectrumShape::VonKarman
                 && air.cutoff_frequency < passing
             {

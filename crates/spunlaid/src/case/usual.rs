@@ -36,9 +36,9 @@ impl Case {
             if of_air && (self.air.density == 0.0 && key.name != "air.density") {
                 continue;
             }
-            // A flow that is too fast has been told, with the way out.
-            let told = fast && ["air.velocity", "air.turbulence_intensity"].contains(&key.name);
-            if !told {
+            // A flow that is too fast has been reported, with the way out.
+            let is_reported = fast && ["air.velocity", "air.turbulence_intensity"].contains(&key.name);
+            if !is_reported {
                 notes.extend(self.unusual(key));
             }
         }

@@ -45,17 +45,17 @@ pub fn turbulence_spectrum(case: &Case, computing: RunControl<'_>) -> Result<Vec
     // A fed fibre passes the stations on its way; some of them say as much as all.
     let most = if case.line.is_some() { STATIONS } else { usize::MAX };
     let stride = turbulence.len().div_ceil(most).max(1);
-    let seen = turbulence.len().div_ceil(stride);
+    let count = turbulence.len().div_ceil(stride);
     let mut wind = Wind::along(computing.isa, streams, duration)?;
     let interval = 1.0 / (8.0 * case.air.cutoff_frequency);
-    let records = seen * 3 * lanes;
+    let records = count * 3 * lanes;
     let samples = ((duration / interval) as usize).min((MOST_VALUES / records).max(FEWEST_SAMPLES));
     let mut welch = Welch::new(interval, Welch::segment_length(samples), Window::Hann, 0.5);
     let mut records = vec![Vec::with_capacity(samples); records];
     for i in 0..samples {
         let velocities = wind.at(i as f64 * interval);
-        let seen = velocities.iter().step_by(stride);
-        let values = seen.flat_map(|v| [v.x, v.y, v.z]).flat_map(|c| c.0[..lanes].to_vec());
+        let chosen = velocities.iter().step_by(stride);
+        let values = chosen.flat_map(|v| [v.x, v.y, v.z]).flat_map(|c| c.0[..lanes].to_vec());
         for (record, value) in records.iter_mut().zip(values) {
             record.push(value);
         }

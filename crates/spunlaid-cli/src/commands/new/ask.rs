@@ -115,7 +115,7 @@ mod tests {
             (Some(0.015), Some(4.5), Some(5000))
         );
         assert_eq!((numbers.beams, numbers.air_speed, numbers.distance), (Some(2), Some(70.0), Some(0.5)));
-        let said = complete(LineNumbers::default(), Some(&mut "pp\n".as_bytes())).unwrap_err().to_string();
-        assert!(said.contains("the answers end too early"), "{said}");
+        let message = complete(LineNumbers::default(), Some(&mut "pp\n".as_bytes())).unwrap_err().to_string();
+        assert!(message.contains("the answers end too early"), "{message}");
     }
 }

@@ -74,8 +74,9 @@ impl Chain {
 
         // The former root now bends like every other node.
         let c = &self.constants;
-        let seen = Vec3::new(velocity.x, velocity.y - c.frame, velocity.z);
-        let kinetic = (seen.x * seen.x + seen.y * seen.y + seen.z * seen.z) * c.root.mass;
+        let relative = Vec3::new(velocity.x, velocity.y - c.frame, velocity.z);
+        let kinetic =
+            (relative.x * relative.x + relative.y * relative.y + relative.z * relative.z) * c.root.mass;
         let axial = tension * stretch;
         let [first, second, third] = [0, 1, 2].map(|i| *self.constants.bending_stiffness.at(i));
         let bending = self.bent(1, second - self.constants.root_stiffness)

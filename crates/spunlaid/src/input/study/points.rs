@@ -100,17 +100,17 @@ pub(super) struct Notes(Vec<(Discriminant<Remark>, StudyNote)>);
 impl Notes {
     pub(super) fn add(&mut self, note: Note) {
         let kind = discriminant(&note.what);
-        let same = |(remark, told): &&mut (Discriminant<Remark>, StudyNote)| {
-            *remark == kind && told.note.key == note.key
+        let same = |(remark, other): &&mut (Discriminant<Remark>, StudyNote)| {
+            *remark == kind && other.note.key == note.key
         };
         match self.0.iter_mut().find(same) {
-            Some((_, told)) => told.points += 1,
+            Some((_, other)) => other.points += 1,
             None => self.0.push((kind, StudyNote { note, points: 1, all: false })),
         }
     }
 
     pub(super) fn finish(self, points: u64) -> Vec<StudyNote> {
-        let told = |(_, note): (_, StudyNote)| StudyNote { all: note.points == points, ..note };
-        self.0.into_iter().map(told).collect()
+        let note = |(_, note): (_, StudyNote)| StudyNote { all: note.points == points, ..note };
+        self.0.into_iter().map(note).collect()
     }
 }
