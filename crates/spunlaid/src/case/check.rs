@@ -31,11 +31,14 @@ impl Case {
             check.magnitudes();
         }
         if check.problems.is_empty() {
-            check.memory();
+            let fits = check.memory();
             check.times();
             check.shared_record();
             check.neighbours();
-            check.records();
+            // It makes a list of the eddies, of which there may be more than there is memory for.
+            if fits {
+                check.records();
+            }
         }
         if check.problems.is_empty() {
             return Ok(self.notes());
@@ -178,11 +181,12 @@ impl Check<'_> {
         }
     }
 
-    fn memory(&mut self) {
+    /// Checks that there is memory for a flight, and says so.
+    fn memory(&mut self) -> bool {
         let (case, memory) = (self.case, self.case.flight_memory());
         let (bytes, most) = (memory.total(), FLIGHT_MEMORY_LIMIT);
         if bytes <= most {
-            return;
+            return true;
         }
         let (needed, allowed) = (error::memory(bytes), error::memory(most));
         let fault = |what: &str, remedy: &'static str| {
@@ -216,6 +220,7 @@ impl Check<'_> {
             let fault = fault("making the turbulence", "choose fewer, or leave the key out");
             self.blame_key("air.harmonics", air.harmonics.to_string(), fault);
         }
+        false
     }
 
     fn times(&mut self) {

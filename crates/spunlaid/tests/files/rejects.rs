@@ -138,6 +138,19 @@ fn rejects_no_more_than_people_read() {
     assert!(error.to_string().ends_with("\nand 989 more like these"), "{error}");
 }
 
+/// It is refused by the memory that it would need, before anything is made for each eddy: their list alone would need more than a
+/// machine has.
+#[test]
+fn rejects_far_too_many_eddies_of_a_record() {
+    let case = Path::new("../../cases/record.toml");
+    let error = refusal(case, &[("air.length_scale", "1e-15 m")]).to_string();
+    assert!(error.contains("air.length_scale = \"1e-15 m\""), "{error}");
+    assert!(
+        error.contains("of memory for eight fibres side by side, most of it for the turbulence"),
+        "{error}"
+    );
+}
+
 #[test]
 fn rejects_a_case_that_code_built() {
     let (mut case, _) = parse_case(starter_case(), "starter.toml", &[]).unwrap();
