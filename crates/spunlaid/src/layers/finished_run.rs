@@ -46,6 +46,10 @@ fn decode(bytes: Vec<u8>) -> Decoded<BTreeMap<u64, Vec<LaidPoint>>> {
                 if column.numbers.is_empty() {
                     return Ok::<_, ParquetError>(numbers);
                 }
+                // A missing value; it would count as replicate 0.
+                if column.numbers.iter().any(|number| number.is_nan()) {
+                    return Err(missing());
+                }
                 numbers.append(&mut column.numbers);
             }
         };
