@@ -279,7 +279,6 @@ impl Air {
         let from = self.from_flow;
         let intensity =
             column(from.turbulence_intensity, &profile.turbulence_intensity, self.turbulence_intensity);
-        let (first, last) = profile.range();
         LocalAir {
             velocity: Vec3::new(
                 velocity,
@@ -295,7 +294,7 @@ impl Air {
             } else {
                 self.cutoff_frequency
             },
-            inside: (first..=last).contains(&x),
+            inside: profile.contains(x),
         }
     }
 

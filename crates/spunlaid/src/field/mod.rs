@@ -74,6 +74,9 @@ use values::Quantities;
 /// Coordinates are limited to this value, so that squares of distances stay finite [m].
 const FARTHEST: f64 = 1e3 * values::LARGEST;
 
+/// A place that lies less than this share of the extent beyond a side of the field's box lies on that side [-].
+const ROUNDING: f64 = 1e-9;
+
 /// The air in a part of space, steady in time, in SI units.
 #[derive(Debug)]
 pub struct Field {
@@ -103,6 +106,16 @@ impl Support {
             Self::Mesh(mesh) => mesh.bounds(),
             Self::Points(points) => points.bounds(),
         }
+    }
+
+    /// The place itself, or the one on the side of the box that it lies beyond by rounding: a plane of places at the end of
+    /// the field is in it.
+    fn rounded(&self, at: [f64; 3]) -> [f64; 3] {
+        let (low, high) = self.bounds();
+        [0, 1, 2].map(|i| {
+            let within = at[i].clamp(low[i], high[i]);
+            if (within - at[i]).abs() <= ROUNDING * (high[i] - low[i]) { within } else { at[i] }
+        })
     }
 
     fn sample(&self, at: [f64; 3], hint: &mut Hint) -> (Quantities, bool) {
@@ -280,7 +293,7 @@ impl Field {
         if at.iter().any(|x| x.is_nan()) {
             return Local::default();
         }
-        let (values, inside) = self.support.sample(at, hint);
+        let (values, inside) = self.support.sample(self.support.rounded(at), hint);
         let [u, v, w, k, epsilon] = values;
         Local { velocity: Vec3::new(u, v, w), k: k.max(0.0), epsilon: epsilon.max(0.0), inside }
     }
@@ -299,7 +312,7 @@ impl Field {
         if at.iter().any(|x| x.is_nan()) {
             return AirAround::default();
         }
-        self.bricks.around(at, hint, &self.support)
+        self.bricks.around(self.support.rounded(at), hint, &self.support)
     }
 
     /// The kind of field and its size.

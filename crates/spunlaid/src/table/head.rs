@@ -97,9 +97,8 @@ pub fn scale(unit: &str, dimension: Dimension) -> Option<f64> {
     let unit = unit.trim().trim_matches(['[', ']', '(', ')']).trim();
     let spelt = match (dimension, unit) {
         (Dimension::Time, "sec" | "seconds" | "Sekunden" | "S") => "s",
-        (Dimension::Velocity, "m s-1" | "m s^-1" | "m·s⁻¹" | "m s⁻¹" | "ms^-1" | "ms⁻¹" | "m.s-1") => {
-            "m/s"
-        }
+        // An inverse millisecond is no velocity.
+        (Dimension::Velocity, "ms^-1" | "ms⁻¹" | "ms-1") => "m/s",
         (Dimension::Frequency, _) if unit.eq_ignore_ascii_case("hz") => "Hz",
         (Dimension::Frequency, _) if unit.eq_ignore_ascii_case("khz") => "kHz",
         (Dimension::Ratio, _) if unit.eq_ignore_ascii_case("percent") => "%",

@@ -1,14 +1,17 @@
 //! Quantities with units. They are converted to SI units when they are read, and from SI units when they are shown.
 
 mod expression;
+mod spelling;
 mod table;
 
 pub(crate) use crate::error::{excerpt, shortest};
 pub(crate) use expression::unknown_name;
 pub use expression::{Expression, Powers};
+pub(crate) use spelling::plain_spelling;
 
 use crate::error::Fault;
 use crate::sort::sort_by_key;
+use spelling::{factors, is_same};
 use std::borrow::Cow;
 use std::cmp::Reverse;
 use std::fmt;
@@ -222,10 +225,12 @@ impl Dimension {
         }
         let written = rest.trim();
         let plain = plain_spelling(written);
-        let Some(unit) = self.units().iter().find(|unit| unit.plain == plain) else {
+        let own = factors(&plain);
+        let fits = |unit: &table::Unit| unit.plain == plain || is_same(own.as_deref(), unit.plain);
+        let Some(unit) = self.units().iter().find(|unit| fits(unit)) else {
             return Err(if written.is_empty() {
                 self.no_unit()
-            } else if let Some(other) = ALL.iter().find(|d| d.units().iter().any(|u| u.plain == plain)) {
+            } else if let Some(other) = ALL.iter().find(|d| d.units().iter().any(fits)) {
                 wrong(format!("is {}", other.name()).into())
             } else {
                 wrong(format!("has the unknown unit \"{}\"", excerpt(written, 20)).into())
@@ -344,19 +349,6 @@ fn shifted(number: &str, power: i32) -> Option<f64> {
         // The number is so large or so small that the unit does not matter.
         None => number.parse().ok(),
     }
-}
-
-/// Brings `kg/m³`, `kg/m^3` and `kg/m3` to one spelling; likewise `µ` (micro), `μ` (mu) and `u`.
-fn plain_spelling(unit: &str) -> String {
-    let plain = unit.chars().filter(|c| *c != '^').map(|c| match c {
-        'µ' | 'μ' => 'u',
-        '¹' => '1',
-        '²' => '2',
-        '³' => '3',
-        '⁻' => '-',
-        other => other,
-    });
-    plain.collect()
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use crate::error::FileError;
 use crate::field::{FieldLayout, fault};
+use crate::units::plain_spelling;
 
 /// The dimension of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,7 +18,7 @@ impl Measure {
     /// Units, written with letters and digits only, and their values in SI units.
     const fn units(self) -> &'static [(&'static str, f64)] {
         match self {
-            Self::Length => &[("m", 1.0), ("cm", 1e-2), ("mm", 1e-3), ("um", 1e-6), ("µm", 1e-6)],
+            Self::Length => &[("m", 1.0), ("cm", 1e-2), ("mm", 1e-3), ("um", 1e-6)],
             Self::Velocity => {
                 &[("ms", 1.0), ("ms1", 1.0), ("cms", 1e-2), ("cms1", 1e-2), ("mms", 1e-3), ("mms1", 1e-3)]
             }
@@ -38,7 +39,7 @@ impl Measure {
 
     /// The value of a unit in SI units.
     pub(super) fn factor(self, unit: &str) -> Result<f64, FileError> {
-        let value = self.unit_value(&unit.replace('μ', "µ"));
+        let value = self.unit_value(&plain_spelling(unit));
         value.ok_or_else(|| fault::wrong_unit(unit, self.wanted()).into())
     }
 

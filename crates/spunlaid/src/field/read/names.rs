@@ -3,6 +3,7 @@
 use super::measure::Measure;
 use crate::error::FileError;
 use crate::field::fault;
+use crate::units::plain_spelling;
 
 /// Names of the velocity vector, the preferred ones first. The mean comes before the velocity that a transient
 /// solver has at one instant, because turbulence is added to it.
@@ -61,9 +62,9 @@ pub(super) struct Name {
 impl Name {
     pub(super) fn new(written: &str) -> Self {
         let mut plain = String::new();
-        for c in written.trim().chars().flat_map(char::to_lowercase) {
+        for c in plain_spelling(written.trim()).chars().flat_map(char::to_lowercase) {
             if c.is_alphanumeric() {
-                plain.push(if c == 'μ' { 'µ' } else { c });
+                plain.push(c);
             } else if !plain.is_empty() && !plain.ends_with('_') {
                 plain.push('_');
             }
