@@ -1,6 +1,7 @@
 //! A CFD field, and where the fibre hangs in it.
 
 use super::FileContent;
+use crate::error::Fault;
 use crate::field::{AirAround, Field, Hint, Local};
 use crate::vec3::Vec3;
 
@@ -99,6 +100,11 @@ impl PlacedField {
         let place = (self.root + self.axis.to_field(at)) * (1.0 / self.unit);
         let local = self.field.sample(place, hint);
         Local { velocity: self.axis.to_fibre(local.velocity), ..local }
+    }
+
+    /// Why there is no air at a place of the fibre, if the file has no numbers there.
+    pub(crate) fn why_no_air(&self, at: Vec3<f64>) -> Option<Fault> {
+        self.field.why_no_air((self.root + self.axis.to_field(at)) * (1.0 / self.unit))
     }
 
     /// The air around a place of the fibre's frame [m], linear in space, in that frame.

@@ -7,7 +7,7 @@ use super::memory::FLIGHT_MEMORY_LIMIT;
 use super::neighbours::without_shared_air;
 use super::note::Note;
 use super::step::{FEEDING, StepLimit};
-use crate::air::{FileContent, Lateral, Measured};
+use crate::air::{FileContent, Flow, Lateral, Measured};
 use crate::chain::schemes::Scheme;
 use crate::error::{self, Fault, Finding, Place, Problem};
 use crate::fibre::Root;
@@ -28,6 +28,7 @@ impl Case {
         // If a value is wrong on its own, messages about its relation to others would only confuse.
         if check.problems.is_empty() {
             check.geometry();
+            check.field();
             check.magnitudes();
         }
         if check.problems.is_empty() {
@@ -329,6 +330,28 @@ impl Check<'_> {
                 "shorten run.duration, lengthen air.length_scale or record for longer",
             );
             self.blame_key("air.record", format!("{}", record.path().display()), fault);
+        }
+    }
+
+    /// A CFD solution must have numbers where the fibre hangs, and one unit of length.
+    fn field(&mut self) {
+        const PLACES: usize = 256;
+        let Flow::Field(placed) = &self.case.air.flow else {
+            return;
+        };
+        let path = || format!("\"{}\"", placed.field.path().display());
+        if let Some(coordinate) = placed.field.measured_coordinate().filter(|_| placed.unit != 1.0) {
+            let fault = Fault::new(
+                format!("scales coordinates whose unit the file tells ({coordinate})"),
+                "leave it out, or take the unit out of the names of the coordinates",
+            );
+            self.blame_key("air.field_unit", format!("\"{}\"", Dimension::Length.pretty(placed.unit)), fault);
+            return;
+        }
+        let along = self.case.along();
+        let lacks = (0..=PLACES).find_map(|i| placed.why_no_air(along * (i as f64 / PLACES as f64)));
+        if let Some(fault) = lacks {
+            self.blame_key("air.field", path(), fault);
         }
     }
 

@@ -42,22 +42,36 @@ impl Lattice {
     /// The lattice that the points form, in any order. `None` unless they are all combinations of three rows
     /// of coordinates, each of them once.
     pub(super) fn from_points(nodes: &[Node]) -> Option<Self> {
-        let axes = [0, 1, 2].map(|axis| levels(nodes.iter().map(|node| node.at[axis]).collect()));
-        let size = axes.each_ref().map(Vec::len);
-        let count = size.iter().try_fold(1usize, |product, n| product.checked_mul(*n))?;
-        if count != nodes.len() || count < 2 {
-            return None;
-        }
-        let mut values = vec![None; count];
-        for node in nodes {
-            let [x, y, z] = [0, 1, 2].map(|axis| {
-                let after = axes[axis].partition_point(|level| *level <= node.at[axis]);
-                after.saturating_sub(1)
-            });
-            values[x + size[0] * (y + size[1] * z)] = Some(node.values);
-        }
-        let values = values.into_iter().collect::<Option<Vec<_>>>()?;
+        let points: Vec<[f64; 3]> = nodes.iter().map(|node| node.at).collect();
+        let (axes, places) = order(&points)?;
+        let mut values = vec![Quantities::default(); nodes.len()];
+        places.into_iter().zip(nodes).for_each(|(place, node)| values[place] = node.values);
         Some(Self { axes: axes.map(Axis::new), values })
+    }
+
+    /// The lattice of a plane flow with one layer of points, if it has two that are alike and more along the other axes.
+    pub(super) fn thinned(mut self) -> Self {
+        const FEWEST: usize = 3;
+        let size = self.points();
+        let Some(axis) = (0..3).find(|axis| size[*axis] == 2) else {
+            return self;
+        };
+        let others = size.into_iter().filter(|size| *size >= FEWEST).count();
+        let stride = size[..axis].iter().product::<usize>();
+        let second = |i: usize| i / stride % 2 == 1;
+        let is_alike = (0..self.values.len()).all(|i| second(i) || self.values[i] == self.values[i + stride]);
+        if others == 2 && is_alike {
+            let mut number = 0..;
+            self.values.retain(|_| number.next().is_some_and(|i| !second(i)));
+            let middle = 0.5 * (self.axes[axis].at[0] + self.axes[axis].at[1]);
+            self.axes[axis] = Axis::new(vec![middle]);
+        }
+        self
+    }
+
+    /// The direction along which the air is the same in a plane flow: 0, 1, 2 for x, y, z.
+    pub(super) fn plane_axis(&self) -> Option<usize> {
+        (0..3).find(|axis| self.axes[*axis].at.len() == 1)
     }
 
     pub(super) fn points(&self) -> [usize; 3] {
@@ -111,6 +125,26 @@ impl Lattice {
         }
         (values, x.inside && y.inside && z.inside)
     }
+}
+
+/// The axes of the lattice that some points form, and the place of each point in its list of values. `None` unless they are all
+/// combinations of three rows of coordinates, each of them once.
+pub(super) fn order(points: &[[f64; 3]]) -> Option<([Vec<f64>; 3], Vec<usize>)> {
+    let axes = [0, 1, 2].map(|axis| levels(points.iter().map(|at| at[axis]).collect()));
+    let size = axes.each_ref().map(Vec::len);
+    let count = size.iter().try_fold(1usize, |product, n| product.checked_mul(*n))?;
+    if count != points.len() || count < 2 {
+        return None;
+    }
+    let mut taken = vec![false; count];
+    let place = |at: &[f64; 3]| {
+        let [x, y, z] =
+            [0, 1, 2].map(|axis| axes[axis].partition_point(|level| *level <= at[axis]).saturating_sub(1));
+        let place = x + size[0] * (y + size[1] * z);
+        (!std::mem::replace(&mut taken[place], true)).then_some(place)
+    };
+    let places = points.iter().map(place).collect::<Option<Vec<_>>>()?;
+    Some((axes, places))
 }
 
 /// The different coordinates in increasing order. Of those that differ only by rounding, the smallest is kept.

@@ -44,6 +44,7 @@
 
 mod bricks;
 mod fault;
+mod holes;
 mod lattice;
 mod layout;
 mod mesh;
@@ -65,6 +66,7 @@ pub(crate) use read::ReadField;
 use crate::error::{Fault, FileError};
 use crate::vec3::Vec3;
 use bricks::Bricks;
+use holes::Holes;
 use lattice::Lattice;
 use mesh::Mesh;
 use points::Points;
@@ -89,6 +91,10 @@ pub struct Field {
     sources: Vec<(&'static str, String)>,
     /// The arrays that were named for the reading.
     layout: FieldLayout,
+    /// Where its file has no numbers.
+    holes: Option<Holes>,
+    /// The name of a coordinate that has a unit.
+    measured_coordinate: Option<String>,
 }
 
 /// How the points with the values are arranged.
@@ -198,6 +204,28 @@ impl Field {
         Ok((Self::new(Support::Mesh(mesh), values), warnings))
     }
 
+    /// A plane flow on a mesh of faces in the plane of two coordinates.
+    ///
+    /// * `faces` – each as a cell with this face only
+    fn plane_mesh(
+        points: &[Vec3<f64>],
+        faces: &Cells,
+        values: &Values,
+    ) -> Result<(Self, Vec<Fault>), FileError> {
+        let quantities = values.check(points.len())?;
+        let (mesh, warnings) = Mesh::of_faces(points, faces, &quantities)?;
+        Ok((Self::new(Support::Mesh(mesh), values), warnings))
+    }
+
+    /// The same field, with one layer of points if it is a lattice with two that are alike.
+    fn thinned(mut self) -> Self {
+        if let Support::Lattice(lattice) = self.support {
+            self.support = Support::Lattice(lattice.thinned());
+            self.bricks = Bricks::new(self.support.bounds());
+        }
+        self
+    }
+
     /// A field of points without cells, in any order.
     ///
     /// Points that form a lattice make a [`Field::lattice`]. Otherwise the value is a weighted mean of what the
@@ -233,7 +261,8 @@ impl Field {
     fn new(support: Support, values: &Values) -> Self {
         let bricks = Bricks::new(support.bounds());
         let (sources, layout) = (Vec::new(), FieldLayout::default());
-        Self { support, turbulence: values.has_turbulence(), bricks, lacks: None, sources, layout }
+        let (turbulence, lacks, holes, measured_coordinate) = (values.has_turbulence(), None, None, None);
+        Self { support, turbulence, bricks, lacks, sources, layout, holes, measured_coordinate }
     }
 
     /// Whether the field has `k` and `ε`.
@@ -257,6 +286,11 @@ impl Field {
         &self.layout
     }
 
+    /// The name of a coordinate whose unit its file tells, `x_mm`. None if the file leaves the unit open.
+    pub fn measured_coordinate(&self) -> Option<&str> {
+        self.measured_coordinate.as_deref()
+    }
+
     /// The lowest and the highest coordinates [m].
     pub fn bounds(&self) -> (Vec3<f64>, Vec3<f64>) {
         let (low, high) = self.support.bounds();
@@ -271,7 +305,7 @@ impl Field {
             Support::Mesh(mesh) => mesh.memory(),
             Support::Points(points) => points.memory(),
         };
-        support + self.bricks.memory()
+        support + self.bricks.memory() + self.holes.as_ref().map_or(0, Holes::memory)
     }
 
     /// Estimate of the memory that reading the field took, without that of its file [bytes].
@@ -313,6 +347,15 @@ impl Field {
             return AirAround::default();
         }
         self.bricks.around(self.support.rounded(at), hint, &self.support)
+    }
+
+    /// The direction along which the air is the same in a plane flow: 0, 1, 2 for x, y, z. None if the flow is in space.
+    pub fn plane_axis(&self) -> Option<usize> {
+        match &self.support {
+            Support::Lattice(lattice) => lattice.plane_axis(),
+            Support::Mesh(mesh) => mesh.plane_axis(),
+            Support::Points(points) => points.plane_axis(),
+        }
     }
 
     /// The kind of field and its size.

@@ -147,6 +147,16 @@ impl Cells {
         }
     }
 
+    /// Adds a cell of another list with other numbers of its points.
+    pub(in crate::field) fn push_copy(&mut self, from: &Self, cell: usize, number: impl Fn(u32) -> u32) {
+        let Entry { shape, points, faces } = from.list[cell];
+        let next = from.list.get(cell + 1);
+        let ends = next.map_or((from.points.len(), from.faces.len()), |next| (next.points, next.faces));
+        self.list.push(self.next(shape));
+        self.points.extend(from.points[points..ends.0].iter().map(|point| number(*point)));
+        self.faces.extend_from_slice(&from.faces[faces..ends.1]);
+    }
+
     /// Adds the cells of another list and adds `first` to the numbers of their points.
     pub(in crate::field) fn append(&mut self, more: &Self, first: u32) {
         let Entry { points, faces, .. } = self.next(Shape::Polyhedron);

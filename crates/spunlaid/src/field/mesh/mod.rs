@@ -3,6 +3,7 @@
 pub(super) mod cells;
 mod cut;
 mod faces;
+mod plane;
 
 use super::fault;
 use super::node::{self, Node, bounding_box, merge};
@@ -13,6 +14,7 @@ use crate::error::{Fault, FileError, Position};
 use crate::vec3::Vec3;
 use cells::Cells;
 use cut::Cut;
+use plane::{Plane, plane_of};
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree, RTreeNode};
 
@@ -37,6 +39,8 @@ pub(super) struct Mesh {
     /// Number of points given.
     points: usize,
     bounds: ([f64; 3], [f64; 3]),
+    /// Of a plane flow.
+    plane: Option<Plane>,
 }
 
 /// The box around a cell, with the first and the end of its tetrahedra.
@@ -56,6 +60,16 @@ impl Mesh {
         cells: &Cells,
         values: Vec<Quantities>,
     ) -> Result<(Self, Vec<Fault>), FileError> {
+        Self::cut(points, cells, values, None)
+    }
+
+    /// * `plane` – of a plane flow; if it is not known, it is looked for
+    fn cut(
+        points: &[Vec3<f64>],
+        cells: &Cells,
+        values: Vec<Quantities>,
+        plane: Option<Plane>,
+    ) -> Result<(Self, Vec<Fault>), FileError> {
         if let Some((cell, point)) = cells.beyond(points.len()) {
             let fault = fault::no_point(point.into(), points.len());
             return Err(FileError::from(fault).at(Position::Cell(cell as u64 + 1)));
@@ -63,6 +77,7 @@ impl Mesh {
         let mut nodes = node::nodes(points, values)?;
         let (place_of, merged) = merge(&mut nodes);
         let mut warnings = Vec::from_iter(merged);
+        let plane = plane.or_else(|| plane_of(&nodes));
         let mut cut = Cut::default();
         for cell in 0..cells.len() {
             cut.add(cells, cell, &place_of, &mut nodes);
@@ -87,17 +102,19 @@ impl Mesh {
         if cut.tetrahedra.is_empty() {
             return Err(fault::no_volume(0).into());
         }
-        Ok((Self::from_tetrahedra(nodes, cut, points.len()), warnings))
+        Ok((Self::from_tetrahedra(nodes, cut, points.len(), plane), warnings))
     }
 
-    fn from_tetrahedra(nodes: Vec<Node>, cut: Cut, points: usize) -> Self {
-        let surface = surface(&cut.triangles, &nodes);
+    fn from_tetrahedra(nodes: Vec<Node>, cut: Cut, points: usize, plane: Option<Plane>) -> Self {
+        let surface = surface(&cut.triangles, &nodes, plane);
         let cells = boxes(&cut, &nodes);
         let tetrahedra = neighbours(&cut.tetrahedra, nodes.len());
         let corners =
             tetrahedra.iter().flat_map(|tetrahedron| tetrahedron.nodes).map(|node| nodes[node as usize].at);
         let bounds = bounding_box(corners);
-        Self { nodes, tetrahedra, cells, surface, points, bounds }
+        let mut mesh = Self { nodes, tetrahedra, cells, surface, points, bounds, plane };
+        mesh.bounds = (mesh.in_plane(bounds.0), mesh.in_plane(bounds.1));
+        mesh
     }
 
     pub(super) fn points(&self) -> usize {
@@ -129,13 +146,27 @@ impl Mesh {
         for cell in self.cells.locate_in_envelope_intersecting(AABB::from_corners(low, high)) {
             for tetrahedron in &self.tetrahedra[cell.data[0] as usize..cell.data[1] as usize] {
                 for node in tetrahedron.nodes.map(|node| &self.nodes[node as usize]) {
-                    with(node.at, &node.values);
+                    with(self.in_plane(node.at), &node.values);
                 }
             }
         }
     }
 
+    /// The direction along which the air is the same in a plane flow: 0, 1, 2 for x, y, z.
+    pub(super) fn plane_axis(&self) -> Option<usize> {
+        self.plane.map(|plane| plane.axis)
+    }
+
+    /// The place in the plane of a plane flow where the air is that of another place.
+    fn in_plane(&self, mut at: [f64; 3]) -> [f64; 3] {
+        if let Some(Plane { axis, level }) = self.plane {
+            at[axis] = level;
+        }
+        at
+    }
+
     pub(super) fn sample(&self, at: [f64; 3], hint: &mut Hint) -> (Quantities, bool) {
+        let at = self.in_plane(at);
         let (low, high) = self.bounds;
         let within = (0..3).all(|axis| low[axis] <= at[axis] && at[axis] <= high[axis]);
         let found = if within { self.walk(at, *hint).or_else(|| self.search(at)) } else { None };
@@ -205,14 +236,32 @@ impl Mesh {
     }
 }
 
-/// The nodes of the triangles that belong to one cell only.
-fn surface(triangles: &[[u32; 3]], nodes: &[Node]) -> Tree {
+/// The nodes of the triangles that belong to one cell only, without the two sides of a plane flow.
+fn surface(triangles: &[[u32; 3]], nodes: &[Node], plane: Option<Plane>) -> Tree {
     let mut corners = Vec::new();
-    let alone = |i: u32| corners.extend_from_slice(&triangles[i as usize]);
+    let is_side = |triangle: &[u32; 3]| {
+        plane.is_some_and(|Plane { axis, level }| {
+            let above = triangle.map(|node| nodes[node as usize].at[axis] > level);
+            above == [true; 3] || above == [false; 3]
+        })
+    };
+    let alone = |i: u32| {
+        let triangle = &triangles[i as usize];
+        if !is_side(triangle) {
+            corners.extend_from_slice(triangle);
+        }
+    };
     faces::match_up(nodes.len(), triangles.iter().copied(), |_, _| {}, alone);
     corners.sort_unstable();
     corners.dedup();
-    Tree::new(corners.into_iter().map(|i| (nodes[i as usize].at, i)).collect())
+    let at = |i: u32| {
+        let mut at = nodes[i as usize].at;
+        if let Some(Plane { axis, level }) = plane {
+            at[axis] = level;
+        }
+        at
+    };
+    Tree::new(corners.into_iter().map(|i| (at(i), i)).collect())
 }
 
 fn boxes(cut: &Cut, nodes: &[Node]) -> RTree<CellBox> {

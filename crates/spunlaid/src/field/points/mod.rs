@@ -76,6 +76,11 @@ impl Points {
         Site { node, gradients: Default::default(), reach_2: 0.0 }
     }
 
+    /// The direction along which the air is the same in a plane flow: 0, 1, 2 for x, y, z.
+    pub(super) fn plane_axis(&self) -> Option<usize> {
+        (0..3).find(|axis| self.plane[*axis])
+    }
+
     pub(super) fn points(&self) -> usize {
         self.sites.len()
     }

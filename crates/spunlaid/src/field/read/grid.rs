@@ -1,9 +1,10 @@
 //! The points of a piece of a file, and the cells that they form.
 
-use super::unstructured::{MeshLists, Solid};
+use super::unstructured::{MeshLists, MeshParts};
 use crate::error::FileError;
 use crate::field::fault;
 use crate::vec3::Vec3;
+use std::borrow::Cow;
 
 /// How the points of a piece are arranged.
 pub(super) enum Grid {
@@ -16,13 +17,13 @@ pub(super) enum Grid {
     /// Points anywhere, without cells.
     Scattered(Vec<Vec3<f64>>),
     /// Points anywhere, with cells.
-    Unstructured { points: Vec<Vec3<f64>>, solid: Solid, cells: usize },
+    Unstructured { points: Vec<Vec3<f64>>, parts: MeshParts, cells: usize },
 }
 
 impl Grid {
     pub(super) fn unstructured(points: Vec<Vec3<f64>>, listed: &MeshLists) -> Result<Self, FileError> {
-        let solid = listed.solid(points.len())?;
-        Ok(Self::Unstructured { points, solid, cells: listed.types.len() })
+        let parts = listed.parts(points.len())?;
+        Ok(Self::Unstructured { points, parts, cells: listed.types.len() })
     }
 
     /// Number of points along each axis, if the grid has axes.
@@ -46,13 +47,33 @@ impl Grid {
         }
     }
 
+    /// Whether its cells are faces.
+    pub(super) fn is_flat(&self) -> bool {
+        match self {
+            Self::Unstructured { parts, .. } => parts.are_faces,
+            _ => self.size().is_some_and(|size| size.contains(&1)),
+        }
+    }
+
+    /// All points.
+    pub(super) fn points(&self) -> Cow<'_, [Vec3<f64>]> {
+        match self {
+            Self::Scattered(points) | Self::Structured { points, .. } | Self::Unstructured { points, .. } => {
+                Cow::Borrowed(points)
+            }
+            Self::Image { .. } | Self::Lattice(_) => {
+                self.axes().iter().flat_map(combinations).collect::<Vec<_>>().into()
+            }
+        }
+    }
+
     /// Calls a function with each cell and the numbers of its corners.
     pub(super) fn each_cell(&self, mut cell: impl FnMut(usize, &[u32])) {
         let mut corners = Vec::new();
         let Some([nx, ny, nz]) = self.size() else {
-            if let Self::Unstructured { solid, .. } = self {
-                for (i, place) in solid.places.iter().enumerate() {
-                    solid.cells.corners(i, &mut corners);
+            if let Self::Unstructured { parts, .. } = self {
+                for (i, place) in parts.places.iter().enumerate() {
+                    parts.cells.corners(i, &mut corners);
                     cell(*place, &corners);
                 }
             }
@@ -70,16 +91,51 @@ impl Grid {
                     }
                 }
             }
+            if corners.len() == 4 && nz > 1 {
+                // Two rows, not around the face.
+                corners.swap(2, 3);
+            }
             cell(number, &corners);
         }
     }
 
-    /// Turns values at cells into values at points: each point gets the mean of the cells around it.
-    pub(super) fn to_points(&self, values: &[f64], components: usize, points: usize) -> Vec<f64> {
+    /// The places of some points, or the middles of some cells [m].
+    ///
+    /// * `numbers` – in increasing order
+    pub(super) fn places(&self, of_cells: bool, numbers: &[usize]) -> Vec<Vec3<f64>> {
+        if of_cells {
+            let (mut corners_of, mut all) = (Vec::new(), Vec::new());
+            self.each_cell(|cell, corners| {
+                if numbers.binary_search(&cell).is_ok() {
+                    all.extend(corners.iter().map(|corner| *corner as usize));
+                    corners_of.push(corners.len());
+                }
+            });
+            let places = self.places(false, &all);
+            let mut rest = places.as_slice();
+            let middle = |count: usize| {
+                let (own, after) = rest.split_at(count);
+                rest = after;
+                own.iter().fold(Vec3::default(), |sum, at| sum + *at) * (1.0 / count.max(1) as f64)
+            };
+            return corners_of.into_iter().map(middle).collect();
+        }
+        let points = self.points();
+        numbers.iter().map(|i| points[*i]).collect()
+    }
+
+    /// Turns values at cells into values at points: each point gets the mean of the cells around it that `hold` air.
+    pub(super) fn to_points(
+        &self,
+        values: &[f64],
+        components: usize,
+        points: usize,
+        holds: impl Fn(usize) -> bool,
+    ) -> Vec<f64> {
         let mut sums = vec![0.0; points * components];
         let mut around = vec![0u32; points];
         self.each_cell(|cell, corners| {
-            for corner in corners.iter().map(|corner| *corner as usize) {
+            for corner in corners.iter().map(|corner| *corner as usize).filter(|_| holds(cell)) {
                 around[corner] += 1;
                 for i in 0..components {
                     sums[corner * components + i] += values[cell * components + i];

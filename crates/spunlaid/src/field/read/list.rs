@@ -36,6 +36,7 @@ fn list_type(kind: &str) -> Option<List> {
         "PStructuredGrid" => pieces("StructuredGrid"),
         "PRectilinearGrid" => pieces("RectilinearGrid"),
         "PImageData" => pieces("ImageData"),
+        "PPolyData" => pieces("PolyData"),
         _ => return None,
     })
 }

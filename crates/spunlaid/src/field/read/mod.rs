@@ -6,8 +6,11 @@
 mod array;
 mod arrays;
 mod assembly;
+mod blanks;
 mod encoding;
+mod gaps;
 mod grid;
+mod join;
 mod legacy;
 mod list;
 mod measure;

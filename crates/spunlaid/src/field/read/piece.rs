@@ -2,7 +2,9 @@
 
 use super::array::Array;
 use super::arrays::{Arrays, Velocity};
+use super::blanks::Blanks;
 use super::encoding::Budget;
+use super::gaps::Gaps;
 use super::grid::{Grid, vectors};
 use super::measure::Measure;
 use super::missing;
@@ -17,6 +19,8 @@ pub(super) struct Piece<'a> {
     pub(super) grid: Grid,
     pub(super) point_data: Vec<Array<'a>>,
     pub(super) cell_data: Vec<Array<'a>>,
+    /// The lines of its points in a table; empty in other files.
+    pub(super) lines: Vec<u64>,
 }
 
 impl Piece<'_> {
@@ -40,6 +44,8 @@ pub(super) struct Reader<'a, 'b> {
     pub(super) piece: &'a Piece<'a>,
     pub(super) layout: &'b FieldLayout,
     pub(super) budget: &'b mut Budget,
+    pub(super) blanks: &'b mut Blanks,
+    pub(super) gaps: &'b mut Gaps,
     pub(super) warnings: &'b mut Vec<Fault>,
     pub(super) ranges: &'b mut Vec<Range>,
     /// What was read, and from which arrays.
@@ -141,8 +147,11 @@ impl Reader<'_, '_> {
         let (points, cells) = self.piece.grid.counts()?;
         let array = if of_cells { &self.piece.cell_data[array] } else { &self.piece.point_data[array] };
         let mut numbers = array.numbers(if of_cells { cells } else { points }, self.budget)?;
+        let places = (&self.piece.grid, &mut *self.blanks, self.piece.lines.as_slice());
+        self.gaps.look_for((&array.name, of_cells), &mut numbers, array.components, places);
         if of_cells {
-            numbers = self.piece.grid.to_points(&numbers, array.components, points);
+            let holds = |cell| self.blanks.holds(true, cell);
+            numbers = self.piece.grid.to_points(&numbers, array.components, points, holds);
             let name = excerpt(&array.name, 40);
             let warning = Fault::new(
                 format!(

@@ -3,6 +3,7 @@
 use super::array::{Array, NumberType, Source};
 use super::arrays::Arrays;
 use super::assembly::Assembly;
+use super::blanks::Mark;
 use super::grid::Grid;
 use super::measure::Measure;
 use super::missing;
@@ -31,27 +32,44 @@ pub(super) fn read(bytes: &[u8], layout: &FieldLayout) -> Result<(Field, Vec<Fau
     }
     let mut used: Vec<usize> = coordinates.into_iter().flatten().map(|(column, _)| column).collect();
     used.extend(arrays.used()?);
+    used.extend((0..arrays.names.len()).filter(|column| Mark::of(&arrays.names[*column]).is_some()));
+    let placed = coordinates.iter().flatten().count();
     let mut columns: Vec<Vec<f64>> = vec![Vec::new(); used.len()];
-    // Number of rows that lack a number, and the line of the first.
+    let mut lines = Vec::new();
+    // Number of rows that lack a coordinate, and the line of the first.
     let mut dropped = (0, 0);
     while table.next_row()? {
-        let numbers = used.iter().map(|column| table.number(*column)).collect::<Result<Vec<f64>, _>>()?;
-        if numbers.iter().any(|number| number.is_nan()) {
+        let numbers =
+            used.iter().map(|column| number(&mut table, *column)).collect::<Result<Vec<f64>, _>>()?;
+        if numbers[..placed].iter().any(|number| number.is_nan()) {
             dropped = (dropped.0 + 1, if dropped.0 == 0 { table.line() } else { dropped.1 });
             continue;
         }
+        lines.push(table.line());
         columns.iter_mut().zip(numbers).for_each(|(column, number)| column.push(number));
     }
-    let unit = length_unit(bytes)?;
+    let own_unit = length_unit(bytes)?;
+    let unit = own_unit.unwrap_or(1.0);
     let in_metres = |found: Option<ScaledColumn>| found.map(|(column, factor)| (column, factor * unit));
     let mut assembly = Assembly::new(layout);
-    assembly.add(piece(&arrays.names, &used, &columns, coordinates.map(in_metres)))?;
-    let (field, mut warnings) = assembly.finish()?;
+    let piece = piece(&arrays.names, &used, &columns, coordinates.map(in_metres));
+    assembly.add(Piece { lines, ..piece })?;
+    let (mut field, mut warnings) = assembly.finish()?;
+    let with_unit = |(column, _): &ScaledColumn| arrays.names[*column].has_unit(Measure::Length);
+    let mut found = coordinates.into_iter().flatten().filter(with_unit);
+    let above = own_unit.map(|_| "Length unit".to_owned());
+    field.measured_coordinate = above.or_else(|| Some(arrays.shown(found.next()?.0)));
     if let (rows @ 1.., first) = dropped {
-        let message = format!("{rows} rows lack a number and are left out; the first is in line {first}");
+        let message = format!("{rows} rows lack a coordinate and are left out; the first is in line {first}");
         warnings.push(Fault::plain(message));
     }
     Ok((field, warnings))
+}
+
+/// The number in a column of the row; NaN also for infinity, which no air has.
+fn number(table: &mut Table<&[u8]>, column: usize) -> Result<f64, FileError> {
+    let is_infinite = table.text(column).trim().parse::<f64>().is_ok_and(f64::is_infinite);
+    if is_infinite { Ok(f64::NAN) } else { table.number(column) }
 }
 
 /// The columns of the coordinates. A plane flow may lack the third.
@@ -71,19 +89,22 @@ fn coordinates(names: &[Name]) -> Result<[Option<ScaledColumn>; 3], FileError> {
     }
 }
 
-/// The value in metres of the unit of length that COMSOL writes above its tables, in a line `% Length unit: mm`. One
-/// metre if there is none.
-fn length_unit(bytes: &[u8]) -> Result<f64, FileError> {
+/// The value in metres of the unit of length that COMSOL writes above its tables, in a line `% Length unit: mm`. None if it
+/// is not told.
+fn length_unit(bytes: &[u8]) -> Result<Option<f64>, FileError> {
     let above = bytes.split(|byte| *byte == b'\n').take_while(|line| line.starts_with(b"%")).zip(1..);
     for (line, number) in above {
         let text = String::from_utf8_lossy(line);
         if let Some((key, unit)) = text.trim_start_matches(['%', ' ']).split_once(':')
             && key.trim().eq_ignore_ascii_case("length unit")
         {
-            return Measure::Length.factor(unit.trim()).map_err(|error| error.at(Position::Line(number)));
+            return Measure::Length
+                .factor(unit.trim())
+                .map(Some)
+                .map_err(|error| error.at(Position::Line(number)));
         }
     }
-    Ok(1.0)
+    Ok(None)
 }
 
 fn piece<'a>(
@@ -108,5 +129,10 @@ fn piece<'a>(
         source: Source::Numbers(numbers(column).map_or(&[], Vec::as_slice)),
         place: Position::Whole,
     });
-    Piece { grid: Grid::Scattered(points), point_data: arrays.collect(), cell_data: Vec::new() }
+    Piece {
+        grid: Grid::Scattered(points),
+        point_data: arrays.collect(),
+        cell_data: Vec::new(),
+        lines: Vec::new(),
+    }
 }

@@ -28,12 +28,14 @@ pub(super) enum Polyhedra {
     Table { points: Vec<i64>, ends: Vec<i64>, faces: Vec<i64>, cell_ends: Vec<i64> },
 }
 
-/// Cells that have a volume.
+/// The cells that have a volume or, if none has, the faces of a plane flow, each as a cell with this face only.
 #[derive(Default)]
-pub(super) struct Solid {
+pub(super) struct MeshParts {
     pub(super) cells: Cells,
     /// The index of each in the file's list.
     pub(super) places: Vec<usize>,
+    /// Whether they are faces.
+    pub(super) are_faces: bool,
     /// Number of vertices, lines and faces that were left out.
     pub(super) flat: u64,
     /// Number of cells of which only the corners are used.
@@ -42,7 +44,15 @@ pub(super) struct Solid {
 
 /// How VTK's types of cells are treated.
 enum Kind {
+    /// A point, a line, or a face of no use.
     Flat,
+    /// A face whose corners stand in order around it.
+    Polygon,
+    Pixel,
+    /// A strip of triangles, each of which shares two points with the one before.
+    Strip,
+    /// Its corners, of this number, come before the other points.
+    HigherOrderFace(usize),
     Voxel,
     Linear(Shape),
     /// The corners come before the other points.
@@ -52,7 +62,14 @@ enum Kind {
 
 fn kind(number: i64) -> Option<Kind> {
     Some(match number {
-        0..=9 | 21..=23 | 28 | 30 | 34..=36 | 68..=70 | 75..=77 => Kind::Flat,
+        0..=4 | 21 | 35 | 68 | 75 => Kind::Flat,
+        5 | 7 | 9 => Kind::Polygon,
+        6 => Kind::Strip,
+        8 => Kind::Pixel,
+        22 | 34 | 69 | 76 => Kind::HigherOrderFace(3),
+        23 | 28 | 30 | 70 | 77 => Kind::HigherOrderFace(4),
+        // A quadratic polygon has a point on each of its edges.
+        36 => Kind::HigherOrderFace(0),
         10 => Kind::Linear(Shape::Tetrahedron),
         11 => Kind::Voxel,
         12 => Kind::Linear(Shape::Hexahedron),
@@ -70,38 +87,90 @@ fn kind(number: i64) -> Option<Kind> {
 }
 
 impl MeshLists {
-    /// The cells that have a volume.
+    /// The cells of a surface: lists of each kind, with the type of their cells.
+    pub(super) fn of_surface(kinds: impl IntoIterator<Item = (i64, Self)>) -> Self {
+        let mut all = Self::default();
+        for (number, lists) in kinds {
+            let before = all.connectivity.len() as i64;
+            all.types.extend(lists.ends.iter().map(|_| number));
+            all.ends.extend(lists.ends.iter().map(|end| end + before));
+            all.connectivity.extend(lists.connectivity);
+        }
+        all
+    }
+
+    /// The cells that have a volume, or the faces if none has.
     ///
     /// * `points` – number of points
-    pub(super) fn solid(&self, points: usize) -> Result<Solid, FileError> {
+    pub(super) fn parts(&self, points: usize) -> Result<MeshParts, FileError> {
         if self.ends.len() != self.types.len() {
             let fault = fault::count(self.ends.len(), self.types.len(), "ends of cells");
             return Err(fault.into());
         }
-        let mut solid = Solid::default();
-        for place in 0..self.types.len() {
-            let added = self.add(place, points, &mut solid);
-            added.map_err(|error| error.at(Position::Cell(place as u64 + 1)))?;
+        let all = |add: &dyn Fn(&Self, usize, &mut MeshParts) -> Result<(), FileError>| {
+            let mut parts = MeshParts::default();
+            for place in 0..self.types.len() {
+                let added = add(self, place, &mut parts);
+                added.map_err(|error| error.at(Position::Cell(place as u64 + 1)))?;
+            }
+            Ok::<_, FileError>(parts)
+        };
+        let solid = all(&|lists, place, parts| lists.add_solid(place, points, parts))?;
+        if !solid.cells.is_empty() {
+            return Ok(solid);
         }
-        Ok(solid)
+        let faces = all(&|lists, place, parts| lists.add_face(place, points, parts))?;
+        Ok(MeshParts { are_faces: !faces.cells.is_empty(), flat: solid.flat, ..faces })
     }
 
-    fn add(&self, place: usize, points: usize, solid: &mut Solid) -> Result<(), FileError> {
+    fn kind(&self, place: usize) -> Result<Kind, Fault> {
         let number = self.types[place];
-        let own = part(&self.connectivity, &self.ends, place)?;
-        let corners =
-            |cell: &[i64]| cell.iter().map(|point| checked(*point, points)).collect::<Result<Vec<u32>, _>>();
-        match kind(number).ok_or_else(|| {
+        kind(number).ok_or_else(|| {
             Fault::new(
                 format!("is of VTK type {number}, which is not supported"),
                 "write tetrahedra, voxels, hexahedra, wedges, pyramids or polyhedra",
             )
-        })? {
-            Kind::Flat => {
-                solid.flat += 1;
+        })
+    }
+
+    fn add_face(&self, place: usize, points: usize, parts: &mut MeshParts) -> Result<(), FileError> {
+        let own = part(&self.connectivity, &self.ends, place)?;
+        let mut face: Vec<u32> = own.iter().map(|point| checked(*point, points)).collect::<Result<_, _>>()?;
+        let mut push = |face: &[u32]| {
+            if face.len() > 2 {
+                parts.cells.push_polyhedron([face]);
+                parts.places.push(place);
+            }
+        };
+        match self.kind(place)? {
+            Kind::Polygon => push(&face),
+            Kind::Pixel => {
+                if let [_, _, third, fourth] = face.as_mut_slice() {
+                    std::mem::swap(third, fourth);
+                }
+                push(&face);
+            }
+            Kind::Strip => face.windows(3).for_each(push),
+            Kind::HigherOrderFace(corners) => {
+                face.truncate(if corners == 0 { face.len() / 2 } else { corners });
+                push(&face);
+                parts.higher_order += 1;
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn add_solid(&self, place: usize, points: usize, parts: &mut MeshParts) -> Result<(), FileError> {
+        let own = part(&self.connectivity, &self.ends, place)?;
+        let corners =
+            |cell: &[i64]| cell.iter().map(|point| checked(*point, points)).collect::<Result<Vec<u32>, _>>();
+        match self.kind(place)? {
+            Kind::Flat | Kind::Polygon | Kind::Pixel | Kind::Strip | Kind::HigherOrderFace(_) => {
+                parts.flat += 1;
                 return Ok(());
             }
-            Kind::Linear(shape) => solid.cells.push(shape, &corners(own)?)?,
+            Kind::Linear(shape) => parts.cells.push(shape, &corners(own)?)?,
             Kind::Voxel => {
                 let mut corners = corners(own)?;
                 if corners.len() == Shape::Hexahedron.corners() {
@@ -109,20 +178,20 @@ impl MeshLists {
                     corners.swap(2, 3);
                     corners.swap(6, 7);
                 }
-                solid.cells.push(Shape::Hexahedron, &corners)?;
+                parts.cells.push(Shape::Hexahedron, &corners)?;
             }
             Kind::HigherOrder(shape) => {
                 let taken = own.len().min(shape.corners());
-                solid.cells.push(shape, &corners(&own[..taken])?)?;
-                solid.higher_order += 1;
+                parts.cells.push(shape, &corners(&own[..taken])?)?;
+                parts.higher_order += 1;
             }
             Kind::Polyhedron => {
                 let faces = self.faces(place, own)?;
                 let faces: Vec<Vec<u32>> = faces.into_iter().map(corners).collect::<Result<_, _>>()?;
-                solid.cells.push_polyhedron(faces.iter().map(Vec::as_slice));
+                parts.cells.push_polyhedron(faces.iter().map(Vec::as_slice));
             }
         }
-        solid.places.push(place);
+        parts.places.push(place);
         Ok(())
     }
 

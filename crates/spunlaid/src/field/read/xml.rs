@@ -16,7 +16,9 @@ use roxmltree::{Document, Node};
 use std::borrow::Cow;
 
 /// The kinds of grids.
-const GRIDS: [&str; 4] = ["ImageData", "RectilinearGrid", "StructuredGrid", "UnstructuredGrid"];
+const GRIDS: [&str; 5] = ["ImageData", "RectilinearGrid", "StructuredGrid", "UnstructuredGrid", "PolyData"];
+/// The cells of a surface in the order of their values, and the types that they are in a mesh.
+const SURFACE_CELLS: [(&str, i64); 4] = [("Verts", 2), ("Lines", 4), ("Polys", 7), ("Strips", 6)];
 
 /// Reads a file.
 pub(super) fn read(bytes: &[u8], layout: &FieldLayout) -> Result<(Field, Vec<Fault>), FileError> {
@@ -184,6 +186,10 @@ impl<'a> File<'a> {
                 let (_, size) = extent()?;
                 Grid::Structured { size, points: self.points(piece, counted(size)?, budget)? }
             }
+            "PolyData" => {
+                let points = self.points(piece, number(piece, "NumberOfPoints")?, budget)?;
+                Grid::unstructured(points, &self.surface(piece, budget)?)?
+            }
             _ => {
                 let count = |name| number(piece, name);
                 let points = self.points(piece, count("NumberOfPoints")?, budget)?;
@@ -191,7 +197,7 @@ impl<'a> File<'a> {
                 Grid::unstructured(points, &listed)?
             }
         };
-        Ok(Piece { grid, point_data, cell_data })
+        Ok(Piece { grid, point_data, cell_data, lines: Vec::new() })
     }
 
     fn image(&self, grid: Node<'_, '_>, (first, size): ([f64; 3], [usize; 3])) -> Result<Grid, FileError> {
@@ -217,6 +223,19 @@ impl<'a> File<'a> {
             return Err(array.fault(fault::count(array.components, 3, "components")));
         }
         Ok(vectors(&array.numbers(count, budget)?))
+    }
+
+    fn surface(&self, piece: Node<'a, '_>, budget: &mut Budget) -> Result<MeshLists, FileError> {
+        let mut kinds = Vec::new();
+        for (part, number) in SURFACE_CELLS {
+            let arrays = self.arrays(piece, part)?;
+            let find = |name: &str| arrays.iter().find(|array| array.name == name);
+            if let (Some(connectivity), Some(ends)) = (find("connectivity"), find("offsets")) {
+                let (connectivity, ends) = (connectivity.all(budget)?, ends.all(budget)?);
+                kinds.push((number, MeshLists { connectivity, ends, ..MeshLists::default() }));
+            }
+        }
+        Ok(MeshLists::of_surface(kinds))
     }
 
     fn listed(&self, piece: Node<'a, '_>, count: usize, budget: &mut Budget) -> Result<MeshLists, FileError> {

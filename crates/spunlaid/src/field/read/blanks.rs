@@ -1,0 +1,156 @@
+//! Which points and cells of a piece hold no air: VTK marks what it hides, and a number may be missing.
+//!
+//! | array | at points | in cells |
+//! |---|---|---|
+//! | `vtkGhostType` | 1: another piece has it too; 2: hidden | 1: another piece has it too; 8: finer cells lie in its place; 32: hidden |
+//! | `vtkGhostLevels` | above 0: another piece has it too | the same |
+//! | `vtkValidPointMask` | 0: outside of the data that were resampled | |
+//!
+//! Other bits of `vtkGhostType` say something about the mesh and hide nothing. A point that another piece has too holds air
+//! unless it is hidden; a cell that another piece has too would count twice.
+
+use super::array::Array;
+use super::encoding::Budget;
+use super::grid::Grid;
+use super::names::Name;
+use crate::error::FileError;
+
+/// `vtkGhostType` of a point or a cell that another piece has too.
+const COPY: u32 = 1;
+/// `vtkGhostType` of a hidden point. Cells of a table of cells’ centres may be among the points.
+const HIDDEN_POINT: u32 = 2 | HIDDEN_CELL;
+/// `vtkGhostType` of a cell that is hidden or lies beneath finer ones.
+const HIDDEN_CELL: u32 = 8 | 32;
+
+/// What an array says about points or cells.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Mark {
+    GhostType,
+    GhostLevels,
+    ValidPoints,
+}
+
+impl Mark {
+    /// The mark that an array of this name is.
+    pub(super) fn of(name: &Name) -> Option<Self> {
+        Some(match name.plain.as_str() {
+            "vtkghosttype" => Self::GhostType,
+            "vtkghostlevels" => Self::GhostLevels,
+            "vtkvalidpointmask" => Self::ValidPoints,
+            _ => return None,
+        })
+    }
+
+    /// Whether a number says that the point or the cell is hidden, and whether it says that another piece has it too.
+    fn reads(self, number: f64, of_cells: bool) -> [bool; 2] {
+        let bits = number as u32;
+        match self {
+            Self::GhostType => {
+                [bits & if of_cells { HIDDEN_CELL } else { HIDDEN_POINT } != 0, bits & COPY != 0]
+            }
+            Self::GhostLevels => [false, number > 0.0],
+            Self::ValidPoints => [number == 0.0 && !of_cells, false],
+        }
+    }
+}
+
+/// The points and cells of a piece that hold no air. A list is empty if it has no such entry.
+#[derive(Default)]
+pub(super) struct Blanks {
+    /// Hidden points and those without a number.
+    pub(super) points: Vec<bool>,
+    /// Hidden cells and those without a number.
+    pub(super) cells: Vec<bool>,
+    /// Points that another piece has too.
+    pub(super) copied_points: Vec<bool>,
+    /// Cells that another piece has too.
+    pub(super) copied_cells: Vec<bool>,
+    /// Numbers of hidden points and cells.
+    pub(super) hidden: [u64; 2],
+}
+
+impl Blanks {
+    /// Reads the marks of a piece.
+    pub(super) fn read(
+        grid: &Grid,
+        [point_data, cell_data]: [&[Array<'_>]; 2],
+        budget: &mut Budget,
+    ) -> Result<Self, FileError> {
+        let (points, cells) = grid.counts()?;
+        let mut blanks = Self::default();
+        for (of_cells, arrays, count) in [(false, point_data, points), (true, cell_data, cells)] {
+            for array in arrays.iter().filter(|array| array.components == 1) {
+                if let Some(mark) = Mark::of(&Name::new(&array.name)) {
+                    for (place, number) in array.numbers::<f64>(count, budget)?.into_iter().enumerate() {
+                        let [hidden, copied] = mark.reads(number, of_cells);
+                        if hidden && blanks.leave_out(of_cells, place, count) {
+                            blanks.hidden[usize::from(of_cells)] += 1;
+                        }
+                        let copies =
+                            if of_cells { &mut blanks.copied_cells } else { &mut blanks.copied_points };
+                        if copied {
+                            set(copies, place, count);
+                        }
+                    }
+                }
+            }
+        }
+        Ok(blanks)
+    }
+
+    /// Marks a point or a cell of `count`. Returns whether it held air before.
+    pub(super) fn leave_out(&mut self, of_cells: bool, place: usize, count: usize) -> bool {
+        let held = self.holds(of_cells, place);
+        set(if of_cells { &mut self.cells } else { &mut self.points }, place, count);
+        held
+    }
+
+    /// Whether a point or a cell holds air of its own.
+    pub(super) fn holds(&self, of_cells: bool, place: usize) -> bool {
+        let is = |list: &[bool]| list.get(place).copied().unwrap_or(false);
+        if of_cells { !is(&self.cells) && !is(&self.copied_cells) } else { !is(&self.points) }
+    }
+
+    /// Whether all points and cells hold air, and no other piece has them.
+    pub(super) fn is_empty(&self) -> bool {
+        self.points.is_empty() && self.copied_points.is_empty() && !self.has_closed_cells()
+    }
+
+    /// Whether the air has holes, besides what other pieces have.
+    pub(super) fn has_holes(&self) -> bool {
+        !self.points.is_empty() || !self.cells.is_empty()
+    }
+
+    fn has_closed_cells(&self) -> bool {
+        !self.cells.is_empty() || !self.copied_cells.is_empty()
+    }
+
+    /// The points that a piece gives to the field: those that hold air, and of pieces with cells those of a cell that does. None
+    /// if it gives all.
+    pub(super) fn kept_points(&self, grid: &Grid) -> Result<Option<Vec<bool>>, FileError> {
+        if self.points.is_empty() && !self.has_closed_cells() {
+            return Ok(None);
+        }
+        self.used_points(grid).map(Some)
+    }
+
+    /// As [`Blanks::kept_points`], also without points that belong to no cell.
+    pub(super) fn used_points(&self, grid: &Grid) -> Result<Vec<bool>, FileError> {
+        let (points, cells) = grid.counts()?;
+        let mut kept = vec![cells == 0; points];
+        grid.each_cell(|cell, corners| {
+            if self.holds(true, cell) && corners.iter().all(|corner| self.holds(false, *corner as usize)) {
+                corners.iter().for_each(|corner| kept[*corner as usize] = true);
+            }
+        });
+        kept.iter_mut().enumerate().for_each(|(i, kept)| *kept &= self.holds(false, i));
+        Ok(kept)
+    }
+}
+
+fn set(list: &mut Vec<bool>, place: usize, count: usize) {
+    if list.is_empty() {
+        list.resize(count, false);
+    }
+    list[place] = true;
+}
