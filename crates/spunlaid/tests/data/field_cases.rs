@@ -7,7 +7,7 @@ use tempfile::TempDir;
 
 /// A table of points on a lattice over a box of 1.2 by 0.2 by 0.2, and its air at a place.
 fn table(names: &str, values: &str, scale: f64) -> String {
-    let mut text = format!("x_m,y_m,z_m,{names}\n");
+    let mut text = format!("x,y,z,{names}\n");
     for i in 0..3 * 3 * 7 {
         let (x, y, z) = (f64::from(i % 7) * 0.2, f64::from(i / 7 % 3) * 0.1, f64::from(i / 21) * 0.1);
         text += &format!("{},{},{},{values}\n", scale * x, scale * y, scale * z);
@@ -90,6 +90,52 @@ fn warns_of_a_mesh_in_other_units_and_takes_a_unit_alone() {
     let (_, notes) =
         read(&folder, "metres.csv", &[("air.field_unit", "mm"), ("fibre.element_length", "50 mm")]).unwrap();
     assert_eq!(with(&notes, &["air.field_unit", "makes the field 1.2 mm long"]).len(), 1, "{notes:?}");
+}
+
+#[test]
+fn rejects_a_unit_for_coordinates_that_tell_theirs() {
+    let folder = folder();
+    let text = table("u_m_s,v_m_s,w_m_s,k,epsilon", "10,0.1,0,1.5,70", 1000.0);
+    fs::write(folder.path().join("told.csv"), text.replacen("x,y,z", "x_mm,y_mm,z_mm", 1)).unwrap();
+    let (case, notes) = read(&folder, "told.csv", &[]).unwrap();
+    assert!(with(&notes, &["makes the field"]).is_empty(), "{notes:?}");
+    assert!(case.check().is_ok());
+    let refused = read(&folder, "told.csv", &[("air.field_unit", "1 mm")]).and_then(|(case, _)| {
+        case.check()
+            .map(|_| ())
+            .map_err(|problems| problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
+    });
+    let said = refused.unwrap_err();
+    assert!(
+        said.contains("air.field_unit")
+            && said.contains("scales coordinates whose unit the file tells (x_mm)"),
+        "{said}"
+    );
+}
+
+#[test]
+fn rejects_a_field_without_numbers_where_the_fibre_hangs() {
+    let folder = folder();
+    let whole = table("u_m_s,v_m_s,w_m_s,k,epsilon", "10,0.1,0,1.5,70", 1.0);
+    let without = |place: &str, k: &str| {
+        let from = format!("{place},10,0.1,0,1.5,70");
+        assert!(whole.contains(&from));
+        fs::write(folder.path().join("gap.csv"), whole.replace(&from, &format!("{place},10,0.1,0,{k},70")))
+            .unwrap();
+        read(&folder, "gap.csv", &[]).and_then(|(case, notes)| match case.check() {
+            Ok(_) => Ok(notes),
+            Err(problems) => Err(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")),
+        })
+    };
+    // The fibre hangs in the middle, at y = z = 0.1 m; the last corner of the box is 0.14 m away.
+    let (middle, corner) = ("0.6000000000000001,0.1,0.1", "1.2000000000000002,0.2,0.2");
+    for k in ["NaN", "inf", ""] {
+        let said = without(middle, k).unwrap_err();
+        let told = "has no air where the fibre hangs: k has no number at 1 point; it is in line 33";
+        assert!(said.contains("air.field = ") && said.contains(told), "{said}");
+    }
+    let notes = without(corner, "nan").unwrap_or_default();
+    assert_eq!(with(&notes, &["k has no number at 1 point; it is in line 64"]).len(), 1, "{notes:?}");
 }
 
 #[test]

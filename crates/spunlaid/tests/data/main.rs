@@ -12,6 +12,7 @@ mod scans;
 #[path = "../common/vtk.rs"]
 mod vtk;
 
+mod field_blanks;
 mod field_cases;
 mod field_files;
 mod field_lists;

@@ -113,6 +113,9 @@ fn field(placed: &PlacedField) -> Vec<String> {
         let [low, high] = [low, high].map(|end| Dimension::Length.pretty_to(end + 0.0, 3));
         lines.push(format!("    {name} from {low} to {high}"));
     }
+    if let Some(axis) = placed.field.plane_axis().and_then(|axis| ["x", "y", "z"].get(axis)) {
+        lines.push(format!("  a plane flow: the air is the same everywhere along {axis} of the field"));
+    }
     let read = placed.field.sources().iter().map(|(quantity, arrays)| format!("{quantity} from {arrays}"));
     lines.push(format!("  read: {}", read.collect::<Vec<_>>().join("; ")));
     lines.push(format!("  velocity {}", spread(overview.speed, "m/s")));

@@ -1,0 +1,146 @@
+//! Points and cells of a field that hold no air, and plane flows on meshes of faces.
+
+use spunlaid::error::Fault;
+use spunlaid::field::{Description, Field, Hint};
+use spunlaid::vec3::Vec3;
+use std::path::Path;
+
+/// 8 m/s at x = −0.2 m and 14 m/s at 1.2 m if the air of the files is whole: their formula, with the mean over y of 11 m/s.
+///
+/// The hidden points and cells hold 0 or 999 m/s, the cells that another piece has too hold 0.
+#[test]
+fn analytic_hidden_points_and_cells_of_files_of_vtk_are_no_air() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/field_fixtures/blanks");
+    for (file, hidden) in [
+        ("resamp_real.vti", "1740 points and 1344 cells are hidden"),
+        ("hidcell.vts", "112 cells are hidden"),
+        ("hidcell.vtu", "112 cells are hidden"),
+        ("hidpt.vts", "300 points are hidden"),
+        ("pg.pvtu", ""),
+    ] {
+        let (field, warnings) = Field::read(&folder.join(file)).unwrap();
+        let speed = field.overview().speed;
+        assert!(speed.least > 7.79 && speed.largest < 14.21, "{file}: {speed:?}");
+        assert!((speed.mean - 11.0).abs() < 0.02, "{file}: {speed:?}");
+        let told = warnings.iter().any(|warning| warning.message.contains("hidden"));
+        assert_eq!(told, !hidden.is_empty(), "{file}: {warnings:?}");
+        assert!(warnings.iter().any(|warning| warning.message.starts_with(hidden)), "{file}: {warnings:?}");
+        // Each file has this air: U = 10 + 2 (x − 0.5) + … along the axis, 11 m/s in its middle.
+        let local = field.sample(Vec3::new(0.5, 0.0, 0.0), &mut Hint::default());
+        assert!(local.inside && (local.velocity.norm() - 11.0).abs() < 0.02, "{file}: {local:?}");
+    }
+}
+
+/// 5 by 4 points with u = 10 + y and k = 1, the last of which is not air.
+fn table(names: &str, last: &str) -> String {
+    let mut text = format!("x,y,u,v,k,epsilon{names}\n");
+    for i in 0..20 {
+        let (x, y) = (i % 5, i / 5);
+        let row = if i == 19 {
+            last.to_owned()
+        } else {
+            format!("{},0,1,5{}", 10 + y, &",1"[..if names.is_empty() { 0 } else { 2 }])
+        };
+        text += &format!("{x},{y},{row}\n");
+    }
+    text
+}
+
+#[test]
+fn analytic_rows_that_are_hidden_or_lack_a_number_end_the_air() {
+    let missing = |array: &str| {
+        format!(
+            "{array} has no number at 1 point; it is in line 21. There is no air there: these places are left out"
+        )
+    };
+    let hidden = "1 points are hidden (vtkGhostType or vtkValidPointMask); there is no air there, and they are left out";
+    for (names, last, said) in [
+        (",vtkValidPointMask", "0,0,0,0,0", hidden.to_owned()),
+        (",vtkGhostType", "900,0,1,5,2", "no ghost".to_owned()),
+        ("", "nan,0,1,5", missing("u")),
+        ("", "13,0,inf,5", missing("k")),
+        ("", "13,0,1,", missing("epsilon")),
+    ] {
+        let text = table(names, last).replace(",vtkGhostType", ",vtkGhostLevelsOff");
+        let ghost = names == ",vtkGhostType";
+        // Ones in a column of ghosts are copies, which are air.
+        let text = if ghost { table(names, last) } else { text };
+        let (field, warnings) = Field::parse(text.as_bytes(), "a.csv").unwrap();
+        let said = if ghost { hidden.to_owned() } else { said };
+        let messages: Vec<&str> = warnings.iter().map(|warning: &Fault| &*warning.message).collect();
+        assert_eq!(messages, [said.as_str()], "{last}");
+        assert_eq!(field.overview().speed.largest, 13.0, "{last}");
+        assert_eq!(field.describe(), Description::Mesh { points: 19, cells: 11 });
+        let at = |x: f64, y: f64| field.sample(Vec3::new(x, y, 7.0), &mut Hint::default());
+        let local = at(1.5, 1.25);
+        assert!(local.inside && (local.velocity.x - 11.25).abs() < 1e-12, "{local:?}");
+        assert!(!at(3.75, 2.75).inside);
+        assert_eq!(field.plane_axis(), Some(2));
+        // A fibre needs the numbers that are missing, not what is hidden.
+        let near = Vec3::new(3.75, 2.75, 0.0);
+        assert_eq!(field.why_no_air(near).is_some(), names.is_empty(), "{last}");
+        assert!(field.why_no_air(Vec3::new(1.5, 1.25, 0.0)).is_none());
+    }
+}
+
+/// Quads of 6 by 5 points in each plane of two coordinates, in legacy files of meshes and surfaces: u = 2 + 3 a + 5 b.
+#[test]
+fn analytic_meshes_of_faces_in_a_plane_are_plane_flows() {
+    let place = |axis: usize, a: f64, b: f64| {
+        let mut at = [0.25; 3];
+        (at[(axis + 1) % 3], at[(axis + 2) % 3]) = (a, b);
+        at
+    };
+    let corner = |i: usize, j: usize| i + 6 * j;
+    for (axis, triangles, surface) in [
+        (0, false, false),
+        (1, true, false),
+        (2, false, true),
+        (0, true, true),
+        (1, false, true),
+        (2, true, false),
+    ] {
+        let (mut points, mut values, mut cells) = (String::new(), String::new(), Vec::new());
+        for (i, j) in (0..5).flat_map(|j| (0..6).map(move |i| (i, j))) {
+            let (a, b) = (i as f64 * 0.5, j as f64 * 0.25);
+            let [x, y, z] = place(axis, a, b);
+            points += &format!("{x} {y} {z}\n");
+            values += &format!("{} 0 1\n", 2.0 + 3.0 * a + 5.0 * b);
+            if i < 5 && j < 4 {
+                let [p, q, r, s] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
+                match triangles {
+                    true => cells.extend([format!("3 {p} {q} {r}"), format!("3 {p} {r} {s}")]),
+                    false => cells.push(format!("4 {p} {q} {r} {s}")),
+                }
+            }
+        }
+        let (count, entries) = (cells.len(), cells.len() * if triangles { 4 } else { 5 });
+        let (kind, list) = if surface { ("POLYDATA", "POLYGONS") } else { ("UNSTRUCTURED_GRID", "CELLS") };
+        let mut text = format!(
+            "# vtk DataFile Version 3.0\na\nASCII\nDATASET {kind}\nPOINTS 30 double\n{points}{list} {count} {entries}\n{}\n",
+            cells.join("\n")
+        );
+        if !surface {
+            text += &format!("CELL_TYPES {count}\n{}", if triangles { "5\n" } else { "9\n" }.repeat(count));
+        }
+        text += &format!("POINT_DATA 30\nVECTORS U double\n{values}");
+        let (field, warnings) = Field::parse(text.as_bytes(), "a.vtk").unwrap();
+        assert!(warnings.is_empty(), "{warnings:?}");
+        assert_eq!(field.plane_axis(), Some(axis));
+        assert_eq!(field.describe(), Description::Mesh { points: 30, cells: count });
+        for (a, b, off) in [(0.0, 0.0, 0.0), (1.3, 0.77, 0.0), (2.5, 1.0, 40.0), (0.9, 0.1, -3.0)] {
+            let mut at = place(axis, a, b);
+            at[axis] += off;
+            let at = Vec3::new(at[0], at[1], at[2]);
+            let local = field.sample(at, &mut Hint::default());
+            let meant = 2.0 + 3.0 * a + 5.0 * b;
+            assert!(local.inside && (local.velocity.x - meant).abs() < 1e-12, "{axis} {local:?} {meant}");
+            let around = field.around(at, &mut Hint::default());
+            assert!(around.inside && (around.value[0] - meant).abs() < 1e-3, "{around:?} {meant}");
+        }
+        // Beyond its edge the air is that of the edge’s nearest point, and not of the inside.
+        let beyond = place(axis, 2.6, 0.5);
+        let local = field.sample(Vec3::new(beyond[0], beyond[1], beyond[2]), &mut Hint::default());
+        assert!(!local.inside && (local.velocity.x - 12.0).abs() < 1e-12, "{local:?}");
+    }
+}
