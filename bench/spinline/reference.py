@@ -53,7 +53,7 @@ NAMES = [
 ]  # fmt: skip
 POLYMERS = {
     "pp": [1.145e-3, 0.903e-6, 2100, 3.35, None, *celsius(230), 44e3, *celsius(110), 905, 20e3, 0.9e-9, 0.06, 1.3e9, 8e9],
-    "pet": [0.741e-3, 0.38e-6, 1256, 2.51, 200, *celsius(290), 57e3, *celsius(80), 1340, 100e3, 4.3e-9, 0.24, 2.3e9, 15e9],
+    "pet": [0.741e-3, 0.38e-6, 1256, 2.51, 200, *celsius(290), 57e3, *celsius(80), 1340, 100e3, 4.25e-9, 0.24, 2.3e9, 15e9],
     "pa6": [0.929e-3, 0.40e-6, 1930, 2.5, 150, *celsius(260), 55e3, *celsius(80), 1130, 100e3, 1.3e-9, 0.08, 1.0e9, 6e9],
     "pla": [0.80e-3, 0.50e-6, 1590, 2.0, 150, *celsius(230), 95e3, *celsius(65), 1250, 100e3, 2.5e-9, 0.03, 2.5e9, 6e9],
 }  # fmt: skip
@@ -63,7 +63,7 @@ CRYSTAL_NAMES = [
 ]  # fmt: skip
 CRYSTALS = {
     "pp": [3, 0.55, *celsius(65), 60, *celsius(165), 0.6, 165e3, 2000],
-    "pet": [1, 0.016, *celsius(190), 64, *celsius(260), 0.4, 121e3, 300],
+    "pet": [1, 0.016, *celsius(190), 64, *celsius(260), 0.4, 121e3, 1000],
     "pa6": [2, 0.14, *celsius(145.6), 46, *celsius(220), 0.5, 209e3, 2000],
 }
 COMMON = {
@@ -76,6 +76,8 @@ def material(line):
     """Every constant of the polymer, in SI units."""
     polymer = line["polymer"]
     m = COMMON | dict(zip(NAMES, POLYMERS[polymer]))
+    if polymer == "pet":
+        m["stress_optical_temperature"] = 400.0
     if line.get("crystallisation"):
         m |= dict(zip(CRYSTAL_NAMES, CRYSTALS[polymer]))
         if polymer == "pp":
@@ -238,8 +240,12 @@ class Spinline:
         enhanced = (1 + limit) / (math.exp(-m["orientation_enhancement"] * order**2) + limit)
         return m["crystallisation_rate"] * bell * start * enhanced
 
-    def order(self, stress):
-        return min(1.0, self.m["stress_optical_coefficient"] * stress / self.m["full_birefringence"])
+    def birefringence(self, stress, t):
+        """The stress-optical law; where a temperature is known with the coefficient it is that of a network of chains."""
+        return self.m["stress_optical_coefficient"] * self.m.get("stress_optical_temperature", t) / t * stress
+
+    def order(self, stress, t):
+        return min(1.0, self.birefringence(stress, t) / self.m["full_birefringence"])
 
     def warming(self, z, t, v, r, y, y_rate, work):
         """T' from the balance of heat; work is A N₁ v'."""
@@ -268,7 +274,7 @@ class Spinline:
         v, area, r, stress, force = self.section(state)
         _, t, y = state[:3]
         eta = self.viscosity(t, y)
-        y_rate = self.growth(t, self.order(stress)) / v
+        y_rate = self.growth(t, self.order(stress, t)) / v
         weight_and_friction = self.flow * self.gravity / v + self.friction(z, v, r)
 
         def others(stretch):
@@ -394,7 +400,7 @@ class Spinline:
                 shot.fate, shot.where = fate, x * x
                 return shot
             _, _, r, stress, tension = self.section(state)
-            shot.solid, shot.by, shot.order = x * x, fate, self.order(stress)
+            shot.solid, shot.by, shot.order = x * x, fate, self.order(stress, state[1])
             shot.frozen = state[1], 2 * r, stress
             state = [*state[:3], tension]
         shot.fate = "complete"
@@ -521,7 +527,7 @@ class Shot:
             "largest_strain_rate_at_m": place,
             "end_temperature_c": self.end[1] - ZERO,
             "steady_states": self.solutions,
-            "birefringence": m["stress_optical_coefficient"] * self.frozen[2],
+            "birefringence": self.birefringence(self.frozen[2], self.frozen[0]),
         }
 
 

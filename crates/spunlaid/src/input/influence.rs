@@ -44,7 +44,9 @@ impl SpinFile {
     /// of the friction law is among them. Numbers without influence are left out.
     ///
     /// A number whose change leaves no steady state is left out too.
-    pub fn influences(&self) -> Vec<Influence> {
+    ///
+    /// * `filament` – the steady state of the first row, from which those of the changed lines are not far
+    pub fn influences(&self, filament: &Solution) -> Vec<Influence> {
         let carrier = Case::from(&self.spec);
         let mut found = Vec::new();
         let tables = ["spinline", "spinline.material", "drag"];
@@ -55,7 +57,7 @@ impl SpinFile {
                 let changed = |sign: f64| {
                     let mut case = carrier.clone();
                     key.set(&mut case, change.apply(value, sign)).ok()?;
-                    solve(&case).ok()
+                    solve(&case, filament).ok()
                 };
                 // A factor on the air stands for the air.
                 let label = key.label.trim_end_matches(", factor").trim_end_matches(", change");
@@ -72,8 +74,8 @@ fn is_physical(key: &Key) -> bool {
     !["spinline.break_stress", "spinline.filaments_per_metre_and_row"].contains(&key.name)
 }
 
-fn solve(case: &Case) -> Result<Option<Solution>, Failure> {
-    case.spinline.as_ref().map(|line| line.solve(case.drag.along)).transpose()
+fn solve(case: &Case, near: &Solution) -> Result<Option<Solution>, Failure> {
+    case.spinline.as_ref().map(|line| line.solve_near(case.drag.along, near)).transpose()
 }
 
 impl Change {

@@ -200,6 +200,17 @@ impl Spinline {
         steady::solve(self, friction, &self.air)
     }
 
+    /// The steady state of a line that differs a little from one whose state is known: that state is followed, and sought only where
+    /// it is lost. Whether there is a second one is not looked for again.
+    ///
+    /// * `near` – the steady state of the other line
+    ///
+    /// # Errors
+    /// As [`Spinline::solve`].
+    pub fn solve_near(&self, friction: FrictionLaw, near: &Solution) -> Result<Solution, Failure> {
+        steady::solve_near(self, friction, &self.air, near)
+    }
+
     /// The steady state of each row of the curtain, the quenched side first: each in the air that the row before has warmed and
     /// dragged. One row, if there is no curtain.
     ///

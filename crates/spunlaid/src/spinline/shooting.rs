@@ -13,6 +13,9 @@ const SHORT_STRIDE: f64 = 0.05;
 const MOST_OF_SECOND: f64 = 1.0;
 /// How closely `ln F_0` is found.
 const CLOSE: f64 = 1e-12;
+/// How far `ln F_0` of a followed state may move at most, and how far it moves first.
+const REACH: f64 = 0.5;
+const FIRST_MOVE: f64 = 2e-3;
 
 /// Why no tension meets the end.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,6 +85,30 @@ impl Shooting<'_, '_> {
         Err(last)
     }
 
+    /// The change of sign next to a place, found by moves that double: a state that is a little more or less pulled than before.
+    /// Like the one of a search it has a thread that should be pulled more below it. None if the state is lost.
+    fn bracket_near(&self, from: f64) -> Option<[(f64, f64); 2]> {
+        let mut before = (from, self.miss(from).0);
+        let up = before.1 < 0.0;
+        let mut length = FIRST_MOVE;
+        while (before.0 - from).abs() < REACH && before.1.is_finite() {
+            let x = if up { before.0 + length } else { before.0 - length };
+            let here = (x, self.miss(x).0);
+            if up != (here.1 < 0.0) {
+                return Some(if up { [before, here] } else { [here, before] });
+            }
+            (before, length) = (here, (2.0 * length).min(SHORT_STRIDE));
+        }
+        None
+    }
+
+    /// The shot between two tensions.
+    fn hit(&self, bracket: [(f64, f64); 2]) -> Result<(f64, Shot), Miss> {
+        let x = brent(|x| self.miss(x).0, self.narrow(bracket)?);
+        let shot = self.shot(x).filter(|shot| shot.outcome == Outcome::Complete).ok_or(Miss::NoThread)?;
+        Ok((x, shot))
+    }
+
     /// Halves the interval until the thread reaches the end from both of its ends.
     fn narrow(&self, [mut low, mut high]: [(f64, f64); 2]) -> Result<[(f64, f64); 2], Miss> {
         let (mut of_slack, mut of_fast) = (None, None);
@@ -121,10 +148,19 @@ pub(super) fn find(thread: &Thread<'_>, looks_on: bool) -> Result<Hit, Miss> {
     if looks_on {
         bracket = shooting.bracket(least, bracket[1].0, SHORT_STRIDE).unwrap_or(bracket);
     }
-    let x = brent(|x| shooting.miss(x).0, shooting.narrow(bracket)?);
-    let shot = shooting.shot(x).filter(|shot| shot.outcome == Outcome::Complete).ok_or(Miss::NoThread)?;
+    let (x, shot) = shooting.hit(bracket)?;
     let has_second = looks_on && shooting.bracket(x + 1e-3, libm::log(MOST_OF_SECOND), SHORT_STRIDE).is_ok();
     Ok(Hit { tension: libm::exp(x), shot, has_second })
+}
+
+/// Follows the state of a line that differs a little: the tension at the die that meets the end, close to the one that did. None if
+/// the state is lost, and has to be sought.
+///
+/// * `known` – the tension at the die of the other line [N], and whether that has a second state
+pub(super) fn follow(thread: &Thread<'_>, (tension, has_second): (f64, bool)) -> Option<Hit> {
+    let shooting = Shooting { thread };
+    let (x, shot) = shooting.hit(shooting.bracket_near(libm::log(tension))?).ok()?;
+    Some(Hit { tension: libm::exp(x), shot, has_second })
 }
 
 /// The root between two places with misses of different signs. R. P. Brent: Algorithms for Minimization without Derivatives, 1973.

@@ -1,6 +1,6 @@
 //! The steady state of one filament: the shot that meets the end, what it says, and why there may be none.
 
-use super::shooting::{Hit, Miss, find};
+use super::shooting::{Hit, Miss, find, follow};
 use super::shot::Shot;
 use super::solution::{Freezing, Solution, Station};
 use super::thread::{HEAT, LN_SPEED, PULL, Phase, TEMPERATURE, TENSION, Thread, WORK};
@@ -13,6 +13,8 @@ use crate::units::Dimension;
 const PARTS: usize = 400;
 /// Looks at the strain rate in each step.
 const LOOKS: usize = 16;
+/// States whose speeds differ by more than this are not the same one, `ln v`.
+const FAR: f64 = 0.3;
 
 /// The steady state of a filament in this air.
 pub(super) fn solve(line: &Spinline, friction: FrictionLaw, air: &Surroundings) -> Result<Solution, Failure> {
@@ -22,6 +24,25 @@ pub(super) fn solve(line: &Spinline, friction: FrictionLaw, air: &Surroundings) 
     }
     let hit = find(&thread, line.crystallisation).map_err(|miss| shooting_failure(&thread, miss))?;
     describe(&thread, &hit)
+}
+
+/// The steady state of a filament in this air, next to the state of a line that differs a little. If it is lost it is sought.
+pub(super) fn solve_near(
+    line: &Spinline,
+    friction: FrictionLaw,
+    air: &Surroundings,
+    near: &Solution,
+) -> Result<Solution, Failure> {
+    let thread = Thread::new(line, friction, air);
+    if let Some(failure) = impossible_line(&thread) {
+        return Err(failure);
+    }
+    // A state that differs much is another one: only a search tells which of them a line runs in.
+    let is_near = |speed: f64| libm::log(speed / near.final_speed).abs() < FAR;
+    match follow(&thread, (near.force_at_die, near.has_second)) {
+        Some(hit) if is_near(libm::exp(hit.shot.end[LN_SPEED])) => describe(&thread, &hit),
+        _ => solve(line, friction, air),
+    }
 }
 
 /// Why no thread can run in this line, as far as this is known before it is solved.
@@ -170,7 +191,7 @@ fn describe(thread: &Thread<'_>, hit: &Hit) -> Result<Solution, Failure> {
     let material = &line.material;
     let final_speed = libm::exp(shot.end[LN_SPEED]);
     let linear_density = line.throughput / final_speed;
-    let birefringence = material.stress_optical_coefficient * at.stress;
+    let birefringence = material.birefringence(at.stress, at.temperature);
     let (momentum_residual, energy_residual) = residuals(thread, hit, &stations);
     Ok(Solution {
         die_speed: thread.die_speed(),

@@ -180,9 +180,9 @@ impl<'a> Thread<'a> {
     }
 
     /// Orientation `f = min(1, C_op N_1/Δn_∞)` [-].                                                theory.md (95)
-    pub(super) fn orientation(&self, stress: f64) -> f64 {
+    pub(super) fn orientation(&self, stress: f64, temperature: f64) -> f64 {
         let material = self.material();
-        (material.stress_optical_coefficient * stress / material.full_birefringence).clamp(0.0, 1.0)
+        (material.birefringence(stress, temperature) / material.full_birefringence).clamp(0.0, 1.0)
     }
 
     /// What the relaxation takes from `c_zz` and `c_rr` per time, times the relaxation time [-].   theory.md (92)
@@ -263,7 +263,7 @@ impl<'a> Thread<'a> {
 
         let transformed = self.transformed(state);
         let orientation = match phase {
-            Phase::Melt => self.orientation(stress),
+            Phase::Melt => self.orientation(stress, temperature),
             Phase::Solid { orientation } => orientation,
         };
         let (mut progress, mut crystallising) = (0.0, 0.0);
