@@ -92,6 +92,11 @@ def material(line):
     return m
 
 
+def birefringence(m, stress, t):
+    """The stress-optical law; where a temperature is known with the coefficient it is that of a network of chains."""
+    return m["stress_optical_coefficient"] * m.get("stress_optical_temperature", t) / t * stress
+
+
 # ---------------------------------------------------------------- the air
 
 
@@ -240,12 +245,8 @@ class Spinline:
         enhanced = (1 + limit) / (math.exp(-m["orientation_enhancement"] * order**2) + limit)
         return m["crystallisation_rate"] * bell * start * enhanced
 
-    def birefringence(self, stress, t):
-        """The stress-optical law; where a temperature is known with the coefficient it is that of a network of chains."""
-        return self.m["stress_optical_coefficient"] * self.m.get("stress_optical_temperature", t) / t * stress
-
-    def order(self, stress, t):
-        return min(1.0, self.birefringence(stress, t) / self.m["full_birefringence"])
+    def order(self, stress):
+        return min(1.0, self.m["stress_optical_coefficient"] * stress / self.m["full_birefringence"])
 
     def warming(self, z, t, v, r, y, y_rate, work):
         """T' from the balance of heat; work is A N₁ v'."""
@@ -274,7 +275,7 @@ class Spinline:
         v, area, r, stress, force = self.section(state)
         _, t, y = state[:3]
         eta = self.viscosity(t, y)
-        y_rate = self.growth(t, self.order(stress, t)) / v
+        y_rate = self.growth(t, self.order(stress)) / v
         weight_and_friction = self.flow * self.gravity / v + self.friction(z, v, r)
 
         def others(stretch):
@@ -400,7 +401,7 @@ class Spinline:
                 shot.fate, shot.where = fate, x * x
                 return shot
             _, _, r, stress, tension = self.section(state)
-            shot.solid, shot.by, shot.order = x * x, fate, self.order(stress, state[1])
+            shot.solid, shot.by, shot.order = x * x, fate, self.order(stress)
             shot.frozen = state[1], 2 * r, stress
             state = [*state[:3], tension]
         shot.fate = "complete"
@@ -527,7 +528,7 @@ class Shot:
             "largest_strain_rate_at_m": place,
             "end_temperature_c": self.end[1] - ZERO,
             "steady_states": self.solutions,
-            "birefringence": self.birefringence(self.frozen[2], self.frozen[0]),
+            "birefringence": birefringence(m, self.frozen[2], self.frozen[0]),
         }
 
 

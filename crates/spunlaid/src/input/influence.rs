@@ -4,7 +4,7 @@ use super::spinline::SpinFile;
 use crate::case::Case;
 use crate::case::keys::{self, Key, Kind, Sign, Value};
 use crate::sort::sort_by_key;
-use crate::spinline::{Failure, Solution};
+use crate::spinline::{Failure, Solution, Spinline};
 use crate::units::Dimension;
 use std::cmp::Reverse;
 
@@ -74,8 +74,13 @@ fn is_physical(key: &Key) -> bool {
     !["spinline.break_stress", "spinline.filaments_per_metre_and_row"].contains(&key.name)
 }
 
-fn solve(case: &Case, near: &Solution) -> Result<Option<Solution>, Failure> {
-    case.spinline.as_ref().map(|line| line.solve_near(case.drag.along, near)).transpose()
+/// Diameter [m] and speed [m/s] of the filament of a changed line.
+fn solve(case: &Case, near: &Solution) -> Result<Option<[f64; 2]>, Failure> {
+    let numbers = |line: &Spinline| {
+        let speed = line.final_speed_near(case.drag.along, near)?;
+        Ok([line.final_diameter(speed), speed])
+    };
+    case.spinline.as_deref().map(numbers).transpose()
 }
 
 impl Change {
@@ -100,16 +105,14 @@ impl Change {
         self,
         key: &'static str,
         label: &'static str,
-        changed: impl Fn(f64) -> Option<Option<Solution>>,
+        changed: impl Fn(f64) -> Option<Option<[f64; 2]>>,
     ) -> Option<Influence> {
         let (more, less) = (changed(1.0)??, changed(-1.0)??);
         let scale = match self {
             Self::Relative => libm::log((1.0 + STEP) / (1.0 - STEP)),
             Self::TenKelvin => 2.0 * KELVIN / 10.0,
         };
-        let elasticity = |number: fn(&Solution) -> f64| libm::log(number(&more) / number(&less)) / scale;
-        let diameter = elasticity(|filament| filament.final_diameter);
-        let speed = elasticity(|filament| filament.final_speed);
+        let [diameter, speed] = [0, 1].map(|number| libm::log(more[number] / less[number]) / scale);
         (diameter.abs() >= LEAST).then_some(Influence { key, label, change: self, diameter, speed })
     }
 }

@@ -179,10 +179,10 @@ impl<'a> Thread<'a> {
         state[TEMPERATURE] <= self.material().freezing_temperature * (1.0 + 1e-12)
     }
 
-    /// Orientation `f = min(1, C_op N_1/Δn_∞)` [-].                                                theory.md (95)
-    pub(super) fn orientation(&self, stress: f64, temperature: f64) -> f64 {
+    /// Orientation `f = min(1, C_op N_1/Δn_∞)` [-], by the stress alone: the enhancement was chosen for this form.  theory.md (95)
+    pub(super) fn orientation(&self, stress: f64) -> f64 {
         let material = self.material();
-        (material.birefringence(stress, temperature) / material.full_birefringence).clamp(0.0, 1.0)
+        (material.stress_optical_coefficient * stress / material.full_birefringence).clamp(0.0, 1.0)
     }
 
     /// What the relaxation takes from `c_zz` and `c_rr` per time, times the relaxation time [-].   theory.md (92)
@@ -263,7 +263,7 @@ impl<'a> Thread<'a> {
 
         let transformed = self.transformed(state);
         let orientation = match phase {
-            Phase::Melt => self.orientation(stress, temperature),
+            Phase::Melt => self.orientation(stress),
             Phase::Solid { orientation } => orientation,
         };
         let (mut progress, mut crystallising) = (0.0, 0.0);
