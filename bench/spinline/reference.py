@@ -53,7 +53,7 @@ NAMES = [
 ]  # fmt: skip
 POLYMERS = {
     "pp": [1.145e-3, 0.903e-6, 2100, 3.35, None, *celsius(230), 44e3, *celsius(110), 905, 20e3, 0.9e-9, 0.06, 1.3e9, 8e9],
-    "pet": [0.741e-3, 0.38e-6, 1256, 2.51, 200, *celsius(290), 57e3, *celsius(80), 1340, 100e3, 4.3e-9, 0.24, 2.3e9, 15e9],
+    "pet": [0.741e-3, 0.38e-6, 1256, 2.51, 200, *celsius(290), 57e3, *celsius(80), 1340, 100e3, 4.25e-9, 0.24, 2.3e9, 15e9],
     "pa6": [0.929e-3, 0.40e-6, 1930, 2.5, 150, *celsius(260), 55e3, *celsius(80), 1130, 100e3, 1.3e-9, 0.08, 1.0e9, 6e9],
     "pla": [0.80e-3, 0.50e-6, 1590, 2.0, 150, *celsius(230), 95e3, *celsius(65), 1250, 100e3, 2.5e-9, 0.03, 2.5e9, 6e9],
 }  # fmt: skip
@@ -63,7 +63,7 @@ CRYSTAL_NAMES = [
 ]  # fmt: skip
 CRYSTALS = {
     "pp": [3, 0.55, *celsius(65), 60, *celsius(165), 0.6, 165e3, 2000],
-    "pet": [1, 0.016, *celsius(190), 64, *celsius(260), 0.4, 121e3, 300],
+    "pet": [1, 0.016, *celsius(190), 64, *celsius(260), 0.4, 121e3, 1000],
     "pa6": [2, 0.14, *celsius(145.6), 46, *celsius(220), 0.5, 209e3, 2000],
 }
 COMMON = {
@@ -76,6 +76,8 @@ def material(line):
     """Every constant of the polymer, in SI units."""
     polymer = line["polymer"]
     m = COMMON | dict(zip(NAMES, POLYMERS[polymer]))
+    if polymer == "pet":
+        m["stress_optical_temperature"] = 400.0
     if line.get("crystallisation"):
         m |= dict(zip(CRYSTAL_NAMES, CRYSTALS[polymer]))
         if polymer == "pp":
@@ -88,6 +90,11 @@ def material(line):
         flow = line["melt_flow_rate"] * 1e-3 / 600
         m["viscosity"] = math.pi * 1.0475e-3**4 * pressure * density / (8 * 8e-3 * flow)
     return m
+
+
+def birefringence(m, stress, t):
+    """The stress-optical law; where a temperature is known with the coefficient it is that of a network of chains."""
+    return m["stress_optical_coefficient"] * m.get("stress_optical_temperature", t) / t * stress
 
 
 # ---------------------------------------------------------------- the air
@@ -521,7 +528,7 @@ class Shot:
             "largest_strain_rate_at_m": place,
             "end_temperature_c": self.end[1] - ZERO,
             "steady_states": self.solutions,
-            "birefringence": m["stress_optical_coefficient"] * self.frozen[2],
+            "birefringence": birefringence(m, self.frozen[2], self.frozen[0]),
         }
 
 

@@ -4,7 +4,7 @@ use super::methods::{Account, Methods};
 use super::rendered;
 use super::words::length;
 use crate::numbers::{THIN, number_to, significant};
-use crate::output::spinline::{MODEL_ERROR, SpinResults, freezing, influence, numerical_error, shown};
+use crate::output::spinline::{SpinResults, doubt, freezing, influence, model_error, numerical_error, shown};
 use crate::output::web::Layer;
 use askama::Template;
 use spunlaid::case::Case;
@@ -81,7 +81,7 @@ impl<'a> SpinSection<'a> {
                 name: measure.label,
                 value: shown(measure, solution),
                 unit: measure.unit.shown,
-                meaning: measure.meaning,
+                meaning: doubt(measure, solution).unwrap_or(measure.meaning),
             };
             OF_SPINLINES.iter().map(row).collect()
         };
@@ -90,7 +90,11 @@ impl<'a> SpinSection<'a> {
             title: title.to_owned(),
             sentences: sentences.into_iter().chain(curtain(rows)).collect(),
             rows: rows.first().map_or_else(Vec::new, of_row),
-            errors: format!("{} {MODEL_ERROR}", numerical_error(rows)),
+            errors: format!(
+                "{} {}",
+                numerical_error(rows),
+                model_error(rows.first().is_some_and(|row| row.has_low_birefringence))
+            ),
             influences: influences.iter().take(TOLD).map(influence).collect(),
             figures,
         }
@@ -277,7 +281,7 @@ fn methods(spec: &SpinSpec) -> Vec<(&'static str, String)> {
         }
     };
     let crystals = if spinline.crystallisation {
-        " Crystals form by Nakamura’s law, faster in an oriented melt; how much faster was chosen, because no measurement is known."
+        " Crystals form by Nakamura’s law, faster in an oriented melt; how much faster was chosen, and docs/spinline.md says why."
     } else {
         ""
     };
@@ -321,8 +325,9 @@ fn methods(spec: &SpinSpec) -> Vec<(&'static str, String)> {
         (
             "What is not verified",
             format!(
-                "{MODEL_ERROR} The constants of the polymers are the usual ones of the literature, and most were not checked against their \
-                 source; docs/spinline.md lists them."
+                "{} The constants of the polymers are the usual ones of the literature, and most were not checked against their \
+                 source; docs/spinline.md lists them.",
+                model_error(spinline.has_low_birefringence())
             ),
         ),
     ]

@@ -4,7 +4,7 @@ use super::spinline::SpinFile;
 use crate::case::Case;
 use crate::case::keys::{self, Key, Kind, Sign, Value};
 use crate::sort::sort_by_key;
-use crate::spinline::{Failure, Solution};
+use crate::spinline::{Failure, Solution, Spinline};
 use crate::units::Dimension;
 use std::cmp::Reverse;
 
@@ -44,7 +44,9 @@ impl SpinFile {
     /// of the friction law is among them. Numbers without influence are left out.
     ///
     /// A number whose change leaves no steady state is left out too.
-    pub fn influences(&self) -> Vec<Influence> {
+    ///
+    /// * `filament` – the steady state of the first row, from which those of the changed lines are not far
+    pub fn influences(&self, filament: &Solution) -> Vec<Influence> {
         let carrier = Case::from(&self.spec);
         let mut found = Vec::new();
         let tables = ["spinline", "spinline.material", "drag"];
@@ -55,7 +57,7 @@ impl SpinFile {
                 let changed = |sign: f64| {
                     let mut case = carrier.clone();
                     key.set(&mut case, change.apply(value, sign)).ok()?;
-                    solve(&case).ok()
+                    solve(&case, filament).ok()
                 };
                 // A factor on the air stands for the air.
                 let label = key.label.trim_end_matches(", factor").trim_end_matches(", change");
@@ -72,8 +74,13 @@ fn is_physical(key: &Key) -> bool {
     !["spinline.break_stress", "spinline.filaments_per_metre_and_row"].contains(&key.name)
 }
 
-fn solve(case: &Case) -> Result<Option<Solution>, Failure> {
-    case.spinline.as_ref().map(|line| line.solve(case.drag.along)).transpose()
+/// Diameter [m] and speed [m/s] of the filament of a changed line.
+fn solve(case: &Case, near: &Solution) -> Result<Option<[f64; 2]>, Failure> {
+    let numbers = |line: &Spinline| {
+        let speed = line.final_speed_near(case.drag.along, near)?;
+        Ok([line.final_diameter(speed), speed])
+    };
+    case.spinline.as_deref().map(numbers).transpose()
 }
 
 impl Change {
@@ -98,16 +105,14 @@ impl Change {
         self,
         key: &'static str,
         label: &'static str,
-        changed: impl Fn(f64) -> Option<Option<Solution>>,
+        changed: impl Fn(f64) -> Option<Option<[f64; 2]>>,
     ) -> Option<Influence> {
         let (more, less) = (changed(1.0)??, changed(-1.0)??);
         let scale = match self {
             Self::Relative => libm::log((1.0 + STEP) / (1.0 - STEP)),
             Self::TenKelvin => 2.0 * KELVIN / 10.0,
         };
-        let elasticity = |number: fn(&Solution) -> f64| libm::log(number(&more) / number(&less)) / scale;
-        let diameter = elasticity(|filament| filament.final_diameter);
-        let speed = elasticity(|filament| filament.final_speed);
+        let [diameter, speed] = [0, 1].map(|number| libm::log(more[number] / less[number]) / scale);
         (diameter.abs() >= LEAST).then_some(Influence { key, label, change: self, diameter, speed })
     }
 }

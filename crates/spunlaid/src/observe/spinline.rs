@@ -267,13 +267,13 @@ pub const OF_SPINLINES: &[SpinlineMeasure] = &[
     SpinlineMeasure {
         name: "birefringence",
         label: "Birefringence",
-        meaning: "of the solid, by the stress-optical law; too low for polypropylene, whose crystals orient more than the melt",
+        meaning: "of the solid, by the stress-optical law",
         number: |found| found.birefringence,
         study: Some(Measure {
             name: "birefringence",
             column: "birefringence",
             label: "Birefringence",
-            meaning: "birefringence of the filament by the stress-optical law",
+            meaning: "birefringence of the filament by the stress-optical law; that of polypropylene is 3 to 5 times too low",
             figure: &figure("birefringence", "Birefringence of the filament", "birefringence"),
             ..Measure::NUMBER
         }),
@@ -290,7 +290,7 @@ pub const OF_SPINLINES: &[SpinlineMeasure] = &[
             name: "modulus_estimate",
             column: "modulus_estimate_pa",
             label: "Young’s modulus, an estimate",
-            meaning: "Young's modulus to expect of the filament; it can be wrong by a factor of two",
+            meaning: "Young's modulus to expect of the filament; it can be wrong by a factor of two, and is too low for polypropylene",
             unit: GIGAPASCALS,
             figure: &figure("modulus_estimate", "Estimate of Young’s modulus", "estimate of Young’s modulus"),
             ..Measure::NUMBER

@@ -15,7 +15,7 @@ pub(super) fn solve(line: &Spinline, friction: FrictionLaw) -> Result<Vec<Soluti
     for _ in 1..curtain.rows {
         let Some(before) = rows.last() else { break };
         let air = Surroundings::Behind(behind(before, curtain));
-        rows.push(steady::solve(line, friction, &air)?);
+        rows.push(steady::solve_near(line, friction, &air, before)?);
     }
     Ok(rows)
 }

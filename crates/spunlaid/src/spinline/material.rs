@@ -34,6 +34,9 @@ pub struct Material {
     pub extensibility: f64,
     /// Stress-optical coefficient `C_op` of the melt [1/Pa].
     pub stress_optical_coefficient: f64,
+    /// Temperature at which it holds [K], if it is proportional to `1/T` as that of a network of chains; NaN if it is the same at
+    /// every temperature.
+    pub stress_optical_temperature: f64,
     /// Birefringence `Δn_∞` of the fully oriented polymer [-].
     pub full_birefringence: f64,
     /// Young's modulus `E_0` of the solid without orientation [Pa].
@@ -155,6 +158,7 @@ impl Polymer {
                 extensibility: 0.1,
                 // Memory.
                 stress_optical_coefficient: 0.9e-9,
+                stress_optical_temperature: f64::NAN,
                 full_birefringence: 0.06,
                 // Memory. As-spun polypropylene stays below 47 g/den = 3.8 GPa ("High speed melt spinning of isotactic polypropylene
                 // fibers", abstract).
@@ -191,13 +195,14 @@ impl Polymer {
                 modulus: 100e3,
                 mobility: 0.2,
                 extensibility: 0.1,
-                // 1.7e-6 K/Pa over 400 K: measured on the running line up to 0.017 (Kikutani et al. 1999, abstract).
-                stress_optical_coefficient: 4.3e-9,
+                // 1.7e-6 K/Pa over the temperature: measured on the running line up to 0.017 (Kikutani et al. 1999, abstract).
+                stress_optical_coefficient: 4.25e-9,
+                stress_optical_temperature: 400.0,
                 // Memory.
                 full_birefringence: 0.24,
                 unoriented_modulus: 2.3e9,
                 oriented_modulus: 15e9,
-                // Memory, Ziabicki's; the enhancement is chosen.
+                // Memory, Ziabicki's. The enhancement is fitted: with 700 to 1500 the neck begins where it was measured (docs/validation.md).
                 crystals: Crystals {
                     avrami_exponent: 1.0,
                     rate: 0.016,
@@ -206,7 +211,7 @@ impl Polymer {
                     melting_temperature: 260.0 + ZERO_CELSIUS,
                     crystallinity: 0.4,
                     heat_of_fusion: 121e3,
-                    orientation_enhancement: 300.0,
+                    orientation_enhancement: 1000.0,
                     ..CHOSEN
                 },
             },
@@ -229,6 +234,7 @@ impl Polymer {
                 extensibility: 0.1,
                 // Memory.
                 stress_optical_coefficient: 1.3e-9,
+                stress_optical_temperature: f64::NAN,
                 full_birefringence: 0.08,
                 unoriented_modulus: 1.0e9,
                 oriented_modulus: 6e9,
@@ -265,6 +271,7 @@ impl Polymer {
                 extensibility: 0.1,
                 // Memory.
                 stress_optical_coefficient: 2.5e-9,
+                stress_optical_temperature: f64::NAN,
                 full_birefringence: 0.03,
                 // Memory. Fibres have 3.0 to 3.2 GPa (J. Polym. Environ. 9, 1, 2001, abstract).
                 unoriented_modulus: 2.5e9,
@@ -292,6 +299,7 @@ impl Material {
         mobility: 0.2,
         extensibility: 0.1,
         stress_optical_coefficient: f64::NAN,
+        stress_optical_temperature: f64::NAN,
         full_birefringence: f64::NAN,
         unoriented_modulus: f64::NAN,
         oriented_modulus: f64::NAN,
@@ -310,6 +318,15 @@ impl Material {
     /// * `temperature` – [K]
     pub fn heat_capacity_at(&self, temperature: f64) -> f64 {
         self.heat_capacity + self.heat_capacity_slope * (temperature - ZERO_CELSIUS)
+    }
+
+    /// Birefringence of the melt, `Δn = C_op N_1`, with `C_op` proportional to `1/T` where this is known [-].  theory.md (98)
+    ///
+    /// * `stress` – `N_1` [Pa]
+    /// * `temperature` – [K]
+    pub fn birefringence(&self, stress: f64, temperature: f64) -> f64 {
+        let of_temperature = self.stress_optical_temperature / temperature;
+        self.stress_optical_coefficient * stress * if of_temperature.is_nan() { 1.0 } else { of_temperature }
     }
 
     /// Young's modulus to expect of the solid filament [Pa]. It can be wrong by a factor of two.   theory.md (98)

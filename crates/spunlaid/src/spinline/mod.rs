@@ -200,6 +200,38 @@ impl Spinline {
         steady::solve(self, friction, &self.air)
     }
 
+    /// The steady state of a line that differs a little from one whose state is known: that state is followed, and sought only where
+    /// it is lost. Whether there is a second one is not looked for again.
+    ///
+    /// * `near` – the steady state of the other line
+    ///
+    /// # Errors
+    /// As [`Spinline::solve`].
+    pub fn solve_near(&self, friction: FrictionLaw, near: &Solution) -> Result<Solution, Failure> {
+        steady::solve_near(self, friction, &self.air, near)
+    }
+
+    /// The speed at the end of [`Spinline::solve_near`] alone [m/s], at a fraction of the cost.
+    ///
+    /// # Errors
+    /// As [`Spinline::solve`].
+    pub fn final_speed_near(&self, friction: FrictionLaw, near: &Solution) -> Result<f64, Failure> {
+        steady::final_speed_near(self, friction, &self.air, near)
+    }
+
+    /// Whether the stress-optical law gives a birefringence that is too small: the crystals of polypropylene orient more than the
+    /// stress of the melt does. Measured filaments have 3 to 5 times as much.
+    pub fn has_low_birefringence(&self) -> bool {
+        self.polymer == PolymerSource::Known(Polymer::Pp)
+    }
+
+    /// Diameter of the cold filament that leaves the line at a speed [m].
+    ///
+    /// * `speed` – [m/s]
+    pub fn final_diameter(&self, speed: f64) -> f64 {
+        2.0 * libm::sqrt(self.throughput / speed / (std::f64::consts::PI * self.material.solid_density))
+    }
+
     /// The steady state of each row of the curtain, the quenched side first: each in the air that the row before has warmed and
     /// dragged. One row, if there is no curtain.
     ///

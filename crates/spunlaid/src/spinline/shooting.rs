@@ -11,8 +11,12 @@ const STRIDE: f64 = 0.4;
 const SHORT_STRIDE: f64 = 0.05;
 /// Up to this tension a second steady state is sought [N].
 const MOST_OF_SECOND: f64 = 1.0;
-/// How closely `ln F_0` is found.
+/// How closely `ln F_0` is found, and how closely that of a state that is followed, whose steps have errors of 1e-8.
 const CLOSE: f64 = 1e-12;
+const CLOSE_ENOUGH: f64 = 1e-10;
+/// How far `ln F_0` of a followed state may move at most, and how far it moves first.
+const REACH: f64 = 0.5;
+const FIRST_MOVE: f64 = 2e-3;
 
 /// Why no tension meets the end.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,6 +86,33 @@ impl Shooting<'_, '_> {
         Err(last)
     }
 
+    /// The change of sign next to a place: a state that is a little more or less pulled than before. Like the one of a search it has a
+    /// thread that should be pulled more below it. None if the state is lost.
+    fn bracket_near(&self, from: f64) -> Option<[(f64, f64); 2]> {
+        let mut before = (from, self.miss(from).0);
+        let up = before.1 < 0.0;
+        let mut length = FIRST_MOVE;
+        while (before.0 - from).abs() < REACH {
+            let x = if up { before.0 + length } else { before.0 - length };
+            let here = (x, self.miss(x).0);
+            if up != (here.1 < 0.0) {
+                return Some(if up { [before, here] } else { [here, before] });
+            }
+            // A little beyond where a straight line through both of them changes its sign.
+            let straight = 1.1 * (here.1 / (here.1 - before.1) * length).abs();
+            let next = if straight.is_finite() { straight } else { 2.0 * length };
+            (before, length) = (here, next.clamp(FIRST_MOVE, SHORT_STRIDE));
+        }
+        None
+    }
+
+    /// The shot between two tensions.
+    fn hit(&self, bracket: [(f64, f64); 2], close: f64) -> Result<(f64, Shot), Miss> {
+        let x = brent(|x| self.miss(x).0, self.narrow(bracket)?, close);
+        let shot = self.shot(x).filter(|shot| shot.outcome == Outcome::Complete).ok_or(Miss::NoThread)?;
+        Ok((x, shot))
+    }
+
     /// Halves the interval until the thread reaches the end from both of its ends.
     fn narrow(&self, [mut low, mut high]: [(f64, f64); 2]) -> Result<[(f64, f64); 2], Miss> {
         let (mut of_slack, mut of_fast) = (None, None);
@@ -121,14 +152,27 @@ pub(super) fn find(thread: &Thread<'_>, looks_on: bool) -> Result<Hit, Miss> {
     if looks_on {
         bracket = shooting.bracket(least, bracket[1].0, SHORT_STRIDE).unwrap_or(bracket);
     }
-    let x = brent(|x| shooting.miss(x).0, shooting.narrow(bracket)?);
-    let shot = shooting.shot(x).filter(|shot| shot.outcome == Outcome::Complete).ok_or(Miss::NoThread)?;
+    let (x, shot) = shooting.hit(bracket, CLOSE)?;
     let has_second = looks_on && shooting.bracket(x + 1e-3, libm::log(MOST_OF_SECOND), SHORT_STRIDE).is_ok();
     Ok(Hit { tension: libm::exp(x), shot, has_second })
 }
 
+/// Follows the state of a line that differs a little: the tension at the die that meets the end, close to the one that did. None if
+/// the state is lost, and has to be sought.
+///
+/// * `known` – the tension at the die of the other line [N], and whether that has a second state
+pub(super) fn follow(thread: &Thread<'_>, (tension, has_second): (f64, bool)) -> Option<Hit> {
+    let shooting = Shooting { thread };
+    let (x, shot) = shooting.hit(shooting.bracket_near(libm::log(tension))?, CLOSE_ENOUGH).ok()?;
+    Some(Hit { tension: libm::exp(x), shot, has_second })
+}
+
 /// The root between two places with misses of different signs. R. P. Brent: Algorithms for Minimization without Derivatives, 1973.
-fn brent(mut miss: impl FnMut(f64) -> f64, [(mut a, mut at_a), (mut b, mut at_b)]: [(f64, f64); 2]) -> f64 {
+fn brent(
+    mut miss: impl FnMut(f64) -> f64,
+    [(mut a, mut at_a), (mut b, mut at_b)]: [(f64, f64); 2],
+    close: f64,
+) -> f64 {
     let (mut c, mut at_c) = (a, at_a);
     let (mut step, mut step_before) = (b - a, b - a);
     for _ in 0..100 {
@@ -141,10 +185,10 @@ fn brent(mut miss: impl FnMut(f64) -> f64, [(mut a, mut at_a), (mut b, mut at_b)
             (at_a, at_b, at_c) = (at_b, at_c, at_b);
         }
         let half = 0.5 * (c - b);
-        if half.abs() <= 0.5 * CLOSE || at_b == 0.0 {
+        if half.abs() <= 0.5 * close || at_b == 0.0 {
             break;
         }
-        if step_before.abs() >= CLOSE && at_a.abs() > at_b.abs() {
+        if step_before.abs() >= close && at_a.abs() > at_b.abs() {
             // By a parabola through three places, or by a straight line through two.
             let s = at_b / at_a;
             let (mut p, mut q) = if a == c {
@@ -157,7 +201,7 @@ fn brent(mut miss: impl FnMut(f64) -> f64, [(mut a, mut at_a), (mut b, mut at_b)
                 q = -q;
             }
             p = p.abs();
-            if 2.0 * p < (3.0 * half * q - (CLOSE * q).abs()).min((step_before * q).abs()) {
+            if 2.0 * p < (3.0 * half * q - (close * q).abs()).min((step_before * q).abs()) {
                 (step_before, step) = (step, p / q);
             } else {
                 (step, step_before) = (half, half);
@@ -166,7 +210,7 @@ fn brent(mut miss: impl FnMut(f64) -> f64, [(mut a, mut at_a), (mut b, mut at_b)
             (step, step_before) = (half, half);
         }
         (a, at_a) = (b, at_b);
-        b += if step.abs() > 0.5 * CLOSE { step } else { (0.5 * CLOSE).copysign(half) };
+        b += if step.abs() > 0.5 * close { step } else { (0.5 * close).copysign(half) };
         at_b = miss(b);
         if !at_b.is_finite() {
             at_b = at_b.signum() * f64::MAX;

@@ -79,7 +79,8 @@ pub(super) fn shoot(thread: &Thread<'_>, die: State) -> Shot {
                 };
                 let cooling_rate = -rates.slopes[super::thread::TEMPERATURE] * rates.station.speed;
                 shot.freezing = Some((by, rates.station, cooling_rate));
-                stepper.phase = Phase::Solid { orientation: thread.orientation(rates.station.stress) };
+                let orientation = thread.orientation(rates.station.stress);
+                stepper.phase = Phase::Solid { orientation };
             } else if is_melt && rates.station.stress <= 0.0 {
                 shot.outcome = Outcome::Slack;
                 return shot;

@@ -25,6 +25,8 @@ pub struct Solution {
     pub largest_strain_rate_at: f64,
     /// Birefringence `Δn` of the solid filament by the stress-optical law [-].
     pub birefringence: f64,
+    /// Whether the birefringence, and the modulus that follows from it, are known to be too small.
+    pub has_low_birefringence: bool,
     /// Young's modulus to expect [Pa]; it can be wrong by a factor of two.
     pub modulus_estimate: f64,
     /// By how much the balance of momentum over the whole line fails, over the largest tension [-].

@@ -1,6 +1,6 @@
 //! The steady state of one filament: the shot that meets the end, what it says, and why there may be none.
 
-use super::shooting::{Hit, Miss, find};
+use super::shooting::{Hit, Miss, find, follow};
 use super::shot::Shot;
 use super::solution::{Freezing, Solution, Station};
 use super::thread::{HEAT, LN_SPEED, PULL, Phase, TEMPERATURE, TENSION, Thread, WORK};
@@ -13,6 +13,8 @@ use crate::units::Dimension;
 const PARTS: usize = 400;
 /// Looks at the strain rate in each step.
 const LOOKS: usize = 16;
+/// States whose speeds differ by more than this are not the same one, `ln v`.
+const FAR: f64 = 0.3;
 
 /// The steady state of a filament in this air.
 pub(super) fn solve(line: &Spinline, friction: FrictionLaw, air: &Surroundings) -> Result<Solution, Failure> {
@@ -20,8 +22,52 @@ pub(super) fn solve(line: &Spinline, friction: FrictionLaw, air: &Surroundings) 
     if let Some(failure) = impossible_line(&thread) {
         return Err(failure);
     }
-    let hit = find(&thread, line.crystallisation).map_err(|miss| shooting_failure(&thread, miss))?;
-    describe(&thread, &hit)
+    describe(&thread, &seek(&thread)?)
+}
+
+/// The steady state of a filament in this air, next to the state of a line that differs a little. If it is lost it is sought.
+pub(super) fn solve_near(
+    line: &Spinline,
+    friction: FrictionLaw,
+    air: &Surroundings,
+    near: &Solution,
+) -> Result<Solution, Failure> {
+    let thread = Thread::new(line, friction, air);
+    describe(&thread, &hit_near(&thread, near)?)
+}
+
+/// The speed at the end of such a filament [m/s].
+pub(super) fn final_speed_near(
+    line: &Spinline,
+    friction: FrictionLaw,
+    air: &Surroundings,
+    near: &Solution,
+) -> Result<f64, Failure> {
+    let thread = Thread::new(line, friction, air);
+    let hit = hit_near(&thread, near)?;
+    // Only where a thread breaks decides more than its end does.
+    if hit.shot.freezing.is_none() || line.break_stress.is_finite() {
+        return Ok(describe(&thread, &hit)?.final_speed);
+    }
+    Ok(libm::exp(hit.shot.end[LN_SPEED]))
+}
+
+/// The shot that meets the end next to a known one; sought if it is lost.
+fn hit_near(thread: &Thread<'_>, near: &Solution) -> Result<Hit, Failure> {
+    if let Some(failure) = impossible_line(thread) {
+        return Err(failure);
+    }
+    // A state that differs much is another one: only a search tells which of them a line runs in.
+    let is_near = |hit: &Hit| (hit.shot.end[LN_SPEED] - libm::log(near.final_speed)).abs() < FAR;
+    match follow(thread, (near.force_at_die, near.has_second)).filter(is_near) {
+        Some(hit) => Ok(hit),
+        None => seek(thread),
+    }
+}
+
+/// The shot that meets the end.
+fn seek(thread: &Thread<'_>) -> Result<Hit, Failure> {
+    find(thread, thread.line.crystallisation).map_err(|miss| shooting_failure(thread, miss))
 }
 
 /// Why no thread can run in this line, as far as this is known before it is solved.
@@ -170,12 +216,12 @@ fn describe(thread: &Thread<'_>, hit: &Hit) -> Result<Solution, Failure> {
     let material = &line.material;
     let final_speed = libm::exp(shot.end[LN_SPEED]);
     let linear_density = line.throughput / final_speed;
-    let birefringence = material.stress_optical_coefficient * at.stress;
+    let birefringence = material.birefringence(at.stress, at.temperature);
     let (momentum_residual, energy_residual) = residuals(thread, hit, &stations);
     Ok(Solution {
         die_speed: thread.die_speed(),
         final_speed,
-        final_diameter: 2.0 * libm::sqrt(linear_density / (std::f64::consts::PI * material.solid_density)),
+        final_diameter: line.final_diameter(final_speed),
         linear_density,
         freezing,
         force_at_die: hit.tension,
@@ -183,6 +229,7 @@ fn describe(thread: &Thread<'_>, hit: &Hit) -> Result<Solution, Failure> {
         largest_strain_rate,
         largest_strain_rate_at,
         birefringence,
+        has_low_birefringence: line.has_low_birefringence(),
         modulus_estimate: material.estimate_modulus(birefringence),
         momentum_residual,
         energy_residual,

@@ -179,7 +179,7 @@ impl<'a> Thread<'a> {
         state[TEMPERATURE] <= self.material().freezing_temperature * (1.0 + 1e-12)
     }
 
-    /// Orientation `f = min(1, C_op N_1/Δn_∞)` [-].                                                theory.md (95)
+    /// Orientation `f = min(1, C_op N_1/Δn_∞)` [-], by the stress alone: the enhancement was chosen for this form.  theory.md (95)
     pub(super) fn orientation(&self, stress: f64) -> f64 {
         let material = self.material();
         (material.stress_optical_coefficient * stress / material.full_birefringence).clamp(0.0, 1.0)

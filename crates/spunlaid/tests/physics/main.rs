@@ -23,6 +23,7 @@ mod neighbours;
 mod schemes;
 mod slack;
 mod spinline;
+mod spinline_following;
 mod spinline_trends;
 mod statics;
 mod turbulence;

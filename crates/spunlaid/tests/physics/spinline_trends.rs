@@ -54,3 +54,54 @@ fn published_trends_of_the_diameter_in_a_spunbond_line() {
         assert!(diameters.windows(2).all(|pair| pair[0] < 0.97 * pair[1]), "{diameters:?}");
     }
 }
+
+/// Polyester of `cases/melt_spinning.toml` with crystallisation, taken up at a speed [m/min].
+fn polyester(speed: u32, more: &[(&str, &str)]) -> Solution {
+    let speed = format!("{speed} m/min");
+    let set = [("spinline.take_up_speed", &*speed), ("spinline.crystallisation", "true")];
+    solve("../../cases/melt_spinning.toml", &[&set[..], more].concat())
+}
+
+/// The neck of round fibres of polyester begins at 5 km/min: W. Takarada and others, Journal of Applied Polymer Science 80, 1582, 2001, the
+/// abstract. It is stretched by up to about 1000 1/s there: T. Kikutani and others, Polymer Engineering & Science, 1999, the abstract.
+#[test]
+fn published_neck_of_polyester() {
+    let necks = |found: &Solution| found.freezing.by == FreezingCause::Crystallisation;
+    for speed in [1500, 4000, 4500] {
+        let found = polyester(speed, &[]);
+        assert!(
+            !necks(&found) && found.largest_strain_rate < 400.0,
+            "{speed} m/min: {}",
+            found.largest_strain_rate
+        );
+    }
+    let found = polyester(5000, &[]);
+    assert!(
+        necks(&found) && (600.0..1000.0).contains(&found.largest_strain_rate),
+        "{}",
+        found.largest_strain_rate
+    );
+}
+
+/// `Δn = 1.7e-6 K/Pa N_1/T` of polyester: T. Kikutani and others, Polymer Engineering & Science, 1999, the abstract.
+#[test]
+fn published_stress_optical_law_of_polyester() {
+    for speed in [1500, 3000, 5000] {
+        let found = polyester(speed, &[]);
+        let law = 1.7e-6 * found.freezing.stress / found.freezing.temperature;
+        assert!((found.birefringence / law - 1.0).abs() < 1e-9, "{} for {law}", found.birefringence);
+    }
+}
+
+/// Polyamide 6 begins to crystallise on the line between 2500 and 3500 m/min, as two measurements have it.
+#[test]
+fn published_onset_of_polyamide() {
+    let by = |speed| {
+        let set = [("spinline.take_up_speed", speed), ("spinline.crystallisation", "true")];
+        solve("tests/spinline_cases/pa6_4000.toml", &set).freezing.by
+    };
+    assert_eq!(
+        ["2500 m/min", "3500 m/min"].map(by),
+        [FreezingCause::Temperature, FreezingCause::Crystallisation]
+    );
+}

@@ -8,7 +8,7 @@ mod words;
 pub use stations::{COLUMNS, STATIONS, write as write_stations};
 pub use summary::{SpinSummary, Summary};
 pub use table::text;
-pub use words::{MODEL_ERROR, filament, freezing, influence, numerical_error, remarks, shown};
+pub use words::{doubt, filament, freezing, influence, model_error, numerical_error, remarks, shown};
 
 use super::copied_files::CASE_FILES;
 use super::origin::ORIGIN;
@@ -36,7 +36,9 @@ impl SpinResults {
     /// # Errors
     /// If it has no steady state that a line could run in.
     pub fn new(file: &SpinFile) -> Result<Self, Error> {
-        Ok(Self { rows: file.solve()?, influences: file.influences() })
+        let rows = file.solve()?;
+        let influences = rows.first().map_or_else(Vec::new, |first| file.influences(first));
+        Ok(Self { rows, influences })
     }
 
     /// The spinline from which a case is fed, solved again, which takes milliseconds; `None` if the case has none.

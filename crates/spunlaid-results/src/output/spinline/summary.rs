@@ -1,7 +1,7 @@
 //! `summary.json` of a spinline, and the part `spinline` of the summaries of runs and of webs.
 
 use super::SpinResults;
-use super::words::MODEL_ERROR;
+use super::words::model_error;
 use crate::output::in_order::OrderedObject;
 use crate::output::json_text;
 use serde::Serialize;
@@ -52,7 +52,8 @@ impl SpinSummary {
         }
         let influences: Vec<Json> = influences.iter().map(summarise_influence).collect();
         entries.push(("influences".to_owned(), influences.into()));
-        entries.push(("model_error".to_owned(), MODEL_ERROR.into()));
+        let is_low = rows.first().is_some_and(|row| row.has_low_birefringence);
+        entries.push(("model_error".to_owned(), model_error(is_low).into()));
         Self(OrderedObject(entries))
     }
 

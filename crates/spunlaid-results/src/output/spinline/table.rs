@@ -1,6 +1,6 @@
 //! The table of a spinline for the terminal.
 
-use super::words::{MODEL_ERROR, influence, numerical_error, shown};
+use super::words::{doubt, influence, model_error, numerical_error, shown};
 use crate::numbers::number_to;
 use spunlaid::input::Influence;
 use spunlaid::observe::{OF_SPINLINES, SpinlineMeasure};
@@ -23,7 +23,7 @@ pub fn text(rows: &[Solution], influences: &[Influence]) -> String {
     for measure in OF_SPINLINES.iter().filter(|measure| !measure.is_residual) {
         let row =
             format!("  {:<widest$}  {:>8} {}", measure.label, shown(measure, first), measure.unit.shown);
-        let _ = writeln!(text, "{}{}", row.trim_end(), cause(measure, first));
+        let _ = writeln!(text, "{}{}", row.trim_end(), beside(measure, first));
     }
     if let [first, .., last] = rows {
         let micrometres = |row: &Solution| number_to(row.final_diameter * 1e6, 4);
@@ -40,15 +40,17 @@ pub fn text(rows: &[Solution], influences: &[Influence]) -> String {
             let _ = writeln!(text, "  {}", influence(one));
         }
     }
-    let _ = writeln!(text, "errors\n  {}\n  {MODEL_ERROR}", numerical_error(rows));
+    let of_model = model_error(first.has_low_birefringence);
+    let _ = writeln!(text, "errors\n  {}\n  {of_model}", numerical_error(rows));
     text
 }
 
-/// By what the thread freezes, beside its temperature.
-fn cause(measure: &SpinlineMeasure, solution: &Solution) -> &'static str {
-    match (measure.name, solution.freezing.by) {
-        ("freezing.temperature_c", FreezingCause::Temperature) => "  (it freezes by its temperature)",
-        ("freezing.temperature_c", FreezingCause::Crystallisation) => "  (it freezes by crystallisation)",
-        _ => "",
-    }
+/// What stands beside a measure: by what the thread freezes, and what is known to be wrong.
+fn beside(measure: &SpinlineMeasure, solution: &Solution) -> String {
+    let cause = match solution.freezing.by {
+        FreezingCause::Temperature => "it freezes by its temperature",
+        FreezingCause::Crystallisation => "it freezes by crystallisation",
+    };
+    let cause = (measure.name == "freezing.temperature_c").then_some(cause);
+    cause.or_else(|| doubt(measure, solution)).map_or_else(String::new, |words| format!("  ({words})"))
 }

@@ -8,9 +8,33 @@ use spunlaid::spinline::{FreezingCause, Solution};
 use spunlaid::units::Dimension;
 use spunlaid_charts::label::plain;
 
+/// What is known of a birefringence that is too low, beside it and beside the modulus that follows from it.
+const LOW_BIREFRINGENCE: &str = "3 to 5 times too low for polypropylene";
+const LOW_MODULUS: &str = "too low, from a birefringence that is 3 to 5 times too low for polypropylene";
+
 /// What is known of the error of the model.
-pub const MODEL_ERROR: &str = "How far the model is from a real line is not known: no diameter that it gives has been compared with a measured one. \
-     The modulus can be wrong by a factor of two.";
+///
+/// * `has_low_birefringence` – as of the solution
+pub fn model_error(has_low_birefringence: bool) -> String {
+    let of_modulus = if has_low_birefringence {
+        "The birefringence of polypropylene is 3 to 5 times too low, because crystals orient more than the stress of the melt does; so the modulus \
+         that follows from it is too low, and neither is an estimate of a real filament."
+    } else {
+        "The modulus can be wrong by a factor of two."
+    };
+    format!(
+        "How far the model is from a real line is not known: no diameter that it gives has been compared with a measured one. {of_modulus}"
+    )
+}
+
+/// What is known to be wrong with a measure; none where nothing is.
+pub fn doubt(measure: &SpinlineMeasure, solution: &Solution) -> Option<&'static str> {
+    match measure.name {
+        "birefringence" if solution.has_low_birefringence => Some(LOW_BIREFRINGENCE),
+        "modulus_estimate_pa" if solution.has_low_birefringence => Some(LOW_MODULUS),
+        _ => None,
+    }
+}
 
 /// The value of a measure in the unit in which it is shown, as text.
 pub fn shown(measure: &SpinlineMeasure, solution: &Solution) -> String {

@@ -50,7 +50,7 @@ pub(super) const KEYS: &[Key] = &[
     })
     .value("0.9")
     .usual(0.01, 10.0)
-    .meaning("Factor of Matsui's friction law. Values from 0.37 to 0.9 are in use.")
+    .meaning("Factor of Matsui's friction law. Values from 0.37 to 0.9 are in use; 0.37 is the low end, and two sources support 0.9.")
     .label("Friction coefficient *β*")
     .slider(0.2, 1.2)
     .in_flight(),

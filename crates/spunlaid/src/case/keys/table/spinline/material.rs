@@ -98,6 +98,10 @@ pub(super) const KEYS: &[Key] = &[
         .usual(1e-11, 1e-07)
         .meaning("Stress-optical coefficient C of the melt: the birefringence is C times the stress.")
         .label("Stress-optical coefficient"),
+    constant!("stress_optical_temperature", Temperature, Positive, stress_optical_temperature)
+        .usual(200.0, 700.0)
+        .meaning("Temperature at which `stress_optical_coefficient` holds; at others it is proportional to 1/T. Left out, it is the same at all.")
+        .label("Temperature of the stress-optical coefficient"),
     constant!("full_birefringence", Ratio, Positive, full_birefringence)
         .usual(0.001, 1.0)
         .meaning("Birefringence of the fully oriented polymer.")
@@ -140,7 +144,7 @@ pub(super) const KEYS: &[Key] = &[
         .label("Heat of fusion Δ*H*"),
     constant!("orientation_enhancement", Ratio, NotNegative, crystals.orientation_enhancement)
         .usual(1.0, 100000.0)
-        .meaning("Factor C by which orientation speeds crystallisation up, exp(C f²). It was chosen; no measured value is known.")
+        .meaning("Factor C by which orientation speeds crystallisation up, exp(C f²). It was chosen, for pet by where the neck begins (700 to 1500).")
         .label("Enhancement by orientation *C*"),
     constant!("enhancement_limit", Ratio, Positive, crystals.enhancement_limit)
         .usual(1.0, 100000000.0)
