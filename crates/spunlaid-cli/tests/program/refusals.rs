@@ -31,7 +31,7 @@ fn rejects_bad_cases_and_writes_nothing() {
             spoilt("version = 1", "version = 2"),
             &["case.toml:2: version = 2 is newer than the format that this spunlaid reads (1)"],
         ),
-        (spoilt("[run]", "[run"), &["not valid TOML"]),
+        (spoilt("[run]", "[run"), &["write [run]"]),
         (spoilt("seed = 7", "seed = 7\nharmonics = 3"), &["run.harmonics = 3 is out of place", "[air]"]),
         (
             spoilt(r#"cutoff_frequency = "100 Hz""#, "cutoff_frequency = \"100 Hz\"\nharmonics = 0"),

@@ -13,6 +13,7 @@ mod influence;
 mod kind;
 mod open;
 mod overrides;
+mod slip;
 mod source;
 mod spinline;
 mod study;

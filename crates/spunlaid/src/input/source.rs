@@ -1,5 +1,6 @@
 //! The text of a TOML file, with line and column of each position.
 
+use super::slip::slip;
 use crate::error::{Fault, Finding, Place, Position, Problem};
 use crate::units::excerpt;
 use std::ops::Range;
@@ -45,7 +46,8 @@ impl<'a> Source<'a> {
         let message = fault.message().replace('\n', "; ");
         let what = match fault.span().and_then(|span| self.text.get(span)) {
             Some(key) if message == "duplicate key" => Fault::duplicate(&fit(key)),
-            _ => Fault::plain(format!("not valid TOML: {message}")),
+            _ => slip(self.text.lines().nth((line as usize).saturating_sub(1)).unwrap_or_default())
+                .unwrap_or_else(|| Fault::plain(format!("not valid TOML: {message}"))),
         };
         Finding { place, key: String::new(), value: None, what }
     }

@@ -1,0 +1,104 @@
+//! What is wrong with a line that is not TOML, and the line as it should be.
+
+use crate::error::Fault;
+use toml::de::DeTable;
+
+/// Signs that stand before comments in other languages.
+const COMMENTS: [&str; 5] = ["//", "/*", ";", "%", "!"];
+/// Quotes of keyboards and of word processors.
+const QUOTES: [char; 12] = ['"', '\'', '“', '”', '„', '‟', '‘', '’', '‚', '«', '»', '`'];
+
+/// The slip in a line; `None` if it is none of the usual ones. A line that is offered is TOML.
+pub(super) fn slip(line: &str) -> Option<Fault> {
+    let line = line.trim();
+    if is_toml(line) {
+        return None;
+    }
+    if let Some(rest) = COMMENTS.iter().find_map(|sign| line.strip_prefix(sign)) {
+        return offer("is a comment of another language", &format!("# {}", rest.trim()));
+    }
+    if line.starts_with('[') {
+        let name = before_comment(line).trim_matches(|c: char| c == '[' || c == ']' || c.is_whitespace());
+        let header = if line.starts_with("[[") { format!("[[{name}]]") } else { format!("[{name}]") };
+        return offer("is not a whole table header", &header);
+    }
+    let end = line.find(|c: char| c == '=' || c == ':' || c.is_whitespace())?;
+    let (key, rest) = line.split_at_checked(end)?;
+    let (sign, value) = match rest.trim_start() {
+        value if value.starts_with('=') => (true, value.get(1..)?),
+        value => (false, value.strip_prefix(':').unwrap_or(value)),
+    };
+    let written = before_comment(value).trim();
+    if written.is_empty() {
+        return Some(Fault::new(format!("{key} has no value"), format!("write one, as in {key} = …")));
+    }
+    if is_toml(&format!("{key} = {written}")) {
+        let what = if sign { "has text behind its value" } else { "has no = between key and value" };
+        return offer(what, &format!("{key} = {written}"));
+    }
+    let bare = written.trim_matches(|c: char| QUOTES.contains(&c) || c.is_whitespace());
+    if bare.starts_with(['[', '{']) || bare.contains(QUOTES) {
+        return None;
+    }
+    let is_number = |text: &str| text.parse::<f64>().is_ok_and(f64::is_finite);
+    let number = bare.split_whitespace().next().unwrap_or(bare);
+    let point = number.replacen(',', ".", 1);
+    let has_comma = point != number && is_number(&point);
+    let bare = if has_comma { bare.replacen(',', ".", 1) } else { bare.to_owned() };
+    let what = if has_comma {
+        "has a decimal comma"
+    } else if written.starts_with(['"', '\'']) || written.ends_with(['"', '\'']) {
+        "has a quote at one end only"
+    } else if written.contains(QUOTES) {
+        "has quotes that are not straight"
+    } else {
+        "has a value without quotes"
+    };
+    let is_bare = is_number(&bare) && !written.starts_with(QUOTES);
+    let value = if is_bare { bare } else { format!("\"{bare}\"") };
+    offer(what, &format!("{key} = {value}"))
+}
+
+/// The fault, if the line that is offered instead is TOML.
+fn offer(what: &str, line: &str) -> Option<Fault> {
+    is_toml(line).then(|| Fault::new(format!("the line {what}"), format!("write {line}")))
+}
+
+fn is_toml(line: &str) -> bool {
+    DeTable::parse(line).is_ok()
+}
+
+/// What stands before the comment of a line; a comment starts behind a space.
+fn before_comment(text: &str) -> &str {
+    let starts = [" #", "\t#", " //"].iter().filter_map(|sign| text.find(sign));
+    text.get(..starts.min().unwrap_or(text.len())).unwrap_or(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slip_is_named_and_the_line_is_written_as_it_should_be() {
+        for (line, what, right) in [
+            ("diameter = 50 µm    # um or \"18 dtex\"", "without quotes", "diameter = \"50 µm\""),
+            ("turbulence_intensity = 0,1 # rms; \"10 %\"", "decimal comma", "turbulence_intensity = 0.1"),
+            ("diameter = 0,05 mm", "decimal comma", "diameter = \"0.05 mm\""),
+            ("diameter = \"50 µm    # or \"18.7 dtex\"", "one end only", "diameter = \"50 µm\""),
+            ("diameter = 50 µm\"", "one end only", "diameter = \"50 µm\""),
+            ("diameter = “50 µm”", "not straight", "diameter = \"50 µm\""),
+            ("diameter: \"50 µm\"\r", "no =", "diameter = \"50 µm\""),
+            ("diameter\t\"50 µm\"", "no =", "diameter = \"50 µm\""),
+            ("seed = 1 // of the noise", "behind its value", "seed = 1"),
+            ("[fibre", "table header", "[fibre]"),
+            ("[[layer]", "table header", "[[layer]]"),
+            ("// a note", "comment", "# a note"),
+        ] {
+            let fault = slip(line).unwrap();
+            assert!(fault.message.contains(what), "{line}: {}", fault.message);
+            assert_eq!(fault.remedy, format!("write {right}"), "{line}");
+        }
+        assert_eq!(slip("diameter =  # none").unwrap().message, "diameter has no value");
+        assert!(slip("seed = 1").is_none());
+    }
+}
