@@ -1,6 +1,6 @@
 //! How the mean flow, and the strength and size of its turbulence, change from place to place.
 
-use super::{Air, FileContent, PlacedField, Profile, Widening};
+use super::{Air, FileContent, PlacedField, Profile};
 use crate::field::{AirAround, Hint, Local};
 use crate::vec3::Vec3;
 
@@ -266,8 +266,7 @@ impl Air {
     /// How fast air that slows moves away from the middle of the slot, per distance from it: `−dU/dx` [1/s]. None if the mean
     /// flow does not widen.                                                                          theory.md (49a)
     fn widening_rate(&self, profile: &Profile, x: f64) -> Option<f64> {
-        (self.widening == Widening::MachineDirection)
-            .then(|| -self.speed_factor * profile.velocity_gradient(x))
+        self.widens().then(|| -self.speed_factor * profile.velocity_gradient(x))
     }
 
     fn profile_air(&self, profile: &Profile, at: Vec3<f64>) -> LocalAir {

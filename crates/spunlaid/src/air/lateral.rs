@@ -39,10 +39,9 @@ impl Lateral {
 }
 
 /// Where the mean flow of a profile widens as it slows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Widening {
     /// Nowhere: the velocity of the profile is all.
-    #[default]
     None,
     /// Along y, the machine direction, as in a plane channel.
     MachineDirection,
@@ -62,6 +61,11 @@ impl Widening {
 }
 
 impl Air {
+    /// Whether the mean flow of a profile widens as it slows.
+    pub(crate) fn widens(&self) -> bool {
+        self.widening == Some(Widening::MachineDirection)
+    }
+
     /// `k_max L_T` of the field of eddies in space [-]. None if the turbulence is the same across the flow, and in still air,
     /// which has no turbulence.
     pub fn field_cutoff(&self) -> Option<f64> {

@@ -82,8 +82,8 @@ pub struct Air {
     pub eddies: EddyModel,
     /// How the turbulence differs across the flow.
     pub lateral: Lateral,
-    /// Where the mean flow of a profile widens as it slows.
-    pub widening: Widening,
+    /// Where the mean flow of a profile widens as it slows; nowhere if the case does not say.
+    pub widening: Option<Widening>,
     /// Records of the fluctuation, one for all eddies or one for each; empty if the fluctuation is synthesised.
     pub records: Vec<FileContent<Measured>>,
 }
@@ -118,7 +118,7 @@ impl Air {
             spectrum: SpectrumShape::Flat,
             eddies: EddyModel::Independent,
             lateral: Lateral::Uniform,
-            widening: Widening::None,
+            widening: None,
             records: Vec::new(),
         };
         air.harmonics = air.default_harmonics(1.0);

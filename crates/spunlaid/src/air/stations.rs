@@ -8,7 +8,7 @@
 //! is interpolated with weights that keep its variance.                                           theory.md (64)
 
 use super::at_elements::{AirAtElements, InstantStations};
-use super::{Air, Eddies, EddyModel, EddyTurbulence, Flow, Surroundings, Widening, Wind};
+use super::{Air, Eddies, EddyModel, EddyTurbulence, Flow, Surroundings, Wind};
 use crate::company::{PerLane, shared};
 use crate::fibre::Place;
 use crate::field::Hint;
@@ -110,7 +110,7 @@ impl Way {
             stations: grid.count,
             every: every.max(1),
             in_field: matches!(air.flow, Flow::Field(_)),
-            widens: air.widening != Widening::None,
+            widens: air.widens(),
         }
     }
 }
@@ -455,7 +455,12 @@ mod tests {
         let flow = Flow::Profile(FileContent::new("profile.csv".into(), 1, Arc::new(rows)));
         for widening in Widening::ALL {
             let eddies = EddyModel::Convected { decay_time: DECAY };
-            let air = Air { flow: flow.clone(), widening, eddies, ..Air::uniform(SPEED, 0.0, 16e-3, 940.0) };
+            let air = Air {
+                flow: flow.clone(),
+                widening: Some(widening),
+                eddies,
+                ..Air::uniform(SPEED, 0.0, 16e-3, 940.0)
+            };
             let grid = air.stations(0.5);
             let eddies = air.turbulence_at(&grid);
             let stream = Stream { air: air.clone(), eddies, key: StreamKey { seed: 1, replicate: 0 } };

@@ -1,7 +1,7 @@
 //! The air that the filaments of a beam share: a field of eddies, made block by block as the time goes on.
 
 use super::{Airs, Beam};
-use crate::air::{Air, EddyField, Extent, Flow, Lateral, StreamKey, Widening};
+use crate::air::{Air, EddyField, Extent, Flow, Lateral, StreamKey};
 use crate::field::Hint;
 use crate::vec3::Vec3;
 use crate::web::{Edges, Sheet};
@@ -80,9 +80,7 @@ fn range(numbers: impl Iterator<Item = f64> + Clone) -> f64 {
 
 /// How many times as wide the mean flow is at the belt as at the inlet. What comes down in the middle of the way has been moved aside by less.
 fn widening(air: &Air, distance: f64) -> f64 {
-    if matches!(air.flow, Flow::Uniform)
-        || (matches!(air.flow, Flow::Profile(_)) && air.widening == Widening::None)
-    {
+    if matches!(air.flow, Flow::Uniform) || (matches!(air.flow, Flow::Profile(_)) && !air.widens()) {
         return 1.0;
     }
     let mut hint = Hint::default();

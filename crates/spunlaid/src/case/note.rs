@@ -285,7 +285,7 @@ pub enum Remark {
     #[error(
         "lays filaments that have flown in air that slows from {} to {} and does not widen. A channel in which air slows widens, \
          and carries the filaments apart along the machine direction, so that the web is more even; write widening = \"md\" in \
-         [air] of the case",
+         [air] of the case, or \"none\" if it is meant",
         Dimension::Velocity.pretty_to(*from, 3), Dimension::Velocity.pretty_to(*to, 3)
     )]
     SlowsOnly {

@@ -3,7 +3,7 @@
 use super::Case;
 use super::keys::finding;
 use super::note::{Note, Remark};
-use crate::air::{Flow, SpectrumShape, Widening};
+use crate::air::{Flow, SpectrumShape};
 use crate::drag::NormalLaw;
 use crate::error::Place;
 use crate::field::Hint;
@@ -94,9 +94,9 @@ impl Case {
         notes
     }
 
-    /// What is said of a web of such filaments, if the mean flow slows on their way and does not widen.
+    /// What is said of a web of such filaments, if the mean flow slows on their way and the case does not say whether it widens.
     pub(crate) fn slows_only(&self) -> Option<Remark> {
-        if !matches!(self.air.flow, Flow::Profile(_)) || self.air.widening != Widening::None {
+        if !matches!(self.air.flow, Flow::Profile(_)) || self.air.widening.is_some() {
             return None;
         }
         let velocity = |at| self.air.local(at, &mut Hint::default()).velocity.x;

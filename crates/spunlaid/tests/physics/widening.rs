@@ -47,7 +47,7 @@ gravity = '0 m/s²'
 fn case(widening: Widening) -> Case {
     let (mut case, _) = parse_case(HANGING, "case.toml", &[]).unwrap();
     case.air.flow = profile(&[0.0, LENGTH], &SPEEDS);
-    case.air.widening = widening;
+    case.air.widening = Some(widening);
     case
 }
 
@@ -66,7 +66,7 @@ fn nodes(at: &Snapshot, lane: usize) -> Vec<(f64, f64)> {
 
 #[test]
 fn analytic_the_widening_flow_has_no_divergence() {
-    let mut air = Air { widening: Widening::MachineDirection, ..Air::uniform(30.0, 0.1, 16e-3, 400.0) };
+    let mut air = Air { widening: Some(Widening::MachineDirection), ..Air::uniform(30.0, 0.1, 16e-3, 400.0) };
     air.flow = profile(&[0.0, 0.1, 0.25, 0.5], &[60.0, 55.0, 25.0, 10.0]);
     air.speed_factor = 0.8;
     let mut hint = Hint::default();

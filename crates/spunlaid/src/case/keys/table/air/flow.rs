@@ -147,12 +147,15 @@ pub(super) const KEYS: &[Key] = &[
     .slider(0.2, 3.0)
     .in_flight(),
     choose("air.widening", || Widening::ALL.map(Widening::name).to_vec(), Access {
-        get: |case| matches!(case.air.flow, Flow::Profile(_)).then(|| case.air.widening.name().into()),
+        get: |case| {
+            let widening = case.air.widening.filter(|_| matches!(case.air.flow, Flow::Profile(_)))?;
+            Some(widening.name().into())
+        },
         set: |case, value| {
             let widening = named(value, &Widening::ALL, Widening::name)?;
             let remedy = match (&case.air.flow, widening) {
                 (Flow::Profile(_), _) | (_, Widening::None) => {
-                    case.air.widening = widening;
+                    case.air.widening = Some(widening);
                     return Ok(());
                 }
                 (Flow::Uniform, _) => "leave it out: air that keeps its speed does not widen",
@@ -161,10 +164,10 @@ pub(super) const KEYS: &[Key] = &[
             Err(Fault::needs("air.profile", remedy))
         },
     })
-    .value("none")
+    .follows("the air only slows, and a web says so")
     .meaning(
         "Whether the mean flow of a profile widens where it slows. `md`: along y, the machine direction, as in a plane channel, \
-         with the velocity `−y dU/dx` from the middle of the slot. `none`: the air only slows.",
+         with the velocity `−y dU/dx` from the middle of the slot. `none`: the air only slows, and this is meant.",
     )
     .label("Widening of the mean flow"),
 ];
