@@ -17,7 +17,8 @@ use std::path::Path;
 /// The rooms of the program from left to right; those of one group may not import one another.
 const PROGRAM: &[&[&str]] = &[&["args", "failure", "progress", "say"], &["live"], &["commands"]];
 
-const RESULTS: &[&[&str]] = &[&["failure", "numbers"], &["figures"], &["output"], &["report"], &["folders"]];
+const RESULTS: &[&[&str]] =
+    &[&["command", "failure", "numbers"], &["figures"], &["output"], &["report"], &["folders"]];
 
 const CHARTS: &[&[&str]] = &[
     &["decimate", "glyphs", "numbers", "palette"],

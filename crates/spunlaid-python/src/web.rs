@@ -136,8 +136,8 @@ impl LaidWeb {
             // The older name of these.
             put(&measure.name.replace("one_fibre", "single_fibres"), measure.number)?;
         }
-        put("cv_low", |patch| Some(patch.map.interval()?[0]))?;
-        put("cv_high", |patch| Some(patch.map.interval()?[1]))?;
+        put("cv_low", |patch| Some(patch.interval()?[0]))?;
+        put("cv_high", |patch| Some(patch.interval()?[1]))?;
         Ok(all)
     }
 

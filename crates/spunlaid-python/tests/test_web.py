@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import pickle
 import subprocess
 from pathlib import Path
 
@@ -42,6 +43,43 @@ def test_advice_only_where_it_is_asked_for(web: spunlaid.Web) -> None:
     without = spunlaid.web(CASES / "web_known.toml", set=SMALL, threads=2)
     assert "advice" not in without.summary
     np.testing.assert_array_equal(without.map, web.map)
+
+
+def test_identical_after_pickling(web: spunlaid.Web, tmp_path: Path) -> None:
+    again = pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(web))))
+    np.testing.assert_array_equal(again.map, web.map)
+    assert not again.map.flags.writeable
+    assert (again.summary, again.notes, again.cell, repr(again)) == (web.summary, web.notes, web.cell, repr(web))
+    for name, numbers in web.patches.items():
+        np.testing.assert_array_equal(again.patches[name], numbers)
+    assert again.report() == web.report()
+    web.save(tmp_path / "one")
+    again.save(tmp_path / "two")
+    names = [sorted(path.name for path in (tmp_path / which).rglob("*")) for which in ("one", "two")]
+    assert names[0] == names[1]
+    with pytest.raises(spunlaid.FolderError, match="holds results already"):
+        again.save(tmp_path / "two")
+    again.save(tmp_path / "two", force=True)
+    with pytest.raises(ValueError, match="SVG and PNG"):
+        again.save(tmp_path / "three", figures=["pdf"])
+
+
+def test_advice_can_be_set(web: spunlaid.Web) -> None:
+    changes = web.summary["advice"]["changes"]
+    change = next(change for change in changes if change["setting"] == "titre")
+    assert change["command"].startswith("spunlaid web ")
+    changed = spunlaid.web(CASES / "web_known.toml", set=change["set"], threads=2)
+    # The titre is another one, and the basis weight is the same.
+    np.testing.assert_allclose(changed.map.mean(), web.map.mean(), rtol=1e-4)
+    assert changed.summary["layers"][0]["linear_density_kg_m"] == pytest.approx(change["keys"][0]["to"])
+
+
+def test_keys_of_the_flown_case(tmp_path: Path) -> None:
+    small = {"web.width": 0.4, "web.length": 0.4, "web.cell": "1 mm", "run.duration": "0.15 s", "run.replicates": 2}
+    near, far = (spunlaid.web(CASES / "web.toml", set={**small, "belt.distance": at}, threads=2) for at in ("0.3 m", "0.5 m"))
+    assert near.summary["layers"][0]["sigma_cd_m"] != far.summary["web"]["layers"][0]["sigma_cd_m"]
+    with pytest.raises(spunlaid.CaseError, match="is a key of a case, and this web flies none"):
+        spunlaid.web(CASES / "web_known.toml", set={"belt.distance": "0.4 m"})
 
 
 def test_analytic_basis_weight(web: spunlaid.Web) -> None:

@@ -10,6 +10,7 @@
 #![allow(rustdoc::broken_intra_doc_links)]
 
 // Each module imports only from the modules above it. The program's tests/rooms.rs checks this.
+pub mod command;
 mod failure;
 pub mod numbers;
 

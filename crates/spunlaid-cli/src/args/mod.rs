@@ -13,9 +13,12 @@ pub(crate) use analyse::{Analyse, Direction, LightName, RecordOptions, Scan};
 pub(crate) use figures::Figures;
 pub(crate) use fit::Fit;
 pub(crate) use invocation::Invocation;
-pub(crate) use new::{LineNumbers, MOST_BEAMS, MOST_HOLES, New, polymer, titre};
+pub(crate) use new::{
+    LineNumbers, MOST_BEAMS, MOST_HOLES, New, basis_weight, length, polymer, speed, throughput, titre,
+};
 pub(crate) use output::{Output, Threads};
-pub(crate) use source::{CaseSource, is_standard, overrides, quoted};
+pub(crate) use source::{CaseSource, is_standard, overrides};
+pub(crate) use spunlaid_results::command::quoted;
 
 use clap::{Args, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
@@ -186,7 +189,7 @@ pub(crate) struct Web {
     pub(crate) file: PathBuf,
     #[command(flatten)]
     pub(crate) output: Output,
-    /// Set a key of the web, as line.belt_speed="6 m/s"; can be repeated
+    /// Set a key of the web, as line.belt_speed="6 m/s", or of the case that it flies, as belt.distance="0.4 m"; can be repeated
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
     pub(crate) set: Vec<(String, String)>,
     #[command(flatten)]

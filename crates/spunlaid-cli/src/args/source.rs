@@ -4,6 +4,7 @@ use clap::{Args, ValueHint};
 use spunlaid::case::{Case, Note};
 use spunlaid::error::{Error, Fault, Problem};
 use spunlaid::input::{LARGEST_FILE, Overrides, parse_case, read_case};
+use spunlaid_results::command::quoted;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -65,14 +66,6 @@ fn standard_input() -> Result<String, Error> {
         )));
     }
     Ok(text)
-}
-
-/// A word of a command line, in quotes if the shell would not take it as one word. It stays in its line.
-pub(crate) fn quoted(word: &str) -> String {
-    if word.chars().all(|c| c.is_alphanumeric() || "-_./=:,+%".contains(c)) {
-        return word.to_owned();
-    }
-    format!("'{}'", word.replace(char::is_control, "?").replace('\'', "'\\''"))
 }
 
 pub(super) fn key_and_value(text: &str) -> Result<(String, String), String> {

@@ -14,7 +14,7 @@ use spunlaid_results::folders;
 use spunlaid_results::folders::web::WebFolder;
 use spunlaid_results::numbers::significant;
 use spunlaid_results::output::web::{ENTRIES, PatchTable, Performance, Reader};
-use spunlaid_results::report::advice_words;
+use spunlaid_results::report::{advice_commands, advice_words};
 use std::path::PathBuf;
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
@@ -83,6 +83,8 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
         let words = advice_words(&file.spec, &findings, advice.as_ref());
         if !(words.is_empty() || arguments.no_advice) {
             say::line(&format!("\n{words}"));
+            let commands = advice.as_ref().map(|advice| advice_commands(&findings, advice));
+            commands.into_iter().flatten().for_each(|command| say::line(&format!("  {command}")));
         }
         say::line(&format!("\n{label} took {laying_s:.2} s"));
         if let Some(tried) = tried {

@@ -353,3 +353,50 @@ fn a_web_says_which_settings_of_the_line_would_make_it_more_even() {
     assert!(desk.summary("without").get("advice").is_none());
     refusal(&mut desk.spunlaid("web beams.toml --advice --no-advice"), 1);
 }
+
+/// The keys of the case that a web flies are set by the same names as in a study; the folder holds the case as it was flown, so that the web can
+/// be laid again from there, to the same map. Each piece of advice is a command that the program takes.
+#[test]
+fn keys_of_the_flown_case_are_set_and_advice_can_be_pasted() {
+    let desk = desk();
+    let small = ["--set", "web.method=dynamics", "--set", "web.width=0.6 m", "--set", "web.length=0.6 m"];
+    let of_case =
+        ["--set", "belt.distance=0.3 m", "--set", "fibre.linear_density=2 dtex", "--set", "run.replicates=2"];
+    success(desk.spunlaid("web web.toml --out w --advice --quiet").args(small).args(of_case));
+    let summary = desk.summary("w");
+    let titre = summary["layers"][0]["linear_density_kg_m"].as_f64().unwrap();
+    assert!((titre / 2e-7 - 1.0).abs() < 1e-9, "{titre}");
+    let case = String::from_utf8(desk.read("w/cases/layer_1.toml")).unwrap();
+    assert!(case.contains("distance = \"0.3 m\"") && case.contains("replicates = 2"), "{case}");
+    success(&mut desk.spunlaid("web w/web.toml --out again --no-advice --quiet"));
+    assert_eq!(desk.read("w/map.npy"), desk.read("again/map.npy"));
+    let changes = summary["advice"]["changes"].as_array().unwrap();
+    assert!(changes.len() >= 8, "{changes:?}");
+    for change in changes {
+        let command = change["command"].as_str().unwrap();
+        let pasted = command.strip_prefix("spunlaid web ").unwrap();
+        // The words between single quotes are one.
+        let words = pasted.split('\'').enumerate().flat_map(|(i, part)| match i % 2 {
+            0 => part.split_whitespace().map(str::to_owned).collect::<Vec<_>>(),
+            _ => vec![part.to_owned()],
+        });
+        let words: Vec<String> = words.collect();
+        let said = success(desk.spunlaid("check --json").args(words));
+        let checked: serde_json::Value = serde_json::from_str(&said).unwrap();
+        let weight = checked["basis_weight_kg_m2"].as_f64().unwrap();
+        let wanted = summary["web"]["basis_weight_kg_m2"].as_f64().unwrap();
+        assert!((weight / wanted - 1.0).abs() < 1e-3, "{command}: {weight} {wanted}");
+        let flow = 3600.0 * checked["mass_flow_kg_s_m"].as_f64().unwrap();
+        assert!((flow / change["throughput_kg_h_m"].as_f64().unwrap() - 1.0).abs() < 1e-9, "{command}");
+    }
+    let known = "[fibre]\ndiameter = \"18 µm\"\ndensity = \"910 kg/m³\"\n[laydown]\nsigma_md = \"10 mm\"\nsigma_cd = \"10 mm\"\n\
+                 noise = \"12 m^-0.5\"\n[line]\nfeed_speed = \"50 m/s\"\nbelt_speed = \"3 m/s\"\nfilaments_per_metre = 500\n";
+    fs::write(desk.path("known.toml"), known).unwrap();
+    let said = refusal(&mut desk.spunlaid("check known.toml --set belt.distance=0.4m"), 1);
+    assert!(
+        said.contains(
+            "--set belt.distance = 0.4m is a key of a case, and this web flies none; write laydown.case"
+        ),
+        "{said}"
+    );
+}

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
+from shutil import rmtree
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +14,7 @@ import numpy as np
 
 from . import _spunlaid
 from ._arguments import check_threads, split_source
+from ._errors import FolderError
 from ._plot import plot_map, plot_unevenness
 from ._progress import Progress, shown
 from ._results import Results
@@ -21,10 +24,38 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
+@dataclass(frozen=True)
+class _Kept:
+    """What a web that has been pickled has in place of the compiled one: its values, and the files of its folder."""
+
+    name: str
+    summary: str
+    cell: float
+    map: NDArray[np.float64]
+    patches: dict[str, NDArray[np.float64]]
+    notes: list[str]
+    files: dict[str, bytes]
+
+    def __post_init__(self) -> None:
+        self.map.setflags(write=False)
+
+    def save(self, path: str, force: bool, figures: tuple[Any, Any]) -> None:
+        if figures != (None, None):
+            raise ValueError("a web that has been pickled has its figures as SVG and PNG; draw others where it was laid")
+        place = Path(path)
+        if place.exists() and any(place.iterdir()):
+            if not force:
+                raise FolderError(f"{place}: holds results already; name another folder, or pass force=True")
+            rmtree(place)
+        for name, content in self.files.items():
+            (place / name).parent.mkdir(parents=True, exist_ok=True)
+            (place / name).write_bytes(content)
+
+
 class Web(Results):
     """A web that was laid. `spunlaid.web` returns it; a notebook shows its report."""
 
-    _computed: _spunlaid.LaidWeb
+    _computed: _spunlaid.LaidWeb | _Kept
 
     @property
     def map(self) -> NDArray[np.float64]:
@@ -77,6 +108,15 @@ class Web(Results):
             self.save(Path(folder) / "web")
             return (Path(folder) / "web" / "report.html").read_text("utf-8")
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        with TemporaryDirectory() as place:
+            self.save(Path(place) / "web")
+            found = sorted(path for path in (Path(place) / "web").rglob("*") if path.is_file())
+            files = {path.relative_to(Path(place) / "web").as_posix(): path.read_bytes() for path in found}
+        computed = self._computed
+        kept = _Kept(computed.name, computed.summary, computed.cell, computed.map, computed.patches, self.notes, files)
+        return Web, (kept,)
+
     def __repr__(self) -> str:
         rows, columns = self.map.shape
         weight = 1e3 * float(self.map.mean())
@@ -95,7 +135,7 @@ def web(
 
     web: the path of the file of a web; or a dict of its tables, `{"fibre": {...}, "laydown": {...}, "line": {...}, "web":
         {...}}`, with texts that have a unit, and numbers in SI units. `spunlaid keys --web` lists the keys
-    set: keys that replace those of the file, `{"line.belt_speed": 5.0}`
+    set: keys that replace those of the file, `{"line.belt_speed": 5.0}`; and those of the case that it flies, `{"belt.distance": "0.4 m"}`
     advice: whether to try what settings of the line would make it more even at the same basis weight; `summary["advice"]` then says it
     threads: number of threads, by default one for each processor; the results do not depend on it
     progress: None, True, False, or a function that gets the parts done and their number

@@ -1,10 +1,11 @@
 //! The folder of a fit: its journal, and what is made from it.
 
+use super::flown_cases::write_cases;
 use super::journalled::{JournalFolder, Work};
 use crate::Failure;
 use crate::failure::{holds_results, other_version};
 use crate::figures::fit_figures;
-use crate::output::copied_files::{self, CASE_FILES};
+use crate::output::copied_files::CASE_FILES;
 use crate::output::fit::{fit_json, trials_csv};
 use crate::output::folder::Staging;
 use crate::output::origin::Origin;
@@ -12,10 +13,9 @@ use crate::output::pictures::FigureFiles;
 use crate::report::{FitReport, fit_html};
 use spunlaid::error::Fault;
 use spunlaid::fit::{Fit, MOST_TRIALS, Target, identity, numbers_of_record};
-use spunlaid::input::{FitFile, LaydownSource, WebSpec, write_case, write_web};
+use spunlaid::input::FitFile;
 use spunlaid::study::{Header, Journal, JournalState};
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 /// The files of a fit; the last one marks it as complete.
@@ -115,7 +115,7 @@ impl<'a> FitFolder<'a> {
         staging.set_figures(&self.figures);
         let values: Vec<f64> = fit.keys.iter().map(|key| key.value).collect();
         let spec = input.file.web(&values)?.spec;
-        let toml = write_found(&staging, spec.clone())?;
+        let toml = write_cases(&staging, spec.clone())?;
         let figures = fit_figures(fit);
         staging.write_figures(&figures)?;
         let (FitInput { name, paths, target, notes, .. }, spec) = (*input, &spec);
@@ -136,19 +136,4 @@ impl<'a> FitFolder<'a> {
         staging.publish()?;
         self.at.finish()
     }
-}
-
-/// Writes the cases of the web that was found, and the files that they name. Returns the text of the web's file.
-fn write_found(staging: &Staging<'_>, mut spec: WebSpec) -> Result<String, Failure> {
-    for (number, layer) in (1..).zip(&mut spec.layers) {
-        if let LaydownSource::Case { path, case } = &mut layer.source {
-            let copied = copied_files::copy(case.files(), &staging.place(CASE_FILES).0)?;
-            let place = copied_files::place(&copied);
-            let text = write_case(&case.with_files_at(|file| Path::new("..").join(place(file))));
-            let name = format!("cases/layer_{number}.toml");
-            staging.write(&name, text)?;
-            (*path, *case) = (PathBuf::from(name), Arc::clone(case));
-        }
-    }
-    Ok(write_web(&spec))
 }

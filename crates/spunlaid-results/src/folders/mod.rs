@@ -3,6 +3,7 @@
 //! ```text
 //! air        slices of the turbulent air as VTK and moving pictures, report, summary
 //! spinline   a solved spinline: the thread, figures, report, summary
+//! flown_cases the cases of a web, beside its file
 //! fit        the journal of a fit, and what is made from it
 //! journalled a folder with a journal, which fit and study share: begun, continued, replaced
 //! run        flies a case: tables while it flies, then figures, shapes, report, summary
@@ -14,6 +15,7 @@ pub mod air;
 #[cfg(test)]
 mod declared;
 pub mod fit;
+mod flown_cases;
 mod journalled;
 mod measured_web;
 pub mod run;

@@ -1,5 +1,6 @@
 //! The folder of a web.
 
+use super::flown_cases::write_cases;
 use crate::Failure;
 use crate::figures::{SPINLINE, spinline_figures, web_figures};
 use crate::numbers::significant;
@@ -60,7 +61,7 @@ impl WebFolder<'_> {
 
     /// Writes all files but those of the map.
     fn write_others(&self, staging: &Staging<'_>, laying: LayControl<'_>) -> Result<(), Failure> {
-        let window = self.file.spec.window();
+        let (window, toml) = (self.file.spec.window(), write_cases(staging, self.file.spec.clone())?);
         let strands = match &self.findings.laid.shared_air {
             Some(together) => Cow::Borrowed(&together.strands[..]),
             None => Cow::Owned(strands(self.web, window, laying)?),
@@ -95,12 +96,12 @@ impl WebFolder<'_> {
                 figures: &figures,
                 spinlines: &spinlines,
                 notes: self.notes,
-                toml: &self.file.text,
+                toml: &toml,
                 performance: self.performance,
             });
             others.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)).and(report)
         })?;
-        staging.write("web.toml", &self.file.text)?;
+        staging.write("web.toml", &toml)?;
         staging.write("report.html", report)?;
         staging.write("summary.json", self.summary())
     }

@@ -2,6 +2,7 @@
 
 use super::headline::{grams, headline_patch};
 use super::words::millimetres;
+use crate::command::web_command;
 use crate::numbers::{HARD, THIN, plus_minus, significant};
 use crate::output::web::HOUR;
 use spunlaid::advice::{Advice, Change, ChangedKey, CvChange, Effect, Setting};
@@ -18,7 +19,7 @@ pub(super) struct AdviceSection {
     /// [`advice_words`]; empty for a web that is no simulated one.
     pub(super) sentence: String,
     pub(super) heads: Vec<String>,
-    /// Of each row the change, its keys, and the other cells.
+    /// Of each row the change, the command that lays it, and the other cells.
     pub(super) rows: Vec<(String, String, Vec<String>)>,
     pub(super) caption: String,
 }
@@ -38,12 +39,14 @@ pub fn advice_words(spec: &WebSpec, findings: &Findings, advice: Option<&Advice>
             .to_owned();
     }
     let improvements = advice.improvements(patch);
+    let elsewhere = elsewhere(findings, advice, patch);
     let weight = grams(findings.within().basis_weight());
     let what = if findings.laid.shared_air.is_some() { "CV" } else { "expected CV" };
     let place = format!("over patches of {}", millimetres(patch));
+    let also = elsewhere.map_or_else(String::new, |found| found.words(spec, patch));
     if improvements.is_empty() {
         return format!(
-            "At the same {weight}, none of the {} changes of the line that were tried lowers the {what} {place} by more than 1{THIN}% and beyond chance.",
+            "At the same {weight}, none of the {} changes of the line that were tried lowers the {what} {place} by more than 1{THIN}% and beyond chance.{also}",
             advice.effects.len()
         );
     }
@@ -57,13 +60,63 @@ pub fn advice_words(spec: &WebSpec, findings: &Findings, advice: Option<&Advice>
     let mut words =
         format!("At the same {weight}, the {what} {place} falls most with {}.", named.join("; then with "));
     if named.len() < NAMED {
-        words +=
-            &format!(" No other setting that was tried lowers it by more than 1{THIN}% and beyond chance.");
+        words += &format!(
+            " No other setting that was tried lowers it {place} by more than 1{THIN}% and beyond chance."
+        );
     }
+    words += &also;
     if is_known(spec) {
         words += " The lay-down itself is taken as it is, because no fibre was flown.";
     }
     words
+}
+
+/// The commands that lay the webs of the changes which [`advice_words`] names, in their order.
+pub fn advice_commands(findings: &Findings, advice: &Advice) -> Vec<String> {
+    let Some(patch) = headline_patch(findings).map(|i| findings.patches[i].map.patch) else {
+        return Vec::new();
+    };
+    let named = advice.improvements(patch).into_iter().take(NAMED).map(|(effect, _)| effect);
+    let named = named.chain(elsewhere(findings, advice, patch).map(|found| found.effect));
+    named.map(|effect| web_command(&effect.change)).collect()
+}
+
+/// Least change of a CV over patches of another size that is named beside those of the headline, as a share of it: of many sizes and settings
+/// some changes seem to be beyond chance.
+const LARGE: f64 = 0.05;
+
+/// A change that lowers the CV over patches of another size.
+struct Elsewhere<'a> {
+    effect: &'a Effect,
+    cv: &'a CvChange,
+}
+
+/// The change that lowers the CV most over patches of another size than the headline's, and is none of those that lower it there.
+fn elsewhere<'a>(findings: &Findings, advice: &'a Advice, patch: f64) -> Option<Elsewhere<'a>> {
+    let named = advice.improvements(patch);
+    let is_new = |effect: &Effect| !named.iter().any(|(other, _)| std::ptr::eq(*other, effect));
+    let patches = findings.patches.iter().map(|found| found.map.patch).filter(|other| *other != patch);
+    let found = patches.flat_map(|other| advice.improvements(other));
+    let found = found.filter(|(effect, cv)| cv.change <= -LARGE && is_new(effect));
+    let best = found.min_by(|(_, a), (_, b)| a.change.total_cmp(&b.change));
+    best.map(|(effect, cv)| Elsewhere { effect, cv })
+}
+
+impl Elsewhere<'_> {
+    /// * `patch` – of the headline [m]
+    fn words(&self, spec: &WebSpec, patch: f64) -> String {
+        let Self { effect, cv } = self;
+        let here = effect.over(patch).map_or_else(String::new, |here| {
+            format!("; over patches of {} that changes it by {}{THIN}%", millimetres(patch), per_cent(here))
+        });
+        format!(
+            " Patches of another size ask for something else: over patches of {} it falls with {} ({}{THIN}%), {}{here}.",
+            millimetres(cv.patch),
+            describe_change(&effect.change, spec),
+            per_cent(cv),
+            cost(effect)
+        )
+    }
 }
 
 /// Whether nothing of the web was flown.
@@ -80,9 +133,11 @@ fn per_cent(cv: &CvChange) -> String {
 
 /// `20 % less titre, 2 to 1.6 dtex`.
 fn describe_change(change: &Change, spec: &WebSpec) -> String {
-    let whose = match change.layer {
-        Some(layer) => format!(" of layer {}", name_of(spec, layer)),
-        None => String::new(),
+    let names: Vec<String> = change.layers.iter().map(|layer| name_of(spec, *layer)).collect();
+    let whose = match &names[..] {
+        [] => String::new(),
+        [one] => format!(" of layer {one}"),
+        [more @ .., last] => format!(" of layers {} and {last}", more.join(", ")),
     };
     let values = change.keys.first().map_or_else(String::new, values);
     format!("{} {}{whose}, {values}", share(change), change.setting.words())
@@ -131,13 +186,11 @@ impl AdviceSection {
         let Some(advice) = advice else { return Self { sentence, ..Self::default() } };
         let patches: Vec<f64> = findings.patches.iter().map(|patch| patch.map.patch).collect();
         let row = |effect: &Effect| {
-            let key = |changed: &ChangedKey| changed.key.clone();
-            let keys = effect.change.keys.iter().map(key).collect::<Vec<_>>().join(", ");
             let cv = |patch: &f64| effect.over(*patch).map_or_else(|| "–".to_owned(), per_cent);
             let line =
                 [effect.belt_speed[1], HOUR * effect.mass_flow[1]].map(|number| significant(number, 4));
             let cells = patches.iter().map(cv).chain(line).collect();
-            (describe_change(&effect.change, spec), keys, cells)
+            (describe_change(&effect.change, spec), web_command(&effect.change), cells)
         };
         let heads = (patches.iter().map(|patch| format!("CV at {}, %", millimetres(*patch))))
             .chain(["Belt, m/s".to_owned(), "From each metre, kg/h".to_owned()])
@@ -158,7 +211,7 @@ impl AdviceSection {
         let mut caption = format!(
             "Change of the CV as a share of it when one setting of the line is changed and the belt follows, so that the basis weight stays {}: over patches of \
              each size, ± one standard error, {error}. All other settings stay as they are; with another titre the throughput of a hole stays and the filament is fed \
-             slower or faster.",
+             slower or faster. The command below each change lays that web.",
             grams(findings.within().basis_weight())
         );
         if !failed.is_empty() {

@@ -24,7 +24,7 @@ mod tests;
 mod web;
 mod words;
 
-pub use advice::advice_words;
+pub use advice::{advice_commands, advice_words};
 pub use air::{AirReport, air_html};
 pub use analysis::{AnalysisReport, analysis_html};
 pub use comparison::{ComparedPictures, ComparisonReport, comparison_html};

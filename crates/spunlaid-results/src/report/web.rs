@@ -213,7 +213,7 @@ fn whole(patch: &PatchFindings) -> Unevenness {
 /// a sentence or two.
 fn air_sentence(findings: &Findings) -> String {
     let patch = headline_patch(findings).map(|i| &findings.patches[i]);
-    match (&findings.laid.shared_air, patch.and_then(|patch| Some((patch, patch.independent?.0)))) {
+    match (&findings.laid.shared_air, patch.and_then(|patch| Some((patch, patch.independent?.cv)))) {
         (Some(_), Some((patch, independent))) => format!(
             "In airs of their own the same filaments would give {}, {} times less: here neighbours hang in the same gusts, which carry them \
              aside together and lay them in ropes and clouds.",

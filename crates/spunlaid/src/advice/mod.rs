@@ -80,7 +80,7 @@ impl Advice {
         };
         let mut improvements: Vec<(&Effect, &CvChange)> = self.effects.iter().filter_map(lowers).collect();
         sort_by_key(&mut improvements, |(_, cv)| cv.change);
-        let setting = |effect: &Effect| (effect.change.setting, effect.change.layer);
+        let setting = |effect: &Effect| (effect.change.setting, effect.change.layers.clone());
         let mut settings = Vec::new();
         improvements.retain(|(effect, _)| {
             let is_new = !settings.contains(&setting(effect));

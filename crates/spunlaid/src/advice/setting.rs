@@ -89,10 +89,14 @@ impl ChangedKey {
 pub struct Change {
     /// What is changed.
     pub setting: Setting,
-    /// Number of the layer in which it is changed, from 1; None where it is changed in all.
-    pub layer: Option<usize>,
+    /// Numbers of the layers in which it is changed, from 1: of one, or of equal ones together; none where it is changed in all.
+    pub layers: Vec<usize>,
     /// The keys that differ.
     pub keys: Vec<ChangedKey>,
+    /// The file of the web.
+    pub file: String,
+    /// Keys and values with which that file is the changed web. What was set before is among them.
+    pub set: Vec<(String, String)>,
     /// The changed web.
     pub spec: WebSpec,
 }

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! points of a block → deviations from the straight trace → sums over each pair and stretch of fed length → correlation
-//!                                                            └ the scatter of the stretches is its error
+//!                             the scatter of the stretches, and what stays with a pair from stretch to stretch, is its error ┘
 //! ```
 //!
 //! Nothing but the sums is kept, so the memory does not grow with the points.
@@ -53,6 +53,38 @@ struct Sums {
     filaments: Vec<[[f64; 2]; 2]>,
     /// Of the products, for each pair of each distance.
     products: Vec<Vec<[f64; 2]>>,
+}
+
+/// Mean deviation of each filament, in machine and in cross direction [m].
+type Means = Vec<[f64; 2]>;
+
+/// Sums of a pair over some points.
+#[derive(Clone, Copy, Debug, Default)]
+struct Products {
+    points: f64,
+    /// Of the products of both.
+    product: f64,
+    /// Of the deviations and of their squares, for each of the two.
+    sums: [[f64; 2]; 2],
+}
+
+impl Products {
+    fn with(self, other: Self, sign: f64) -> Self {
+        let sums = [0, 1].map(|i| [0, 1].map(|power| self.sums[i][power] + sign * other.sums[i][power]));
+        let [points, product] = [(self.points, other.points), (self.product, other.product)]
+            .map(|(one, other)| one + sign * other);
+        Self { points, product, sums }
+    }
+
+    /// The moments about other means than zero.
+    fn about(self, means: [f64; 2]) -> Moments {
+        let Self { points, product, sums: [a, b] } = self;
+        let square = |mean: f64, [sum, square]: [f64; 2]| square - 2.0 * mean * sum + points * mean * mean;
+        Moments {
+            product: product - means[0] * b[0] - means[1] * a[0] + points * means[0] * means[1],
+            squares: [square(means[0], a), square(means[1], b)],
+        }
+    }
 }
 
 /// Sums over pairs of products and squares of deviations from the mean of each filament.
@@ -128,12 +160,14 @@ impl Neighbours {
 
     /// The correlations, from the nearest neighbours on.
     pub(super) fn correlations(&self) -> Vec<NeighbourCorrelation> {
-        let means = self.means();
+        let (means, all) = (self.means(None), 0..self.stretches.len());
+        // The mean of a filament is told by the same stretches, and so is left out with them.
+        let means_without: Vec<Means> = all.map(|left_out| self.means(Some(left_out))).collect();
         let correlation = |(number, distance): (usize, &Distance)| NeighbourCorrelation {
             layer: 0,
             distance: distance.distance,
-            md: self.correlation(number, 0, &means),
-            cd: self.correlation(number, 1, &means),
+            md: self.correlation(number, 0, &means, &means_without),
+            cd: self.correlation(number, 1, &means, &means_without),
         };
         let all = self.distances.iter().enumerate().map(correlation);
         all.filter(|neighbour| neighbour.md.value.is_finite() && neighbour.cd.value.is_finite()).collect()
@@ -141,48 +175,97 @@ impl Neighbours {
 
     /// The part of CV² that neighbours make together, over patches of each side, from pairs.
     pub(super) fn variances(&self, beam: &Beam<'_>, sheet: &Sheet, threads: usize) -> Vec<SharedVariance> {
-        self.pairs.variances(beam, sheet, (&self.means(), &self.lost), threads)
+        self.pairs.variances(beam, sheet, (&self.means(None), &self.lost), threads)
     }
 
-    /// The mean deviation of each filament.
-    fn means(&self) -> Vec<[f64; 2]> {
-        let points = self.stretches.iter().map(|sums| sums.points).sum::<u64>() as f64;
+    /// The mean deviation of each filament, without one of the stretches.
+    fn means(&self, left_out: Option<usize>) -> Means {
+        let kept = || self.stretches.iter().enumerate().filter(|(number, _)| Some(*number) != left_out);
+        let points = kept().map(|(_, sums)| sums.points).sum::<u64>() as f64;
         let mean = |filament: usize| {
             [0, 1].map(|direction| {
-                let sums = self.stretches.iter().map(|sums| sums.filaments[filament][direction][0]);
-                sums.sum::<f64>() / points
+                kept().map(|(_, sums)| sums.filaments[filament][direction][0]).sum::<f64>() / points
             })
         };
         (0..self.waiting.len()).map(mean).collect()
     }
 
-    /// Over all pairs at a distance; its error by the jackknife over the stretches.
-    fn correlation(&self, distance: usize, direction: usize, means: &[[f64; 2]]) -> Correlation {
+    /// Over all pairs at a distance. Its error is that by the jackknife over the stretches, and what the places of the pairs add, which stay as
+    /// they are in all stretches.                                                            theory.md (83b)
+    fn correlation(
+        &self,
+        distance: usize,
+        direction: usize,
+        means: &Means,
+        without: &[Means],
+    ) -> Correlation {
         let pairs = self.distances[distance].pairs.iter().enumerate();
-        let pairs: Vec<_> = pairs.filter(|(_, pair)| pair.iter().all(|i| !self.lost[*i])).collect();
-        let moments = |sums: &Sums| {
-            let mut moments = Moments::default();
-            for (number, pair) in &pairs {
-                let points = sums.points as f64;
-                let [a, b] = pair.map(|i| (means[i][direction], sums.filaments[i][direction]));
-                let product = sums.products[distance][*number][direction];
-                moments.product += product - a.0 * b.1[0] - b.0 * a.1[0] + points * a.0 * b.0;
-                for (squares, (mean, [sum, square])) in moments.squares.iter_mut().zip([a, b]) {
-                    *squares += square - 2.0 * mean * sum + points * mean * mean;
-                }
+        let pairs: Vec<(usize, [usize; 2])> = pairs
+            .filter(|(_, pair)| pair.iter().all(|i| !self.lost[*i]))
+            .map(|(number, pair)| (number, *pair))
+            .collect();
+        let of_stretch = |sums: &Sums, (number, pair): &(usize, [usize; 2])| Products {
+            points: sums.points as f64,
+            product: sums.products[distance][*number][direction],
+            sums: pair.map(|i| sums.filaments[i][direction]),
+        };
+        let of_all = |pair: &(usize, [usize; 2])| {
+            let all = self.stretches.iter().map(|sums| of_stretch(sums, pair));
+            all.fold(Products::default(), |all, one| all.with(one, 1.0))
+        };
+        let whole: Vec<Products> = pairs.iter().map(of_all).collect();
+        let about = |means: &Means, pair: &(usize, [usize; 2])| pair.1.map(|i| means[i][direction]);
+        let sum = |moments: &mut dyn Iterator<Item = Moments>| {
+            moments.fold(Moments::default(), |all, one| all.with(one))
+        };
+        let all = sum(&mut pairs.iter().zip(&whole).map(|(pair, of)| of.about(about(means, pair))));
+        let value = all.correlation();
+        if self.stretches.len() < FEWEST {
+            return Correlation { value, standard_error: None, degrees: f64::NAN };
+        }
+        let correlation_without = |(stretch, means): (&Sums, &Means)| {
+            let left = |(pair, of): (&(usize, [usize; 2]), &Products)| {
+                of.with(of_stretch(stretch, pair), -1.0).about(about(means, pair))
+            };
+            sum(&mut pairs.iter().zip(&whole).map(left)).correlation()
+        };
+        let count = self.stretches.len() as f64;
+        let all_without = self.stretches.iter().zip(without).map(correlation_without);
+        let squares = all_without.map(|found| (found - value).powi(2)).sum::<f64>();
+        let by_chance = (count - 1.0) / count * squares;
+        let parts = |pair: &(usize, [usize; 2])| -> Vec<f64> {
+            let of = |sums| of_stretch(sums, pair).about(about(means, pair)).part_of(all);
+            self.stretches.iter().map(of).collect()
+        };
+        let all_parts: Vec<Vec<f64>> = pairs.iter().map(parts).collect();
+        let by_places = self.variance_by_places(&pairs, &all_parts);
+        let variance = by_chance + by_places;
+        let shares = by_chance * by_chance / (count - 1.0)
+            + by_places * by_places / (pairs.len() as f64 - 1.0).max(1.0);
+        Correlation {
+            value,
+            standard_error: Some(variance.sqrt()),
+            degrees: if shares > 0.0 { variance * variance / shares } else { count - 1.0 },
+        }
+    }
+
+    /// What the places of the filaments add to the variance of a sum over pairs: what pairs with a filament in common have in common in
+    /// different stretches.
+    fn variance_by_places(&self, pairs: &[(usize, [usize; 2])], parts: &[Vec<f64>]) -> f64 {
+        let apart = |parts: &[f64]| {
+            let (sum, squares) =
+                parts.iter().fold((0.0, 0.0), |(sum, squares), x| (sum + x, squares + x * x));
+            sum * sum - squares
+        };
+        let mut of_filaments = vec![vec![0.0; self.stretches.len()]; self.waiting.len()];
+        for ((_, pair), parts) in pairs.iter().zip(parts) {
+            for filament in pair {
+                of_filaments[*filament].iter_mut().zip(parts).for_each(|(sum, part)| *sum += part);
             }
-            moments
-        };
-        let moments: Vec<Moments> = self.stretches.iter().map(moments).collect();
-        let without = |left_out: usize| {
-            let kept = moments.iter().enumerate().filter(|(number, _)| *number != left_out);
-            kept.fold(Moments::default(), |all, (_, moments)| all.with(*moments)).correlation()
-        };
-        let value = moments.iter().fold(Moments::default(), |all, one| all.with(*one)).correlation();
-        let count = moments.len() as f64;
-        let squares = (0..moments.len()).map(|left_out| (without(left_out) - value).powi(2)).sum::<f64>();
-        let standard_error = (moments.len() >= FEWEST).then(|| ((count - 1.0) / count * squares).sqrt());
-        Correlation { value, standard_error }
+        }
+        // A pair has two filaments, and is counted with both.
+        let twice: f64 = of_filaments.iter().map(|parts| apart(parts)).sum();
+        (twice - parts.iter().map(|parts| apart(parts)).sum::<f64>()).max(0.0)
     }
 }
 
@@ -197,6 +280,12 @@ impl Moments {
     fn with(self, other: Self) -> Self {
         let squares = [0, 1].map(|i| self.squares[i] + other.squares[i]);
         Self { product: self.product + other.product, squares }
+    }
+
+    /// What a part adds to the correlation of the whole, to the first order.
+    fn part_of(self, whole: Self) -> f64 {
+        let squares = [0, 1].map(|i| self.squares[i] / whole.squares[i]);
+        whole.correlation() * (self.product / whole.product - 0.5 * (squares[0] + squares[1]))
     }
 
     fn correlation(self) -> f64 {

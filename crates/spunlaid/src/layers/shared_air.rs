@@ -9,7 +9,7 @@ use crate::error::{Error, Fault, Place as ErrorPlace, Problem};
 use crate::fibre::Place;
 use crate::lanes::Isa;
 use crate::units::Dimension;
-use crate::web::{Canvas, Fibres, LaidWeb, SharedAirFindings, inlets};
+use crate::web::{Canvas, Curves, Fibres, LaidWeb, OneAir, SharedAirFindings, Sheet, inlets};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use std::path::Path;
@@ -18,6 +18,12 @@ use std::sync::atomic::AtomicU64;
 
 /// Smallest lateral cut-off that is worth to be written.
 const FEWEST_WAVES: f64 = 5.0;
+
+/// Width of filaments beside each other of which those beside them hardly know, in parts of the distance after which the air repeats itself at
+/// least, which is ten length scales.
+const APART: f64 = 0.5;
+/// Length of fed fibre after which gusts are forgotten, in ways from inlet to belt.
+const MEMORY: f64 = 2.0;
 
 /// The filaments of a layer before they fly.
 struct LayerBeam<'a> {
@@ -29,6 +35,16 @@ struct LayerBeam<'a> {
 impl LayerBeam<'_> {
     fn beam(&self) -> Beam<'_> {
         Beam { case: &self.case, places: &self.places, airs: Airs::Shared }
+    }
+
+    /// How far some of its filaments hang together.
+    fn one_air(&self, filaments: impl Iterator<Item = usize>, sheet: &Sheet) -> OneAir {
+        let case = &self.case;
+        let groups = (sheet.width / (APART * case.extent_of_air().z)).floor().max(1.0);
+        let group =
+            |filament: usize| (self.places[filament].z / sheet.width * groups).clamp(0.0, groups - 1.0);
+        let way = case.line.map_or(0.0, |line| line.distance);
+        OneAir { groups: filaments.map(|filament| group(filament) as usize).collect(), memory: MEMORY * way }
     }
 }
 
@@ -61,8 +77,11 @@ impl Flyer<'_> {
             });
             let mut flown = flown?;
             shared_air.add(number, flown.take_shared_air());
+            let one_air = layer.one_air(flown.kept.iter().map(|(filament, _)| *filament), &spec.sheet);
             let curves = flown.kept.into_iter().map(|(_, points)| points).collect();
-            let flown = Arc::new(FlownFibres::gather(layer.path, &layer.case, curves)?);
+            let gathered = FlownFibres::gather(layer.path, &layer.case, curves)?;
+            let curves = Curves::clone(&gathered.curves).in_one_air(one_air);
+            let flown = Arc::new(FlownFibres { curves: Arc::new(curves), ..gathered });
             // In machine direction the sheet is not closed.
             spec.check_spreads([0.0, flown.numbers[1].mean])?;
             layers

@@ -125,6 +125,12 @@ pub const OF_PATCHES: &[PatchMeasure] = &[
         ..PatchMeasure::NUMBER
     },
     PatchMeasure {
+        name: "cv_degrees",
+        is_of_map: true,
+        number: |patch| patch.map.degrees(),
+        ..PatchMeasure::NUMBER
+    },
+    PatchMeasure {
         name: "cv_flight_error",
         is_of_map: true,
         number: |patch| patch.whole_error().flight,
@@ -169,7 +175,7 @@ pub const OF_PATCHES: &[PatchMeasure] = &[
     },
     PatchMeasure {
         name: "cv_independent",
-        number: |patch| Some(patch.independent?.0),
+        number: |patch| Some(patch.independent?.cv),
         column: Some(PatchColumn {
             place: 2,
             heads: ["CV of the same filaments in airs of their own", "airs of their own"],
@@ -192,13 +198,28 @@ pub const OF_PATCHES: &[PatchMeasure] = &[
     },
     PatchMeasure {
         name: "cv_independent_standard_error",
-        number: |patch| Some(patch.independent?.1),
+        number: |patch| Some(patch.independent?.standard_error),
         study: Some(Measure {
             label: "Error of the CV in airs of their own, # mm",
             meaning: "standard error of the coefficient of variation of the same filaments in airs of their own",
             ..share("cv_#_mm_independent_error")
         }),
         study_place: 9,
+        ..PatchMeasure::NUMBER
+    },
+    PatchMeasure {
+        name: "cv_independent_degrees",
+        number: |patch| Some(patch.independent?.degrees),
+        ..PatchMeasure::NUMBER
+    },
+    PatchMeasure {
+        name: "cv_independent_low",
+        number: |patch| Some(patch.independent?.interval()?[0]),
+        ..PatchMeasure::NUMBER
+    },
+    PatchMeasure {
+        name: "cv_independent_high",
+        number: |patch| Some(patch.independent?.interval()?[1]),
         ..PatchMeasure::NUMBER
     },
     PatchMeasure {

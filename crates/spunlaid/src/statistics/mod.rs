@@ -41,9 +41,15 @@ impl Estimate {
 /// Source: E. B. Wilson, M. M. Hilferty, PNAS 17 (1931) 684–688, for the quantiles of χ²; F. E. Satterthwaite, Biometrics 2 (1946) 110–114, for
 /// the degrees of freedom of a sum.
 pub fn interval_of_deviation(deviation: f64, standard_error: f64) -> [f64; 2] {
+    interval_of_deviation_by(NORMAL_95, deviation, standard_error)
+}
+
+/// [`interval_of_deviation`] with another half width of the central 95 % than the normal one, as that of Student's t where the standard error
+/// is itself uncertain.
+pub(crate) fn interval_of_deviation_by(half: f64, deviation: f64, standard_error: f64) -> [f64; 2] {
     let degrees = 0.5 * (deviation / standard_error).powi(2);
     let part = 2.0 / (9.0 * degrees);
-    [NORMAL_95, -NORMAL_95].map(|z| {
+    [half, -half].map(|z| {
         let quantile = (1.0 - part + z * part.sqrt()).max(0.0).powi(3);
         if degrees.is_nan() { deviation } else { deviation / quantile.sqrt() }
     })

@@ -259,6 +259,17 @@ impl Dimension {
         self.pretty_to(value, 4)
     }
 
+    /// The value for people who write it in a file: as [`Dimension::pretty`], with as many digits as it takes to be read back within a
+    /// rounding, `1.6 dtex`.
+    pub fn written(self, value: f64) -> String {
+        /// Of the value: what two roundings make.
+        const ROUNDING: f64 = 4.0 * f64::EPSILON;
+        let texts = (4..=17).map(|digits| self.pretty_to(value, digits));
+        let is_same =
+            |text: &String| self.parse(text).is_ok_and(|read| (read - value).abs() <= ROUNDING * value.abs());
+        texts.into_iter().find(is_same).unwrap_or_else(|| self.exact(value))
+    }
+
     /// [`Dimension::pretty`] with a given number of digits, 1 to 17.
     pub fn pretty_to(self, value: f64, digits: usize) -> String {
         let decimals = digits.saturating_sub(1).min(16);

@@ -87,6 +87,10 @@ const MASS_FLOW: &[Unit] = &[
     also("g/s", "g/s", Ten(-3)),
     also("kg/h", "kg/h", Over(3600.0)),
     unit("g/min", "g/min", Over(60_000.0)),
+    // Of a hole, in the words of a line.
+    also("g/min/hole", "g/min/hole", Over(60_000.0)),
+    also("g/hole/min", "g/hole/min", Over(60_000.0)),
+    also("ghm", "ghm", Over(60_000.0)),
 ];
 const FORCE: &[Unit] = &[
     unit("N", "N", Ten(0)),

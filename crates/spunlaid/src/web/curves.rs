@@ -16,6 +16,17 @@ pub struct Curves {
     curves: Vec<Vec<[f64; 2]>>,
     /// Of each point the length of fibre that is fed while it flies, less the mean of its curve [m]; empty if it is not known.
     delays: Vec<Vec<f64>>,
+    /// How far they hang together, if they were flown in one air.
+    one_air: Option<OneAir>,
+}
+
+/// How far curves that were flown in one air hang together.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct OneAir {
+    /// Number of the group of neighbours of each curve. Groups are so wide that one hardly knows of another.
+    pub(crate) groups: Vec<usize>,
+    /// Length of fed fibre after which gusts are forgotten [m].
+    pub(crate) memory: f64,
 }
 
 impl Curves {
@@ -48,7 +59,7 @@ impl Curves {
                 *point = [point[0] - middle[0], point[1] - middle[1]];
             }
         }
-        Ok(Self { spacing, belt_ratio, curves, delays: Vec::new() })
+        Ok(Self { spacing, belt_ratio, curves, delays: Vec::new(), one_air: None })
     }
 
     /// The same curves with the times of their touch-downs, which [`Curves::on_belt`] needs.
@@ -69,6 +80,15 @@ impl Curves {
         }
         self.delays = delays;
         Ok(self)
+    }
+
+    /// The same curves, known to hang together.
+    pub(crate) fn in_one_air(self, one_air: OneAir) -> Self {
+        Self { one_air: Some(one_air), ..self }
+    }
+
+    pub(super) const fn one_air(&self) -> Option<&OneAir> {
+        self.one_air.as_ref()
     }
 
     /// The curves that the same flights leave on a belt of another speed: each point comes down at the same time and place, and the
@@ -100,7 +120,12 @@ impl Curves {
 
     /// Each curve for itself.
     pub(super) fn single(&self) -> impl Iterator<Item = Self> + '_ {
-        self.curves.iter().map(|curve| Self { curves: vec![curve.clone()], delays: Vec::new(), ..*self })
+        self.curves.iter().map(|curve| Self {
+            curves: vec![curve.clone()],
+            delays: Vec::new(),
+            one_air: None,
+            ..*self
+        })
     }
 
     /// Fed length of the shortest curve [m].

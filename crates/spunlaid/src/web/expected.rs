@@ -55,6 +55,8 @@ pub(super) fn across(web: &Web) -> SheetPosition {
 pub(super) struct PatchExpectation {
     /// CV and its standard error.
     pub(super) cv: (f64, f64),
+    /// Degrees of freedom of that error.
+    pub(super) degrees: f64,
     /// CV of straight fibres of the same mass.
     pub(super) straight_fibres: f64,
     /// Of each layer, what each of its single fibres says of its part of CV².
@@ -174,7 +176,7 @@ pub(super) fn expected(
         let weights: Vec<(Vec<f64>, f64)> = layers.iter().zip(&found).enumerate().map(across_layer).collect();
         let whole = weights.iter().map(|(_, mean)| mean).sum::<f64>();
         // Variances of independent layers add up, and so do what their places do at each column.
-        let (mut square, mut error, mut straight) = (0.0, 0.0, 0.0);
+        let (mut square, mut error, mut shares, mut straight) = (0.0, 0.0, 0.0, 0.0);
         let (mut sums, mut parts) = (vec![0.0; count], Vec::new());
         for ((layer, found), (across, weight)) in layers.iter().zip(&found).zip(&weights) {
             let share = weight / whole;
@@ -182,7 +184,10 @@ pub(super) fn expected(
             let by_chance = found[i].estimate(&layer.filaments);
             square += scale * by_chance.mean;
             parts.push(by_chance.values.iter().map(|value| scale * value).collect());
-            error += (scale * by_chance.standard_error.unwrap_or(f64::NAN)).powi(2);
+            let of_layer = found[i].error(&layer.filaments);
+            let variance = (scale * of_layer.standard_error).powi(2);
+            error += variance;
+            shares += variance * variance / of_layer.degrees;
             let patch = sides[i] as f64 * sheet.cell;
             straight += (share * straight_fibres(weight / layer.linear_density, patch)).powi(2);
             sums.iter_mut().zip(across).for_each(|(sum, value)| *sum += value / whole);
@@ -190,6 +195,7 @@ pub(super) fn expected(
         square += sums.iter().map(|value| (value - 1.0).powi(2)).sum::<f64>() / count as f64;
         PatchExpectation {
             cv: (square.sqrt(), error.sqrt() / (2.0 * square.sqrt())),
+            degrees: error * error / shares,
             straight_fibres: straight.sqrt(),
             parts,
         }

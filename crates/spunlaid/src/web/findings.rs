@@ -13,6 +13,7 @@ use super::uniformity::{Unevenness, unevenness_at};
 use super::waves::Places;
 use super::{Fibres, Layer, Web};
 use crate::error::{Error, Fault};
+use crate::statistics::student_t_95_at;
 use crate::threads::try_each;
 use crate::units::Dimension;
 use std::borrow::Cow;
@@ -64,10 +65,36 @@ pub struct PatchFindings {
     pub straight_fibres: f64,
     /// What the same filaments would give in airs of their own, with its standard error: [`PatchFindings::single_fibres`] where they were flown in one air; None if they
     /// are independent as they are.
-    pub independent: Option<(f64, f64)>,
+    pub independent: Option<IndependentCv>,
     /// What is expected of filaments in one air from those in airs of their own and from the correlations of pairs; it checks the map. None if the
     /// filaments are independent or if pairs do not tell it.
     pub pairs: Option<f64>,
+}
+
+/// The CV that the filaments of a web in one air would give in airs of their own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IndependentCv {
+    /// The CV.
+    pub cv: f64,
+    /// Its standard error; NaN if the web is too small to know it.
+    pub standard_error: f64,
+    /// Degrees of freedom of the error: the filaments hang in one air and tell less than as many independent ones.
+    pub degrees: f64,
+}
+
+impl IndependentCv {
+    /// The 95 % confidence interval by Student's t, of the logarithm, because the error is a share of the CV; none if the error is not known.
+    pub fn interval(&self) -> Option<[f64; 2]> {
+        let half = student_t_95_at(self.degrees) * self.standard_error / self.cv;
+        half.is_finite().then(|| [-half, half].map(|log| self.cv * libm::exp(log)))
+    }
+}
+
+impl PatchFindings {
+    /// The 95 % confidence interval of the CV of all such webs; none if the sheet is too small to say.
+    pub fn interval(&self) -> Option<[f64; 2]> {
+        if self.independent.is_some() { self.map.interval_of_few() } else { self.map.interval() }
+    }
 }
 
 /// Fibres that are laid alone for each sensitivity.
@@ -171,7 +198,9 @@ pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Res
         let flown = the_one(|fibres| matches!(fibres, Fibres::Curves(_)), i);
         let surrogate = the_one(|fibres| matches!(fibres, Fibres::Surrogate(_)), i);
         let (single_fibres, straight_fibres) = (alone[i].cv, alone[i].straight_fibres);
-        let independent = is_shared.then_some(single_fibres);
+        let (cv, standard_error) = single_fibres;
+        let independent =
+            is_shared.then_some(IndependentCv { cv, standard_error, degrees: alone[i].degrees });
         let pairs = laid
             .shared_air
             .as_ref()

@@ -2,6 +2,7 @@
 
 use super::lay::lay;
 use super::laying::LayControl;
+use super::shared_error::{Part, SharedError};
 use super::uniformity::boxes;
 use super::{Fibres, Filaments, Layer, Row, Sheet, Web};
 use crate::error::Error;
@@ -38,6 +39,8 @@ pub struct SingleFibres {
     pub profile: Vec<f64>,
     /// Column of the trace.
     pub trace: usize,
+    /// The errors of both where the fibres were flown in one air, of filaments at random and at fixed places.
+    pub(super) in_one_air: Option<[SharedError; 2]>,
 }
 
 /// `CV²·τ` of a web of independent filaments, over patches of some sides.
@@ -78,7 +81,7 @@ pub fn one_fibre(
                     layer,
                     sides,
                     OneFibre { fibres: count, seed, ..sample },
-                    [apart, trace, rows],
+                    ([apart, trace, rows], None),
                     by,
                     &mut found,
                 )?;
@@ -91,20 +94,28 @@ pub fn one_fibre(
                     return Err(super::curves::no_curves().into());
                 }
                 let alone = Layer { fibres: Fibres::Curves(Arc::new(curve)), ..layer.clone() };
-                add(&alone, sides, OneFibre { fibres: 1, ..sample }, [apart, trace, rows], by, &mut found)?;
+                let sample = OneFibre { fibres: 1, ..sample };
+                let memory = curves.one_air().map(|one_air| one_air.memory * layer.belt_ratio());
+                add(&alone, sides, sample, ([apart, trace, rows], memory), by, &mut found)?;
             }
         }
     }
+    let groups = match &layer.fibres {
+        Fibres::Curves(curves) => curves.one_air().map(|one_air| &one_air.groups[..]),
+        Fibres::Surrogate(_) => None,
+    };
     let scales = sides.iter().map(|side| (*side as f64 * sample.cell).powi(2));
-    Ok(found.into_iter().zip(scales).map(|(sums, area)| sums.finish(area, trace)).collect())
+    Ok(found.into_iter().zip(scales).map(|(sums, area)| sums.finish(area, trace, groups)).collect())
 }
 
 /// Lays several fibres at once, `apart` columns from each other on a ring of rows, and adds the sums that they give.
+///
+/// * `memory` – belt after which the air of fibres in one air is forgotten; their sums are kept by stretches of it [m]
 fn add(
     layer: &Layer,
     sides: &[usize],
     sample: OneFibre,
-    [apart, trace, rows]: [usize; 3],
+    ([apart, trace, rows], memory): ([usize; 3], Option<f64>),
     by: LayControl<'_>,
     found: &mut [Sums],
 ) -> Result<(), Error> {
@@ -120,11 +131,15 @@ fn add(
     let length = layer.fed_length(&web.sheet);
     let share = metres / (rows as f64);
     let of_sides = try_each(by.threads, sides.len(), |i| {
-        let mut squares = vec![0.0; sample.fibres as usize];
-        let mut profiles = vec![vec![0.0; apart]; sample.fibres as usize];
-        boxes(&map, sides[i], [map.columns, map.rows], |_, boxes| {
-            let fibres = squares.iter_mut().zip(&mut profiles);
-            for ((squares, profile), cells) in fibres.zip(boxes.chunks_exact(apart)) {
+        // A patch reaches into the next stretch.
+        let least = memory.map_or(rows, |memory| (memory / sample.cell) as usize + sides[i]);
+        let stretches = (rows / least.max(1)).max(1);
+        let none = Stretch { squares: 0.0, profile: vec![0.0; apart] };
+        let mut fibres = vec![vec![none; stretches]; sample.fibres as usize];
+        boxes(&map, sides[i], [map.columns, map.rows], |row, boxes| {
+            let stretch = row * stretches / rows;
+            for (stretches, cells) in fibres.iter_mut().zip(boxes.chunks_exact(apart)) {
+                let Stretch { squares, profile } = &mut stretches[stretch];
                 // Most patches hold nothing.
                 for (mean, quanta) in profile.iter_mut().zip(cells).filter(|(_, quanta)| **quanta > 0) {
                     let quanta = *quanta as f64;
@@ -133,14 +148,15 @@ fn add(
                 }
             }
         });
-        Ok((squares, profiles))
+        Ok(fibres)
     })?;
-    for ((side, sums), (squares, profiles)) in sides.iter().zip(found).zip(of_sides) {
+    for ((side, sums), mut fibres) in sides.iter().zip(found).zip(of_sides) {
         // All places of a patch on the lattice are looked at, of which a lattice of patches has one in `side²`.
         let each = 1.0 / ((*side * *side) as f64 * length);
-        sums.squares.extend(squares.iter().map(|sum| sum * metres * metres * each));
-        sums.profiles.extend(profiles);
-        sums.rows.extend(squares.iter().map(|_| rows as f64 * each));
+        let squares = fibres.iter_mut().flatten().map(|stretch| &mut stretch.squares);
+        squares.for_each(|sum| *sum = *sum * metres * metres * each);
+        sums.rows.extend(fibres.iter().map(|_| rows as f64 * each));
+        sums.fibres.extend(fibres);
     }
     Ok(())
 }
@@ -152,6 +168,17 @@ impl SingleFibres {
             Filaments::AtRandom { .. } => &self.at_random,
             Filaments::Slot { .. } | Filaments::Rows(_) => &self.at_places,
         }
+    }
+
+    /// The standard error of [`SingleFibres::estimate`], and its degrees of freedom.
+    pub(super) fn error(&self, filaments: &Filaments) -> SharedError {
+        let estimate = self.estimate(filaments);
+        let alone = SharedError {
+            standard_error: estimate.standard_error.unwrap_or(f64::NAN),
+            degrees: estimate.values.len() as f64 - 1.0,
+        };
+        let number = usize::from(!matches!(filaments, Filaments::AtRandom { .. }));
+        self.in_one_air.map_or(alone, |of_both| of_both[number])
     }
 
     /// The mean mass in patches across a sheet, by the first column of the patch, for filaments at fixed places, divided by the
@@ -186,35 +213,68 @@ impl SingleFibres {
 /// What single fibres have been found to do, fibre by fibre.
 #[derive(Clone, Debug, Default)]
 struct Sums {
-    /// `Σ m²/L` over a lattice of patches [m].
-    squares: Vec<f64>,
-    /// Mean of m by column [m].
-    profiles: Vec<Vec<f64>>,
+    /// The stretches of each fibre.
+    fibres: Vec<Vec<Stretch>>,
     /// By how much a squared mean of a column counts.
     rows: Vec<f64>,
 }
 
+/// A stretch of the belt on which a fibre lies.
+#[derive(Clone, Debug)]
+struct Stretch {
+    /// `Σ m²/L` over a lattice of patches [m].
+    squares: f64,
+    /// Its part of the mean of m by column [m].
+    profile: Vec<f64>,
+}
+
 impl Sums {
     /// * `area` – of a patch [m²]
-    fn finish(self, area: f64, trace: usize) -> SingleFibres {
-        let fibres = self.profiles.len() as f64;
-        let columns = self.profiles.first().map_or(0, Vec::len);
-        let profile: Vec<f64> = (0..columns)
-            .map(|i| self.profiles.iter().map(|profile| profile[i]).sum::<f64>() / fibres)
+    /// * `groups` – of fibres that were flown in one air
+    fn finish(self, area: f64, trace: usize, groups: Option<&[usize]>) -> SingleFibres {
+        let fibres = self.fibres.len() as f64;
+        let columns = self.fibres.first().map_or(0, |stretches| stretches[0].profile.len());
+        let sum = |stretches: &Vec<Stretch>, i: usize| stretches.iter().map(|of| of.profile[i]).sum::<f64>();
+        let profiles: Vec<Vec<f64>> =
+            (self.fibres.iter()).map(|stretches| (0..columns).map(|i| sum(stretches, i)).collect()).collect();
+        let squares: Vec<f64> = (self.fibres.iter())
+            .map(|stretches| stretches.iter().map(|stretch| stretch.squares).sum())
             .collect();
-        let each = self.squares.iter().zip(&self.profiles).zip(&self.rows);
+        let profile: Vec<f64> =
+            (0..columns).map(|i| profiles.iter().map(|profile| profile[i]).sum::<f64>() / fibres).collect();
+        // The mean of the others, for the square of the own one has its chance in it. One alone has no others.
+        let other =
+            |mean: f64, own: f64| if fibres > 1.0 { (mean * fibres - own) / (fibres - 1.0) } else { own };
+        let each = squares.iter().zip(&profiles).zip(&self.rows);
         let at_places = each.map(|((squares, own), rows)| {
-            // The mean of the others, for the square of the own one has its chance in it. One alone has no others.
-            let other = |(mean, own): (&f64, &f64)| {
-                if fibres > 1.0 { own * (mean * fibres - own) / (fibres - 1.0) } else { own * own }
+            let product = |(mean, own): (&f64, &f64)| own * other(*mean, *own);
+            (squares - rows * profile.iter().zip(own).map(product).sum::<f64>()) / area
+        });
+        let at_places = Estimate::new(at_places.collect());
+        let in_one_air = groups.map(|groups| {
+            // What a stretch adds to the mean, to the first order: at fixed places it also changes the mean of which the square is taken.
+            let parts = |weight: f64| -> Vec<Vec<Part>> {
+                let fibre = |((stretches, own), rows): ((&Vec<Stretch>, &Vec<f64>), &f64)| {
+                    let part = |stretch: &Stretch| {
+                        let product = |((mean, own), part): ((&f64, &f64), &f64)| part * other(*mean, *own);
+                        let squared = profile.iter().zip(own).zip(&stretch.profile).map(product).sum::<f64>();
+                        Part {
+                            value: (stretch.squares - weight * rows * squared) / area,
+                            length: stretch.profile.iter().sum(),
+                        }
+                    };
+                    stretches.iter().map(part).collect()
+                };
+                self.fibres.iter().zip(&profiles).zip(&self.rows).map(fibre).collect()
             };
-            (squares - rows * profile.iter().zip(own).map(other).sum::<f64>()) / area
+            [0.0, 2.0].map(|weight| SharedError::of(&parts(weight), groups))
         });
         SingleFibres {
-            at_places: Estimate::new(at_places.collect()),
-            at_random: Estimate::new(self.squares.iter().map(|squares| squares / area).collect()),
+            at_places,
+            at_random: Estimate::new(squares.iter().map(|squares| squares / area).collect()),
             profile,
             trace,
+            in_one_air,
         }
     }
 }

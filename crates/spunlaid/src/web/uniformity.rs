@@ -2,7 +2,7 @@
 
 use super::map::Map;
 use super::waves::{FEWEST, Parts, Places, Powers};
-use crate::statistics::interval_of_deviation;
+use crate::statistics::{interval_of_deviation, interval_of_deviation_by, student_t_95_at};
 
 /// The unevenness over patches of one size.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,6 +19,18 @@ impl Unevenness {
     /// The 95 % confidence interval of the CV of all such webs; none if the sheet is too small to say.
     pub fn interval(&self) -> Option<[f64; 2]> {
         Some(interval_of_deviation(self.cv, self.standard_error?))
+    }
+
+    /// [`Unevenness::interval`] where the waves that make the CV are few, so that their own powers say only roughly how much they scatter, as in a web whose
+    /// filaments share one air: by Student's t with the degrees of freedom of the CV.
+    pub fn interval_of_few(&self) -> Option<[f64; 2]> {
+        let quantile = student_t_95_at(self.degrees()?);
+        Some(interval_of_deviation_by(quantile, self.cv, self.standard_error?))
+    }
+
+    /// Degrees of freedom of the CV: so many independent patches would tell as much. None if the sheet is too small to say.
+    pub fn degrees(&self) -> Option<f64> {
+        Some(0.5 * (self.cv / self.standard_error?).powi(2))
     }
 }
 

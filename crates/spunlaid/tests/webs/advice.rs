@@ -80,7 +80,8 @@ fn weight(spec: &WebSpec) -> f64 {
 
 /// The settings that are changed, each with its layer.
 fn settings(changes: &[Change]) -> Vec<(Setting, Option<usize>)> {
-    let mut settings: Vec<_> = changes.iter().map(|change| (change.setting, change.layer)).collect();
+    let of = |change: &Change| (change.setting, change.layers.first().copied());
+    let mut settings: Vec<_> = changes.iter().map(of).collect();
     settings.dedup();
     settings
 }
@@ -129,11 +130,118 @@ fn invariant_every_changed_web_has_the_same_basis_weight() {
     }
 }
 
+/// Two equal beams beside a third one.
+const EQUAL_BEAMS: &str = "
+[[layer]]
+name = \"first\"
+[layer.laydown]
+case = \"spunbond.toml\"
+[layer.line]
+filaments_per_metre = 3000
+[[layer]]
+name = \"second\"
+[layer.laydown]
+case = \"spunbond.toml\"
+[layer.line]
+filaments_per_metre = 3000
+[[layer]]
+[layer.laydown]
+case = \"spunbond.toml\"
+[layer.line]
+filaments_per_metre = 1000
+[web]
+width = \"250 mm\"
+length = \"250 mm\"
+";
+
+/// Every kind of advice can be pasted: what it says to set makes the changed web of the file, also beside what was set before.
+#[test]
+fn invariant_what_advice_says_to_set_makes_the_changed_web() {
+    let file = |name: &str| std::fs::read_to_string(Path::new(&cases()).with_file_name(name)).unwrap();
+    let weight: &[(&str, &str)] = &[("line.basis_weight", "15 g/m²")];
+    let in_other_words: &[(&str, &str)] =
+        &[("feed.speed", "45 m/s"), ("belt.speed", "2.7 m/s"), ("fibre.diameter", "17 µm")];
+    let mut kinds = Vec::new();
+    for (text, set) in [
+        (STRAIGHT, &[][..]),
+        (STRAIGHT, weight),
+        (BEAMS, &[]),
+        (EQUAL_BEAMS, &[]),
+        (&file("web.toml"), &[]),
+        (&file("web.toml"), weight),
+        (&file("web.toml"), in_other_words),
+        (&file("web_shared.toml"), &[("air.turbulence_intensity", "12 %")]),
+        (&file("web_shared.toml"), &[("web.method", "shared-air"), ("belt.distance", "0.4 m")]),
+        (&file("whole_line.toml"), &[]),
+    ] {
+        let (_, changes) = read(text, set);
+        assert!(!changes.is_empty(), "{set:?}");
+        for change in changes {
+            let set = Overrides { values: &change.set, word: "--set" };
+            let name = format!("{:?}: {:?}", change.setting, change.set);
+            let pasted =
+                parse_web(text, &cases(), set).unwrap_or_else(|error| panic!("{name}: {error}")).spec;
+            for (found, wanted) in pasted.layers.iter().zip(&change.spec.layers) {
+                let numbers = |of: &spunlaid::input::LayerSpec| {
+                    let distance = of.source.case().map_or(1.0, |case| case.line.unwrap().distance);
+                    let filaments = of.filaments.count(&change.spec.sheet) as f64;
+                    [of.linear_density(), of.feed_speed, of.belt_speed, distance, filaments]
+                };
+                for (found, wanted) in numbers(found).iter().zip(numbers(wanted)) {
+                    assert!((found / wanted - 1.0).abs() < 1e-9, "{name}: {found} {wanted}");
+                }
+                if let (Some(found), Some(wanted)) = (found.source.case(), wanted.source.case()) {
+                    let air = |case: &spunlaid::case::Case| {
+                        let key = |name| spunlaid::case::keys::find(name).unwrap().get(case);
+                        let number = |name| key(name).and_then(|value| value.number());
+                        [
+                            "air.speed_factor",
+                            "air.turbulence_intensity",
+                            "spinline.velocity_factor",
+                            "spinline.die_temperature",
+                        ]
+                        .map(number)
+                    };
+                    assert_eq!(air(found), air(wanted), "{name}");
+                }
+            }
+            kinds.push(change.setting);
+        }
+    }
+    kinds.sort_by_key(|kind| kind.name());
+    kinds.dedup();
+    // All but the places of rows in one air, of which no case is so small.
+    assert_eq!(kinds.len(), 9, "{kinds:?}");
+}
+
+#[test]
+fn equal_beams_are_changed_together() {
+    let (base, changes) = read(EQUAL_BEAMS, &[]);
+    let holes: Vec<&Change> = changes.iter().filter(|change| change.setting == Setting::Holes).collect();
+    let layers: Vec<&[usize]> = holes.iter().map(|change| &change.layers[..]).collect();
+    assert_eq!(layers, [&[1, 2][..], &[1, 2], &[3], &[3]]);
+    let counts = |spec: &WebSpec| -> Vec<u64> {
+        spec.layers.iter().map(|layer| layer.filaments.count(&spec.sheet)).collect()
+    };
+    assert_eq!(counts(&base.spec), [750, 750, 250]);
+    assert_eq!(counts(&holes[0].spec), [600, 600, 250]);
+    assert_eq!(counts(&holes[3].spec), [750, 750, 300]);
+    // Beams that are all equal need no numbers.
+    let two = EQUAL_BEAMS.replace("filaments_per_metre = 1000", "filaments_per_metre = 3000");
+    let (_, changes) = read(&two, &[]);
+    let holes: Vec<&Change> = changes.iter().filter(|change| change.setting == Setting::Holes).collect();
+    assert_eq!((holes.len(), &holes[0].layers[..]), (2, &[][..]));
+    assert_eq!(counts(&holes[1].spec), [900, 900, 900]);
+}
+
 #[test]
 fn a_change_of_one_beam_leaves_the_other_one_as_it_is() {
     let (base, changes) = read(BEAMS, &[]);
     let of = |setting: Setting, layer| {
-        changes.iter().find(|change| (change.setting, change.layer) == (setting, layer)).unwrap()
+        changes
+            .iter()
+            .find(|change| (change.setting, change.layers.first().copied()) == (setting, layer))
+            .unwrap()
     };
     let holes = of(Setting::Holes, Some(2));
     assert_eq!(holes.spec.layers[0].filaments, base.spec.layers[0].filaments);

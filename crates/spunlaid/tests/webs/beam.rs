@@ -132,7 +132,7 @@ fn stat_filaments_in_airs_of_their_own_are_independent() {
     let pitch = sheet.width / 16.0;
     let rows = Filaments::Rows(vec![Row::new(0.5 * pitch, pitch, 16)]);
     for patch in found(&sheet, laid, &flown, rows).patches {
-        let (cv, (independent, error)) = (patch.map.cv, patch.independent.unwrap());
+        let (cv, (independent, error)) = (patch.map.cv, patch.single_fibres);
         let chance = patch.map.standard_error.unwrap().hypot(error);
         assert!(chance < 0.05 * cv, "{chance}");
         assert!((cv - independent).abs() < 3.0 * chance, "{}: {cv} {independent} {chance}", patch.map.patch);
@@ -148,7 +148,7 @@ fn analytic_the_variance_of_filaments_together_over_that_of_independent_ones() {
     let anywhere = Filaments::AtRandom { per_metre: 16.0 / sheet.width };
     let patch = found(&sheet, laid, &flown, anywhere).patches[0];
     // Of lengths m in patches, the map has ⟨m²⟩/⟨m⟩² − 1, and independent filaments anywhere have ⟨m²⟩/⟨m⟩² over their number.
-    let ratio = (patch.map.cv.powi(2) + 1.0) / patch.independent.unwrap().0.powi(2);
+    let ratio = (patch.map.cv.powi(2) + 1.0) / patch.independent.unwrap().cv.powi(2);
     assert!((ratio / 16.0 - 1.0).abs() < 0.05, "{ratio}");
 }
 
@@ -240,7 +240,7 @@ fn stat_a_row_in_one_field_lies_between_one_curve_and_independent_ones() {
         let pitch = sheet.width / places.len() as f64;
         let rows = Filaments::Rows(vec![Row::new(0.5 * pitch, pitch, places.len() as u64)]);
         let patch = found(&sheet, laid, &flown, rows).patches[0];
-        (patch.map.cv, patch.independent.unwrap().0)
+        (patch.map.cv, patch.independent.unwrap().cv)
     };
     let place = Place { y: 0.0, z: 30e-3 };
     let ((one, _), (three, _)) = (unevenness(&[place]), unevenness(&[place; 3]));

@@ -1,10 +1,11 @@
 //! Asks for the numbers of a line that are not given.
 
-use crate::args::{LineNumbers, MOST_BEAMS, MOST_HOLES, polymer, quantity, titre};
+use crate::args::{
+    LineNumbers, MOST_BEAMS, MOST_HOLES, basis_weight, length, polymer, speed, throughput, titre,
+};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::error::Fault;
-use spunlaid::units::Dimension;
 use std::io::BufRead;
 
 /// The numbers with those that were missing, from a person's answers; without one to ask, those that cannot be missing are
@@ -25,16 +26,14 @@ pub(super) fn complete(
             "give them, or call the command in a terminal, where it asks; `spunlaid new --help` has examples";
         return Err(Fault::new(message, remedy).into());
     };
-    let [flow, weight, length, speed] =
-        [Dimension::MassFlow, Dimension::BasisWeight, Dimension::Length, Dimension::Velocity].map(quantity);
     let [holes, beams] = [MOST_HOLES, MOST_BEAMS].map(read_number);
     ask(answers, &mut numbers.polymer, "Polymer: pp, pet, pa6 or pla", "pp", polymer)?;
-    ask(answers, &mut numbers.throughput, "Throughput of a hole", "0.5 g/min", flow)?;
+    ask(answers, &mut numbers.throughput, "Throughput of a hole", "0.5 g/min", throughput)?;
     if numbers.diameter.is_none() {
         ask(answers, &mut numbers.dtex, "Titre of a filament", "2 dtex", titre)?;
     }
-    ask(answers, &mut numbers.basis_weight, "Basis weight of the web", "20 g/m²", weight)?;
-    ask(answers, &mut numbers.width, "Width of the web", "1 m", &length)?;
+    ask(answers, &mut numbers.basis_weight, "Basis weight of the web", "20 g/m²", basis_weight)?;
+    ask(answers, &mut numbers.width, "Width of the web", "1 m", length)?;
     if numbers.holes.is_none() {
         ask(answers, &mut numbers.holes_per_metre, "Holes of a beam per metre of width", "5000", holes)?;
     }
@@ -105,8 +104,9 @@ mod tests {
     #[test]
     fn asks_for_what_is_missing_until_it_can_be_read() {
         let given = LineNumbers { throughput: Some(1e-5), diameter: Some(16e-6), ..LineNumbers::default() };
-        // Polymer, basis weight with two answers that cannot be read, width, holes, beams, air, distance.
-        let mut answers = "pet\ntwenty\n15\n15 gsm\n4.5 m\n\n2\n70 m/s\n\n".as_bytes();
+        // Polymer, basis weight with two answers that cannot be read, width, holes, beams, air, distance. A number without a unit has that of the
+        // question.
+        let mut answers = "PET\ntwenty\n15 dtex\n15\n4.5\n\n2\n70\n500 mm\n".as_bytes();
         let numbers = complete(given, Some(&mut answers)).unwrap_or_default();
         assert_eq!(numbers.polymer.map(spunlaid::spinline::Polymer::name), Some("pet"));
         assert_eq!((numbers.throughput, numbers.diameter, numbers.dtex), (Some(1e-5), Some(16e-6), None));
@@ -115,6 +115,10 @@ mod tests {
             (Some(0.015), Some(4.5), Some(5000))
         );
         assert_eq!((numbers.beams, numbers.air_speed, numbers.distance), (Some(2), Some(70.0), Some(0.5)));
+        assert_eq!(throughput("0.55 g/min/hole"), throughput("0.55"));
+        assert_eq!(throughput("0.55 ghm"), Ok(0.55 / 60_000.0));
+        let melt = polymer("PP, MFR 35 g/10min").unwrap_err();
+        assert!(melt.contains("a melt flow rate changes nothing here"), "{melt}");
         let message = complete(LineNumbers::default(), Some(&mut "pp\n".as_bytes())).unwrap_err().to_string();
         assert!(message.contains("the answers end too early"), "{message}");
     }

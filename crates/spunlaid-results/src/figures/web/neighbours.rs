@@ -33,7 +33,7 @@ pub(super) fn figure(neighbours: &[NeighbourCorrelation]) -> Option<Figure> {
         for ((name, correlation, sign), colour) in DIRECTIONS.into_iter().zip(COLOURS[layer.min(1)]) {
             let name = if last == 0 { name.to_owned() } else { format!("layer {}, {name}", layer + 1) };
             let point = |neighbour: &NeighbourCorrelation| {
-                let Correlation { value, standard_error } = correlation(neighbour);
+                let Correlation { value, standard_error, .. } = correlation(neighbour);
                 (neighbour.distance * MM, value, standard_error)
             };
             let points: Vec<_> = of_layer().map(point).collect();
@@ -49,6 +49,6 @@ pub(super) fn figure(neighbours: &[NeighbourCorrelation]) -> Option<Figure> {
         "Correlation of the places where two filaments of the web come down at equal fed length, over the distance of their inlets in \
          cross direction: one if they come down beside each other all the time, zero if they know nothing of each other. Filaments of one \
          row are compared with those of the same row, those in a slot wherever they hang in its depth. Bars are one standard error, from \
-         the scatter between stretches of the fibre.",
+         the scatter between stretches of the fibre and from the places of the filaments.",
     ))
 }

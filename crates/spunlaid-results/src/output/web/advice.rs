@@ -1,7 +1,9 @@
 //! What would make a web more even, in `summary.json`.
 
+use crate::command::web_command;
 use serde::Serialize;
 use spunlaid::advice::{Advice, Change, ChangedKey, CvChange, Effect};
+use std::collections::BTreeMap;
 
 /// Seconds of an hour.
 pub(crate) const HOUR: f64 = 3600.0;
@@ -18,9 +20,15 @@ pub(super) struct AdviceSummary {
 #[derive(Debug, Serialize)]
 struct ChangeSummary {
     setting: &'static str,
-    /// Number of the layer, from 1; null where all layers change.
+    /// Number of the layer, from 1; null where several or all layers change.
     layer: Option<usize>,
+    /// Numbers of equal layers that change together.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    layers: Vec<usize>,
     keys: Vec<Key>,
+    /// Keys and values with which the file is the changed web, and the command that lays it.
+    set: BTreeMap<String, String>,
+    command: String,
     belt_speed_m_s: f64,
     /// Change as a share of the speed.
     belt_speed_change: f64,
@@ -73,6 +81,11 @@ fn keys(change: &Change) -> Vec<Key> {
     change.keys.iter().map(key).collect()
 }
 
+/// The layer that changes, if it is the only one.
+fn alone(change: &Change) -> Option<usize> {
+    if let [layer] = change.layers[..] { Some(layer) } else { None }
+}
+
 impl AdviceSummary {
     pub(super) fn new(advice: &Advice) -> Self {
         let patch = |cv: &CvChange| Patch {
@@ -83,8 +96,11 @@ impl AdviceSummary {
         };
         let change = |effect: &Effect| ChangeSummary {
             setting: effect.change.setting.name(),
-            layer: effect.change.layer,
+            layer: alone(&effect.change),
+            layers: if alone(&effect.change).is_none() { effect.change.layers.clone() } else { Vec::new() },
             keys: keys(&effect.change),
+            set: effect.change.set.iter().cloned().collect(),
+            command: web_command(&effect.change),
             belt_speed_m_s: effect.belt_speed[1],
             belt_speed_change: effect.belt_speed[1] / effect.belt_speed[0] - 1.0,
             throughput_kg_h_m: HOUR * effect.mass_flow[1],
@@ -93,7 +109,7 @@ impl AdviceSummary {
         };
         let failed = |(change, why): &(Change, String)| Failure {
             setting: change.setting.name(),
-            layer: change.layer,
+            layer: alone(change),
             keys: keys(change),
             why: why.clone(),
         };

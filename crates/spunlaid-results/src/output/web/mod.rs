@@ -14,6 +14,7 @@ pub use pieces::{MapFile, Pictures};
 pub use strands::write as write_strands;
 pub use summary::{Layer, Performance, Summary};
 
+use super::copied_files::CASE_FILES;
 use super::origin::ORIGIN;
 use super::spinline::STATIONS;
 
@@ -21,6 +22,8 @@ use super::spinline::STATIONS;
 pub const ENTRIES: &[&str] = &[
     ORIGIN,
     "web.toml",
+    "cases",
+    CASE_FILES,
     "map.npy",
     "map.png",
     "map.parquet",

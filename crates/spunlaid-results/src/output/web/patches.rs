@@ -94,7 +94,7 @@ impl Reader {
             format!("{}{space}mm", significant(patch.map.patch * 1e3, 3)),
             self.cell(Some(plus_minus(100.0 * cv, whole.map(|error| 100.0 * error)))),
             self.cell(error.chance.map(|error| significant(100.0 * error, 2))),
-            self.cell(patch.map.interval().map(ends)),
+            self.cell(patch.interval().map(ends)),
         ]
     }
 }

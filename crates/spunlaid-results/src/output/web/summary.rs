@@ -189,6 +189,9 @@ struct NeighbourSummary<'a> {
     correlation_md_se: Option<f64>,
     correlation_cd: f64,
     correlation_cd_se: Option<f64>,
+    /// 95 % confidence intervals, by Student's t; null if too little was laid.
+    correlation_md_interval: Option<[f64; 2]>,
+    correlation_cd_interval: Option<[f64; 2]>,
 }
 
 impl<'a> NeighboursSummary<'a> {
@@ -201,6 +204,8 @@ impl<'a> NeighboursSummary<'a> {
             correlation_md_se: neighbour.md.standard_error,
             correlation_cd: neighbour.cd.value,
             correlation_cd_se: neighbour.cd.standard_error,
+            correlation_md_interval: neighbour.md.interval(),
+            correlation_cd_interval: neighbour.cd.interval(),
         };
         let neighbours = &findings.laid.shared_air.as_ref()?.neighbours;
         (!neighbours.is_empty()).then(|| Self { cd: neighbours.iter().map(entry).collect() })
@@ -306,7 +311,7 @@ impl<'a> Summary<'a> {
         notes: &'a [String],
     ) -> Self {
         let patches = findings.patches.iter().map(|patch| {
-            let interval = patch.map.interval().ok_or_else(|| "the map is too small".to_owned());
+            let interval = patch.interval().ok_or_else(|| "the map is too small".to_owned());
             let declared = |is_of_map: bool| {
                 let declared = OF_PATCHES.iter().filter(move |measure| measure.is_of_map == is_of_map);
                 declared.map(|measure| (measure.name, (measure.number)(patch)))

@@ -1,5 +1,6 @@
 //! The webs of advice: the same web with one setting of the line changed, on the belt that lays the same weight.
 
+use super::super::web::replaces;
 use super::super::{Overrides, file};
 use super::web::WebBase;
 use super::{Base, VariedKey};
@@ -37,7 +38,7 @@ pub fn parse_changes(text: String, name: &str, set: Overrides<'_>) -> Result<Vec
         // What has been flown lies on the belt of its flight.
         return Ok(Vec::new());
     }
-    Ok(Line { base: &base }.changes())
+    Ok(Line { base: &base, set: set.values }.changes())
 }
 
 /// A number that can be written in a file, of four digits.
@@ -45,14 +46,19 @@ fn rounded(number: f64) -> f64 {
     format!("{number:.3e}").parse().unwrap_or(number)
 }
 
+/// The key of the throughput of a hole.
+const THROUGHPUT: &str = "line.throughput";
+
 /// The throughput of a hole of a layer, with a power of the factor.
 fn throughput(layer: usize, power: f64) -> (String, f64) {
-    (format!("layer.{layer}.line.throughput"), power)
+    (format!("layer.{layer}.{THROUGHPUT}"), power)
 }
 
 /// The line of a web, whose settings change.
 struct Line<'a> {
     base: &'a WebBase,
+    /// What is set beside the file.
+    set: &'a [(String, String)],
 }
 
 /// Keys that change together, each with the power of the factor by which it changes.
@@ -65,24 +71,42 @@ impl Line<'_> {
 
     fn changes(&self) -> Vec<Change> {
         let mut changes = Vec::new();
-        let layers = self.spec().layers.len();
-        let numbered = |layer: usize| (layers > 1).then_some(layer);
-        for layer in 1..=layers {
-            changes.extend(self.change(
-                Setting::Throughput,
-                numbered(layer),
-                &[vec![throughput(layer, 1.0)]],
-            ));
-            changes.extend(self.change(Setting::Holes, numbered(layer), &[self.holes(layer)]));
+        let groups = self.equal_layers();
+        // Nobody has to say which layers where all are changed.
+        let numbers = |group: &Vec<usize>| if groups.len() > 1 { group.clone() } else { Vec::new() };
+        let of_each = |group: &Vec<usize>, keys: &dyn Fn(usize) -> KeyPowers| -> KeyPowers {
+            group.iter().flat_map(|layer| keys(*layer)).collect()
+        };
+        for group in &groups {
+            let throughputs = of_each(group, &|layer| vec![throughput(layer, 1.0)]);
+            changes.extend(self.change(Setting::Throughput, &numbers(group), &[throughputs]));
+            let holes = of_each(group, &|layer| self.holes(layer));
+            changes.extend(self.change(Setting::Holes, &numbers(group), &[holes]));
         }
-        for layer in (1..=layers).filter(|layer| self.spec().layers[layer - 1].source.case().is_none()) {
-            let way = vec![(format!("layer.{layer}.fibre.linear_density"), 1.0), throughput(layer, 0.0)];
-            changes.extend(self.change(Setting::Titre, numbered(layer), &[way]));
+        for group in groups.iter().filter(|group| self.spec().layers[group[0] - 1].source.case().is_none()) {
+            let titres = of_each(group, &|layer| {
+                vec![(format!("layer.{layer}.fibre.linear_density"), 1.0), throughput(layer, 0.0)]
+            });
+            changes.extend(self.change(Setting::Titre, &numbers(group), &[titres]));
         }
         for (setting, ways) in self.settings_of_all_layers() {
-            changes.extend(self.change(setting, None, &ways));
+            changes.extend(self.change(setting, &[], &ways));
         }
         changes
+    }
+
+    /// The numbers of the layers, from 1, equal ones together: they differ in nothing but their names.
+    fn equal_layers(&self) -> Vec<Vec<usize>> {
+        let layers = &self.spec().layers;
+        let unnamed = |number: usize| LayerSpec { name: None, ..layers[number - 1].clone() };
+        let mut groups: Vec<Vec<usize>> = Vec::new();
+        for number in 1..=layers.len() {
+            match groups.iter_mut().find(|group| unnamed(group[0]) == unnamed(number)) {
+                Some(group) => group.push(number),
+                None => groups.push(vec![number]),
+            }
+        }
+        groups
     }
 
     /// The settings that all layers share, each with the ways to change it, the best first.
@@ -187,7 +211,7 @@ impl Line<'_> {
     }
 
     /// The webs with less and with more of a setting, in the first of some ways in which both can be made; none if there is no such way.
-    fn change(&self, setting: Setting, layer: Option<usize>, ways: &[KeyPowers]) -> Vec<Change> {
+    fn change(&self, setting: Setting, layers: &[usize], ways: &[KeyPowers]) -> Vec<Change> {
         let of_way = |way: &KeyPowers| -> Option<Vec<Change>> {
             let known: Vec<(VariedKey, f64, f64)> = (way.iter())
                 .map(|(name, power)| {
@@ -197,7 +221,7 @@ impl Line<'_> {
                 })
                 .collect::<Option<_>>()?;
             let some: Vec<Change> =
-                (0..FACTORS.len()).filter_map(|i| self.changed(setting, layer, &known, i)).collect();
+                (0..FACTORS.len()).filter_map(|i| self.changed(setting, layers, &known, i)).collect();
             (!some.is_empty() && !known.is_empty()).then_some(some)
         };
         ways.iter().find_map(of_way).unwrap_or_default()
@@ -207,7 +231,7 @@ impl Line<'_> {
     fn changed(
         &self,
         setting: Setting,
-        layer: Option<usize>,
+        layers: &[usize],
         known: &[(VariedKey, f64, f64)],
         which: usize,
     ) -> Option<Change> {
@@ -227,21 +251,47 @@ impl Line<'_> {
             (key.clone(), to)
         };
         let values: Vec<(VariedKey, f64)> = known.iter().map(to).collect();
-        let mut spec = self.base.file(&values, None).ok()?.spec;
+        let mut spec = self.base.changed(&values).ok()?.spec;
         let belt = spec.belt_speed_for(self.weight());
         let slowest = spec.layers.iter().map(|layer| layer.feed_speed).fold(f64::INFINITY, f64::min);
         if belt.is_nan() || belt > slowest {
             return None;
         }
         spec.set_belt_speed(belt).ok()?;
-        let is_alone = self.spec().layers.len() == 1;
         let changed = |((key, from, _), (_, to)): (&(VariedKey, f64, f64), &(VariedKey, f64))| {
-            let name = key.name.strip_prefix("layer.1.").filter(|_| is_alone).unwrap_or(&key.name);
             let (dimension, whole) = (key.dimension(), key.is_whole());
-            (from != to).then(|| ChangedKey { key: name.to_owned(), dimension, whole, from: *from, to: *to })
+            let key = self.base.short_name(&key.name).to_owned();
+            (from != to).then(|| ChangedKey { key, dimension, whole, from: *from, to: *to })
         };
         let keys: Vec<ChangedKey> = known.iter().zip(&values).filter_map(changed).collect();
-        (!keys.is_empty()).then_some(Change { setting, layer, keys, spec })
+        let (layers, file) = (layers.to_vec(), self.base.path().to_owned());
+        let set = self.settings_of(&values);
+        (!keys.is_empty()).then_some(Change { setting, layers, keys, file, set, spec })
+    }
+
+    /// The keys and values that make a changed web of the file: what was set before, unless it is replaced, the values, and what else has to be held.
+    fn settings_of(&self, values: &[(VariedKey, f64)]) -> Vec<(String, String)> {
+        let spec = self.spec();
+        // What the file says itself holds.
+        let is_held = |key: &VariedKey| {
+            let layer = key.name.strip_prefix("layer.").and_then(|rest| rest.split_once('.'));
+            let layer = layer.filter(|(_, name)| *name == THROUGHPUT);
+            let layer = layer.and_then(|(number, _)| spec.layers.get(number.parse::<usize>().ok()? - 1));
+            layer.is_some_and(|layer| layer.throughput.is_some_and(|held| held == self.base.value(key)))
+        };
+        let is_new = |(key, value): &&(VariedKey, f64)| !(is_held(key) && *value == self.base.value(key));
+        let text = |(key, value): &(VariedKey, f64)| {
+            let name = self.base.short_name(&key.name).to_owned();
+            (name, if key.is_whole() { format!("{value:.0}") } else { key.dimension().written(*value) })
+        };
+        let mut new: Vec<(String, String)> = values.iter().filter(is_new).map(text).collect();
+        if spec.basis_weight.is_none() {
+            let weight = self.base.short_name("layer.1.line.basis_weight").to_owned();
+            new.push((weight, Dimension::BasisWeight.written(self.weight())));
+        }
+        let is_replaced = |(set, _): &&(String, String)| new.iter().any(|(key, _)| replaces(key, set.trim()));
+        let before = self.set.iter().filter(|set| !is_replaced(set)).cloned();
+        before.chain(new.iter().cloned()).collect()
     }
 
     /// Mass per area of the web [kg/m²].

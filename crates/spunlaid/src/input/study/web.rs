@@ -1,90 +1,69 @@
 //! The web that a study varies, with the cases that it flies.
 
-use super::super::web::{WebFile, parse_web_of_case, write_web};
-use super::super::{Overrides, document};
+use super::super::Overrides;
+use super::super::web::{AllSides, Sides, WebFile, flies_none, is_of_case, parse_sides, replaces, write_web};
 use super::fixed_keys::TAKE_A_NUMBER;
 use super::plan::Plan;
-use super::reader::not_varied;
 use super::{Base, ExperimentWithNotes, VariedKey, level};
 use crate::case::Case;
 use crate::case::keys::{self, Value};
-use crate::error::{Error, Place, Problem, nearest_word};
+use crate::error::{Error, Place, nearest_word};
 use crate::layers::full_names::{full_name, value, web_key, without_numbers};
-use crate::layers::keys::WEB;
 use crate::layers::{LaydownSource, LayerSpec, SAME, WEB_KEYS, WebSpec};
 use crate::study::{Experiment, Point, Quantity, Study};
-
-/// Why a key of a case has no meaning for a web.
-const FLIES_NONE: &str = "it is a key of a case, and this web flies none; write laydown.case in its file";
 
 /// The web of a study before its keys vary.
 pub(super) struct WebBase {
     text: String,
     /// The path of its file.
     path: String,
-    /// What is the same at all points, and the word for it in messages: of the study file, and asked for from outside.
-    set: [(Sides, String); 2],
+    /// What is the same at all points: of the study file, and asked for from outside.
+    set: Vec<Sides>,
     /// Whether it flies a case.
     flies: bool,
+    /// Whether its file has a list of layers.
+    is_layered: bool,
     spec: WebSpec,
-}
-
-/// Keys and values of a web, and those of its cases.
-#[derive(Clone, Default)]
-struct Sides {
-    of_web: Vec<(String, String)>,
-    of_case: Vec<(String, String)>,
-}
-
-impl Sides {
-    fn new(all: impl IntoIterator<Item = (String, String)>, flies: bool) -> Self {
-        let (of_case, of_web) = all.into_iter().partition(|(key, _)| is_of_case(key.trim(), flies));
-        Self { of_web, of_case }
-    }
-}
-
-/// Whether a key is one of the cases. Both have some: where a case is flown, it says them.
-fn is_of_case(name: &str, flies: bool) -> bool {
-    keys::find(name).is_some() && (flies || WEB.find(name).is_none())
 }
 
 impl WebBase {
     /// * `path` – of the file
     /// * `set` – keys that are the same at all points: those of the study file, and those that replace them
     pub(super) fn new(text: String, path: String, set: [Overrides<'_>; 2]) -> Result<Self, Error> {
-        let of_web = set.map(|set| Sides::new(set.values.to_vec(), false).of_web);
-        let of_web = [0, 1].map(|i| Overrides { values: &of_web[i], word: set[i].word });
-        let key_values = document::read(&WEB, &text, &path, &of_web)?;
-        let flies = key_values.all().any(|(full, _)| full.ends_with("laydown.case"));
-        let set = set.map(|Overrides { values, word }| (Sides::new(values.to_vec(), flies), word.to_owned()));
-        let no_case = |(sides, word): &(Sides, String)| -> Vec<Problem> {
-            let problem = |(key, value): &(String, String)| Problem {
-                place: Place::Override(word.clone()),
-                key: key.clone(),
-                value: Some(value.clone()),
-                what: not_varied(FLIES_NONE),
-            };
-            sides.of_case.iter().filter(|_| !flies).map(problem).collect()
-        };
-        let problems: Vec<Problem> = set.iter().flat_map(no_case).collect();
-        if !problems.is_empty() {
-            return Err(problems.into());
-        }
-        let WebFile { spec, .. } = parse(&text, &path, &set, &Sides::default())?;
-        Ok(Self { text, path, set, flies, spec })
+        let AllSides { sides: set, flies, is_layered } = Sides::split(&text, &path, &set)?;
+        let WebFile { spec, .. } = parse_sides(&text, &path, &set, &[])?;
+        Ok(Self { text, path, set, flies, is_layered, spec })
     }
 
     /// The web with these values of keys, and with a seed of its own if there is one.
     pub(super) fn file(&self, values: &[(VariedKey, f64)], seed: Option<u64>) -> Result<WebFile, Error> {
         let value = |(key, value): &(VariedKey, f64)| (key.name.clone(), key.exact(*value));
         let seed = seed.map(|seed| ("web.seed".to_owned(), seed.to_string()));
-        let point = Sides::new(values.iter().map(value).chain(seed), self.flies);
-        parse(&self.text, &self.path, &self.set, &point)
+        let point = Sides::new(values.iter().map(value).chain(seed), "point", self.flies);
+        parse_sides(&self.text, &self.path, &[&self.set[..], &[point]].concat(), &[])
+    }
+
+    /// [`WebBase::file`] with values that take the place of what is set in other words.
+    pub(super) fn changed(&self, values: &[(VariedKey, f64)]) -> Result<WebFile, Error> {
+        let point = |key: &str| values.iter().any(|(value, _)| replaces(&value.name, key.trim()));
+        let set = self.set.iter().map(|sides| sides.without(point)).collect();
+        let (text, path) = (self.text.clone(), self.path.clone());
+        Self { text, path, set, spec: self.spec.clone(), ..*self }.file(values, None)
     }
 
     /// The web before its keys vary.
     pub(super) const fn spec(&self) -> &WebSpec {
         &self.spec
+    }
+
+    /// The path of its file.
+    pub(super) fn path(&self) -> &str {
+        &self.path
+    }
+
+    /// The name of a key in its file, which has no number of a layer where the file has no list of them.
+    pub(super) fn short_name<'n>(&self, full: &'n str) -> &'n str {
+        full.strip_prefix("layer.1.").filter(|_| !self.is_layered).unwrap_or(full)
     }
 
     /// The number of a key of the cases, if all that are flown have the same.
@@ -117,20 +96,11 @@ fn value_in_case(case: &Case, name: &str) -> Option<Value> {
     }
 }
 
-/// Reads a web with these values.
-fn parse(text: &str, path: &str, set: &[(Sides, String); 2], point: &Sides) -> Result<WebFile, Error> {
-    let [file, outside] = set;
-    let all = [(&file.0, &*file.1), (&outside.0, &*outside.1), (point, "point")];
-    let of_web = all.map(|(sides, word)| Overrides { values: &sides.of_web, word });
-    let of_case = all.map(|(sides, word)| Overrides { values: &sides.of_case, word });
-    parse_web_of_case(text, path, &of_web, &of_case, &[])
-}
-
 impl Base for WebBase {
     fn varied(&self, name: &str) -> Result<VariedKey, String> {
         if let Some(key) = keys::find(name).filter(|_| is_of_case(name, self.flies)) {
             return match (self.flies, key.varies) {
-                (false, _) => Err(FLIES_NONE.to_owned()),
+                (false, _) => Err(flies_none()),
                 (true, false) => {
                     Err("the flights of all points have the same; write it under [set]".to_owned())
                 }
@@ -183,7 +153,7 @@ impl Base for WebBase {
 
     fn keys_to_write(&self, set: Vec<(String, String)>) -> Vec<(String, String)> {
         // What is set is in the web already, but for its case.
-        Sides::new(set, self.flies).of_case
+        Sides::new(set, "", self.flies).of_case
     }
 
     fn text(&self) -> String {

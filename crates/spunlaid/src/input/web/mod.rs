@@ -4,9 +4,11 @@ mod check;
 mod laydown;
 mod read;
 mod sheet;
+mod sides;
 mod speeds;
 mod write;
 
+pub(super) use sides::{AllSides, Sides, flies_none, is_of_case, replaces};
 pub use write::write_web;
 
 use super::{Overrides, document, file};
@@ -30,7 +32,8 @@ pub struct WebFile {
 /// Reads and checks the file of a web, and the cases that it names.
 ///
 /// * `overrides` – keys and values that replace values of the file or add to them, `("line.belt_speed", "6 m/s")`; of a
-///   file with `[[layer]]`, `layer.2.line.belt_speed` or the layer's name in place of its number
+///   file with `[[layer]]`, `layer.2.line.belt_speed` or the layer's name in place of its number. Keys of a case,
+///   `("belt.distance", "0.4 m")`, are those of all cases that the web flies; they also say what both have, as `fibre.density`
 ///
 /// # Errors
 /// If the file cannot be read, or if the web cannot be laid; then with every problem found.
@@ -44,7 +47,8 @@ pub fn read_web<'a>(path: &Path, overrides: impl Into<Overrides<'a>>) -> Result<
 /// # Errors
 /// As [`read_web`].
 pub fn parse_web<'a>(text: &str, name: &str, overrides: impl Into<Overrides<'a>>) -> Result<WebFile, Error> {
-    parse_web_of_case(text, name, &[overrides.into()], &[], &[])
+    let all = Sides::split(text, name, &[overrides.into()])?;
+    parse_sides(text, name, &all.sides, &[])
 }
 
 /// [`parse_web`] with the texts of the cases that it names, each with its path. They need not be files.
@@ -52,19 +56,20 @@ pub fn parse_web<'a>(text: &str, name: &str, overrides: impl Into<Overrides<'a>>
 /// # Errors
 /// As [`read_web`].
 pub fn parse_web_and_cases(text: &str, name: &str, cases: &[(PathBuf, String)]) -> Result<WebFile, Error> {
-    parse_web_of_case(text, name, &[], &[], cases)
+    parse_sides(text, name, &[], cases)
 }
 
-/// [`parse_web`], with changes to the cases that it flies.
-pub(super) fn parse_web_of_case(
+/// [`parse_web`] with what is set from several places, each of which replaces those before it.
+pub(super) fn parse_sides(
     text: &str,
     name: &str,
-    overrides: &[Overrides<'_>],
-    of_case: &[Overrides<'_>],
+    sides: &[Sides],
     cases: &[(PathBuf, String)],
 ) -> Result<WebFile, Error> {
-    let key_values = document::read(&WEB, text, name, overrides)?;
-    let (spec, notes) = read::spec(key_values, name, (of_case, cases))?;
+    let of_web: Vec<Overrides<'_>> = sides.iter().map(Sides::web).collect();
+    let of_case: Vec<Overrides<'_>> = sides.iter().map(Sides::case).collect();
+    let key_values = document::read(&WEB, text, name, &of_web)?;
+    let (spec, notes) = read::spec(key_values, name, (&of_case, cases))?;
     let text = write_web(&spec);
     Ok(WebFile { spec, notes, text })
 }
