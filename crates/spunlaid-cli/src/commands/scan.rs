@@ -17,7 +17,12 @@ use std::time::Instant;
 pub(super) fn is_picture(file: &Path) -> bool {
     let extension = file.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     // Pictures that cannot be used are refused with the reason.
-    matches!(extension.as_str(), "png" | "tif" | "tiff" | "npy" | "jpg" | "jpeg" | "gif" | "bmp" | "pdf")
+    const READ: [&str; 6] = ["png", "tif", "tiff", "btf", "tf8", "npy"];
+    const REFUSED: [&str; 15] = [
+        "jpg", "jpeg", "jpe", "gif", "bmp", "dib", "pdf", "webp", "heic", "heif", "avif", "jp2", "j2k",
+        "jpf", "jxl",
+    ];
+    READ.iter().chain(&REFUSED).any(|known| *known == extension)
 }
 
 pub(super) fn scan(arguments: &Analyse, invocation: &Invocation) -> Result<(), Failure> {

@@ -37,7 +37,8 @@ impl ForeignParts {
         let (pixel, area) = (picture.pixel, picture.pixel * picture.pixel);
         let ([left, top], [columns, rows]) = (found.web.corner, found.web.sides);
         let masked = &found.dark;
-        let level = |at: usize| picture.values[at] / lamp.map_or(1.0, |lamp| lamp.values[at]);
+        let lamp_level = |at: usize| lamp.map_or(1.0, |lamp| lamp.scale_to(picture) * lamp.values[at]);
+        let level = |at: usize| picture.values[at] / lamp_level(at);
         let bare = (0..found.bare.len()).filter(|at| found.bare[*at]).map(level);
         let mut visited = vec![false; masked.len()];
         let mut spots = Vec::new();

@@ -49,6 +49,11 @@ pub(super) struct Rectangle {
 }
 
 impl Picture {
+    /// What turns its levels into those of another picture, whose file may hold levels of another depth.
+    pub(super) fn scale_to(&self, other: &Self) -> f64 {
+        other.full_scale.zip(self.full_scale).map_or(1.0, |(other, own)| other / own)
+    }
+
     /// Whether its values are grey levels of the light that came through, as far as the file states it; otherwise they are basis
     /// weights.
     pub const fn holds_light(&self) -> bool {

@@ -167,7 +167,8 @@ fn logs(picture: &Picture, lamp: Option<&Picture>) -> Result<Vec<f64>, Fault> {
             )
             .option("--lamp"));
         }
-        logs.iter_mut().zip(&lamp.values).for_each(|(light, lamp)| *light -= log(lamp));
+        let scale = lamp.scale_to(picture);
+        logs.iter_mut().zip(&lamp.values).for_each(|(light, lamp)| *light -= log(&(scale * lamp)));
     }
     Ok(logs)
 }
@@ -180,6 +181,16 @@ fn transmitted(
     masked: &[bool],
 ) -> Result<WeighedPicture, Fault> {
     above_zero("a level of the lamp", white)?;
+    if let (Some(white), Some(largest)) = (white, picture.full_scale)
+        && white > largest
+    {
+        let [white, largest] = [white, largest].map(shortest);
+        return Err(Fault::new(
+            format!("holds grey levels up to {largest}, but the lamp without web is said to have the level {white}"),
+            format!("give the level of the lamp in this file, at most {largest}"),
+        )
+        .option("--white"));
+    }
     let levels = || picture.values.iter().copied().filter(|level| level.is_finite());
     let white = white.or(picture.full_scale).unwrap_or_else(|| levels().fold(0.0, f64::max));
     // Over a picture of the lamp, all light is one.

@@ -325,3 +325,64 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn pictures_of_other_formats_are_refused_by_name() {
+    for (start, name) in [
+        (&b"RIFF\x10\0\0\0WEBPVP8 "[..], "WebP"),
+        (b"\0\0\0\x18ftypheic\0\0\0\0", "HEIC"),
+        (b"\0\0\0\x0cjP  \r\n\x87\n", "JPEG 2000"),
+        (b"\xff\x0a\0\0", "JPEG XL"),
+        (b"GIF89a", "GIF"),
+        (b"BM\x36\0", "BMP"),
+        (b"\xff\xd8\xff\xe0", "JPEG"),
+    ] {
+        let said = parse(start, "a", 1e-3).unwrap_err().to_string();
+        assert!(said.contains(name) && said.contains("PNG or TIFF"), "{said}");
+    }
+}
+
+#[test]
+fn a_lamp_lighter_than_the_file_can_hold_is_refused() {
+    let file = tiff8(SIDE, &levels(|x| x));
+    let said =
+        refused(&file, |settings| settings.light = Light::Transmitted { mean: None, white: Some(300.0) });
+    assert!(said.contains("255") && said.contains("300"), "{said}");
+}
+
+#[test]
+fn a_picture_of_the_lamp_may_be_of_another_depth() {
+    let light = Light::Transmitted { mean: None, white: None };
+    let picture = parsed(&tiff8(SIDE, &levels(|x| x)));
+    let found = |lamp: &[u8]| {
+        let settings = Settings { lamp: Some(parsed(lamp)), keep_spots: true, ..Settings::new(light) };
+        let settings = Settings { patches: vec![2e-3], ..settings };
+        analyse(&picture, &settings).unwrap().patches[0].unevenness.cv
+    };
+    let of_8_bits = found(&tiff8(SIDE, &levels(|_| 220)));
+    let of_16_bits = found(&tiff16(SIDE, &levels(|_| 220 * 257)));
+    assert!((of_16_bits / of_8_bits - 1.0).abs() < 1e-12, "{of_16_bits} for {of_8_bits}");
+}
+
+/// A TIFF whose tag of one 16-bit number is changed.
+fn with_tag(tag: u16, value: u16) -> Vec<u8> {
+    let mut file = tiff8(SIDE, &levels(|x| x));
+    // Tag, the type of 16-bit numbers, one of them.
+    let entry = [tag.to_le_bytes(), [3, 0], [1, 0], [0, 0]].concat();
+    let at = file.windows(entry.len()).position(|bytes| bytes == entry).unwrap() + entry.len();
+    file[at..at + 2].copy_from_slice(&value.to_le_bytes());
+    file
+}
+
+#[test]
+fn whole_tiffs_that_are_not_read_tell_why() {
+    for (tag, value, name) in [
+        (259, 50_000, "Zstandard compression"),
+        (259, 34_925, "LZMA compression"),
+        (259, 12_345, "the compression of number 12345"),
+        (262, 3, "colours from a palette"),
+    ] {
+        let said = parse(&with_tag(tag, value), "a", 1e-3).unwrap_err().to_string();
+        assert!(said.contains(name) && said.contains("save the scan"), "{said}");
+    }
+}

@@ -135,22 +135,32 @@ fn is_length(side: f64) -> bool {
 
 /// The format, by how a file begins.
 fn format(bytes: &[u8]) -> Result<Format, Fault> {
-    const OTHERS: [(&[u8], &str); 7] = [
+    const OTHERS: [(&[u8], &str); 11] = [
         (b"\xff\xd8\xff", "a JPEG picture, which loses the fine structure"),
         (b"GIF8", "a GIF picture"),
         (b"BM", "a BMP picture"),
-        (b"RIFF", "a RIFF file (WebP?)"),
+        (b"RIFF", "a WebP picture"),
+        (b"\0\0\0\x0cjP  ", "a JPEG 2000 picture"),
+        (b"\xff\x4f\xff\x51", "a JPEG 2000 picture"),
+        (b"\0\0\0\x0cJXL ", "a JPEG XL picture"),
+        (b"\xff\x0a", "a JPEG XL picture"),
         (b"%PDF", "a PDF document"),
         (b"PAR1", "a Parquet table"),
         (b"PK", "a ZIP archive (an Excel table, .npz?)"),
     ];
+    // HEIC and AVIF tell their kind after the length of their first box.
+    let brand = bytes.get(4..8) == Some(b"ftyp");
+    let other = |bytes: &[u8]| match OTHERS.iter().find(|(start, _)| bytes.starts_with(start)) {
+        Some((_, found)) => Some(*found),
+        None => brand.then_some("a HEIC or AVIF picture, or a film"),
+    };
     if bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
         Ok(Format::Png)
     } else if [&b"II*\0"[..], b"MM\0*", b"II+\0", b"MM\0+"].iter().any(|start| bytes.starts_with(start)) {
         Ok(Format::Tiff)
     } else if bytes.starts_with(b"\x93NUMPY") {
         Ok(Format::Npy)
-    } else if let Some((_, found)) = OTHERS.iter().find(|(start, _)| bytes.starts_with(start)) {
+    } else if let Some(found) = other(bytes) {
         Err(Fault::new(
             format!("is {found}"),
             "save the scan as PNG or TIFF in shades of grey, or the map as NumPy array (.npy) or CSV",
