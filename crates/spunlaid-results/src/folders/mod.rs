@@ -4,6 +4,7 @@
 //! air        slices of the turbulent air as VTK and moving pictures, report, summary
 //! spinline   a solved spinline: the thread, figures, report, summary
 //! fit        the journal of a fit, and what is made from it
+//! kept       flights of a run that outlive the process that flies them
 //! journalled a folder with a journal, which fit and study share: begun, continued, replaced
 //! run        flies a case: tables while it flies, then figures, shapes, report, summary
 //! study      the folder of a study: its journal, and what is made from it
@@ -15,6 +16,7 @@ pub mod air;
 mod declared;
 pub mod fit;
 mod journalled;
+mod kept;
 mod measured_web;
 pub mod run;
 pub mod spinline;
