@@ -7,7 +7,8 @@ use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::NormalLaw;
 use spunlaid::ensemble::{
-    FinerCheck, FinerPlans, Keep, Refinement, RunControl, Trajectory, fly_and_check, fly_together,
+    FinerCheck, FinerPlans, Keep, Refinement, RunControl, Trajectory, Unchecked, fly_for_checks,
+    fly_together, nothing_kept,
 };
 use spunlaid::error::Error;
 use spunlaid::flight::Job;
@@ -24,19 +25,20 @@ fn checked_by(
     threads: usize,
     isa: Isa,
     stop: bool,
-) -> Result<(Vec<Trajectory>, Result<FinerCheck, String>), Error> {
+) -> Result<(Vec<Trajectory>, Result<FinerCheck, Unchecked>), Error> {
     let (stop, fibre_steps) = (AtomicBool::new(stop), AtomicU64::new(0));
     let computing = RunControl { threads, isa, stop: &stop, fibre_steps: &fibre_steps, recorder: None };
-    let none = || Err("it was not asked for".to_owned());
+    let none = || Err(Unchecked::NotAsked);
     let plans = match (refined, FinerPlans::for_case(case)) {
         (Refinement::TimeStep, FinerPlans { step, .. }) => FinerPlans { step, mesh: none() },
         (Refinement::Elements, FinerPlans { mesh, .. }) => FinerPlans { step: none(), mesh },
     };
     let mut flown = Vec::new();
-    let checks = fly_and_check(case, &plans, Keep::SAMPLES, computing, |trajectory| {
+    let paths = fly_for_checks(case, &plans, Keep::SAMPLES, computing, nothing_kept, |trajectory| {
         flown.push(trajectory.expect("no fibre is lost"));
         Ok::<(), Error>(())
     })?;
+    let checks = plans.check(&paths, computing);
     assert_eq!(fibre_steps.into_inner(), case.run.steps * case.run.replicates + plans.fibre_steps());
     Ok((flown, if refined == Refinement::TimeStep { checks.step } else { checks.mesh }))
 }

@@ -179,8 +179,7 @@ fn error_of_mesh(case: &Case) -> Vec<String> {
             significant(100.0 * plan.share_of_run, 2)
         ),
         Err(why) => format!(
-            "  a run does not find its error, because {why}; to find it, fly the case again with --set \
-             fibre.element_length=\"{half}\""
+            "  a run does not check it: {why}; or fly the case again with --set fibre.element_length=\"{half}\""
         ),
     }];
     if case.line.is_none() && case.air.rms() > 0.0 {
