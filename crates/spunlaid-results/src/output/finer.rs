@@ -2,6 +2,7 @@
 
 use super::doubt::{FINE_ENOUGH, SURE, counted, unchecked};
 use crate::numbers::{plus_minus, significant};
+use spunlaid::air::EddyModel;
 use spunlaid::case::Case;
 use spunlaid::ensemble::{Change, FinerCheck, FinerChecks, Refinement, Results};
 use spunlaid::statistics::Estimate;
@@ -96,7 +97,7 @@ impl FinerWords {
         let with = compared_with(check, case);
         let (what, advice) = match check.refined {
             Refinement::TimeStep => ("time step", step_advice(check, results)),
-            Refinement::Elements => ("mesh", mesh_advice(check)),
+            Refinement::Elements => ("mesh", mesh_advice(check) + papers_mesh(case)),
         };
         let meaning = match check.error_over_change() {
             Some(1.0) => {
@@ -171,6 +172,17 @@ fn scatter(measures: &[&str], results: &Results) -> Option<f64> {
         estimate.standard_error.map(|error| error / estimate.mean).filter(|share| share.is_finite())
     };
     measures.iter().filter_map(relative).reduce(f64::min)
+}
+
+/// What is said of a mesh like that of the paper, in which each element is as long as an eddy.
+fn papers_mesh(case: &Case) -> &'static str {
+    let is_papers = case.air.eddies == EddyModel::Independent
+        && (case.fibre.rest_length() / case.air.length_scale - 1.0).abs() < 0.01;
+    if is_papers {
+        ". Elements as long as an eddy are the mesh of the paper (theory.md), so its figures have this error too"
+    } else {
+        ""
+    }
 }
 
 /// Which elements to take.
