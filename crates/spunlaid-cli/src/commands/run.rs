@@ -6,7 +6,7 @@ use crate::args::{Invocation, Output, Run};
 use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::case::Note;
-use spunlaid::ensemble::{FinerChecks, FinerPlans, RunControl, Unchecked};
+use spunlaid::ensemble::{FinerPlans, RunControl};
 use spunlaid_results::folders::run::{self as files, Drawn};
 use spunlaid_results::output::folder::{ENTRIES, Published, Staging};
 use spunlaid_results::output::{finer, table};
@@ -70,7 +70,7 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     notes.extend(coarse.clone());
     let before = match flown.paths {
         Some(_) => plans.before_flight(),
-        None => FinerChecks::none(Unchecked::Stopped),
+        None => plans.stopped(),
     };
     let first = files::Run { name: &name, case: &case, results, checks: &before, notes: &notes, performance };
     let published = staging.map(|staging| publish(&first, staging, computing)).transpose()?;

@@ -138,3 +138,58 @@ pub fn sentences(checks: &FinerChecks, case: &Case) -> String {
     }
     text
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::figures::sample;
+    use spunlaid::chain::schemes::Scheme;
+    use spunlaid::ensemble::Statistic;
+
+    fn checks(mean: f64, standard_error: f64, duration: f64) -> FinerChecks {
+        let statistic = Statistic::all().find(|statistic| statistic.name == "spread").unwrap();
+        let estimate = Estimate { mean, standard_error: Some(standard_error), values: vec![mean; 8] };
+        let step = FinerCheck {
+            refined: Refinement::TimeStep,
+            scheme: Scheme::Leapfrog,
+            time_step: 1e-6,
+            element_length: 2e-3,
+            is_fed: true,
+            is_resolved: true,
+            duration,
+            replicates: 8,
+            share_of_run: 0.1,
+            path: None,
+            changes: vec![Change { statistic, estimate }],
+        };
+        FinerChecks { step: Ok(step), mesh: Err(Unchecked::Dear { times: 12.0 }) }
+    }
+
+    #[test]
+    fn what_is_beyond_its_limit_is_in_error_headline_and_notes() {
+        let case = sample::fed_case(100, 2);
+        let run = case.run.duration();
+        let width = || Estimate { mean: 2.778, standard_error: Some(0.026), values: Vec::new() };
+        let error = |checks: &FinerChecks| {
+            with_error_of_checks(width(), "sigma_md", checks, &case).standard_error.unwrap()
+        };
+        // The run has 0.34 of the true spread, which is 2.778/0.34.
+        let whole = checks(-0.66, 0.02, run);
+        assert!((error(&whole) - (2.778 / 0.34 - 2.778)).abs() < 1e-3, "{}", error(&whole));
+        assert!(
+            sentences(&whole, &case).starts_with(" The error contains what the check of the time step found")
+        );
+        assert!(notes(&whole, &case)[0].contains("spread differs by −66"), "{:?}", notes(&whole, &case));
+        assert!(notes(&whole, &case)[1].starts_with("mesh: not checked: it would take 12 times"));
+        // A part of a fed fibre's run is told as one.
+        let part = checks(1.17, 0.05, 0.1 * run);
+        assert_eq!(error(&part), 0.026);
+        assert!(sentences(&part, &case).starts_with(" The error above does not contain"));
+        assert!(notes(&part, &case)[0].contains("in the first "));
+        // What chance alone may be is within the limit.
+        let within = checks(-0.05, 0.02, run);
+        assert_eq!((error(&within), notes(&within, &case).len()), (0.026, 1));
+        assert_eq!(sentences(&within, &case), " The mesh is not checked.");
+    }
+}

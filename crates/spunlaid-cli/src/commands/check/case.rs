@@ -48,6 +48,7 @@ pub(super) fn case(check: &Check) -> Result<(), Failure> {
         expected.memory_bytes / f64::from(1 << 20),
         size(expected.disk_bytes)
     ));
+    comments.extend(idle_threads(&case, Threads::default().number() as u64));
     show("case", &write_case(&case), &comments, "run", &check.source);
     Ok(())
 }
@@ -257,6 +258,17 @@ fn limits(case: &Case) -> Vec<String> {
         ));
     }
     lines
+}
+
+/// More replicates that take no longer: a flight takes eight, in one thread, and costs the same with fewer.
+fn idle_threads(case: &Case, threads: u64) -> Option<String> {
+    let each = if case.neighbours.is_empty() { WIDTH as u64 } else { 1 };
+    let full = each * threads;
+    (case.run.replicates < full && case.flights() < threads).then(|| {
+        format!(
+            "  run.replicates = {full} take as long: a thread flies {each} at a time, and {threads} are free"
+        )
+    })
 }
 
 /// What a run is expected to need.

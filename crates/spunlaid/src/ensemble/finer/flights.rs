@@ -50,6 +50,11 @@ impl FinerPlans {
         })
     }
 
+    /// What is known if the checks are not flown because the run was stopped.
+    pub fn stopped(&self) -> FinerChecks {
+        self.and_then(|_| Err(Unchecked::Stopped))
+    }
+
     /// What is known before the checks are flown.
     pub fn before_flight(&self) -> FinerChecks {
         self.and_then(|_| Err(Unchecked::Pending))
