@@ -36,11 +36,13 @@
 //! ```
 
 mod analysis;
+mod clock;
 mod columns;
 mod compute;
 mod correlation;
 mod doubts;
 mod flat;
+mod grid;
 mod interval;
 mod jackknife;
 mod limits;
