@@ -38,12 +38,14 @@
 mod cells;
 mod head;
 mod lines;
+mod logical;
 mod parquet;
 mod stamp;
 mod start;
 mod thousands;
 
 pub use head::{Head, scale};
+pub(crate) use logical::{Meaning, durations};
 pub(crate) use parquet::{NumberColumn, PageGuard};
 pub(crate) use stamp::{FORMS, Stamp};
 
