@@ -73,7 +73,7 @@ impl Grid {
     /// rounding would have it.
     fn is_interval(self, known: &[(usize, f64)]) -> bool {
         let rows: Vec<f64> = self.skips(known).map(|(row, ..)| row as f64).collect();
-        if (rows.len() as f64) > (1.0 - PLAIN) * (known.len() - 1) as f64 {
+        if (rows.len() as f64) > ((1.0 - PLAIN) * (known.len() - 1) as f64).max(2.0) {
             return false;
         }
         let runs: Vec<f64> = rows.windows(2).map(|rows| rows[1] - rows[0]).collect();

@@ -180,18 +180,28 @@ impl<R: Read> Table<R> {
         // Separators may end a row, and a remark behind its numbers may be left out with its separator.
         let extra = self.cells.get(wanted..);
         let fits = match extra {
+            _ if self.begins_block() => false,
             Some(extra) => extra.iter().all(Range::is_empty),
             None => found + 1 == wanted && self.heads.last().is_some_and(Head::is_remark),
         };
         if fits { Ok(true) } else { Err(self.wrong_count(found, wanted)) }
     }
 
-    /// The error of a row with too few or too many cells.
+    /// Whether this is the head of a further block in a file of LabVIEW.
+    fn begins_block(&self) -> bool {
+        matches!(self.text(0), "Channels" | "***End_of_Header***")
+    }
+
+    /// The error of a row with too few or too many cells, or of none.
     fn wrong_count(&self, found: usize, wanted: usize) -> FileError {
-        let remedy = match self.cells.first().map(|cell| &self.row.text[cell.clone()]) {
-            Some("Channels" | "***End_of_Header***") => "another block of data begins here; cut the file",
-            _ if found < wanted => "is the file cut off here?",
-            _ => "are both decimals and cells separated by commas?",
+        if self.begins_block() {
+            let fault = Fault::new("another block of data begins here", "cut the file into its blocks");
+            return FileError::from(fault).at(self.place());
+        }
+        let remedy = if found < wanted {
+            "is the file cut off here?"
+        } else {
+            "are both decimals and cells separated by commas?"
         };
         let fault = Fault::new(format!("this row has {found} cells and needs {wanted}"), remedy);
         FileError::from(fault).at(self.place())

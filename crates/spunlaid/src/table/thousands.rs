@@ -43,10 +43,10 @@ pub(super) fn refusal(cell: &str) -> Fault {
 /// What the numbers of a column have been so far.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Digits {
-    /// The first that may be written with a sign between thousands: `1.002`.
-    parted: Option<(String, Position)>,
-    /// The first below a thousand that has no sign: `998`.
-    small: Option<String>,
+    /// The smallest that may be written with a sign between thousands, as decimals are read: `1.002`.
+    parted: Option<(f64, String, Position)>,
+    /// The largest below a thousand that has no sign: `998`.
+    small: Option<(f64, String)>,
     /// One cannot be written so: `0.998`, `1.02`, `1002`.
     decimals: bool,
 }
@@ -61,24 +61,29 @@ impl Digits {
         let comma = if parting == Parting::Sign(b',') { '.' } else { ',' };
         match digits.split_once(['.', comma]) {
             None if matches!(digits.len(), 1..=3) && digits.bytes().all(|byte| byte.is_ascii_digit()) => {
-                // A zero stands in columns of any kind.
-                if self.small.is_none() && digits.bytes().any(|byte| byte != b'0') {
-                    self.small = Some(cell.to_owned());
+                let value: f64 = digits.parse().unwrap_or(0.0);
+                if self.small.as_ref().is_none_or(|(largest, _)| value > *largest) {
+                    self.small = Some((value, cell.to_owned()));
                 }
             }
             Some((whole, decimals)) if is_parted(whole, decimals) => {
-                if self.parted.is_none() {
-                    self.parted = Some((cell.to_owned(), place()));
+                let value: f64 = format!("{whole}.{decimals}").parse().unwrap_or(f64::INFINITY);
+                if self.parted.as_ref().is_none_or(|(smallest, ..)| value < *smallest) {
+                    self.parted = Some((value, cell.to_owned(), place()));
                 }
             }
             _ => self.decimals = digits.bytes().any(|byte| byte.is_ascii_digit()),
         }
     }
 
-    /// The fault of a column in which `998` stands beside `1.002`, and no number with other decimals; with its place.
+    /// The fault of a column in which `998` stands beside `1.002` and no number has other decimals, with its place. Beside
+    /// `5` the same number has decimals: it is nearer to five as one than as a thousand.
     pub(super) fn doubt(&self) -> Option<(Fault, Position)> {
-        let (parted, place) = self.parted.as_ref()?;
-        let small = self.small.as_ref().filter(|_| !self.decimals)?;
+        let (value, parted, place) = self.parted.as_ref()?;
+        let (largest, small) = self.small.as_ref()?;
+        if self.decimals || largest * largest < 1000.0 * value * value {
+            return None;
+        }
         let whole = parted.replace(['.', ','], "");
         let fault = Fault::new(
             format!(
@@ -132,6 +137,7 @@ mod tests {
             &["1.035", "964.000"],
             &["1", "1.125", "1.25"],
             &["0", "1.250", "2.500"],
+            &["5", "5.001", "5.002"],
             &["998", "1002", "1.125"],
             &["1", "2", "1e3"],
             &["1.035", "nan", ""],
