@@ -1,11 +1,9 @@
 //! Finds the rate of a clock, and the rows that are missing, from the times of the rows.
 
-use super::grid::{Grid, Known};
+use super::grid::{Grid, JITTER, Known};
 use crate::error::Fault;
 use crate::units::{Dimension, shortest};
 
-/// Largest deviation of a time step from the usual one, as a share of it.
-pub(super) const JITTER: f64 = 0.01;
 /// Largest deviation that the rounding of written times may explain, as a share of a step.
 const ROUNDING: f64 = 0.25;
 /// Rounding above this share of a step lets no single step tell whether a sample is missing.

@@ -4,13 +4,14 @@
 //! the number of the sample. Its slope is the interval. A missing sample lifts all later times by an interval, out of the
 //! strip.
 
-use super::clock::JITTER;
 use crate::error::Fault;
 use crate::units::Dimension;
 
 /// Rows whose time is known, with the time [s].
 pub(super) type Known = Vec<(usize, f64)>;
 
+/// Largest deviation of a time step from the usual one, as a share of it.
+pub(super) const JITTER: f64 = 0.01;
 /// Fewest rows that tell a rounded clock.
 const FEWEST: usize = 32;
 /// Grids below this share of the step do not matter.

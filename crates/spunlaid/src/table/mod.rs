@@ -247,7 +247,7 @@ impl<R: Read> Table<R> {
         let number = number(text, self.parting, &mut decimals);
         self.decimals = decimals;
         if let Some(digits) = self.digits.get_mut(column) {
-            digits.look(text, self.parting, || Position::Line(self.row.number));
+            digits.look(text, || Position::Line(self.row.number));
         }
         number.map_err(|fault| self.blame(column, fault))
     }

@@ -1,6 +1,5 @@
 //! Signs between thousands, which look like decimal signs: is `1.002` one or a thousand?
 
-use super::cells::Parting;
 use crate::error::{Fault, Position};
 
 /// Whether a cell is a number whose thousands are parted by signs, in a way that no decimal number is written:
@@ -53,13 +52,12 @@ pub(super) struct Digits {
 
 impl Digits {
     /// Looks at a cell that is a number.
-    pub(super) fn look(&mut self, cell: &str, parting: Parting, place: impl FnOnce() -> Position) {
+    pub(super) fn look(&mut self, cell: &str, place: impl FnOnce() -> Position) {
         if self.decimals {
             return;
         }
         let digits = cell.trim_start_matches(['+', '-']);
-        let comma = if parting == Parting::Sign(b',') { '.' } else { ',' };
-        match digits.split_once(['.', comma]) {
+        match digits.split_once(['.', ',']) {
             None if matches!(digits.len(), 1..=3) && digits.bytes().all(|byte| byte.is_ascii_digit()) => {
                 let value: f64 = digits.parse().unwrap_or(0.0);
                 if self.small.as_ref().is_none_or(|(largest, _)| value > *largest) {
@@ -123,7 +121,7 @@ mod tests {
 
     fn doubted(cells: &[&str]) -> bool {
         let mut digits = Digits::default();
-        cells.iter().for_each(|cell| digits.look(cell, Parting::Sign(b';'), || Position::Line(1)));
+        cells.iter().for_each(|cell| digits.look(cell, || Position::Line(1)));
         digits.doubt().is_some()
     }
 

@@ -70,7 +70,7 @@ fn identical_after_getting_and_setting() {
         ("rate", "2 kHz"),
         ("skip", "2"),
         ("columns", "u,v"),
-        ("time", "1"),
+        ("time", "time_s"),
         ("velocity_unit", "m/s"),
         ("max_gap", "20"),
     ];
