@@ -84,6 +84,8 @@ pub(in crate::ensemble) struct Paths<'a> {
     stride: u64,
     /// Largest number of instants that are kept.
     most: u64,
+    /// Number of replicates whose paths are kept.
+    replicates: u64,
     /// Recorded instants so far and the path, of each of the first replicates, as many as are kept.
     paths: Mutex<Vec<Option<(u64, Path)>>>,
 }
@@ -100,7 +102,7 @@ impl<'a> Paths<'a> {
             }
             _ => (0, 1, 0),
         };
-        Self { passed_on, stride, most, paths: Mutex::new(vec![None; replicates as usize]) }
+        Self { passed_on, stride, most, replicates, paths: Mutex::new(vec![None; replicates as usize]) }
     }
 
     /// Leaves out the path of a fibre that was lost.
@@ -129,7 +131,10 @@ impl Recorder for Paths<'_> {
     }
 
     fn sample(&self, replicate: u64, sample: &Sample) -> Result<(), Error> {
-        if let Some(path) = self.paths().get_mut(replicate as usize) {
+        // The threads of all other fibres need not wait for one another.
+        if replicate < self.replicates
+            && let Some(path) = self.paths().get_mut(replicate as usize)
+        {
             let (instants, path) = path.get_or_insert_default();
             if *instants > 0 && instants.is_multiple_of(self.stride) && *instants / self.stride <= self.most {
                 path.push([sample.end.y, sample.end.z]);
