@@ -25,3 +25,5 @@ mod record_short;
 mod record_statistics;
 mod scan;
 mod scan_files;
+mod scan_maps;
+mod scan_tags;
