@@ -1,7 +1,8 @@
 //! Files of scans: what is read, what is refused and how, and that broken bytes do no harm.
 
 use crate::scans::{
-    npy, npy_f64, png, png_of_resolution, png8, png16, tiff, tiff_f32, tiff_of_resolution, tiff8, tiff16,
+    Page, npy, npy_f64, png, png_of_resolution, png8, png16, tiff, tiff_f32, tiff_of_pages,
+    tiff_of_resolution, tiff8, tiff16,
 };
 use png::Unit;
 use proptest::prelude::*;
@@ -10,7 +11,7 @@ use spunlaid::scan::{Light, Picture, Settings, analyse, parse, read};
 use spunlaid::units::Dimension;
 use std::path::Path;
 use tiff::encoder::colortype::{Gray32, GrayI16, RGB8};
-use tiff::tags::ResolutionUnit;
+use tiff::tags::{ResolutionUnit, Tag};
 
 const SIDE: usize = 24;
 
@@ -337,6 +338,32 @@ fn pictures_of_other_formats_are_refused_by_name() {
     ] {
         let said = parse(start, "a", 1e-3).unwrap_err().to_string();
         assert!(said.contains(name) && said.contains("PNG or TIFF"), "{said}");
+    }
+}
+
+#[test]
+fn messages_name_no_types_of_the_decoders() {
+    let mut png = png8(SIDE, &levels(|x| x));
+    let at = png.windows(4).position(|kind| kind == b"IDAT").unwrap() + 6;
+    png[at] ^= 0xff;
+    let wide = levels(u16::from);
+    let tagged =
+        |tag, value| tiff_of_pages(&[Page { columns: SIDE, levels: &wide, bits: 8, tags: &[(tag, value)] }]);
+    let mut no_strips = tiff8(SIDE, &levels(|x| x));
+    let at = no_strips.windows(2).position(|tag| tag == 273u16.to_le_bytes()).unwrap();
+    no_strips[at..at + 2].copy_from_slice(&272u16.to_le_bytes());
+    for (file, said) in [
+        (png, "its content is damaged"),
+        (no_strips, "cannot be decoded: "),
+        (tagged(Tag::ImageWidth, 0), "cannot be decoded: "),
+        (with_tag(258, 12), "has 12 bits for each level, which cannot be read; save the scan"),
+        (tagged(Tag::Predictor, 9), "has the predictor of number 9, which cannot be read; save the scan"),
+        (with_tag(262, 32_803), "has colours of a kind that is not known (PhotometricInterpretation)"),
+        (with_tag(339, 2), "has signed numbers, which cannot be read; save it"),
+    ] {
+        let error = parse(&file, "a", 1e-3).unwrap_err().to_string();
+        assert!(error.contains(said), "{error}\nwhere wanted: {said}");
+        assert!(!error.contains(['{', '`', '<']) && !error.contains("::"), "{error}");
     }
 }
 

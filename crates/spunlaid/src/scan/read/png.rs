@@ -2,8 +2,8 @@
 
 use super::{MOST_PIXELS, RawPicture, broken, luminance, orientation, within_limits};
 use crate::error::Fault;
-use png::{BitDepth, Decoder, Limits, Transformations, Unit};
-use std::io::Cursor;
+use png::{BitDepth, Decoder, DecodingError, Limits, Transformations, Unit};
+use std::io::{Cursor, ErrorKind};
 
 /// Keyword of the text that tells the basis weight of a black pixel of a map [kg/m²].
 pub const WEIGHT_OF_BLACK: &str = "basis_weight_of_black_kg_m2";
@@ -11,7 +11,6 @@ pub const WEIGHT_OF_BLACK: &str = "basis_weight_of_black_kg_m2";
 pub const CELL: &str = "cell_m";
 
 pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, Fault> {
-    let failed = |error: png::DecodingError| broken(&error);
     // Four channels of two bytes, and as much for decoding.
     let limits = Limits { bytes: 16 * MOST_PIXELS };
     let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), limits);
@@ -60,6 +59,18 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, Fault> {
         more: info.is_animated(),
         orientation: info.exif_metadata.as_deref().map_or(1, orientation::of_exif),
         ..RawPicture::plain(values, columns, rows)
+    })
+}
+
+/// What is wrong with a file, in words. The texts of the decoder name its own types.
+fn failed(error: DecodingError) -> Fault {
+    broken(&match error {
+        DecodingError::IoError(error) if error.kind() == ErrorKind::UnexpectedEof => {
+            "it ends before its last pixel".to_owned()
+        }
+        DecodingError::IoError(error) => error.to_string(),
+        DecodingError::LimitsExceeded => "its parts are too large".to_owned(),
+        DecodingError::Format(_) | DecodingError::Parameter(_) => "its content is damaged".to_owned(),
     })
 }
 
