@@ -2,7 +2,7 @@
 
 use crate::scans::{
     Page, npy, npy_f64, png, png_of_resolution, png8, png16, tiff, tiff_f32, tiff_of_pages,
-    tiff_of_resolution, tiff8, tiff16,
+    tiff_of_resolution, tiff8, tiff16, with_chunk,
 };
 use png::Unit;
 use proptest::prelude::*;
@@ -273,8 +273,21 @@ fn a_pixel_is_as_large_as_the_file_says() {
 }
 
 /// Files of all formats.
-fn files() -> [Vec<u8>; 6] {
+fn files() -> [Vec<u8>; 9] {
+    let wide = levels(u16::from);
+    let page = |tags| Page { columns: SIDE, levels: &wide, bits: 16, tags };
+    let turned = [(Tag::Orientation, 6), (Tag::MaxSampleValue, 255)];
+    // Exif data with an orientation of 6.
+    let exif = b"II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0\x06\0\0\0\0\0\0\0";
     [
+        tiff_of_pages(&[page(&[(Tag::NewSubfileType, 1)]), page(&turned)]),
+        with_chunk(&with_chunk(&png16(SIDE, &wide), b"eXIf", exif), b"sBIT", &[8]),
+        (0..SIDE)
+            .map(|row| {
+                levels(|x| x)[..SIDE].iter().fold(row.to_string(), |line, x| format!("{line},{x}")) + "\n"
+            })
+            .collect::<String>()
+            .into(),
         png8(SIDE, &levels(|x| x)),
         png16(SIDE, &levels(u16::from)),
         tiff16(SIDE, &levels(u16::from)),
@@ -293,7 +306,7 @@ proptest! {
 
     #[test]
     fn broken_bytes_are_read_or_refused(
-        which in 0..6usize,
+        which in 0..9usize,
         at_head in any::<bool>(),
         changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..12),
         cut in prop::option::of(any::<prop::sample::Index>()),
