@@ -26,4 +26,5 @@ mod record_statistics;
 mod scan;
 mod scan_files;
 mod scan_maps;
+mod scan_refusals;
 mod scan_tags;

@@ -66,7 +66,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, Fault> {
 fn failed(error: DecodingError) -> Fault {
     broken(&match error {
         DecodingError::IoError(error) if error.kind() == ErrorKind::UnexpectedEof => {
-            "it ends before its last pixel".to_owned()
+            "it ends too early".to_owned()
         }
         DecodingError::IoError(error) => error.to_string(),
         DecodingError::LimitsExceeded => "its parts are too large".to_owned(),

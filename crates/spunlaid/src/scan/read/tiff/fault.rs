@@ -24,9 +24,7 @@ pub(super) fn failed(error: TiffError) -> Fault {
             broken(&"its compressed data are damaged")
         }
         TiffError::FormatError(error) => broken(&error),
-        TiffError::IoError(error) if error.kind() == ErrorKind::UnexpectedEof => {
-            broken(&"it ends before its last pixel")
-        }
+        TiffError::IoError(error) if error.kind() == ErrorKind::UnexpectedEof => broken(&"it ends too early"),
         TiffError::LimitsExceeded | TiffError::IntSizeError => {
             broken(&"its strips, its tiles or their places are too large")
         }
