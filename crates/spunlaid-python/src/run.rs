@@ -9,22 +9,24 @@ use crate::save::{Figures, save};
 use crate::scale::scale;
 use crate::watched::{Watch, watched};
 use numpy::{PyArray1, PyArrayMethods};
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use spunlaid::case::Note;
 use spunlaid::ensemble::{
     FinerCheck, FinerPlans, Keep, KeepShapes, LaidCurves, LostFibre, Recorder, Results, RunControl,
-    Trajectory, fly_and_check,
+    Trajectory, Unchecked, fly_for_checks, nothing_kept,
 };
 use spunlaid::error::Error;
 use spunlaid::lanes::WIDTH;
 use spunlaid::observe::{MEASURES, Measure};
+use spunlaid::threads::{lock, unlock};
 use spunlaid_results::figures::Scale;
 use spunlaid_results::folders::run::{self as folder, POSITIONS};
 use spunlaid_results::output::folder::ENTRIES;
 use spunlaid_results::output::tables::{TableRecorder, Tables};
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
 /// Number of trajectories that are kept whole, for the report.
@@ -43,18 +45,14 @@ pub(crate) fn fly(
     shapes: bool,
 ) -> PyResult<RunResults> {
     let (description, run) = (Arc::clone(&case.case), case.case.run);
-    let plans = if check_step {
-        FinerPlans::for_case(&description)
-    } else {
-        FinerPlans::none("it was not asked for")
-    };
-    let watch =
-        Watch::new(run.steps.saturating_mul(description.fibres()).saturating_add(plans.fibre_steps()));
+    let plans =
+        if check_step { FinerPlans::for_case(&description) } else { FinerPlans::none(Unchecked::NotAsked) };
+    let watch = Watch::new(run.steps.saturating_mul(description.fibres()));
     let belt = LaidCurves::default();
     let recorder = description.line.is_some().then_some(&belt as &dyn Recorder);
     let computing = RunControl { recorder, ..watch.run_control(threads) };
-    let started = Instant::now();
-    let (results, checks, collected) = watched(py, &watch, progress.as_ref(), || {
+    let (started, checks) = (Instant::now(), Mutex::new(plans.before_flight()));
+    let (results, paths, collected) = watched(py, &watch, progress.as_ref(), || {
         let shapes = if shapes { KeepShapes::within(&description, POSITIONS) } else { KeepShapes::NONE };
         let (mut collector, mut collected) = (Results::collector(KEPT), SampleCollector::default());
         let take = |landed: Result<Trajectory, LostFibre>| {
@@ -75,11 +73,19 @@ pub(crate) fn fly(
             Ok::<(), Error>(())
         };
         let keep = Keep { curves: true, samples, shapes };
-        let checks = fly_and_check(&description, &plans, keep, computing, take)?;
-        Ok((collector.finish(), checks, collected))
+        let paths = fly_for_checks(&description, &plans, keep, computing, nothing_kept, take)?;
+        Ok((collector.finish(), paths, collected))
     })?;
-    let performance =
-        folder::performance(&description, &results, &plans, computing, started.elapsed().as_secs_f64());
+    let performance = folder::performance(&description, &results, computing, started.elapsed().as_secs_f64());
+    watch.begin(plans.fibre_steps());
+    let flown = watched(py, &watch, progress.as_ref().filter(|_| plans.all().next().is_some()), || {
+        *lock(&checks) = plans.check(&paths, RunControl { recorder: None, ..computing });
+        Ok(())
+    });
+    // What was flown is kept: a check that Ctrl-C stops says so in its place.
+    flown
+        .or_else(|ended| if ended.is_instance_of::<PyKeyboardInterrupt>(py) { Ok(()) } else { Err(ended) })?;
+    let checks = unlock(checks);
     let mut notes = Note::notes_of_results(&case.notes);
     notes.extend(folder::lost(&description, &results));
     notes.extend(folder::outside(&results));
@@ -244,7 +250,7 @@ impl RunResults {
                 tables.add(replicate)?;
             }
             tables.finish()?;
-            self.folder().write(staging, watch.run_control(None))
+            self.folder().write(staging, watch.run_control(None)).map(drop)
         })
     }
 

@@ -10,7 +10,7 @@ use pyo3::types::{PyDict, PyList};
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::ensemble::{
     Change, Curve, FinerCheck, FinerChecks, LostFibre, Number, Place, Refinement, Results, Shape, Statistic,
-    Trajectory,
+    Trajectory, Unchecked,
 };
 use spunlaid::flight::LaidPoint;
 use spunlaid::input::{parse_case, write_case};
@@ -33,7 +33,7 @@ pub(crate) fn reduced<'py>(py: Python<'py>, run: &RunResults) -> PyResult<Bound<
     for (name, check) in [("step_check", &run.checks.step), ("mesh_check", &run.checks.mesh)] {
         match check {
             Ok(check) => state.set_item(name, check_state(py, check)?)?,
-            Err(why) => state.set_item(name, why)?,
+            Err(why) => state.set_item(name, why.to_string())?,
         }
     }
     let numbers = PyList::empty(py);
@@ -83,10 +83,10 @@ pub(crate) fn flown_from(py: Python<'_>, state: &Bound<'_, PyDict>) -> PyResult<
     let (wall_s, threads, element_steps, ns_per_element_step) = need("performance")?.extract()?;
     let instruction_set = Isa::detect().name();
     let performance = Performance { wall_s, threads, element_steps, ns_per_element_step, instruction_set };
-    let checked = |name: &str, refined: Refinement| -> PyResult<Result<FinerCheck, String>> {
+    let checked = |name: &str, refined: Refinement| -> PyResult<Result<FinerCheck, Unchecked>> {
         let state = need(name)?;
         match state.extract::<String>() {
-            Ok(why) => Ok(Err(why)),
+            Ok(why) => Ok(Err(Unchecked::Other(why))),
             Err(_) => check_of(&state, refined).map(Ok),
         }
     };

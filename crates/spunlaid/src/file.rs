@@ -2,20 +2,50 @@
 
 use crate::error::{Fault, FileError, FileKind};
 use std::fs::File;
-use std::io::{self, ErrorKind, Read};
+use std::io::{self, ErrorKind, Read, Seek};
 use std::path::Path;
+
+/// Largest file that may be a pointer [bytes].
+const LONGEST_POINTER: u64 = 2048;
 
 /// Opens a file.
 ///
 /// # Errors
-/// When the file does not exist, is a folder or may not be read.
+/// When the file does not exist, is a folder, may not be read, or is a pointer to a file that was not fetched.
 pub(crate) fn open(path: &Path, kind: FileKind) -> Result<File, FileError> {
     let failed = |source| unreadable(&source, path, kind);
-    let file = File::open(path).map_err(failed)?;
-    if file.metadata().map_err(failed)?.is_dir() {
+    let mut file = File::open(path).map_err(failed)?;
+    let about = file.metadata().map_err(failed)?;
+    if about.is_dir() {
         return Err(FileError::from(kind.is_folder()).path(path));
     }
+    // Of a pipe nothing can be read twice.
+    if about.is_file() && about.len() <= LONGEST_POINTER {
+        let mut start = Vec::new();
+        file.by_ref().take(LONGEST_POINTER).read_to_end(&mut start).map_err(failed)?;
+        file.rewind().map_err(failed)?;
+        if let Some((what, remedy)) = pointer(&start) {
+            return Err(FileError::from(Fault::format(what, remedy)).path(path));
+        }
+    }
     Ok(file)
+}
+
+/// What stands in place of a file that was left in another store, and how the file is fetched.
+fn pointer(text: &[u8]) -> Option<(&'static str, &'static str)> {
+    let git_lfs =
+        [&b"version https://git-lfs.github.com/spec/"[..], b"version https://hawser.github.com/spec/"];
+    if git_lfs.iter().any(|start| text.starts_with(start)) {
+        Some((
+            "a Git LFS pointer in place of the file, which was not fetched with the repository",
+            "fetch it with `git lfs pull` in its folder",
+        ))
+    } else if text.starts_with(b"/annex/objects/") {
+        let remedy = "fetch it with `git annex get` in its folder";
+        Some(("a git-annex pointer in place of the file, which was not fetched with the repository", remedy))
+    } else {
+        None
+    }
 }
 
 /// Reads a file of at most `most` bytes into memory.

@@ -244,7 +244,8 @@ The integral time is the integral of the autocorrelation up to
   e-fold               the lag where it falls to 1/e (63 % of the integral of an exponential)
   fixed=\"50 ms\"        a given lag
 
-PNG and TIFF are scans of a web in transmitted light; .npy, a CSV with --pixel (a line for each
+PNG and TIFF are scans of a web in transmitted light, or with --light reflected of light fibres
+on a black ground; .npy, a CSV with --pixel (a line for each
 row) and the map.png of `spunlaid web` are maps of its basis weight. The results folder then
 holds what that of `spunlaid web` holds: report.html, summary.json, map.npy and figures/. PNG
 and TIFF state how large a pixel is by their resolution; check it, or give --pixel.

@@ -28,6 +28,7 @@ use help::{
     NEW_HELP, REPRODUCE_HELP, RUN_HELP, SPIN_HELP, SWEEP_HELP, WEB_HELP,
 };
 use source::key_and_value;
+use spunlaid::case::Checks;
 use spunlaid::units::Dimension;
 use std::path::PathBuf;
 
@@ -107,6 +108,9 @@ pub(crate) struct Run {
     #[arg(long, value_name = "TIME", value_parser = quantity(Dimension::Time),
           conflicts_with_all = ["set", "replicates", "seed"])]
     pub(crate) until: Option<f64>,
+    /// What the checks of step and mesh may cost; replaces run.checks
+    #[arg(long, value_enum)]
+    pub(crate) checks: Option<ChecksName>,
     #[command(flatten)]
     pub(crate) threads: Threads,
     /// Print summary.json instead of the table; without --out or --until, write no files
@@ -248,6 +252,27 @@ pub(crate) enum SchemeName {
     Leapfrog,
     /// Long steps, hundreds of times faster
     ImplicitTension,
+}
+
+/// What checks may cost, by its name in a case file.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+pub(crate) enum ChecksName {
+    /// Together a fifth of the flight
+    Auto,
+    /// Nothing: no check
+    None,
+    /// As much as the whole run takes with a finer step and finer elements
+    Full,
+}
+
+impl ChecksName {
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Auto => Checks::Auto.name(),
+            Self::None => Checks::None.name(),
+            Self::Full => Checks::Full.name(),
+        }
+    }
 }
 
 /// Reads a whole number from `least`.

@@ -54,14 +54,20 @@ pub(super) fn any_summary(folder: &Path) -> Result<Json, Failure> {
 /// Time step and harmonics of the turbulence stay those of the first flight, so that the first part of the longer one
 /// has the same bits.
 ///
+/// * `changes` – to the case
 /// * `until` – the new duration [s]
 ///
 /// # Errors
 /// If the folder does not hold the results of a run, or if the run cannot be continued.
-pub(super) fn continued(run: &Run, until: f64) -> Result<(Case, Vec<String>), Failure> {
+pub(super) fn continued(
+    run: &Run,
+    changes: &[(&'static str, String)],
+    until: f64,
+) -> Result<(Case, Vec<String>), Failure> {
     let folder = &run.source.case;
     let flown_by = summary(folder)?;
-    let (mut case, mut notes) = read_case(&folder.join("case.toml"), &[])?;
+    let changes: Vec<_> = changes.iter().map(|(key, value)| ((*key).to_owned(), value.clone())).collect();
+    let (mut case, mut notes) = read_case(&folder.join("case.toml"), &changes)?;
     let refused = |reason: String, remedy: &'static str| {
         let fault = Fault::new(format!("cannot be continued: {reason}"), remedy);
         Err(Error::folder(folder, fault).into())

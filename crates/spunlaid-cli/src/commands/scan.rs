@@ -79,11 +79,13 @@ fn settings(arguments: &Analyse, picture: &Picture) -> Result<Settings, Failure>
     let usual = if picture.holds_light() { LightName::Transmitted } else { LightName::Weight };
     let light = match options.light.unwrap_or(usual) {
         LightName::Transmitted => Light::Transmitted { mean: options.weight, white: options.white },
+        LightName::Reflected => Light::Reflected { mean: options.weight, white: options.white },
         LightName::Weight => Light::Weight { mean: options.weight },
     };
     let lamp =
         options.lamp.as_ref().map(|lamp| Ok::<_, Failure>(turned(read(lamp, picture.pixel)?, arguments)));
     Ok(Settings {
+        light_is_assumed: options.light.is_none(),
         lamp: lamp.transpose()?,
         keep_shading: options.keep_shading,
         keep_spots: options.keep_spots,

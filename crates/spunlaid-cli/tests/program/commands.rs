@@ -166,7 +166,7 @@ fn check_tells_in_which_air_the_filaments_of_a_web_hang() {
     std::fs::write(desk.path("web.toml"), web).unwrap();
     let uniform = success(&mut desk.spunlaid("check web.toml"));
     for part in [
-        "#   brief.toml: its air is the same everywhere across the flow (air.lateral = \"uniform\")\n",
+        "#   brief.toml: each fibre that is flown has turbulence of its own\n",
         "to fly them in one air, as in a line: --set web.method=shared-air --set line.depth=\"20 mm\"",
         "fed at 50 m/s; 16.7 m of filament on each metre of belt",
     ] {

@@ -5,7 +5,7 @@ use crate::desk::{Desk, ENTRIES, FED, entries, entries_of_fed, entries_without_o
 use std::fs;
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// A run that would take hours, up to where it has begun to fly.
 fn long_run(desk: &Desk, arguments: &str, home: &str) -> Child {
@@ -66,6 +66,56 @@ fn interrupted_old_results_stay() {
     assert_eq!(end(long_run(&desk, "--out r --force", "r"), "INT").status.code(), Some(130));
     assert_eq!(desk.entries("r"), names(&ENTRIES));
     assert!(desk.read("r/summary.json") == before);
+}
+
+/// Ends a run of many flights when some are kept, and compares what the same command then makes with a run in one go.
+#[test]
+fn identical_bytes_from_a_run_that_was_interrupted_or_killed() {
+    let desk = Desk::new();
+    let run = |folder: &str, replicates: u64| {
+        let many = ["run.duration=0.2 s", "run.scheme=leapfrog", "run.checks=none"];
+        let mut command = desk.with(&format!("run brief.toml --threads 1 --out {folder}"), &many);
+        command.args(["--replicates", &replicates.to_string()]);
+        command
+    };
+    // Fibres for some seconds on this machine: none is kept in the first two.
+    let started = Instant::now();
+    success(&mut run("pace", 80));
+    let all = 80 * (6.0 / started.elapsed().as_secs_f64()).ceil() as u64;
+    success(&mut run("whole", all));
+    for (folder, signal, code) in [("stopped", "INT", Some(130)), ("killed", "KILL", None)] {
+        let mut child = run(folder, all).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let kept = desk.path(&format!(".{folder}.flown"));
+        let flown = || entries(&kept).iter().filter(|name| name.parse::<u64>().is_ok()).count();
+        while !kept.exists() || flown() < 8 {
+            assert!(child.try_wait().unwrap().is_none(), "the run has to take some seconds");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        let output = end(child, signal);
+        assert_eq!(output.status.code(), code);
+        if code.is_some() {
+            let summary = desk.summary(folder);
+            let replicates = summary["replicates"].as_u64().unwrap();
+            assert!((8..all).contains(&replicates) && replicates.is_multiple_of(8));
+            let told = format!("{replicates} of {all} replicates");
+            let notes = summary["notes"].as_array().unwrap();
+            assert!(notes.iter().any(|note| note.as_str().unwrap().starts_with(&told)), "{notes:?}");
+        }
+        let again = run(folder, all).output().unwrap();
+        let said = String::from_utf8(again.stderr).unwrap();
+        assert!(again.status.success() && said.contains("going on: "), "{said}");
+        assert!(!kept.exists());
+        for file in ["case.toml", "end_node.parquet", "energy.parquet", "shape.pvd"] {
+            let [one, other] = [folder, "whole"].map(|folder| desk.read(&format!("{folder}/{file}")));
+            assert!(one == other, "{folder}: {file}");
+        }
+        let [one, other] = [folder, "whole"].map(|folder| {
+            let mut summary = desk.summary(folder);
+            summary["performance"] = serde_json::Value::Null;
+            summary
+        });
+        assert!(one == other, "{folder}");
+    }
 }
 
 #[test]

@@ -40,6 +40,7 @@ pub fn case(elements: usize, instants: usize, replicates: u64) -> Case {
             gravity: 9.81,
             damping: 0.0,
             shapes: None,
+            checks: spunlaid::case::Checks::default(),
         },
     }
 }

@@ -16,7 +16,7 @@ use spunlaid::observe::{
     OF_COMPONENTS, OF_PATCHES, OF_RECORDS, OF_SCANNED_PATCHES, OF_SCANS, OF_SPINLINES, OF_WEBS, RecordMeasure,
 };
 use spunlaid::scan::{self, Format, Light, Picture};
-use spunlaid::web::{Findings, LayControl, PatchFindings};
+use spunlaid::web::{Findings, IndependentCv, LayControl, PatchFindings};
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -53,7 +53,10 @@ fn kinds(found: &Findings) -> [Findings; 4] {
         found.clone(),
         with(&|patch| patch.flown = Some((0.08, 0.002))),
         with(&|patch| patch.surrogate = None),
-        with(&|patch| (patch.independent, patch.pairs) = (Some((0.05, 0.001)), Some(0.06))),
+        with(&|patch| {
+            let independent = IndependentCv { cv: 0.05, standard_error: 0.001, degrees: 20.0 };
+            (patch.independent, patch.pairs) = (Some(independent), Some(0.06));
+        }),
     ]
 }
 

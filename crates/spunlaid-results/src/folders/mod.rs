@@ -5,6 +5,7 @@
 //! spinline   a solved spinline: the thread, figures, report, summary
 //! flown_cases the cases of a web, beside its file
 //! fit        the journal of a fit, and what is made from it
+//! kept       flights of a run that outlive the process that flies them
 //! journalled a folder with a journal, which fit and study share: begun, continued, replaced
 //! run        flies a case: tables while it flies, then figures, shapes, report, summary
 //! study      the folder of a study: its journal, and what is made from it
@@ -17,6 +18,7 @@ mod declared;
 pub mod fit;
 mod flown_cases;
 mod journalled;
+mod kept;
 mod measured_web;
 pub mod run;
 pub mod spinline;

@@ -1,22 +1,24 @@
 //! The folder of a run: tables that grow while the fibres fly, and everything that is made of the results.
 
+use super::kept::{Keeper, KeptFlights};
 use crate::Failure;
 use crate::figures::{SPINLINE, run_figures, spinline_figures};
 use crate::numbers::{lost_fibres_text, significant};
-use crate::output::folder::Staging;
+use crate::output::folder::{Published, Staging};
 use crate::output::spinline::{SpinResults, write_stations};
 use crate::output::summary::{Performance, Summary};
 use crate::output::tables::{TableRecorder, Tables};
-use crate::output::{copied_files, paraview};
+use crate::output::{copied_files, doubt, paraview};
 use crate::report::{self, ReportInput};
 use spunlaid::case::Case;
 use spunlaid::ensemble::{
-    FinerChecks, FinerPlans, Keep, KeepShapes, Recorder, Results, RunControl, fly_and_check,
+    FinerChecks, FinerPlans, Keep, KeepShapes, Recorder, Results, RunControl, RunPaths, fly_for_checks,
     turbulence_spectrum,
 };
 use spunlaid::input::write_case;
 use spunlaid::lanes::WIDTH;
 use spunlaid_charts::Figure;
+use std::sync::atomic::Ordering;
 
 /// Number of replicates whose shapes are kept for the report and ParaView.
 const KEPT: usize = WIDTH;
@@ -27,47 +29,99 @@ const LOST_LISTED: usize = 10;
 /// Number of node positions kept for the report and ParaView. Each takes 24 bytes.
 pub const POSITIONS: u64 = 4_000_000;
 
-/// Flies all replicates. If there is a results folder, the tables are written during the flights. A fibre that is lost is in
-/// [`Results::lost`], and in no table.
+/// What was flown of a case.
+#[derive(Debug)]
+pub struct Flown {
+    /// The results of the replicates, the lost ones among them.
+    pub results: Results,
+    /// What the checks compare; `None` if the flights were interrupted.
+    pub paths: Option<RunPaths>,
+    /// Number of replicates, from the first on, that have landed or are lost.
+    pub replicates: u64,
+    /// Flights that are kept until the results are complete.
+    kept: Option<KeptFlights>,
+}
+
+impl Flown {
+    /// Forgets the flights that were kept, when complete results are in their folder.
+    pub fn forget_kept(&mut self) {
+        self.kept.take().into_iter().for_each(KeptFlights::finish);
+    }
+}
+
+/// Flies all replicates. If there is a results folder, the tables are written during the flights, and flights are kept for a
+/// process that goes on where this one is interrupted. A fibre that is lost is in [`Results::lost`], and in no table.
 ///
-/// * `plans` – also compares with a finer time step and finer elements
+/// With a results folder, an interruption ends the flights and is no error if a fibre has landed.
+///
+/// * `found` – told the number of replicates that an interrupted process has left, if there are any
 ///
 /// # Errors
-/// If too few fibres are left ([`fly_and_check`]), a table cannot be written, or the flights are interrupted.
+/// If too few fibres are left ([`fly_for_checks`]), a table cannot be written, or the flights are interrupted.
 pub fn fly(
     case: &Case,
     plans: &FinerPlans,
     computing: RunControl<'_>,
     staging: Option<&Staging<'_>>,
-) -> Result<(Results, FinerChecks), Failure> {
+    found: impl FnOnce(u64),
+) -> Result<Flown, Failure> {
+    let shapes = if staging.is_some() { KeepShapes::within(case, POSITIONS) } else { KeepShapes::NONE };
+    let keep = Keep { shapes, ..Keep::CURVES };
     let recorder = staging.map(|staging| TableRecorder::new(staging, case.line.is_some()));
+    let kept = staging.map(|staging| KeptFlights::open(staging.folder(), case, keep));
+    if let Some(left) = kept.as_ref().map(KeptFlights::left).filter(|left| *left > 0) {
+        found(left);
+    }
+    let keeper = recorder.as_ref().zip(kept.as_ref());
+    let keeper = keeper.map(|(recorder, kept)| Keeper { passed_on: recorder, kept });
     let mut tables = staging
         .zip(recorder.as_ref())
         .map(|(staging, recorder)| Tables::create(staging, recorder))
         .transpose()?;
     let computing =
-        RunControl { recorder: recorder.as_ref().map(|recorder| recorder as &dyn Recorder), ..computing };
-    let mut collector = Results::collector(KEPT);
-    let shapes = if staging.is_some() { KeepShapes::within(case, POSITIONS) } else { KeepShapes::NONE };
-    let checks = fly_and_check(case, plans, Keep { shapes, ..Keep::CURVES }, computing, |landed| {
-        match landed {
-            Ok(trajectory) => {
-                tables.iter_mut().try_for_each(|tables| tables.add(trajectory.replicate))?;
-                collector.take(trajectory);
+        RunControl { recorder: keeper.as_ref().map(|keeper| keeper as &dyn Recorder), ..computing };
+    let (mut collector, mut replicates, mut landed_well) = (Results::collector(KEPT), 0, 0);
+    let flown = fly_for_checks(
+        case,
+        plans,
+        keep,
+        computing,
+        |some, paths| kept.as_ref().map_or(Ok(None), |kept| kept.recall(some, paths)),
+        |landed| {
+            match landed {
+                Ok(trajectory) => {
+                    kept.iter().for_each(|kept| kept.land(&trajectory));
+                    tables.iter_mut().try_for_each(|tables| tables.add(trajectory.replicate))?;
+                    collector.take(trajectory);
+                    landed_well += 1;
+                }
+                Err(lost) => {
+                    kept.iter().for_each(|kept| kept.forget(lost.replicate));
+                    tables.iter().for_each(|tables| tables.leave_out(lost.replicate));
+                    collector.lose(lost);
+                }
             }
-            Err(lost) => {
-                tables.iter().for_each(|tables| tables.leave_out(lost.replicate));
-                collector.lose(lost);
-            }
+            replicates += 1;
+            Ok::<(), Failure>(())
+        },
+    );
+    let paths = match flown {
+        Ok(paths) => Some(paths),
+        // What has landed becomes results. Another interruption ends that too.
+        Err(Failure::Interrupted)
+            if staging.is_some() && landed_well > 0 && computing.stop.swap(false, Ordering::Relaxed) =>
+        {
+            None
         }
-        Ok::<(), Failure>(())
-    })
-    .map_err(|ended| match &recorder {
-        Some(recorder) => recorder.failure(ended),
-        None => ended,
-    })?;
+        Err(ended) => {
+            return Err(match &recorder {
+                Some(recorder) => recorder.failure(ended),
+                None => ended,
+            });
+        }
+    };
     tables.map_or(Ok(()), Tables::finish)?;
-    Ok((collector.finish(), checks))
+    Ok(Flown { results: collector.finish(), paths, replicates, kept })
 }
 
 /// Everything of a run that goes into the files.
@@ -81,23 +135,37 @@ pub struct Run<'a> {
     pub results: &'a Results,
     /// What a finer time step and finer elements change.
     pub checks: &'a FinerChecks,
-    /// Warnings and remarks for the reader.
+    /// Warnings and remarks for the reader, without those of the checks.
     pub notes: &'a [String],
     /// What the run cost.
     pub performance: Performance,
 }
 
+/// What is drawn of a run once, whatever its checks find.
+#[derive(Debug)]
+pub struct Drawn {
+    case_toml: String,
+    figures: Vec<Figure>,
+    /// The spinline from which the fibre is fed, with its figures.
+    spinline: Option<(SpinResults, Vec<Figure>)>,
+}
+
 impl Run<'_> {
     /// The text of `summary.json`.
     pub fn summary(&self) -> String {
-        Summary::new(self.case, self.results, self.checks, self.performance, self.notes.to_vec()).to_json()
+        Summary::new(self.case, self.results, self.checks, self.performance, self.all_notes()).to_json()
+    }
+
+    /// Warnings and remarks, with those of the checks.
+    fn all_notes(&self) -> Vec<String> {
+        self.notes.iter().cloned().chain(doubt::notes(self.checks, self.case)).collect()
     }
 
     /// Writes the figures, the shapes for ParaView, the report, the case and the summary. The tables are those of [`fly`].
     ///
     /// # Errors
     /// If a file cannot be written, or the computation is interrupted.
-    pub fn write(&self, staging: &Staging<'_>, computing: RunControl<'_>) -> Result<(), Failure> {
+    pub fn write(&self, staging: &Staging<'_>, computing: RunControl<'_>) -> Result<Drawn, Failure> {
         let copied = copied_files::copy(self.case.files(), &staging.place(copied_files::CASE_FILES).0)?;
         let case_toml = write_case(&self.case.with_files_at(copied_files::place(&copied)));
         let figures = self.figures(computing)?;
@@ -116,10 +184,20 @@ impl Run<'_> {
             staging.write_figures(&all)?;
             shapes.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
         })?;
-        let report = self.page(&case_toml, &figures, spinline.as_ref())?;
-        staging.write("case.toml", case_toml)?;
-        staging.write("report.html", report)?;
-        staging.write("summary.json", self.summary())
+        let drawn = Drawn { case_toml, figures, spinline };
+        staging.write("case.toml", &drawn.case_toml)?;
+        staging.write("report.html", self.page(&drawn)?)?;
+        staging.write("summary.json", self.summary())?;
+        Ok(drawn)
+    }
+
+    /// Writes report and summary again, when the checks have been flown.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn write_checks(&self, folder: &Published<'_>, drawn: &Drawn) -> Result<(), Failure> {
+        folder.replace("report.html", self.page(drawn)?)?;
+        folder.replace("summary.json", self.summary())
     }
 
     /// The report as one HTML file of less than 6 MB.
@@ -127,7 +205,8 @@ impl Run<'_> {
     /// # Errors
     /// If the computation is interrupted.
     pub fn report(&self, computing: RunControl<'_>) -> Result<String, Failure> {
-        self.page(&write_case(self.case), &self.figures(computing)?, self.spinline().as_ref())
+        let (case_toml, figures) = (write_case(self.case), self.figures(computing)?);
+        self.page(&Drawn { case_toml, figures, spinline: self.spinline() })
     }
 
     fn figures(&self, computing: RunControl<'_>) -> Result<Vec<Figure>, Failure> {
@@ -141,12 +220,7 @@ impl Run<'_> {
         Some((results, figures))
     }
 
-    fn page(
-        &self,
-        case_toml: &str,
-        figures: &[Figure],
-        spinline: Option<&(SpinResults, Vec<Figure>)>,
-    ) -> Result<String, Failure> {
+    fn page(&self, Drawn { case_toml, figures, spinline }: &Drawn) -> Result<String, Failure> {
         report::html(&ReportInput {
             name: self.name,
             case: self.case,
@@ -154,8 +228,8 @@ impl Run<'_> {
             results: self.results,
             checks: self.checks,
             figures,
-            spinline: spinline.map(|(results, figures)| (results, &figures[..])),
-            notes: self.notes,
+            spinline: spinline.as_ref().map(|(results, figures)| (results, &figures[..])),
+            notes: &self.all_notes(),
             performance: self.performance,
         })
     }
@@ -214,23 +288,15 @@ pub fn coarse_shapes(case: &Case, results: &Results) -> Option<String> {
     })
 }
 
-/// What the flights cost.
+/// What the flights cost, without those of the checks.
 ///
 /// * `wall_s` – time that they took [s]
-pub fn performance(
-    case: &Case,
-    results: &Results,
-    plans: &FinerPlans,
-    computing: RunControl<'_>,
-    wall_s: f64,
-) -> Performance {
-    let flights = case.flights();
-    let threads = computing.threads.min(flights as usize + plans.flights());
+pub fn performance(case: &Case, results: &Results, computing: RunControl<'_>, wall_s: f64) -> Performance {
+    let threads = computing.threads.min(case.flights() as usize);
     // Of a fed fibre, as many as there are in the air on average.
     let elements =
         results.number("nodes_in_air").map_or(case.fibre.elements as f64, |nodes| nodes.estimate.mean);
-    let of_checks = plans.element_steps() * elements / case.fibre.elements as f64;
-    let element_steps = (elements * (case.run.steps * case.fibres()) as f64 + of_checks).round() as u64;
+    let element_steps = (elements * (case.run.steps * case.fibres()) as f64).round() as u64;
     Performance {
         wall_s,
         threads,

@@ -1,16 +1,13 @@
 //! What a finer time step and finer elements change, in words. Terminal and report say the same.
 
+use super::doubt::{FINE_ENOUGH, SURE, counted, unchecked};
 use crate::numbers::{plus_minus, significant};
+use spunlaid::air::EddyModel;
 use spunlaid::case::Case;
 use spunlaid::ensemble::{Change, FinerCheck, FinerChecks, Refinement, Results};
 use spunlaid::statistics::Estimate;
 use spunlaid::units::Dimension;
 use std::fmt::Write;
-
-/// Error of the mesh that is small enough [-].
-const FINE_ENOUGH: f64 = 0.03;
-/// Standard errors on each side of a difference within which the true one very likely is.
-const SURE: f64 = 2.0;
 
 /// A check in words.
 #[derive(Debug)]
@@ -39,15 +36,12 @@ impl FinerWords {
 
 /// Both checks in words; an error says what was not compared, and why.
 pub fn words(checks: &FinerChecks, case: &Case, results: &Results) -> [Result<FinerWords, String>; 2] {
-    let not = |what: &str, with: &str, why: &str| format!("{what}: not compared with {with}, because {why}");
-    [(&checks.step, "time step", "a shorter one"), (&checks.mesh, "mesh", "elements of half the length")].map(
-        |(check, what, with)| {
-            check
-                .as_ref()
-                .map(|check| FinerWords::new(check, case, results))
-                .map_err(|why| not(what, with, why))
-        },
-    )
+    [(&checks.step, Refinement::TimeStep), (&checks.mesh, Refinement::Elements)].map(|(check, refined)| {
+        check
+            .as_ref()
+            .map(|check| FinerWords::new(check, case, results))
+            .map_err(|why| unchecked(refined, why))
+    })
 }
 
 /// The same as lines for the terminal.
@@ -93,12 +87,17 @@ impl FinerWords {
             });
             format!("{} differs by {}{error}", statistic.label, percent(estimate))
         }));
-        let (what, with, advice) = match check.refined {
-            Refinement::TimeStep => ("time step", shorter(check, case), step_advice(check, results)),
-            Refinement::Elements => {
-                let length = Dimension::Length.pretty_to(check.element_length, 3);
-                ("mesh", format!("elements of {length}, half the length,"), mesh_advice(check))
-            }
+        if check.is_of_a_part(&case.run) {
+            differences.push(format!(
+                "This is so in the first {} of {} s; the whole run may differ by more or less",
+                significant(check.duration, 2),
+                significant(case.run.duration(), 3)
+            ));
+        }
+        let with = compared_with(check, case);
+        let (what, advice) = match check.refined {
+            Refinement::TimeStep => ("time step", step_advice(check, results)),
+            Refinement::Elements => ("mesh", mesh_advice(check) + papers_mesh(case)),
         };
         let meaning = match check.error_over_change() {
             Some(1.0) => {
@@ -117,7 +116,18 @@ impl FinerWords {
     }
 }
 
-fn percent(estimate: &Estimate) -> String {
+/// With what a run is compared: `half of it`.
+pub(super) fn compared_with(check: &FinerCheck, case: &Case) -> String {
+    match check.refined {
+        Refinement::TimeStep => shorter(check, case),
+        Refinement::Elements => {
+            let length = Dimension::Length.pretty_to(check.element_length, 3);
+            format!("elements of {length}, half the length,")
+        }
+    }
+}
+
+pub(super) fn percent(estimate: &Estimate) -> String {
     format!("{} %", plus_minus(100.0 * estimate.mean, estimate.standard_error.map(|error| 100.0 * error)))
 }
 
@@ -164,13 +174,22 @@ fn scatter(measures: &[&str], results: &Results) -> Option<f64> {
     measures.iter().filter_map(relative).reduce(f64::min)
 }
 
+/// What is said of a mesh like that of the paper, in which each element is as long as an eddy.
+fn papers_mesh(case: &Case) -> &'static str {
+    let is_papers = case.air.eddies == EddyModel::Independent
+        && (case.fibre.rest_length() / case.air.length_scale - 1.0).abs() < 0.01;
+    if is_papers {
+        ". Elements as long as an eddy are the mesh of the paper (theory.md), so its figures have this error too"
+    } else {
+        ""
+    }
+}
+
 /// Which elements to take.
 fn mesh_advice(check: &FinerCheck) -> String {
     let shares = |sure: f64| {
         let factor = check.error_over_change().unwrap_or(1.0);
-        // The texture of a laid fibre is that of its elements, and is reported as such.
-        let counted = check.changes.iter().filter(|change| change.statistic.name != "chord_over_arc");
-        counted
+        counted(check)
             .map(|Change { estimate, .. }| {
                 factor
                     * (estimate.mean.abs() + sure * estimate.standard_error.unwrap_or(f64::INFINITY)).max(0.0)

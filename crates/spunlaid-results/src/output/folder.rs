@@ -36,6 +36,8 @@ const COMPLETE: &str = "summary.json";
 /// Folders in the staging folder: the new results, and the old ones while they are replaced.
 const NEW: &str = "new";
 const OLD: &str = "old";
+/// A file that replaces a published one.
+const NEXT: &str = "next";
 /// Files that are needed only while the results are made.
 const SCRATCH: &str = "scratch";
 
@@ -133,6 +135,11 @@ impl<'a> Staging<'a> {
         self.origin.as_ref().is_some_and(|origin| origin.is_of(&self.folder))
     }
 
+    /// Where the results will be.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
     /// The present and the final path of a file of the results.
     pub fn place(&self, name: &str) -> (PathBuf, PathBuf) {
         (self.staging.join(NEW).join(name), self.folder.join(name))
@@ -161,6 +168,16 @@ impl<'a> Staging<'a> {
     /// Moves the results to their folder. If there was no folder, this is one renaming; otherwise the entries are
     /// moved one by one, and the one that marks the results as complete comes last.
     pub fn publish(mut self) -> Result<(), Failure> {
+        self.move_to_folder()
+    }
+
+    /// [`Staging::publish`], and files of the results may be replaced later.
+    pub fn publish_first(mut self) -> Result<Published<'a>, Failure> {
+        self.move_to_folder()?;
+        Ok(Published(self))
+    }
+
+    fn move_to_folder(&mut self) -> Result<(), Failure> {
         self.go_on()?;
         // Another run may have written results in the meantime.
         refuse_results(&self.folder, self.entries, self.replace, self.origin.as_ref())?;
@@ -203,6 +220,21 @@ impl<'a> Staging<'a> {
             return Err(Failure::Interrupted);
         }
         Ok(())
+    }
+}
+
+/// Results that are in their folder. What is needed only while results are made is kept until this is dropped.
+#[derive(Debug)]
+pub struct Published<'a>(Staging<'a>);
+
+impl Published<'_> {
+    /// Replaces a file of the results. Who reads it meanwhile finds the earlier one or this one, and each is whole.
+    ///
+    /// # Errors
+    /// If it cannot be written; the earlier one then stays.
+    pub fn replace(&self, name: &str, content: impl AsRef<[u8]>) -> Result<(), Failure> {
+        let (new, place) = (self.0.staging.join(NEXT), self.0.folder.join(name));
+        fs::write(&new, content).and_then(|()| fs::rename(&new, &place)).map_err(Failure::unwritable(&place))
     }
 }
 

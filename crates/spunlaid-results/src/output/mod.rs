@@ -4,6 +4,7 @@ pub mod air;
 pub mod analysis;
 pub mod comparison;
 pub mod copied_files;
+pub mod doubt;
 pub mod finer;
 pub mod fit;
 pub mod folder;

@@ -98,7 +98,7 @@ pub(super) fn render(input: &ReportInput<'_>) -> Result<String, Failure> {
     let results = input.results;
     let p = &input.performance;
     let replicates = results.replicates();
-    let (headline, groups) = (words::headline(input.case, results), table::groups(results));
+    let (headline, groups) = (words::headline(input.case, results, input.checks), table::groups(results));
     let checks = finer::words(input.checks, input.case, results);
     let found = [headline.clone()].into_iter().chain(groups.first().map(table::sentence));
     let finer = checks.iter().flatten().flat_map(FinerWords::sentences);

@@ -9,7 +9,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use spunlaid::case::Case;
 use spunlaid::drag::FrictionLaw;
-use spunlaid::ensemble::{FinerChecks, Results};
+use spunlaid::ensemble::{FinerChecks, Results, Unchecked};
 use spunlaid::input::parse_spinline;
 
 /// What a run cost.
@@ -31,7 +31,7 @@ fn page(case: &Case, results: &Results, name: &str, notes: &[String], case_toml:
         case,
         case_toml,
         results,
-        checks: &FinerChecks::none("the run is too short for it"),
+        checks: &FinerChecks::none(Unchecked::TooShort),
         figures: &figures,
         spinline: None,
         notes,
@@ -312,7 +312,7 @@ fn the_report_of_a_run_shows_its_spinline() {
             case,
             case_toml: "",
             results: &flown,
-            checks: &FinerChecks::none("the run is too short for it"),
+            checks: &FinerChecks::none(Unchecked::TooShort),
             figures: &[],
             spinline: Some((&results, &figures)),
             notes: &[],

@@ -1,10 +1,11 @@
 //! Sentences, and numbers with their units.
 
 use crate::numbers::{HARD, THIN, number, plus_minus, significant};
+use crate::output::doubt;
 use spunlaid::air::EddyModel;
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::Results;
+use spunlaid::ensemble::{FinerChecks, Results};
 use spunlaid::fibre::Root;
 use spunlaid::statistics::Estimate;
 
@@ -66,18 +67,28 @@ pub(super) fn metres(length: f64) -> String {
     if length < 1.0 { millimetres(length) } else { format!("{}{THIN}m", significant(length, 3)) }
 }
 
-/// The result in a sentence.
-pub(super) fn headline(case: &Case, results: &Results) -> String {
+/// The result in a sentence, and what its checks say against it.
+pub(super) fn headline(case: &Case, results: &Results, checks: &FinerChecks) -> String {
+    let estimate =
+        |measure: &str| doubt::with_error_of_checks(results.estimate(measure), measure, checks, case);
+    match found(case, estimate) {
+        (sentence, true) => sentence + &doubt::sentences(checks, case),
+        (sentence, false) => sentence,
+    }
+}
+
+/// The result in a sentence, and whether it has a number.
+fn found(case: &Case, estimate: impl Fn(&str) -> Estimate) -> (String, bool) {
     if case.line.is_some() {
-        return headline_of_laid(results);
+        return found_of_laid(estimate);
     }
     let motion = |axis| {
-        let motion = |measure: &str| results.estimate(&format!("{measure}_{axis}"));
+        let motion = |measure: &str| estimate(&format!("{measure}_{axis}"));
         (axis, motion("amplitude"), motion("frequency"))
     };
     let both = ["y", "z"].map(motion);
     if both.iter().any(|(_, amplitude, _)| !amplitude.mean.is_finite()) {
-        return "The motion of the free end could not be measured.".to_owned();
+        return ("The motion of the free end could not be measured.".to_owned(), false);
     }
     // Below this it is rounding.
     let least = 1e-12 * case.fibre.length;
@@ -88,26 +99,28 @@ pub(super) fn headline(case: &Case, results: &Results) -> String {
     );
     let frequencies =
         joined(moving.iter().filter(|m| m.2.mean > 0.0).map(|(.., f)| estimate_text(f, 1.0)).collect());
-    match (moving.is_empty(), frequencies.is_empty()) {
+    let sentence = match (moving.is_empty(), frequencies.is_empty()) {
         (true, _) => "The free end does not move sideways.".to_owned(),
         (false, true) => {
             format!("The free end moves by {amplitudes} (standard deviation) without swinging through zero.")
         }
         (false, false) => format!("The free end swings {amplitudes}, at {frequencies}{THIN}Hz."),
-    }
+    };
+    (sentence, !moving.is_empty())
 }
 
 /// The same of a fed fibre.
-fn headline_of_laid(results: &Results) -> String {
-    let [md, cd] = ["sigma_md", "sigma_cd"].map(|name| results.estimate(name));
+fn found_of_laid(estimate: impl Fn(&str) -> Estimate) -> (String, bool) {
+    let [md, cd] = ["sigma_md", "sigma_cd"].map(estimate);
     if !(md.mean.is_finite() && cd.mean.is_finite()) {
-        return "Too little fibre was laid to say how wide it lies.".to_owned();
+        return ("Too little fibre was laid to say how wide it lies.".to_owned(), false);
     }
-    format!(
+    let sentence = format!(
         "The fibre lies {}{THIN}mm wide in machine direction and {}{THIN}mm in cross direction (standard deviation).",
         estimate_text(&md, 1e3),
         estimate_text(&cd, 1e3)
-    )
+    );
+    (sentence, true)
 }
 
 /// Scale at which a fibre folds when it meets the belt [m].

@@ -27,6 +27,8 @@ pub struct RecordLayout {
     pub skip: Option<u64>,
     /// Columns of velocity by name or number, with commas between them; the first is along the mean flow.
     pub columns: Option<String>,
+    /// Column of time by name or number.
+    pub time: Option<String>,
     /// Unit of the velocities: `m/s`.
     pub velocity_unit: Option<String>,
     /// Largest number of missing samples in a row that are interpolated.

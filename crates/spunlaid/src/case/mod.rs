@@ -1,6 +1,7 @@
 //! A case: everything that a run needs, checked and in SI units.
 
 mod check;
+mod checks;
 mod files;
 pub mod keys;
 mod limits;
@@ -13,6 +14,7 @@ mod unset;
 mod usual;
 
 pub(crate) use check::too_many_steps;
+pub use checks::Checks;
 pub(crate) use limits::whole_parts;
 pub use limits::{INSTANT_ON_DISK, MOST_INSTANTS, MOST_REPLICATES, MOST_SHAPES, MOST_STEPS};
 pub use memory::{FLIGHT_MEMORY_LIMIT, FlightMemory};
@@ -79,6 +81,8 @@ pub struct Run {
     pub damping: f64,
     /// Number of shapes of a fibre that are kept for pictures; `None`: as many as fit into their memory.
     pub shapes: Option<u64>,
+    /// How much is flown to find the error of step and mesh.
+    pub checks: Checks,
 }
 
 impl Run {
@@ -94,6 +98,7 @@ impl Run {
         gravity: f64::NAN,
         damping: f64::NAN,
         shapes: None,
+        checks: Checks::Auto,
     };
 
     /// Simulated time [s].

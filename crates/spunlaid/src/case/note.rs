@@ -170,9 +170,9 @@ pub enum Remark {
         /// Rest length of an element [m].
         element_length: f64,
     },
-    /// Something about a CFD field.
+    /// Something about a CFD field or a velocity record.
     #[error("{0}")]
-    Field(Fault),
+    File(Fault),
     /// A value that is most likely a slip.
     #[error("is outside the usual range, {least} to {greatest}; {}", slip(instead))]
     Unusual {
@@ -415,7 +415,7 @@ impl Remark {
                     | Self::EddiesSkipped { .. }
                     | Self::NoTurbulence
                     | Self::CutoffLow { .. }
-                    | Self::Field(_)
+                    | Self::File(_)
                     | Self::LeavesFlow
                     | Self::SlowsOnly { .. }
                     | Self::RootOutside { .. }

@@ -13,7 +13,10 @@ mod turbulence;
 pub use crate::flight::Job;
 pub use crate::observe::Sample;
 pub use end_path::{EndPath, EndPoint};
-pub use finer::{Change, FinerCheck, FinerChecks, FinerPlan, FinerPlans, Refinement, Refinements, Statistic};
+pub use finer::{
+    Change, FinerCheck, FinerChecks, FinerPlan, FinerPlans, Refinement, Refinements, RunPaths, Statistic,
+    Unchecked,
+};
 pub use order::in_order;
 pub use recorder::{LaidCurves, Recorder};
 pub use results::{Collector, Curve, LostFibre, Number, Place, Results};
@@ -24,7 +27,8 @@ pub use turbulence::{SpectrumPoint, turbulence_spectrum, velocity_record};
 use crate::case::Case;
 use crate::error::Error;
 use crate::lanes::{Isa, WIDTH};
-use std::sync::atomic::{AtomicBool, AtomicU64};
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// How an ensemble is computed. None of it changes a bit of the results.
 #[derive(Clone, Copy, Debug)]
@@ -62,58 +66,55 @@ pub fn fly<E: From<Error>>(
     )
 }
 
-/// [`fly`], and computes what finer steps and finer elements change. The checks are some more flights beside the others;
-/// `plans` are those of the case.
+/// [`fly`], where a fibre that is lost does not stop the others; `take` receives it in its turn. Returns what the checks of the
+/// run compare: [`FinerPlans::check`] flies them.
 ///
-/// A fibre that is lost does not stop the others; `take` receives it in its turn.
+/// * `plans` – those of the case
+/// * `recall` – the trajectories of replicates that fly together, if they have been flown before; it passes on what was recorded
+///   of them. [`nothing_kept`] recalls none
 ///
 /// # Errors
-/// Another thread stops the ensemble, or `take` returns an error; and with the reason of the first lost fibre, if so many
-/// are lost that fewer than two are left, or none of a single one. A check whose own fibres are lost says so in its place.
-pub fn fly_and_check<E: From<Error>>(
+/// Another thread stops the ensemble, `recall` or `take` returns an error; and with the reason of the first lost fibre, if so many
+/// are lost that fewer than two are left, or none of a single one.
+pub fn fly_for_checks<E: From<Error>>(
     case: &Case,
     plans: &FinerPlans,
     keep: Keep,
     computing: RunControl<'_>,
+    recall: impl Fn(Range<u64>, &dyn Recorder) -> Result<Option<Vec<Trajectory>>, Error> + Sync,
     mut take: impl FnMut(Result<Trajectory, LostFibre>) -> Result<(), E>,
-) -> Result<FinerChecks, E> {
-    enum FlightResult {
-        Run(Result<Vec<Result<Trajectory, Error>>, Error>),
-        Check(Result<finer::Flight, Error>),
-    }
-    let pieces = pieces(case, keep);
-    let more: Vec<_> = plans.all().flat_map(|plan| plan.flights().map(move |case| (plan, case))).collect();
-    let paths = finer::Paths::from_run(plans.step.as_ref(), computing.recorder);
+) -> Result<RunPaths, E> {
+    let paths = finer::Paths::from_run(plans.step.as_ref().ok(), computing.recorder);
     let watched = RunControl { recorder: Some(&paths), ..computing };
-    let (mut flown, mut replicate, mut left, mut first_lost) = (Vec::new(), 0, 0, None);
+    let (mut replicate, mut left, mut first_lost) = (0, 0, None);
     in_order(
-        pieces + more.len(),
+        pieces(case, keep),
         computing.threads,
-        |index| match index.checked_sub(pieces).and_then(|index| more.get(index)) {
-            Some((plan, case)) => FlightResult::Check(plan.fly(case, computing)),
-            None => FlightResult::Run(fly_one(case, index, keep, watched)),
+        |index| {
+            let replicates = replicates(case, index, keep);
+            let steps = case.run.steps * (replicates.end - replicates.start);
+            match recall(replicates, &paths)? {
+                Some(flown) => {
+                    computing.fibre_steps.fetch_add(steps, Ordering::Relaxed);
+                    Ok(flown.into_iter().map(Ok).collect())
+                }
+                None => fly_one(case, index, keep, watched),
+            }
         },
-        |landed| {
-            match landed {
-                // A run is not lost with a check of it.
-                FlightResult::Check(Err(Error::Interrupted)) => return Err(Error::Interrupted.into()),
-                FlightResult::Check(check) => flown.push(check),
-                FlightResult::Run(landed) => {
-                    for landed in landed? {
-                        match landed {
-                            Ok(trajectory) => {
-                                left += 1;
-                                take(Ok(trajectory))?;
-                            }
-                            Err(error) => {
-                                paths.forget(replicate);
-                                take(Err(LostFibre::new(replicate, &error)))?;
-                                first_lost.get_or_insert(error);
-                            }
-                        }
-                        replicate += 1;
+        |landed: Result<Vec<_>, Error>| {
+            for landed in landed? {
+                match landed {
+                    Ok(trajectory) => {
+                        left += 1;
+                        take(Ok(trajectory))?;
+                    }
+                    Err(error) => {
+                        paths.forget(replicate);
+                        take(Err(LostFibre::new(replicate, &error)))?;
+                        first_lost.get_or_insert(error);
                     }
                 }
+                replicate += 1;
             }
             Ok::<(), E>(())
         },
@@ -121,12 +122,22 @@ pub fn fly_and_check<E: From<Error>>(
     if let Some(error) = first_lost.filter(|_| left < case.run.replicates.min(2)) {
         return Err(error.into());
     }
-    let (paths, mut flown) = (paths.into_paths(), flown.into_iter());
-    Ok(plans.and_then(|plan| {
-        let flights: Vec<_> = flown.by_ref().take(plan.flights().count()).collect();
-        let flights: Result<Vec<_>, Error> = flights.into_iter().collect();
-        plan.compare(&paths, &flights.map_err(|lost| format!("a fibre of the check was lost: {lost}"))?)
-    }))
+    Ok(RunPaths(paths.into_paths()))
+}
+
+/// Recalls nothing for [`fly_for_checks`].
+///
+/// # Errors
+/// None.
+pub fn nothing_kept(_: Range<u64>, _: &dyn Recorder) -> Result<Option<Vec<Trajectory>>, Error> {
+    Ok(None)
+}
+
+/// The replicates of a piece of work of a case.
+fn replicates(case: &Case, index: usize, keep: Keep) -> Range<u64> {
+    let each = if has_companions(case, keep) { 1 } else { WIDTH as u64 };
+    let first = index as u64 * each;
+    first..case.run.replicates.min(first + each)
 }
 
 /// Number of pieces of work of a case: flights of eight replicates, or replicates with their companions.
@@ -153,8 +164,7 @@ fn fly_one(
     if has_companions(case, keep) {
         return Ok(vec![companions::fly_beside(case, index as u64, keep, computing)?]);
     }
-    let first = index as u64 * WIDTH as u64;
-    let last = case.run.replicates.min(first + WIDTH as u64);
-    let jobs: Vec<Job<'_>> = (first..last).map(|replicate| Job::new(case, replicate)).collect();
+    let jobs: Vec<Job<'_>> =
+        replicates(case, index, keep).map(|replicate| Job::new(case, replicate)).collect();
     fly_each(&jobs, keep, computing)
 }

@@ -88,7 +88,7 @@ impl Shapes {
     ///
     /// # Errors
     /// The file cannot be written.
-    pub(super) fn push(
+    pub fn push(
         &mut self,
         time: f64,
         position: impl ExactSizeIterator<Item = Vec3<f64>>,

@@ -1,9 +1,12 @@
 //! The guard: a fibre whose computation has diverged, or which does not come down, is lost. No mean may contain it.
 
 use super::{Entry, Flight};
+use crate::chain::Chain;
 use crate::error::{Error, Fault};
 use crate::fibre::Root;
+use crate::lanes::{Lanes, Register, Task, WIDTH, Wide};
 use crate::units::Dimension;
+use crate::vec3::Vec3;
 
 /// By how much an element may be off from the length that belongs to its tension, in parts of its rest length [-]. Where
 /// the tensions are found it is a hundredth at most, after a landing in a single step some hundredths.
@@ -14,19 +17,35 @@ const MOST_STRAIN: f64 = 1.0;
 const MOST_SPEED: f64 = 20.0;
 /// Length of fibre in the air, in distances to the belt, above which it does not reach the belt.
 const MOST_IN_AIR: f64 = 10.0;
+/// The part of a limit from which a fibre is looked at by itself: rounding differs between the two looks.
+const DOUBTFUL: f64 = 0.99;
 
 impl Flight {
     /// The lane of the first fibre that is lost and the reason, if there is one.
     pub(crate) fn lost(&self) -> Option<(usize, Error)> {
-        let diverged = |lane: usize| Some((lane, self.diverged(lane)?));
+        let doubtful = self.doubtful();
+        let diverged = |lane: usize| Some((lane, doubtful[lane].then(|| self.diverged(lane))??));
         let adrift = |lane: usize| Some((lane, self.adrift(lane)?));
         (0..self.fibres()).find_map(diverged).or_else(|| (0..self.fibres()).find_map(adrift))
     }
 
     /// The lanes of all fibres that are lost, each with the reason.
     pub(crate) fn losses(&self) -> impl Iterator<Item = (usize, Error)> {
-        let lost = |lane: usize| self.diverged(lane).or_else(|| self.adrift(lane));
+        let doubtful = self.doubtful();
+        let diverged = move |lane: usize| doubtful[lane].then(|| self.diverged(lane)).flatten();
+        let lost = move |lane: usize| diverged(lane).or_else(|| self.adrift(lane));
         (0..self.fibres()).filter_map(move |lane| Some((lane, lost(lane)?)))
+    }
+
+    /// The fibres that may have diverged. All are looked at together, since this is done at every recorded instant and hardly
+    /// ever finds one.
+    fn doubtful(&self) -> [bool; WIDTH] {
+        // A lane without a case has no limit.
+        let most_speed = Lanes::from_fn(|lane| {
+            self.case(lane).map_or(f64::INFINITY, |case| MOST_SPEED * case.air.velocity.abs())
+        });
+        let found = self.isa.run(Doubts { chain: &self.chain, most_speed });
+        std::array::from_fn(|lane| found.0[lane] > 0.0 || self.chain.tensions.worst[lane].0 > MOST_OFF)
     }
 
     /// Whether the computation of the fibre in a lane has diverged. A lane is judged by itself, so a fibre is lost in any
@@ -113,6 +132,49 @@ impl Flight {
             );
             Error::NotLanding { replicate: replicate + 1, time, what }
         })
+    }
+}
+
+/// Looks for what [`Flight::sign_of_divergence`] would find, in all lanes at once: 1 where it may find something, otherwise 0.
+struct Doubts<'a> {
+    chain: &'a Chain,
+    /// Of a node, that needs no closer look [m/s].
+    most_speed: Lanes,
+}
+
+impl Task for Doubts<'_> {
+    type Output = Lanes;
+
+    #[inline(always)]
+    fn call<S: Register>(self) -> Lanes {
+        let (chain, c) = (self.chain, &self.chain.constants);
+        let (nodes, zero) = (chain.position.len(), Wide::<S>::zero());
+        let (most_off, most_strain) = (Wide::splat(DOUBTFUL * MOST_OFF), Wide::splat(DOUBTFUL * MOST_STRAIN));
+        // What is NaN or infinite makes the sum of the squares so. In the others a NaN is passed over, as it is in the closer look.
+        let (mut squares, mut fastest, mut doubts) = (zero, zero, zero);
+        for (position, velocity) in chain.position.iter().zip(chain.velocity.iter()) {
+            let (position, velocity) = (Vec3::load(position), Vec3::load(velocity));
+            squares = position.dot_add(position, squares);
+            fastest = velocity.dot(velocity).max(fastest);
+        }
+        let one = Wide::splat(1.0);
+        for (j, pair) in chain.position.windows(2).enumerate() {
+            let element = c.elements.at(j);
+            let rest_length = Wide::load(&element.rest_length);
+            let edge = Vec3::load(&pair[1]) - Vec3::load(&pair[0]);
+            let stretch = edge.dot(edge).sqrt() - rest_length;
+            doubts = Wide::select_less(most_strain * rest_length, stretch, one, doubts);
+            if let Some(tension) = chain.tensions.tension.get(j) {
+                let off = Wide::load(tension).neg_mul_add(Wide::load(&element.compliance), stretch).abs();
+                // An element that lies on the belt is held at both nodes.
+                let [above, below] = [j, j + 1].map(|i| Wide::load(&c.node(i, nodes).inverse_mass));
+                let moved = Wide::select_less(zero, above.max(below), off, zero);
+                doubts = Wide::select_less(most_off * rest_length, moved, one, doubts);
+            }
+        }
+        let most_speed = Wide::load(&self.most_speed) * Wide::splat(DOUBTFUL);
+        doubts = Wide::select_less(most_speed * most_speed, fastest, one, doubts);
+        Wide::select_less(squares, Wide::splat(f64::INFINITY), doubts, one).store()
     }
 }
 

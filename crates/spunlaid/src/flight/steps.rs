@@ -58,8 +58,9 @@ impl Flight {
         let chain = &self.chain;
         let (position, mut velocity) = (chain.position.to_vec(), chain.velocity.to_vec());
         let tension = chain.tension();
-        // The step may add nodes and take others away.
-        let (constants, origin) = (chain.constants.clone(), chain.origin(&self.start.position).to_vec());
+        // The step may add nodes to a fed fibre and take others away.
+        let fed_before =
+            chain.laying.as_ref().map(|laying| (chain.constants.clone(), laying.origin.to_vec()));
         let (nodes, in_air, fed) = (chain.nodes(), chain.in_air(), chain.fed());
         let carried = chain.laying.as_ref().map(|laying| laying.carried).unwrap_or_default();
         let root_strain_integral = self.root_strain * Lanes::splat(self.h);
@@ -84,7 +85,10 @@ impl Flight {
                 }
             }
         }
-        let mut energy = Energy::stored_energy(self.isa, &constants, &position, &velocity, &origin);
+        let (constants, origin) = fed_before
+            .as_ref()
+            .map_or((&self.chain.constants, &self.start.position), |(c, origin)| (c, origin));
+        let mut energy = Energy::stored_energy(self.isa, constants, &position, &velocity, origin);
         let works = (&before, &self.work);
         energy.enter_work(&self.start.energy, works, &carried, self.scheme, self.h);
         Snapshot { time, position, velocity, tension, nodes, in_air, root_strain_integral, energy }

@@ -2,7 +2,7 @@
 
 use super::data::DataFiles;
 use super::written_values::{WrittenValue, WrittenValues, sorted};
-use crate::air::{Air, EddyModel, Flow, PlacedField, RecordLayout, SpectrumShape};
+use crate::air::{Air, EddyModel, FileContent, Flow, Measured, PlacedField, RecordLayout, SpectrumShape};
 use crate::case::keys::{self, Content, FileKind, Key, Kind, Omission, TAYLOR, Value};
 use crate::case::{Case, Note, Remark};
 use crate::chain::schemes::Scheme;
@@ -128,7 +128,7 @@ pub(super) fn open_part(
                         place: place.clone(),
                         key: key.name.to_owned(),
                         value: shown.clone(),
-                        what: Remark::Field(warning),
+                        what: Remark::File(warning),
                     }));
                     key.apply(&mut case, &Value::Content(content))
                 }
@@ -226,6 +226,7 @@ fn record_layout(key_values: &WrittenValues) -> RecordLayout {
         rate: key_values.number("air.record_rate"),
         skip: whole("air.record_skip"),
         columns: key_values.text("air.record_columns"),
+        time: key_values.text("air.record_time"),
         velocity_unit: key_values.text("air.record_velocity_unit"),
         max_gap: whole("air.record_max_gap"),
     }
@@ -255,8 +256,20 @@ fn load(
         FileKind::Polymer => Content::Polymer(files.polymer(&path)?),
         FileKind::Records => {
             let layout = record_layout(key_values);
-            let records: Result<_, _> = paths.iter().map(|path| files.record(path, &layout)).collect();
-            Content::Records(records?)
+            let records = paths.iter().map(|path| files.record(path, &layout));
+            let records: Vec<_> = records.collect::<Result<_, _>>()?;
+            let several = records.len() > 1;
+            let of = |(record, warnings): &(FileContent<Measured>, Vec<Fault>)| {
+                let file = record.path().display().to_string();
+                let named = move |fault: Fault| Fault {
+                    message: format!("{file}: {}", fault.message).into(),
+                    ..fault
+                };
+                let warnings = warnings.iter().cloned();
+                warnings.map(|fault| if several { named(fault) } else { fault }).collect::<Vec<_>>()
+            };
+            let warnings = records.iter().flat_map(of).collect();
+            return Ok((Content::Records(records.into_iter().map(|(record, _)| record).collect()), warnings));
         }
         FileKind::Field => {
             let (field, warnings) = files.field(&path, &field_layout(key_values))?;

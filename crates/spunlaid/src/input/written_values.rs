@@ -1,6 +1,6 @@
 //! The values of a file by key, each with the place where it was written.
 
-use crate::case::keys::Value;
+use crate::case::keys::{self, Key, Omission, Value};
 use crate::error::{Fault, Finding, Place, Problem};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -99,7 +99,14 @@ impl WrittenValues {
             }
             None => {
                 finding.place = self.file.clone();
-                finding.value = finding.value.map(|value| format!("{value} (the default)"));
+                let is_required = |key: &Key| matches!(key.omission, Omission::Required(_));
+                // A case that leaves out what it needs has it from its air or from its spinline.
+                let source = if keys::find(&finding.key).is_some_and(is_required) {
+                    "it follows from the air or the spinline"
+                } else {
+                    "the default"
+                };
+                finding.value = finding.value.map(|value| format!("{value} ({source})"));
             }
         }
         finding

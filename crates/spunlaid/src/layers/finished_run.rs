@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::flight::LaidPoint;
-use crate::table::{NumberColumn, PageGuard};
+use crate::table::{Meaning, NumberColumn, PageGuard};
 use parquet::errors::{ParquetError, Result as Decoded};
 use parquet::file::metadata::ParquetMetaDataReader;
 use std::collections::BTreeMap;
@@ -39,7 +39,8 @@ fn decode(bytes: Vec<u8>) -> Decoded<BTreeMap<u64, Vec<LaidPoint>>> {
             let missing = || ParquetError::General(format!("it has no column {name} of numbers"));
             let index =
                 about.columns().iter().position(|column| column.name() == name).ok_or_else(missing)?;
-            let mut column = NumberColumn::open(&source, &metadata, group, index)?.map_err(|_| missing())?;
+            let meaning = Meaning::of(&about.column(index), None).map_err(|_| missing())?;
+            let mut column = NumberColumn::open(&source, &metadata, group, index, meaning)?;
             let mut numbers = Vec::new();
             loop {
                 column.next(ROWS)?;

@@ -3,13 +3,15 @@
 use super::Layout;
 use crate::error::{Fault, FileError, listed};
 use crate::sort::sort_by_key;
-use crate::table::{Head, scale};
+use crate::table::{FORMS, FirstCell, Head, scale};
 use crate::units::{Dimension, excerpt};
 
 /// Most components of a velocity.
 const COMPONENTS: usize = 3;
 
-const TIMES: [&str; 5] = ["time", "t", "zeit", "timestamp", "elapsed"];
+const TIMES: [&str; 4] = ["time", "zeit", "timestamp", "elapsed"];
+/// Letter of the time.
+const LETTER: &str = "t";
 const VELOCITIES: [&str; 15] =
     ["u", "v", "w", "ux", "uy", "uz", "vx", "vy", "vz", "u1", "u2", "u3", "velocity", "vel", "speed"];
 /// Names of the component along the flow.
@@ -41,18 +43,17 @@ pub(super) struct Roles {
 /// Finds the use of each column.
 ///
 /// * `named` – whether the file names its columns
-/// * `stamped` – whether each column holds time stamps
+/// * `first` – what each column begins with
 pub(super) fn roles(
     heads: &[Head],
     named: bool,
-    stamped: &[bool],
+    first: &[FirstCell],
     layout: &Layout,
 ) -> Result<Roles, FileError> {
-    let is_stamped = |i: usize| stamped.get(i) == Some(&true);
     if let Some(rate) = layout.rate.filter(|rate| !(rate.is_finite() && *rate > 0.0)) {
         return Err(super::limits::rate_fault(rate).into());
     }
-    let time = find_time(heads, named, stamped, layout)?;
+    let time = find_time(heads, named, first, layout)?;
     let mut chosen = if layout.columns.is_empty() {
         find_velocities(heads, named, time)
     } else {
@@ -88,8 +89,13 @@ pub(super) fn roles(
     }
     let column = |index: usize, name: &str, dimension, asked: &Option<String>| {
         // A time stamp says its unit itself.
-        let stamped = dimension == Dimension::Time && is_stamped(index);
-        let factor = if stamped { 1.0 } else { factor(&heads[index], dimension, asked.as_deref())? };
+        let is_time = dimension == Dimension::Time;
+        let stamped = is_time && is_stamped(first, index);
+        let factor = match first.get(index) {
+            _ if stamped => 1.0,
+            Some(FirstCell::Text(text)) if is_time => return Err(unknown_stamp(&heads[index], text)),
+            _ => factor(&heads[index], dimension, asked.as_deref())?,
+        };
         let (header, name) = (heads[index].text.clone(), name.to_owned());
         Ok::<_, FileError>(Column { index, header, name, factor, stamped })
     };
@@ -111,30 +117,59 @@ fn shown<'a>(heads: impl IntoIterator<Item = &'a Head>) -> Vec<String> {
     heads.into_iter().map(|head| excerpt(&head.text, 40)).collect()
 }
 
+fn is_stamped(first: &[FirstCell], index: usize) -> bool {
+    first.get(index) == Some(&FirstCell::Stamp)
+}
+
+/// The error of a column of time that begins with a text.
+fn unknown_stamp(head: &Head, text: &str) -> FileError {
+    let fault = Fault::new(
+        format!("\"{text}\" is neither a number nor a time stamp"),
+        format!("stamps are written as {FORMS}; or give the sampling rate"),
+    );
+    FileError::from(fault.option("--rate")).column(&head.text)
+}
+
 fn find_time(
     heads: &[Head],
     named: bool,
-    stamped: &[bool],
+    first: &[FirstCell],
     layout: &Layout,
 ) -> Result<Option<usize>, FileError> {
     if let Some(asked) = &layout.time_column {
         return find(heads, asked).map(Some);
     }
-    let is_time = |head: &Head| TIMES.contains(&head.name.to_lowercase().as_str());
-    let found = match heads.iter().position(is_time) {
+    let ranked = (0..heads.len()).filter_map(|i| Some((rank(&heads[i], is_stamped(first, i))?, i)));
+    let found = match ranked.min().map(|(_, i)| i) {
         // Without names the first column is the time, unless a rate is given.
         None if !named && layout.rate.is_none() && heads.len() > 1 => Some(0),
-        found => found.or_else(|| stamped.iter().position(|stamped| *stamped)),
+        found => found,
     };
     if found.is_none() && layout.rate.is_none() {
         return Err(Fault::new(
             format!("has no column of time (it has {})", listed(&shown(heads))),
-            "name it like time_s, write time stamps in it, or give the sampling rate",
+            "name it like time_s, write time stamps in it, say which column it is (air.record_time in a case), or give the sampling rate",
         )
-        .option("--rate")
+        .option("--time-column, --rate")
         .into());
     }
     Ok(found)
+}
+
+/// How surely a column is the time: the smallest number is the surest, none is no time. A bare `T` is a temperature in
+/// many files.
+fn rank(head: &Head, stamped: bool) -> Option<u8> {
+    let name = head.name.to_lowercase();
+    let (is_named, is_letter) = (TIMES.contains(&name.as_str()), name == LETTER);
+    let unit = head.unit.as_deref().map(|unit| scale(unit, Dimension::Time).is_some());
+    match (is_named || is_letter, unit) {
+        (true, Some(true)) => Some(0),
+        (true, _) if stamped => Some(0),
+        _ if stamped => Some(1),
+        (_, unit) if is_named => Some(if unit.is_none() { 2 } else { 3 }),
+        (_, None) if is_letter => Some(if head.name == LETTER { 4 } else { 5 }),
+        _ => None,
+    }
 }
 
 fn find_velocities(heads: &[Head], named: bool, time: Option<usize>) -> Vec<usize> {

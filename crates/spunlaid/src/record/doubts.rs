@@ -44,14 +44,15 @@ pub(super) fn warnings(record: &Record, analysis: &Analysis) -> Vec<Fault> {
         }));
     }
     let intensity = analysis.turbulence_intensity.value;
-    if intensity > 0.3 {
+    // Without a mean neither intensity nor inclination has a meaning.
+    if analysis.has_mean() && intensity > 0.3 {
         warnings.push(Fault::plain(format!(
             "with a turbulence intensity of {} the length scale by Taylor’s hypothesis is only an estimate, and a \
              single hot wire does not measure reversed flow",
             number(intensity)
         )));
     }
-    for component in analysis.components.iter().skip(1) {
+    for component in analysis.components.iter().skip(1).filter(|_| analysis.has_mean()) {
         let slope = component.mean.value.abs() / analysis.mean_velocity.value.abs();
         if slope > 0.05 {
             let (name, angle) = (&component.name, number(libm::atan(slope).to_degrees()));

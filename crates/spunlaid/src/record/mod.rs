@@ -9,7 +9,7 @@
 //! | format | what is read |
 //! |---|---|
 //! | text | as [`crate::table`] describes; without a column of time an empty line is a missing sample |
-//! | Parquet | plain columns of doubles, floats or integers, with nulls; uncompressed or Snappy |
+//! | Parquet | columns of numbers or times by their logical types, with nulls; uncompressed or Snappy |
 //!
 //! **The results**, with 95 % confidence intervals, are mean velocity [m/s], turbulence intensity [-], integral time [s],
 //! length scale [m] and cut-off frequency [Hz]; for each component also rms, skewness, flatness, spectrum
@@ -36,11 +36,13 @@
 //! ```
 
 mod analysis;
+mod clock;
 mod columns;
 mod compute;
 mod correlation;
 mod doubts;
 mod flat;
+mod grid;
 mod interval;
 mod jackknife;
 mod limits;

@@ -1,14 +1,14 @@
-//! Reads records in Parquet: plain columns of doubles, floats or integers.
+//! Reads records in Parquet: plain columns of numbers, and of times.
 
 use super::columns::{Column, roles};
 use super::rows::Rows;
 use super::{Layout, Record};
 use crate::error::{Fault, FileError, Position};
-use crate::table::{Head, NumberColumn, PageGuard};
+use crate::table::{FirstCell, Head, Meaning, NumberColumn, PageGuard, durations};
 use crate::units::excerpt;
 use bytes::Bytes;
 use parquet::errors::ParquetError;
-use parquet::file::metadata::ParquetMetaDataReader;
+use parquet::file::metadata::{ParquetMetaData, ParquetMetaDataReader};
 use std::sync::Arc;
 
 /// First bytes of a Parquet file.
@@ -30,27 +30,37 @@ fn read(source: Bytes, layout: &Layout) -> Result<Record, FileError> {
     let metadata = ParquetMetaDataReader::new().parse_and_finish(&source).map_err(undecodable)?;
     let schema = metadata.file_metadata().schema_descr();
     let heads: Vec<Head> = schema.columns().iter().map(|column| Head::new(&column.path().string())).collect();
-    let roles = roles(&heads, true, &[], layout)?;
+    let meanings = meanings(&metadata);
+    let first: Vec<FirstCell> = meanings.iter().map(first_cell).collect();
+    let mut roles = roles(&heads, true, &first, layout)?;
+    let meaning_of = |column: &Column| {
+        meanings[column.index].clone().and_then(|meaning| match meaning {
+            Meaning::Time(_) if !column.stamped => Err("times".to_owned()),
+            meaning => Ok(meaning),
+        })
+    };
+    if let Some(time) = &mut roles.time
+        && let Ok(Meaning::Time(unit)) = meanings[time.index]
+    {
+        time.factor = unit;
+    }
     let used: Vec<Column> = roles.time.iter().chain(&roles.components).cloned().collect();
     let timed = roles.time.is_some();
     let mut rows = Rows::new(roles, layout);
     let source = Arc::new(PageGuard(source));
-    let mut row = 0;
+    let (mut row, mut origin) = (0, None);
     for group in 0..metadata.num_row_groups() {
         let mut columns = Vec::new();
         for column in &used {
-            let values = NumberColumn::open(&source, &metadata, group, column.index)
-                .map_err(undecodable)
-                .and_then(|values| {
-                    values.map_err(|found| {
-                        Fault::new(
-                            format!("holds {found}"),
-                            "a plain column of doubles, floats or integers is needed",
-                        )
-                        .into()
-                    })
-                });
-            columns.push(values.map_err(|error| error.column(&column.header))?);
+            let refused = |found: String| {
+                let remedy = "a plain column of floating-point, whole or decimal numbers is needed, or of times where it gives the time";
+                FileError::from(Fault::new(format!("holds {found}"), remedy)).column(&column.header)
+            };
+            let meaning = meaning_of(column).map_err(refused)?;
+            let mut values = NumberColumn::open(&source, &metadata, group, column.index, meaning)
+                .map_err(|error| undecodable(error).column(&column.header))?;
+            values.origin = origin.filter(|_| column.stamped);
+            columns.push(values);
         }
         loop {
             let place = Position::Row(row + 1);
@@ -61,6 +71,9 @@ fn read(source: Bytes, layout: &Layout) -> Result<Record, FileError> {
             if let Some(short) = columns.iter().position(|values| values.numbers.len() != count) {
                 let error = FileError::from(unreadable("its columns differ in length")).at(place);
                 return Err(error.column(&used[short].header));
+            }
+            if timed {
+                origin = columns[0].origin;
             }
             if count == 0 {
                 break;
@@ -87,6 +100,24 @@ fn read(source: Bytes, layout: &Layout) -> Result<Record, FileError> {
         return Err(Fault::no_rows().into());
     }
     rows.finish()
+}
+
+/// What each column holds; the error names what is no number.
+fn meanings(metadata: &ParquetMetaData) -> Vec<Result<Meaning, String>> {
+    let about = metadata.file_metadata();
+    let schema =
+        about.key_value_metadata().and_then(|entries| entries.iter().find(|e| e.key == "ARROW:schema"));
+    let durations = schema.and_then(|entry| entry.value.as_deref()).map_or_else(Vec::new, durations);
+    let duration = |name: &str| durations.iter().find(|(column, _)| column == name).map(|(_, unit)| *unit);
+    let columns = about.schema_descr().columns().iter();
+    columns.map(|column| Meaning::of(column, duration(&column.path().string()))).collect()
+}
+
+fn first_cell(meaning: &Result<Meaning, String>) -> FirstCell {
+    match meaning {
+        Ok(Meaning::Time(_)) => FirstCell::Stamp,
+        _ => FirstCell::Number,
+    }
 }
 
 /// The fault of a file that cannot be decoded.

@@ -1,55 +1,39 @@
-//! Makes an evenly sampled record of rows: checks the times and fills gaps.
+//! Makes an evenly sampled record of rows: places them by their times and fills gaps.
 
+use super::clock::{Spacing, place};
 use super::columns::Roles;
 use super::{Layout, MOST_NUMBERS, Reading, Record, Samples};
 use crate::error::{Fault, FileError, Position, memory};
-use crate::units::{Dimension, shortest};
-
-/// Largest deviation of a time step from the usual one, as a share of it.
-const JITTER: f64 = 0.01;
-/// Largest deviation that the rounding of written times may explain, as a share of a step.
-const ROUNDING: f64 = 0.25;
+use crate::units::shortest;
 
 /// Collects rows.
 pub(super) struct Rows {
     roles: Roles,
     longest_gap: usize,
-    clock: Clock,
+    /// Time between samples [s], if it is given.
+    interval: Option<f64>,
+    /// Times of the rows [s], NaN where they are missing; empty if the interval is given.
+    times: Vec<f64>,
+    /// Unit of the last digit of the times [s].
+    unit: f64,
+    places: Places,
     values: Vec<Vec<f64>>,
-    /// For each component the number of missing samples since the last valid one, and whether there was a valid one.
-    missing: Vec<(usize, bool)>,
     reading: Reading,
-}
-
-/// How the times of the rows are known.
-#[derive(Clone, Copy, Debug)]
-enum Clock {
-    /// By a fixed interval [s].
-    Even(f64),
-    /// By a column of the file.
-    Watched {
-        /// First time and its row, last time and its row.
-        known: Option<((f64, usize), (f64, usize))>,
-        /// Unit of the last digit of the times [s].
-        rounding: f64,
-    },
 }
 
 impl Rows {
     pub(super) fn new(roles: Roles, layout: &Layout) -> Self {
-        let clock = match layout.rate {
-            Some(rate) => Clock::Even(1.0 / rate),
-            None => Clock::Watched { known: None, rounding: f64::INFINITY },
-        };
         let count = roles.components.len();
         let reading =
             Reading { unused: roles.unused.clone(), timed: roles.time.is_some(), ..Reading::default() };
         Self {
             roles,
             longest_gap: layout.longest_gap,
-            clock,
+            interval: layout.rate.map(|rate| 1.0 / rate),
+            times: Vec::new(),
+            unit: f64::INFINITY,
+            places: Places::default(),
             values: vec![Vec::new(); count],
-            missing: vec![(0, false); count],
             reading,
         }
     }
@@ -61,111 +45,90 @@ impl Rows {
     pub(super) fn push(
         &mut self,
         place: Position,
-        time: (f64, f64),
+        (time, unit): (f64, f64),
         values: &[f64],
     ) -> Result<(), FileError> {
-        let lost = self.watch(place, time)?;
-        let length = self.values.first().map_or(0, Vec::len) + lost + 1;
-        if length.saturating_mul(self.values.len()) > MOST_NUMBERS {
-            let fault = Fault::new(
-                format!(
-                    "holds more than {} numbers, which would take more than {} of memory",
-                    MOST_NUMBERS,
-                    memory(MOST_NUMBERS as f64 * 8.0)
-                ),
-                "cut it into pieces",
-            );
-            return Err(FileError::from(fault).at(place));
-        }
-        for component in 0..self.values.len() {
-            for _ in 0..lost {
-                self.put(place, component, f64::NAN)?;
+        let rows = self.values.first().map_or(0, Vec::len);
+        self.places.put(rows, place);
+        check_size((rows + 1).saturating_mul(self.values.len())).map_err(|error| error.at(place))?;
+        if self.interval.is_none()
+            && let Some(column) = &self.roles.time
+        {
+            self.times.push(time * column.factor);
+            if !time.is_nan() {
+                self.unit = self.unit.min(unit * column.factor);
             }
-            let value = values.get(component).copied().unwrap_or(f64::NAN);
-            self.put(place, component, value * self.roles.components[component].factor)?;
         }
-        self.reading.skipped += lost;
+        let numbers = values.iter().copied().chain(std::iter::repeat(f64::NAN));
+        for ((all, column), value) in self.values.iter_mut().zip(&self.roles.components).zip(numbers) {
+            all.push(value * column.factor);
+        }
         Ok(())
     }
 
-    fn put(&mut self, place: Position, component: usize, value: f64) -> Result<(), FileError> {
-        let (missing, begun) = self.missing[component];
-        if value.is_nan() {
-            self.missing[component].0 = missing + 1;
-        } else {
-            if begun && missing > self.longest_gap {
-                let header = &self.roles.components[component].header;
+    /// Places the rows by their times.
+    fn place(&mut self) -> Result<Spacing, FileError> {
+        if let Some(interval) = self.interval {
+            return Ok(Spacing { interval: Some(interval), ..Spacing::default() });
+        }
+        let header = self.roles.time.as_ref().map_or("", |column| &column.header);
+        let blame = |row: usize, fault: Fault| FileError::from(fault).at(self.places.of(row)).column(header);
+        let times = std::mem::take(&mut self.times);
+        let spacing = place(&times, self.unit).map_err(|(row, fault)| blame(row, fault))?;
+        match spacing.lost.iter().find(|(_, lost)| *lost > self.longest_gap) {
+            Some((row, lost)) => Err(blame(*row, gap_too_long(*lost as f64, self.longest_gap))),
+            None => Ok(spacing),
+        }
+    }
+
+    /// The component with its missing rows, and the error of a gap that is too long.
+    fn spread(&self, component: usize, lost: &[(usize, usize)]) -> Result<Vec<f64>, FileError> {
+        let values = &self.values[component];
+        let mut spread = Vec::with_capacity(values.len() + lost.iter().map(|(_, lost)| lost).sum::<usize>());
+        let mut lost = lost.iter().peekable();
+        // Samples that are missing since the last valid one; none before the first.
+        let mut missing = None;
+        for (row, value) in values.iter().enumerate() {
+            if let Some((_, count)) = lost.next_if(|(at, _)| *at == row) {
+                spread.extend(std::iter::repeat_n(f64::NAN, *count));
+                missing = missing.map(|missing| missing + count);
+            }
+            spread.push(*value);
+            if value.is_nan() {
+                missing = missing.map(|missing| missing + 1);
+                continue;
+            }
+            if let Some(missing) = missing.filter(|missing| *missing > self.longest_gap) {
                 let fault = gap_too_long(missing as f64, self.longest_gap);
-                return Err(FileError::from(fault).at(place).column(header));
+                let header = &self.roles.components[component].header;
+                return Err(FileError::from(fault).at(self.places.of(row)).column(header));
             }
-            self.missing[component] = (0, true);
+            missing = Some(0);
         }
-        self.values[component].push(value);
-        Ok(())
-    }
-
-    /// Checks the time of a row; returns how many rows are missing before it.
-    fn watch(&mut self, place: Position, (time, unit): (f64, f64)) -> Result<usize, FileError> {
-        let Clock::Watched { known, rounding } = self.clock else { return Ok(0) };
-        let Some(column) = &self.roles.time else { return Ok(0) };
-        let blame = |fault: Fault| Err(FileError::from(fault).at(place).column(&column.header));
-        if time.is_nan() {
-            return Ok(0);
-        }
-        let row = self.values.first().map_or(0, Vec::len);
-        let time = time * column.factor;
-        let rounding = rounding.min(unit * column.factor);
-        let Some(((first, first_row), (last, last_row))) = known else {
-            self.clock = Clock::Watched { known: Some(((time, row), (time, row))), rounding };
-            return Ok(0);
-        };
-        let step = time - last;
-        if !step.is_finite() || step <= 0.0 {
-            return blame(Fault::new(format!("time goes from {} s to {} s", shortest(last), shortest(time)), "rows must be in order of time. If the times are only written with too few digits, give the sampling rate").option("--rate"));
-        }
-        let mut lost = 0;
-        let rows = (row - last_row) as f64;
-        if last_row > first_row {
-            let usual = (last - first) / (last_row - first_row) as f64;
-            let bound = JITTER * usual + (2.0 * rounding).min(ROUNDING * usual);
-            let off = (step - rows * usual).abs();
-            if off <= bound {
-                self.reading.jitter = self.reading.jitter.max(off / usual);
-            } else {
-                let whole = (step / usual).round();
-                let skips =
-                    whole > rows && (step - whole * usual).abs() <= bound + JITTER * (whole - rows) * usual;
-                if !skips {
-                    return blame(Fault::new(format!("the time step changes from {} to {}", Dimension::Time.pretty(usual), Dimension::Time.pretty(step)), "samples must be evenly spaced to within 1 %. Resample the record, or give the sampling rate if you know that the clock was even").option("--rate"));
-                }
-                if whole - rows > self.longest_gap as f64 {
-                    let fault = gap_too_long(whole - rows, self.longest_gap);
-                    return blame(fault);
-                }
-                lost = (whole - rows) as usize;
-            }
-        }
-        self.clock = Clock::Watched { known: Some(((first, first_row), (time, row + lost))), rounding };
-        Ok(lost)
+        Ok(spread)
     }
 
     /// Makes the record.
     pub(super) fn finish(mut self) -> Result<Record, FileError> {
-        let rows = self.values.first().map_or(0, Vec::len);
+        let Spacing { interval, lost, jitter } = self.place()?;
+        let skipped: usize = lost.iter().map(|(_, lost)| lost).sum();
+        let rows = self.values.first().map_or(0, Vec::len) + skipped;
+        check_size(rows.saturating_mul(self.values.len()))?;
+        for component in 0..self.values.len() {
+            self.values[component] = self.spread(component, &lost)?;
+        }
         let whole = |i: &usize| self.values.iter().all(|v| v.get(*i).is_some_and(|x| !x.is_nan()));
         let first = (0..rows).find(whole).unwrap_or(rows);
         let end = (first..rows).rev().find(whole).map_or(first, |last| last + 1);
         if first == end {
             return Err(Fault::no_rows().into());
         }
-        let interval = match self.clock {
-            Clock::Even(interval) => interval,
-            Clock::Watched { known: Some((a, b)), .. } if b.1 > a.1 => (b.0 - a.0) / (b.1 - a.1) as f64,
-            Clock::Watched { .. } => {
-                let least = super::limits::LEAST_SAMPLES;
-                return Err(super::limits::too_few_samples(end - first, least).into());
-            }
+        let Some(interval) = interval else {
+            let least = super::limits::LEAST_SAMPLES;
+            return Err(super::limits::too_few_samples(end - first, least).into());
         };
+        self.reading.skipped = skipped;
+        self.reading.jitter = jitter;
         self.reading.cut_off = rows - (end - first);
         self.reading.cut_off_start = first;
         let mut components = Vec::new();
@@ -177,6 +140,44 @@ impl Rows {
             components.push(Samples { name: column.name.clone(), values });
         }
         Ok(Record { file: String::new(), interval, components, reading: self.reading })
+    }
+}
+
+fn check_size(numbers: usize) -> Result<(), FileError> {
+    if numbers <= MOST_NUMBERS {
+        return Ok(());
+    }
+    let most = memory(MOST_NUMBERS as f64 * 8.0);
+    let fault = Fault::new(
+        format!("holds more than {MOST_NUMBERS} numbers, which would take more than {most} of memory"),
+        "cut it into pieces",
+    );
+    Err(fault.into())
+}
+
+/// Where rows stand in the file. Most follow one another.
+#[derive(Default)]
+struct Places {
+    /// Rows that do not stand just behind the row before, with their place.
+    leaps: Vec<(usize, Position)>,
+}
+
+impl Places {
+    fn put(&mut self, row: usize, place: Position) {
+        if self.leaps.is_empty() || self.of(row) != place {
+            self.leaps.push((row, place));
+        }
+    }
+
+    fn of(&self, row: usize) -> Position {
+        let leap = self.leaps.partition_point(|(leap, _)| *leap <= row).saturating_sub(1);
+        let Some((from, place)) = self.leaps.get(leap) else { return Position::Row(row as u64 + 1) };
+        let further = (row - from) as u64;
+        match place {
+            Position::Line(line) => Position::Line(line + further),
+            Position::Row(first) => Position::Row(first + further),
+            other => *other,
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use super::columns::{Column, roles};
 use super::rows::Rows;
 use super::{Layout, Record};
 use crate::error::{Fault, FileError, FileKind};
-use crate::table::{Stamp, Table};
+use crate::table::{FORMS, Stamp, Table};
 use crate::units::excerpt;
 use std::io::Read;
 
@@ -22,7 +22,7 @@ pub fn parse_csv(source: impl Read, name: &str, layout: &Layout) -> Result<Recor
 
 fn read(source: impl Read, layout: &Layout) -> Result<Record, FileError> {
     let mut table = Table::open(source, FileKind::Record, layout.skip_lines)?;
-    let roles = roles(table.heads(), table.named(), &table.stamped_columns(), layout)?;
+    let roles = roles(table.heads(), table.named(), &table.first_row(), layout)?;
     let time = roles.time.as_ref().map(|column| (column.index, column.stamped));
     let mut clock = Clock::default();
     let components: Vec<usize> = roles.components.iter().map(|column: &Column| column.index).collect();
@@ -67,7 +67,7 @@ impl Clock {
         }
         let message =
             format!("\"{}\" is not a time stamp as in the rows above", excerpt(table.text(column), 40));
-        let remedy = "write it as 2024-03-05 12:00:00.125, 05.03.2024 12:00:00,125 or 12:00:00.125";
+        let remedy = format!("write it as {FORMS}");
         Err(table.blame(column, Fault::new(message, remedy)))
     }
 }

@@ -13,6 +13,8 @@ use crate::web::{Clouds, Map};
 pub struct Settings {
     /// What its values mean.
     pub light: Light,
+    /// Whether that is only what is usual: then the notes say so.
+    pub light_is_assumed: bool,
     /// A picture of the lamp without web, at the same exposure and of the same size: it takes the place of the level of the lamp and of
     /// the polynomial for its shading.
     pub lamp: Option<Picture>,
@@ -29,7 +31,15 @@ pub struct Settings {
 impl Settings {
     /// What is usual.
     pub const fn new(light: Light) -> Self {
-        Self { light, lamp: None, keep_shading: false, keep_spots: false, noise: None, patches: Vec::new() }
+        Self {
+            light,
+            light_is_assumed: false,
+            lamp: None,
+            keep_shading: false,
+            keep_spots: false,
+            noise: None,
+            patches: Vec::new(),
+        }
     }
 }
 

@@ -21,6 +21,10 @@
 //! Without one, a polynomial of second order is fitted to the logarithm of the level and taken out: that is right for the fall of light towards the corners of a lens,
 //! but a web of little density shows every rest of a lamp of another form, enlarged by the inverse of the density.
 //!
+//! **Light that is thrown back** by light fibres on a black ground is another picture: heavy places are light. By Kubelka's law for fibres that scatter
+//! and do not absorb, `R/(1 − R)` is proportional to the mass, with the reflectance R over that of a web so thick that the ground is not visible. A picture does not
+//! tell which of the two it is, so it is taken as transmitted light unless the reader says otherwise, and the notes say so.
+//!
 //! **The results** are those of a simulated map: CV over patches with standard errors, clouds, autocorrelation. For each patch they also tell how much
 //! the noise of the camera and the blur of its optics count there.
 //!
@@ -48,6 +52,7 @@ mod chance;
 mod doubt;
 mod findings;
 mod foreign_parts;
+mod levels;
 mod note;
 mod optics;
 mod picture;

@@ -36,8 +36,25 @@ pub(super) fn notes(
     if let Light::Transmitted { .. } = settings.light {
         notes.extend(bits(picture, settings.lamp.as_ref(), weighed.guess(settings.light)));
     }
-    if let (Light::Transmitted { white: None, .. }, Some(white)) = (settings.light, weighed.white) {
-        notes.push(assumed_lamp(white, picture.full_scale.is_some()));
+    if settings.light_is_assumed && matches!(settings.light, Light::Transmitted { .. }) {
+        let message = "the picture is taken as light that has come through the web, so that heavy places are dark; if light fibres lie on a \
+                       dark ground, heavy places are light, and every CV is wrong";
+        notes.push(Fault::new(message, "say which light it is").option("--light reflected"));
+    }
+    match (settings.light, weighed.white) {
+        (Light::Transmitted { white: None, .. }, Some(white)) => {
+            notes.push(assumed_lamp(white, picture.full_scale.is_some()));
+        }
+        (Light::Reflected { white: None, .. }, Some(white)) => {
+            notes.push(assumed_thickest(white, picture.full_scale.is_some()));
+        }
+        _ => {}
+    }
+    if matches!(settings.light, Light::Reflected { .. }) {
+        notes.push(Fault::plain(
+            "the basis weight follows from the light that is thrown back by Kubelka’s law, for fibres that scatter light and absorb none on a \
+             black ground; colour, gloss and a grey ground make it wrong, and the picture cannot show that",
+        ));
     }
     if !weighed.mean_known {
         let message = "the mean basis weight is not known, so all basis weights are given relative to it";
@@ -148,6 +165,20 @@ fn assumed_lamp(white: f64, full_scale: bool) -> Fault {
     )
 }
 
+/// * `full_scale` – whether the level is the largest that the file can hold, or else the largest that it holds
+fn assumed_thickest(white: f64, full_scale: bool) -> Fault {
+    Fault::new(
+        format!(
+            "a web so thick that the ground is not visible is assumed to have the grey level {}, the largest that the file {}. If that is \
+             wrong, every CV is wrong, so no interval is given",
+            shortest(white),
+            if full_scale { "can hold" } else { "holds" }
+        ),
+        "take a picture of a thick stack of the web at the same exposure, and give its grey level",
+    )
+    .option("--white")
+}
+
 /// What is said of the bare lamp beside the web, if it is visible.
 ///
 /// * `pictured` – whether there is a picture of the lamp without web; the level is then relative to it
@@ -201,7 +232,7 @@ fn odd_pixels(picture: &Picture, weighed: &WeighedPicture) -> Vec<Fault> {
             format!("pixels of the largest grey level: {}", shown(pixels.saturated)),
             remedy(
                 pixels.saturated,
-                "the thinnest places may be thinner than they look, so choose a shorter exposure",
+                "what is lighter than that looks the same, so choose a shorter exposure",
             ),
         ));
     }

@@ -1,6 +1,7 @@
 //! Turns a picture into a map of basis weight.
 
 use super::doubt::Doubt;
+use super::levels::{above_zero, believed_shading, logs, mean_of, unusable, white_level};
 use super::picture::Picture;
 use super::shading::Shading;
 use super::spots::{Spots, spots};
@@ -16,6 +17,13 @@ pub enum Light {
         /// Mean basis weight of the sheet, if it is known [kg/m²].
         mean: Option<f64>,
         /// Grey level of the lamp without web; by default the largest level that the file can hold.
+        white: Option<f64>,
+    },
+    /// Light that a web on a black ground throws back.
+    Reflected {
+        /// Mean basis weight of the sheet, if it is known [kg/m²].
+        mean: Option<f64>,
+        /// Grey level of such fibres where they lie so thick that no ground is seen; by default the largest level that the file can hold.
         white: Option<f64>,
     },
     /// Basis weights.
@@ -58,7 +66,9 @@ pub(super) struct WeighedPicture {
 impl WeighedPicture {
     /// What is only a guess about the lamp, if anything.
     pub(super) fn guess(&self, light: Light) -> Option<Doubt> {
-        let is_white = matches!(light, Light::Transmitted { white: None, .. }) && self.white.is_some();
+        let is_white =
+            matches!(light, Light::Transmitted { white: None, .. } | Light::Reflected { white: None, .. })
+                && self.white.is_some();
         let shading = self.shading.is_some().then_some(Doubt::Shading);
         if is_white { Some(Doubt::White) } else { shading }
     }
@@ -66,9 +76,6 @@ impl WeighedPicture {
 
 /// Quanta of a cell of the mean weight.
 const QUANTA: f64 = 1e6;
-/// One pixel in so many may be filled in.
-const FILLED: usize = 100;
-
 /// How an uneven lamp is taken out.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Correction<'a> {
@@ -132,45 +139,13 @@ pub(super) fn weigh(
     correction: Correction<'_>,
     masked: &[bool],
 ) -> Result<WeighedPicture, Fault> {
-    let (Light::Transmitted { mean, .. } | Light::Weight { mean }) = light;
+    let (Light::Transmitted { mean, .. } | Light::Reflected { mean, .. } | Light::Weight { mean }) = light;
     above_zero("a mean basis weight [kg/m²]", mean)?;
     match light {
         Light::Transmitted { white, .. } => transmitted(picture, mean, white, correction, masked),
+        Light::Reflected { white, .. } => reflected(picture, mean, white, correction),
         Light::Weight { .. } => weights(picture, mean),
     }
-}
-
-/// Refuses a setting that is not above zero.
-pub(super) fn above_zero(name: &'static str, value: Option<f64>) -> Result<(), Fault> {
-    match value {
-        Some(value) if !(value.is_finite() && value > 0.0) => Err(Fault::new(
-            format!("cannot be read with {name} = {}", shortest(value)),
-            "give a number above zero",
-        )),
-        _ => Ok(()),
-    }
-}
-
-/// The logarithm of the light that comes through, over that of the lamp if there is a picture of it; NaN where there is none.
-fn logs(picture: &Picture, lamp: Option<&Picture>) -> Result<Vec<f64>, Fault> {
-    let log = |level: &f64| if level.is_finite() && *level > 0.0 { libm::log(*level) } else { f64::NAN };
-    let mut logs: Vec<f64> = picture.values.iter().map(log).collect();
-    if let Some(lamp) = lamp {
-        let [found, wanted] = [lamp, picture].map(|picture| [picture.columns, picture.rows]);
-        if found != wanted {
-            return Err(Fault::new(
-                format!(
-                    "has {} × {} pixels, but the picture of the lamp without web has {} × {}",
-                    wanted[0], wanted[1], found[0], found[1]
-                ),
-                "take both with the same camera from the same place",
-            )
-            .option("--lamp"));
-        }
-        let scale = lamp.scale_to(picture);
-        logs.iter_mut().zip(&lamp.values).for_each(|(light, lamp)| *light -= log(&(scale * lamp)));
-    }
-    Ok(logs)
 }
 
 fn transmitted(
@@ -180,21 +155,8 @@ fn transmitted(
     Correction { lamp, keep_shading }: Correction<'_>,
     masked: &[bool],
 ) -> Result<WeighedPicture, Fault> {
-    above_zero("a level of the lamp", white)?;
-    if let (Some(white), Some(largest)) = (white, picture.full_scale)
-        && white > largest
-    {
-        let [white, largest] = [white, largest].map(shortest);
-        return Err(Fault::new(
-            format!("holds grey levels up to {largest}, but the lamp without web is said to have the level {white}"),
-            format!("give the level of the lamp in this file, at most {largest}"),
-        )
-        .option("--white"));
-    }
+    let white = white_level(picture, white, lamp)?;
     let levels = || picture.values.iter().copied().filter(|level| level.is_finite());
-    let white = white.or(picture.full_scale).unwrap_or_else(|| levels().fold(0.0, f64::max));
-    // Over a picture of the lamp, all light is one.
-    let white = if lamp.is_some() { 1.0 } else { white };
     let mut logs = logs(picture, lamp)?;
     let advice = "let more light through, or expose for longer";
     let filled = unusable(&logs, "black or without a value", advice)?;
@@ -208,7 +170,7 @@ fn transmitted(
     let web = || picture.values.iter().zip(&logs).filter(|(_, log)| !log.is_nan()).map(|(level, _)| level);
     let inverse = web().map(|level| level.powi(-2)).sum::<f64>();
     let per_noise = (inverse / web().count() as f64).sqrt() / density;
-    let shading = (!keep_shading && lamp.is_none()).then(|| Shading::fit(&logs, picture.columns));
+    let shading = believed_shading(&logs, picture.columns, (lamp, keep_shading))?;
     for (row, logs) in logs.chunks_exact_mut(picture.columns).enumerate() {
         match &shading {
             Some(shading) => logs.iter_mut().zip(shading.row(row)).for_each(|(log, lamp)| *log -= lamp),
@@ -225,6 +187,51 @@ fn transmitted(
         density: Some(density),
         shading,
         pixels: Pixels { filled, saturated, lighter },
+        per_noise,
+    })
+}
+
+/// From the light that a web on a black ground throws back. Fibres that scatter light and absorb none give, in a layer of weight `m`,
+/// the reflectance `R = S m/(1 + S m)`, so `m` is proportional to `R/(1 − R)`.
+///
+/// Source: P. Kubelka, New contributions to the optics of intensely light-scattering materials, J. Opt. Soc. Am. 38 (1948) 448–457.
+fn reflected(
+    picture: &Picture,
+    mean: Option<f64>,
+    white: Option<f64>,
+    Correction { lamp, keep_shading }: Correction<'_>,
+) -> Result<WeighedPicture, Fault> {
+    let white = white_level(picture, white, lamp)?;
+    let mut logs = logs(picture, lamp)?;
+    let filled =
+        unusable(&logs, "black or without a value", "let more light fall on it, or expose for longer")?;
+    let shading = believed_shading(&logs, picture.columns, (lamp, keep_shading))?;
+    let mean_log = mean_of(&logs);
+    if let Some(shading) = &shading {
+        for (row, logs) in logs.chunks_exact_mut(picture.columns).enumerate() {
+            logs.iter_mut().zip(shading.row(row)).for_each(|(log, lamp)| *log += mean_log - lamp);
+        }
+    }
+    let reflectances = || logs.iter().map(|log| libm::exp(*log) / white);
+    let saturated = reflectances().filter(|reflectance| *reflectance >= 1.0).count();
+    let weight =
+        |reflectance: f64| if reflectance < 1.0 { reflectance / (1.0 - reflectance) } else { f64::NAN };
+    let mut weights: Vec<f64> = reflectances().map(weight).collect();
+    unusable(&weights, "as light as the thickest web or lighter", "give a higher level of the thickest web")
+        .map_err(|fault| fault.option("--white"))?;
+    let heaviness = mean_of(&weights);
+    // Of m over the level: 1/(white (1 − R)²) = (1 + m)²/white.
+    let squares: Vec<f64> = weights.iter().map(|weight| ((1.0 + weight).powi(2) / white).powi(2)).collect();
+    let per_noise = mean_of(&squares).sqrt() / heaviness;
+    weights.iter_mut().for_each(|weight| *weight /= heaviness);
+    let (map, _) = map(picture, weights, mean.unwrap_or(1.0))?;
+    Ok(WeighedPicture {
+        map,
+        mean_known: mean.is_some(),
+        white: lamp.is_none().then_some(white),
+        density: None,
+        shading,
+        pixels: Pixels { filled, saturated, lighter: 0 },
         per_noise,
     })
 }
@@ -249,28 +256,6 @@ fn weights(picture: &Picture, mean: Option<f64>) -> Result<WeighedPicture, Fault
         pixels: Pixels { filled, ..Pixels::default() },
         per_noise: 1.0 / found,
     })
-}
-
-/// How many values are missing, if they are few enough to be filled in.
-fn unusable(values: &[f64], what: &'static str, advice: &'static str) -> Result<usize, Fault> {
-    let unusable = values.iter().filter(|value| value.is_nan()).count();
-    if unusable > values.len() / FILLED {
-        return Err(Fault::new(
-            format!("has {unusable} pixels of {} that are {what}", values.len()),
-            format!("at most one in a hundred can be filled from its neighbours; {advice}"),
-        ));
-    }
-    let first = values.iter().copied().find(|value| !value.is_nan());
-    if values.iter().all(|value| value.is_nan() || Some(*value) == first) {
-        return Err(Fault::new("has the same value everywhere", "is it the right file?"));
-    }
-    Ok(unusable)
-}
-
-/// The mean of the values that are there.
-fn mean_of(values: &[f64]) -> f64 {
-    let finite = || values.iter().filter(|value| !value.is_nan());
-    finite().sum::<f64>() / finite().count() as f64
 }
 
 /// The map of relative weights, and how many were below zero.

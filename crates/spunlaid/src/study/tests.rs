@@ -36,6 +36,7 @@ pub(crate) fn table1() -> Case {
             gravity: 9.81,
             damping: 0.0,
             shapes: None,
+            checks: crate::case::Checks::default(),
         },
     }
 }

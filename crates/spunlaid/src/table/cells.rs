@@ -1,5 +1,6 @@
 //! Splits a line into cells and reads the number in a cell.
 
+use super::thousands::{has_thousands, refusal};
 use crate::error::Fault;
 use crate::units::excerpt;
 use std::borrow::Cow;
@@ -16,11 +17,21 @@ impl Parting {
     /// All separators, in the order in which they are tried.
     const ALL: [Self; 4] = [Self::Sign(b'\t'), Self::Sign(b';'), Self::Sign(b','), Self::Blanks];
 
+    /// Whether the separator is in a line. Tabs at its end are none where others part its cells.
     fn occurs(self, text: &str) -> bool {
+        let inner = text.trim_end();
+        let is_in = |text: &str, sign: u8| text.as_bytes().contains(&sign);
         match self {
-            Self::Sign(sign) => text.as_bytes().contains(&sign),
+            Self::Sign(b'\t') => {
+                is_in(inner, b'\t') || is_in(text, b'\t') && !inner.contains([';', ',', ' '])
+            }
+            Self::Sign(sign) => is_in(text, sign),
             Self::Blanks => true,
         }
+    }
+
+    pub(super) fn is_tab(self) -> bool {
+        self == Self::Sign(b'\t')
     }
 
     /// The first separator that occurs in a line.
@@ -86,6 +97,8 @@ pub(super) enum Looks {
 impl Looks {
     pub(super) fn new(cell: &str, parting: Parting) -> Self {
         match parsed(cell, parting) {
+            // It is refused where it is read.
+            None if has_thousands(cell) => Self::Number,
             None => Self::Text,
             Some(number) if number.is_nan() => Self::Missing,
             Some(_) => Self::Number,
@@ -103,6 +116,9 @@ pub(super) fn is_comment(text: &str) -> bool {
 pub(super) fn number(cell: &str, parting: Parting, decimals: &mut Option<u8>) -> Result<f64, Fault> {
     let text = excerpt(cell, 40);
     let Some(number) = parsed(cell, parting) else {
+        if has_thousands(cell) {
+            return Err(refusal(&text));
+        }
         return Err(Fault::new(
             format!("\"{text}\" is not a number"),
             "write one, or leave the cell empty where a value is missing",

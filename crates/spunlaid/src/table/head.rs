@@ -58,6 +58,22 @@ impl Head {
             .map(|(_, unit)| Some(&unit[1..]))
     }
 
+    /// Whether this is a column of remarks.
+    pub(super) fn is_remark(&self) -> bool {
+        const REMARKS: [&str; 9] = [
+            "comment",
+            "comments",
+            "remark",
+            "remarks",
+            "note",
+            "notes",
+            "kommentar",
+            "bemerkung",
+            "anmerkung",
+        ];
+        REMARKS.contains(&self.name.to_lowercase().as_str())
+    }
+
     /// The factor from the unit of this column to SI.
     ///
     /// * `example` – a valid header, for the message

@@ -7,7 +7,9 @@
 //!   the fourth line of TOA5 files. Lines above the header are recognised and skipped. Units may also be
 //!   part of the names: `u_m_s`, `u [m/s]`, `u (m/s)`.
 //! * **Comments** begin with `#`, `%` or `//`. A comment just above the numbers may be the header.
-//! * **Columns of text** are allowed; only reading a number from one is an error. One may hold time stamps, ISO or German.
+//! * **Thousands** have no sign: `1.234.567` is refused, and so is a column in which `998` stands beside `1.002`.
+//! * **Columns of text** are allowed; only reading a number from one is an error. One may hold time stamps.
+//! * **Lines** end with a line feed, with a carriage return, or with both. Tabs at their end part cells like any others.
 //! * **Encoding** is UTF-8; a line that is not valid UTF-8 is read as Latin-1.
 //!
 //! Memory is bounded: a line has at most [`LONGEST_LINE`] bytes, and the header is looked for in the first
@@ -35,24 +37,42 @@
 
 mod cells;
 mod head;
+mod lines;
+mod logical;
 mod parquet;
 mod stamp;
 mod start;
+mod thousands;
 
 pub use head::{Head, scale};
+pub(crate) use logical::{Meaning, durations};
 pub(crate) use parquet::{NumberColumn, PageGuard};
-pub(crate) use stamp::Stamp;
+pub(crate) use stamp::{FORMS, Stamp};
 
 use crate::error::{Fault, FileError, FileKind, Position};
-use cells::{Parting, number};
+use crate::units::excerpt;
+use cells::{Looks, Parting, number};
+use lines::{Line, Lines};
 use std::collections::VecDeque;
-use std::io::{BufRead, BufReader, Read};
+use std::io::Read;
 use std::ops::Range;
+use thousands::Digits;
 
 /// Longest line read [bytes].
 pub const LONGEST_LINE: usize = 1 << 16;
 /// Number of lines in which the header and the first row are looked for.
 pub const LINES_AHEAD: usize = 100;
+
+/// What a column begins with.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum FirstCell {
+    /// A number, or nothing.
+    Number,
+    /// A time stamp, or another value that says the unit of a time itself.
+    Stamp,
+    /// Something else.
+    Text(String),
+}
 
 /// A text table that is read row by row.
 #[derive(Debug)]
@@ -65,6 +85,8 @@ pub struct Table<R> {
     parting: Parting,
     /// Decimal sign of the numbers read so far.
     decimals: Option<u8>,
+    /// What is known of signs between thousands, for each column.
+    digits: Vec<Digits>,
     row: Line,
     cells: Vec<Range<usize>>,
 }
@@ -78,8 +100,7 @@ impl<R: Read> Table<R> {
     /// # Errors
     /// When the source cannot be read, is not text or has no rows of numbers.
     pub fn open(source: R, kind: FileKind, skip: u64) -> Result<Self, FileError> {
-        let source = BufReader::with_capacity(1 << 16, source);
-        let mut lines = Lines { source, buffer: Vec::new(), number: 0, kind, skip };
+        let mut lines = Lines::open(source, kind, skip)?;
         let mut ahead = VecDeque::new();
         while ahead.len() < LINES_AHEAD {
             let mut line = Line::default();
@@ -96,7 +117,9 @@ impl<R: Read> Table<R> {
         }
         let named = start.names.is_some();
         let numbered = || (1..=start.cells).map(|i| format!("column {i}")).collect();
-        let heads = start.names.unwrap_or_else(numbered).iter().map(|name| Head::new(name)).collect();
+        let heads: Vec<Head> =
+            start.names.unwrap_or_else(numbered).iter().map(|name| Head::new(name)).collect();
+        let digits = vec![Digits::default(); heads.len()];
         Ok(Self {
             lines,
             ahead,
@@ -105,6 +128,7 @@ impl<R: Read> Table<R> {
             header,
             parting: start.parting,
             decimals: None,
+            digits,
             row: Line::default(),
             cells: Vec::new(),
         })
@@ -128,36 +152,68 @@ impl<R: Read> Table<R> {
     /// Reads the next row; `false` at the end.
     ///
     /// # Errors
-    /// When the file cannot be read, or the row has too few or too many cells.
+    /// When the file cannot be read, the row has too few or too many cells, or nothing tells whether the signs in a
+    /// column that was read are those of decimals or of thousands.
     pub fn next_row(&mut self) -> Result<bool, FileError> {
         let mut blank = 0;
         loop {
             match self.ahead.pop_front() {
                 Some(line) => self.row = line,
                 None if self.lines.next(&mut self.row)? => {}
-                None => return Ok(false),
+                None => return self.finish(),
             }
             blank += self.row.blank;
-            if !cells::is_comment(&self.row.text) {
+            if cells::is_comment(&self.row.text) {
+                continue;
+            }
+            self.parting.split(&self.row.text, &mut self.cells);
+            // Tabs alone are a row whose cells are all empty, where tabs part the cells of a row.
+            let is_row =
+                !self.row.is_blank() || self.parting.is_tab() && self.cells.len() == self.heads.len();
+            if is_row {
                 break;
             }
+            blank += 1;
         }
         self.row.blank = blank;
-        self.parting.split(&self.row.text, &mut self.cells);
         let (found, wanted) = (self.cells.len(), self.heads.len());
-        // Separators may end a row.
-        if self.cells.get(wanted..).is_some_and(|rest| rest.iter().all(Range::is_empty)) {
-            Ok(true)
+        // Separators may end a row, and a remark behind its numbers may be left out with its separator.
+        let extra = self.cells.get(wanted..);
+        let fits = match extra {
+            _ if self.begins_block() => false,
+            Some(extra) => extra.iter().all(Range::is_empty),
+            None => found + 1 == wanted && self.heads.last().is_some_and(Head::is_remark),
+        };
+        if fits { Ok(true) } else { Err(self.wrong_count(found, wanted)) }
+    }
+
+    /// Whether this is the head of a further block in a file of LabVIEW.
+    fn begins_block(&self) -> bool {
+        matches!(self.text(0), "Channels" | "***End_of_Header***")
+    }
+
+    /// The error of a row with too few or too many cells, or of none.
+    fn wrong_count(&self, found: usize, wanted: usize) -> FileError {
+        if self.begins_block() {
+            let fault = Fault::new("another block of data begins here", "cut the file into its blocks");
+            return FileError::from(fault).at(self.place());
+        }
+        let remedy = if found < wanted {
+            "is the file cut off here?"
         } else {
-            Err({
-                let remedy = if found < wanted {
-                    "is the file cut off here?"
-                } else {
-                    "are both decimals and cells separated by commas?"
-                };
-                let fault = Fault::new(format!("this row has {found} cells and needs {wanted}"), remedy);
-                FileError::from(fault).at(self.place())
-            })
+            "are both decimals and cells separated by commas?"
+        };
+        let fault = Fault::new(format!("this row has {found} cells and needs {wanted}"), remedy);
+        FileError::from(fault).at(self.place())
+    }
+
+    /// Whether the columns that were read leave a doubt, at the end of the file.
+    fn finish(&self) -> Result<bool, FileError> {
+        let doubt =
+            self.digits.iter().zip(&self.heads).find_map(|(digits, head)| Some((digits.doubt()?, head)));
+        match doubt {
+            None => Ok(false),
+            Some(((fault, place), head)) => Err(FileError::from(fault).at(place).column(&head.text)),
         }
     }
 
@@ -187,8 +243,12 @@ impl<R: Read> Table<R> {
     /// When the cell holds text or infinity.
     pub fn number(&mut self, column: usize) -> Result<f64, FileError> {
         let mut decimals = self.decimals;
-        let number = number(self.text(column), self.parting, &mut decimals);
+        let text = self.cells.get(column).map_or("", |cell| &self.row.text[cell.clone()]);
+        let number = number(text, self.parting, &mut decimals);
         self.decimals = decimals;
+        if let Some(digits) = self.digits.get_mut(column) {
+            digits.look(text, || Position::Line(self.row.number));
+        }
         number.map_err(|fault| self.blame(column, fault))
     }
 
@@ -197,11 +257,16 @@ impl<R: Read> Table<R> {
         Stamp::parse(self.text(column))
     }
 
-    /// Whether the first row has a time stamp in each column. Only before it is read.
-    pub(crate) fn stamped_columns(&self) -> Vec<bool> {
-        let first = self.ahead.iter().find(|line| !cells::is_comment(&line.text));
+    /// What the first row has in each column. Only before it is read.
+    pub(crate) fn first_row(&self) -> Vec<FirstCell> {
+        let first = self.ahead.iter().find(|line| !cells::is_comment(&line.text) && !line.is_blank());
         let cells = first.map_or_else(Vec::new, |line| self.parting.cells(&line.text));
-        cells.into_iter().map(|cell| Stamp::parse(cell).is_some()).collect()
+        let of = |cell: &str| match Stamp::parse(cell) {
+            Some(_) => FirstCell::Stamp,
+            None if Looks::new(cell, self.parting) == Looks::Text => FirstCell::Text(excerpt(cell, 40)),
+            None => FirstCell::Number,
+        };
+        cells.into_iter().map(of).collect()
     }
 
     /// Whether a column of the row holds a finite number, with whatever decimal sign, or says that it is missing.
@@ -218,79 +283,6 @@ impl<R: Read> Table<R> {
     pub(crate) fn blame(&self, column: usize, fault: impl Into<Fault>) -> FileError {
         let name = self.heads.get(column).map_or("", |head| &head.text);
         FileError::from(fault.into()).at(self.place()).column(name)
-    }
-}
-
-/// A line that is not empty.
-#[derive(Clone, Debug, Default)]
-struct Line {
-    /// Line number, from 1.
-    number: u64,
-    text: String,
-    /// Empty lines above it.
-    blank: u64,
-}
-
-#[derive(Debug)]
-struct Lines<R> {
-    source: BufReader<R>,
-    buffer: Vec<u8>,
-    number: u64,
-    kind: FileKind,
-    skip: u64,
-}
-
-impl<R: Read> Lines<R> {
-    /// Reads the next line that is not empty; `false` at the end.
-    fn next(&mut self, line: &mut Line) -> Result<bool, FileError> {
-        line.blank = 0;
-        loop {
-            self.number += 1;
-            let number = self.number;
-            let refused = |fault: Fault| FileError::from(fault).at(Position::Line(number));
-            self.buffer.clear();
-            let most = LONGEST_LINE as u64 + 1;
-            let read = self.source.by_ref().take(most).read_until(b'\n', &mut self.buffer);
-            let read = read.map_err(|e| refused(Fault::unreadable(&e)))?;
-            if read == 0 {
-                return Ok(false);
-            }
-            // UTF-16 begins with one of two marks, and text never holds a zero byte.
-            let marked = self.buffer.starts_with(&[0xff, 0xfe]) || self.buffer.starts_with(&[0xfe, 0xff]);
-            if (number == 1 && marked) || self.buffer.contains(&0) {
-                return Err(refused(self.kind.not_text()));
-            }
-            if read > LONGEST_LINE {
-                let fault = match self.kind {
-                    FileKind::Scan => Fault::new(
-                        format!("this row is longer than {LONGEST_LINE} bytes, the limit for a table"),
-                        "save so wide a map as NumPy array (.npy)",
-                    ),
-                    _ => Fault::new(
-                        format!(
-                            "this line is longer than {LONGEST_LINE} bytes, the limit for a row of a table"
-                        ),
-                        "end each row with a line break",
-                    ),
-                };
-                return Err(refused(fault));
-            }
-            if number <= self.skip {
-                continue;
-            }
-            line.text.clear();
-            match std::str::from_utf8(&self.buffer) {
-                Ok(text) => line.text.push_str(text.trim_start_matches('\u{feff}').trim_end()),
-                // Older instruments write Latin-1.
-                Err(_) => line.text.extend(self.buffer.iter().map(|byte| char::from(*byte))),
-            }
-            if line.text.trim().is_empty() {
-                line.blank += 1;
-                continue;
-            }
-            line.number = number;
-            return Ok(true);
-        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! Reads columns of numbers from Parquet.
 
+use super::logical::Meaning;
 use bytes::Bytes;
 use parquet::basic::Encoding;
 use parquet::column::page::{Page, PageMetadata, PageReader};
@@ -21,24 +22,27 @@ const MOST_ROWS: usize = 1 << 28;
 pub(crate) struct NumberColumn {
     reader: ColumnReader,
     nullable: bool,
-    /// The numbers read last; NaN if a value is missing.
+    meaning: Meaning,
+    /// The numbers read last; NaN if a value is missing. Times are counted from `origin`.
     pub(crate) numbers: Vec<f64>,
+    /// The first time of the file, from which times count.
+    pub(crate) origin: Option<i64>,
 }
 
 impl NumberColumn {
-    /// Opens the column; the inner error says what it holds instead of numbers.
+    /// Opens the column.
+    ///
+    /// * `meaning` – as [`Meaning::of`] finds it
     pub(crate) fn open(
         source: &Arc<PageGuard>,
         metadata: &ParquetMetaData,
         group: usize,
         index: usize,
-    ) -> Decoded<Result<Self, String>> {
+        meaning: Meaning,
+    ) -> Decoded<Self> {
         let group = metadata.row_group(group);
         let chunk = group.columns().get(index).ok_or_else(|| missing("a column of a row group"))?;
         let about = chunk.column_descr_ptr();
-        if about.max_rep_level() > 0 || about.max_def_level() > 1 {
-            return Ok(Err("nested values".to_owned()));
-        }
         // The decoder does not check these.
         let places =
             [chunk.data_page_offset(), chunk.dictionary_page_offset().unwrap_or(0), chunk.compressed_size()];
@@ -49,33 +53,37 @@ impl NumberColumn {
         let pages = SerializedPageReader::new(Arc::clone(source), chunk, rows.min(MOST_ROWS), None)?;
         let nullable = about.max_def_level() > 0;
         let reader = get_column_reader(about, Box::new(Pages { pages, dictionary: false }));
-        Ok(match reader {
-            ColumnReader::DoubleColumnReader(_)
-            | ColumnReader::FloatColumnReader(_)
-            | ColumnReader::Int32ColumnReader(_)
-            | ColumnReader::Int64ColumnReader(_) => Ok(Self { reader, nullable, numbers: Vec::new() }),
-            ColumnReader::BoolColumnReader(_) => Err("true and false".to_owned()),
-            ColumnReader::Int96ColumnReader(_) => Err("dates".to_owned()),
-            _ => Err("text or bytes".to_owned()),
-        })
+        Ok(Self { reader, nullable, meaning, numbers: Vec::new(), origin: None })
     }
 
     /// Reads up to `rows` rows.
     pub(crate) fn next(&mut self, rows: usize) -> Decoded<()> {
-        let Self { reader, nullable, numbers } = self;
+        let Self { reader, nullable, meaning, numbers, origin } = self;
+        let (nullable, meaning) = (*nullable, *meaning);
         numbers.clear();
+        // Times count from the first, because a double does not hold all digits of nanoseconds since 1970.
+        let mut since = |time: i64| time.wrapping_sub(*origin.get_or_insert(time)) as f64;
         match reader {
-            ColumnReader::DoubleColumnReader(reader) => read_into(reader, rows, *nullable, numbers, |x| *x),
+            ColumnReader::DoubleColumnReader(reader) => read_into(reader, rows, nullable, numbers, |x| *x),
             ColumnReader::FloatColumnReader(reader) => {
-                read_into(reader, rows, *nullable, numbers, |x| f64::from(*x))
+                read_into(reader, rows, nullable, numbers, |x| f64::from(*x))
             }
-            ColumnReader::Int32ColumnReader(reader) => {
-                read_into(reader, rows, *nullable, numbers, |x| f64::from(*x))
+            ColumnReader::Int32ColumnReader(reader) => read_into(reader, rows, nullable, numbers, |x| {
+                if meaning.is_time() { since(i64::from(*x)) } else { meaning.whole(i64::from(*x), 32) }
+            }),
+            ColumnReader::Int64ColumnReader(reader) => read_into(reader, rows, nullable, numbers, |x| {
+                if meaning.is_time() { since(*x) } else { meaning.whole(*x, 64) }
+            }),
+            ColumnReader::Int96ColumnReader(reader) => {
+                read_into(reader, rows, nullable, numbers, |x| since(x.to_nanos()))
             }
-            ColumnReader::Int64ColumnReader(reader) => {
-                read_into(reader, rows, *nullable, numbers, |x| *x as f64)
+            ColumnReader::ByteArrayColumnReader(reader) => {
+                read_into(reader, rows, nullable, numbers, |x| meaning.bytes(x.data()))
             }
-            _ => Ok(()),
+            ColumnReader::FixedLenByteArrayColumnReader(reader) => {
+                read_into(reader, rows, nullable, numbers, |x| meaning.bytes(x.data()))
+            }
+            ColumnReader::BoolColumnReader(_) => Ok(()),
         }
     }
 
@@ -84,7 +92,7 @@ impl NumberColumn {
         match &self.reader {
             ColumnReader::DoubleColumnReader(_) => number.abs() * f64::EPSILON,
             ColumnReader::FloatColumnReader(_) => number.abs() * f64::from(f32::EPSILON),
-            _ => 1.0,
+            _ => self.meaning.last_place(number),
         }
     }
 }
@@ -94,12 +102,12 @@ fn read_into<T: DataType>(
     rows: usize,
     nullable: bool,
     numbers: &mut Vec<f64>,
-    number: impl Fn(&T::T) -> f64,
+    mut number: impl FnMut(&T::T) -> f64,
 ) -> Decoded<()> {
     let (mut levels, mut values) = (Vec::new(), Vec::new());
     let (read, _, _) = reader.read_records(rows, nullable.then_some(&mut levels), None, &mut values)?;
     if !nullable {
-        numbers.extend(values.iter().map(number));
+        numbers.extend(values.iter().map(&mut number));
         return if numbers.len() == read { Ok(()) } else { Err(missing("a value")) };
     }
     let mut present = values.iter();

@@ -1,8 +1,8 @@
 //! Finds the first row of a table and the line that names its columns.
 
-use super::Line;
 use super::cells::{Looks, Parting, is_comment};
-use super::head::is_unit;
+use super::head::{Head, is_unit};
+use super::lines::Line;
 
 /// What is known before the first row is read.
 pub(super) struct Start {
@@ -19,12 +19,18 @@ pub(super) struct Start {
 /// Finds the first row and the names above it.
 pub(super) fn find(lines: &[Line]) -> Option<Start> {
     // Lines that are not comments.
-    let content: Vec<usize> = (0..lines.len()).filter(|i| !is_comment(&lines[*i].text)).collect();
+    let is_content = |line: &Line| !is_comment(&line.text) && !line.is_blank();
+    let content: Vec<usize> = (0..lines.len()).filter(|i| is_content(&lines[*i])).collect();
     let text = |i: usize| lines[content[i]].text.as_str();
     let (first, parting) = numbers(content.len(), text).or_else(|| mixed(content.len(), text))?;
     let cells = parting.cells(text(first));
-    let fits =
-        |names: &[String]| cells.get(names.len()..).is_some_and(|rest| rest.iter().all(|c| c.is_empty()));
+    // A remark behind the numbers may be left out with its separator.
+    let fits = |names: &[String]| match cells.get(names.len()..) {
+        Some(rest) => rest.iter().all(|cell| cell.is_empty()),
+        None => {
+            names.len() == cells.len() + 1 && names.last().is_some_and(|name| Head::new(name).is_remark())
+        }
+    };
     // Empty names at the end are dropped unless there is something below them.
     let names = |line: &str, parting| {
         let mut names = names(line, parting);
@@ -39,8 +45,14 @@ pub(super) fn find(lines: &[Line]) -> Option<Start> {
         let by_itself = names(line, Parting::first_in(line));
         [by_rows, by_itself].into_iter().find(|names| !names.is_empty() && fits(names))
     };
+    // Separators at the end of all rows are no column.
+    let filled = |i: &usize| {
+        let cells = parting.cells(&lines[*i].text);
+        cells.iter().rposition(|cell| !cell.is_empty()).map_or(0, |last| last + 1)
+    };
+    let width = content[first..].iter().map(filled).max().unwrap_or(0).min(cells.len());
     let start =
-        |row: usize, parting, names, header| Some(Start { row, parting, cells: cells.len(), names, header });
+        |row: usize, parting, names, header| Some(Start { row, parting, cells: width, names, header });
     // The header is the nearest line above with one word for each column. Lines between it and the first row count as
     // rows.
     let header = (0..first).rev().find_map(|i| Some((i, names_in(text(i)).filter(|n| words(n, parting))?)));

@@ -103,9 +103,9 @@ mod tests {
         }
         for stretch in 0..STRETCHES {
             let gusts: Vec<f64> = (0..FILAMENTS).map(|_| normal()).collect();
-            for (filament, fibre) in parts.iter_mut().enumerate() {
+            for (filament, (fibre, lengths)) in parts.iter_mut().zip(&lengths).enumerate() {
                 let gust = (0..GUST).map(|i| gusts[(filament + i) % FILAMENTS]).sum::<f64>();
-                let length = lengths[filament][stretch];
+                let length = lengths[stretch];
                 fibre.push(Part {
                     value: gust / (GUST as f64).sqrt() + places[filament] + 2.0 * length,
                     length,

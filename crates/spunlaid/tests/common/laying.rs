@@ -108,6 +108,7 @@ impl Thread {
             gravity: GRAVITY,
             damping: Self::DAMPING * (GRAVITY / self.height).sqrt(),
             shapes: None,
+            checks: spunlaid::case::Checks::default(),
         };
         let line = Line {
             feed_speed,

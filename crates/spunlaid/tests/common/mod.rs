@@ -62,6 +62,7 @@ pub fn table1(scheme: Scheme, time_step: f64, duration: f64, replicates: u64) ->
         gravity: 9.81,
         damping: 0.0,
         shapes: None,
+        checks: spunlaid::case::Checks::default(),
     };
     Case {
         fibre: table1_fibre(),

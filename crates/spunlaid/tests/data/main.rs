@@ -20,6 +20,7 @@ mod field_names;
 mod field_points;
 mod field_refusals;
 mod fields;
+mod record_dialects;
 mod record_files;
 mod record_short;
 mod record_statistics;

@@ -203,7 +203,7 @@ fn rejects_with_line_column_and_way_out() {
         ),
         (
             "u_m_s\n1\n2\n",
-            "a.csv: has no column of time (it has u_m_s); name it like time_s, write time stamps in it, or give the sampling rate",
+            "a.csv: has no column of time (it has u_m_s); name it like time_s, write time stamps in it, say which column it is (air.record_time in a case), or give the sampling rate",
         ),
         (
             "time,u_m_s\n0,1\n",
@@ -260,7 +260,7 @@ fn rejects_with_line_column_and_way_out() {
         ),
         (
             "time_s,u_m_s\nbaz,1\n",
-            "a.csv:2: column time_s: \"baz\" is not a number; write one, or leave the cell empty where a value is missing",
+            "a.csv: column time_s: \"baz\" is neither a number nor a time stamp; stamps are written as 2024-03-05 12:00:00.125, 05.03.2024 12:00:00,125, 03/05/2024 12:00:00.125 PM, 12:00:00.125 or, in minutes and seconds, 00:00.125; or give the sampling rate",
         ),
         (
             "PK\u{3}\u{4}\0\0\n",
@@ -426,7 +426,7 @@ fn rejects_parquet_that_holds_no_record() {
     );
     assert_eq!(
         said(text),
-        "a.parquet: column u_m_s: holds text or bytes; a plain column of doubles, floats or integers is needed"
+        "a.parquet: column u_m_s: holds text or bytes; a plain column of floating-point, whole or decimal numbers is needed, or of times where it gives the time"
     );
     let columns: [Column<'_>; 2] = [("time_s", Physical::DOUBLE, PLAIN), ("u_m_s", Physical::DOUBLE, PLAIN)];
     let write = |values: &'static [f64]| {

@@ -344,3 +344,54 @@ fn rejects_pictures_that_are_mostly_dark_spots_or_askew() {
     let said = refused(&|x, y| x.abs_diff(300) + y.abs_diff(400) > 330, 1.0);
     assert!(said.contains("shows the bare lamp on ") && said.contains("turn the scan straight"), "{said}");
 }
+
+/// A web on a black ground, by Kubelka's law for fibres that scatter light and absorb none.
+#[test]
+fn analytic_light_that_is_thrown_back() {
+    let map = laid(6);
+    let mean = map.total() as f64 / map.cells.len() as f64;
+    let level = |quanta: &u32| {
+        let scattering = 0.5 * f64::from(*quanta) / mean;
+        0.8 * scattering / (1.0 + scattering)
+    };
+    let levels: Vec<f64> = map.cells.iter().map(level).collect();
+    let patches = SIDES.map(|side| side as f64 * PIXEL).to_vec();
+    let settings = |light| Settings {
+        patches: patches.clone(),
+        keep_shading: true,
+        keep_spots: true,
+        ..Settings::new(light)
+    };
+    let file = scans::npy_f64(map.columns, &levels);
+    let reflected = scanned(&file, &settings(Light::Reflected { mean: None, white: Some(0.8) }));
+    let transmitted = settings(Light::Transmitted { mean: None, white: Some(0.8) });
+    let transmitted = scanned(&file, &Settings { light_is_assumed: true, ..transmitted });
+    for (patch, (truth, wrong)) in
+        reflected.patches.iter().zip(unscanned(&map).iter().zip(&transmitted.patches))
+    {
+        let cv = patch.unevenness.cv;
+        // The basis weights are kept in millionths of their mean.
+        assert!((cv / truth - 1.0).abs() < 1e-5, "{cv} {truth}");
+        assert!((wrong.unevenness.cv / truth - 1.0).abs() > 0.1, "{} {truth}", wrong.unevenness.cv);
+    }
+    let doubts =
+        |found: &Findings| found.notes.iter().any(|note| note.message.contains("heavy places are light"));
+    assert!(doubts(&transmitted) && !doubts(&reflected));
+}
+
+/// The bare lamp beside a skewed web, or a web that becomes thinner, bends the polynomial as no lamp does.
+#[test]
+fn rejects_a_shading_that_no_lamp_makes() {
+    let map = laid(7);
+    let slope =
+        |(at, light): (usize, &f64)| light * (0.3 + 0.7 * (at % map.columns) as f64 / map.columns as f64);
+    let levels: Vec<f64> = light(&map).iter().enumerate().map(slope).collect();
+    let picture = parse(&scans::npy_f64(map.columns, &levels), "scan", PIXEL).expect("a picture");
+    let settings = Settings::new(Light::Transmitted { mean: None, white: Some(1.0) });
+    let refusal = analyse(&picture, &settings).expect_err("a refusal").to_string();
+    assert!(
+        refusal.contains("a lamp and a lens make 60 % at most") && refusal.contains("--lamp"),
+        "{refusal}"
+    );
+    assert!(analyse(&picture, &Settings { keep_shading: true, ..settings }).is_ok());
+}

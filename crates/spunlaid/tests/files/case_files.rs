@@ -98,6 +98,7 @@ fn table_1_is_read_in_si_units() {
             gravity: 9.81,
             damping: 0.0,
             shapes: None,
+            checks: spunlaid::case::Checks::default(),
         },
     };
     assert_eq!(bits(&case), bits(&meant));

@@ -3,7 +3,7 @@
 use crate::cases::{bits, read_again, remarks};
 use proptest::prelude::*;
 use spunlaid::air::{Air, EddyModel, Lateral};
-use spunlaid::case::{Case, FLIGHT_MEMORY_LIMIT, Neighbours, Run};
+use spunlaid::case::{Case, Checks, FLIGHT_MEMORY_LIMIT, Neighbours, Run};
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::{Drag, FrictionLaw, NormalLaw};
 use spunlaid::fibre::{Fibre, Root};
@@ -70,7 +70,7 @@ prop_compose! {
         let output_steps = 1 + (output * (steps - 1) as f64) as u64;
         let run = Run {
             time_step: 1.0, steps, spin_up_steps, output_steps, replicates, seed, scheme, gravity, damping,
-            shapes: leapfrog.then_some(seed % 20_001),
+            shapes: leapfrog.then_some(seed % 20_001), checks: Checks::ALL[(seed % 3) as usize],
         };
         let drag = Drag { along, across };
         let distances = if lateral == Lateral::Uniform { Vec::new() } else { vec![0.1 * length_scale, length_scale] };

@@ -66,8 +66,14 @@ fn identical_after_getting_and_setting() {
         ("spinline.filaments_per_metre_and_row", "200"),
         ("spinline.material.source", "my data sheet"),
     ]));
-    let of_record =
-        [("rate", "2 kHz"), ("skip", "2"), ("columns", "u,v"), ("velocity_unit", "m/s"), ("max_gap", "20")];
+    let of_record = [
+        ("rate", "2 kHz"),
+        ("skip", "2"),
+        ("columns", "u,v"),
+        ("time", "time_s"),
+        ("velocity_unit", "m/s"),
+        ("max_gap", "20"),
+    ];
     let set = of_record.map(|(key, value)| (format!("air.record_{key}"), value.to_owned()));
     cases.push(("../../cases/record.toml".into(), set.to_vec()));
     let arrays = |dissipation: &str| {

@@ -5,8 +5,8 @@ use crate::common::*;
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::ensemble::{
-    FinerPlans, Keep, Number, Recorder, Results, RunControl, Sample, Trajectory, fly, fly_and_check,
-    fly_together,
+    FinerPlans, Keep, Number, Recorder, Results, RunControl, Sample, Trajectory, Unchecked, fly,
+    fly_for_checks, fly_together, nothing_kept,
 };
 use spunlaid::error::Error;
 use spunlaid::flight::{Job, LaidPoint};
@@ -251,19 +251,26 @@ replicates = 12
             recorder: Some(&told),
         };
         let (mut flown, mut lost, mut order) = (Vec::new(), Vec::new(), Vec::new());
-        fly_and_check(&case, &FinerPlans::none("it was not asked for"), Keep::SAMPLES, computing, |landed| {
-            match landed {
-                Ok(trajectory) => {
-                    order.push(trajectory.replicate);
-                    flown.push(trajectory);
+        fly_for_checks(
+            &case,
+            &FinerPlans::none(Unchecked::NotAsked),
+            Keep::SAMPLES,
+            computing,
+            nothing_kept,
+            |landed| {
+                match landed {
+                    Ok(trajectory) => {
+                        order.push(trajectory.replicate);
+                        flown.push(trajectory);
+                    }
+                    Err(fibre) => {
+                        order.push(fibre.replicate);
+                        lost.push(fibre);
+                    }
                 }
-                Err(fibre) => {
-                    order.push(fibre.replicate);
-                    lost.push(fibre);
-                }
-            }
-            Ok::<(), Error>(())
-        })
+                Ok::<(), Error>(())
+            },
+        )
         .unwrap();
         assert_eq!(order, (0..12).collect::<Vec<_>>(), "each in its turn");
         assert!(!lost.is_empty() && flown.len() > 2, "{lost:?}");

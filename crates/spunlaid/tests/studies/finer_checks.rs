@@ -3,11 +3,12 @@
 use crate::common;
 use crate::common::*;
 use crate::ensembles::{assert_same, flights, table1};
-use spunlaid::case::Case;
+use spunlaid::case::{Case, Checks, Run};
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::NormalLaw;
 use spunlaid::ensemble::{
-    FinerCheck, FinerPlans, Keep, Refinement, RunControl, Trajectory, fly_and_check, fly_together,
+    FinerCheck, FinerPlans, Keep, Refinement, RunControl, Trajectory, Unchecked, fly_for_checks,
+    fly_together, nothing_kept,
 };
 use spunlaid::error::Error;
 use spunlaid::flight::Job;
@@ -24,19 +25,22 @@ fn checked_by(
     threads: usize,
     isa: Isa,
     stop: bool,
-) -> Result<(Vec<Trajectory>, Result<FinerCheck, String>), Error> {
+) -> Result<(Vec<Trajectory>, Result<FinerCheck, Unchecked>), Error> {
     let (stop, fibre_steps) = (AtomicBool::new(stop), AtomicU64::new(0));
     let computing = RunControl { threads, isa, stop: &stop, fibre_steps: &fibre_steps, recorder: None };
-    let none = || Err("it was not asked for".to_owned());
-    let plans = match (refined, FinerPlans::for_case(case)) {
+    let none = || Err(Unchecked::NotAsked);
+    // Short runs are not worth a check; here all of them are checked.
+    let whole = Case { run: Run { checks: Checks::Full, ..case.run }, ..case.clone() };
+    let plans = match (refined, FinerPlans::for_case(&whole)) {
         (Refinement::TimeStep, FinerPlans { step, .. }) => FinerPlans { step, mesh: none() },
         (Refinement::Elements, FinerPlans { mesh, .. }) => FinerPlans { step: none(), mesh },
     };
     let mut flown = Vec::new();
-    let checks = fly_and_check(case, &plans, Keep::SAMPLES, computing, |trajectory| {
+    let paths = fly_for_checks(case, &plans, Keep::SAMPLES, computing, nothing_kept, |trajectory| {
         flown.push(trajectory.expect("no fibre is lost"));
         Ok::<(), Error>(())
     })?;
+    let checks = plans.check(&paths, computing);
     assert_eq!(fibre_steps.into_inner(), case.run.steps * case.run.replicates + plans.fibre_steps());
     Ok((flown, if refined == Refinement::TimeStep { checks.step } else { checks.mesh }))
 }
@@ -274,27 +278,37 @@ fn step_checks_take_a_tenth_of_long_runs_and_leave_out_what_is_too_short_or_stil
         assert_eq!(plan.fibre_steps(), (2e6 * seconds) as u64 * plan.replicates);
         assert!(plan.share_of_run <= 0.1 && (replicates == 800 || plan.share_of_run > 0.099));
     }
-    // All of a run that takes no time anyway.
-    let half = plan(&table1(1e-4, 0.5, 8)).expect("500 instants");
+    // As many instants as say something, if all checks together then take no more than a fifth of the run.
+    let fewest = plan(&table1(1e-4, 0.25, 8)).expect("20 of 250 instants");
+    assert_eq!((fewest.fibre_steps(), fewest.share_of_run), (2 * 200 * 8, 0.16));
+    assert_eq!(plan(&table1(1e-4, 0.19, 8)).err(), Some(Unchecked::Dear { times: 2.0 }));
+    assert_eq!(plan(&table1(1e-4, 0.019, 8)).err(), Some(Unchecked::TooShort));
+    // All of it if that is asked for, and nothing.
+    let mut asked = table1(1e-4, 0.5, 8);
+    asked.run.checks = Checks::Full;
+    let half = plan(&asked).expect("500 instants");
     assert_eq!((half.fibre_steps(), half.share_of_run), (2 * 5000 * 8, 2.0));
-    assert!(plan(&table1(1e-4, 0.019, 8)).is_err());
+    asked.run.checks = Checks::None;
+    assert_eq!(plan(&asked).err(), Some(Unchecked::NotAsked));
     let mut still = table1(1e-4, 0.1, 2);
+    still.run.checks = Checks::Full;
     (still.run.scheme, still.air.turbulence_intensity) = (Scheme::ImplicitTension, 0.0);
     assert!(plan(&still).is_ok());
     assert!(checked(&still, 1, Isa::detect(), false).expect("the case flies").1.is_none());
     let (_, mesh) =
         checked_by(Refinement::Elements, &still, 1, Isa::detect(), false).expect("the case flies");
-    assert!(mesh.is_err_and(|why| why.contains("does not move")));
+    assert!(mesh.is_err_and(|why| why.to_string().contains("does not move")));
     // The mesh of the paper's case takes implicit tension and no more than a hundredth of the run.
     let mesh = FinerPlans::for_case(&table1(1e-6, 1.0, 10)).mesh.expect("long enough");
-    assert!(mesh.replicates == 8 && mesh.share_of_run < 0.01, "{}", mesh.share_of_run);
-    // A second of fed fibre would take many times the run.
-    let slow = common::laying::spunbond(&[
-        ("feed.speed", "0.5 m/s"),
-        ("belt.speed", "0.03 m/s"),
-        ("run.duration", "20 s"),
-    ]);
-    assert!(
-        FinerPlans::for_case(&slow).step.is_err_and(|why| why.contains("times the run's computing time"))
-    );
+    assert!(mesh.replicates == 8 && mesh.share_of_run < 0.02, "{}", mesh.share_of_run);
+    // Leapfrog at short steps takes many times a short run.
+    let fed = |duration| {
+        let case = common::laying::spunbond(&[("run.duration", duration)]);
+        FinerPlans::for_case(&case)
+    };
+    assert!(matches!(fed("0.1 s").step, Err(Unchecked::Dear { times }) if times > 2.0));
+    for duration in ["0.05 s", "0.5 s", "2 s", "20 s"] {
+        let share = fed(duration).share_of_run();
+        assert!(share <= 0.2, "{duration}: {share}");
+    }
 }

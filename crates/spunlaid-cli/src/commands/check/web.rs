@@ -147,14 +147,17 @@ fn air(spec: &WebSpec) -> Vec<String> {
             LaydownSource::Results { .. } => {
                 format!("  the filaments are those of {path}, which were flown before")
             }
-            LaydownSource::Case { case, .. } => format!(
-                "  {path}: {}",
-                match case.air.lateral {
-                    Lateral::Uniform =>
-                        "its air is the same everywhere across the flow (air.lateral = \"uniform\")",
-                    Lateral::VonKarman { .. } => "its eddies lie in space (air.lateral = \"von-karman\")",
+            LaydownSource::Case { case, .. } => match (case.air.lateral, spec.method) {
+                (Lateral::VonKarman { .. }, _) => {
+                    format!("  {path}: its eddies lie in space (air.lateral = \"von-karman\")")
                 }
-            ),
+                (Lateral::Uniform, Method::SharedAir) => {
+                    format!("  {path}: its eddies are given a place in space (air.lateral = \"von-karman\")")
+                }
+                (Lateral::Uniform, _) => {
+                    format!("  {path}: each fibre that is flown has turbulence of its own")
+                }
+            },
         }
     };
     let mut lines = vec!["air".to_owned()];

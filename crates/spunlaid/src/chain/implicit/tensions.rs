@@ -16,7 +16,7 @@ pub(crate) struct Tensions {
     rubs: bool,
     /// The largest error of an element's length after all iterations of a step, in parts of its rest length [-], and the
     /// element; so far, of each lane.
-    pub(super) worst: [(f64, usize); WIDTH],
+    pub(crate) worst: [(f64, usize); WIDTH],
 }
 
 /// What a step knows of a node and of the element below it. It lies together, because each pass along the chain needs most

@@ -1,7 +1,7 @@
 //! What differs between the flights of a check.
 
 use super::flights::{Flight, Path};
-use super::{Change, FinerCheck, FinerPlan, OF_THE_END, OF_THE_LAID};
+use super::{Change, FinerCheck, FinerPlan, OF_THE_END, OF_THE_LAID, Unchecked};
 use crate::statistics::Estimate;
 
 /// Amplitude below which the fibre does not move but for rounding, as a share of its length.
@@ -9,18 +9,22 @@ const ROUNDING: f64 = 1e-12;
 
 impl FinerPlan {
     /// Compares its flights, or the last one with paths of the run. An error is the reason why nothing can be said.
-    pub(in crate::ensemble) fn compare(
+    pub(super) fn compare(
         &self,
         paths: &[Option<Path>],
         flights: &[Flight],
-    ) -> Result<FinerCheck, String> {
+    ) -> Result<FinerCheck, Unchecked> {
         let (Some(coarse), Some(fine)) = (flights.first(), flights.last()) else {
-            return Err("it was not flown".to_owned());
+            return Err(Unchecked::Stopped);
         };
         let still = || {
             let fed = self.fine.line.is_some();
-            if fed { "the fibre laid nothing down" } else { "the free end does not move across the flow" }
-                .to_owned()
+            let why = if fed {
+                "the fibre laid nothing down"
+            } else {
+                "the free end does not move across the flow"
+            };
+            Unchecked::Other(why.to_owned())
         };
         let least = ROUNDING * self.fine.fibre.length;
         let mut check = FinerCheck {

@@ -1,13 +1,14 @@
 //! The flights of a check, and the paths of the free ends that are compared.
 
-use super::FinerPlan;
+use super::{FinerChecks, FinerPlan, FinerPlans, Unchecked};
 use crate::air::EddyModel;
 use crate::case::Case;
 use crate::ensemble::trajectory::fly_in_air;
-use crate::ensemble::{Keep, Recorder, RunControl, Sample, Shapes, Trajectory};
+use crate::ensemble::{Keep, Recorder, RunControl, Sample, Shapes, Trajectory, in_order};
 use crate::error::Error;
 use crate::flight::{Job, LaidPoint, SurroundingRun};
 use crate::threads::{lock, unlock};
+use std::convert::Infallible;
 use std::sync::{Mutex, MutexGuard};
 
 /// The position across the flow at the recorded instants after the start [m].
@@ -15,20 +16,60 @@ pub(super) type Path = Vec<[f64; 2]>;
 
 /// What one flight of a check has flown: the numbers of its fibres, and the paths by replicate if they are compared.
 #[derive(Debug)]
-pub(in crate::ensemble) struct Flight {
+pub(super) struct Flight {
     pub(super) trajectories: Vec<Trajectory>,
     pub(super) paths: Vec<Option<Path>>,
 }
 
+/// The paths of a run's free ends that the check of its step compares.
+#[derive(Clone, Debug)]
+pub struct RunPaths(pub(in crate::ensemble) Vec<Option<Path>>);
+
+impl FinerPlans {
+    /// Flies the checks of a run that has been flown. A check that is stopped, or whose own fibres are lost, says so in its place.
+    pub fn check(&self, paths: &RunPaths, computing: RunControl<'_>) -> FinerChecks {
+        let flights: Vec<_> =
+            self.all().flat_map(|plan| plan.flights().map(move |case| (plan, case))).collect();
+        let (mut flown, fly) = (Vec::new(), |index: usize| {
+            let (plan, case) = flights[index];
+            plan.fly(case, computing)
+        });
+        let Ok(()) = in_order(flights.len(), computing.threads, fly, |flight| {
+            flown.push(flight);
+            Ok::<(), Infallible>(())
+        });
+        let mut flown = flown.into_iter();
+        self.and_then(|plan| {
+            let flights: Vec<_> = flown.by_ref().take(plan.flights().count()).collect();
+            let flights: Result<Vec<_>, Error> = flights.into_iter().collect();
+            let flights = flights.map_err(|ended| match ended {
+                Error::Interrupted => Unchecked::Stopped,
+                lost => Unchecked::Other(format!("a fibre of the check was lost: {lost}")),
+            })?;
+            plan.compare(&paths.0, &flights)
+        })
+    }
+
+    /// What is known if the checks are not flown because the run was stopped.
+    pub fn stopped(&self) -> FinerChecks {
+        self.and_then(|_| Err(Unchecked::Stopped))
+    }
+
+    /// What is known before the checks are flown.
+    pub fn before_flight(&self) -> FinerChecks {
+        self.and_then(|_| Err(Unchecked::Pending))
+    }
+}
+
 impl FinerPlan {
     /// Flies one of its cases. Nothing that is recorded is kept, but for the paths that are compared.
-    pub(in crate::ensemble) fn fly(&self, case: &Case, computing: RunControl<'_>) -> Result<Flight, Error> {
+    fn fly(&self, case: &Case, computing: RunControl<'_>) -> Result<Flight, Error> {
         let jobs: Vec<Job<'_>> = (0..self.replicates).map(|replicate| Job::new(case, replicate)).collect();
         // A carried pattern has a signal for each element. Both feel the one of the finer elements.
         let carried = case.line.is_none() && matches!(case.air.eddies, EddyModel::Convected { .. });
         let flown = if carried { &self.fine } else { case };
         let air = SurroundingRun { case: flown, horizon: self.horizon, field: None };
-        let paths = Paths { stride: 1, ..Paths::from_run(Ok(self), None) };
+        let paths = Paths { stride: 1, ..Paths::from_run(Some(self), None) };
         let computing = RunControl { recorder: Some(&paths), ..computing };
         let trajectories = fly_in_air(&jobs, Keep::NUMBERS, air, computing)?;
         Ok(Flight { trajectories, paths: paths.into_paths() })
@@ -43,6 +84,8 @@ pub(in crate::ensemble) struct Paths<'a> {
     stride: u64,
     /// Largest number of instants that are kept.
     most: u64,
+    /// Number of replicates whose paths are kept.
+    replicates: u64,
     /// Recorded instants so far and the path, of each of the first replicates, as many as are kept.
     paths: Mutex<Vec<Option<(u64, Path)>>>,
 }
@@ -50,16 +93,16 @@ pub(in crate::ensemble) struct Paths<'a> {
 impl<'a> Paths<'a> {
     /// The paths of a run that the plan of its time step needs; none where it needs none.
     pub(in crate::ensemble) fn from_run(
-        plan: Result<&FinerPlan, &String>,
+        plan: Option<&FinerPlan>,
         passed_on: Option<&'a dyn Recorder>,
     ) -> Self {
         let (replicates, stride, most) = match plan {
-            Ok(plan) if plan.coarse.is_none() => {
+            Some(plan) if plan.coarse.is_none() => {
                 (plan.replicates, plan.stride, plan.fine.run.steps / plan.fine.run.output_steps)
             }
             _ => (0, 1, 0),
         };
-        Self { passed_on, stride, most, paths: Mutex::new(vec![None; replicates as usize]) }
+        Self { passed_on, stride, most, replicates, paths: Mutex::new(vec![None; replicates as usize]) }
     }
 
     /// Leaves out the path of a fibre that was lost.
@@ -88,7 +131,10 @@ impl Recorder for Paths<'_> {
     }
 
     fn sample(&self, replicate: u64, sample: &Sample) -> Result<(), Error> {
-        if let Some(path) = self.paths().get_mut(replicate as usize) {
+        // The threads of all other fibres need not wait for one another.
+        if replicate < self.replicates
+            && let Some(path) = self.paths().get_mut(replicate as usize)
+        {
             let (instants, path) = path.get_or_insert_default();
             if *instants > 0 && instants.is_multiple_of(self.stride) && *instants / self.stride <= self.most {
                 path.push([sample.end.y, sample.end.z]);

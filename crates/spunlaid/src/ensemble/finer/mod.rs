@@ -12,11 +12,15 @@
 mod compare;
 mod flights;
 mod plan;
+mod unchecked;
 
-pub(super) use flights::{Flight, Paths};
+pub(super) use flights::Paths;
+pub use flights::RunPaths;
 pub use plan::{FinerPlan, FinerPlans};
+pub use unchecked::Unchecked;
 
 use super::Trajectory;
+use crate::case::Run;
 use crate::chain::schemes::Scheme;
 use crate::statistics::Estimate;
 
@@ -98,7 +102,7 @@ pub struct FinerCheck {
     pub is_resolved: bool,
     /// Number of replicates that are compared.
     pub replicates: usize,
-    /// Computing time of the check as a share of that of the run, counted in steps of elements [-].
+    /// Computing time of the check as a share of that of the run, counted in steps of elements of the same cost [-].
     pub share_of_run: f64,
     /// Rms distance of two paths of the free end, divided by the amplitude; of each replicate [-]. `None` where only
     /// statistics are compared.
@@ -107,13 +111,13 @@ pub struct FinerCheck {
     pub changes: Vec<Change>,
 }
 
-/// What there is for each refinement, or the reason why there is nothing, as a part of a sentence.
+/// What there is for each refinement, or the reason why there is nothing.
 #[derive(Clone, Debug)]
 pub struct Refinements<T> {
     /// Of the time step.
-    pub step: Result<T, String>,
+    pub step: Result<T, Unchecked>,
     /// Of the elements.
-    pub mesh: Result<T, String>,
+    pub mesh: Result<T, Unchecked>,
 }
 
 /// What finer steps and finer elements change.
@@ -121,8 +125,8 @@ pub type FinerChecks = Refinements<FinerCheck>;
 
 impl<T> Refinements<T> {
     /// Nothing is compared.
-    pub fn none(reason: &str) -> Self {
-        Self { step: Err(reason.to_owned()), mesh: Err(reason.to_owned()) }
+    pub fn none(reason: Unchecked) -> Self {
+        Self { step: Err(reason.clone()), mesh: Err(reason) }
     }
 
     /// All that there are.
@@ -131,14 +135,20 @@ impl<T> Refinements<T> {
     }
 
     /// What follows from each, that of the time step first.
-    pub(super) fn and_then<U>(&self, mut next: impl FnMut(&T) -> Result<U, String>) -> Refinements<U> {
+    pub(super) fn and_then<U>(&self, mut next: impl FnMut(&T) -> Result<U, Unchecked>) -> Refinements<U> {
         let mut next =
-            |result: &Result<T, String>| result.as_ref().map_err(String::clone).and_then(&mut next);
+            |result: &Result<T, Unchecked>| result.as_ref().map_err(Unchecked::clone).and_then(&mut next);
         Refinements { step: next(&self.step), mesh: next(&self.mesh) }
     }
 }
 
 impl FinerCheck {
+    /// Whether it is over a part of a fed fibre's run. Such a fibre wanders more slowly than it folds, so that a part of its
+    /// lay-down may differ by another share than all of it.
+    pub fn is_of_a_part(&self, run: &Run) -> bool {
+        self.is_fed && self.duration < 0.99 * run.duration()
+    }
+
     /// What differs, by its name: `path_difference`, `amplitude_difference`.
     pub fn differences(&self) -> impl Iterator<Item = (String, &Estimate)> {
         let path = self.path.iter().map(|path| ("path", path));

@@ -1,19 +1,17 @@
 //! What is flown again for the checks of a run, and how much of it is worth its computing time.
 
-use super::{Refinement, Refinements};
-use crate::case::{Case, ERROR_TOLERANCE, MOST_STEPS};
+use super::{Refinement, Refinements, Unchecked};
+use crate::case::{Case, Checks, ERROR_TOLERANCE, MOST_STEPS};
 use crate::chain::schemes::Scheme;
 use crate::lanes::WIDTH;
 use crate::line::{Contact, Line};
 
-/// Share of the computing time of a run that a check may always take. It is counted in steps of flights, so that
-/// it does not depend on the machine.
+/// Largest share of the computing time of a run that all its checks take together, and the share that each takes if that is
+/// enough for it. They are counted in steps of flights, so that they do not depend on the machine.
+const SHARE_OF_ALL: f64 = 0.2;
 const SHARE: f64 = 0.1;
-/// Steps, times elements, that a check may always take: some tenths of a second. A short run is then checked for its whole
-/// duration.
-const ALWAYS: f64 = 2e6;
-/// The same where shorter flights could say nothing: some seconds.
-const AT_MOST: f64 = 2e7;
+/// Computing time of a step with implicit tension, in steps of the explicit schemes: 1.75 to 1.95 were measured.
+const IMPLICIT: f64 = 1.85;
 /// Longest time over which paths are compared [s].
 const LONGEST: f64 = 1.0;
 /// Fewest recorded instants from which a difference is computed. Runs that are too short for them are not checked.
@@ -51,21 +49,15 @@ pub struct FinerPlan {
 pub type FinerPlans = Refinements<FinerPlan>;
 
 impl FinerPlans {
-    /// The plans for a case.
+    /// The plans for a case, as far as its [`Checks`] go.
     pub fn for_case(case: &Case) -> Self {
-        let step = if case.line.is_some() { step_of_the_laid(case) } else { step_of_a_path(case) };
-        Self { step, mesh: mesh(case) }
-    }
-
-    /// Number of steps of single elements of all checks.
-    pub fn element_steps(&self) -> f64 {
-        let total = |plan: &FinerPlan| plan.flights().map(cost).sum::<f64>() * plan.replicates as f64;
-        self.all().map(total).sum()
-    }
-
-    /// Number of flights of all checks.
-    pub fn flights(&self) -> usize {
-        self.all().map(|plan| plan.flights().count()).sum()
+        if case.run.checks == Checks::None {
+            return Self::none(Unchecked::NotAsked);
+        }
+        let all = Budget::of_all(case);
+        let step = if case.line.is_some() { step_of_the_laid(case, all) } else { step_of_a_path(case, all) };
+        let mesh = mesh(case, all.after(step.as_ref().ok()));
+        Self { step, mesh }
     }
 
     /// Number of fibre steps of all checks, as in [`RunControl::fibre_steps`](crate::ensemble::RunControl::fibre_steps).
@@ -73,36 +65,75 @@ impl FinerPlans {
         self.all().map(FinerPlan::fibre_steps).sum()
     }
 
-    /// Computing time of all checks as a share of that of the run, counted in steps of elements [-].
+    /// Computing time of all checks as a share of that of the run, counted in steps of elements of the same cost [-].
     pub fn share_of_run(&self) -> f64 {
         self.all().map(|plan| plan.share_of_run).sum()
     }
 }
 
-/// Steps of the elements of a flight.
-fn cost(case: &Case) -> f64 {
-    case.run.steps as f64 * case.fibre.elements as f64
+/// What checks may take.
+#[derive(Clone, Copy, Debug)]
+enum Budget {
+    /// This share of the run's computing time.
+    Share(f64),
+    /// As much as the whole run with a finer discretisation.
+    Whole,
 }
 
-/// Steps of the elements of all flights of a run.
+impl Budget {
+    fn of_all(case: &Case) -> Self {
+        if case.run.checks == Checks::Full { Self::Whole } else { Self::Share(SHARE_OF_ALL) }
+    }
+
+    /// What is left beside another check.
+    fn after(self, other: Option<&FinerPlan>) -> Self {
+        match self {
+            Self::Share(share) => Self::Share(share - other.map_or(0.0, |other| other.share_of_run)),
+            Self::Whole => Self::Whole,
+        }
+    }
+
+    /// The part of a run that is flown again.
+    ///
+    /// * `whole` – what all of the run would take, as a share of its computing time
+    /// * `least` – the smallest part that says something
+    fn part(self, whole: f64, least: f64) -> Result<f64, Unchecked> {
+        match self {
+            Self::Whole => Ok(1.0),
+            Self::Share(most) if least * whole > most => Err(Unchecked::Dear { times: whole }),
+            Self::Share(_) => Ok((SHARE / whole).max(least).min(1.0)),
+        }
+    }
+}
+
+/// Steps of the elements of a flight, each counted by its cost.
+fn cost(case: &Case) -> f64 {
+    case.run.steps as f64 * case.fibre.elements as f64 * relative_cost(case)
+}
+
+fn relative_cost(case: &Case) -> f64 {
+    if case.run.scheme == Scheme::ImplicitTension { IMPLICIT } else { 1.0 }
+}
+
+/// The same of all flights of a run.
 fn cost_of_run(case: &Case) -> f64 {
     cost(case) * case.flights() as f64
 }
 
-fn too_short() -> String {
-    "the run is too short for it".to_owned()
-}
-
 /// Flies the paths of the first replicates again with half the step.
-fn step_of_a_path(case: &Case) -> Result<FinerPlan, String> {
+fn step_of_a_path(case: &Case, budget: Budget) -> Result<FinerPlan, Unchecked> {
     let run = &case.run;
+    let recorded = run.steps.min((LONGEST / run.time_step * (1.0 + 1e-9)) as u64) / run.output_steps;
+    if recorded < FEWEST {
+        return Err(Unchecked::TooShort);
+    }
     // Half the step takes two steps for one.
-    let affordable = 0.5 * (SHARE * cost_of_run(case)).max(ALWAYS) / case.fibre.elements as f64;
-    let most = affordable.min(LONGEST / run.time_step).min(run.steps as f64);
-    let instants = (most / run.output_steps as f64 * (1.0 + 1e-9)) as u64;
+    let whole = 2.0 * (recorded * run.output_steps) as f64 / (run.steps * case.flights()) as f64;
+    let part = budget.part(whole, FEWEST as f64 / recorded as f64)?;
+    let instants = ((part * recorded as f64 * (1.0 + 1e-9)) as u64).max(FEWEST);
     let stride = instants.div_ceil(MOST_COMPARED).max(1);
-    if instants < FEWEST || 2 * instants * run.output_steps > MOST_STEPS {
-        return Err(too_short());
+    if 2 * instants * run.output_steps > MOST_STEPS {
+        return Err(Unchecked::beyond());
     }
     let mut fine = case.clone();
     fine.run.time_step *= 0.5;
@@ -126,7 +157,7 @@ fn step_of_a_path(case: &Case) -> Result<FinerPlan, String> {
 /// Compares what is laid with what leapfrog lays, with steps in which the axial waves are resolved. That is another scheme,
 /// and close to its limit for short steps: its error falls with the square of the step. Half of a long step would say
 /// little, because implicit tension damps axial waves by as much at half the step.         theory.md (58)
-fn step_of_the_laid(case: &Case) -> Result<FinerPlan, String> {
+fn step_of_the_laid(case: &Case, budget: Budget) -> Result<FinerPlan, Unchecked> {
     let mut fine = case.clone();
     let slides = case.line.is_some_and(|line| line.contact != Contact::Stick);
     fine.run.scheme = Scheme::Leapfrog;
@@ -136,12 +167,12 @@ fn step_of_the_laid(case: &Case) -> Result<FinerPlan, String> {
         fine.run.scheme = case.run.scheme;
     }
     fine.set_time_step(resolved.min(0.5 * case.run.time_step));
-    statistics(Refinement::TimeStep, case, case.clone(), fine)
+    statistics(Refinement::TimeStep, case, (case.clone(), fine), budget)
 }
 
 /// Compares the statistics of the case's elements with those of half their length, both with the same long steps of
 /// implicit tension: the elements matter whatever the scheme.
-fn mesh(case: &Case) -> Result<FinerPlan, String> {
+fn mesh(case: &Case, budget: Budget) -> Result<FinerPlan, Unchecked> {
     let (mut coarse, mut fine) = (case.clone(), case.clone());
     fine.fibre.elements *= 2;
     fine.run.scheme = Scheme::ImplicitTension;
@@ -164,7 +195,7 @@ fn mesh(case: &Case) -> Result<FinerPlan, String> {
     coarse.run.scheme = Scheme::ImplicitTension;
     fine.set_time_step(step);
     coarse.set_time_step(fine.run.time_step);
-    statistics(Refinement::Elements, case, coarse, fine)
+    statistics(Refinement::Elements, case, (coarse, fine), budget)
 }
 
 fn shortest_limit(case: &Case) -> f64 {
@@ -176,45 +207,37 @@ fn shortest_limit(case: &Case) -> f64 {
 fn statistics(
     refined: Refinement,
     case: &Case,
-    mut coarse: Case,
-    mut fine: Case,
-) -> Result<FinerPlan, String> {
+    (mut coarse, mut fine): (Case, Case),
+    budget: Budget,
+) -> Result<FinerPlan, Unchecked> {
     let all = case.run.duration();
-    let per_second = |case: &Case| case.fibre.elements as f64 / case.run.time_step;
-    let per_second = per_second(&coarse) + per_second(&fine);
-    let (spin_up, least) = match &case.line {
-        Some(line) => {
-            let way = way(line);
-            ((COMES_DOWN * way).min(case.run.spin_up()), (COMES_DOWN + COMPARED) * way)
-        }
+    let per_second = |case: &Case| case.fibre.elements as f64 / case.run.time_step * relative_cost(case);
+    let whole = (per_second(&coarse) + per_second(&fine)) * all / cost_of_run(case);
+    let (comes_down, least) = match &case.line {
+        Some(line) => (COMES_DOWN * way(line), (COMES_DOWN + COMPARED) * way(line)),
         None => {
             let passes =
                 if case.air.velocity > 0.0 { PASSES * case.fibre.length / case.air.velocity } else { 0.0 };
-            (case.run.spin_up(), case.run.spin_up() + passes)
+            (case.run.spin_up(), (case.run.spin_up() + passes).min(all))
         }
     };
-    // A fed fibre stays close to its pair, so little of it says enough.
-    let usual = if case.line.is_some() { 0.0 } else { ALWAYS };
-    let share = SHARE * cost_of_run(case);
-    let least = least.min(all);
-    if least * per_second > AT_MOST.max(share) {
-        let times = least * per_second / cost_of_run(case);
-        return Err(format!("it would take about {:.0} times the run's computing time", times.ceil()));
+    if least > all * (1.0 + 1e-9) {
+        return Err(Unchecked::TooShort);
     }
-    let duration = (share.max(usual) / per_second).max(least).min(all);
+    let duration = all * budget.part(whole, least / all)?;
+    // A part of a run leaves out no more than the way down; the whole leaves out what the run leaves out.
+    let spin_up = if duration < all { comes_down.min(case.run.spin_up()) } else { case.run.spin_up() };
     for case in [&mut coarse, &mut fine] {
         let steps = |time: f64| (time / case.run.time_step * (1.0 + 1e-9)) as u64;
         (case.run.steps, case.run.spin_up_steps) = (steps(duration).max(1), steps(spin_up));
         case.run.output_steps = case.run.output_steps.min(case.run.steps);
         if case.run.steps > MOST_STEPS || case.check().is_err() {
-            return Err("the finer flights are beyond what the program can fly".to_owned());
+            return Err(Unchecked::beyond());
         }
     }
-    if duration < spin_up || fine.run.steps / fine.run.output_steps < FEWEST && case.line.is_none() {
-        return Err(too_short());
-    }
-    if case.line.as_ref().is_some_and(|line| duration < (COMES_DOWN + COMPARED) * way(line) * (1.0 - 1e-9)) {
-        return Err(too_short());
+    let instants = fine.run.steps / fine.run.output_steps;
+    if duration < spin_up || instants < FEWEST && case.line.is_none() {
+        return Err(Unchecked::TooShort);
     }
     let share_of_run = (cost(&coarse) + cost(&fine)) / cost_of_run(case);
     // Replicates of a record need a record that is long enough.
@@ -231,7 +254,7 @@ fn way(line: &Line) -> f64 {
 
 impl FinerPlan {
     /// The cases that are flown: as the run where its own paths are not compared, and finer.
-    pub(in crate::ensemble) fn flights(&self) -> impl Iterator<Item = &Case> {
+    pub(super) fn flights(&self) -> impl Iterator<Item = &Case> {
         self.coarse.iter().chain([&self.fine])
     }
 

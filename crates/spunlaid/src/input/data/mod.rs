@@ -22,7 +22,7 @@ const LARGEST_TABLE: u64 = 1 << 24;
 pub(super) struct DataFiles {
     profiles: Shelf<FileContent<Profile>>,
     spectra: Shelf<FileContent<SpectrumTable>>,
-    records: Shelf<FileContent<Measured>>,
+    records: Shelf<(FileContent<Measured>, Vec<Fault>)>,
     fields: Shelf<(FileContent<Field>, Vec<Fault>)>,
     spinline_airs: Shelf<FileContent<AirTable>>,
     polymers: Shelf<FileContent<PolymerFile>>,
@@ -83,14 +83,14 @@ impl DataFiles {
         })
     }
 
-    /// A velocity record.
+    /// A velocity record, and warnings about it.
     ///
     /// * `layout` – what the case says of the file
     pub(super) fn record(
         &self,
         path: &Path,
         layout: &RecordLayout,
-    ) -> Result<FileContent<Measured>, FileError> {
+    ) -> Result<(FileContent<Measured>, Vec<Fault>), FileError> {
         let way = way_of(layout);
         once(&self.records, path, &way, || {
             let columns = layout.columns.iter().flat_map(|columns| columns.split(','));
@@ -98,20 +98,22 @@ impl DataFiles {
                 rate: layout.rate,
                 skip_lines: layout.skip.unwrap_or(0),
                 columns: columns.map(|column| column.trim().to_owned()).collect(),
+                time_column: layout.time.clone(),
                 velocity_unit: layout.velocity_unit.clone(),
                 longest_gap: layout.max_gap.map_or(LONGEST_GAP, |samples| samples as usize),
                 ..Layout::default()
             };
             let record = read_record(path, &settings)?;
             let checksum = record.reading.checksum;
-            let measured = Measured { layout: layout.clone(), ..measured(record)? };
-            Ok(from_file(path, checksum, measured).read_as(&way))
+            let (measured, warnings) = measured(record)?;
+            let measured = Measured { layout: layout.clone(), ..measured };
+            Ok((from_file(path, checksum, measured).read_as(&way), warnings))
         })
     }
 }
 
-/// The fluctuation of a record, and the numbers of the air that it gives.
-fn measured(record: Record) -> Result<Measured, FileError> {
+/// The fluctuation of a record with the numbers of the air that it gives, and warnings about it.
+fn measured(record: Record) -> Result<(Measured, Vec<Fault>), FileError> {
     let analysis = analyse_fluctuation(&record, &Settings::default())?;
     let with_mean = analysis.has_mean();
     let known_value = |interval: &Interval| with_mean.then_some(interval.value);
@@ -122,7 +124,8 @@ fn measured(record: Record) -> Result<Measured, FileError> {
         cutoff_frequency: analysis.cutoff_frequency.value,
     };
     let components: Vec<&[f64]> = record.components.iter().map(|c| c.values.as_slice()).collect();
-    Ok(Measured::new(record.interval, &components, analysis.integral_time.value, says))
+    let measured = Measured::new(record.interval, &components, analysis.integral_time.value, says);
+    Ok((measured, analysis.warnings))
 }
 
 fn from_file<T>(path: &Path, checksum: u32, content: T) -> FileContent<T> {

@@ -261,7 +261,7 @@ impl Line<'_> {
         let changed = |((key, from, _), (_, to)): (&(VariedKey, f64, f64), &(VariedKey, f64))| {
             let (dimension, whole) = (key.dimension(), key.is_whole());
             let key = self.base.short_name(&key.name).to_owned();
-            (from != to).then(|| ChangedKey { key, dimension, whole, from: *from, to: *to })
+            (from != to).then_some(ChangedKey { key, dimension, whole, from: *from, to: *to })
         };
         let keys: Vec<ChangedKey> = known.iter().zip(&values).filter_map(changed).collect();
         let (layers, file) = (layers.to_vec(), self.base.path().to_owned());

@@ -4,7 +4,7 @@ use super::super::Key;
 use super::super::row::{Access, choose, key, named, number, quantity, whole};
 use super::super::value::Sign::{Any, NotNegative, Positive};
 use super::super::value::{Kind, Value};
-use crate::case::{MOST_REPLICATES, MOST_SHAPES, whole_parts};
+use crate::case::{Checks, MOST_REPLICATES, MOST_SHAPES, whole_parts};
 use crate::chain::schemes::Scheme;
 use crate::units::Dimension;
 
@@ -107,6 +107,14 @@ pub(super) const KEYS: &[Key] = &[
         "Number of shapes of a fibre that are kept for the moving picture and for ParaView, evenly over the run, at most \
          one for each recorded instant. Eight in each period of the end's motion follow it. `0` keeps none.",
     ),
+    choose("run.checks", || Checks::ALL.map(Checks::name).to_vec(), choice!(run.checks, Checks::ALL))
+        .value("auto")
+        .meaning(
+            "What the checks of time step and mesh may cost, which fly some fibres again when the results are written. `auto`: \
+             together at most a fifth of the flight; what that does not buy is not checked, and the run says so. `full`: \
+             whatever the whole run takes with a finer step and with finer elements. `none`: nothing is checked.",
+        )
+        .label("Checks"),
     quantity("run.damping", Dimension::Rate, NotNegative, number!(run.damping))
         .value("0 1/s")
         .usual(0.001, 100000.0)

@@ -69,6 +69,9 @@ pub(super) const KEYS: &[Key] = &[
     key("air.record_columns", Kind::Text("u,v"), of_record!(columns, Value::Text, text))
         .follows("the columns with the names or units of velocities")
         .meaning("Columns of velocity of a record, by name or by number from 1, with commas between them; the first is along the mean flow."),
+    key("air.record_time", Kind::Text("t"), of_record!(time, Value::Text, text))
+        .follows("the column whose name or whose time stamps say so")
+        .meaning("Column of time of a record, by name or by number from 1."),
     key("air.record_velocity_unit", Kind::Text("m/s"), of_record!(velocity_unit, Value::Text, text))
         .follows("the unit in the header of the record")
         .meaning("Unit of the velocities of a record whose header has none."),

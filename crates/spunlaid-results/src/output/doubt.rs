@@ -1,0 +1,195 @@
+//! What the checks of a run say against its numbers: in its notes, in its headline, and in the errors that the headline states.
+
+use super::finer::{compared_with, percent};
+use spunlaid::case::{Case, Checks};
+use spunlaid::ensemble::{Change, FinerCheck, FinerChecks, Refinement, Unchecked};
+use spunlaid::statistics::Estimate;
+use spunlaid::units::Dimension;
+
+/// Error of step or mesh that is small enough [-].
+pub(super) const FINE_ENOUGH: f64 = 0.03;
+/// Standard errors on each side of a difference within which the true one very likely is.
+pub(super) const SURE: f64 = 2.0;
+
+/// Changes of a check that are surely beyond what is small enough.
+pub(super) fn beyond(check: &FinerCheck) -> impl Iterator<Item = &Change> {
+    counted(check).filter(|change| least(check, change) > FINE_ENOUGH)
+}
+
+/// Changes that count. The texture of a laid fibre is that of its elements, and is reported as such.
+pub(super) fn counted(check: &FinerCheck) -> impl Iterator<Item = &Change> {
+    check.changes.iter().filter(|change| change.statistic.name != "chord_over_arc")
+}
+
+/// The smallest error that a change stands for, with what is known of chance.
+fn least(check: &FinerCheck, Change { estimate, .. }: &Change) -> f64 {
+    factor(check) * (estimate.mean.abs() - SURE * estimate.standard_error.unwrap_or(f64::INFINITY))
+}
+
+fn factor(check: &FinerCheck) -> f64 {
+    check.error_over_change().unwrap_or(1.0)
+}
+
+const fn name(refined: Refinement) -> &'static str {
+    match refined {
+        Refinement::TimeStep => "time step",
+        Refinement::Elements => "mesh",
+    }
+}
+
+/// `in the first 36 ms of 250 ms: `, of a check over a part of a run that may differ from the whole.
+fn part(check: &FinerCheck, case: &Case) -> String {
+    let time = |seconds| Dimension::Time.pretty_to(seconds, 3);
+    let (some, all) = (time(check.duration), time(case.run.duration()));
+    if check.is_of_a_part(&case.run) { format!("in the first {some} of {all}: ") } else { String::new() }
+}
+
+/// Notes about checks that are beyond their limit, and about those that could not be made.
+pub fn notes(checks: &FinerChecks, case: &Case) -> Vec<String> {
+    let found = |check: &FinerCheck| {
+        let changes: Vec<String> = beyond(check)
+            .map(|Change { statistic, estimate }| {
+                format!("{} differs by {}", statistic.label.to_lowercase(), percent(estimate))
+            })
+            .collect();
+        (!changes.is_empty()).then(|| {
+            format!(
+                "the check of the {} is beyond its limit of {} %: {}{} from {}; the standard errors over the replicates do \
+                 not contain this",
+                name(check.refined),
+                100.0 * FINE_ENOUGH,
+                part(check, case),
+                changes.join(", "),
+                compared_with(check, case).trim_end_matches(',')
+            )
+        })
+    };
+    let each = [(&checks.step, Refinement::TimeStep), (&checks.mesh, Refinement::Elements)];
+    each.into_iter()
+        .filter_map(|(check, refined)| match check {
+            Ok(check) => found(check),
+            Err(why) => why.leaves_doubt().then(|| unchecked(refined, why)),
+        })
+        .collect()
+}
+
+/// That a check was not made, and why.
+pub(super) fn unchecked(refined: Refinement, why: &Unchecked) -> String {
+    format!("{}: not checked: {why}", name(refined))
+}
+
+/// A number of the headline with the errors that the checks found beyond their limit. Those over a part of the run are told
+/// in words alone.
+pub fn with_error_of_checks(
+    estimate: Estimate,
+    measure: &str,
+    checks: &FinerChecks,
+    case: &Case,
+) -> Estimate {
+    let of_checks: f64 = checks
+        .all()
+        .filter(|check| !check.is_of_a_part(&case.run))
+        .flat_map(|check| {
+            let own = beyond(check).filter(|change| change.statistic.measures.contains(&measure));
+            own.map(|change| {
+                // From the value of the limit to that of the run.
+                let error = (factor(check) * change.estimate.mean).max(-0.95);
+                (estimate.mean * error / (1.0 + error)).powi(2)
+            })
+        })
+        .sum();
+    if of_checks == 0.0 {
+        return estimate;
+    }
+    let chance = estimate.standard_error.unwrap_or(0.0);
+    Estimate { standard_error: Some(chance.hypot(of_checks.sqrt())), ..estimate }
+}
+
+/// What the headline has to say about the checks, as whole sentences; empty if they are within their limits.
+pub fn sentences(checks: &FinerChecks, case: &Case) -> String {
+    let mut text = String::new();
+    for check in checks.all() {
+        let of_part = check.is_of_a_part(&case.run);
+        for Change { statistic, estimate } in beyond(check) {
+            let error = Estimate {
+                mean: factor(check) * estimate.mean,
+                standard_error: estimate.standard_error.map(|error| factor(check) * error),
+                values: Vec::new(),
+            };
+            let kept =
+                if of_part { "The error above does not contain what" } else { "The error contains what" };
+            let most =
+                if check.refined == Refinement::TimeStep && !check.is_resolved { "at most " } else { "" };
+            let place = part(check, case);
+            text += &format!(
+                " {kept} the check of the {} found: {place}the {} is off by {most}{}.",
+                name(check.refined),
+                statistic.label.to_lowercase(),
+                percent(&error)
+            );
+        }
+    }
+    let why = if case.run.checks == Checks::None { ", as the case asks" } else { "" };
+    match (&checks.step, &checks.mesh) {
+        (Err(_), Err(_)) => text += &format!(" Time step and mesh are not checked{why}."),
+        (Err(_), Ok(_)) => text += " The time step is not checked.",
+        (Ok(_), Err(_)) => text += " The mesh is not checked.",
+        (Ok(_), Ok(_)) => {}
+    }
+    text
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::figures::sample;
+    use spunlaid::chain::schemes::Scheme;
+    use spunlaid::ensemble::Statistic;
+
+    fn checks(mean: f64, standard_error: f64, duration: f64) -> FinerChecks {
+        let statistic = Statistic::all().find(|statistic| statistic.name == "spread").unwrap();
+        let estimate = Estimate { mean, standard_error: Some(standard_error), values: vec![mean; 8] };
+        let step = FinerCheck {
+            refined: Refinement::TimeStep,
+            scheme: Scheme::Leapfrog,
+            time_step: 1e-6,
+            element_length: 2e-3,
+            is_fed: true,
+            is_resolved: true,
+            duration,
+            replicates: 8,
+            share_of_run: 0.1,
+            path: None,
+            changes: vec![Change { statistic, estimate }],
+        };
+        FinerChecks { step: Ok(step), mesh: Err(Unchecked::Dear { times: 12.0 }) }
+    }
+
+    #[test]
+    fn what_is_beyond_its_limit_is_in_error_headline_and_notes() {
+        let case = sample::fed_case(100, 2);
+        let run = case.run.duration();
+        let width = || Estimate { mean: 2.778, standard_error: Some(0.026), values: Vec::new() };
+        let error = |checks: &FinerChecks| {
+            with_error_of_checks(width(), "sigma_md", checks, &case).standard_error.unwrap()
+        };
+        // The run has 0.34 of the true spread, which is 2.778/0.34.
+        let whole = checks(-0.66, 0.02, run);
+        assert!((error(&whole) - (2.778 / 0.34 - 2.778)).abs() < 1e-3, "{}", error(&whole));
+        assert!(
+            sentences(&whole, &case).starts_with(" The error contains what the check of the time step found")
+        );
+        assert!(notes(&whole, &case)[0].contains("spread differs by −66"), "{:?}", notes(&whole, &case));
+        assert!(notes(&whole, &case)[1].starts_with("mesh: not checked: it would take 12 times"));
+        // A part of a fed fibre's run is told as one.
+        let part = checks(1.17, 0.05, 0.1 * run);
+        assert_eq!(error(&part), 0.026);
+        assert!(sentences(&part, &case).starts_with(" The error above does not contain"));
+        assert!(notes(&part, &case)[0].contains("in the first "));
+        // What chance alone may be is within the limit.
+        let within = checks(-0.05, 0.02, run);
+        assert_eq!((error(&within), notes(&within, &case).len()), (0.026, 1));
+        assert_eq!(sentences(&within, &case), " The mesh is not checked.");
+    }
+}

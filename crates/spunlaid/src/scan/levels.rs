@@ -1,0 +1,116 @@
+//! The light of a picture, pixel by pixel: what is missing, the level of the lamp, and its shading.
+
+use super::picture::Picture;
+use super::shading::Shading;
+use crate::error::Fault;
+use crate::units::shortest;
+
+/// One pixel in so many may be filled in.
+const FILLED: usize = 100;
+
+/// Refuses a setting that is not above zero.
+pub(super) fn above_zero(name: &'static str, value: Option<f64>) -> Result<(), Fault> {
+    match value {
+        Some(value) if !(value.is_finite() && value > 0.0) => Err(Fault::new(
+            format!("cannot be read with {name} = {}", shortest(value)),
+            "give a number above zero",
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// The logarithm of the light that comes through, over that of the lamp if there is a picture of it; NaN where there is none.
+pub(super) fn logs(picture: &Picture, lamp: Option<&Picture>) -> Result<Vec<f64>, Fault> {
+    let log = |level: &f64| if level.is_finite() && *level > 0.0 { libm::log(*level) } else { f64::NAN };
+    let mut logs: Vec<f64> = picture.values.iter().map(log).collect();
+    if let Some(lamp) = lamp {
+        let [found, wanted] = [lamp, picture].map(|picture| [picture.columns, picture.rows]);
+        if found != wanted {
+            return Err(Fault::new(
+                format!(
+                    "has {} × {} pixels, but the picture of the lamp without web has {} × {}",
+                    wanted[0], wanted[1], found[0], found[1]
+                ),
+                "take both with the same camera from the same place",
+            )
+            .option("--lamp"));
+        }
+        let scale = lamp.scale_to(picture);
+        logs.iter_mut().zip(&lamp.values).for_each(|(light, lamp)| *light -= log(&(scale * lamp)));
+    }
+    Ok(logs)
+}
+
+/// The grey level of the lamp without web, or of the thickest web in reflected light.
+pub(super) fn white_level(
+    picture: &Picture,
+    white: Option<f64>,
+    lamp: Option<&Picture>,
+) -> Result<f64, Fault> {
+    above_zero("a level of the lamp", white)?;
+    if let (Some(white), Some(largest)) = (white, picture.full_scale)
+        && white > largest
+    {
+        let [white, largest] = [white, largest].map(shortest);
+        return Err(Fault::new(
+            format!("holds grey levels up to {largest}, but the lamp without web is said to have the level {white}"),
+            format!("give the level of the lamp in this file, at most {largest}"),
+        )
+        .option("--white"));
+    }
+    let levels = picture.values.iter().copied().filter(|level| level.is_finite());
+    let white = white.or(picture.full_scale).unwrap_or_else(|| levels.fold(0.0, f64::max));
+    // Over a picture of the lamp, all light is one.
+    Ok(if lamp.is_some() { 1.0 } else { white })
+}
+
+/// Largest shading that is believed to be that of a lamp and a lens, brightest over darkest place. By the law of the fourth power of the
+/// cosine a lens that sees 54° darkens so much towards its corners.
+const MOST_SHADING: f64 = 1.6;
+
+/// The shading that is to be taken out, if any.
+pub(super) fn believed_shading(
+    logs: &[f64],
+    columns: usize,
+    (lamp, keep_shading): (Option<&Picture>, bool),
+) -> Result<Option<Shading>, Fault> {
+    if keep_shading || lamp.is_some() {
+        return Ok(None);
+    }
+    let shading = Shading::fit(logs, columns);
+    if shading.range() > libm::log(MOST_SHADING) {
+        let [found, most] =
+            [libm::expm1(shading.range()), MOST_SHADING - 1.0].map(|share| (100.0 * share).round());
+        return Err(Fault::new(
+            format!(
+                "becomes brighter by {found} % from its darkest to its brightest part, and a lamp and a lens make {most} % at most: \
+                 the bare lamp may be visible beside the web, or the web itself changes, and the picture cannot tell which"
+            ),
+            "give a picture of the lamp without web, or cut out the web, or say that the lamp is even",
+        )
+        .option("--lamp, --keep-shading"));
+    }
+    Ok(Some(shading))
+}
+
+/// How many values are missing, if they are few enough to be filled in.
+pub(super) fn unusable(values: &[f64], what: &'static str, advice: &'static str) -> Result<usize, Fault> {
+    let unusable = values.iter().filter(|value| value.is_nan()).count();
+    if unusable > values.len() / FILLED {
+        return Err(Fault::new(
+            format!("has {unusable} pixels of {} that are {what}", values.len()),
+            format!("at most one in a hundred can be filled from its neighbours; {advice}"),
+        ));
+    }
+    let first = values.iter().copied().find(|value| !value.is_nan());
+    if values.iter().all(|value| value.is_nan() || Some(*value) == first) {
+        return Err(Fault::new("has the same value everywhere", "is it the right file?"));
+    }
+    Ok(unusable)
+}
+
+/// The mean of the values that are there.
+pub(super) fn mean_of(values: &[f64]) -> f64 {
+    let finite = || values.iter().filter(|value| !value.is_nan());
+    finite().sum::<f64>() / finite().count() as f64
+}
