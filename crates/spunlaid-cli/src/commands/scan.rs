@@ -10,10 +10,12 @@ use spunlaid_results::figures::scan_figures;
 use spunlaid_results::numbers::{plus_minus, significant};
 use spunlaid_results::output::web::{self, ENTRIES, Performance, Summary};
 use spunlaid_results::report::{ScanReport, scan_html};
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::Path;
 use std::time::Instant;
 
-/// Whether a file is the scan of a web by its name.
+/// Whether a file is the scan of a web, by its name or by how it begins. A file that cannot be opened is told of where it is read.
 pub(super) fn is_picture(file: &Path) -> bool {
     let extension = file.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     // Pictures that cannot be used are refused with the reason.
@@ -22,8 +24,21 @@ pub(super) fn is_picture(file: &Path) -> bool {
         "jpg", "jpeg", "jpe", "gif", "bmp", "dib", "pdf", "webp", "heic", "heif", "avif", "jp2", "j2k",
         "jpf", "jxl",
     ];
-    READ.iter().chain(&REFUSED).any(|known| *known == extension)
+    READ.iter().chain(&REFUSED).any(|known| *known == extension) || begins_as_picture(file).unwrap_or(false)
 }
+
+fn begins_as_picture(file: &Path) -> io::Result<bool> {
+    // A pipe gives its bytes only once.
+    if !file.metadata()?.is_file() {
+        return Ok(false);
+    }
+    let mut head = Vec::new();
+    File::open(file)?.take(HEAD).read_to_end(&mut head)?;
+    Ok(spunlaid::scan::is_picture(&head))
+}
+
+/// Bytes that tell the format of a picture.
+const HEAD: u64 = 16;
 
 pub(super) fn scan(arguments: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     let name = stem(&arguments.record, "scan").to_string_lossy().into_owned();

@@ -199,6 +199,20 @@ fn rejects_scans_with_the_option_that_helps() {
     let reason = "photo.JPG: is a JPEG picture, which loses the fine structure; save the scan as PNG or TIFF";
     assert!(said.contains(reason), "{said}");
     std::fs::remove_file(desk.path("photo.JPG")).unwrap();
+    // And by how it begins, unless it only has such a name at its beginning.
+    for (start, reason) in [
+        (&b"RIFF\x10\0\0\0WEBPVP8 "[..], "photo: is a WebP picture; save the scan as PNG or TIFF"),
+        (b"BM\x36\0\0\0\0\0\0\0", "photo: is a BMP picture; save the scan as PNG or TIFF"),
+        (b"%PDF-1.7\n", "photo: is a PDF document; save the scan as PNG or TIFF"),
+        (b"P5\n180 240\n255\n", "photo: is a PGM or PPM picture; save the scan as PNG or TIFF"),
+        (b"BMP280\n1.5\n1.7\n", "photo: has no column of time"),
+        (b"P5\n1.5\n1.7\n", "photo: has no column of time"),
+    ] {
+        fs::write(desk.path("photo"), start).unwrap();
+        let said = refusal(&mut desk.spunlaid("analyse photo"), 1);
+        assert!(said.contains(reason), "{said}");
+    }
+    fs::remove_file(desk.path("photo")).unwrap();
     scan(&desk, "scan.png", 40, &(0..1600).map(|i| 1.0 + f64::from(i * i % 7)).collect::<Vec<_>>());
     scan(&desk, "other.png", 20, &(0..1600).map(|i| 1.0 + f64::from(i * i % 7)).collect::<Vec<_>>());
     fs::write(desk.path("photo.png"), b"\xff\xd8\xff\xe0").unwrap();

@@ -129,9 +129,11 @@ fn every_declared_measure_of_a_scan_is_in_summary_and_report() {
         pixel: 1e-3,
         pixel_of_file: None,
         full_scale: Some(65_535.0),
+        fewer_bits: None,
         weight_of_black: None,
         colour: false,
         more: false,
+        numbered: [false; 2],
     };
     let light = Light::Transmitted { mean: Some(0.02), white: Some(60_000.0) };
     let settings = scan::Settings { noise: Some(50.0), ..scan::Settings::new(light) };

@@ -7,12 +7,12 @@
 //!
 //! | format | what is read |
 //! |---|---|
-//! | PNG | 8 or 16 bits; colours become luminance; transparency is left out |
-//! | TIFF | the first page; 8, 16 or 32 bits or floating point, plain, Deflate, LZW or PackBits |
+//! | PNG | 8 or 16 bits, or fewer as sBIT tells; colours become luminance; transparency is left out |
+//! | TIFF | the first of the largest pages; 8, 16 or 32 bits or floating point, plain, Deflate, LZW or PackBits; fewer bits as MaxSampleValue tells |
 //! | NumPy | an array of two dimensions in C order, of numbers of 1 to 8 bytes, but no half floats |
-//! | CSV | a line for each row of the map, as [`crate::table`] describes; an empty cell is a missing pixel |
+//! | CSV | a line for each row of the map, as [`crate::table`] describes; an empty cell is a missing pixel; numbers of the rows and columns beside the map are left out |
 //!
-//! PNG and TIFF tell the side of a pixel by their resolution, unless it is given. A PNG that tells the basis weight of black in a text,
+//! PNG and TIFF are turned as their orientation tells (Exif, TIFF tag 274). They tell the side of a pixel by their resolution, unless it is given. A PNG that tells the basis weight of black in a text,
 //! [`WEIGHT_OF_BLACK`], is a map of basis weight; `spunlaid web` writes such maps.
 //!
 //! **From light to basis weight**, by the law of Beer and Lambert: the optical density `ln(white/level)` is proportional to the
@@ -67,6 +67,6 @@ pub use findings::{Findings, PatchFindings, Settings};
 pub use foreign_parts::{ForeignParts, Spot};
 pub use optics::shortest_sharp_wave;
 pub use picture::{Format, Picture};
-pub use read::{CELL, LEAST_SIDE, MOST_PIXELS, WEIGHT_OF_BLACK, parse, read};
+pub use read::{CELL, LEAST_SIDE, MOST_PIXELS, WEIGHT_OF_BLACK, is_picture, parse, read};
 pub use shading::flattened;
 pub use weigh::{Light, Pixels};

@@ -30,7 +30,11 @@ pub(super) fn notes(
         notes.push(Fault::plain("the picture has colours, and only its luminance is used"));
     }
     if picture.more {
-        notes.push(Fault::plain("the file has several pictures, and only the first is used"));
+        notes.push(Fault::plain("the file has several pictures, and only the first of the largest is used"));
+    }
+    notes.extend(numbers(picture.numbered));
+    if let Light::Transmitted { .. } = settings.light {
+        notes.extend(bits(picture, settings.lamp.as_ref(), weighed.guess(settings.light)));
     }
     if settings.light_is_assumed && matches!(settings.light, Light::Transmitted { .. }) {
         let message = "the picture is taken as light that has come through the web, so that heavy places are dark; if light fibres lie on a \
@@ -118,6 +122,34 @@ fn side_of_a_pixel(picture: &Picture) -> Option<Fault> {
     let remedy =
         "many programs write this when they do not know it, so measure it and give the side of a pixel";
     Some(Fault::new(message, if guess { remedy } else { "" }))
+}
+
+/// The numbers of rows and columns that stood beside a map.
+fn numbers(numbered: [bool; 2]) -> Option<Fault> {
+    let left_out = match numbered {
+        [false, false] => return None,
+        [true, false] => "the first column numbers the rows, and was",
+        [false, true] => "the first row numbers the columns, and was",
+        [true, true] => "the first row and the first column number the columns and the rows, and were",
+    };
+    Some(Fault::plain(format!("{left_out} left out of the map")))
+}
+
+/// The doubt that a file of 16 bits holds the levels of a camera with fewer, where the level of the lamp depends on it.
+fn bits(picture: &Picture, lamp: Option<&Picture>, guess: Option<Doubt>) -> Option<Fault> {
+    let depends = match lamp {
+        Some(lamp) => lamp.full_scale != picture.full_scale,
+        None => guess == Some(Doubt::White),
+    };
+    let bits = picture.fewer_bits.or_else(|| lamp?.fewer_bits).filter(|_| depends)?;
+    let largest = (1u32 << bits) - 1;
+    Some(Fault::new(
+        format!(
+            "no level lies above {largest}, though the file has 16 bits; if the camera has {bits} bits and its largest level is \
+             {largest}, every CV is wrong by the same factor"
+        ),
+        "give the level of the lamp, or take a picture of the lamp with the same bits",
+    ))
 }
 
 /// * `full_scale` – whether the level is the largest that the file can hold, or else the largest that it holds

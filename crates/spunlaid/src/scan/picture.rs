@@ -17,15 +17,20 @@ pub struct Picture {
     pub pixel: f64,
     /// Side of a pixel as the file states it, if it does [m].
     pub pixel_of_file: Option<f64>,
-    /// The largest grey level that the file can hold, 255 or 65535; none for other numbers.
+    /// The largest grey level that the file can hold, 255 or 65535, or less if it tells that the camera has fewer bits; none for other
+    /// numbers.
     pub full_scale: Option<f64>,
+    /// Bits of the levels, if the camera may have fewer of them than the file: no level lies above what they can hold.
+    pub fewer_bits: Option<u32>,
     /// Basis weight of a black pixel, if the file is a map of basis weight in shades of grey, as [`crate::web`] has it drawn: the largest
     /// grey level is no weight at all [kg/m²].
     pub weight_of_black: Option<f64>,
     /// Whether the file has colours, of which only the luminance was kept.
     pub colour: bool,
-    /// Whether the file has further pictures, which were not read.
+    /// Whether the file has further pictures, which were not read. A thumbnail is none.
     pub more: bool,
+    /// Whether the rows, and the columns, were numbered beside the values; the numbers were left out.
+    pub numbered: [bool; 2],
 }
 
 /// The format of a file.
@@ -74,7 +79,13 @@ impl Picture {
     pub fn turned(self) -> Self {
         let (columns, rows) = (self.rows, self.columns);
         let value = |i: usize| self.values[(i % columns) * self.columns + i / columns];
-        Self { values: (0..self.values.len()).map(value).collect(), columns, rows, ..self }
+        Self {
+            values: (0..self.values.len()).map(value).collect(),
+            columns,
+            rows,
+            numbered: [self.numbered[1], self.numbered[0]],
+            ..self
+        }
     }
 
     /// A part of the picture.

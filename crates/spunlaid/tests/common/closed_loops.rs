@@ -61,9 +61,11 @@ pub fn scanned(map: &Map) -> MeasuredWeb {
         pixel: map.cell,
         pixel_of_file: Some(map.cell),
         full_scale: Some(65535.0),
+        fewer_bits: None,
         weight_of_black: None,
         colour: false,
         more: false,
+        numbered: [false; 2],
     };
     let light = Light::Transmitted { mean: None, white: Some(50_000.0) };
     let settings = Settings { keep_shading: true, keep_spots: true, ..Settings::new(light) };

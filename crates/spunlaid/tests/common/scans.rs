@@ -11,7 +11,7 @@ use std::io::Cursor;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 use tiff::encoder::colortype::{ColorType, Gray8, Gray16, Gray32Float};
 use tiff::encoder::{Rational, TiffEncoder, TiffValue};
-use tiff::tags::ResolutionUnit;
+use tiff::tags::{ResolutionUnit, Tag};
 
 /// Side of a cell of the web and of a pixel of its scan [m].
 pub const PIXEL: f64 = 0.5e-3;
@@ -225,6 +225,51 @@ where
     let mut encoder = TiffEncoder::new(&mut file).unwrap();
     encoder.write_image::<C>(columns as u32, rows as u32, levels).unwrap();
     file.into_inner()
+}
+
+/// A page of a TIFF: pixels in a row, levels of 8 or 16 bits, and tags of one number.
+pub struct Page<'a> {
+    pub columns: usize,
+    pub levels: &'a [u16],
+    pub bits: u32,
+    pub tags: &'a [(Tag, u16)],
+}
+
+/// A TIFF of some pages, with pixels of 0.1 mm.
+pub fn tiff_of_pages(pages: &[Page<'_>]) -> Vec<u8> {
+    let mut file = Cursor::new(Vec::new());
+    let mut encoder = TiffEncoder::new(&mut file).unwrap();
+    for page in pages {
+        if page.bits == 8 {
+            let levels: Vec<u8> = page.levels.iter().map(|level| *level as u8).collect();
+            write_page::<Gray8>(&mut encoder, page, &levels);
+        } else {
+            write_page::<Gray16>(&mut encoder, page, page.levels);
+        }
+    }
+    file.into_inner()
+}
+
+fn write_page<C: ColorType>(
+    encoder: &mut TiffEncoder<&mut Cursor<Vec<u8>>>,
+    page: &Page<'_>,
+    levels: &[C::Inner],
+) where
+    [C::Inner]: TiffValue,
+{
+    let rows = (levels.len() / page.columns) as u32;
+    let mut image = encoder.new_image::<C>(page.columns as u32, rows).unwrap();
+    image.resolution(ResolutionUnit::Inch, Rational { n: 254, d: 1 });
+    page.tags.iter().for_each(|(tag, value)| image.encoder().write_tag(*tag, *value).unwrap());
+    image.write_data(levels).unwrap();
+}
+
+/// A PNG with a further chunk in front of its pixels.
+pub fn with_chunk(png: &[u8], kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
+    let body = [&kind[..], data].concat();
+    let [length, checksum] = [data.len() as u32, crc32fast::hash(&body)].map(u32::to_be_bytes);
+    // The header ends after the signature and 25 bytes.
+    [&png[..33], &length, &body, &checksum, &png[33..]].concat()
 }
 
 /// An array of NumPy.

@@ -26,3 +26,6 @@ mod record_short;
 mod record_statistics;
 mod scan;
 mod scan_files;
+mod scan_maps;
+mod scan_refusals;
+mod scan_tags;

@@ -1,5 +1,6 @@
 //! A study to start from, beside the file that it varies.
 
+use super::super::write::quoted;
 use super::super::{file, kind_of, read_case, read_spinline, read_web};
 use super::{Base, VariedKey, open_base, parse_study};
 use crate::error::{Error, Fault, FileKind};
@@ -103,11 +104,12 @@ fn text_of(word: &str, file: &str, replicates: (u64, &str), vary: &[String]) -> 
              # seed = 1                           # of the turbulence; left out, that of the {word}\n"
         ),
     };
+    let quoted = quoted(file);
     format!(
         "# How the results of {file} change with some of its keys: {points} points.\n\
          # Run it: spunlaid sweep FILE      Look at its first point: spunlaid sweep FILE --print-point 1\n\
          # Lines that begin with # are optional. All designs, ranges and links: docs/studies.md of the project.\n\
-         {word} = {file:?}\n\
+         {word} = {quoted}\n\
          design = \"grid\"                      # every combination; or \"one-at-a-time\", \"latin-hypercube\" and others\n\
          {replicates}\n\
          [vary]                               # a list of values, or a range: {{ from = \"5 m/s\", to = \"30 m/s\", steps = 6 }}\n\

@@ -1,6 +1,7 @@
 //! Pictures from files. Memory is taken only for a picture whose size is within the limits.
 
 mod npy;
+mod orientation;
 mod png;
 mod text;
 mod tiff;
@@ -33,13 +34,27 @@ struct RawPicture {
     pixel: Option<[f64; 2]>,
     colour: bool,
     more: bool,
+    /// Where the first row and column belong, from 1 to 8 as TIFF numbers it.
+    orientation: u16,
+    /// Whether the rows, and the columns, were numbered beside the values.
+    numbered: [bool; 2],
 }
 
 impl RawPicture {
     /// Plain values without a largest one.
     fn plain(values: Vec<f64>, columns: usize, rows: usize) -> Self {
-        let (full_scale, weight_of_black, pixel) = (None, None, None);
-        Self { values, columns, rows, full_scale, weight_of_black, pixel, colour: false, more: false }
+        Self {
+            values,
+            columns,
+            rows,
+            full_scale: None,
+            weight_of_black: None,
+            pixel: None,
+            colour: false,
+            more: false,
+            orientation: 1,
+            numbered: [false; 2],
+        }
     }
 }
 
@@ -77,7 +92,8 @@ fn parsed(bytes: &[u8], name: &str, pixel: Option<f64>) -> Result<Picture, FileE
         Format::Npy => npy::parse(bytes)?,
         Format::Table => text::parse(bytes)?,
     };
-    let RawPicture { values, columns, rows, full_scale, weight_of_black, colour, more, .. } = raw;
+    let raw = orientation::upright(raw);
+    let RawPicture { values, columns, rows, full_scale, weight_of_black, colour, more, numbered, .. } = raw;
     if columns.min(rows) < LEAST_SIDE {
         return Err(Fault::new(
             format!("has {columns} × {rows} pixels"),
@@ -89,6 +105,7 @@ fn parsed(bytes: &[u8], name: &str, pixel: Option<f64>) -> Result<Picture, FileE
         .into());
     }
     let file = name.to_owned();
+    let fewer_bits = full_scale.and_then(|full| fewer_bits(&values, full));
     let sides_of_file = raw.pixel.filter(|sides| sides.iter().copied().all(is_length));
     let square = |[width, height]: [f64; 2]| (width / height - 1.0).abs() < SQUARE;
     let pixel_of_file = sides_of_file.filter(|sides| square(*sides)).map(|[width, _]| width);
@@ -123,10 +140,19 @@ fn parsed(bytes: &[u8], name: &str, pixel: Option<f64>) -> Result<Picture, FileE
         pixel,
         pixel_of_file,
         full_scale,
+        fewer_bits,
         weight_of_black,
         colour,
         more,
+        numbered,
     })
+}
+
+/// The bits that a camera has whose levels lie in numbers of 16 bits, if the levels need no more.
+fn fewer_bits(values: &[f64], full_scale: f64) -> Option<u32> {
+    let largest = values.iter().copied().fold(0.0, f64::max);
+    let fits = |bits: &u32| largest < f64::from(1u32 << bits);
+    [10, 12].into_iter().find(fits).filter(|_| full_scale == f64::from(u16::MAX))
 }
 
 fn is_length(side: f64) -> bool {
@@ -135,39 +161,72 @@ fn is_length(side: f64) -> bool {
 
 /// The format, by how a file begins.
 fn format(bytes: &[u8]) -> Result<Format, Fault> {
-    const OTHERS: [(&[u8], &str); 11] = [
+    if let Some(format) = format_read(bytes) {
+        return Ok(format);
+    }
+    match picture_refused(bytes).or_else(|| other(bytes)) {
+        Some(found) => Err(Fault::new(
+            format!("is {found}"),
+            "save the scan as PNG or TIFF in shades of grey, or the map as NumPy array (.npy) or CSV",
+        )),
+        None => Ok(Format::Table),
+    }
+}
+
+/// Whether a file begins as a picture or an array of NumPy, of a format that is read or of one that is refused by its name.
+pub fn is_picture(head: &[u8]) -> bool {
+    format_read(head).is_some() || picture_refused(head).is_some()
+}
+
+fn format_read(bytes: &[u8]) -> Option<Format> {
+    const STARTS: [(&[u8], Format); 6] = [
+        (b"\x89PNG\r\n\x1a\n", Format::Png),
+        (b"II*\0", Format::Tiff),
+        (b"MM\0*", Format::Tiff),
+        (b"II+\0", Format::Tiff),
+        (b"MM\0+", Format::Tiff),
+        (b"\x93NUMPY", Format::Npy),
+    ];
+    STARTS.iter().find(|(start, _)| bytes.starts_with(start)).map(|(_, format)| *format)
+}
+
+fn picture_refused(bytes: &[u8]) -> Option<&'static str> {
+    const STARTS: [(&[u8], &str); 8] = [
         (b"\xff\xd8\xff", "a JPEG picture, which loses the fine structure"),
-        (b"GIF8", "a GIF picture"),
-        (b"BM", "a BMP picture"),
-        (b"RIFF", "a WebP picture"),
+        (b"GIF87a", "a GIF picture"),
+        (b"GIF89a", "a GIF picture"),
         (b"\0\0\0\x0cjP  ", "a JPEG 2000 picture"),
         (b"\xff\x4f\xff\x51", "a JPEG 2000 picture"),
         (b"\0\0\0\x0cJXL ", "a JPEG XL picture"),
         (b"\xff\x0a", "a JPEG XL picture"),
-        (b"%PDF", "a PDF document"),
-        (b"PAR1", "a Parquet table"),
-        (b"PK", "a ZIP archive (an Excel table, .npz?)"),
+        (b"%PDF-", "a PDF document"),
     ];
-    // HEIC and AVIF tell their kind after the length of their first box.
-    let brand = bytes.get(4..8) == Some(b"ftyp");
-    let other = |bytes: &[u8]| match OTHERS.iter().find(|(start, _)| bytes.starts_with(start)) {
-        Some((_, found)) => Some(*found),
-        None => brand.then_some("a HEIC or AVIF picture, or a film"),
-    };
-    if bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
-        Ok(Format::Png)
-    } else if [&b"II*\0"[..], b"MM\0*", b"II+\0", b"MM\0+"].iter().any(|start| bytes.starts_with(start)) {
-        Ok(Format::Tiff)
-    } else if bytes.starts_with(b"\x93NUMPY") {
-        Ok(Format::Npy)
-    } else if let Some(found) = other(bytes) {
-        Err(Fault::new(
-            format!("is {found}"),
-            "save the scan as PNG or TIFF in shades of grey, or the map as NumPy array (.npy) or CSV",
-        ))
-    } else {
-        Ok(Format::Table)
-    }
+    // These tell their kind after a length. Words may begin like a BMP picture, but hold no zero bytes.
+    let at = |place: usize, wanted: &[u8]| bytes.get(place..place + wanted.len()) == Some(wanted);
+    let later = [
+        (at(0, b"BM") && at(6, &[0; 4]), "a BMP picture"),
+        (at(0, b"RIFF") && at(8, b"WEBP"), "a WebP picture"),
+        (at(4, b"ftyp"), "a HEIC or AVIF picture, or a film"),
+        (is_netpbm(bytes), "a PGM or PPM picture"),
+    ];
+    let found = STARTS.iter().find(|(start, _)| bytes.starts_with(start)).map(|(_, found)| *found);
+    found.or_else(|| later.iter().find(|(is, _)| *is).map(|(_, found)| *found))
+}
+
+/// Whether a file is a picture of Netpbm: `P5`, then a comment or its width and height. A record may have a column of that name.
+fn is_netpbm(bytes: &[u8]) -> bool {
+    let [b'P', b'1'..=b'6', b'\n', rest @ ..] = bytes else { return false };
+    let line = rest.split(|byte| *byte == b'\n').next().unwrap_or_default();
+    let mut words = line.split(|byte| *byte == b' ').filter(|word| !word.is_empty());
+    let is_count = |word: &[u8]| word.iter().all(u8::is_ascii_digit);
+    line.starts_with(b"#") || [words.next(), words.next()].iter().all(|word| word.is_some_and(is_count))
+}
+
+/// What else is not a map.
+fn other(bytes: &[u8]) -> Option<&'static str> {
+    const STARTS: [(&[u8], &str); 2] =
+        [(b"PAR1", "a Parquet table"), (b"PK\x03\x04", "a ZIP archive (an Excel table, .npz?)")];
+    STARTS.iter().find(|(start, _)| bytes.starts_with(start)).map(|(_, found)| *found)
 }
 
 /// Refuses a picture that is too large, before memory is taken for it.

@@ -1,6 +1,6 @@
 //! Text tables: a line for each row of the map.
 
-use super::{RawPicture, within_limits};
+use super::{LEAST_SIDE, RawPicture, within_limits};
 use crate::error::{FileError, FileKind};
 use crate::table::Table;
 
@@ -15,5 +15,41 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, FileError> {
             values.push(table.number(column)?);
         }
     }
-    Ok(RawPicture::plain(values, columns, rows))
+    Ok(without_numbers(RawPicture::plain(values, columns, rows)))
+}
+
+/// The map without the numbers of its rows and columns, which programs for tables write beside it. Measured weights never lie so evenly.
+fn without_numbers(raw: RawPicture) -> RawPicture {
+    let (columns, rows) = (raw.columns, raw.rows);
+    if columns < 2 || rows < 2 {
+        return raw;
+    }
+    let line = |first: usize, step: usize, count: usize| -> Vec<f64> {
+        raw.values[first..].iter().copied().step_by(step).take(count).collect()
+    };
+    // Beside a line of numbers, the next line is none, or the map itself is even.
+    let row = |at: usize, left: usize| line(at * columns + left, 1, columns - left);
+    let column = |at: usize, top: usize| line(top * columns + at, columns, rows - top);
+    let is_above = |left: usize| counts(&row(0, left)) && !counts(&row(1, left));
+    let is_beside = |top: usize| counts(&column(0, top)) && !counts(&column(1, top));
+    let is_corner_empty = raw.values[0].is_nan() && is_above(1);
+    let numbered = if is_corner_empty || is_above(1) && is_beside(1) {
+        [true, true]
+    } else {
+        [is_beside(0), is_above(0)]
+    };
+    let [left, top] = numbered.map(usize::from);
+    let values = raw.values.chunks_exact(columns).skip(top).flat_map(|row| row[left..].to_vec()).collect();
+    RawPicture { values, columns: columns - left, rows: rows - top, numbered, ..raw }
+}
+
+/// Numbers differ from even ones by less than this share of their distance, for they may be rounded.
+const EVEN: f64 = 0.02;
+
+/// Whether the values rise or fall evenly.
+fn counts(values: &[f64]) -> bool {
+    let (Some(first), Some(last)) = (values.first(), values.last()) else { return false };
+    let step = (last - first) / (values.len() - 1).max(1) as f64;
+    let is_even = |(i, value): (usize, &f64)| (value - first - step * i as f64).abs() <= EVEN * step.abs();
+    values.len() >= LEAST_SIDE && step != 0.0 && values.iter().enumerate().all(is_even)
 }

@@ -1,0 +1,153 @@
+//! Tagged image file format.
+
+mod fault;
+mod page;
+
+use super::{MOST_PIXELS, RawPicture, luminance, unsupported, within_limits};
+use crate::error::Fault;
+use fault::{compression_name, failed};
+use std::io::Cursor;
+use tiff::decoder::ifd::Value;
+use tiff::decoder::{Decoder, DecodingResult, Limits};
+use tiff::tags::Tag;
+use tiff::{ColorType, TiffError};
+
+pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, Fault> {
+    let mut limits = Limits::default();
+    limits.decoding_buffer_size = 8 * MOST_PIXELS;
+    limits.intermediate_buffer_size = 8 * MOST_PIXELS;
+    let mut decoder = Decoder::new(Cursor::new(bytes)).map_err(failed)?.with_limits(limits);
+    let more = page::seek_full(&mut decoder)?;
+    let (columns, rows) = decoder.dimensions().map_err(failed)?;
+    let [columns, rows] = within_limits(columns.into(), rows.into())?;
+    let photometric = small_tag(&mut decoder, Tag::PhotometricInterpretation);
+    let compression = small_tag(&mut decoder, Tag::Compression).filter(|number| *number > 1);
+    if photometric == Some(PALETTE) {
+        return Err(unsupported("colours from a palette", GREY));
+    }
+    let channels = channels(&mut decoder).map_err(|fault| match compression {
+        // A fax has a bit for each pixel, and its name says more.
+        Some(number @ 2..=4) => compressed(number),
+        _ => fault,
+    })?;
+    let image = decoder.read_image().map_err(|error| match (error, compression) {
+        (TiffError::UnsupportedError(_), Some(number)) => compressed(number),
+        (error, _) => failed(error),
+    })?;
+    let (mut values, full_scale) = match image {
+        DecodingResult::U8(levels) => {
+            (luminance(levels.into_iter().map(f64::from), channels), Some(u8::MAX.into()))
+        }
+        DecodingResult::U16(levels) => {
+            (luminance(levels.into_iter().map(f64::from), channels), Some(u16::MAX.into()))
+        }
+        DecodingResult::U32(levels) => {
+            (luminance(levels.into_iter().map(f64::from), channels), Some(u32::MAX.into()))
+        }
+        DecodingResult::F32(levels) => (luminance(levels.into_iter().map(f64::from), channels), None),
+        DecodingResult::F64(levels) => (luminance(levels.into_iter(), channels), None),
+        other => {
+            let found = match other {
+                DecodingResult::F16(_) => "half floats",
+                DecodingResult::U64(_) => "numbers of 8 bytes",
+                _ => "signed numbers",
+            };
+            let advice = "save it with 8, 16 or 32 bits without sign, or as floating point of 32 bits";
+            return Err(unsupported(found, advice));
+        }
+    };
+    if values.len() != columns * rows {
+        let found = "each colour in a plane of its own";
+        return Err(unsupported(found, "save the scan in shades of grey"));
+    }
+    let is_negative = photometric == Some(WHITE_IS_ZERO);
+    let full_scale = full_scale.map(|full| scale_down(&mut decoder, &mut values, full, is_negative));
+    let orientation = small_tag(&mut decoder, Tag::Orientation).unwrap_or(1);
+    let (pixel, colour) = (resolution(&mut decoder), channels > 2);
+    Ok(RawPicture {
+        full_scale,
+        pixel,
+        colour,
+        more,
+        orientation,
+        ..RawPicture::plain(values, columns, rows)
+    })
+}
+
+/// How a file says that zero is white. The decoder then subtracts the levels from the largest that their bits can hold.
+const WHITE_IS_ZERO: u16 = 0;
+/// How a file says that its pixels are places in a palette.
+const PALETTE: u16 = 3;
+/// What to do about a file whose pixels are of a kind that is not read.
+const GREY: &str = "save the scan in shades of grey, with 8 or 16 bits each, without compression";
+
+fn small_tag(decoder: &mut Decoder<Cursor<&[u8]>>, tag: Tag) -> Option<u16> {
+    decoder.find_tag_unsigned(tag).ok().flatten()
+}
+
+fn compressed(number: u16) -> Fault {
+    unsupported(&compression_name(number), "save the scan as TIFF without compression, or as PNG")
+}
+
+/// The number of channels, of which the first one or three are read.
+fn channels(decoder: &mut Decoder<Cursor<&[u8]>>) -> Result<usize, Fault> {
+    let found = match decoder.colortype().map_err(failed)? {
+        ColorType::Gray(8 | 16 | 32 | 64) => return Ok(1),
+        ColorType::GrayA(8 | 16 | 32 | 64)
+        | ColorType::Multiband { bit_depth: 8 | 16 | 32 | 64, num_samples: 2 } => return Ok(2),
+        ColorType::RGB(8 | 16 | 32 | 64) => return Ok(3),
+        ColorType::RGBA(8 | 16 | 32 | 64) => return Ok(4),
+        ColorType::CMYK(_) | ColorType::CMYKA(_) => "the colours of a printer (CMYK)".to_owned(),
+        ColorType::YCbCr(_) => "brightness and colour apart (YCbCr)".to_owned(),
+        ColorType::Lab(_) => "colours of the kind CIE L*a*b*".to_owned(),
+        ColorType::Multiband { num_samples, .. } if num_samples > 1 => {
+            format!("{num_samples} shades of grey for each pixel")
+        }
+        ColorType::Gray(bits) | ColorType::RGB(bits) | ColorType::RGBA(bits) => {
+            format!("{bits} {} for each level", if bits == 1 { "bit" } else { "bits" })
+        }
+        _ => "channels or bits of a pixel of another kind".to_owned(),
+    };
+    Err(unsupported(&found, GREY))
+}
+
+/// The largest level of a camera with fewer bits than the numbers of the file, if the file tells it. Other values of the tag are the
+/// largest level that was found, which says nothing of the camera.
+///
+/// * `is_negative` – whether the decoder has subtracted the levels from `full`
+///
+/// Source: TIFF 6.0, section 8, MaxSampleValue.
+fn scale_down(decoder: &mut Decoder<Cursor<&[u8]>>, values: &mut [f64], full: f64, is_negative: bool) -> f64 {
+    let mut largest = |tag| match decoder.find_tag(tag).ok().flatten()? {
+        Value::List(values) => values.first()?.clone().into_u32().ok(),
+        Value::Float(value) => Some(value as u32),
+        Value::Double(value) => Some(value as u32),
+        value => value.into_u32().ok(),
+    };
+    let tags = [Tag::MaxSampleValue, Tag::SMaxSampleValue];
+    let is_depth = |largest: &u32| *largest >= 255 && (u64::from(*largest) + 1).is_power_of_two();
+    let Some(largest) = tags.into_iter().filter_map(&mut largest).find(is_depth).map(f64::from) else {
+        return full;
+    };
+    let lift = if is_negative { full - largest } else { 0.0 };
+    if largest >= full || values.iter().any(|level| !(0.0..=largest).contains(&(level - lift))) {
+        return full;
+    }
+    values.iter_mut().for_each(|level| *level -= lift);
+    largest
+}
+
+/// Width and height of a pixel [m], if the file tells its resolution.
+fn resolution(decoder: &mut Decoder<Cursor<&[u8]>>) -> Option<[f64; 2]> {
+    let unit = match decoder.find_tag_unsigned::<u16>(Tag::ResolutionUnit) {
+        // Inches are the default.
+        Ok(None | Some(2)) => 25.4e-3,
+        Ok(Some(3)) => 10e-3,
+        _ => return None,
+    };
+    let mut side = |tag| match decoder.find_tag(tag) {
+        Ok(Some(Value::Rational(count, per))) => Some(unit * f64::from(per) / f64::from(count)),
+        _ => None,
+    };
+    Some([side(Tag::XResolution)?, side(Tag::YResolution)?])
+}

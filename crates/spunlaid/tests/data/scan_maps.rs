@@ -1,0 +1,94 @@
+//! Maps with the numbers of their rows and columns beside them, as pandas and others write them.
+
+use spunlaid::scan::{Light, Settings, analyse, parse};
+
+/// A measured map of 60 × 50 pixels; its CV over patches of 4 mm is 0.09412.
+const MAP: &str = include_str!("../scan_fixtures/map.csv");
+
+/// The CV over patches of 4 mm, and whether rows and columns were numbered.
+fn found(text: &str) -> (f64, [bool; 2]) {
+    let picture = parse(text.as_bytes(), "a", 2e-3).unwrap();
+    let settings = Settings::new(Light::Weight { mean: None });
+    let found = analyse(&picture, &Settings { patches: vec![4e-3], ..settings }).unwrap();
+    let told = found.notes.iter().any(|note| note.to_string().ends_with("left out of the map"));
+    assert_eq!(told, picture.numbered.contains(&true));
+    (found.patches[0].unevenness.cv, picture.numbered)
+}
+
+/// The map with a row of heads, and a column that begins with its corner.
+fn numbered(
+    corner: Option<&str>,
+    head: Option<&dyn Fn(usize) -> String>,
+    row: &dyn Fn(usize) -> String,
+) -> String {
+    let mut lines: Vec<String> = MAP.lines().map(str::to_owned).collect();
+    if let Some(corner) = corner {
+        lines.iter_mut().enumerate().for_each(|(i, line)| *line = format!("{},{line}", row(i)));
+        if let Some(head) = head {
+            lines.insert(0, (0..50).fold(corner.to_owned(), |line, i| line + "," + &head(i)));
+        }
+    } else if let Some(head) = head {
+        lines.insert(0, (0..50).map(head).collect::<Vec<_>>().join(","));
+    }
+    lines.join("\n")
+}
+
+#[test]
+fn numbers_of_rows_and_columns_are_no_map() {
+    let plain = |i: usize| i.to_string();
+    let from_one = |i: usize| (i + 1).to_string();
+    let named = |i: usize| format!("x{i}");
+    let place = |i: usize| format!("{:.3}", 2.0 / 3.0 * i as f64);
+    let falling = |i: usize| (60 - i).to_string();
+    let mixed_up = |i: usize| ((i * 7) % 60).to_string();
+    for (name, text, wanted) in [
+        ("none", MAP.to_owned(), [false, false]),
+        ("index and heads", numbered(Some(""), Some(&plain), &plain), [true, true]),
+        ("from one", numbered(Some(""), Some(&from_one), &from_one), [true, true]),
+        ("places", numbered(Some(""), Some(&place), &place), [true, true]),
+        ("a corner with a number", numbered(Some("50"), Some(&place), &place), [true, true]),
+        ("an index in disorder", numbered(Some(""), Some(&plain), &mixed_up), [true, true]),
+        ("named heads", numbered(Some(""), Some(&named), &plain), [true, false]),
+        ("a named index", numbered(Some("row"), Some(&plain), &plain), [true, false]),
+        ("a falling index", numbered(Some("y"), Some(&named), &falling), [true, false]),
+        ("no heads", numbered(Some(""), None, &plain), [true, false]),
+        ("no index", numbered(None, Some(&plain), &plain), [false, true]),
+        (
+            "decimal commas",
+            numbered(Some(""), Some(&plain), &plain).replace(',', ";").replace('.', ","),
+            [true, true],
+        ),
+    ] {
+        let (cv, numbered) = found(&text);
+        assert!((cv - 0.09412).abs() < 5e-6, "{name}: {cv}");
+        // Heads that are names are none of the rows.
+        assert_eq!(numbered, wanted, "{name}");
+    }
+}
+
+#[test]
+fn a_map_keeps_its_first_row_and_column() {
+    let text = |value: &dyn Fn(usize, usize) -> f64| -> String {
+        (0..20)
+            .map(|y| (0..18).map(|x| value(x, y).to_string()).collect::<Vec<_>>().join(",") + "\n")
+            .collect()
+    };
+    for (name, value) in [
+        (
+            "a slope",
+            &(|x: usize, y: usize| 14.0 + 0.1 * x as f64 + 0.2 * y as f64) as &dyn Fn(usize, usize) -> f64,
+        ),
+        ("a slope along", &|_, y| 14.0 + y as f64),
+        ("whole numbers", &|x, y| (10 + (x * x + 3 * y * y + x * y) % 7) as f64),
+        ("an even edge", &|x, y| if x == 0 { 12.0 } else { 12.0 + ((x * y) % 5) as f64 }),
+        ("a step beside an even column", &|x, y| {
+            if x < 2 { y as f64 + 1.0 } else { 9.0 + ((x * y) % 5) as f64 }
+        }),
+    ] {
+        let picture = parse(text(value).as_bytes(), "a", 2e-3).unwrap();
+        assert_eq!((picture.columns, picture.rows, picture.numbered), (18, 20, [false; 2]), "{name}");
+    }
+    // Too few rows to tell.
+    let short = MAP.lines().take(16).collect::<Vec<_>>().join("\n");
+    assert_eq!(parse(short.as_bytes(), "a", 2e-3).unwrap().rows, 16);
+}
