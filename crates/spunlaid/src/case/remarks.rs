@@ -73,8 +73,7 @@ impl Case {
         let (air, from_flow) = (&self.air, self.air.from_flow);
         let times = air.length_scale / fibre.length;
         if felt && air.records.is_empty() {
-            if !from_flow.turbulence_intensity && air.turbulence_intensity > 1.0 {
-                let value = air.turbulence_intensity;
+            if let Some(value) = self.intensity_above_one() {
                 note("air.turbulence_intensity", value, Remark::IntensityAboveOne { value });
             }
             if !from_flow.length_scale && times > 2.0 {
@@ -92,6 +91,14 @@ impl Case {
         notes.extend(root_outside);
         notes.extend(self.field_notes());
         notes
+    }
+
+    /// A written intensity of more than the mean velocity.
+    pub(super) fn intensity_above_one(&self) -> Option<f64> {
+        let air = &self.air;
+        let is_written = air.records.is_empty() && !air.from_flow.turbulence_intensity;
+        let felt = air.density > 0.0 && air.rms() > 0.0;
+        (felt && is_written && air.turbulence_intensity > 1.0).then_some(air.turbulence_intensity)
     }
 
     /// What is said of a web of such filaments, if the mean flow slows on their way and the case does not say whether it widens.

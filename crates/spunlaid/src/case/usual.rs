@@ -38,7 +38,9 @@ impl Case {
             }
             // A flow that is too fast has been reported, with the way out.
             let is_reported = fast && ["air.velocity", "air.turbulence_intensity"].contains(&key.name);
-            if !is_reported {
+            // So has an intensity that is no share.
+            let is_no_share = key.name == "air.turbulence_intensity" && self.intensity_above_one().is_some();
+            if !is_reported && !is_no_share {
                 notes.extend(self.unusual(key));
             }
         }

@@ -8,6 +8,13 @@ use std::path::Path;
 /// Reads a UTF-8 file no larger than [`LARGEST_FILE`].
 pub(super) fn read(path: &Path, kind: FileKind) -> Result<String, Error> {
     let bytes = file::read(path, kind, LARGEST_FILE).map_err(Error::File)?;
+    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+        let fault = Fault::new(
+            "is UTF-16 text, as some editors and Windows PowerShell save it",
+            "save the file as UTF-8",
+        );
+        return Err(Error::File(FileError::from(fault).path(path)));
+    }
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         let bytes = error.as_bytes();

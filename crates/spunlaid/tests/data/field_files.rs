@@ -209,7 +209,7 @@ fn analytic_values_of_cells_are_the_mean_at_points() {
         let (field, warnings) = read(&bytes, "a.vtu");
         check(&field);
         let [of_cells, flat] = warnings.as_slice() else { panic!("{warnings:?}") };
-        assert!(of_cells.to_string().contains("U is given at cells; each point gets the mean"));
+        assert!(of_cells.to_string().contains("the values are given at cells; each point gets the mean"));
         assert_eq!(
             flat.message,
             "1 cells are points, lines or faces, perhaps of the boundary; they are left out"

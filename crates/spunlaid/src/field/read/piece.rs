@@ -11,7 +11,6 @@ use super::missing;
 use crate::error::{Fault, FileError};
 use crate::field::values::C_MU;
 use crate::field::{FieldLayout, Values};
-use crate::units::excerpt;
 use crate::vec3::Vec3;
 
 /// A piece of a file.
@@ -152,15 +151,11 @@ impl Reader<'_, '_> {
         if of_cells {
             let holds = |cell| self.blanks.holds(true, cell);
             numbers = self.piece.grid.to_points(&numbers, array.components, points, holds);
-            let name = excerpt(&array.name, 40);
             let warning = Fault::new(
-                format!(
-                    "{name} is given at cells; each point gets the mean of the cells around it, so the air does not \
-                     come to rest at walls"
-                ),
+                "the values are given at cells; each point gets the mean of the cells around it, so the air does not come to rest at walls",
                 "write values at points if you can",
             );
-            // Once for all pieces.
+            // Once for all arrays and pieces.
             if !self.warnings.contains(&warning) {
                 self.warnings.push(warning);
             }
