@@ -15,7 +15,7 @@ fn check_prints_a_case_that_can_be_read_again() {
         "axial waves",
         "the shortest, axial waves: sound crosses an element in this time",
         "expected: less than a second on 1 of ",
-        "MiB of memory, 1 MB of results",
+        "MiB of memory, 3 MB of results",
         "ready: spunlaid run brief.toml --set 'air.velocity=12 m/s'",
     ] {
         assert!(said.contains(part), "{part}\n{said}");

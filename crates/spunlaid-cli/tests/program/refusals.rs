@@ -260,7 +260,7 @@ fn a_run_that_blows_up_names_node_time_and_cause() {
 fn a_record_that_cannot_be_used_is_told_with_the_option_that_helps() {
     let desk = Desk::new();
     for (text, wanted) in [
-        ("u_m_s\n1\n2\n", "or give the sampling rate (--rate)\n"),
+        ("u_m_s\n1\n2\n", "or give the sampling rate (--time-column, --rate)\n"),
         ("time_s,u\n0,1\n1,2\n", "like u_m_s (or --time-unit, --velocity-unit)\n"),
         ("time_s,p\n0,1\n1,2\n", "in which unit (--columns, --velocity-unit)\n"),
     ] {

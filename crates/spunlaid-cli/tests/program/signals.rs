@@ -81,7 +81,7 @@ fn identical_bytes_from_a_run_that_was_interrupted_or_killed() {
     // Fibres for some seconds on this machine: none is kept in the first two.
     let started = Instant::now();
     success(&mut run("pace", 80));
-    let all = 80 * (6.0 / started.elapsed().as_secs_f64()).ceil() as u64;
+    let all = 80 * (15.0 / started.elapsed().as_secs_f64()).ceil() as u64;
     success(&mut run("whole", all));
     for (folder, signal, code) in [("stopped", "INT", Some(130)), ("killed", "KILL", None)] {
         let mut child = run(folder, all).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();

@@ -1,6 +1,6 @@
 //! What the checks of a run say against its numbers: in its notes, in its headline, and in the errors that the headline states.
 
-use super::finer::{compared_with, percent};
+use super::compared::{compared_with, percent};
 use spunlaid::case::{Case, Checks};
 use spunlaid::ensemble::{Change, FinerCheck, FinerChecks, Refinement, Unchecked};
 use spunlaid::statistics::Estimate;

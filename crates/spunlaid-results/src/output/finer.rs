@@ -1,7 +1,8 @@
 //! What a finer time step and finer elements change, in words. Terminal and report say the same.
 
+use super::compared::{compared_with, percent};
 use super::doubt::{FINE_ENOUGH, SURE, counted, unchecked};
-use crate::numbers::{plus_minus, significant};
+use crate::numbers::significant;
 use spunlaid::air::EddyModel;
 use spunlaid::case::Case;
 use spunlaid::ensemble::{Change, FinerCheck, FinerChecks, Refinement, Results};
@@ -113,31 +114,6 @@ impl FinerWords {
             None => String::new(),
         };
         Self { what, with, differences, meaning, extent, advice }
-    }
-}
-
-/// With what a run is compared: `half of it`.
-pub(super) fn compared_with(check: &FinerCheck, case: &Case) -> String {
-    match check.refined {
-        Refinement::TimeStep => shorter(check, case),
-        Refinement::Elements => {
-            let length = Dimension::Length.pretty_to(check.element_length, 3);
-            format!("elements of {length}, half the length,")
-        }
-    }
-}
-
-pub(super) fn percent(estimate: &Estimate) -> String {
-    format!("{} %", plus_minus(100.0 * estimate.mean, estimate.standard_error.map(|error| 100.0 * error)))
-}
-
-/// With what a step is compared.
-fn shorter(check: &FinerCheck, case: &Case) -> String {
-    let step = Dimension::Time.pretty_to(check.time_step, 3);
-    match check.is_resolved {
-        true if check.scheme == case.run.scheme => format!("steps of {step}, which resolve axial waves,"),
-        true => format!("{} at {step}, which resolves axial waves,", check.scheme.name()),
-        false => "half of it".to_owned(),
     }
 }
 

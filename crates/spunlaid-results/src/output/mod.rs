@@ -2,6 +2,7 @@
 
 pub mod air;
 pub mod analysis;
+mod compared;
 pub mod comparison;
 pub mod copied_files;
 pub mod doubt;

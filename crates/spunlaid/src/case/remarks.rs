@@ -73,9 +73,6 @@ impl Case {
         let (air, from_flow) = (&self.air, self.air.from_flow);
         let times = air.length_scale / fibre.length;
         if felt && air.records.is_empty() {
-            if let Some(value) = self.intensity_above_one() {
-                note("air.turbulence_intensity", value, Remark::IntensityAboveOne { value });
-            }
             if !from_flow.length_scale && times > 2.0 {
                 note("air.length_scale", air.length_scale, Remark::EddiesLong { times });
             }

@@ -38,10 +38,12 @@ impl Case {
             }
             // A flow that is too fast has been reported, with the way out.
             let is_reported = fast && ["air.velocity", "air.turbulence_intensity"].contains(&key.name);
-            // So has an intensity that is no share.
-            let is_no_share = key.name == "air.turbulence_intensity" && self.intensity_above_one().is_some();
-            if !is_reported && !is_no_share {
-                notes.extend(self.unusual(key));
+            if is_reported {
+                continue;
+            }
+            match self.intensity_above_one().filter(|_| key.name == "air.turbulence_intensity") {
+                Some(value) => notes.push(finding(key.name, value, Remark::IntensityAboveOne { value })),
+                None => notes.extend(self.unusual(key)),
             }
         }
         notes.extend(self.dissipation());

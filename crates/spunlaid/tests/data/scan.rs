@@ -389,9 +389,6 @@ fn rejects_a_shading_that_no_lamp_makes() {
     let picture = parse(&scans::npy_f64(map.columns, &levels), "scan", PIXEL).expect("a picture");
     let settings = Settings::new(Light::Transmitted { mean: None, white: Some(1.0) });
     let refusal = analyse(&picture, &settings).expect_err("a refusal").to_string();
-    assert!(
-        refusal.contains("a lamp and a lens make 60 % at most") && refusal.contains("--lamp"),
-        "{refusal}"
-    );
+    assert!(refusal.contains("a lamp and a lens make 60 % at most"), "{refusal}");
     assert!(analyse(&picture, &Settings { keep_shading: true, ..settings }).is_ok());
 }

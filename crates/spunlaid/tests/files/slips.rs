@@ -28,7 +28,7 @@ fn all_of(said: Result<Vec<String>, Error>) -> String {
 }
 
 /// Cases of every kind, with what makes each key mean something.
-const CASES: [(&str, Set<'static>); 13] = [
+const CASES: [(&str, Set<'static>); 14] = [
     ("starter", &[]),
     ("starter", &[("fibre.diameter", "auto")]),
     ("starter", &[("air.eddies", "convected")]),
@@ -37,6 +37,8 @@ const CASES: [(&str, Set<'static>); 13] = [
     ("spunbond", &[("belt.contact", "friction")]),
     ("profile", &[]),
     ("point_table", &[]),
+    // Its coordinates have no unit of their own.
+    ("openfoam_diffuser", &[]),
     ("record", &[("air.record_rate", "2 kHz")]),
     ("whole_line_fibre", &[]),
     (

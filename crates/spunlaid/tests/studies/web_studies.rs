@@ -252,7 +252,7 @@ fn rejects_what_cannot_vary() {
         ),
         (
             vary("'line.belt_speed' = ['4 m/s']\n[set]\nrun.replicates = 4"),
-            "study.toml: [set] run.replicates = 4 cannot be set by a study; it is a key of a case, and this web flies none",
+            "study.toml: [set] run.replicates = 4 is a key of a case, and this web flies none; write laydown.case in its file",
         ),
         (vary("layer.2.line.belt_speed = ['4 m/s']"), "there is no such layer or row; the web has 1 layer"),
         (vary("line.rows.pitch = ['4 mm']"), "write the number of the row, as in line.rows.1.pitch"),
