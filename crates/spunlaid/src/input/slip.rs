@@ -24,7 +24,13 @@ pub(super) fn slip(line: &str) -> Option<Fault> {
     }
     let end = line.find(|c: char| c == '=' || c == ':' || c.is_whitespace())?;
     let (key, rest) = line.split_at_checked(end)?;
-    let (sign, value) = match rest.trim_start() {
+    if !key.chars().all(|c| c.is_ascii_alphanumeric() || ['_', '-', '.'].contains(&c)) {
+        // A part of a list or of a text.
+        return None;
+    }
+    let rest = rest.trim_start();
+    let has_sign = rest.starts_with(['=', ':']);
+    let (sign, value) = match rest {
         value if value.starts_with('=') => (true, value.get(1..)?),
         value => (false, value.strip_prefix(':').unwrap_or(value)),
     };
@@ -35,6 +41,10 @@ pub(super) fn slip(line: &str) -> Option<Fault> {
     if is_toml(&format!("{key} = {written}")) {
         let what = if sign { "has text behind its value" } else { "has no = between key and value" };
         return offer(what, &format!("{key} = {written}"));
+    }
+    if !has_sign {
+        // Words, which are no value of a key.
+        return None;
     }
     let bare = written.trim_matches(|c: char| QUOTES.contains(&c) || c.is_whitespace());
     if bare.starts_with(['[', '{']) || bare.contains(QUOTES) {
@@ -99,6 +109,8 @@ mod tests {
             assert_eq!(fault.remedy, format!("write {right}"), "{line}");
         }
         assert_eq!(slip("diameter =  # none").unwrap().message, "diameter has no value");
-        assert!(slip("seed = 1").is_none());
+        for line in ["seed = 1", "this is a note", "density ratio = 3", "\"a\" \"b\""] {
+            assert!(slip(line).is_none(), "{line}");
+        }
     }
 }
