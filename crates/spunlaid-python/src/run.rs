@@ -23,6 +23,7 @@ use spunlaid::observe::{MEASURES, Measure};
 use spunlaid::threads::{lock, unlock};
 use spunlaid_results::figures::Scale;
 use spunlaid_results::folders::run::{self as folder, POSITIONS};
+use spunlaid_results::output::doubt;
 use spunlaid_results::output::folder::ENTRIES;
 use spunlaid_results::output::tables::{TableRecorder, Tables};
 use std::path::PathBuf;
@@ -90,6 +91,8 @@ pub(crate) fn fly(
     notes.extend(folder::lost(&description, &results));
     notes.extend(folder::outside(&results));
     notes.extend(folder::coarse_shapes(&description, &results));
+    // A pickled run knows its checks, but not why one was not made.
+    notes.extend(doubt::notes(&checks, &description));
     let is_lost = |replicate| results.lost.iter().any(|fibre| fibre.replicate == replicate);
     let curves = (0..if description.line.is_some() { run.replicates } else { 0 })
         .map(|replicate| if is_lost(replicate) { Vec::new() } else { belt.take(replicate) })

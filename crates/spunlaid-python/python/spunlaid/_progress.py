@@ -43,4 +43,5 @@ def _tqdm() -> type | None:
             from tqdm import tqdm
     except ImportError:
         return None
-    return tqdm
+    bar: type = tqdm
+    return bar

@@ -158,7 +158,9 @@ impl Run<'_> {
 
     /// Warnings and remarks, with those of the checks.
     fn all_notes(&self) -> Vec<String> {
-        self.notes.iter().cloned().chain(doubt::notes(self.checks, self.case)).collect()
+        let doubts =
+            doubt::notes(self.checks, self.case).into_iter().filter(|doubt| !self.notes.contains(doubt));
+        self.notes.iter().cloned().chain(doubts).collect()
     }
 
     /// Writes the figures, the shapes for ParaView, the report, the case and the summary. The tables are those of [`fly`].
