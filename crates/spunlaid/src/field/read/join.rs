@@ -10,6 +10,7 @@ use crate::field::lattice::order;
 use crate::field::node::{bounding_box, compare};
 use crate::field::{Cells, Field, Shape, Values};
 use crate::vec3::Vec3;
+use std::borrow::Cow;
 
 /// A piece with its values at points.
 pub(super) struct Part {
@@ -40,8 +41,8 @@ fn simple(parts: &[Part]) -> Result<Option<(Field, Vec<Fault>)>, FileError> {
     if let [Part { grid, values, blanks }] = parts {
         if let Grid::Scattered(points) = grid {
             let kept = blanks.kept_points(grid)?;
-            return Field::points(&filtered(points, kept.as_deref()), &part_of(values, kept.as_deref()))
-                .map(Some);
+            let values = part_of(Cow::Borrowed(values), kept.as_deref());
+            return Field::points(&filtered(points, kept.as_deref()), &values).map(Some);
         }
         if let Some(axes) = grid.axes().filter(|_| blanks.is_empty()) {
             return Ok(Some((Field::lattice(axes, values)?, Vec::new())));
@@ -87,8 +88,8 @@ fn lattice(parts: &[Part]) -> Result<Option<(Field, Vec<Fault>)>, FileError> {
     let (mut points, mut all) = (Vec::new(), Values::default());
     for (axes, part) in axes.iter().zip(parts) {
         let kept = part.blanks.kept_points(&part.grid)?;
-        points.extend(filtered(&combinations(axes).collect::<Vec<_>>(), kept.as_deref()));
-        all.append(part_of(&part.values, kept.as_deref()));
+        points.extend_from_slice(&filtered(&combinations(axes).collect::<Vec<_>>(), kept.as_deref()));
+        all.append(part_of(Cow::Borrowed(&part.values), kept.as_deref()).into_owned());
     }
     if points.is_empty() {
         return Ok(None);
@@ -195,9 +196,9 @@ impl Collection {
         }
         let copied =
             (0..values.velocity.len()).map(|i| blanks.copied_points.get(i).copied().unwrap_or(false));
-        self.copied.extend(filtered(&copied.collect::<Vec<_>>(), kept));
-        self.values.append(part_of(&values, kept));
-        self.points.extend(filtered(&grid.points(), kept));
+        self.copied.extend_from_slice(&filtered(&copied.collect::<Vec<_>>(), kept));
+        self.values.append(part_of(Cow::Owned(values), kept).into_owned());
+        self.points.extend_from_slice(&filtered(&grid.points(), kept));
         Ok(())
     }
 
@@ -254,20 +255,25 @@ fn reach(parts: &[Part]) -> f64 {
     longest
 }
 
-/// The entries that are kept; all if nothing is left out.
-fn filtered<T: Copy>(list: &[T], kept: Option<&[bool]>) -> Vec<T> {
+/// The entries that are kept; the list itself if nothing is left out.
+fn filtered<'a, T: Copy>(list: &'a [T], kept: Option<&[bool]>) -> Cow<'a, [T]> {
     match kept {
-        None => list.to_vec(),
+        None => Cow::Borrowed(list),
         Some(kept) => list.iter().zip(kept).filter(|(_, kept)| **kept).map(|(entry, _)| *entry).collect(),
     }
 }
 
-fn part_of(values: &Values, kept: Option<&[bool]>) -> Values {
-    Values {
-        velocity: filtered(&values.velocity, kept),
-        k: filtered(&values.k, kept),
-        epsilon: filtered(&values.epsilon, kept),
+/// The values at the points that are kept; all of them if no point is left out.
+fn part_of<'a>(values: Cow<'a, Values>, kept: Option<&[bool]>) -> Cow<'a, Values> {
+    if kept.is_none() {
+        return values;
     }
+    let Values { velocity, k, epsilon } = &*values;
+    Cow::Owned(Values {
+        velocity: filtered(velocity, kept).into_owned(),
+        k: filtered(k, kept).into_owned(),
+        epsilon: filtered(epsilon, kept).into_owned(),
+    })
 }
 
 /// Whether the cells of the pieces fill the box around them.
