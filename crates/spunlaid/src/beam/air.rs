@@ -60,9 +60,8 @@ impl Beam<'_> {
     fn extent_of_air(&self, sheet: &Sheet) -> Extent {
         let (air, distance) = (&self.case.air, self.case.way_of_air());
         let least = self.case.extent_of_air().y;
-        let depth = range(self.places.iter().map(|place| place.y));
         let width = range(self.places.iter().map(|place| place.z));
-        let y = (depth + REACH * distance) * widening(air, distance).sqrt();
+        let y = (self.depth + REACH * distance) * widening(air, distance).sqrt();
         let z = match sheet.edges {
             Edges::Periodic => sheet.width,
             Edges::Cut => width + REACH * distance + least,

@@ -66,6 +66,11 @@ impl Stretch {
         }
     }
 
+    /// Where the sheet begins, at its back [m]; None while filaments lay the fibre of their start.
+    pub(super) const fn back(&self) -> Option<f64> {
+        self.back
+    }
+
     /// Whether nothing will come down on the sheet any more. A filament is never reckoned farther ahead than any has been so far.
     pub(super) fn is_laid(&self, reach: &Reach) -> bool {
         self.back.is_some_and(|back| reach.ahead - self.belt_ratio * reach.fed < back)
@@ -120,7 +125,7 @@ impl Filament {
         &mut self,
         points: Vec<LaidPoint>,
         stretch: &Stretch,
-        (canvas, quanta): (&Canvas, u32),
+        on: Option<(&Canvas, u32)>,
         reach: &mut Reach,
     ) {
         for point in &points {
@@ -140,7 +145,9 @@ impl Filament {
             for pair in 1..self.waiting.len() {
                 let ends = [pair - 1, pair].map(|i| stretch.on_sheet(self.place, &self.waiting[i]));
                 if let [Some(from), Some(to)] = ends {
-                    canvas.draw(from, to, quanta);
+                    if let Some((canvas, quanta)) = on {
+                        canvas.draw(from, to, quanta);
+                    }
                     self.show(from, to, stretch);
                 }
             }

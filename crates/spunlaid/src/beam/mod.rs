@@ -67,6 +67,9 @@ pub struct Beam<'a> {
     pub places: &'a [Place],
     /// Whose air they fly in.
     pub airs: Airs,
+    /// Size in machine direction of the slot in which the places lie [m]. All filaments of a slot fly in the same air, however many of
+    /// them there are and wherever in its depth they hang.
+    pub depth: f64,
 }
 
 /// Threads and instruction set of the computation, its progress and its stop flag.
@@ -95,10 +98,21 @@ pub struct BeamFindings {
     pub pairs: Vec<SharedVariance>,
     /// The filaments that were lost, by their numbers across the web, each with the reason.
     pub lost: Vec<(usize, Error)>,
+    /// Where the sheet begins on the belt, at its back [m].
+    pub back: f64,
     /// Time that was flown [s].
     pub time: f64,
     /// What it took.
     pub spent: TimeSpent,
+}
+
+impl<'a> Beam<'a> {
+    /// Filaments at these places, in a slot that is as deep as they need.
+    pub fn new(case: &'a Case, places: &'a [Place], airs: Airs) -> Self {
+        let y = || places.iter().map(|place| place.y);
+        let depth = y().fold(f64::NEG_INFINITY, f64::max) - y().fold(f64::INFINITY, f64::min);
+        Self { case, places, airs, depth: depth.max(0.0) }
+    }
 }
 
 impl Beam<'_> {
@@ -126,7 +140,7 @@ impl Beam<'_> {
     ) -> Result<(LaidWeb, BeamFindings), Error> {
         let element = self.element_mass();
         let canvas = Canvas::new(sheet, &[element], self.basis_weight(sheet))?;
-        let mut flown = self.fly((sheet, window), (&canvas, canvas.quanta(element)), by)?;
+        let mut flown = self.fly((sheet, window), Some((&canvas, canvas.quanta(element))), by)?;
         let shared_air = Some(flown.take_shared_air());
         Ok((LaidWeb { shared_air, ..canvas.finish()? }, flown))
     }
@@ -143,17 +157,17 @@ impl Beam<'_> {
         self.case.line.map_or(0.0, |line| per_length / line.belt_ratio() / sheet.width)
     }
 
-    /// Flies all filaments and lays them on a canvas.
+    /// Flies all filaments, and lays them on a canvas or keeps all their curves.
     ///
     /// * `window` – of the sheet, whose single fibres are kept
-    /// * `quanta` – of the canvas, for an element of fibre
+    /// * `on` – the canvas, and its quanta for an element of fibre; None to keep the curves of all filaments in place of it
     ///
     /// # Errors
     /// If the case cannot be flown or its fibre is not laid on a moving belt, if more than 2 % of the filaments are lost, or if it is stopped.
     pub(crate) fn fly(
         &self,
         (sheet, window): (&Sheet, Window),
-        (canvas, quanta): (&Canvas, u32),
+        on: Option<(&Canvas, u32)>,
         by: BeamControl<'_>,
     ) -> Result<BeamFindings, Error> {
         let started = Instant::now();
@@ -174,7 +188,7 @@ impl Beam<'_> {
         let locked = |i: usize| lock(&packs[i]);
         let start = make_air(&mut shared, 0..steps, &mut making);
         in_parallel(packs.len(), &|i| {
-            *locked(i) = Some(Pack::new(self, &neighbours[i], by.isa, start.as_ref())?);
+            *locked(i) = Some(Pack::new(self, (&neighbours[i], on.is_none()), by.isa, start.as_ref())?);
             Ok(Reach::default())
         })?;
         drop(start);
@@ -191,7 +205,7 @@ impl Beam<'_> {
                 }
                 let mut pack = locked(i);
                 let Some(pack) = pack.as_mut() else { return Ok(before) };
-                let reach = pack.advance(steps, field.as_ref(), now, (canvas, quanta));
+                let reach = pack.advance(steps, field.as_ref(), now, on);
                 by.steps.fetch_add(steps * pack.filaments().len() as u64, Ordering::Relaxed);
                 Ok(reach)
             })?;
@@ -207,6 +221,7 @@ impl Beam<'_> {
         let mut flown = BeamFindings {
             neighbours: together.correlations(),
             pairs: together.variances(self, sheet, by.threads),
+            back: stretch.back().unwrap_or(f64::NAN),
             time: done as f64 * self.case.run.time_step,
             ..BeamFindings::default()
         };
@@ -224,7 +239,7 @@ impl Beam<'_> {
     }
 
     /// Whether the curve of a filament is kept.
-    fn keeps(&self, filament: usize) -> bool {
+    pub(crate) fn keeps(&self, filament: usize) -> bool {
         let count = self.places.len();
         count <= KEPT || filament * KEPT / count != (filament + 1) * KEPT / count
     }
@@ -246,6 +261,7 @@ impl BeamFindings {
             strands: std::mem::take(strands),
             neighbours: neighbours.clone(),
             pairs: pairs.clone(),
+            few: Vec::new(),
             lost: lost.len() as u64,
             time: *time,
             spent: *spent,

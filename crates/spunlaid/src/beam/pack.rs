@@ -34,10 +34,11 @@ pub(super) struct Pack {
 }
 
 impl Pack {
+    /// * `numbers` – of its filaments, and whether the curves of all of them are kept
     /// * `field` – the air of all filaments, if they share one
     pub(super) fn new(
         beam: &Beam<'_>,
-        numbers: &[usize],
+        (numbers, keeps_all): (&[usize], bool),
         isa: Isa,
         field: Option<&Arc<EddyField>>,
     ) -> Result<Self, Error> {
@@ -47,7 +48,8 @@ impl Pack {
             place: beam.places[*number],
         };
         let jobs: Vec<Job<'_>> = numbers.iter().map(job).collect();
-        let filament = |number: &usize| Filament::new(*number, beam.places[*number], beam.keeps(*number));
+        let filament =
+            |number: &usize| Filament::new(*number, beam.places[*number], keeps_all || beam.keeps(*number));
         let flight = Flight::in_air(&jobs, isa, SurroundingRun { field, ..SurroundingRun::run(beam.case) })?;
         Ok(Self { flight, filaments: numbers.iter().map(filament).collect() })
     }
@@ -64,7 +66,7 @@ impl Pack {
         steps: u64,
         field: Option<&Arc<EddyField>>,
         stretch: &Stretch,
-        on: (&Canvas, u32),
+        on: Option<(&Canvas, u32)>,
     ) -> Reach {
         field.iter().for_each(|field| self.flight.give_field(field));
         let mut left = steps;

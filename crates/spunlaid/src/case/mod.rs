@@ -171,14 +171,23 @@ impl Case {
     /// After what distances a field of eddies in space repeats itself: ten times the largest length scale on the way, and four
     /// times the largest distance of a companion.
     pub fn extent_of_air(&self) -> Extent {
-        const PLACES: usize = 64;
-        let mut hint = Hint::default();
-        let x = |i: usize| self.way_of_air() * i as f64 / PLACES as f64;
-        let scales = (0..=PLACES).map(|i| self.air.local(Vec3::new(x(i), 0.0, 0.0), &mut hint).length_scale);
-        let side = 10.0 * scales.fold(0.0, f64::max);
+        let side = 10.0 * self.length_scales().fold(0.0, f64::max);
         let farthest = |distances: &[f64]| distances.last().map_or(0.0, |distance| 4.0 * distance);
         let Neighbours { cd, md } = &self.neighbours;
         Extent { y: side.max(farthest(md)), z: side.max(farthest(cd)) }
+    }
+
+    /// The smallest length scale of the eddies on the way of the air [m].
+    pub fn smallest_length_scale(&self) -> f64 {
+        self.length_scales().fold(f64::INFINITY, f64::min)
+    }
+
+    /// The length scale of the eddies at places along the way of the air [m].
+    fn length_scales(&self) -> impl Iterator<Item = f64> {
+        const PLACES: usize = 64;
+        let mut hint = Hint::default();
+        let x = |i: usize| self.way_of_air() * i as f64 / PLACES as f64;
+        (0..=PLACES).map(move |i| self.air.local(Vec3::new(x(i), 0.0, 0.0), &mut hint).length_scale)
     }
 
     /// The time that the mean flow takes from the start of the way to its end [s]; one second in still air.

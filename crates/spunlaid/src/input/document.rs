@@ -7,7 +7,7 @@ use super::entry::{Entry, VERSION, check_version, in_order, kind, root};
 use super::source::{Source, fit};
 use super::written_values::{WrittenValue, WrittenValues};
 use super::{Overrides, values};
-use crate::case::keys::{CASE, EVEN, FLOWN, Key, KeyTable, TAYLOR, TableList, Value};
+use crate::case::keys::{CASE, Key, KeyTable, TableList, Value};
 use crate::error::{Error, Fault, Finding, Place};
 use crate::layers::keys::WEB;
 use std::collections::BTreeMap;
@@ -263,9 +263,7 @@ impl<'a, T> Document<'a, T> {
             value => value,
         };
         let read = match value.as_str() {
-            Some(name @ TAYLOR) if key.name == "air.cutoff_frequency" => Ok(name.into()),
-            Some(name @ FLOWN) if key.name == "spinline.end_tension" => Ok(name.into()),
-            Some(name @ EVEN) if key.name == "line.rows.pitch" => Ok(name.into()),
+            Some(word) if key.words.contains(&word) => Ok(word.into()),
             _ => values::read(&key.kind, &value, |named| self.beside(&place, named)),
         };
         let (value, fault) = match read {

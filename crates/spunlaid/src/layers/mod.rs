@@ -4,6 +4,7 @@
 //! WebSpec (sheet and layers) → Flyer: the fibres of each layer, flown or read or known → Web, which `web` lays
 //! ```
 
+mod few;
 mod finished_run;
 mod flyer;
 pub(crate) mod full_names;
@@ -42,6 +43,8 @@ pub struct WebSpec {
     pub seed: u64,
     /// What is laid.
     pub method: Method,
+    /// How many filaments of a web in one air are flown.
+    pub flown: Flown,
     /// Side of the square in the middle of the sheet whose single fibres are written out [m].
     pub window: f64,
     /// Most memory that the air of a web in one air may take [B].
@@ -59,6 +62,17 @@ pub enum Method {
     Dynamics,
     /// The curves of all filaments of the sheet, which fly in one air.
     SharedAir,
+}
+
+/// How many filaments of a web in one air are flown for all of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flown {
+    /// As many as the length scale of the air asks for.
+    Auto,
+    /// All of them.
+    All,
+    /// So many per metre of width.
+    PerMetre(u64),
 }
 
 /// A layer before its fibres have been flown.
@@ -164,6 +178,7 @@ impl WebSpec {
             layers: Vec::new(),
             seed: 0,
             method: Method::Surrogate,
+            flown: Flown::Auto,
             window: nan,
             memory_limit: nan,
             basis_weight: None,

@@ -1,5 +1,6 @@
 //! Webs whose filaments all fly in one air, and lay the sheet as they come down.
 
+use super::few::{FewFlight, FewPlan};
 use super::flyer::Flights;
 use super::{FlownFibres, Flyer, LaydownSource, LayerFibres, Method, WebSpec};
 use crate::air::Lateral;
@@ -9,7 +10,7 @@ use crate::error::{Error, Fault, Place as ErrorPlace, Problem};
 use crate::fibre::Place;
 use crate::lanes::Isa;
 use crate::units::Dimension;
-use crate::web::{Canvas, Curves, Fibres, LaidWeb, OneAir, SharedAirFindings, Sheet, inlets};
+use crate::web::{Canvas, Curves, Fibres, LaidWeb, LayerFew, OneAir, SharedAirFindings, Sheet, inlets};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use std::path::Path;
@@ -29,17 +30,29 @@ const MEMORY: f64 = 2.0;
 struct LayerBeam<'a> {
     path: &'a Path,
     case: Case,
+    /// The sheet on which they are laid, and whether they are a few of all.
+    sheet: Sheet,
+    few: Option<FewPlan>,
     places: Vec<Place>,
+    /// Size of the slot in machine direction [m].
+    depth: f64,
 }
 
 impl LayerBeam<'_> {
     fn beam(&self) -> Beam<'_> {
-        Beam { case: &self.case, places: &self.places, airs: Airs::Shared }
+        Beam { case: &self.case, places: &self.places, airs: Airs::Shared, depth: self.depth }
+    }
+
+    /// Mass of all filaments, the ones that are not flown too, over the area on which they are laid [kg/m²].
+    fn basis_weight(&self) -> f64 {
+        let beam = self.beam();
+        let all = self.few.as_ref().map_or(1.0, |few| few.all / self.places.len() as f64);
+        all * beam.basis_weight(&self.sheet)
     }
 
     /// How far some of its filaments hang together.
-    fn one_air(&self, filaments: impl Iterator<Item = usize>, sheet: &Sheet) -> OneAir {
-        let case = &self.case;
+    fn one_air(&self, filaments: impl Iterator<Item = usize>) -> OneAir {
+        let (case, sheet) = (&self.case, &self.sheet);
         let groups = (sheet.width / (APART * case.extent_of_air().z)).floor().max(1.0);
         let group =
             |filament: usize| (self.places[filament].z / sheet.width * groups).clamp(0.0, groups - 1.0);
@@ -58,7 +71,7 @@ impl Flyer<'_> {
         let beams: Vec<LayerBeam<'_>> =
             (0..spec.layers.len()).map(|number| beam(spec, number)).collect::<Result<_, _>>()?;
         let elements: Vec<f64> = beams.iter().map(|layer| layer.beam().element_mass()).collect();
-        let weight = beams.iter().map(|layer| layer.beam().basis_weight(&spec.sheet)).sum();
+        let weight = beams.iter().map(LayerBeam::basis_weight).sum();
         let canvas = Canvas::new(&spec.sheet, &elements, weight)?;
         let (mut layers, mut shared_air) = (Vec::new(), SharedAirFindings::default());
         for (number, (layer, element)) in beams.iter().zip(elements).enumerate() {
@@ -68,16 +81,23 @@ impl Flyer<'_> {
                 path: layer.path,
                 fibres: layer.places.len() as u64,
                 done: &done,
-                steps: beam.steps(&spec.sheet),
+                steps: beam.steps(&layer.sheet),
                 time_step: layer.case.run.time_step,
             };
             let mut flown = Err(Error::Interrupted);
             (self.follow)(flights, &mut || {
-                flown = beam.fly((&spec.sheet, spec.window()), (&canvas, canvas.quanta(element)), by);
+                let on = layer.few.is_none().then(|| (&canvas, canvas.quanta(element)));
+                flown = beam.fly((&layer.sheet, spec.window()), on, by);
             });
             let mut flown = flown?;
             shared_air.add(number, flown.take_shared_air());
-            let one_air = layer.one_air(flown.kept.iter().map(|(filament, _)| *filament), &spec.sheet);
+            if let Some(few) = &layer.few {
+                let few = few.filaments(&layer.sheet, &beam, &flown);
+                shared_air.few.push(LayerFew { layer: number, cvs: few.cvs(self.threads)? });
+                few.draw(&canvas, canvas.quanta(element * few.all / few.count()));
+            }
+            flown.kept.retain(|(filament, _)| beam.keeps(*filament));
+            let one_air = layer.one_air(flown.kept.iter().map(|(filament, _)| *filament));
             let curves = flown.kept.into_iter().map(|(_, points)| points).collect();
             let gathered = FlownFibres::gather(layer.path, &layer.case, curves)?;
             let curves = Curves::clone(&gathered.curves).in_one_air(one_air);
@@ -105,7 +125,7 @@ impl WebSpec {
         }
         let beams = (0..self.layers.len()).filter_map(|number| beam(self, number).ok());
         let largest = beams
-            .map(|layer| (layer.beam().memory_of_air(&self.sheet), layer.case.air.lateral))
+            .map(|layer| (layer.beam().memory_of_air(&layer.sheet), layer.case.air.lateral))
             .max_by(|a, b| a.0.total_cmp(&b.0));
         let (needed, cutoff) = largest.and_then(|(needed, lateral)| Some((needed, lateral.cutoff()?)))?;
         if needed <= self.memory_limit {
@@ -150,9 +170,18 @@ fn beam(spec: &WebSpec, number: usize) -> Result<LayerBeam<'_>, Error> {
         case.air.lateral = Lateral::VonKarman { cutoff: Lateral::USUAL_CUTOFF };
     }
     case.run.seed = key(case.run.seed, spec.seed, number as u64);
-    let place = |[z, y]: [f64; 2]| Place { y, z };
-    let places = inlets(&spec.sheet, spec.seed, number, &layer.filaments).into_iter().map(place).collect();
-    Ok(LayerBeam { path, case, places })
+    let depth = layer.filaments.depth();
+    Ok(match spec.few(number) {
+        Some(FewFlight { sheet, places, few }) => {
+            LayerBeam { path, case, sheet, few: Some(few), places, depth }
+        }
+        None => {
+            let place = |[z, y]: [f64; 2]| Place { y, z };
+            let inlets = inlets(&spec.sheet, spec.seed, number, &layer.filaments);
+            let places = inlets.into_iter().map(place).collect();
+            LayerBeam { path, case, sheet: spec.sheet.clone(), few: None, places, depth }
+        }
+    })
 }
 
 /// A seed from those of the case and of the web and the number of a layer, each of which changes about half of its bits.

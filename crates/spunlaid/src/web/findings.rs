@@ -2,6 +2,7 @@
 
 use super::clouds::{Clouds, autocorrelation};
 use super::expected::{ALONE, SheetPosition, across, expected, side, sides};
+use super::few::FewFilamentsCv;
 use super::laid_web::{LaidWeb, SharedAirFindings};
 use super::lay::lay;
 use super::laying::LayControl;
@@ -53,7 +54,7 @@ impl Findings {
 /// The unevenness over patches of one size, in several ways.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchFindings {
-    /// On the map.
+    /// On the map; of filaments in one air of which a few were flown, as these tell it ([`PatchFindings::few`]).
     pub map: Unevenness,
     /// The expected one of independent filaments at the places of the layers, from single fibres, with its standard error.
     pub single_fibres: (f64, f64),
@@ -69,6 +70,8 @@ pub struct PatchFindings {
     /// What is expected of filaments in one air from those in airs of their own and from the correlations of pairs; it checks the map. None if the
     /// filaments are independent or if pairs do not tell it.
     pub pairs: Option<f64>,
+    /// What a few filaments in one air say of all; None if all were flown, or if the patch is too large for the sheet that they laid.
+    pub few: Option<FewFilamentsCv>,
 }
 
 /// The CV that the filaments of a web in one air would give in airs of their own.
@@ -205,7 +208,10 @@ pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Res
             .shared_air
             .as_ref()
             .and_then(|together| with_pairs(web, together, single_fibres.0, map.patch));
+        let few = laid.shared_air.as_ref().and_then(|together| of_all_layers(web, together, map));
+        let map = few.map_or(map, |few| Unevenness { cv: few.cv, standard_error: few.by_chance, ..map });
         patches.push(PatchFindings {
+            few,
             map,
             single_fibres,
             flown,
@@ -229,6 +235,34 @@ pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Res
         margins,
         reach,
         laid,
+    })
+}
+
+/// What the few filaments of all layers say together: their airs are independent of each other, so the variances add up.
+fn of_all_layers(web: &Web, together: &SharedAirFindings, map: Unevenness) -> Option<FewFilamentsCv> {
+    let weights: Vec<f64> = web.layers.iter().map(|layer| layer.basis_weight(&web.sheet)).collect();
+    let whole = weights.iter().sum::<f64>();
+    let layers = weights.iter().enumerate().map(|(number, weight)| {
+        let few = together.few.iter().find(|few| few.layer == number)?;
+        let cv = few.cvs.iter().find(|cv| cv.patch == map.patch)?;
+        Some((weight / whole, *cv))
+    });
+    let layers: Vec<(f64, FewFilamentsCv)> = layers.collect::<Option<_>>()?;
+    let sum = |of: &dyn Fn(&FewFilamentsCv) -> f64, power: i32| {
+        layers.iter().map(|(share, few)| (share.powi(2) * of(few)).powi(power)).sum::<f64>()
+    };
+    let cv = sum(&|few| few.cv * few.cv, 1).sqrt();
+    // The error of a sum of squares, as one of its root.
+    let error = |of: &dyn Fn(&FewFilamentsCv) -> f64| sum(&|few| few.cv * of(few), 2).sqrt() / cv;
+    let by_chance = error(&|few| few.by_chance.unwrap_or(f64::NAN));
+    Some(FewFilamentsCv {
+        patch: map.patch,
+        cv,
+        by_chance: by_chance.is_finite().then_some(by_chance),
+        by_pitch: error(&|few| few.by_pitch),
+        of_halves: sum(&|few| few.cv * few.cv * few.of_halves, 1) / (cv * cv),
+        own: sum(&|few| few.own, 1),
+        few: sum(&|few| few.few * few.few, 1).sqrt(),
     })
 }
 

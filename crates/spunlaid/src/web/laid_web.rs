@@ -1,5 +1,6 @@
 //! What has been laid.
 
+use super::few::FewFilamentsCv;
 use super::laying::TimeSpent;
 use super::map::Map;
 use super::neighbours::{NeighbourCorrelation, SharedVariance};
@@ -29,6 +30,8 @@ pub struct SharedAirFindings {
     pub neighbours: Vec<NeighbourCorrelation>,
     /// The part of CV² that neighbours make together, of each layer over patches of each side; empty if it is not known.
     pub pairs: Vec<SharedVariance>,
+    /// What a few filaments say about the web of all, of each layer of which only a few were flown.
+    pub few: Vec<LayerFew>,
     /// Filaments that were lost: they are missing on the web from then on.
     pub lost: u64,
     /// Length of time that was flown, of the layer that took the longest [s].
@@ -37,12 +40,22 @@ pub struct SharedAirFindings {
     pub spent: TimeSpent,
 }
 
+/// What a few filaments of a layer say about all of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LayerFew {
+    /// Index of the layer.
+    pub layer: usize,
+    /// CV over patches of each size.
+    pub cvs: Vec<FewFilamentsCv>,
+}
+
 impl SharedAirFindings {
     /// Adds what is known of another layer.
     pub(crate) fn add(&mut self, layer: usize, other: Self) {
         self.strands.extend(other.strands.into_iter().map(|strand| Strand { layer, ..strand }));
         let neighbours = other.neighbours.into_iter();
         self.neighbours.extend(neighbours.map(|neighbour| NeighbourCorrelation { layer, ..neighbour }));
+        self.few.extend(other.few);
         self.pairs.extend(other.pairs.into_iter().map(|pair| SharedVariance { layer, ..pair }));
         self.lost += other.lost;
         self.time = self.time.max(other.time);

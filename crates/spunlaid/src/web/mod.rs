@@ -10,6 +10,7 @@ mod canvas;
 mod clouds;
 mod curves;
 mod expected;
+mod few;
 mod findings;
 mod laid_web;
 mod lay;
@@ -35,8 +36,10 @@ pub use clouds::{Clouds, autocorrelation};
 pub use curves::Curves;
 pub(crate) use curves::OneAir;
 pub use expected::{ExpectedCv, expected_cv, inner_columns};
+pub use few::FewFilamentsCv;
+pub(crate) use few::{Arrangement, FEWEST as FEWEST_OF_FEW, FewFilaments};
 pub use findings::{Findings, IndependentCv, PatchFindings, find, find_laid, measure, measure_laid};
-pub use laid_web::{LaidWeb, SharedAirFindings};
+pub use laid_web::{LaidWeb, LayerFew, SharedAirFindings};
 pub use lay::{lay, pieces};
 pub use laying::{LayControl, TimeSpent};
 pub use map::Map;
@@ -133,6 +136,18 @@ impl Filaments {
                 (per_metre * sheet.width).round() as u64
             }
             Self::Rows(rows) => rows.iter().map(|row| row.filaments).sum(),
+        }
+    }
+
+    /// How far they are spread in machine direction where they are fed [m].
+    pub fn depth(&self) -> f64 {
+        match self {
+            Self::AtRandom { .. } => 0.0,
+            Self::Slot { depth, .. } => *depth,
+            Self::Rows(rows) => {
+                let md = || rows.iter().map(|row| row.md);
+                (md().fold(f64::NEG_INFINITY, f64::max) - md().fold(f64::INFINITY, f64::min)).max(0.0)
+            }
         }
     }
 

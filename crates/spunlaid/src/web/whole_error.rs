@@ -35,8 +35,9 @@ impl PatchFindings {
     /// The error of the CV of the map, by its causes.
     pub fn whole_error(&self) -> WholeError {
         if self.independent.is_some() {
-            // Every filament of the sheet has been flown.
-            return WholeError { chance: self.map.standard_error, flight: Some(0.0), model: Some(0.0) };
+            // Unless a few stand for all, every filament of the sheet has been flown.
+            let flight = self.few.map_or(0.0, |few| few.by_pitch);
+            return WholeError { chance: self.map.standard_error, flight: Some(flight), model: Some(0.0) };
         }
         // What is expected of the web is as far off, in parts of itself.
         let per_expected = self.map.cv / self.single_fibres.0;

@@ -56,7 +56,7 @@ pub(super) fn lay_by(
 ) -> (LaidWeb, BeamFindings) {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let window = Window { corner: [10e-3, 20e-3], sides: [10e-3; 2] };
-    let beam = Beam { case, places, airs };
+    let beam = Beam::new(case, places, airs);
     let laid = beam.lay(sheet, window, BeamControl { threads, isa, stop: &stop, steps: &steps }).unwrap();
     assert!(steps.into_inner() > 0);
     laid
@@ -259,7 +259,7 @@ fn rejects_a_beam_that_loses_its_filaments() {
     case.air.speed_factor = 0.01;
     let (stop, steps, places) = (AtomicBool::new(false), AtomicU64::new(0), slot(&sheet, 12));
     let window = Window { corner: [10e-3, 20e-3], sides: [10e-3; 2] };
-    let beam = Beam { case: &case, places: &places, airs: Airs::Shared };
+    let beam = Beam::new(&case, &places, Airs::Shared);
     let by = BeamControl { threads: 2, isa: Isa::detect(), stop: &stop, steps: &steps };
     let said = beam.lay(&sheet, window, by).unwrap_err().to_string();
     assert!(said.contains("of 12 filaments were lost"), "{said}");

@@ -84,6 +84,8 @@ pub struct Key<T: 'static = Case> {
     pub usual: Option<(f64, f64)>,
     /// Whether it is rounded to whole elements, steps or harmonics. Such keys are set after all others.
     pub(crate) counted: bool,
+    /// Words that may stand in place of a number.
+    pub(crate) words: &'static [&'static str],
     get: fn(&T) -> Option<Value>,
     set: fn(&mut T, &Value) -> Result<(), Fault>,
     derived: fn(&T) -> bool,
@@ -195,7 +197,11 @@ impl<T> Key<T> {
     pub fn set(&self, input: &mut T, value: impl Into<Value>) -> Result<(), Box<Problem>> {
         let value = value.into();
         let shown = self.kind.pretty(&value);
-        self.kind.accept(value).and_then(|value| (self.set)(input, &value)).map_err(|what| {
+        let accepted = match &value {
+            Value::Text(word) if self.words.contains(&word.as_str()) => Ok(value),
+            _ => self.kind.accept(value),
+        };
+        accepted.and_then(|value| (self.set)(input, &value)).map_err(|what| {
             let (place, key) = (Place::Code, self.name.to_owned());
             Box::new(Finding { place, key, value: Some(shown), what })
         })

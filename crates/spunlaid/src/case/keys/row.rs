@@ -187,6 +187,7 @@ pub(crate) const fn key<T>(name: &'static str, kind: Kind, access: AccessTo<T>) 
         slider: None,
         usual: None,
         counted: false,
+        words: &[],
         get,
         set,
         derived: |_| false,
@@ -263,6 +264,11 @@ impl<T> Key<T> {
 
     pub(crate) const fn counted(self) -> Self {
         Self { counted: true, ..self }
+    }
+
+    /// Words that may stand in place of a number.
+    pub(crate) const fn or_words(self, words: &'static [&'static str]) -> Self {
+        Self { words, ..self }
     }
 
     pub(crate) const fn derived(self, derived: fn(&T) -> bool) -> Self {

@@ -6,7 +6,7 @@ use super::access::{
 use super::access::{of_path, of_row, of_sheet, of_surrogate};
 use crate::case::keys::row::{choose, key, named, number, quantity, read_with_case, text, whole};
 use crate::case::keys::{EVEN, Kind, Sign, Value};
-use crate::layers::{LaydownSource, Method};
+use crate::layers::{Flown, LaydownSource, Method};
 use crate::surrogate::Surrogate;
 use crate::units::Dimension;
 use crate::web::{Edges, Filaments};
@@ -17,6 +17,9 @@ const MOST_FILAMENTS: u64 = 10_000_000;
 pub(crate) const METHODS: [&str; 3] = ["surrogate", "dynamics", "shared-air"];
 /// The values of [`METHODS`].
 const ALL_METHODS: [Method; 3] = [Method::Surrogate, Method::Dynamics, Method::SharedAir];
+/// How many filaments are flown: as many as it takes, or all.
+const AUTO: &str = "auto";
+const ALL: &str = "all";
 /// What becomes of fibre beyond the edges.
 const EDGES: [&str; 2] = ["periodic", "cut"];
 
@@ -236,6 +239,7 @@ pub const WEB_KEYS: &[WebKey] = &[
         },
     })
         .required("0.2 mm")
+        .or_words(&[EVEN])
         .meaning(
             "Distance from nozzle to nozzle in a row, or `\"even\"` for the width of the web over the number of filaments. With periodic edges, \
              pitch times filaments is the width of the web.",
@@ -344,6 +348,29 @@ pub const WEB_KEYS: &[WebKey] = &[
          unevenness.",
     )
     .label("Method"),
+    key("web.flown", Kind::Whole(1, MOST_FILAMENTS), Access {
+        get: |web| match web.flown {
+            Flown::Auto => None,
+            Flown::All => Some(ALL.into()),
+            Flown::PerMetre(number) => Some(Value::Whole(number)),
+        },
+        set: |web, value| {
+            web.flown = match value {
+                Value::Text(word) if word == ALL => Flown::All,
+                Value::Text(_) => Flown::Auto,
+                value => Flown::PerMetre(whole(value)?),
+            };
+            Ok(())
+        },
+    })
+    .or_words(&[AUTO, ALL])
+    .follows("eight in a length scale of the air, on a sheet of 0.2 m² at most")
+    .meaning(
+        "Filaments per metre of width that are flown for all others in a web in one air (`web.method = \"shared-air\"`): neighbours come down \
+         almost alike, so a few of them carry the unevenness of all. `all` flies every filament of the sheet, `auto` as many as the \
+         length scale of the air asks for.",
+    )
+    .label("Filaments per metre that are flown"),
     positive("web.memory_limit", Dimension::Memory, of_sheet!(memory_limit))
         .value("4 GB")
         .fixed()

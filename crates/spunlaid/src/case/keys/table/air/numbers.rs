@@ -1,10 +1,10 @@
 //! The numbers of the air: strength and size of its turbulence, density and viscosity.
 
 use crate::air::{SUTHERLAND_RANGE, density_at, kinematic_viscosity_at};
-use crate::case::keys::Key;
 use crate::case::keys::row::{Access, number, quantity};
 use crate::case::keys::value::Sign::{Any, NotNegative, Positive};
 use crate::case::keys::value::Value;
+use crate::case::keys::{Key, TAYLOR};
 use crate::error::Fault;
 use crate::units::Dimension;
 
@@ -29,6 +29,7 @@ pub(super) const KEYS: &[Key] = &[
     quantity("air.cutoff_frequency", Dimension::Frequency, Positive, of_air!(cutoff_frequency))
         .derived(|case| case.air.from_flow.cutoff_frequency)
         .required("100 Hz")
+        .or_words(&[TAYLOR])
         .usual(0.1, 50000.0)
     .meaning("Highest frequency of the turbulence. `taylor` stands for velocity / (4 × length scale). A record, a spectrum, a profile or a field may give it instead.")
         .label("Cut-off frequency *f*")

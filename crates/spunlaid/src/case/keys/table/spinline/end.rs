@@ -69,6 +69,7 @@ pub(super) const KEYS: &[Key] = &[
         },
     })
     .value("0 N")
+    .or_words(&[FLOWN])
     .usual(1e-9, 1.0)
     .meaning(
         "Tension at a free end: the pull of the fibre that flies on below the line. With \"flown\" some fibres fly, their mean tension at \

@@ -1,0 +1,141 @@
+//! Which few filaments of a layer are flown for all of them, and on which sheet.
+
+use super::{Flown, LaydownSource, Method, WebSpec};
+use crate::beam::{Beam, BeamFindings};
+use crate::case::Case;
+use crate::fibre::Place;
+use crate::web::{Arrangement, Edges, FEWEST_OF_FEW, FewFilaments, Filaments, Row, Sheet, inlets};
+
+/// Distance of the filaments that are flown, in smallest length scales of the air on the way.
+const PITCH: f64 = 1.0 / 8.0;
+/// Filaments are left out only where there are so many for each that is flown.
+const LEAST_SAVING: f64 = 1.5;
+/// Area whose clouds tell the CV over patches of 10 mm within some 3 % [m²].
+const AREA: f64 = 0.2;
+/// Width of the sheet that is flown, in ways from inlet to belt at least: eight spreads of a usual filament.
+const WIDTH: f64 = 0.4;
+/// A sheet whose area is larger by no more than this is flown as it is.
+const NEARLY: f64 = 1.3;
+
+/// The few filaments of a layer and the sheet on which they are laid.
+#[derive(Clone, Debug)]
+pub(super) struct FewFlight {
+    /// The sheet. It goes on at its edges across.
+    pub(super) sheet: Sheet,
+    /// Where they are fed, in order across the web.
+    pub(super) places: Vec<Place>,
+    /// Those for which they stand.
+    pub(super) few: FewPlan,
+}
+
+/// For which filaments a few stand.
+#[derive(Clone, Debug)]
+pub(super) struct FewPlan {
+    /// The filaments of each row, by their numbers across the web.
+    pub(super) rows: Vec<Vec<usize>>,
+    /// How all filaments hang.
+    pub(super) arrangement: Arrangement,
+    /// Number of all filaments over the width of the sheet that is flown.
+    pub(super) all: f64,
+}
+
+impl WebSpec {
+    /// The few filaments that are flown for all of a layer; None if all are flown.
+    pub(super) fn few(&self, layer: usize) -> Option<FewFlight> {
+        let spec = self.layers.get(layer)?;
+        let LaydownSource::Case { case, .. } = &spec.source else { return None };
+        if self.method != Method::SharedAir {
+            return None;
+        }
+        let pitch = match self.flown {
+            Flown::All => return None,
+            Flown::PerMetre(number) => 1.0 / number as f64,
+            Flown::Auto => PITCH * case.smallest_length_scale(),
+        };
+        let sheet = self.flown_sheet(case);
+        let all = spec.filaments.count(&self.sheet) as f64 * sheet.width / self.sheet.width;
+        // An even number, so that every second one is at an even pitch as well.
+        let count = 2 * (0.5 * sheet.width / pitch).round().max(1.0) as u64;
+        let is_few = |of_all: f64| LEAST_SAVING * count as f64 <= of_all;
+        let (filaments, arrangement) = match &spec.filaments {
+            Filaments::AtRandom { .. } => {
+                (Filaments::Rows(vec![even_row(&sheet, count, 0.0)]), Arrangement::AtRandom)
+            }
+            Filaments::Slot { depth, .. } => {
+                let per_metre = count as f64 / sheet.width;
+                (Filaments::Slot { per_metre, depth: *depth }, Arrangement::Slot)
+            }
+            Filaments::Rows(rows) => {
+                let share = sheet.width / self.sheet.width;
+                if !rows.iter().all(|row| is_few(row.filaments as f64 * share)) {
+                    return None;
+                }
+                let few = rows.iter().map(|row| even_row(&sheet, count, row.md));
+                (Filaments::Rows(few.collect()), Arrangement::Rows)
+            }
+        };
+        if !is_few(all) || (count as usize) < FEWEST_OF_FEW {
+            return None;
+        }
+        let place = |[z, y]: [f64; 2]| Place { y, z };
+        let places: Vec<Place> =
+            inlets(&sheet, self.seed, layer, &filaments).into_iter().map(place).collect();
+        let rows = match arrangement {
+            Arrangement::Slot | Arrangement::AtRandom => vec![(0..places.len()).collect()],
+            Arrangement::Rows => in_rows(&places),
+        };
+        Some(FewFlight { sheet, places, few: FewPlan { rows, arrangement, all } })
+    }
+
+    /// The sheet that the filaments of a case lay: that of the web unless a smaller one says as much. Long and narrow ones take the least time, because
+    /// filaments are flown for a while before they lay the sheet.
+    fn flown_sheet(&self, case: &Case) -> Sheet {
+        let way = case.line.map_or(0.0, |line| line.distance);
+        let cell = self.sheet.cell;
+        let cells = |size: f64| (size / cell).ceil() * cell;
+        let [width, length] = [self.sheet.width, self.sheet.length];
+        let sheet = Sheet { edges: Edges::Periodic, ..self.sheet.clone() };
+        if width * length <= NEARLY * AREA {
+            return sheet;
+        }
+        let narrow = cells(case.extent_of_air().z.max(WIDTH * way)).min(width);
+        Sheet { width: narrow, length: cells(AREA / narrow).min(length.max(AREA / width)), ..sheet }
+    }
+}
+
+impl FewPlan {
+    /// The filaments, with what they have laid on their sheet.
+    pub(super) fn filaments<'a>(
+        &self,
+        sheet: &'a Sheet,
+        beam: &Beam<'_>,
+        flown: &BeamFindings,
+    ) -> FewFilaments<'a> {
+        let curve = |number: &usize| {
+            let (_, points) = flown.kept.iter().find(|(filament, _)| filament == number)?;
+            let place = beam.places[*number];
+            Some(points.iter().map(|point| [place.z + point.cd, place.y + point.md - flown.back]).collect())
+        };
+        let rows = self.rows.iter().map(|row| row.iter().map(curve).collect()).collect();
+        let (arrangement, all) = (self.arrangement, self.all);
+        FewFilaments { sheet, rows, piece: beam.element_mass(), arrangement, all }
+    }
+}
+
+/// A row over the whole width.
+fn even_row(sheet: &Sheet, count: u64, md: f64) -> Row {
+    let pitch = sheet.width / count as f64;
+    Row { offset: 0.5 * pitch, pitch, filaments: count, md, is_even: true }
+}
+
+/// The filaments at each place in machine direction.
+fn in_rows(places: &[Place]) -> Vec<Vec<usize>> {
+    let mut rows: Vec<(f64, Vec<usize>)> = Vec::new();
+    for (number, place) in places.iter().enumerate() {
+        match rows.iter_mut().find(|(y, _)| *y == place.y) {
+            Some((_, row)) => row.push(number),
+            None => rows.push((place.y, vec![number])),
+        }
+    }
+    rows.into_iter().map(|(_, row)| row).collect()
+}

@@ -1,0 +1,281 @@
+//! The unevenness of a web of many filaments in one air from a few of them, flown evenly across.
+//!
+//! ```text
+//! curves of n filaments → map of all, of the even ones, of the odd ones → CV
+//!                       → patches of single ones and of their neighbours → what a filament makes alone, and together with others
+//! ```
+//!
+//! Neighbours that hang a few millimetres apart come down almost alike, so the CV of a row hardly depends on its pitch. In a slot a filament is nearer to
+//! itself than to any other one at the same place across, and this own part falls with the number of filaments.        theory.md (84)
+
+use super::canvas::Canvas;
+use super::map::Map;
+use super::uniformity::unevenness;
+use super::{Edges, Sheet};
+use crate::error::Error;
+use crate::threads::try_each;
+
+/// How all filaments hang of which a few are flown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Arrangement {
+    /// In rows at an even pitch.
+    Rows,
+    /// In a slot, each at a random place of its depth.
+    Slot,
+    /// In one row, at random places of it.
+    AtRandom,
+}
+
+/// The filaments that were flown, and those for which they stand.
+#[derive(Debug)]
+pub(crate) struct FewFilaments<'a> {
+    /// The sheet on which they are laid, with the patches that are looked at.
+    pub(crate) sheet: &'a Sheet,
+    /// Of each row of filaments the curves in order across, as places on the sheet in cross and in machine direction [m]; None of one that was lost.
+    pub(crate) rows: Vec<Vec<Option<Vec<[f64; 2]>>>>,
+    /// Mass of a piece of a curve [kg].
+    pub(crate) piece: f64,
+    /// How all filaments hang.
+    pub(crate) arrangement: Arrangement,
+    /// Number of all filaments over the width of the sheet.
+    pub(crate) all: f64,
+}
+
+/// The CV of a web of many filaments over patches of one side, as a few of them tell it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FewFilamentsCv {
+    /// Side of the patches [m].
+    pub patch: f64,
+    /// CV of the web of all filaments.
+    pub cv: f64,
+    /// Its standard error by chance: the clouds on the sheet that was flown are few. None if the sheet is too small to say.
+    pub by_chance: Option<f64>,
+    /// Its standard error because few filaments were flown: from what every second one of them says.
+    pub by_pitch: f64,
+    /// How far every second filament is off, as a share of the CV.
+    pub of_halves: f64,
+    /// Part of CV² that filaments make each for itself, which falls with their number. Zero of rows.
+    pub own: f64,
+    /// CV of the few filaments alone.
+    pub few: f64,
+}
+
+/// Fewest filaments of a row that say something of its neighbours.
+pub(crate) const FEWEST: usize = 10;
+/// Filaments whose own patches are looked at, spread over the beam.
+const REFERENCES: usize = 64;
+/// Neighbours with which a filament is compared: itself, the next ones, and those of every second filament.
+const NEIGHBOURS: [usize; 4] = [0, 1, 2, 4];
+
+impl FewFilaments<'_> {
+    /// The CV over each size of patch.
+    ///
+    /// # Errors
+    /// If a cell would hold more fibre than can be counted.
+    pub(crate) fn cvs(&self, threads: usize) -> Result<Vec<FewFilamentsCv>, Error> {
+        let count = self.count();
+        let halves = [self.map(Some(0))?, self.map(Some(1))?];
+        let mut cells = halves[0].cells.clone();
+        cells.iter_mut().zip(&halves[1].cells).for_each(|(cell, other)| *cell += other);
+        let [even, odd] = halves;
+        let maps = [Map { cells, ..even.clone() }, even, odd];
+        let sides: Vec<usize> = self.sheet.patches.iter().map(|patch| self.side(*patch)).collect();
+        let products = match self.arrangement {
+            Arrangement::Rows => vec![[0.0; NEIGHBOURS.len()]; sides.len()],
+            Arrangement::Slot | Arrangement::AtRandom => self.products(&maps[0], &sides, threads)?,
+        };
+        let of_side = |i: usize| Ok(maps.each_ref().map(|map| unevenness(map, sides[i])));
+        let found = try_each(threads, sides.len(), |i| -> Result<_, Error> { of_side(i) })?;
+        let cv = |(found, ([itself, next, second, fourth], patch)): ([Option<_>; 3], ([f64; 4], &f64))| {
+            let [all, even, odd]: [super::uniformity::Unevenness; 3] = match found {
+                [Some(all), Some(even), Some(odd)] => [all, even, odd],
+                _ => return None,
+            };
+            // What is left of the CV² of this many filaments where there are all of them, and their own part.
+            let of_all = |cv: f64, count: f64, [near, far]: [f64; 2]| {
+                let own = itself - (4.0 * near - far) / 3.0;
+                let square = cv * cv;
+                match self.arrangement {
+                    Arrangement::Rows => [square, 0.0],
+                    Arrangement::Slot => [square - (1.0 / count - 1.0 / self.all) * own, own / self.all],
+                    Arrangement::AtRandom => {
+                        let own = (itself - 1.0 - square) / self.all;
+                        [square + own, own]
+                    }
+                }
+            };
+            let root = |[square, _]: [f64; 2]| square.max(0.0).sqrt();
+            let whole = of_all(all.cv, count, [next, second]);
+            let halves = [even.cv, odd.cv].map(|cv| root(of_all(cv, 0.5 * count, [second, fourth])));
+            let cv = root(whole);
+            let off = 0.5 * (halves[0] + halves[1]) - cv;
+            Some(FewFilamentsCv {
+                patch: *patch,
+                cv,
+                by_chance: all.standard_error.map(|error| error * all.cv / cv),
+                // The error falls faster than the pitch, and one of the halves differs from the other as the depths of its filaments do.
+                by_pitch: (0.5 * off).hypot(0.5 * (halves[0] - halves[1])),
+                of_halves: off / cv,
+                own: whole[1],
+                few: all.cv,
+            })
+        };
+        Ok(found.into_iter().zip(products.into_iter().zip(&self.sheet.patches)).filter_map(cv).collect())
+    }
+
+    /// Number of those that were not lost.
+    pub(crate) fn count(&self) -> f64 {
+        self.rows.iter().flatten().flatten().count() as f64
+    }
+
+    /// Draws them on a canvas.
+    pub(crate) fn draw(&self, canvas: &Canvas, quanta: u32) {
+        for curve in self.rows.iter().flatten().flatten() {
+            curve.windows(2).for_each(|ends| canvas.draw(ends[0], ends[1], quanta));
+        }
+    }
+
+    /// Cells along the side of a patch [m].
+    fn side(&self, patch: f64) -> usize {
+        (patch / self.sheet.cell).round() as usize
+    }
+
+    /// The map of the filaments, or of every second one of each row.
+    ///
+    /// * `half` – the first of these; None for all
+    pub(crate) fn map(&self, half: Option<usize>) -> Result<Map, Error> {
+        let curves = self.rows.iter().flat_map(|row| match half {
+            Some(first) => row.iter().skip(first).step_by(2),
+            None => row.iter().skip(0).step_by(1),
+        });
+        let canvas = self.canvas(self.sheet)?;
+        let quanta = canvas.quanta(self.piece);
+        for curve in curves.flatten() {
+            curve.windows(2).for_each(|ends| canvas.draw(ends[0], ends[1], quanta));
+        }
+        Ok(canvas.finish()?.map)
+    }
+
+    fn canvas(&self, sheet: &Sheet) -> Result<Canvas, Error> {
+        let pieces: usize = self.rows.iter().flatten().flatten().map(Vec::len).sum();
+        let weight = pieces as f64 * self.piece / (self.sheet.width * self.sheet.length);
+        Ok(Canvas::new(sheet, &[self.piece], weight)?)
+    }
+
+    /// The mean product of the patches of a filament and of a neighbour over the squared mean patch of a filament, for each side and each of
+    /// [`NEIGHBOURS`].
+    ///
+    /// * `map` – of all
+    fn products(
+        &self,
+        map: &Map,
+        sides: &[usize],
+        threads: usize,
+    ) -> Result<Vec<[f64; NEIGHBOURS.len()]>, Error> {
+        let Some(row) = self.rows.first().filter(|row| row.len() >= FEWEST) else {
+            return Ok(vec![[f64::NAN; NEIGHBOURS.len()]; sides.len()]);
+        };
+        let references = row.len().min(REFERENCES);
+        let of_reference = |i: usize| self.products_of(row, i * row.len() / references, sides);
+        let found = try_each(threads, references, of_reference)?;
+        let per_filament = map.total() as f64 / map.cells.len() as f64 / row.iter().flatten().count() as f64;
+        let of_side = |(number, side): (usize, &usize)| {
+            let patches = (map.columns * (map.rows + 1 - side)) as f64;
+            let mean = per_filament * (side * side) as f64;
+            std::array::from_fn(|neighbour| {
+                let known = || found.iter().filter_map(|found| found[number][neighbour]);
+                known().sum::<f64>() / known().count() as f64 / patches / (mean * mean)
+            })
+        };
+        Ok(sides.iter().enumerate().map(of_side).collect())
+    }
+
+    /// Sums over all patches of the products of one filament and its neighbours [quanta²]; None where one of them is lost.
+    fn products_of(
+        &self,
+        row: &[Option<Vec<[f64; 2]>>],
+        reference: usize,
+        sides: &[usize],
+    ) -> Result<Vec<[Option<f64>; NEIGHBOURS.len()]>, Error> {
+        let none = || vec![[None; NEIGHBOURS.len()]; sides.len()];
+        let (cell, largest) = (self.sheet.cell, sides.iter().copied().max().unwrap_or(1));
+        let curves = NEIGHBOURS.map(|further| {
+            let number = reference + further;
+            let turns = (number / row.len()) as f64;
+            let curve = row[number % row.len()].as_ref()?;
+            Some((curve, turns * self.sheet.width))
+        });
+        let Some((own, _)) = curves[0] else { return Ok(none()) };
+        // All patches that hold a part of it.
+        let reach = own.iter().map(|point| point[0]);
+        let [first, last] =
+            [reach.clone().fold(f64::INFINITY, f64::min), reach.fold(f64::NEG_INFINITY, f64::max)];
+        let first = (first / cell).floor() - largest as f64;
+        let columns = (last / cell).ceil() - first + largest as f64;
+        let strip =
+            Sheet { width: columns * cell, edges: Edges::Cut, patches: Vec::new(), ..self.sheet.clone() };
+        let sums = |curve: Option<(&Vec<[f64; 2]>, f64)>| {
+            let Some((curve, further)) = curve else { return Ok(None) };
+            let canvas = self.canvas(&strip)?;
+            let quanta = canvas.quanta(self.piece);
+            let place = |[cd, md]: [f64; 2]| [cd + further - first * cell, md];
+            curve.windows(2).for_each(|ends| canvas.draw(place(ends[0]), place(ends[1]), quanta));
+            Ok::<_, Error>(Some(Sums::over(&canvas.finish()?.map)))
+        };
+        let mut all = Vec::new();
+        for curve in curves {
+            all.push(sums(curve)?);
+        }
+        let Some(own) = &all[0] else { return Ok(none()) };
+        let of_side = |side: &usize| {
+            std::array::from_fn(|neighbour| all[neighbour].as_ref().map(|other| own.product(other, *side)))
+        };
+        Ok(sides.iter().map(of_side).collect())
+    }
+}
+
+/// Sums of a map over all cells before a corner.
+struct Sums {
+    columns: usize,
+    rows: usize,
+    sums: Vec<u64>,
+}
+
+impl Sums {
+    fn over(map: &Map) -> Self {
+        let width = map.columns + 1;
+        let mut sums = vec![0; width * (map.rows + 1)];
+        for row in 0..map.rows {
+            let mut of_row = 0;
+            for (column, cell) in map.row(row).iter().enumerate() {
+                of_row += u64::from(*cell);
+                sums[(row + 1) * width + column + 1] = sums[row * width + column + 1] + of_row;
+            }
+        }
+        Self { columns: map.columns, rows: map.rows, sums }
+    }
+
+    /// Sum over the places of a patch of its products on this map and on another one of the same size.
+    ///
+    /// * `side` – of the patch [cells]; places are half of it apart
+    fn product(&self, other: &Self, side: usize) -> f64 {
+        let (width, step) = (self.columns + 1, (side / 2).max(1));
+        let mut sum = 0.0;
+        for row in (0..=self.rows - side).step_by(step) {
+            let [above, below] = [row, row + side].map(|row| row * width);
+            for column in (0..=self.columns - side).step_by(step) {
+                let patch = |sums: &[u64]| {
+                    let [left, right] = [column, column + side];
+                    (sums[below + right] + sums[above + left] - sums[below + left] - sums[above + right])
+                        as f64
+                };
+                sum += patch(&self.sums) * patch(&other.sums);
+            }
+        }
+        let [rows, taken] = [self.rows - side + 1, (self.rows - side) / step + 1];
+        sum * step as f64 * rows as f64 / taken as f64
+    }
+}
+
+#[cfg(test)]
+mod tests;

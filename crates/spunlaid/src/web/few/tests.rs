@@ -1,0 +1,200 @@
+//! Curves whose correlation across is known, many and few of them.
+
+use super::*;
+use rand_xoshiro::SplitMix64;
+use rand_xoshiro::rand_core::{Rng, SeedableRng};
+use std::f64::consts::TAU;
+
+const CELL: f64 = 1e-3;
+const WIDTH: f64 = 96e-3;
+const LENGTH: f64 = 300e-3;
+/// Fed length from point to point, and speed of the belt over that of the feed.
+const SPACING: f64 = 4e-3;
+const BELT_RATIO: f64 = 0.06;
+/// Spread of a filament, and the length along it and across the row in which it forgets where it is.
+const SPREAD: f64 = 8e-3;
+const ALONG: f64 = 60e-3;
+const ACROSS: f64 = 12e-3;
+const WAVES: usize = 40;
+
+/// A place as a sum of waves along the fibre and across the row: a nearly normal field, periodic across.
+struct Field {
+    /// Of each wave: wave numbers along and across [1/m], phase, in each direction.
+    waves: [Vec<[f64; 3]>; 2],
+}
+
+impl Field {
+    fn new(seed: u64) -> Self {
+        let mut random = SplitMix64::seed_from_u64(seed);
+        let mut uniform = move || (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
+        let mut normal = move || {
+            let radius = (-2.0 * uniform().max(1e-300).ln()).sqrt();
+            (radius * (TAU * uniform()).cos(), uniform())
+        };
+        let mut wave = || {
+            let ((along, phase), (across, _)) = (normal(), normal());
+            [along / ALONG, (across / ACROSS * WIDTH / TAU).round() * TAU / WIDTH, TAU * phase]
+        };
+        Self { waves: [0, 1].map(|_| (0..WAVES).map(|_| wave()).collect()) }
+    }
+
+    fn at(&self, s: f64, z: f64) -> [f64; 2] {
+        let sum = |waves: &Vec<[f64; 3]>| {
+            let waves = waves.iter().map(|[along, across, phase]| (along * s + across * z + phase).cos());
+            SPREAD * (2.0 / WAVES as f64).sqrt() * waves.sum::<f64>()
+        };
+        self.waves.each_ref().map(sum)
+    }
+}
+
+/// The curve of a filament at z, from before the sheet to behind it.
+fn curve(z: f64, place: impl Fn(f64) -> [f64; 2]) -> Option<Vec<[f64; 2]>> {
+    let margin = 5.0 * SPREAD;
+    let points = ((LENGTH + 2.0 * margin) / BELT_RATIO / SPACING) as usize;
+    let point = |i: usize| {
+        let s = i as f64 * SPACING;
+        let [md, cd] = place(s);
+        [z + cd, LENGTH + margin + md - BELT_RATIO * s]
+    };
+    Some((0..points).map(point).collect())
+}
+
+fn sheet(patches: &[f64]) -> Sheet {
+    Sheet { patches: patches.iter().map(|patch| patch * 1e-3).collect(), ..Sheet::new(WIDTH, LENGTH, CELL) }
+}
+
+fn even(count: usize) -> impl Iterator<Item = f64> {
+    (0..count).map(move |i| (i as f64 + 0.5) * WIDTH / count as f64)
+}
+
+fn few<'a>(
+    sheet: &'a Sheet,
+    arrangement: Arrangement,
+    all: usize,
+    curves: impl Iterator<Item = Option<Vec<[f64; 2]>>>,
+) -> FewFilaments<'a> {
+    FewFilaments { sheet, rows: vec![curves.collect()], piece: 1e-9, arrangement, all: all as f64 }
+}
+
+/// The CV on the map of all.
+fn on_map(sheet: &Sheet, curves: impl Iterator<Item = Option<Vec<[f64; 2]>>>) -> Vec<f64> {
+    let all = few(sheet, Arrangement::Rows, 1, curves);
+    let map = all.map(None).unwrap();
+    sheet.patches.iter().map(|patch| unevenness(&map, all.side(*patch)).unwrap().cv).collect()
+}
+
+/// Where all filaments of a row lay the same curve, a quarter of them has the CV of all over patches of whole pitches: a sum of equal curves at an even
+/// pitch is the same in each such patch.
+#[test]
+fn limit_a_row_of_equal_curves_does_not_know_its_pitch() {
+    let (sheet, field) = (sheet(&[8.0, 16.0]), Field::new(1));
+    let curves = |count: usize| even(count).map(|z| curve(z, |s| field.at(s, 0.0)));
+    let all = on_map(&sheet, curves(96));
+    for (found, all) in few(&sheet, Arrangement::Rows, 96, curves(24)).cvs(2).unwrap().iter().zip(all) {
+        // Pieces are cut at the edges of cells in whole quanta.
+        assert!((found.cv / all - 1.0).abs() < 1e-3, "{} {all}", found.cv);
+        assert!(all > 0.05, "{all}");
+    }
+}
+
+/// Where all are flown, nothing is left to be said.
+#[test]
+fn limit_all_filaments_are_as_uneven_as_themselves() {
+    let (sheet, field) = (sheet(&[2.0, 10.0]), Field::new(2));
+    let curves = || even(24).enumerate().map(|(i, z)| curve(z, |s| field.at(s + 3.0 * i as f64, z)));
+    for found in few(&sheet, Arrangement::Slot, 24, curves()).cvs(2).unwrap() {
+        assert_eq!(found.cv.to_bits(), (found.few * found.few).sqrt().to_bits());
+    }
+}
+
+/// Filaments that know nothing of each other: CV² falls as one over their number.
+#[test]
+fn limit_independent_filaments_have_an_own_part_only() {
+    let sheet = sheet(&[2.0, 5.0]);
+    let curves = |count: usize| {
+        even(count).enumerate().map(|(i, z)| {
+            let field = Field::new(100 + i as u64);
+            curve(z, move |s| field.at(s, 0.0))
+        })
+    };
+    let all = on_map(&sheet, curves(240));
+    let found = few(&sheet, Arrangement::Slot, 240, curves(64)).cvs(2).unwrap();
+    for (found, all) in found.iter().zip(all) {
+        let own = found.own.sqrt();
+        // Sixty-four curves with some hundred lengths of memory each, and as many clouds on the map.
+        assert!((own / all - 1.0).abs() < 0.08, "{own} {all}");
+        // What is left of the squares of 64 after nearly all of them is taken away has the chance of these 64.
+        assert!(found.cv < 0.8 * found.few, "{found:?}");
+    }
+}
+
+/// Filaments that share four fifths of their variance with their neighbours and have the rest for themselves, as in a slot: every tenth one says what all do.
+#[test]
+fn stat_every_tenth_filament_of_a_slot_tells_the_cv_of_all() {
+    const SHARED: f64 = 0.8;
+    let sheet = sheet(&[2.0, 5.0, 10.0]);
+    let field = Field::new(3);
+    let of = |i: usize, z: f64| {
+        let own = Field::new(1000 + i as u64);
+        curve(z, |s| {
+            let (shared, own) = (field.at(s, z), own.at(s, 0.0));
+            [0, 1].map(|d| SHARED.sqrt() * shared[d] + (1.0 - SHARED).sqrt() * own[d])
+        })
+    };
+    let all = on_map(&sheet, even(480).enumerate().map(|(i, z)| of(i, z)));
+    let every_tenth = even(480).enumerate().filter(|(i, _)| i % 10 == 5).map(|(i, z)| of(i, z));
+    let found = few(&sheet, Arrangement::Slot, 480, every_tenth).cvs(2).unwrap();
+    for ((found, all), most) in found.iter().zip(all).zip([0.08, 0.04, 0.03]) {
+        // Some per cent are due to the 48 depths, and less over larger patches.
+        assert!((found.cv / all - 1.0).abs() < most, "{} {all}", found.cv);
+        // Without the correction it is far off.
+        assert!(found.few / all > 1.07, "{} {all}", found.few);
+        // The error that it tells itself is of the right size.
+        assert!((found.cv - all).abs() < 3.0 * found.by_pitch, "{found:?} {all}");
+    }
+}
+
+/// A row of filaments at random places of one field: an even row of a few tells the CV, with what the places do.
+#[test]
+fn stat_an_even_row_tells_the_cv_of_random_places() {
+    const WEBS: u64 = 12;
+    let sheet = sheet(&[5.0]);
+    let field = Field::new(4);
+    let found = few(&sheet, Arrangement::AtRandom, 120, even(48).map(|z| curve(z, |s| field.at(s, z))));
+    let found = found.cvs(2).unwrap();
+    let squares: Vec<Vec<f64>> = (0..WEBS)
+        .map(|seed| {
+            let mut random = SplitMix64::seed_from_u64(seed);
+            let mut place = || (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64 * WIDTH;
+            let places: Vec<f64> = (0..120).map(|_| place()).collect();
+            let cvs = on_map(&sheet, places.into_iter().map(|z| curve(z, |s| field.at(s, z))));
+            cvs.into_iter().map(|cv| cv * cv).collect()
+        })
+        .collect();
+    for (i, found) in found.iter().enumerate() {
+        let mean = (squares.iter().map(|squares| squares[i]).sum::<f64>() / WEBS as f64).sqrt();
+        // Twelve webs, whose streaks differ.
+        assert!((found.cv / mean - 1.0).abs() < 0.04, "{} {mean}", found.cv);
+        assert!(found.cv > 1.02 * found.few, "{found:?}");
+    }
+}
+
+#[test]
+fn identical_for_any_number_of_threads() {
+    let (sheet, field) = (sheet(&[5.0]), Field::new(5));
+    let row = || even(24).map(|z| curve(z, |s| field.at(s, z)));
+    let [one, three] = [1, 3].map(|threads| few(&sheet, Arrangement::Slot, 240, row()).cvs(threads).unwrap());
+    assert_eq!(one, three);
+}
+
+/// A lost filament is left out, and two neighbours beside the gap say nothing of each other.
+#[test]
+fn a_lost_filament_is_left_out() {
+    let (sheet, field) = (sheet(&[10.0]), Field::new(6));
+    let row = |lost: usize| {
+        let curves = even(48).enumerate().map(|(i, z)| curve(z, |s| field.at(s, z)).filter(|_| i != lost));
+        few(&sheet, Arrangement::Slot, 480, curves).cvs(2).unwrap()[0]
+    };
+    let (whole, without) = (row(48), row(17));
+    assert!(whole.cv != without.cv && (without.cv / whole.cv - 1.0).abs() < 0.05, "{whole:?} {without:?}");
+}
