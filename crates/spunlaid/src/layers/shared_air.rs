@@ -10,7 +10,7 @@ use crate::error::{Error, Fault, Place as ErrorPlace, Problem};
 use crate::fibre::Place;
 use crate::lanes::Isa;
 use crate::units::Dimension;
-use crate::web::{Canvas, Curves, Fibres, LaidWeb, LayerFew, OneAir, SharedAirFindings, Sheet, inlets};
+use crate::web::{Canvas, Curves, Fibres, LaidWeb, OneAir, SharedAirFindings, Sheet, inlets};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use std::path::Path;
@@ -93,7 +93,7 @@ impl Flyer<'_> {
             shared_air.add(number, flown.take_shared_air());
             if let Some(few) = &layer.few {
                 let few = few.filaments(&layer.sheet, &beam, &flown);
-                shared_air.few.push(LayerFew { layer: number, cvs: few.cvs(self.threads)? });
+                shared_air.few.push(few.tell(number, self.threads)?);
                 few.draw(&canvas, canvas.quanta(element * few.all / few.count()));
             }
             flown.kept.retain(|(filament, _)| beam.keeps(*filament));

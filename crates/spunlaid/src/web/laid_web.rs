@@ -1,6 +1,6 @@
 //! What has been laid.
 
-use super::few::FewFilamentsCv;
+use super::few::LayerFew;
 use super::laying::TimeSpent;
 use super::map::Map;
 use super::neighbours::{NeighbourCorrelation, SharedVariance};
@@ -38,15 +38,6 @@ pub struct SharedAirFindings {
     pub time: f64,
     /// What the flights took.
     pub spent: TimeSpent,
-}
-
-/// What a few filaments of a layer say about all of them.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LayerFew {
-    /// Index of the layer.
-    pub layer: usize,
-    /// CV over patches of each size.
-    pub cvs: Vec<FewFilamentsCv>,
 }
 
 impl SharedAirFindings {

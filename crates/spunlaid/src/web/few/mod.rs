@@ -10,10 +10,10 @@
 
 use super::canvas::Canvas;
 use super::map::Map;
-use super::uniformity::unevenness;
+use super::uniformity::{boxes, unevenness};
 use super::{Edges, Sheet};
 use crate::error::Error;
-use crate::threads::try_each;
+use crate::threads::{each, try_each};
 
 /// How all filaments hang of which a few are flown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,19 +60,35 @@ pub struct FewFilamentsCv {
     pub few: f64,
 }
 
+/// What a few filaments of a layer say about all of them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LayerFew {
+    /// Index of the layer.
+    pub layer: usize,
+    /// CV over patches of each size.
+    pub cvs: Vec<FewFilamentsCv>,
+    /// For each of these sizes, how much the blocks of the sheet vary: the mean square of the deviations of the patches of the few filaments in each
+    /// block from the mean of all, over that mean. Two webs in the same air are compared block by block.
+    pub blocks: Vec<Vec<f64>>,
+}
+
 /// Fewest filaments of a row that say something of its neighbours.
 pub(crate) const FEWEST: usize = 10;
 /// Filaments whose own patches are looked at, spread over the beam.
 const REFERENCES: usize = 64;
 /// Neighbours with which a filament is compared: itself, the next ones, and those of every second filament.
 const NEIGHBOURS: [usize; 4] = [0, 1, 2, 4];
+/// Side of a block, which is larger than a cloud, so that one hardly knows of the next [m].
+const BLOCK: f64 = 0.05;
 
 impl FewFilaments<'_> {
-    /// The CV over each size of patch.
+    /// What they say of all filaments.
+    ///
+    /// * `layer` – its index
     ///
     /// # Errors
     /// If a cell would hold more fibre than can be counted.
-    pub(crate) fn cvs(&self, threads: usize) -> Result<Vec<FewFilamentsCv>, Error> {
+    pub(crate) fn tell(&self, layer: usize, threads: usize) -> Result<LayerFew, Error> {
         let count = self.count();
         let halves = [self.map(Some(0))?, self.map(Some(1))?];
         let mut cells = halves[0].cells.clone();
@@ -84,13 +100,14 @@ impl FewFilaments<'_> {
             Arrangement::Rows => vec![[0.0; NEIGHBOURS.len()]; sides.len()],
             Arrangement::Slot | Arrangement::AtRandom => self.products(&maps[0], &sides, threads)?,
         };
-        let of_side = |i: usize| Ok(maps.each_ref().map(|map| unevenness(map, sides[i])));
-        let found = try_each(threads, sides.len(), |i| -> Result<_, Error> { of_side(i) })?;
-        let cv = |(found, ([itself, next, second, fourth], patch)): ([Option<_>; 3], ([f64; 4], &f64))| {
-            let [all, even, odd]: [super::uniformity::Unevenness; 3] = match found {
-                [Some(all), Some(even), Some(odd)] => [all, even, odd],
-                _ => return None,
-            };
+        let found = each(threads, sides.len(), |i| {
+            (maps.each_ref().map(|map| unevenness(map, sides[i])), blocks(&maps[0], sides[i]))
+        });
+        let mut told = LayerFew { layer, ..LayerFew::default() };
+        for ((found, blocks), ([itself, next, second, fourth], patch)) in
+            found.into_iter().zip(products.into_iter().zip(&self.sheet.patches))
+        {
+            let [Some(all), Some(even), Some(odd)] = found else { continue };
             // What is left of the CV² of this many filaments where there are all of them, and their own part.
             let of_all = |cv: f64, count: f64, [near, far]: [f64; 2]| {
                 let own = itself - (4.0 * near - far) / 3.0;
@@ -109,7 +126,8 @@ impl FewFilaments<'_> {
             let halves = [even.cv, odd.cv].map(|cv| root(of_all(cv, 0.5 * count, [second, fourth])));
             let cv = root(whole);
             let off = 0.5 * (halves[0] + halves[1]) - cv;
-            Some(FewFilamentsCv {
+            told.blocks.push(blocks);
+            told.cvs.push(FewFilamentsCv {
                 patch: *patch,
                 cv,
                 by_chance: all.standard_error.map(|error| error * all.cv / cv),
@@ -118,9 +136,9 @@ impl FewFilaments<'_> {
                 of_halves: off / cv,
                 own: whole[1],
                 few: all.cv,
-            })
-        };
-        Ok(found.into_iter().zip(products.into_iter().zip(&self.sheet.patches)).filter_map(cv).collect())
+            });
+        }
+        Ok(told)
     }
 
     /// Number of those that were not lost.
@@ -232,6 +250,27 @@ impl FewFilaments<'_> {
         };
         Ok(sides.iter().map(of_side).collect())
     }
+}
+
+/// The mean square of the deviations of the patches in each block of a map from the mean of all, over that mean.
+fn blocks(map: &Map, side: usize) -> Vec<f64> {
+    let sizes = [map.columns, map.rows];
+    let mean = map.total() as f64 / map.cells.len() as f64 * (side * side) as f64;
+    if side == 0 || sizes.iter().any(|size| side > *size) || mean <= 0.0 {
+        return Vec::new();
+    }
+    let places = [0, 1].map(|axis| if map.closed[axis] { sizes[axis] } else { sizes[axis] - side + 1 });
+    let numbers = places.map(|places| ((places as f64 * map.cell / BLOCK) as usize).max(1));
+    let mut sums = vec![(0.0, 0.0); numbers[0] * numbers[1]];
+    boxes(map, side, places, |row, boxes| {
+        let along = row * numbers[1] / places[1];
+        for (column, weight) in boxes.iter().enumerate() {
+            let (sum, count) = &mut sums[along * numbers[0] + column * numbers[0] / places[0]];
+            *sum += (*weight as f64 / mean - 1.0).powi(2);
+            *count += 1.0;
+        }
+    });
+    sums.into_iter().map(|(sum, count): (f64, f64)| sum / count).collect()
 }
 
 /// Sums of a map over all cells before a corner.
