@@ -117,7 +117,10 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
         verdict: verdict(findings, input.advice.is_some()),
         heads,
         patches,
-        about_patches: if is_shared {
+        about_patches: if is_shared && findings.patches.iter().any(|patch| patch.few.is_some()) {
+            "Filaments were flown in one air, a few for all others. The error is by chance (another piece of the same web, in other gusts, has another CV) \
+             and by the few filaments."
+        } else if is_shared {
             "All filaments were flown in one air. The error is by chance: another piece of the same web, in other gusts, has another CV."
         } else if has_flown {
             "The error of the map is that of all its causes together: chance (another piece of the same web), the \
@@ -230,7 +233,7 @@ fn air_sentence(findings: &Findings) -> String {
 /// What the error in the headline is made of, and what the flown curves say, in sentences.
 fn error_sentences(findings: &Findings) -> String {
     let Some(patch) = headline_patch(findings).map(|i| &findings.patches[i]) else { return String::new() };
-    if patch.independent.is_some() {
+    if patch.independent.is_some() && patch.few.is_none() {
         return "The error is by chance: every filament of the sheet was flown.".to_owned();
     }
     let error = patch.whole_error();
@@ -238,6 +241,20 @@ fn error_sentences(findings: &Findings) -> String {
         Some(part) => format!("{}{THIN}%", significant(part * PER_CENT, 2)),
         None => "an unknown part".to_owned(),
     };
+    if let (Some(_), Some(together)) = (patch.few, &findings.laid.shared_air) {
+        let filaments = together.few.iter().map(|few| few.filaments).sum();
+        let sheets = together.few.iter().map(|few| few.sheet.map(metres).join(" × "));
+        let mut sheets: Vec<String> = sheets.collect();
+        sheets.dedup();
+        return format!(
+            "{} of all were flown, evenly across, on a sheet of {}; the others follow from them. Chance contributes {} to the error, because the \
+             clouds on that sheet are few, and the small number of flown filaments {}.",
+            count(filaments, "filament"),
+            sheets.join(" and of "),
+            part(error.chance),
+            part(error.flight)
+        );
+    }
     let Some((flown, of_flown)) = patch.flown else {
         return "The error is by chance only; that of the surrogate is not known, because no fibre was flown.".to_owned();
     };

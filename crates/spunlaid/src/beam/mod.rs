@@ -220,7 +220,8 @@ impl Beam<'_> {
         }
         let mut flown = BeamFindings {
             neighbours: together.correlations(),
-            pairs: together.variances(self, sheet, by.threads),
+            // A few filaments do not know what those between them do.
+            pairs: on.map_or_else(Vec::new, |_| together.variances(self, sheet, by.threads)),
             back: stretch.back().unwrap_or(f64::NAN),
             time: done as f64 * self.case.run.time_step,
             ..BeamFindings::default()

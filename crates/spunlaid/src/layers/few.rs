@@ -3,8 +3,14 @@
 use super::{Flown, LaydownSource, Method, WebSpec};
 use crate::beam::{Beam, BeamFindings};
 use crate::case::Case;
+use crate::curtain::{Belt, Curtain, FlownCurves, lay};
+use crate::error::Error;
 use crate::fibre::Place;
-use crate::web::{Arrangement, Edges, FEWEST_OF_FEW, FewFilaments, Filaments, Row, Sheet, inlets};
+use crate::flight::LaidPoint;
+use crate::web::{
+    Arrangement, Edges, FEWEST_OF_FEW, FewFilaments, Filaments, Map, Row, Sheet, Window, inlets,
+};
+use std::sync::atomic::AtomicBool;
 
 /// Distance of the filaments that are flown, in smallest length scales of the air on the way.
 const PITCH: f64 = 1.0 / 8.0;
@@ -14,6 +20,8 @@ const LEAST_SAVING: f64 = 1.5;
 const AREA: f64 = 0.2;
 /// Width of the sheet that is flown, in ways from inlet to belt at least: eight spreads of a usual filament.
 const WIDTH: f64 = 0.4;
+/// Filaments that are filled in for each flown one where a row is looked at over small patches.
+const FINER: usize = 8;
 /// A sheet whose area is larger by no more than this is flown as it is.
 const NEARLY: f64 = 1.3;
 
@@ -37,6 +45,8 @@ pub(super) struct FewPlan {
     pub(super) arrangement: Arrangement,
     /// Number of all filaments over the width of the sheet that is flown.
     pub(super) all: f64,
+    /// Where all filaments of the web are fed, in order across.
+    pub(super) places: Vec<Place>,
 }
 
 impl WebSpec {
@@ -78,13 +88,19 @@ impl WebSpec {
             return None;
         }
         let place = |[z, y]: [f64; 2]| Place { y, z };
-        let places: Vec<Place> =
-            inlets(&sheet, self.seed, layer, &filaments).into_iter().map(place).collect();
+        let places_on = |sheet: &Sheet, filaments: &Filaments| -> Vec<Place> {
+            inlets(sheet, self.seed, layer, filaments).into_iter().map(place).collect()
+        };
+        let places = places_on(&sheet, &filaments);
         let rows = match arrangement {
             Arrangement::Slot | Arrangement::AtRandom => vec![(0..places.len()).collect()],
             Arrangement::Rows => in_rows(&places),
         };
-        Some(FewFlight { sheet, places, few: FewPlan { rows, arrangement, all } })
+        Some(FewFlight {
+            sheet,
+            places,
+            few: FewPlan { rows, arrangement, all, places: places_on(&self.sheet, &spec.filaments) },
+        })
     }
 
     /// The sheet that the filaments of a case lay: that of the web unless a smaller one says as much. Long and narrow ones take the least time, because
@@ -104,6 +120,60 @@ impl WebSpec {
 }
 
 impl FewPlan {
+    /// Their curves after the start, from which all others follow.
+    ///
+    /// # Errors
+    /// If they have laid nothing.
+    pub(super) fn curves(
+        &self,
+        sheet: &Sheet,
+        beam: &Beam<'_>,
+        flown: &BeamFindings,
+    ) -> Result<FlownCurves, Error> {
+        let (case, belt_ratio) = (beam.case, beam.case.line.map_or(f64::NAN, |line| line.belt_ratio()));
+        let places = flown.kept.iter().map(|(filament, _)| beam.places[*filament]).collect();
+        let spacing = case.fibre.rest_length();
+        let start = case.line.map_or(0.0, |line| line.feed_speed * case.run.spin_up());
+        let curve = |(_, points): &(usize, Vec<LaidPoint>)| {
+            let laid = points.iter().filter(|point| point.fed >= start).enumerate();
+            laid.map(|(i, point)| [point.md + belt_ratio * spacing * i as f64, point.cd]).collect()
+        };
+        let curves: Vec<Vec<[f64; 2]>> = flown.kept.iter().map(curve).collect();
+        Ok(FlownCurves::new(places, Some(sheet.width), (spacing, belt_ratio), &curves)?)
+    }
+
+    /// Maps of rows in which the filaments between the flown ones have been filled in, from all of them and from every second one; None of other filaments.
+    ///
+    /// * `back` – where the sheet begins on the belt [m]
+    /// * `element` – mass of an element [kg]
+    ///
+    /// # Errors
+    /// If a cell would hold more fibre than can be counted, or if it is stopped.
+    pub(super) fn filled(
+        &self,
+        sheet: &Sheet,
+        curves: &FlownCurves,
+        (back, element): (f64, f64),
+        by: (usize, &AtomicBool),
+    ) -> Result<Option<[Map; 2]>, Error> {
+        if self.arrangement != Arrangement::Rows {
+            return Ok(None);
+        }
+        let rows = self.rows.iter().filter_map(|row| Some((row.len(), *row.first()?)));
+        let row = |(count, first): (usize, usize)| {
+            let (y, count) = (curves.places()[first.min(curves.places().len() - 1)].y, FINER * count);
+            let pitch = sheet.width / count as f64;
+            (0..count).map(move |i| Place { y, z: (i as f64 + 0.5) * pitch })
+        };
+        let places: Vec<Place> = rows.flat_map(row).collect();
+        let map = |curves: &FlownCurves| {
+            let filled = curves.fill(places.clone(), by.0);
+            let belt = Belt { sheet, window: Window { corner: [0.0; 2], sides: [0.0; 2] }, back };
+            lay(&filled, belt, element, by).map(|(laid, _)| laid.map)
+        };
+        Ok(Some([map(curves)?, map(&curves.every_second()?)?]))
+    }
+
     /// The filaments, with what they have laid on their sheet.
     pub(super) fn filaments<'a>(
         &self,

@@ -6,16 +6,20 @@ use super::{FlownFibres, Flyer, LaydownSource, LayerFibres, Method, WebSpec};
 use crate::air::Lateral;
 use crate::beam::{Airs, Beam, BeamControl};
 use crate::case::Case;
+use crate::curtain::Belt;
+use crate::curtain::drawing::draw;
 use crate::error::{Error, Fault, Place as ErrorPlace, Problem};
 use crate::fibre::Place;
 use crate::lanes::Isa;
 use crate::units::Dimension;
-use crate::web::{Canvas, Curves, Fibres, LaidWeb, OneAir, SharedAirFindings, Sheet, inlets};
+use crate::web::{
+    Canvas, Curves, Fibres, LaidWeb, LayerFew, OneAir, SharedAirFindings, Sheet, Strand, inlets,
+};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::atomic::AtomicU64;
+use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// Smallest lateral cut-off that is worth to be written.
 const FEWEST_WAVES: f64 = 5.0;
@@ -62,6 +66,11 @@ impl LayerBeam<'_> {
 }
 
 impl Flyer<'_> {
+    /// Threads and stop flag.
+    const fn by(&self) -> (usize, &AtomicBool) {
+        (self.threads, self.stop)
+    }
+
     /// Flies all filaments of each layer in an air of its own, and lays them. A few curves of each layer are kept, which say what independent filaments
     /// would give.
     pub(super) fn fly_together(&self, spec: &WebSpec) -> Result<(Vec<LayerFibres>, LaidWeb), Error> {
@@ -92,9 +101,17 @@ impl Flyer<'_> {
             let mut flown = flown?;
             shared_air.add(number, flown.take_shared_air());
             if let Some(few) = &layer.few {
-                let few = few.filaments(&layer.sheet, &beam, &flown);
-                shared_air.few.push(few.tell(number, self.threads)?);
-                few.draw(&canvas, canvas.quanta(element * few.all / few.count()));
+                let curves = few.curves(&layer.sheet, &beam, &flown)?;
+                let filled = few.filled(&layer.sheet, &curves, (flown.back, element), self.by())?;
+                let told =
+                    few.filaments(&layer.sheet, &beam, &flown).tell(number, filled.as_ref(), self.threads)?;
+                let all = curves.fill(few.places.clone(), self.threads);
+                shared_air.few.push(LayerFew { missing: all.missing(), ..told });
+                let belt = Belt { sheet: &spec.sheet, window: spec.window(), back: flown.back };
+                let strands = draw(&all, belt, (&canvas, canvas.quanta(element)), self.by())?;
+                shared_air
+                    .strands
+                    .extend(strands.into_iter().map(|strand| Strand { layer: number, ..strand }));
             }
             flown.kept.retain(|(filament, _)| beam.keeps(*filament));
             let one_air = layer.one_air(flown.kept.iter().map(|(filament, _)| *filament));

@@ -137,7 +137,7 @@ pub const OF_PATCHES: &[PatchMeasure] = &[
         column: Some(PatchColumn {
             place: 0,
             heads: ["few fibres flown", "few fibres"],
-            is_shown: is_flown_alone,
+            is_shown: |patch| patch.few.is_some() || is_flown_alone(patch),
             digits: Some(2),
         }),
         study: Some(Measure {
@@ -171,6 +171,12 @@ pub const OF_PATCHES: &[PatchMeasure] = &[
         name: "cv_whole_error",
         is_of_map: true,
         number: |patch| patch.whole_error().whole(),
+        ..PatchMeasure::NUMBER
+    },
+    PatchMeasure {
+        // Of CV², by what each filament of a web in one air does for itself.
+        name: "own_share",
+        number: |patch| patch.few.map(|few| few.own / (few.cv * few.cv)),
         ..PatchMeasure::NUMBER
     },
     PatchMeasure {
@@ -270,7 +276,7 @@ pub const OF_PATCHES: &[PatchMeasure] = &[
         column: Some(PatchColumn {
             place: 3,
             heads: ["CV expected, from pairs of filaments", ""],
-            is_shown: |patch| patch.independent.is_some(),
+            is_shown: |patch| patch.pairs.is_some(),
             ..PatchColumn::NUMBER
         }),
         study: Some(Measure {

@@ -14,7 +14,7 @@ use spunlaid::observe::{
 use spunlaid::scan::{self, Doubt};
 use spunlaid::statistics::{Estimate, interval_of_deviation};
 use spunlaid::web::uniformity::Unevenness;
-use spunlaid::web::{Clouds, Edges, Findings, Map, NeighbourCorrelation, Web};
+use spunlaid::web::{Clouds, Edges, Findings, LayerFew, Map, NeighbourCorrelation, Web};
 use std::time::Instant;
 
 /// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
@@ -121,6 +121,9 @@ struct WebSummary {
     /// Filaments in one air that were lost in flight.
     #[serde(skip_serializing_if = "Option::is_none")]
     lost_filaments: Option<u64>,
+    /// What was flown of a web in one air, of each layer of which only a few filaments were.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    flown: Vec<FlownSummary>,
     /// Where edges cut fibre off: the strips that all but the map leaves out.
     #[serde(skip_serializing_if = "Option::is_none")]
     edges: Option<Margins>,
@@ -133,6 +136,25 @@ struct WebSummary {
     cloudiness: Option<Cloudiness>,
     clouds: Vec<Octave>,
     sensitivities: Vec<Levers>,
+}
+
+/// The few filaments of a layer from which all others follow.
+#[derive(Debug, Serialize)]
+struct FlownSummary {
+    filaments: u64,
+    /// The sheet that they laid.
+    width_m: f64,
+    length_m: f64,
+    /// Part of the variance of a filament between them that they do not tell.
+    missing_variance_md: f64,
+    missing_variance_cd: f64,
+}
+
+impl FlownSummary {
+    fn from_few(few: &LayerFew) -> Self {
+        let ([width_m, length_m], [missing_variance_md, missing_variance_cd]) = (few.sheet, few.missing);
+        Self { filaments: few.filaments, width_m, length_m, missing_variance_md, missing_variance_cd }
+    }
 }
 
 /// What the edges of a web take.
@@ -245,6 +267,7 @@ impl WebSummary {
             fibre_length_m: None,
             cut_off_kg: None,
             lost_filaments: None,
+            flown: Vec::new(),
             edges: None,
             patches,
             declared: OrderedObject(Vec::new()),
@@ -336,6 +359,12 @@ impl<'a> Summary<'a> {
             web: WebSummary {
                 fibre_length_m: Some(web.fibre_length()),
                 cut_off_kg: Some(findings.laid.cut),
+                flown: findings
+                    .laid
+                    .shared_air
+                    .iter()
+                    .flat_map(|together| together.few.iter().map(FlownSummary::from_few))
+                    .collect(),
                 lost_filaments: findings.laid.shared_air.as_ref().map(|together| together.lost),
                 edges: (web.sheet.edges == Edges::Cut).then(|| Margins {
                     margins_m: findings.margins,

@@ -65,6 +65,12 @@ pub struct FewFilamentsCv {
 pub struct LayerFew {
     /// Index of the layer.
     pub layer: usize,
+    /// Number of filaments that were flown and not lost.
+    pub filaments: u64,
+    /// Size of the sheet that they laid, across and along [m].
+    pub sheet: [f64; 2],
+    /// Part of the variance of a filament between them that they do not tell, in machine and in cross direction.
+    pub missing: [f64; 2],
     /// CV over patches of each size.
     pub cvs: Vec<FewFilamentsCv>,
     /// For each of these sizes, how much the blocks of the sheet vary: the mean square of the deviations of the patches of the few filaments in each
@@ -78,6 +84,8 @@ pub(crate) const FEWEST: usize = 10;
 const REFERENCES: usize = 64;
 /// Neighbours with which a filament is compared: itself, the next ones, and those of every second filament.
 const NEIGHBOURS: [usize; 4] = [0, 1, 2, 4];
+/// Smallest patch of a row whose CV does not know the pitch, in pitches.
+const PITCHES: f64 = 2.5;
 /// Side of a block, which is larger than a cloud, so that one hardly knows of the next [m].
 const BLOCK: f64 = 0.05;
 
@@ -85,10 +93,16 @@ impl FewFilaments<'_> {
     /// What they say of all filaments.
     ///
     /// * `layer` – its index
+    /// * `filled` – maps of rows in which the filaments between them have been filled in, from all of them and from every second one
     ///
     /// # Errors
     /// If a cell would hold more fibre than can be counted.
-    pub(crate) fn tell(&self, layer: usize, threads: usize) -> Result<LayerFew, Error> {
+    pub(crate) fn tell(
+        &self,
+        layer: usize,
+        filled: Option<&[Map; 2]>,
+        threads: usize,
+    ) -> Result<LayerFew, Error> {
         let count = self.count();
         let halves = [self.map(Some(0))?, self.map(Some(1))?];
         let mut cells = halves[0].cells.clone();
@@ -103,7 +117,8 @@ impl FewFilaments<'_> {
         let found = each(threads, sides.len(), |i| {
             (maps.each_ref().map(|map| unevenness(map, sides[i])), blocks(&maps[0], sides[i]))
         });
-        let mut told = LayerFew { layer, ..LayerFew::default() };
+        let sheet = [self.sheet.width, self.sheet.length];
+        let mut told = LayerFew { layer, filaments: count as u64, sheet, ..LayerFew::default() };
         for ((found, blocks), ([itself, next, second, fourth], patch)) in
             found.into_iter().zip(products.into_iter().zip(&self.sheet.patches))
         {
@@ -127,6 +142,10 @@ impl FewFilaments<'_> {
             let cv = root(whole);
             let off = 0.5 * (halves[0] + halves[1]) - cv;
             told.blocks.push(blocks);
+            if let Some(told_by_filling) = filled.and_then(|maps| self.by_filling(maps, *patch)) {
+                told.cvs.push(told_by_filling);
+                continue;
+            }
             told.cvs.push(FewFilamentsCv {
                 patch: *patch,
                 cv,
@@ -141,16 +160,28 @@ impl FewFilaments<'_> {
         Ok(told)
     }
 
+    /// The CV over patches that are so small that they know the pitch of a row, with the filaments filled in; None for larger ones.
+    fn by_filling(&self, maps: &[Map; 2], patch: f64) -> Option<FewFilamentsCv> {
+        let pitch = self.sheet.width / self.rows.iter().map(Vec::len).max()? as f64;
+        if self.arrangement != Arrangement::Rows || patch >= PITCHES * pitch {
+            return None;
+        }
+        let [filled, half] = maps.each_ref().map(|map| unevenness(map, self.side(patch)));
+        let (filled, half) = (filled?, half?);
+        Some(FewFilamentsCv {
+            patch,
+            cv: filled.cv,
+            by_chance: filled.standard_error,
+            by_pitch: 0.5 * (half.cv - filled.cv).abs(),
+            of_halves: half.cv / filled.cv - 1.0,
+            own: 0.0,
+            few: filled.cv,
+        })
+    }
+
     /// Number of those that were not lost.
     pub(crate) fn count(&self) -> f64 {
         self.rows.iter().flatten().flatten().count() as f64
-    }
-
-    /// Draws them on a canvas.
-    pub(crate) fn draw(&self, canvas: &Canvas, quanta: u32) {
-        for curve in self.rows.iter().flatten().flatten() {
-            curve.windows(2).for_each(|ends| canvas.draw(ends[0], ends[1], quanta));
-        }
     }
 
     /// Cells along the side of a patch [m].

@@ -90,7 +90,8 @@ fn limit_a_row_of_equal_curves_does_not_know_its_pitch() {
     let (sheet, field) = (sheet(&[8.0, 16.0]), Field::new(1));
     let curves = |count: usize| even(count).map(|z| curve(z, |s| field.at(s, 0.0)));
     let all = on_map(&sheet, curves(96));
-    for (found, all) in few(&sheet, Arrangement::Rows, 96, curves(24)).tell(0, 2).unwrap().cvs.iter().zip(all)
+    for (found, all) in
+        few(&sheet, Arrangement::Rows, 96, curves(24)).tell(0, None, 2).unwrap().cvs.iter().zip(all)
     {
         // Pieces are cut at the edges of cells in whole quanta.
         assert!((found.cv / all - 1.0).abs() < 1e-3, "{} {all}", found.cv);
@@ -103,7 +104,7 @@ fn limit_a_row_of_equal_curves_does_not_know_its_pitch() {
 fn limit_all_filaments_are_as_uneven_as_themselves() {
     let (sheet, field) = (sheet(&[2.0, 10.0]), Field::new(2));
     let curves = || even(24).enumerate().map(|(i, z)| curve(z, |s| field.at(s + 3.0 * i as f64, z)));
-    for found in few(&sheet, Arrangement::Slot, 24, curves()).tell(0, 2).unwrap().cvs {
+    for found in few(&sheet, Arrangement::Slot, 24, curves()).tell(0, None, 2).unwrap().cvs {
         assert_eq!(found.cv.to_bits(), (found.few * found.few).sqrt().to_bits());
     }
 }
@@ -119,7 +120,7 @@ fn limit_independent_filaments_have_an_own_part_only() {
         })
     };
     let all = on_map(&sheet, curves(240));
-    let found = few(&sheet, Arrangement::Slot, 240, curves(64)).tell(0, 2).unwrap().cvs;
+    let found = few(&sheet, Arrangement::Slot, 240, curves(64)).tell(0, None, 2).unwrap().cvs;
     for (found, all) in found.iter().zip(all) {
         let own = found.own.sqrt();
         // Sixty-four curves with some hundred lengths of memory each, and as many clouds on the map.
@@ -144,7 +145,7 @@ fn stat_every_tenth_filament_of_a_slot_tells_the_cv_of_all() {
     };
     let all = on_map(&sheet, even(480).enumerate().map(|(i, z)| of(i, z)));
     let every_tenth = even(480).enumerate().filter(|(i, _)| i % 10 == 5).map(|(i, z)| of(i, z));
-    let found = few(&sheet, Arrangement::Slot, 480, every_tenth).tell(0, 2).unwrap().cvs;
+    let found = few(&sheet, Arrangement::Slot, 480, every_tenth).tell(0, None, 2).unwrap().cvs;
     for ((found, all), most) in found.iter().zip(all).zip([0.08, 0.04, 0.03]) {
         // Some per cent are due to the 48 depths, and less over larger patches.
         assert!((found.cv / all - 1.0).abs() < most, "{} {all}", found.cv);
@@ -162,7 +163,7 @@ fn stat_an_even_row_tells_the_cv_of_random_places() {
     let sheet = sheet(&[5.0]);
     let field = Field::new(4);
     let found = few(&sheet, Arrangement::AtRandom, 120, even(48).map(|z| curve(z, |s| field.at(s, z))));
-    let found = found.tell(0, 2).unwrap().cvs;
+    let found = found.tell(0, None, 2).unwrap().cvs;
     let squares: Vec<Vec<f64>> = (0..WEBS)
         .map(|seed| {
             let mut random = SplitMix64::seed_from_u64(seed);
@@ -185,7 +186,7 @@ fn identical_for_any_number_of_threads() {
     let (sheet, field) = (sheet(&[5.0]), Field::new(5));
     let row = || even(24).map(|z| curve(z, |s| field.at(s, z)));
     let [one, three] =
-        [1, 3].map(|threads| few(&sheet, Arrangement::Slot, 240, row()).tell(0, threads).unwrap());
+        [1, 3].map(|threads| few(&sheet, Arrangement::Slot, 240, row()).tell(0, None, threads).unwrap());
     assert_eq!(one, three);
 }
 
@@ -195,7 +196,7 @@ fn a_lost_filament_is_left_out() {
     let (sheet, field) = (sheet(&[10.0]), Field::new(6));
     let row = |lost: usize| {
         let curves = even(48).enumerate().map(|(i, z)| curve(z, |s| field.at(s, z)).filter(|_| i != lost));
-        few(&sheet, Arrangement::Slot, 480, curves).tell(0, 2).unwrap().cvs[0]
+        few(&sheet, Arrangement::Slot, 480, curves).tell(0, None, 2).unwrap().cvs[0]
     };
     let (whole, without) = (row(48), row(17));
     assert!(whole.cv != without.cv && (without.cv / whole.cv - 1.0).abs() < 0.05, "{whole:?} {without:?}");
