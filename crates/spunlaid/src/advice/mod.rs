@@ -5,10 +5,12 @@
 //!   → flown anew in the same gusts → expected CV, compared with that of the web itself fibre by fibre → Advice
 //! ```
 
+mod few;
 mod setting;
 
 pub use setting::{Change, ChangedKey, Setting};
 
+use self::few::WebOfFew;
 use crate::error::Error;
 use crate::layers::{Flights, Flyer, LaydownSource, LayerSpec, Method, WebSpec};
 use crate::sort::sort_by_key;
@@ -122,10 +124,11 @@ pub fn advise(
 ) -> Result<Advice, Error> {
     let is_shared = spec.method == Method::SharedAir;
     let aside = AtomicU64::new(0);
-    let base = if is_shared {
-        Unevennesses::OfMaps(findings.patches.clone())
-    } else {
-        Unevennesses::Expected(expected_cv(web, LayControl { laid: &aside, ..by })?)
+    let few = findings.laid.shared_air.as_ref().map(|together| together.few.clone());
+    let base = match few.filter(|few| is_shared && few.len() == spec.layers.len()) {
+        Some(few) => Unevennesses::OfFew(WebOfFew::new(spec, few)),
+        None if is_shared => Unevennesses::OfMaps(findings.patches.clone()),
+        None => Unevennesses::Expected(expected_cv(web, LayControl { laid: &aside, ..by })?),
     };
     // A flight of eight fibres takes one thread, and many changes are tried side by side. All filaments in one air take all threads.
     let (abreast, threads) = if is_shared { (1, by.threads) } else { (by.threads, 1) };
@@ -159,7 +162,9 @@ pub fn advise(
 enum Unevennesses {
     /// As it is expected of independent filaments.
     Expected(Vec<ExpectedCv>),
-    /// On the map of filaments in one air.
+    /// As a few filaments in one air tell it.
+    OfFew(WebOfFew),
+    /// On the map of filaments in one air that were all flown.
     OfMaps(Vec<PatchFindings>),
 }
 
@@ -176,6 +181,7 @@ impl Unevennesses {
                 };
                 before.iter().filter_map(to).collect()
             }
+            (Self::OfFew(before), Self::OfFew(after)) => before.changes_to(after),
             (Self::OfMaps(before), Self::OfMaps(after)) => {
                 let to = |before: &PatchFindings| {
                     let (before, after) =
@@ -208,7 +214,11 @@ fn unevennesses(spec: &WebSpec, by: LayControl<'_>) -> Result<Unevennesses, Erro
         Method::Surrogate if spec.layers.iter().all(is_flown) => Method::Dynamics,
         method => method,
     };
-    let mut flown = Flyer::new(by.threads, by.stop, &follow).web(&WebSpec { method, ..spec.clone() })?;
+    let mut flyer = Flyer::new(by.threads, by.stop, &follow);
+    if let Some(few) = flyer.few(spec)? {
+        return Ok(Unevennesses::OfFew(WebOfFew::new(spec, few)));
+    }
+    let mut flown = flyer.web(&WebSpec { method, ..spec.clone() })?;
     Ok(match spec.method {
         Method::SharedAir => Unevennesses::OfMaps(flown.measure(by)?.patches),
         Method::Surrogate | Method::Dynamics => Unevennesses::Expected(expected_cv(&flown.web, by)?),

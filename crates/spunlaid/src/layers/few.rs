@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::fibre::Place;
 use crate::flight::LaidPoint;
 use crate::web::{
-    Arrangement, Edges, FEWEST_OF_FEW, FewFilaments, Filaments, Map, Row, Sheet, Window, inlets,
+    Arrangement, Edges, FEWEST_OF_FEW, FewFilaments, Filaments, LayerFew, Map, Row, Sheet, Window, inlets,
 };
 use std::sync::atomic::AtomicBool;
 
@@ -142,6 +142,21 @@ impl FewPlan {
         Ok(FlownCurves::new(places, Some(sheet.width), (spacing, belt_ratio), &curves)?)
     }
 
+    /// What they say of all filaments.
+    ///
+    /// # Errors
+    /// If a cell would hold more fibre than can be counted, or if it is stopped.
+    pub(super) fn tell(
+        &self,
+        (number, sheet): (usize, &Sheet),
+        (beam, flown): (&Beam<'_>, &BeamFindings),
+        curves: &FlownCurves,
+        by: (usize, &AtomicBool),
+    ) -> Result<LayerFew, Error> {
+        let filled = self.filled(sheet, curves, (flown.back, beam.element_mass()), by)?;
+        self.filaments(sheet, beam, flown).tell(number, filled.as_ref(), by.0)
+    }
+
     /// Maps of rows in which the filaments between the flown ones have been filled in, from all of them and from every second one; None of other filaments.
     ///
     /// * `back` – where the sheet begins on the belt [m]
@@ -149,7 +164,7 @@ impl FewPlan {
     ///
     /// # Errors
     /// If a cell would hold more fibre than can be counted, or if it is stopped.
-    pub(super) fn filled(
+    fn filled(
         &self,
         sheet: &Sheet,
         curves: &FlownCurves,
@@ -175,12 +190,7 @@ impl FewPlan {
     }
 
     /// The filaments, with what they have laid on their sheet.
-    pub(super) fn filaments<'a>(
-        &self,
-        sheet: &'a Sheet,
-        beam: &Beam<'_>,
-        flown: &BeamFindings,
-    ) -> FewFilaments<'a> {
+    fn filaments<'a>(&self, sheet: &'a Sheet, beam: &Beam<'_>, flown: &BeamFindings) -> FewFilaments<'a> {
         let curve = |number: &usize| {
             let (_, points) = flown.kept.iter().find(|(filament, _)| filament == number)?;
             let place = beam.places[*number];

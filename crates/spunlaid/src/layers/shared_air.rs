@@ -4,7 +4,7 @@ use super::few::{FewFlight, FewPlan};
 use super::flyer::Flights;
 use super::{FlownFibres, Flyer, LaydownSource, LayerFibres, Method, WebSpec};
 use crate::air::Lateral;
-use crate::beam::{Airs, Beam, BeamControl};
+use crate::beam::{Airs, Beam, BeamControl, BeamFindings};
 use crate::case::Case;
 use crate::curtain::Belt;
 use crate::curtain::drawing::draw;
@@ -12,9 +12,7 @@ use crate::error::{Error, Fault, Place as ErrorPlace, Problem};
 use crate::fibre::Place;
 use crate::lanes::Isa;
 use crate::units::Dimension;
-use crate::web::{
-    Canvas, Curves, Fibres, LaidWeb, LayerFew, OneAir, SharedAirFindings, Sheet, Strand, inlets,
-};
+use crate::web::{Canvas, Curves, Fibres, LaidWeb, LayerFew, OneAir, SharedAirFindings, Sheet, inlets};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use std::path::Path;
@@ -54,6 +52,16 @@ impl LayerBeam<'_> {
         all * beam.basis_weight(&self.sheet)
     }
 
+    /// What some of its filaments have laid, each for itself.
+    fn gather(&self, mut flown: BeamFindings) -> Result<FlownFibres, Error> {
+        flown.kept.retain(|(filament, _)| self.beam().keeps(*filament));
+        let one_air = self.one_air(flown.kept.iter().map(|(filament, _)| *filament));
+        let curves = flown.kept.into_iter().map(|(_, points)| points).collect();
+        let gathered = FlownFibres::gather(self.path, &self.case, curves)?;
+        let curves = Curves::clone(&gathered.curves).in_one_air(one_air);
+        Ok(FlownFibres { curves: Arc::new(curves), ..gathered })
+    }
+
     /// How far some of its filaments hang together.
     fn one_air(&self, filaments: impl Iterator<Item = usize>) -> OneAir {
         let (case, sheet) = (&self.case, &self.sheet);
@@ -66,65 +74,85 @@ impl LayerBeam<'_> {
 }
 
 impl Flyer<'_> {
+    /// What a few filaments say about a web in one air, without laying it; None of any other web, and where all filaments of a layer are flown.
+    ///
+    /// # Errors
+    /// As of [`Flyer::web`].
+    pub fn few(&self, spec: &WebSpec) -> Result<Option<Vec<LayerFew>>, Error> {
+        if spec.method != Method::SharedAir {
+            return Ok(None);
+        }
+        let beams = beams(spec)?;
+        if beams.iter().any(|layer| layer.few.is_none()) {
+            return Ok(None);
+        }
+        let told = beams.iter().enumerate().filter_map(|(number, layer)| {
+            let tell = |few: &FewPlan| {
+                let flown = self.fly_layer(layer, spec, None)?;
+                let curves = few.curves(&layer.sheet, &layer.beam(), &flown)?;
+                few.tell((number, &layer.sheet), (&layer.beam(), &flown), &curves, self.by())
+            };
+            layer.few.as_ref().map(tell)
+        });
+        told.collect::<Result<_, _>>().map(Some)
+    }
+
     /// Threads and stop flag.
     const fn by(&self) -> (usize, &AtomicBool) {
         (self.threads, self.stop)
     }
 
-    /// Flies all filaments of each layer in an air of its own, and lays them. A few curves of each layer are kept, which say what independent filaments
-    /// would give.
+    /// Flies all filaments of each layer, or a few for all of them, in an air of its own, and lays them. A few curves of each layer are kept, which say
+    /// what independent filaments would give.
     pub(super) fn fly_together(&self, spec: &WebSpec) -> Result<(Vec<LayerFibres>, LaidWeb), Error> {
-        if let Some(problem) = spec.air_beyond_memory() {
-            return Err(vec![problem].into());
-        }
-        let beams: Vec<LayerBeam<'_>> =
-            (0..spec.layers.len()).map(|number| beam(spec, number)).collect::<Result<_, _>>()?;
+        let beams = beams(spec)?;
         let elements: Vec<f64> = beams.iter().map(|layer| layer.beam().element_mass()).collect();
         let weight = beams.iter().map(LayerBeam::basis_weight).sum();
         let canvas = Canvas::new(&spec.sheet, &elements, weight)?;
         let (mut layers, mut shared_air) = (Vec::new(), SharedAirFindings::default());
         for (number, (layer, element)) in beams.iter().zip(elements).enumerate() {
-            let (beam, done) = (layer.beam(), AtomicU64::new(0));
-            let by = BeamControl { threads: self.threads, isa: Isa::detect(), stop: self.stop, steps: &done };
-            let flights = Flights {
-                path: layer.path,
-                fibres: layer.places.len() as u64,
-                done: &done,
-                steps: beam.steps(&layer.sheet),
-                time_step: layer.case.run.time_step,
-            };
-            let mut flown = Err(Error::Interrupted);
-            (self.follow)(flights, &mut || {
-                let on = layer.few.is_none().then(|| (&canvas, canvas.quanta(element)));
-                flown = beam.fly((&layer.sheet, spec.window()), on, by);
-            });
-            let mut flown = flown?;
-            shared_air.add(number, flown.take_shared_air());
+            let on = (&canvas, canvas.quanta(element));
+            let mut flown = self.fly_layer(layer, spec, layer.few.is_none().then_some(on))?;
+            let mut of_layer = flown.take_shared_air();
             if let Some(few) = &layer.few {
-                let curves = few.curves(&layer.sheet, &beam, &flown)?;
-                let filled = few.filled(&layer.sheet, &curves, (flown.back, element), self.by())?;
-                let told =
-                    few.filaments(&layer.sheet, &beam, &flown).tell(number, filled.as_ref(), self.threads)?;
+                let curves = few.curves(&layer.sheet, &layer.beam(), &flown)?;
+                let told = few.tell((number, &layer.sheet), (&layer.beam(), &flown), &curves, self.by())?;
                 let all = curves.fill(few.places.clone(), self.threads);
-                shared_air.few.push(LayerFew { missing: all.missing(), ..told });
                 let belt = Belt { sheet: &spec.sheet, window: spec.window(), back: flown.back };
-                let strands = draw(&all, belt, (&canvas, canvas.quanta(element)), self.by())?;
-                shared_air
-                    .strands
-                    .extend(strands.into_iter().map(|strand| Strand { layer: number, ..strand }));
+                of_layer.strands = draw(&all, belt, on, self.by())?;
+                of_layer.few = vec![LayerFew { missing: all.missing(), ..told }];
             }
-            flown.kept.retain(|(filament, _)| beam.keeps(*filament));
-            let one_air = layer.one_air(flown.kept.iter().map(|(filament, _)| *filament));
-            let curves = flown.kept.into_iter().map(|(_, points)| points).collect();
-            let gathered = FlownFibres::gather(layer.path, &layer.case, curves)?;
-            let curves = Curves::clone(&gathered.curves).in_one_air(one_air);
-            let flown = Arc::new(FlownFibres { curves: Arc::new(curves), ..gathered });
+            shared_air.add(number, of_layer);
+            let flown = Arc::new(layer.gather(flown)?);
             // In machine direction the sheet is not closed.
             spec.check_spreads([0.0, flown.numbers[1].mean])?;
             layers
                 .push(LayerFibres { fibres: Fibres::Curves(Arc::clone(&flown.curves)), flown: Some(flown) });
         }
         Ok((layers, LaidWeb { shared_air: Some(shared_air), ..canvas.finish()? }))
+    }
+
+    /// Flies a layer and shows the progress.
+    ///
+    /// * `on` – the canvas on which all filaments are laid, and its quanta for an element of fibre; None if only a few are flown
+    fn fly_layer(
+        &self,
+        layer: &LayerBeam<'_>,
+        spec: &WebSpec,
+        on: Option<(&Canvas, u32)>,
+    ) -> Result<BeamFindings, Error> {
+        let (beam, done) = (layer.beam(), AtomicU64::new(0));
+        let by = BeamControl { threads: self.threads, isa: Isa::detect(), stop: self.stop, steps: &done };
+        let flights = Flights {
+            path: layer.path,
+            fibres: layer.places.len() as u64,
+            done: &done,
+            steps: beam.steps(&layer.sheet),
+            time_step: layer.case.run.time_step,
+        };
+        let mut flown = Err(Error::Interrupted);
+        (self.follow)(flights, &mut || flown = beam.fly((&layer.sheet, spec.window()), on, by));
+        flown
     }
 }
 
@@ -172,6 +200,17 @@ impl WebSpec {
         let value = Some(memory(self.memory_limit));
         Some(Problem { place: ErrorPlace::Code, key: "web.memory_limit".to_owned(), value, what })
     }
+}
+
+/// The filaments of all layers.
+///
+/// # Errors
+/// If a layer is not flown, or if its air does not fit into the memory.
+fn beams(spec: &WebSpec) -> Result<Vec<LayerBeam<'_>>, Error> {
+    if let Some(problem) = spec.air_beyond_memory() {
+        return Err(vec![problem].into());
+    }
+    (0..spec.layers.len()).map(|number| beam(spec, number)).collect()
 }
 
 /// The filaments of a layer at their places. Air that a case leaves the same across the flow becomes a field in space. The seed of the web and the number of the layer are in the key of the air, so that layers and webs have

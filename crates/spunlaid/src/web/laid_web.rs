@@ -46,7 +46,7 @@ impl SharedAirFindings {
         self.strands.extend(other.strands.into_iter().map(|strand| Strand { layer, ..strand }));
         let neighbours = other.neighbours.into_iter();
         self.neighbours.extend(neighbours.map(|neighbour| NeighbourCorrelation { layer, ..neighbour }));
-        self.few.extend(other.few);
+        self.few.extend(other.few.into_iter().map(|few| LayerFew { layer, ..few }));
         self.pairs.extend(other.pairs.into_iter().map(|pair| SharedVariance { layer, ..pair }));
         self.lost += other.lost;
         self.time = self.time.max(other.time);
