@@ -125,6 +125,12 @@ impl FlownCurves {
         }
     }
 
+    /// Over how much of the machine direction the filaments are spread [m].
+    pub(super) fn depth(&self) -> f64 {
+        let y = || self.places.iter().map(|place| place.y);
+        y().fold(f64::NEG_INFINITY, f64::max) - y().fold(f64::INFINITY, f64::min)
+    }
+
     /// Every second filament: what the others would have been without these is told by a flight itself.
     ///
     /// # Errors
