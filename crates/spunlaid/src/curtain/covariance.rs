@@ -238,8 +238,6 @@ fn parts(direction: usize, classes: &[Class], variance: f64, most: f64) -> Vec<f
 /// The shortest scale that is looked for [m].
 fn shortest(flown: &FlownCurves, deviations: &[[Vec<f64>; 2]]) -> f64 {
     let places = flown.places();
-    let [width, pitch] = flown.width_and_pitch();
-    let mean = pitch.max(0.5 * (width * flown.depth() / places.len() as f64).sqrt());
     let (mut distances, mut products, mut squares) = (0.0, [0.0; 2], [0.0; 2]);
     for (one, place) in places.iter().enumerate() {
         let distance = |other: usize| {
@@ -257,7 +255,7 @@ fn shortest(flown: &FlownCurves, deviations: &[[Vec<f64>; 2]]) -> f64 {
     }
     let correlation = [0, 1].map(|d| products[d] / squares[d]).into_iter().fold(1.0, f64::min);
     let of_nearest = distances / (-2.0 * libm::log(correlation.max(LEAST))).sqrt();
-    (SHORTEST[0] * mean).min(SHORTEST[1] * of_nearest)
+    (SHORTEST[0] * flown.mean_distance()).min(SHORTEST[1] * of_nearest)
 }
 
 /// Deviations from the mean of each filament, at points evenly spread along the curves.

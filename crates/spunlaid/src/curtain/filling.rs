@@ -57,10 +57,11 @@ impl FlownCurves {
             near.truncate(NEAREST);
         }
         sort_by_key(&mut near, |(_, filament)| *filament);
+        // Only the half below the diagonal is looked at.
         let row = |i: usize| {
-            let at =
-                |j: usize| correlation(places[near[i].1], places[near[j].1]) + if i == j { OWN } else { 0.0 };
-            (0..near.len()).map(at).collect()
+            let here = places[near[i].1];
+            let others = near[..i].iter().map(|(_, other)| correlation(here, places[*other]));
+            others.chain([1.0 + OWN]).collect()
         };
         let known: Vec<f64> = near.iter().map(|(correlation, _)| *correlation).collect();
         // Without any variance there is nothing to estimate: the curve is the mean.
