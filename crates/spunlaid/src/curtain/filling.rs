@@ -174,7 +174,7 @@ mod tests {
         [(row_of(3e-3), row(turn, 40)), (row_of(4e-3), row(turn, 40)), (in_slot, slot(turn, 128, 20e-3))]
     }
 
-    /// The error of the best linear estimate is known: `1 − k·K⁻¹k`.                                     theory.md (83d)
+    /// The error of the best linear estimate is known: `1 − k·K⁻¹k`.                                     theory.md (83f)
     #[test]
     fn analytic_the_error_of_a_normal_field_of_known_covariance() {
         for (field, places) in fields() {
