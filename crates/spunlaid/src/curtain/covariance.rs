@@ -30,7 +30,7 @@ const SMALLEST: f64 = 1e-6;
 /// Scales above this part of the turn are felt all the way round.
 const ROUND: f64 = 1.0 / 12.0;
 
-/// Covariance of the deviations in a direction: a sum of normal curves with parts that are not negative, and so a covariance whatever the parts are.
+/// Covariance of the deviations in a direction: a sum of normal curves with parts that are not negative, and so a covariance whatever the parts are.                theory.md (83g)
 #[derive(Clone, Debug)]
 pub struct Covariance {
     /// [m²]

@@ -12,7 +12,7 @@ const NEAREST: usize = 16;
 /// Variance that a flown filament has for itself, in parts of its variance: keeps the equations solvable where filaments are flown at nearly one place.
 const OWN: f64 = 0.002;
 
-/// Filaments at any places, each the best linear estimate from the flown ones near it (simple kriging).
+/// Filaments at any places, each the best linear estimate from the flown ones near it (simple kriging).                       theory.md (83f)
 #[derive(Clone, Debug)]
 pub struct Filling<'a> {
     flown: &'a FlownCurves,

@@ -12,7 +12,7 @@ use std::f64::consts::FRAC_PI_2;
 /// Relative difference up to which two widths are the same.
 const SAME: f64 = 1e-9;
 
-/// The filaments of a sheet, made of pieces of a library along the fibre and across.
+/// The filaments of a sheet, made of pieces of a library along the fibre and across.                                       theory.md (83h)
 ///
 /// ```text
 /// along the fibre  |‹fade›—— piece ——‹fade›|          each is drawn at random, shifted across and mirrored at random;
