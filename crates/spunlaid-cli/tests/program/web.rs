@@ -336,14 +336,27 @@ fn a_web_says_which_settings_of_the_line_would_make_it_more_even() {
     let setting = best["setting"].as_str().unwrap().replace("throughput", "throughput of a hole");
     assert!(named.contains(&format!("{setting}{layer}, ")), "{sentence} {best}");
     let cost = number(&best["throughput_change"]);
-    assert_eq!(named.contains("the same throughput"), cost.abs() < 1e-6, "{sentence} {best}");
+    assert_eq!(named.contains("the same throughput"), cost.abs() < 1e-4, "{sentence} {best}");
     for change in changes {
         let key = &change["keys"][0];
-        assert!(page.contains(key["key"].as_str().unwrap()), "{change}");
+        let command = change["command"].as_str().unwrap();
+        // As it stands in a page of HTML.
+        let command = [
+            ("&", "&amp;"),
+            ("'", "&#x27;"),
+            ("/", "&#x2f;"),
+            ("<", "&lt;"),
+            (">", "&gt;"),
+            ("\"", "&quot;"),
+        ]
+        .iter()
+        .fold(command.to_owned(), |text, (sign, escaped)| text.replace(sign, escaped));
+        assert!(page.contains(&format!("<code>{command}</code>")), "{command}");
         // A fifth less or more, of what can be written in the file.
         assert!(((number(&key["to"]) / number(&key["from"]) - 1.0).abs() - 0.2).abs() < 1e-3, "{change}");
+        // The same weight on the belt, of which advice gives five digits.
         let belt = number(&change["belt_speed_m_s"]) / 5.0;
-        assert!((belt / (1.0 + number(&change["throughput_change"])) - 1.0).abs() < 1e-9, "{change}");
+        assert!((belt / (1.0 + number(&change["throughput_change"])) - 1.0).abs() < 5e-5, "{change}");
     }
 
     desk::success(&mut desk.spunlaid("web beams.toml --out one --threads 1 --quiet"));
@@ -386,7 +399,7 @@ fn keys_of_the_flown_case_are_set_and_advice_can_be_pasted() {
         let checked: serde_json::Value = serde_json::from_str(&said).unwrap();
         let weight = checked["basis_weight_kg_m2"].as_f64().unwrap();
         let wanted = summary["web"]["basis_weight_kg_m2"].as_f64().unwrap();
-        assert!((weight / wanted - 1.0).abs() < 1e-3, "{command}: {weight} {wanted}");
+        assert!((weight / wanted - 1.0).abs() < 1e-4, "{command}: {weight} {wanted}");
         let flow = 3600.0 * checked["mass_flow_kg_s_m"].as_f64().unwrap();
         assert!((flow / change["throughput_kg_h_m"].as_f64().unwrap() - 1.0).abs() < 1e-9, "{command}");
     }

@@ -39,6 +39,11 @@ class _Kept:
     def __post_init__(self) -> None:
         self.map.setflags(write=False)
 
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        # A pickled array comes back as one that can be written to.
+        self.__post_init__()
+
     def save(self, path: str, force: bool, figures: tuple[Any, Any]) -> None:
         if figures != (None, None):
             raise ValueError("a web that has been pickled has its figures as SVG and PNG; draw others where it was laid")

@@ -172,7 +172,8 @@ fn values(key: &ChangedKey) -> String {
 fn cost(effect: &Effect) -> String {
     let [before, after] = effect.mass_flow;
     let change = after / before - 1.0;
-    if change.abs() < 1e-6 {
+    // What is held is rounded by less than this.
+    if change.abs() < 1e-4 {
         return "with the same throughput".to_owned();
     }
     let way = if change < 0.0 { "less" } else { "more" };

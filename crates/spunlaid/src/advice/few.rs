@@ -27,7 +27,7 @@ impl WebOfFew {
     }
 
     /// The changes of the CV from this web to another one in the same air, over the patches that both have. What both have by chance, because they
-    /// have the same clouds, does not count.                                                              theory.md (83f)
+    /// have the same clouds, does not count.                         theory.md, "Two webs in the same air"
     pub(super) fn changes_to(&self, other: &Self) -> Vec<CvChange> {
         let Some((_, first)) = self.layers.first() else { return Vec::new() };
         let change = |patch: f64| {

@@ -7,12 +7,15 @@ use std::collections::BTreeMap;
 
 /// Points of a curve at which products are taken, at most: points near each other tell the same.
 const POINTS: usize = 512;
-/// Shortest scale, in mean distances of filaments: what has nothing in common with the nearest neighbour.
-const SHORTEST: f64 = 0.125;
-/// From scale to scale.
-const RATIO: f64 = 1.5;
-/// Scales along the machine direction, in parts of the depth of the curtain.
-const DEPTHS: [f64; 6] = [0.0625, 0.125, 0.25, 0.5, 1.0, 2.0];
+/// Shortest scale, in mean distances of filaments, and in the scale that nearest neighbours alone would tell. With shorter ones, the shape of the covariance between
+/// neighbours, of which nothing is known, passes for what each filament does for itself.
+const SHORTEST: [f64; 2] = [0.5, 1.0 / 3.0];
+/// Smallest correlation of nearest neighbours that is told from none.
+const LEAST: f64 = 0.01;
+/// From scale to scale across, and along the machine direction.
+const RATIOS: [f64; 2] = [1.5, 2.0];
+/// Longest scales, in the width and in the depth of the curtain; beyond them there is only an infinite one.
+const LONGEST: [f64; 2] = [0.5, 2.0];
 /// From class to class of distances.
 const CLASS: f64 = 1.25;
 /// Shortest distance along the machine direction that is told from zero, in parts of the depth.
@@ -20,15 +23,17 @@ const NEAREST: f64 = 1.0 / 32.0;
 /// Accuracy that is asked for of a covariance, in parts of the variance, beside the same part of what is missing to the variance: this is
 /// what the error of a filling rests on.
 const ACCURACY: f64 = 0.02;
+/// Fits, each weighted by the one before.
+const FITS: usize = 3;
 /// Terms with smaller parts of the variance are left out.
 const SMALLEST: f64 = 1e-6;
 /// Scales above this part of the turn are felt all the way round.
 const ROUND: f64 = 1.0 / 12.0;
 
-/// Covariance of the deviations in a direction: a sum of normal curves with parts that are not negative, and so a covariance whatever the parts are.
+/// Covariance of the deviations in a direction: a sum of normal curves with parts that are not negative, and so a covariance whatever the parts are.                theory.md (83g)
 #[derive(Clone, Debug)]
 pub struct Covariance {
-    /// Sum of all parts [m²].
+    /// [m²]
     variance: f64,
     terms: Vec<Term>,
 }
@@ -90,7 +95,8 @@ impl Across {
 #[derive(Clone, Debug, Default)]
 struct Class {
     pairs: f64,
-    products: [f64; 2],
+    /// Of the mean squares of differences, in machine and in cross direction [m²].
+    squares: [f64; 2],
     /// Of each curve that may be a term.
     curves: Vec<f64>,
 }
@@ -101,17 +107,17 @@ impl Covariance {
     pub fn fit(flown: &FlownCurves, threads: usize) -> [Self; 2] {
         let places = flown.places();
         let deviations = samples(flown);
-        let depths = || places.iter().map(|place| place.y);
-        let depth = depths().fold(f64::NEG_INFINITY, f64::max) - depths().fold(f64::INFINITY, f64::min);
         let [width, pitch] = flown.width_and_pitch();
-        let scales = |shortest: f64, longest: f64| -> Vec<f64> {
-            let all = (0..).map(move |n: i32| shortest * RATIO.powi(n));
-            all.take_while(|scale| *scale > 0.0 && *scale < longest).chain([f64::INFINITY]).collect()
+        let depth = flown.depth();
+        let shortest = shortest(flown, &deviations);
+        let scales = |axis: usize, size: f64| -> Vec<f64> {
+            let all = (0..).map(move |n: i32| shortest * RATIOS[axis].powi(n));
+            let all = all.take_while(move |scale| *scale > 0.0 && *scale < LONGEST[axis] * size);
+            all.chain([f64::INFINITY]).collect()
         };
-        let across = scales(SHORTEST * pitch, 0.5 * width);
-        let across: Vec<Across> = across.into_iter().map(|scale| Across::new(scale, flown.turn())).collect();
-        let along = DEPTHS.iter().map(|part| part * depth).filter(|scale| *scale > 0.0);
-        let along: Vec<Scale> = along.chain([f64::INFINITY]).map(Scale::new).collect();
+        let across = scales(0, width).into_iter().map(|scale| Across::new(scale, flown.turn()));
+        let across: Vec<Across> = across.collect();
+        let along: Vec<Scale> = scales(1, depth).into_iter().map(Scale::new).collect();
         let class = |[z, y]: [f64; 2]| {
             let number = |distance: f64, nearest: f64| match distance > 0.5 * nearest {
                 true => 1 + (libm::log(distance / nearest) / libm::log(CLASS)).round() as i32,
@@ -121,15 +127,15 @@ impl Covariance {
         };
         let sums = each(threads, places.len(), |one| {
             let mut classes: BTreeMap<(i32, i32), Class> = BTreeMap::new();
-            for other in one..places.len() {
+            for other in one + 1..places.len() {
                 let apart = flown.apart(places[one], places[other]);
                 let class = classes.entry(class(apart)).or_default();
                 class.curves.resize(across.len() * along.len(), 0.0);
                 class.pairs += 1.0;
-                for (sum, [a, b]) in
-                    class.products.iter_mut().zip([0, 1].map(|d| [one, other].map(|i| &deviations[i][d])))
-                {
-                    *sum += dot(a, b) / a.len() as f64;
+                for (d, sum) in class.squares.iter_mut().enumerate() {
+                    let pairs = deviations[one][d].iter().zip(&deviations[other][d]);
+                    let squares = pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+                    *sum += squares / deviations[one][d].len() as f64;
                 }
                 let in_depth: Vec<f64> = along.iter().map(|scale| scale.at(apart[1])).collect();
                 for (sums, scale) in class.curves.chunks_exact_mut(along.len()).zip(&across) {
@@ -144,37 +150,34 @@ impl Covariance {
             let class = classes.entry(key).or_default();
             class.curves.resize(of_one.curves.len(), 0.0);
             class.pairs += of_one.pairs;
-            (0..2).for_each(|d| class.products[d] += of_one.products[d]);
+            (0..2).for_each(|d| class.squares[d] += of_one.squares[d]);
             class.curves.iter_mut().zip(of_one.curves).for_each(|(sum, curve)| *sum += curve);
         }
-        let curve = |number: usize| (across[number / along.len()], along[number % along.len()]);
-        [0, 1].map(|d| Self::of_classes(d, &classes, &curve))
+        let classes: Vec<Class> = classes.into_values().collect();
+        let most = places.len() as f64;
+        [0, 1].map(|d| {
+            let squares = deviations.iter().map(|of| dot(&of[d], &of[d]) / of[d].len() as f64);
+            let variance = squares.sum::<f64>() / most;
+            if variance.is_nan() || variance <= 0.0 {
+                return Self { variance: 0.0, terms: Vec::new() };
+            }
+            let parts = parts(d, &classes, variance, most);
+            let term = |(number, part): (usize, f64)| {
+                let (across, along) = (across[number / along.len()], along[number % along.len()]);
+                (part > SMALLEST).then_some(Term { part, across, along })
+            };
+            Self { variance, terms: parts.into_iter().enumerate().filter_map(term).collect() }
+        })
     }
 
-    fn of_classes(
-        direction: usize,
-        classes: &BTreeMap<(i32, i32), Class>,
-        curve: &dyn Fn(usize) -> (Across, Scale),
-    ) -> Self {
-        let covariance = |class: &Class| class.products[direction] / class.pairs;
-        let variance = classes.values().next().map_or(0.0, covariance);
-        if variance.is_nan() || variance <= 0.0 {
-            return Self { variance: 0.0, terms: Vec::new() };
-        }
-        let row = |class: &Class| {
-            let known = covariance(class) / variance;
-            let weight = 1.0 / (ACCURACY + (1.0 - known).abs());
-            let curves = class.curves.iter().map(|sum| weight * sum / class.pairs);
-            (curves.collect::<Vec<f64>>(), weight * known)
-        };
-        let (rows, wanted): (Vec<Vec<f64>>, Vec<f64>) = classes.values().map(row).unzip();
-        let parts = not_negative(&rows, &wanted);
-        let whole: f64 = parts.iter().sum();
-        let term = |(number, part): (usize, f64)| {
-            let (across, along) = curve(number);
-            (part > SMALLEST * whole).then_some(Term { part: part / whole, across, along })
-        };
-        Self { variance: variance * whole, terms: parts.into_iter().enumerate().filter_map(term).collect() }
+    /// A normal covariance.
+    ///
+    /// * `variance` – at one place [m²]
+    /// * `scales` – across and along the machine direction; infinite where nothing changes [m]
+    /// * `turn` – width after which the curtain repeats itself, of periodic edges [m]
+    pub fn normal(variance: f64, scales: [f64; 2], turn: Option<f64>) -> Self {
+        let term = Term { part: 1.0, across: Across::new(scales[0], turn), along: Scale::new(scales[1]) };
+        Self { variance, terms: vec![term] }
     }
 
     /// The variance at one place [m²].
@@ -191,12 +194,6 @@ impl Covariance {
         self.terms.iter().map(at).sum()
     }
 
-    /// Scratch.
-    #[cfg(test)]
-    pub(super) fn parts(&self) -> Vec<(f64, f64)> {
-        self.terms.iter().map(|t| (t.part, (0.5 / t.across.scale.0).sqrt())).collect()
-    }
-
     /// Distance across at which half the correlation is left, up to a farthest one [m].
     pub fn half_distance(&self, farthest: f64) -> f64 {
         let mut between = [0.0, farthest];
@@ -209,6 +206,56 @@ impl Covariance {
         }
         between[1]
     }
+}
+
+/// The parts of all terms in a variance. What is fitted are the differences of filaments, which are told more surely than their products, with weights by what the
+/// fit before says they are.
+///
+/// * `most` – pairs that count: those of the same filaments tell the same
+fn parts(direction: usize, classes: &[Class], variance: f64, most: f64) -> Vec<f64> {
+    let size = classes.first().map_or(0, |class| class.curves.len());
+    let missing = |class: &Class| 0.5 * class.squares[direction] / class.pairs / variance;
+    let mut expected: Vec<f64> = classes.iter().map(missing).collect();
+    let mut parts = Vec::new();
+    for _ in 0..FITS {
+        // All parts together are the variance.
+        let mut rows = vec![vec![1.0 / ACCURACY * most.sqrt(); size]];
+        let mut wanted = vec![1.0 / ACCURACY * most.sqrt()];
+        for (class, expected) in classes.iter().zip(&expected) {
+            let weight = class.pairs.min(most).sqrt() / (ACCURACY + expected);
+            rows.push(class.curves.iter().map(|sum| weight * sum / class.pairs).collect());
+            wanted.push(weight * (1.0 - missing(class)));
+        }
+        parts = not_negative(&rows, &wanted);
+        let whole: f64 = parts.iter().sum();
+        parts.iter_mut().for_each(|part| *part /= whole);
+        let fitted = |class: &Class| 1.0 - dot(&class.curves, &parts) / class.pairs;
+        expected = classes.iter().map(|class| fitted(class).max(0.0)).collect();
+    }
+    parts
+}
+
+/// The shortest scale that is looked for [m].
+fn shortest(flown: &FlownCurves, deviations: &[[Vec<f64>; 2]]) -> f64 {
+    let places = flown.places();
+    let (mut distances, mut products, mut squares) = (0.0, [0.0; 2], [0.0; 2]);
+    for (one, place) in places.iter().enumerate() {
+        let distance = |other: usize| {
+            let [z, y] = flown.apart(*place, places[other]);
+            libm::hypot(z, y)
+        };
+        let others = (0..places.len()).filter(|other| *other != one).map(|other| (distance(other), other));
+        let Some((distance, other)) = others.min_by(|a, b| a.0.total_cmp(&b.0)) else { continue };
+        distances += distance / places.len() as f64;
+        for d in 0..2 {
+            let [a, b] = [one, other].map(|i| &deviations[i][d]);
+            products[d] += dot(a, b);
+            squares[d] += 0.5 * (dot(a, a) + dot(b, b));
+        }
+    }
+    let correlation = [0, 1].map(|d| products[d] / squares[d]).into_iter().fold(1.0, f64::min);
+    let of_nearest = distances / (-2.0 * libm::log(correlation.max(LEAST))).sqrt();
+    (SHORTEST[0] * flown.mean_distance()).min(SHORTEST[1] * of_nearest)
 }
 
 /// Deviations from the mean of each filament, at points evenly spread along the curves.

@@ -129,3 +129,87 @@ pub fn lay(
     let strands = draw(curtain, belt, (&canvas, canvas.quanta(element)), by)?;
     Ok((canvas.finish()?, strands))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::FlownCurves;
+    use super::super::synthetic::{BELT_RATIO, Field, SPACING, row};
+    use super::*;
+    use crate::fibre::Place;
+
+    const CELL: f64 = 1e-3;
+    const ELEMENT: f64 = 1e-9;
+
+    fn laid(curtain: &dyn Curtain, belt: Belt<'_>, threads: usize) -> (LaidWeb, Vec<Strand>) {
+        lay(curtain, belt, ELEMENT, (threads, &AtomicBool::new(false))).unwrap()
+    }
+
+    /// Filaments that come down at one place lie in straight lines, each with its mass in every cell of its column.
+    #[test]
+    fn analytic_straight_lines() {
+        let (width, points) = (12e-3, 2000);
+        let places: Vec<Place> =
+            (0..4).map(|i| Place { y: 1e-3 * f64::from(i), z: 3e-3 * f64::from(i) + 0.5e-3 }).collect();
+        // The last one is laid beyond the edge and comes in at the other side.
+        let curve = |i: usize| vec![[0.0, if i == 3 { 3e-3 } else { 0.0 }]; points];
+        let curves: Vec<_> = (0..4).map(curve).collect();
+        let flown = FlownCurves::new(places, Some(width), (SPACING, BELT_RATIO), &curves).unwrap();
+        let sheet = Sheet::new(width, 0.1, CELL);
+        let window = Window { corner: [2e-3, 50e-3], sides: [6e-3, 4e-3] };
+        let belt = Belt::within(&flown, &sheet, window).unwrap();
+        let (laid, strands) = laid(&flown, belt, 2);
+        let of_cell = ELEMENT * CELL / (SPACING * BELT_RATIO) / (CELL * CELL);
+        for row in 0..laid.map.rows {
+            for (column, quanta) in laid.map.row(row).iter().enumerate() {
+                let weight = f64::from(*quanta) * laid.map.weight_of_quantum() / of_cell;
+                let expected = match column {
+                    0 => 2.0,
+                    3 | 6 => 1.0,
+                    _ => 0.0,
+                };
+                assert!((weight - expected).abs() < 1e-4, "{row} {column}: {weight}");
+            }
+        }
+        let filaments: Vec<usize> = strands.iter().map(|strand| strand.filament).collect();
+        assert_eq!(filaments, [1, 2]);
+        for strand in &strands {
+            let pieces = (strand.points.len() - 1) as f64;
+            // From edge to edge of the window, with less than a piece beyond each.
+            let cover = pieces * SPACING * BELT_RATIO;
+            assert!(cover >= 4e-3 - 1e-9 && cover < 4e-3 + 2.0 * SPACING * BELT_RATIO, "{cover}");
+            let across = 3e-3 * strand.filament as f64 + 0.5e-3 - window.corner[0];
+            assert!(strand.points.iter().all(|point| (point[0] - across).abs() < 1e-6));
+        }
+    }
+
+    #[test]
+    fn invariant_all_fibre_that_passes_lies_on_a_periodic_sheet() {
+        let field = Field { memory: 0.98, ..Field::default() };
+        let flown = field.flown(row(field.turn, 16));
+        let filling = flown.fill(row(field.turn, 100), 2);
+        let sheet = Sheet::new(field.turn, 0.5, CELL);
+        let window = Window { corner: [0.0; 2], sides: [20e-3; 2] };
+        let belt = Belt::within(&filling, &sheet, window).unwrap();
+        let one = laid(&filling, belt, 1);
+        let expected = ELEMENT * 100.0 * sheet.length / (SPACING * BELT_RATIO);
+        let mass = one.0.map.basis_weight() * sheet.width * sheet.length;
+        // The ends of the sheet cut the curves.
+        assert!((mass / expected - 1.0).abs() < 0.02 && one.0.cut == 0.0, "{mass} {expected}");
+        for threads in [2, 7] {
+            let other = laid(&filling, belt, threads);
+            assert!(other.0.map.cells == one.0.map.cells && other.1 == one.1);
+        }
+    }
+
+    #[test]
+    fn rejects_curves_that_are_too_short_and_stops() {
+        let field = Field { points: 100, ..Field::default() };
+        let flown = field.flown(row(field.turn, 4));
+        let sheet = Sheet::new(field.turn, 0.5, CELL);
+        let window = Window { corner: [0.0; 2], sides: [20e-3; 2] };
+        let fault = Belt::within(&flown, &sheet, window).unwrap_err().to_string();
+        assert!(fault.contains("the sheet is 500 mm long"), "{fault}");
+        let belt = Belt { sheet: &sheet, window, back: 0.0 };
+        assert!(matches!(lay(&flown, belt, ELEMENT, (1, &AtomicBool::new(true))), Err(Error::Interrupted)));
+    }
+}

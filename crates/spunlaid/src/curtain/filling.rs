@@ -6,14 +6,13 @@ use crate::fibre::Place;
 use crate::sort::sort_by_key;
 use crate::statistics::linear::{dot, solve_positive};
 use crate::threads::each;
-use std::cmp::Reverse;
 
 /// Flown filaments from which a curve follows.
 const NEAREST: usize = 16;
 /// Variance that a flown filament has for itself, in parts of its variance: keeps the equations solvable where filaments are flown at nearly one place.
 const OWN: f64 = 0.002;
 
-/// Filaments at any places, each the best linear estimate from the flown ones near it (simple kriging).
+/// Filaments at any places, each the best linear estimate from the flown ones near it (simple kriging).                       theory.md (83f)
 #[derive(Clone, Debug)]
 pub struct Filling<'a> {
     flown: &'a FlownCurves,
@@ -38,7 +37,12 @@ impl FlownCurves {
     /// * `wanted` – where they are fed
     pub fn fill(&self, wanted: Vec<Place>, threads: usize) -> Filling<'_> {
         let covariances = Covariance::fit(self, threads);
-        let curve = |i: usize| [0, 1].map(|d| self.estimate(d, &covariances[d], wanted[i]));
+        self.fill_by(covariances.each_ref(), wanted, threads)
+    }
+
+    /// As [`FlownCurves::fill`], with known covariances in machine and in cross direction.
+    pub fn fill_by(&self, by: [&Covariance; 2], wanted: Vec<Place>, threads: usize) -> Filling<'_> {
+        let curve = |i: usize| [0, 1].map(|d| self.estimate(d, by[d], wanted[i]));
         let curves = each(threads, wanted.len(), curve);
         Filling { flown: self, places: wanted, curves }
     }
@@ -52,11 +56,12 @@ impl FlownCurves {
             near.select_nth_unstable_by(NEAREST, |a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
             near.truncate(NEAREST);
         }
-        sort_by_key(&mut near, |(correlation, _)| Reverse(*correlation));
+        sort_by_key(&mut near, |(_, filament)| *filament);
+        // Only the half below the diagonal is looked at.
         let row = |i: usize| {
-            let at =
-                |j: usize| correlation(places[near[i].1], places[near[j].1]) + if i == j { OWN } else { 0.0 };
-            (0..near.len()).map(at).collect()
+            let here = places[near[i].1];
+            let others = near[..i].iter().map(|(_, other)| correlation(here, places[*other]));
+            others.chain([1.0 + OWN]).collect()
         };
         let known: Vec<f64> = near.iter().map(|(correlation, _)| *correlation).collect();
         // Without any variance there is nothing to estimate: the curve is the mean.
@@ -134,52 +139,142 @@ mod tests {
     use super::super::synthetic::{Field, row, slot};
     use super::*;
 
-    /// Mean square of the difference of two curtains in parts of the variance, by direction.
-    fn error(filling: &Filling<'_>, truth: &FlownCurves, sigma: f64) -> [f64; 2] {
-        let curves = filling.compute(2);
-        [0, 1].map(|d| {
-            let squares = curves.iter().enumerate().map(|(filament, curve)| {
-                let pairs = curve[d].iter().zip(truth.deviations(filament, d));
-                pairs.map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>() / curve[d].len() as f64
-            });
-            squares.sum::<f64>() / curves.len() as f64 / (sigma * sigma)
-        })
-    }
-
-    /// Flown and wanted filaments of a field: those at even and at odd numbers.
-    fn apart(field: &Field, places: &[Place]) -> [FlownCurves; 2] {
+    /// Flown and wanted filaments of a field: those of even and of odd numbers.
+    fn parts(field: &Field, places: &[Place]) -> [FlownCurves; 2] {
         let all = field.curves(places);
         [0, 1].map(|first| {
             let some = places.iter().copied().skip(first).step_by(2).collect();
             let curves: Vec<_> = all.iter().skip(first).step_by(2).cloned().collect();
-            FlownCurves::new(some, Some(field.turn), (4e-3, 0.08), &curves).unwrap()
+            field.flown_of(some, &curves)
         })
     }
 
+    /// Mean square of what a filling is off, in parts of the variance.
+    fn error(filling: &Filling<'_>, truth: &FlownCurves, sigma: f64) -> f64 {
+        let curves = filling.compute(2);
+        let values = |filament: usize| {
+            [0, 1].map(|d| {
+                let pairs = curves[filament][d].iter().zip(truth.deviations(filament, d));
+                pairs.map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>() / curves[filament][d].len() as f64
+            })
+        };
+        let all: f64 = (0..curves.len()).flat_map(values).sum();
+        all / (2 * curves.len()) as f64 / (sigma * sigma)
+    }
+
+    fn mean(missing: [f64; 2]) -> f64 {
+        0.5 * (missing[0] + missing[1])
+    }
+
+    /// Rows whose pitch is 2.1 and 1.6 scales, and a slot.
+    fn fields() -> [(Field, Vec<Place>); 3] {
+        let row_of = |scale: f64| Field { scales: [scale, f64::INFINITY], points: 1500, ..Field::default() };
+        let in_slot = Field { scales: [12e-3, 6e-3], points: 600, ..Field::default() };
+        let turn = in_slot.turn;
+        [(row_of(3e-3), row(turn, 40)), (row_of(4e-3), row(turn, 40)), (in_slot, slot(turn, 128, 20e-3))]
+    }
+
+    /// The error of the best linear estimate is known: `1 − k·K⁻¹k`.                                     theory.md (83f)
     #[test]
-    fn stat_scratch() {
-        for scale in [2e-3, 3e-3, 4e-3, 6e-3, 8e-3, 12e-3] {
-            for seed in 1..4 {
-                let field = Field {
-                    turn: 0.128,
-                    scales: [scale, f64::INFINITY],
-                    points: 1500,
-                    seed,
-                    ..Field::default()
-                };
-                let [flown, truth] = apart(&field, &row(field.turn, 40));
-                let covs = Covariance::fit(&flown, 2);
-                let filling = flown.fill(truth.places().to_vec(), 2);
-                let (missing, found) = (filling.missing(), error(&filling, &truth, field.sigma));
-                println!("{scale} {seed}: {missing:?} {found:?}");
-                println!("    {:?}", covs[0].parts());
+    fn analytic_the_error_of_a_normal_field_of_known_covariance() {
+        for (field, places) in fields() {
+            let [flown, truth] = parts(&field, &places);
+            let flown = field.with_noise(&flown, OWN);
+            let covariance = Covariance::normal(field.sigma.powi(2), field.scales, Some(field.turn));
+            let filling = flown.fill_by([&covariance; 2], truth.places().to_vec(), 2);
+            let (told, found) = (mean(filling.missing()), error(&filling, &truth, field.sigma));
+            assert!((found / told - 1.0).abs() < 0.03, "{field:?}: {found} {told}");
+        }
+    }
+
+    /// With the covariance from the flown curves alone, hardly more is missed.
+    #[test]
+    fn stat_a_fitted_covariance_fills_nearly_as_well_as_the_known_one() {
+        for (field, places) in &fields()[1..] {
+            let [flown, truth] = parts(field, places);
+            let known = Covariance::normal(field.sigma.powi(2), field.scales, Some(field.turn));
+            let best = flown.fill_by([&known; 2], truth.places().to_vec(), 2);
+            let filling = flown.fill(truth.places().to_vec(), 2);
+            let [best, found] = [&best, &filling].map(|filling| error(filling, &truth, field.sigma));
+            let told = mean(filling.missing());
+            assert!(found < 1.1 * best, "{found} {best}");
+            assert!(told > 0.8 * found && told < 1.8 * found, "{told} {found}");
+        }
+    }
+
+    #[test]
+    fn analytic_a_flown_filament_is_filled_in_as_it_was_flown() {
+        for (field, places) in fields() {
+            let flown = field.flown(places);
+            let filling = flown.fill(flown.places().to_vec(), 2);
+            let found = error(&filling, &flown, field.sigma);
+            assert!(found < 1e-4 && mean(filling.missing()) < 0.004, "{found} {:?}", filling.missing());
+        }
+    }
+
+    /// In one air that is the same everywhere.
+    #[test]
+    fn limit_filaments_between_equal_ones_are_equal_too() {
+        let field = Field { points: 300, ..Field::default() };
+        let one = field.curves(&row(field.turn, 1)).remove(0);
+        let flown = field.flown_of(row(field.turn, 24), &vec![one; 24]);
+        let filling = flown.fill(row(field.turn, 7), 2);
+        let missing = mean(filling.missing());
+        assert!(missing < 1e-3, "{missing}");
+        for curve in filling.compute(1) {
+            for d in 0..2 {
+                let off = curve[d].iter().zip(flown.deviations(0, d)).map(|(a, b)| (a - b).abs());
+                assert!(off.fold(0.0, f32::max) < 1e-3 * field.sigma as f32);
             }
         }
-        for seed in 1..4 {
-            let field = Field { turn: 0.128, scales: [12e-3, 6e-3], points: 600, seed, ..Field::default() };
-            let [flown, truth] = apart(&field, &slot(field.turn, 128, 20e-3));
-            let filling = flown.fill(truth.places().to_vec(), 2);
-            println!("slot {:?} {:?}", filling.missing(), error(&filling, &truth, field.sigma));
+    }
+
+    /// In airs of their own, nothing is known of a filament but the mean.
+    #[test]
+    fn limit_nothing_is_known_between_independent_filaments() {
+        let field = Field { points: 2000, ..Field::default() };
+        let curve = |seed: u64| Field { seed, ..field }.curves(&row(field.turn, 1)).remove(0);
+        let curves: Vec<_> = (1..=32).map(curve).collect();
+        let flown = field.flown_of(row(field.turn, 32), &curves);
+        // In the middle between two flown ones.
+        let between = flown.places().iter().map(|place| Place { z: place.z + field.turn / 64.0, ..*place });
+        let filling = flown.fill(between.collect(), 2);
+        assert!(mean(filling.missing()) > 0.95, "{:?}", filling.missing());
+        let squares = filling.compute(2).concat().concat().iter().map(|x| f64::from(*x).powi(2)).sum::<f64>();
+        let variance = squares / (2 * 32 * 2000) as f64 / field.sigma.powi(2);
+        assert!(variance < 0.05, "{variance}");
+    }
+
+    /// A flow that widens lays filaments farther apart than they are fed.
+    #[test]
+    fn analytic_a_mean_that_is_linear_in_the_depth_is_kept() {
+        let field = Field { points: 400, ..Field::default() };
+        let places = slot(field.turn, 48, 20e-3);
+        let mut curves = field.curves(&vec![Place::default(); 48]);
+        for (curve, place) in curves.iter_mut().zip(&places) {
+            curve.iter_mut().for_each(|point| point[0] += 0.01 + 1.5 * place.y);
+        }
+        let flown = field.flown_of(places, &curves);
+        let wanted = slot(field.turn, 9, 18e-3);
+        for (curve, place) in flown.fill(wanted.clone(), 2).compute(2).iter().zip(&wanted) {
+            for (value, first) in curve[0].iter().zip(&curves[0]) {
+                let expected = first[0] + 1.5 * (place.y - flown.places()[0].y);
+                assert!((f64::from(*value) - expected).abs() < 1e-4, "{value} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn identical_bits_for_any_number_of_threads() {
+        let field = Field { points: 200, memory: 0.9, ..Field::default() };
+        let flown = field.flown(slot(field.turn, 40, 20e-3));
+        let filled = |threads: usize| {
+            let filling = flown.fill(slot(field.turn, 100, 20e-3), threads);
+            (filling.missing(), filling.compute(threads))
+        };
+        let one = filled(1);
+        for threads in [2, 5] {
+            assert!(filled(threads) == one);
         }
     }
 }

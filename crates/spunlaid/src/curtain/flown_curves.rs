@@ -125,6 +125,18 @@ impl FlownCurves {
         }
     }
 
+    /// Mean distance of neighbours: of a slot, of those at random places in it [m].
+    pub(super) fn mean_distance(&self) -> f64 {
+        let [width, pitch] = self.width_and_pitch();
+        pitch.max(0.5 * (width * self.depth() / self.places.len() as f64).sqrt())
+    }
+
+    /// Over how much of the machine direction the filaments are spread [m].
+    pub(super) fn depth(&self) -> f64 {
+        let y = || self.places.iter().map(|place| place.y);
+        y().fold(f64::NEG_INFINITY, f64::max) - y().fold(f64::INFINITY, f64::min)
+    }
+
     /// Every second filament: what the others would have been without these is told by a flight itself.
     ///
     /// # Errors

@@ -12,13 +12,17 @@ mod covariance;
 pub(crate) mod drawing;
 mod filling;
 mod flown_curves;
+mod library;
 #[cfg(test)]
 mod synthetic;
+mod tiles;
 
 pub use covariance::Covariance;
 pub use drawing::{Belt, lay};
 pub use filling::Filling;
 pub use flown_curves::FlownCurves;
+pub use library::Library;
+pub use tiles::Tiles;
 
 use crate::fibre::Place;
 

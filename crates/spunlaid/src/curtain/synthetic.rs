@@ -1,6 +1,6 @@
 //! Synthetic curves for tests: a normal field with a known covariance.
 
-use super::FlownCurves;
+use super::{Curtain, FlownCurves};
 use crate::fibre::Place;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -21,7 +21,7 @@ pub(super) struct Field {
 
 impl Default for Field {
     fn default() -> Self {
-        Self { turn: 0.25, sigma: 0.02, scales: [8e-3, f64::INFINITY], memory: 0.0, points: 4000, seed: 1 }
+        Self { turn: 0.128, sigma: 0.02, scales: [8e-3, f64::INFINITY], memory: 0.0, points: 4000, seed: 1 }
     }
 }
 
@@ -81,7 +81,23 @@ impl Field {
 
     pub(super) fn flown(&self, places: Vec<Place>) -> FlownCurves {
         let curves = self.curves(&places);
-        FlownCurves::new(places, Some(self.turn), (SPACING, BELT_RATIO), &curves).unwrap()
+        self.flown_of(places, &curves)
+    }
+
+    /// Adds what each filament has for itself, a part of the variance.
+    pub(super) fn with_noise(&self, flown: &FlownCurves, part: f64) -> FlownCurves {
+        let mut random = ChaCha8Rng::seed_from_u64(!self.seed);
+        let mut noisy = |value: f32| f64::from(value) + self.sigma * part.sqrt() * normal(&mut random);
+        let curve = |filament: usize| {
+            let [md, cd] = [0, 1].map(|d| flown.deviations(filament, d));
+            md.iter().zip(cd).map(|(md, cd)| [noisy(*md), noisy(*cd)]).collect()
+        };
+        let curves: Vec<Vec<[f64; 2]>> = (0..flown.places().len()).map(curve).collect();
+        self.flown_of(flown.places().to_vec(), &curves)
+    }
+
+    pub(super) fn flown_of(&self, places: Vec<Place>, curves: &[Vec<[f64; 2]>]) -> FlownCurves {
+        FlownCurves::new(places, Some(self.turn), (SPACING, BELT_RATIO), curves).unwrap()
     }
 }
 

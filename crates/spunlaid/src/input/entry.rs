@@ -43,6 +43,14 @@ impl<'a> Entry<'a> {
         Self { at: 0, place: Place::Override(word.to_owned()), shown: Some(shown), text, value }
     }
 
+    /// The text of an override without the quotes that it does not need.
+    pub(super) fn plain_override(text: &str) -> String {
+        match DeValue::parse(text).map(Spanned::into_inner) {
+            Ok(DeValue::String(inner)) if DeValue::parse(&inner).is_err() => inner.into_owned(),
+            _ => text.to_owned(),
+        }
+    }
+
     /// A problem with it.
     pub(super) fn problem(&self, key: &str, what: impl Into<Fault>) -> Problem {
         Finding { place: self.place.clone(), key: fit(key), value: self.shown.clone(), what: what.into() }

@@ -1,5 +1,6 @@
 //! The webs of advice: the same web with one setting of the line changed, on the belt that lays the same weight.
 
+use super::super::entry::Entry;
 use super::super::web::replaces;
 use super::super::{Overrides, file};
 use super::web::WebBase;
@@ -41,9 +42,14 @@ pub fn parse_changes(text: String, name: &str, set: Overrides<'_>) -> Result<Vec
     Ok(Line { base: &base, set: set.values }.changes())
 }
 
-/// A number that can be written in a file, of four digits.
-fn rounded(number: f64) -> f64 {
-    format!("{number:.3e}").parse().unwrap_or(number)
+/// Digits of a changed setting.
+const CHANGED: usize = 4;
+/// Digits of what is held and stands in no file: it is rounded by less than 0.01 %.
+const HELD: usize = 5;
+
+/// A number as a person would write it in a file, of so many digits in its unit.
+fn rounded(dimension: Dimension, number: f64, digits: usize) -> f64 {
+    dimension.parse(&dimension.pretty_to(number, digits)).unwrap_or(number)
 }
 
 /// The key of the throughput of a hole.
@@ -239,9 +245,11 @@ impl Line<'_> {
         let to = |(key, from, power): &(VariedKey, f64, f64)| {
             let to = match (setting, key.dimension()) {
                 (Setting::DieTemperature, Dimension::Temperature) => from + KELVINS[which],
-                _ if *power == 0.0 => *from,
+                _ if *power == 0.0 && self.is_held(key) => *from,
+                (_, dimension) if *power == 0.0 => rounded(dimension, *from, HELD),
                 _ if key.is_whole() => (from * FACTORS[which]).round().max(1.0),
-                _ if *power == 1.0 => rounded(from * FACTORS[which]),
+                (_, dimension) if *power == 1.0 => rounded(dimension, from * FACTORS[which], CHANGED),
+                // A row stays as wide as its web, to the last digit.
                 _ => from * factor.powf(*power),
             };
             // What comes behind follows from the rounded number, as the pitch of a row from its holes.
@@ -258,10 +266,16 @@ impl Line<'_> {
             return None;
         }
         spec.set_belt_speed(belt).ok()?;
-        let changed = |((key, from, _), (_, to)): (&(VariedKey, f64, f64), &(VariedKey, f64))| {
+        let changed = |((key, from, power), (_, to)): (&(VariedKey, f64, f64), &(VariedKey, f64))| {
             let (dimension, whole) = (key.dimension(), key.is_whole());
             let key = self.base.short_name(&key.name).to_owned();
-            (from != to).then_some(ChangedKey { key, dimension, whole, from: *from, to: *to })
+            (*power != 0.0 && from != to).then_some(ChangedKey {
+                key,
+                dimension,
+                whole,
+                from: *from,
+                to: *to,
+            })
         };
         let keys: Vec<ChangedKey> = known.iter().zip(&values).filter_map(changed).collect();
         let (layers, file) = (layers.to_vec(), self.base.path().to_owned());
@@ -269,17 +283,19 @@ impl Line<'_> {
         (!keys.is_empty()).then_some(Change { setting, layers, keys, file, set, spec })
     }
 
+    /// Whether the file says the throughput of a layer itself, so that it holds.
+    fn is_held(&self, key: &VariedKey) -> bool {
+        let layer = key.name.strip_prefix("layer.").and_then(|rest| rest.split_once('.'));
+        let layer = layer.filter(|(_, name)| *name == THROUGHPUT);
+        let layer = layer.and_then(|(number, _)| self.spec().layers.get(number.parse::<usize>().ok()? - 1));
+        layer.is_some_and(|layer| layer.throughput.is_some_and(|held| held == self.base.value(key)))
+    }
+
     /// The keys and values that make a changed web of the file: what was set before, unless it is replaced, the values, and what else has to be held.
     fn settings_of(&self, values: &[(VariedKey, f64)]) -> Vec<(String, String)> {
         let spec = self.spec();
-        // What the file says itself holds.
-        let is_held = |key: &VariedKey| {
-            let layer = key.name.strip_prefix("layer.").and_then(|rest| rest.split_once('.'));
-            let layer = layer.filter(|(_, name)| *name == THROUGHPUT);
-            let layer = layer.and_then(|(number, _)| spec.layers.get(number.parse::<usize>().ok()? - 1));
-            layer.is_some_and(|layer| layer.throughput.is_some_and(|held| held == self.base.value(key)))
-        };
-        let is_new = |(key, value): &&(VariedKey, f64)| !(is_held(key) && *value == self.base.value(key));
+        let is_new =
+            |(key, value): &&(VariedKey, f64)| !(self.is_held(key) && *value == self.base.value(key));
         let text = |(key, value): &(VariedKey, f64)| {
             let name = self.base.short_name(&key.name).to_owned();
             (name, if key.is_whole() { format!("{value:.0}") } else { key.dimension().written(*value) })
@@ -290,14 +306,16 @@ impl Line<'_> {
             new.push((weight, Dimension::BasisWeight.written(self.weight())));
         }
         let is_replaced = |(set, _): &&(String, String)| new.iter().any(|(key, _)| replaces(key, set.trim()));
-        let before = self.set.iter().filter(|set| !is_replaced(set)).cloned();
+        let before = self.set.iter().filter(|set| !is_replaced(set));
+        let before = before.map(|(key, value)| (key.clone(), Entry::plain_override(value)));
         before.chain(new.iter().cloned()).collect()
     }
 
-    /// Mass per area of the web [kg/m²].
+    /// Mass per area of the changed webs [kg/m²].
     fn weight(&self) -> f64 {
         let spec = self.spec();
         let belt = spec.layers.first().map_or(f64::NAN, |layer| layer.belt_speed);
-        spec.basis_weight.unwrap_or_else(|| spec.mass_flow() / belt)
+        let found = || rounded(Dimension::BasisWeight, spec.mass_flow() / belt, HELD);
+        spec.basis_weight.unwrap_or_else(found)
     }
 }

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! Neighbours that hang a few millimetres apart come down almost alike, so the CV of a row hardly depends on its pitch. In a slot a filament is nearer to
-//! itself than to any other one at the same place across, and this own part falls with the number of filaments.        theory.md (84)
+//! itself than to any other one at the same place across, and this own part falls with the number of filaments.        theory.md (83d)
 
 use super::canvas::Canvas;
 use super::map::Map;
