@@ -6,13 +6,15 @@ use super::{FlownFibres, Flyer, LaydownSource, LayerFibres, Method, WebSpec};
 use crate::air::Lateral;
 use crate::beam::{Airs, Beam, BeamControl, BeamFindings};
 use crate::case::Case;
-use crate::curtain::Belt;
 use crate::curtain::drawing::draw;
+use crate::curtain::{Belt, FlownCurves, Library};
 use crate::error::{Error, Fault, Place as ErrorPlace, Problem};
 use crate::fibre::Place;
 use crate::lanes::Isa;
 use crate::units::Dimension;
-use crate::web::{Canvas, Curves, Fibres, LaidWeb, LayerFew, OneAir, SharedAirFindings, Sheet, inlets};
+use crate::web::{
+    Canvas, Curves, Edges, Fibres, LaidWeb, LayerFew, OneAir, SharedAirFindings, Sheet, Strand, inlets,
+};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use std::path::Path;
@@ -117,10 +119,10 @@ impl Flyer<'_> {
             if let Some(few) = &layer.few {
                 let curves = few.curves(&layer.sheet, &layer.beam(), &flown)?;
                 let told = few.tell((number, &layer.sheet), (&layer.beam(), &flown), &curves, self.by())?;
-                let all = curves.fill(few.places.clone(), self.threads);
-                let belt = Belt { sheet: &spec.sheet, window: spec.window(), back: flown.back };
-                of_layer.strands = draw(&all, belt, on, self.by())?;
-                of_layer.few = vec![LayerFew { missing: all.missing(), ..told }];
+                let missing;
+                (of_layer.strands, missing) =
+                    self.draw_all(spec, (number, layer), (&curves, flown.back), on)?;
+                of_layer.few = vec![LayerFew { missing, ..told }];
             }
             shared_air.add(number, of_layer);
             let flown = Arc::new(layer.gather(flown)?);
@@ -130,6 +132,35 @@ impl Flyer<'_> {
                 .push(LayerFibres { fibres: Fibres::Curves(Arc::clone(&flown.curves)), flown: Some(flown) });
         }
         Ok((layers, LaidWeb { shared_air: Some(shared_air), ..canvas.finish()? }))
+    }
+
+    /// Draws all filaments of a layer, which follow from a few: those between them on the sheet that these have laid, and pieces of it on any other sheet.
+    /// Returns their parts in the window, and the part of the variance that the few do not tell.
+    ///
+    /// * `back` – where the flown sheet begins on the belt [m]
+    fn draw_all(
+        &self,
+        spec: &WebSpec,
+        (number, layer): (usize, &LayerBeam<'_>),
+        (curves, back): (&FlownCurves, f64),
+        on: (&Canvas, u32),
+    ) -> Result<(Vec<Strand>, [f64; 2]), Error> {
+        let (sheet, window) = (&spec.sheet, spec.window());
+        let places = layer.few.as_ref().map_or_else(Vec::new, |few| few.places.clone());
+        if [sheet.width, sheet.length] == [layer.sheet.width, layer.sheet.length] {
+            let all = curves.fill(places, self.threads);
+            let strands = draw(&all, Belt { sheet, window, back }, on, self.by())?;
+            return Ok((strands, all.missing()));
+        }
+        let library = Library::new(curves, self.threads)?;
+        let around = match sheet.edges {
+            Edges::Periodic => sheet.width,
+            // Filaments at the two edges know nothing of each other.
+            Edges::Cut => sheet.width + layer.sheet.width,
+        };
+        let tiles = library.tiles(places, around, sheet.length, [spec.seed, number as u64])?;
+        let strands = draw(&tiles, Belt::within(&tiles, sheet, window)?, on, self.by())?;
+        Ok((strands, library.missing()))
     }
 
     /// Flies a layer and shows the progress.
