@@ -115,7 +115,7 @@ impl WebSpec {
             return sheet;
         }
         let narrow = cells(case.extent_of_air().z.max(WIDTH * way)).min(width);
-        Sheet { width: narrow, length: cells(AREA / narrow).min(length.max(AREA / width)), ..sheet }
+        Sheet { width: narrow, length: cells(AREA / narrow), ..sheet }
     }
 }
 

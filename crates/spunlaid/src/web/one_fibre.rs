@@ -4,7 +4,7 @@ use super::lay::lay;
 use super::laying::LayControl;
 use super::shared_error::{Part, SharedError};
 use super::uniformity::boxes;
-use super::{Fibres, Filaments, Layer, Row, Sheet, Web};
+use super::{Curves, Fibres, Filaments, Layer, Row, Sheet, Web};
 use crate::error::Error;
 use crate::statistics::Estimate;
 use crate::threads::try_each;
@@ -88,14 +88,17 @@ pub fn one_fibre(
             }
         }
         Fibres::Curves(curves) => {
+            let rows_of = |curves: &Curves| (curves.length() * layer.belt_ratio() / sample.cell) as usize;
+            // All curves have as many stretches, those of the shortest one.
+            let shortest = rows_of(curves);
             for curve in curves.single() {
-                let rows = (curve.length() * layer.belt_ratio() / sample.cell).floor() as usize;
+                let rows = rows_of(&curve);
                 if rows < largest {
                     return Err(super::curves::no_curves().into());
                 }
                 let alone = Layer { fibres: Fibres::Curves(Arc::new(curve)), ..layer.clone() };
                 let sample = OneFibre { fibres: 1, ..sample };
-                let memory = curves.one_air().map(|one_air| one_air.memory * layer.belt_ratio());
+                let memory = curves.one_air().map(|one_air| (one_air.memory * layer.belt_ratio(), shortest));
                 add(&alone, sides, sample, ([apart, trace, rows], memory), by, &mut found)?;
             }
         }
@@ -110,12 +113,13 @@ pub fn one_fibre(
 
 /// Lays several fibres at once, `apart` columns from each other on a ring of rows, and adds the sums that they give.
 ///
-/// * `memory` – belt after which the air of fibres in one air is forgotten; their sums are kept by stretches of it [m]
+/// * `memory` – of fibres in one air the belt after which it is forgotten [m], and the rows of the shortest fibre: their sums are kept by
+///   stretches
 fn add(
     layer: &Layer,
     sides: &[usize],
     sample: OneFibre,
-    ([apart, trace, rows], memory): ([usize; 3], Option<f64>),
+    ([apart, trace, rows], memory): ([usize; 3], Option<(f64, usize)>),
     by: LayControl<'_>,
     found: &mut [Sums],
 ) -> Result<(), Error> {
@@ -132,8 +136,8 @@ fn add(
     let share = metres / (rows as f64);
     let of_sides = try_each(by.threads, sides.len(), |i| {
         // A patch reaches into the next stretch.
-        let least = memory.map_or(rows, |memory| (memory / sample.cell) as usize + sides[i]);
-        let stretches = (rows / least.max(1)).max(1);
+        let of_shortest = |(memory, rows)| rows / ((memory / sample.cell) as usize + sides[i]).max(1);
+        let stretches = memory.map_or(1, of_shortest).max(1);
         let none = Stretch { squares: 0.0, profile: vec![0.0; apart] };
         let mut fibres = vec![vec![none; stretches]; sample.fibres as usize];
         boxes(&map, sides[i], [map.columns, map.rows], |row, boxes| {
