@@ -40,7 +40,7 @@ pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
     let sheet = sheet(&with_spots(findings), None)?;
     let nearest_patch = nearest(findings.patches.iter().map(|patch| patch.unevenness.patch));
     let weight = findings.mean_known.then(|| findings.map.basis_weight());
-    let headline = headline(weight, nearest_patch.map(|i| &findings.patches[i].unevenness));
+    let headline = headline(weight, nearest_patch.map(|i| &findings.patches[i].unevenness), false);
     let summary = format!(
         "A scan of {} across and {} along the web.",
         metres(findings.map.columns as f64 * findings.map.cell),

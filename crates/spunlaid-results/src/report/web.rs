@@ -101,6 +101,7 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
     let headline = headline(
         Some(findings.within().basis_weight()),
         headline_patch(findings).map(|i| whole(&findings.patches[i])).as_ref(),
+        !is_shared,
     );
     let cvs = findings.patches.iter().map(whole).collect::<Vec<_>>();
     let found = [headline.clone(), unevenness(&cvs), error_sentences(findings)];
@@ -162,13 +163,16 @@ pub(super) fn cost(performance: Performance) -> String {
 }
 
 /// * `weight` – mean basis weight, if it is known [kg/m²]
-pub(super) fn headline(weight: Option<f64>, patch: Option<&Unevenness>) -> String {
+/// * `is_bound` – whether its filaments are independent of each other, so that a real web is more uneven
+pub(super) fn headline(weight: Option<f64>, patch: Option<&Unevenness>, is_bound: bool) -> String {
     let web = weight.map_or_else(|| "A web".to_owned(), |weight| format!("A web of {}", grams(weight)));
     match patch {
         Some(unevenness) => format!(
-            "{web} that varies by {} over patches of {}.",
+            "{web} that varies by {}{} over patches of {}{}.",
+            if is_bound { "at least " } else { "" },
             per_cent(unevenness.cv, unevenness.standard_error),
-            millimetres(unevenness.patch)
+            millimetres(unevenness.patch),
+            if is_bound { ": its filaments are independent of each other" } else { "" }
         ),
         None => format!("{web}."),
     }
@@ -224,8 +228,8 @@ fn air_sentence(findings: &Findings) -> String {
             significant(patch.map.cv / independent, 2)
         ),
         (Some(_), None) => "All filaments were flown in one air.".to_owned(),
-        (None, _) => "Its filaments are independent of each other, so this is a lower bound: in a line neighbours hang in the same gusts. Write \
-                      web.method = \"shared-air\" and name a case (laydown.case) to fly them together."
+        (None, _) => "This is a lower bound: in a line neighbours hang in the same gusts and come down together. Name a case (laydown.case) and leave \
+                      web.method out to fly them in one air."
             .to_owned(),
     }
 }

@@ -64,6 +64,18 @@ pub enum Method {
     SharedAir,
 }
 
+impl Method {
+    /// How layers are laid if their file does not say it: together in one air, as in a line, where that can be flown.
+    pub(crate) fn default_for(layers: &[LayerSpec]) -> Self {
+        // A record says nothing of the air beside the fibre.
+        let can_share = |layer: &LayerSpec| matches!(&layer.source, LaydownSource::Case { case, .. } if case.air.records.is_empty());
+        match !layers.is_empty() && layers.iter().all(can_share) {
+            true => Self::SharedAir,
+            false => Self::Surrogate,
+        }
+    }
+}
+
 /// How many filaments of a web in one air are flown for all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flown {

@@ -142,8 +142,7 @@ impl Line {
         }
         text + &format!(
             "\n[web]\nwidth = \"{}\"\nlength = \"1 m\"   # of the stretch that is looked at\n\
-             method = \"dynamics\"   # the curves of the flown filaments, independent of each other: a lower bound\n\
-             # method = \"shared-air\"   # all filaments in one air, as in the line: some minutes, with a width of 0.5 m\n\
+             # method = \"dynamics\"   # filaments that are independent of each other, a lower bound; left out, they hang in one air\n\
              # edges = \"cut\"   # if the edges of the web are to be seen; without, it is a part of a wide web\n",
             exact_text(Dimension::Length, width)
         )

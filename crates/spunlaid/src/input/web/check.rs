@@ -30,7 +30,8 @@ impl Reading<'_> {
             let laydown = format!("{prefix}laydown");
             let fault = match &layer.source {
                 LaydownSource::Case { case, path } if case.air.records.is_empty() => {
-                    if case.air.lateral == Lateral::Uniform {
+                    // The usual web need not be told of.
+                    if case.air.lateral == Lateral::Uniform && self.is_written("web.method") {
                         self.note(vec![uniform_air(path)]);
                     }
                     continue;

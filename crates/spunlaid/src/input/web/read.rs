@@ -59,6 +59,9 @@ pub(super) fn spec(
         web.layers.push(layer);
     }
     reading.fill(&mut web, "web", "web.");
+    if !reading.is_written("web.method") {
+        web.method = Method::default_for(&web.layers);
+    }
     reading.check_names(&prefixes);
     reading.complete_sheet(&mut web);
     reading.check_method(&prefixes, &web);

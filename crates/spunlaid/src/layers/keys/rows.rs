@@ -340,12 +340,11 @@ pub const WEB_KEYS: &[WebKey] = &[
             Ok(())
         },
     })
-    .value("surrogate")
+    .follows("`shared-air` where cases are flown, but for cases with a record; otherwise `surrogate`")
     .meaning(
-        "What is laid: `surrogate`, paths of the stochastic model, each its own; `dynamics`, the very curves of the flown fibres, \
-         again and again at other places; `shared-air`, all filaments of the sheet are flown in one air, so that neighbours hang in the \
-         same gust and come down together. In the first two the filaments are independent of each other, which gives a lower bound of the \
-         unevenness.",
+        "What is laid: `shared-air`, filaments are flown in one air, so that neighbours hang in the same gust and come down together; \
+         `dynamics`, the very curves of single flown fibres, again and again at other places; `surrogate`, paths of the stochastic model, \
+         each its own. In the last two the filaments are independent of each other, which gives a lower bound of the unevenness.",
     )
     .label("Method"),
     key("web.flown", Kind::Whole(1, MOST_FILAMENTS), Access {
