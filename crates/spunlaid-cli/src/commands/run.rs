@@ -1,6 +1,7 @@
 //! `spunlaid run`: flies a case and writes the results.
 
 use super::finished_run::{continued, summary};
+use super::flown::flown;
 use super::{plural, run_control, say_report, staged, stem};
 use crate::args::{Invocation, Output, Run};
 use crate::failure::Failure;
@@ -18,7 +19,8 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     let (mut case, mut notes) = match run.until {
         Some(until) => continued(run, &overrides(run), until)?,
         None => {
-            let (case, notes) = run.source.read(&overrides(run))?;
+            let read = run.source.read(&overrides(run));
+            let (case, notes) = flown(read, run.threads, run.output.quiet)?;
             notes.iter().for_each(say::note);
             (case, Note::notes_of_results(&notes))
         }
