@@ -6,7 +6,7 @@ use crate::output::tables::{PackedColumn, point_of, sample_columns, table_names,
 use spunlaid::ensemble::{Keep, Recorder, Sample, Shapes, Trajectory};
 use spunlaid::error::Error;
 use spunlaid::flight::LaidPoint;
-use spunlaid::observe::Value;
+use spunlaid::observe::{Measure, Value};
 use spunlaid::threads::lock;
 use spunlaid::vec3::Vec3;
 use std::collections::BTreeMap;
@@ -27,6 +27,8 @@ pub(in super::super) struct Earlier {
     keep: Keep,
     fibres: BTreeMap<u64, KeptFibre>,
     tables: Vec<KeptTable>,
+    /// The places of measures that are curves, by the index of the measure.
+    places: BTreeMap<usize, Vec<f64>>,
 }
 
 /// Where the records of a replicate begin, and its rows in each table.
@@ -68,7 +70,8 @@ impl Earlier {
     pub(super) fn none(fed: bool, keep: Keep) -> Self {
         let table = |name| KeptTable { name, ..KeptTable::default() };
         let tables = table_names(fed).into_iter().map(table).collect();
-        Self { place: PathBuf::new(), fed, keep, fibres: BTreeMap::new(), tables }
+        let (fibres, places) = (BTreeMap::new(), BTreeMap::new());
+        Self { place: PathBuf::new(), fed, keep, fibres, tables, places }
     }
 
     /// Finds what there is in the folder of a process.
@@ -102,6 +105,7 @@ impl Earlier {
             }
             Kind::Shape => self.fibres.entry(*first as u64).or_default().shapes.push(at),
             Kind::LaidWithShapes => self.fibres.entry(*first as u64).or_default().laid = Some(at),
+            Kind::Places => drop(self.places.insert(*first as usize, rest.to_vec())),
             Kind::Group => {
                 let (table, (rows, columns)) = (self.tables.get_mut(*first as usize)?, rest.split_first()?);
                 let column =
@@ -213,25 +217,26 @@ impl Earlier {
     }
 
     /// The measures of a replicate.
-    fn values(&self, fibre: &KeptFibre) -> Option<Vec<(&'static spunlaid::observe::Measure, Value)>> {
+    fn values(&self, fibre: &KeptFibre) -> Option<Vec<(&'static Measure, Value)>> {
         let (Kind::Landed, numbers) = self.record(fibre.landed)? else { return None };
         let mut rest = numbers.get(1 + 2 * self.tables.len()..)?;
         let mut values = Vec::new();
-        while let [index, places, others @ ..] = rest {
-            let measure = measures().nth(*index as usize)?;
-            let value = match *places as usize {
-                0 => {
-                    rest = others.get(1..)?;
-                    Value::Number(*others.first()?)
-                }
-                more => {
-                    let (places, others) = others.split_at_checked(more - 1)?;
-                    let (values, others) = others.split_at_checked(more - 1)?;
-                    rest = others;
-                    Value::Curve(places.to_vec(), values.to_vec())
-                }
+        while let [index, count, others @ ..] = rest {
+            let index = *index as usize;
+            let value;
+            (value, rest) = if *count == 0.0 {
+                let (number, others) = others.split_first()?;
+                (Value::Number(*number), others)
+            } else {
+                let more = count.abs() as usize - 1;
+                let (places, others) = match *count > 0.0 {
+                    true => others.split_at_checked(more)?,
+                    false => (&self.places.get(&index).filter(|places| places.len() == more)?[..], others),
+                };
+                let (values, others) = others.split_at_checked(more)?;
+                (Value::Curve(places.to_vec(), values.to_vec()), others)
             };
-            values.push((measure, value));
+            values.push((measures().nth(index)?, value));
         }
         rest.is_empty().then_some(values)
     }

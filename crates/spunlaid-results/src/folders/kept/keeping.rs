@@ -5,14 +5,16 @@ use super::{Home, LANDED, measures};
 use crate::output::tables::Tables;
 use spunlaid::ensemble::Trajectory;
 use spunlaid::observe::Value;
+use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-/// So often, what has landed is written, with the rows that are in no group of their table yet; and when so many bytes have
-/// gathered. Then few rows are written twice.
+/// So often at most, what has landed is written, with the rows that are in no group of their table yet; on a slow disk so many
+/// times more seldom than it takes, and when so many bytes have gathered. Then few rows are written twice.
 const PAUSE: Duration = Duration::from_millis(500);
+const TIMES: u32 = 50;
 const GATHERED: usize = 1 << 22;
 
 /// Writes what a later process goes on with.
@@ -25,8 +27,10 @@ pub(in super::super) struct Keeping {
     /// Whether it did not work.
     given_up: bool,
     gathered: Vec<u8>,
-    /// When it was written last.
-    last: Option<Instant>,
+    /// The places of each measure that is a curve, as the first replicate has them.
+    places: BTreeMap<usize, Vec<f64>>,
+    /// When it is written next.
+    next: Option<Instant>,
 }
 
 /// A table, and what is kept of it.
@@ -44,7 +48,8 @@ impl Keeping {
     pub(super) fn new(home: Home, place: PathBuf, tables: Vec<(&'static str, PathBuf)>) -> Self {
         let tables = tables.into_iter();
         let tables = tables.map(|(name, written)| KeptTable { name, written, groups: 0, rows: 0 }).collect();
-        Self { home, place, tables, file: None, given_up: false, gathered: Vec::new(), last: None }
+        let (gathered, places) = (Vec::new(), BTreeMap::new());
+        Self { home, place, tables, file: None, given_up: false, gathered, places, next: None }
     }
 
     /// Keeps a replicate that has landed and is in the tables.
@@ -67,19 +72,35 @@ impl Keeping {
         let mut numbers = vec![replicate];
         let rows = before.iter().zip(tables.rows());
         numbers.extend(rows.flat_map(|(before, after)| [*before as f64, (after - before) as f64]));
+        let mut declared = measures().enumerate();
         for (measure, value) in &trajectory.values {
-            let index = measures().position(|other| other.name == measure.name);
-            numbers.push(index.unwrap_or_default() as f64);
+            // They come in the order of the declarations.
+            let Some((index, _)) = declared.find(|(_, other)| other.name == measure.name) else { return };
+            numbers.push(index as f64);
             match value {
                 Value::Number(value) => numbers.extend([0.0, *value]),
                 Value::Curve(places, values) => {
-                    numbers.push((places.len() + 1) as f64);
-                    numbers.extend(places.iter().chain(values));
+                    let count = (places.len() + 1) as f64;
+                    let known = self.places.entry(index).or_insert_with(|| {
+                        append(
+                            file,
+                            Kind::Places,
+                            std::iter::once(index as f64).chain(places.iter().copied()),
+                        );
+                        places.clone()
+                    });
+                    if same_bits(places, known) {
+                        numbers.push(-count);
+                    } else {
+                        numbers.push(count);
+                        numbers.extend(places);
+                    }
+                    numbers.extend(values);
                 }
             }
         }
         append(file, Kind::Landed, numbers);
-        if self.gathered.len() > GATHERED || self.last.is_none_or(|last| last.elapsed() > PAUSE) {
+        if self.gathered.len() > GATHERED || self.next.is_none_or(|next| Instant::now() > next) {
             self.settle(tables);
         }
     }
@@ -107,10 +128,11 @@ impl Keeping {
                 kept.rows = end;
             }
         }
+        let started = Instant::now();
         if self.append().is_err() {
             self.forget();
         }
-        self.last = Some(Instant::now());
+        self.next = Some(Instant::now() + PAUSE.max(TIMES * started.elapsed()));
     }
 
     fn append(&mut self) -> io::Result<()> {
@@ -137,4 +159,8 @@ impl Keeping {
         (self.given_up, self.gathered, self.file) = (true, Vec::new(), None);
         self.home.remove();
     }
+}
+
+fn same_bits(one: &[f64], other: &[f64]) -> bool {
+    one.len() == other.len() && one.iter().zip(other).all(|(one, other)| one.to_bits() == other.to_bits())
 }

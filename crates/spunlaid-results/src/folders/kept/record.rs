@@ -8,8 +8,9 @@ const BYTES: usize = size_of::<f64>();
 /// What a record holds. Rows and columns are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// A replicate, its first row and number of rows in each table, and its measures: of each its index, 0 and the value of a
-    /// number, or one more than the number of places of a curve, the places and the values.
+    /// A replicate, its first row and number of rows in each table, and its measures. Of each its index, and then: 0 and the value
+    /// of a number; or one more than the number of places of a curve, the places and the values; or the negative of this and the
+    /// values, where the places are those of a record of places.
     Landed = 1,
     /// A replicate, time and positions of one of its shapes.
     Shape,
@@ -19,10 +20,13 @@ pub(super) enum Kind {
     Group,
     /// A table, first row and number of rows, and the columns of these, one after another.
     Rows,
+    /// The index of a measure that is a curve, and its places in most replicates.
+    Places,
 }
 
 impl Kind {
-    const ALL: [Self; 5] = [Self::Landed, Self::Shape, Self::LaidWithShapes, Self::Group, Self::Rows];
+    const ALL: [Self; 6] =
+        [Self::Landed, Self::Shape, Self::LaidWithShapes, Self::Group, Self::Rows, Self::Places];
 }
 
 /// Adds a record.
