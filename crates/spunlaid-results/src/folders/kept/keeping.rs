@@ -24,6 +24,8 @@ pub(in super::super) struct Keeping {
     place: PathBuf,
     tables: Vec<KeptTable>,
     file: Option<File>,
+    /// Number of replicates that have landed.
+    landed: u64,
     /// Whether it did not work.
     given_up: bool,
     gathered: Vec<u8>,
@@ -49,7 +51,11 @@ impl Keeping {
         let tables = tables.into_iter();
         let tables = tables.map(|(name, written)| KeptTable { name, written, groups: 0, rows: 0 }).collect();
         let (gathered, places) = (Vec::new(), BTreeMap::new());
-        Self { home, place, tables, file: None, given_up: false, gathered, places, next: None }
+        Self { home, place, tables, file: None, landed: 0, given_up: false, gathered, places, next: None }
+    }
+
+    pub(super) const fn landed(&self) -> u64 {
+        self.landed
     }
 
     /// Keeps a replicate that has landed and is in the tables.
@@ -100,6 +106,7 @@ impl Keeping {
             }
         }
         append(file, Kind::Landed, numbers);
+        self.landed += 1;
         if self.gathered.len() > GATHERED || self.next.is_none_or(|next| Instant::now() > next) {
             self.settle(tables);
         }

@@ -35,10 +35,10 @@ use spunlaid::study::Experiment;
 use std::fs::{self, File};
 use std::io;
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
 
-/// A run that fails before this time leaves nothing: flying it again takes less time than to wonder.
-const BRIEF: Duration = Duration::from_secs(2);
+/// A run that fails leaves nothing if it has flown fewer steps of elements: flying them again takes seconds. They are counted, since
+/// the time would be another one on a busy machine.
+const FEW: f64 = 1e9;
 const HEADER: &str = "header";
 const LOCK: &str = "lock";
 const LANDED: &str = "landed";
@@ -48,7 +48,8 @@ const LANDED: &str = "landed";
 pub(super) struct KeptFlights {
     pub(super) earlier: Earlier,
     pub(super) keeping: Keeping,
-    begun: Instant,
+    /// Steps of elements of a replicate.
+    steps_of_each: f64,
     /// Whether the run was interrupted, so that another process goes on.
     pub(super) interrupted: bool,
 }
@@ -87,7 +88,8 @@ impl KeptFlights {
         let place = home.of_process(found.iter().max().map_or(1, |last| last + 1));
         let tables = table_names(fed).into_iter().map(|name| (name, staging.place(name).0));
         let keeping = Keeping::new(home, place, tables.collect());
-        Self { earlier, keeping, begun: Instant::now(), interrupted: false }
+        let steps_of_each = case.run.steps as f64 * case.fibre.elements as f64;
+        Self { earlier, keeping, steps_of_each, interrupted: false }
     }
 
     /// Forgets all of it: the run is complete.
@@ -98,8 +100,8 @@ impl KeptFlights {
 
 impl Drop for KeptFlights {
     fn drop(&mut self) {
-        let is_worth_it = self.interrupted || self.earlier.fibres() > 0 || self.begun.elapsed() > BRIEF;
-        if !is_worth_it {
+        let steps = self.steps_of_each * self.keeping.landed() as f64;
+        if !self.interrupted && self.earlier.fibres() == 0 && steps < FEW {
             self.keeping.forget();
         }
     }
