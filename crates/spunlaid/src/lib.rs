@@ -90,6 +90,8 @@ pub mod laydown;
 pub mod surrogate;
 pub mod web;
 
+pub mod curtain;
+
 pub mod record;
 pub mod scan;
 

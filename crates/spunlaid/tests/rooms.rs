@@ -26,7 +26,7 @@ const ROOMS: &[&[&str]] = &[
     &["statistics"],
     &["laydown", "surrogate"],
     &["record", "web"],
-    &["scan"],
+    &["curtain", "scan"],
     &["case"],
     &["flight"],
     &["observe"],

@@ -37,3 +37,24 @@ pub(crate) fn inverse(mut matrix: Vec<Vec<f64>>) -> Result<Vec<Vec<f64>>, usize>
     }
     Ok(inverse)
 }
+
+/// The solution of equations with a symmetric positive definite matrix, by Cholesky; None if it is not definite. Only the diagonal and what lies below it is
+/// looked at.
+pub(crate) fn solve_positive(mut matrix: Vec<Vec<f64>>, mut sides: Vec<f64>) -> Option<Vec<f64>> {
+    let size = sides.len();
+    for i in 0..size {
+        for j in 0..=i {
+            let rest = matrix[i][j] - dot(&matrix[i][..j], &matrix[j][..j]);
+            matrix[i][j] = if i == j { rest.sqrt() } else { rest / matrix[j][j] };
+        }
+        if matrix[i][i].is_nan() || matrix[i][i] <= 0.0 {
+            return None;
+        }
+        sides[i] = (sides[i] - dot(&matrix[i][..i], &sides[..i])) / matrix[i][i];
+    }
+    for i in (0..size).rev() {
+        let later: f64 = (i + 1..size).map(|j| matrix[j][i] * sides[j]).sum();
+        sides[i] = (sides[i] - later) / matrix[i][i];
+    }
+    Some(sides)
+}

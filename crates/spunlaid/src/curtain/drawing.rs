@@ -1,0 +1,216 @@
+//! Curves of a curtain on the sheet.
+
+use super::Curtain;
+use crate::error::{Error, Fault};
+use crate::threads::try_each;
+use crate::web::{Canvas, Edges, LaidWeb, Sheet, Strand, Window};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Points that are computed at once.
+const BLOCK: usize = 1024;
+
+/// The stretch of belt that becomes the sheet, as in a [beam](crate::beam): places on the belt are counted from where a filament in the middle of the slot
+/// is fed when its first point is fed, and what is laid later lies farther back.
+#[derive(Clone, Copy, Debug)]
+pub struct Belt<'a> {
+    /// The sheet.
+    pub sheet: &'a Sheet,
+    /// Window of the sheet, whose single fibres are kept.
+    pub window: Window,
+    /// Where the sheet begins, at its back [m].
+    pub back: f64,
+}
+
+impl<'a> Belt<'a> {
+    /// The stretch on which all filaments of a curtain lie from edge to edge, as near to their start as it can be.
+    ///
+    /// # Errors
+    /// If the curves are too short for the sheet.
+    pub fn within(curtain: &dyn Curtain, sheet: &'a Sheet, window: Window) -> Result<Self, Fault> {
+        let [back_of_start, front_of_end] = curtain.reach();
+        let passed = curtain.belt_ratio() * curtain.spacing() * (curtain.points() as f64 - 1.0);
+        let longest = back_of_start - (front_of_end - passed);
+        if sheet.length > longest {
+            return Err(Fault::new(
+                format!(
+                    "the curves of the filaments cover {} mm of belt from edge to edge, and the sheet is {} mm long",
+                    (longest.max(0.0) * 1e3).floor(),
+                    (sheet.length * 1e3).ceil()
+                ),
+                "fly the filaments for longer, or make the sheet shorter (web.length)",
+            ));
+        }
+        Ok(Self { sheet, window, back: back_of_start - sheet.length })
+    }
+
+    /// A place on the sheet as seen from the corner of the window.
+    fn in_window(&self, [cd, md]: [f64; 2]) -> [f64; 2] {
+        let Window { corner, sides } = self.window;
+        let (across, middle) = (cd - corner[0], 0.5 * sides[0]);
+        let turns = match self.sheet.edges {
+            Edges::Periodic => ((across - middle) / self.sheet.width).round(),
+            Edges::Cut => 0.0,
+        };
+        [across - turns * self.sheet.width, md - corner[1]]
+    }
+}
+
+/// Draws all filaments of a curtain; the parts of them in the window are returned.
+///
+/// * `quanta` – of the canvas, for a piece from point to point
+///
+/// # Errors
+/// If it is stopped.
+pub(crate) fn draw(
+    curtain: &dyn Curtain,
+    belt: Belt<'_>,
+    (canvas, quanta): (&Canvas, u32),
+    (threads, stop): (usize, &AtomicBool),
+) -> Result<Vec<Strand>, Error> {
+    let strands = try_each(threads, curtain.places().len(), |filament| {
+        if stop.load(Ordering::Relaxed) {
+            return Err(Error::Interrupted);
+        }
+        Ok(draw_filament(curtain, filament, belt, (canvas, quanta)))
+    })?;
+    Ok(strands.concat())
+}
+
+fn draw_filament(
+    curtain: &dyn Curtain,
+    filament: usize,
+    belt: Belt<'_>,
+    (canvas, quanta): (&Canvas, u32),
+) -> Vec<Strand> {
+    let place = curtain.places()[filament];
+    let advance = curtain.belt_ratio() * curtain.spacing();
+    let mut values = [[0.0; BLOCK]; 2];
+    let (mut strands, mut enters): (Vec<Strand>, bool) = (Vec::new(), false);
+    let mut last: Option<[f64; 2]> = None;
+    for first in (0..curtain.points()).step_by(BLOCK) {
+        let count = BLOCK.min(curtain.points() - first);
+        curtain.curve(filament, first, values.each_mut().map(|values| &mut values[..count]));
+        for i in 0..count {
+            let [md, cd] = values.map(|values| f64::from(values[i]));
+            let to = [place.z + cd, place.y + md - advance * (first + i) as f64 - belt.back];
+            if let Some(from) = last {
+                canvas.draw(from, to, quanta);
+                let start = belt.in_window(from);
+                let end = [start[0] + to[0] - from[0], start[1] + to[1] - from[1]];
+                let shown = belt.window.holds(start) || belt.window.holds(end);
+                match strands.last_mut().filter(|_| shown && enters) {
+                    Some(strand) => strand.points.push(end),
+                    None if shown => strands.push(Strand { layer: 0, filament, points: vec![start, end] }),
+                    None => {}
+                }
+                enters = shown;
+            }
+            last = Some(to);
+        }
+    }
+    strands
+}
+
+/// Lays all filaments of a curtain on a sheet; the parts of them in the window are returned too.
+///
+/// * `element` – mass of a piece from point to point [kg]
+///
+/// # Errors
+/// If a cell would hold more fibre than can be counted, or if it is stopped.
+pub fn lay(
+    curtain: &dyn Curtain,
+    belt: Belt<'_>,
+    element: f64,
+    by: (usize, &AtomicBool),
+) -> Result<(LaidWeb, Vec<Strand>), Error> {
+    let per_length = element / curtain.spacing() * curtain.places().len() as f64;
+    let basis_weight = per_length / curtain.belt_ratio() / belt.sheet.width;
+    let canvas = Canvas::new(belt.sheet, &[element], basis_weight)?;
+    let strands = draw(curtain, belt, (&canvas, canvas.quanta(element)), by)?;
+    Ok((canvas.finish()?, strands))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::FlownCurves;
+    use super::super::synthetic::{BELT_RATIO, Field, SPACING, row};
+    use super::*;
+    use crate::fibre::Place;
+
+    const CELL: f64 = 1e-3;
+    const ELEMENT: f64 = 1e-9;
+
+    fn laid(curtain: &dyn Curtain, belt: Belt<'_>, threads: usize) -> (LaidWeb, Vec<Strand>) {
+        lay(curtain, belt, ELEMENT, (threads, &AtomicBool::new(false))).unwrap()
+    }
+
+    /// Filaments that come down at one place lie in straight lines, each with its mass in every cell of its column.
+    #[test]
+    fn analytic_straight_lines() {
+        let (width, points) = (12e-3, 2000);
+        let places: Vec<Place> =
+            (0..4).map(|i| Place { y: 1e-3 * f64::from(i), z: 3e-3 * f64::from(i) + 0.5e-3 }).collect();
+        // The last one is laid beyond the edge and comes in at the other side.
+        let curve = |i: usize| vec![[0.0, if i == 3 { 3e-3 } else { 0.0 }]; points];
+        let curves: Vec<_> = (0..4).map(curve).collect();
+        let flown = FlownCurves::new(places, Some(width), (SPACING, BELT_RATIO), &curves).unwrap();
+        let sheet = Sheet::new(width, 0.1, CELL);
+        let window = Window { corner: [2e-3, 50e-3], sides: [6e-3, 4e-3] };
+        let belt = Belt::within(&flown, &sheet, window).unwrap();
+        let (laid, strands) = laid(&flown, belt, 2);
+        let of_cell = ELEMENT * CELL / (SPACING * BELT_RATIO) / (CELL * CELL);
+        for row in 0..laid.map.rows {
+            for (column, quanta) in laid.map.row(row).iter().enumerate() {
+                let weight = f64::from(*quanta) * laid.map.weight_of_quantum() / of_cell;
+                let expected = match column {
+                    0 => 2.0,
+                    3 | 6 => 1.0,
+                    _ => 0.0,
+                };
+                assert!((weight - expected).abs() < 1e-4, "{row} {column}: {weight}");
+            }
+        }
+        let filaments: Vec<usize> = strands.iter().map(|strand| strand.filament).collect();
+        assert_eq!(filaments, [1, 2]);
+        for strand in &strands {
+            let pieces = (strand.points.len() - 1) as f64;
+            // From edge to edge of the window, with less than a piece beyond each.
+            let cover = pieces * SPACING * BELT_RATIO;
+            let most = 4e-3 + 2.0 * SPACING * BELT_RATIO;
+            assert!((4e-3 - 1e-9..most).contains(&cover), "{cover}");
+            let across = 3e-3 * strand.filament as f64 + 0.5e-3 - window.corner[0];
+            assert!(strand.points.iter().all(|point| (point[0] - across).abs() < 1e-6));
+        }
+    }
+
+    #[test]
+    fn invariant_all_fibre_that_passes_lies_on_a_periodic_sheet() {
+        let field = Field { memory: 0.98, ..Field::default() };
+        let flown = field.flown(row(field.turn, 16));
+        let filling = flown.fill(row(field.turn, 100), 2);
+        let sheet = Sheet::new(field.turn, 0.5, CELL);
+        let window = Window { corner: [0.0; 2], sides: [20e-3; 2] };
+        let belt = Belt::within(&filling, &sheet, window).unwrap();
+        let one = laid(&filling, belt, 1);
+        let expected = ELEMENT * 100.0 * sheet.length / (SPACING * BELT_RATIO);
+        let mass = one.0.map.basis_weight() * sheet.width * sheet.length;
+        // The ends of the sheet cut the curves.
+        assert!((mass / expected - 1.0).abs() < 0.02 && one.0.cut == 0.0, "{mass} {expected}");
+        for threads in [2, 7] {
+            let other = laid(&filling, belt, threads);
+            assert!(other.0.map.cells == one.0.map.cells && other.1 == one.1);
+        }
+    }
+
+    #[test]
+    fn rejects_curves_that_are_too_short_and_stops() {
+        let field = Field { points: 100, ..Field::default() };
+        let flown = field.flown(row(field.turn, 4));
+        let sheet = Sheet::new(field.turn, 0.5, CELL);
+        let window = Window { corner: [0.0; 2], sides: [20e-3; 2] };
+        let fault = Belt::within(&flown, &sheet, window).unwrap_err().to_string();
+        assert!(fault.contains("the sheet is 500 mm long"), "{fault}");
+        let belt = Belt { sheet: &sheet, window, back: 0.0 };
+        assert!(matches!(lay(&flown, belt, ELEMENT, (1, &AtomicBool::new(true))), Err(Error::Interrupted)));
+    }
+}
