@@ -174,10 +174,6 @@ const ROWS: u64 = 8;
 pub fn spinline(data: &[u8]) -> bool {
     let text = String::from_utf8_lossy(data);
     let (text, air) = text.split_once("\n--air\n").unwrap_or((&text, ""));
-    // Reading such a line flies fibres, which takes long.
-    if text.contains("flown") {
-        return false;
-    }
     let mut set = Vec::new();
     if !air.is_empty() {
         let path = std::env::temp_dir().join(format!("spunlaid_fuzz_{}.csv", std::process::id()));

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use spunlaid::case::Case;
 use spunlaid::error::Error;
 use spunlaid::input::{
-    parse_case, parse_spinline, parse_web_and_cases, write_case, write_spinline, write_web,
+    Unread, parse_case, parse_spinline, parse_web_and_cases, write_case, write_spinline, write_web,
 };
 use spunlaid::layers::{LaydownSource, WebSpec};
 use spunlaid::observe::MEASURES;
@@ -84,17 +84,19 @@ fn flown(web: &WebSpec) -> impl Iterator<Item = (usize, &Case)> {
     })
 }
 
-/// What was sent, read again.
+/// What was sent, read again. Tensions of flights were found before it was sent, and are numbers.
 fn read(text: &str, cases: &Cases) -> Result<Experiment, Error> {
     let Some(cases) = cases else {
         // A case has a fibre; a spinline alone has none.
         if !text.contains("\n[fibre]\n") {
-            return Ok(Experiment::Spinline(Box::new(parse_spinline(text, "spinline.toml", &[])?.spec)));
+            let read = parse_spinline(text, "spinline.toml", &[]).map_err(Unread::refuse)?;
+            return Ok(Experiment::Spinline(Box::new(read.spec)));
         }
-        return Ok(Experiment::Case(parse_case(text, "case.toml", &[])?.0));
+        return Ok(Experiment::Case(parse_case(text, "case.toml", &[]).map_err(Unread::refuse)?.0));
     };
-    let cases: Vec<_> = cases.iter().map(|(layer, text)| (case_file_name(*layer), text.clone())).collect();
-    Ok(Experiment::Web(parse_web_and_cases(text, "web.toml", &cases)?.spec))
+    let cases = cases.iter().map(|(layer, text)| (case_file_name(*layer), text.clone())).collect();
+    let read = parse_web_and_cases(text, "web.toml", cases);
+    Ok(Experiment::Web(read.map_err(Unread::refuse)?.spec))
 }
 
 /// A checksum over all that the results depend on, also over the content of files.

@@ -4,7 +4,7 @@ use crate::merged::merged;
 use crate::source::{Source, stem};
 use crate::state::full_path;
 use crate::value::{overrides, to_python};
-use crate::watched::guarded;
+use crate::watched::read_file;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyIterator, PyList, PyMapping, PyTuple, PyType};
@@ -54,7 +54,7 @@ impl Case {
         changes: Vec<(String, String)>,
     ) -> PyResult<Self> {
         let (case, notes) =
-            guarded(py, || parse_case(&text, &file, Overrides { values: &changes, word: WORD }))?;
+            read_file(py, None, || parse_case(&text, &file, Overrides { values: &changes, word: WORD }))?;
         Ok(Self { case: Arc::new(case), notes, text, file, changes })
     }
 

@@ -3,9 +3,10 @@
 use crate::save::{Figures, figure_files};
 use crate::source::stem;
 use crate::value::overrides;
-use crate::watched::{Watch, guarded, watched};
+use crate::watched::{Watch, guarded, read_file, watched};
 use pyo3::prelude::*;
 use spunlaid::case::Note;
+use spunlaid::ensemble::RunControl;
 use spunlaid::error::Error;
 use spunlaid::fit::{MOST_TRIALS, Question, Target, WebInProgress, fit};
 use spunlaid::input::{Overrides, read_fit};
@@ -49,12 +50,11 @@ pub(crate) fn find_fit(
         .map(|name| ranges.get(name).map_or_else(|| name.clone(), |range| format!("{name}={range}")));
     let vary: Vec<String> = vary.collect();
     let set = Overrides { values: &changes, word: "set:" };
-    let (file, target) = guarded(py, || {
-        let file = read_fit(&path, set, &vary, "vary:")?;
+    let file = read_file(py, threads, || read_fit(&path, set, &vary, "vary:"))?;
+    let target = guarded(py, || {
         let sheet = &file.start.spec.sheet;
         let target = Target::new(&read_measured_web(&to)?, sheet, spectrum);
-        let target = target.map_err(|fault| Error::folder(&to, fault))?;
-        Ok((file, target))
+        target.map_err(|fault| Error::folder(&to, fault))
     })?;
     let notes = Note::notes_of_results(&file.start.notes);
     let (name, figures) = (stem(&path), figure_files(figures)?);
@@ -69,7 +69,10 @@ pub(crate) fn find_fit(
             Some((folder, journal, _)) => (Some(folder), journal),
             None => (None, Journal::in_memory(MOST_TRIALS)),
         };
-        let make = |values: &[f64]| Ok(file.web(values)?.spec);
+        let flights = AtomicU64::new(0);
+        let flying = RunControl { fibre_steps: &flights, ..watch.run_control(threads) };
+        let web = |values: &[f64]| file.web(values).or_else(|unread| unread.fly(flying));
+        let make = |values: &[f64]| Ok(web(values)?.spec);
         let question = Question { parameters: &file.parameters, target: &target, make: &make, webs };
         let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
         // Progress is counted in webs.
@@ -80,7 +83,8 @@ pub(crate) fn find_fit(
         let found = fit(question, flyer, laying, &mut journal, &tell)?;
         if let Some(mut folder) = folder {
             folder.figures = figures;
-            folder.write(&input, &found)?;
+            let values: Vec<f64> = found.keys.iter().map(|key| key.value).collect();
+            folder.write(&input, &found, &web(&values)?.spec)?;
         }
         watch.done.store(webs, Ordering::Relaxed);
         Ok(found)

@@ -246,8 +246,8 @@ impl RunResults {
                     continue;
                 }
                 let points = self.laid.get(replicate as usize).map_or(&[][..], Vec::as_slice);
-                let recorded = samples.iter().try_for_each(|sample| recorder.sample(replicate, sample));
-                recorded
+                recorder
+                    .samples(replicate, &samples)
                     .and_then(|()| recorder.lay(replicate, points))
                     .map_err(|ended| recorder.failure(ended))?;
                 tables.add(replicate)?;

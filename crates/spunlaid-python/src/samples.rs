@@ -3,29 +3,7 @@
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use spunlaid::ensemble::Sample;
-use spunlaid_results::output::tables::{Column, tables};
-
-/// A number of a sample: its name, and the place where it stands.
-type Field = (&'static str, fn(&mut Sample) -> &mut f64);
-
-/// Everything that a sample has, apart from the time, which is the same for all fibres.
-const FIELDS: [Field; 15] = [
-    ("x_m", |s| &mut s.end.x),
-    ("y_m", |s| &mut s.end.y),
-    ("z_m", |s| &mut s.end.z),
-    ("kinetic_j", |s| &mut s.kinetic),
-    ("axial_j", |s| &mut s.axial),
-    ("bending_j", |s| &mut s.bending),
-    ("work_j", |s| &mut s.work),
-    ("gravity_work_j", |s| &mut s.gravity_work),
-    ("air_work_j", |s| &mut s.air_work),
-    ("damping_work_j", |s| &mut s.damping_work),
-    ("feed_work_j", |s| &mut s.feed_work),
-    ("belt_work_j", |s| &mut s.belt_work),
-    ("carried_j", |s| &mut s.carried),
-    ("tension_dissipation_j", |s| &mut s.tension_dissipation),
-    ("imbalance_j", |s| &mut s.imbalance),
-];
+use spunlaid_results::output::tables::{Column, FIELDS, tables};
 
 /// Collects samples, replicate after replicate.
 #[derive(Debug, Default)]

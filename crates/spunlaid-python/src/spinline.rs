@@ -3,7 +3,7 @@
 use crate::save::{Figures, save};
 use crate::source::Source;
 use crate::value::overrides;
-use crate::watched::guarded;
+use crate::watched::{guarded, read_file};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -37,7 +37,7 @@ pub(crate) fn solve_spinline(
     let changes = overrides(changes)?;
     let set = Overrides { values: &changes, word: "spin:" };
     let Source { name, text, file } = Source::read(py, path, FileKind::Case, "spinline")?;
-    let file = guarded(py, || parse_spinline(&text, &file, set))?;
+    let file = read_file(py, None, || parse_spinline(&text, &file, set))?;
     let results = guarded(py, || SpinResults::new(&file))?;
     let notes = [Note::notes_of_results(&file.notes), remarks(&results.rows)].concat();
     Ok(SolvedSpinline { name, file, results, notes })

@@ -8,7 +8,7 @@ use crate::scale::{AxisScale, scale};
 use crate::source::stem;
 use crate::state::full_path;
 use crate::value::overrides;
-use crate::watched::{LOOK, Watch, guarded, watched};
+use crate::watched::{LOOK, Watch, guarded, read_and_tell, watched};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
@@ -24,6 +24,7 @@ use spunlaid::threads::{lock, look_while, unlock};
 use spunlaid_results::Failure;
 use spunlaid_results::figures::Scale;
 use spunlaid_results::folders::study::StudyFolder;
+use spunlaid_results::folders::tensions::StudyTensions;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard};
@@ -52,9 +53,10 @@ pub(crate) struct Study {
 impl Study {
     /// * study: the path of a study file, or its text with the case (text, name, changes), or with the path of the web or
     ///   the spinline that it varies
+    /// * threads: for the flights that find the tensions at the ends of spinlines, if the points have some
     /// * out: the folder of the journal and the results; without one they stay in memory
     #[new]
-    #[pyo3(signature = (study, case = None, path = None, out = None, force = false, points = None, replicates = None, set = None))]
+    #[pyo3(signature = (study, case = None, path = None, out = None, force = false, points = None, replicates = None, set = None, threads = None))]
     #[expect(clippy::too_many_arguments, reason = "they are those of spunlaid.sweep")]
     fn new(
         py: Python<'_>,
@@ -66,17 +68,18 @@ impl Study {
         points: Option<u64>,
         replicates: Option<u64>,
         set: Option<&Bound<'_, PyAny>>,
+        threads: Option<usize>,
     ) -> PyResult<Self> {
         let changed = set.map_or_else(|| Ok(Vec::new()), overrides)?;
         let set = Overrides { values: &changed, word: "sweep:" };
         let changes = StudyChanges { points, replicates, set };
+        let kept = || out.as_ref().map(|out| StudyTensions::open(out, force)).transpose();
         let (name, file) = match (case, path) {
             (None, Some(path)) => {
                 let text: String = study.extract()?;
-                let file = guarded(py, || {
-                    let base = |_: &str, kind| Ok((read_text(&path, kind)?, path.display().to_string()));
-                    without_lines(parse_changed_study(&text, STUDY, &changes, base), &[STUDY])
-                })?;
+                let base = |_: &str, kind| Ok((read_text(&path, kind)?, path.display().to_string()));
+                let read = || parse_changed_study(&text, STUDY, &changes, base);
+                let file = read_and_tell(py, threads, kept, read, |read| without_lines(read, &[STUDY]))?;
                 (STUDY.to_owned(), file)
             }
             (Some(case), _) => {
@@ -84,15 +87,15 @@ impl Study {
                 let (case_text, case_name) = case.source();
                 let made = [STUDY, case_name];
                 let made = if case.is_changed() { &made[..] } else { &made[..1] };
-                let file = guarded(py, || {
-                    let named = (case_text, case_name.to_owned());
-                    without_lines(parse_changed_study(&text, STUDY, &changes, |_, _| Ok(named)), made)
-                })?;
+                let named = (case_text, case_name.to_owned());
+                let read = || parse_changed_study(&text, STUDY, &changes, |_, _| Ok(named));
+                let file = read_and_tell(py, threads, kept, read, |read| without_lines(read, made))?;
                 (STUDY.to_owned(), file)
             }
             (None, None) => {
                 let path: PathBuf = study.extract()?;
-                let file = guarded(py, || read_changed_study(&path, &changes))?;
+                let read = || read_changed_study(&path, &changes);
+                let file = read_and_tell(py, threads, kept, read, |read| read)?;
                 (stem(&path), file)
             }
         };

@@ -3,7 +3,7 @@
 use crate::save::{Figures, save};
 use crate::source::Source;
 use crate::value::overrides;
-use crate::watched::{LOOK, Watch, guarded, watched};
+use crate::watched::{LOOK, Watch, read_file, watched};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -50,10 +50,9 @@ pub(crate) fn lay_web(
     let changes = overrides(changes)?;
     let set = Overrides { values: &changes, word: "web:" };
     let Source { name, text, file } = Source::read(py, path, FileKind::Web, "web")?;
-    let (tried, file) = guarded(py, || {
-        let tried = advice.then(|| parse_changes(text.clone(), &file, set)).transpose()?;
-        Ok((tried, parse_web(&text, &file, set)?))
-    })?;
+    let changes = advice.then(|| read_file(py, threads, || parse_changes(text.clone(), &file, set)));
+    let tried = changes.transpose()?;
+    let file = read_file(py, threads, || parse_web(&text, &file, set))?;
     let watch = Watch::default();
     let (flown, findings, advice, performance) = watched(py, &watch, progress.as_ref(), || {
         let started = Instant::now();

@@ -1,9 +1,8 @@
 //! The case that a command reads, with the changes to it.
 
 use clap::{Args, ValueHint};
-use spunlaid::case::{Case, Note};
 use spunlaid::error::{Error, Fault, Problem};
-use spunlaid::input::{LARGEST_FILE, Overrides, parse_case, read_case};
+use spunlaid::input::{CaseWithNotes, LARGEST_FILE, Overrides, Unread, parse_case, read_case};
 use spunlaid_results::command::quoted;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -26,12 +25,12 @@ pub(crate) fn overrides(values: &[(String, String)]) -> Overrides<'_> {
 
 impl CaseSource {
     /// Reads the case with the values of `--set` and these.
-    pub(crate) fn read(&self, more: &[(&str, String)]) -> Result<(Case, Vec<Note>), Error> {
+    pub(crate) fn read(&self, more: &[(&str, String)]) -> Result<CaseWithNotes, Unread<CaseWithNotes>> {
         let more = more.iter().map(|(key, value)| ((*key).to_owned(), value.clone()));
         let values: Vec<_> = self.set.iter().cloned().chain(more).collect();
         let overrides = overrides(&values);
         if is_standard(&self.case) {
-            return parse_case(&standard_input()?, STANDARD_INPUT, overrides);
+            return parse_case(&standard_input().map_err(Unread::Faulty)?, STANDARD_INPUT, overrides);
         }
         read_case(&self.case, overrides)
     }

@@ -1,5 +1,6 @@
 //! `spunlaid air`: the turbulent air of a case, looked at while it passes.
 
+use super::flown::flown;
 use super::interrupt::stop_on_ctrl_c;
 use super::{say_report, staged, stem};
 use crate::args::{Air, Invocation};
@@ -7,6 +8,7 @@ use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::air::Lateral;
 use spunlaid::case::Note;
+use spunlaid::input::{CaseWithNotes, Unread};
 use spunlaid_results::folders::air::AirFolder;
 use spunlaid_results::output::air::{AirViews, ENTRIES, Slices};
 use std::sync::atomic::AtomicU64;
@@ -16,11 +18,17 @@ const UNIFORM: &str = "the case has air.lateral = \"uniform\": each of its fibre
                        across. What is shown is its air with air.lateral = \"von-karman\", as neighbours share it";
 
 pub(crate) fn air(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
-    let (mut case, mut notes) = air.source.read(&[])?;
-    let is_uniform = case.air.lateral == Lateral::Uniform;
+    let mut read = air.source.read(&[]);
+    let has_uniform = |(case, _): &CaseWithNotes| case.air.lateral == Lateral::Uniform;
+    let is_uniform = match &read {
+        Ok(read) => has_uniform(read),
+        Err(Unread::Unflown(unflown)) => unflown.without_flights().is_ok_and(has_uniform),
+        Err(Unread::Faulty(_)) => false,
+    };
     if is_uniform {
-        (case, notes) = air.source.read(&[("air.lateral", "von-karman".to_owned())])?;
+        read = air.source.read(&[("air.lateral", "von-karman".to_owned())]);
     }
+    let (case, notes) = flown(read, air.threads, air.output.quiet)?;
     notes.iter().for_each(say::note);
     let mut remarks = Note::notes_of_results(&notes);
     if is_uniform {

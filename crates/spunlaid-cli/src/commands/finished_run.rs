@@ -6,7 +6,7 @@ use crate::say;
 use serde_json::Value as Json;
 use spunlaid::case::{Case, Note, Remark, keys};
 use spunlaid::error::{Error, Fault, Finding, Place};
-use spunlaid::input::read_case;
+use spunlaid::input::{Unread, read_case};
 use spunlaid::units::Dimension;
 use std::fs;
 use std::path::Path;
@@ -67,7 +67,7 @@ pub(super) fn continued(
     let folder = &run.source.case;
     let flown_by = summary(folder)?;
     let changes: Vec<_> = changes.iter().map(|(key, value)| ((*key).to_owned(), value.clone())).collect();
-    let (mut case, mut notes) = read_case(&folder.join("case.toml"), &changes)?;
+    let (mut case, mut notes) = read_case(&folder.join("case.toml"), &changes).map_err(Unread::refuse)?;
     let refused = |reason: String, remedy: &'static str| {
         let fault = Fault::new(format!("cannot be continued: {reason}"), remedy);
         Err(Error::folder(folder, fault).into())

@@ -1,5 +1,6 @@
 //! `spunlaid fit`: which values of some keys make a web like a scan?
 
+use super::flown::flown;
 use super::interrupt::stop_on_ctrl_c;
 use super::{aligned, lay_control, plural, say_report, stem};
 use crate::args::{self, Invocation, overrides};
@@ -18,7 +19,8 @@ use std::sync::atomic::AtomicU64;
 
 pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), Failure> {
     let set = overrides(&arguments.set);
-    let file = read_fit(&arguments.web, set, &arguments.vary, "--vary")?;
+    let read = read_fit(&arguments.web, set, &arguments.vary, "--vary");
+    let file = flown(read, arguments.threads, arguments.output.quiet)?;
     file.start.notes.iter().for_each(say::note);
     let scan = read_measured_web(&arguments.to)?;
     let target = Target::new(&scan, &file.start.spec.sheet, arguments.spectrum)
@@ -47,7 +49,9 @@ pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), 
         other => other.into(),
     })?;
     folder.figures = arguments.figures.files();
-    folder.write(&input, &found)?;
+    let values: Vec<f64> = found.keys.iter().map(|key| key.value).collect();
+    let web = flown(file.web(&values), arguments.threads, arguments.output.quiet)?;
+    folder.write(&input, &found, &web.spec)?;
     if arguments.json {
         say::text(&fit_json(&found, &target, input.paths, &notes));
     } else if !arguments.output.quiet {
@@ -76,7 +80,7 @@ fn search(
     target: &Target,
     journal: &mut Journal,
 ) -> Result<Fit, Error> {
-    let make = |values: &[f64]| Ok(file.web(values)?.spec);
+    let make = |values: &[f64]| Ok(flown(file.web(values), arguments.threads, true)?.spec);
     let question = Question { parameters: &file.parameters, target, make: &make, webs: arguments.webs };
     let laid = AtomicU64::new(0);
     let by = lay_control(arguments.threads, &laid);

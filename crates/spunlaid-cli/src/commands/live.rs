@@ -4,7 +4,7 @@ use crate::args::Live;
 use crate::failure::{Failure, not_served};
 use crate::live::{Start, live as fly};
 use crate::say;
-use spunlaid::input::read_case;
+use spunlaid::input::{Unread, read_case};
 use spunlaid::paper;
 
 /// Serves the page until the program is ended.
@@ -12,7 +12,7 @@ pub(crate) fn live(live: &Live) -> Result<(), Failure> {
     let text = match &live.case {
         Some(path) => {
             // Its mistakes are reported as by all commands.
-            read_case(path, &[])?;
+            read_case(path, &[]).or_else(Unread::without_flights)?;
             std::fs::read_to_string(path).map_err(|source| not_served(&source))?
         }
         None => paper::TABLE1.to_owned(),

@@ -7,6 +7,7 @@ pub(crate) mod compare;
 pub(crate) mod completions;
 mod finished_run;
 pub(crate) mod fit;
+mod flown;
 mod interrupt;
 pub(crate) mod keys;
 pub(crate) mod live;

@@ -1,14 +1,15 @@
 //! `spunlaid run`: flies a case and writes the results.
 
 use super::finished_run::{continued, summary};
+use super::flown::flown;
 use super::{plural, run_control, say_report, staged, stem};
 use crate::args::{Invocation, Output, Run};
 use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::case::Note;
-use spunlaid::ensemble::{FinerPlans, RunControl};
-use spunlaid_results::folders::run::{self as files, Drawn};
-use spunlaid_results::output::folder::{ENTRIES, Published, Staging};
+use spunlaid::ensemble::FinerPlans;
+use spunlaid_results::folders::run as files;
+use spunlaid_results::output::folder::{ENTRIES, Staging};
 use spunlaid_results::output::{finer, table};
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -18,7 +19,8 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     let (mut case, mut notes) = match run.until {
         Some(until) => continued(run, &overrides(run), until)?,
         None => {
-            let (case, notes) = run.source.read(&overrides(run))?;
+            let read = run.source.read(&overrides(run));
+            let (case, notes) = flown(read, run.threads, run.output.quiet)?;
             notes.iter().for_each(say::note);
             (case, Note::notes_of_results(&notes))
         }
@@ -73,7 +75,18 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
         None => plans.stopped(),
     };
     let first = files::Run { name: &name, case: &case, results, checks: &before, notes: &notes, performance };
-    let published = staging.map(|staging| publish(&first, staging, computing)).transpose()?;
+    let drawn = match staging.as_ref().map(|staging| first.write(staging, computing)).transpose() {
+        Ok(drawn) => drawn,
+        Err(failure) => {
+            // What is kept goes first, since the folder above it is removed only if it is empty.
+            drop(flown);
+            return Err(failure.into());
+        }
+    };
+    let published = staging
+        .zip(drawn)
+        .map(|(staging, drawn)| Ok::<_, spunlaid_results::Failure>((staging.publish_first()?, drawn)));
+    let published = published.transpose()?;
     coarse.iter().filter(|_| published.is_some()).for_each(|coarse| say::remark(false, coarse));
 
     // The results are safe now, whatever becomes of the checks.
@@ -98,16 +111,6 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     }
     flown.forget_kept();
     lost.map_or(Ok(()), |lost| Err(Failure::FibresLost { lost }))
-}
-
-/// Writes results before their checks are flown.
-fn publish<'a>(
-    run: &files::Run<'_>,
-    staging: Staging<'a>,
-    computing: RunControl<'_>,
-) -> Result<(Published<'a>, Drawn), Failure> {
-    let drawn = run.write(&staging, computing)?;
-    Ok((staging.publish_first()?, drawn))
 }
 
 /// Whether a folder holds results of as many replicates, which those of a part of them do not replace.

@@ -1,7 +1,8 @@
 //! `spunlaid spin`: solves a spinline, from the hole of the spinneret to the solid filament.
 
+use super::flown::flown;
 use super::{say_report, staged, stem};
-use crate::args::{Invocation, Spin, overrides};
+use crate::args::{Invocation, Spin, Threads, overrides};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::case::Note;
@@ -10,7 +11,8 @@ use spunlaid_results::folders::spinline::SpinFolder;
 use spunlaid_results::output::spinline::{ENTRIES, SpinResults, remarks, text};
 
 pub(crate) fn spin(spin: &Spin, invocation: &Invocation) -> Result<(), Failure> {
-    let file = read_spinline(&spin.file, overrides(&spin.set))?;
+    let read = read_spinline(&spin.file, overrides(&spin.set));
+    let file = flown(read, Threads::default(), spin.output.quiet)?;
     file.notes.iter().for_each(say::note);
     let name = stem(&spin.file, "spinline").to_string_lossy().into_owned();
     let results = SpinResults::new(&file)?;

@@ -1,5 +1,6 @@
 //! `spunlaid web`: lays a web of many filaments and says how even it is.
 
+use super::flown::flown;
 use super::{aligned, lay_control, plural, say_report, staged, stem};
 use crate::args::{self, Invocation, overrides};
 use crate::failure::Failure;
@@ -7,7 +8,7 @@ use crate::{progress, say};
 use spunlaid::advice::{Advice, Change, advise, steps};
 use spunlaid::case::Note;
 use spunlaid::error::Error;
-use spunlaid::input::{Method, WebFile, read_changes, read_web};
+use spunlaid::input::{Method, Unflown, Unread, WebFile, read_changes, read_web};
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
 use spunlaid::web::{Findings, LayControl, PatchFindings, Web};
 use spunlaid_results::folders;
@@ -21,7 +22,8 @@ use std::time::Instant;
 
 pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), Failure> {
     let set = overrides(&arguments.set);
-    let file = read_web(&arguments.file, set)?;
+    let (threads, quiet) = (arguments.threads, arguments.output.quiet);
+    let file = flown(read_web(&arguments.file, set), threads, quiet)?;
     file.notes.iter().for_each(say::note);
     let name = stem(&arguments.file, "web").to_string_lossy().into_owned();
     let folder = arguments.output.optional_folder(arguments.json, &name);
@@ -31,7 +33,11 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     };
     let staging = folder.as_ref().map(staged).transpose()?;
     // Before anything is flown, because the file may change meanwhile.
-    let changes = if arguments.no_advice { None } else { Some(read_changes(&arguments.file, set)?) };
+    let changes = match (!arguments.no_advice).then(|| read_changes(&arguments.file, set)) {
+        // What is too long to be tried is not flown for either.
+        Some(Err(Unread::Unflown(unflown))) if !arguments.advice && is_long(&unflown) => None,
+        changes => changes.map(|read| flown(read, threads, quiet)).transpose()?,
+    };
 
     let started = Instant::now();
     let follow = flying(arguments.output.quiet);
@@ -98,6 +104,12 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
 
 /// Most steps of all fibres that are flown for advice without `--advice`: a minute or two of a processor.
 const MOST_STEPS: u64 = 4_000_000;
+
+/// Whether changes take longer with the flights for their tensions.
+fn is_long(unflown: &Unflown<Vec<Change>>) -> bool {
+    let flights = unflown.without_flights().map_or(0, |changes| steps(changes));
+    flights + unflown.most_steps() > MOST_STEPS
+}
 
 /// What is done while changes are tried.
 fn trying(changes: usize) -> String {

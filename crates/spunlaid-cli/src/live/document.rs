@@ -5,7 +5,7 @@ use crate::args::quoted;
 use spunlaid::case::Case;
 use spunlaid::case::keys::{self, Key, Kind};
 use spunlaid::error::{Error, Place};
-use spunlaid::input::{LARGEST_FILE, parse_case};
+use spunlaid::input::{CaseWithNotes, LARGEST_FILE, Unflown, Unread, parse_case};
 use spunlaid::units::Dimension;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -30,6 +30,8 @@ pub(super) struct Document {
 pub(super) struct LoadedCase {
     pub(super) case: Case,
     pub(super) warnings: Vec<String>,
+    /// What has to be flown for the tension at the end of its spinline; it is zero until then.
+    pub(super) unflown: Option<Box<Unflown<CaseWithNotes>>>,
 }
 
 impl Document {
@@ -66,8 +68,13 @@ impl Document {
             );
             return Err(complaint(text));
         }
-        let (case, notes) =
-            parse_case(&self.text, &self.name.to_string_lossy(), &[]).map_err(|error| complaints(&error))?;
+        let ((case, notes), unflown) = match parse_case(&self.text, &self.name.to_string_lossy(), &[]) {
+            Ok(read) => (read, None),
+            Err(Unread::Faulty(error)) => return Err(complaints(&error)),
+            Err(Unread::Unflown(unflown)) => {
+                (unflown.without_flights().map_err(complaints)?.clone(), Some(unflown))
+            }
+        };
         let memory = case.flight_memory();
         let memory = memory.chain + memory.turbulence + memory.synthesis;
         if memory > MOST_MEMORY {
@@ -82,7 +89,7 @@ impl Document {
             note.place = Place::Code;
             note.to_string()
         });
-        Ok(LoadedCase { case, warnings: warnings.collect() })
+        Ok(LoadedCase { case, warnings: warnings.collect(), unflown })
     }
 
     /// Whether the text gives a value for a key of a table.

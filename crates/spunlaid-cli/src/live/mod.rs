@@ -98,9 +98,7 @@ pub(crate) fn live(start: Start, ready: impl FnOnce(&str, Option<&str>)) -> Resu
 
 /// The case with the scheme and the step that keep up with the clock, and what is to be said of it.
 fn adapt_to_clock(document: Document) -> Result<(Document, Option<String>), Vec<Complaint>> {
-    let case = document.read()?.case;
-    let document = document.with_tension_of_flights(&case).unwrap_or(document);
-    let run = case.run;
+    let run = document.read()?.case.run;
     if run.scheme == Scheme::ImplicitTension {
         return Ok((document, None));
     }

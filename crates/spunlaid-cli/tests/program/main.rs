@@ -14,6 +14,7 @@ mod compared_webs;
 mod continued;
 mod figures;
 mod fit;
+mod flown_tension;
 mod gusts;
 mod keys;
 mod lost;

@@ -228,7 +228,7 @@ def sweep(
     """
     asked = check_figures(figures, figure_width, out, "results/study")
     folder = None if out is None else os.fspath(out)
-    begun = _spunlaid.Study(*_split_study(study), folder, force, points, replicates, set)
+    begun = _spunlaid.Study(*_split_study(study), folder, force, points, replicates, set, check_threads(threads))
     with shown(progress, f"{len(begun)} points") as show:
         if client is None:
             begun.fly(check_threads(threads), show)

@@ -13,7 +13,7 @@ use crate::output::pictures::FigureFiles;
 use crate::report::{FitReport, fit_html};
 use spunlaid::error::Fault;
 use spunlaid::fit::{Fit, MOST_TRIALS, Target, identity, numbers_of_record};
-use spunlaid::input::FitFile;
+use spunlaid::input::{FitFile, WebSpec};
 use spunlaid::study::{Header, Journal, JournalState};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -108,17 +108,17 @@ impl<'a> FitFolder<'a> {
 
     /// Writes the values, the figures, the report and the web with the values that were found.
     ///
+    /// * `spec` – this web
+    ///
     /// # Errors
     /// If a file cannot be written.
-    pub fn write(&mut self, input: &FitInput<'_>, fit: &Fit) -> Result<(), Failure> {
+    pub fn write(&mut self, input: &FitInput<'_>, fit: &Fit, spec: &WebSpec) -> Result<(), Failure> {
         let mut staging = Staging::new(&self.at.place, FILES, true, self.stop)?;
         staging.set_figures(&self.figures);
-        let values: Vec<f64> = fit.keys.iter().map(|key| key.value).collect();
-        let spec = input.file.web(&values)?.spec;
         let toml = write_cases(&staging, spec.clone())?;
         let figures = fit_figures(fit);
         staging.write_figures(&figures)?;
-        let (FitInput { name, paths, target, notes, .. }, spec) = (*input, &spec);
+        let FitInput { name, paths, target, notes, .. } = *input;
         let report = fit_html(&FitReport {
             name,
             scan: paths[1],

@@ -9,6 +9,7 @@
 //! journalled a folder with a journal, which fit and study share: begun, continued, replaced
 //! run        flies a case: tables while it flies, then figures, shapes, report, summary
 //! study      the folder of a study: its journal, and what is made from it
+//! tensions   the tensions of a study that flights have found, from before there is its journal
 //! web        map, single fibres, figures, report, summary
 //! ```
 
@@ -23,6 +24,7 @@ mod measured_web;
 pub mod run;
 pub mod spinline;
 pub mod study;
+pub mod tensions;
 #[cfg(test)]
 mod tests;
 pub mod web;

@@ -1,6 +1,6 @@
 //! The folder of a run: tables that grow while the fibres fly, and everything that is made of the results.
 
-use super::kept::{Keeper, KeptFlights};
+use super::kept::{Earlier, KeptFlights};
 use crate::Failure;
 use crate::figures::{SPINLINE, run_figures, spinline_figures};
 use crate::numbers::{lost_fibres_text, significant};
@@ -68,35 +68,36 @@ pub fn fly(
     let shapes = if staging.is_some() { KeepShapes::within(case, POSITIONS) } else { KeepShapes::NONE };
     let keep = Keep { shapes, ..Keep::CURVES };
     let recorder = staging.map(|staging| TableRecorder::new(staging, case.line.is_some()));
-    let kept = staging.map(|staging| KeptFlights::open(staging.folder(), case, keep));
-    if let Some(left) = kept.as_ref().map(KeptFlights::left).filter(|left| *left > 0) {
-        found(left);
+    let mut kept = staging.map(|staging| KeptFlights::open(staging, case, keep));
+    let (earlier, mut keeping) = kept.as_mut().map(|kept| (&kept.earlier, &mut kept.keeping)).unzip();
+    if let Some(left) = earlier.map(Earlier::fibres).filter(|left| *left > 0) {
+        found(left as u64);
     }
-    let keeper = recorder.as_ref().zip(kept.as_ref());
-    let keeper = keeper.map(|(recorder, kept)| Keeper { passed_on: recorder, kept });
     let mut tables = staging
         .zip(recorder.as_ref())
         .map(|(staging, recorder)| Tables::create(staging, recorder))
         .transpose()?;
     let computing =
-        RunControl { recorder: keeper.as_ref().map(|keeper| keeper as &dyn Recorder), ..computing };
+        RunControl { recorder: recorder.as_ref().map(|recorder| recorder as &dyn Recorder), ..computing };
     let (mut collector, mut replicates, mut landed_well) = (Results::collector(KEPT), 0, 0);
     let flown = fly_for_checks(
         case,
         plans,
         keep,
         computing,
-        |some, paths| kept.as_ref().map_or(Ok(None), |kept| kept.recall(some, paths)),
+        |some, paths| earlier.map_or(Ok(None), |earlier| earlier.recall(some, paths)),
         |landed| {
             match landed {
                 Ok(trajectory) => {
-                    kept.iter().for_each(|kept| kept.land(&trajectory));
-                    tables.iter_mut().try_for_each(|tables| tables.add(trajectory.replicate))?;
+                    if let Some((tables, keeping)) = tables.as_mut().zip(keeping.as_mut()) {
+                        let before = tables.rows();
+                        tables.add(trajectory.replicate)?;
+                        keeping.land(&trajectory, &before, tables);
+                    }
                     collector.take(trajectory);
                     landed_well += 1;
                 }
                 Err(lost) => {
-                    kept.iter().for_each(|kept| kept.forget(lost.replicate));
                     tables.iter().for_each(|tables| tables.leave_out(lost.replicate));
                     collector.lose(lost);
                 }
@@ -120,6 +121,10 @@ pub fn fly(
             });
         }
     };
+    if let Some((tables, keeping)) = tables.as_ref().zip(keeping) {
+        keeping.settle(tables);
+    }
+    kept.iter_mut().for_each(|kept| kept.interrupted = paths.is_none());
     tables.map_or(Ok(()), Tables::finish)?;
     Ok(Flown { results: collector.finish(), paths, replicates, kept })
 }

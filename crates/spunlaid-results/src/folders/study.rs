@@ -71,9 +71,7 @@ impl<'a> StudyFolder<'a> {
         origin: Option<&Origin>,
         stop: &'a AtomicBool,
     ) -> Result<(Self, Journal, State), Failure> {
-        if !force && !path.join(JOURNAL).exists() {
-            holds_nothing_else(path)?;
-        }
+        refuse_others(path, force)?;
         let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: file.study.identity() };
         let (at, mut journal, header) = JournalFolder::open(
             path,
@@ -220,6 +218,13 @@ fn keep_files(file: &StudyFile, staging: &Staging<'_>) -> Result<String, Failure
         let quoted = |path: &Path| format!("{:?}", path.to_string_lossy());
         text.replace(&quoted(written), &quoted(to))
     }))
+}
+
+/// Refuses a folder that holds something else than a study.
+///
+/// * `force` – whether what it holds is replaced
+pub(super) fn refuse_others(path: &Path, force: bool) -> Result<(), Failure> {
+    if force || path.join(JOURNAL).exists() { Ok(()) } else { holds_nothing_else(path) }
 }
 
 /// Refuses a folder with results but without a journal. A study that was killed before its journal existed has

@@ -72,16 +72,18 @@ impl Spill {
         self.name
     }
 
-    /// Takes the next row of a replicate. Another thread may do the same for another replicate.
+    /// Takes the next rows of a replicate, not many at a time. Another thread may do the same for another replicate.
     ///
     /// # Errors
     /// If its file cannot be written, an error that ends the flights; [`Spill::failure`] says why.
-    pub(super) fn push(&self, replicate: u64, row: impl IntoIterator<Item = f64>) -> Result<(), Error> {
+    pub(super) fn push(&self, replicate: u64, numbers: impl IntoIterator<Item = f64>) -> Result<(), Error> {
         let (full, filed) = {
             let mut drawer = self.drawer(replicate);
             let PendingRows { rows, filed } = drawer.entry(replicate).or_default();
-            rows.extend(row);
-            let held = self.held.fetch_add(self.width, Ordering::Relaxed) + self.width;
+            let before = rows.len();
+            rows.extend(numbers);
+            let more = rows.len() - before;
+            let held = self.held.fetch_add(more, Ordering::Relaxed) + more;
             let most = if held > ROOM { IN_MEMORY } else { WITH_ROOM };
             if rows.len() + self.width <= most {
                 return Ok(());

@@ -4,6 +4,7 @@
 use super::folder::Staging;
 use super::paraview::SHAPE;
 use super::parquet::{self, ColumnValues, Parquet};
+pub(crate) use super::parquet::{PackedColumn, unpacked};
 use super::spill::Spill;
 use crate::Failure;
 use spunlaid::ensemble::{Recorder, Sample, Shapes};
@@ -46,12 +47,51 @@ const ENERGY: &[(Fibres, Column)] = &[
     (Fibres::All, ("balance_error_percent", Sample::balance_error_percent)),
 ];
 
+/// A number of a sample: its name, and the place where it stands.
+pub type Field = (&'static str, Place);
+/// Where a number stands in a sample.
+pub type Place = fn(&mut Sample) -> &mut f64;
+
+/// Everything that a sample has, apart from the time, which is the same for all fibres.
+pub const FIELDS: [Field; 15] = [
+    ("x_m", |s| &mut s.end.x),
+    ("y_m", |s| &mut s.end.y),
+    ("z_m", |s| &mut s.end.z),
+    ("kinetic_j", |s| &mut s.kinetic),
+    ("axial_j", |s| &mut s.axial),
+    ("bending_j", |s| &mut s.bending),
+    ("work_j", |s| &mut s.work),
+    ("gravity_work_j", |s| &mut s.gravity_work),
+    ("air_work_j", |s| &mut s.air_work),
+    ("damping_work_j", |s| &mut s.damping_work),
+    ("feed_work_j", |s| &mut s.feed_work),
+    ("belt_work_j", |s| &mut s.belt_work),
+    ("carried_j", |s| &mut s.carried),
+    ("tension_dissipation_j", |s| &mut s.tension_dissipation),
+    ("imbalance_j", |s| &mut s.imbalance),
+];
+const TIME: Field = ("time_s", |s| &mut s.time);
+
 /// The tables of fed fibres, or of fibres of fixed length: their files and columns.
 pub fn tables(fed: bool) -> Vec<(&'static str, Vec<Column>)> {
     let other = if fed { Fibres::Fixed } else { Fibres::Fed };
     let energy = ENERGY.iter().filter(|(kind, _)| *kind != other).map(|(_, column)| *column).collect();
     let end = (!fed).then(|| ("end_node.parquet", END_NODE.to_vec()));
     end.into_iter().chain([("energy.parquet", energy)]).collect()
+}
+
+/// The names of all tables of a run, in the order of [`Tables::rows`].
+pub(crate) fn table_names(fed: bool) -> Vec<&'static str> {
+    tables(fed).into_iter().map(|(name, _)| name).chain(fed.then_some(LAID)).collect()
+}
+
+/// For each column of the tables of samples, where it stands in a sample; `None` if it follows from others.
+pub(crate) fn sample_columns(fed: bool) -> Vec<Vec<Option<Place>>> {
+    let place = |(name, _): &Column| {
+        let mut fields = FIELDS.iter().chain([&TIME]);
+        fields.find(|(field, _)| field == name).map(|(_, place)| *place)
+    };
+    tables(fed).iter().map(|(_, columns)| columns.iter().map(place).collect()).collect()
 }
 
 /// `laid.parquet`: what fed fibres have laid, in the order of feed.
@@ -61,6 +101,11 @@ type PointColumn = (&'static str, fn(&LaidPoint) -> f64);
 /// Its columns.
 const POINT: [PointColumn; 4] =
     [("s_m", |p| p.fed), ("time_s", |p| p.time), ("md_m", |p| p.md), ("cd_m", |p| p.cd)];
+
+/// A laid point from its columns.
+pub(crate) const fn point_of([fed, time, md, cd]: [f64; POINT.len()]) -> LaidPoint {
+    LaidPoint { fed, time, md, cd }
+}
 
 /// Number of rows in a row group, which is held in memory.
 const ROWS: usize = 1 << 15;
@@ -103,15 +148,16 @@ impl Recorder for TableRecorder {
         self.spills().for_each(|spill| spill.forget(replicate));
     }
 
-    fn sample(&self, replicate: u64, sample: &Sample) -> Result<(), Error> {
+    fn samples(&self, replicate: u64, samples: &[Sample]) -> Result<(), Error> {
         self.samples.iter().try_for_each(|(columns, spill)| {
-            spill.push(replicate, columns.iter().map(|(_, value)| value(sample)))
+            let row = |sample| columns.iter().map(move |(_, value)| value(sample));
+            spill.push(replicate, samples.iter().flat_map(row))
         })
     }
 
     fn lay(&self, replicate: u64, points: &[LaidPoint]) -> Result<(), Error> {
         self.laid.as_ref().map_or(Ok(()), |spill| {
-            points.iter().try_for_each(|point| spill.push(replicate, POINT.map(|(_, value)| value(point))))
+            spill.push(replicate, points.iter().flat_map(|point| POINT.map(|(_, value)| value(point))))
         })
     }
 
@@ -161,14 +207,30 @@ impl<'a> Tables<'a> {
     pub fn add(&mut self, replicate: u64) -> Result<(), Failure> {
         self.writers.iter_mut().zip(self.recorder.spills()).try_for_each(|(writer, spill)| {
             let width = spill.width();
-            spill.drain(replicate, |rows| {
-                writer.extend_whole(0, std::iter::repeat_n(replicate as i64 + 1, rows.len() / width));
-                for column in 0..width {
-                    writer.extend(column + 1, rows.iter().skip(column).step_by(width).copied());
+            spill.drain(replicate, |mut rows| {
+                // Groups of the same size, however the rows come: their bytes are then those of any other run.
+                while !rows.is_empty() {
+                    let (some, others) = rows.split_at(rows.len().min(writer.room() * width));
+                    writer.extend_whole(0, std::iter::repeat_n(replicate as i64 + 1, some.len() / width));
+                    for column in 0..width {
+                        writer.extend(column + 1, some.iter().skip(column).step_by(width).copied());
+                    }
+                    writer.flush_when_full()?;
+                    rows = others;
                 }
-                writer.flush_when_full()
+                Ok(())
             })
         })
+    }
+
+    /// Number of rows of each table.
+    pub(crate) fn rows(&self) -> Vec<usize> {
+        self.writers.iter().map(Parquet::rows).collect()
+    }
+
+    /// The tables as they are written.
+    pub(crate) fn written(&self) -> &[Parquet] {
+        &self.writers
     }
 
     /// Leaves out what was recorded of a replicate.
@@ -182,5 +244,59 @@ impl<'a> Tables<'a> {
     /// If one cannot be written.
     pub fn finish(self) -> Result<(), Failure> {
         self.writers.into_iter().try_for_each(|writer| writer.finish().map(drop))
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::output::folder::ENTRIES;
+    use std::sync::atomic::AtomicBool;
+
+    static STOP: AtomicBool = AtomicBool::new(false);
+
+    fn sample(replicate: u64, instant: usize) -> Sample {
+        let time = instant as f64 * 1e-3;
+        Sample { time, kinetic: (time + replicate as f64).sin(), gravity_work: time, ..Sample::default() }
+    }
+
+    /// The tables of fibres that land one after the other, or that all fly at once, so that few of their rows stay in memory.
+    #[test]
+    fn identical_tables_whatever_stays_in_memory() {
+        const FIBRES: u64 = 400;
+        const INSTANTS: usize = 1001;
+        let written = |at_once: bool| {
+            let desk = tempfile::tempdir().unwrap();
+            let staging = Staging::new(&desk.path().join("r"), ENTRIES, false, &STOP).unwrap();
+            let recorder = TableRecorder::new(&staging, false);
+            let mut tables = Tables::create(&staging, &recorder).unwrap();
+            let record = |replicate, instants: std::ops::Range<usize>| {
+                let samples: Vec<_> = instants.map(|instant| sample(replicate, instant)).collect();
+                recorder.samples(replicate, &samples).unwrap();
+            };
+            if at_once {
+                for first in (0..INSTANTS).step_by(77) {
+                    (0..FIBRES).for_each(|replicate| record(replicate, first..INSTANTS.min(first + 77)));
+                }
+                assert!(fs::read_dir(staging.scratch()).unwrap().count() > 100, "many have gone to files");
+            }
+            for replicate in 0..FIBRES {
+                if !at_once {
+                    record(replicate, 0..INSTANTS);
+                }
+                tables.add(replicate).unwrap();
+            }
+            assert_eq!(tables.rows(), [FIBRES as usize * INSTANTS; 2]);
+            assert!(
+                tables.written().iter().all(|table| table.groups().iter().all(|group| group.rows == ROWS))
+            );
+            tables.finish().unwrap();
+            table_names(false)
+                .into_iter()
+                .map(|name| fs::read(staging.place(name).0).unwrap())
+                .collect::<Vec<_>>()
+        };
+        assert!(written(true) == written(false));
     }
 }

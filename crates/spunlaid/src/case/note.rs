@@ -70,6 +70,11 @@ pub enum Remark {
         /// Relative change of the speed in the last round [-].
         change: f64,
     },
+    /// The tension at the end of a spinline has not been found by flights yet.
+    #[error(
+        "is found by flights when the case flies; until then, all that follows from it is that of a tension of 0 N"
+    )]
+    TensionUnflown,
     /// The air of a spinline comes from a CFD field, which gives no temperature.
     #[error(
         "takes the velocity of the air along the spinline from the field, and its temperature, {} everywhere, from spinline.temperature",

@@ -7,9 +7,6 @@ use std::collections::BTreeMap;
 
 /// Points of a curve at which products are taken, at most: points near each other tell the same.
 const POINTS: usize = 512;
-/// Shortest scale, in mean distances of filaments, and in the scale that nearest neighbours alone would tell. With shorter ones, the shape of the covariance between
-/// neighbours, of which nothing is known, passes for what each filament does for itself.
-const SHORTEST: [f64; 2] = [0.5, 1.0 / 3.0];
 /// Smallest correlation of nearest neighbours that is told from none.
 const LEAST: f64 = 0.01;
 /// From scale to scale across, and along the machine direction.
@@ -102,14 +99,16 @@ struct Class {
 }
 
 impl Covariance {
-    /// In machine and in cross direction, fitted to the covariances of all pairs of flown filaments by least squares with parts that are not
-    /// negative.
-    pub fn fit(flown: &FlownCurves, threads: usize) -> [Self; 2] {
+    /// In machine and in cross direction, fitted to the differences of all pairs of flown filaments.
+    ///
+    /// * `shortest` – scale, in mean distances of filaments, and at most, in the scale that nearest neighbours alone would tell. Between neighbours the flight does not tell
+    ///   the covariance: what shorter scales explain passes for what each filament does for itself
+    pub fn fit(flown: &FlownCurves, shortest: [f64; 2], threads: usize) -> [Self; 2] {
         let places = flown.places();
         let deviations = samples(flown);
         let [width, pitch] = flown.width_and_pitch();
         let depth = flown.depth();
-        let shortest = shortest(flown, &deviations);
+        let shortest = shortest_scale(flown, &deviations, shortest);
         let scales = |axis: usize, size: f64| -> Vec<f64> {
             let all = (0..).map(move |n: i32| shortest * RATIOS[axis].powi(n));
             let all = all.take_while(move |scale| *scale > 0.0 && *scale < LONGEST[axis] * size);
@@ -236,7 +235,7 @@ fn parts(direction: usize, classes: &[Class], variance: f64, most: f64) -> Vec<f
 }
 
 /// The shortest scale that is looked for [m].
-fn shortest(flown: &FlownCurves, deviations: &[[Vec<f64>; 2]]) -> f64 {
+fn shortest_scale(flown: &FlownCurves, deviations: &[[Vec<f64>; 2]], shortest: [f64; 2]) -> f64 {
     let places = flown.places();
     let (mut distances, mut products, mut squares) = (0.0, [0.0; 2], [0.0; 2]);
     for (one, place) in places.iter().enumerate() {
@@ -255,7 +254,7 @@ fn shortest(flown: &FlownCurves, deviations: &[[Vec<f64>; 2]]) -> f64 {
     }
     let correlation = [0, 1].map(|d| products[d] / squares[d]).into_iter().fold(1.0, f64::min);
     let of_nearest = distances / (-2.0 * libm::log(correlation.max(LEAST))).sqrt();
-    (SHORTEST[0] * flown.mean_distance()).min(SHORTEST[1] * of_nearest)
+    (shortest[0] * flown.mean_distance()).min(shortest[1] * of_nearest)
 }
 
 /// Deviations from the mean of each filament, at points evenly spread along the curves.

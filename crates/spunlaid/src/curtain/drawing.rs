@@ -176,7 +176,8 @@ mod tests {
             let pieces = (strand.points.len() - 1) as f64;
             // From edge to edge of the window, with less than a piece beyond each.
             let cover = pieces * SPACING * BELT_RATIO;
-            assert!(cover >= 4e-3 - 1e-9 && cover < 4e-3 + 2.0 * SPACING * BELT_RATIO, "{cover}");
+            let most = 4e-3 + 2.0 * SPACING * BELT_RATIO;
+            assert!((4e-3 - 1e-9..most).contains(&cover), "{cover}");
             let across = 3e-3 * strand.filament as f64 + 0.5e-3 - window.corner[0];
             assert!(strand.points.iter().all(|point| (point[0] - across).abs() < 1e-6));
         }

@@ -4,13 +4,37 @@ use super::covariance::Covariance;
 use super::{Curtain, FlownCurves};
 use crate::fibre::Place;
 use crate::sort::sort_by_key;
-use crate::statistics::linear::{dot, solve_positive};
+use crate::statistics::linear::solve_positive;
 use crate::threads::each;
 
 /// Flown filaments from which a curve follows.
 const NEAREST: usize = 16;
 /// Variance that a flown filament has for itself, in parts of its variance: keeps the equations solvable where filaments are flown at nearly one place.
 const OWN: f64 = 0.002;
+
+/// Shortest scales of the covariance by which the curves are filled in, and of that which tells what they miss. A filling with the smoother one misses no more, is nearer to
+/// the web as it would be flown, and knows less of what it misses.
+const SMOOTH: [f64; 2] = [1.0, 0.5];
+const ROUGH: [f64; 2] = [0.4, 1.0 / 3.0];
+/// Filaments, evenly spread, that tell what is missing.
+const TOLD: usize = 512;
+
+/// How the deviations of filaments vary together, in machine and in cross direction.
+#[derive(Clone, Debug)]
+pub struct Covariances {
+    /// By which filaments are filled in.
+    pub smooth: [Covariance; 2],
+    /// Which tells what they miss.
+    pub rough: [Covariance; 2],
+}
+
+impl Covariances {
+    /// As flown filaments tell them.
+    pub fn fit(flown: &FlownCurves, threads: usize) -> Self {
+        let [smooth, rough] = [SMOOTH, ROUGH].map(|shortest| Covariance::fit(flown, shortest, threads));
+        Self { smooth, rough }
+    }
+}
 
 /// Filaments at any places, each the best linear estimate from the flown ones near it (simple kriging).                       theory.md (83f)
 #[derive(Clone, Debug)]
@@ -19,6 +43,7 @@ pub struct Filling<'a> {
     places: Vec<Place>,
     /// Of each filament, in machine and in cross direction.
     curves: Vec<[Estimate; 2]>,
+    missing: [f64; 2],
 }
 
 /// How a curve follows from the flown ones.
@@ -26,9 +51,8 @@ pub struct Filling<'a> {
 struct Estimate {
     /// What is added to the sum of the flown curves [m].
     constant: f32,
+    /// Of flown filaments.
     weights: Vec<(u32, f32)>,
-    /// The part of the variance that is not known.
-    missing: f64,
 }
 
 impl FlownCurves {
@@ -36,15 +60,20 @@ impl FlownCurves {
     ///
     /// * `wanted` – where they are fed
     pub fn fill(&self, wanted: Vec<Place>, threads: usize) -> Filling<'_> {
-        let covariances = Covariance::fit(self, threads);
-        self.fill_by(covariances.each_ref(), wanted, threads)
+        self.fill_by(&Covariances::fit(self, threads), wanted, threads)
     }
 
-    /// As [`FlownCurves::fill`], with known covariances in machine and in cross direction.
-    pub fn fill_by(&self, by: [&Covariance; 2], wanted: Vec<Place>, threads: usize) -> Filling<'_> {
-        let curve = |i: usize| [0, 1].map(|d| self.estimate(d, by[d], wanted[i]));
+    /// As [`FlownCurves::fill`], with known covariances.
+    pub fn fill_by(&self, by: &Covariances, wanted: Vec<Place>, threads: usize) -> Filling<'_> {
+        let curve = |i: usize| [0, 1].map(|d| self.estimate(d, &by.smooth[d], wanted[i]));
         let curves = each(threads, wanted.len(), curve);
-        Filling { flown: self, places: wanted, curves }
+        let step = wanted.len().div_ceil(TOLD).max(1);
+        let some: Vec<usize> = (0..wanted.len()).step_by(step).collect();
+        let missing = each(threads, some.len(), |i| {
+            [0, 1].map(|d| self.missing(&by.rough[d], wanted[some[i]], &curves[some[i]][d]))
+        });
+        let missing = [0, 1].map(|d| missing.iter().map(|of| of[d]).sum::<f64>() / some.len().max(1) as f64);
+        Filling { flown: self, places: wanted, curves, missing }
     }
 
     fn estimate(&self, direction: usize, covariance: &Covariance, wanted: Place) -> Estimate {
@@ -64,28 +93,36 @@ impl FlownCurves {
             others.chain([1.0 + OWN]).collect()
         };
         let known: Vec<f64> = near.iter().map(|(correlation, _)| *correlation).collect();
-        // Without any variance there is nothing to estimate: the curve is the mean.
-        let weights = solve_positive((0..near.len()).map(row).collect(), known.clone());
+        let weights = solve_positive((0..near.len()).map(row).collect(), known);
         let weights = weights.unwrap_or_else(|| vec![0.0; near.len()]);
-        let missing = if covariance.variance() > 0.0 { 1.0 - dot(&weights, &known) } else { 0.0 };
         let of_flown =
             near.iter().zip(&weights).map(|((_, i), weight)| weight * self.mean(direction, places[*i].y));
         let constant = self.mean(direction, wanted.y) - of_flown.sum::<f64>();
         let weights = near.iter().zip(weights).map(|((_, i), weight)| (*i as u32, weight as f32)).collect();
-        Estimate { constant: constant as f32, weights, missing }
+        Estimate { constant: constant as f32, weights }
+    }
+
+    /// The part of the variance that is not in the curve of a filament, `1 − 2 w·k + w·(K + ε) w`.
+    fn missing(&self, covariance: &Covariance, wanted: Place, estimate: &Estimate) -> f64 {
+        if covariance.variance() <= 0.0 {
+            return 0.0;
+        }
+        let correlation = |from: Place, to: Place| covariance.correlation(self.apart(from, to));
+        let weights =
+            || estimate.weights.iter().map(|(i, weight)| (self.places()[*i as usize], f64::from(*weight)));
+        let known: f64 = weights().map(|(place, weight)| weight * correlation(wanted, place)).sum();
+        let both = |(one, a): (Place, f64)| {
+            weights().map(move |(other, b)| a * b * correlation(one, other)).sum::<f64>()
+        };
+        let own: f64 = weights().map(|(_, weight)| OWN * weight * weight).sum();
+        1.0 - 2.0 * known + weights().map(both).sum::<f64>() + own
     }
 }
 
 impl Filling<'_> {
-    /// The part of the variance that the flown filaments do not tell, in machine and in cross direction: mean over all filaments.
+    /// The part of the variance that the flown filaments do not tell, in machine and in cross direction: mean over the filaments.
     pub fn missing(&self) -> [f64; 2] {
-        let count = self.curves.len().max(1) as f64;
-        [0, 1].map(|d| self.curves.iter().map(|curve| curve[d].missing).sum::<f64>() / count)
-    }
-
-    /// As [`Filling::missing`], of one filament.
-    pub fn missing_of(&self, filament: usize) -> [f64; 2] {
-        self.curves[filament].each_ref().map(|estimate| estimate.missing)
+        self.missing
     }
 
     /// Computes all curves, as if they had been flown.
@@ -162,6 +199,12 @@ mod tests {
         all / (2 * curves.len()) as f64 / (sigma * sigma)
     }
 
+    fn known(field: &Field) -> Covariances {
+        let covariance = || Covariance::normal(field.sigma.powi(2), field.scales, Some(field.turn));
+        let [smooth, rough] = [0, 1].map(|_| [covariance(), covariance()]);
+        Covariances { smooth, rough }
+    }
+
     fn mean(missing: [f64; 2]) -> f64 {
         0.5 * (missing[0] + missing[1])
     }
@@ -180,8 +223,7 @@ mod tests {
         for (field, places) in fields() {
             let [flown, truth] = parts(&field, &places);
             let flown = field.with_noise(&flown, OWN);
-            let covariance = Covariance::normal(field.sigma.powi(2), field.scales, Some(field.turn));
-            let filling = flown.fill_by([&covariance; 2], truth.places().to_vec(), 2);
+            let filling = flown.fill_by(&known(&field), truth.places().to_vec(), 2);
             let (told, found) = (mean(filling.missing()), error(&filling, &truth, field.sigma));
             assert!((found / told - 1.0).abs() < 0.03, "{field:?}: {found} {told}");
         }
@@ -192,8 +234,7 @@ mod tests {
     fn stat_a_fitted_covariance_fills_nearly_as_well_as_the_known_one() {
         for (field, places) in &fields()[1..] {
             let [flown, truth] = parts(field, places);
-            let known = Covariance::normal(field.sigma.powi(2), field.scales, Some(field.turn));
-            let best = flown.fill_by([&known; 2], truth.places().to_vec(), 2);
+            let best = flown.fill_by(&known(field), truth.places().to_vec(), 2);
             let filling = flown.fill(truth.places().to_vec(), 2);
             let [best, found] = [&best, &filling].map(|filling| error(filling, &truth, field.sigma));
             let told = mean(filling.missing());
@@ -222,8 +263,8 @@ mod tests {
         let missing = mean(filling.missing());
         assert!(missing < 1e-3, "{missing}");
         for curve in filling.compute(1) {
-            for d in 0..2 {
-                let off = curve[d].iter().zip(flown.deviations(0, d)).map(|(a, b)| (a - b).abs());
+            for (d, values) in curve.iter().enumerate() {
+                let off = values.iter().zip(flown.deviations(0, d)).map(|(a, b)| (a - b).abs());
                 assert!(off.fold(0.0, f32::max) < 1e-3 * field.sigma as f32);
             }
         }

@@ -78,10 +78,8 @@ impl FlownCurves {
             )));
         }
         let finite = curves.iter().flatten().flatten().all(|value| value.is_finite());
-        if !finite
-            || !(spacing > 0.0 && belt_ratio > 0.0)
-            || turn.is_some_and(|turn| turn.is_nan() || turn <= 0.0)
-        {
+        let above_zero = |number: f64| number.is_finite() && number > 0.0;
+        if !(finite && [Some(spacing), Some(belt_ratio), turn].into_iter().flatten().all(above_zero)) {
             return Err(Fault::plain("flown curves have a number that is not finite or not above zero"));
         }
         let mean = |curve: &[Vec<f32>; 2]| {

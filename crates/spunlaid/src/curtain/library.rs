@@ -1,6 +1,6 @@
 //! The curves of a curtain on a lattice of places, from which sheets of any size are made.
 
-use super::covariance::Covariance;
+use super::filling::Covariances;
 use super::{Curtain, FlownCurves};
 use crate::error::Fault;
 use crate::fibre::Place;
@@ -103,8 +103,8 @@ impl Library {
                 format!("fly {:.2} m of fibre or more", SHORTEST * half_lag * spacing),
             ));
         }
-        let covariances = Covariance::fit(flown, threads);
-        let half = covariances.each_ref().map(|covariance| covariance.half_distance(0.5 * turn));
+        let covariances = Covariances::fit(flown, threads);
+        let half = covariances.smooth.each_ref().map(|covariance| covariance.half_distance(0.5 * turn));
         let fade_across = FADE_ACROSS * half[0].max(half[1]);
         if turn < NARROWEST * fade_across {
             return Err(Fault::new(
@@ -120,7 +120,7 @@ impl Library {
         let levels = Levels::of(flown);
         let place = |y: f64, column: usize| Place { y, z: column as f64 * turn / columns as f64 };
         let lattice = levels.y.iter().flat_map(|y| (0..columns).map(|column| place(*y, column)));
-        let filling = flown.fill_by(covariances.each_ref(), lattice.collect(), threads);
+        let filling = flown.fill_by(&covariances, lattice.collect(), threads);
         let mut curves = filling.compute(threads);
         for (number, curve) in curves.iter_mut().enumerate() {
             for (values, mean) in curve.iter_mut().zip(levels.means[number / columns]) {

@@ -19,7 +19,7 @@ mod tiles;
 
 pub use covariance::Covariance;
 pub use drawing::{Belt, lay};
-pub use filling::Filling;
+pub use filling::{Covariances, Filling};
 pub use flown_curves::FlownCurves;
 pub use library::Library;
 pub use tiles::Tiles;

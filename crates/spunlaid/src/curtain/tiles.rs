@@ -344,7 +344,7 @@ mod tests {
     /// Between the levels of a slot and the columns of the lattice the library is the filling.
     #[test]
     fn limit_a_lattice_gives_what_a_filling_gives() {
-        let field = Field { scales: [8e-3, 8e-3], ..field() };
+        let field = Field { scales: [8e-3, 8e-3], points: 300, ..field() };
         let flown = field.flown(slot(field.turn, 200, 12e-3));
         let library = Library::new(&flown, 2).unwrap();
         let wanted = slot(field.turn, 31, 11e-3);

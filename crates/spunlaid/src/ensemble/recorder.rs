@@ -8,7 +8,7 @@ use crate::threads::lock;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, MutexGuard};
 
-/// Takes what is recorded of the fibres of a case, instant by instant.
+/// Takes what is recorded of the fibres of a case, some instants at a time.
 ///
 /// Flights on several threads call it at the same time; the calls for one fibre come in the order of time.
 pub trait Recorder: std::fmt::Debug + Sync {
@@ -16,11 +16,11 @@ pub trait Recorder: std::fmt::Debug + Sync {
     /// flies again without it.
     fn begin(&self, replicate: u64);
 
-    /// Receives the next recorded instant of a fibre, the start included.
+    /// Receives the next recorded instants of a fibre, the start included.
     ///
     /// # Errors
     /// An error ends the flight.
-    fn sample(&self, replicate: u64, sample: &Sample) -> Result<(), Error>;
+    fn samples(&self, replicate: u64, samples: &[Sample]) -> Result<(), Error>;
 
     /// Receives the next points that a fed fibre has laid on the belt, in the order in which they were fed.
     ///
@@ -58,7 +58,7 @@ impl Recorder for LaidCurves {
         self.curves().remove(&replicate);
     }
 
-    fn sample(&self, _: u64, _: &Sample) -> Result<(), Error> {
+    fn samples(&self, _: u64, _: &[Sample]) -> Result<(), Error> {
         Ok(())
     }
 

@@ -27,6 +27,8 @@ pub struct Trajectory {
     pub laid: Vec<LaidPoint>,
 }
 
+/// Recorded instants of a fibre that are passed on together, so that threads seldom wait for one another.
+const TOGETHER: usize = 64;
 /// Most points of a laid fibre that are kept with its shapes.
 const LAID_WITH_SHAPES: usize = 16_384;
 
@@ -201,6 +203,7 @@ fn fly_until_lost(
         Ok(Trajectory { replicate: job.replicate, shapes, ..Trajectory::default() })
     };
     let mut trajectories = jobs.iter().enumerate().map(begin).collect::<Result<Vec<_>, Error>>()?;
+    let mut recorded: [Vec<Sample>; WIDTH] = Default::default();
     let mut step = 0;
     for instant in 0.. {
         // A snapshot needs one step. The last one takes that step on a copy.
@@ -236,7 +239,11 @@ fn fly_until_lost(
                 trajectory.laid.extend(counted.take(room));
             }
             if let Some(recorder) = computing.recorder.filter(|_| !is_companion[lane]) {
-                recorder.sample(trajectory.replicate, &samples[lane])?;
+                recorded[lane].push(samples[lane]);
+                if recorded[lane].len() == TOGETHER || step >= clock.steps {
+                    recorder.samples(trajectory.replicate, &recorded[lane])?;
+                    recorded[lane].clear();
+                }
                 if !laid[lane].is_empty() {
                     recorder.lay(trajectory.replicate, &laid[lane])?;
                 }

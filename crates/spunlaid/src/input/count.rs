@@ -13,15 +13,10 @@ use crate::fibre::Fibre;
 const MUCH_LONGER: f64 = 50.0;
 
 impl OpenCase {
-    /// The checked case, with notes and warnings.
+    /// The checked case, with notes and warnings. The tension at the end of its spinline is taken as it is known.
     ///
     /// # Errors
     /// Every reason why the case cannot be run.
-    pub(super) fn resolve(self) -> Result<(Case, Vec<Note>), Error> {
-        if self.waits_for_flights() { self.resolve_with_flights() } else { self.resolve_at_once() }
-    }
-
-    /// [`OpenCase::resolve`] with the tension at the end of the spinline as it is known.
     pub(super) fn resolve_at_once(mut self) -> Result<(Case, Vec<Note>), Error> {
         self.spin()?;
         let fibre = &self.case.fibre;

@@ -11,18 +11,21 @@ mod fed_back_tension;
 mod file;
 mod influence;
 mod kind;
+mod lookup;
 mod open;
 mod overrides;
 mod slip;
 mod source;
 mod spinline;
 mod study;
+mod unread;
 mod values;
 mod web;
 mod write;
 mod written_values;
 
 pub use crate::layers::{LaydownSource, LayerSpec, Method, WEB_KEYS, WEB_TABLES, WebKey, WebSpec};
+pub use fed_back_tension::FlownTension;
 pub use influence::{Change, Influence};
 pub use kind::kind_of;
 pub use spinline::{SpinFile, parse_spinline, read_spinline, write_spinline};
@@ -31,13 +34,19 @@ pub use study::{
     parse_changes, parse_fit, parse_study, read_changed_study, read_changes, read_fit, read_study,
     starter_study,
 };
+pub use unread::{KeptTensions, Unflown, Unread};
 pub use web::{WebFile, parse_web, parse_web_and_cases, read_web, write_web};
 pub use write::write_case;
 
 use crate::case::{Case, Note, keys};
 use crate::error::{Error, Fault, FileKind};
 use crate::study::Experiment;
+use lookup::Lookup;
+use open::OpenCase;
 use std::path::Path;
+
+/// What is read of a case file: the case, with notes and warnings about it.
+pub type CaseWithNotes = (Case, Vec<Note>);
 
 /// The version of the case file format that this library writes, and the newest one that it reads.
 pub const FORMAT_VERSION: u32 = 1;
@@ -80,9 +89,13 @@ impl<'a> From<&'a Vec<(String, String)>> for Overrides<'a> {
 /// Returns the case, with notes and warnings about it.
 ///
 /// # Errors
-/// If the file cannot be read, or if the case cannot be run; then with every problem found.
-pub fn read_case<'a>(path: &Path, overrides: impl Into<Overrides<'a>>) -> Result<(Case, Vec<Note>), Error> {
-    let text = file::read(path, FileKind::Case)?;
+/// If the file cannot be read, or if the case cannot be run; then with every problem found. And what has to be flown first, if the
+/// tension at the end of its spinline is that of flights.
+pub fn read_case<'a>(
+    path: &Path,
+    overrides: impl Into<Overrides<'a>>,
+) -> Result<CaseWithNotes, Unread<CaseWithNotes>> {
+    let text = file::read(path, FileKind::Case).map_err(Unread::Faulty)?;
     parse_case(&text, &path.display().to_string(), overrides)
 }
 
@@ -102,17 +115,28 @@ pub fn parse_case<'a>(
     text: &str,
     name: &str,
     overrides: impl Into<Overrides<'a>>,
-) -> Result<(Case, Vec<Note>), Error> {
-    parse_with(&data::DataFiles::default(), text, name, &[overrides.into()])
+) -> Result<CaseWithNotes, Unread<CaseWithNotes>> {
+    let open = open_case(&Lookup::default(), text, name, &[overrides.into()]).map_err(Unread::Faulty)?;
+    unread::read(move |lookup| lookup.resolve(open.clone()))
 }
 
-/// [`parse_case`] with a store of files that may have been read before.
+/// [`parse_case`] within a reading that goes on.
 fn parse_with(
-    files: &data::DataFiles,
+    lookup: &Lookup,
     text: &str,
     name: &str,
     overrides: &[Overrides<'_>],
-) -> Result<(Case, Vec<Note>), Error> {
+) -> Result<CaseWithNotes, Error> {
+    lookup.resolve(open_case(lookup, text, name, overrides)?)
+}
+
+/// A case before it is checked.
+fn open_case(
+    lookup: &Lookup,
+    text: &str,
+    name: &str,
+    overrides: &[Overrides<'_>],
+) -> Result<OpenCase, Error> {
     let mut key_values = document::read(&keys::CASE, text, name, overrides)?;
     if spinline::is_spinline_alone(&key_values) {
         let fault = Fault::new(
@@ -122,7 +146,7 @@ fn parse_with(
         key_values.reject("[spinline]", fault.option("`spunlaid spin`"));
         return Err(key_values.problems.into());
     }
-    open::open(key_values, files)?.resolve()
+    open::open(key_values, &lookup.files)
 }
 
 /// Writes what a point of a study repeats, a case or a web, as a file.

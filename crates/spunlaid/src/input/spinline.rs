@@ -2,9 +2,11 @@
 //! A spinline that a case has gives it diameter, density and feed speed.
 
 use super::data::DataFiles;
+use super::lookup::Lookup;
 use super::open::{OpenCase, open_part};
+use super::unread::{self, Unread};
 use super::written_values::{WrittenValues, sorted};
-use super::{FORMAT_VERSION, Overrides, document, file, parse_with, write};
+use super::{FORMAT_VERSION, Overrides, document, file, open_case, write};
 use crate::air::Flow;
 use crate::case::keys::{self, Key};
 use crate::case::{Case, Note, Remark};
@@ -33,9 +35,13 @@ pub struct SpinFile {
 /// Reads a spinline.
 ///
 /// # Errors
-/// If the file cannot be read, or with every problem found in these tables.
-pub fn read_spinline<'a>(path: &Path, overrides: impl Into<Overrides<'a>>) -> Result<SpinFile, Error> {
-    let text = file::read(path, FileKind::Case)?;
+/// If the file cannot be read, or with every problem found in these tables. And what has to be flown first, if the tension at the end
+/// is that of flights.
+pub fn read_spinline<'a>(
+    path: &Path,
+    overrides: impl Into<Overrides<'a>>,
+) -> Result<SpinFile, Unread<SpinFile>> {
+    let text = file::read(path, FileKind::Case).map_err(Unread::Faulty)?;
     parse_spinline(&text, &path.display().to_string(), overrides)
 }
 
@@ -47,15 +53,29 @@ pub fn parse_spinline<'a>(
     text: &str,
     name: &str,
     overrides: impl Into<Overrides<'a>>,
-) -> Result<SpinFile, Error> {
-    let (files, overrides) = (DataFiles::default(), [overrides.into()]);
+) -> Result<SpinFile, Unread<SpinFile>> {
+    let (open, whole) = open_spinline_of(text, name, overrides.into()).map_err(Unread::Faulty)?;
+    unread::read(move |lookup| {
+        let mut open = open.clone();
+        if let Some(whole) = &whole {
+            (open.case, open.notes) = lookup.resolve(whole.clone())?;
+        }
+        Ok(SpinFile::from_open(open))
+    })
+}
+
+/// A spinline, and the whole case if its fibre has to fly.
+fn open_spinline_of(
+    text: &str,
+    name: &str,
+    overrides: Overrides<'_>,
+) -> Result<(OpenCase, Option<OpenCase>), Error> {
+    let (lookup, overrides) = (Lookup::default(), [overrides]);
     let key_values = document::read(&keys::CASE, text, name, &overrides)?;
-    let mut open = open_spinline(key_values, &files)?;
-    if open.waits_for_flights() {
-        // Only a whole case has a fibre that can fly.
-        (open.case, open.notes) = parse_with(&files, text, name, &overrides)?;
-    }
-    Ok(SpinFile::from_open(open))
+    let open = open_spinline(key_values, &lookup.files)?;
+    // Only a whole case has a fibre that can fly.
+    let whole = open.waits_for_flights().then(|| open_case(&lookup, text, name, &overrides)).transpose()?;
+    Ok((open, whole))
 }
 
 /// Sets the values of a spinline alone, which is then complete.

@@ -12,7 +12,7 @@ pub use claims::{Claim, Verdict, claims_of_step_errors, claims_of_trend};
 use crate::case::{Case, ERROR_TOLERANCE};
 use crate::chain::schemes::Scheme;
 use crate::error::Error;
-use crate::input::{parse_case, parse_study};
+use crate::input::{Unread, parse_case, parse_study};
 use crate::study::{PointResults, Study};
 
 /// Name and text of a file in the repository.
@@ -99,11 +99,12 @@ impl Parameter {
 /// Reads a study that varies Table 1.
 fn study((name, text): (&str, &str)) -> Result<Study, Error> {
     let (case_name, case) = TABLE_1;
-    Ok(parse_study(text, name, None, |_, _| Ok((case.to_owned(), case_name.to_owned())))?.study)
+    let read = parse_study(text, name, None, |_, _| Ok((case.to_owned(), case_name.to_owned())));
+    Ok(read.map_err(Unread::refuse)?.study)
 }
 
 fn case((name, text): (&str, &str)) -> Result<Case, Error> {
-    Ok(parse_case(text, name, &[])?.0)
+    Ok(parse_case(text, name, &[]).map_err(Unread::refuse)?.0)
 }
 
 /// Table 1 with a scheme. The paper's scheme has the paper's time step of 1 µs; others have a suitable step.

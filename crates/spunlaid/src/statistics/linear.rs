@@ -47,8 +47,7 @@ pub(crate) fn solve_positive(mut matrix: Vec<Vec<f64>>, mut sides: Vec<f64>) -> 
             let rest = matrix[i][j] - dot(&matrix[i][..j], &matrix[j][..j]);
             matrix[i][j] = if i == j { rest.sqrt() } else { rest / matrix[j][j] };
         }
-        // Written so that a NaN is refused.
-        if !(matrix[i][i] > 0.0) {
+        if matrix[i][i].is_nan() || matrix[i][i] <= 0.0 {
             return None;
         }
         sides[i] = (sides[i] - dot(&matrix[i][..i], &sides[..i])) / matrix[i][i];

@@ -3,7 +3,7 @@
 
 use spunlaid::error::Error;
 use spunlaid::fit::{Fit, MeasuredWeb, Question, Target, fit};
-use spunlaid::input::{FitFile, Overrides, parse_fit};
+use spunlaid::input::{FitFile, Overrides, Unread, parse_fit};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, Flyer};
 use spunlaid::scan::{Format, Light, Picture, Settings, analyse};
@@ -80,7 +80,7 @@ pub fn fitted(
     journal: &mut Journal,
 ) -> Result<Fit, Error> {
     let target = Target::new(scan, &file.start.spec.sheet, spectrum)?;
-    let make = |values: &[f64]| Ok(file.web(values)?.spec);
+    let make = |values: &[f64]| Ok(file.web(values).map_err(Unread::refuse)?.spec);
     let question = Question { parameters: &file.parameters, target: &target, make: &make, webs };
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
     let laid = AtomicU64::new(0);

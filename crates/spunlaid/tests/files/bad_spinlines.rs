@@ -3,9 +3,11 @@
 //! reviewed.
 
 use crate::messages;
-use spunlaid::input::read_spinline;
+use spunlaid::input::{Unread, read_spinline};
 
 #[test]
 fn rejects_every_bad_spinline_with_its_message() {
-    messages::are_as_meant("bad_spinlines", 50, |path| read_spinline(path, &[])?.solve());
+    messages::are_as_meant("bad_spinlines", 50, |path| {
+        read_spinline(path, &[]).map_err(Unread::refuse)?.solve()
+    });
 }

@@ -3,7 +3,10 @@
 use spunlaid::case::keys::{self, Kind};
 use spunlaid::error::Error;
 use spunlaid::field::Field;
-use spunlaid::input::{WEB_KEYS, parse_case, parse_web, read_case, starter_case, starter_case_of_fed};
+use spunlaid::input::{
+    Unread, WEB_KEYS, parse_case, parse_web, read_case, starter_case, starter_case_of_fed,
+};
+use std::fmt::Display;
 use std::fs;
 use std::path::Path;
 
@@ -16,14 +19,15 @@ fn owned(set: Set<'_>) -> Vec<(String, String)> {
 /// The warnings about a case, or why it is refused.
 fn said(path: &str, set: Set<'_>) -> Result<Vec<String>, Error> {
     let (_, notes) = match path {
-        "starter" => parse_case(starter_case(), "starter.toml", &owned(set))?,
-        "fed" => parse_case(starter_case_of_fed(), "fed.toml", &owned(set))?,
-        path => read_case(Path::new(&format!("../../cases/{path}.toml")), &owned(set))?,
-    };
+        "starter" => parse_case(starter_case(), "starter.toml", &owned(set)),
+        "fed" => parse_case(starter_case_of_fed(), "fed.toml", &owned(set)),
+        path => read_case(Path::new(&format!("../../cases/{path}.toml")), &owned(set)),
+    }
+    .map_err(Unread::refuse)?;
     Ok(notes.iter().filter(|note| note.what.is_warning()).map(ToString::to_string).collect())
 }
 
-fn all_of(said: Result<Vec<String>, Error>) -> String {
+fn all_of(said: Result<Vec<String>, impl Display>) -> String {
     said.map_or_else(|error| error.to_string(), |warnings| warnings.join("\n"))
 }
 

@@ -83,8 +83,8 @@ struct Recorded(Mutex<Vec<(u64, u64)>>);
 impl Recorder for Recorded {
     fn begin(&self, _: u64) {}
 
-    fn sample(&self, replicate: u64, sample: &Sample) -> Result<(), Error> {
-        self.0.lock().unwrap().push((replicate, sample.end.y.to_bits()));
+    fn samples(&self, replicate: u64, samples: &[Sample]) -> Result<(), Error> {
+        self.0.lock().unwrap().extend(samples.iter().map(|sample| (replicate, sample.end.y.to_bits())));
         Ok(())
     }
 

@@ -200,8 +200,8 @@ impl Recorder for RecordedSamples {
         told.insert(replicate, (begun + 1, Vec::new()));
     }
 
-    fn sample(&self, replicate: u64, sample: &Sample) -> Result<(), Error> {
-        self.0.lock().unwrap().get_mut(&replicate).unwrap().1.push(*sample);
+    fn samples(&self, replicate: u64, samples: &[Sample]) -> Result<(), Error> {
+        self.0.lock().unwrap().get_mut(&replicate).unwrap().1.extend_from_slice(samples);
         Ok(())
     }
 

@@ -11,6 +11,7 @@ mod company_cases;
 mod effects;
 mod ensembles;
 mod finer_checks;
+mod flown_tension;
 mod paper;
 mod starters;
 mod studies;

@@ -3,6 +3,7 @@
 
 mod advice;
 mod beam;
+mod curtain;
 mod fit;
 mod neighbours;
 mod surrogate;

@@ -1,6 +1,6 @@
 //! A case with all defaults, its mesh, limits and expected cost; a spinline alone.
 
-use super::show;
+use super::{looked_at, show};
 use crate::args::{Check, Threads, overrides};
 use crate::commands::versioned_json;
 use crate::failure::Failure;
@@ -28,7 +28,7 @@ use std::time::Instant;
 /// Checks a case.
 pub(super) fn case(check: &Check) -> Result<(), Failure> {
     let started = Instant::now();
-    let (case, notes) = check.source.read(&[])?;
+    let (case, notes) = looked_at(check.source.read(&[]))?;
     notes.iter().for_each(say::note);
     let expected = Needs::new(&case, started.elapsed().as_secs_f64())?;
     if check.json {
@@ -55,7 +55,7 @@ pub(super) fn case(check: &Check) -> Result<(), Failure> {
 
 /// Checks a file that describes a spinline and no fibre that flies.
 pub(super) fn spinline_alone(check: &Check) -> Result<(), Failure> {
-    let file = read_spinline(&check.source.case, overrides(&check.source.set))?;
+    let file = looked_at(read_spinline(&check.source.case, overrides(&check.source.set)))?;
     file.notes.iter().for_each(say::note);
     let results = SpinResults::new(&file)?;
     if check.json {

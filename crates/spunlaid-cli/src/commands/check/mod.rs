@@ -4,11 +4,12 @@ mod case;
 mod study;
 mod web;
 
-use crate::args::{CaseSource, Check};
+use crate::args::{CaseSource, Check, Threads};
+use crate::commands::flown::flown;
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::error::FileKind;
-use spunlaid::input::kind_of;
+use spunlaid::input::{Unread, kind_of};
 
 pub(crate) fn check(check: &Check) -> Result<(), Failure> {
     match kind_of(&check.source.case) {
@@ -16,6 +17,17 @@ pub(crate) fn check(check: &Check) -> Result<(), Failure> {
         FileKind::Study => study::study(check),
         FileKind::Spinline => case::spinline_alone(check),
         _ => case::case(check),
+    }
+}
+
+/// What is read of a file, without flights: a check is quick, and a tension at the end of a spinline changes little of what it says. A note
+/// names each tension that a flight will find. Fibres fly only where there are problems that may go away with it.
+fn looked_at<T>(read: Result<T, Unread<T>>) -> Result<T, Failure> {
+    match read {
+        Err(Unread::Unflown(unflown)) if unflown.without_flights().is_err() => {
+            Ok(flown(Err(Unread::Unflown(unflown)), Threads::default(), false)?)
+        }
+        read => Ok(read.or_else(Unread::without_flights)?),
     }
 }
 

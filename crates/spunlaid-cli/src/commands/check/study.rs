@@ -1,7 +1,7 @@
 //! A study with all defaults, and its points.
 
-use super::show;
 use super::web::numbers;
+use super::{looked_at, show};
 use crate::args::{Check, overrides};
 use crate::commands::{LISTED, aligned, plural, versioned_json};
 use crate::failure::Failure;
@@ -15,7 +15,8 @@ use spunlaid_results::output::in_order::OrderedObject;
 /// Checks the file of a study.
 pub(super) fn study(check: &Check) -> Result<(), Failure> {
     let set = overrides(&check.source.set);
-    let file = read_changed_study(&check.source.case, &StudyChanges { set, ..StudyChanges::points(None) })?;
+    let changes = StudyChanges { set, ..StudyChanges::points(None) };
+    let file = looked_at(read_changed_study(&check.source.case, &changes))?;
     file.notes.iter().for_each(say::study_note);
     if check.json {
         say::text(&json(&file));

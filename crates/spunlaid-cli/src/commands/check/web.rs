@@ -1,6 +1,6 @@
 //! A web with all defaults, and the numbers of its line.
 
-use super::show;
+use super::{looked_at, show};
 use crate::args::{Check, overrides};
 use crate::commands::{plural, versioned_json};
 use crate::failure::Failure;
@@ -16,7 +16,7 @@ use spunlaid_results::output::spinline::SpinSummary;
 
 /// Checks the file of a web.
 pub(super) fn web(check: &Check) -> Result<(), Failure> {
-    let file = read_web(&check.source.case, overrides(&check.source.set))?;
+    let file = looked_at(read_web(&check.source.case, overrides(&check.source.set)))?;
     file.notes.iter().for_each(say::note);
     let notes: Vec<String> = file.notes.iter().map(Note::to_string).collect();
     if check.json {

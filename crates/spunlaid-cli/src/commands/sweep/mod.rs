@@ -3,6 +3,7 @@
 mod progress;
 mod table;
 
+use super::flown::flown_and_kept;
 use super::interrupt::stop_on_ctrl_c;
 use super::{plural, run_control, say_report, stem};
 use crate::args::{Invocation, Sweep, overrides};
@@ -10,11 +11,12 @@ use crate::failure::Failure;
 use crate::say;
 use spunlaid::case::keys;
 use spunlaid::error::{Error, Fault};
-use spunlaid::input::{StudyChanges, StudyFile, read_changed_study, write_experiment};
+use spunlaid::input::{StudyChanges, StudyFile, Unread, read_changed_study, write_experiment};
 use spunlaid::spinline::{self, SpinSpec};
 use spunlaid::study::{Journal, Progress, ReplicateOutcome, Study, run};
 use spunlaid::threads::{lock, unlock};
 use spunlaid_results::folders::study::{State, StudyFolder, StudyResults};
+use spunlaid_results::folders::tensions::StudyTensions;
 use spunlaid_results::numbers::lost_fibres_text;
 use std::fs;
 use std::sync::Mutex;
@@ -26,12 +28,14 @@ const LOST_LISTED: u64 = 10;
 pub(crate) fn sweep(sweep: &Sweep, invocation: &Invocation) -> Result<(), Failure> {
     let (points, replicates) = (sweep.points, sweep.replicates);
     let set = overrides(&sweep.set);
-    let file = read_changed_study(&sweep.study, &StudyChanges { points, replicates, set })?;
+    let read = read_changed_study(&sweep.study, &StudyChanges { points, replicates, set });
     if let Some(number) = sweep.print_point {
-        return print_point(&file.study, number);
+        return print_point(&read.or_else(Unread::without_flights)?.study, number);
     }
-    file.notes.iter().for_each(say::study_note);
     let path = sweep.output.folder(stem(&sweep.study, "study"));
+    let kept = || StudyTensions::open(&path, sweep.output.force);
+    let file = flown_and_kept(read, sweep.threads, sweep.output.quiet, kept)?;
+    file.notes.iter().for_each(say::study_note);
     let origin = invocation.origin(&[&sweep.study], &path);
     let (mut folder, journal, found) =
         StudyFolder::open(&path, &file, sweep.output.force, origin.as_ref(), stop_on_ctrl_c())?;

@@ -1,6 +1,7 @@
 //! Does what pages ask, or refuses it and says why.
 
 use super::Session;
+use super::tension::TensionSearch;
 use crate::live::document::{Document, complaints};
 use crate::live::measured::Statistics;
 use crate::live::message::{Answer, Command, KeyValue};
@@ -69,13 +70,14 @@ impl Session {
         Ok(document)
     }
 
-    fn become_of(&mut self, document: Document) -> Result<(), Answer> {
+    pub(super) fn become_of(&mut self, document: Document) -> Result<(), Answer> {
         let refused = Answer::rejected;
         let read = document.read().map_err(refused)?;
-        let document = document.with_tension_of_flights(&read.case).unwrap_or(document);
         let since = self.now();
         let anew = self.fibres.become_of(read.case).map_err(|error| refused(complaints(&error)))?;
         (self.document, self.notes, self.trouble) = (document, read.warnings, None);
+        // A search for the tension of the case before is of no use any more.
+        self.search = read.unflown.map(TensionSearch::begin);
         if anew {
             self.since = since;
             self.restart_statistics();

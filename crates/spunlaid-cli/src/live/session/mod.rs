@@ -2,6 +2,7 @@
 
 mod commands;
 mod show;
+mod tension;
 
 use super::board::{Board, PageId};
 use super::clock::Clock;
@@ -15,6 +16,7 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::{Arc, mpsc};
 use std::time::{Duration, Instant};
+use tension::TensionSearch;
 
 /// Time between two tellings of the statistics.
 const TELLING: Duration = Duration::from_millis(250);
@@ -23,6 +25,9 @@ const TELLING: Duration = Duration::from_millis(250);
 const LONGEST_STEP: Duration = Duration::from_millis(200);
 /// Steps of the flight between two looks at the clock, within such a step.
 const PIECE: u64 = 16;
+
+/// Time between two looks whether a search for a tension has ended, while nothing else happens.
+const LOOK: Duration = Duration::from_millis(50);
 
 /// Messages that are heard between two ticks.
 const MOST_HEARD: usize = 256;
@@ -50,6 +55,8 @@ pub(super) struct Session {
     /// What is added to the time of the flight, so that the time of the pages goes on when the fibres start anew [s].
     since: f64,
     trouble: Option<String>,
+    /// The flights that find the tension at the end of the spinline, as long as it is not known.
+    search: Option<TensionSearch>,
     /// The pages that can be seen.
     pages: BTreeSet<PageId>,
     folder: PathBuf,
@@ -90,6 +97,7 @@ impl Session {
             generation: 0,
             since: 0.0,
             trouble: None,
+            search: read.unflown.map(TensionSearch::begin),
             pages: BTreeSet::new(),
             folder,
             board,
@@ -107,9 +115,17 @@ impl Session {
     /// Flies until there is nobody any more who could ask.
     pub(super) fn fly(mut self, requests: &mpsc::Receiver<PageRequest>) {
         loop {
+            self.take_tension();
             if self.is_idle() {
-                let Ok(request) = requests.recv() else { return };
-                self.hear(request, requests);
+                let heard = match self.search {
+                    Some(_) => requests.recv_timeout(LOOK),
+                    None => requests.recv().map_err(|_| mpsc::RecvTimeoutError::Disconnected),
+                };
+                match heard {
+                    Ok(request) => self.hear(request, requests),
+                    Err(mpsc::RecvTimeoutError::Timeout) => continue,
+                    Err(mpsc::RecvTimeoutError::Disconnected) => return,
+                }
                 self.clock.begin(Instant::now());
                 self.show_frame();
                 continue;

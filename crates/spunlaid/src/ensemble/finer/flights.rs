@@ -130,18 +130,23 @@ impl Recorder for Paths<'_> {
         }
     }
 
-    fn sample(&self, replicate: u64, sample: &Sample) -> Result<(), Error> {
+    fn samples(&self, replicate: u64, samples: &[Sample]) -> Result<(), Error> {
         // The threads of all other fibres need not wait for one another.
         if replicate < self.replicates
             && let Some(path) = self.paths().get_mut(replicate as usize)
         {
             let (instants, path) = path.get_or_insert_default();
-            if *instants > 0 && instants.is_multiple_of(self.stride) && *instants / self.stride <= self.most {
-                path.push([sample.end.y, sample.end.z]);
+            for Sample { end, .. } in samples {
+                if *instants > 0
+                    && instants.is_multiple_of(self.stride)
+                    && *instants / self.stride <= self.most
+                {
+                    path.push([end.y, end.z]);
+                }
+                *instants += 1;
             }
-            *instants += 1;
         }
-        self.passed_on.map_or(Ok(()), |recorder| recorder.sample(replicate, sample))
+        self.passed_on.map_or(Ok(()), |recorder| recorder.samples(replicate, samples))
     }
 
     fn lay(&self, replicate: u64, points: &[LaidPoint]) -> Result<(), Error> {

@@ -1,13 +1,15 @@
 //! The webs of advice: the same web with one setting of the line changed, on the belt that lays the same weight.
 
 use super::super::entry::Entry;
+use super::super::lookup::Lookup;
+use super::super::unread::{self, Unread};
 use super::super::web::replaces;
 use super::super::{Overrides, file};
 use super::web::WebBase;
 use super::{Base, VariedKey};
 use crate::advice::{Change, ChangedKey, Setting};
 use crate::air::{Air, Flow};
-use crate::error::{Error, FileKind};
+use crate::error::FileKind;
 use crate::layers::{LaydownSource, LayerSpec, Method, WebSpec};
 use crate::units::Dimension;
 use crate::web::Filaments;
@@ -21,9 +23,9 @@ const KELVINS: [f64; 2] = [-10.0, 10.0];
 /// Reads the file of a web and makes the webs in which one setting of its line is changed.
 ///
 /// # Errors
-/// If the web cannot be read.
-pub fn read_changes(path: &Path, set: Overrides<'_>) -> Result<Vec<Change>, Error> {
-    let text = file::read(path, FileKind::Web)?;
+/// If the web cannot be read. And what has to be flown first, if a case has a spinline whose tension is that of flights.
+pub fn read_changes(path: &Path, set: Overrides<'_>) -> Result<Vec<Change>, Unread<Vec<Change>>> {
+    let text = file::read(path, FileKind::Web).map_err(Unread::Faulty)?;
     parse_changes(text, &path.display().to_string(), set)
 }
 
@@ -31,15 +33,22 @@ pub fn read_changes(path: &Path, set: Overrides<'_>) -> Result<Vec<Change>, Erro
 ///
 /// # Errors
 /// As [`read_changes`].
-pub fn parse_changes(text: String, name: &str, set: Overrides<'_>) -> Result<Vec<Change>, Error> {
-    let none = Overrides { values: &[], word: set.word };
-    let base = WebBase::new(text, name.to_owned(), [none, set])?;
-    let is_laid = |layer: &LayerSpec| matches!(layer.source, LaydownSource::Results { .. });
-    if base.spec().layers.iter().any(is_laid) {
-        // What has been flown lies on the belt of its flight.
-        return Ok(Vec::new());
-    }
-    Ok(Line { base: &base, set: set.values }.changes())
+pub fn parse_changes(
+    text: String,
+    name: &str,
+    set: Overrides<'_>,
+) -> Result<Vec<Change>, Unread<Vec<Change>>> {
+    let (name, word, values) = (name.to_owned(), set.word.to_owned(), set.values.to_vec());
+    unread::read(move |lookup| {
+        let [none, set] = [&[][..], &values].map(|values| Overrides { values, word: &word });
+        let base = WebBase::new(text.clone(), name.clone(), [none, set], lookup)?;
+        let is_laid = |layer: &LayerSpec| matches!(layer.source, LaydownSource::Results { .. });
+        if base.spec().layers.iter().any(is_laid) {
+            // What has been flown lies on the belt of its flight.
+            return Ok(Vec::new());
+        }
+        Ok(Line { base: &base, set: &values, lookup }.changes())
+    })
 }
 
 /// Digits of a changed setting.
@@ -65,6 +74,7 @@ struct Line<'a> {
     base: &'a WebBase,
     /// What is set beside the file.
     set: &'a [(String, String)],
+    lookup: &'a Lookup,
 }
 
 /// Keys that change together, each with the power of the factor by which it changes.
@@ -259,7 +269,7 @@ impl Line<'_> {
             (key.clone(), to)
         };
         let values: Vec<(VariedKey, f64)> = known.iter().map(to).collect();
-        let mut spec = self.base.changed(&values).ok()?.spec;
+        let mut spec = self.base.changed(&values, self.lookup).ok()?.spec;
         let belt = spec.belt_speed_for(self.weight());
         let slowest = spec.layers.iter().map(|layer| layer.feed_speed).fold(f64::INFINITY, f64::min);
         if belt.is_nan() || belt > slowest {

@@ -1,8 +1,8 @@
 //! The case that a study varies.
 
 use super::super::Overrides;
-use super::super::data::DataFiles;
 use super::super::document;
+use super::super::lookup::Lookup;
 use super::super::open::{self, OpenCase};
 use super::super::spinline::{self, SpinFile};
 use super::super::written_values::{WrittenValue, WrittenValues};
@@ -19,7 +19,6 @@ use crate::study::{Experiment, Point, Quantity, Study};
 pub(super) struct CaseBase {
     text: String,
     open: OpenCase,
-    files: DataFiles,
     /// What it is: a case, or a spinline alone.
     kind: FileKind,
 }
@@ -33,20 +32,20 @@ impl CaseBase {
         name: &str,
         set: &[Overrides<'_>],
         kind: FileKind,
+        lookup: &Lookup,
     ) -> Result<Self, Error> {
-        let files = DataFiles::default();
         let key_values = document::read(&keys::CASE, &text, name, set)?;
         let open = match kind {
-            FileKind::Spinline => spinline::open_spinline(key_values, &files)?,
-            _ => open::open(key_values, &files)?,
+            FileKind::Spinline => spinline::open_spinline(key_values, &lookup.files)?,
+            _ => open::open(key_values, &lookup.files)?,
         };
-        Ok(Self { text, open, files, kind })
+        Ok(Self { text, open, kind })
     }
 
-    fn open_again(&self, key_values: WrittenValues) -> Result<OpenCase, Error> {
+    fn open_again(&self, key_values: WrittenValues, lookup: &Lookup) -> Result<OpenCase, Error> {
         match self.kind {
-            FileKind::Spinline => spinline::open_spinline(key_values, &self.files),
-            _ => open::open(key_values, &self.files),
+            FileKind::Spinline => spinline::open_spinline(key_values, &lookup.files),
+            _ => open::open(key_values, &lookup.files),
         }
     }
 }
@@ -100,6 +99,7 @@ impl Base for CaseBase {
         at: &Place,
         plan: &Plan,
         seed: Option<u64>,
+        lookup: &Lookup,
     ) -> ExperimentWithNotes {
         let (mut key_values, mut faults) = (self.open.key_values.clone(), Vec::new());
         for (key, value) in values {
@@ -125,8 +125,12 @@ impl Base for CaseBase {
         }
         let seed = seed.unwrap_or(plan.seed);
         if self.kind == FileKind::Spinline {
-            let (opened, unneeded) = self.open(key_values, values);
-            let SpinFile { spec, mut notes, .. } = SpinFile::from_open(opened?);
+            let (opened, unneeded) = self.open(key_values, values, lookup);
+            let opened = opened?;
+            if opened.waits_for_flights() {
+                return Err(no_flights(at).into());
+            }
+            let SpinFile { spec, mut notes, .. } = SpinFile::from_open(opened);
             notes.extend(unneeded.into_iter().map(|note| Note { place: at.clone(), ..note }));
             return Ok((Experiment::Spinline(Box::new(spec)), notes));
         }
@@ -136,8 +140,8 @@ impl Base for CaseBase {
                 key_values.set(key.name, WrittenValue { place: at.clone(), shown, value });
             }
         }
-        let (opened, unneeded) = self.open(key_values, values);
-        let (case, mut notes) = opened.and_then(OpenCase::resolve)?;
+        let (opened, unneeded) = self.open(key_values, values, lookup);
+        let (case, mut notes) = lookup.resolve(opened?)?;
         notes.extend(unneeded.into_iter().map(|note| Note { place: at.clone(), ..note }));
         Ok((Experiment::Case(case), notes))
     }
@@ -158,8 +162,9 @@ impl CaseBase {
         &self,
         key_values: WrittenValues,
         set: &[(VariedKey, f64)],
+        lookup: &Lookup,
     ) -> (Result<OpenCase, Error>, Vec<Note>) {
-        let opened = self.open_again(key_values.clone());
+        let opened = self.open_again(key_values.clone(), lookup);
         let is_unneeded = |problem: &&Problem| {
             problem.what.needs.is_some() && set.iter().all(|(key, _)| key.name != problem.key)
         };
@@ -179,8 +184,18 @@ impl CaseBase {
         }
         let mut fewer = key_values;
         unneeded.iter().for_each(|note| drop(fewer.remove(&note.key)));
-        (self.open_again(fewer), unneeded)
+        (self.open_again(fewer, lookup), unneeded)
     }
+}
+
+/// A study of a spinline alone flies no fibre whose tension it could take.
+fn no_flights(at: &Place) -> Vec<Problem> {
+    let what = Fault::new(
+        "takes flights, and a study of a spinline flies no fibre",
+        "write a tension, or let the study vary the case: case = \"…\" in place of spinline = \"…\"",
+    );
+    let (key, value) = ("spinline.end_tension".to_owned(), Some("\"flown\"".to_owned()));
+    vec![Problem { place: at.clone(), key, value, what }]
 }
 
 /// A number as the value of a key: a quantity, a whole number, or the place of a word among the words of the key.

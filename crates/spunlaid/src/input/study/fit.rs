@@ -1,5 +1,7 @@
 //! The web of a fit: which keys can be sought in it, and the web of some values of theirs.
 
+use super::super::lookup::Lookup;
+use super::super::unread::{self, Unread};
 use super::super::web::WebFile;
 use super::super::{Overrides, file};
 use super::web::WebBase;
@@ -8,10 +10,11 @@ use crate::case::keys::{Kind, Sign};
 use crate::error::{Error, Fault, FileKind, Finding, Place, Problem};
 use crate::fit::{Parameter, USUAL_FACTOR};
 use std::path::Path;
+use std::sync::Arc;
 
 /// The web of a fit, with the keys that are sought in it.
 pub struct FitFile {
-    base: WebBase,
+    base: Arc<WebBase>,
     keys: Vec<VariedKey>,
     /// The web before anything is sought.
     pub start: WebFile,
@@ -31,9 +34,15 @@ impl std::fmt::Debug for FitFile {
 /// * `word` – what messages call them, `--vary`
 ///
 /// # Errors
-/// If the web cannot be laid, or if a key cannot be sought.
-pub fn read_fit(path: &Path, set: Overrides<'_>, vary: &[String], word: &str) -> Result<FitFile, Error> {
-    let text = file::read(path, FileKind::Web)?;
+/// If the web cannot be laid, or if a key cannot be sought. And what has to be flown first, if a case has a spinline whose tension is
+/// that of flights.
+pub fn read_fit(
+    path: &Path,
+    set: Overrides<'_>,
+    vary: &[String],
+    word: &str,
+) -> Result<FitFile, Unread<FitFile>> {
+    let text = file::read(path, FileKind::Web).map_err(Unread::Faulty)?;
     parse_fit(text, &path.display().to_string(), set, vary, word)
 }
 
@@ -47,9 +56,24 @@ pub fn parse_fit(
     set: Overrides<'_>,
     vary: &[String],
     word: &str,
+) -> Result<FitFile, Unread<FitFile>> {
+    let (name, values, of_set) = (name.to_owned(), set.values.to_vec(), set.word.to_owned());
+    let (vary, word) = (vary.to_vec(), word.to_owned());
+    unread::read(move |lookup| {
+        let set = Overrides { values: &values, word: &of_set };
+        fit_file(text.clone(), &name, set, (&vary, &word), lookup)
+    })
+}
+
+fn fit_file(
+    text: String,
+    name: &str,
+    set: Overrides<'_>,
+    (vary, word): (&[String], &str),
+    lookup: &Lookup,
 ) -> Result<FitFile, Error> {
     let none = Overrides { values: &[], word: set.word };
-    let base = WebBase::new(text, name.to_owned(), [none, set])?;
+    let base = WebBase::new(text, name.to_owned(), [none, set], lookup)?;
     let (mut keys, mut parameters, mut problems) =
         (Vec::<VariedKey>::new(), Vec::new(), Vec::<Problem>::new());
     for item in vary {
@@ -78,18 +102,19 @@ pub fn parse_fit(
     if !problems.is_empty() {
         return Err(problems.into());
     }
-    let start = base.file(&[], None)?;
-    Ok(FitFile { base, keys, start, parameters })
+    let start = base.file(&[], None, lookup)?;
+    Ok(FitFile { base: Arc::new(base), keys, start, parameters })
 }
 
 impl FitFile {
     /// The web with these values of the keys [SI].
     ///
     /// # Errors
-    /// Every problem with it.
-    pub fn web(&self, values: &[f64]) -> Result<WebFile, Error> {
+    /// Every problem with it, and what has to be flown first.
+    pub fn web(&self, values: &[f64]) -> Result<WebFile, Unread<WebFile>> {
         let values: Vec<(VariedKey, f64)> = self.keys.iter().cloned().zip(values.iter().copied()).collect();
-        self.base.file(&values, None)
+        let base = Arc::clone(&self.base);
+        unread::read(move |lookup| base.file(&values, None, lookup))
     }
 }
 

@@ -22,6 +22,8 @@ pub use fit::{FitFile, parse_fit, read_fit};
 pub use points::StudyNote;
 pub use starter::starter_study;
 
+use super::lookup::Lookup;
+use super::unread::{self, Unread};
 use super::{Overrides, file};
 use crate::case::keys::{Kind, Value};
 use crate::case::{Note, Remark};
@@ -93,8 +95,9 @@ impl StudyChanges<'_> {
 /// * `points` – the number of points requested; required above [`MOST_POINTS_UNASKED`]
 ///
 /// # Errors
-/// When a file cannot be read, and when the study or any of its points is wrong; the error lists all problems.
-pub fn read_study(path: &Path, points: Option<u64>) -> Result<StudyFile, Error> {
+/// When a file cannot be read, and when the study or any of its points is wrong; the error lists all problems. And what has to be flown
+/// first, if points have spinlines whose tension is that of flights.
+pub fn read_study(path: &Path, points: Option<u64>) -> Result<StudyFile, Unread<StudyFile>> {
     read_changed_study(path, &StudyChanges::points(points))
 }
 
@@ -102,8 +105,8 @@ pub fn read_study(path: &Path, points: Option<u64>) -> Result<StudyFile, Error> 
 ///
 /// # Errors
 /// As [`read_study`].
-pub fn read_changed_study(path: &Path, changes: &StudyChanges<'_>) -> Result<StudyFile, Error> {
-    let text = file::read(path, FileKind::Study)?;
+pub fn read_changed_study(path: &Path, changes: &StudyChanges<'_>) -> Result<StudyFile, Unread<StudyFile>> {
+    let text = file::read(path, FileKind::Study).map_err(Unread::Faulty)?;
     parse_changed_study(&text, &path.display().to_string(), changes, |named, kind| {
         let base = path.parent().map_or_else(|| PathBuf::from(named), |folder| folder.join(named));
         Ok((file::read(&base, kind)?, base.display().to_string()))
@@ -121,7 +124,7 @@ pub fn parse_study(
     name: &str,
     points: Option<u64>,
     base: impl FnOnce(&str, FileKind) -> Result<(String, String), Error>,
-) -> Result<StudyFile, Error> {
+) -> Result<StudyFile, Unread<StudyFile>> {
     parse_changed_study(text, name, &StudyChanges::points(points), base)
 }
 
@@ -134,10 +137,33 @@ pub fn parse_changed_study(
     name: &str,
     changes: &StudyChanges<'_>,
     base: impl FnOnce(&str, FileKind) -> Result<(String, String), Error>,
+) -> Result<StudyFile, Unread<StudyFile>> {
+    let base = || -> Result<(String, String), Error> {
+        let mut reader = reader::Reader::new(text, name)?;
+        let Some((named, kind)) = reader.base() else { return Err(reader.rejected()) };
+        base(&named, kind)
+    };
+    let base = base().map_err(Unread::Faulty)?;
+    let (text, name, set) = (text.to_owned(), name.to_owned(), changes.set.values.to_vec());
+    let (word, StudyChanges { points, replicates, .. }) = (changes.set.word.to_owned(), *changes);
+    unread::read(move |lookup| {
+        let set = Overrides { values: &set, word: &word };
+        study_file((&text, &name), &StudyChanges { points, replicates, set }, base.clone(), lookup)
+    })
+}
+
+/// The study of a text.
+///
+/// * `text` – with what messages call it
+/// * `base` – text and path of what the points vary
+fn study_file(
+    (text, name): (&str, &str),
+    changes: &StudyChanges<'_>,
+    (base_text, base_name): (String, String),
+    lookup: &Lookup,
 ) -> Result<StudyFile, Error> {
     let mut reader = reader::Reader::new(text, name)?;
-    let Some((named, kind)) = reader.base() else { return Err(reader.rejected()) };
-    let (base_text, base_name) = base(&named, kind)?;
+    let Some((_, kind)) = reader.base() else { return Err(reader.rejected()) };
     let set = reader.set(changes.set, kind);
     if reader.has_problems() {
         return Err(reader.rejected());
@@ -145,12 +171,12 @@ pub fn parse_changed_study(
     let word = format!("{name}: [set]");
     let of_file: Vec<_> = set.iter().filter(|(key, _)| !changes.sets(key)).cloned().collect();
     let set_by = [Overrides { values: &of_file, word: &word }, changes.set];
-    let base = open_base(kind, base_text, &base_name, set_by)?;
+    let base = open_base(kind, base_text, &base_name, set_by, lookup)?;
     let plan = reader.plan(&*base, &set, changes);
     let Some(plan) = plan else {
         return Err(reader.rejected());
     };
-    let resolver = points::Resolver { study: name, base: &*base, plan: &plan };
+    let resolver = points::Resolver { study: name, base: &*base, plan: &plan, lookup };
     let (resolved, mut notes) = resolver.points()?;
     let Replicates { at_least, until, .. } = &plan.replicates;
     if !until.is_empty() && *at_least < FEWEST_REPLICATES {
@@ -173,10 +199,11 @@ fn open_base(
     text: String,
     name: &str,
     set: [Overrides<'_>; 2],
+    lookup: &Lookup,
 ) -> Result<Box<dyn Base>, Error> {
     Ok(match kind {
-        FileKind::Web => Box::new(web::WebBase::new(text, name.to_owned(), set)?),
-        _ => Box::new(base::CaseBase::new(text, name, &set, kind)?),
+        FileKind::Web => Box::new(web::WebBase::new(text, name.to_owned(), set, lookup)?),
+        _ => Box::new(base::CaseBase::new(text, name, &set, kind, lookup)?),
     })
 }
 
@@ -206,6 +233,7 @@ trait Base {
     /// * `values` – of the keys that vary or follow from others
     /// * `at` – the place of these values
     /// * `seed` – if the point has one of its own
+    /// * `lookup` – the files of the point, and the tension if it is that of flights
     ///
     /// # Errors
     /// Every problem with it.
@@ -215,6 +243,7 @@ trait Base {
         at: &Place,
         plan: &Plan,
         seed: Option<u64>,
+        lookup: &Lookup,
     ) -> ExperimentWithNotes;
 
     /// What of the keys that are the same at all points has to stand in the study, because [`Base::text`] does not have it.

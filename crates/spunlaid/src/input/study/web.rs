@@ -1,6 +1,7 @@
 //! The web that a study varies, with the cases that it flies.
 
 use super::super::Overrides;
+use super::super::lookup::Lookup;
 use super::super::web::{AllSides, Sides, WebFile, flies_none, is_of_case, parse_sides, replaces, write_web};
 use super::fixed_keys::TAKE_A_NUMBER;
 use super::plan::Plan;
@@ -29,26 +30,36 @@ pub(super) struct WebBase {
 impl WebBase {
     /// * `path` – of the file
     /// * `set` – keys that are the same at all points: those of the study file, and those that replace them
-    pub(super) fn new(text: String, path: String, set: [Overrides<'_>; 2]) -> Result<Self, Error> {
+    pub(super) fn new(
+        text: String,
+        path: String,
+        set: [Overrides<'_>; 2],
+        lookup: &Lookup,
+    ) -> Result<Self, Error> {
         let AllSides { sides: set, flies, is_layered } = Sides::split(&text, &path, &set)?;
-        let WebFile { spec, .. } = parse_sides(&text, &path, &set, &[])?;
+        let WebFile { spec, .. } = parse_sides(&text, &path, &set, &[], lookup)?;
         Ok(Self { text, path, set, flies, is_layered, spec })
     }
 
     /// The web with these values of keys, and with a seed of its own if there is one.
-    pub(super) fn file(&self, values: &[(VariedKey, f64)], seed: Option<u64>) -> Result<WebFile, Error> {
+    pub(super) fn file(
+        &self,
+        values: &[(VariedKey, f64)],
+        seed: Option<u64>,
+        lookup: &Lookup,
+    ) -> Result<WebFile, Error> {
         let value = |(key, value): &(VariedKey, f64)| (key.name.clone(), key.exact(*value));
         let seed = seed.map(|seed| ("web.seed".to_owned(), seed.to_string()));
         let point = Sides::new(values.iter().map(value).chain(seed), "point", self.flies);
-        parse_sides(&self.text, &self.path, &[&self.set[..], &[point]].concat(), &[])
+        parse_sides(&self.text, &self.path, &[&self.set[..], &[point]].concat(), &[], lookup)
     }
 
     /// [`WebBase::file`] with values that take the place of what is set in other words.
-    pub(super) fn changed(&self, values: &[(VariedKey, f64)]) -> Result<WebFile, Error> {
+    pub(super) fn changed(&self, values: &[(VariedKey, f64)], lookup: &Lookup) -> Result<WebFile, Error> {
         let point = |key: &str| values.iter().any(|(value, _)| replaces(&value.name, key.trim()));
         let set = self.set.iter().map(|sides| sides.without(point)).collect();
         let (text, path) = (self.text.clone(), self.path.clone());
-        Self { text, path, set, spec: self.spec.clone(), ..*self }.file(values, None)
+        Self { text, path, set, spec: self.spec.clone(), ..*self }.file(values, None, lookup)
     }
 
     /// The web before its keys vary.
@@ -146,8 +157,9 @@ impl Base for WebBase {
         _: &Place,
         _: &Plan,
         seed: Option<u64>,
+        lookup: &Lookup,
     ) -> ExperimentWithNotes {
-        let WebFile { spec, notes, .. } = self.file(values, seed)?;
+        let WebFile { spec, notes, .. } = self.file(values, seed, lookup)?;
         Ok((Experiment::Web(spec), notes))
     }
 

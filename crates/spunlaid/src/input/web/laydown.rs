@@ -1,6 +1,5 @@
 //! What tells how the filaments of a layer lie.
 
-use super::super::data::DataFiles;
 use super::super::{Overrides, file, parse_with};
 use super::read::{NUMBERS, Reading, THROUGHPUT};
 use crate::case::keys::Value;
@@ -66,10 +65,14 @@ impl Reading<'_> {
     fn case(&mut self, prefix: &str) -> Result<Option<LaydownSource>, Error> {
         let key = format!("{prefix}{CASE}");
         let Some(path) = self.path(&key) else { return Ok(None) };
+        let unflown = self.lookup.unflown_cases();
         let read = self.read_case(&path, self.of_case);
         let change = match &read {
-            Ok((case, _)) => self.change_throughput(prefix, case, &path),
-            Err(_) => None,
+            // How a case whose tension is still to be found has to change is known when it is.
+            Ok((case, _)) if self.lookup.unflown_cases() == unflown => {
+                self.change_throughput(prefix, case, &path)
+            }
+            _ => None,
         };
         let read = match change {
             None => read,
@@ -124,7 +127,13 @@ impl Reading<'_> {
             None => file::read(path, FileKind::Case),
         };
         let name = path.display().to_string();
-        text.and_then(|text| parse_with(&DataFiles::default(), &text, &name, changes))
+        let unflown = self.lookup.unflown_cases();
+        let read = text.and_then(|text| parse_with(self.lookup, &text, &name, changes));
+        if self.lookup.unflown_cases() > unflown {
+            // What the web has from a case, it has from one with another tension.
+            self.lookup.doubt();
+        }
+        read
     }
 
     /// A case whose fibres are laid down on a moving belt.

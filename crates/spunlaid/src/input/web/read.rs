@@ -1,6 +1,7 @@
 //! Makes the web from the written values, from what the flown cases give, and from the defaults.
 
 use super::super::Overrides;
+use super::super::lookup::Lookup;
 use super::super::open::rival;
 use super::super::written_values::{WrittenValue, WrittenValues, sorted};
 use crate::case::keys::{Key, Omission, Value};
@@ -35,6 +36,8 @@ pub(super) struct Reading<'a> {
     pub(super) of_case: &'a [Overrides<'a>],
     /// Texts of cases that are no files.
     pub(super) cases: &'a [(PathBuf, String)],
+    /// Files and tensions of the cases.
+    pub(super) lookup: &'a Lookup,
     notes: Vec<Note>,
     /// The full name of the key that gives the basis weight, of one of the layers; empty if there is none.
     pub(super) basis_weight_key: String,
@@ -48,10 +51,11 @@ pub(super) fn spec(
     key_values: WrittenValues,
     name: &str,
     (of_case, cases): (&[Overrides<'_>], &[(PathBuf, String)]),
+    lookup: &Lookup,
 ) -> Result<(WebSpec, Vec<Note>), Error> {
     let folder = Path::new(name).parent().unwrap_or(Path::new("")).to_owned();
     let (notes, basis_weight_key) = (Vec::new(), String::new());
-    let mut reading = Reading { key_values, folder, of_case, cases, notes, basis_weight_key };
+    let mut reading = Reading { key_values, folder, of_case, cases, lookup, notes, basis_weight_key };
     let (mut web, prefixes) = (WebSpec::unknown(), reading.prefixes());
     reading.leave_to_case(&prefixes);
     for prefix in &prefixes {

@@ -53,7 +53,8 @@ pub(super) const KEYS: &[Key] = &[
     .slider(1.0, 100.0),
     quantity("spinline.end_tension", Dimension::Force, Any, Access {
         get: |case| match case.spinline.as_ref()?.end {
-            End::Tension(tension) | End::Flown(tension) => Some(Value::Number(tension)),
+            End::Tension(tension) => Some(Value::Number(tension)),
+            End::Flown(_) => Some(FLOWN.into()),
             End::TakeUp(_) => None,
         },
         set: |case, value| {
