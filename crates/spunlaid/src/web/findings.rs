@@ -209,7 +209,10 @@ pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Res
             .as_ref()
             .and_then(|together| with_pairs(web, together, single_fibres.0, map.patch));
         let few = laid.shared_air.as_ref().and_then(|together| of_all_layers(web, together, map));
-        let map = few.map_or(map, |few| Unevenness { cv: few.cv, standard_error: few.by_chance, ..map });
+        // A map of pieces of another sheet says nothing of chance.
+        let is_of_few = laid.shared_air.as_ref().is_some_and(|together| !together.few.is_empty());
+        let unknown = if is_of_few { Unevenness { standard_error: None, ..map } } else { map };
+        let map = few.map_or(unknown, |few| Unevenness { cv: few.cv, standard_error: few.by_chance, ..map });
         patches.push(PatchFindings {
             few,
             map,
