@@ -124,11 +124,12 @@ pub fn advise(
 ) -> Result<Advice, Error> {
     let is_shared = spec.method == Method::SharedAir;
     let aside = AtomicU64::new(0);
-    let few = findings.laid.shared_air.as_ref().map(|together| together.few.clone());
-    let base = match few.filter(|few| is_shared && few.len() == spec.layers.len()) {
-        Some(few) => Unevennesses::OfFew(WebOfFew::new(spec, few)),
-        None if is_shared => Unevennesses::OfMaps(findings.patches.clone()),
-        None => Unevennesses::Expected(expected_cv(web, LayControl { laid: &aside, ..by })?),
+    let has_few = findings.laid.shared_air.as_ref().is_some_and(|together| !together.few.is_empty());
+    let base = match (is_shared, has_few) {
+        // On the sheet of the changes, which is smaller.
+        (true, true) => unevennesses(spec, LayControl { laid: &aside, ..by })?,
+        (true, false) => Unevennesses::OfMaps(findings.patches.clone()),
+        (false, _) => Unevennesses::Expected(expected_cv(web, LayControl { laid: &aside, ..by })?),
     };
     // A flight of eight fibres takes one thread, and many changes are tried side by side. All filaments in one air take all threads.
     let (abreast, threads) = if is_shared { (1, by.threads) } else { (by.threads, 1) };
