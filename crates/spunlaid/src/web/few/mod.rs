@@ -196,10 +196,8 @@ impl FewFilaments<'_> {
     ///
     /// * `half` – the first of these; None for all
     pub(crate) fn map(&self, half: Option<usize>) -> Result<Map, Error> {
-        let curves = self.rows.iter().flat_map(|row| match half {
-            Some(first) => row.iter().skip(first).step_by(2),
-            None => row.iter().skip(0).step_by(1),
-        });
+        let (first, step) = half.map_or((0, 1), |first| (first, 2));
+        let curves = self.rows.iter().flat_map(|row| row.iter().skip(first).step_by(step));
         let canvas = self.canvas(self.sheet)?;
         let quanta = canvas.quanta(self.piece);
         for curve in curves.flatten() {
