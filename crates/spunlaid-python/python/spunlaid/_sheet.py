@@ -46,7 +46,12 @@ class Kept:
         if place.exists() and any(place.iterdir()):
             if not force:
                 raise FolderError(f"{place}: holds results already; name another folder, or pass force=True")
-            rmtree(place)
+            # Files of others stay.
+            for name in {name.split("/")[0] for name in self.files}:
+                if (place / name).is_dir():
+                    rmtree(place / name)
+                else:
+                    (place / name).unlink(missing_ok=True)
         for name, content in self.files.items():
             (place / name).parent.mkdir(parents=True, exist_ok=True)
             (place / name).write_bytes(content)
