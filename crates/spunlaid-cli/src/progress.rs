@@ -13,7 +13,7 @@ pub(crate) fn follow<T>(
     quiet: bool,
     work: impl FnOnce() -> T,
 ) -> T {
-    let bar = bar(total, "{msg} [{bar:32}] {percent:>3} %  {elapsed} elapsed, {eta} left", quiet);
+    let bar = bar(total, "[{bar:20}] {percent:>3} %  {eta} left  {wide_msg}", quiet);
     if bar.is_hidden() {
         return work();
     }
@@ -21,7 +21,8 @@ pub(crate) fn follow<T>(
     show_while(&bar, Duration::from_millis(50), || bar.set_position(done.load(Ordering::Relaxed)), work)
 }
 
-/// A bar of so many parts, which is hidden without a terminal or if `quiet`.
+/// A bar of so many parts, which is hidden without a terminal or if `quiet`. Its words come last and are cut where the terminal ends:
+/// a line that is wrapped cannot be cleared once the terminal has another width.
 pub(crate) fn bar(total: u64, template: &str, quiet: bool) -> ProgressBar {
     let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
     let bar = ProgressBar::with_draw_target(Some(total), target);

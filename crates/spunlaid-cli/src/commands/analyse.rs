@@ -51,7 +51,7 @@ fn record(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     if analyse.json {
         say::text(&json);
     } else if !analyse.output.quiet {
-        say::text(&result_table(&record, &analysis));
+        say::table(&result_table(&record, &analysis));
         say::line(&format!("\nthe [air] of a case is in {}", folder.join("air.toml").display()));
         say_report(&folder);
     }

@@ -26,7 +26,7 @@ pub(crate) fn compare(compare: &Compare, invocation: &Invocation) -> Result<(), 
     if compare.json {
         say::text(&found.json());
     } else if !compare.output.quiet {
-        found.comparisons().iter().for_each(|comparison| say::text(&comparison::table(comparison)));
+        found.comparisons().iter().for_each(|comparison| say::table(&comparison::table(comparison)));
         found.notes().iter().for_each(|note| say::remark(false, note));
         say_report(&folder);
     }

@@ -55,7 +55,7 @@ pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), 
     if arguments.json {
         say::text(&fit_json(&found, &target, input.paths, &notes));
     } else if !arguments.output.quiet {
-        say::text(&table(&found));
+        say::table(&table(&found));
         sentences(&found).iter().chain(&refused(&found)).for_each(|sentence| say::line(sentence));
         say_report(&path);
     }
@@ -85,7 +85,7 @@ fn search(
     let laid = AtomicU64::new(0);
     let by = lay_control(arguments.threads, &laid);
     // How many trials there will be is not known.
-    let template = "{msg} [{bar:20}] web {pos} of {len}  {elapsed} elapsed";
+    let template = "[{bar:20}] web {pos} of {len}  {elapsed} elapsed  {wide_msg}";
     let bar = progress::bar(arguments.webs, template, arguments.output.quiet);
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
     let flyer = Flyer::new(by.threads, by.stop, &follow);

@@ -127,8 +127,8 @@ fn interrupted(flown: u64, asked: u64) -> String {
 /// Prints the results.
 fn show(run: &files::Run<'_>) {
     let files::Run { case, results, checks, performance, .. } = *run;
-    say::text(&table::results(results));
-    say::text(&finer::text(checks, case, results));
+    say::table(&table::results(results));
+    say::table(&finer::text(checks, case, results));
     let seconds = performance.wall_s;
     say::line(&format!(
         "\n{} in {seconds:.2} s, {:.1} ns per element and step and thread ({}, {})",

@@ -26,7 +26,7 @@ pub(super) fn scan(arguments: &Analyse, invocation: &Invocation) -> Result<(), F
     if arguments.json {
         say::text(&results.summary());
     } else if !arguments.output.quiet {
-        say::text(&table(&findings));
+        say::table(&table(&findings));
         notes.iter().for_each(|note| say::remark(false, note));
         say_report(&folder);
     }
@@ -59,12 +59,12 @@ fn table(findings: &Findings) -> String {
     if findings.mean_known {
         text.push_str(&format!("basis weight {} g/m²\n", significant(findings.map.basis_weight() * 1e3, 4)));
     }
-    let heads = ["patch", "CV", "noise of the camera", "lost by a pixel of blur", "95 % interval"];
+    let heads = ["patch", "CV", "camera noise", "lost by blur", "95 % interval"];
     let line = |cells: [&str; 5]| {
         let [patch, cv, noise, blur, interval] = cells;
-        format!("  {patch:>9}  {cv:>16}  {noise:>20}  {blur:>23}  {interval}\n")
+        format!("  {patch:>7}  {cv:>12}  {noise:>12}  {blur:>12}  {interval}\n")
     };
-    text.push_str("unevenness, CV in % ± standard error\n");
+    text.push_str("unevenness, CV in % ± standard error; what the camera adds, and what one more pixel of blur takes away\n");
     text.push_str(&line(heads));
     for patch in &findings.patches {
         let found = patch.unevenness;

@@ -22,7 +22,7 @@ pub(super) fn follow<T>(
     if quiet {
         return work();
     }
-    let bar = bar(1, "[{bar:24}] {percent:>3} %  {msg}", false);
+    let bar = bar(1, "[{bar:20}] {percent:>3} %  {wide_msg}", false);
     let mut log = Log { last: Instant::now(), share: 0.0 };
     let begun = Instant::now();
     let mut before = None;
