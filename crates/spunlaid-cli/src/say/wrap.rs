@@ -28,11 +28,11 @@ fn shown(line: &str) -> usize {
     line.chars().filter(counts).count()
 }
 
-/// Where a line goes on: under its last column if there is room, or else a little further in than it begins.
-fn indentation(line: &str, width: usize) -> usize {
+/// The last column of a line that has several: the first byte of it.
+fn last_column(line: &str) -> Option<usize> {
+    let line = line.trim_end();
     let begin = line.len() - line.trim_start_matches(' ').len();
-    let column = line.trim_end().rfind("  ").map_or(0, |gap| shown(&line[..gap + 2]));
-    if column > begin && column + LEAST <= width { column } else { begin + 2 }
+    line.rfind("  ").map(|gap| gap + 2).filter(|column| *column > begin)
 }
 
 fn wrap(line: &str, width: usize) -> String {
@@ -42,10 +42,20 @@ fn wrap(line: &str, width: usize) -> String {
         let below = wrap(comment, width.saturating_sub(1)).replace('\n', "\n#");
         return format!("#{below}{end}");
     }
-    let indentation = indentation(content, width);
+    let begin = content.len() - content.trim_start_matches(' ').len();
+    let last = last_column(content);
+    // Under the last column if there is room, or else a little further in than the line begins.
+    let place = last.map(|last| shown(&content[..last])).filter(|place| place + LEAST <= width);
+    let indentation = place.unwrap_or(begin + 2);
     let (mut text, mut at, mut is_first) = (String::new(), 0, true);
     // Each word with the blanks before it.
     let mut rest = content;
+    if let (Some(last), None) = (last, place)
+        && shown(content[..last].trim_end()) <= width
+    {
+        text = format!("{}\n{}", content[..last].trim_end(), " ".repeat(indentation));
+        (at, rest) = (indentation, &content[last..]);
+    }
     while !rest.is_empty() {
         let blanks = rest.len() - rest.trim_start_matches(' ').len();
         let word = rest[blanks..].find(' ').map_or(rest.len(), |length| blanks + length);
@@ -75,7 +85,8 @@ mod tests {
         assert_eq!(wrapped(table, 47), wanted);
         // Where there is no room, a little further in than the line begins.
         let narrow = wrapped(table, 40);
-        assert_eq!(narrow.lines().nth(2), Some("    times the mean velocity"), "{narrow}");
+        assert_eq!(narrow.lines().nth(1), Some("  Length    28.8  mm"), "{narrow}");
+        assert_eq!(narrow.lines().nth(2), Some("    integral time times the mean"), "{narrow}");
         assert!(narrow.lines().all(|line| line.chars().count() <= 40));
     }
 
