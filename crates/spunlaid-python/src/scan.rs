@@ -75,7 +75,7 @@ fn request(options: &Bound<'_, PyDict>) -> PyResult<ScanRequest> {
     let given = |name: &str| Ok::<_, PyErr>(options.get_item(name)?.filter(|value| !value.is_none()));
     let number =
         |name: &str, dimension| given(name)?.map(|value| positive(name, &value, dimension)).transpose();
-    let flag = |name: &str| Ok::<_, PyErr>(given(name)?.map_or(Ok(false), |value| value.is_truthy())?);
+    let flag = |name: &str| given(name)?.map_or(Ok(false), |value| value.is_truthy());
     let named = |value: &Bound<'_, PyAny>| {
         let text: Option<String> = value.extract().ok();
         LightKind::ALL.into_iter().find(|kind| text.as_deref() == Some(kind.name())).ok_or_else(|| {
