@@ -240,7 +240,7 @@ fn rejects_folders_with_files_of_others_without_force() {
         ("analyse probe.csv", "analysis.json"),
         ("analyse laid/map.png", "summary.json"),
         ("sweep study.toml", "results.csv"),
-        (&*format!("fit {web} --to laid --vary line.belt_speed --webs 4"), "fit.json"),
+        (&*format!("fit {web} --to laid --vary laydown.noise --webs 8"), "fit.json"),
         ("compare run run", "comparison.json"),
     ] {
         let command = format!("{command} --quiet --out theirs");
