@@ -33,9 +33,17 @@ pub const ENTRIES: &[&str] = &[
     COMPLETE,
 ];
 const COMPLETE: &str = "summary.json";
-/// Files that mark the results of any command.
-const MARKS: &[&str] =
-    &[COMPLETE, "analysis.json", "results.csv", "comparison.json", "fit.json", "trials.csv", "study.toml"];
+/// Files that mark the results of any command, and the journal that studies of webs had before they were like all others.
+const MARKS: &[&str] = &[
+    COMPLETE,
+    "analysis.json",
+    "results.csv",
+    "comparison.json",
+    "fit.json",
+    "trials.csv",
+    "study.toml",
+    "webs.jsonl",
+];
 /// Folders in the staging folder: the new results, and the old ones while they are replaced.
 const NEW: &str = "new";
 const OLD: &str = "old";
