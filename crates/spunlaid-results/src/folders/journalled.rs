@@ -9,7 +9,7 @@
 
 use crate::Failure;
 use crate::failure::not_a_folder;
-use crate::output::folder::refuse_others;
+use crate::output::folder::{MARKS, refuse_others};
 use crate::output::leftovers;
 use crate::output::origin::{ORIGIN, Origin};
 use spunlaid::study::{Header, Journal};
@@ -57,7 +57,7 @@ impl JournalFolder {
         if path.exists() && !path.is_dir() {
             return Err(not_a_folder(path));
         }
-        let results = work.entries.concat();
+        let results = [MARKS, &work.entries.concat()].concat();
         if !work.force && !path.join(JOURNAL).exists() {
             refuse_others(path, &results, work.description)?;
         }

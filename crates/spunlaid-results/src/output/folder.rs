@@ -34,7 +34,7 @@ pub const ENTRIES: &[&str] = &[
 ];
 const COMPLETE: &str = "summary.json";
 /// Files that mark the results of any command, and the journal that studies of webs had before they were like all others.
-const MARKS: &[&str] = &[
+pub(crate) const MARKS: &[&str] = &[
     COMPLETE,
     "analysis.json",
     "results.csv",
