@@ -5,7 +5,7 @@ use crate::Failure;
 use crate::failure::{other_study, other_version};
 use crate::figures::study_figures;
 use crate::output::copied_files::{self, CASE_FILES};
-use crate::output::folder::{self, Staging};
+use crate::output::folder::{self, MARKS, Staging};
 use crate::output::origin::Origin;
 use crate::output::pictures::FigureFiles;
 use crate::output::{self};
@@ -224,5 +224,9 @@ fn keep_files(file: &StudyFile, staging: &Staging<'_>) -> Result<String, Failure
 ///
 /// * `force` – whether what it holds is replaced
 pub(super) fn refuse_others(path: &Path, force: bool) -> Result<(), Failure> {
-    if force || path.join(JOURNAL).exists() { Ok(()) } else { folder::refuse_others(path, MADE, REMAINS) }
+    if force || path.join(JOURNAL).exists() {
+        Ok(())
+    } else {
+        folder::refuse_others(path, &[MARKS, MADE].concat(), REMAINS)
+    }
 }
