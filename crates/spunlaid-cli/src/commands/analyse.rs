@@ -1,12 +1,13 @@
 //! `spunlaid analyse` makes the air of a case from a velocity record; a scan of a web goes to `scan`.
 
-use super::scan::{is_picture, scan};
+use super::scan::scan;
 use super::{say_report, staged, stem};
 use crate::args::{Analyse, Invocation, RecordOptions, Scan};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::error::{Fault, FileError, Problem};
 use spunlaid::record::{Analysis, Layout, Record, Settings, SpectrumSettings, read_record};
+use spunlaid::scan::is_picture_file;
 use spunlaid_results::figures::record_figures;
 use spunlaid_results::output::analysis::{
     air_block, analysis_json, autocorrelation_csv, result_table, spectrum_csv,
@@ -15,7 +16,7 @@ use spunlaid_results::output::folder::{ENTRIES, Staging};
 use spunlaid_results::report::{AnalysisReport, analysis_html};
 
 pub(crate) fn analyse(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
-    let is_scan = analyse.scan.pixel.is_some() || is_picture(&analyse.record);
+    let is_scan = analyse.scan.pixel.is_some() || is_picture_file(&analyse.record);
     let foreign =
         if is_scan { invocation.first_option::<RecordOptions>() } else { invocation.first_option::<Scan>() };
     if let Some(option) = foreign {
@@ -50,7 +51,7 @@ fn record(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     if analyse.json {
         say::text(&json);
     } else if !analyse.output.quiet {
-        say::text(&result_table(&record, &analysis));
+        say::table(&result_table(&record, &analysis));
         say::line(&format!("\nthe [air] of a case is in {}", folder.join("air.toml").display()));
         say_report(&folder);
     }
