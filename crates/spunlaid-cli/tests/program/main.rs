@@ -17,6 +17,7 @@ mod fit;
 mod gusts;
 mod keys;
 mod lost;
+mod records;
 mod refusals;
 mod results;
 mod scan;

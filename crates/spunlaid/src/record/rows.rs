@@ -204,9 +204,13 @@ fn fill(values: &mut [f64]) -> usize {
 
 /// The fault of too many samples that are missing in a row.
 fn gap_too_long(missing: f64, most: usize) -> Fault {
-    let missing = shortest(missing);
+    let missing = if missing == 1.0 {
+        "1 sample is missing before here".to_owned()
+    } else {
+        format!("{} samples in a row are missing up to here", shortest(missing))
+    };
     Fault::new(
-        format!("{missing} samples in a row are missing up to here, more than the {most} that are filled in"),
+        format!("{missing}, more than the {most} that are filled in"),
         "cut the record here, fill in the missing samples, or allow longer gaps (air.record_max_gap in a case)",
     )
     .option("--max-gap")

@@ -53,7 +53,8 @@ fn analytic_rows_that_are_hidden_or_lack_a_number_end_the_air() {
             "{array} has no number at 1 point; it is in line 21. There is no air there: these places are left out"
         )
     };
-    let hidden = "1 points are hidden (vtkGhostType or vtkValidPointMask); there is no air there, and they are left out";
+    let hidden =
+        "1 point is hidden (vtkGhostType or vtkValidPointMask); there is no air there, and it is left out";
     for (names, last, said) in [
         (",vtkValidPointMask", "0,0,0,0,0", hidden.to_owned()),
         (",vtkGhostType", "900,0,1,5,2", "no ghost".to_owned()),

@@ -284,7 +284,7 @@ fn rejects_tables_with_place_and_way_out() {
             "TITLE=\"a\"\nVARIABLES=\"X\",\"Y\",\"U\",\"V\"\n1 2 3 4\n",
             "a.vtu:3: \"a number\" was found instead of the line ZONE; is the file complete, and is it the right one?",
         ),
-        (&format!("{head}1,2,3,4,5,6\n"), "a.vtu: has 1 points; at least 9 are needed for interpolation"),
+        (&format!("{head}1,2,3,4,5,6\n"), "a.vtu: has 1 point; at least 9 are needed for interpolation"),
         (
             "FoamFile\n{\n}\n",
             "a.vtu: is a file of OpenFOAM’s own; convert the case with foamToVTK and name its internal.vtu",
