@@ -8,6 +8,7 @@ use crate::case::Remark;
 use crate::error::{FileError, FileKind};
 use crate::field::{Field, FieldLayout, ReadField};
 use crate::file;
+use crate::input::file::text as text_of;
 use crate::record::{Interval, LONGEST_GAP, Layout, Record, Settings, analyse_fluctuation, read_record};
 use crate::spinline::{AirTable, PolymerFile};
 use std::cell::RefCell;
@@ -64,8 +65,9 @@ impl DataFiles {
     pub(super) fn polymer(&self, path: &Path) -> Result<FileContent<PolymerFile>, FileError> {
         once(&self.polymers, path, "", || {
             let bytes = file::read(path, FileKind::Case, LARGEST_TABLE)?;
-            let polymer = polymer::read(&String::from_utf8_lossy(&bytes), &path.display().to_string())?;
-            Ok(from_file(path, crc32fast::hash(&bytes), polymer))
+            let checksum = crc32fast::hash(&bytes);
+            let polymer = polymer::read(&text_of(bytes)?, &path.display().to_string())?;
+            Ok(from_file(path, checksum, polymer))
         })
     }
 
