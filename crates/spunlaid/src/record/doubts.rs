@@ -61,6 +61,7 @@ fn filled(record: &Record) -> Option<Fault> {
 /// All warnings about a record and its analysis, with what to do about each.
 pub(super) fn warnings(record: &Record, analysis: &Analysis) -> Vec<Fault> {
     let mut warnings = Vec::new();
+    warnings.extend(record.reading.doubt.clone());
     warnings.extend(filled(record).filter(|_| record.filled_share() > MUCH_FILLED));
     let longest = analysis.components.iter().map(Component::block_time).fold(0.0, f64::max);
     if analysis.duration < BLOCKS.0 as f64 * longest {

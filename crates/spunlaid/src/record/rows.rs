@@ -110,7 +110,7 @@ impl Rows {
 
     /// Makes the record.
     pub(super) fn finish(mut self) -> Result<Record, FileError> {
-        let Spacing { interval, lost, jitter } = self.place()?;
+        let Spacing { interval, lost, jitter, doubt } = self.place()?;
         let skipped: usize = lost.iter().map(|(_, lost)| lost).sum();
         let rows = self.values.first().map_or(0, Vec::len) + skipped;
         check_size(rows.saturating_mul(self.values.len()))?;
@@ -129,6 +129,7 @@ impl Rows {
         };
         self.reading.skipped = skipped;
         self.reading.jitter = jitter;
+        self.reading.doubt = doubt;
         self.reading.cut_off = rows - (end - first);
         self.reading.cut_off_start = first;
         let mut components = Vec::new();
