@@ -41,8 +41,8 @@ fn record(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     let staging = staged((&folder, ENTRIES), &analyse.output, origin, &analyse.figures.files())?;
     let record = read_record(&analyse.record, &layout(&analyse.reading))?;
     let analysis = spunlaid::record::analyse(&record, &settings(&analyse.reading))?;
-    let remarks = remarks(&record);
-    remarks.iter().for_each(|remark| say::aside(&format!("note: {remark}")));
+    let remarks: Vec<String> = record.repairs().iter().map(ToString::to_string).collect();
+    remarks.iter().for_each(|remark| say::remark(false, remark));
     analysis.warnings.iter().for_each(|warning| say::warning(&warning.to_string()));
 
     let json = analysis_json(&record, &analysis);
@@ -81,27 +81,6 @@ fn settings(options: &RecordOptions) -> Settings {
         flat_until: options.flat_until,
         mean_velocity: options.mean_velocity,
     }
-}
-
-/// Notes about the reading of the record.
-fn remarks(record: &Record) -> Vec<String> {
-    let r = &record.reading;
-    let mut remarks = Vec::new();
-    if r.filled > 0 {
-        let skipped = if r.skipped > 0 {
-            format!(", {} of them in rows that the file lacks", r.skipped)
-        } else {
-            String::new()
-        };
-        remarks.push(format!("{} missing samples were interpolated linearly{skipped}", r.filled));
-    }
-    if r.cut_off > 0 {
-        remarks.push(format!("{} incomplete rows at the start and the end were dropped", r.cut_off));
-    }
-    if !r.unused.is_empty() {
-        remarks.push(format!("not used: {}", r.unused.join(", ")));
-    }
-    remarks
 }
 
 fn write(

@@ -310,3 +310,32 @@ fn a_record_that_cannot_be_used_is_told_with_the_option_that_helps() {
         assert!(said.starts_with("error: a.csv: ") && said.ends_with(wanted), "{said}");
     }
 }
+
+#[test]
+fn a_broken_case_is_refused_in_the_same_words_wherever_it_comes_from() {
+    let desk = Desk::new();
+    for (bytes, wanted) in [
+        (
+            &b"version = 1\n[fibre]\ndirection = [1.0, 0.0, 0.0\n"[..],
+            "case.toml:3:13: the list that begins with [",
+        ),
+        (
+            b"[fibre]\nlength = 1,5 m\n",
+            "case.toml:2:11: the line has a decimal comma; write length = \"1.5 m\"",
+        ),
+        (
+            b"[fibre]\ndiameter = \"50 \xb5m\"\n",
+            "case.toml:2: is not UTF-8 text: byte 0xb5 in this line would be \u{b5}",
+        ),
+        (b"\xff\xfe[\0r\0u\0n\0]\0", "case.toml: is UTF-16 text"),
+        (b"[\0r\0u\0n\0]\0", "case.toml: is UTF-16 text"),
+    ] {
+        fs::write(desk.path("case.toml"), bytes).unwrap();
+        let said = refusal(&mut desk.spunlaid("check case.toml"), 1);
+        assert!(said.starts_with(&format!("error: {wanted}")), "{said}");
+        assert_eq!(refusal(&mut desk.spunlaid("live case.toml --no-open"), 1), said);
+        let file = fs::File::open(desk.path("case.toml")).unwrap();
+        let piped = refusal(desk.spunlaid("check -").stdin(file), 1);
+        assert_eq!(piped.replace("standard input", "case.toml"), said);
+    }
+}

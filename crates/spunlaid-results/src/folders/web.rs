@@ -218,7 +218,8 @@ fn lost_filament_notes(web: &Web, together: &SharedAirFindings) -> Vec<String> {
     match together.lost {
         0 => Vec::new(),
         lost => vec![format!(
-            "{lost} of {all} filaments were lost in flight, and each is missing from then on: the web is lighter by that, and a little more uneven"
+            "{lost} of {all} filaments {} lost in flight, and each is missing from then on: the web is lighter by that, and a little more uneven",
+            if lost == 1 { "was" } else { "were" }
         )],
     }
 }
