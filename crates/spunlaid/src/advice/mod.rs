@@ -53,9 +53,17 @@ pub struct CvChange {
     pub standard_error: f64,
     /// Degrees of freedom of the error.
     pub degrees: f64,
+    /// The part of the change that filaments make each for itself, to first order; the rest is that of the clouds which they make together. None where it
+    /// is not known.
+    pub own: Option<f64>,
 }
 
 impl CvChange {
+    /// Whether the change is one of the clouds, and not of what each filament does for itself; None where that is not known.
+    pub fn is_of_clouds(&self) -> Option<bool> {
+        self.own.map(|own| (self.change - own).abs() >= own.abs())
+    }
+
     /// Whether the 95 % confidence interval leaves out zero.
     pub fn is_beyond_chance(&self) -> bool {
         let Self { change: value, standard_error, degrees, .. } = *self;
@@ -178,7 +186,7 @@ impl Unevennesses {
                     let after = after.iter().find(|after| after.patch == before.patch)?;
                     let (change, standard_error) = before.change_to(after);
                     let degrees = before.fibres().min(after.fibres()).max(2) as f64 - 1.0;
-                    Some(CvChange { patch: before.patch, change, standard_error, degrees })
+                    Some(CvChange { patch: before.patch, change, standard_error, degrees, own: None })
                 };
                 before.iter().filter_map(to).collect()
             }
@@ -197,6 +205,7 @@ impl Unevennesses {
                         change: ratio - 1.0,
                         standard_error,
                         degrees: f64::INFINITY,
+                        own: None,
                     })
                 };
                 before.iter().filter_map(to).collect()
