@@ -130,11 +130,16 @@ fn in_one_air(spec: &WebSpec) -> String {
     };
     let all_few = few.len() == flights.len();
     format!(
-        "the curves of {}, which fly in one air on a sheet of {} by {}, {}and of the filaments between them, which follow by simple kriging",
+        "the curves of {}, which fly in one air on a sheet of {} by {}, {}and of the filaments between them, which follow by simple kriging{}",
         count(few.iter().map(|flight| flight.filaments).sum(), "filament"),
         length(first.sheet[0]),
         length(first.sheet[1]),
         if all_few { "" } else { "of all filaments of the other layers, " },
+        if first.sheet == [spec.sheet.width, spec.sheet.length] {
+            ""
+        } else {
+            ", in pieces that are drawn at random"
+        },
     )
 }
 
