@@ -40,7 +40,7 @@ fn rejects_bad_webs_with_the_command_that_helps() {
 #[test]
 fn rejects_a_flight_in_which_no_surrogate_is_found() {
     let desk = desk();
-    let said = refusal(&mut desk.spunlaid("web web.toml --out w"), 1);
+    let said = refusal(&mut desk.spunlaid("web web.toml --set web.method=surrogate --out w"), 1);
     let error = "\nerror: brief.toml: no surrogate was identified in what its fibres lay: the autocorrelation of the position";
     assert!(said.contains(error), "{said}");
     assert_eq!(desk.entries("."), desk::names(&["brief.toml", "web.toml"]));
@@ -139,7 +139,7 @@ fn a_web_of_a_flight_tells_its_error_by_causes_and_the_cv_of_the_flown_curves() 
         "width = \"0.4 m\"\nlength = \"0.5 m\"\npatches = [\"5 mm\", \"10 mm\"]",
     );
     fs::write(desk.path("web.toml"), &web).unwrap();
-    let table = desk::success(&mut desk.spunlaid("web web.toml --out s"));
+    let table = desk::success(&mut desk.spunlaid("web web.toml --set web.method=surrogate --out s"));
     for head in
         ["this map", "by chance", "few fibres", "model", "surrogate", "flown curves", "straight fibres"]
     {
