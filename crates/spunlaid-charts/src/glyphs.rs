@@ -78,6 +78,62 @@ impl<'a> Font<'a> {
     }
 }
 
+/// A glyph of a piece of text, for a file that has the font itself.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Glyph {
+    /// Its number in the font.
+    pub(crate) number: u16,
+    /// What it stands for.
+    pub(crate) character: char,
+    /// How much closer than its width the next one stands, in thousandths of the size of the text.
+    pub(crate) closer: f32,
+}
+
+/// The glyphs of a piece of text.
+pub(crate) fn glyphs(text: &str, italic: bool) -> Vec<Glyph> {
+    let Some(font) = font(italic) else { return Vec::new() };
+    let glyph = |(character, (id, advance)): (char, (GlyphId, f64))| {
+        let width = f64::from(font.face.glyph_hor_advance(id).unwrap_or(0));
+        Glyph { number: id.0, character, closer: ((width - advance) * font.scale(1e3)) as f32 }
+    };
+    text.chars().zip(font.glyphs(text)).map(glyph).collect()
+}
+
+/// What a file says of a font that it has itself: lengths in thousandths of the size of the text.
+#[derive(Debug)]
+pub(crate) struct FontFile {
+    pub(crate) name: &'static str,
+    pub(crate) bytes: &'static [u8],
+    /// The corner at the lower left, and the one at the upper right.
+    pub(crate) bounds: [f32; 4],
+    pub(crate) ascent: f32,
+    pub(crate) descent: f32,
+    pub(crate) capital_height: f32,
+    /// Degrees from upright, to the left.
+    pub(crate) slant: f32,
+    /// Width of each glyph, by its number.
+    pub(crate) widths: Vec<f32>,
+}
+
+/// The font for upright or for italic text.
+pub(crate) fn font_file(italic: bool) -> Option<FontFile> {
+    let font = font(italic)?;
+    let (face, scale) = (&font.face, font.scale(1e3));
+    let length = |units: i16| (f64::from(units) * scale) as f32;
+    let bounds = face.global_bounding_box();
+    let width = |number| (f64::from(face.glyph_hor_advance(GlyphId(number)).unwrap_or(0)) * scale) as f32;
+    Some(FontFile {
+        name: if italic { "Arimo-Italic" } else { "Arimo" },
+        bytes: if italic { ITALIC } else { REGULAR },
+        bounds: [bounds.x_min, bounds.y_min, bounds.x_max, bounds.y_max].map(length),
+        ascent: length(face.ascender()),
+        descent: length(face.descender()),
+        capital_height: length(face.capital_height().unwrap_or(face.ascender())),
+        slant: face.italic_angle(),
+        widths: (0..face.number_of_glyphs()).map(width).collect(),
+    })
+}
+
 /// Draws the outlines of glyphs along a line that begins at zero.
 #[derive(Default)]
 pub(crate) struct Pen {

@@ -65,7 +65,7 @@ fn text_path(text: &str, size: f64) -> Option<Path> {
 }
 
 /// Where a text begins, and in which direction it runs.
-fn place_of_text((x, y): Point, text: &str, style: Text) -> Transform {
+pub(crate) fn place_of_text((x, y): Point, text: &str, style: Text) -> Transform {
     let before = match style.anchor {
         Anchor::Start => 0.0,
         Anchor::Middle => 0.5 * width(text, style.size) as f32,

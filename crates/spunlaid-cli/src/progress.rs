@@ -4,6 +4,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use spunlaid::threads::{OnDrop, look_while};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
+use terminal_size::terminal_size_of;
 
 /// Runs `work` and shows a bar that follows `done` up to `total`. There is no bar without a terminal or if `quiet`.
 pub(crate) fn follow<T>(
@@ -13,12 +14,28 @@ pub(crate) fn follow<T>(
     quiet: bool,
     work: impl FnOnce() -> T,
 ) -> T {
-    let bar = bar(total, "{msg} [{bar:32}] {percent:>3} %  {elapsed} elapsed, {eta} left", quiet);
+    let bar = bar(total, "[{bar:20}] {percent:>3} %  {eta} left  {msg}", quiet);
     if bar.is_hidden() {
         return work();
     }
-    bar.set_message(label.to_owned());
-    show_while(&bar, Duration::from_millis(50), || bar.set_position(done.load(Ordering::Relaxed)), work)
+    let show = || {
+        bar.set_message(fitting(label, BEFORE));
+        bar.set_position(done.load(Ordering::Relaxed));
+    };
+    show_while(&bar, Duration::from_millis(50), show, work)
+}
+
+/// Columns of what stands before the words of [`follow`].
+const BEFORE: usize = 44;
+
+/// As much of the words behind a bar as the terminal has room for now: a line that is wrapped cannot be cleared once the terminal has
+/// another width.
+///
+/// * `before` – columns of what stands before them
+pub(crate) fn fitting(words: &str, before: usize) -> String {
+    let room =
+        terminal_size_of(std::io::stderr()).map(|(width, _)| usize::from(width.0).saturating_sub(before));
+    words.chars().take(room.unwrap_or(usize::MAX)).collect()
 }
 
 /// A bar of so many parts, which is hidden without a terminal or if `quiet`.

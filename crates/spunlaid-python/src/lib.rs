@@ -5,7 +5,7 @@
 //! failure   errors as exceptions        value     values of Python as those of keys
 //! watched   work without the lock of the interpreter, with Ctrl-C and progress
 //! save      results in a folder         source    the file that a user names
-//! case, run, flight, air, spinline, study, web, record, keys     the classes and functions
+//! case, run, flight, air, spinline, study, web, scan, record, compare, keys     the classes and functions
 //! ```
 
 // Names such as CaseError are those of Python; units are written in brackets, [m/s].
@@ -32,6 +32,8 @@ mod scale;
 mod state;
 
 mod bundle;
+mod compare;
+mod scan;
 mod spinline;
 mod study;
 mod table;
@@ -48,13 +50,15 @@ mod _spunlaid {
         air::AirSampler,
         bundle::fly_bundle,
         case::Case,
+        compare::{Compared, compare_folders},
         fit::find_fit,
         flight::Flight,
         keys::keys,
         record::analyse,
         results::RunResults,
-        run::{fly, measures},
+        run::{column_unit, fly, measures},
         save::check_figures,
+        scan::{AnalysedScan, analyse_scan, is_scan},
         spinline::{SolvedSpinline, solve_spinline},
         state::flown_from,
         study::Study,

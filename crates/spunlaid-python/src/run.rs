@@ -21,11 +21,12 @@ use spunlaid::error::Error;
 use spunlaid::lanes::WIDTH;
 use spunlaid::observe::{MEASURES, Measure};
 use spunlaid::threads::{lock, unlock};
+use spunlaid::units::udunits;
 use spunlaid_results::figures::Scale;
 use spunlaid_results::folders::run::{self as folder, POSITIONS};
 use spunlaid_results::output::doubt;
 use spunlaid_results::output::folder::ENTRIES;
-use spunlaid_results::output::tables::{TableRecorder, Tables};
+use spunlaid_results::output::tables::{TableRecorder, Tables, unit_of_column};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
@@ -295,6 +296,7 @@ fn described<'py>(py: Python<'py>, measure: &Measure) -> PyResult<Bound<'py, PyD
     dict.set_item("label", measure.label)?;
     dict.set_item("meaning", measure.meaning)?;
     dict.set_item("group", measure.group.name)?;
+    dict.set_item("unit", measure.unit.of_values())?;
     let scales = match Scale::from_curve(measure) {
         Some(scales) => scales.map(scale).to_vec(),
         None => vec![scale(Scale::from_quantity(measure.label, measure.unit))],
@@ -311,4 +313,10 @@ pub(crate) fn measures(py: Python<'_>) -> PyResult<Bound<'_, PyList>> {
         all.append(described(py, measure)?)?;
     }
     Ok(all)
+}
+
+/// The unit of a column of the free end or of the energies.
+#[pyfunction]
+pub(crate) fn column_unit(name: &str) -> String {
+    udunits(unit_of_column(name))
 }

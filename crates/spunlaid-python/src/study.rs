@@ -21,6 +21,7 @@ use spunlaid::study::{
     Bundles, Experiment, Journal, Progress, Rounds, rankings, results_of_point, run, unsynced,
 };
 use spunlaid::threads::{lock, look_while, unlock};
+use spunlaid::units::udunits;
 use spunlaid_results::Failure;
 use spunlaid_results::figures::Scale;
 use spunlaid_results::folders::study::StudyFolder;
@@ -228,7 +229,7 @@ impl Study {
             let dict = PyDict::new(py);
             dict.set_item("key", input.key)?;
             dict.set_item("column", input.column())?;
-            dict.set_item("unit", input.dimension.si_unit())?;
+            dict.set_item("unit", udunits(input.dimension.si_unit()))?;
             let is_factor = index < study.factors.len();
             dict.set_item("factor", is_factor)?;
             dict.set_item("scale", is_factor.then(|| scale(Scale::from_factor(study, index))))?;
@@ -372,13 +373,13 @@ impl Study {
         self.file.notes.iter().map(ToString::to_string).collect()
     }
 
-    /// The measures: column, name, label, meaning, and the scale of their axis.
+    /// The measures: column, label, meaning, unit of the values, and the scale of their axis.
     #[getter]
-    fn measures(&self) -> Vec<(&str, &str, &str, &'static str, AxisScale)> {
+    fn measures(&self) -> Vec<(&str, &str, &'static str, String, AxisScale)> {
         let all = self.file.study.quantities.iter();
         all.map(|quantity| {
             let axis = scale(Scale::from_quantity(&quantity.label, quantity.unit));
-            (&*quantity.column, &*quantity.name, &*quantity.label, quantity.meaning, axis)
+            (&*quantity.column, &*quantity.label, quantity.meaning, quantity.unit.of_values(), axis)
         })
         .collect()
     }

@@ -228,12 +228,33 @@ pub(crate) fn seconds(value: &Bound<'_, PyAny>) -> PyResult<f64> {
             raised(value.py(), Error::Flight(Fault::new(message, fault.remedy)))
         });
     }
+    number_of(value, || "a time is a text with its unit, \"10 ms\", or a number in seconds".to_owned())
+}
+
+/// The value of an option above zero: a text with its unit, or a number in SI units.
+pub(crate) fn positive(name: &str, value: &Bound<'_, PyAny>, dimension: Dimension) -> PyResult<f64> {
+    let found = match value.extract::<String>() {
+        Ok(text) => dimension.parse(&text).map_err(|fault| {
+            PyValueError::new_err(format!("{name} = {} {}; {}", quoted(&text), fault.message, fault.remedy))
+        })?,
+        Err(_) => number_of(value, || {
+            format!("{name} is a text with its unit, or a number in {}", unit(dimension))
+        })?,
+    };
+    if found.is_finite() && found > 0.0 {
+        return Ok(found);
+    }
+    Err(PyValueError::new_err(format!("{name} must be a finite number above zero")))
+}
+
+fn unit(dimension: Dimension) -> &'static str {
+    if dimension == Dimension::Ratio { "levels" } else { dimension.si_unit() }
+}
+
+fn number_of(value: &Bound<'_, PyAny>, wanted: impl Fn() -> String) -> PyResult<f64> {
     match number(value)?.filter(|_| !value.is_instance_of::<PyBool>()) {
         Some(number) => Ok(number.float()),
-        None => Err(PyTypeError::new_err(format!(
-            "a time is a text with its unit, \"10 ms\", or a number in seconds, not {}",
-            type_name(value)
-        ))),
+        None => Err(PyTypeError::new_err(format!("{}, not {}", wanted(), type_name(value)))),
     }
 }
 

@@ -1,5 +1,6 @@
 //! `lay_web`: lays a web of many filaments, and `LaidWeb`, its results.
 
+use crate::samples::locked;
 use crate::save::{Figures, save};
 use crate::source::Source;
 use crate::value::overrides;
@@ -14,7 +15,7 @@ use spunlaid::input::{Overrides, WebFile, parse_changes, parse_web};
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
 use spunlaid::observe::OF_PATCHES;
 use spunlaid::threads::look_while;
-use spunlaid::web::{Findings, PatchFindings};
+use spunlaid::web::{Findings, Map, PatchFindings};
 use spunlaid_results::folders::web::{WebFolder, notes};
 use spunlaid_results::output::web::{ENTRIES, Performance};
 use std::path::PathBuf;
@@ -81,6 +82,14 @@ pub(crate) fn lay_web(
     Ok(LaidWeb { name, file, flown, findings, advice, notes, performance })
 }
 
+/// Basis weight of every cell of a map [kg/m2], which cannot be written to.
+pub(crate) fn weights<'py>(py: Python<'py>, map: &Map) -> PyResult<Bound<'py, PyAny>> {
+    let weight = map.weight_of_quantum();
+    let values = map.cells.iter().map(|cell| f64::from(*cell) * weight).collect();
+    let array = PyArray1::from_vec(py, values).reshape([map.rows, map.columns])?;
+    locked(array.as_any())
+}
+
 impl LaidWeb {
     fn folder(&self) -> WebFolder<'_> {
         WebFolder {
@@ -113,11 +122,7 @@ impl LaidWeb {
     /// Basis weight of every cell [kg/m2]: rows in machine direction x columns in cross direction.
     #[getter]
     fn map<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let map = &self.findings.laid.map;
-        let weight = map.weight_of_quantum();
-        let values = map.cells.iter().map(|cell| f64::from(*cell) * weight).collect();
-        let array = PyArray1::from_vec(py, values).reshape([map.rows, map.columns])?;
-        crate::samples::locked(array.as_any())
+        weights(py, &self.findings.laid.map)
     }
 
     /// The unevenness over patches: side of the patch [m], every declared number of them, and the ends of the 95 % interval of the CV by chance.

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import pickle
+import subprocess
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -91,6 +93,33 @@ def test_every_problem_is_listed() -> None:
         Case.starter().with_({"fibre.diameter": -1.0, "air.velocty": 3, "run.time_step": "1 s", "air.density": float("nan")})
     assert {"fibre.diameter", "air.velocty", "air.density"} <= {problem.key for problem in caught.value.problems}
     assert "air.velocity" in str(caught.value), "the message suggests the right name"
+
+
+@pytest.mark.parametrize(
+    ("name", "changes"),
+    [
+        ("table1", {"run.time_step": "1 s"}),
+        ("table1", {"fibre.diameter": "2 m", "run.duration": "1e9 s"}),
+        ("table1", {"air.velocity": "400 m/s", "drag.along": "sakiadis"}),
+        ("table1", {"feed.speed": "40 m/s"}),
+        ("spunbond", {"belt.speed": "2 m/s", "run.replicates": "300"}),
+        ("spunbond", {"air.turbulence_intensity": "20 %", "belt.distance": "9 mm"}),
+        ("whole_line_fibre", {"spinline.throughput": "20 g/min"}),
+    ],
+)
+def test_identical_checks_of_with_and_of_the_program(name: str, changes: dict[str, str], program: Path) -> None:
+    path = CASES / f"{name}.toml"
+    command = [program, "check", path, "--json", *[word for key in changes for word in ("--set", f"{key}={changes[key]}")]]
+    told = subprocess.run(command, capture_output=True, text=True)
+    case = Case.read(path)
+    if told.returncode == 0:
+        notes = [note.replace("Case:", "--set") for note in case.with_(changes).notes]
+        assert notes == json.loads(told.stdout)["notes"]
+    else:
+        with pytest.raises(CaseError) as caught:
+            case.with_(changes)
+        problems = [line.removeprefix("error: ") for line in told.stderr.splitlines() if line.startswith("error: ")]
+        assert str(caught.value).replace("Case:", "--set").splitlines() == problems
 
 
 @pytest.mark.parametrize(

@@ -217,6 +217,13 @@ def test_frames(short: Case) -> None:
     np.testing.assert_array_equal(table.loc[2, "y_m"], run.end_node["y_m"][1])
     np.testing.assert_array_equal(data["y_m"].sel(replicate=2), run.end_node["y_m"][1])
     np.testing.assert_array_equal(data["amplitude_y_m"], run.measures["amplitude_y_m"].values)
+    # Each variable has its unit, in words that other programs read; the name of its column ends with the same.
+    assert all(variable.attrs["units"] for name, variable in data.variables.items() if name != "replicate")
+    units = {name: data[name].attrs["units"] for name in data.variables if name != "replicate"}
+    known = {"time_s": "s", "y_m": "m", "kinetic_j": "J", "balance_error_percent": "percent", "frequency_y_hz": "Hz"}
+    assert known.items() <= units.items() and units["amplitude_y_m"] == run.measures["amplitude_y_m"].unit == "m"
+    for name, unit in units.items():
+        assert unit == "1" or name.endswith("_" + unit.lower().replace("/", "_")), (name, unit)
 
 
 def test_a_notebook_shows_the_report(short: Case) -> None:

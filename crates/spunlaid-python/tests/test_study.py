@@ -36,6 +36,10 @@ def test_frames_have_the_factors(study: dict[str, object]) -> None:
     found = spunlaid.sweep(study)
     table, data, fibres = found.to_pandas(), found.to_xarray(), found.replicates()
     assert data["amplitude_y_m"].dims == ("air.velocity", "fibre.diameter")
+    units = {name: variable.attrs.get("units") for name, variable in data.variables.items()}
+    assert (units["air.velocity"], units["fibre.diameter"], units["amplitude_y_m"], units["n"]) == ("m/s", "m", "m", "1")
+    assert units["frequency_y_hz"] == units["frequency_y_hz_se"] == "Hz"
+    assert all(unit for name, unit in units.items() if name not in ("point", "seed")), units
     at = (table["air.velocity_m_s"] == 20.0) & (table["fibre.diameter_m"] == 50e-6)
     assert data["amplitude_y_m"].sel({"air.velocity": 20.0, "fibre.diameter": 50e-6}) == table[at]["amplitude_y_m"].item()
     assert len(fibres) == 30 and not fibres["lost"].any()

@@ -60,7 +60,9 @@ def test_identical_after_pickling(web: spunlaid.Web, tmp_path: Path) -> None:
     assert names[0] == names[1]
     with pytest.raises(spunlaid.FolderError, match="holds results already"):
         again.save(tmp_path / "two")
+    (tmp_path / "two" / "thesis.tex").write_text("mine")
     again.save(tmp_path / "two", force=True)
+    assert (tmp_path / "two" / "thesis.tex").read_text() == "mine"
     with pytest.raises(ValueError, match="SVG and PNG"):
         again.save(tmp_path / "three", figures=["pdf"])
 

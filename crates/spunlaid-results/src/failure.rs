@@ -22,6 +22,19 @@ pub(crate) fn holds_results(folder: &Path, found: &str) -> Failure {
     Error::folder(folder, fault.option("--out, --force"))
 }
 
+/// The folder holds files that are no results of this command.
+///
+/// * `first` – one of them
+/// * `more` – how many more there are
+pub(crate) fn holds_files_of_others(folder: &Path, first: &str, more: usize) -> Failure {
+    let others = if more == 0 { String::new() } else { format!(" and {more} more") };
+    let fault = Fault::new(
+        format!("holds other files already ({first}{others}), and results are not mixed with them"),
+        "name another folder, or write beside them",
+    );
+    Error::folder(folder, fault.option("--out, --force"))
+}
+
 /// The folder holds another study.
 ///
 /// * `differences` – how they differ, a line each

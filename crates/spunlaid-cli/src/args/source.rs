@@ -2,7 +2,7 @@
 
 use clap::{Args, ValueHint};
 use spunlaid::error::{Error, Fault, Problem};
-use spunlaid::input::{CaseWithNotes, LARGEST_FILE, Overrides, Unread, parse_case, read_case};
+use spunlaid::input::{CaseWithNotes, LARGEST_FILE, Overrides, Unread, parse_case, read_case, text_of};
 use spunlaid_results::command::quoted;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -52,19 +52,19 @@ const STANDARD_INPUT: &str = "standard input";
 
 /// The text on standard input, which is no longer than that of a file.
 fn standard_input() -> Result<String, Error> {
-    let mut text = String::new();
+    let mut bytes = Vec::new();
     let refused = |fault| Error::File(Box::new(Problem::with_path(Path::new(STANDARD_INPUT), fault)));
+    let advice = "name the file of a case";
     let most = LARGEST_FILE + 1;
-    std::io::stdin().lock().take(most).read_to_string(&mut text).map_err(|error| {
-        refused(Fault::new(format!("cannot be read as UTF-8 text: {error}"), "name the file of a case"))
-    })?;
-    if text.len() as u64 == most {
-        return Err(refused(Fault::new(
-            format!("is longer than {LARGEST_FILE} bytes"),
-            "name the file of a case",
-        )));
+    std::io::stdin()
+        .lock()
+        .take(most)
+        .read_to_end(&mut bytes)
+        .map_err(|error| refused(Fault::new(format!("cannot be read: {error}"), advice)))?;
+    if bytes.len() as u64 == most {
+        return Err(refused(Fault::new(format!("is longer than {LARGEST_FILE} bytes"), advice)));
     }
-    Ok(text)
+    text_of(bytes, STANDARD_INPUT).map_err(Error::File)
 }
 
 pub(super) fn key_and_value(text: &str) -> Result<(String, String), String> {

@@ -1,12 +1,13 @@
 //! `spunlaid analyse` makes the air of a case from a velocity record; a scan of a web goes to `scan`.
 
-use super::scan::{is_picture, scan};
+use super::scan::scan;
 use super::{say_report, staged, stem};
 use crate::args::{Analyse, Invocation, RecordOptions, Scan};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::error::{Fault, FileError, Problem};
 use spunlaid::record::{Analysis, Layout, Record, Settings, SpectrumSettings, read_record};
+use spunlaid::scan::is_picture_file;
 use spunlaid_results::figures::record_figures;
 use spunlaid_results::output::analysis::{
     air_block, analysis_json, autocorrelation_csv, result_table, spectrum_csv,
@@ -15,7 +16,7 @@ use spunlaid_results::output::folder::{ENTRIES, Staging};
 use spunlaid_results::report::{AnalysisReport, analysis_html};
 
 pub(crate) fn analyse(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
-    let is_scan = analyse.scan.pixel.is_some() || is_picture(&analyse.record);
+    let is_scan = analyse.scan.pixel.is_some() || is_picture_file(&analyse.record);
     let foreign =
         if is_scan { invocation.first_option::<RecordOptions>() } else { invocation.first_option::<Scan>() };
     if let Some(option) = foreign {
@@ -40,8 +41,8 @@ fn record(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     let staging = staged((&folder, ENTRIES), &analyse.output, origin, &analyse.figures.files())?;
     let record = read_record(&analyse.record, &layout(&analyse.reading))?;
     let analysis = spunlaid::record::analyse(&record, &settings(&analyse.reading))?;
-    let remarks = remarks(&record);
-    remarks.iter().for_each(|remark| say::aside(&format!("note: {remark}")));
+    let remarks: Vec<String> = record.repairs().iter().map(ToString::to_string).collect();
+    remarks.iter().for_each(|remark| say::remark(false, remark));
     analysis.warnings.iter().for_each(|warning| say::warning(&warning.to_string()));
 
     let json = analysis_json(&record, &analysis);
@@ -50,7 +51,7 @@ fn record(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     if analyse.json {
         say::text(&json);
     } else if !analyse.output.quiet {
-        say::text(&result_table(&record, &analysis));
+        say::table(&result_table(&record, &analysis));
         say::line(&format!("\nthe [air] of a case is in {}", folder.join("air.toml").display()));
         say_report(&folder);
     }
@@ -80,27 +81,6 @@ fn settings(options: &RecordOptions) -> Settings {
         flat_until: options.flat_until,
         mean_velocity: options.mean_velocity,
     }
-}
-
-/// Notes about the reading of the record.
-fn remarks(record: &Record) -> Vec<String> {
-    let r = &record.reading;
-    let mut remarks = Vec::new();
-    if r.filled > 0 {
-        let skipped = if r.skipped > 0 {
-            format!(", {} of them in rows that the file lacks", r.skipped)
-        } else {
-            String::new()
-        };
-        remarks.push(format!("{} missing samples were interpolated linearly{skipped}", r.filled));
-    }
-    if r.cut_off > 0 {
-        remarks.push(format!("{} incomplete rows at the start and the end were dropped", r.cut_off));
-    }
-    if !r.unused.is_empty() {
-        remarks.push(format!("not used: {}", r.unused.join(", ")));
-    }
-    remarks
 }
 
 fn write(

@@ -1,53 +1,16 @@
-//! Results folders of finished runs: what they say, and the case for flying one for longer.
+//! The case for flying a finished run for longer.
 
 use crate::args::Run;
 use crate::failure::Failure;
 use crate::say;
-use serde_json::Value as Json;
 use spunlaid::case::{Case, Note, Remark, keys};
 use spunlaid::error::{Error, Fault, Finding, Place};
 use spunlaid::input::{Unread, read_case};
 use spunlaid::units::Dimension;
-use std::fs;
-use std::path::Path;
+use spunlaid_results::folders::read_summary_of_run;
 
-const SUMMARY: &str = "summary.json";
 /// The option of `run` that asks for a longer flight.
 const UNTIL: &str = "--until";
-
-/// Reads the summary of a results folder of a run.
-///
-/// # Errors
-/// If the folder does not hold the results of a run.
-pub(super) fn summary(folder: &Path) -> Result<Json, Failure> {
-    let summary = any_summary(folder)?;
-    if summary.get("end_node").or_else(|| summary.get("laydown")).is_none() {
-        let reason = format!("{SUMMARY} is not that of a run");
-        return Err(Error::not_a_run(folder, &reason).into());
-    }
-    Ok(summary)
-}
-
-/// Reads the summary of a results folder of a run or of a web.
-///
-/// # Errors
-/// If the folder has none.
-pub(super) fn any_summary(folder: &Path) -> Result<Json, Failure> {
-    let not_a_run = |reason: String| Error::not_a_run(folder, &reason);
-    let holds_other = ["results.csv", "analysis.json"].iter().any(|file| folder.join(file).exists());
-    for (is_so, reason) in [
-        (folder.is_file(), "it is a file"),
-        (!folder.is_dir(), "there is no such folder"),
-        (holds_other, "it holds a study or an analysis"),
-    ] {
-        if is_so {
-            return Err(not_a_run(reason.to_owned()).into());
-        }
-    }
-    let path = folder.join(SUMMARY);
-    let text = fs::read_to_string(&path).map_err(|error| not_a_run(format!("{SUMMARY}: {error}")))?;
-    Ok(serde_json::from_str(&text).map_err(|error| not_a_run(format!("{SUMMARY}: {error}")))?)
-}
 
 /// The case of a finished run with a longer duration, and the notes about it, which have been told.
 ///
@@ -65,7 +28,7 @@ pub(super) fn continued(
     until: f64,
 ) -> Result<(Case, Vec<String>), Failure> {
     let folder = &run.source.case;
-    let flown_by = summary(folder)?;
+    let flown_by = read_summary_of_run(folder)?;
     let changes: Vec<_> = changes.iter().map(|(key, value)| ((*key).to_owned(), value.clone())).collect();
     let (mut case, mut notes) = read_case(&folder.join("case.toml"), &changes).map_err(Unread::refuse)?;
     let refused = |reason: String, remedy: &'static str| {

@@ -55,7 +55,7 @@ pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), 
     if arguments.json {
         say::text(&fit_json(&found, &target, input.paths, &notes));
     } else if !arguments.output.quiet {
-        say::text(&table(&found));
+        say::table(&table(&found));
         sentences(&found).iter().chain(&refused(&found)).for_each(|sentence| say::line(sentence));
         say_report(&path);
     }
@@ -73,6 +73,9 @@ fn report_found(arguments: &args::Fit, state: Option<JournalState>) {
     }
 }
 
+/// Columns of what stands before the words of the bar.
+const BEFORE: usize = 56;
+
 /// Searches, and shows how far it is.
 fn search(
     arguments: &args::Fit,
@@ -85,7 +88,7 @@ fn search(
     let laid = AtomicU64::new(0);
     let by = lay_control(arguments.threads, &laid);
     // How many trials there will be is not known.
-    let template = "{msg} [{bar:20}] web {pos} of {len}  {elapsed} elapsed";
+    let template = "[{bar:20}] web {pos} of {len}  {elapsed} elapsed  {msg}";
     let bar = progress::bar(arguments.webs, template, arguments.output.quiet);
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
     let flyer = Flyer::new(by.threads, by.stop, &follow);
@@ -94,7 +97,8 @@ fn search(
         let values = values.map(|(key, value)| format!("{} = {}", key.key, pretty(key, *value)));
         bar.set_length(webs);
         bar.set_position(web - 1);
-        bar.set_message(format!("trial {trial}: {}", values.collect::<Vec<_>>().join(", ")));
+        let words = format!("trial {trial}: {}", values.collect::<Vec<_>>().join(", "));
+        bar.set_message(progress::fitting(&words, BEFORE));
     };
     let found = find(question, flyer, by, journal, &watch);
     bar.finish_and_clear();

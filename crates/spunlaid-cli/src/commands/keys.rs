@@ -90,6 +90,7 @@ pub(crate) fn keys(arguments: &Keys) -> Result<(), Failure> {
 
 /// The description of a key for the terminal.
 fn reference(key: &KeyEntry) -> String {
+    let width = say::columns().map_or(WIDTH, |columns| columns.min(WIDTH));
     let mut text = format!("{}{}\n", key.name, key.file);
     let default = match key.omission {
         Omission::Required(example) => format!("none; the key is required, like {example}"),
@@ -107,7 +108,7 @@ fn reference(key: &KeyEntry) -> String {
         }
         let mut line = if title.is_empty() { "   ".to_owned() } else { format!("    {title}") };
         for word in words.split(' ') {
-            if line.chars().count() + 1 + word.chars().count() > WIDTH {
+            if line.chars().count() + 1 + word.chars().count() > width {
                 let _ = writeln!(text, "{line}");
                 line = if title.is_empty() { "   ".to_owned() } else { " ".repeat(14) };
             }

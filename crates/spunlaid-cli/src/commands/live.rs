@@ -1,10 +1,11 @@
 //! `spunlaid live`: fibres that fly on a page while their case is changed.
 
 use crate::args::Live;
-use crate::failure::{Failure, not_served};
+use crate::failure::Failure;
 use crate::live::{Start, live as fly};
 use crate::say;
-use spunlaid::input::{Unread, read_case};
+use spunlaid::error::FileKind;
+use spunlaid::input::{Unread, read_case, read_text};
 use spunlaid::paper;
 
 /// Serves the page until the program is ended.
@@ -13,7 +14,7 @@ pub(crate) fn live(live: &Live) -> Result<(), Failure> {
         Some(path) => {
             // Its mistakes are reported as by all commands.
             read_case(path, &[]).or_else(Unread::without_flights)?;
-            std::fs::read_to_string(path).map_err(|source| not_served(&source))?
+            read_text(path, FileKind::Case)?
         }
         None => paper::TABLE1.to_owned(),
     };

@@ -1,6 +1,6 @@
 //! `spunlaid run`: flies a case and writes the results.
 
-use super::finished_run::{continued, summary};
+use super::finished_run::continued;
 use super::flown::flown;
 use super::{plural, run_control, say_report, staged, stem};
 use crate::args::{Invocation, Output, Run};
@@ -8,6 +8,7 @@ use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::case::Note;
 use spunlaid::ensemble::FinerPlans;
+use spunlaid_results::folders::read_summary_of_run;
 use spunlaid_results::folders::run as files;
 use spunlaid_results::output::folder::{ENTRIES, Staging};
 use spunlaid_results::output::{finer, table};
@@ -115,7 +116,7 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
 
 /// Whether a folder holds results of as many replicates, which those of a part of them do not replace.
 fn holds_more(folder: &Path, replicates: u64) -> bool {
-    summary(folder).is_ok_and(|held| held["replicates"].as_u64() >= Some(replicates))
+    read_summary_of_run(folder).is_ok_and(|held| held["replicates"].as_u64() >= Some(replicates))
 }
 
 /// A note about results of a part of the replicates.
@@ -126,8 +127,8 @@ fn interrupted(flown: u64, asked: u64) -> String {
 /// Prints the results.
 fn show(run: &files::Run<'_>) {
     let files::Run { case, results, checks, performance, .. } = *run;
-    say::text(&table::results(results));
-    say::text(&finer::text(checks, case, results));
+    say::table(&table::results(results));
+    say::table(&finer::text(checks, case, results));
     let seconds = performance.wall_s;
     say::line(&format!(
         "\n{} in {seconds:.2} s, {:.1} ns per element and step and thread ({}, {})",

@@ -29,7 +29,7 @@ pub(crate) fn spin(spin: &Spin, invocation: &Invocation) -> Result<(), Failure> 
     if spin.json {
         say::text(&written.summary());
     } else if !spin.output.quiet {
-        say::text(&text(&results.rows, &results.influences));
+        say::table(&text(&results.rows, &results.influences));
         found.iter().for_each(|note| say::remark(false, note));
         folder.iter().for_each(say_report);
     }

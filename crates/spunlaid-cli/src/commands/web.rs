@@ -86,7 +86,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     if arguments.json {
         say::text(&written.summary());
     } else if !arguments.output.quiet {
-        say::text(&terminal_table(&findings));
+        say::table(&terminal_table(&findings));
         let words = advice_words(&file.spec, &findings, advice.as_ref());
         if !(words.is_empty() || arguments.no_advice) {
             say::line(&format!("\n{words}"));

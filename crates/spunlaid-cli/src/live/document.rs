@@ -108,9 +108,10 @@ impl Document {
     /// # Errors
     /// The text is not TOML.
     pub(super) fn with(&self, key: &Key, to: Option<Value>) -> Result<Self, Vec<Complaint>> {
-        let mut document: DocumentMut = self.text.parse().map_err(|error: toml_edit::TomlError| {
-            complaint(format!("the case is not valid TOML: {}", error.message()))
-        })?;
+        // Where the text is not TOML, reading it says why, in the words of all commands.
+        let untold = |error: toml_edit::TomlError| complaint(format!("not valid TOML: {}", error.message()));
+        let parsed = self.text.parse::<DocumentMut>();
+        let mut document = parsed.map_err(|error| self.read().err().unwrap_or_else(|| untold(error)))?;
         let mut table: &mut dyn TableLike = document.as_table_mut();
         for name in key.table().split('.') {
             let inner = table.entry(name).or_insert(toml_edit::table());

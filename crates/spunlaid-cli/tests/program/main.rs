@@ -18,6 +18,7 @@ mod flown_tension;
 mod gusts;
 mod keys;
 mod lost;
+mod records;
 mod refusals;
 mod results;
 mod scan;

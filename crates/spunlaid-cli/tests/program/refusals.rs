@@ -2,6 +2,7 @@
 
 use crate::desk::{BRIEF, Desk, ENTRIES, names, refusal, success};
 use std::fs;
+use std::path::Path;
 
 /// A brief case with one line written otherwise.
 fn spoilt(line: &str, otherwise: &str) -> String {
@@ -217,13 +218,53 @@ fn force_replaces_results_and_keeps_what_others_put_there() {
     assert_eq!(desk.summary("r")["case"]["run"]["seed"], 8);
 }
 
+/// One rule for all commands: results are not mixed with files of others unless it is asked for.
 #[test]
-fn results_go_beside_files_of_others_without_force() {
+fn rejects_folders_with_files_of_others_without_force() {
     let desk = Desk::new();
-    success(&mut desk.spunlaid("run brief.toml --out ."));
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
+    for file in ["web_known.toml", "spinline.toml", "records/probe.csv", "tables/spinline.csv"] {
+        let to = desk.path(&file.replace("records/", ""));
+        fs::create_dir_all(to.parent().unwrap()).unwrap();
+        fs::copy(cases.join(file), to).unwrap();
+    }
+    let study = "version = 1\ncase = \"brief.toml\"\ndesign = \"grid\"\nreplicates = 1\n[vary]\n\"air.velocity\" = [\"9 m/s\", \"10 m/s\"]\n";
+    fs::write(desk.path("study.toml"), study).unwrap();
+    let web = "web_known.toml --set web.width=250mm --set web.length=250mm";
+    success(&mut desk.spunlaid(&format!("web {web} --out laid --quiet --no-advice")));
+    success(&mut desk.spunlaid("run brief.toml --out run --quiet"));
+    for (command, complete) in [
+        ("run brief.toml", "summary.json"),
+        (&*format!("web {web} --no-advice"), "summary.json"),
+        ("spin spinline.toml", "summary.json"),
+        ("analyse probe.csv", "analysis.json"),
+        ("analyse laid/map.png", "summary.json"),
+        ("sweep study.toml", "results.csv"),
+        (&*format!("fit {web} --to laid --vary laydown.noise --webs 8"), "fit.json"),
+        ("compare run run", "comparison.json"),
+    ] {
+        let command = format!("{command} --quiet --out theirs");
+        let _ = fs::remove_dir_all(desk.path("theirs"));
+        fs::create_dir_all(desk.path("theirs/notes")).unwrap();
+        fs::write(desk.path("theirs/thesis.tex"), "mine").unwrap();
+        let said = refusal(&mut desk.spunlaid(&command), 1);
+        let wanted = "error: theirs: holds other files already (notes and 1 more), and results are not mixed with them; name another folder, \
+                      or write beside them (--out, --force)\n";
+        assert!(said.ends_with(wanted), "{command}: {said}");
+        assert_eq!(desk.entries("theirs"), names(&["thesis.tex", "notes"]), "{command}");
+        if !command.starts_with("fit ") {
+            success(&mut desk.spunlaid(&format!("{command} --force")));
+            assert!(desk.path("theirs").join(complete).exists(), "{command}");
+            assert_eq!(desk.read("theirs/thesis.tex"), b"mine", "{command}");
+        }
+    }
+    // What a system hides in a folder is no reason.
+    fs::create_dir(desk.path("hidden")).unwrap();
+    fs::write(desk.path("hidden/.DS_Store"), "").unwrap();
+    success(&mut desk.spunlaid("run brief.toml --out hidden"));
     let mut wanted = names(&ENTRIES);
-    wanted.insert("brief.toml".to_owned());
-    assert_eq!(desk.entries(""), wanted);
+    wanted.insert(".DS_Store".to_owned());
+    assert_eq!(desk.entries("hidden"), wanted);
 }
 
 #[test]
@@ -267,5 +308,34 @@ fn a_record_that_cannot_be_used_is_told_with_the_option_that_helps() {
         fs::write(desk.path("a.csv"), text).unwrap();
         let said = refusal(&mut desk.spunlaid("analyse a.csv"), 1);
         assert!(said.starts_with("error: a.csv: ") && said.ends_with(wanted), "{said}");
+    }
+}
+
+#[test]
+fn a_broken_case_is_refused_in_the_same_words_wherever_it_comes_from() {
+    let desk = Desk::new();
+    for (bytes, wanted) in [
+        (
+            &b"version = 1\n[fibre]\ndirection = [1.0, 0.0, 0.0\n"[..],
+            "case.toml:3:13: the list that begins with [",
+        ),
+        (
+            b"[fibre]\nlength = 1,5 m\n",
+            "case.toml:2:11: the line has a decimal comma; write length = \"1.5 m\"",
+        ),
+        (
+            b"[fibre]\ndiameter = \"50 \xb5m\"\n",
+            "case.toml:2: is not UTF-8 text: byte 0xb5 in this line would be \u{b5}",
+        ),
+        (b"\xff\xfe[\0r\0u\0n\0]\0", "case.toml: is UTF-16 text"),
+        (b"[\0r\0u\0n\0]\0", "case.toml: is UTF-16 text"),
+    ] {
+        fs::write(desk.path("case.toml"), bytes).unwrap();
+        let said = refusal(&mut desk.spunlaid("check case.toml"), 1);
+        assert!(said.starts_with(&format!("error: {wanted}")), "{said}");
+        assert_eq!(refusal(&mut desk.spunlaid("live case.toml --no-open"), 1), said);
+        let file = fs::File::open(desk.path("case.toml")).unwrap();
+        let piped = refusal(desk.spunlaid("check -").stdin(file), 1);
+        assert_eq!(piped.replace("standard input", "case.toml"), said);
     }
 }

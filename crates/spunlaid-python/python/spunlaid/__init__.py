@@ -34,7 +34,9 @@ from ._spunlaid import Case, Flight, __version__
 if TYPE_CHECKING:
     from ._air import Air
     from ._analysis import Analysis, analyse
+    from ._comparison import Comparison, compare
     from ._fit import Fit, fit
+    from ._scan import Scan, scan
     from ._spinline import Spinline, spin
     from ._study import Study, sweep
     from ._web import Web, web
@@ -45,6 +47,7 @@ __all__ = [
     "Case",
     "CaseError",
     "ClusterError",
+    "Comparison",
     "Curve",
     "Error",
     "FibreLost",
@@ -60,16 +63,19 @@ __all__ = [
     "Measures",
     "Problem",
     "Run",
+    "Scan",
     "Shapes",
     "Spinline",
     "Study",
     "Web",
     "__version__",
     "analyse",
+    "compare",
     "fit",
     "keys",
     "load",
     "run",
+    "scan",
     "spin",
     "sweep",
     "web",
@@ -79,8 +85,12 @@ _LATER = {
     "Air": "_air",
     "Analysis": "_analysis",
     "analyse": "_analysis",
+    "Comparison": "_comparison",
+    "compare": "_comparison",
     "Fit": "_fit",
     "fit": "_fit",
+    "Scan": "_scan",
+    "scan": "_scan",
     "Spinline": "_spinline",
     "spin": "_spinline",
     "Study": "_study",

@@ -115,4 +115,6 @@ def analyse(
     """
     if isinstance(record, os.PathLike):
         record = os.fspath(record)
+    if isinstance(record, str) and _spunlaid.is_scan(record):
+        raise ValueError(f"{record} is the scan of a web; spunlaid.scan({record!r}) says how even it is")
     return Analysis(_spunlaid.analyse(record, rate, mean_velocity, flat_until, integral, list(columns)))

@@ -22,6 +22,8 @@ class Measure(NamedTuple):
     label: str
     meaning: str
     group: str
+    unit: str
+    """Its unit as the CF conventions write it, `m` or `m2/Hz`; `1` of a plain number."""
     mean: float
     """Mean over the replicates."""
     standard_error: float | None
@@ -46,6 +48,8 @@ class Curve(NamedTuple):
     label: str
     meaning: str
     group: str
+    unit: str
+    """Unit of the values as the CF conventions write it, `m` or `m2/Hz`; `1` of plain numbers."""
     at: NDArray[np.float64]
     """Distance from the root [m], time [s] or frequency [Hz]."""
     mean: NDArray[np.float64]

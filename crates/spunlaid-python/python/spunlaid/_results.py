@@ -1,4 +1,4 @@
-"""What the results of a run, of a web and of a spinline have in common."""
+"""What the results of a run, of a web, of a scan, of a spinline and of a comparison have in common."""
 
 from __future__ import annotations
 
@@ -47,7 +47,8 @@ class Results:
         figures: Sequence[str] | str | None = None,
         figure_width: str | float | None = None,
     ) -> None:
-        """Writes the folder that the program writes: `spunlaid run`, `spunlaid web` or `spunlaid spin`.
+        """Writes the folder that the program writes: `spunlaid run`, `spunlaid web`, `spunlaid analyse`, `spunlaid compare` or
+        `spunlaid spin`.
 
         force: whether results that the folder holds are replaced.
         figures: the formats of the figures, `["pdf", "png"]`; SVG and PNG if it is left out

@@ -93,13 +93,16 @@ class Run(Results):
         return pd.DataFrame({name: values.ravel() for name, values in columns.items()}, index=index)
 
     def to_xarray(self) -> xarray.Dataset:
-        """The same with dimensions `replicate` and `time_s`, and the measures over `replicate`."""
+        """The same with dimensions `replicate` and `time_s`, and the measures over `replicate`; `attrs["units"]` of each variable is
+        its unit as the CF conventions write it."""
         xr = needed("xarray", "xarray", "to_xarray()")
         replicates, times, columns = self._over_time()
-        data: dict[str, Any] = {name: (("replicate", "time_s"), values) for name, values in columns.items()}
+        over_time = {name: {"units": _spunlaid.column_unit(name)} for name in [*columns, "time_s"]}
+        data: dict[str, Any] = {name: (("replicate", "time_s"), of, over_time[name]) for name, of in columns.items()}
         for name, measure in self.measures.items():
-            data[name] = ("replicate", measure.values, {"long_name": measure.label, "description": measure.meaning})
-        return xr.Dataset(data, {"replicate": replicates, "time_s": times})
+            about = {"long_name": measure.label, "description": measure.meaning, "units": measure.unit}
+            data[name] = ("replicate", measure.values, about)
+        return xr.Dataset(data, {"replicate": replicates, "time_s": ("time_s", times, over_time["time_s"])})
 
     def _over_time(self) -> tuple[NDArray[np.int64], NDArray[np.float64], dict[str, NDArray[np.float64]]]:
         """Numbers of the replicates, times, and columns of replicates × times."""

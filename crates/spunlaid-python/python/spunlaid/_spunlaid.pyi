@@ -12,16 +12,22 @@ __all__ = [
     "Flight",
     "AirSampler",
     "RunResults",
+    "AnalysedScan",
+    "Compared",
     "LaidWeb",
     "SolvedSpinline",
     "Study",
     "__version__",
     "analyse",
+    "analyse_scan",
     "check_figures",
+    "column_unit",
+    "compare_folders",
     "find_fit",
     "flown_from",
     "fly",
     "fly_bundle",
+    "is_scan",
     "keys",
     "lay_web",
     "measures",
@@ -223,6 +229,22 @@ class LaidWeb(_Results):
     patches: Final[dict[str, _Floats]]
 
 @final
+class AnalysedScan(_Results):
+    """What is found of a scan."""
+
+    name: Final[str]
+    cell: Final[float]
+    map: Final[_Floats]
+    patches: Final[dict[str, _Floats]]
+
+@final
+class Compared(_Results):
+    """What a comparison has found."""
+
+    name: Final[str]
+    def report(self) -> str: ...
+
+@final
 class SolvedSpinline(_Results):
     """A solved spinline."""
 
@@ -270,6 +292,10 @@ def lay_web(
     threads: int | None = None,
     progress: _Progress = None,
 ) -> LaidWeb: ...
+def analyse_scan(picture: str | bytes, options: dict[str, Any]) -> AnalysedScan: ...
+def column_unit(name: str) -> str: ...
+def compare_folders(folders: Sequence[str]) -> Compared: ...
+def is_scan(path: str | os.PathLike[str]) -> bool: ...
 def keys(web: bool = False) -> list[dict[str, Any]]: ...
 def measures() -> list[dict[str, Any]]: ...
 def read_table(path: str | os.PathLike[str]) -> dict[str, Any]: ...

@@ -120,8 +120,23 @@ class Study:
         return pd.DataFrame(columns, index=pd.RangeIndex(1, len(self) + 1, name="point"))
 
     def to_xarray(self) -> xarray.Dataset:
-        """The same with the factors as coordinates: a dimension for each factor of a grid, `point` for other designs."""
+        """The same with the factors as coordinates: a dimension for each factor of a grid, `point` for other designs. `attrs` of each
+        variable have its `units`, as the CF conventions write them, and of a measure `long_name` and `description`."""
         needed("xarray", "xarray", "to_xarray()")
+        data = self._data_set()
+        about = {of["key"]: {"units": of["unit"]} for of in self._study.inputs}
+        about |= {of["column"]: about[of["key"]] for of in self._study.inputs}
+        for column, label, meaning, unit, _ in self._study.measures:
+            about[column] = {"long_name": label, "description": meaning, "units": unit}
+            about[f"{column}_se"] = {"long_name": f"Standard error: {label}", "units": unit}
+        about |= {count: {"units": "1"} for count in ("n", "lost")}
+        for name, variable in data.variables.items():
+            # Words have no unit.
+            if variable.dtype.kind in "fiu":
+                variable.attrs.update(about.get(name, {}))
+        return data
+
+    def _data_set(self) -> xarray.Dataset:
         table = self.to_pandas()
         factors = {of["key"]: of["column"] for of in self._study.inputs if of["factor"]}
         if self.design == "grid" and factors:
@@ -179,7 +194,7 @@ class Study:
 
     def scale_of_measure(self, column: str) -> Axis:
         """How the values of a measure stand on an axis."""
-        return next(Axis(*scale) for name, _, _, _, scale in self._study.measures if name == column)
+        return next(Axis(*scale) for name, *_, scale in self._study.measures if name == column)
 
     def __repr__(self) -> str:
         factors = ", ".join(self.factors) or "no factors"

@@ -3,7 +3,7 @@
 use super::flown_cases::write_cases;
 use super::journalled::{JournalFolder, Work};
 use crate::Failure;
-use crate::failure::{holds_results, other_version};
+use crate::failure::other_version;
 use crate::figures::fit_figures;
 use crate::output::copied_files::CASE_FILES;
 use crate::output::fit::{fit_json, trials_csv};
@@ -20,9 +20,6 @@ use std::sync::atomic::AtomicBool;
 
 /// The files of a fit; the last one marks it as complete.
 const FILES: &[&str] = &["web.toml", "cases", CASE_FILES, "trials.csv", "figures", "report.html", "fit.json"];
-/// Files of other results.
-const OF_OTHERS: &[&str] = &["summary.json", "results.csv", "analysis.json", "comparison.json", "study.toml"];
-
 /// A results folder that this process has locked.
 #[derive(Debug)]
 pub struct FitFolder<'a> {
@@ -71,13 +68,11 @@ impl<'a> FitFolder<'a> {
         origin: Option<&Origin>,
         stop: &'a AtomicBool,
     ) -> Result<(Self, Journal, Option<JournalState>), Failure> {
-        let found = OF_OTHERS.iter().find(|name| path.join(name).exists());
-        if let (false, Some(found)) = (force, found) {
-            return Err(holds_results(path, found));
-        }
         let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: input.identity() };
-        let (at, mut journal, header) =
-            JournalFolder::open(path, &Work { header: &wanted, entries: &[FILES], force, origin })?;
+        let (at, mut journal, header) = JournalFolder::open(
+            path,
+            &Work { header: &wanted, entries: &[FILES], description: &[], force, origin },
+        )?;
         let path = at.place.as_path();
         let numbers = numbers_of_record(input.target);
         let state = match header {

@@ -9,6 +9,7 @@
 
 use crate::Failure;
 use crate::failure::not_a_folder;
+use crate::output::folder::{MARKS, refuse_others};
 use crate::output::leftovers;
 use crate::output::origin::{ORIGIN, Origin};
 use spunlaid::study::{Header, Journal};
@@ -42,6 +43,8 @@ pub(super) struct Work<'a> {
     /// The journal of the work begins like this.
     pub(super) header: &'a Header,
     pub(super) entries: Entries,
+    /// What describes the work and may be left of one that was killed before its journal began.
+    pub(super) description: &'static [&'static str],
     /// Whether what the folder holds is replaced.
     pub(super) force: bool,
     /// The command that does it, if it may replace what it made before.
@@ -54,9 +57,16 @@ impl JournalFolder {
         if path.exists() && !path.is_dir() {
             return Err(not_a_folder(path));
         }
+        let results = [MARKS, &work.entries.concat()].concat();
+        if !work.force && !path.join(JOURNAL).exists() {
+            refuse_others(path, &results, work.description)?;
+        }
         fs::create_dir_all(path).map_err(Failure::unwritable(path))?;
         let (journal, header) = Journal::open(&path.join(JOURNAL), work.force)?;
         leftovers::remove_unclaimed(path);
+        if !work.force && header.is_none() {
+            refuse_others(path, &results, &[&[JOURNAL, ORIGIN], work.description].concat())?;
+        }
         let (path, place, entries) = (path.to_owned(), path.join(REPLACEMENT), work.entries);
         let is_begun = !work.force && place.join(JOURNAL).exists();
         if !is_begun {

@@ -2,6 +2,9 @@
 //!
 //! ```text
 //! air        slices of the turbulent air as VTK and moving pictures, report, summary
+//! comparison the results of runs or webs side by side: figures, report, numbers
+//! finished   what the folder of a run or a web says
+//! scan       what is found of a scan: map, figures, report, summary
 //! spinline   a solved spinline: the thread, figures, report, summary
 //! flown_cases the cases of a web, beside its file
 //! fit        the journal of a fit, and what is made from it
@@ -14,14 +17,17 @@
 //! ```
 
 pub mod air;
+pub mod comparison;
 #[cfg(test)]
 mod declared;
+mod finished;
 pub mod fit;
 mod flown_cases;
 mod journalled;
 mod kept;
 mod measured_web;
 pub mod run;
+pub mod scan;
 pub mod spinline;
 pub mod study;
 pub mod tensions;
@@ -29,4 +35,5 @@ pub mod tensions;
 mod tests;
 pub mod web;
 
+pub use finished::{read_summary, read_summary_of_run};
 pub use measured_web::read_measured_web;

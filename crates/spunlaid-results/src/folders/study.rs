@@ -2,10 +2,10 @@
 
 use super::journalled::{JOURNAL, JournalFolder, Work, remove};
 use crate::Failure;
-use crate::failure::{holds_results, other_study, other_version};
+use crate::failure::{other_study, other_version};
 use crate::figures::study_figures;
 use crate::output::copied_files::{self, CASE_FILES};
-use crate::output::folder::Staging;
+use crate::output::folder::{self, MARKS, Staging};
 use crate::output::origin::Origin;
 use crate::output::pictures::FigureFiles;
 use crate::output::{self};
@@ -21,6 +21,10 @@ use std::sync::atomic::AtomicBool;
 const STUDY: &str = "study.toml";
 /// Files that describe the study.
 const DESCRIPTION: &[&str] = &[CASE_FILES, "case.toml", "web.toml", "spinline.toml", STUDY];
+/// The tensions that flights have found for a study.
+pub(super) const TENSIONS: &str = "tensions";
+/// What a study may have left that was killed before its journal existed.
+const REMAINS: &[&str] = &[CASE_FILES, "case.toml", "web.toml", "spinline.toml", STUDY, TENSIONS];
 /// Files that are made from the journal; the last one marks them as complete.
 const MADE: &[&str] =
     &["results.csv", "results.json", "results.parquet", "replicates.parquet", "figures", "report.html"];
@@ -71,19 +75,15 @@ impl<'a> StudyFolder<'a> {
         origin: Option<&Origin>,
         stop: &'a AtomicBool,
     ) -> Result<(Self, Journal, State), Failure> {
-        refuse_others(path, force)?;
         let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: file.study.identity() };
         let (at, mut journal, header) = JournalFolder::open(
             path,
-            &Work { header: &wanted, entries: &[DESCRIPTION, MADE], force, origin },
+            &Work { header: &wanted, entries: &[DESCRIPTION, MADE], description: REMAINS, force, origin },
         )?;
         let folder = Self { at, stop, figures: FigureFiles::default() };
         let path = folder.at.place.as_path();
         let state = match header {
             None => {
-                if !force {
-                    holds_nothing_else(path)?;
-                }
                 folder.begin(file)?;
                 folder.at.sign(origin)?;
                 journal.begin(&wanted, file.study.points.len(), file.study.quantities.len())?;
@@ -224,14 +224,9 @@ fn keep_files(file: &StudyFile, staging: &Staging<'_>) -> Result<String, Failure
 ///
 /// * `force` – whether what it holds is replaced
 pub(super) fn refuse_others(path: &Path, force: bool) -> Result<(), Failure> {
-    if force || path.join(JOURNAL).exists() { Ok(()) } else { holds_nothing_else(path) }
-}
-
-/// Refuses a folder with results but without a journal. A study that was killed before its journal existed has
-/// left no more than the files that describe it.
-fn holds_nothing_else(path: &Path) -> Result<(), Failure> {
-    match OF_OTHERS.iter().chain(MADE).find(|name| path.join(name).exists()) {
-        Some(found) => Err(holds_results(path, found)),
-        None => Ok(()),
+    if force || path.join(JOURNAL).exists() {
+        Ok(())
+    } else {
+        folder::refuse_others(path, &[MARKS, MADE].concat(), REMAINS)
     }
 }

@@ -5,7 +5,7 @@
 //! tensions    a line for each: identity of the case, tension [N], change of the speed [-], version of the program, checksum
 //! ```
 
-use super::study::refuse_others;
+use super::study::{TENSIONS, refuse_others};
 use crate::Failure;
 use spunlaid::error::Error;
 use spunlaid::input::{FlownTension, KeptTensions};
@@ -15,9 +15,6 @@ use std::fs::{self, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-
-/// Their file in the folder of the study.
-pub const TENSIONS: &str = "tensions";
 
 /// The tensions of a study that are kept.
 #[derive(Debug)]

@@ -14,7 +14,9 @@ use spunlaid::input::{LayerSpec, WebFile, WebSpec};
 use spunlaid::layers::LayerFibres;
 use spunlaid::spinline::Solution;
 use spunlaid::surrogate::Residual;
-use spunlaid::web::{Fibres, Findings, LayControl, PatchFindings, SharedAirFindings, Web, strands};
+use spunlaid::web::{
+    FewFilamentsCv, Fibres, Findings, LayControl, PatchFindings, SharedAirFindings, Web, strands,
+};
 use spunlaid_charts::Figure;
 use std::borrow::Cow;
 
@@ -166,7 +168,9 @@ fn residual(layer: Option<&LayerFibres>) -> Option<Residual> {
 /// What a reader must know of what was found.
 pub fn notes(web: &Web, findings: &Findings, layers: &[LayerFibres]) -> Vec<String> {
     let mut notes = match &findings.laid.shared_air {
-        Some(together) => lost_filament_notes(web, together),
+        Some(together) => {
+            [lost_filament_notes(web, together), few_filament_notes(findings, together)].concat()
+        }
         None => model_notes(web, findings, layers),
     };
     let map = &findings.laid.map;
@@ -206,13 +210,59 @@ pub fn notes(web: &Web, findings: &Findings, layers: &[LayerFibres]) -> Vec<Stri
 
 /// How many filaments of a web in one air were lost.
 fn lost_filament_notes(web: &Web, together: &SharedAirFindings) -> Vec<String> {
-    let all: u64 = web.layers.iter().map(|layer| layer.count(&web.sheet)).sum();
+    let count = |number: usize, layer: &spunlaid::web::Layer| {
+        let few = together.few.iter().find(|few| few.layer == number);
+        few.map_or_else(|| layer.count(&web.sheet), |few| few.filaments + few.lost)
+    };
+    let all: u64 = web.layers.iter().enumerate().map(|(number, layer)| count(number, layer)).sum();
     match together.lost {
         0 => Vec::new(),
         lost => vec![format!(
-            "{lost} of {all} filaments were lost in flight, and each is missing from then on: the web is lighter by that, and a little more uneven"
+            "{lost} of {all} filaments {} lost in flight, and each is missing from then on: the web is lighter by that, and a little more uneven",
+            if lost == 1 { "was" } else { "were" }
         )],
     }
+}
+
+/// Patches that the few filaments of a web in one air must tell well [m], and how far every second one may be off.
+const TOLD_WELL: f64 = 0.01;
+const FAR_OFF: f64 = 0.05;
+/// Part of the variance that filled-in filaments may miss where small patches of the map are to be believed.
+const MISSING: f64 = 0.1;
+
+/// Whether the few filaments that were flown are enough for what is told of all.
+fn few_filament_notes(findings: &Findings, together: &SharedAirFindings) -> Vec<String> {
+    let mut notes = Vec::new();
+    let of_few = findings.patches.iter().filter_map(|patch| patch.few);
+    let off = |few: &FewFilamentsCv| few.patch >= TOLD_WELL && few.of_halves.abs() > FAR_OFF;
+    if let Some(few) = of_few.filter(off).max_by(|a, b| a.of_halves.abs().total_cmp(&b.of_halves.abs())) {
+        notes.push(format!(
+            "every second one of the flown filaments would tell a CV over patches of {} mm that is {} % {}: fly more of them (web.flown)",
+            significant(1e3 * few.patch, 3),
+            significant(100.0 * few.of_halves.abs(), 2),
+            if few.of_halves > 0.0 { "higher" } else { "lower" }
+        ));
+    }
+    let missing = together.few.iter().flat_map(|few| few.missing).fold(0.0, f64::max);
+    if missing > MISSING {
+        notes.push(format!(
+            "filaments between the flown ones are known but for {} % of their variance, so the map is too uneven over patches below 10 mm; the CV \
+             that is told is not. Fly more filaments for the map (web.flown)",
+            significant(100.0 * missing, 2)
+        ));
+    }
+    let larger: Vec<String> = (findings.patches.iter())
+        .filter(|patch| patch.few.is_none() && !together.few.is_empty())
+        .map(|patch| significant(1e3 * patch.map.patch, 3))
+        .collect();
+    if !larger.is_empty() {
+        notes.push(format!(
+            "the sheet that was flown is too small for patches of {} mm: their CV is that of the map, which is made of pieces of that sheet, and it has \
+             no error",
+            larger.join(", ")
+        ));
+    }
+    notes
 }
 
 /// A flown CV with a larger relative error checks no surrogate within 5 %.

@@ -177,23 +177,21 @@ pub fn table(comparison: &Comparison) -> String {
         comparison.run.clone(),
         "difference".to_owned(),
         String::new(),
-        String::new(),
     ]];
     for one in &comparison.measures {
         let [against, run, difference, verdict] = one.cells();
-        let unit = one.unit.to_owned();
-        rows.push([one.label.clone(), against, run, difference, unit, verdict]);
+        let unit = if one.unit.is_empty() { String::new() } else { format!(", {}", one.unit) };
+        rows.push([format!("{}{unit}", one.label), against, run, difference, verdict]);
     }
     let width = |i: usize| rows.iter().map(|row| row[i].chars().count()).max().unwrap_or(0);
-    let widths: Vec<usize> = (0..6).map(width).collect();
+    let widths: Vec<usize> = (0..4).map(width).collect();
     let mut text = format!("{} against {}: {}\n", comparison.run, comparison.against, comparison.reason);
     for row in &rows {
         let mut line = format!("  {:<1$}", row[0], widths[0]);
         for i in 1..4 {
             let _ = write!(line, "  {:>1$}", row[i], widths[i]);
         }
-        let _ = write!(line, "  {:<1$}  {2}", row[4], widths[4], row[5]);
-        let _ = writeln!(text, "{}", line.trim_end());
+        let _ = writeln!(text, "{}", format!("{line}  {}", row[4]).trim_end());
     }
     let (beyond, all) = comparison.beyond_chance();
     let _ = writeln!(

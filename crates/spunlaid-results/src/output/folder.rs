@@ -5,7 +5,7 @@ use super::leftovers::{self, Claim};
 use super::origin::{ORIGIN, Origin};
 use super::pictures::FigureFiles;
 use crate::Failure;
-use crate::failure::{holds_results, not_a_folder};
+use crate::failure::{holds_files_of_others, holds_results, not_a_folder};
 use spunlaid_charts::Figure;
 use std::borrow::Borrow;
 use std::fs;
@@ -33,6 +33,17 @@ pub const ENTRIES: &[&str] = &[
     COMPLETE,
 ];
 const COMPLETE: &str = "summary.json";
+/// Files that mark the results of any command, and the journal that studies of webs had before they were like all others.
+pub(crate) const MARKS: &[&str] = &[
+    COMPLETE,
+    "analysis.json",
+    "results.csv",
+    "comparison.json",
+    "fit.json",
+    "trials.csv",
+    "study.toml",
+    "webs.jsonl",
+];
 /// Folders in the staging folder: the new results, and the old ones while they are replaced.
 const NEW: &str = "new";
 const OLD: &str = "old";
@@ -247,7 +258,7 @@ impl Drop for Staging<'_> {
     }
 }
 
-/// Rejects a folder that contains any part of results, unless these may be replaced or have the same origin.
+/// Rejects a folder that holds anything, unless it may be replaced or has the same origin.
 fn refuse_results(
     folder: &Path,
     entries: &[&str],
@@ -257,10 +268,27 @@ fn refuse_results(
     if replace || origin.is_some_and(|origin| origin.is_of(folder)) {
         return Ok(());
     }
-    let holds = |entry: &&&str| folder.join(entry).symlink_metadata().is_ok();
-    match entries.iter().find(holds) {
-        Some(found) => Err(holds_results(folder, found)),
-        None => Ok(()),
+    refuse_others(folder, entries, &[])
+}
+
+/// Rejects a folder that holds results, or files of others, with which results would be mixed. Hidden files are no reason.
+///
+/// * `results` – names of results, besides those that mark any results
+/// * `own` – names that may be there
+pub(crate) fn refuse_others(folder: &Path, results: &[&str], own: &[&str]) -> Result<(), Failure> {
+    let named =
+        |entry: std::io::Result<fs::DirEntry>| Some(entry.ok()?.file_name().to_string_lossy().into_owned());
+    // A folder that cannot be read is told of where it is written to.
+    let mut found: Vec<String> = fs::read_dir(folder).into_iter().flatten().filter_map(named).collect();
+    found.retain(|name| !name.starts_with('.') && !own.contains(&name.as_str()));
+    found.sort_unstable();
+    match (
+        results.iter().chain(MARKS).find(|result| found.iter().any(|name| name == *result)),
+        found.as_slice(),
+    ) {
+        (Some(result), _) => Err(holds_results(folder, result)),
+        (None, []) => Ok(()),
+        (None, [first, more @ ..]) => Err(holds_files_of_others(folder, first, more.len())),
     }
 }
 

@@ -94,6 +94,12 @@ pub(crate) fn sample_columns(fed: bool) -> Vec<Vec<Option<Place>>> {
     tables(fed).iter().map(|(_, columns)| columns.iter().map(place).collect()).collect()
 }
 
+/// The unit of a column, with which its name ends.
+pub fn unit_of_column(name: &str) -> &'static str {
+    const ENDINGS: [(&str, &str); 4] = [("_s", "s"), ("_m", "m"), ("_j", "J"), ("_percent", "%")];
+    ENDINGS.iter().find(|(ending, _)| name.ends_with(ending)).map_or("", |(_, unit)| unit)
+}
+
 /// `laid.parquet`: what fed fibres have laid, in the order of feed.
 pub use spunlaid::layers::LAID;
 /// A column of it.

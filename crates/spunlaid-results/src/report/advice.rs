@@ -54,7 +54,17 @@ pub fn advice_words(spec: &WebSpec, findings: &Findings, advice: Option<&Advice>
         .iter()
         .take(NAMED)
         .map(|(effect, cv)| {
-            format!("{} ({}{THIN}%), {}", describe_change(&effect.change, spec), per_cent(cv), cost(effect))
+            let acts = match cv.is_of_clouds() {
+                Some(true) => ", which acts on the clouds",
+                Some(false) => ", which acts on what each filament does for itself",
+                None => "",
+            };
+            format!(
+                "{} ({}{THIN}%){acts}, {}",
+                describe_change(&effect.change, spec),
+                per_cent(cv),
+                cost(effect)
+            )
         })
         .collect();
     let mut words =

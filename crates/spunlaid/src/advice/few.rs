@@ -14,6 +14,8 @@ pub(super) struct WebOfFew {
 struct Patches<'a> {
     /// CV² of the web.
     square: f64,
+    /// The part of it that filaments make each for itself.
+    own: f64,
     /// Of each layer the squared share of the basis weight, and the blocks of the sheet.
     layers: Vec<(f64, &'a [f64])>,
     /// How far every second filament is off, as a share of the CV.
@@ -48,7 +50,8 @@ impl WebOfFew {
             }
             let by_pitch = 0.5 * (after.of_halves - before.of_halves);
             let standard_error = ratio * (variance + by_pitch * by_pitch).sqrt();
-            Some(CvChange { patch, change: ratio - 1.0, standard_error, degrees })
+            let own = Some(0.5 * (after.own - before.own) / before.square);
+            Some(CvChange { patch, change: ratio - 1.0, standard_error, degrees, own })
         };
         first.cvs.iter().filter_map(|cv| change(cv.patch)).collect()
     }
@@ -58,11 +61,12 @@ impl WebOfFew {
             let number = few.cvs.iter().position(|cv| cv.patch == patch)?;
             Some((share * share, number))
         };
-        let mut patches = Patches { square: 0.0, layers: Vec::new(), of_halves: 0.0 };
+        let mut patches = Patches { square: 0.0, own: 0.0, layers: Vec::new(), of_halves: 0.0 };
         for layer in &self.layers {
             let (weight, number) = of_layer(layer)?;
             let cv = layer.1.cvs[number];
             patches.square += weight * cv.cv * cv.cv;
+            patches.own += weight * cv.own;
             patches.of_halves += weight * cv.cv * cv.cv * cv.of_halves;
             patches.layers.push((weight, &layer.1.blocks[number][..]));
         }

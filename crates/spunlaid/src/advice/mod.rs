@@ -53,9 +53,17 @@ pub struct CvChange {
     pub standard_error: f64,
     /// Degrees of freedom of the error.
     pub degrees: f64,
+    /// The part of the change that filaments make each for itself, to first order; the rest is that of the clouds which they make together. None where it
+    /// is not known.
+    pub own: Option<f64>,
 }
 
 impl CvChange {
+    /// Whether the change is one of the clouds, and not of what each filament does for itself; None where that is not known.
+    pub fn is_of_clouds(&self) -> Option<bool> {
+        self.own.map(|own| (self.change - own).abs() >= own.abs())
+    }
+
     /// Whether the 95 % confidence interval leaves out zero.
     pub fn is_beyond_chance(&self) -> bool {
         let Self { change: value, standard_error, degrees, .. } = *self;
@@ -127,11 +135,12 @@ pub fn advise(
 ) -> Result<Advice, Error> {
     let is_shared = spec.method == Method::SharedAir;
     let aside = AtomicU64::new(0);
-    let few = findings.laid.shared_air.as_ref().map(|together| together.few.clone());
-    let base = match few.filter(|few| is_shared && few.len() == spec.layers.len()) {
-        Some(few) => Unevennesses::OfFew(WebOfFew::new(spec, few)),
-        None if is_shared => Unevennesses::OfMaps(findings.patches.clone()),
-        None => Unevennesses::Expected(expected_cv(web, LayControl { laid: &aside, ..by })?),
+    let has_few = findings.laid.shared_air.as_ref().is_some_and(|together| !together.few.is_empty());
+    let base = match (is_shared, has_few) {
+        // On the sheet of the changes, which is smaller.
+        (true, true) => unevennesses(spec, LayControl { laid: &aside, ..by })?,
+        (true, false) => Unevennesses::OfMaps(findings.patches.clone()),
+        (false, _) => Unevennesses::Expected(expected_cv(web, LayControl { laid: &aside, ..by })?),
     };
     // A flight of eight fibres takes one thread, and many changes are tried side by side. All filaments in one air take all threads.
     let (abreast, threads) = if is_shared { (1, by.threads) } else { (by.threads, 1) };
@@ -185,7 +194,7 @@ impl Unevennesses {
                     let after = after.iter().find(|after| after.patch == before.patch)?;
                     let (change, standard_error) = before.change_to(after);
                     let degrees = before.fibres().min(after.fibres()).max(2) as f64 - 1.0;
-                    Some(CvChange { patch: before.patch, change, standard_error, degrees })
+                    Some(CvChange { patch: before.patch, change, standard_error, degrees, own: None })
                 };
                 before.iter().filter_map(to).collect()
             }
@@ -204,6 +213,7 @@ impl Unevennesses {
                         change: ratio - 1.0,
                         standard_error,
                         degrees: f64::INFINITY,
+                        own: None,
                     })
                 };
                 before.iter().filter_map(to).collect()

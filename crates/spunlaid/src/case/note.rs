@@ -175,9 +175,12 @@ pub enum Remark {
         /// Rest length of an element [m].
         element_length: f64,
     },
-    /// Something about a CFD field or a velocity record.
+    /// Something about a CFD field or a velocity record that makes results doubtful.
     #[error("{0}")]
     File(Fault),
+    /// What the reader of a velocity record mended or left out.
+    #[error("{0}")]
+    Repaired(Fault),
     /// A value that is most likely a slip.
     #[error("is outside the usual range, {least} to {greatest}; {}", slip(instead))]
     Unusual {
@@ -407,6 +410,16 @@ impl Remark {
                 | Self::EddiesLong { .. }
                 | Self::FieldSize { .. }
         )
+    }
+
+    /// The same, said of one file of several.
+    pub(crate) fn of_file(self, file: &str) -> Self {
+        let named = |fault: Fault| Fault { message: format!("{file}: {}", fault.message).into(), ..fault };
+        match self {
+            Self::File(fault) => Self::File(named(fault)),
+            Self::Repaired(fault) => Self::Repaired(named(fault)),
+            other => other,
+        }
     }
 
     /// Whether this is a warning: the results may mislead. Otherwise it is a note, for example on rounding.

@@ -272,6 +272,7 @@ fn fly_until_lost(
 /// Those of [`Flight::new`].
 pub fn pace(case: &Case, isa: Isa) -> Result<f64, Error> {
     const TRIAL: f64 = 0.05;
+    const PARTS: u64 = 64;
     let steps = ((2e5 / case.fibre.elements as f64).clamp(1.0, 1e4) as u64).min(case.run.steps).max(1);
     let mut flight = Flight::new(&[Job::new(case, 0)], isa)?;
     if let Some(line) = case.line {
@@ -279,10 +280,15 @@ pub fn pace(case: &Case, isa: Isa) -> Result<f64, Error> {
         let down = 1.5 * line.distance / line.feed_speed / case.run.time_step;
         flight.advance((down as u64).min(case.run.steps).min(100_000));
     }
-    let (mut done, started) = (0, Instant::now());
+    // In parts, because a fibre that is lost may take very long for a step.
+    let part = steps.div_ceil(PARTS);
+    let (mut done, mut trial, started) = (0, flight.clone(), Instant::now());
     while done == 0 || started.elapsed().as_secs_f64() < TRIAL {
-        flight.clone().advance(steps);
-        done += steps;
+        if done > 0 && done % steps < part {
+            trial = flight.clone();
+        }
+        trial.advance(part);
+        done += part;
     }
     Ok(started.elapsed().as_secs_f64() / done as f64)
 }

@@ -34,6 +34,21 @@ pub(crate) fn listed(names: &[String]) -> String {
     if shown.is_empty() { "none".to_owned() } else { all_of(&shown) }
 }
 
+/// A number of things: `1 row`, `2 rows`.
+pub(crate) fn counted(count: u64, thing: &str) -> String {
+    format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
+}
+
+/// One of two words, for one thing or for several: `is` or `are`.
+pub(crate) const fn by_count(count: u64, (one, several): (&'static str, &'static str)) -> &'static str {
+    if count == 1 { one } else { several }
+}
+
+/// The verb behind a number of things.
+pub(crate) const IS: (&str, &str) = ("is", "are");
+/// The same of the past.
+pub(crate) const WAS: (&str, &str) = ("was", "were");
+
 /// Memory formatted for people: `3.1 GiB`.
 pub(crate) fn memory(bytes: f64) -> String {
     let (unit, size) = [("GiB", 30), ("MiB", 20), ("KiB", 10), ("bytes", 0)]

@@ -2,7 +2,7 @@
 
 use super::mean;
 use super::values::{Quantities, Values, at_point, check_range};
-use crate::error::{Fault, FileError};
+use crate::error::{Fault, FileError, by_count, counted};
 use crate::vec3::Vec3;
 use std::cmp::Ordering;
 
@@ -63,8 +63,10 @@ pub(super) fn merge(nodes: &mut [Node]) -> (Vec<u32>, Option<Fault>) {
     }
     let warning = (differ > 0).then(|| {
         Fault::plain(format!(
-            "{differ} points lie exactly at the place of another point but have other values; the mean of their \
-             values is used"
+            "{} {} exactly at the place of another point but {} other values; the mean of their values is used",
+            counted(differ, "point"),
+            by_count(differ, ("lies", "lie")),
+            by_count(differ, ("has", "have")),
         ))
     });
     (place_of, warning)

@@ -4,7 +4,7 @@ use super::target::Target;
 use super::texture::Texture;
 use super::weights::Matrix;
 use crate::error::{Error, Fault};
-use crate::layers::{Flyer, Method, WebSpec};
+use crate::layers::{Flown, Flyer, Method, WebSpec};
 use crate::study::seed_of_point;
 use crate::web::{LayControl, PatchFindings, inner_columns};
 
@@ -80,8 +80,9 @@ impl Simulator for WebSimulator<'_> {
     /// The errors of the logarithms of CV by the few flown fibres, and by the model that lays the webs in their place.
     fn errors_of_model(&mut self) -> Result<Matrix, Error> {
         let mut spec = self.spec.clone();
-        // Of filaments in one air all have been flown, and known numbers say nothing of real fibres.
-        if spec.method == Method::SharedAir || spec.layers.iter().all(|layer| layer.source.case().is_none()) {
+        // Where all filaments in one air have been flown nothing is left out, and known numbers say nothing of real fibres.
+        let all_fly = spec.method == Method::SharedAir && spec.flown == Flown::All;
+        if all_fly || spec.layers.iter().all(|layer| layer.source.case().is_none()) {
             return Ok(Vec::new());
         }
         let sides = self.target.textures().iter().filter_map(|texture| match texture {
@@ -104,8 +105,12 @@ impl Simulator for WebSimulator<'_> {
             };
             self.target.textures().iter().map(error).collect()
         };
-        let causes =
-            [errors(&|patch| patch.whole_error().flight), errors(&|patch| patch.whole_error().model)];
+        let of_map = |patch: &PatchFindings| Some((patch.filled? - patch.map.cv).abs());
+        let causes = [
+            errors(&|patch| patch.whole_error().flight),
+            errors(&|patch| patch.whole_error().model),
+            errors(&of_map),
+        ];
         Ok(causes.into_iter().filter(|errors| errors.iter().any(|error| *error > 0.0)).collect())
     }
 }

@@ -63,11 +63,7 @@ impl<'a> Entry<'a> {
 /// What the parser finds.
 pub(super) fn root<'a>(source: &Source<'_>, text: &'a str) -> Result<DeTable<'a>, Vec<Problem>> {
     let (root, faults) = DeTable::parse_recoverable(text);
-    if faults.is_empty() {
-        Ok(root.into_inner())
-    } else {
-        Err(faults.iter().map(|fault| source.syntax(fault)).collect())
-    }
+    if faults.is_empty() { Ok(root.into_inner()) } else { Err(source.syntax(&faults)) }
 }
 
 /// Keys with their positions, and values of a table in the order of the file.

@@ -18,6 +18,7 @@ mod slip;
 mod source;
 mod spinline;
 mod study;
+mod unclosed;
 mod unread;
 mod values;
 mod web;
@@ -39,7 +40,7 @@ pub use web::{WebFile, parse_web, parse_web_and_cases, read_web, write_web};
 pub use write::write_case;
 
 use crate::case::{Case, Note, keys};
-use crate::error::{Error, Fault, FileKind};
+use crate::error::{Error, Fault, FileError, FileKind};
 use crate::study::Experiment;
 use lookup::Lookup;
 use open::OpenCase;
@@ -105,6 +106,14 @@ pub fn read_case<'a>(
 /// If the file cannot be read, or is no UTF-8 text.
 pub fn read_text(path: &Path, kind: FileKind) -> Result<String, Error> {
     file::read(path, kind)
+}
+
+/// The text of a file of this library that was read as bytes. Messages call the file `name`.
+///
+/// # Errors
+/// If it is no UTF-8 text; the message says what it may be, and in which line.
+pub fn text_of(bytes: Vec<u8>, name: &str) -> Result<String, FileError> {
+    file::text(bytes).map_err(|error| error.path(Path::new(name)))
 }
 
 /// Reads and checks the text of a case file. Messages call the file `name`.

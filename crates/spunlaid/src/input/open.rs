@@ -123,12 +123,12 @@ pub(super) fn open_part(
                 Err(Fault::excludes(other, remedy))
             }
             (Some(Value::Paths(paths)), Kind::File(kind)) => match load(files, kind, &paths, &key_values) {
-                Ok((content, warnings)) => {
-                    notes.extend(warnings.into_iter().map(|warning| Note {
+                Ok((content, remarks)) => {
+                    notes.extend(remarks.into_iter().map(|what| Note {
                         place: place.clone(),
                         key: key.name.to_owned(),
                         value: shown.clone(),
-                        what: Remark::File(warning),
+                        what,
                     }));
                     key.apply(&mut case, &Value::Content(content))
                 }
@@ -247,7 +247,7 @@ fn load(
     kind: FileKind,
     paths: &[PathBuf],
     key_values: &WrittenValues,
-) -> Result<(Content, Vec<Fault>), FileError> {
+) -> Result<(Content, Vec<Remark>), FileError> {
     let path = paths.first().cloned().unwrap_or_default();
     let content = match kind {
         FileKind::Profile => Content::Profile(files.profile(&path)?),
@@ -259,21 +259,17 @@ fn load(
             let records = paths.iter().map(|path| files.record(path, &layout));
             let records: Vec<_> = records.collect::<Result<_, _>>()?;
             let several = records.len() > 1;
-            let of = |(record, warnings): &(FileContent<Measured>, Vec<Fault>)| {
+            let of = |(record, remarks): &(FileContent<Measured>, Vec<Remark>)| {
                 let file = record.path().display().to_string();
-                let named = move |fault: Fault| Fault {
-                    message: format!("{file}: {}", fault.message).into(),
-                    ..fault
-                };
-                let warnings = warnings.iter().cloned();
-                warnings.map(|fault| if several { named(fault) } else { fault }).collect::<Vec<_>>()
+                let remarks = remarks.iter().cloned();
+                remarks.map(|what| if several { what.of_file(&file) } else { what }).collect::<Vec<_>>()
             };
-            let warnings = records.iter().flat_map(of).collect();
-            return Ok((Content::Records(records.into_iter().map(|(record, _)| record).collect()), warnings));
+            let remarks = records.iter().flat_map(of).collect();
+            return Ok((Content::Records(records.into_iter().map(|(record, _)| record).collect()), remarks));
         }
         FileKind::Field => {
-            let (field, warnings) = files.field(&path, &field_layout(key_values))?;
-            return Ok((Content::Field(field), warnings));
+            let (field, remarks) = files.field(&path, &field_layout(key_values))?;
+            return Ok((Content::Field(field), remarks));
         }
     };
     Ok((content, Vec::new()))

@@ -1,6 +1,6 @@
 //! What is wrong with a line that is not TOML, and the line as it should be.
 
-use crate::error::Fault;
+use crate::error::{Fault, shortest};
 use toml::de::DeTable;
 
 /// Signs that stand before comments in other languages.
@@ -22,16 +22,23 @@ pub(super) fn slip(line: &str) -> Option<Fault> {
         let header = if line.starts_with("[[") { format!("[[{name}]]") } else { format!("[{name}]") };
         return offer("is not a whole table header", &header);
     }
+    if let Some(name) = before_comment(line).trim().strip_suffix(']').filter(|name| is_key(name)) {
+        return offer("is not a whole table header", &format!("[{name}]"));
+    }
+    if let Some((first, second)) = two_keys(line) {
+        let what = "the line has two keys, and each needs a line of its own";
+        return Some(Fault::new(what, format!("write {first} and, below it, {second}")));
+    }
     let end = line.find(|c: char| c == '=' || c == ':' || c.is_whitespace())?;
     let (key, rest) = line.split_at_checked(end)?;
-    if !key.chars().all(|c| c.is_ascii_alphanumeric() || ['_', '-', '.'].contains(&c)) {
+    if !is_key(key) {
         // A part of a list or of a text.
         return None;
     }
     let rest = rest.trim_start();
     let has_sign = rest.starts_with(['=', ':']);
     let (sign, value) = match rest {
-        value if value.starts_with('=') => (true, value.get(1..)?),
+        value if value.starts_with('=') => (true, value.trim_start_matches('=')),
         value => (false, value.strip_prefix(':').unwrap_or(value)),
     };
     let written = before_comment(value).trim();
@@ -39,7 +46,11 @@ pub(super) fn slip(line: &str) -> Option<Fault> {
         return Some(Fault::new(format!("{key} has no value"), format!("write one, as in {key} = …")));
     }
     if is_toml(&format!("{key} = {written}")) {
-        let what = if sign { "has text behind its value" } else { "has no = between key and value" };
+        let what = match (sign, rest.starts_with("==")) {
+            (_, true) => "has more than one =",
+            (true, _) => "has text behind its value",
+            (false, _) => "has no = between key and value",
+        };
         return offer(what, &format!("{key} = {written}"));
     }
     if !has_sign {
@@ -47,15 +58,23 @@ pub(super) fn slip(line: &str) -> Option<Fault> {
         return None;
     }
     let bare = written.trim_matches(|c: char| QUOTES.contains(&c) || c.is_whitespace());
-    if bare.starts_with(['[', '{']) || bare.contains(QUOTES) {
+    if bare.is_empty() || bare.starts_with(['[', '{']) || bare.contains(QUOTES) {
         return None;
+    }
+    if written == format!("\"{bare}\"") && bare.contains('\\') {
+        let what = "has a backslash between double quotes, where it begins a sign such as \\n; between single quotes it is itself";
+        return offer(what, &format!("{key} = '{bare}'"));
     }
     let is_number = |text: &str| text.parse::<f64>().is_ok_and(f64::is_finite);
     let number = bare.split_whitespace().next().unwrap_or(bare);
     let point = number.replacen(',', ".", 1);
     let has_comma = point != number && is_number(&point);
     let bare = if has_comma { bare.replacen(',', ".", 1) } else { bare.to_owned() };
-    let what = if has_comma {
+    let short = is_number(&bare) && !has_comma && !is_toml(&format!("{key} = {bare}"));
+    let bare = if short { shortest(bare.parse().ok()?) } else { bare };
+    let what = if short {
+        "has a number without a digit before or behind its point, or with a zero before it"
+    } else if has_comma {
         "has a decimal comma"
     } else if written.starts_with(['"', '\'']) || written.ends_with(['"', '\'']) {
         "has a quote at one end only"
@@ -67,6 +86,22 @@ pub(super) fn slip(line: &str) -> Option<Fault> {
     let is_bare = is_number(&bare) && !written.starts_with(QUOTES);
     let value = if is_bare { bare } else { format!("\"{bare}\"") };
     offer(what, &format!("{key} = {value}"))
+}
+
+/// Whether a text could be a key, or several with points between.
+fn is_key(text: &str) -> bool {
+    !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric() || ['_', '-', '.'].contains(&c))
+}
+
+/// The two lines that stand in one.
+fn two_keys(line: &str) -> Option<(&str, &str)> {
+    let line = before_comment(line);
+    let gaps = line.match_indices([' ', '\t', ';', ',']);
+    let mut halves =
+        gaps.filter_map(|(at, sign)| Some((line.get(..at)?.trim(), line.get(at + sign.len()..)?.trim())));
+    halves.find(|(first, second)| {
+        first.contains('=') && second.contains('=') && is_toml(first) && is_toml(second)
+    })
 }
 
 /// The fault, if the line that is offered instead is TOML.
@@ -103,6 +138,18 @@ mod tests {
             ("[fibre", "table header", "[fibre]"),
             ("[[layer]", "table header", "[[layer]]"),
             ("// a note", "comment", "# a note"),
+            ("air] # of the diffuser", "table header", "[air]"),
+            ("length == \"1 m\"", "more than one =", "length = \"1 m\""),
+            ("turbulence_intensity = .1", "number", "turbulence_intensity = 0.1"),
+            ("turbulence_intensity = 1.", "number", "turbulence_intensity = 1"),
+            ("seed = 007", "number", "seed = 7"),
+            ("field = \"C:\\users\\x.vtu\" # of Monday", "backslash", "field = 'C:\\users\\x.vtu'"),
+            (
+                "length = \"1 m\" diameter = \"50 µm\"",
+                "two keys",
+                "length = \"1 m\" and, below it, diameter = \"50 µm\"",
+            ),
+            ("seed = 1, replicates = 3", "two keys", "seed = 1 and, below it, replicates = 3"),
         ] {
             let fault = slip(line).unwrap();
             assert!(fault.message.contains(what), "{line}: {}", fault.message);

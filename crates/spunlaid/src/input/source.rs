@@ -1,6 +1,7 @@
 //! The text of a TOML file, with line and column of each position.
 
 use super::slip::slip;
+use super::unclosed::Unclosed;
 use crate::error::{Fault, Finding, Place, Position, Problem};
 use crate::units::excerpt;
 use std::ops::Range;
@@ -39,17 +40,44 @@ impl<'a> Source<'a> {
         fit(self.text.get(span).unwrap_or_default())
     }
 
-    /// The problem that the parser found.
-    pub(super) fn syntax(&self, fault: &toml::de::Error) -> Problem {
-        let (line, column) = self.position(fault.span().map_or(0, |span| span.start));
-        let place = Place::in_file(&self.name, Position::Character { line, column });
-        let message = fault.message().replace('\n', "; ");
-        let what = match fault.span().and_then(|span| self.text.get(span)) {
-            Some(key) if message == "duplicate key" => Fault::duplicate(&fit(key)),
-            _ => slip(self.text.lines().nth((line as usize).saturating_sub(1)).unwrap_or_default())
-                .unwrap_or_else(|| Fault::plain(format!("not valid TOML: {message}"))),
-        };
-        Finding { place, key: String::new(), value: None, what }
+    /// What is wrong with the text, by the faults that the parser found: one problem for a line, and none behind a list or a text
+    /// that has no end.
+    pub(super) fn syntax(&self, faults: &[toml::de::Error]) -> Vec<Problem> {
+        let alone = self.text.contains('\r') && !self.text.contains('\n');
+        if alone {
+            let fault = Fault::new(
+                "the lines end with a carriage return alone, as old editors of the Macintosh save them",
+                "save the file with the ends of lines of Unix or Windows",
+            );
+            return vec![self.problem(Position::Line(1), fault)];
+        }
+        let unclosed = Unclosed::find(self.text);
+        let mut problems: Vec<(u64, Problem)> = Vec::new();
+        for fault in faults {
+            let at = fault.span().map_or(0, |span| span.start);
+            let (line, column) = self.position(at);
+            let follows = unclosed.is_some_and(|unclosed| line >= self.position(unclosed.at).0);
+            if follows || problems.iter().any(|(told, _)| *told == line) {
+                continue;
+            }
+            let message = fault.message().replace('\n', "; ");
+            let what = match fault.span().and_then(|span| self.text.get(span)) {
+                Some(key) if message == "duplicate key" => Fault::duplicate(&fit(key)),
+                _ => slip(self.text.lines().nth((line as usize).saturating_sub(1)).unwrap_or_default())
+                    .unwrap_or_else(|| Fault::plain(format!("not valid TOML: {message}"))),
+            };
+            problems.push((line, self.problem(Position::Character { line, column }, what)));
+        }
+        if let Some(unclosed) = unclosed {
+            let (line, column) = self.position(unclosed.at);
+            let place = Position::Character { line, column };
+            problems.push((line, self.problem(place, unclosed.fault(self.text))));
+        }
+        problems.into_iter().map(|(_, problem)| problem).collect()
+    }
+
+    fn problem(&self, position: Position, what: Fault) -> Problem {
+        Finding { place: Place::in_file(&self.name, position), key: String::new(), value: None, what }
     }
 
     /// Line and column of a byte, both counted from 1; the column counts characters.

@@ -17,7 +17,9 @@ const PITCH: f64 = 1.0 / 8.0;
 /// Filaments are left out only where there are so many for each that is flown.
 const LEAST_SAVING: f64 = 1.5;
 /// Area whose clouds tell the CV over patches of 10 mm within some 3 % [m²].
-const AREA: f64 = 0.2;
+pub(super) const AREA: f64 = 0.2;
+/// Area on which webs in the same air are compared, whose clouds are the same [m²].
+pub(super) const AREA_OF_COMPARISON: f64 = 0.1;
 /// Width of the sheet that is flown, in ways from inlet to belt at least: eight spreads of a usual filament.
 const WIDTH: f64 = 0.4;
 /// Filaments that are filled in for each flown one where a row is looked at over small patches.
@@ -51,7 +53,9 @@ pub(super) struct FewPlan {
 
 impl WebSpec {
     /// The few filaments that are flown for all of a layer; None if all are flown.
-    pub(super) fn few(&self, layer: usize) -> Option<FewFlight> {
+    ///
+    /// * `area` – of the sheet that they lay, unless the web is smaller [m²]
+    pub(super) fn few(&self, layer: usize, area: f64) -> Option<FewFlight> {
         let spec = self.layers.get(layer)?;
         let LaydownSource::Case { case, .. } = &spec.source else { return None };
         if self.method != Method::SharedAir {
@@ -62,7 +66,7 @@ impl WebSpec {
             Flown::PerMetre(number) => 1.0 / number as f64,
             Flown::Auto => PITCH * case.smallest_length_scale(),
         };
-        let sheet = self.flown_sheet(case);
+        let sheet = self.flown_sheet(case, area);
         let all = spec.filaments.count(&self.sheet) as f64 * sheet.width / self.sheet.width;
         // An even number, so that every second one is at an even pitch as well.
         let count = 2 * (0.5 * sheet.width / pitch).round().max(1.0) as u64;
@@ -105,17 +109,17 @@ impl WebSpec {
 
     /// The sheet that the filaments of a case lay: that of the web unless a smaller one says as much. Long and narrow ones take the least time, because
     /// filaments are flown for a while before they lay the sheet.
-    fn flown_sheet(&self, case: &Case) -> Sheet {
+    fn flown_sheet(&self, case: &Case, area: f64) -> Sheet {
         let way = case.line.map_or(0.0, |line| line.distance);
         let cell = self.sheet.cell;
         let cells = |size: f64| (size / cell).ceil() * cell;
         let [width, length] = [self.sheet.width, self.sheet.length];
         let sheet = Sheet { edges: Edges::Periodic, ..self.sheet.clone() };
-        if width * length <= NEARLY * AREA {
+        if width * length <= NEARLY * area {
             return sheet;
         }
         let narrow = cells(case.extent_of_air().z.max(WIDTH * way)).min(width);
-        Sheet { width: narrow, length: cells(AREA / narrow), ..sheet }
+        Sheet { width: narrow, length: cells(area / narrow), ..sheet }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Webs whose filaments all fly in one air, and lay the sheet as they come down.
 
-use super::few::{FewFlight, FewPlan};
+use super::few::{AREA, AREA_OF_COMPARISON, FewFlight, FewPlan};
 use super::flyer::Flights;
 use super::{FlownFibres, Flyer, LaydownSource, LayerFibres, Method, WebSpec};
 use crate::air::Lateral;
@@ -76,7 +76,7 @@ impl LayerBeam<'_> {
 }
 
 impl Flyer<'_> {
-    /// What a few filaments say about a web in one air, without laying it; None of any other web, and where all filaments of a layer are flown.
+    /// What a few filaments say about a web in one air, without laying it, to be compared with another web in the same air; None of any other web, and where all filaments of a layer are flown.
     ///
     /// # Errors
     /// As of [`Flyer::web`].
@@ -84,7 +84,7 @@ impl Flyer<'_> {
         if spec.method != Method::SharedAir {
             return Ok(None);
         }
-        let beams = beams(spec)?;
+        let beams = beams(spec, AREA_OF_COMPARISON)?;
         if beams.iter().any(|layer| layer.few.is_none()) {
             return Ok(None);
         }
@@ -107,7 +107,7 @@ impl Flyer<'_> {
     /// Flies all filaments of each layer, or a few for all of them, in an air of its own, and lays them. A few curves of each layer are kept, which say
     /// what independent filaments would give.
     pub(super) fn fly_together(&self, spec: &WebSpec) -> Result<(Vec<LayerFibres>, LaidWeb), Error> {
-        let beams = beams(spec)?;
+        let beams = beams(spec, AREA)?;
         let elements: Vec<f64> = beams.iter().map(|layer| layer.beam().element_mass()).collect();
         let weight = beams.iter().map(LayerBeam::basis_weight).sum();
         let canvas = Canvas::new(&spec.sheet, &elements, weight)?;
@@ -205,7 +205,7 @@ impl WebSpec {
         if self.method != Method::SharedAir {
             return None;
         }
-        let beams = (0..self.layers.len()).filter_map(|number| beam(self, number).ok());
+        let beams = (0..self.layers.len()).filter_map(|number| beam(self, number, AREA).ok());
         let largest = beams
             .map(|layer| (layer.beam().memory_of_air(&layer.sheet), layer.case.air.lateral))
             .max_by(|a, b| a.0.total_cmp(&b.0));
@@ -243,16 +243,16 @@ impl WebSpec {
 ///
 /// # Errors
 /// If a layer is not flown, or if its air does not fit into the memory.
-fn beams(spec: &WebSpec) -> Result<Vec<LayerBeam<'_>>, Error> {
+fn beams(spec: &WebSpec, area: f64) -> Result<Vec<LayerBeam<'_>>, Error> {
     if let Some(problem) = spec.air_beyond_memory() {
         return Err(vec![problem].into());
     }
-    (0..spec.layers.len()).map(|number| beam(spec, number)).collect()
+    (0..spec.layers.len()).map(|number| beam(spec, number, area)).collect()
 }
 
 /// The filaments of a layer at their places. Air that a case leaves the same across the flow becomes a field in space. The seed of the web and the number of the layer are in the key of the air, so that layers and webs have
 /// airs of their own.
-fn beam(spec: &WebSpec, number: usize) -> Result<LayerBeam<'_>, Error> {
+fn beam(spec: &WebSpec, number: usize, area: f64) -> Result<LayerBeam<'_>, Error> {
     let layer = &spec.layers[number];
     let LaydownSource::Case { path, case } = &layer.source else {
         let fault = Fault::new("a web in one air flies its filaments", "name their case (laydown.case)");
@@ -264,7 +264,7 @@ fn beam(spec: &WebSpec, number: usize) -> Result<LayerBeam<'_>, Error> {
     }
     case.run.seed = key(case.run.seed, spec.seed, number as u64);
     let depth = layer.filaments.depth();
-    Ok(match spec.few(number) {
+    Ok(match spec.few(number, area) {
         Some(FewFlight { sheet, places, few }) => {
             LayerBeam { path, case, sheet, few: Some(few), places, depth }
         }

@@ -39,6 +39,7 @@ pub use web::{Deviation, OF_PATCHES, OF_WEBS, PatchColumn, PatchMeasure, WebMeas
 use crate::case::Case;
 use crate::flight::{Flight, LaidPoint, Snapshot};
 use crate::lanes::WIDTH;
+use crate::units::{si_unit_of, udunits};
 
 /// Everything that is measured, in the order of the tables.
 pub const DECLARED: &[&Declaration] = &[
@@ -153,6 +154,13 @@ pub struct Unit {
     pub shown: &'static str,
     /// Factor from the SI unit to this unit.
     pub per_si: f64,
+}
+
+impl Unit {
+    /// The unit of the values as they are kept, before they are shown, in the spelling of [`udunits`].
+    pub fn of_values(self) -> String {
+        if self.per_si == 1.0 { udunits(self.shown) } else { udunits(&si_unit_of(self.shown)) }
+    }
 }
 
 /// Millimetres.
@@ -377,6 +385,29 @@ mod tests {
             assert!(measure.column.starts_with(measure.name), "{}", measure.name);
             assert!(!measure.meaning.is_empty() && !measure.label.is_empty(), "{}", measure.name);
         }
+    }
+
+    /// A name of a column ends with the unit of its values, `_m2_hz`.
+    fn check_unit(measure: &Measure) {
+        let unit = measure.unit.of_values();
+        let ending = match unit.as_str() {
+            "1" => return,
+            "degC" => "c".to_owned(),
+            "degree" => "degrees".to_owned(),
+            // A power that is no whole number has words.
+            "m-0.5" => "per_sqrt_m".to_owned(),
+            "1/m" => "per_m".to_owned(),
+            unit => unit.to_lowercase().replace('/', "_"),
+        };
+        assert!(measure.column.ends_with(&format!("_{ending}")), "{} in {unit}", measure.column);
+    }
+
+    #[test]
+    fn the_unit_of_the_values_is_that_of_the_name_of_their_column() {
+        DECLARED.iter().flat_map(|declaration| declaration.measures).for_each(check_unit);
+        OF_SPINLINES.iter().filter_map(|one| one.study.as_ref()).for_each(check_unit);
+        OF_WEBS.iter().for_each(|one| check_unit(&one.measure));
+        OF_PATCHES.iter().filter_map(|one| one.study.as_ref()).for_each(check_unit);
     }
 
     /// Fails unless names are unique and not empty.

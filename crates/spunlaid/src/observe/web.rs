@@ -174,6 +174,11 @@ pub const OF_PATCHES: &[PatchMeasure] = &[
         ..PatchMeasure::NUMBER
     },
     PatchMeasure {
+        name: "cv_of_map",
+        number: |patch| patch.filled,
+        ..PatchMeasure::NUMBER
+    },
+    PatchMeasure {
         // Of CV², by what each filament of a web in one air does for itself.
         name: "own_share",
         number: |patch| patch.few.map(|few| few.own / (few.cv * few.cv)),

@@ -20,6 +20,8 @@ pub(super) struct Spacing {
     pub(super) lost: Vec<(usize, usize)>,
     /// Largest deviation of a step from the usual one, as a share of it.
     pub(super) jitter: f64,
+    /// What the times leave open.
+    pub(super) doubt: Option<Fault>,
 }
 
 /// What is wrong with the times, and at which row.
@@ -43,7 +45,11 @@ pub(super) fn place(times: &[f64], unit: f64) -> Result<Spacing, Trouble> {
         Some(grid) if grid.size >= COARSE * usual => {
             let known: Known = known().collect();
             match grid.place(&known) {
-                Some(lost) => Ok(spacing(&known, lost, 0.0)),
+                Some(lost) => {
+                    let placed = spacing(&known, lost, 0.0);
+                    let doubt = placed.interval.and_then(|interval| grid.regular(&known, interval));
+                    Ok(Spacing { doubt, ..placed })
+                }
                 None => Err(step_by_step(unit).err().unwrap_or_else(|| (known[1].0, grid.doubt()))),
             }
         }
@@ -59,7 +65,7 @@ fn spacing(known: &[(usize, f64)], lost: Vec<(usize, usize)>, jitter: f64) -> Sp
         [(first_row, first), .., (row, time)] => Some((time - first) / (row + all - first_row) as f64),
         _ => None,
     };
-    Spacing { interval, lost, jitter }
+    Spacing { interval, lost, jitter, doubt: None }
 }
 
 /// The median of the step over stretches of the record; none if fewer than two times are known.

@@ -1,8 +1,8 @@
 //! What makes a record or its results doubtful.
 
 use super::analysis::BLOCKS;
-use super::{Analysis, Component, Interval, Record, Trend};
-use crate::error::Fault;
+use super::{Analysis, Component, Interval, Reading, Record, Trend};
+use crate::error::{Fault, WAS, by_count, counted, listed};
 use crate::statistics::median;
 use crate::units::{Dimension, shortest};
 
@@ -10,17 +10,59 @@ use crate::units::{Dimension, shortest};
 const OUTLIER: f64 = 12.0;
 /// Largest number of samples that are sorted to find the median.
 const MOST_RANKED: usize = 1 << 16;
+/// Share of interpolated samples from which results may mislead.
+const MUCH_FILLED: f64 = 0.001;
+
+impl Record {
+    /// What the reader mended or left out, as far as it is no warning of [`super::analyse`].
+    pub fn repairs(&self) -> Vec<Fault> {
+        let mut repairs: Vec<Fault> =
+            filled(self).filter(|_| self.filled_share() <= MUCH_FILLED).into_iter().collect();
+        let Reading { cut_off, unused, .. } = &self.reading;
+        if *cut_off > 0 {
+            let all = *cut_off as u64;
+            let places = match self.reading.cut_off_start {
+                start if start == *cut_off => "start",
+                0 => "end",
+                _ => "start and the end",
+            };
+            let (rows, were) = (counted(all, "incomplete row"), by_count(all, WAS));
+            repairs.push(Fault::plain(format!("{rows} at the {places} {were} dropped")));
+        }
+        if !unused.is_empty() {
+            repairs.push(Fault::plain(format!("not used: {}", listed(unused))));
+        }
+        repairs
+    }
+
+    /// Samples that were interpolated, as a share of all.
+    fn filled_share(&self) -> f64 {
+        self.reading.filled as f64 / (self.samples() * self.components.len()) as f64
+    }
+}
+
+/// That samples were interpolated, if any were.
+fn filled(record: &Record) -> Option<Fault> {
+    let Reading { filled, skipped, .. } = record.reading;
+    let lacking = if skipped > 0 {
+        format!("; the file lacks {} by its times", counted(skipped as u64, "row"))
+    } else {
+        String::new()
+    };
+    let message = format!(
+        "{} ({} % of all) {} interpolated linearly{lacking}",
+        counted(filled as u64, "missing sample"),
+        number(100.0 * record.filled_share()),
+        by_count(filled as u64, WAS),
+    );
+    (filled > 0).then(|| Fault::plain(message))
+}
 
 /// All warnings about a record and its analysis, with what to do about each.
 pub(super) fn warnings(record: &Record, analysis: &Analysis) -> Vec<Fault> {
     let mut warnings = Vec::new();
-    let numbers = (record.samples() * record.components.len()) as f64;
-    let share = record.reading.filled as f64 / numbers;
-    if share > 0.001 {
-        let share = number(100.0 * share);
-        let message = format!("{share} % of the samples were missing; they were interpolated linearly");
-        warnings.push(Fault::plain(message));
-    }
+    warnings.extend(record.reading.doubt.clone());
+    warnings.extend(filled(record).filter(|_| record.filled_share() > MUCH_FILLED));
     let longest = analysis.components.iter().map(Component::block_time).fold(0.0, f64::max);
     if analysis.duration < BLOCKS.0 as f64 * longest {
         let count = number(analysis.duration / analysis.integral_time.value);

@@ -16,6 +16,8 @@ pub(super) const JITTER: f64 = 0.01;
 const FEWEST: usize = 32;
 /// Grids below this share of the step do not matter.
 const FINE: f64 = 0.02;
+/// A grid of so many units of the last written digit is none of rounding.
+const DIGITS: f64 = 9.0;
 /// Share of steps of one grid from which the grid is taken for the interval, and other steps for gaps.
 const PLAIN: f64 = 0.75;
 
@@ -24,6 +26,8 @@ const PLAIN: f64 = 0.75;
 pub(super) struct Grid {
     /// Distance between its points [s].
     pub(super) size: f64,
+    /// Whether times are written with more digits than it needs, so that writing did not round them to it.
+    is_exact: bool,
 }
 
 impl Grid {
@@ -46,7 +50,7 @@ impl Grid {
                 return None;
             }
         }
-        (size > 0.0).then_some(Self { size })
+        (size > 0.0).then_some(Self { size, is_exact: size > DIGITS * unit })
     }
 
     /// Rows before which samples are missing, and how many; none if the times do not tell.
@@ -70,12 +74,15 @@ impl Grid {
         })
     }
 
-    /// Whether the grid is the interval itself: nearly all steps are one grid, and the others do not come as regularly as
-    /// rounding would have it.
+    /// Whether the grid is the interval itself: nearly all steps are one grid, and writing did not round the times to it, or the
+    /// others do not come as regularly as rounding would have it.
     fn is_interval(self, known: &[(usize, f64)]) -> bool {
         let rows: Vec<f64> = self.skips(known).map(|(row, ..)| row as f64).collect();
         if (rows.len() as f64) > ((1.0 - PLAIN) * (known.len() - 1) as f64).max(2.0) {
             return false;
+        }
+        if self.is_exact {
+            return true;
         }
         let runs: Vec<f64> = rows.windows(2).map(|rows| rows[1] - rows[0]).collect();
         if runs.len() < 2 {
@@ -142,6 +149,38 @@ impl Grid {
         }
         let (interval, height) = strip(&placed, self.size);
         (height <= self.tallest(interval) + margin).then_some(lost)
+    }
+
+    /// The doubt about rounded times of which every so many-th steps over a point of the grid: so do those of an even clock, and those
+    /// of a faster one that lacks rows as regularly.
+    ///
+    /// * `interval` – as it was found [s]
+    pub(super) fn regular(self, known: &[(usize, f64)], interval: f64) -> Option<Fault> {
+        let mut rows = Vec::new();
+        for (row, grids, spanned) in self.skips(known) {
+            // A gap, or a clock too slow to be taken for a faster one.
+            if grids - spanned > 1 {
+                return None;
+            }
+            rows.push(row);
+        }
+        let every = rows.get(1)?.checked_sub(*rows.first()?)?;
+        let is_regular =
+            rows.windows(2).all(|pair| (pair[1] - pair[0]).abs_diff(every) <= 1) && rows.len() > 3;
+        if interval < 1.01 * self.size || every < 2 || !is_regular {
+            return None;
+        }
+        let rate = |interval: f64| Dimension::Frequency.pretty_to(1.0 / interval, 4);
+        let (points, grid) = (every + 1, Dimension::Time.pretty_to(self.size, 3));
+        Some(Fault::new(
+            format!(
+                "the times are rounded to {grid}, and about one in {points} points of this grid has no row: this is an even clock of {}, \
+                 as it is taken for, or one of {} that lacks rows as regularly",
+                rate(interval),
+                rate(self.size)
+            ),
+            "if rows are lacking, write them without a velocity; if none is, give the sampling rate",
+        ))
     }
 
     /// The fault of rounded times that fit no even clock.

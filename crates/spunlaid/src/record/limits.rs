@@ -1,6 +1,6 @@
 //! What a record must have, whichever way it comes.
 
-use crate::error::Fault;
+use crate::error::{Fault, counted};
 use crate::units::shortest;
 
 /// Least number of samples.
@@ -9,7 +9,7 @@ pub(super) const LEAST_SAMPLES: usize = 64;
 /// The fault of a record that has too few samples.
 pub(super) fn too_few_samples(found: usize, least: usize) -> Fault {
     Fault::new(
-        format!("has {found} samples"),
+        format!("has {}", counted(found as u64, "sample")),
         format!("at least {least} are needed for statistics of turbulence"),
     )
 }

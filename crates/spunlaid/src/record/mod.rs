@@ -62,7 +62,7 @@ pub use moments::Moments;
 pub use text::parse_csv;
 pub use trend::Trend;
 
-use crate::error::{FileError, FileKind};
+use crate::error::{Fault, FileError, FileKind};
 use crate::file;
 use std::io::Read;
 use std::path::Path;
@@ -107,6 +107,8 @@ pub struct Reading {
     pub skipped: usize,
     /// Largest deviation of a time step from the usual one, as a share of it.
     pub jitter: f64,
+    /// What its times leave open.
+    pub doubt: Option<Fault>,
     /// Columns that were not used.
     pub unused: Vec<String>,
     /// Whether there was a column of time.

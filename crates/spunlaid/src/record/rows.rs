@@ -110,7 +110,7 @@ impl Rows {
 
     /// Makes the record.
     pub(super) fn finish(mut self) -> Result<Record, FileError> {
-        let Spacing { interval, lost, jitter } = self.place()?;
+        let Spacing { interval, lost, jitter, doubt } = self.place()?;
         let skipped: usize = lost.iter().map(|(_, lost)| lost).sum();
         let rows = self.values.first().map_or(0, Vec::len) + skipped;
         check_size(rows.saturating_mul(self.values.len()))?;
@@ -129,6 +129,7 @@ impl Rows {
         };
         self.reading.skipped = skipped;
         self.reading.jitter = jitter;
+        self.reading.doubt = doubt;
         self.reading.cut_off = rows - (end - first);
         self.reading.cut_off_start = first;
         let mut components = Vec::new();
@@ -204,9 +205,13 @@ fn fill(values: &mut [f64]) -> usize {
 
 /// The fault of too many samples that are missing in a row.
 fn gap_too_long(missing: f64, most: usize) -> Fault {
-    let missing = shortest(missing);
+    let missing = if missing == 1.0 {
+        "1 sample is missing before here".to_owned()
+    } else {
+        format!("{} samples in a row are missing up to here", shortest(missing))
+    };
     Fault::new(
-        format!("{missing} samples in a row are missing up to here, more than the {most} that are filled in"),
+        format!("{missing}, more than the {most} that are filled in"),
         "cut the record here, fill in the missing samples, or allow longer gaps (air.record_max_gap in a case)",
     )
     .option("--max-gap")

@@ -58,10 +58,34 @@ pub(super) fn white_level(
         )
         .option("--white"));
     }
-    let levels = picture.values.iter().copied().filter(|level| level.is_finite());
-    let white = white.or(picture.full_scale).unwrap_or_else(|| levels.fold(0.0, f64::max));
     // Over a picture of the lamp, all light is one.
-    Ok(if lamp.is_some() { 1.0 } else { white })
+    if lamp.is_some() {
+        return Ok(1.0);
+    }
+    white.map_or_else(|| largest_level(picture), Ok)
+}
+
+/// The largest level that the file can hold, if it is known.
+fn largest_level(picture: &Picture) -> Result<f64, Fault> {
+    let advice =
+        "give the level of the lamp without web, in reflected light of a web too thick to see through";
+    let Some(largest) = picture.full_scale else {
+        let message = "holds numbers without a largest grey level, so the level of the lamp is not known, and with a guess every CV would be \
+                       wrong by the same factor";
+        return Err(
+            Fault::new(message, format!("{advice}, or a picture of the lamp")).option("--white, --lamp")
+        );
+    };
+    let Some(bits) = picture.fewer_bits else { return Ok(largest) };
+    let possible = (1u32 << bits) - 1;
+    Err(Fault::new(
+        format!(
+            "has no level above {possible}, though the file has 16 bits, so it is not known whether a camera of {bits} bits made it or the \
+             picture is dark, and with a wrong level of the lamp every CV would be wrong by the same factor"
+        ),
+        format!("{advice}: {possible} if the camera has {bits} bits, else {largest}"),
+    )
+    .option("--white"))
 }
 
 /// Largest shading that is believed to be that of a lamp and a lens, brightest over darkest place. By the law of the fourth power of the

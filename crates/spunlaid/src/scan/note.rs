@@ -34,7 +34,7 @@ pub(super) fn notes(
     }
     notes.extend(numbers(picture.numbered));
     if let Light::Transmitted { .. } = settings.light {
-        notes.extend(bits(picture, settings.lamp.as_ref(), weighed.guess(settings.light)));
+        notes.extend(bits(picture, settings.lamp.as_ref()));
     }
     if settings.light_is_assumed && matches!(settings.light, Light::Transmitted { .. }) {
         let message = "the picture is taken as light that has come through the web, so that heavy places are dark; if light fibres lie on a \
@@ -43,10 +43,10 @@ pub(super) fn notes(
     }
     match (settings.light, weighed.white) {
         (Light::Transmitted { white: None, .. }, Some(white)) => {
-            notes.push(assumed_lamp(white, picture.full_scale.is_some()));
+            notes.push(assumed_lamp(white));
         }
         (Light::Reflected { white: None, .. }, Some(white)) => {
-            notes.push(assumed_thickest(white, picture.full_scale.is_some()));
+            notes.push(assumed_thickest(white));
         }
         _ => {}
     }
@@ -135,44 +135,37 @@ fn numbers(numbered: [bool; 2]) -> Option<Fault> {
     Some(Fault::plain(format!("{left_out} left out of the map")))
 }
 
-/// The doubt that a file of 16 bits holds the levels of a camera with fewer, where the level of the lamp depends on it.
-fn bits(picture: &Picture, lamp: Option<&Picture>, guess: Option<Doubt>) -> Option<Fault> {
-    let depends = match lamp {
-        Some(lamp) => lamp.full_scale != picture.full_scale,
-        None => guess == Some(Doubt::White),
-    };
-    let bits = picture.fewer_bits.or_else(|| lamp?.fewer_bits).filter(|_| depends)?;
+/// The doubt that a file of 16 bits holds the levels of a camera with fewer, where the picture of the lamp has another depth.
+fn bits(picture: &Picture, lamp: Option<&Picture>) -> Option<Fault> {
+    let lamp = lamp.filter(|lamp| lamp.full_scale != picture.full_scale)?;
+    let bits = picture.fewer_bits.or(lamp.fewer_bits)?;
     let largest = (1u32 << bits) - 1;
     Some(Fault::new(
         format!(
             "no level lies above {largest}, though the file has 16 bits; if the camera has {bits} bits and its largest level is \
              {largest}, every CV is wrong by the same factor"
         ),
-        "give the level of the lamp, or take a picture of the lamp with the same bits",
+        "take a picture of the lamp with the same bits",
     ))
 }
 
-/// * `full_scale` – whether the level is the largest that the file can hold, or else the largest that it holds
-fn assumed_lamp(white: f64, full_scale: bool) -> Fault {
+fn assumed_lamp(white: f64) -> Fault {
     Fault::new(
         format!(
-            "the lamp without web is assumed to have the grey level {}, the largest that the file {}. If that is wrong, \
+            "the lamp without web is assumed to have the grey level {}, the largest that the file can hold. If that is wrong, \
              every CV is wrong by the same factor, and the picture cannot show it, so no interval is given",
-            shortest(white),
-            if full_scale { "can hold" } else { "holds" }
+            shortest(white)
         ),
         "take a picture of the lamp at the same exposure",
     )
 }
 
-/// * `full_scale` – whether the level is the largest that the file can hold, or else the largest that it holds
-fn assumed_thickest(white: f64, full_scale: bool) -> Fault {
+fn assumed_thickest(white: f64) -> Fault {
     Fault::new(
         format!(
-            "a web so thick that the ground is not visible is assumed to have the grey level {}, the largest that the file {}. If that is \
+            "a web so thick that the ground is not visible is assumed to have the grey level {}, the largest that the file can hold. If that is \
              wrong, every CV is wrong, so no interval is given",
-            shortest(white),
-            if full_scale { "can hold" } else { "holds" }
+            shortest(white)
         ),
         "take a picture of a thick stack of the web at the same exposure, and give its grey level",
     )

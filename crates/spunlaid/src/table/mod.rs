@@ -49,7 +49,7 @@ pub(crate) use logical::{Meaning, durations};
 pub(crate) use parquet::{NumberColumn, PageGuard};
 pub(crate) use stamp::{FORMS, Stamp};
 
-use crate::error::{Fault, FileError, FileKind, Position};
+use crate::error::{Fault, FileError, FileKind, Position, counted};
 use crate::units::excerpt;
 use cells::{Looks, Parting, number};
 use lines::{Line, Lines};
@@ -203,7 +203,8 @@ impl<R: Read> Table<R> {
         } else {
             "are both decimals and cells separated by commas?"
         };
-        let fault = Fault::new(format!("this row has {found} cells and needs {wanted}"), remedy);
+        let fault =
+            Fault::new(format!("this row has {} and needs {wanted}", counted(found as u64, "cell")), remedy);
         FileError::from(fault).at(self.place())
     }
 

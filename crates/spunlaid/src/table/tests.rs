@@ -93,7 +93,7 @@ fn faults_name_line_and_column() {
         message("t,u\n0,x7\n1,2\n"),
         "a.csv:2: column u: \"x7\" is not a number; write one, or leave the cell empty where a value is missing"
     );
-    assert!(message("t,u\n0,1\n1\n").starts_with("a.csv:3: this row has 1 cells and needs 2"));
+    assert!(message("t,u\n0,1\n1\n").starts_with("a.csv:3: this row has 1 cell and needs 2"));
     assert_eq!(message("t,u\n0,1\n1,\n"), "");
 }
 

@@ -1,12 +1,14 @@
 //! Quantities with units. They are converted to SI units when they are read, and from SI units when they are shown.
 
 mod expression;
+mod si;
 mod spelling;
 mod table;
 
 pub(crate) use crate::error::{excerpt, shortest};
 pub(crate) use expression::unknown_name;
 pub use expression::{Expression, Powers};
+pub use si::{si_unit_of, udunits};
 pub(crate) use spelling::plain_spelling;
 
 use crate::error::Fault;

@@ -72,6 +72,8 @@ pub struct PatchFindings {
     pub pairs: Option<f64>,
     /// What a few filaments in one air say of all; None if all were flown, or if the patch is too large for the sheet that they laid.
     pub few: Option<FewFilamentsCv>,
+    /// CV of the map itself, in which filaments between the flown ones are filled in; None if all were flown or nothing.
+    pub filled: Option<f64>,
 }
 
 /// The CV that the filaments of a web in one air would give in airs of their own.
@@ -209,9 +211,14 @@ pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Res
             .as_ref()
             .and_then(|together| with_pairs(web, together, single_fibres.0, map.patch));
         let few = laid.shared_air.as_ref().and_then(|together| of_all_layers(web, together, map));
-        let map = few.map_or(map, |few| Unevenness { cv: few.cv, standard_error: few.by_chance, ..map });
+        let of_map = map.cv;
+        // A map of pieces of another sheet says nothing of chance.
+        let is_of_few = laid.shared_air.as_ref().is_some_and(|together| !together.few.is_empty());
+        let unknown = if is_of_few { Unevenness { standard_error: None, ..map } } else { map };
+        let map = few.map_or(unknown, |few| Unevenness { cv: few.cv, standard_error: few.by_chance, ..map });
         patches.push(PatchFindings {
             few,
+            filled: few.map(|_| of_map),
             map,
             single_fibres,
             flown,

@@ -53,7 +53,8 @@ fn analytic_rows_that_are_hidden_or_lack_a_number_end_the_air() {
             "{array} has no number at 1 point; it is in line 21. There is no air there: these places are left out"
         )
     };
-    let hidden = "1 points are hidden (vtkGhostType or vtkValidPointMask); there is no air there, and they are left out";
+    let hidden =
+        "1 point is hidden (vtkGhostType or vtkValidPointMask); there is no air there, and it is left out";
     for (names, last, said) in [
         (",vtkValidPointMask", "0,0,0,0,0", hidden.to_owned()),
         (",vtkGhostType", "900,0,1,5,2", "no ghost".to_owned()),
@@ -81,6 +82,30 @@ fn analytic_rows_that_are_hidden_or_lack_a_number_end_the_air() {
         assert_eq!(field.why_no_air(near).is_some(), names.is_empty(), "{last}");
         assert!(field.why_no_air(Vec3::new(1.5, 1.25, 0.0)).is_none());
     }
+}
+
+/// Bits by `vtkDataSetAttributes.h` of VTK 9: 2 hides a point, and says of a cell that it has many neighbours; 8 and 32 hide a cell.
+#[test]
+fn published_ghost_bits_of_a_table_of_centres_are_those_of_cells() {
+    let of_marks = |marks: &dyn Fn(usize) -> u32| {
+        let rows = (0..20).map(|i| format!("{},{},10,0,{}\n", i % 5, i / 5, marks(i))).collect::<String>();
+        let text = format!("x,y,u,v,vtkGhostType\n{rows}");
+        let (field, warnings) = Field::parse(text.as_bytes(), "a.csv").unwrap();
+        let hidden = warnings.iter().find(|warning| warning.message.contains("hidden"));
+        (
+            field.describe(),
+            hidden.map(|warning| warning.message.split(" hidden").next().unwrap_or_default().to_owned()),
+        )
+    };
+    let all = Description::Lattice { points: [5, 4, 1] };
+    // Many neighbours, few, on the outside; of which none hides.
+    assert_eq!(of_marks(&|i| [2, 4, 16, 0][i % 4]), (all, None));
+    // One beneath finer cells and one hidden.
+    let (found, said) = of_marks(&|i| [8, 0, 2, 2, 32].get(i).copied().unwrap_or(2));
+    assert_eq!(said.as_deref(), Some("2 points are"));
+    assert_eq!(found, Description::Mesh { points: 18, cells: 10 });
+    // Points only.
+    assert_eq!(of_marks(&|i| if i == 0 { 2 } else { 1 }).1.as_deref(), Some("1 point is"));
 }
 
 /// Quads of 6 by 5 points in each plane of two coordinates, in legacy files of meshes and surfaces: u = 2 + 3 a + 5 b.

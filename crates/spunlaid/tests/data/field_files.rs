@@ -212,7 +212,7 @@ fn analytic_values_of_cells_are_the_mean_at_points() {
         assert!(of_cells.to_string().contains("the values are given at cells; each point gets the mean"));
         assert_eq!(
             flat.message,
-            "1 cells are points, lines or faces, perhaps of the boundary; they are left out"
+            "1 cell is a point, a line or a face, perhaps of the boundary; it is left out"
         );
     }
     let data = [("U", 3, vec![1.0, 0.0, 0.0, 3.0, 0.0, 0.0])];
@@ -240,7 +240,7 @@ fn analytic_epsilon_is_from_omega() {
         ("epsilon", 1, ones(1.0)),
     ];
     let (field, warnings) = read(&vti([2, 2, 2], [0.0; 3], [1.0; 3], [&data, &[]], ASCII), "a.vti");
-    assert_eq!(warnings, [Fault::plain("k is negative at 1 points; zero is used there")]);
+    assert_eq!(warnings, [Fault::plain("k is negative at 1 point; zero is used there")]);
     assert_eq!(field.sample(Vec3::default(), &mut Hint::default()).k, 0.0);
 }
 

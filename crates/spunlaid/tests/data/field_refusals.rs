@@ -284,7 +284,7 @@ fn rejects_tables_with_place_and_way_out() {
             "TITLE=\"a\"\nVARIABLES=\"X\",\"Y\",\"U\",\"V\"\n1 2 3 4\n",
             "a.vtu:3: \"a number\" was found instead of the line ZONE; is the file complete, and is it the right one?",
         ),
-        (&format!("{head}1,2,3,4,5,6\n"), "a.vtu: has 1 points; at least 9 are needed for interpolation"),
+        (&format!("{head}1,2,3,4,5,6\n"), "a.vtu: has 1 point; at least 9 are needed for interpolation"),
         (
             "FoamFile\n{\n}\n",
             "a.vtu: is a file of OpenFOAM’s own; convert the case with foamToVTK and name its internal.vtu",
@@ -363,4 +363,20 @@ proptest! {
             prop_assert!(error.to_string().chars().all(|c| !c.is_control()), "{error}");
         }
     }
+}
+
+#[test]
+fn rejects_zones_of_several_times() {
+    let zone = |time: &str, u: u32| {
+        let rows: String = (0..9).map(|i| format!("{} {} {u} 0\n", i % 3, i / 3)).collect();
+        format!("ZONE T=\"a\", STRANDID=1, SOLUTIONTIME={time}, I=3, J=3, DATAPACKING=POINT\n{rows}")
+    };
+    let file = |times: [&str; 2]| {
+        format!("VARIABLES = \"x\" \"y\" \"u\" \"v\"\n{}{}", zone(times[0], 5), zone(times[1], 7))
+    };
+    let said = Field::parse(file(["0.5", "1e0"]).as_bytes(), "a.dat").unwrap_err().to_string();
+    let wanted = "a.dat:12: has SOLUTIONTIME 1, and a zone before it has 0.5; the mean flow of a field is that of one time; write the \
+                  zones of one time only, or the mean over time";
+    assert_eq!(said, wanted);
+    assert!(Field::parse(file(["0.5", "0.50"]).as_bytes(), "a.dat").is_ok());
 }

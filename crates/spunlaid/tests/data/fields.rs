@@ -264,7 +264,7 @@ fn warnings_count_cells_that_fold_over() {
     let mut cells = Cells::new();
     cells.push(Shape::Hexahedron, &[0, 1, 3, 2, 4, 5, 6, 7]).unwrap();
     let (_, warnings) = Field::mesh(&points, &cells, &still(8)).unwrap();
-    let folded = "1 cells fold over themselves, and the air within them is only roughly right";
+    let folded = "1 cell folds over itself, and the air within it is only roughly right";
     assert_eq!(warnings, [Fault::new(folded, "check the mesh")]);
     // A cell that is inside out as a whole is valid.
     let mut cells = Cells::new();
@@ -293,7 +293,7 @@ fn warnings_count_flat_cells_and_points_at_one_place() {
     let mut values = still(9);
     values.velocity[8].x = 2.0;
     let (field, warnings) = Field::mesh(&points, &cells, &values).unwrap();
-    let merged = "1 points lie exactly at the place of another point but have other values; the mean of their values is used";
+    let merged = "1 point lies exactly at the place of another point but has other values; the mean of their values is used";
     assert_eq!(warnings, [merged, "2 cells have no volume and are left out"].map(Fault::plain));
     assert_eq!(field.sample(points[7], &mut Hint::default()).velocity.x, 1.0);
 }

@@ -39,6 +39,54 @@ fn gaps_are_told_from_rounding() {
     assert!(said.contains("give the sampling rate"), "{said}");
 }
 
+/// A clock of 900 Hz cut to whole milliseconds, and one of 1 kHz without every tenth row, have the same times, digit for digit.
+#[test]
+fn a_regular_gap_that_could_be_rounding_is_doubted() {
+    let even = rounded(900.0, 3000, |_| false);
+    let lacking = rounded(1000.0, 3330, |i| i % 10 == 9);
+    let times =
+        |text: &str| text.lines().map(|line| line[..line.find(',').unwrap()].to_owned()).collect::<Vec<_>>();
+    assert_eq!(times(&even)[..2990], times(&lacking)[..2990]);
+    for text in [even, lacking, rounded(980.0, 3000, |_| false)] {
+        let doubt = read(&text).unwrap().reading.doubt.unwrap().to_string();
+        assert!(
+            doubt.contains("or one of 1 kHz that lacks rows") && doubt.contains("sampling rate"),
+            "{doubt}"
+        );
+    }
+    for rate in [1000.0, 500.0, 400.0, 60.0] {
+        assert_eq!(read(&rounded(rate, 3000, |_| false)).unwrap().reading.doubt, None, "{rate}");
+    }
+    assert_eq!(read(&rounded(1000.0, 3000, |i| i == 700 || i == 1500)).unwrap().reading.doubt, None);
+}
+
+/// Zeros at the end of every time are digits too: no writing rounded these times to their grid.
+#[test]
+fn times_with_zeros_at_their_end_are_no_rounded_ones() {
+    for (step, digits) in [(0.1, 3), (0.001, 6)] {
+        let kept = (0..3000).filter(|i| i % 10 != 9);
+        let rows: String = kept.map(|i| format!("{:.digits$},{}\n", f64::from(i) * step, i % 7)).collect();
+        let record = read(&format!("time_s,u_m_s\n{rows}")).unwrap();
+        assert!((record.interval / step - 1.0).abs() < 1e-9, "{}", record.interval);
+        assert_eq!((record.reading.filled, record.reading.doubt), (299, None));
+    }
+}
+
+/// Times that scatter by 2 % of a step about those of an even clock, cut to whole milliseconds.
+#[test]
+fn a_long_gap_is_found_in_a_clock_that_is_not_quite_even() {
+    let layout = Layout { longest_gap: 300, ..Layout::default() };
+    for rate in [700.0, 800.0, 1000.0] {
+        let scatter = |i: usize| 0.02 * ((i as f64 * 0.754_877).fract() * 2.0 - 1.0) + 0.03;
+        let kept = (0..3000).filter(|i| !(1000..1200).contains(i));
+        let row =
+            |i: usize| format!("{:.3},{}\n", (1e3 * (i as f64 + scatter(i)) / rate).floor() * 1e-3, i % 7);
+        let text = format!("time_s,u_m_s\n{}", kept.map(row).collect::<String>());
+        let record = parse_csv(text.as_bytes(), "a.csv", &layout).unwrap();
+        assert_eq!((record.samples(), record.reading.skipped), (3000, 200), "{rate}");
+    }
+}
+
 #[test]
 fn tabs_at_the_end_of_a_row_are_cells() {
     let wanted = read("time_s;u_m_s\n0;1\n1;\n2;3\n3;4\n").unwrap();

@@ -196,7 +196,7 @@ fn rejects_with_line_column_and_way_out() {
     for (text, said) in [
         ("", "a.csv: contains no rows of numbers; is it the right file?"),
         ("time_s,u_m_s\n", "a.csv: contains no rows of numbers; is it the right file?"),
-        ("time_s,u_m_s\n0,1\n", "a.csv: has 1 samples; at least 64 are needed for statistics of turbulence"),
+        ("time_s,u_m_s\n0,1\n", "a.csv: has 1 sample; at least 64 are needed for statistics of turbulence"),
         (
             "time_s,p_Pa\n0,1\n",
             "a.csv: none of the columns is a velocity (time_s and p_Pa); name them like u_m_s, or say which columns are velocities, and in which unit",
@@ -229,7 +229,7 @@ fn rejects_with_line_column_and_way_out() {
             &format!("{head}3,inf\n"),
             "a.csv:5: column u_m_s: \"inf\" is not finite; leave the cell empty where a value is missing",
         ),
-        (&format!("{head}3\n"), "a.csv:5: this row has 1 cells and needs 2; is the file cut off here?"),
+        (&format!("{head}3\n"), "a.csv:5: this row has 1 cell and needs 2; is the file cut off here?"),
         (
             &format!("{head}3,1,5\n"),
             "a.csv:5: this row has 3 cells and needs 2; are both decimals and cells separated by commas?",

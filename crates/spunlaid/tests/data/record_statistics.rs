@@ -279,7 +279,7 @@ fn rejects_what_says_nothing() {
         refused(vec![3.0; 1000], &plain),
         "made: column u: is constant, 3 m/s in every sample, so there is no turbulence in it; is the probe connected?"
     );
-    assert!(refused(vec![3.0], &plain).starts_with("made: has 1 samples; at least 64 are needed"));
+    assert!(refused(vec![3.0], &plain).starts_with("made: has 1 sample; at least 64 are needed"));
     assert!(refused(vec![1e200; 100], &plain).contains("as large as 1e200 m/s"));
     assert!(refused(noise.clone(), &plain).ends_with("give the mean velocity"));
     let fixed = Settings { integral: IntegralRule::Fixed(5.0), ..plain };

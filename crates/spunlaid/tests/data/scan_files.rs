@@ -97,10 +97,6 @@ fn rejects_what_is_no_scan() {
         (npy("<f8", "False", "(18446744073709551615, 3)", &data), "has 3 × 18446744073709551615 pixels"),
         (png8(9, &[7; 900]), "has 9 × 100 pixels; at least 16 are needed in each direction"),
         (
-            npy("<f8", "True", "(24, 24)", &data),
-            "has its columns stored one after the other (Fortran order), which cannot be read; save numpy.asc",
-        ),
-        (
             npy("<f8", "False", "(24, 8, 3)", &data),
             "has the shape (24, 8, 3), which cannot be read; save a map of two dimensions",
         ),
@@ -299,6 +295,36 @@ fn files() -> [Vec<u8>; 9] {
             .collect::<String>()
             .into(),
     ]
+}
+
+/// `numpy.save` of `numpy.asfortranarray(map)`: the numbers of a column stand one after the other.
+#[test]
+fn an_array_in_the_order_of_fortran_is_the_same_map() {
+    let (columns, rows) = (SIDE, SIDE + 4);
+    let number = |row: usize, column: usize| (row * columns + column) as f64 * 1e-3 + 1.0;
+    let by_rows: Vec<f64> = (0..rows * columns).map(|i| number(i / columns, i % columns)).collect();
+    let by_columns = (0..rows * columns).flat_map(|i| number(i % rows, i / rows).to_le_bytes());
+    let fortran = npy("<f8", "True", &format!("({rows}, {columns})"), &by_columns.collect::<Vec<u8>>());
+    let read = |file: &[u8]| parse(file, "map.npy", 1e-3).unwrap();
+    let (found, wanted) = (read(&fortran), read(&npy_f64(columns, &by_rows)));
+    assert_eq!((found.columns, found.rows), (columns, rows));
+    assert_eq!(found.values, wanted.values);
+}
+
+/// Floating-point numbers have no largest level, and the brightest pixel is no lamp.
+#[test]
+fn rejects_light_of_floats_without_a_level_of_the_lamp() {
+    let picture = parse(&tiff_f32(SIDE, &levels(f32::from)), "scan.tif", 0.1e-3).unwrap();
+    for light in
+        [Light::Transmitted { mean: None, white: None }, Light::Reflected { mean: None, white: None }]
+    {
+        let said = analyse(&picture, &Settings::new(light)).unwrap_err().to_string();
+        assert!(
+            said.contains("holds numbers without a largest grey level")
+                && said.contains("give the level of the lamp"),
+            "{said}"
+        );
+    }
 }
 
 proptest! {

@@ -92,3 +92,22 @@ fn a_map_keeps_its_first_row_and_column() {
     let short = MAP.lines().take(16).collect::<Vec<_>>().join("\n");
     assert_eq!(parse(short.as_bytes(), "a", 2e-3).unwrap().rows, 16);
 }
+
+/// The names of the columns have none for those of the rows before them: `DataFrame.to_string` of pandas 2, and `write.table` of R 4.
+#[test]
+fn a_line_of_heads_that_lacks_its_corner_is_read() {
+    let wanted = found(MAP).0;
+    let rows = |name: &dyn Fn(usize) -> String, sign: &str| -> String {
+        let row = |(i, line): (usize, &str)| format!("{}{sign}{}\n", name(i), line.replace(',', sign));
+        MAP.lines().enumerate().map(row).collect()
+    };
+    let heads = |name: &dyn Fn(usize) -> String, sign: &str| (0..50).map(name).collect::<Vec<_>>().join(sign);
+    let plain = |i: usize| i.to_string();
+    let of_pandas = format!("    {}\n{}", heads(&plain, "      "), rows(&plain, "  "));
+    let quoted = |i: usize| format!("\"{}\"", i + 1);
+    let of_r =
+        |sign: &str| format!("{}\n{}", heads(&|i| format!("\"V{}\"", i + 1), sign), rows(&quoted, sign));
+    for text in [of_pandas, of_r(" "), of_r("\t"), of_r(",")] {
+        assert_eq!(found(&text), (wanted, [true, false]), "{}", &text[..80]);
+    }
+}

@@ -2,7 +2,7 @@
 
 use super::{looked_at, show};
 use crate::args::{Check, Threads, overrides};
-use crate::commands::versioned_json;
+use crate::commands::{plural, versioned_json};
 use crate::failure::Failure;
 use crate::say;
 use serde::Serialize;
@@ -147,10 +147,13 @@ fn mesh(case: &Case) -> Vec<String> {
     let mut lines = vec!["mesh".to_owned()];
     match case.line {
         None => lines.push(format!(
-            "  {} elements of {}, {} eddies of {} along the fibre",
-            fibre.elements,
+            "  {} of {}, {} of {} along the fibre",
+            plural(fibre.elements as u64, "element"),
             Dimension::Length.pretty(fibre.rest_length()),
-            case.eddies().count(),
+            match case.eddies().count() {
+                1 => "1 eddy".to_owned(),
+                eddies => format!("{eddies} eddies"),
+            },
             Dimension::Length.pretty(case.air.length_scale)
         )),
         Some(line) => lines.extend(fed(case, line)),
@@ -235,8 +238,11 @@ fn fed(case: &Case, line: Line) -> Vec<String> {
 
 fn limits(case: &Case) -> Vec<String> {
     let h = case.run.time_step;
-    let mut lines =
-        vec![format!("time step {}, {} steps; stable below", Dimension::Time.pretty(h), case.run.steps)];
+    let mut lines = vec![format!(
+        "time step {}, {}; stable below",
+        Dimension::Time.pretty(h),
+        plural(case.run.steps, "step")
+    )];
     let limits = case.stable_step_limits();
     for limit in &limits {
         lines.push(format!(

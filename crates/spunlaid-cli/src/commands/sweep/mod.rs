@@ -144,7 +144,7 @@ fn write(
         let path = folder.path().join("results.json");
         say::text(&fs::read_to_string(&path).map_err(Error::unwritable(&path))?);
     } else if !sweep.output.quiet {
-        say::text(&table::results(study, &results));
+        say::table(&table::results(study, &results));
         if let Some(refusal) = &refusal {
             say::line(&format!("the keys are not ranked: {refusal}"));
         }

@@ -1,6 +1,6 @@
 //! Progress of a study: a bar on a terminal, or a line from time to time in a log file.
 
-use crate::progress::{bar, show_while};
+use crate::progress::{bar, fitting, show_while};
 use crate::say;
 use spunlaid::study::{Progress, Study};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -10,6 +10,9 @@ use std::time::{Duration, Instant};
 const LINE_AFTER: Duration = Duration::from_secs(10);
 const LINE_SHARE: f64 = 0.05;
 const LINE_SOONEST: Duration = Duration::from_secs(2);
+
+/// Columns of what stands before the words of the bar.
+const BEFORE: usize = 31;
 
 /// Runs `work` and shows its progress, unless `quiet`.
 pub(super) fn follow<T>(
@@ -22,7 +25,7 @@ pub(super) fn follow<T>(
     if quiet {
         return work();
     }
-    let bar = bar(1, "[{bar:24}] {percent:>3} %  {msg}", false);
+    let bar = bar(1, "[{bar:20}] {percent:>3} %  {msg}", false);
     let mut log = Log { last: Instant::now(), share: 0.0 };
     let begun = Instant::now();
     let mut before = None;
@@ -33,7 +36,7 @@ pub(super) fn follow<T>(
         } else {
             bar.set_length(state.steps.max(1));
             bar.set_position(state.steps_done);
-            bar.set_message(state.words());
+            bar.set_message(fitting(&state.words(), BEFORE));
         }
     };
     show_while(&bar, Duration::from_millis(100), show, work)

@@ -56,6 +56,9 @@ struct Patch {
     /// Null for a single fibre.
     standard_error: f64,
     beyond_chance: bool,
+    /// The part of the change that filaments in one air make each for itself; the rest is that of their clouds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    of_own_part: Option<f64>,
 }
 
 #[derive(Debug, Serialize)]
@@ -93,6 +96,7 @@ impl AdviceSummary {
             cv_change: cv.change,
             standard_error: cv.standard_error,
             beyond_chance: cv.is_beyond_chance(),
+            of_own_part: cv.own,
         };
         let change = |effect: &Effect| ChangeSummary {
             setting: effect.change.setting.name(),

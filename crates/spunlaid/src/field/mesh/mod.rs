@@ -87,15 +87,20 @@ impl Mesh {
             }
         }
         if cut.flat > 0 {
-            let message = format!("{} cells have no volume and are left out", cut.flat);
+            let message = match cut.flat {
+                1 => "1 cell has no volume and is left out".to_owned(),
+                flat => format!("{flat} cells have no volume and are left out"),
+            };
             warnings.push(Fault::plain(message));
         }
         if cut.folded > 0 {
             warnings.push(Fault::new(
-                format!(
-                    "{} cells fold over themselves, and the air within them is only roughly right",
-                    cut.folded
-                ),
+                match cut.folded {
+                    1 => "1 cell folds over itself, and the air within it is only roughly right".to_owned(),
+                    folded => format!(
+                        "{folded} cells fold over themselves, and the air within them is only roughly right"
+                    ),
+                },
                 "check the mesh",
             ));
         }

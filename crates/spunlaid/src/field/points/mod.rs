@@ -11,7 +11,7 @@ use super::mean;
 use super::node::{Node, bounding_box};
 use super::tree::Tree;
 use super::values::Quantities;
-use crate::error::{Fault, FileError};
+use crate::error::{Fault, FileError, counted};
 use fit::Fit;
 
 /// Number of points in the mean. The distance of the next one is where the weights become zero.
@@ -43,7 +43,7 @@ impl Points {
     pub(super) fn new(nodes: Vec<Node>) -> Result<Self, FileError> {
         if nodes.len() <= NEAREST {
             return Err(Fault::new(
-                format!("has {} points", nodes.len()),
+                format!("has {}", counted(nodes.len() as u64, "point")),
                 format!("at least {} are needed for interpolation", NEAREST + 1),
             )
             .into());

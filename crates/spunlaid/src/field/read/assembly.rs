@@ -7,7 +7,7 @@ use super::join::{Part, join};
 use super::measure::Measure;
 use super::missing;
 use super::piece::{Piece, Range, Reader};
-use crate::error::{Fault, FileError};
+use crate::error::{Fault, FileError, IS, by_count, counted};
 use crate::field::{Field, FieldLayout};
 
 /// Part of the largest value up to which a negative one is taken for rounding of the solver or of an interpolation [-].
@@ -80,16 +80,18 @@ impl<'l> Assembly<'l> {
                 let share = -100.0 * ROUNDING;
                 let fault = Fault::new(
                     format!(
-                        "is below zero at {negative} points, and it cannot be: its smallest value is {least} and its \
+                        "is below zero at {}, and it cannot be: its smallest value is {least} and its \
                          largest {greatest}. Only values down to {share} % of the largest count as rounding and are \
-                         set to zero"
+                         set to zero",
+                        counted(negative, "point")
                     ),
                     "check that the array is what its name says",
                 );
                 return Err(FileError::from(fault).array(&array));
             }
             if negative > 0 {
-                let message = format!("{array} is negative at {negative} points; zero is used there");
+                let message =
+                    format!("{array} is negative at {}; zero is used there", counted(negative, "point"));
                 warnings.push(Fault::plain(message));
             }
         }
@@ -119,13 +121,16 @@ impl<'l> Assembly<'l> {
 /// How many points and cells are hidden, if any are.
 fn hidden(parts: &[Part]) -> Option<Fault> {
     let count = |kind: usize| parts.iter().map(|part| part.blanks.hidden[kind]).sum::<u64>();
-    let said = match [count(0), count(1)] {
+    let [points, cells] = [count(0), count(1)];
+    let said = match [points, cells] {
         [0, 0] => return None,
-        [points, 0] => format!("{points} points"),
-        [0, cells] => format!("{cells} cells"),
-        [points, cells] => format!("{points} points and {cells} cells"),
+        [_, 0] => counted(points, "point"),
+        [0, _] => counted(cells, "cell"),
+        _ => format!("{} and {}", counted(points, "point"), counted(cells, "cell")),
     };
+    let left_out = by_count(points + cells, ("it is left out", "they are left out"));
     Some(Fault::plain(format!(
-        "{said} are hidden (vtkGhostType or vtkValidPointMask); there is no air there, and they are left out"
+        "{said} {} hidden (vtkGhostType or vtkValidPointMask); there is no air there, and {left_out}",
+        by_count(points + cells, IS),
     )))
 }

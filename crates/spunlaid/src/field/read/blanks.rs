@@ -6,6 +6,9 @@
 //! | `vtkGhostLevels` | above 0: another piece has it too | the same |
 //! | `vtkValidPointMask` | 0: outside of the data that were resampled | |
 //!
+//! A table of the centres of cells has the marks of cells at its points: any bit that points do not have tells so, and then 2, which
+//! says of a cell that it has many neighbours, hides nothing.
+//!
 //! Other bits of `vtkGhostType` say something about the mesh and hide nothing. A point that another piece has too holds air
 //! unless it is hidden; a cell that another piece has too would count twice.
 
@@ -17,8 +20,8 @@ use crate::error::FileError;
 
 /// `vtkGhostType` of a point or a cell that another piece has too.
 const COPY: u32 = 1;
-/// `vtkGhostType` of a hidden point. Cells of a table of cells’ centres may be among the points.
-const HIDDEN_POINT: u32 = 2 | HIDDEN_CELL;
+/// `vtkGhostType` of a hidden point.
+const HIDDEN_POINT: u32 = 2;
 /// `vtkGhostType` of a cell that is hidden or lies beneath finer ones.
 const HIDDEN_CELL: u32 = 8 | 32;
 
@@ -81,8 +84,12 @@ impl Blanks {
         for (of_cells, arrays, count) in [(false, point_data, points), (true, cell_data, cells)] {
             for array in arrays.iter().filter(|array| array.components == 1) {
                 if let Some(mark) = Mark::of(&Name::new(&array.name)) {
-                    for (place, number) in array.numbers::<f64>(count, budget)?.into_iter().enumerate() {
-                        let [hidden, copied] = mark.reads(number, of_cells);
+                    let numbers = array.numbers::<f64>(count, budget)?;
+                    let like_cells = of_cells
+                        || mark == Mark::GhostType
+                            && numbers.iter().any(|number| *number as u32 & !(COPY | HIDDEN_POINT) != 0);
+                    for (place, number) in numbers.into_iter().enumerate() {
+                        let [hidden, copied] = mark.reads(number, like_cells);
                         if hidden && blanks.leave_out(of_cells, place, count) {
                             blanks.hidden[usize::from(of_cells)] += 1;
                         }

@@ -3,7 +3,7 @@
 use super::blanks::Blanks;
 use super::gaps::Gaps;
 use super::grid::{Grid, combinations};
-use crate::error::{Fault, FileError};
+use crate::error::{Fault, FileError, by_count, counted};
 use crate::field::fault;
 use crate::field::holes::Holes;
 use crate::field::lattice::order;
@@ -126,12 +126,20 @@ fn mesh(parts: Vec<Part>) -> Result<(Field, Vec<Fault>), FileError> {
         );
     }
     if flat > 0 && !cells.is_empty() {
-        let message =
-            format!("{flat} cells are points, lines or faces, perhaps of the boundary; they are left out");
+        let message = match flat {
+            1 => "1 cell is a point, a line or a face, perhaps of the boundary; it is left out".to_owned(),
+            _ => {
+                format!("{flat} cells are points, lines or faces, perhaps of the boundary; they are left out")
+            }
+        };
         warnings.push(Fault::plain(message));
     }
     if higher_order > 0 {
-        let message = format!("{higher_order} cells have curved edges; only their corners are used");
+        let cells = counted(higher_order, "cell");
+        let message = format!(
+            "{cells} {} curved edges; only corners are used",
+            by_count(higher_order, ("has", "have"))
+        );
         warnings.push(Fault::plain(message));
     }
     let (field, more) = match cells.is_empty() {

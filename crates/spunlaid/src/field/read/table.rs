@@ -60,7 +60,10 @@ pub(super) fn read(bytes: &[u8], layout: &FieldLayout) -> Result<(Field, Vec<Fau
     let above = own_unit.map(|_| "Length unit".to_owned());
     field.measured_coordinate = above.or_else(|| Some(arrays.shown(found.next()?.0)));
     if let (rows @ 1.., first) = dropped {
-        let message = format!("{rows} rows lack a coordinate and are left out; the first is in line {first}");
+        let message = match rows {
+            1 => format!("the row in line {first} lacks a coordinate and is left out"),
+            _ => format!("{rows} rows lack a coordinate and are left out; the first is in line {first}"),
+        };
         warnings.push(Fault::plain(message));
     }
     Ok((field, warnings))

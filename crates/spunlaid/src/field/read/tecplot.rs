@@ -9,6 +9,7 @@
 
 use crate::error::{Fault, FileError, Position};
 use crate::field::fault;
+use crate::units::shortest;
 use std::borrow::Cow;
 
 /// A zone: the points that follow a line `ZONE`.
@@ -79,6 +80,7 @@ pub(super) fn as_table(bytes: &[u8]) -> Result<Cow<'_, [u8]>, FileError> {
     }
     let (mut table, mut names, mut named) = (Vec::new(), Vec::new(), false);
     let (mut zone, mut in_names): (Option<Zone>, _) = (None, false);
+    let mut time: Option<f64> = None;
     for (line, number) in lines(bytes).zip(1..) {
         if is_row(line) {
             let Some(zone) = &mut zone else {
@@ -87,6 +89,13 @@ pub(super) fn as_table(bytes: &[u8]) -> Result<Cow<'_, [u8]>, FileError> {
             };
             if zone.rows == 0 {
                 zone.check()?;
+                let own = zone.says("SOLUTIONTIME").and_then(|time| time.parse().ok());
+                if let (Some(first), Some(own)) = (time, own)
+                    && first != own
+                {
+                    return Err(zone.blame(several_times(first, own)));
+                }
+                time = time.or(own);
             }
             if !named {
                 // The last line above is empty by now: the names go there.
@@ -116,6 +125,17 @@ pub(super) fn as_table(bytes: &[u8]) -> Result<Cow<'_, [u8]>, FileError> {
     }
     zone.iter().try_for_each(Zone::close)?;
     Ok(Cow::Owned(table))
+}
+
+/// The zones are the same points at several times, and the air of a field is that of one.
+fn several_times(first: f64, other: f64) -> Fault {
+    let [first, other] = [first, other].map(shortest);
+    Fault::new(
+        format!(
+            "has SOLUTIONTIME {other}, and a zone before it has {first}; the mean flow of a field is that of one time"
+        ),
+        "write the zones of one time only, or the mean over time",
+    )
 }
 
 fn lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {

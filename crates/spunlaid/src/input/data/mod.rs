@@ -4,9 +4,11 @@ mod polymer;
 mod profile;
 
 use crate::air::{FileContent, Measured, Profile, RecordLayout, RecordNumbers, SpectrumTable};
-use crate::error::{Fault, FileError, FileKind};
+use crate::case::Remark;
+use crate::error::{FileError, FileKind};
 use crate::field::{Field, FieldLayout, ReadField};
 use crate::file;
+use crate::input::file::text as text_of;
 use crate::record::{Interval, LONGEST_GAP, Layout, Record, Settings, analyse_fluctuation, read_record};
 use crate::spinline::{AirTable, PolymerFile};
 use std::cell::RefCell;
@@ -22,8 +24,8 @@ const LARGEST_TABLE: u64 = 1 << 24;
 pub(super) struct DataFiles {
     profiles: Shelf<FileContent<Profile>>,
     spectra: Shelf<FileContent<SpectrumTable>>,
-    records: Shelf<(FileContent<Measured>, Vec<Fault>)>,
-    fields: Shelf<(FileContent<Field>, Vec<Fault>)>,
+    records: Shelf<(FileContent<Measured>, Vec<Remark>)>,
+    fields: Shelf<(FileContent<Field>, Vec<Remark>)>,
     spinline_airs: Shelf<FileContent<AirTable>>,
     polymers: Shelf<FileContent<PolymerFile>>,
 }
@@ -63,34 +65,36 @@ impl DataFiles {
     pub(super) fn polymer(&self, path: &Path) -> Result<FileContent<PolymerFile>, FileError> {
         once(&self.polymers, path, "", || {
             let bytes = file::read(path, FileKind::Case, LARGEST_TABLE)?;
-            let polymer = polymer::read(&String::from_utf8_lossy(&bytes), &path.display().to_string())?;
-            Ok(from_file(path, crc32fast::hash(&bytes), polymer))
+            let checksum = crc32fast::hash(&bytes);
+            let polymer = polymer::read(&text_of(bytes)?, &path.display().to_string())?;
+            Ok(from_file(path, checksum, polymer))
         })
     }
 
-    /// A CFD field, and warnings about it.
+    /// A CFD field, and what is said of it.
     ///
     /// * `layout` – the arrays that the case names
     pub(super) fn field(
         &self,
         path: &Path,
         layout: &FieldLayout,
-    ) -> Result<(FileContent<Field>, Vec<Fault>), FileError> {
+    ) -> Result<(FileContent<Field>, Vec<Remark>), FileError> {
         let way = way_of(layout);
         once(&self.fields, path, &way, || {
             let ReadField { field, warnings, checksum, parts } = ReadField::read(path, layout)?;
-            Ok((from_file(path, checksum, field).with_parts(parts).read_as(&way), warnings))
+            let remarks = warnings.into_iter().map(Remark::File).collect();
+            Ok((from_file(path, checksum, field).with_parts(parts).read_as(&way), remarks))
         })
     }
 
-    /// A velocity record, and warnings about it.
+    /// A velocity record, and what is said of it: all that `spunlaid analyse` says.
     ///
     /// * `layout` – what the case says of the file
     pub(super) fn record(
         &self,
         path: &Path,
         layout: &RecordLayout,
-    ) -> Result<(FileContent<Measured>, Vec<Fault>), FileError> {
+    ) -> Result<(FileContent<Measured>, Vec<Remark>), FileError> {
         let way = way_of(layout);
         once(&self.records, path, &way, || {
             let columns = layout.columns.iter().flat_map(|columns| columns.split(','));
@@ -105,15 +109,16 @@ impl DataFiles {
             };
             let record = read_record(path, &settings)?;
             let checksum = record.reading.checksum;
-            let (measured, warnings) = measured(record)?;
+            let (measured, remarks) = measured(record)?;
             let measured = Measured { layout: layout.clone(), ..measured };
-            Ok((from_file(path, checksum, measured).read_as(&way), warnings))
+            Ok((from_file(path, checksum, measured).read_as(&way), remarks))
         })
     }
 }
 
-/// The fluctuation of a record with the numbers of the air that it gives, and warnings about it.
-fn measured(record: Record) -> Result<(Measured, Vec<Fault>), FileError> {
+/// The fluctuation of a record with the numbers of the air that it gives, and what is said of it.
+fn measured(record: Record) -> Result<(Measured, Vec<Remark>), FileError> {
+    let repairs = record.repairs().into_iter().map(Remark::Repaired);
     let analysis = analyse_fluctuation(&record, &Settings::default())?;
     let with_mean = analysis.has_mean();
     let known_value = |interval: &Interval| with_mean.then_some(interval.value);
@@ -125,7 +130,7 @@ fn measured(record: Record) -> Result<(Measured, Vec<Fault>), FileError> {
     };
     let components: Vec<&[f64]> = record.components.iter().map(|c| c.values.as_slice()).collect();
     let measured = Measured::new(record.interval, &components, analysis.integral_time.value, says);
-    Ok((measured, analysis.warnings))
+    Ok((measured, repairs.chain(analysis.warnings.into_iter().map(Remark::File)).collect()))
 }
 
 fn from_file<T>(path: &Path, checksum: u32, content: T) -> FileContent<T> {

@@ -295,6 +295,10 @@ impl Reading<'_> {
 
     /// Refuses a method of laying that needs flights where there are none.
     fn check_method(&mut self, prefixes: &[String], web: &WebSpec) {
+        if web.method != Method::SharedAir && self.is_written("web.flown") {
+            let fault = Fault::needs("web.method = \"shared-air\"", "leave it out");
+            self.key_values.reject("web.flown", fault);
+        }
         match web.method {
             Method::SharedAir => self.check_shared_air(prefixes, &web.layers),
             Method::Dynamics => {

@@ -19,11 +19,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, FileError> {
     let data = &bytes[start + length..];
     let head = String::from_utf8_lossy(head);
     let kind = value(&head, "'descr':")?.trim_matches(['\'', '"']).to_owned();
-    if value(&head, "'fortran_order':")? != "False" {
-        let found = "its columns stored one after the other (Fortran order)";
-        let advice = "save numpy.ascontiguousarray(map)";
-        return Err(unsupported(found, advice).into());
-    }
+    let by_columns = value(&head, "'fortran_order':")? == "True";
     let [rows, columns] = shape(&head)?;
     let [columns, rows] = within_limits(columns, rows)?;
     let (read, size, full_scale) = number(&kind)?;
@@ -31,8 +27,10 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, FileError> {
     if data.len() < wanted {
         return Err(Fault::cut_off("the numbers of the array").into());
     }
-    let values =
-        data[..wanted].chunks_exact(size).map(read).map(|x| if x.is_finite() { x } else { f64::NAN });
+    let number = |at: usize| read(&data[at * size..(at + 1) * size]);
+    // Arrays in the order of Fortran have their columns one after the other.
+    let place = |at: usize| if by_columns { at % columns * rows + at / columns } else { at };
+    let values = (0..columns * rows).map(place).map(number).map(|x| if x.is_finite() { x } else { f64::NAN });
     Ok(RawPicture { full_scale, ..RawPicture::plain(values.collect(), columns, rows) })
 }
 

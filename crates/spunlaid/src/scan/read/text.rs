@@ -3,9 +3,11 @@
 use super::{LEAST_SIDE, RawPicture, within_limits};
 use crate::error::{FileError, FileKind};
 use crate::table::Table;
+use std::io::Read;
 
 pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, FileError> {
-    let mut table = Table::open(bytes, FileKind::Scan, 0)?;
+    let corner = corner(bytes).unwrap_or_default();
+    let mut table = Table::open(corner.as_bytes().chain(bytes), FileKind::Scan, 0)?;
     let columns = table.heads().len();
     let (mut values, mut rows) = (Vec::new(), 0);
     while table.next_row()? {
@@ -16,6 +18,23 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, FileError> {
         }
     }
     Ok(without_numbers(RawPicture::plain(values, columns, rows)))
+}
+
+/// Lines that are compared with the first one.
+const COMPARED: usize = 100;
+
+/// The head of the first column, where the first line lacks it: programs write the names of columns without one for those of rows.
+fn corner(bytes: &[u8]) -> Option<String> {
+    let lines = bytes.split(|byte| *byte == b'\n').filter(|line| !line.trim_ascii().is_empty());
+    let lines: Vec<_> = lines.take(COMPARED).map(String::from_utf8_lossy).collect();
+    let (head, rows) = lines.split_first().filter(|(_, rows)| rows.len() > 1)?;
+    let by = |sign: char, line: &str| match sign {
+        ' ' => line.split_ascii_whitespace().count(),
+        _ => line.trim_end().split(sign).count(),
+    };
+    let sign = [' ', ',', ';', '\t'].into_iter().max_by_key(|sign| by(*sign, &rows[0]))?;
+    let cells = by(sign, head) + 1;
+    rows.iter().all(|row| by(sign, row) == cells).then(|| format!("row{sign}"))
 }
 
 /// The map without the numbers of its rows and columns, which programs for tables write beside it. Measured weights never lie so evenly.

@@ -67,6 +67,8 @@ pub struct LayerFew {
     pub layer: usize,
     /// Number of filaments that were flown and not lost.
     pub filaments: u64,
+    /// Number of those that were lost.
+    pub lost: u64,
     /// Size of the sheet that they laid, across and along [m].
     pub sheet: [f64; 2],
     /// Part of the variance of a filament between them that they do not tell, in machine and in cross direction.
@@ -118,7 +120,8 @@ impl FewFilaments<'_> {
             (maps.each_ref().map(|map| unevenness(map, sides[i])), blocks(&maps[0], sides[i]))
         });
         let sheet = [self.sheet.width, self.sheet.length];
-        let mut told = LayerFew { layer, filaments: count as u64, sheet, ..LayerFew::default() };
+        let lost = self.rows.iter().flatten().filter(|curve| curve.is_none()).count() as u64;
+        let mut told = LayerFew { layer, filaments: count as u64, lost, sheet, ..LayerFew::default() };
         for ((found, blocks), ([itself, next, second, fourth], patch)) in
             found.into_iter().zip(products.into_iter().zip(&self.sheet.patches))
         {
@@ -193,10 +196,8 @@ impl FewFilaments<'_> {
     ///
     /// * `half` – the first of these; None for all
     pub(crate) fn map(&self, half: Option<usize>) -> Result<Map, Error> {
-        let curves = self.rows.iter().flat_map(|row| match half {
-            Some(first) => row.iter().skip(first).step_by(2),
-            None => row.iter().skip(0).step_by(1),
-        });
+        let (first, step) = half.map_or((0, 1), |first| (first, 2));
+        let curves = self.rows.iter().flat_map(|row| row.iter().skip(first).step_by(step));
         let canvas = self.canvas(self.sheet)?;
         let quanta = canvas.quanta(self.piece);
         for curve in curves.flatten() {

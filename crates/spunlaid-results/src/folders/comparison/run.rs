@@ -1,9 +1,9 @@
 //! Reads the results folders of runs.
 
-use super::super::finished_run::summary;
-use crate::failure::Failure;
+use super::super::finished::read_summary_of_run;
+use crate::Failure;
+use crate::figures::{CurvePoint, Curves};
 use serde_json::Value as Json;
-use spunlaid_results::figures::{CurvePoint, Curves};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ pub(super) struct Run {
 
 impl Run {
     pub(super) fn read(folder: &Path, name: String) -> Result<Self, Failure> {
-        let summary = summary(folder)?;
+        let summary = read_summary_of_run(folder)?;
         Ok(Self { curves: Curves { name, rows: curves(&folder.join("figures")) }, summary })
     }
 

@@ -1,12 +1,12 @@
 //! What a comparison shows.
 
+use crate::output::comparison::Comparison;
+use crate::report::ComparedPictures;
 use spunlaid_charts::Figure;
-use spunlaid_results::output::comparison::Comparison;
-use spunlaid_results::report::ComparedPictures;
 
 /// Comparisons with their figures.
 #[derive(Debug)]
-pub(super) struct Results {
+pub(super) struct Found {
     pub(super) comparisons: Vec<Comparison>,
     pub(super) figures: Vec<Figure>,
     /// Of webs.

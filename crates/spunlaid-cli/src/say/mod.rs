@@ -3,12 +3,16 @@
 //! A reader may close its end early, as `head` does; this is not an error. If standard output cannot be written
 //! for another reason, [`lost`] reports it at the end.
 
+mod wrap;
+
 use anstyle::{AnsiColor, Style};
 use spunlaid::case::Note;
 use spunlaid::input::StudyNote;
 use std::fmt::Display;
 use std::io::{Error, ErrorKind, Write};
 use std::sync::OnceLock;
+use terminal_size::terminal_size_of;
+use wrap::wrapped;
 
 const ERROR: Style = AnsiColor::Red.on_default().bold();
 const WARNING: Style = AnsiColor::Yellow.on_default().bold();
@@ -57,13 +61,27 @@ pub(crate) fn prompt(question: &str) {
 
 /// A line on standard error.
 pub(crate) fn aside(text: &str) {
+    let width = terminal_size_of(std::io::stderr()).map(|(width, _)| usize::from(width.0));
     // If standard error cannot be written, there is no other place for a message.
-    let _ = writeln!(anstream::stderr(), "{text}");
+    let _ = writeln!(anstream::stderr(), "{}", width.map_or_else(|| text.to_owned(), |w| wrapped(text, w)));
 }
 
-/// A line of results.
+/// Columns of the terminal that shows the results; none if they go elsewhere.
+pub(crate) fn columns() -> Option<usize> {
+    terminal_size_of(std::io::stdout()).map(|(width, _)| usize::from(width.0))
+}
+
+/// A line of results, which the terminal shows in several if it is not wide enough.
 pub(crate) fn line(line: &str) {
-    text(&format!("{line}\n"));
+    table(&format!("{line}\n"));
+}
+
+/// Tables and sentences of results. On a terminal, lines that are too long go on below.
+pub(crate) fn table(words: &str) {
+    match columns() {
+        Some(width) => text(&wrapped(words, width)),
+        None => text(words),
+    }
 }
 
 /// Text of results, unchanged.

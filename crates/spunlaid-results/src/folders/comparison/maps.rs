@@ -1,12 +1,12 @@
 //! What the maps of webs show beside each other: pictures at one scale and in the same shades, and spectra in cells of one size.
 
 use super::web::Web;
+use crate::figures::{ComparedSpectrum, overlaid_spectra};
+use crate::output::web::{MapFile, Pictures};
+use crate::report::ComparedPictures;
 use spunlaid::scan::shortest_sharp_wave;
 use spunlaid::web::Clouds;
 use spunlaid_charts::Figure;
-use spunlaid_results::figures::{ComparedSpectrum, overlaid_spectra};
-use spunlaid_results::output::web::{MapFile, Pictures};
-use spunlaid_results::report::ComparedPictures;
 
 /// What the maps show, and why one shows nothing.
 #[derive(Debug, Default)]

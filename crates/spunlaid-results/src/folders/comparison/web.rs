@@ -1,9 +1,9 @@
 //! The results of a web, laid or scanned, as far as they are compared.
 
+use crate::output::web::MapFile;
 use serde_json::Value as Json;
 use spunlaid::scan::{Doubt, FEWEST};
 use spunlaid::statistics::NORMAL_95;
-use spunlaid_results::output::web::MapFile;
 use std::path::{Path, PathBuf};
 
 /// The results of a web.

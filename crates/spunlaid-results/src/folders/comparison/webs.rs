@@ -1,16 +1,16 @@
 //! Webs side by side, laid or scanned: their CV over patches, their clouds, their pictures and spectra.
 
-use super::super::finished_run::any_summary;
+use super::super::finished::read_summary;
+use super::found::Found;
 use super::maps::maps;
-use super::results::Results;
 use super::web::{Patch, Web, WebNumber, are_alike, at};
-use crate::failure::Failure;
+use crate::Failure;
+use crate::figures::{ComparedPatch, SEEN, overlaid_webs};
+use crate::numbers::significant;
+use crate::output::comparison::{ComparedMeasure, Comparison};
 use spunlaid::error::{Error, Fault};
 use spunlaid::scan::shortest_sharp_wave;
 use spunlaid::statistics::{Difference, Estimate};
-use spunlaid_results::figures::{ComparedPatch, SEEN, overlaid_webs};
-use spunlaid_results::numbers::significant;
-use spunlaid_results::output::comparison::{ComparedMeasure, Comparison};
 use std::path::PathBuf;
 
 /// Reads the folders if the first holds a web.
@@ -20,13 +20,13 @@ use std::path::PathBuf;
 pub(super) fn read(folders: &[PathBuf], names: &[String]) -> Result<Option<Vec<Web>>, Failure> {
     let mut webs = Vec::new();
     for (folder, name) in folders.iter().zip(names) {
-        match Web::new(folder, name, &any_summary(folder)?) {
+        match Web::new(folder, name, &read_summary(folder)?) {
             Some(web) => webs.push(web),
             None if webs.is_empty() => return Ok(None),
             None => {
                 let message =
                     format!("cannot be compared: it holds no web, and {} does", folders[0].display());
-                return Err(Error::folder(folder, Fault::new(message, "compare webs with webs")).into());
+                return Err(Error::folder(folder, Fault::new(message, "compare webs with webs")));
             }
         }
     }
@@ -37,7 +37,7 @@ pub(super) fn read(folders: &[PathBuf], names: &[String]) -> Result<Option<Vec<W
 ///
 /// # Errors
 /// If a web has no patches like those of the first.
-pub(super) fn compared(webs: &[Web]) -> Result<Results, Failure> {
+pub(super) fn compared(webs: &[Web]) -> Result<Found, Failure> {
     let comparisons =
         webs.iter().skip(1).map(|other| compare_webs(&webs[0], other)).collect::<Result<_, _>>()?;
     let drawn = |patch: &Patch| ComparedPatch {
@@ -50,7 +50,7 @@ pub(super) fn compared(webs: &[Web]) -> Result<Results, Failure> {
         webs.iter().map(|web| (web.name.clone(), web.patches.iter().map(drawn).collect())).collect();
     let maps = maps(webs);
     let figures = std::iter::once(overlaid_webs(&curves)).chain(maps.spectra).collect();
-    Ok(Results { comparisons, figures, pictures: maps.pictures, notes: maps.notes })
+    Ok(Found { comparisons, figures, pictures: maps.pictures, notes: maps.notes })
 }
 
 fn compare_webs(first: &Web, other: &Web) -> Result<Comparison, Failure> {
@@ -67,7 +67,7 @@ fn compare_webs(first: &Web, other: &Web) -> Result<Comparison, Failure> {
             sides(other)
         );
         let fault = Fault::new(message, "give both the same sizes with web.patches or --patches");
-        return Err(Error::folder(&other.folder, fault).into());
+        return Err(Error::folder(&other.folder, fault));
     }
     let of_patch = |side: f64, [whose, end]: [&str; 2], values: [Result<WebNumber, String>; 2]| {
         let side = significant(side * 1e3, 3);

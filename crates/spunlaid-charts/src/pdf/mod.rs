@@ -1,5 +1,8 @@
-//! From a picture to PDF: one page of its size. Texts are outlines, so that it looks alike everywhere.
+//! From a picture to PDF: one page of its size. It has its font in it, so that it looks alike everywhere and its texts can be searched.
 
+mod text;
+
+use crate::outline::place_of_text;
 use crate::palette::{Colour, PAPER};
 use crate::picture::{Fill, Outline, Picture, PictureError, Shape, Stroke};
 use flate2::{Compression, write::ZlibEncoder};
@@ -7,7 +10,8 @@ use pdf_writer::types::LineJoinStyle;
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
 use std::collections::BTreeSet;
 use std::io::Write;
-use tiny_skia::{Path, PathSegment};
+use text::Glyphs;
+use tiny_skia::{Path, PathSegment, Transform};
 
 /// Points of a PDF in an inch.
 const PER_INCH: f64 = 72.0;
@@ -24,7 +28,7 @@ pub fn pdf(picture: &Picture, title: &str, software: &str) -> Result<Vec<u8>, Pi
     let extent = picture.extent(PER_INCH)?;
     let [width, height] = extent.map(|side| side as f32);
     let [x, y] = [0, 1].map(|i| (extent[i] / picture.size[i]) as f32);
-    let mut page = Page { content: Content::new(), opacities: BTreeSet::new() };
+    let mut page = Page { content: Content::new(), opacities: BTreeSet::new(), glyphs: Glyphs::default() };
     // PDF counts upwards from the lower left corner.
     page.content.transform([x, 0.0, 0.0, -y, 0.0, height]).set_line_join(LineJoinStyle::RoundJoin);
     let [red, green, blue] = shares(PAPER);
@@ -41,6 +45,8 @@ pub fn pdf(picture: &Picture, title: &str, software: &str) -> Result<Vec<u8>, Pi
     let mut file = Pdf::new();
     file.catalog(catalog).pages(pages);
     file.pages(pages).kids([the_page]).count(1);
+    file.stream(stream, &content).filter(Filter::FlateDecode);
+    let fonts = page.glyphs.write_fonts(&mut file, &mut numbers).map_err(failed)?;
     let mut written = file.page(the_page);
     written.parent(pages).media_box(Rect::new(0.0, 0.0, width, height)).contents(stream);
     let mut resources = written.resources();
@@ -50,9 +56,11 @@ pub fn pdf(picture: &Picture, title: &str, software: &str) -> Result<Vec<u8>, Pi
         state.pair(Name(b"ca"), f32::from(*opacity) / 255.0);
     }
     states.finish();
+    if !fonts.is_empty() {
+        resources.fonts().pairs(fonts);
+    }
     resources.finish();
     written.finish();
-    file.stream(stream, &content).filter(Filter::FlateDecode);
     file.document_info(information).title(TextStr(title)).creator(TextStr(software));
     Ok(file.finish())
 }
@@ -67,11 +75,21 @@ struct Page {
     content: Content,
     /// Those that areas have, other than 255.
     opacities: BTreeSet<u8>,
+    /// Those that texts need.
+    glyphs: Glyphs,
 }
 
 impl Page {
     fn add(&mut self, shape: &Shape) {
         match shape {
+            Shape::Drawn { outline: Outline::Text(at, text, style), .. } => {
+                self.content.save_state();
+                let [red, green, blue] = shares(style.colour);
+                self.content.set_fill_rgb(red, green, blue);
+                self.place(place_of_text(*at, text, *style));
+                self.glyphs.write(&mut self.content, text, style.size);
+                self.content.restore_state();
+            }
             Shape::Drawn { outline, fill, stroke } => self.draw(outline, *fill, *stroke),
             Shape::Clip { corner: (x, y), size: (width, height), .. } => {
                 self.content.save_state().rect(*x, *y, *width, *height).clip_nonzero().end_path();
@@ -105,9 +123,7 @@ impl Page {
                 self.content.set_dash_pattern(dash.iter().copied(), 0.0);
             }
         }
-        if !own.is_identity() {
-            self.content.transform([own.sx, own.ky, own.kx, own.sy, own.tx, own.ty]);
-        }
+        self.place(own);
         self.outline(&path);
         match (fill, stroke) {
             (Some(_), Some(_)) => self.content.fill_nonzero_and_stroke(),
@@ -115,6 +131,12 @@ impl Page {
             (None, _) => self.content.stroke(),
         };
         self.content.restore_state();
+    }
+
+    fn place(&mut self, own: Transform) {
+        if !own.is_identity() {
+            self.content.transform([own.sx, own.ky, own.kx, own.sy, own.tx, own.ty]);
+        }
     }
 
     fn outline(&mut self, path: &Path) {
@@ -166,9 +188,10 @@ mod tests {
     fn content(file: &[u8]) -> String {
         let find = |word: &[u8]| file.windows(word.len()).position(|part| part == word).unwrap();
         let start = find(b"stream\n") + "stream\n".len();
-        let mut text = String::new();
-        ZlibDecoder::new(&file[start..]).read_to_string(&mut text).unwrap();
-        text
+        let mut bytes = Vec::new();
+        ZlibDecoder::new(&file[start..]).read_to_end(&mut bytes).unwrap();
+        // The numbers of glyphs are no text.
+        String::from_utf8_lossy(&bytes).into_owned()
     }
 
     #[test]
@@ -201,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn clips_hide_what_lies_outside_and_texts_are_outlines() {
+    fn clips_hide_what_lies_outside_and_texts_stand_in_their_place() {
         let mut picture = Picture::new(100.0, 50.0, "");
         picture.open_clip("c", 10.0, 10.0, 30.0, 20.0);
         picture.line((0.0, 0.0), (100.0, 50.0), &Stroke::solid(INK, 1.0));
@@ -213,7 +236,28 @@ mod tests {
         assert!(clip.ends_with("q\n10 10 30 20 re\n"), "{content}");
         let (line, text) = line.split_once("0 0 1 rg").unwrap();
         assert!(line.contains("0 0 m\n100 50 l\nS\nQ\nQ\n"), "{content}");
-        assert!(text.contains(" c\n"), "{content}");
+        // The µ is italic, and behind it the m begins.
+        let begins = 10.0 * crate::label::width("*µ*", 1.0);
+        assert!(text.starts_with("\n1 0 0 1 10 40 cm\nBT\n/italic 10 Tf\n1 0 0 -1 0 0 Tm\n["), "{content}");
+        let upright = text.split_once("/upright 10 Tf\n").unwrap_or_else(|| panic!("{text}")).1;
+        let m = upright.split(' ').nth(4).unwrap().parse::<f64>().unwrap();
+        assert!((m - begins).abs() < 1e-3 && begins > 5.0, "{content}");
+    }
+
+    /// What every program that searches does: from the numbers of the glyphs to characters by the table of the font.
+    #[test]
+    fn texts_can_be_searched() {
+        let mut picture = Picture::new(300.0, 50.0, "");
+        let style = Text { size: 10.0, colour: INK, anchor: Anchor::End, upright: false };
+        picture.text((10.0, 40.0), "15 g/m², 18 µm, σ_{MD}", style);
+        let file = pdf(&picture, "", "").unwrap();
+        let file = String::from_utf8_lossy(&file);
+        assert!(!file.contains("/italic") && file.contains("/BaseFont /Arimo\n"), "{file}");
+        for character in "15 g/m², 18 µm, σMD".chars() {
+            let glyph = crate::glyphs::glyphs(&character.to_string(), false)[0].number;
+            let pair = format!("<{glyph:04X}> <{:04X}>\n", u32::from(character));
+            assert!(glyph != 0 && file.contains(&pair), "{character}: {pair}");
+        }
     }
 
     #[test]

@@ -1,0 +1,118 @@
+//! The results of several runs, or of several webs, side by side.
+
+mod found;
+mod maps;
+mod run;
+mod runs;
+mod web;
+mod webs;
+
+use crate::Failure;
+use crate::figures::MOST_COMPARED;
+use crate::output::comparison::{self, Comparison};
+use crate::output::folder::Staging;
+use crate::output::origin::ORIGIN;
+use crate::report::{ComparisonReport, comparison_html};
+use found::Found;
+use spunlaid::error::Fault;
+use std::path::{Path, PathBuf};
+
+/// The files of a comparison; the last one marks it as complete.
+pub const FILES: &[&str] = &[ORIGIN, "figures", "report.html", "comparison.json"];
+
+/// Folders that are to be compared.
+#[derive(Clone, Copy, Debug)]
+pub struct Folders<'a> {
+    folders: &'a [PathBuf],
+}
+
+impl<'a> Folders<'a> {
+    /// # Errors
+    /// If there are fewer than two, or more than can be told from one another in a figure.
+    pub fn new(folders: &'a [PathBuf]) -> Result<Self, Failure> {
+        let count = folders.len();
+        if count < 2 {
+            return Err(
+                Fault::new(format!("{count} folders are named"), "name two or more to compare").into()
+            );
+        }
+        if count > MOST_COMPARED {
+            let message =
+                format!("{count} runs are named, and at most {MOST_COMPARED} are compared at a time");
+            return Err(Fault::new(message, "name fewer").into());
+        }
+        Ok(Self { folders })
+    }
+
+    /// Their names; the whole paths where two names are equal.
+    fn names(self) -> Vec<String> {
+        let name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned());
+        let whole = |path: &PathBuf| path.display().to_string();
+        let short: Vec<String> =
+            self.folders.iter().map(|path| name(path).unwrap_or_else(|| whole(path))).collect();
+        let is_once = |one: &String| short.iter().filter(|other| *other == one).count() == 1;
+        if short.iter().all(is_once) { short } else { self.folders.iter().map(whole).collect() }
+    }
+
+    /// Name of the results folder: `a_against_b`.
+    pub fn joined(self) -> String {
+        let plain = |c: char| if matches!(c, '/' | '\\') { '_' } else { c };
+        self.names().join("_against_").chars().map(plain).collect()
+    }
+
+    /// Reads the folders, and compares every one with the first.
+    ///
+    /// # Errors
+    /// If a folder cannot be read, or not all hold runs, or webs with patches of the same size.
+    pub fn compare(self) -> Result<ComparedFolders, Failure> {
+        let names = self.names();
+        let found = match webs::read(self.folders, &names)? {
+            Some(webs) => webs::compared(&webs)?,
+            None => runs::compared(self.folders, names)?,
+        };
+        Ok(ComparedFolders { found })
+    }
+}
+
+/// What a comparison of folders has found.
+#[derive(Debug)]
+pub struct ComparedFolders {
+    found: Found,
+}
+
+impl ComparedFolders {
+    /// Each of the others with the first.
+    pub fn comparisons(&self) -> &[Comparison] {
+        &self.found.comparisons
+    }
+
+    /// What is missing, and why.
+    pub fn notes(&self) -> &[String] {
+        &self.found.notes
+    }
+
+    /// The text of `comparison.json`.
+    pub fn json(&self) -> String {
+        comparison::json(&self.found.comparisons, &self.found.notes)
+    }
+
+    /// The report as one HTML file.
+    pub fn report(&self) -> String {
+        let Found { comparisons, figures, pictures, notes } = &self.found;
+        comparison_html(&ComparisonReport { comparisons, figures, pictures: pictures.as_ref(), notes })
+    }
+
+    /// Writes figures, pictures of webs, report and numbers.
+    ///
+    /// # Errors
+    /// If a file cannot be written, or the computation is interrupted.
+    pub fn write(&self, staging: &Staging<'_>) -> Result<(), Failure> {
+        staging.write_figures(&self.found.figures)?;
+        let drawn = self.found.pictures.iter().flat_map(|webs| &webs.pictures.files);
+        for (number, picture) in (1..).zip(drawn) {
+            staging.write(&format!("figures/web_picture_{number}.png"), picture)?;
+        }
+        staging.write("report.html", self.report())?;
+        staging.write("comparison.json", self.json())
+    }
+}

@@ -1,0 +1,79 @@
+//! Runs side by side: the means of their measures, and their curves.
+
+use super::found::Found;
+use super::run::Run;
+use crate::Failure;
+use crate::figures::overlaid_figures;
+use crate::output::comparison::{ComparedMeasure, Comparison};
+use spunlaid::observe::{MEASURES, Measure};
+use spunlaid::statistics::{Difference, Estimate};
+use std::path::PathBuf;
+
+/// What two runs must have in common for their replicates to fly in the same turbulence: where it stands in
+/// `summary.json`.
+const OF_TURBULENCE: [&str; 10] = [
+    "/case/run/seed",
+    "/case/fibre/length_m",
+    "/case/air/length_scale_m",
+    "/case/air/cutoff_frequency_hz",
+    "/case/air/harmonics",
+    "/case/air/spectrum",
+    "/case/air/eddies",
+    "/case/air/decay_time_s",
+    "/case/air/record",
+    "/elements",
+];
+
+/// Every run against the first, and their curves in one picture each.
+pub(super) fn compared(folders: &[PathBuf], names: Vec<String>) -> Result<Found, Failure> {
+    let runs = folders.iter().zip(names).map(|(folder, name)| Run::read(folder, name));
+    let runs: Vec<Run> = runs.collect::<Result<_, _>>()?;
+    let comparisons = runs.iter().skip(1).map(|other| compare_with(&runs[0], other)).collect();
+    let curves: Vec<_> = runs.into_iter().map(|run| run.curves).collect();
+    Ok(Found { comparisons, figures: overlaid_figures(&curves), pictures: None, notes: Vec::new() })
+}
+
+fn compare_with(first: &Run, other: &Run) -> Comparison {
+    let differs = OF_TURBULENCE.iter().find(|path| first.at(path) != other.at(path));
+    let pairs = differs.is_none().then(|| first.replicates().min(other.replicates()) as usize);
+    let measure = |measure: &&'static Measure| {
+        let values_of_run = |run: &Run| run.values(measure.group.name, measure.column);
+        let values = [values_of_run(first)?, values_of_run(other)?];
+        let difference = match pairs {
+            Some(_) => Difference::paired(&values[0], &values[1]),
+            None => Difference::independent(&values[0], &values[1]),
+        };
+        let finite =
+            |values: &Vec<f64>| Estimate::new(values.iter().copied().filter(|v| v.is_finite()).collect());
+        let means = [finite(&values[0]), finite(&values[1])];
+        means.iter().all(|values_of_run| values_of_run.mean.is_finite()).then(|| ComparedMeasure {
+            label: measure.label.to_owned(),
+            column: measure.column.to_owned(),
+            unit: measure.unit.shown,
+            per_si: measure.unit.per_si,
+            means,
+            difference,
+            doubt: None,
+        })
+    };
+    let reason = match (pairs, differs) {
+        (Some(pairs), _) => format!(
+            "paired by replicate, because both have the same seed and the same eddies ({pairs} pairs)"
+        ),
+        (None, Some(path)) => {
+            let key = path.trim_start_matches("/case/").trim_start_matches('/').replace('/', ".");
+            format!("as independent samples, because {key} differs (Welch’s t)")
+        }
+        (None, None) => "as independent samples (Welch’s t)".to_owned(),
+    };
+    let measures = MEASURES.iter().filter_map(measure).collect();
+    let errors = "Mean ± one standard error of the mean over the replicates.";
+    Comparison {
+        run: other.name().to_owned(),
+        against: first.name().to_owned(),
+        pairs,
+        reason,
+        errors,
+        measures,
+    }
+}

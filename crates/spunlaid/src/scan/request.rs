@@ -1,0 +1,138 @@
+//! What a reader asks of a scan: its file, and what its values mean.
+
+use super::analyse::analyse;
+use super::findings::{Findings, Settings};
+use super::picture::Picture;
+use super::read::{is_picture, read};
+use super::weigh::Light;
+use crate::error::FileError;
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+/// What the values of a picture are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LightKind {
+    /// Light that has come through the web.
+    Transmitted,
+    /// Light that a web on a black ground throws back.
+    Reflected,
+    /// Basis weights.
+    Weight,
+}
+
+impl LightKind {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Transmitted, Self::Reflected, Self::Weight];
+
+    /// Its name: `transmitted`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Transmitted => "transmitted",
+            Self::Reflected => "reflected",
+            Self::Weight => "weight",
+        }
+    }
+
+    /// What is usual for a picture.
+    const fn usual(picture: &Picture) -> Self {
+        if picture.holds_light() { Self::Transmitted } else { Self::Weight }
+    }
+
+    const fn light(self, mean: Option<f64>, white: Option<f64>) -> Light {
+        match self {
+            Self::Transmitted => Light::Transmitted { mean, white },
+            Self::Reflected => Light::Reflected { mean, white },
+            Self::Weight => Light::Weight { mean },
+        }
+    }
+}
+
+/// How the scan of a web is read and analysed. The default is what the file says, and what is usual.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ScanRequest {
+    /// Side of a pixel [m].
+    pub pixel: Option<f64>,
+    /// What the values are.
+    pub light: Option<LightKind>,
+    /// Mean basis weight of the sheet [kg/m²].
+    pub weight: Option<f64>,
+    /// Grey level of the lamp without web, or in reflected light of a web too thick to see through.
+    pub white: Option<f64>,
+    /// Picture of the lamp without web, at the same exposure.
+    pub lamp: Option<PathBuf>,
+    /// Whether the machine direction runs along the rows, and not along the columns.
+    pub md_along_rows: bool,
+    /// As [`Settings::keep_shading`].
+    pub keep_shading: bool,
+    /// As [`Settings::keep_spots`].
+    pub keep_spots: bool,
+    /// As [`Settings::noise`].
+    pub noise: Option<f64>,
+    /// As [`Settings::patches`].
+    pub patches: Vec<f64>,
+}
+
+impl ScanRequest {
+    /// Reads a scan and analyses it.
+    ///
+    /// # Errors
+    /// If a file cannot be read or holds no picture, or the picture cannot be analysed.
+    pub fn analyse_file(&self, path: &Path) -> Result<(Picture, Findings), FileError> {
+        self.analyse_picture(read(path, self.pixel)?)
+    }
+
+    /// Analyses a picture that was read. Returns it with the machine direction downwards.
+    ///
+    /// # Errors
+    /// If the picture of the lamp cannot be read, or the picture cannot be analysed.
+    pub fn analyse_picture(&self, picture: Picture) -> Result<(Picture, Findings), FileError> {
+        let picture = self.turned(picture);
+        let findings = analyse(&picture, &self.settings(&picture)?)?;
+        Ok((picture, findings))
+    }
+
+    /// The picture with the machine direction downwards.
+    fn turned(&self, picture: Picture) -> Picture {
+        if self.md_along_rows { picture.turned() } else { picture }
+    }
+
+    fn settings(&self, picture: &Picture) -> Result<Settings, FileError> {
+        let light = self.light.unwrap_or_else(|| LightKind::usual(picture));
+        let read_lamp = |lamp: &PathBuf| Ok::<_, FileError>(self.turned(read(lamp, picture.pixel)?));
+        Ok(Settings {
+            light_is_assumed: self.light.is_none(),
+            lamp: self.lamp.as_ref().map(read_lamp).transpose()?,
+            keep_shading: self.keep_shading,
+            keep_spots: self.keep_spots,
+            noise: self.noise,
+            patches: self.patches.clone(),
+            ..Settings::new(light.light(self.weight, self.white))
+        })
+    }
+}
+
+/// Whether a file is the scan of a web, by its name or by how it begins. A file that cannot be opened is told of where it is read.
+pub fn is_picture_file(file: &Path) -> bool {
+    let extension = file.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    // Pictures that cannot be used are refused with the reason.
+    const READ: [&str; 6] = ["png", "tif", "tiff", "btf", "tf8", "npy"];
+    const REFUSED: [&str; 15] = [
+        "jpg", "jpeg", "jpe", "gif", "bmp", "dib", "pdf", "webp", "heic", "heif", "avif", "jp2", "j2k",
+        "jpf", "jxl",
+    ];
+    READ.iter().chain(&REFUSED).any(|known| *known == extension) || begins_as_picture(file).unwrap_or(false)
+}
+
+fn begins_as_picture(file: &Path) -> io::Result<bool> {
+    // A pipe gives its bytes only once.
+    if !file.metadata()?.is_file() {
+        return Ok(false);
+    }
+    let mut head = Vec::new();
+    File::open(file)?.take(HEAD).read_to_end(&mut head)?;
+    Ok(is_picture(&head))
+}
+
+/// Bytes that tell the format of a picture.
+const HEAD: u64 = 16;

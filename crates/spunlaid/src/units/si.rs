@@ -1,0 +1,29 @@
+//! The units of values as they are kept, in words that other programs read.
+
+use super::ALL;
+use super::spelling::plain_spelling;
+
+/// The SI unit of a multiple of it, or of a quotient of such multiples: `m²/Hz` of `mm²/Hz`, `kg/m` of `dtex`.
+pub fn si_unit_of(multiple: &str) -> String {
+    const POWERS: &[char] = &['²', '³'];
+    let known = |symbol: &str| ALL.iter().find(|d| d.units().iter().any(|unit| unit.shown == symbol));
+    let si = |symbol: &str| known(symbol).map_or_else(|| symbol.to_owned(), |d| d.si_unit().to_owned());
+    if known(multiple).is_some() {
+        return si(multiple);
+    }
+    let part = |part: &str| {
+        let symbol = part.trim_end_matches(POWERS);
+        si(symbol) + &part[symbol.len()..]
+    };
+    multiple.split('/').map(part).collect::<Vec<_>>().join("/")
+}
+
+/// A unit in the spelling of UDUNITS, which the CF conventions ask for and programs read: `m2/Hz`, `degC`; `1` of a plain number.
+pub fn udunits(unit: &str) -> String {
+    match unit {
+        "" => "1".to_owned(),
+        "%" => "percent".to_owned(),
+        "°" => "degree".to_owned(),
+        _ => plain_spelling(unit).replace('°', "deg"),
+    }
+}
