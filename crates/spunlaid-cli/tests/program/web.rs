@@ -279,7 +279,9 @@ fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
 /// A web of twelve hundred filaments, larger than the sheet that a few of them lay: that sheet is cut into pieces, which make the web.
 #[test]
 fn a_few_filaments_in_one_air_lay_a_web_of_any_size() {
-    let case = FED.replace("speed = \"3 m/s\"", "speed = \"10 m/s\"").replace("duration", "spin_up = \"10 ms\"\nduration");
+    let case = FED
+        .replace("speed = \"3 m/s\"", "speed = \"10 m/s\"")
+        .replace("duration", "spin_up = \"10 ms\"\nduration");
     let desk = Desk::with_case(&case);
     let web = WEB.replace("= 500", "= 2000").replace(
         "width = \"1 m\"\nlength = \"1 m\"",
@@ -290,7 +292,10 @@ fn a_few_filaments_in_one_air_lay_a_web_of_any_size() {
     assert!(table.contains("airs of their own") && table.contains("few fibres"), "{table}");
     let summary = desk.summary("w");
     let number = |summary: &serde_json::Value, path: &str| {
-        summary.pointer(path).and_then(serde_json::Value::as_f64).unwrap_or_else(|| panic!("{path}: {summary}"))
+        summary
+            .pointer(path)
+            .and_then(serde_json::Value::as_f64)
+            .unwrap_or_else(|| panic!("{path}: {summary}"))
     };
     assert_eq!(summary["layers"][0]["filaments"], 1200, "{summary}");
     let flown = summary["web"]["flown"].as_array().unwrap();
@@ -313,7 +318,10 @@ fn a_few_filaments_in_one_air_lay_a_web_of_any_size() {
     let mean = cells.iter().map(|cell| f64::from(*cell)).sum::<f64>() / cells.len() as f64;
     assert!((mean / weight - 1.0).abs() < 0.01, "{mean} {weight}");
     let page = String::from_utf8(desk.read("w/report.html")).unwrap();
-    assert!(page.contains("40 filaments of all were flown, evenly across, on a sheet of 0.16 m × 1.25 m"), "{page}");
+    assert!(
+        page.contains("40 filaments of all were flown, evenly across, on a sheet of 0.16 m × 1.25 m"),
+        "{page}"
+    );
 
     // The same bits from any number of threads, and from the folder.
     success(&mut desk.spunlaid("web web.toml --out one --no-advice --quiet --threads 1"));
@@ -324,7 +332,9 @@ fn a_few_filaments_in_one_air_lay_a_web_of_any_size() {
     }
 
     // All filaments, each flown, say the same.
-    success(&mut desk.spunlaid("web web.toml --set web.flown=all --set web.seed=2 --out all --no-advice --quiet"));
+    success(
+        &mut desk.spunlaid("web web.toml --set web.flown=all --set web.seed=2 --out all --no-advice --quiet"),
+    );
     let all = desk.summary("all");
     assert!(all["web"].get("flown").is_none(), "{all}");
     for patch in 0..3 {

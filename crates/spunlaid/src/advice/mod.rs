@@ -138,15 +138,15 @@ pub fn advise(
     let has_few = findings.laid.shared_air.as_ref().is_some_and(|together| !together.few.is_empty());
     let base = match (is_shared, has_few) {
         // On the sheet of the changes, which is smaller.
-        (true, true) => unevennesses(spec, LayControl { laid: &aside, ..by })?,
+        (true, true) => unevennesses(spec, true, LayControl { laid: &aside, ..by })?,
         (true, false) => Unevennesses::OfMaps(findings.patches.clone()),
         (false, _) => Unevennesses::Expected(expected_cv(web, LayControl { laid: &aside, ..by })?),
     };
     // A flight of eight fibres takes one thread, and many changes are tried side by side. All filaments in one air take all threads.
     let (abreast, threads) = if is_shared { (1, by.threads) } else { (by.threads, 1) };
+    let is_few = matches!(base, Unevennesses::OfFew(_));
     let tried = try_each(abreast, changes.len(), |i| {
         let spec = &changes[i].spec;
-        let is_few = matches!(base, Unevennesses::OfFew(_));
         let tried = unevennesses(spec, is_few, LayControl { threads, laid: &aside, ..by });
         by.laid.fetch_add(steps_of_web(spec), Ordering::Relaxed);
         match tried {

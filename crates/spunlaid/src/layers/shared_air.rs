@@ -194,9 +194,9 @@ impl WebSpec {
         Some(case.air.lateral.cutoff().unwrap_or(Lateral::USUAL_CUTOFF))
     }
 
-    /// About how many steps all filaments of a web in one air take that are flown.
+    /// About how many steps the filaments of a web in one air take that is compared with another one.
     pub(crate) fn steps_in_one_air(&self) -> u64 {
-        let beams = (0..self.layers.len()).filter_map(|number| beam(self, number).ok());
+        let beams = (0..self.layers.len()).filter_map(|number| beam(self, number, AREA_OF_COMPARISON).ok());
         beams.map(|layer| layer.beam().steps(&layer.sheet)).sum()
     }
 

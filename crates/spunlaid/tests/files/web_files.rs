@@ -217,7 +217,11 @@ fn few_filaments_are_flown_as_a_web_says() {
     }
     let key = WEB_KEYS.iter().find(|key| key.name == "web.flown").unwrap();
     let mut spec = read("auto").spec;
-    for (value, flown) in [(Value::from(300_u64), Flown::PerMetre(300)), ("all".into(), Flown::All), ("auto".into(), Flown::Auto)] {
+    for (value, flown) in [
+        (Value::from(300_u64), Flown::PerMetre(300)),
+        ("all".into(), Flown::All),
+        ("auto".into(), Flown::Auto),
+    ] {
         key.set(&mut spec, value).unwrap();
         assert_eq!(spec.flown, flown);
     }
