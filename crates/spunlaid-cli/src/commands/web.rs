@@ -8,7 +8,7 @@ use crate::{progress, say};
 use spunlaid::advice::{Advice, Change, advise, steps};
 use spunlaid::case::Note;
 use spunlaid::error::Error;
-use spunlaid::input::{Method, Unflown, Unread, WebFile, read_changes, read_web};
+use spunlaid::input::{Method, Unflown, Unread, WebFile, WebSpec, read_changes, read_web};
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
 use spunlaid::web::{Findings, LayControl, PatchFindings, Web};
 use spunlaid_results::folders;
@@ -35,7 +35,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     // Before anything is flown, because the file may change meanwhile.
     let changes = match (!arguments.no_advice).then(|| read_changes(&arguments.file, set)) {
         // What is too long to be tried is not flown for either.
-        Some(Err(Unread::Unflown(unflown))) if !arguments.advice && is_long(&unflown) => None,
+        Some(Err(Unread::Unflown(unflown))) if !arguments.advice && is_long(&file.spec, &unflown) => None,
         changes => changes.map(|read| flown(read, threads, quiet)).transpose()?,
     };
 
@@ -51,8 +51,9 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
         progress::follow(&laid, flown.pieces()?, &label, arguments.output.quiet, || flown.find(by))?;
     let laying_s = started.elapsed().as_secs_f64();
     let FlownWeb { web, layers, .. } = &flown;
-    let is_short =
-        |changes: &Vec<Change>| file.spec.method != Method::SharedAir && steps(changes) <= MOST_STEPS;
+    let is_short = |changes: &Vec<Change>| {
+        says_enough(&file.spec, &findings) && steps(changes) <= most_steps(file.spec.method)
+    };
     let changes = changes.filter(|changes| arguments.advice || is_short(changes));
     let tried = changes.as_ref().map(|changes| trying(changes.len()));
     let advice = match changes
@@ -102,13 +103,25 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     Ok(())
 }
 
-/// Most steps of all fibres that are flown for advice without `--advice`: a minute or two of a processor.
-const MOST_STEPS: u64 = 4_000_000;
+/// Most steps of all fibres that are flown for advice without `--advice`: a minute or two of a processor, and some minutes of filaments in one air, of which
+/// a few for all take so many.
+const fn most_steps(method: Method) -> u64 {
+    match method {
+        Method::Surrogate | Method::Dynamics => 4_000_000,
+        Method::SharedAir => 8_000_000,
+    }
+}
 
 /// Whether changes take longer with the flights for their tensions.
-fn is_long(unflown: &Unflown<Vec<Change>>) -> bool {
+fn is_long(spec: &WebSpec, unflown: &Unflown<Vec<Change>>) -> bool {
     let flights = unflown.without_flights().map_or(0, |changes| steps(changes));
-    flights + unflown.most_steps() > MOST_STEPS
+    flights + unflown.most_steps() > most_steps(spec.method)
+}
+
+/// Whether changes of a web can be told from chance. Where all filaments in one air are flown, two maps are compared, and only large effects are seen.
+fn says_enough(spec: &WebSpec, findings: &Findings) -> bool {
+    let few = findings.laid.shared_air.as_ref().map(|together| together.few.len());
+    few.is_none_or(|layers| layers == spec.layers.len())
 }
 
 /// What is done while changes are tried.

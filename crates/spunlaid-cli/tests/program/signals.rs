@@ -314,3 +314,23 @@ fn a_web_that_is_killed_or_cannot_be_written_leaves_nothing() {
     assert!(said.contains("error: a/b/") && said.contains(": cannot be written: "), "{said}");
     assert!(!desk.path("a").exists());
 }
+
+/// A few filaments in one air, whose flight would take hours.
+#[test]
+fn a_web_in_one_air_that_is_interrupted_leaves_nothing() {
+    let desk = Desk::with_case(FED);
+    let web = "[laydown]\ncase = 'brief.toml'\n[line]\nfilaments_per_metre = 2000\n[web]\nwidth = '0.6 m'\nlength = '0.5 m'\n";
+    fs::write(desk.path("web.toml"), web).unwrap();
+    let mut command = desk.with("web web.toml --out w", &["run.time_step=0.1 us"]);
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    while !hidden(&desk.path("")).iter().any(|name| desk.path(name).join("new").exists()) {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    // Until it flies.
+    std::thread::sleep(Duration::from_millis(300));
+    let output = end(child, "INT");
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    assert!(said.ends_with("nothing was written. Repeat the command to start again\n"), "{said}");
+    assert_eq!(desk.entries(""), names(&["brief.toml", "web.toml"]));
+}

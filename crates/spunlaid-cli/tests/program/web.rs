@@ -40,7 +40,7 @@ fn rejects_bad_webs_with_the_command_that_helps() {
 #[test]
 fn rejects_a_flight_in_which_no_surrogate_is_found() {
     let desk = desk();
-    let said = refusal(&mut desk.spunlaid("web web.toml --out w"), 1);
+    let said = refusal(&mut desk.spunlaid("web web.toml --set web.method=surrogate --out w"), 1);
     let error = "\nerror: brief.toml: no surrogate was identified in what its fibres lay: the autocorrelation of the position";
     assert!(said.contains(error), "{said}");
     assert_eq!(desk.entries("."), desk::names(&["brief.toml", "web.toml"]));
@@ -139,7 +139,7 @@ fn a_web_of_a_flight_tells_its_error_by_causes_and_the_cv_of_the_flown_curves() 
         "width = \"0.4 m\"\nlength = \"0.5 m\"\npatches = [\"5 mm\", \"10 mm\"]",
     );
     fs::write(desk.path("web.toml"), &web).unwrap();
-    let table = desk::success(&mut desk.spunlaid("web web.toml --out s"));
+    let table = desk::success(&mut desk.spunlaid("web web.toml --set web.method=surrogate --out s"));
     for head in
         ["this map", "by chance", "few fibres", "model", "surrogate", "flown curves", "straight fibres"]
     {
@@ -274,6 +274,92 @@ fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
     let independent = desk.summary("d");
     assert!(independent["web"]["patches"][0].get("cv_independent").is_none());
     assert!(independent.get("neighbours").is_none());
+}
+
+/// A web of twelve hundred filaments, larger than the sheet that a few of them lay: that sheet is cut into pieces, which make the web.
+#[test]
+fn a_few_filaments_in_one_air_lay_a_web_of_any_size() {
+    let case = FED
+        .replace("speed = \"3 m/s\"", "speed = \"10 m/s\"")
+        .replace("duration", "spin_up = \"10 ms\"\nduration");
+    let desk = Desk::with_case(&case);
+    let web = WEB.replace("= 500", "= 2000").replace(
+        "width = \"1 m\"\nlength = \"1 m\"",
+        "width = \"0.6 m\"\nlength = \"0.5 m\"\npatches = [\"5 mm\", \"10 mm\", \"20 mm\"]\nflown = 250",
+    );
+    fs::write(desk.path("web.toml"), web).unwrap();
+    let table = success(&mut desk.spunlaid("web web.toml --out w --no-advice"));
+    assert!(table.contains("airs of their own") && table.contains("few fibres"), "{table}");
+    let summary = desk.summary("w");
+    let number = |summary: &serde_json::Value, path: &str| {
+        summary
+            .pointer(path)
+            .and_then(serde_json::Value::as_f64)
+            .unwrap_or_else(|| panic!("{path}: {summary}"))
+    };
+    assert_eq!(summary["layers"][0]["filaments"], 1200, "{summary}");
+    let flown = summary["web"]["flown"].as_array().unwrap();
+    let of_flown = |name: &str| flown[0][name].as_f64().unwrap();
+    // Ten length scales of the air wide, and a fifth of a square metre large.
+    assert_eq!((flown.len(), of_flown("filaments"), of_flown("width_m")), (1, 40.0, 0.16), "{summary}");
+    assert!((of_flown("width_m") * of_flown("length_m") / 0.2 - 1.0).abs() < 0.01, "{summary}");
+    for missing in ["missing_variance_md", "missing_variance_cd"].map(of_flown) {
+        assert!(missing > 0.0 && missing < 0.5, "{summary}");
+    }
+    // All that is fed lies on the web: 2000 × 50 m/s over 10 m/s of 18 µm.
+    let weight = 910.0 * std::f64::consts::PI * 18e-6_f64.powi(2) / 4.0 * 2000.0 * 5.0;
+    assert!((number(&summary, "/web/basis_weight_kg_m2") / weight - 1.0).abs() < 1e-3, "{weight} {summary}");
+    let map = |folder: &str| -> Vec<f32> {
+        let array = desk.read(&format!("{folder}/map.npy"));
+        let numbers = array[128..].chunks_exact(4).map(|bytes| f32::from_le_bytes(bytes.try_into().unwrap()));
+        numbers.collect()
+    };
+    let cells = map("w");
+    let mean = cells.iter().map(|cell| f64::from(*cell)).sum::<f64>() / cells.len() as f64;
+    assert!((mean / weight - 1.0).abs() < 0.01, "{mean} {weight}");
+    let page = String::from_utf8(desk.read("w/report.html")).unwrap();
+    assert!(
+        page.contains("40 filaments of all were flown, evenly across, on a sheet of 0.16 m × 1.25 m"),
+        "{page}"
+    );
+
+    // The same bits from any number of threads, and from the folder.
+    success(&mut desk.spunlaid("web web.toml --out one --no-advice --quiet --threads 1"));
+    success(&mut desk.spunlaid("web w/web.toml --out three --no-advice --quiet --threads 3"));
+    for file in ["map.npy", "map.parquet", "fibres.vtp", "figures/web_cv.csv"] {
+        let [first, one, three] = ["w", "one", "three"].map(|folder| desk.read(&format!("{folder}/{file}")));
+        assert!(first == one && first == three, "{file}");
+    }
+
+    // All filaments, each flown, say the same.
+    success(
+        &mut desk.spunlaid("web web.toml --set web.flown=all --set web.seed=2 --out all --no-advice --quiet"),
+    );
+    let all = desk.summary("all");
+    assert!(all["web"].get("flown").is_none(), "{all}");
+    for patch in 0..3 {
+        let [few, all] = [&summary, &all].map(|summary| {
+            let value = |name: &str| number(summary, &format!("/web/patches/{patch}/{name}"));
+            (value("cv"), value("cv_whole_error"), value("cv_independent"))
+        });
+        let apart = (few.0 - all.0).abs();
+        assert!(apart < 4.0 * few.1.hypot(all.1), "{few:?} {all:?}");
+        // What is compared is no trifle.
+        assert!(few.0 > 1.2 * few.2 && few.1 < 0.2 * few.0, "{few:?} {all:?}");
+    }
+}
+
+/// Filaments that were flown before hang in airs of their own.
+#[test]
+fn a_web_of_results_is_laid_of_what_they_tell() {
+    let desk = Desk::with_case(&FED.replace("duration = \"40 ms\"", "duration = \"120 ms\""));
+    success(&mut desk.spunlaid("run brief.toml --out r --quiet"));
+    fs::write(desk.path("web.toml"), WEB.replace("case = \"brief.toml\"", "results = \"r\"")).unwrap();
+    let said = success(&mut desk.spunlaid("check web.toml"));
+    assert!(said.contains("\nmethod = \"surrogate\"\n") && said.contains("lower bound"), "{said}");
+    fs::write(desk.path("flown.toml"), WEB).unwrap();
+    let said = success(&mut desk.spunlaid("check flown.toml"));
+    assert!(said.contains("\nmethod = \"shared-air\"\n") && !said.contains("lower bound"), "{said}");
 }
 
 #[test]

@@ -101,12 +101,15 @@ impl Advice {
     }
 }
 
-/// Steps of all fibres of the flights that it takes to try some changes; for a web in one air it is not known.
+/// Steps of all fibres of the flights that it takes to try some changes; of webs in one air, about.
 pub fn steps(changes: &[Change]) -> u64 {
     changes.iter().map(|change| steps_of_web(&change.spec)).sum()
 }
 
 fn steps_of_web(spec: &WebSpec) -> u64 {
+    if spec.method == Method::SharedAir {
+        return spec.steps_in_one_air();
+    }
     let mut cases: Vec<_> = (spec.layers.iter())
         .filter_map(|layer| match &layer.source {
             LaydownSource::Case { path, case } => Some((path, case)),
@@ -135,17 +138,22 @@ pub fn advise(
     let has_few = findings.laid.shared_air.as_ref().is_some_and(|together| !together.few.is_empty());
     let base = match (is_shared, has_few) {
         // On the sheet of the changes, which is smaller.
-        (true, true) => unevennesses(spec, LayControl { laid: &aside, ..by })?,
+        (true, true) => unevennesses(spec, true, LayControl { laid: &aside, ..by })?,
         (true, false) => Unevennesses::OfMaps(findings.patches.clone()),
         (false, _) => Unevennesses::Expected(expected_cv(web, LayControl { laid: &aside, ..by })?),
     };
     // A flight of eight fibres takes one thread, and many changes are tried side by side. All filaments in one air take all threads.
     let (abreast, threads) = if is_shared { (1, by.threads) } else { (by.threads, 1) };
+    let is_few = matches!(base, Unevennesses::OfFew(_));
     let tried = try_each(abreast, changes.len(), |i| {
         let spec = &changes[i].spec;
-        let tried = unevennesses(spec, LayControl { threads, laid: &aside, ..by });
+        let tried = unevennesses(spec, is_few, LayControl { threads, laid: &aside, ..by });
         by.laid.fetch_add(steps_of_web(spec), Ordering::Relaxed);
         match tried {
+            // So few filaments of the changed web that all of them were flown.
+            Ok(found @ Unevennesses::OfMaps(_)) if is_few => {
+                Ok(Ok(Unevennesses::OfMaps(findings.patches.clone()).changes_to(&found)))
+            }
             Ok(found) => Ok(Ok(base.changes_to(&found))),
             Err(Error::Interrupted) => Err(Error::Interrupted),
             Err(error) => Ok(Err(error.to_string())),
@@ -173,7 +181,7 @@ enum Unevennesses {
     Expected(Vec<ExpectedCv>),
     /// As a few filaments in one air tell it.
     OfFew(WebOfFew),
-    /// On the map of filaments in one air that were all flown.
+    /// On the map of filaments in one air, of which all were flown in one of the two webs.
     OfMaps(Vec<PatchFindings>),
 }
 
@@ -216,7 +224,8 @@ impl Unevennesses {
     }
 }
 
-fn unevennesses(spec: &WebSpec, by: LayControl<'_>) -> Result<Unevennesses, Error> {
+/// * `is_few` – whether a few filaments of a web in one air tell it where they can
+fn unevennesses(spec: &WebSpec, is_few: bool, by: LayControl<'_>) -> Result<Unevennesses, Error> {
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
     let is_flown = |layer: &LayerSpec| matches!(layer.source, LaydownSource::Case { .. });
     // The flown curves are compared, whether a surrogate is found in them or not.
@@ -225,7 +234,7 @@ fn unevennesses(spec: &WebSpec, by: LayControl<'_>) -> Result<Unevennesses, Erro
         method => method,
     };
     let mut flyer = Flyer::new(by.threads, by.stop, &follow);
-    if let Some(few) = flyer.few(spec)? {
+    if is_few && let Some(few) = flyer.few(spec)? {
         return Ok(Unevennesses::OfFew(WebOfFew::new(spec, few)));
     }
     let mut flown = flyer.web(&WebSpec { method, ..spec.clone() })?;

@@ -52,6 +52,15 @@ impl Fault {
     }
 
     /// A whole number out of range.
+    /// The same with words that may stand in place of what is wanted.
+    pub(crate) fn or_words(mut self, words: &[&str]) -> Self {
+        if !words.is_empty() && !self.remedy.is_empty() {
+            let words = words.iter().map(|word| format!(", or \"{word}\""));
+            self.remedy.to_mut().extend(words);
+        }
+        self
+    }
+
     pub(crate) fn out_of_range(least: u64, most: u64) -> Self {
         let allowed =
             if least == most { least.to_string() } else { format!("a whole number from {least} to {most}") };

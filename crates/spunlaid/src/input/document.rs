@@ -268,7 +268,7 @@ impl<'a, T> Document<'a, T> {
         };
         let (value, fault) = match read {
             Ok(value) => (Some(value), None),
-            Err(fault) => (None, Some(fault)),
+            Err(fault) => (None, Some(fault.or_words(key.words))),
         };
         self.key_values.set(full.clone(), WrittenValue { place, shown, value });
         if let Some(fault) = fault {

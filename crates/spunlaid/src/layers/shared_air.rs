@@ -194,6 +194,12 @@ impl WebSpec {
         Some(case.air.lateral.cutoff().unwrap_or(Lateral::USUAL_CUTOFF))
     }
 
+    /// About how many steps the filaments of a web in one air take that is compared with another one.
+    pub(crate) fn steps_in_one_air(&self) -> u64 {
+        let beams = (0..self.layers.len()).filter_map(|number| beam(self, number, AREA_OF_COMPARISON).ok());
+        beams.map(|layer| layer.beam().steps(&layer.sheet)).sum()
+    }
+
     /// The problem of a web in one air whose field of eddies does not fit into the memory that it may take.
     pub(crate) fn air_beyond_memory(&self) -> Option<Problem> {
         if self.method != Method::SharedAir {

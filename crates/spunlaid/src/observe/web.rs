@@ -173,11 +173,7 @@ pub const OF_PATCHES: &[PatchMeasure] = &[
         number: |patch| patch.whole_error().whole(),
         ..PatchMeasure::NUMBER
     },
-    PatchMeasure {
-        name: "cv_of_map",
-        number: |patch| patch.filled,
-        ..PatchMeasure::NUMBER
-    },
+    PatchMeasure { name: "cv_of_map", number: |patch| patch.filled, ..PatchMeasure::NUMBER },
     PatchMeasure {
         // Of CV², by what each filament of a web in one air does for itself.
         name: "own_share",

@@ -2,9 +2,11 @@
 //! saying what is wrong.
 
 use proptest::prelude::*;
+use spunlaid::case::keys::Value;
 use spunlaid::input::{
     LaydownSource, Method, WEB_KEYS, WEB_TABLES, WebFile, WebSpec, parse_web, read_case, read_web,
 };
+use spunlaid::layers::Flown;
 use spunlaid::surrogate::Surrogate;
 use spunlaid::web::{Edges, Fibres, Filaments, Row};
 use std::fs;
@@ -166,6 +168,65 @@ fn a_slot_rows_at_places_along_and_one_air_are_read_and_written() {
     assert_reads_back(&file);
     let Filaments::Rows(rows) = &file.spec.layers[0].filaments else { panic!("rows") };
     assert_eq!(rows.iter().map(|row| row.md).collect::<Vec<_>>(), [0.0, -5e-3]);
+}
+
+/// Webs hang in one air where their cases can be flown in one, unless the file says otherwise.
+#[test]
+fn a_web_that_says_nothing_of_its_method_hangs_in_one_air_where_it_can() {
+    let read = |text: &str, values: &[(String, String)]| parse_web(text, "web.toml", values).unwrap();
+    let case = |name: &str| {
+        format!(
+            "[laydown]\ncase = \"{name}\"\n[line]\nfilaments_per_metre = 5000\n[web]\nwidth = \"0.5 m\"\nlength = \"0.5 m\"\n"
+        )
+    };
+    let [flown, recorded] = ["tests/bad_webs/short.case", "tests/bad_webs/recorded.case"].map(case);
+    let known = fs::read_to_string(KNOWN).unwrap();
+    for (text, method) in [
+        (&flown, Method::SharedAir),
+        (&recorded, Method::Surrogate),
+        (&LAYERS.to_owned(), Method::Surrogate),
+        (&known, Method::Surrogate),
+    ] {
+        let file = read(text, &[]);
+        assert_eq!(file.spec.method, method, "{text}");
+        // What is chosen is written, and stays.
+        assert_eq!(read(&file.text, &[]).spec.method, method, "{}", file.text);
+        // What is said is taken, and can be taken back.
+        let said = read(text, &set("web.method", "surrogate"));
+        assert_eq!(said.spec.method, Method::Surrogate, "{text}");
+        assert_eq!(read(&said.text, &set("web.method", "auto")).spec.method, method, "{text}");
+    }
+    // A usual web is not told that its air gets a place in space; one that asks for it is.
+    let tells = |file: &WebFile| file.notes.iter().any(|note| note.to_string().contains("von-karman"));
+    assert!(!tells(&read(&flown, &[])));
+    assert!(tells(&read(&flown, &set("web.method", "shared-air"))));
+}
+
+#[test]
+fn few_filaments_are_flown_as_a_web_says() {
+    let read = |value: &str| read_web(FLOWN.as_ref(), &set("web.flown", value)).unwrap();
+    for (value, flown, written) in [
+        ("auto", Flown::Auto, None),
+        ("all", Flown::All, Some("flown = \"all\"")),
+        ("200", Flown::PerMetre(200), Some("flown = 200")),
+    ] {
+        let file = read(value);
+        assert_eq!(file.spec.flown, flown);
+        assert_reads_back(&file);
+        assert_eq!(file.text.lines().find(|line| line.starts_with("flown")), written, "{}", file.text);
+    }
+    let key = WEB_KEYS.iter().find(|key| key.name == "web.flown").unwrap();
+    let mut spec = read("auto").spec;
+    for (value, flown) in [
+        (Value::from(300_u64), Flown::PerMetre(300)),
+        ("all".into(), Flown::All),
+        ("auto".into(), Flown::Auto),
+    ] {
+        key.set(&mut spec, value).unwrap();
+        assert_eq!(spec.flown, flown);
+    }
+    assert!(key.set(&mut spec, 0_u64).is_err() && key.set(&mut spec, "some").is_err());
+    assert_eq!(spec.flown, Flown::Auto, "what is refused changes nothing");
 }
 
 #[test]

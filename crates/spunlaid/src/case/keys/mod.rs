@@ -199,7 +199,7 @@ impl<T> Key<T> {
         let shown = self.kind.pretty(&value);
         let accepted = match &value {
             Value::Text(word) if self.words.contains(&word.as_str()) => Ok(value),
-            _ => self.kind.accept(value),
+            _ => self.kind.accept(value).map_err(|fault| fault.or_words(self.words)),
         };
         accepted.and_then(|value| (self.set)(input, &value)).map_err(|what| {
             let (place, key) = (Place::Code, self.name.to_owned());
