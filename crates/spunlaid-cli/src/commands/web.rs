@@ -161,12 +161,14 @@ fn terminal_table(findings: &Findings) -> String {
     let rows: Vec<Vec<String>> = std::iter::once(heads).chain(rows).collect();
     let is_flown = |patch: &PatchFindings| patch.independent.is_none() && patch.flown.is_some();
     let whole = if findings.patches.iter().any(is_flown) {
-        "± its standard error by all causes (chance, few fibres flown, model: the surrogate against the flown curves)"
+        "of this map ± its standard error by all causes (chance, few fibres flown, model: the surrogate against the flown curves)"
+    } else if findings.patches.iter().any(|patch| patch.few.is_some()) {
+        "of the web of all filaments, from the flown ones, ± its standard error by all causes (chance, few filaments flown)"
     } else {
-        "± its standard error by chance alone"
+        "of this map ± its standard error by chance alone"
     };
     format!(
-        "basis weight {} g/m²\nunevenness, CV in %: of this map {whole}, and as expected\n{}",
+        "basis weight {} g/m²\nunevenness, CV in %: {whole}, and as expected\n{}",
         significant(findings.within().basis_weight() * 1e3, 4),
         aligned(&rows)
     )

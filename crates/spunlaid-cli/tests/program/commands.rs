@@ -164,26 +164,43 @@ fn check_tells_in_which_air_the_filaments_of_a_web_hang() {
     let desk = Desk::with_case(FED);
     let web = "[laydown]\ncase = \"brief.toml\"\n[line]\nfilaments_per_metre = 1000\n[web]\nwidth = \"0.5 m\"\nlength = \"0.5 m\"\n";
     std::fs::write(desk.path("web.toml"), web).unwrap();
-    let uniform = success(&mut desk.with("check web.toml", &["web.method=surrogate"]));
+    let said = success(&mut desk.spunlaid("check web.toml"));
     for part in [
-        "#   brief.toml: each fibre that is flown has turbulence of its own\n",
-        "to fly them in one air, as in a line: --set web.method=shared-air --set line.depth=\"20 mm\"",
+        "#   brief.toml: its eddies are given a place in space (air.lateral = \"von-karman\")\n",
+        // Eight in the length scale of the case, 16 mm.
+        "#   250 filaments fly in one field of eddies, on a sheet of 500 mm × 500 mm; the web of 500 follows from them (web.flown)\n",
+        "#   the field takes ",
+        "--set line.depth=\"20 mm\"\n",
         "fed at 50 m/s; 16.7 m of filament on each metre of belt",
     ] {
-        assert!(uniform.contains(part), "{part}\n{uniform}");
+        assert!(said.contains(part), "{part}\n{said}");
     }
-    let together =
-        desk.with("check web.toml", &["web.method=shared-air", "line.depth=20 mm"]).output().unwrap();
+    // As many as the file says, and all of them.
+    let said = success(&mut desk.with("check web.toml", &["web.flown=100", "line.depth=20 mm"]));
+    assert!(
+        said.contains("#   50 filaments fly in one field of eddies, on a sheet of 500 mm × 500 mm;"),
+        "{said}"
+    );
+    assert!(!said.contains("--set line.depth"), "{said}");
+    let together = desk.with("check web.toml", &["web.method=shared-air", "web.flown=all"]).output().unwrap();
     let said = String::from_utf8(together.stdout).unwrap();
     assert!(
         said.contains(
-            "#   all filaments fly in one field of eddies, so that neighbours come down together\n"
+            "#   all 500 filaments fly in one field of eddies, so that neighbours come down together\n"
         ),
         "{said}"
     );
     // The notes about the case are told, as `spunlaid web` tells them.
     let notes = String::from_utf8(together.stderr).unwrap();
     assert!(notes.contains("note:") && notes.contains("web.method"), "{notes}");
+    let alone = success(&mut desk.with("check web.toml", &["web.method=dynamics"]));
+    for part in [
+        "#   brief.toml: each fibre that is flown has turbulence of its own\n",
+        "lower bound",
+        "to fly them in one air, as in a line: --set web.method=shared-air --set line.depth=\"20 mm\"",
+    ] {
+        assert!(alone.contains(part), "{part}\n{alone}");
+    }
 }
 
 #[test]

@@ -9,12 +9,14 @@ mod finished_run;
 mod flyer;
 pub(crate) mod full_names;
 pub(crate) mod keys;
+mod plan;
 mod shared_air;
 
 pub use finished_run::{LAID, read as read_laid};
 pub use flyer::{Flights, FlownFibres, FlownWeb, Flyer, LayerFibres, ProgressDisplay};
 pub use full_names::{place_in_web, web_key};
 pub use keys::{WEB, WEB_KEYS, WEB_TABLES, WebKey};
+pub use plan::PlannedFlight;
 
 use crate::case::Case;
 use crate::case::keys::{self as case_keys, Value};

@@ -31,19 +31,19 @@ const APART: f64 = 0.5;
 const MEMORY: f64 = 2.0;
 
 /// The filaments of a layer before they fly.
-struct LayerBeam<'a> {
+pub(super) struct LayerBeam<'a> {
     path: &'a Path,
     case: Case,
     /// The sheet on which they are laid, and whether they are a few of all.
-    sheet: Sheet,
-    few: Option<FewPlan>,
-    places: Vec<Place>,
+    pub(super) sheet: Sheet,
+    pub(super) few: Option<FewPlan>,
+    pub(super) places: Vec<Place>,
     /// Size of the slot in machine direction [m].
     depth: f64,
 }
 
 impl LayerBeam<'_> {
-    fn beam(&self) -> Beam<'_> {
+    pub(super) fn beam(&self) -> Beam<'_> {
         Beam { case: &self.case, places: &self.places, airs: Airs::Shared, depth: self.depth }
     }
 
@@ -252,7 +252,7 @@ fn beams(spec: &WebSpec, area: f64) -> Result<Vec<LayerBeam<'_>>, Error> {
 
 /// The filaments of a layer at their places. Air that a case leaves the same across the flow becomes a field in space. The seed of the web and the number of the layer are in the key of the air, so that layers and webs have
 /// airs of their own.
-fn beam(spec: &WebSpec, number: usize, area: f64) -> Result<LayerBeam<'_>, Error> {
+pub(super) fn beam(spec: &WebSpec, number: usize, area: f64) -> Result<LayerBeam<'_>, Error> {
     let layer = &spec.layers[number];
     let LaydownSource::Case { path, case } = &layer.source else {
         let fault = Fault::new("a web in one air flies its filaments", "name their case (laydown.case)");

@@ -9,6 +9,7 @@ use serde::Serialize;
 use spunlaid::air::Lateral;
 use spunlaid::case::Note;
 use spunlaid::input::{LaydownSource, LayerSpec, Method, WebSpec, read_web};
+use spunlaid::layers::PlannedFlight;
 use spunlaid::units::Dimension;
 use spunlaid::web::Filaments;
 use spunlaid_results::numbers::significant;
@@ -166,22 +167,63 @@ fn air(spec: &WebSpec) -> Vec<String> {
             lines.push(line);
         }
     }
-    let flies = spec.layers.iter().all(|layer| matches!(layer.source, LaydownSource::Case { .. }));
-    let is_at_random = matches!(&spec.layers[..], [LayerSpec { filaments: Filaments::AtRandom { .. }, .. }]);
-    lines.extend(match (spec.method, flies) {
-        (Method::SharedAir, _) => {
-            vec!["  all filaments fly in one field of eddies, so that neighbours come down together".to_owned()]
-        }
-        (_, flies) => vec![
-            "  the filaments are independent of each other, which gives a lower bound of the unevenness".to_owned(),
-            match (flies, is_at_random) {
-                (false, _) => "  to fly them in one air, as in a line: name a case in laydown.case".to_owned(),
-                (true, false) => "  to fly them in one air, as in a line: --set web.method=shared-air".to_owned(),
-                (true, true) => "  to fly them in one air, as in a line: --set web.method=shared-air --set line.depth=\"20 mm\" (the \
-                                  depth of the slot)"
-                    .to_owned(),
-            },
-        ],
+    lines.extend(match spec.method {
+        Method::SharedAir => in_one_air(spec),
+        Method::Surrogate | Method::Dynamics => independent(spec),
     });
     lines
+}
+
+/// Whether the filaments come down at random places of one row.
+fn is_at_random(spec: &WebSpec) -> bool {
+    spec.layers.iter().any(|layer| matches!(layer.filaments, Filaments::AtRandom { .. }))
+}
+
+/// How many filaments of each layer are flown on which sheet, and what memory their air takes.
+fn in_one_air(spec: &WebSpec) -> Vec<String> {
+    let flights = spec.planned_flights();
+    let size = |size: f64| Dimension::Length.pretty(size);
+    let flight = |(number, (flight, layer)): (usize, (&PlannedFlight, &LayerSpec))| {
+        let (all, [width, length]) = (layer.filaments.count(&spec.sheet), flight.sheet.map(size));
+        let of = if spec.layers.len() > 1 { format!(" of layer {}", number + 1) } else { String::new() };
+        match flight.is_few {
+            true => format!(
+                "  {}{of} fly in one field of eddies, on a sheet of {width} × {length}; the web of {all} follows from them \
+                 (web.flown)",
+                plural(flight.filaments, "filament")
+            ),
+            false => format!(
+                "  all {}{of} fly in one field of eddies, so that neighbours come down together",
+                plural(flight.filaments, "filament")
+            ),
+        }
+    };
+    let mut lines: Vec<String> = flights.iter().zip(&spec.layers).enumerate().map(flight).collect();
+    // The layers are flown one after the other.
+    let memory = flights.iter().map(|flight| flight.memory).fold(0.0, f64::max);
+    lines.push(format!("  the field takes {} of memory", Dimension::Memory.pretty_to(memory, 2)));
+    if is_at_random(spec) {
+        lines.push("  they come in one row, at random places of it; the slot of a line has a depth: --set line.depth=\"20 mm\"".to_owned());
+    }
+    lines
+}
+
+/// That the web is a lower bound, and the way out of it.
+fn independent(spec: &WebSpec) -> Vec<String> {
+    let is_case = |layer: &LayerSpec| matches!(layer.source, LaydownSource::Case { .. });
+    let has_record = |layer: &LayerSpec| layer.source.case().is_some_and(|case| !case.air.records.is_empty());
+    let way_out = if !spec.layers.iter().all(is_case) {
+        "to fly them in one air, as in a line: name a case in laydown.case"
+    } else if spec.layers.iter().any(has_record) {
+        "a record says nothing of the air beside it: to fly them in one air, as in a line, write numbers or a profile in the case"
+    } else if is_at_random(spec) {
+        "to fly them in one air, as in a line: --set web.method=shared-air --set line.depth=\"20 mm\" (the depth of the slot)"
+    } else {
+        "to fly them in one air, as in a line: --set web.method=shared-air"
+    };
+    vec![
+        "  the filaments are independent of each other, which gives a lower bound of the unevenness"
+            .to_owned(),
+        format!("  {way_out}"),
+    ]
 }

@@ -71,20 +71,30 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
         empty_chart().line(Series::new("straight fibres at random", GREY).dashed(&[6.0, 4.0]), &straight);
     let is_shared = findings.laid.shared_air.is_some();
     chart = match (flown.is_empty(), surrogate.is_empty()) {
-        _ if is_shared => chart
-            .line(Series::new("the same filaments in airs of their own", VERMILION).width(1.8), &single)
-            .line(Series::new("expected, from pairs of filaments", GREEN).dashed(&[6.0, 4.0]), &pairs)
-            .line(Series::new("", BLUE).unlabelled().adorning().width(1.0), &line),
+        _ if is_shared => {
+            let alone = Series::new("the same filaments in airs of their own", VERMILION).width(1.8);
+            let chart = chart.line(alone, &single);
+            let chart = match pairs.is_empty() {
+                true => chart,
+                false => chart.line(
+                    Series::new("expected, from pairs of filaments", GREEN).dashed(&[6.0, 4.0]),
+                    &pairs,
+                ),
+            };
+            chart.line(Series::new("", BLUE).unlabelled().adorning().width(1.0), &line)
+        }
         (false, false) => chart
             .line(Series::new("expected, from the surrogate", VERMILION).width(1.8), &surrogate)
             .line(Series::new("expected, from the flown curves", GREEN).width(1.8), &flown),
         _ => chart.line(Series::new("expected, from single fibres", VERMILION).width(1.8), &single),
     };
-    let chart = chart.scatter(Series::spots("this map", BLUE), &map);
+    let of_few = findings.patches.iter().any(|patch| patch.few.is_some());
+    let spots = if of_few { "the web of all filaments, from the flown ones" } else { "this map" };
+    let chart = chart.scatter(Series::spots(spots, BLUE), &map);
     let rows = web.layers.iter().any(|layer| !layer.filaments.are_at_random());
     let places = if rows { "in their rows" } else { "at random places" };
     if is_shared {
-        return Figure::new(&chart, shared_air(places));
+        return Figure::new(&chart, shared_air(places, of_few, !pairs.is_empty()));
     }
     let cut = if web.sheet.edges == Edges::Cut {
         "cut off at the edges in cross direction, and the strips at the edges, where the web is thinner, are left out"
@@ -105,13 +115,26 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
 }
 
 /// What is told below the figure of a web in one air.
-fn shared_air(places: &str) -> String {
+///
+/// * `of_few` – whether a few filaments were flown for all
+/// * `by_pairs` – whether the CV that pairs tell is drawn
+fn shared_air(places: &str, of_few: bool, by_pairs: bool) -> String {
+    let bars = match of_few {
+        true => "by chance, from the waves of the map of the flown filaments, and because few were flown",
+        false => "by chance, from the waves of the map",
+    };
+    let dashed = match by_pairs {
+        true => {
+            " The dashed one adds what neighbours do together, from the correlations of pairs of them alone: it checks the map, and holds to \
+             about 10 % over patches larger than a loop."
+        }
+        false => "",
+    };
     format!(
         "Standard deviation of the basis weight of square patches over its mean, on a stretch of belt on which every filament lies as it \
-         does after its start. Bars are one standard error by chance, from the waves of the map. The curve below is what the same filaments {places} would \
-         give if each had an air of its own: the sum of their own variances, without what neighbours do together. The dashed one adds what neighbours do together, \
-         from the correlations of pairs of them alone: it checks the map, and holds to about 10 % over patches larger than a loop. Straight fibres are those of the \
-         same mass in all directions at random."
+         does after its start. Bars are one standard error {bars}. The curve below is what the same filaments {places} would \
+         give if each had an air of its own: the sum of their own variances, without what neighbours do together.{dashed} Straight fibres \
+         are those of the same mass in all directions at random."
     )
 }
 

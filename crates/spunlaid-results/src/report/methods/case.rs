@@ -99,7 +99,7 @@ pub(in crate::report) fn web_account(spec: &WebSpec) -> Account {
             format!("paths of a stochastic surrogate of the laid fibre ({})", SURROGATE.short)
         }
         Method::Dynamics => "the curves of the flown fibres".to_owned(),
-        Method::SharedAir => "the curves of all filaments of the sheet, which fly in one air".to_owned(),
+        Method::SharedAir => in_one_air(spec),
     };
     let mut sentences = vec![format!(
         "A sheet of {} across by {} along the belt was laid of {how}, on a map with cells of {} (seed {}).",
@@ -119,6 +119,28 @@ pub(in crate::report) fn web_account(spec: &WebSpec) -> Account {
         described.push(case);
     }
     (sentences, references)
+}
+
+/// What is laid of a web in one air.
+fn in_one_air(spec: &WebSpec) -> String {
+    let flights = spec.planned_flights();
+    let few: Vec<_> = flights.iter().filter(|flight| flight.is_few).collect();
+    let Some(first) = few.first() else {
+        return "the curves of all filaments of the sheet, which fly in one air".to_owned();
+    };
+    let all_few = few.len() == flights.len();
+    format!(
+        "the curves of {}, which fly in one air on a sheet of {} by {}, {}and of the filaments between them, which follow by simple kriging{}",
+        count(few.iter().map(|flight| flight.filaments).sum(), "filament"),
+        length(first.sheet[0]),
+        length(first.sheet[1]),
+        if all_few { "" } else { "of all filaments of the other layers, " },
+        if first.sheet == [spec.sheet.width, spec.sheet.length] {
+            ""
+        } else {
+            ", in pieces that are drawn at random"
+        },
+    )
 }
 
 fn describe_layer(spec: &WebSpec, layer: &LayerSpec, number: usize) -> String {
