@@ -201,7 +201,7 @@ pub(crate) struct Web {
     /// Print summary.json instead of the table; without --out, write no files
     #[arg(long)]
     pub(crate) json: bool,
-    /// Try what makes it more even also where that takes long: where all filaments fly in one air, or flights are long
+    /// Try what makes it more even also where that takes long: where every filament of a web in one air is flown, or flights are long
     #[arg(long)]
     pub(crate) advice: bool,
     /// Do not try what makes it more even, which takes two flights for each setting

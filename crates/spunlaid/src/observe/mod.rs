@@ -397,6 +397,7 @@ mod tests {
             // A power that is no whole number has words.
             "m-0.5" => "per_sqrt_m".to_owned(),
             "1/m" => "per_m".to_owned(),
+            "1/s" => "per_s".to_owned(),
             unit => unit.to_lowercase().replace('/', "_"),
         };
         assert!(measure.column.ends_with(&format!("_{ending}")), "{} in {unit}", measure.column);

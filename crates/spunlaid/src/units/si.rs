@@ -7,7 +7,12 @@ use super::spelling::plain_spelling;
 pub fn si_unit_of(multiple: &str) -> String {
     const POWERS: &[char] = &['²', '³'];
     let known = |symbol: &str| ALL.iter().find(|d| d.units().iter().any(|unit| unit.shown == symbol));
-    let si = |symbol: &str| known(symbol).map_or_else(|| symbol.to_owned(), |d| d.si_unit().to_owned());
+    // Kilometres are shown, though no key takes them.
+    let of_thousands = |symbol: &str| symbol.strip_prefix('k').and_then(known);
+    let si = |symbol: &str| {
+        let dimension = known(symbol).or_else(|| of_thousands(symbol));
+        dimension.map_or_else(|| symbol.to_owned(), |d| d.si_unit().to_owned())
+    };
     if known(multiple).is_some() {
         return si(multiple);
     }
@@ -24,6 +29,6 @@ pub fn udunits(unit: &str) -> String {
         "" => "1".to_owned(),
         "%" => "percent".to_owned(),
         "°" => "degree".to_owned(),
-        _ => plain_spelling(unit).replace('°', "deg"),
+        _ => plain_spelling(unit).replace('°', "deg").replace('½', "0.5"),
     }
 }
