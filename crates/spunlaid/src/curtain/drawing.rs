@@ -47,6 +47,12 @@ impl<'a> Belt<'a> {
         Ok(Self { sheet, window, back: back_of_start - sheet.length })
     }
 
+    /// Whether a place lies on the stretch of the window, or less than a cell before or behind it.
+    fn is_beside_window(&self, [_, md]: [f64; 2]) -> bool {
+        let from_corner = md - self.window.corner[1];
+        (-self.sheet.cell..=self.window.sides[1] + self.sheet.cell).contains(&from_corner)
+    }
+
     /// A place on the sheet as seen from the corner of the window.
     fn in_window(&self, [cd, md]: [f64; 2]) -> [f64; 2] {
         let Window { corner, sides } = self.window;
@@ -138,6 +144,11 @@ fn draw_neighbours(
 impl Pen {
     /// Keeps a piece that is in the window.
     fn show(&mut self, filament: usize, [from, to]: [[f64; 2]; 2], belt: Belt<'_>) {
+        // Most pieces are far before or behind it.
+        if !belt.is_beside_window(from) && !belt.is_beside_window(to) {
+            self.enters = false;
+            return;
+        }
         let start = belt.in_window(from);
         let end = [start[0] + to[0] - from[0], start[1] + to[1] - from[1]];
         let shown = belt.window.holds(start) || belt.window.holds(end);
