@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::fibre::Place;
 use crate::flight::LaidPoint;
 use crate::line::Line;
-use crate::web::{Canvas, Edges, Sheet, Strand, Window};
+use crate::web::{Canvas, Edges, Sheet, Strand, Window, floor};
 
 /// How far what has been laid reaches along the belt.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,7 +86,7 @@ impl Stretch {
         let Window { corner, sides } = self.window;
         let (across, middle) = (cd - corner[0], 0.5 * sides[0]);
         let turns = match self.edges {
-            Edges::Periodic => ((across - middle) / self.width).round(),
+            Edges::Periodic => floor((across - middle) / self.width + 0.5) as f64,
             Edges::Cut => 0.0,
         };
         [across - turns * self.width, md - corner[1]]

@@ -3,11 +3,15 @@
 use super::Curtain;
 use crate::error::{Error, Fault};
 use crate::threads::try_each;
-use crate::web::{Canvas, Edges, LaidWeb, Sheet, Strand, Window};
+use crate::web::{Canvas, CanvasPart, Edges, LaidWeb, Sheet, Strand, Window, floor};
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Points that are computed at once.
-const BLOCK: usize = 1024;
+const BLOCK: usize = 512;
+/// Most filaments that are drawn together, and groups of them for each thread.
+const MOST_TOGETHER: usize = 96;
+const GROUPS: usize = 8;
 
 /// The stretch of belt that becomes the sheet, as in a [beam](crate::beam): places on the belt are counted from where a filament in the middle of the slot
 /// is fed when its first point is fed, and what is laid later lies farther back.
@@ -43,12 +47,18 @@ impl<'a> Belt<'a> {
         Ok(Self { sheet, window, back: back_of_start - sheet.length })
     }
 
+    /// Whether a place lies on the stretch of the window, or less than a cell before or behind it.
+    fn is_beside_window(&self, [_, md]: [f64; 2]) -> bool {
+        let from_corner = md - self.window.corner[1];
+        (-self.sheet.cell..=self.window.sides[1] + self.sheet.cell).contains(&from_corner)
+    }
+
     /// A place on the sheet as seen from the corner of the window.
     fn in_window(&self, [cd, md]: [f64; 2]) -> [f64; 2] {
         let Window { corner, sides } = self.window;
         let (across, middle) = (cd - corner[0], 0.5 * sides[0]);
         let turns = match self.sheet.edges {
-            Edges::Periodic => ((across - middle) / self.sheet.width).round(),
+            Edges::Periodic => floor((across - middle) / self.sheet.width + 0.5) as f64,
             Edges::Cut => 0.0,
         };
         [across - turns * self.sheet.width, md - corner[1]]
@@ -67,48 +77,88 @@ pub(crate) fn draw(
     (canvas, quanta): (&Canvas, u32),
     (threads, stop): (usize, &AtomicBool),
 ) -> Result<Vec<Strand>, Error> {
-    let strands = try_each(threads, curtain.places().len(), |filament| {
-        if stop.load(Ordering::Relaxed) {
-            return Err(Error::Interrupted);
-        }
-        Ok(draw_filament(curtain, filament, belt, (canvas, quanta)))
+    let count = curtain.places().len();
+    // Neighbours are drawn together, because they lie on the same part of the sheet.
+    let together = (count / (GROUPS * threads.max(1))).clamp(1, MOST_TOGETHER);
+    let strands = try_each(threads, count.div_ceil(together), |group| {
+        let filaments = group * together..count.min((group + 1) * together);
+        draw_neighbours(curtain, filaments, belt, (canvas, quanta), stop)
     })?;
     Ok(strands.concat())
 }
 
-fn draw_filament(
+/// A filament while it is drawn.
+#[derive(Default)]
+struct Pen {
+    strands: Vec<Strand>,
+    /// Whether the last of them goes on.
+    enters: bool,
+    last: Option<[f64; 2]>,
+}
+
+fn draw_neighbours(
     curtain: &dyn Curtain,
-    filament: usize,
+    filaments: Range<usize>,
     belt: Belt<'_>,
     (canvas, quanta): (&Canvas, u32),
-) -> Vec<Strand> {
-    let place = curtain.places()[filament];
+    stop: &AtomicBool,
+) -> Result<Vec<Strand>, Error> {
     let advance = curtain.belt_ratio() * curtain.spacing();
-    let mut values = [[0.0; BLOCK]; 2];
-    let (mut strands, mut enters): (Vec<Strand>, bool) = (Vec::new(), false);
-    let mut last: Option<[f64; 2]> = None;
+    let mut pens: Vec<Pen> = filaments.clone().map(|_| Pen::default()).collect();
+    let mut part = CanvasPart::new(canvas);
+    let (mut values, mut points) = ([[0.0; BLOCK]; 2], Vec::new());
     for first in (0..curtain.points()).step_by(BLOCK) {
+        if stop.load(Ordering::Relaxed) {
+            return Err(Error::Interrupted);
+        }
         let count = BLOCK.min(curtain.points() - first);
-        curtain.curve(filament, first, values.each_mut().map(|values| &mut values[..count]));
-        for i in 0..count {
-            let [md, cd] = values.map(|values| f64::from(values[i]));
-            let to = [place.z + cd, place.y + md - advance * (first + i) as f64 - belt.back];
-            if let Some(from) = last {
-                canvas.draw(from, to, quanta);
-                let start = belt.in_window(from);
-                let end = [start[0] + to[0] - from[0], start[1] + to[1] - from[1]];
-                let shown = belt.window.holds(start) || belt.window.holds(end);
-                match strands.last_mut().filter(|_| shown && enters) {
-                    Some(strand) => strand.points.push(end),
-                    None if shown => strands.push(Strand { layer: 0, filament, points: vec![start, end] }),
-                    None => {}
+        points.clear();
+        let mut corners = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+        for filament in filaments.clone() {
+            let place = curtain.places()[filament];
+            curtain.curve(filament, first, values.each_mut().map(|values| &mut values[..count]));
+            for (i, (md, cd)) in values[0][..count].iter().zip(&values[1]).enumerate() {
+                let md = place.y + f64::from(*md) - advance * (first + i) as f64 - belt.back;
+                let point = [place.z + f64::from(*cd), md];
+                for axis in 0..2 {
+                    corners[0][axis] = corners[0][axis].min(point[axis]);
+                    corners[1][axis] = corners[1][axis].max(point[axis]);
                 }
-                enters = shown;
+                points.push(point);
             }
-            last = Some(to);
+        }
+        part.move_to(corners, points.len());
+        for ((filament, pen), points) in filaments.clone().zip(&mut pens).zip(points.chunks_exact(count)) {
+            for to in points {
+                if let Some(from) = pen.last.replace(*to) {
+                    part.draw(from, *to, quanta);
+                    pen.show(filament, [from, *to], belt);
+                }
+            }
         }
     }
-    strands
+    part.pass_on();
+    Ok(pens.into_iter().flat_map(|pen| pen.strands).collect())
+}
+
+impl Pen {
+    /// Keeps a piece that is in the window.
+    fn show(&mut self, filament: usize, [from, to]: [[f64; 2]; 2], belt: Belt<'_>) {
+        // Most pieces are far before or behind it.
+        if !belt.is_beside_window(from) && !belt.is_beside_window(to) {
+            self.enters = false;
+            return;
+        }
+        let start = belt.in_window(from);
+        let end = [start[0] + to[0] - from[0], start[1] + to[1] - from[1]];
+        let shown = belt.window.holds(start) || belt.window.holds(end);
+        match self.strands.last_mut().filter(|_| shown && self.enters) {
+            Some(strand) => strand.points.push(end),
+            None if shown => self.strands.push(Strand { layer: 0, filament, points: vec![start, end] }),
+            None => {}
+        }
+        self.enters = shown;
+    }
 }
 
 /// Lays all filaments of a curtain on a sheet; the parts of them in the window are returned too.

@@ -16,7 +16,7 @@ mod wide;
 
 pub(crate) use functions::{bend_ratio, cos_sin_turn, exp2, indices, integers, log2, power, singles};
 pub use isa::Isa;
-pub(crate) use simd::{Plain, Register, Simd, Singles};
+pub(crate) use simd::{Plain, Register, Simd, Singles, Sixteen};
 pub(crate) use task::Task;
 pub(crate) use wide::Wide;
 

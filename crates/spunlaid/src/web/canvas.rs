@@ -13,6 +13,9 @@ const MOST: f64 = 1_048_576.0;
 /// Fewest quanta of a piece, so that its share in each cell is accurate enough.
 const FEWEST: f64 = 16.0;
 
+/// Most cells of a part on which a thread draws alone: four megabytes.
+const MOST_NEAR: i64 = 1 << 20;
+
 /// The cells of a sheet while straight pieces are drawn on it. The masses are whole numbers of a quantum, so the map does not
 /// depend on the order of the pieces. In machine direction the sheet is a stretch of the belt: what lies before and behind it is not
 /// counted.
@@ -62,54 +65,50 @@ impl Canvas {
         (piece / self.quantum).round() as u32
     }
 
-    /// Draws a straight piece. Each cell gets what lies in it, as the difference of two rounded sums, so that none of the piece is
-    /// lost.
+    /// Draws a straight piece.
     ///
     /// * `from`, `to` – its ends in cross and in machine direction, from the first corner of the sheet [m]
     pub(crate) fn draw(&self, from: [f64; 2], to: [f64; 2], quanta: u32) {
-        let [from, to] = [from, to].map(|end| end.map(|at| at / self.cell));
-        let mut cell = from.map(|at| at.floor() as i64);
-        let mut step = [0, 0];
-        // Shares of the piece up to the next edge of a cell each way, and from edge to edge.
-        let (mut next, mut apart) = ([f64::INFINITY; 2], [0.0; 2]);
-        for i in 0..2 {
-            let by = to[i] - from[i];
-            let within = from[i] - from[i].floor();
-            if by != 0.0 {
-                step[i] = if by > 0.0 { 1 } else { -1 };
-                next[i] = if by > 0.0 { (1.0 - within) / by } else { -within / by };
-                apart[i] = 1.0 / by.abs();
+        cross(self.cell, [from, to], quanta, |cell, part| self.add(cell, part));
+    }
+
+    /// As [`Canvas::draw`], where no other thread draws.
+    pub(crate) fn draw_alone(&mut self, from: [f64; 2], to: [f64; 2], quanta: u32) {
+        cross(self.cell, [from, to], quanta, |cell, part| match self.at(cell) {
+            Some(at) => {
+                let sum = self.cells[at].get_mut();
+                let (whole, is_full) = sum.overflowing_add(part);
+                *sum = whole;
+                *self.is_full.get_mut() |= is_full;
             }
-        }
-        let mut drawn = 0;
-        loop {
-            let way = usize::from(next[1] < next[0]);
-            let last = next[way] >= 1.0 || next[way].is_nan();
-            let until = if last { quanta } else { (next[way] * f64::from(quanta)).round() as u32 };
-            self.add(cell, until - drawn);
-            if last {
-                return;
+            None => self.cut_off(cell, part),
+        });
+    }
+
+    fn add(&self, cell: [i64; 2], quanta: u32) {
+        match self.at(cell) {
+            Some(at) => {
+                if self.cells[at].fetch_add(quanta, Ordering::Relaxed).checked_add(quanta).is_none() {
+                    self.is_full.store(true, Ordering::Relaxed);
+                }
             }
-            drawn = until;
-            cell[way] += step[way];
-            next[way] += apart[way];
+            None => self.cut_off(cell, quanta),
         }
     }
 
-    fn add(&self, [column, row]: [i64; 2], quanta: u32) {
-        if quanta == 0 || !(0..self.rows).contains(&row) {
-            return;
-        }
-        let column = match self.edges {
-            Edges::Periodic => column.rem_euclid(self.columns),
-            Edges::Cut => column,
-        };
-        if (0..self.columns).contains(&column) {
-            let cell = &self.cells[(row * self.columns + column) as usize];
-            if cell.fetch_add(quanta, Ordering::Relaxed).checked_add(quanta).is_none() {
-                self.is_full.store(true, Ordering::Relaxed);
-            }
-        } else {
+    /// The number of a cell; None of one that is not on the sheet.
+    #[inline(always)]
+    fn at(&self, [column, row]: [i64; 2]) -> Option<usize> {
+        let is_across = (0..self.columns).contains(&column);
+        let column =
+            if is_across || self.edges == Edges::Cut { column } else { column.rem_euclid(self.columns) };
+        let is_on = (0..self.rows).contains(&row) && (is_across || self.edges == Edges::Periodic);
+        is_on.then_some((row * self.columns + column) as usize)
+    }
+
+    /// Counts what lies beyond an edge. What lies before and behind the sheet is not counted.
+    fn cut_off(&self, [_, row]: [i64; 2], quanta: u32) {
+        if (0..self.rows).contains(&row) {
             self.cut.fetch_add(u64::from(quanta), Ordering::Relaxed);
         }
     }
@@ -133,6 +132,110 @@ impl Canvas {
             cells,
         };
         Ok(LaidWeb { map, cut: self.cut.into_inner() as f64 * self.quantum, shared_air: None })
+    }
+}
+
+/// Passes each cell that a straight piece crosses to `add`. Each gets what lies in it, as the difference of two rounded sums, so that none
+/// of the piece is lost.
+#[inline(always)]
+fn cross(side: f64, ends: [[f64; 2]; 2], quanta: u32, mut add: impl FnMut([i64; 2], u32)) {
+    let [from, to] = ends.map(|end| end.map(|at| at / side));
+    let mut cell = from.map(floor);
+    let mut step = [0, 0];
+    // Shares of the piece up to the next edge of a cell each way, and from edge to edge.
+    let (mut next, mut apart) = ([f64::INFINITY; 2], [0.0; 2]);
+    for i in 0..2 {
+        let by = to[i] - from[i];
+        let within = from[i] - cell[i] as f64;
+        if by != 0.0 {
+            step[i] = if by > 0.0 { 1 } else { -1 };
+            next[i] = if by > 0.0 { (1.0 - within) / by } else { -within / by };
+            apart[i] = 1.0 / by.abs();
+        }
+    }
+    let mut drawn = 0;
+    loop {
+        let way = usize::from(next[1] < next[0]);
+        let last = next[way] >= 1.0 || next[way].is_nan();
+        // Rounded, without a call.
+        let until = if last { quanta } else { (next[way] * f64::from(quanta) + 0.5) as u32 };
+        if until > drawn {
+            add(cell, until - drawn);
+        }
+        if last {
+            return;
+        }
+        drawn = until;
+        cell[way] += step[way];
+        next[way] += apart[way];
+    }
+}
+
+/// The largest whole number that is not above, without a call.
+#[inline(always)]
+pub(crate) fn floor(at: f64) -> i64 {
+    let whole = at as i64;
+    whole - i64::from(whole as f64 > at)
+}
+
+/// A part of a canvas on which one thread draws for a while, near to itself and without waiting for others. What it has drawn goes to the canvas when
+/// it moves to another part, and at the end.
+#[derive(Debug)]
+pub(crate) struct CanvasPart<'a> {
+    canvas: &'a Canvas,
+    /// First column and row, and number of columns and rows.
+    first: [i64; 2],
+    size: [i64; 2],
+    cells: Vec<u32>,
+}
+
+impl<'a> CanvasPart<'a> {
+    /// On which nothing can be drawn near yet.
+    pub(crate) fn new(canvas: &'a Canvas) -> Self {
+        Self { canvas, first: [0; 2], size: [0; 2], cells: Vec::new() }
+    }
+
+    /// Moves to a rectangle; pieces that leave it are drawn too.
+    ///
+    /// * `corners` – in cross and in machine direction, the first and the last one [m]
+    /// * `pieces` – that will be drawn. A few of them are not worth the while.
+    pub(crate) fn move_to(&mut self, corners: [[f64; 2]; 2], pieces: usize) {
+        self.pass_on();
+        let [first, last] = corners.map(|corner| corner.map(|at| floor(at / self.canvas.cell)));
+        let size = [0, 1].map(|i| last[i].saturating_sub(first[i]).saturating_add(1));
+        let cells = size[0].saturating_mul(size[1]);
+        let is_worth = size.iter().all(|size| *size > 0) && cells < MOST_NEAR && cells as usize <= 4 * pieces;
+        (self.first, self.size) = (first, if is_worth { size } else { [0; 2] });
+        self.cells.resize((self.size[0] * self.size[1]) as usize, 0);
+    }
+
+    /// As [`Canvas::draw`].
+    pub(crate) fn draw(&mut self, from: [f64; 2], to: [f64; 2], quanta: u32) {
+        let Self { canvas, first, size, cells } = self;
+        cross(canvas.cell, [from, to], quanta, |cell, part| {
+            let [column, row] = [cell[0] - first[0], cell[1] - first[1]];
+            let is_near = (0..size[0]).contains(&column) && (0..size[1]).contains(&row);
+            match cells.get_mut((row * size[0] + column) as usize).filter(|_| is_near) {
+                Some(sum) => {
+                    let (whole, is_full) = sum.overflowing_add(part);
+                    *sum = whole;
+                    if is_full {
+                        canvas.is_full.store(true, Ordering::Relaxed);
+                    }
+                }
+                None => canvas.add(cell, part),
+            }
+        });
+    }
+
+    /// Hands what has been drawn over to the canvas.
+    pub(crate) fn pass_on(&mut self) {
+        let columns = self.size[0].max(1) as usize;
+        for (row, cells) in (self.first[1]..).zip(self.cells.chunks_exact_mut(columns)) {
+            for (column, sum) in (self.first[0]..).zip(cells).filter(|(_, sum)| **sum > 0) {
+                self.canvas.add([column, row], std::mem::take(sum));
+            }
+        }
     }
 }
 

@@ -31,7 +31,7 @@ mod waves;
 mod whole_error;
 mod window;
 
-pub(crate) use canvas::Canvas;
+pub(crate) use canvas::{Canvas, CanvasPart, floor};
 pub use clouds::{Clouds, autocorrelation};
 pub use curves::Curves;
 pub(crate) use curves::OneAir;

@@ -10,7 +10,8 @@
 //! plan       the shape of the turbulence in each generation
 //! synthesis  random modes → two windows of a generation
 //! transform  Fourier transforms of sixteen signals abreast
-//! tape       windows joined to endless samples, made and forgotten block by block
+//! windows    how windows follow each other and are joined
+//! tape       endless samples, made and forgotten block by block
 //! look       the fluctuation at a time and eight places
 //! ```
 
@@ -24,6 +25,7 @@ mod tape;
 mod tests;
 mod transform;
 mod way;
+mod windows;
 
 pub use lattice::Extent;
 pub(crate) use look::EddyFields;

@@ -8,7 +8,7 @@
 
 use super::lattice::Lattice;
 use super::plan::{Harmonic, Plan, projection};
-use super::transform::{ABREAST, Numbers, Transform, root};
+use super::transform::{ABREAST, Numbers, Transform, Turned, root};
 use crate::air::StreamKey;
 use crate::lanes::Isa;
 use crate::threads::each;
@@ -21,17 +21,13 @@ const PHASES: usize = 1024;
 /// Marks the keys of fields in space, beside those of winds, paths and places.
 const FIELD: u64 = 1 << 63;
 
-/// The samples of two successive windows along one line of z: `[component][sample][z]`, first of the one window, then of the
-/// other.
-pub(super) type Line = [Vec<f32>; 2];
-
 /// Complex numbers of points: real parts and imaginary parts.
 type Complexes = [Vec<f32>; 2];
 
 /// The transforms of a plan.
 #[derive(Debug)]
 pub(super) struct Synthesis {
-    isa: Isa,
+    pub(super) isa: Isa,
     along_y: Transform,
     along_z: Transform,
     /// Of each generation.
@@ -59,7 +55,7 @@ impl Synthesis {
         }
     }
 
-    /// Makes two windows of a generation, and passes each line to `finish`.
+    /// Makes two windows of a generation, and lets `finish` make each line.
     ///
     /// * `pair` – number of the pair of windows
     pub(super) fn lines<T: Send>(
@@ -68,14 +64,25 @@ impl Synthesis {
         key: StreamKey,
         (generation, pair): (usize, i64),
         threads: usize,
-        finish: impl Fn(usize, Line) -> T + Sync,
+        finish: impl Fn(usize, LineMaker<'_>) -> T + Sync,
     ) -> Vec<T> {
         let shape = &plan.generations[generation];
         let planes = each(threads, shape.harmonics.len(), |n| {
             let mut random = Random::new(plan, key, pair, generation, n);
             self.plane(&plan.lattice, &shape.harmonics[n], &mut random)
         });
-        each(threads, plan.lattice.points[0], |y| finish(y, self.line(plan, generation, &planes, y)))
+        let [lines, points] = plan.lattice.points;
+        each(threads, lines, |y| {
+            let line = LineMaker {
+                synthesis: self,
+                generation,
+                planes: &planes,
+                line: [y, points],
+                components: [const { Vec::new() }; 3],
+                scratch: vec![Numbers::ZERO; shape.samples],
+            };
+            finish(y, line)
+        })
     }
 
     /// The modes of a harmonic as points, of each component `[y][z]`.
@@ -90,7 +97,7 @@ impl Synthesis {
                 let count = ABREAST.min(waves_y - first);
                 let mut numbers = load(&modes, points_z, waves_y, first, count);
                 scratch.resize(points_z, Numbers::ZERO);
-                self.along_z.pass(self.isa, &mut numbers, &mut scratch);
+                self.along_z.pass(self.isa, points_z, &mut numbers, &mut scratch);
                 for (z, number) in numbers.iter().enumerate() {
                     for wave in 0..count {
                         half[0][(first + wave) * points_z + z] = number.re[wave];
@@ -107,7 +114,7 @@ impl Synthesis {
                     numbers[place(wave as i64 - (waves_y / 2) as i64, points_y)] = *number;
                 }
                 scratch.resize(points_y, Numbers::ZERO);
-                self.along_y.pass(self.isa, &mut numbers, &mut scratch);
+                self.along_y.pass(self.isa, points_y, &mut numbers, &mut scratch);
                 for (y, number) in numbers.iter().enumerate() {
                     points[0][y * points_z + first..][..count].copy_from_slice(&number.re[..count]);
                     points[1][y * points_z + first..][..count].copy_from_slice(&number.im[..count]);
@@ -145,32 +152,44 @@ impl Synthesis {
         }
         modes
     }
+}
 
-    /// The samples along the label of one line of points.
-    fn line(&self, plan: &Plan, generation: usize, planes: &[[Complexes; 3]], y: usize) -> Line {
-        let (points_z, samples) = (plan.lattice.points[1], plan.generations[generation].samples);
-        let mut windows = [0, 1].map(|_| vec![0.0; 3 * samples * points_z]);
-        let (mut numbers, mut scratch) = (vec![Numbers::ZERO; samples], vec![Numbers::ZERO; samples]);
-        for component in 0..3 {
-            for first in (0..points_z).step_by(ABREAST) {
-                let count = ABREAST.min(points_z - first);
-                numbers.fill(Numbers::ZERO);
-                for (number, plane) in numbers.iter_mut().zip(planes) {
-                    let [re, im] = &plane[component];
-                    let start = y * points_z + first;
-                    number.re[..count].copy_from_slice(&re[start..][..count]);
-                    number.im[..count].copy_from_slice(&im[start..][..count]);
-                }
-                self.along_label[generation].pass(self.isa, &mut numbers, &mut scratch);
-                for (m, (number, turn)) in numbers.iter().zip(&self.half_turns[generation]).enumerate() {
-                    let number = number.times(*turn);
-                    let start = (component * samples + m) * points_z + first;
-                    windows[0][start..][..count].copy_from_slice(&number.re[..count]);
-                    windows[1][start..][..count].copy_from_slice(&number.im[..count]);
-                }
+/// Two windows along one line of z, made some points at a time.
+pub(super) struct LineMaker<'a> {
+    synthesis: &'a Synthesis,
+    generation: usize,
+    planes: &'a [[Complexes; 3]],
+    /// Number along y, and number of points.
+    line: [usize; 2],
+    components: [Vec<Numbers>; 3],
+    scratch: Vec<Numbers>,
+}
+
+impl LineMaker<'_> {
+    /// Number of points.
+    pub(super) fn points(&self) -> usize {
+        self.line[1]
+    }
+
+    /// The samples of [`ABREAST`] points, those of the first window as real parts and those of the second one as imaginary parts.
+    ///
+    /// * `first` – number of the first point
+    pub(super) fn windows(&mut self, first: usize) -> &[Vec<Numbers>; 3] {
+        let Self { synthesis, generation, planes, line: [y, points], .. } = *self;
+        let (start, count) = (y * points + first, ABREAST.min(points - first));
+        for (component, numbers) in self.components.iter_mut().enumerate() {
+            numbers.resize(self.scratch.len(), Numbers::ZERO);
+            for (number, plane) in numbers.iter_mut().zip(planes) {
+                let [re, im] = &plane[component];
+                number.re[..count].copy_from_slice(&re[start..][..count]);
+                number.im[..count].copy_from_slice(&im[start..][..count]);
             }
+            let transform = &synthesis.along_label[generation];
+            let turns = &synthesis.half_turns[generation];
+            transform.pass(synthesis.isa, planes.len(), numbers, &mut self.scratch);
+            synthesis.isa.run(Turned { numbers, turns });
         }
-        windows
+        &self.components
     }
 }
 

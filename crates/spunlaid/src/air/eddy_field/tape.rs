@@ -2,11 +2,11 @@
 
 use super::Plan;
 use super::lattice::Lattice;
-use super::synthesis::{Line, Synthesis};
+use super::synthesis::Synthesis;
+use super::transform::{ABREAST, Numbers};
+use super::windows::{BLOCKS, Rest, Windows};
 use crate::air::StreamKey;
 use half::f16;
-use half::slice::HalfFloatSliceExt;
-use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -14,17 +14,15 @@ use std::sync::Arc;
 pub(super) const BEFORE: i64 = 1;
 pub(super) const NEEDED: usize = 4;
 /// Samples, or points, that a piece repeats of the one beside it, so that those around a place lie side by side.
-const REPEATED: usize = NEEDED - 1;
+pub(super) const REPEATED: usize = NEEDED - 1;
 /// Points along z in a brick. In a row of all points the samples around a place would lie far apart in memory.
-const BRICK: usize = 32;
+pub(super) const BRICK: usize = 32;
 /// Numbers of a sample in a brick, with the points that it repeats of the next one.
-const ROW: usize = 3 * (BRICK + REPEATED);
+pub(super) const ROW: usize = 3 * (BRICK + REPEATED);
 /// Numbers that are read for a sample: four points of three components, and what follows them.
 pub(super) const READ: usize = 16;
 /// Numbers from the first to the last one that are read around a place.
 const AROUND: usize = (NEEDED - 1) * ROW + READ;
-/// Blocks in a pair of windows.
-const BLOCKS: usize = 6;
 
 /// Some successive samples of a generation. It begins with the last [`REPEATED`] samples of the block before it.
 #[derive(Debug)]
@@ -68,32 +66,9 @@ impl Block {
     }
 }
 
-/// Numbers rounded to half precision.
-fn halves(numbers: &[f32]) -> Vec<f16> {
-    let mut halves = vec![f16::ZERO; numbers.len()];
-    halves.convert_from_f32_slice(numbers);
-    halves
-}
-
-/// A line of a block, made of samples `[sample][z][component]`.
-fn bricks(samples: &[f32], points: usize) -> Box<[f16]> {
-    let count = samples.len() / (3 * points);
-    let bricks = points.div_ceil(BRICK);
-    // What follows the last point is read, but does not count.
-    let mut line = vec![f16::ZERO; bricks * count * ROW + READ - 3 * NEEDED];
-    let mut row = [0.0; ROW];
-    for (number, into) in line.chunks_exact_mut(ROW).enumerate() {
-        let (brick, sample) = (number / count, number % count);
-        let from = &samples[3 * points * sample..][..3 * points];
-        let first = 3 * BRICK * brick;
-        let here = ROW.min(from.len() - first);
-        row[..here].copy_from_slice(&from[first..][..here]);
-        for (i, number) in row[here..].iter_mut().enumerate() {
-            *number = from[i % from.len()];
-        }
-        into.convert_from_f32_slice(&row);
-    }
-    line.into_boxed_slice()
+/// Numbers in a line of a block. What follows the last point is read, but does not count.
+pub(super) fn line_size(samples: usize, points: usize) -> usize {
+    points.div_ceil(BRICK) * samples * ROW + READ - 3 * NEEDED
 }
 
 /// A generation as far as it has been made.
@@ -103,44 +78,8 @@ pub(super) struct Tape {
     blocks: Vec<(i64, Arc<Block>)>,
     /// The pair of windows that comes next; none before the first.
     next: Option<i64>,
-    /// What the last window adds to the samples after the blocks, and the last samples of the blocks: for each y
-    /// `[sample][z][component]`.
+    /// What the last pair of windows leaves to the next, for each y.
     rest: Arc<Vec<Rest>>,
-}
-
-/// What a pair of windows leaves to the next, along one line.
-#[derive(Clone, Debug, Default)]
-struct Rest {
-    fading: Vec<f16>,
-    last: Vec<f16>,
-}
-
-/// How windows follow each other, in samples.
-#[derive(Clone, Copy)]
-struct Windows {
-    /// Time in which a window repeats.
-    period: usize,
-    /// Time in which one fades out and the next one in.
-    fade: usize,
-    /// From the start of one to that of the next.
-    hop: usize,
-}
-
-impl Windows {
-    fn new(period: usize) -> Self {
-        Self { period, fade: period / 4, hop: period - period / 4 }
-    }
-
-    /// The pair of windows that has to be made first for a sample to be complete.
-    fn first_pair(self, sample: i64) -> i64 {
-        (sample - self.fade as i64).div_euclid(2 * self.hop as i64)
-    }
-
-    /// Factors of the window that fades out and of the one that fades in, at a sample of the fade.
-    fn factors(self, sample: usize) -> [f32; 2] {
-        let angle = FRAC_PI_2 * (sample as f64 + 0.5) / self.fade as f64;
-        [libm::cos(angle) as f32, libm::sin(angle) as f32]
-    }
 }
 
 /// The most memory of a tape with windows of so many samples [bytes].
@@ -148,11 +87,11 @@ impl Windows {
 /// * `looked_at` – samples that are looked at in a block of time
 pub(super) fn memory(lattice: &Lattice, period: usize, looked_at: f64) -> f64 {
     let windows = Windows::new(period);
-    let block = (2 * windows.hop).div_ceil(BLOCKS) as f64;
+    let block = windows.block(0).len() as f64;
     // A pair of windows is made when less than what is looked at is left of the one before: that and the rest of its block.
     let left = looked_at + 2.0 * NEEDED as f64 + block;
     let repeated = ((1.0 + left / block).ceil() + BLOCKS as f64) * REPEATED as f64;
-    let samples = 2.0 * windows.hop as f64 + left + repeated;
+    let samples = windows.total() as f64 + left + repeated;
     let [lines, points] = lattice.points;
     let sample = lines * points.div_ceil(BRICK) * ROW * size_of::<f16>();
     samples * sample as f64 + memory_of_rest(lattice, period)
@@ -160,20 +99,16 @@ pub(super) fn memory(lattice: &Lattice, period: usize, looked_at: f64) -> f64 {
 
 /// What more a tape takes while a thread joins a pair of windows to it, line by line [bytes].
 pub(super) fn memory_while_joining(lattice: &Lattice, period: usize) -> f64 {
-    let Windows { fade, hop, .. } = Windows::new(period);
-    let samples = 2 * (2 * hop + fade + REPEATED) + 2 * period;
-    memory_of_rest(lattice, period) + samples as f64 * memory_of_sample(lattice) / lattice.points[0] as f64
+    let windows = Windows::new(period);
+    let joined = (REPEATED + windows.total() + windows.fade) * size_of::<[[f16; ABREAST]; 3]>();
+    memory_of_rest(lattice, period) + (joined + 4 * period * size_of::<Numbers>()) as f64
 }
 
 /// Memory of what a pair of windows leaves to the next, in half precision [bytes].
 fn memory_of_rest(lattice: &Lattice, period: usize) -> f64 {
-    0.5 * (Windows::new(period).fade + REPEATED) as f64 * memory_of_sample(lattice)
-}
-
-/// Memory of a sample of all points, before it is stored in bricks [bytes].
-fn memory_of_sample(lattice: &Lattice) -> f64 {
     let [lines, points] = lattice.points;
-    (lines * points * size_of::<[f32; 3]>()) as f64
+    let sample = lines * points.div_ceil(ABREAST) * size_of::<[[f16; ABREAST]; 3]>();
+    ((Windows::new(period).fade + REPEATED) * sample) as f64
 }
 
 impl Tape {
@@ -196,22 +131,23 @@ impl Tape {
             *self = Self { next: Some(first), ..Self::default() };
         }
         let mut pair = self.next.unwrap_or(first);
-        while 2 * pair * (windows.hop as i64) < samples.end {
+        while pair * (windows.total() as i64) < samples.end {
             let rest = std::mem::take(&mut self.rest);
             let nothing = Rest::default();
             let made = synthesis.lines(plan, key, (generation, pair), threads, |y, line| {
-                windows.join(plan.lattice.points[1], line, rest.get(y).unwrap_or(&nothing))
+                windows.join(synthesis.isa, line, rest.get(y).unwrap_or(&nothing))
             });
             let (mut blocks, mut left) = (Vec::new(), Vec::new());
             for (lines, rest) in made {
                 blocks.push(lines);
                 left.push(rest);
             }
-            let start = 2 * pair * windows.hop as i64;
-            let each = (2 * windows.hop).div_ceil(BLOCKS);
+            let start = pair * windows.total() as i64;
             for number in 0..BLOCKS {
-                let first = start + (number * each) as i64;
-                let end = first + each.min(2 * windows.hop - number * each) as i64;
+                let [first, end] = {
+                    let within = windows.block(number);
+                    [within.start, within.end].map(|sample| start + sample as i64)
+                };
                 let lines = blocks.iter_mut().map(|lines| std::mem::take(&mut lines[number])).collect();
                 if end > samples.start {
                     let samples = (end - first) as usize + REPEATED;
@@ -232,55 +168,5 @@ impl Tape {
     pub(super) fn around(&self, first: i64) -> Option<&Block> {
         let last = first + NEEDED as i64 - 1;
         self.blocks.iter().find(|(end, _)| last < *end).map(|(_, block)| &**block)
-    }
-}
-
-impl Windows {
-    /// Joins two windows to what the ones before have left, along one line: the samples of each block, and what is left.
-    ///
-    /// Both come from one transform, as its real and its imaginary part. At equal times these have nothing in common, but at unequal
-    /// ones they do. So the second window begins where the fade of the first one does, and the two are joined at equal times: the
-    /// variance is one in the joint too. Where it has come to the end of the period it goes on from the start, with the other sign,
-    /// because its frequencies are half-odd.
-    fn join(self, points: usize, [one, other]: Line, rest: &Rest) -> (Vec<Box<[f16]>>, Rest) {
-        let row = 3 * points;
-        let total = 2 * self.hop;
-        let mut samples = vec![0.0_f32; (REPEATED + total + self.fade) * row];
-        if !rest.last.is_empty() {
-            rest.last.convert_to_f32_slice(&mut samples[..REPEATED * row]);
-        }
-        let mut add = |sample: usize, window: &[f32], at: usize, factor: f32| {
-            let into = &mut samples[(REPEATED + sample) * row..][..row];
-            let (m, factor) = if at < self.period { (at, factor) } else { (at - self.period, -factor) };
-            for component in 0..3 {
-                let values = &window[(component * self.period + m) * points..][..points];
-                for (z, value) in values.iter().enumerate() {
-                    into[3 * z + component] += factor * value;
-                }
-            }
-        };
-        for (start, window) in [(0, &one), (self.hop, &other)] {
-            // `start` is also where the window begins in its period.
-            for m in 0..self.period {
-                let factor = match m {
-                    m if m < self.fade => self.factors(m)[1],
-                    m if m < self.hop => 1.0,
-                    m => self.factors(m - self.hop)[0],
-                };
-                add(start + m, window, start + m, factor);
-            }
-        }
-        for (sample, fading) in samples[REPEATED * row..].iter_mut().zip(rest.fading.to_f32_vec()) {
-            *sample += fading;
-        }
-        let fading = halves(&samples[(REPEATED + total) * row..]);
-        let last = halves(&samples[total * row..][..REPEATED * row]);
-        let each = total.div_ceil(BLOCKS);
-        let blocks = (0..BLOCKS).map(|number| {
-            let first = number * each;
-            let end = (first + each).min(total) + REPEATED;
-            bricks(&samples[first * row..end * row], points)
-        });
-        (blocks.collect(), Rest { fading, last })
     }
 }

@@ -71,6 +71,7 @@ pub(super) unsafe fn columns(rows: [&[f64; 4]; 4]) -> [__m256d; 4] {
 impl Register for Avx2 {
     const ISA: Isa = Isa::Avx2;
     type Singles = Avx2Singles;
+    type Sixteen = super::sixteen::OfAvx2;
 
     #[inline(always)]
     fn store(self) -> Lanes {

@@ -16,6 +16,7 @@ pub(crate) struct Avx512(__m512d);
 impl Register for Avx512 {
     const ISA: Isa = Isa::Avx512;
     type Singles = Avx512Singles;
+    type Sixteen = super::sixteen::OfAvx512;
 
     #[inline(always)]
     fn store(self) -> Lanes {

@@ -6,6 +6,7 @@
 //! plain    plain Rust, for any machine
 //! avx2     AVX2, FMA and F16C
 //! avx512   AVX-512 F, DQ and VL
+//! sixteen  sixteen numbers of single precision, of each of them
 //! ```
 
 #[cfg(target_arch = "x86_64")]
@@ -13,12 +14,14 @@ mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 mod plain;
+mod sixteen;
 
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx2::Avx2;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx512::Avx512;
 pub(crate) use plain::Plain;
+pub(crate) use sixteen::Sixteen;
 
 use super::{Isa, Lanes, WIDTH};
 use half::f16;
@@ -75,6 +78,8 @@ pub(crate) trait Register: Simd {
     const ISA: Isa;
     /// Its registers of single precision.
     type Singles: Singles;
+    /// As many numbers of single precision as a register of 512 bits holds.
+    type Sixteen: Sixteen;
     fn store(self) -> Lanes;
 
     /// Loads a row of four numbers for each lane: the first numbers of all rows, the second, and so on.

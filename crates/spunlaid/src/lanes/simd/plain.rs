@@ -40,6 +40,7 @@ impl Plain {
 impl Register for Plain {
     const ISA: Isa = Isa::Baseline;
     type Singles = [f32; 12];
+    type Sixteen = [f32; 16];
 
     #[inline(always)]
     fn store(self) -> Lanes {

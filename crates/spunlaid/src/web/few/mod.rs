@@ -198,10 +198,10 @@ impl FewFilaments<'_> {
     pub(crate) fn map(&self, half: Option<usize>) -> Result<Map, Error> {
         let (first, step) = half.map_or((0, 1), |first| (first, 2));
         let curves = self.rows.iter().flat_map(|row| row.iter().skip(first).step_by(step));
-        let canvas = self.canvas(self.sheet)?;
+        let mut canvas = self.canvas(self.sheet)?;
         let quanta = canvas.quanta(self.piece);
         for curve in curves.flatten() {
-            curve.windows(2).for_each(|ends| canvas.draw(ends[0], ends[1], quanta));
+            curve.windows(2).for_each(|ends| canvas.draw_alone(ends[0], ends[1], quanta));
         }
         Ok(canvas.finish()?.map)
     }
@@ -266,10 +266,10 @@ impl FewFilaments<'_> {
             Sheet { width: columns * cell, edges: Edges::Cut, patches: Vec::new(), ..self.sheet.clone() };
         let sums = |curve: Option<(&Vec<[f64; 2]>, f64)>| {
             let Some((curve, further)) = curve else { return Ok(None) };
-            let canvas = self.canvas(&strip)?;
+            let mut canvas = self.canvas(&strip)?;
             let quanta = canvas.quanta(self.piece);
             let place = |[cd, md]: [f64; 2]| [cd + further - first * cell, md];
-            curve.windows(2).for_each(|ends| canvas.draw(place(ends[0]), place(ends[1]), quanta));
+            curve.windows(2).for_each(|ends| canvas.draw_alone(place(ends[0]), place(ends[1]), quanta));
             Ok::<_, Error>(Some(Sums::over(&canvas.finish()?.map)))
         };
         let mut all = Vec::new();
