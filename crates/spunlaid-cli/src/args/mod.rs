@@ -14,7 +14,7 @@ pub(crate) use figures::Figures;
 pub(crate) use fit::Fit;
 pub(crate) use invocation::Invocation;
 pub(crate) use new::{
-    LineNumbers, MOST_BEAMS, MOST_HOLES, New, basis_weight, length, polymer, speed, throughput, titre,
+    Given, LineNumbers, New, basis_weight, beams, holes, length, polymer, speed, throughput, titre,
 };
 pub(crate) use output::{Output, Threads};
 pub(crate) use source::{CaseSource, is_standard, overrides};

@@ -7,8 +7,8 @@ use spunlaid::units::Dimension;
 use std::path::PathBuf;
 
 /// Most beams of a line, and most holes of a beam.
-pub(crate) const MOST_BEAMS: u64 = 20;
-pub(crate) const MOST_HOLES: u64 = 10_000_000;
+const MOST_BEAMS: u64 = 20;
+const MOST_HOLES: u64 = 10_000_000;
 
 #[derive(Debug, Args)]
 pub(crate) struct New {
@@ -32,99 +32,145 @@ pub(crate) struct New {
 #[derive(Clone, Debug, Default, Args)]
 #[command(next_help_heading = "Numbers of the line, with --web")]
 pub(crate) struct LineNumbers {
-    /// Polymer: pp, pet, pa6 or pla
+    /// Polymer: pp, pet, pa6 or pla, in capitals or not
     #[arg(long, value_name = "NAME", requires = "web", value_parser = polymer)]
-    pub(crate) polymer: Option<Polymer>,
+    pub(crate) polymer: Option<Given<Polymer>>,
     /// Throughput of a hole in g/min, or with its unit, as "0.5 g/min/hole"
     #[arg(long, value_name = "FLOW", requires = "web", value_parser = throughput)]
-    pub(crate) throughput: Option<f64>,
+    pub(crate) throughput: Option<Given<f64>>,
     /// Titre of a filament in dtex, or with its unit, as "1.8 den"
     #[arg(long, value_name = "TITRE", requires = "web", conflicts_with = "diameter", value_parser = titre)]
-    pub(crate) dtex: Option<f64>,
+    pub(crate) dtex: Option<Given<f64>>,
     /// Diameter of a filament in µm in place of the titre, or with its unit, as "16 µm"
     #[arg(long, value_name = "LENGTH", requires = "web", value_parser = diameter)]
-    pub(crate) diameter: Option<f64>,
+    pub(crate) diameter: Option<Given<f64>>,
     /// Basis weight of the web in g/m², of all beams together, or with its unit, as "20 gsm"
     #[arg(long, value_name = "WEIGHT", requires = "web", value_parser = basis_weight)]
-    pub(crate) basis_weight: Option<f64>,
+    pub(crate) basis_weight: Option<Given<f64>>,
     /// Holes of a beam per metre of width
-    #[arg(long, value_name = "N", requires = "web", value_parser = holes())]
+    #[arg(long, value_name = "N", requires = "web", value_parser = holes)]
     pub(crate) holes_per_metre: Option<u64>,
     /// Holes of a beam in all, in place of those per metre; needs --width
-    #[arg(long, value_name = "N", requires_all = ["web", "width"], conflicts_with = "holes_per_metre", value_parser = holes())]
+    #[arg(long, value_name = "N", requires_all = ["web", "width"], conflicts_with = "holes_per_metre", value_parser = holes)]
     pub(crate) holes: Option<u64>,
     /// Speed of the air at the end of the slot in m/s, or with its unit, as "3600 m/min"
     #[arg(long, value_name = "SPEED", requires = "web", value_parser = speed)]
-    pub(crate) air_speed: Option<f64>,
+    pub(crate) air_speed: Option<Given<f64>>,
     /// Width of the web in m, or with its unit, as "3200 mm" [default: "1 m"]
     #[arg(long, value_name = "LENGTH", requires = "web", value_parser = length)]
-    pub(crate) width: Option<f64>,
+    pub(crate) width: Option<Given<f64>>,
     /// Distance from the slot to the belt in m, or with its unit, as "500 mm" [default: "0.5 m"]
     #[arg(long, value_name = "LENGTH", requires = "web", value_parser = length)]
-    pub(crate) distance: Option<f64>,
+    pub(crate) distance: Option<Given<f64>>,
     /// Number of equal beams, one behind the other [default: 1]
-    #[arg(long, value_name = "N", requires = "web", value_parser = clap::value_parser!(u64).range(1..=MOST_BEAMS))]
+    #[arg(long, value_name = "N", requires = "web", value_parser = beams)]
     pub(crate) beams: Option<u64>,
 }
 
-fn holes() -> impl clap::builder::TypedValueParser<Value = u64> {
-    clap::value_parser!(u64).range(1..=MOST_HOLES)
+/// A value as it was given, and what there is to say about it.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Given<T> {
+    pub(crate) value: T,
+    pub(crate) remark: Option<String>,
 }
 
-/// A polymer by its name, in capitals or not.
-pub(crate) fn polymer(name: &str) -> Result<Polymer, String> {
-    let wanted = name.trim().to_lowercase().replace(['-', ' '], "");
-    let known = Polymer::ALL.into_iter().find(|polymer| polymer.name() == wanted);
-    known.ok_or_else(|| {
-        let all = Polymer::ALL.map(Polymer::name).join(", ");
-        let melt = ["mfr", "mfi", "melt flow", "g/10"].iter().any(|word| name.to_lowercase().contains(word));
-        match melt {
-            true => format!(
-                "write one of {all} alone; a melt flow rate changes nothing here, because the filaments begin at the slot with their titre \
-                 (of a line from the die it is spinline.melt_flow_rate)"
-            ),
-            false => format!("write one of {all}"),
-        }
-    })
+impl<T> From<T> for Given<T> {
+    fn from(value: T) -> Self {
+        Self { value, remark: None }
+    }
 }
 
-/// A quantity [SI]; a number without a unit has the unit of its question.
-fn in_unit(dimension: Dimension, unit: &'static str) -> impl Fn(&str) -> Result<f64, String> + Clone {
+impl LineNumbers {
+    /// What there is to say about the numbers, each once.
+    pub(crate) fn remarks(&self) -> impl Iterator<Item = &str> {
+        let Self { throughput, dtex, diameter, basis_weight, air_speed, width, distance, .. } = self;
+        let numbers = [throughput, dtex, diameter, basis_weight, air_speed, width, distance];
+        let of_numbers = numbers.into_iter().flatten().map(|given| &given.remark);
+        self.polymer.iter().map(|given| &given.remark).chain(of_numbers).flatten().map(String::as_str)
+    }
+}
+
+/// A number of holes.
+pub(crate) fn holes(text: &str) -> Result<u64, String> {
+    count(text, MOST_HOLES)
+}
+
+/// A number of beams.
+pub(crate) fn beams(text: &str) -> Result<u64, String> {
+    count(text, MOST_BEAMS)
+}
+
+fn count(text: &str, most: u64) -> Result<u64, String> {
+    let number = text.trim().parse().ok().filter(|number| (1..=most).contains(number));
+    number.ok_or_else(|| format!("write a whole number from 1 to {most}"))
+}
+
+/// A polymer by its name, in capitals or not. A melt flow rate beside it is read over, and said to be.
+pub(crate) fn polymer(text: &str) -> Result<Given<Polymer>, String> {
+    let lower = text.trim().to_lowercase();
+    let named = |words: &[&str]| {
+        let name = words.concat().replace('-', "");
+        Polymer::ALL.into_iter().find(|polymer| polymer.name() == name)
+    };
+    let words: Vec<&str> =
+        lower.split([' ', ',', ';', ':', '=', '(', ')']).filter(|word| !word.is_empty()).collect();
+    if let Some(polymer) = named(&words) {
+        return Ok(polymer.into());
+    }
+    let all = Polymer::ALL.map(Polymer::name).join(", ");
+    let is_melt = ["mfr", "mfi", "melt flow", "g/10"].iter().any(|word| lower.contains(word));
+    if !is_melt {
+        return Err(format!("write one of {all}"));
+    }
+    // `PA 6` is two words.
+    let among = || (1..=2).rev().flat_map(|count| words.windows(count)).find_map(named);
+    let value = among().ok_or_else(|| format!("write one of {all} before the melt flow rate"))?;
+    let remark = "the melt flow rate is not used, because these filaments begin at the slot with their titre; it is \
+                  spinline.melt_flow_rate of a line that begins at the die: a table [spinline] in the file of the filament";
+    Ok(Given { value, remark: Some(remark.to_owned()) })
+}
+
+/// A quantity [SI]; a number without a unit has the unit of its question, and says so.
+fn in_unit(dimension: Dimension, unit: &'static str) -> impl Fn(&str) -> Result<Given<f64>, String> + Clone {
     move |text| {
-        let with_unit = match text.trim().parse::<f64>() {
-            Ok(_) => format!("{} {unit}", text.trim()),
-            Err(_) => text.to_owned(),
-        };
-        quantity(dimension)(&with_unit)
+        let text = text.trim();
+        match text.parse::<f64>() {
+            Ok(_) => {
+                let whole = format!("{text} {unit}");
+                let remark = Some(format!("{text} has no unit and is taken as {whole}"));
+                Ok(Given { value: quantity(dimension)(&whole)?, remark })
+            }
+            Err(_) => quantity(dimension)(text).map(Given::from),
+        }
     }
 }
 
 /// A titre [kg/m]; a number without a unit is one in dtex.
-pub(crate) fn titre(text: &str) -> Result<f64, String> {
+pub(crate) fn titre(text: &str) -> Result<Given<f64>, String> {
     in_unit(Dimension::LinearDensity, "dtex")(text)
 }
 
 /// A throughput of a hole [kg/s]; a number without a unit is one in g/min.
-pub(crate) fn throughput(text: &str) -> Result<f64, String> {
+pub(crate) fn throughput(text: &str) -> Result<Given<f64>, String> {
     in_unit(Dimension::MassFlow, "g/min")(text)
 }
 
 /// A diameter [m]; a number without a unit is one in µm.
-fn diameter(text: &str) -> Result<f64, String> {
+fn diameter(text: &str) -> Result<Given<f64>, String> {
     in_unit(Dimension::Length, "µm")(text)
 }
 
 /// A basis weight [kg/m²]; a number without a unit is one in g/m².
-pub(crate) fn basis_weight(text: &str) -> Result<f64, String> {
+pub(crate) fn basis_weight(text: &str) -> Result<Given<f64>, String> {
     in_unit(Dimension::BasisWeight, "g/m²")(text)
 }
 
 /// A speed [m/s].
-pub(crate) fn speed(text: &str) -> Result<f64, String> {
+pub(crate) fn speed(text: &str) -> Result<Given<f64>, String> {
     in_unit(Dimension::Velocity, "m/s")(text)
 }
 
 /// A length [m].
-pub(crate) fn length(text: &str) -> Result<f64, String> {
+pub(crate) fn length(text: &str) -> Result<Given<f64>, String> {
     in_unit(Dimension::Length, "m")(text)
 }

@@ -47,12 +47,7 @@ impl Case {
         // A fed fibre swings and folds on its way, and some of it lies on the belt.
         let slack = if self.line.is_some() { 2.0 } else { 1.0 };
         let (air, elements) = (&self.air, self.fibre.elements as f64 * slack);
-        let eddies = match air.eddies {
-            _ if self.line.is_some() => self.stations().map_or(0.0, |stations| stations.count as f64),
-            EddyModel::Convected { .. } => elements,
-            EddyModel::Independent if air.from_flow.length_scale => elements,
-            EddyModel::Independent => (self.fibre.length / air.length_scale).ceil().max(1.0),
-        };
+        let eddies = self.number_of_eddies();
         let harmonics = air.harmonics as f64;
         let synthesis = if air.records.is_empty() { SYNTHESIS * 2.0 * harmonics } else { 0.0 };
         let turbulence = if synthesis <= FLIGHT_MEMORY_LIMIT {
@@ -73,5 +68,27 @@ impl Case {
         let kept = |(bytes, most): (f64, f64)| bytes * number_of_instants.min(most);
         let instants = kept(QUANTILES) + kept(SPECTRA);
         FlightMemory { chain, turbulence, synthesis, field, instants }
+    }
+
+    /// Number of eddies, or stations of the air, for which a flight makes turbulence; at most one for each element where their
+    /// size varies along the fibre.
+    fn number_of_eddies(&self) -> f64 {
+        let elements = self.fibre.elements as f64;
+        match self.air.eddies {
+            _ if self.line.is_some() => self.stations().map_or(0.0, |stations| stations.count as f64),
+            EddyModel::Convected { .. } => elements,
+            EddyModel::Independent if self.air.from_flow.length_scale => elements,
+            EddyModel::Independent => (self.fibre.length / self.air.length_scale).ceil().max(1.0),
+        }
+    }
+
+    /// Computing time that a flight takes to make its turbulence from harmonics until a time [s], in steps of elements with the
+    /// explicit schemes. Each window is made whole, and the first one however short the flight is. Zero where the
+    /// turbulence comes from records or from a field of eddies in space, which takes its time in other ways.
+    pub(crate) fn cost_of_air(&self, time: f64) -> f64 {
+        match self.air.field_cutoff() {
+            None => Wind::cost(&self.air, time) * self.number_of_eddies(),
+            Some(_) => 0.0,
+        }
     }
 }

@@ -1,8 +1,6 @@
 //! Asks for the numbers of a line that are not given.
 
-use crate::args::{
-    LineNumbers, MOST_BEAMS, MOST_HOLES, basis_weight, length, polymer, speed, throughput, titre,
-};
+use crate::args::{LineNumbers, basis_weight, beams, holes, length, polymer, speed, throughput, titre};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::error::Fault;
@@ -26,7 +24,6 @@ pub(super) fn complete(
             "give them, or call the command in a terminal, where it asks; `spunlaid new --help` has examples";
         return Err(Fault::new(message, remedy).into());
     };
-    let [holes, beams] = [MOST_HOLES, MOST_BEAMS].map(read_number);
     ask(answers, &mut numbers.polymer, "Polymer: pp, pet, pa6 or pla", "pp", polymer)?;
     ask(answers, &mut numbers.throughput, "Throughput of a hole", "0.5 g/min", throughput)?;
     if numbers.diameter.is_none() {
@@ -41,14 +38,6 @@ pub(super) fn complete(
     ask(answers, &mut numbers.air_speed, "Speed of the air at the end of the slot", "60 m/s", speed)?;
     ask(answers, &mut numbers.distance, "Distance from the slot to the belt", "0.5 m", length)?;
     Ok(numbers)
-}
-
-/// Reads a whole number from 1.
-fn read_number(most: u64) -> impl Fn(&str) -> Result<u64, String> {
-    move |text| {
-        let number = text.parse().ok().filter(|number| (1..=most).contains(number));
-        number.ok_or_else(|| format!("write a whole number from 1 to {most}"))
-    }
 }
 
 /// The options without which there is no line.
@@ -99,26 +88,52 @@ fn ask<T>(
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::expect_used)]
+
     use super::*;
+    use crate::args::Given;
 
     #[test]
     fn asks_for_what_is_missing_until_it_can_be_read() {
-        let given = LineNumbers { throughput: Some(1e-5), diameter: Some(16e-6), ..LineNumbers::default() };
-        // Polymer, basis weight with two answers that cannot be read, width, holes, beams, air, distance. A number without a unit has that of the
-        // question.
-        let mut answers = "PET\ntwenty\n15 dtex\n15\n4.5\n\n2\n70\n500 mm\n".as_bytes();
+        let given = LineNumbers {
+            throughput: Some(1e-5.into()),
+            diameter: Some(16e-6.into()),
+            ..LineNumbers::default()
+        };
+        // Polymer, basis weight with two answers that cannot be read, width, holes with one, beams, air, distance. A number without
+        // a unit has that of the question.
+        let mut answers = "PET\ntwenty\n15 dtex\n15\n4.5\n0\n\n2\n70\n500 mm\n".as_bytes();
         let numbers = complete(given, Some(&mut answers)).unwrap_or_default();
-        assert_eq!(numbers.polymer.map(spunlaid::spinline::Polymer::name), Some("pet"));
-        assert_eq!((numbers.throughput, numbers.diameter, numbers.dtex), (Some(1e-5), Some(16e-6), None));
+        let value = |given: &Option<Given<f64>>| given.as_ref().map(|given| given.value);
+        assert_eq!(numbers.polymer.as_ref().map(|given| given.value.name()), Some("pet"));
         assert_eq!(
-            (numbers.basis_weight, numbers.width, numbers.holes_per_metre),
-            (Some(0.015), Some(4.5), Some(5000))
+            [&numbers.throughput, &numbers.diameter, &numbers.dtex].map(value),
+            [Some(1e-5), Some(16e-6), None]
         );
-        assert_eq!((numbers.beams, numbers.air_speed, numbers.distance), (Some(2), Some(70.0), Some(0.5)));
-        assert_eq!(throughput("0.55 g/min/hole"), throughput("0.55"));
-        assert_eq!(throughput("0.55 ghm"), Ok(0.55 / 60_000.0));
-        let melt = polymer("PP, MFR 35 g/10min").unwrap_err();
-        assert!(melt.contains("a melt flow rate changes nothing here"), "{melt}");
+        assert_eq!((value(&numbers.basis_weight), value(&numbers.width)), (Some(0.015), Some(4.5)));
+        assert_eq!((numbers.holes_per_metre, numbers.beams), (Some(5000), Some(2)));
+        assert_eq!((value(&numbers.air_speed), value(&numbers.distance)), (Some(70.0), Some(0.5)));
+        let remarks: Vec<&str> = numbers.remarks().collect();
+        assert_eq!(
+            remarks,
+            [
+                "15 has no unit and is taken as 15 g/m²",
+                "70 has no unit and is taken as 70 m/s",
+                "4.5 has no unit and is taken as 4.5 m"
+            ]
+        );
+        for text in ["0.55", "0.55 g/min", "0.55 g/min/hole", "0.55 g/(min hole)", " 0.55 ghm "] {
+            assert_eq!(throughput(text).map(|given| given.value), Ok(0.55 / 60_000.0), "{text}");
+        }
+        for text in ["PP, MFR 35 g/10min", "pp (MFI 35)", "PP 35 g/10 min", "MFR 35 pp"] {
+            let given = polymer(text).expect(text);
+            assert_eq!(given.value.name(), "pp");
+            assert!(given.remark.is_some_and(|remark| remark.contains("spinline.melt_flow_rate")), "{text}");
+        }
+        assert_eq!(polymer("PA 6, melt flow rate 3").expect("two words").value.name(), "pa6");
+        assert!(polymer(" Pa-6 ").is_ok_and(|given| given.value.name() == "pa6" && given.remark.is_none()));
+        assert!(polymer("MFR 35").is_err_and(|why| why.contains("before the melt flow rate")));
+        assert!(polymer("pp pet").is_err() && polymer("nylon").is_err());
         let message = complete(LineNumbers::default(), Some(&mut "pp\n".as_bytes())).unwrap_err().to_string();
         assert!(message.contains("the answers end too early"), "{message}");
     }

@@ -1,6 +1,6 @@
 //! The files of a line: its web, the case of its filament, and the air between slot and belt.
 
-use crate::args::LineNumbers;
+use crate::args::{Given, LineNumbers};
 use spunlaid::spinline::Polymer;
 use spunlaid::units::Dimension;
 use spunlaid_results::numbers::significant;
@@ -46,20 +46,24 @@ enum Size {
 impl Line {
     /// The line of complete numbers.
     pub(super) fn new(numbers: &LineNumbers) -> Self {
+        let or = |given: &Option<Given<f64>>, usual: f64| given.as_ref().map_or(usual, |given| given.value);
         let nan = f64::NAN;
-        let width = numbers.width.unwrap_or(WIDTH);
+        let width = or(&numbers.width, WIDTH);
         let in_all = numbers.holes.map(|holes| (holes as f64 / width).round().max(1.0) as u64);
         Self {
-            polymer: numbers.polymer.unwrap_or(Polymer::Pp),
-            throughput: numbers.throughput.unwrap_or(nan),
-            size: numbers.diameter.map_or(Size::Titre(numbers.dtex.unwrap_or(nan)), Size::Diameter),
-            basis_weight: numbers.basis_weight.unwrap_or(nan),
+            polymer: numbers.polymer.as_ref().map_or(Polymer::Pp, |given| given.value),
+            throughput: or(&numbers.throughput, nan),
+            size: match &numbers.diameter {
+                Some(diameter) => Size::Diameter(diameter.value),
+                None => Size::Titre(or(&numbers.dtex, nan)),
+            },
+            basis_weight: or(&numbers.basis_weight, nan),
             holes_per_metre: numbers.holes_per_metre.or(in_all).unwrap_or(1),
             holes: numbers.holes,
             beams: numbers.beams.unwrap_or(1),
             width,
-            distance: numbers.distance.unwrap_or(DISTANCE),
-            air_speed: numbers.air_speed.unwrap_or(nan),
+            distance: or(&numbers.distance, DISTANCE),
+            air_speed: or(&numbers.air_speed, nan),
         }
     }
 

@@ -37,7 +37,9 @@ pub(crate) fn new(new: &New) -> Result<(), Failure> {
 fn web(new: &New) -> Result<(), Failure> {
     let is_terminal = stdin().is_terminal() && stderr().is_terminal();
     let mut answers = is_terminal.then(|| stdin().lock());
-    let line = Line::new(&complete(new.line.clone(), answers.as_mut())?);
+    let numbers = complete(new.line.clone(), answers.as_mut())?;
+    numbers.remarks().for_each(|remark| say::remark(false, &remark));
+    let line = Line::new(&numbers);
     let path = &new.file;
     need_file(path, "a web is written with two files beside it")?;
     let name = super::stem(path, "line").to_string_lossy().into_owned();

@@ -167,6 +167,12 @@ impl Wind {
         if air.records.is_empty() { Windows::memory(air, eddies, horizon) } else { Stretches::memory(eddies) }
     }
 
+    /// Computing time to make the samples of an eddy until a time [s], in steps of elements of the explicit schemes; zero for
+    /// measured air.
+    pub(crate) fn cost(air: &Air, time: f64) -> f64 {
+        if air.records.is_empty() { Windows::cost(air, time) } else { 0.0 }
+    }
+
     /// Makes the samples around time 0.
     pub(crate) fn prepare(&mut self) {
         if let Signal::Synthesised(windows) = &mut self.signal {

@@ -1,7 +1,7 @@
 //! The flights of a check, and the paths of the free ends that are compared.
 
+use super::plan::case_of_air;
 use super::{FinerChecks, FinerPlan, FinerPlans, Unchecked};
-use crate::air::EddyModel;
 use crate::case::Case;
 use crate::ensemble::trajectory::fly_in_air;
 use crate::ensemble::{Keep, Recorder, RunControl, Sample, Shapes, Trajectory, in_order};
@@ -65,10 +65,7 @@ impl FinerPlan {
     /// Flies one of its cases. Nothing that is recorded is kept, but for the paths that are compared.
     fn fly(&self, case: &Case, computing: RunControl<'_>) -> Result<Flight, Error> {
         let jobs: Vec<Job<'_>> = (0..self.replicates).map(|replicate| Job::new(case, replicate)).collect();
-        // A carried pattern has a signal for each element. Both feel the one of the finer elements.
-        let carried = case.line.is_none() && matches!(case.air.eddies, EddyModel::Convected { .. });
-        let flown = if carried { &self.fine } else { case };
-        let air = SurroundingRun { case: flown, horizon: self.horizon, field: None };
+        let air = SurroundingRun { case: case_of_air(case, &self.fine), horizon: self.horizon, field: None };
         let paths = Paths { stride: 1, ..Paths::from_run(Some(self), None) };
         let computing = RunControl { recorder: Some(&paths), ..computing };
         let trajectories = fly_in_air(&jobs, Keep::NUMBERS, air, computing)?;

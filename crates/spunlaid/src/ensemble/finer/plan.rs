@@ -1,13 +1,15 @@
 //! What is flown again for the checks of a run, and how much of it is worth its computing time.
 
 use super::{Refinement, Refinements, Unchecked};
+use crate::air::EddyModel;
 use crate::case::{Case, Checks, ERROR_TOLERANCE, MOST_STEPS};
 use crate::chain::schemes::Scheme;
 use crate::lanes::WIDTH;
 use crate::line::{Contact, Line};
 
 /// Largest share of the computing time of a run that all its checks take together, and the share that each takes if that is
-/// enough for it. They are counted in steps of flights, so that they do not depend on the machine.
+/// enough for it. They are counted in steps of elements, so that they do not depend on the machine; the turbulence that each flight
+/// makes anew is counted as steps too.
 const SHARE_OF_ALL: f64 = 0.2;
 const SHARE: f64 = 0.1;
 /// Computing time of a step with implicit tension, in steps of the explicit schemes: 1.75 to 1.95 were measured.
@@ -41,7 +43,7 @@ pub struct FinerPlan {
     pub(super) horizon: f64,
     /// Number of replicates, from the first on. A flight costs the same for all its lanes.
     pub replicates: u64,
-    /// Computing time as a share of that of the run [-].
+    /// Computing time as a share of that of the run, counted in steps of elements of the same cost [-].
     pub share_of_run: f64,
 }
 
@@ -95,29 +97,42 @@ impl Budget {
 
     /// The part of a run that is flown again.
     ///
-    /// * `whole` – what all of the run would take, as a share of its computing time
+    /// * `takes` – what a part takes, as a share of the computing time of the run; more for a larger part
     /// * `least` – the smallest part that says something
-    fn part(self, whole: f64, least: f64) -> Result<f64, Unchecked> {
+    fn part(self, takes: impl Fn(f64) -> f64, least: f64) -> Result<f64, Unchecked> {
+        let least = least.min(1.0);
         match self {
             Self::Whole => Ok(1.0),
-            Self::Share(most) if least * whole > most => Err(Unchecked::Dear { times: whole }),
-            Self::Share(_) => Ok((SHARE / whole).max(least).min(1.0)),
+            Self::Share(most) if takes(least) > most => Err(Unchecked::Dear { times: takes(1.0) }),
+            Self::Share(_) if takes(1.0) <= SHARE => Ok(1.0),
+            Self::Share(_) if takes(least) >= SHARE => Ok(least),
+            Self::Share(_) => Ok(largest(takes, least)),
         }
     }
 }
 
-/// Steps of the elements of a flight, each counted by its cost.
-fn cost(case: &Case) -> f64 {
-    case.run.steps as f64 * case.fibre.elements as f64 * relative_cost(case)
+/// The largest part that takes no more than its share. Halving finds it, because the air is made window by window, so that the
+/// time that a part takes has jumps.
+fn largest(takes: impl Fn(f64) -> f64, least: f64) -> f64 {
+    let (mut enough, mut more) = (least, 1.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (enough + more);
+        *if takes(middle) <= SHARE { &mut enough } else { &mut more } = middle;
+    }
+    enough
 }
 
-fn relative_cost(case: &Case) -> f64 {
-    if case.run.scheme == Scheme::ImplicitTension { IMPLICIT } else { 1.0 }
+/// Computing time of a flight until a time [s], in steps of elements with the explicit schemes.
+///
+/// * `air` – the case whose air is made for it
+fn cost(case: &Case, air: &Case, time: f64) -> f64 {
+    let relative = if case.run.scheme == Scheme::ImplicitTension { IMPLICIT } else { 1.0 };
+    time / case.run.time_step * case.fibre.elements as f64 * relative + air.cost_of_air(time)
 }
 
 /// The same of all flights of a run.
 fn cost_of_run(case: &Case) -> f64 {
-    cost(case) * case.flights() as f64
+    cost(case, case, case.run.duration()) * case.flights() as f64
 }
 
 /// Flies the paths of the first replicates again with half the step.
@@ -127,20 +142,21 @@ fn step_of_a_path(case: &Case, budget: Budget) -> Result<FinerPlan, Unchecked> {
     if recorded < FEWEST {
         return Err(Unchecked::TooShort);
     }
-    // Half the step takes two steps for one.
-    let whole = 2.0 * (recorded * run.output_steps) as f64 / (run.steps * case.flights()) as f64;
-    let part = budget.part(whole, FEWEST as f64 / recorded as f64)?;
+    let mut fine = case.clone();
+    fine.run.time_step *= 0.5;
+    let longest = recorded as f64 * run.output_interval();
+    let of_run = cost_of_run(case);
+    let takes = |part: f64| cost(&fine, case, part * longest) / of_run;
+    let part = budget.part(takes, FEWEST as f64 / recorded as f64)?;
     let instants = ((part * recorded as f64 * (1.0 + 1e-9)) as u64).max(FEWEST);
     let stride = instants.div_ceil(MOST_COMPARED).max(1);
     if 2 * instants * run.output_steps > MOST_STEPS {
         return Err(Unchecked::beyond());
     }
-    let mut fine = case.clone();
-    fine.run.time_step *= 0.5;
     fine.run.output_steps *= 2 * stride;
     fine.run.steps = instants / stride * fine.run.output_steps;
     fine.run.spin_up_steps = 0;
-    let share_of_run = cost(&fine) / cost_of_run(case);
+    let share_of_run = cost(&fine, case, fine.run.duration()) / of_run;
     let replicates = run.replicates.min(WIDTH as u64);
     let horizon = case.air_horizon();
     Ok(FinerPlan {
@@ -211,8 +227,10 @@ fn statistics(
     budget: Budget,
 ) -> Result<FinerPlan, Unchecked> {
     let all = case.run.duration();
-    let per_second = |case: &Case| case.fibre.elements as f64 / case.run.time_step * relative_cost(case);
-    let whole = (per_second(&coarse) + per_second(&fine)) * all / cost_of_run(case);
+    let of_run = cost_of_run(case);
+    let takes = |[coarse, fine]: [&Case; 2], times: [f64; 2]| {
+        (cost(coarse, case_of_air(coarse, fine), times[0]) + cost(fine, fine, times[1])) / of_run
+    };
     let (comes_down, least) = match &case.line {
         Some(line) => (COMES_DOWN * way(line), (COMES_DOWN + COMPARED) * way(line)),
         None => {
@@ -224,7 +242,8 @@ fn statistics(
     if least > all * (1.0 + 1e-9) {
         return Err(Unchecked::TooShort);
     }
-    let duration = all * budget.part(whole, least / all)?;
+    let of_part = |part: f64| takes([&coarse, &fine], [part * all; 2]);
+    let duration = all * budget.part(of_part, least / all)?;
     // A part of a run leaves out no more than the way down; the whole leaves out what the run leaves out.
     let spin_up = if duration < all { comes_down.min(case.run.spin_up()) } else { case.run.spin_up() };
     for case in [&mut coarse, &mut fine] {
@@ -239,12 +258,19 @@ fn statistics(
     if duration < spin_up || instants < FEWEST && case.line.is_none() {
         return Err(Unchecked::TooShort);
     }
-    let share_of_run = (cost(&coarse) + cost(&fine)) / cost_of_run(case);
+    let share_of_run = takes([&coarse, &fine], [coarse.run.duration(), fine.run.duration()]);
     // Replicates of a record need a record that is long enough.
     let replicates =
         if case.air.records.is_empty() { WIDTH as u64 } else { case.run.replicates.min(WIDTH as u64) };
     let horizon = case.air_horizon();
     Ok(FinerPlan { refined, coarse: Some(coarse), fine, stride: 1, horizon, replicates, share_of_run })
+}
+
+/// The case whose air a flight of a check has: a carried pattern has a signal for each element, and both flights feel the one of the
+/// finer elements.
+pub(super) fn case_of_air<'a>(own: &'a Case, fine: &'a Case) -> &'a Case {
+    let carried = own.line.is_none() && matches!(own.air.eddies, EddyModel::Convected { .. });
+    if carried { fine } else { own }
 }
 
 /// Time in which a fed fibre comes down at the speed of its feed [s].
