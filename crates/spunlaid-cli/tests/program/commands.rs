@@ -77,6 +77,21 @@ fn check_tells_what_was_read_of_a_field_and_the_axis_of_its_air() {
     ] {
         assert!(said.contains(part), "{part}\n{said}");
     }
+    let plane = |i: usize| format!("{},{},0,-8,{},100\n", i % 2, i / 2, 1 + i % 2);
+    let flat = "x_m,y_m,u_m_s,v_m_s,k_m2_s2,epsilon_m2_s3\n".to_owned();
+    std::fs::write(desk.path("flat.csv"), flat + &(0..4).map(plane).collect::<String>()).unwrap();
+    std::fs::write(desk.path("flat.toml"), case.replace("duct.csv", "flat.csv")).unwrap();
+    let flat = success(&mut desk.spunlaid("check flat.toml"));
+    let line = "#   a plane flow: the air is the same everywhere along z of the field\n";
+    assert!(flat.contains(line) && !said.contains("a plane flow"), "{flat}");
+    // A mesh of faces, too.
+    let mesh = "# vtk DataFile Version 3.0\na\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0 1 0 0 1 1 0 0 1 0\n\
+                CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n9\nPOINT_DATA 4\nVECTORS U double\n0 -8 0 0 -8 0 0 -8 0 0 -8 0\n\
+                SCALARS k double 1\nLOOKUP_TABLE default\n1 1 1 1\nSCALARS epsilon double 1\nLOOKUP_TABLE default\n9 9 9 9\n";
+    std::fs::write(desk.path("flat.vtk"), mesh).unwrap();
+    std::fs::write(desk.path("mesh.toml"), case.replace("duct.csv", "flat.vtk")).unwrap();
+    let flat = success(&mut desk.spunlaid("check mesh.toml"));
+    assert!(flat.contains(line), "{flat}");
     let said = success(&mut desk.with("check duct.toml", &["air.field_axis=z"]));
     assert!(said.contains("but the fibre hangs along z; write air.field_axis = \"-y\""), "{said}");
 }
@@ -393,6 +408,41 @@ fn new_writes_beams_from_a_diameter_and_all_holes() {
     ] {
         assert!(said.contains(part), "{part}\n{said}");
     }
+}
+
+/// A number alone has the unit that its option names, and a polymer may come with the melt flow rate of its grade: the files are
+/// the same, and each is said once.
+#[test]
+fn identical_new_reads_the_numbers_of_a_line_however_they_are_written() {
+    let written = |polymer: &str, throughput: &str, dtex: &str, weight: &str, speed: &str| {
+        let desk = Desk::new();
+        let mut command = desk.spunlaid("new --web line.toml --holes-per-metre 1000");
+        command.args(["--polymer", polymer, "--throughput", throughput, "--dtex", dtex]);
+        let output = command.args(["--basis-weight", weight, "--air-speed", speed]).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.success(), "{said}");
+        (["line.toml", "line_filament.toml", "line_air.csv"].map(|file| desk.read(file)), said)
+    };
+    let (files, said) = written("pp", "0.55 g/min", "2 dtex", "20 g/m²", "60 m/s");
+    assert!(!said.contains("note:") && !said.contains("warning:"), "{said}");
+    let (same, said) = written("PP", "0.55 g/min/hole", "2 dtex", "20 gsm", "60 m/s");
+    assert!(same == files && !said.contains("note:"), "{said}");
+    let (same, said) = written("PP, MFR 35 g/10min", "0.55 g/(min hole)", "2", "20", "60");
+    assert!(same == files);
+    for note in [
+        "note: the melt flow rate is not used, because these filaments begin at the slot with their titre",
+        "note: 2 has no unit and is taken as 2 dtex",
+        "note: 20 has no unit and is taken as 20 g/m²",
+        "note: 60 has no unit and is taken as 60 m/s",
+    ] {
+        assert_eq!(said.matches(note).count(), 1, "{note}\n{said}");
+    }
+    assert!(said.contains("spinline.melt_flow_rate") && said.matches("note:").count() == 4, "{said}");
+    let desk = Desk::new();
+    let said = refusal(desk.spunlaid("new --web line.toml --polymer").args(["MFR 35"]), 1);
+    assert!(said.contains("write one of pp, pet, pa6, pla before the melt flow rate"), "{said}");
+    let said = refusal(&mut desk.spunlaid("new --web line.toml --beams 0"), 1);
+    assert!(said.contains("write a whole number from 1 to 20"), "{said}");
 }
 
 #[test]

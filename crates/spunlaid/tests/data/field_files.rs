@@ -304,6 +304,11 @@ fn tables_of_many_programs_are_read() {
         |text: String| -> String { text.lines().zip(1..).map(|(row, i)| format!("{i}, {row}\n")).collect() };
     for text in [
         format!("x_m,y_m,z_m,u_m_s,v_m_s,w_m_s,k_m2_s2,epsilon_m2_s3\n{}", rows("1;2;3;4;5", ",")),
+        // Superscripts, as a spreadsheet writes them.
+        format!(
+            "x (m),y (m),z (m),u (m/s),v (m/s),w (m/s),k (m²/s²),epsilon (m²/s³)\n{}",
+            rows("1;2;3;4;5", ",")
+        ),
         format!(
             "nodenumber,    x-coordinate,    y-coordinate,    z-coordinate,      x-velocity,      y-velocity,      z-velocity, turb-kinetic-energy,  turb-diss-rate\n{}",
             numbered(rows("1;2;3;4;5", ", "))

@@ -1,6 +1,6 @@
 //! A mean flow that widens as it slows (`air.widening = "md"`), against the continuity equation and its streamlines.
 
-use spunlaid::air::{Air, FileContent, Flow, Profile, Widening};
+use spunlaid::air::{Air, AirAtPlaces, Extent, FileContent, Flow, Lateral, Profile, StreamKey, Widening};
 use spunlaid::case::Case;
 use spunlaid::fibre::Place;
 use spunlaid::field::Hint;
@@ -105,5 +105,24 @@ fn analytic_a_hanging_fibre_lies_along_a_streamline_of_a_diffuser() {
     let at = flown(&case(Widening::None));
     for (lane, place) in PLACES.into_iter().enumerate() {
         assert!(nodes(&at, lane).iter().all(|(_, y)| *y == place), "{place}");
+    }
+}
+
+/// The plane at the end of a profile, where the belt is: the air widens there as in the last interval, from 15 to 10 m/s over 50 mm,
+/// `v = −y dU/dx`.
+#[test]
+fn analytic_the_air_widens_at_the_last_row_of_its_profile() {
+    let mut case = case(Widening::MachineDirection);
+    case.air.flow = profile(&[0.0, 0.4, 0.45, LENGTH], &[60.0, 20.0, 15.0, 10.0]);
+    // Large eddies, of which few are made; they have no velocity here.
+    (case.air.length_scale, case.air.cutoff_frequency) = (0.1, 50.0);
+    case.air.lateral = Lateral::VonKarman { cutoff: 2.0 };
+    let key = StreamKey { seed: 1, replicate: 0 };
+    let extent = Extent { y: 0.2, z: 0.2 };
+    let mut air = AirAtPlaces::new(&case.air, LENGTH, extent, key, 1).unwrap();
+    let places = [0.0, 0.08, -0.02].map(|y| Vec3::new(LENGTH, y, 0.01));
+    for (found, place) in air.velocities(0.0, &places).unwrap().into_iter().zip(places) {
+        assert!((found.y - 100.0 * place.y).abs() < 1e-9, "{place:?}: {found:?}");
+        assert!((found.x - 10.0).abs() < 1e-9 && found.z.abs() < 1e-9, "{place:?}: {found:?}");
     }
 }
