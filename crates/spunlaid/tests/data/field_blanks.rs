@@ -169,3 +169,132 @@ fn analytic_meshes_of_faces_in_a_plane_are_plane_flows() {
         assert!(!local.inside && (local.velocity.x - 12.0).abs() < 1e-12, "{local:?}");
     }
 }
+
+/// 5 × 3 × 2 points with u = 10 + x, in legacy files of each kind of grid. The last column of cells is hidden, by its cells or by its
+/// points, which hold 999 m/s.
+#[test]
+fn analytic_hidden_columns_of_legacy_grids_are_no_air() {
+    let places: Vec<[usize; 3]> = (0..30).map(|i| [i % 5, i / 5 % 3, i / 15]).collect();
+    let points: String = places.iter().map(|[x, y, z]| format!("{x} {y} {z}\n")).collect();
+    let speed = |x: usize| if x == 4 { 999 } else { 10 + x };
+    let velocities: String = places.iter().map(|[x, ..]| format!("{} 0 0\n", speed(*x))).collect();
+    let of_points: String = places.iter().map(|[x, ..]| if *x == 4 { "2 " } else { "0 " }).collect();
+    let of_cells: String = (0..8).map(|i| if i % 4 == 3 { "32 " } else { "0 " }).collect();
+    let axes =
+        "X_COORDINATES 5 double\n0 1 2 3 4\nY_COORDINATES 3 double\n0 1 2\nZ_COORDINATES 2 double\n0 1\n";
+    for (kind, shape) in [
+        ("STRUCTURED_POINTS", "ORIGIN 0 0 0\nSPACING 1 1 1\n".to_owned()),
+        ("RECTILINEAR_GRID", axes.to_owned()),
+        ("STRUCTURED_GRID", format!("POINTS 30 double\n{points}")),
+    ] {
+        for (marks, hidden) in [
+            (
+                format!("SCALARS vtkGhostType unsigned_char 1\nLOOKUP_TABLE default\n{of_points}\n"),
+                "6 points are hidden",
+            ),
+            (
+                format!(
+                    "CELL_DATA 8\nSCALARS vtkGhostType unsigned_char 1\nLOOKUP_TABLE default\n{of_cells}\n"
+                ),
+                "2 cells are hidden",
+            ),
+            (
+                format!("CELL_DATA 8\nFIELD FieldData 1\nvtkGhostType 1 8 unsigned_char\n{of_cells}\n"),
+                "2 cells are hidden",
+            ),
+        ] {
+            let text = format!(
+                "# vtk DataFile Version 3.0\na\nASCII\nDATASET {kind}\nDIMENSIONS 5 3 2\n{shape}POINT_DATA 30\nVECTORS U double\n{velocities}{marks}"
+            );
+            let (field, warnings) = Field::parse(text.as_bytes(), "a.vtk").unwrap();
+            assert!(
+                warnings.iter().any(|warning| warning.message.starts_with(hidden)),
+                "{kind}: {warnings:?}"
+            );
+            assert_eq!(field.overview().speed.largest, 13.0, "{kind} {hidden}");
+            let at = |x: f64| field.sample(Vec3::new(x, 1.25, 0.5), &mut Hint::default());
+            assert!(at(2.5).inside && (at(2.5).velocity.x - 12.5).abs() < 1e-12, "{kind}: {:?}", at(2.5));
+            assert!(!at(3.5).inside, "{kind}");
+        }
+    }
+}
+
+/// A piece of a grid of 5 × 3 × 2 points with u = 10 + x at points or in cells, from one place along x to another. The cells from
+/// `own` on are those of the next piece; what they alone have is wrong.
+fn piece(is_image: bool, in_cells: bool, [from, to, own]: [usize; 3]) -> String {
+    let extent = format!("{from} {to} 0 2 0 1");
+    let cells = to - from;
+    let columns = |last: usize| (0..last).flat_map(move |_| from..to).collect::<Vec<_>>();
+    let ghosts: String = columns(2).iter().map(|x| if *x >= own { "1 " } else { "0 " }).collect();
+    let of_cells: String = columns(2)
+        .iter()
+        .map(|x| if *x >= own { "999 0 0 ".to_owned() } else { format!("{} 0 0 ", 10.5 + *x as f64) })
+        .collect();
+    let of_points: String = (0..6 * (cells + 1))
+        .map(|i| from + i % (cells + 1))
+        .map(|x| if x > own { "999 0 0 ".to_owned() } else { format!("{} 0 0 ", 10 + x) })
+        .collect();
+    let velocity = |values: &str| {
+        format!(
+            "<DataArray type=\"Float64\" Name=\"U\" NumberOfComponents=\"3\" format=\"ascii\">{values}</DataArray>\n"
+        )
+    };
+    let marks =
+        format!("<DataArray type=\"UInt8\" Name=\"vtkGhostType\" format=\"ascii\">{ghosts}</DataArray>\n");
+    let (point_data, cell_data) = match in_cells {
+        true => (String::new(), velocity(&of_cells) + &marks),
+        false => (velocity(&of_points), marks),
+    };
+    let (kind, shape, axes) = match is_image {
+        true => ("ImageData", " Origin=\"0 0 0\" Spacing=\"1 1 1\"", String::new()),
+        false => {
+            let axis = |from: usize, to: usize| {
+                let places: String = (from..=to).map(|place| format!("{place} ")).collect();
+                format!("<DataArray type=\"Float64\" format=\"ascii\">{places}</DataArray>\n")
+            };
+            let axes = axis(from, to) + &axis(0, 2) + &axis(0, 1);
+            ("RectilinearGrid", "", format!("<Coordinates>\n{axes}</Coordinates>\n"))
+        }
+    };
+    format!(
+        "<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\">\n<{kind} WholeExtent=\"{extent}\"{shape}>\n\
+         <Piece Extent=\"{extent}\">\n<PointData>\n{point_data}</PointData>\n<CellData>\n{cell_data}</CellData>\n{axes}</Piece>\n</{kind}>\n</VTKFile>\n"
+    )
+}
+
+/// Pieces of parallel grids overlap by a layer of cells, which counts once: the air is that of the piece whose own it is.
+#[test]
+fn analytic_cells_that_another_piece_of_a_grid_has_too_count_once() {
+    for (is_image, in_cells) in [(true, false), (true, true), (false, false), (false, true)] {
+        let (kind, end) = if is_image { ("ImageData", "vti") } else { ("RectilinearGrid", "vtr") };
+        let folder = tempfile::tempdir().unwrap();
+        let write = |name: &str, text: String| std::fs::write(folder.path().join(name), text).unwrap();
+        write(&format!("left.{end}"), piece(is_image, in_cells, [0, 3, 2]));
+        write(&format!("right.{end}"), piece(is_image, in_cells, [2, 4, 4]));
+        for parts in [["left", "right"], ["right", "left"]] {
+            let sources: String =
+                parts.iter().map(|part| format!("<Piece Source=\"{part}.{end}\"/>\n")).collect();
+            let list = format!(
+                "<VTKFile type=\"P{kind}\" version=\"1.0\">\n<P{kind} GhostLevel=\"1\">\n{sources}</P{kind}>\n</VTKFile>\n"
+            );
+            write(&format!("list.p{end}"), list);
+            let (field, warnings) = Field::read(&folder.path().join(format!("list.p{end}"))).unwrap();
+            assert!(!warnings.iter().any(|warning| warning.message.contains("hidden")), "{warnings:?}");
+            let speed = field.overview().speed;
+            let ends = if in_cells { [10.5, 13.5] } else { [10.0, 14.0] };
+            assert!(
+                (speed.least - ends[0]).abs() < 1e-9 && (speed.largest - ends[1]).abs() < 1e-9,
+                "{kind} {in_cells}: {speed:?}"
+            );
+            // Values of cells are means at points, so that at the ends they are those of the cells there.
+            let inner = if in_cells { 1.0..3.0 } else { 0.0..4.0 };
+            for x in [0.75, 1.5, 2.25, 2.75, 3.25].into_iter().filter(|x| inner.contains(x)) {
+                let local = field.sample(Vec3::new(x, 0.75, 0.5), &mut Hint::default());
+                assert!(
+                    local.inside && (local.velocity.x - 10.0 - x).abs() < 1e-9,
+                    "{kind} {in_cells} {x}: {local:?}"
+                );
+            }
+        }
+    }
+}
