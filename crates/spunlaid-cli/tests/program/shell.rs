@@ -71,7 +71,7 @@ fn a_case_may_come_from_standard_input() {
     assert!(piped("check -", &case).status.success());
     let wrong = [
         (&b"[fibre]\nlength = 3\n"[..], "standard input:2: fibre.length"),
-        (b"\xff", "standard input: cannot be read as UTF-8"),
+        (b"\xff", "standard input:1: is not UTF-8 text"),
     ];
     for (text, words) in wrong {
         let refused = piped("run -", text);

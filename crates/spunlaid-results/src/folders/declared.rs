@@ -16,7 +16,7 @@ use spunlaid::observe::{
     OF_COMPONENTS, OF_PATCHES, OF_RECORDS, OF_SCANNED_PATCHES, OF_SCANS, OF_SPINLINES, OF_WEBS, RecordMeasure,
 };
 use spunlaid::scan::{self, Format, Light, Picture};
-use spunlaid::web::{Findings, IndependentCv, LayControl, PatchFindings};
+use spunlaid::web::{FewFilamentsCv, Findings, IndependentCv, LayControl, PatchFindings};
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -42,8 +42,8 @@ patches = ["5 mm", "10 mm"]
 "#;
 
 /// Webs that know different numbers of their patches: from the surrogate alone, from flown curves too, from neither, and of filaments in one
-/// air.
-fn kinds(found: &Findings) -> [Findings; 4] {
+/// air, all or a few of which were flown.
+fn kinds(found: &Findings) -> [Findings; 5] {
     let with = |change: &dyn Fn(&mut PatchFindings)| {
         let mut kind = found.clone();
         kind.patches.iter_mut().for_each(change);
@@ -56,6 +56,19 @@ fn kinds(found: &Findings) -> [Findings; 4] {
         with(&|patch| {
             let independent = IndependentCv { cv: 0.05, standard_error: 0.001, degrees: 20.0 };
             (patch.independent, patch.pairs) = (Some(independent), Some(0.06));
+        }),
+        with(&|patch| {
+            let (few, cv) = (0.07, 0.06);
+            let told = FewFilamentsCv {
+                patch: patch.map.patch,
+                cv,
+                by_chance: Some(0.002),
+                by_pitch: 0.001,
+                of_halves: 0.01,
+                own: 1e-3,
+                few,
+            };
+            (patch.few, patch.filled) = (Some(told), Some(0.061));
         }),
     ]
 }

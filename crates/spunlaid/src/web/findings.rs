@@ -2,7 +2,7 @@
 
 use super::clouds::{Clouds, autocorrelation};
 use super::expected::{ALONE, SheetPosition, across, expected, side, sides};
-use super::few::FewFilamentsCv;
+use super::few_findings::FewFilamentsCv;
 use super::laid_web::{LaidWeb, SharedAirFindings};
 use super::lay::lay;
 use super::laying::LayControl;

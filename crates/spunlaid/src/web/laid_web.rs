@@ -1,6 +1,6 @@
 //! What has been laid.
 
-use super::few::LayerFew;
+use super::few_findings::LayerFew;
 use super::laying::TimeSpent;
 use super::map::Map;
 use super::neighbours::{NeighbourCorrelation, SharedVariance};

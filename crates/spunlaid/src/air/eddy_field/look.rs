@@ -5,8 +5,9 @@
 //! kernel that calls it.
 
 use super::EddyField;
+use super::brick::{BEFORE, NEEDED, READ};
 use super::plan::Plan;
-use super::tape::{BEFORE, NEEDED, READ, Rows, Tape};
+use super::tape::{Rows, Tape};
 use crate::lanes::{Lanes, Register, Singles, WIDTH, Wide, indices, integers, singles};
 use crate::vec3::Vec3;
 

@@ -7,6 +7,7 @@
 //! ```text
 //! way        travel time and age along the way; where the generations are
 //! lattice    the points across
+//! brick      how samples lie in memory
 //! plan       the shape of the turbulence in each generation
 //! synthesis  random modes → two windows of a generation
 //! transform  Fourier transforms of sixteen signals abreast
@@ -15,6 +16,7 @@
 //! look       the fluctuation at a time and eight places
 //! ```
 
+mod brick;
 mod lattice;
 mod look;
 mod memory;
@@ -30,9 +32,10 @@ mod windows;
 pub use lattice::Extent;
 pub(crate) use look::EddyFields;
 
+use self::brick::{BEFORE, NEEDED};
 use self::plan::Plan;
 use self::synthesis::Synthesis;
-use self::tape::{BEFORE, NEEDED, Tape};
+use self::tape::Tape;
 use self::way::EddyPath;
 use super::{Air, StreamKey};
 use crate::lanes::Isa;

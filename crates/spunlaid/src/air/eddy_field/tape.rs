@@ -1,6 +1,7 @@
 //! The samples of one generation, in the order of their labels.
 
 use super::Plan;
+use super::brick::{BRICK, NEEDED, READ, REPEATED, ROW};
 use super::lattice::Lattice;
 use super::synthesis::Synthesis;
 use super::transform::{ABREAST, Numbers};
@@ -10,17 +11,6 @@ use half::f16;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Samples before a place that its interpolation needs, and all that it needs.
-pub(super) const BEFORE: i64 = 1;
-pub(super) const NEEDED: usize = 4;
-/// Samples, or points, that a piece repeats of the one beside it, so that those around a place lie side by side.
-pub(super) const REPEATED: usize = NEEDED - 1;
-/// Points along z in a brick. In a row of all points the samples around a place would lie far apart in memory.
-pub(super) const BRICK: usize = 32;
-/// Numbers of a sample in a brick, with the points that it repeats of the next one.
-pub(super) const ROW: usize = 3 * (BRICK + REPEATED);
-/// Numbers that are read for a sample: four points of three components, and what follows them.
-pub(super) const READ: usize = 16;
 /// Numbers from the first to the last one that are read around a place.
 const AROUND: usize = (NEEDED - 1) * ROW + READ;
 
@@ -66,11 +56,6 @@ impl Block {
     }
 }
 
-/// Numbers in a line of a block. What follows the last point is read, but does not count.
-pub(super) fn line_size(samples: usize, points: usize) -> usize {
-    points.div_ceil(BRICK) * samples * ROW + READ - 3 * NEEDED
-}
-
 /// A generation as far as it has been made.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tape {
@@ -100,7 +85,8 @@ pub(super) fn memory(lattice: &Lattice, period: usize, looked_at: f64) -> f64 {
 /// What more a tape takes while a thread joins a pair of windows to it, line by line [bytes].
 pub(super) fn memory_while_joining(lattice: &Lattice, period: usize) -> f64 {
     let windows = Windows::new(period);
-    let joined = (REPEATED + windows.total() + windows.fade) * size_of::<[[f16; ABREAST]; 3]>();
+    // Of the chunk that is joined, and of the lines of a brick that are put together.
+    let joined = 2 * (REPEATED + windows.total() + windows.fade) * size_of::<[[f16; ABREAST]; 3]>();
     memory_of_rest(lattice, period) + (joined + 4 * period * size_of::<Numbers>()) as f64
 }
 

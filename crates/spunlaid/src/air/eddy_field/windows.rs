@@ -1,7 +1,7 @@
 //! How windows follow each other and are joined to endless samples.
 
+use super::brick::{BRICK, REPEATED, ROW, line_size};
 use super::synthesis::LineMaker;
-use super::tape::{BRICK, REPEATED, ROW, line_size};
 use super::transform::{ABREAST, Numbers};
 use crate::lanes::{Isa, Register, Sixteen, Task};
 use half::f16;
