@@ -16,6 +16,8 @@ use std::time::{Duration, Instant};
 const PAUSE: Duration = Duration::from_millis(500);
 const TIMES: u32 = 50;
 const GATHERED: usize = 1 << 22;
+/// Bytes that are held in memory.
+const HELD: usize = 1 << 18;
 
 /// Writes what a later process goes on with.
 #[derive(Debug)]
@@ -29,6 +31,8 @@ pub(in super::super) struct Keeping {
     /// Whether it did not work.
     given_up: bool,
     gathered: Vec<u8>,
+    /// Bytes since all that has landed was written.
+    unsettled: usize,
     /// The places of each measure that is a curve, as the first replicate has them.
     places: BTreeMap<usize, Vec<f64>>,
     /// When it is written next.
@@ -51,7 +55,18 @@ impl Keeping {
         let tables = tables.into_iter();
         let tables = tables.map(|(name, written)| KeptTable { name, written, groups: 0, rows: 0 }).collect();
         let (gathered, places) = (Vec::new(), BTreeMap::new());
-        Self { home, place, tables, file: None, landed: 0, given_up: false, gathered, places, next: None }
+        Self {
+            home,
+            place,
+            tables,
+            file: None,
+            landed: 0,
+            given_up: false,
+            gathered,
+            unsettled: 0,
+            places,
+            next: None,
+        }
     }
 
     pub(super) const fn landed(&self) -> u64 {
@@ -65,12 +80,18 @@ impl Keeping {
         if self.given_up {
             return;
         }
-        let (file, replicate) = (&mut self.gathered, trajectory.replicate as f64);
+        let replicate = trajectory.replicate as f64;
         for shape in trajectory.shapes.iter() {
             let Ok(shape) = shape else { return };
             let position = shape.position.iter().flat_map(|p| [p.x, p.y, p.z]);
-            append(file, Kind::Shape, [replicate, shape.time].into_iter().chain(position));
+            append(&mut self.gathered, Kind::Shape, [replicate, shape.time].into_iter().chain(position));
+            // A fibre whose shapes are there and nothing else does not count.
+            if self.gathered.len() > HELD && self.append().is_err() {
+                return self.forget();
+            }
         }
+        let before_it = self.gathered.len();
+        let file = &mut self.gathered;
         if !trajectory.laid.is_empty() {
             let laid = trajectory.laid.iter().flat_map(|p| [p.fed, p.time, p.md, p.cd]);
             append(file, Kind::LaidWithShapes, std::iter::once(replicate).chain(laid));
@@ -107,14 +128,18 @@ impl Keeping {
         }
         append(file, Kind::Landed, numbers);
         self.landed += 1;
-        if self.gathered.len() > GATHERED || self.next.is_none_or(|next| Instant::now() > next) {
+        self.unsettled += self.gathered.len() - before_it;
+        if self.unsettled > GATHERED || self.next.is_none_or(|next| Instant::now() > next) {
             self.settle(tables);
+        } else if self.gathered.len() > HELD && self.append().is_err() {
+            // A fibre whose rows are not there yet does not count.
+            self.forget();
         }
     }
 
     /// Writes all that has landed.
     pub(in super::super) fn settle(&mut self, tables: &Tables<'_>) {
-        if self.gathered.is_empty() {
+        if std::mem::take(&mut self.unsettled) == 0 {
             return;
         }
         for (number, (kept, table)) in self.tables.iter_mut().zip(tables.written()).enumerate() {
@@ -157,7 +182,8 @@ impl Keeping {
             }
         };
         file.write_all(&self.gathered)?;
-        self.gathered.clear();
+        // What it took is given back: rows of a group take more than what is gathered in between.
+        self.gathered = Vec::new();
         Ok(())
     }
 
