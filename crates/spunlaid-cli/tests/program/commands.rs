@@ -360,7 +360,11 @@ fn analytic_new_writes_a_web_from_the_numbers_of_a_line() {
     // Nothing is overwritten, and nothing is written beside what is there.
     std::fs::remove_file(desk.path("line.toml")).unwrap();
     let said = refusal(desk.spunlaid("new --web line.toml").args(LINE), 1);
-    assert_eq!(said, "error: line_air.csv: exists already and is not overwritten; name another file\n");
+    assert_eq!(
+        said,
+        "note: 2 has no unit and is taken as 2 dtex\nerror: line_air.csv: exists already and is not overwritten; name \
+         another file\n"
+    );
     assert!(!desk.path("line.toml").exists());
 }
 

@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 const PAUSE: Duration = Duration::from_millis(500);
 const TIMES: u32 = 50;
 const GATHERED: usize = 1 << 22;
-/// Bytes that are held in memory.
+/// Bytes of shapes that are held in memory.
 const HELD: usize = 1 << 18;
 
 /// Writes what a later process goes on with.
@@ -131,9 +131,6 @@ impl Keeping {
         self.unsettled += self.gathered.len() - before_it;
         if self.unsettled > GATHERED || self.next.is_none_or(|next| Instant::now() > next) {
             self.settle(tables);
-        } else if self.gathered.len() > HELD && self.append().is_err() {
-            // A fibre whose rows are not there yet does not count.
-            self.forget();
         }
     }
 
