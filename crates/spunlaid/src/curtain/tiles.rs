@@ -20,7 +20,7 @@ const SAME: f64 = 1e-9;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Tiles<'a> {
-    library: &'a Library,
+    source: &'a Library,
     places: Vec<Place>,
     /// Of each filament: levels of the library with their weights.
     levels: Vec<Vec<(usize, f64)>>,
@@ -85,7 +85,7 @@ impl Library {
         });
         let sine = |i: usize| libm::sin(FRAC_PI_2 * (i as f64 + 0.5) / self.fade as f64) as f32;
         Ok(Tiles {
-            library: self,
+            source: self,
             places,
             levels,
             points,
@@ -106,10 +106,10 @@ impl Tiles<'_> {
             .for_each(|(bytes, word)| bytes.copy_from_slice(&word.to_le_bytes()));
         let mut random = ChaCha8Rng::from_seed(key);
         let mut uniform = || (random.next_u64() >> 11) as f64 / 9_007_199_254_740_992.0;
-        let starts = self.library.points - self.library.piece + 1;
+        let starts = self.source.points - self.source.piece + 1;
         Tile {
             start: (uniform() * starts as f64) as usize,
-            shift: uniform() * self.library.turn,
+            shift: uniform() * self.source.turn,
             is_mirrored: uniform() < 0.5,
         }
     }
@@ -120,10 +120,10 @@ impl Tiles<'_> {
         let turns = (z / pitch).floor();
         let column = turns.rem_euclid(count as f64) as usize;
         let at = z - turns * pitch;
-        if at >= self.library.fade_across {
+        if at >= self.source.fade_across {
             return vec![(column, at, 1.0)];
         }
-        let angle = FRAC_PI_2 * at / self.library.fade_across;
+        let angle = FRAC_PI_2 * at / self.source.fade_across;
         vec![((column + count - 1) % count, at + pitch, libm::cos(angle)), (column, at, libm::sin(angle))]
     }
 }
@@ -138,20 +138,20 @@ impl Curtain for Tiles<'_> {
     }
 
     fn spacing(&self) -> f64 {
-        self.library.spacing
+        self.source.spacing
     }
 
     fn belt_ratio(&self) -> f64 {
-        self.library.belt_ratio
+        self.source.belt_ratio
     }
 
     fn curve(&self, filament: usize, first: usize, mut into: [&mut [f32]; 2]) {
-        let (library, place, around) = (self.library, self.places[filament], &self.levels[filament]);
+        let (source, place, around) = (self.source, self.places[filament], &self.levels[filament]);
         let count = into[0].len();
-        for (into, mean) in into.iter_mut().zip(library.levels.mean(around)) {
+        for (into, mean) in into.iter_mut().zip(source.levels.mean(around)) {
             into.fill(mean as f32);
         }
-        let (piece, fade) = (library.piece as i64, library.fade as i64);
+        let (piece, fade) = (source.piece as i64, source.fade as i64);
         let (step, first, end) = (piece - fade, first as i64, (first + count) as i64);
         let mut values = vec![0.0_f32; count];
         // The piece before the first one ends in its fade.
@@ -164,7 +164,7 @@ impl Curtain for Tiles<'_> {
             for (column, at, part) in self.columns(place.z) {
                 let tile = self.tile(row, column);
                 let z = if tile.is_mirrored { tile.shift - at } else { tile.shift + at };
-                let near = library.near(z, around);
+                let near = source.near(z, around);
                 for (direction, into) in into.iter_mut().enumerate() {
                     let part = if tile.is_mirrored && direction == 1 { -part } else { part } as f32;
                     let values = &mut values[..(to - from) as usize];
@@ -181,7 +181,7 @@ impl Curtain for Tiles<'_> {
     }
 
     fn reach(&self) -> [f64; 2] {
-        self.library.reach()
+        self.source.reach()
     }
 }
 
@@ -190,7 +190,7 @@ impl Tiles<'_> {
     ///
     /// * `first` – number of the first value in the piece
     fn fade(&self, values: &mut [f32], first: usize) {
-        let (piece, fade) = (self.library.piece, self.library.fade);
+        let (piece, fade) = (self.source.piece, self.source.fade);
         for (i, value) in values.iter_mut().enumerate() {
             let at = first + i;
             if at < fade {
