@@ -1,6 +1,7 @@
 //! The fibre: geometry, material, mesh and root.
 
 use crate::vec3::Vec3;
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 /// How the fibre's first node is held.
@@ -37,6 +38,18 @@ pub struct Place {
     pub y: f64,
     /// Distance from the first fibre along the cross direction [m].
     pub z: f64,
+}
+
+/// The filaments of each row across, at equal places in machine direction. Those in a slot, at places of their own, count as one.
+pub(crate) fn rows(places: &[Place]) -> Vec<Vec<usize>> {
+    let mut rows: BTreeMap<u64, Vec<usize>> = BTreeMap::new();
+    for (filament, place) in places.iter().enumerate() {
+        rows.entry(place.y.to_bits()).or_default().push(filament);
+    }
+    match rows.values().any(|row| row.len() == 1) {
+        true => vec![(0..places.len()).collect()],
+        false => rows.into_values().collect(),
+    }
 }
 
 /// A fibre of elements with equal rest length, in SI units.

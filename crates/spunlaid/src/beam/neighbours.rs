@@ -9,9 +9,8 @@
 
 use super::Beam;
 use super::pairs::Pairs;
-use crate::fibre::Place;
+use crate::fibre::{Place, rows};
 use crate::web::{Correlation, Edges, NeighbourCorrelation, SharedVariance, Sheet};
-use std::collections::BTreeMap;
 
 /// Farthest neighbours, in parts of the distance after which the air repeats itself at least, which is ten length scales.
 const FARTHEST: f64 = 0.5;
@@ -323,18 +322,6 @@ fn distances(places: &[Place], farthest: f64, sheet: &Sheet) -> Vec<Distance> {
         (!pairs.is_empty()).then_some(Distance { distance, pairs })
     });
     found.collect()
-}
-
-/// The filaments of each row across, at equal places in machine direction. Those in a slot, at places of their own, count as one.
-fn rows(places: &[Place]) -> Vec<Vec<usize>> {
-    let mut rows: BTreeMap<u64, Vec<usize>> = BTreeMap::new();
-    for (filament, place) in places.iter().enumerate() {
-        rows.entry(place.y.to_bits()).or_default().push(filament);
-    }
-    match rows.values().any(|row| row.len() == 1) {
-        true => vec![(0..places.len()).collect()],
-        false => rows.into_values().collect(),
-    }
 }
 
 /// Which of some places in order is nearest to a place, and how far beyond it that one is.

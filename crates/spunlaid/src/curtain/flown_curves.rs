@@ -2,7 +2,7 @@
 
 use super::Curtain;
 use crate::error::Fault;
-use crate::fibre::Place;
+use crate::fibre::{Place, rows};
 
 /// Curves that some filaments of a curtain have laid in one air.
 #[derive(Clone, Debug)]
@@ -135,14 +135,19 @@ impl FlownCurves {
         y().fold(f64::NEG_INFINITY, f64::max) - y().fold(f64::INFINITY, f64::min)
     }
 
-    /// Every second filament: what the others would have been without these is told by a flight itself.
+    /// Every second filament of each row: what the others would have been without these is told by a flight itself.
     ///
     /// # Errors
     /// With one filament only.
     pub fn every_second(&self) -> Result<Self, Fault> {
-        let places = self.places.iter().copied().step_by(2).collect();
-        let curves =
-            if self.places.len() > 1 { self.curves.iter().step_by(2).cloned().collect() } else { Vec::new() };
+        let second = |row: Vec<usize>| row.into_iter().step_by(2);
+        let mut kept: Vec<usize> = match self.places.len() {
+            0 | 1 => Vec::new(),
+            _ => rows(&self.places).into_iter().flat_map(second).collect(),
+        };
+        kept.sort_unstable();
+        let places = kept.iter().map(|filament| self.places[*filament]).collect();
+        let curves = kept.iter().map(|filament| self.curves[*filament].clone()).collect();
         Self::of_components(places, self.turn, (self.spacing, self.belt_ratio), curves)
     }
 }
@@ -179,5 +184,24 @@ impl Curtain for FlownCurves {
             }
         }
         reach
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    /// Two rows beside each other keep every second filament each, and not one row of the two.
+    #[test]
+    fn every_second_filament_is_left_of_each_row() {
+        let place = |i: usize| Place { y: if i.is_multiple_of(2) { -5e-3 } else { 5e-3 }, z: (i / 2) as f64 };
+        let places: Vec<Place> = (0..8).map(place).collect();
+        let curves: Vec<Vec<[f64; 2]>> = (0..8).map(|i| vec![[f64::from(i), 0.0]; 2]).collect();
+        let all = FlownCurves::new(places, Some(4.0), (1.0, 0.1), &curves).unwrap();
+        let few = all.every_second().unwrap();
+        let left: Vec<f32> = (0..few.places().len()).map(|filament| few.deviations(filament, 0)[0]).collect();
+        assert_eq!(left, [0.0, 1.0, 4.0, 5.0]);
+        assert!(few.places().iter().zip([0, 1, 4, 5]).all(|(found, number)| *found == place(number)));
     }
 }

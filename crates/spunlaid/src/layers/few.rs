@@ -3,9 +3,9 @@
 use super::{Flown, LaydownSource, Method, WebSpec};
 use crate::beam::{Beam, BeamFindings};
 use crate::case::Case;
-use crate::curtain::{Belt, Curtain, FlownCurves, lay};
+use crate::curtain::{Belt, FlownCurves, lay};
 use crate::error::Error;
-use crate::fibre::Place;
+use crate::fibre::{Place, rows};
 use crate::flight::LaidPoint;
 use crate::web::{
     Arrangement, Edges, FEWEST_OF_FEW, FewFilaments, Filaments, LayerFew, Map, Row, Sheet, Window, inlets,
@@ -98,7 +98,7 @@ impl WebSpec {
         let places = places_on(&sheet, &filaments);
         let rows = match arrangement {
             Arrangement::Slot | Arrangement::AtRandom => vec![(0..places.len()).collect()],
-            Arrangement::Rows => in_rows(&places),
+            Arrangement::Rows => rows(&places),
         };
         Some(FewFlight {
             sheet,
@@ -157,38 +157,36 @@ impl FewPlan {
         curves: &FlownCurves,
         by: (usize, &AtomicBool),
     ) -> Result<LayerFew, Error> {
-        let filled = self.filled(sheet, curves, (flown.back, beam.element_mass()), by)?;
+        let filled = self.filled((sheet, flown.back), beam, curves, by)?;
         self.filaments(sheet, beam, flown).tell(number, filled.as_ref(), by.0)
     }
 
     /// Maps of rows in which the filaments between the flown ones have been filled in, from all of them and from every second one; None of other filaments.
     ///
     /// * `back` – where the sheet begins on the belt [m]
-    /// * `element` – mass of an element [kg]
     ///
     /// # Errors
     /// If a cell would hold more fibre than can be counted, or if it is stopped.
     fn filled(
         &self,
-        sheet: &Sheet,
+        (sheet, back): (&Sheet, f64),
+        beam: &Beam<'_>,
         curves: &FlownCurves,
-        (back, element): (f64, f64),
         by: (usize, &AtomicBool),
     ) -> Result<Option<[Map; 2]>, Error> {
         if self.arrangement != Arrangement::Rows {
             return Ok(None);
         }
-        let rows = self.rows.iter().filter_map(|row| Some((row.len(), *row.first()?)));
-        let row = |(count, first): (usize, usize)| {
-            let (y, count) = (curves.places()[first.min(curves.places().len() - 1)].y, FINER * count);
+        let row = |row: &Vec<usize>| {
+            let (y, count) = (row.first().map_or(0.0, |first| beam.places[*first].y), FINER * row.len());
             let pitch = sheet.width / count as f64;
             (0..count).map(move |i| Place { y, z: (i as f64 + 0.5) * pitch })
         };
-        let places: Vec<Place> = rows.flat_map(row).collect();
+        let places: Vec<Place> = self.rows.iter().flat_map(row).collect();
         let map = |curves: &FlownCurves| {
             let filled = curves.fill(places.clone(), by.0);
             let belt = Belt { sheet, window: Window { corner: [0.0; 2], sides: [0.0; 2] }, back };
-            lay(&filled, belt, element, by).map(|(laid, _)| laid.map)
+            lay(&filled, belt, beam.element_mass(), by).map(|(laid, _)| laid.map)
         };
         Ok(Some([map(curves)?, map(&curves.every_second()?)?]))
     }
@@ -210,16 +208,4 @@ impl FewPlan {
 fn even_row(sheet: &Sheet, count: u64, md: f64) -> Row {
     let pitch = sheet.width / count as f64;
     Row { offset: 0.5 * pitch, pitch, filaments: count, md, is_even: true }
-}
-
-/// The filaments at each place in machine direction.
-fn in_rows(places: &[Place]) -> Vec<Vec<usize>> {
-    let mut rows: Vec<(f64, Vec<usize>)> = Vec::new();
-    for (number, place) in places.iter().enumerate() {
-        match rows.iter_mut().find(|(y, _)| *y == place.y) {
-            Some((_, row)) => row.push(number),
-            None => rows.push((place.y, vec![number])),
-        }
-    }
-    rows.into_iter().map(|(_, row)| row).collect()
 }
