@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::fibre::Place;
 use crate::flight::LaidPoint;
 use crate::line::Line;
-use crate::web::{Canvas, Edges, Sheet, Strand, Window, floor};
+use crate::web::{Canvas, Sheet, Strands, Window, WindowOnSheet};
 
 /// How far what has been laid reaches along the belt.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,9 +43,7 @@ pub(super) struct Stretch {
     /// Length of fibre that is fed in the start [m].
     start: f64,
     length: f64,
-    width: f64,
-    edges: Edges,
-    window: Window,
+    window: WindowOnSheet,
     /// Where the sheet begins, at its back [m]; None while filaments lay the fibre of their start.
     back: Option<f64>,
 }
@@ -55,8 +53,8 @@ impl Stretch {
     ///
     /// * `start` – length of fibre that is fed in the start [m]
     pub(super) fn before(line: &Line, start: f64, window: Window, sheet: &Sheet) -> Self {
-        let Sheet { width, length, edges, .. } = *sheet;
-        Self { belt_ratio: line.belt_ratio(), start, length, width, edges, window, back: None }
+        let window = WindowOnSheet::new(window, sheet);
+        Self { belt_ratio: line.belt_ratio(), start, length: sheet.length, window, back: None }
     }
 
     /// Finds the place of the sheet as soon as all filaments have laid the fibre of their start.
@@ -80,17 +78,6 @@ impl Stretch {
     fn on_sheet(&self, place: Place, point: &LaidPoint) -> Option<[f64; 2]> {
         Some([place.z + point.cd, place.y + point.md - self.back?])
     }
-
-    /// A place on the sheet as seen from the corner of the window.
-    fn in_window(&self, [cd, md]: [f64; 2]) -> [f64; 2] {
-        let Window { corner, sides } = self.window;
-        let (across, middle) = (cd - corner[0], 0.5 * sides[0]);
-        let turns = match self.edges {
-            Edges::Periodic => floor((across - middle) / self.width + 0.5) as f64,
-            Edges::Cut => 0.0,
-        };
-        [across - turns * self.width, md - corner[1]]
-    }
 }
 
 /// A filament: its place, and what of it has not been drawn.
@@ -106,9 +93,8 @@ pub(super) struct Filament {
     pub(super) deviations: Vec<[f64; 2]>,
     /// All points, if they are kept.
     pub(super) kept: Option<Vec<LaidPoint>>,
-    /// Its parts in the window; the last one goes on if `enters`.
-    pub(super) strands: Vec<Strand>,
-    enters: bool,
+    /// Its parts in the window.
+    pub(super) strands: Strands,
     /// Why it is lost.
     pub(super) lost: Option<Error>,
 }
@@ -116,8 +102,8 @@ pub(super) struct Filament {
 impl Filament {
     pub(super) fn new(number: usize, place: Place, kept: bool) -> Self {
         let kept = kept.then(Vec::new);
-        let (waiting, deviations, strands) = (Vec::new(), Vec::new(), Vec::new());
-        Self { number, place, waiting, deviations, kept, strands, enters: false, lost: None }
+        let (waiting, deviations) = (Vec::new(), Vec::new());
+        Self { number, place, waiting, deviations, kept, strands: Strands::default(), lost: None }
     }
 
     /// Takes points that it has laid, and draws its pieces on the sheet as soon as it is known where that is.
@@ -148,7 +134,7 @@ impl Filament {
                     if let Some((canvas, quanta)) = on {
                         canvas.draw(from, to, quanta);
                     }
-                    self.show(from, to, stretch);
+                    self.strands.keep(self.number, [from, to], &stretch.window);
                 }
             }
         } else {
@@ -160,21 +146,5 @@ impl Filament {
         if stretch.back.is_some() {
             self.waiting.drain(..self.waiting.len().saturating_sub(1));
         }
-    }
-
-    /// Keeps a piece that is in the window.
-    fn show(&mut self, from: [f64; 2], to: [f64; 2], stretch: &Stretch) {
-        let start = stretch.in_window(from);
-        let end = [start[0] + to[0] - from[0], start[1] + to[1] - from[1]];
-        let shown = stretch.window.holds(start) || stretch.window.holds(end);
-        if shown {
-            match self.strands.last_mut().filter(|_| self.enters) {
-                Some(strand) => strand.points.push(end),
-                None => {
-                    self.strands.push(Strand { layer: 0, filament: self.number, points: vec![start, end] })
-                }
-            }
-        }
-        self.enters = shown;
     }
 }

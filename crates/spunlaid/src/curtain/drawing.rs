@@ -3,7 +3,7 @@
 use super::Curtain;
 use crate::error::{Error, Fault};
 use crate::threads::try_each;
-use crate::web::{Canvas, CanvasPart, Edges, LaidWeb, Sheet, Strand, Window, floor};
+use crate::web::{Canvas, CanvasPart, LaidWeb, Sheet, Strand, Strands, Window, WindowOnSheet};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -46,23 +46,6 @@ impl<'a> Belt<'a> {
         }
         Ok(Self { sheet, window, back: back_of_start - sheet.length })
     }
-
-    /// Whether a place lies on the stretch of the window, or less than a cell before or behind it.
-    fn is_beside_window(&self, [_, md]: [f64; 2]) -> bool {
-        let from_corner = md - self.window.corner[1];
-        (-self.sheet.cell..=self.window.sides[1] + self.sheet.cell).contains(&from_corner)
-    }
-
-    /// A place on the sheet as seen from the corner of the window.
-    fn in_window(&self, [cd, md]: [f64; 2]) -> [f64; 2] {
-        let Window { corner, sides } = self.window;
-        let (across, middle) = (cd - corner[0], 0.5 * sides[0]);
-        let turns = match self.sheet.edges {
-            Edges::Periodic => floor((across - middle) / self.sheet.width + 0.5) as f64,
-            Edges::Cut => 0.0,
-        };
-        [across - turns * self.sheet.width, md - corner[1]]
-    }
 }
 
 /// Draws all filaments of a curtain; the parts of them in the window are returned.
@@ -90,9 +73,7 @@ pub(crate) fn draw(
 /// A filament while it is drawn.
 #[derive(Default)]
 struct Pen {
-    strands: Vec<Strand>,
-    /// Whether the last of them goes on.
-    enters: bool,
+    strands: Strands,
     last: Option<[f64; 2]>,
 }
 
@@ -105,6 +86,7 @@ fn draw_neighbours(
 ) -> Result<Vec<Strand>, Error> {
     let advance = curtain.belt_ratio() * curtain.spacing();
     let mut pens: Vec<Pen> = filaments.clone().map(|_| Pen::default()).collect();
+    let window = WindowOnSheet::new(belt.window, belt.sheet);
     let mut part = CanvasPart::new(canvas);
     let (mut values, mut points) = ([[0.0; BLOCK]; 2], Vec::new());
     for first in (0..curtain.points()).step_by(BLOCK) {
@@ -132,33 +114,13 @@ fn draw_neighbours(
             for to in points {
                 if let Some(from) = pen.last.replace(*to) {
                     part.draw(from, *to, quanta);
-                    pen.show(filament, [from, *to], belt);
+                    pen.strands.keep(filament, [from, *to], &window);
                 }
             }
         }
     }
     part.pass_on();
-    Ok(pens.into_iter().flat_map(|pen| pen.strands).collect())
-}
-
-impl Pen {
-    /// Keeps a piece that is in the window.
-    fn show(&mut self, filament: usize, [from, to]: [[f64; 2]; 2], belt: Belt<'_>) {
-        // Most pieces are far before or behind it.
-        if !belt.is_beside_window(from) && !belt.is_beside_window(to) {
-            self.enters = false;
-            return;
-        }
-        let start = belt.in_window(from);
-        let end = [start[0] + to[0] - from[0], start[1] + to[1] - from[1]];
-        let shown = belt.window.holds(start) || belt.window.holds(end);
-        match self.strands.last_mut().filter(|_| shown && self.enters) {
-            Some(strand) => strand.points.push(end),
-            None if shown => self.strands.push(Strand { layer: 0, filament, points: vec![start, end] }),
-            None => {}
-        }
-        self.enters = shown;
-    }
+    Ok(pens.into_iter().flat_map(|pen| pen.strands.into_parts()).collect())
 }
 
 /// Lays all filaments of a curtain on a sheet; the parts of them in the window are returned too.

@@ -1,5 +1,6 @@
 //! A map on which many threads draw at once.
 
+use super::floor::floor;
 use super::laid_web::{HIGHEST, LaidWeb, too_full};
 use super::map::Map;
 use super::{Edges, Sheet};
@@ -169,13 +170,6 @@ fn cross(side: f64, ends: [[f64; 2]; 2], quanta: u32, mut add: impl FnMut([i64; 
         cell[way] += step[way];
         next[way] += apart[way];
     }
-}
-
-/// The largest whole number that is not above, without a call.
-#[inline(always)]
-pub(crate) fn floor(at: f64) -> i64 {
-    let whole = at as i64;
-    whole - i64::from(whole as f64 > at)
 }
 
 /// A part of a canvas on which one thread draws for a while, near to itself and without waiting for others. What it has drawn goes to the canvas when

@@ -13,6 +13,7 @@ mod expected;
 mod few;
 mod few_findings;
 mod findings;
+mod floor;
 mod laid_web;
 mod lay;
 mod laying;
@@ -32,7 +33,7 @@ mod waves;
 mod whole_error;
 mod window;
 
-pub(crate) use canvas::{Canvas, CanvasPart, floor};
+pub(crate) use canvas::{Canvas, CanvasPart};
 pub use clouds::{Clouds, autocorrelation};
 pub use curves::Curves;
 pub(crate) use curves::OneAir;
@@ -53,6 +54,7 @@ pub use strands::strands;
 pub use waves::{Places, Streaks};
 pub use whole_error::WholeError;
 pub use window::{Strand, Window};
+pub(crate) use window::{Strands, WindowOnSheet};
 
 use crate::surrogate::Surrogate;
 use std::sync::Arc;

@@ -1,5 +1,8 @@
 //! A window of the sheet, and the parts of fibres in it.
 
+use super::floor::floor;
+use super::{Edges, Sheet};
+
 /// A rectangle of the sheet, in cross and in machine direction [m].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
@@ -34,5 +37,71 @@ impl Window {
     /// The larger distance of two points either way, over the window's sides.
     pub(super) fn distance(&self, a: [f64; 2], b: [f64; 2]) -> f64 {
         ((a[0] - b[0]) / self.sides[0]).abs().max(((a[1] - b[1]) / self.sides[1]).abs())
+    }
+}
+
+/// A window as it is met on a sheet.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WindowOnSheet {
+    window: Window,
+    /// Width after which the sheet goes on at its edges [m].
+    turn: Option<f64>,
+    /// How far before and behind the window a piece is looked at [m].
+    margin: f64,
+}
+
+impl WindowOnSheet {
+    pub(crate) fn new(window: Window, sheet: &Sheet) -> Self {
+        let turn = (sheet.edges == Edges::Periodic).then_some(sheet.width);
+        Self { window, turn, margin: sheet.cell }
+    }
+
+    /// A place on the sheet as seen from the corner of the window.
+    fn seen(&self, [cd, md]: [f64; 2]) -> [f64; 2] {
+        let Window { corner, sides } = self.window;
+        let (across, middle) = (cd - corner[0], 0.5 * sides[0]);
+        let turned = |turn: f64| turn * floor((across - middle) / turn + 0.5) as f64;
+        [across - self.turn.map_or(0.0, turned), md - corner[1]]
+    }
+
+    /// Whether a place lies on the stretch of the window, or a little before or behind it.
+    fn is_beside(&self, [_, md]: [f64; 2]) -> bool {
+        let from_corner = md - self.window.corner[1];
+        (-self.margin..=self.window.sides[1] + self.margin).contains(&from_corner)
+    }
+}
+
+/// The parts of a filament in a window, while it is laid piece by piece.
+#[derive(Debug, Default)]
+pub(crate) struct Strands {
+    strands: Vec<Strand>,
+    /// Whether the last of them goes on.
+    enters: bool,
+}
+
+impl Strands {
+    /// Keeps a piece of a filament that is in the window.
+    ///
+    /// * `from`, `to` – its ends on the sheet [m]
+    pub(crate) fn keep(&mut self, filament: usize, [from, to]: [[f64; 2]; 2], on: &WindowOnSheet) {
+        // Most pieces are far before or behind it.
+        if !on.is_beside(from) && !on.is_beside(to) {
+            self.enters = false;
+            return;
+        }
+        let start = on.seen(from);
+        let end = [start[0] + to[0] - from[0], start[1] + to[1] - from[1]];
+        let shown = on.window.holds(start) || on.window.holds(end);
+        match self.strands.last_mut().filter(|_| shown && self.enters) {
+            Some(strand) => strand.points.push(end),
+            None if shown => self.strands.push(Strand { layer: 0, filament, points: vec![start, end] }),
+            None => {}
+        }
+        self.enters = shown;
+    }
+
+    /// The parts, in the order of the filament.
+    pub(crate) fn into_parts(self) -> Vec<Strand> {
+        self.strands
     }
 }
