@@ -85,9 +85,8 @@ pub(super) fn memory(lattice: &Lattice, period: usize, looked_at: f64) -> f64 {
 /// What more a tape takes while a thread joins a pair of windows to it, line by line [bytes].
 pub(super) fn memory_while_joining(lattice: &Lattice, period: usize) -> f64 {
     let windows = Windows::new(period);
-    // Of the chunk that is joined, and of the lines of a brick that are put together.
-    let joined = 2 * (REPEATED + windows.total() + windows.fade) * size_of::<[[f16; ABREAST]; 3]>();
-    memory_of_rest(lattice, period) + (joined + 12 * period * size_of::<Numbers>()) as f64
+    let joined = (REPEATED + windows.total() + windows.fade) * size_of::<[[f16; ABREAST]; 3]>();
+    memory_of_rest(lattice, period) + (joined + 4 * period * size_of::<Numbers>()) as f64
 }
 
 /// Memory of what a pair of windows leaves to the next, in half precision [bytes].

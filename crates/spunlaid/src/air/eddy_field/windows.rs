@@ -91,7 +91,11 @@ impl Windows {
         let mut blocks: Vec<Box<[f16]>> = (0..BLOCKS)
             .map(|number| vec![f16::ZERO; line_size(self.block(number).len() + REPEATED, points)].into())
             .collect();
-        let mut left = Rest::default();
+        let chunks = points.div_ceil(ABREAST);
+        let mut left = Rest {
+            fading: Vec::with_capacity(chunks * self.fade),
+            last: Vec::with_capacity(chunks * REPEATED),
+        };
         let mut samples = vec![[f16::ZERO; 3 * ABREAST]; REPEATED + self.total()];
         let mut fading = vec![[[f16::ZERO; ABREAST]; 3]; self.fade];
         for (number, first) in (0..points).step_by(ABREAST).enumerate() {
