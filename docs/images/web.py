@@ -1,10 +1,10 @@
 """Draws web.png: two webs of the same size beside each other, on one scale of grey.
 
-    spunlaid web cases/web_shared.toml --set web.flown=all
+    spunlaid web cases/web_shared.toml
     spunlaid web cases/web_shared.toml --set web.method=dynamics --out results/web_independent
     python docs/images/web.py results/web_shared/map.npy results/web_independent/map.npy docs/images/web.png
 
-The picture of README is from a second web whose case has run.duration = "0.3 s", which is flown sooner. line_web.png is made
+line_web.png is made
 likewise from the webs of docs/line.md, in one air and with web.method=dynamics, with CELLS = 4, and line_cv.png is the figure web_cv.png of the one in one air.
 """
 
