@@ -230,7 +230,7 @@ fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
         // The air of each web is another one.
         assert!(patch["cv_change"].as_f64().unwrap() != 0.0, "{patch}");
     }
-    assert_eq!(summary["layers"][0]["lateral_cutoff"], 15.0, "{summary}");
+    assert_eq!(summary["layers"][0]["lateral_cutoff"], 10.0, "{summary}");
     assert_eq!(summary["web"]["lost_filaments"], 0);
     for patch in summary["web"]["patches"].as_array().unwrap() {
         let number = |name: &str| patch[name].as_f64().unwrap();

@@ -17,7 +17,7 @@ pub enum Lateral {
 
 impl Lateral {
     /// `k_max L_T` of a case that leaves it out [-].
-    pub const USUAL_CUTOFF: f64 = 15.0;
+    pub const USUAL_CUTOFF: f64 = 10.0;
     /// Every kind; the second one has the usual cut-off.
     pub const ALL: [Self; 2] = [Self::Uniform, Self::VonKarman { cutoff: Self::USUAL_CUTOFF }];
 

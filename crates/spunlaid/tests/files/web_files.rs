@@ -153,7 +153,7 @@ fn a_slot_rows_at_places_along_and_one_air_are_read_and_written() {
     let WebFile { mut spec, notes, .. } = file;
     assert_eq!(spec.layers[0].filaments, Filaments::Slot { per_metre: 500.0, depth: 20e-3 });
     assert_eq!((spec.method, spec.memory_limit), (Method::SharedAir, 20e9));
-    assert_eq!(spec.lateral_cutoff(0), Some(15.0));
+    assert_eq!(spec.lateral_cutoff(0), Some(10.0));
     // The case leaves its turbulence the same across the flow, which is told.
     assert!(notes.iter().any(|note| note.to_string().contains("von-karman")), "{notes:?}");
     // A study varies the number of filaments and keeps the slot.

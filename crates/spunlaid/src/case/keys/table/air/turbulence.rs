@@ -132,7 +132,7 @@ pub(super) const KEYS: &[Key] = &[
             }
         },
     })
-    .value("15")
+    .value("10")
     .usual(5.0, 60.0)
     .meaning(
         "Largest lateral wave number of the turbulence times its length scale. A larger one resolves smaller eddies across the \
