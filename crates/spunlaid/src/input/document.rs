@@ -52,9 +52,7 @@ pub(super) fn read<'a, T>(
     let (name, entries) = (name.to_owned(), BTreeMap::new());
     let mut document = Document { keys, name, source, version: None, entries, key_values, layered };
     document.take_table("", "", root, None);
-    for Overrides { values, word } in overrides {
-        values.iter().for_each(|(key, value)| document.take_override(word, key.trim(), value));
-    }
+    overrides.iter().for_each(|set| document.take_overrides(set));
     // A newer format may mean other things, so this check comes first.
     document.version.take().map_or(Ok(()), |entry| check_version(&entry))?;
     for (full, (key, entry)) in std::mem::take(&mut document.entries) {
@@ -253,11 +251,8 @@ impl<'a, T> Document<'a, T> {
 
     fn read_entry(&mut self, full: String, key: &'static Key<T>, entry: Entry<'_>) {
         let Entry { place, shown, value, .. } = entry;
-        // A unit alone is one of it.
         let value = match value {
-            DeValue::String(unit)
-                if key.name == "air.field_unit" && unit.chars().all(char::is_alphabetic) =>
-            {
+            DeValue::String(unit) if key.relations.takes_unit && unit.chars().all(char::is_alphabetic) => {
                 DeValue::String(format!("1 {unit}").into())
             }
             value => value,

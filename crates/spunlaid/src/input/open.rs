@@ -2,10 +2,9 @@
 
 use super::data::DataFiles;
 use super::written_values::{WrittenValue, WrittenValues, sorted};
-use crate::air::{Air, EddyModel, FileContent, Flow, Measured, PlacedField, RecordLayout, SpectrumShape};
-use crate::case::keys::{self, Content, FileKind, Key, Kind, Omission, TAYLOR, Value};
+use crate::air::{FileContent, Flow, Measured, RecordLayout};
+use crate::case::keys::{self, Content, FileKind, Key, Kind, Omission, Value};
 use crate::case::{Case, Note, Remark};
-use crate::chain::schemes::Scheme;
 use crate::error::{Error, Fault, FileError};
 use crate::field::FieldLayout;
 use crate::line::Line;
@@ -39,89 +38,31 @@ pub(super) fn open_part(
     is_wanted: impl Fn(&Key) -> bool,
 ) -> Result<OpenCase, Error> {
     let (mut case, mut notes) = (Case::unset(), Vec::new());
-    let fed = ["feed", "belt", "spinline"].iter().any(|table| key_values.has_table(table));
     if key_values.has_table("spinline") {
         case.spinline = Some(Box::new(Spinline::UNKNOWN));
     }
-    if fed {
+    if OF_FED.iter().any(|table| key_values.has_table(table)) {
         case.line = Some(Line::UNKNOWN);
     }
-    let twice = ["air.profile", "air.field"].map(|key| key_values.get(key).is_some()) == [true; 2];
-    // Files come first, because they may give the values of other keys. Names come next, because a law or a model
-    // decides which numbers have a meaning.
-    let rank = |key: &&Key| match key.kind {
-        Kind::File(_) => 0_usize,
-        Kind::Choice(_) => 1,
-        // It may follow from velocity and length scale.
-        _ if key.name == "air.cutoff_frequency" => 3,
-        _ => 2,
-    };
     let mut in_order: Vec<&Key> = keys::all().iter().filter(|key| is_wanted(key)).collect();
-    sort_by_key(&mut in_order, rank);
+    sort_by_key(&mut in_order, |key| rank(key));
     for key in in_order {
         let Some(WrittenValue { place, shown, value }) = key_values.get(key.name).cloned() else {
-            match key.omission {
-                // A key without a meaning for this case refuses its default, which is then not needed.
-                Omission::Value(text) if !key.counted => {
-                    drop(key.set(&mut case, if fed { default_if_fed(key.name, text) } else { text }));
-                }
-                Omission::Follows(_) if key.is_derived(&case) => {}
-                Omission::Follows(_) if fed && REQUIRED_IF_FED.iter().any(|(name, _)| *name == key.name) => {
-                    let (_, line) =
-                        REQUIRED_IF_FED.iter().find(|(name, _)| *name == key.name).unwrap_or(&("", ""));
-                    let table = key.table();
-                    let other = if table == "feed" {
-                        "belt"
-                    } else if key_values.has_table("feed") {
-                        "feed"
-                    } else {
-                        "spinline"
-                    };
-                    let fault = if key_values.has_table(table) {
-                        Fault::missing(table, line)
-                    } else {
-                        Fault::new(
-                            format!("is missing, and a case with [{other}] needs it"),
-                            format!("add {line} to [{table}], or leave out [{other}]"),
-                        )
-                    };
-                    key_values.reject(key.name, fault);
-                }
-                Omission::Required(_) if key.is_derived(&case) => {}
-                Omission::Required(_)
-                    if !(infer_number(&mut case.air, key.name)
-                        || key_values.is_excused(key.name)
-                        || key.name == "fibre.diameter"
-                            && key_values.get("fibre.linear_density").is_some()) =>
-                {
-                    let (table, line) = (key.table(), key.example());
-                    let why = match &case.air.flow {
-                        Flow::Field(placed) if key.table() == "air" => placed.field.why_no_turbulence(),
-                        _ => None,
-                    };
-                    let fault = match why {
-                        Some(Fault { message, remedy, .. }) => Fault::new(
-                            format!("is missing, and the field does not contain it: it {message}"),
-                            format!("{remedy}, or add {line} to [{table}]"),
-                        ),
-                        None => Fault::missing(table, &line),
-                    };
-                    key_values.reject(key.name, fault);
-                }
-                _ => {}
+            if let Err(fault) = leave_out(key, &mut case, &key_values)
+                && !key_values.is_excused(key.name)
+            {
+                key_values.reject(key.name, fault);
             }
             continue;
         };
+        let beside = key.beside_alternative(|other| key_values.get(other).is_some());
         let set = match (value, key.kind) {
-            (None, Kind::File(kind)) => {
-                key_values.excuse(missed_with(kind));
+            (None, Kind::File(_)) => {
+                key_values.excuse(key.relations.gives);
                 continue;
             }
             (None, _) => continue,
-            _ if twice && key.name == "air.profile" => {
-                let (other, remedy) = ("air.field", "the air is one or the other; leave one out");
-                Err(Fault::excludes(other, remedy))
-            }
+            (Some(_), _) if beside.is_some() => beside.map_or(Ok(()), Err),
             (Some(Value::Paths(paths)), Kind::File(kind)) => match load(files, kind, &paths, &key_values) {
                 Ok((content, remarks)) => {
                     notes.extend(remarks.into_iter().map(|what| Note {
@@ -133,28 +74,19 @@ pub(super) fn open_part(
                     key.apply(&mut case, &Value::Content(content))
                 }
                 Err(error) => {
-                    key_values.excuse(missed_with(kind));
+                    key_values.excuse(key.relations.gives);
                     key_values.reject(key.name, error.into());
                     continue;
                 }
             },
             (Some(_), _) if key.counted => Ok(()),
-            (Some(Value::Text(word)), Kind::Quantity(..)) if word == TAYLOR => by_taylor(&mut case.air),
-            (Some(value), _) => match rival(key.name, |other| key_values.get(other).is_some()) {
-                Some((other, remedy)) => Err(Fault::excludes(other, remedy)),
-                None => key.apply(&mut case, &value),
-            },
+            (Some(value), _) => key.apply(&mut case, &value),
         };
         if let Err(fault) = set
             && !key_values.is_excused(key.name)
         {
             key_values.reject(key.name, fault);
         }
-    }
-    if let Flow::Field(placed) = &mut case.air.flow
-        && key_values.get("air.field_root").is_none()
-    {
-        placed.root = PlacedField::middle_of_inlet(&placed.field, placed.axis, placed.unit);
     }
     if key_values.problems.is_empty() {
         Ok(OpenCase { key_values, case, notes })
@@ -163,57 +95,54 @@ pub(super) fn open_part(
     }
 }
 
-/// Keys that a fed fibre needs, with a line for each.
-const REQUIRED_IF_FED: [(&str, &str); 3] = [
-    ("feed.speed", "speed = \"50 m/s\""),
-    ("belt.distance", "distance = \"0.5 m\""),
-    ("belt.speed", "speed = \"3 m/s\""),
-];
+/// The tables of which each makes a fibre one that is fed.
+const OF_FED: [&str; 3] = ["feed", "belt", "spinline"];
 
-/// The default of a key for a fed fibre, which may differ from that of others.
-fn default_if_fed(key: &str, text: &'static str) -> &'static str {
-    match key {
-        "run.scheme" => Scheme::ImplicitTension.name(),
-        "air.eddies" => EddyModel::Convected { decay_time: f64::INFINITY }.name(),
-        _ => text,
-    }
-}
-
-/// A written key that says the same as this one in other words, and the way out.
-pub(super) fn rival(key: &str, is_written: impl Fn(&str) -> bool) -> Option<(&'static str, &'static str)> {
-    let (others, remedy): (&[&'static str], _) = match key {
-        "spinline.material.viscosity" => {
-            (&["spinline.melt_flow_rate"], "the melt flow rate gives the viscosity; write one of the two")
-        }
-        "air.field_omega" => (&["air.field_epsilon"], "either gives ε; write one of the two"),
-        "fibre.linear_density" => (&["fibre.diameter"], "either gives the other; write one of the two"),
-        "air.temperature" => (
-            &["air.density", "air.kinematic_viscosity"],
-            "the temperature gives density and viscosity; leave it out, or leave out both of these",
-        ),
-        _ => return None,
+/// Files come first, because they may give the values of other keys. Names come next, because a law or a model decides which
+/// numbers have a meaning.
+fn rank(key: &Key) -> usize {
+    let own = match key.kind {
+        Kind::File(_) => 0,
+        Kind::Choice(_) => 1,
+        _ => 2,
     };
-    Some((others.iter().find(|other| is_written(other))?, remedy))
+    let before = key.relations.read_after.iter().filter_map(|name| keys::find(name));
+    before.map(|key| rank(key) + 1).fold(own, usize::max)
 }
 
-/// Sets the cut-off frequency by Taylor's hypothesis: eddies of length `L` that pass at velocity `U` make `U/(4 L)`.
-fn by_taylor(air: &mut Air) -> Result<(), Fault> {
-    if !air.is_uniform() || air.from_flow.length_scale {
-        let (needed, remedy) = ("air.velocity and air.length_scale", "write a frequency, or leave it out");
-        return Err(Fault::needs(needed, remedy));
+/// Sets what applies if a key is left out.
+///
+/// # Errors
+/// If the key is missing.
+fn leave_out(key: &Key, case: &mut Case, key_values: &WrittenValues) -> Result<(), Fault> {
+    if let Some(value) = key.default_in(case) {
+        if !key.counted {
+            // A key without a meaning for this case refuses its default, which is then not needed.
+            drop(key.set(case, value));
+        }
+        return Ok(());
     }
-    // NaN where either is missing, which has been reported.
-    air.cutoff_frequency = air.velocity.abs() / (4.0 * air.length_scale);
-    Ok(())
-}
-
-/// Keys that may be missing only because a file cannot be used.
-const fn missed_with(kind: FileKind) -> &'static str {
-    match kind {
-        FileKind::Spectrum => "air.cutoff_frequency",
-        FileKind::Profile | FileKind::Field | FileKind::Records => "air.",
-        FileKind::SpinlineAir | FileKind::Polymer => "spinline.",
+    let is_written = |other: &str| key_values.get(other).is_some();
+    if key.infer(case) || !key.is_needed(case) || keys::CASE.is_given(key.name, is_written) {
+        return Ok(());
     }
+    let (table, line) = (key.table(), key.example());
+    let why = match &case.air.flow {
+        Flow::Field(placed) if table == "air" => placed.field.why_no_turbulence(),
+        _ => None,
+    };
+    let of_fed = OF_FED.iter().find(|other| **other != table && key_values.has_table(other));
+    Err(match (why, of_fed) {
+        (Some(Fault { message, remedy, .. }), _) => Fault::new(
+            format!("is missing, and the field does not contain it: it {message}"),
+            format!("{remedy}, or add {line} to [{table}]"),
+        ),
+        (None, Some(other)) if OF_FED.contains(&table) && !key_values.has_table(table) => Fault::new(
+            format!("is missing, and a case with [{other}] needs it"),
+            format!("add {line} to [{table}], or leave out [{other}]"),
+        ),
+        _ => Fault::missing(table, &line),
+    })
 }
 
 /// What the case says of the files of its records.
@@ -273,47 +202,6 @@ fn load(
         }
     };
     Ok((content, Vec::new()))
-}
-
-/// Takes a number of the air that the case leaves out from the flow or a file, and says whether one of them gives it. A
-/// number from a file is set here; a number from the flow is set later, when the air is settled.
-fn infer_number(air: &mut Air, key: &str) -> bool {
-    let (tells, uniform) = (air.flow.numbers(), air.is_uniform());
-    let record = air.records.first().map(|record| record.says);
-    let highest = match &air.spectrum {
-        SpectrumShape::Measured(table) => Some(table.highest()),
-        _ => None,
-    };
-    let (from, mut of_velocity) = (&mut air.from_flow, false);
-    let (number, from_flow, tells, file) = match key {
-        "air.velocity" => {
-            (&mut air.velocity, &mut of_velocity, !uniform, record.and_then(|says| says.velocity))
-        }
-        "air.turbulence_intensity" => (
-            &mut air.turbulence_intensity,
-            &mut from.turbulence_intensity,
-            tells.turbulence_intensity,
-            record.and_then(|says| says.turbulence_intensity),
-        ),
-        "air.length_scale" => (
-            &mut air.length_scale,
-            &mut from.length_scale,
-            tells.length_scale,
-            record.and_then(|says| says.length_scale),
-        ),
-        "air.cutoff_frequency" => (
-            &mut air.cutoff_frequency,
-            &mut from.cutoff_frequency,
-            tells.cutoff_frequency,
-            highest.or(record.map(|says| says.cutoff_frequency)),
-        ),
-        _ => return false,
-    };
-    *from_flow = tells;
-    if !tells && let Some(file) = file {
-        *number = file;
-    }
-    tells || file.is_some()
 }
 
 impl OpenCase {

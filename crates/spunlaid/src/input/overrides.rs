@@ -2,9 +2,10 @@
 
 use super::document::Document;
 use super::entry::Entry;
+use super::Overrides;
 use super::source::fit;
 use crate::case::keys::TableList;
-use crate::error::{Fault, Place};
+use crate::error::Fault;
 
 /// The value of an override that removes a key, so that its default applies.
 pub(super) const AUTO: &str = "auto";
@@ -13,32 +14,49 @@ pub(super) const AUTO: &str = "auto";
 type Target<'k> = (String, &'static str, &'k str);
 
 impl<'a, T> Document<'a, T> {
-    /// Takes an override, which replaces the value in the file. The value `auto` removes it.
-    pub(super) fn take_override(&mut self, word: &str, key: &str, text: &'a str) {
-        let entry = Entry::from_override(word, text);
-        match self.target(key) {
-            Ok((before, table, name)) => {
-                let path = format!("{table}.{name}");
-                let is_known = self.keys.find(&path).is_some() || self.keys.list(&path).is_some();
-                if is_known && text.trim().trim_matches('"') == AUTO {
-                    self.remove(&format!("{before}{name}"));
-                } else {
-                    self.leave_out_alternative(&before, &path, &entry.place);
-                    self.take(&before, table, name, entry);
+    /// Takes what is set from one place. It replaces what stands in the file or was set before, also in other words. The value
+    /// `auto` removes a key.
+    pub(super) fn take_overrides(&mut self, Overrides { values, word }: &Overrides<'a>) {
+        let mut set = Vec::new();
+        for (key, text) in *values {
+            let (key, entry) = (key.trim(), Entry::from_override(word, text));
+            match self.target(key) {
+                Ok((before, table, name)) => {
+                    let path = format!("{table}.{name}");
+                    let is_known = self.keys.find(&path).is_some() || self.keys.list(&path).is_some();
+                    if is_known && text.trim().trim_matches('"') == AUTO {
+                        self.remove(&format!("{before}{name}"));
+                    } else {
+                        self.take(&before, table, name, entry);
+                        // What comes before the two names without the tables that both have.
+                        let layer = before.strip_suffix(&format!("{table}.")).unwrap_or(&before).to_owned();
+                        set.push((layer, path));
+                    }
                 }
+                Err(what) => self.key_values.problems.push(entry.problem(key, what)),
             }
-            Err(what) => self.key_values.problems.push(entry.problem(key, what)),
         }
+        self.leave_out_alternatives(&set);
     }
 
-    /// Leaves out the key whose number an override gives in other words, unless it is one of the same overrides.
-    fn leave_out_alternative(&mut self, before: &str, path: &str, place: &Place) {
-        let Some((other, of_all_layers)) = self.keys.alternative(path) else { return };
-        // What comes before the two names without the tables that both have.
-        let layer = before.strip_suffix(&path[..path.rfind('.').map_or(0, |dot| dot + 1)]).unwrap_or(before);
-        self.entries.retain(|full, (key, entry)| {
-            key.name != other || !(of_all_layers || full.starts_with(layer)) || entry.place == *place
-        });
+    /// Leaves out the keys whose values are set in other words, unless they are set too.
+    ///
+    /// * `set` – what comes before their names where these depend on a layer, and the names
+    fn leave_out_alternatives(&mut self, set: &[(String, String)]) {
+        for (layer, _) in set {
+            let here: Vec<&str> =
+                set.iter().filter(|(other, _)| other == layer).map(|(_, path)| &**path).collect();
+            for other in self.keys.replaced_by(&here) {
+                let of_all_layers = self.keys.find(other).is_some_and(|key| key.relations.of_all_layers);
+                let is_set = |full: &str| {
+                    set.iter().any(|(layer, path)| full.strip_prefix(&**layer) == Some(&**path))
+                };
+                let everywhere = self.entries.iter().filter(|(_, (key, _))| of_all_layers && key.name == other);
+                let mut left_out: Vec<String> = everywhere.map(|(full, _)| full.clone()).collect();
+                left_out.push(format!("{layer}{other}"));
+                left_out.iter().filter(|full| !is_set(full)).for_each(|full| self.remove(full));
+            }
+        }
     }
 
     /// Where a key stands.

@@ -2,7 +2,7 @@
 
 use super::keys::{WEB, WebKey};
 use super::{LayerSpec, WebSpec};
-use crate::case::keys::Value;
+use crate::case::keys::{CASE, Value};
 use crate::web::Filaments;
 
 /// The key of a full name, `layer.2.line.rows.1.pitch`.
@@ -13,13 +13,11 @@ pub fn web_key(full: &str) -> Option<&'static WebKey> {
     WEB.find(&name).or_else(|| WEB.find(in_layer()?)).or_else(|| WEB.find(in_named_layer()?))
 }
 
-/// Whether either of two keys gives the number of the other, by their full names.
-pub(crate) fn is_alternative(one: &str, other: &str) -> bool {
-    let [Some(key), Some(found)] = [one, other].map(web_key) else { return false };
-    let before = |full: &str, key: &WebKey| full.strip_suffix(key.name).map(ToOwned::to_owned);
-    WEB.alternative(key.name).is_some_and(|(name, of_all_layers)| {
-        name == found.name && (of_all_layers || before(one, key) == before(other, found))
-    })
+/// Whether one of two keys of a case or a web gives the value of the other, by their full names.
+pub(crate) fn are_alternatives(one: &str, other: &str) -> bool {
+    let [Some(key), Some(found)] = [one, other].map(web_key) else { return CASE.are_alternatives(one, other) };
+    let is_of_same_layer = || one.strip_suffix(key.name) == other.strip_suffix(found.name);
+    WEB.are_alternatives(key.name, found.name) && (key.relations.of_all_layers || is_of_same_layer())
 }
 
 /// The full name of a key that a user has named, with the number of its layer in place of the layer's name.

@@ -13,8 +13,6 @@ pub struct KeyTable<T: 'static = Case> {
     pub tables: &'static [&'static str],
     /// Its lists of tables.
     pub(crate) lists: &'static [TableList],
-    /// Keys that stand in place of others.
-    pub(crate) alternatives: &'static [Alternatives],
     /// The input in words, `a case`.
     pub(crate) noun: &'static str,
     /// Its file in words, `a case file`.
@@ -34,23 +32,35 @@ pub(crate) struct TableList {
     pub(crate) wanted: &'static str,
 }
 
-/// Two keys of which either gives the number of the other, so that an override of one replaces the other.
-#[derive(Debug)]
-pub(crate) struct Alternatives {
-    /// Their names.
-    pub(crate) keys: [&'static str; 2],
-    /// Whether one of any layer stands for the other of all layers.
-    pub(crate) of_all_layers: bool,
-}
-
 impl<T> KeyTable<T> {
-    /// The key that the named key can replace, and whether it replaces it for all layers.
-    pub(crate) fn alternative(&self, name: &str) -> Option<(&'static str, bool)> {
-        self.alternatives.iter().find_map(|Alternatives { keys: [one, other], of_all_layers }| match name {
-            _ if name == *one => Some((*other, *of_all_layers)),
-            _ if name == *other => Some((*one, *of_all_layers)),
-            _ => None,
-        })
+    /// The other keys whose values these keys give, if all of them are set: each may be replaced by them.
+    pub fn replaced_by(&self, names: &[&str]) -> Vec<&'static str> {
+        let mut replaced: Vec<&'static str> = Vec::new();
+        let relations = || self.rows.iter().filter(|key| !key.relations.alternative_to.is_empty());
+        loop {
+            let gives = |name: &str| names.contains(&name) || replaced.contains(&name);
+            let others = relations().flat_map(|key| match key.relations.alternative_to {
+                others if gives(key.name) => others.to_vec(),
+                others if others.iter().all(|other| gives(other)) => vec![key.name],
+                _ => Vec::new(),
+            });
+            let Some(next) = others.into_iter().find(|other| !gives(other)) else { return replaced };
+            replaced.push(next);
+        }
+    }
+
+    /// Whether written keys give the value of a key in other words.
+    pub(crate) fn is_given(&self, name: &str, is_written: impl Fn(&str) -> bool) -> bool {
+        let gives = |key: &Key<T>| key.relations.alternative_to.contains(&name) && is_written(key.name);
+        self.rows.iter().any(gives)
+    }
+
+    /// Whether one of two keys gives the value of the other, by their names.
+    pub(crate) fn are_alternatives(&self, one: &str, other: &str) -> bool {
+        let gives = |one, other: &str| {
+            self.find(one).is_some_and(|key| key.relations.alternative_to.contains(&other))
+        };
+        gives(one, other) || gives(other, one)
     }
 
     /// The key with this full name, `air.velocity`.

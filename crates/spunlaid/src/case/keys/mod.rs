@@ -8,13 +8,15 @@
 //! To add a key, add a row to its file in `table`; then write the code that uses its value.
 
 mod key_table;
+mod relations;
 #[macro_use]
 pub(crate) mod row;
 mod table;
 mod value;
 
 pub use key_table::KeyTable;
-pub(crate) use key_table::{Alternatives, TableList};
+pub(crate) use key_table::TableList;
+pub use relations::{Condition, Relations};
 pub use value::{Content, FileKind, Kind, Sign, Value};
 
 use super::Case;
@@ -29,13 +31,6 @@ pub static CASE: KeyTable = KeyTable {
     rows: &table::KEYS,
     tables: &TABLES,
     lists: &[],
-    alternatives: &[
-        Alternatives { keys: ["fibre.diameter", "fibre.linear_density"], of_all_layers: false },
-        Alternatives {
-            keys: ["spinline.melt_flow_rate", "spinline.material.viscosity"],
-            of_all_layers: false,
-        },
-    ],
     noun: "a case",
     file: "a case file",
 };
@@ -86,6 +81,8 @@ pub struct Key<T: 'static = Case> {
     pub(crate) counted: bool,
     /// Words that may stand in place of a number.
     pub(crate) words: &'static [&'static str],
+    /// What it has to do with other keys.
+    pub relations: Relations<T>,
     get: fn(&T) -> Option<Value>,
     set: fn(&mut T, &Value) -> Result<(), Fault>,
     derived: fn(&T) -> bool,
@@ -224,22 +221,16 @@ impl<T> Key<T> {
             || self.dimension().is_some_and(|dimension| dimension.has_unit(word))
     }
 
-    /// An example line of a case file.
+    /// An example line of its file: `velocity = "10 m/s"`.
     pub(crate) fn example(&self) -> String {
-        example(self.short(), &self.kind, self.omission)
+        let (Omission::Required(value) | Omission::Value(value) | Omission::Follows(value)) = self.omission;
+        let value = self.relations.needed_if.map_or(value, |(_, example)| example);
+        let quote = if self.dimension().is_some_and(|dimension| dimension != Dimension::Ratio) { "\"" } else { "" };
+        format!("{} = {quote}{value}{quote}", self.short())
     }
 
     /// The allowed values in words: `a length above zero`.
     pub fn allowed(&self) -> String {
         self.kind.allowed()
-    }
-}
-
-/// An example line of a file: `velocity = "10 m/s"`.
-fn example(name: &str, kind: &Kind, omission: Omission) -> String {
-    let (Omission::Required(value) | Omission::Value(value) | Omission::Follows(value)) = omission;
-    match kind {
-        Kind::Quantity(dimension, _) if *dimension != Dimension::Ratio => format!("{name} = \"{value}\""),
-        _ => format!("{name} = {value}"),
     }
 }

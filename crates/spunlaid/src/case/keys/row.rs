@@ -1,7 +1,7 @@
 //! How a row of the table of keys is written.
 
 use super::value::{FileKind, Kind, SWITCH, Sign, Value};
-use super::{Key, Omission};
+use super::{Condition, Key, Omission, Relations};
 use crate::air::{Flow, PlacedField};
 use crate::case::Case;
 use crate::error::Fault;
@@ -17,6 +17,9 @@ pub(crate) struct AccessTo<T: 'static> {
 
 /// Access to a case.
 pub(super) type Access = AccessTo<Case>;
+
+/// A fibre that is fed on to a belt.
+pub(super) const FED: &Condition = &Condition { words: "of a fed fibre", holds: |case| case.line.is_some() };
 
 /// Access to a number of the case: `number!(fibre.diameter)`.
 macro_rules! number {
@@ -188,6 +191,7 @@ pub(crate) const fn key<T>(name: &'static str, kind: Kind, access: AccessTo<T>) 
         usual: None,
         counted: false,
         words: &[],
+        relations: Relations::NONE,
         get,
         set,
         derived: |_| false,
@@ -328,6 +332,12 @@ pub(crate) fn named<T: Copy>(value: &Value, all: &[T], name: impl Fn(T) -> &'sta
         _ => None,
     };
     found.ok_or_else(|| wrong_type(value, "a name"))
+}
+
+/// Takes a number that a file may give, and says whether it does.
+pub(super) fn take(number: &mut f64, of_file: Option<f64>) -> bool {
+    *number = of_file.unwrap_or(*number);
+    of_file.is_some()
 }
 
 /// Changes to another of several named options. One that is chosen already keeps its numbers.

@@ -102,13 +102,9 @@ impl Base for CaseBase {
         lookup: &Lookup,
     ) -> ExperimentWithNotes {
         let (mut key_values, mut faults) = (self.open.key_values.clone(), Vec::new());
+        let varied: Vec<&str> = values.iter().map(|(key, _)| &*key.name).collect();
+        keys::CASE.replaced_by(&varied).into_iter().for_each(|other| drop(key_values.remove(other)));
         for (key, value) in values {
-            // What says the same in other words, unless it varies too.
-            if let Some((other, _)) = keys::CASE.alternative(&key.name)
-                && values.iter().all(|(key, _)| key.name != other)
-            {
-                key_values.remove(other);
-            }
             let shown = Some(key.pretty(*value));
             match value_of(key, *value) {
                 Ok(value) => {

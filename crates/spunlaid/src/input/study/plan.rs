@@ -10,7 +10,7 @@ use super::replicates::MOST_REPLICATES;
 use super::{Base, StudyChanges, links};
 use crate::case::keys::{self, Kind};
 use crate::error::{Fault, FileKind};
-use crate::layers::full_names::is_alternative;
+use crate::layers::full_names::are_alternatives;
 use crate::study::{Design, Factor, Link, Point, Quantity, Replicates, Study};
 use toml::de::DeValue;
 
@@ -122,7 +122,7 @@ impl<'a> Reader<'a> {
         let full = |name: &str| base.varied(name).map_or_else(|_| name.to_owned(), |key| key.name);
         let set: Vec<String> = set.iter().map(|(name, _)| full(name)).collect();
         let varied = factors.iter().map(|factor| &factor.key).chain(links.iter().map(|link| &link.key));
-        for key in varied.filter(|key| set.iter().any(|set| set == *key || is_alternative(set, key))) {
+        for key in varied.filter(|key| set.iter().any(|set| set == *key || are_alternatives(set, key))) {
             self.reject_whole(key, set_twice());
         }
     }

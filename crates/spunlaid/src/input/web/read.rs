@@ -2,7 +2,6 @@
 
 use super::super::Overrides;
 use super::super::lookup::Lookup;
-use super::super::open::rival;
 use super::super::written_values::{WrittenValue, WrittenValues, sorted};
 use crate::case::keys::{Key, Omission, Value};
 use crate::case::{Note, unusual};
@@ -170,15 +169,15 @@ impl Reading<'_> {
                 (Some(None), _) => Ok(()),
                 // They are settled when all else is known.
                 (Some(Some(_)), _) if [THROUGHPUT, BASIS_WEIGHT].contains(&key.name) => Ok(()),
-                (Some(Some(value)), _) => match rival(key.name, is_there) {
-                    Some((other, remedy)) => Err(Fault::excludes(other, remedy)),
+                (Some(Some(value)), _) => match key.beside_alternative(is_there) {
+                    Some(fault) => Err(fault),
                     None => key.apply(web, &value),
                 },
                 (None, Omission::Value(text)) => key.set(web, text).map_err(|problem| problem.what),
                 (None, Omission::Required(_)) => {
                     let is_given = flown(web, key).is_some()
-                        || key.name == BELT_SPEED
-                        || WEB.alternative(key.name).is_some_and(|(other, _)| is_there(other));
+                        || key.relations.of_all_layers
+                        || WEB.is_given(key.name, is_there);
                     let table = without_numbers(before);
                     if is_given { Ok(()) } else { Err(Fault::missing(&table, &key.example())) }
                 }
@@ -248,7 +247,7 @@ impl Reading<'_> {
         }
     }
 
-    /// The rows of nozzles, and that they are not there together with filaments at random; it is noted if neither is there.
+    /// The rows of nozzles; it is noted if there are neither rows nor filaments at random.
     ///
     /// * `before` – what comes before the names of the table's keys: `line.`
     fn rows(&mut self, before: &str) -> Vec<Row> {
@@ -257,17 +256,11 @@ impl Reading<'_> {
         if self.is_written(&depth) && self.is_written(&rows) {
             self.key_values.reject(&depth, in_rows());
         }
-        match (self.is_written(&at_random), self.is_written(&rows)) {
-            (true, true) => {
-                let remedy = "filaments come down at random places or in rows; keep one";
-                self.key_values.reject(&at_random, Fault::excludes("line.rows", remedy));
-            }
-            (false, false) if !self.key_values.is_excused(&at_random) => {
-                let add = format!("add filaments_per_metre = 5000 to [{}]", without_numbers(before));
-                let rows = "rows = [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }]";
-                self.key_values.reject(&at_random, Fault::new("is missing", format!("{add}, or {rows}")));
-            }
-            _ => {}
+        let is_written = self.is_written(&at_random) || self.is_written(&rows);
+        if !is_written && !self.key_values.is_excused(&at_random) {
+            let add = format!("add filaments_per_metre = 5000 to [{}]", without_numbers(before));
+            let rows = "rows = [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }]";
+            self.key_values.reject(&at_random, Fault::new("is missing", format!("{add}, or {rows}")));
         }
         let count = self.key_values.number(&rows).unwrap_or(0.0) as u64;
         let row = |number| {

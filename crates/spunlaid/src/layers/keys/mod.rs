@@ -16,7 +16,7 @@ pub(crate) use rows::METHODS;
 pub use rows::WEB_KEYS;
 
 use super::WebSpec;
-use crate::case::keys::{self, Alternatives, Key, KeyTable, TableList};
+use crate::case::keys::{self, Key, KeyTable, TableList};
 
 /// The tables of the file of a web, in order. A file with several layers has the first three in each `[[layer]]`.
 pub const WEB_TABLES: [&str; 5] = ["layer", "fibre", "laydown", "line", "web"];
@@ -38,11 +38,6 @@ pub static WEB: KeyTable<WebSpec> = KeyTable {
             entry: "a row of nozzles",
             wanted: "a list of rows, like [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }]",
         },
-    ],
-    alternatives: &[
-        Alternatives { keys: ["fibre.diameter", "fibre.linear_density"], of_all_layers: false },
-        Alternatives { keys: ["line.feed_speed", "line.throughput"], of_all_layers: false },
-        Alternatives { keys: ["line.belt_speed", "line.basis_weight"], of_all_layers: true },
     ],
     noun: "a web",
     file: "a web file",

@@ -26,6 +26,11 @@ const EDGES: [&str; 2] = ["periodic", "cut"];
 /// Where the numbers of a surrogate come from if they are left out.
 const IDENTIFIED: &str = "identified in what the fibres of the case have laid";
 
+/// Why two numbers cannot both be written.
+const EITHER: &str = "either gives the other; write one of the two";
+/// Why a layer names one source of its fibres.
+const ONE_SOURCE: &str = "keep one of a case, results, and the numbers sigma_md, sigma_cd and noise";
+
 /// A length, speed or other quantity above zero, which a study may vary.
 const fn positive(name: &'static str, dimension: Dimension, access: Access) -> WebKey {
     quantity(name, dimension, Sign::Positive, access)
@@ -76,15 +81,18 @@ pub const WEB_KEYS: &[WebKey] = &[
             Ok(())
         },
     })
+    .alternative_to(&["fibre.diameter"], EITHER)
     .follows("diameter and density give it")
     .meaning(
         "Mass per length of a filament, which may be written instead of `fibre.diameter`; the diameter follows with the density.",
     )
     .label("Linear density"),
     key("laydown.case", Kind::Text("spunbond.toml"), of_path!(Case, path))
+        .alternative_to(&["laydown.sigma_md", "laydown.sigma_cd", "laydown.noise"], ONE_SOURCE)
         .follows("`results`, or the three numbers")
         .meaning("Path of the case of a fed fibre, relative to this file. It is flown, and the web is laid of what it lays."),
     key("laydown.results", Kind::Text("results/spunbond"), of_path!(Results, folder))
+        .alternative_to(&["laydown.case"], ONE_SOURCE)
         .follows("`case`, or the three numbers")
         .meaning("Folder with the results of such a case, which has been flown already."),
     positive("laydown.sigma_md", Dimension::Length, of_surrogate!(sigma_md))
@@ -124,6 +132,7 @@ pub const WEB_KEYS: &[WebKey] = &[
             Ok(())
         },
     })
+    .alternative_to(&["line.feed_speed"], EITHER)
     .follows("`feed_speed` and the filament give it")
     .usual(1e-8, 1e-3)
     .meaning(
@@ -143,6 +152,7 @@ pub const WEB_KEYS: &[WebKey] = &[
         },
     })
         .derived(is_flown)
+        .of_all_layers()
         .required("3 m/s")
         .meaning("Speed of the belt. It is written once, in any of the layers, because all lie on one belt. With `laydown.case` or \
              `laydown.results` it is that of the case.")
@@ -157,6 +167,8 @@ pub const WEB_KEYS: &[WebKey] = &[
             Ok(())
         },
     })
+    .alternative_to(&["line.belt_speed"], EITHER)
+    .of_all_layers()
     .follows("`belt_speed` and the filaments give it")
     .usual(1e-3, 2.0)
     .meaning(
@@ -182,6 +194,7 @@ pub const WEB_KEYS: &[WebKey] = &[
             Ok(())
         },
     })
+    .alternative_to(&["line.rows"], "filaments come down at random places or in rows; keep one")
     .follows("`rows`")
     .varies()
     .meaning(

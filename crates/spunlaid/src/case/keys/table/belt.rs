@@ -1,7 +1,7 @@
 //! The belt.
 
 use super::super::Key;
-use super::super::row::{Access, change, choose, line, number, quantity};
+use super::super::row::{Access, FED, change, choose, line, number, quantity};
 use super::super::value::Sign::{NotNegative, Positive};
 use super::super::value::Value;
 use crate::error::Fault;
@@ -23,6 +23,7 @@ pub(super) const KEYS: &[Key] = &[
             Ok(())
         },
     })
+    .needed_if(FED, "0.5 m")
     .follows("a fibre of fixed length")
     .usual(0.001, 10.0)
     .meaning("Distance from the inlet to the belt, along x. The belt is perpendicular to x.")
@@ -30,6 +31,7 @@ pub(super) const KEYS: &[Key] = &[
 .label("Distance to the belt *H*")
     .slider(0.1, 2.0),
     quantity("belt.speed", Dimension::Velocity, NotNegative, of_line!(belt_speed))
+        .needed_if(FED, "3 m/s")
         .follows("a fibre of fixed length")
         .usual(0.0001, 50.0)
     .meaning("Speed of the belt, along y, the machine direction.")

@@ -1,7 +1,7 @@
 //! The feed.
 
 use super::super::Key;
-use super::super::row::{Access, line, number, quantity, without_spinline};
+use super::super::row::{Access, FED, line, number, quantity, without_spinline};
 use super::super::value::Sign::Positive;
 use super::super::value::Value;
 use crate::units::Dimension;
@@ -16,6 +16,7 @@ pub(super) const KEYS: &[Key] = &[
         },
     })
         .derived(|case| case.spinline.is_some())
+        .needed_if(FED, "50 m/s")
         .follows("a fibre of fixed length")
         // From coiling threads to the fastest spinning.
     .usual(1e-3, 200.0)

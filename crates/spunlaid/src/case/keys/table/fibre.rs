@@ -68,6 +68,7 @@ pub(super) const KEYS: &[Key] = &[
             Ok(())
         },
     })
+    .alternative_to(&["fibre.diameter"], "either gives the other; write one of the two")
     .follows("diameter and density give it")
     .usual(1e-11, 0.03)
     .meaning("Mass per length of the fibre, which may be written instead of `fibre.diameter`; the diameter follows with the density.")

@@ -1,7 +1,7 @@
 //! The run: times, replicates, scheme and what is kept.
 
 use super::super::Key;
-use super::super::row::{Access, choose, key, named, number, quantity, whole};
+use super::super::row::{Access, FED, choose, key, named, number, quantity, whole};
 use super::super::value::Sign::{Any, NotNegative, Positive};
 use super::super::value::{Kind, Value};
 use crate::case::{Checks, MOST_REPLICATES, MOST_SHAPES, whole_parts};
@@ -66,7 +66,8 @@ pub(super) const KEYS: &[Key] = &[
     .meaning("Seed of the random phases. Another seed gives other turbulence; the same seed gives the same results to the last bit."),
     choose("run.scheme", || Scheme::ALL.map(Scheme::name).to_vec(), choice!(run.scheme, Scheme::ALL))
         .value("semi-implicit-euler")
-        .meaning("Time integration: the paper's scheme has first order, `leapfrog` has second order, `implicit-tension` allows long steps and is the default for a fed fibre.")
+        .default_if(FED, "implicit-tension")
+        .meaning("Time integration: the paper's scheme has first order, `leapfrog` has second order, `implicit-tension` allows long steps.")
         .label("Scheme"),
     quantity("run.gravity", Dimension::Acceleration, Any, number!(run.gravity))
         .value("9.81 m/s²")

@@ -3,7 +3,7 @@
 use crate::air::{Axis, Flow, LENGTH_CONSTANT, PlacedField, TIME_CONSTANT, Widening};
 use crate::case::keys::Key;
 use crate::case::keys::row::{
-    Access, choose, file, key, named, number, placed, placed_mut, quantity, read_with_case, text, vector,
+    Access, choose, file, key, named, number, placed, placed_mut, quantity, read_with_case, take, text, vector,
 };
 use crate::case::keys::value::Sign::{Any, Positive};
 use crate::case::keys::value::{Content, FileKind, Kind, Value};
@@ -29,6 +29,10 @@ pub(super) const KEYS: &[Key] = &[
         },
     })
     .derived(|case| !case.air.is_uniform())
+    .inferred(|case| {
+        let of_record = case.air.records.first().and_then(|record| record.says.velocity);
+        take(&mut case.air.velocity, of_record)
+    })
     .required("10 m/s")
     // Up to the speed of sound.
     .usual(1e-3, 340.0)
@@ -50,6 +54,8 @@ pub(super) const KEYS: &[Key] = &[
             Ok(())
         },
     })
+    .alternative_to(&["air.field"], "the air is one or the other; leave one out")
+    .gives("air.")
     .follows("the same air everywhere")
     .meaning("Table of the air along the fibre: velocity over the distance from the root and, if it has such columns, turbulence."),
     file("air.field", FileKind::Field, Access {
@@ -66,6 +72,7 @@ pub(super) const KEYS: &[Key] = &[
             Ok(())
         },
     })
+    .gives("air.")
     .follows("the same air everywhere")
     .meaning("CFD solution around the fibre: VTK files or tables of points with the velocity and, if available, k with ε or ω."),
     key("air.field_root", Kind::Point, Access {
@@ -74,6 +81,12 @@ pub(super) const KEYS: &[Key] = &[
             placed_mut(case)?.root = vector(value)?;
             Ok(())
         },
+    })
+    .read_after(&["air.field_axis", "air.field_unit"])
+    .inferred(|case| {
+        let Ok(placed) = placed_mut(case) else { return false };
+        placed.root = PlacedField::middle_of_inlet(&placed.field, placed.axis, placed.unit);
+        true
     })
     .follows("the middle of the side where the air enters the box around the field")
     .meaning(
@@ -94,6 +107,7 @@ pub(super) const KEYS: &[Key] = &[
     )
     .label("Direction of the fibre in the field"),
     quantity("air.field_unit", Dimension::Length, Positive, of_field!(unit))
+        .or_unit()
         .value("1 m")
         .usual(1e-6, 10.0)
     .meaning(
@@ -115,6 +129,7 @@ pub(super) const KEYS: &[Key] = &[
         .follows("the array with a usual name of ε")
         .meaning("Array of the dissipation rate ε of the turbulence in a field, by name."),
     key("air.field_omega", Kind::Text("omega"), of_field_layout!(omega))
+        .alternative_to(&["air.field_epsilon"], "either gives ε; write one of the two")
         .follows("the array with a usual name of ω, if there is none of ε")
         .meaning("Array of the specific dissipation rate ω of the turbulence in a field, by name, in place of ε."),
     quantity("air.length_constant", Dimension::Ratio, Positive, of_field!(length_constant))

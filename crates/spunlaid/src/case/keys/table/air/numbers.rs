@@ -1,16 +1,53 @@
 //! The numbers of the air: strength and size of its turbulence, density and viscosity.
 
-use crate::air::{SUTHERLAND_RANGE, density_at, kinematic_viscosity_at};
-use crate::case::keys::row::{Access, number, quantity};
+use crate::air::{Air, RecordNumbers, SUTHERLAND_RANGE, SpectrumShape, density_at, kinematic_viscosity_at};
+use crate::case::keys::row::{Access, number, quantity, take};
 use crate::case::keys::value::Sign::{Any, NotNegative, Positive};
 use crate::case::keys::value::Value;
 use crate::case::keys::{Key, TAYLOR};
 use crate::error::Fault;
 use crate::units::Dimension;
 
+/// Takes a number of the air from the flow, which is asked for it when the air is settled, or from a file.
+macro_rules! from_air {
+    ($field:ident, $of_file:expr) => {
+        |case| {
+            let of_file: fn(&Air) -> Option<f64> = $of_file;
+            let of_file = of_file(&case.air);
+            case.air.from_flow.$field = case.air.flow.numbers().$field;
+            case.air.from_flow.$field || take(&mut case.air.$field, of_file)
+        }
+    };
+}
+
+/// What the first record says of the air.
+fn said(air: &Air) -> Option<RecordNumbers> {
+    Some(air.records.first()?.says)
+}
+
+/// The highest frequency of a measured spectrum or of a record.
+fn highest(air: &Air) -> Option<f64> {
+    match &air.spectrum {
+        SpectrumShape::Measured(table) => Some(table.highest()),
+        _ => Some(said(air)?.cutoff_frequency),
+    }
+}
+
+/// Sets the cut-off frequency by Taylor's hypothesis: eddies of length `L` that pass at velocity `U` make `U/(4 L)`.
+fn by_taylor(air: &mut Air) -> Result<(), Fault> {
+    if !air.is_uniform() || air.from_flow.length_scale {
+        let (needed, remedy) = ("air.velocity and air.length_scale", "write a frequency, or leave it out");
+        return Err(Fault::needs(needed, remedy));
+    }
+    // NaN where either is missing, which has been reported.
+    air.cutoff_frequency = air.velocity.abs() / (4.0 * air.length_scale);
+    Ok(())
+}
+
 pub(super) const KEYS: &[Key] = &[
     quantity("air.turbulence_intensity", Dimension::Ratio, NotNegative, of_air!(turbulence_intensity))
         .derived(|case| case.air.from_flow.turbulence_intensity)
+        .inferred(from_air!(turbulence_intensity, |air| said(air)?.turbulence_intensity))
         .required("0.1")
         .usual(1e-5, 1.0)
     .meaning("Rms of each fluctuating velocity component, divided by the mean velocity. A record, a profile or a field may give it instead.")
@@ -20,14 +57,27 @@ pub(super) const KEYS: &[Key] = &[
         .in_flight(),
     quantity("air.length_scale", Dimension::Length, Positive, of_air!(length_scale))
         .derived(|case| case.air.from_flow.length_scale)
+        .inferred(from_air!(length_scale, |air| said(air)?.length_scale))
         .required("50 mm")
         .usual(1e-5, 10.0)
     .meaning("Length of an eddy. Within this length the fluctuation is the same along the fibre. A record, a profile or a field may give it instead.")
         .synonyms(&["eddy size", "integral length scale"])
 .label("Length of the eddies *L*_{T}")
         .slider(5e-3, 0.2),
-    quantity("air.cutoff_frequency", Dimension::Frequency, Positive, of_air!(cutoff_frequency))
+    quantity("air.cutoff_frequency", Dimension::Frequency, Positive, Access {
+        get: |case| Some(Value::Number(case.air.cutoff_frequency)),
+        set: |case, value| {
+            if matches!(value, Value::Text(word) if word == TAYLOR) {
+                return by_taylor(&mut case.air);
+            }
+            case.air.cutoff_frequency = number(value)?;
+            case.air.from_flow.cutoff_frequency = false;
+            Ok(())
+        },
+    })
+        .read_after(&["air.velocity", "air.length_scale"])
         .derived(|case| case.air.from_flow.cutoff_frequency)
+        .inferred(from_air!(cutoff_frequency, highest))
         .required("100 Hz")
         .or_words(&[TAYLOR])
         .usual(0.1, 50000.0)
@@ -71,6 +121,10 @@ pub(super) const KEYS: &[Key] = &[
             Ok(())
         },
     })
+    .alternative_to(
+        &["air.density", "air.kinematic_viscosity"],
+        "the temperature gives density and viscosity; leave it out, or leave out both of these",
+    )
     .follows("density and viscosity as they are written, or at 20 °C")
     .meaning(
         "Temperature of the air, from 170 to 1900 K, which may be written instead of `air.density` and \

@@ -3,7 +3,7 @@
 use crate::air::{EddyModel, Lateral, SpectrumShape};
 use crate::case::keys::Key;
 use crate::case::keys::row::{
-    Access, change, choose, file, key, number, quantity, read_with_case, text, whole,
+    Access, FED, change, choose, file, key, number, quantity, read_with_case, text, whole,
 };
 use crate::case::keys::value::Sign::Positive;
 use crate::case::keys::value::{Content, FileKind, Kind, SPECTRA, Value};
@@ -31,6 +31,7 @@ pub(super) const KEYS: &[Key] = &[
             Ok(())
         },
     })
+    .gives("air.cutoff_frequency")
     .value("flat")
     .meaning("Shape of the turbulence spectrum: `flat` up to the cut-off frequency, von Kármán's, or a measured one from a CSV file.")
     .label("Shape of the spectrum")
@@ -56,6 +57,7 @@ pub(super) const KEYS: &[Key] = &[
             Ok(())
         },
     })
+    .gives("air.")
     .follows("turbulence is made from harmonics")
     .meaning("Measured velocity record, as CSV or Parquet, whose fluctuation moves the fibre. A list gives one record for each eddy."),
     quantity("air.record_rate", Dimension::Frequency, Positive, of_record!(rate, Value::Number, number))
@@ -86,7 +88,8 @@ pub(super) const KEYS: &[Key] = &[
         },
     })
     .value("independent")
-    .meaning("How the turbulence is correlated along the fibre: independent eddies side by side, or a pattern that the mean flow carries along. For a fed fibre, `convected` is the default.")
+    .default_if(FED, "convected")
+    .meaning("How the turbulence is correlated along the fibre: independent eddies side by side, or a pattern that the mean flow carries along.")
     .label("Eddies"),
     quantity("air.decay_time", Dimension::Time, Positive, Access {
         get: |case| match case.air.eddies {

@@ -65,6 +65,7 @@ pub(super) const KEYS: &[Key] = &[
             Ok(())
         },
     })
+    .gives("spinline.")
     .follows("the same air everywhere")
     .meaning(
         "Table of the air over the distance from the die: `z_mm`, `velocity_m_s` along the thread, `cross_velocity_m_s`, \

@@ -28,6 +28,7 @@ pub(super) const KEYS: &[Key] = &[
             Ok(())
         },
     })
+    .gives("spinline.")
     .required("\"pp\"")
     .derived(no_spinline)
     .meaning(

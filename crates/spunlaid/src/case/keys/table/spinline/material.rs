@@ -42,6 +42,7 @@ pub(super) const KEYS: &[Key] = &[
             Ok(())
         },
     })
+        .alternative_to(&["spinline.melt_flow_rate"], "the melt flow rate gives the viscosity; write one of the two")
         .follows("that of the polymer, or that of the melt flow rate")
         .usual(0.1, 100000.0)
         .meaning("Viscosity of the melt at `viscosity_temperature` and at low rates. It depends on the grade.")
