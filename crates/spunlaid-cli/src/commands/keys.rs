@@ -3,9 +3,9 @@
 use crate::args::Keys;
 use crate::failure::Failure;
 use crate::say;
-use spunlaid::case::keys::{self, Key, Kind, Omission, TABLES};
+use spunlaid::case::keys::{self, CASE, Key, KeyTable, Kind, TABLES};
 use spunlaid::error::Fault;
-use spunlaid::layers::{WEB_KEYS, WEB_TABLES, WebKey};
+use spunlaid::layers::{WEB, WEB_KEYS, WEB_TABLES, WebKey};
 use spunlaid::units::{Dimension, UnitAdvice};
 use std::fmt::Write;
 
@@ -18,7 +18,8 @@ const WIDTH: usize = 100;
 struct KeyEntry {
     name: &'static str,
     kind: Kind,
-    omission: Omission,
+    /// What applies if it is left out, with backquotes around values and names of keys.
+    left_out: String,
     meaning: &'static str,
     synonyms: Vec<&'static str>,
     /// The file in which it stands, if it is not that of a case.
@@ -30,14 +31,18 @@ struct KeyEntry {
 }
 
 impl KeyEntry {
-    fn new<T>(key: &Key<T>) -> Self {
-        let Key { name, kind, omission, meaning, usual, varies, in_flight, .. } = *key;
-        let synonyms = key.synonyms.to_vec();
-        Self { name, kind, omission, meaning, synonyms, file: "", usual, may_change: [varies, in_flight] }
+    fn new<T>(table: &KeyTable<T>, key: &Key<T>) -> Self {
+        let Key { name, kind, meaning, usual, varies, in_flight, .. } = *key;
+        let (left_out, synonyms) = (table.left_out(key), key.synonyms.to_vec());
+        Self { name, kind, left_out, meaning, synonyms, file: "", usual, may_change: [varies, in_flight] }
+    }
+
+    fn from_case_key(key: &Key) -> Self {
+        Self::new(&CASE, key)
     }
 
     fn from_web_key(key: &WebKey) -> Self {
-        Self { synonyms: key.all_synonyms(), usual: key.usual_range(), ..Self::new(key) }
+        Self { synonyms: key.all_synonyms(), usual: key.usual_range(), ..Self::new(&WEB, key) }
     }
 
     /// Those of two words, for studies and for flights, in which it may change.
@@ -57,7 +62,7 @@ pub(crate) fn keys(arguments: &Keys) -> Result<(), Failure> {
     let is_of_web =
         |key: &&WebKey| key.has_word(&word) || key.key_of_case().is_some_and(|key| key.has_word(&word));
     let web_keys = || WEB_KEYS.iter().filter(is_of_web).map(KeyEntry::from_web_key);
-    let case_keys = || keys::all().iter().filter(|key| key.has_word(&word)).map(KeyEntry::new);
+    let case_keys = || keys::all().iter().filter(|key| key.has_word(&word)).map(KeyEntry::from_case_key);
     let found: Vec<KeyEntry> = match arguments {
         Keys { web: true, .. } => web_keys().collect(),
         _ if word.is_empty() || arguments.markdown => case_keys().collect(),
@@ -92,10 +97,7 @@ pub(crate) fn keys(arguments: &Keys) -> Result<(), Failure> {
 fn reference(key: &KeyEntry) -> String {
     let width = say::columns().map_or(WIDTH, |columns| columns.min(WIDTH));
     let mut text = format!("{}{}\n", key.name, key.file);
-    let default = match key.omission {
-        Omission::Required(example) => format!("none; the key is required, like {example}"),
-        Omission::Value(words) | Omission::Follows(words) => words.to_owned(),
-    };
+    let default = key.left_out.replace('`', "");
     for (title, words) in [
         ("", key.meaning.replace('`', "\"")),
         ("takes     ", takes(key)),
@@ -185,15 +187,11 @@ fn markdown(found: &[KeyEntry], head: &str, tables: &[&str]) -> String {
             "\n## {title}\n\n| key | takes | if left out | meaning | |\n|---|---|---|---|---|"
         );
         for (key, short) in rows {
-            let omission = match key.omission {
-                Omission::Required(example) => format!("required, like `{example}`"),
-                Omission::Value(value) => format!("`{value}`"),
-                Omission::Follows(words) => words.to_owned(),
-            };
             let _ = writeln!(
                 text,
-                "| `{short}` | {} | {omission} | {}{} | {} |",
+                "| `{short}` | {} | {} | {}{} | {} |",
                 takes(key),
+                key.left_out,
                 key.meaning,
                 if key.synonyms.is_empty() {
                     String::new()

@@ -5,17 +5,6 @@ use spunlaid::case::Case;
 use spunlaid::case::keys::{self, Key, Kind, Omission, Value};
 use spunlaid::units::Dimension;
 
-/// Keys of the run that have no meaning while a page looks on: how long it lasts, what is recorded.
-const OF_RUNS: [&str; 7] = [
-    "run.duration",
-    "run.error_tolerance",
-    "run.output_interval",
-    "run.replicates",
-    "run.shapes",
-    "run.spin_up",
-    "run.time_step",
-];
-
 /// A slider or a choice.
 #[derive(Debug, Serialize, PartialEq)]
 pub(super) struct Setting {
@@ -57,13 +46,13 @@ pub(super) struct SettingValue {
 
 /// Everything that can be changed in a case.
 pub(super) fn settings(case: &Case) -> Vec<Setting> {
-    shown(case).filter_map(|(key, value)| setting(key, &value)).collect()
+    shown(case).filter_map(|(key, value)| setting(case, key, &value)).collect()
 }
 
 /// The present values, in the same order.
 pub(super) fn present(case: &Case) -> Vec<SettingValue> {
     shown(case)
-        .filter(|(key, value)| setting(key, value).is_some())
+        .filter(|(key, value)| setting(case, key, value).is_some())
         .map(|(key, value)| {
             let text = match (&value, key.kind.dimension()) {
                 (Value::Number(number), Some(dimension)) => dimension.pretty_to(*number, 4),
@@ -77,13 +66,15 @@ pub(super) fn present(case: &Case) -> Vec<SettingValue> {
 }
 
 fn shown(case: &Case) -> impl Iterator<Item = (&'static Key, Value)> {
+    // How long a run lasts and what it records has no meaning while a page looks on.
+    let is_of_run = |key: &Key| key.table() == "run" && key.dimension().is_some() && !key.in_flight;
     keys::all()
         .iter()
-        .filter(|key| !OF_RUNS.contains(&key.name) && !key.is_derived(case))
+        .filter(move |key| !is_of_run(key) && !key.is_derived(case))
         .filter_map(move |key| Some((key, key.get(case)?)))
 }
 
-fn setting(key: &'static Key, value: &Value) -> Option<Setting> {
+fn setting(case: &Case, key: &'static Key, value: &Value) -> Option<Setting> {
     let takes = match (&key.kind, key.slider, value) {
         (Kind::Quantity(..), Some((low, high)), Value::Number(now)) => {
             // A slider reaches to the value of the case.
@@ -96,10 +87,10 @@ fn setting(key: &'static Key, value: &Value) -> Option<Setting> {
         }
         _ => return None,
     };
-    let omission = match key.omission {
-        Omission::Required(_) => String::new(),
-        Omission::Value(value) => format!(" Default: {value}."),
-        Omission::Follows(words) => format!(" If it is left out: {words}."),
+    let omission = match (key.omission, key.default_in(case)) {
+        (_, Some(value)) => format!(" Default: {value}."),
+        (Omission::Follows(words), None) => format!(" If it is left out: {words}."),
+        (_, None) => String::new(),
     };
     let unit = match key.kind.dimension() {
         Some(Dimension::Ratio) | None => String::new(),

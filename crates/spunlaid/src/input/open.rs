@@ -79,7 +79,7 @@ pub(super) fn open_part(
                     continue;
                 }
             },
-            (Some(_), _) if key.counted => Ok(()),
+            (Some(_), _) if key.read_last => Ok(()),
             (Some(value), _) => key.apply(&mut case, &value),
         };
         if let Err(fault) = set
@@ -116,7 +116,7 @@ fn rank(key: &Key) -> usize {
 /// If the key is missing.
 fn leave_out(key: &Key, case: &mut Case, key_values: &WrittenValues) -> Result<(), Fault> {
     if let Some(value) = key.default_in(case) {
-        if !key.counted {
+        if !key.read_last {
             // A key without a meaning for this case refuses its default, which is then not needed.
             drop(key.set(case, value));
         }
@@ -212,8 +212,8 @@ impl OpenCase {
                 Value::Text(_) => key.get(&self.case)?.number(),
                 value => value.number(),
             },
-            (None, Omission::Value(text)) if key.counted => key.kind.accept(text.into()).ok()?.number(),
-            (None, _) if key.counted => None,
+            (None, Omission::Value(text)) if key.read_last => key.kind.accept(text.into()).ok()?.number(),
+            (None, _) if key.read_last => None,
             (None, _) => key.get(&self.case)?.number(),
         };
         number.filter(|number| !number.is_nan())

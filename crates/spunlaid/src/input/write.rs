@@ -32,7 +32,7 @@ pub(super) fn lines<T>(
 ) -> Vec<String> {
     let line = |key: &Key<T>| {
         let value = match key.get(input)? {
-            Value::Number(value) if key.counted => Value::Number(tidy(key, value)),
+            Value::Number(value) if key.read_last => Value::Number(tidy(key, value)),
             value => value,
         };
         Some(format!("{} = {}", key.short(), toml_value(&key.kind, value)))

@@ -63,9 +63,10 @@ impl Session {
         let refused = Answer::rejected;
         let written = toml_of(key, value).map_err(Answer::refused)?;
         let mut document = self.document.with(key, Some(written)).map_err(refused)?;
-        // The diameter may have been written as a linear density.
-        if let Some(other) = keys::find("fibre.linear_density").filter(|_| key.name == "fibre.diameter") {
-            document = document.with(other, None).map_err(refused)?;
+        for other in keys::CASE.replaced_by(&[key.name]).into_iter().filter_map(keys::find) {
+            if document.gives(other.table(), other.short()) {
+                document = document.with(other, None).map_err(refused)?;
+            }
         }
         Ok(document)
     }

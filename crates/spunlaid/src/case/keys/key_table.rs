@@ -1,6 +1,6 @@
 //! The keys of a kind of input, and how its file is divided into tables.
 
-use super::Key;
+use super::{Key, Omission};
 use crate::case::Case;
 use crate::error::{by_similarity, nearest_word};
 
@@ -55,12 +55,36 @@ impl<T> KeyTable<T> {
         self.rows.iter().any(gives)
     }
 
+    /// Whether a key gives the value of another one, of its own file or of a case, by their names.
+    pub(crate) fn gives(&self, name: &str, other: &str) -> bool {
+        let gives = |key: &Key<T>| [key.relations.alternative_to, key.relations.gives_case].concat().contains(&other);
+        self.find(name).is_some_and(gives)
+    }
+
     /// Whether one of two keys gives the value of the other, by their names.
     pub(crate) fn are_alternatives(&self, one: &str, other: &str) -> bool {
-        let gives = |one, other: &str| {
-            self.find(one).is_some_and(|key| key.relations.alternative_to.contains(&other))
+        self.gives(one, other) || self.gives(other, one)
+    }
+
+    /// What applies if a key is left out, in words, with backquotes around values and names of keys.
+    pub fn left_out(&self, key: &Key<T>) -> String {
+        let required = |example| format!("required, like `{example}`");
+        let mut words = match key.omission {
+            Omission::Required(example) => required(example),
+            Omission::Value(value) => format!("`{value}`"),
+            Omission::Follows(words) => words.to_owned(),
         };
-        gives(one, other) || gives(other, one)
+        if let Some((when, value)) = key.relations.default_if {
+            words += &format!("; {}, `{value}`", when.words);
+        }
+        if let Some((when, example)) = key.relations.needed_if {
+            words += &format!("; {}, {}", when.words, required(example));
+        }
+        let is_instead = |other: &&Key<T>| other.relations.alternative_to.contains(&key.name);
+        match (key.omission, self.rows.iter().find(is_instead)) {
+            (Omission::Required(_), Some(other)) => words + &format!(", unless `{}` is written", other.name),
+            _ => words,
+        }
     }
 
     /// The key with this full name, `air.velocity`.

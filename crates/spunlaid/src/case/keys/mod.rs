@@ -77,8 +77,8 @@ pub struct Key<T: 'static = Case> {
     pub slider: Option<(f64, f64)>,
     /// Outside of these a value, unless it is zero, is most likely a slip; in SI units, of the magnitude.
     pub usual: Option<(f64, f64)>,
-    /// Whether it is rounded to whole elements, steps or harmonics. Such keys are set after all others.
-    pub(crate) counted: bool,
+    /// Whether it is set after all others: it is rounded to whole elements, steps or harmonics, or another number follows from it.
+    pub(crate) read_last: bool,
     /// Words that may stand in place of a number.
     pub(crate) words: &'static [&'static str],
     /// What it has to do with other keys.

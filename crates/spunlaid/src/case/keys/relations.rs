@@ -32,6 +32,10 @@ pub struct Relations<T: 'static = Case> {
     pub(crate) gives: &'static str,
     /// Whether a unit alone is one of it.
     pub(crate) takes_unit: bool,
+    /// The key of a case that means the same, where it has another name.
+    pub(crate) same_in_case: Option<&'static str>,
+    /// Keys of the flown cases whose values it gives.
+    pub(crate) gives_case: &'static [&'static str],
     /// Whether it is one number for all layers of a web, which any of them may give.
     pub(crate) of_all_layers: bool,
 }
@@ -56,6 +60,8 @@ impl<T> Relations<T> {
         infer: |_| false,
         gives: "",
         takes_unit: false,
+        same_in_case: None,
+        gives_case: &[],
         of_all_layers: false,
     };
 }
@@ -90,6 +96,14 @@ impl<T> Key<T> {
 
     pub(crate) const fn or_unit(self) -> Self {
         Self { relations: Relations { takes_unit: true, ..self.relations }, ..self }
+    }
+
+    pub(crate) const fn same_in_case(self, key: &'static str) -> Self {
+        Self { relations: Relations { same_in_case: Some(key), ..self.relations }, ..self }
+    }
+
+    pub(crate) const fn gives_case(self, keys: &'static [&'static str]) -> Self {
+        Self { relations: Relations { gives_case: keys, ..self.relations }, ..self }
     }
 
     pub(crate) const fn of_all_layers(self) -> Self {

@@ -189,7 +189,7 @@ pub(crate) const fn key<T>(name: &'static str, kind: Kind, access: AccessTo<T>) 
         in_flight: false,
         slider: None,
         usual: None,
-        counted: false,
+        read_last: false,
         words: &[],
         relations: Relations::NONE,
         get,
@@ -266,8 +266,8 @@ impl<T> Key<T> {
         Self { in_flight: true, ..self }
     }
 
-    pub(crate) const fn counted(self) -> Self {
-        Self { counted: true, ..self }
+    pub(crate) const fn read_last(self) -> Self {
+        Self { read_last: true, ..self }
     }
 
     /// Words that may stand in place of a number.

@@ -1,12 +1,12 @@
 //! What tells how the filaments of a layer lie.
 
 use super::super::{Overrides, file, parse_with};
-use super::read::{NUMBERS, Reading, THROUGHPUT};
+use super::read::{Reading, THROUGHPUT};
 use crate::case::keys::Value;
 use crate::case::{Case, Note};
 use crate::error::{Error, Fault, FileKind, Place};
 use crate::layers::LaydownSource;
-use crate::layers::full_names::without_numbers;
+use crate::layers::keys::{NUMBERS, ONE_SOURCE};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -23,7 +23,7 @@ impl Reading<'_> {
     /// A case that cannot be read for another reason than what is in it.
     pub(super) fn laydown(&mut self, prefix: &str) -> Result<Option<LaydownSource>, Error> {
         let is_written = |name: &&&str| self.is_written(&format!("{prefix}{name}"));
-        let numbers = NUMBERS.iter().map(|(name, _)| name).find(is_written);
+        let numbers = NUMBERS.iter().find(is_written);
         let ways: Vec<&'static str> =
             [&CASE, &RESULTS].into_iter().chain(numbers).filter(is_written).copied().collect();
         match ways[..] {
@@ -39,27 +39,15 @@ impl Reading<'_> {
             }
             [CASE] => self.case(prefix),
             [RESULTS] => self.results(&format!("{prefix}{RESULTS}")),
-            [_] => Ok(Some(self.numbers(prefix))),
+            // They are still to be set.
+            [_] => Ok(Some(LaydownSource::UNKNOWN)),
             [other, ref more @ ..] => {
-                let remedy = "keep one of a case, results, and the numbers sigma_md, sigma_cd and noise";
                 for way in more {
-                    self.key_values.reject(&format!("{prefix}{way}"), Fault::excludes(other, remedy));
+                    self.key_values.reject(&format!("{prefix}{way}"), Fault::excludes(other, ONE_SOURCE));
                 }
                 Ok(None)
             }
         }
-    }
-
-    /// The numbers of a surrogate, which are still to be set. Those that are missing are noted.
-    fn numbers(&mut self, prefix: &str) -> LaydownSource {
-        for (name, line) in NUMBERS {
-            let full = format!("{prefix}{name}");
-            if !self.is_written(&full) && !self.key_values.is_excused(&full) {
-                let table = without_numbers(&format!("{prefix}laydown"));
-                self.key_values.reject(&full, Fault::missing(&table, line));
-            }
-        }
-        LaydownSource::UNKNOWN
     }
 
     fn case(&mut self, prefix: &str) -> Result<Option<LaydownSource>, Error> {

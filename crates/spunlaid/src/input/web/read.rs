@@ -3,21 +3,15 @@
 use super::super::Overrides;
 use super::super::lookup::Lookup;
 use super::super::written_values::{WrittenValue, WrittenValues, sorted};
-use crate::case::keys::{Key, Omission, Value};
+use crate::case::keys::{Key, Value};
 use crate::case::{Note, unusual};
 use crate::error::{Error, Fault, Finding};
 use crate::layers::full_names::{web_key, without_numbers};
-use crate::layers::keys::{WEB, in_rows};
+use crate::layers::keys::{NUMBERS, WEB, in_rows};
 use crate::layers::{LaydownSource, LayerSpec, Method, SAME, WebKey, WebSpec};
 use crate::web::{Filaments, Row};
 use std::path::{Path, PathBuf};
 
-/// The three numbers of the surrogate, with a line for each.
-pub(super) const NUMBERS: [(&str, &str); 3] = [
-    ("laydown.sigma_md", "sigma_md = \"18.4 mm\""),
-    ("laydown.sigma_cd", "sigma_cd = \"18.3 mm\""),
-    ("laydown.noise", "noise = \"12.4 m^-0.5\""),
-];
 /// The key of the only thing that all layers have in common.
 pub(super) const BELT_SPEED: &str = "line.belt_speed";
 /// The keys that stand in place of the speeds.
@@ -162,26 +156,22 @@ impl Reading<'_> {
                 let (_, short) = name.rsplit_once('.').unwrap_or(("", name));
                 self.is_written(&format!("{before}{short}"))
             };
-            let set = match (
-                self.key_values.get(&full).map(|written_value| written_value.value.clone()),
-                key.omission,
-            ) {
+            let is_given = || {
+                let is_common = key.relations.of_all_layers;
+                is_common || flown(web, key).is_some() || WEB.is_given(key.name, is_there)
+            };
+            let written = self.key_values.get(&full).map(|written_value| written_value.value.clone());
+            let set = match (written, key.default_in(web)) {
                 (Some(None), _) => Ok(()),
                 // They are settled when all else is known.
-                (Some(Some(_)), _) if [THROUGHPUT, BASIS_WEIGHT].contains(&key.name) => Ok(()),
+                (Some(Some(_)), _) if key.read_last => Ok(()),
                 (Some(Some(value)), _) => match key.beside_alternative(is_there) {
                     Some(fault) => Err(fault),
                     None => key.apply(web, &value),
                 },
-                (None, Omission::Value(text)) => key.set(web, text).map_err(|problem| problem.what),
-                (None, Omission::Required(_)) => {
-                    let is_given = flown(web, key).is_some()
-                        || key.relations.of_all_layers
-                        || WEB.is_given(key.name, is_there);
-                    let table = without_numbers(before);
-                    if is_given { Ok(()) } else { Err(Fault::missing(&table, &key.example())) }
-                }
-                (None, Omission::Follows(_)) => Ok(()),
+                (None, Some(text)) => key.set(web, text).map_err(|problem| problem.what),
+                (None, None) if !key.is_needed(web) || is_given() => Ok(()),
+                (None, None) => Err(Fault::missing(&without_numbers(before), &key.example())),
             };
             if let Err(fault) = set
                 && (self.is_written(&full) || !self.key_values.is_excused(&full))
@@ -283,7 +273,7 @@ impl Reading<'_> {
 
     /// Whether a layer gives the numbers of a surrogate.
     pub(super) fn has_numbers(&self, prefix: &str) -> bool {
-        NUMBERS.iter().any(|(name, _)| self.is_written(&format!("{prefix}{name}")))
+        NUMBERS.iter().any(|name| self.is_written(&format!("{prefix}{name}")))
     }
 
     /// Refuses a method of laying that needs flights where there are none.

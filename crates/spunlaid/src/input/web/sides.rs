@@ -1,7 +1,7 @@
 //! Keys that are set from outside, for a web and for the cases that it flies.
 
 use super::super::{Overrides, document};
-use crate::case::keys;
+use crate::case::keys::{self, CASE};
 use crate::error::{Error, Fault, Place, Problem};
 use crate::layers::full_names::without_numbers;
 use crate::layers::keys::WEB;
@@ -89,15 +89,6 @@ pub(crate) fn flies_none() -> String {
     format!("it {FLIES_NONE}; {NAME_ONE}")
 }
 
-/// Keys of a web, each with the keys of the web and of its cases that give the same number in other words.
-const SAME_NUMBERS: [(&str, &[&str]); 5] = [
-    ("line.throughput", &["line.feed_speed", "feed.speed", "spinline.throughput"]),
-    ("line.basis_weight", &["line.belt_speed", "belt.speed"]),
-    ("fibre.linear_density", &["fibre.diameter"]),
-    ("air.speed_factor", &["air.velocity"]),
-    ("spinline.velocity_factor", &["spinline.velocity"]),
-];
-
 /// Whether a key that is set takes the place of another one.
 pub(crate) fn replaces(key: &str, other: &str) -> bool {
     let plain = |full: &str| {
@@ -105,6 +96,5 @@ pub(crate) fn replaces(key: &str, other: &str) -> bool {
         name.strip_prefix("layer.").map_or(name.clone(), ToOwned::to_owned)
     };
     let (of_key, of_other) = (plain(key), plain(other));
-    let says_the_same = |(one, others): &(&str, &[&str])| *one == of_key && others.contains(&&*of_other);
-    key == other || SAME_NUMBERS.iter().any(says_the_same)
+    key == other || WEB.gives(&of_key, &of_other) || CASE.gives(&of_key, &of_other)
 }

@@ -4,28 +4,26 @@ use super::read::{BASIS_WEIGHT, BELT_SPEED, ROUNDED, Reading, THROUGHPUT};
 use crate::case::{Case, Note, Remark};
 use crate::error::{Fault, Place};
 use crate::layers::full_names::without_numbers;
-use crate::layers::{LaydownSource, LayerSpec, SAME, WebSpec};
+use crate::layers::keys::WEB;
+use crate::layers::{LaydownSource, LayerSpec, SAME, WebKey, WebSpec};
 use crate::units::Dimension;
 use std::path::Path;
-
-/// The numbers of a case that follow from keys of its web.
-const OF_CASE: [(&str, &str); 3] =
-    [("belt.speed", BASIS_WEIGHT), ("feed.speed", THROUGHPUT), ("spinline.throughput", THROUGHPUT)];
 
 impl Reading<'_> {
     /// Leaves out what stands in the file in place of a number that the flown cases are given from outside.
     pub(super) fn leave_to_case(&mut self, prefixes: &[String]) {
         let flies = |prefix: &&String| self.is_written(&format!("{prefix}laydown.case"));
         let flying: Vec<String> = prefixes.iter().filter(flies).cloned().collect();
-        for (of_case, key) in OF_CASE {
+        let of_cases = |key: &'static WebKey| key.relations.gives_case.iter().map(move |of_case| (key, *of_case));
+        for (key, of_case) in WEB.rows.iter().flat_map(of_cases) {
             let is_changed = |changes: &super::super::Overrides<'_>| {
                 changes.values.iter().any(|(name, _)| name.trim() == of_case)
             };
             if flying.is_empty() || !self.of_case.iter().any(is_changed) {
                 continue;
             }
-            for prefix in if key == BASIS_WEIGHT { prefixes } else { &flying } {
-                let full = format!("{prefix}{key}");
+            for prefix in if key.relations.of_all_layers { prefixes } else { &flying } {
+                let full = format!("{prefix}{}", key.name);
                 match self.key_values.get(&full).map(|written_value| &written_value.place) {
                     Some(Place::Override(_)) => {
                         let fault = Fault::excludes(of_case, "either gives the other; set one of the two");

@@ -12,7 +12,7 @@ mod rows;
 
 pub use access::WebKey;
 pub(crate) use access::in_rows;
-pub(crate) use rows::METHODS;
+pub(crate) use rows::{METHODS, NUMBERS, ONE_SOURCE};
 pub use rows::WEB_KEYS;
 
 use super::WebSpec;
@@ -46,11 +46,7 @@ pub static WEB: KeyTable<WebSpec> = KeyTable {
 impl WebKey {
     /// The key of a case that means the same, if there is one.
     pub fn key_of_case(&self) -> Option<&'static Key> {
-        keys::find(match self.name {
-            "line.feed_speed" => "feed.speed",
-            "line.belt_speed" => "belt.speed",
-            name => name,
-        })
+        keys::find(self.relations.same_in_case.unwrap_or(self.name))
     }
 
     /// Other words for it: with those of the same key of a case, where there is one.

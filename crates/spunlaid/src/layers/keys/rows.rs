@@ -5,8 +5,8 @@ use super::access::{
 };
 use super::access::{of_path, of_row, of_sheet, of_surrogate};
 use crate::case::keys::row::{choose, key, named, number, quantity, read_with_case, text, whole};
-use crate::case::keys::{EVEN, Kind, Sign, Value};
-use crate::layers::{Flown, LaydownSource, Method};
+use crate::case::keys::{Condition, EVEN, Kind, Sign, Value};
+use crate::layers::{Flown, LaydownSource, Method, WebSpec};
 use crate::surrogate::Surrogate;
 use crate::units::Dimension;
 use crate::web::{Edges, Filaments};
@@ -23,13 +23,20 @@ const ALL: &str = "all";
 /// What becomes of fibre beyond the edges.
 const EDGES: [&str; 2] = ["periodic", "cut"];
 
+/// The numbers of a surrogate.
+pub(crate) const NUMBERS: [&str; 3] = ["laydown.sigma_md", "laydown.sigma_cd", "laydown.noise"];
+/// Filaments of which these numbers are known, so that none are flown.
+const KNOWN: &Condition<WebSpec> = &Condition {
+    words: "without case and results",
+    holds: |web| matches!(layer(web).map(|layer| &layer.source), Some(LaydownSource::Surrogate(_))),
+};
 /// Where the numbers of a surrogate come from if they are left out.
 const IDENTIFIED: &str = "identified in what the fibres of the case have laid";
 
 /// Why two numbers cannot both be written.
 const EITHER: &str = "either gives the other; write one of the two";
 /// Why a layer names one source of its fibres.
-const ONE_SOURCE: &str = "keep one of a case, results, and the numbers sigma_md, sigma_cd and noise";
+pub(crate) const ONE_SOURCE: &str = "keep one of a case, results, and the numbers sigma_md, sigma_cd and noise";
 
 /// A length, speed or other quantity above zero, which a study may vary.
 const fn positive(name: &'static str, dimension: Dimension, access: Access) -> WebKey {
@@ -88,7 +95,7 @@ pub const WEB_KEYS: &[WebKey] = &[
     )
     .label("Linear density"),
     key("laydown.case", Kind::Text("spunbond.toml"), of_path!(Case, path))
-        .alternative_to(&["laydown.sigma_md", "laydown.sigma_cd", "laydown.noise"], ONE_SOURCE)
+        .alternative_to(&NUMBERS, ONE_SOURCE)
         .follows("`results`, or the three numbers")
         .meaning("Path of the case of a fed fibre, relative to this file. It is flown, and the web is laid of what it lays."),
     key("laydown.results", Kind::Text("results/spunbond"), of_path!(Results, folder))
@@ -96,16 +103,19 @@ pub const WEB_KEYS: &[WebKey] = &[
         .follows("`case`, or the three numbers")
         .meaning("Folder with the results of such a case, which has been flown already."),
     positive("laydown.sigma_md", Dimension::Length, of_surrogate!(sigma_md))
+        .needed_if(KNOWN, "18.4 mm")
         .follows(IDENTIFIED)
         .meaning("Spread of a laid filament in machine direction: the σ₁ of the surrogate.")
         .label("Spread in machine direction")
         .usual(1e-5, 1.0),
     positive("laydown.sigma_cd", Dimension::Length, of_surrogate!(sigma_cd))
+        .needed_if(KNOWN, "18.3 mm")
         .follows(IDENTIFIED)
         .meaning("Spread of a laid filament in cross direction: the σ₂ of the surrogate.")
         .label("Spread in cross direction")
         .usual(1e-5, 1.0),
     positive("laydown.noise", Dimension::Noise, of_surrogate!(noise))
+        .needed_if(KNOWN, "12.4 m^-0.5")
         .follows(IDENTIFIED)
         .meaning("Strength A of the noise in the direction of the surrogate.")
         .label("Noise of the direction *A*")
@@ -119,6 +129,7 @@ pub const WEB_KEYS: &[WebKey] = &[
         },
     })
         .derived(is_flown)
+        .same_in_case("feed.speed")
         .required("50 m/s")
         .meaning(
             "Speed at which each filament is fed: the spinning speed. With `laydown.case` or `laydown.results` it is that of the case.",
@@ -133,6 +144,8 @@ pub const WEB_KEYS: &[WebKey] = &[
         },
     })
     .alternative_to(&["line.feed_speed"], EITHER)
+    .gives_case(&["feed.speed", "spinline.throughput"])
+    .read_last()
     .follows("`feed_speed` and the filament give it")
     .usual(1e-8, 1e-3)
     .meaning(
@@ -152,6 +165,7 @@ pub const WEB_KEYS: &[WebKey] = &[
         },
     })
         .derived(is_flown)
+        .same_in_case("belt.speed")
         .of_all_layers()
         .required("3 m/s")
         .meaning("Speed of the belt. It is written once, in any of the layers, because all lie on one belt. With `laydown.case` or \
@@ -168,6 +182,8 @@ pub const WEB_KEYS: &[WebKey] = &[
         },
     })
     .alternative_to(&["line.belt_speed"], EITHER)
+    .gives_case(&["belt.speed"])
+    .read_last()
     .of_all_layers()
     .follows("`belt_speed` and the filaments give it")
     .usual(1e-3, 2.0)

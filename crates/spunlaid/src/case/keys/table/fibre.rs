@@ -125,7 +125,7 @@ pub(super) const KEYS: &[Key] = &[
     .meaning("Length of the elements that the fibre is divided into. Shorter elements resolve shorter waves, and the run takes longer.")
     .label("Element length *l*")
     .slider(2e-3, 0.1)
-    .counted(),
+    .read_last(),
     choose("fibre.root", || Root::ALL.map(Root::name).to_vec(), choice!(fibre.root, Root::ALL))
         .value("pinned")
         .meaning(

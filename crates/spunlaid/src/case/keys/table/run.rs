@@ -15,7 +15,7 @@ pub(super) const KEYS: &[Key] = &[
     .meaning("Time that is simulated, the spin-up included.")
         .label("Simulated time")
         .slider(0.1, 10.0)
-        .counted(),
+        .read_last(),
     quantity("run.time_step", Dimension::Time, Positive, Access {
         get: |case| Some(Value::Number(case.run.time_step)),
         set: |case, value| {
@@ -28,7 +28,7 @@ pub(super) const KEYS: &[Key] = &[
     .meaning("Length of a time step. It must be below the stability limit; otherwise a message gives the limit.")
     .label("Time step *h*")
     .slider(1e-7, 1e-3)
-    .counted(),
+    .read_last(),
     quantity("run.error_tolerance", Dimension::Ratio, Positive, Access {
         get: |_| None,
         set: |case, value| {
@@ -45,7 +45,7 @@ pub(super) const KEYS: &[Key] = &[
     )
     .label("Error tolerance")
     .slider(1e-4, 0.03)
-    .counted(),
+    .read_last(),
     key("run.replicates", Kind::Whole(1, MOST_REPLICATES), Access {
         get: |case| Some(Value::Whole(case.run.replicates)),
         set: |case, value| {
@@ -88,14 +88,14 @@ pub(super) const KEYS: &[Key] = &[
         )
         .label("Spin-up")
         .slider(0.0, 1.0)
-        .counted(),
+        .read_last(),
     quantity("run.output_interval", Dimension::Time, Positive, steps!(output_steps, output_interval, 1))
         .value("1 ms")
         .usual(1e-7, 10.0)
     .meaning("Time from one recorded instant to the next.")
         .label("Output interval")
         .slider(1e-4, 1e-2)
-        .counted(),
+        .read_last(),
     key("run.shapes", Kind::Whole(0, MOST_SHAPES), Access {
         get: |case| case.run.shapes.map(Value::Whole),
         set: |case, value| {

@@ -154,5 +154,5 @@ pub(super) const KEYS: &[Key] = &[
     .meaning("Number of cosine waves whose sum is the turbulence. A sum lasts for harmonics / cut-off frequency; before that, the wind changes over to a sum with other phases.")
     .label("Number of harmonics")
     .varies()
-    .counted(),
+    .read_last(),
 ];
