@@ -97,7 +97,8 @@ pub(crate) fn keys(arguments: &Keys) -> Result<(), Failure> {
 fn reference(key: &KeyEntry) -> String {
     let width = say::columns().map_or(WIDTH, |columns| columns.min(WIDTH));
     let mut text = format!("{}{}\n", key.name, key.file);
-    let default = key.left_out.replace('`', "");
+    let none = if key.left_out.starts_with("required") { "none; " } else { "" };
+    let default = none.to_owned() + &key.left_out.replace('`', "");
     for (title, words) in [
         ("", key.meaning.replace('`', "\"")),
         ("takes     ", takes(key)),

@@ -1,6 +1,6 @@
 //! What a key has to do with other keys. The builders belong to the rows of the table.
 
-use super::{Key, Omission};
+use super::{Key, Omission, Value};
 use crate::case::Case;
 use crate::error::Fault;
 
@@ -32,6 +32,10 @@ pub struct Relations<T: 'static = Case> {
     pub(crate) gives: &'static str,
     /// Whether a unit alone is one of it.
     pub(crate) takes_unit: bool,
+    /// Its value in an input that says it in other words.
+    pub(crate) in_other_words: fn(&T) -> Option<Value>,
+    /// The line of a study that stands in its place, `seed = 1`.
+    pub(crate) in_study: Option<&'static str>,
     /// The key of a case that means the same, where it has another name.
     pub(crate) same_in_case: Option<&'static str>,
     /// Keys of the flown cases whose values it gives.
@@ -60,6 +64,8 @@ impl<T> Relations<T> {
         infer: |_| false,
         gives: "",
         takes_unit: false,
+        in_other_words: |_| None,
+        in_study: None,
         same_in_case: None,
         gives_case: &[],
         of_all_layers: false,
@@ -98,6 +104,14 @@ impl<T> Key<T> {
         Self { relations: Relations { takes_unit: true, ..self.relations }, ..self }
     }
 
+    pub(crate) const fn in_other_words(self, value: fn(&T) -> Option<Value>) -> Self {
+        Self { relations: Relations { in_other_words: value, ..self.relations }, ..self }
+    }
+
+    pub(crate) const fn in_study(self, line: &'static str) -> Self {
+        Self { relations: Relations { in_study: Some(line), ..self.relations }, ..self }
+    }
+
     pub(crate) const fn same_in_case(self, key: &'static str) -> Self {
         Self { relations: Relations { same_in_case: Some(key), ..self.relations }, ..self }
     }
@@ -108,6 +122,11 @@ impl<T> Key<T> {
 
     pub(crate) const fn of_all_layers(self) -> Self {
         Self { relations: Relations { of_all_layers: true, ..self.relations }, ..self }
+    }
+
+    /// Its value in an input, which may say it in other words.
+    pub(crate) fn value_in(&self, input: &T) -> Option<Value> {
+        self.get(input).or_else(|| (self.relations.in_other_words)(input))
     }
 
     /// Its default in an input, if it has one there.
@@ -135,5 +154,59 @@ impl<T> Key<T> {
         let Relations { alternative_to, remedy, .. } = self.relations;
         let other = alternative_to.iter().find(|other| is_written(other))?;
         Some(Fault::excludes(other, remedy))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{CASE, KeyTable, Kind};
+    use super::*;
+    use crate::layers::keys::WEB;
+
+    /// Whether a value is one of a key, as text.
+    fn takes<T>(key: &Key<T>, value: &str) -> bool {
+        key.words.contains(&value) || key.kind.accept(value.trim_matches('"').into()).is_ok()
+    }
+
+    fn check<T>(table: &KeyTable<T>) {
+        let is_known = |name: &&str| table.find(name).is_some() || table.list(name).is_some();
+        for key in table.rows {
+            let Relations { alternative_to, remedy, read_after, .. } = key.relations;
+            assert!([alternative_to, read_after].concat().iter().all(|name| is_known(&name)), "{}", key.name);
+            assert_eq!(alternative_to.is_empty(), remedy.is_empty(), "{}", key.name);
+            assert_eq!(matches!(key.kind, Kind::File(_)), !key.relations.gives.is_empty(), "{}", key.name);
+            let of_case = key.relations.same_in_case.iter().chain(key.relations.gives_case);
+            assert!(of_case.copied().all(|name| CASE.find(name).is_some()), "{}", key.name);
+            let texts = [key.relations.needed_if, key.relations.default_if];
+            assert!(texts.iter().flatten().all(|(_, value)| takes(key, value)), "{}", key.name);
+            if let Omission::Required(value) | Omission::Value(value) = key.omission
+                && !matches!(key.kind, Kind::File(_) | Kind::Direction)
+            {
+                assert!(takes(key, value), "{}: {value}", key.name);
+            }
+        }
+    }
+
+    #[test]
+    fn relations_name_keys_that_are_there_and_values_that_they_take() {
+        check(&CASE);
+        check(&WEB);
+    }
+
+    #[test]
+    fn a_key_is_replaced_by_those_that_give_all_of_it() {
+        let of_case = |names: &[&str]| CASE.replaced_by(names);
+        assert_eq!(of_case(&["fibre.diameter"]), ["fibre.linear_density"]);
+        assert_eq!(of_case(&["fibre.linear_density"]), ["fibre.diameter"]);
+        assert_eq!(of_case(&["air.temperature"]), ["air.density", "air.kinematic_viscosity"]);
+        // The density alone says nothing of the viscosity, which the temperature gives too.
+        assert_eq!(of_case(&["air.density"]), [""; 0]);
+        assert_eq!(of_case(&["air.kinematic_viscosity", "air.density"]), ["air.temperature"]);
+        assert_eq!(of_case(&["air.velocity"]), [""; 0]);
+        assert_eq!(WEB.replaced_by(&["line.rows"]), ["line.filaments_per_metre"]);
+        assert_eq!(
+            WEB.replaced_by(&["laydown.results"]),
+            ["laydown.case", "laydown.sigma_md", "laydown.sigma_cd", "laydown.noise"]
+        );
     }
 }

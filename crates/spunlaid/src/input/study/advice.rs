@@ -10,7 +10,7 @@ use super::{Base, VariedKey};
 use crate::advice::{Change, ChangedKey, Setting};
 use crate::air::{Air, Flow};
 use crate::error::FileKind;
-use crate::layers::{LaydownSource, LayerSpec, Method, WebSpec};
+use crate::layers::{LaydownSource, LayerSpec, Method, WebSpec, web_key};
 use crate::units::Dimension;
 use crate::web::Filaments;
 use std::path::Path;
@@ -216,14 +216,7 @@ impl Line<'_> {
         }
         // Another key may stand in its place.
         let layer = name.strip_prefix("layer.")?.split('.').next()?.parse::<usize>().ok()?;
-        let layer = self.spec().layers.get(layer.checked_sub(1)?)?;
-        if name.ends_with(".line.throughput") {
-            Some(layer.linear_density() * layer.feed_speed)
-        } else if name.ends_with(".fibre.linear_density") {
-            Some(layer.linear_density())
-        } else {
-            None
-        }
+        web_key(name)?.value_in(&self.spec().alone(layer.checked_sub(1)?))?.number()
     }
 
     /// The webs with less and with more of a setting, in the first of some ways in which both can be made; none if there is no such way.

@@ -7,13 +7,9 @@ pub(super) const TAKE_A_NUMBER: &str = "take a key whose value is a number or on
 
 /// Advice for a name that a study cannot vary.
 pub(super) fn advice(name: &str) -> String {
-    match name {
-        "run.replicates" => return "write replicates = 10 in the study file, above its tables".to_owned(),
-        "run.seed" => return "write seed = 1 in the study file, above its tables".to_owned(),
-        _ => {}
-    }
-    if keys::find(name).is_some() {
-        return TAKE_A_NUMBER.to_owned();
+    if let Some(key) = keys::find(name) {
+        let in_study = |line| format!("write {line} in the study file, above its tables");
+        return key.relations.in_study.map_or_else(|| TAKE_A_NUMBER.to_owned(), in_study);
     }
     match keys::nearest(name) {
         Some(key) if key.varies => format!("did you mean {}?", key.name),

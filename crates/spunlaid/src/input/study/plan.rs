@@ -107,7 +107,7 @@ impl<'a> Reader<'a> {
         let Some(key) = keys::find(name).filter(|_| base != FileKind::Web) else {
             return;
         };
-        if matches!(key.name, "run.replicates" | "run.seed") {
+        if key.relations.in_study.is_some() {
             self.reject(entry, name, not_varied(advice(name)));
         }
         let is_word = |word: &str| word == AUTO || key.kind.words().contains(&word);

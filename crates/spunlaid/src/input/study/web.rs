@@ -6,7 +6,6 @@ use super::super::web::{AllSides, Sides, WebFile, flies_none, is_of_case, parse_
 use super::fixed_keys::TAKE_A_NUMBER;
 use super::plan::Plan;
 use super::{Base, ExperimentWithNotes, VariedKey, level};
-use crate::case::Case;
 use crate::case::keys::{self, Value};
 use crate::error::{Error, Place, nearest_word};
 use crate::layers::full_names::{full_name, value, web_key, without_numbers};
@@ -79,7 +78,8 @@ impl WebBase {
 
     /// The number of a key of the cases, if all that are flown have the same.
     pub(super) fn number_of_cases(&self, name: &str) -> Option<f64> {
-        let number = |layer: &LayerSpec| Some(value_in_case(layer.source.case()?, name)?.number());
+        let key = keys::find(name)?;
+        let number = |layer: &LayerSpec| Some(key.value_in(layer.source.case()?)?.number());
         let mut numbers = self.spec.layers.iter().filter_map(number);
         let first = numbers.next()??;
         let is_same =
@@ -93,17 +93,7 @@ impl WebBase {
             LaydownSource::Case { case, .. } => Some(&**case),
             _ => None,
         });
-        value_in_case(case?, name)
-    }
-}
-
-/// The value of a key of a case.
-fn value_in_case(case: &Case, name: &str) -> Option<Value> {
-    // The diameter of a case stands for its titre.
-    if name == "fibre.linear_density" {
-        Some(case.linear_density().into())
-    } else {
-        keys::find(name)?.get(case)
+        keys::find(name)?.value_in(case?)
     }
 }
 

@@ -188,8 +188,8 @@ impl Reading<'_> {
             ["case", "results"].iter().any(|way| self.is_written(&format!("{prefix}laydown.{way}")));
         if source.is_none() && (by_case || self.key_values.is_excused(&format!("{prefix}laydown."))) {
             // The case would give them.
-            for name in ["fibre.diameter", "fibre.density", "line.feed_speed", BELT_SPEED] {
-                self.key_values.excuse(format!("{prefix}{name}"));
+            for key in WEB.rows.iter().filter(|key| key.key_of_case().is_some()) {
+                self.key_values.excuse(format!("{prefix}{}", key.name));
             }
         }
         let numbers = matches!(source, Some(LaydownSource::Surrogate(_)));
@@ -214,8 +214,8 @@ impl Reading<'_> {
         for key in WEB.rows {
             let Some((of_case, value)) = flown(web, key) else { continue };
             let numbers = (key.get(web).and_then(|here| here.number()), value.number());
-            // A titre is rounded more often than a diameter.
-            let apart = if of_case.name == "fibre.linear_density" { ROUNDED } else { SAME };
+            // A titre is rounded more often than the diameter for which it stands.
+            let apart = if key.relations.alternative_to.is_empty() { SAME } else { ROUNDED };
             if let (Some(here), Some(there)) = numbers
                 && (here / there - 1.0).abs() > apart
             {
@@ -229,7 +229,7 @@ impl Reading<'_> {
                 self.key_values.reject(&format!("{prefix}{}", key.name), Fault::new(message, remedy));
             }
         }
-        for key in WEB.rows.iter().filter(|key| key.name != "fibre.linear_density") {
+        for key in WEB.rows.iter().filter(|key| key.relations.alternative_to.is_empty()) {
             if let Some((_, value)) = flown(web, key) {
                 // The kinds of both keys are the same.
                 drop(key.apply(web, &value));
@@ -301,7 +301,5 @@ impl Reading<'_> {
 /// What the case of a layer's flown fibres gives for a key of the web: the key of the case, and its value.
 fn flown(web: &WebSpec, key: &WebKey) -> Option<(&'static Key, Value)> {
     let (of_case, case) = (key.key_of_case()?, web.layers.first()?.source.case()?);
-    // The diameter of a case stands for it.
-    let titre = (of_case.name == "fibre.linear_density").then(|| case.linear_density().into());
-    Some((of_case, titre.or_else(|| of_case.get(case))?))
+    Some((of_case, of_case.value_in(case)?))
 }

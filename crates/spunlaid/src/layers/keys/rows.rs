@@ -89,6 +89,7 @@ pub const WEB_KEYS: &[WebKey] = &[
         },
     })
     .alternative_to(&["fibre.diameter"], EITHER)
+    .in_other_words(|web| Some(layer(web)?.linear_density().into()))
     .follows("diameter and density give it")
     .meaning(
         "Mass per length of a filament, which may be written instead of `fibre.diameter`; the diameter follows with the density.",
@@ -144,6 +145,7 @@ pub const WEB_KEYS: &[WebKey] = &[
         },
     })
     .alternative_to(&["line.feed_speed"], EITHER)
+    .in_other_words(|web| layer(web).map(|layer| (layer.linear_density() * layer.feed_speed).into()))
     .gives_case(&["feed.speed", "spinline.throughput"])
     .read_last()
     .follows("`feed_speed` and the filament give it")

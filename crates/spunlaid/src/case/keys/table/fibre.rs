@@ -69,6 +69,7 @@ pub(super) const KEYS: &[Key] = &[
         },
     })
     .alternative_to(&["fibre.diameter"], "either gives the other; write one of the two")
+    .in_other_words(|case| Some(case.linear_density().into()))
     .follows("diameter and density give it")
     .usual(1e-11, 0.03)
     .meaning("Mass per length of the fibre, which may be written instead of `fibre.diameter`; the diameter follows with the density.")

@@ -54,6 +54,7 @@ pub(super) const KEYS: &[Key] = &[
         },
     })
     .value("10")
+    .in_study("replicates = 10")
     .meaning("Number of fibres, each in its own turbulence. Means and standard errors are taken over them."),
     key("run.seed", Kind::Whole(0, u64::MAX), Access {
         get: |case| Some(Value::Whole(case.run.seed)),
@@ -63,6 +64,7 @@ pub(super) const KEYS: &[Key] = &[
         },
     })
     .value("1")
+    .in_study("seed = 1")
     .meaning("Seed of the random phases. Another seed gives other turbulence; the same seed gives the same results to the last bit."),
     choose("run.scheme", || Scheme::ALL.map(Scheme::name).to_vec(), choice!(run.scheme, Scheme::ALL))
         .value("semi-implicit-euler")
