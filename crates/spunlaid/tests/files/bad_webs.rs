@@ -67,12 +67,6 @@ fn rejects_overrides_by_their_name() {
              write the key without layer",
         ),
         (
-            "line.rows",
-            "[{ pitch = \"0.2 mm\", filaments = 5000 }]",
-            "web.toml:16: line.filaments_per_metre = 5000 cannot be combined with line.rows; filaments come down at random \
-             places or in rows; keep one",
-        ),
-        (
             "line.rows.1.pitch",
             "1 mm",
             "override line.rows.1.pitch = \"1 mm\" is of a row of nozzles that the file does not have; write a list of \

@@ -2,7 +2,7 @@
 
 use crate::cases;
 use crate::cases::{bits, changed, read_again};
-use spunlaid::air::Air;
+use spunlaid::air::{Air, Flow};
 use spunlaid::case::{Case, Neighbours, Remark, Run};
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::{Drag, FrictionLaw, NormalLaw};
@@ -133,6 +133,30 @@ fn linear_density_and_taylors_cutoff_give_what_they_stand_for() {
     let (case, _) = changed(&[("air.cutoff_frequency", "taylor"), ("air.velocity", "20 m/s")]);
     assert_eq!(case.air.cutoff_frequency, 100.0);
     assert_eq!(bits(&read_again(&case)), bits(&case));
+}
+
+#[test]
+fn what_is_set_replaces_what_a_case_says_in_other_words() {
+    let table1 = fs::read_to_string("../../cases/table1.toml").unwrap();
+    let read = |lines: &str, set: &[(&str, &str)]| {
+        let set: Vec<_> = set.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
+        parse_case(&table1.replace("[air]\n", &format!("[air]\n{lines}\n")), "a.toml", &set)
+    };
+    let air = |lines: &str, set: &[(&str, &str)]| {
+        let air = read(lines, set).unwrap().0.air;
+        [air.density, air.kinematic_viscosity]
+    };
+    let (warm, numbers) = ("temperature = '60 °C'", "density = '1 kg/m³'\nkinematic_viscosity = '2e-5 m²/s'");
+    assert_eq!(air(numbers, &[("air.temperature", "60 °C")]), air(warm, &[]));
+    let both = [("air.density", "1 kg/m³"), ("air.kinematic_viscosity", "2e-5 m²/s")];
+    assert_eq!(air(warm, &both), [1.0, 2e-5]);
+    // The density says nothing of the viscosity, which is that of no temperature then.
+    let said = read(warm, &both[..1]).unwrap_err().to_string();
+    let refused = "air.temperature = '60 °C' cannot be combined with air.density; the temperature gives density and viscosity";
+    assert!(said.contains(refused), "{said}");
+    let field = [("air.field".to_owned(), "../../cases/fields/diffuser_core.csv".to_owned())];
+    let (case, _) = read_case("../../cases/profile.toml".as_ref(), &field).unwrap();
+    assert!(matches!(case.air.flow, Flow::Field(_)), "{:?}", case.air.flow);
 }
 
 #[test]

@@ -166,7 +166,8 @@ fn identical_points_again_where_numbers_follow_from_others() {
             .contains("cannot be combined with belt.speed; either gives the other")
     );
     let said = study(&format!("{set}'line.belt_speed' = ['3 m/s']\n")).unwrap_err().to_string();
-    assert!(said.contains("line.belt_speed is set to one value for all points, and varied"), "{said}");
+    let set = "line.belt_speed is set to one value for all points by line.basis_weight, and varied";
+    assert!(said.contains(set), "{said}");
 }
 
 /// A web of two layers, in which the belt speed is written once.

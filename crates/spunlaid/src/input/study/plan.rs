@@ -122,8 +122,10 @@ impl<'a> Reader<'a> {
         let full = |name: &str| base.varied(name).map_or_else(|_| name.to_owned(), |key| key.name);
         let set: Vec<String> = set.iter().map(|(name, _)| full(name)).collect();
         let varied = factors.iter().map(|factor| &factor.key).chain(links.iter().map(|link| &link.key));
-        for key in varied.filter(|key| set.iter().any(|set| set == *key || are_alternatives(set, key))) {
-            self.reject_whole(key, set_twice());
+        for key in varied {
+            if let Some(other) = set.iter().find(|set| *set == key || are_alternatives(set, key)) {
+                self.reject_whole(key, set_twice(key, other));
+            }
         }
     }
 

@@ -205,8 +205,11 @@ pub(super) fn not_varied(remedy: impl Into<Cow<'static, str>>) -> Fault {
 }
 
 /// A key that is both set and varied or linked.
-pub(super) fn set_twice() -> Fault {
-    Fault::new("is set to one value for all points, and varied or linked as well", "keep one")
+///
+/// * `by` – the key that sets it, which may be another one that gives it in other words
+pub(super) fn set_twice(key: &str, by: &str) -> Fault {
+    let by = if by == key { String::new() } else { format!(" by {by}") };
+    Fault::new(format!("is set to one value for all points{by}, and varied or linked as well"), "keep one")
 }
 
 /// A number of replicates that is asked for, and that is out of range.

@@ -96,7 +96,6 @@ pub const WEB_KEYS: &[WebKey] = &[
     )
     .label("Linear density"),
     key("laydown.case", Kind::Text("spunbond.toml"), of_path!(Case, path))
-        .alternative_to(&NUMBERS, ONE_SOURCE)
         .follows("`results`, or the three numbers")
         .meaning("Path of the case of a fed fibre, relative to this file. It is flown, and the web is laid of what it lays."),
     key("laydown.results", Kind::Text("results/spunbond"), of_path!(Results, folder))
