@@ -1,8 +1,8 @@
 //! Overrides: each finds the layer, table and row of its key.
 
+use super::Overrides;
 use super::document::Document;
 use super::entry::Entry;
-use super::Overrides;
 use super::source::fit;
 use crate::case::keys::TableList;
 use crate::error::Fault;
@@ -48,10 +48,10 @@ impl<'a, T> Document<'a, T> {
                 set.iter().filter(|(other, _)| other == layer).map(|(_, path)| &**path).collect();
             for other in self.keys.replaced_by(&here) {
                 let of_all_layers = self.keys.find(other).is_some_and(|key| key.relations.of_all_layers);
-                let is_set = |full: &str| {
-                    set.iter().any(|(layer, path)| full.strip_prefix(&**layer) == Some(&**path))
-                };
-                let everywhere = self.entries.iter().filter(|(_, (key, _))| of_all_layers && key.name == other);
+                let is_set =
+                    |full: &str| set.iter().any(|(layer, path)| full.strip_prefix(&**layer) == Some(&**path));
+                let everywhere =
+                    self.entries.iter().filter(|(_, (key, _))| of_all_layers && key.name == other);
                 let mut left_out: Vec<String> = everywhere.map(|(full, _)| full.clone()).collect();
                 left_out.push(format!("{layer}{other}"));
                 left_out.iter().filter(|full| !is_set(full)).for_each(|full| self.remove(full));

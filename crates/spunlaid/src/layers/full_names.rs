@@ -15,7 +15,9 @@ pub fn web_key(full: &str) -> Option<&'static WebKey> {
 
 /// Whether one of two keys of a case or a web gives the value of the other, by their full names.
 pub(crate) fn are_alternatives(one: &str, other: &str) -> bool {
-    let [Some(key), Some(found)] = [one, other].map(web_key) else { return CASE.are_alternatives(one, other) };
+    let [Some(key), Some(found)] = [one, other].map(web_key) else {
+        return CASE.are_alternatives(one, other);
+    };
     let is_of_same_layer = || one.strip_suffix(key.name) == other.strip_suffix(found.name);
     WEB.are_alternatives(key.name, found.name) && (key.relations.of_all_layers || is_of_same_layer())
 }

@@ -346,7 +346,10 @@ fn an_override_replaces_the_other_key() {
     assert!((known("fibre.linear_density", "2 dtex").diameter - 16.73e-6).abs() < 1e-8);
     let rows = known("line.rows", "[{ pitch = 'even', filaments = 1000 }]").filaments;
     assert!(matches!(&rows, Filaments::Rows(rows) if rows[0].filaments == 1000), "{rows:?}");
-    assert_eq!(layer("line.filaments_per_metre", "4000").filaments, Filaments::AtRandom { per_metre: 4000.0 });
+    assert_eq!(
+        layer("line.filaments_per_metre", "4000").filaments,
+        Filaments::AtRandom { per_metre: 4000.0 }
+    );
     // Both as overrides are compared.
     let both = [("line.feed_speed", "50 m/s"), ("line.throughput", "0.5 g/min")];
     let both = both.map(|(key, value)| (key.to_owned(), value.to_owned()));

@@ -57,7 +57,8 @@ impl<T> KeyTable<T> {
 
     /// Whether a key gives the value of another one, of its own file or of a case, by their names.
     pub(crate) fn gives(&self, name: &str, other: &str) -> bool {
-        let gives = |key: &Key<T>| [key.relations.alternative_to, key.relations.gives_case].concat().contains(&other);
+        let gives =
+            |key: &Key<T>| [key.relations.alternative_to, key.relations.gives_case].concat().contains(&other);
         self.find(name).is_some_and(gives)
     }
 

@@ -27,13 +27,8 @@ use crate::units::Dimension;
 pub const TABLES: [&str; table::NAMES.len()] = table::NAMES;
 
 /// The keys of a case.
-pub static CASE: KeyTable = KeyTable {
-    rows: &table::KEYS,
-    tables: &TABLES,
-    lists: &[],
-    noun: "a case",
-    file: "a case file",
-};
+pub static CASE: KeyTable =
+    KeyTable { rows: &table::KEYS, tables: &TABLES, lists: &[], noun: "a case", file: "a case file" };
 
 /// The text that a case file may give as cut-off frequency: Taylor's hypothesis.
 pub(crate) const TAYLOR: &str = "taylor";
@@ -77,7 +72,8 @@ pub struct Key<T: 'static = Case> {
     pub slider: Option<(f64, f64)>,
     /// Outside of these a value, unless it is zero, is most likely a slip; in SI units, of the magnitude.
     pub usual: Option<(f64, f64)>,
-    /// Whether it is set after all others: it is rounded to whole elements, steps or harmonics, or another number follows from it.
+    /// Whether it is set after all others: it is rounded to whole elements, steps or harmonics, or another
+    /// number follows from it.
     pub(crate) read_last: bool,
     /// Words that may stand in place of a number.
     pub(crate) words: &'static [&'static str],
@@ -225,8 +221,10 @@ impl<T> Key<T> {
     pub(crate) fn example(&self) -> String {
         let (Omission::Required(value) | Omission::Value(value) | Omission::Follows(value)) = self.omission;
         let value = self.relations.needed_if.map_or(value, |(_, example)| example);
-        let quote = if self.dimension().is_some_and(|dimension| dimension != Dimension::Ratio) { "\"" } else { "" };
-        format!("{} = {quote}{value}{quote}", self.short())
+        match self.dimension() {
+            Some(Dimension::Ratio) | None => format!("{} = {value}", self.short()),
+            Some(_) => format!("{} = \"{value}\"", self.short()),
+        }
     }
 
     /// The allowed values in words: `a length above zero`.

@@ -15,8 +15,8 @@ pub struct Condition<T: 'static = Case> {
 /// The relations of a key to other keys of its file.
 #[derive(Debug)]
 pub struct Relations<T: 'static = Case> {
-    /// Keys whose values it gives in other words, all of them at once. What is set from outside, or varies, replaces
-    /// what stands in the file in other words.
+    /// Keys whose values it gives in other words, all of them at once. What is set from outside, or varies,
+    /// replaces what stands in the file in other words.
     pub alternative_to: &'static [&'static str],
     /// Why it cannot stand beside them, and the way out.
     pub(crate) remedy: &'static str,

@@ -176,49 +176,54 @@ macro_rules! steps {
     };
 }
 
-pub(crate) const fn key<T>(name: &'static str, kind: Kind, access: AccessTo<T>) -> Key<T> {
-    let AccessTo { get, set } = access;
-    Key {
-        name,
-        kind,
-        omission: Omission::Follows(""),
-        meaning: "",
-        synonyms: &[],
-        label: name,
-        varies: false,
-        in_flight: false,
-        slider: None,
-        usual: None,
-        read_last: false,
-        words: &[],
-        relations: Relations::NONE,
-        get,
-        set,
-        derived: |_| false,
-    }
+/// A key of which it is still to be said where its value is.
+pub(crate) struct NewKey {
+    name: &'static str,
+    kind: Kind,
+    varies: bool,
+}
+
+pub(crate) const fn key(name: &'static str, kind: Kind) -> NewKey {
+    NewKey { name, kind, varies: false }
 }
 
 /// A quantity, which a study may vary.
-pub(crate) const fn quantity<T>(
-    name: &'static str,
-    dimension: Dimension,
-    sign: Sign,
-    access: AccessTo<T>,
-) -> Key<T> {
-    key(name, Kind::Quantity(dimension, sign), access).varies()
+pub(crate) const fn quantity(name: &'static str, dimension: Dimension, sign: Sign) -> NewKey {
+    NewKey { name, kind: Kind::Quantity(dimension, sign), varies: true }
 }
 
 /// One of a few words, which a study may vary.
-pub(crate) const fn choose<T>(
-    name: &'static str,
-    names: fn() -> Vec<&'static str>,
-    access: AccessTo<T>,
-) -> Key<T> {
-    key(name, Kind::Choice(names), access).varies()
+pub(crate) const fn choose(name: &'static str, names: fn() -> Vec<&'static str>) -> NewKey {
+    NewKey { name, kind: Kind::Choice(names), varies: true }
 }
 
-pub(super) const fn file(name: &'static str, kind: FileKind, access: Access) -> Key {
-    key(name, Kind::File(kind), access)
+pub(super) const fn file(name: &'static str, kind: FileKind) -> NewKey {
+    key(name, Kind::File(kind))
+}
+
+impl NewKey {
+    /// Where its value is.
+    pub(crate) const fn access<T>(self, access: AccessTo<T>) -> Key<T> {
+        let (Self { name, kind, varies }, AccessTo { get, set }) = (self, access);
+        Key {
+            name,
+            kind,
+            omission: Omission::Follows(""),
+            meaning: "",
+            synonyms: &[],
+            label: name,
+            varies,
+            in_flight: false,
+            slider: None,
+            usual: None,
+            read_last: false,
+            words: &[],
+            relations: Relations::NONE,
+            get,
+            set,
+            derived: |_| false,
+        }
+    }
 }
 
 impl<T> Key<T> {

@@ -14,7 +14,8 @@ impl Reading<'_> {
     pub(super) fn leave_to_case(&mut self, prefixes: &[String]) {
         let flies = |prefix: &&String| self.is_written(&format!("{prefix}laydown.case"));
         let flying: Vec<String> = prefixes.iter().filter(flies).cloned().collect();
-        let of_cases = |key: &'static WebKey| key.relations.gives_case.iter().map(move |of_case| (key, *of_case));
+        let of_cases =
+            |key: &'static WebKey| key.relations.gives_case.iter().map(move |of_case| (key, *of_case));
         for (key, of_case) in WEB.rows.iter().flat_map(of_cases) {
             let is_changed = |changes: &super::super::Overrides<'_>| {
                 changes.values.iter().any(|(name, _)| name.trim() == of_case)

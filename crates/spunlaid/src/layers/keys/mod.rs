@@ -12,8 +12,8 @@ mod rows;
 
 pub use access::WebKey;
 pub(crate) use access::in_rows;
-pub(crate) use rows::{METHODS, NUMBERS, ONE_SOURCE};
 pub use rows::WEB_KEYS;
+pub(crate) use rows::{METHODS, NUMBERS, ONE_SOURCE};
 
 use super::WebSpec;
 use crate::case::keys::{self, Key, KeyTable, TableList};

@@ -9,61 +9,76 @@ use crate::line::Contact;
 use crate::units::Dimension;
 
 pub(super) const KEYS: &[Key] = &[
-    quantity("belt.distance", Dimension::Length, Positive, Access {
-        get: |case| Some(Value::Number(case.line?.distance)),
-        set: |case, value| {
-            let distance = number(value)?;
-            let element_length = case.fibre.rest_length();
-            line(case)?.distance = distance;
-            if element_length.is_finite() {
-                case.fibre.span(distance, element_length);
-            } else {
-                case.fibre.length = distance;
-            }
-            Ok(())
-        },
-    })
-    .needed_if(FED, "0.5 m")
-    .follows("a fibre of fixed length")
-    .usual(0.001, 10.0)
-    .meaning("Distance from the inlet to the belt, along x. The belt is perpendicular to x.")
-    .synonyms(&["DCD", "die-to-collector distance"])
-.label("Distance to the belt *H*")
-    .slider(0.1, 2.0),
-    quantity("belt.speed", Dimension::Velocity, NotNegative, of_line!(belt_speed))
+    quantity("belt.distance", Dimension::Length, Positive)
+        .access(Access {
+            get: |case| Some(Value::Number(case.line?.distance)),
+            set: |case, value| {
+                let distance = number(value)?;
+                let element_length = case.fibre.rest_length();
+                line(case)?.distance = distance;
+                if element_length.is_finite() {
+                    case.fibre.span(distance, element_length);
+                } else {
+                    case.fibre.length = distance;
+                }
+                Ok(())
+            },
+        })
+        .needed_if(FED, "0.5 m")
+        .follows("a fibre of fixed length")
+        .usual(0.001, 10.0)
+        .meaning("Distance from the inlet to the belt, along x. The belt is perpendicular to x.")
+        .synonyms(&["DCD", "die-to-collector distance"])
+        .label("Distance to the belt *H*")
+        .slider(0.1, 2.0),
+    quantity("belt.speed", Dimension::Velocity, NotNegative)
+        .access(of_line!(belt_speed))
         .needed_if(FED, "3 m/s")
         .follows("a fibre of fixed length")
         .usual(0.0001, 50.0)
-    .meaning("Speed of the belt, along y, the machine direction.")
+        .meaning("Speed of the belt, along y, the machine direction.")
         .synonyms(&["line speed", "conveyor speed"])
-.label("Belt speed *v*_{b}")
+        .label("Belt speed *v*_{b}")
         .slider(0.0, 10.0),
-    choose("belt.contact", || Contact::ALL.map(|contact| contact.name()).to_vec(), Access {
-        get: |case| Some(case.line?.contact.name().into()),
-        set: |case, value| {
-            change(&mut line(case)?.contact, value, &Contact::ALL, |contact| contact.name())
-        },
-    })
-    .value("stick")
-    .meaning("What holds the fibre on the belt: it sticks where it touches down, or it slides against friction.")
-    .label("Contact with the belt"),
-    quantity("belt.friction", Dimension::Ratio, NotNegative, of_friction!(coefficient))
+    choose("belt.contact", || Contact::ALL.map(|contact| contact.name()).to_vec())
+        .access(Access {
+            get: |case| Some(case.line?.contact.name().into()),
+            set: |case, value| {
+                change(&mut line(case)?.contact, value, &Contact::ALL, |contact| contact.name())
+            },
+        })
+        .value("stick")
+        .meaning(
+            "What holds the fibre on the belt: it sticks where it touches down, or it slides against \
+             friction.",
+        )
+        .label("Contact with the belt"),
+    quantity("belt.friction", Dimension::Ratio, NotNegative)
+        .access(of_friction!(coefficient))
         .value("0.3")
         .usual(0.001, 3.0)
-    .meaning("Coefficient of the friction between fibre and belt.")
+        .meaning("Coefficient of the friction between fibre and belt.")
         .label("Friction on the belt *μ*")
         .slider(0.0, 1.0),
-    quantity("belt.suction", Dimension::Pressure, NotNegative, of_friction!(suction))
+    quantity("belt.suction", Dimension::Pressure, NotNegative)
+        .access(of_friction!(suction))
         .value("200 Pa")
         // Up to an atmosphere.
-    .usual(0.1, 1e5)
-    .meaning("Pressure difference that pulls the fibre on to the belt. Times the diameter, it is a force per length of fibre.")
+        .usual(0.1, 1e5)
+        .meaning(
+            "Pressure difference that pulls the fibre on to the belt. Times the diameter, it is a force \
+             per length of fibre.",
+        )
         .label("Suction")
         .slider(0.0, 2000.0),
-    quantity("belt.kept_length", Dimension::Length, Positive, of_line!(kept_length))
+    quantity("belt.kept_length", Dimension::Length, Positive)
+        .access(of_line!(kept_length))
         .follows("6 % of the distance to the belt")
         .usual(1e-7, 2.0)
-    .meaning("Length of fibre behind the newest touch-down that still moves. What comes after it is laid; arches that are still in the air stay where they are.")
+        .meaning(
+            "Length of fibre behind the newest touch-down that still moves. What comes after it is laid; \
+             arches that are still in the air stay where they are.",
+        )
         .label("Length that still moves on the belt")
         .slider(5e-3, 0.2),
 ];

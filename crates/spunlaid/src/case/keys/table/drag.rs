@@ -9,49 +9,46 @@ use crate::error::Fault;
 use crate::units::Dimension;
 
 pub(super) const KEYS: &[Key] = &[
-    choose(
-        "drag.along",
-        || FrictionLaw::ALL.map(FrictionLaw::name).to_vec(),
-        Access {
+    choose("drag.along", || FrictionLaw::ALL.map(FrictionLaw::name).to_vec())
+        .access(Access {
             get: |case| Some(case.drag.along.name().into()),
-            set: |case, value| {
-                change(&mut case.drag.along, value, &FrictionLaw::ALL, |law| law.name())
+            set: |case, value| change(&mut case.drag.along, value, &FrictionLaw::ALL, |law| law.name()),
+        })
+        .value("matsui")
+        .meaning("Law of the friction along the fibre. Source and range of each law: docs/theory.md.")
+        .label("Law of the friction along the fibre")
+        .in_flight(),
+    choose("drag.across", || NormalLaw::ALL.map(NormalLaw::name).to_vec())
+        .access(choice!(drag.across, NormalLaw::ALL))
+        .value("ju-shambaugh")
+        .meaning(
+            "Law of the drag across the fibre. \"marheineke-wegener\" agrees with measurements from fine \
+             fibres to thick cylinders; \"ju-shambaugh\" is the paper's. Source and range of each law: \
+             docs/theory.md.",
+        )
+        .label("Law of the drag across the fibre")
+        .in_flight(),
+    quantity("drag.friction_coefficient", Dimension::Ratio, NotNegative)
+        .access(Access {
+            get: |case| case.drag.along.factor().map(Value::Number),
+            set: |case, value| match &mut case.drag.along {
+                FrictionLaw::Matsui { factor } => {
+                    *factor = number(value)?;
+                    Ok(())
+                }
+                _ => {
+                    let (needed, remedy) = ("drag.along = \"matsui\"", "remove it, this law has its own");
+                    Err(Fault::needs(needed, remedy))
+                }
             },
-        },
-    )
-    .value("matsui")
-    .meaning("Law of the friction along the fibre. Source and range of each law: docs/theory.md.")
-    .label("Law of the friction along the fibre")
-    .in_flight(),
-    choose(
-        "drag.across",
-        || NormalLaw::ALL.map(NormalLaw::name).to_vec(),
-        choice!(drag.across, NormalLaw::ALL),
-    )
-    .value("ju-shambaugh")
-    .meaning(
-        "Law of the drag across the fibre. \"marheineke-wegener\" agrees with measurements from fine fibres to thick cylinders; \
-         \"ju-shambaugh\" is the paper's. Source and range of each law: docs/theory.md.",
-    )
-    .label("Law of the drag across the fibre")
-    .in_flight(),
-    quantity("drag.friction_coefficient", Dimension::Ratio, NotNegative, Access {
-        get: |case| case.drag.along.factor().map(Value::Number),
-        set: |case, value| match &mut case.drag.along {
-            FrictionLaw::Matsui { factor } => {
-                *factor = number(value)?;
-                Ok(())
-            }
-            _ => {
-                let (needed, remedy) = ("drag.along = \"matsui\"", "remove it, this law has its own");
-                Err(Fault::needs(needed, remedy))
-            }
-        },
-    })
-    .value("0.9")
-    .usual(0.01, 10.0)
-    .meaning("Factor of Matsui's friction law. Values from 0.37 to 0.9 are in use; 0.37 is the low end, and two sources support 0.9.")
-    .label("Friction coefficient *β*")
-    .slider(0.2, 1.2)
-    .in_flight(),
+        })
+        .value("0.9")
+        .usual(0.01, 10.0)
+        .meaning(
+            "Factor of Matsui's friction law. Values from 0.37 to 0.9 are in use; 0.37 is the low end, and \
+             two sources support 0.9.",
+        )
+        .label("Friction coefficient *β*")
+        .slider(0.2, 1.2)
+        .in_flight(),
 ];

@@ -11,13 +11,13 @@ use crate::error::Fault;
 const MOST: usize = 64;
 
 pub(super) const KEYS: &[Key] = &[
-    key("neighbours.cd", Kind::Lengths, of_neighbours!(cd))
-        .follows("no companions")
-        .meaning(
-            "Distances in cross direction at which companions fly beside each replicate, in the same air. The results say how \
-             their motion, or the place where they come down, is correlated with that of the replicate.",
-        ),
-    key("neighbours.md", Kind::Lengths, of_neighbours!(md))
+    key("neighbours.cd", Kind::Lengths).access(of_neighbours!(cd)).follows("no companions").meaning(
+        "Distances in cross direction at which companions fly beside each replicate, in the same air. The \
+         results say how their motion, or the place where they come down, is correlated with that of the \
+         replicate.",
+    ),
+    key("neighbours.md", Kind::Lengths)
+        .access(of_neighbours!(md))
         .follows("no companions")
         .meaning("The same in machine direction."),
 ];

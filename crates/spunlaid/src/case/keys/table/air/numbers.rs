@@ -33,7 +33,8 @@ fn highest(air: &Air) -> Option<f64> {
     }
 }
 
-/// Sets the cut-off frequency by Taylor's hypothesis: eddies of length `L` that pass at velocity `U` make `U/(4 L)`.
+/// Sets the cut-off frequency by Taylor's hypothesis: eddies of length `L` that pass at velocity `U` make
+/// `U/(4 L)`.
 fn by_taylor(air: &mut Air) -> Result<(), Fault> {
     if !air.is_uniform() || air.from_flow.length_scale {
         let (needed, remedy) = ("air.velocity and air.length_scale", "write a frequency, or leave it out");
@@ -44,92 +45,107 @@ fn by_taylor(air: &mut Air) -> Result<(), Fault> {
     Ok(())
 }
 
+/// The fault of a temperature for which the formula of the viscosity does not hold.
+fn beyond_sutherland() -> Fault {
+    let (least, most) = (*SUTHERLAND_RANGE.start(), *SUTHERLAND_RANGE.end());
+    Fault::new(
+        format!("is not between {least} and {most} K, where the formula of the air's viscosity holds"),
+        "correct the temperature or its unit, or write air.density and air.kinematic_viscosity instead",
+    )
+}
+
 pub(super) const KEYS: &[Key] = &[
-    quantity("air.turbulence_intensity", Dimension::Ratio, NotNegative, of_air!(turbulence_intensity))
+    quantity("air.turbulence_intensity", Dimension::Ratio, NotNegative)
+        .access(of_air!(turbulence_intensity))
         .derived(|case| case.air.from_flow.turbulence_intensity)
         .inferred(from_air!(turbulence_intensity, |air| said(air)?.turbulence_intensity))
         .required("0.1")
         .usual(1e-5, 1.0)
-    .meaning("Rms of each fluctuating velocity component, divided by the mean velocity. A record, a profile or a field may give it instead.")
+        .meaning(
+            "Rms of each fluctuating velocity component, divided by the mean velocity. A record, a profile \
+             or a field may give it instead.",
+        )
         .synonyms(&["turbulence level", "degree of turbulence"])
-.label("Turbulence intensity *Tu*")
+        .label("Turbulence intensity *Tu*")
         .slider(0.0, 0.5)
         .in_flight(),
-    quantity("air.length_scale", Dimension::Length, Positive, of_air!(length_scale))
+    quantity("air.length_scale", Dimension::Length, Positive)
+        .access(of_air!(length_scale))
         .derived(|case| case.air.from_flow.length_scale)
         .inferred(from_air!(length_scale, |air| said(air)?.length_scale))
         .required("50 mm")
         .usual(1e-5, 10.0)
-    .meaning("Length of an eddy. Within this length the fluctuation is the same along the fibre. A record, a profile or a field may give it instead.")
+        .meaning(
+            "Length of an eddy. Within this length the fluctuation is the same along the fibre. A record, \
+             a profile or a field may give it instead.",
+        )
         .synonyms(&["eddy size", "integral length scale"])
-.label("Length of the eddies *L*_{T}")
+        .label("Length of the eddies *L*_{T}")
         .slider(5e-3, 0.2),
-    quantity("air.cutoff_frequency", Dimension::Frequency, Positive, Access {
-        get: |case| Some(Value::Number(case.air.cutoff_frequency)),
-        set: |case, value| {
-            if matches!(value, Value::Text(word) if word == TAYLOR) {
-                return by_taylor(&mut case.air);
-            }
-            case.air.cutoff_frequency = number(value)?;
-            case.air.from_flow.cutoff_frequency = false;
-            Ok(())
-        },
-    })
+    quantity("air.cutoff_frequency", Dimension::Frequency, Positive)
+        .access(Access {
+            get: |case| Some(Value::Number(case.air.cutoff_frequency)),
+            set: |case, value| {
+                if matches!(value, Value::Text(word) if word == TAYLOR) {
+                    return by_taylor(&mut case.air);
+                }
+                case.air.cutoff_frequency = number(value)?;
+                case.air.from_flow.cutoff_frequency = false;
+                Ok(())
+            },
+        })
         .read_after(&["air.velocity", "air.length_scale"])
         .derived(|case| case.air.from_flow.cutoff_frequency)
         .inferred(from_air!(cutoff_frequency, highest))
         .required("100 Hz")
         .or_words(&[TAYLOR])
         .usual(0.1, 50000.0)
-    .meaning("Highest frequency of the turbulence. `taylor` stands for velocity / (4 × length scale). A record, a spectrum, a profile or a field may give it instead.")
+        .meaning(
+            "Highest frequency of the turbulence. `taylor` stands for velocity / (4 × length scale). A \
+             record, a spectrum, a profile or a field may give it instead.",
+        )
         .label("Cut-off frequency *f*")
         .slider(10.0, 1000.0),
-    quantity("air.density", Dimension::Density, NotNegative, number!(air.density))
+    quantity("air.density", Dimension::Density, NotNegative)
+        .access(number!(air.density))
         .value("1.204 kg/m³")
         // From a thousandth to fifty times that of the atmosphere.
-    .usual(0.01, 50.0)
-    .meaning("Density of the air. The default is for 20 °C. `0 kg/m³` is a vacuum.")
+        .usual(0.01, 50.0)
+        .meaning("Density of the air. The default is for 20 °C. `0 kg/m³` is a vacuum.")
         .label("Air density")
         .slider(0.0, 2.0)
         .in_flight(),
-    quantity(
-        "air.kinematic_viscosity",
-        Dimension::KinematicViscosity,
-        Positive,
-        number!(air.kinematic_viscosity),
-    )
-    .value("1.51e-5 m²/s")
-    // From compressed to hot thin air.
-    .usual(5e-7, 1e-3)
-    .meaning("Kinematic viscosity of the air. The default is for 20 °C.")
-    .label("Kinematic viscosity *ν*")
-    .slider(1e-5, 6e-5)
-    .in_flight(),
-    quantity("air.temperature", Dimension::Temperature, Any, Access {
-        get: |_| None,
-        set: |case, value| {
-            let temperature = number(value)?;
-            if !SUTHERLAND_RANGE.contains(&temperature) {
-                let (least, most) = (*SUTHERLAND_RANGE.start(), *SUTHERLAND_RANGE.end());
-                return Err(Fault::new(
-                    format!("is not between {least} and {most} K, where the formula of the air's viscosity holds"),
-                    "correct the temperature or its unit, or write air.density and air.kinematic_viscosity instead",
-                ));
-            }
-            case.air.density = density_at(temperature);
-            case.air.kinematic_viscosity = kinematic_viscosity_at(temperature);
-            Ok(())
-        },
-    })
-    .alternative_to(
-        &["air.density", "air.kinematic_viscosity"],
-        "the temperature gives density and viscosity; leave it out, or leave out both of these",
-    )
-    .follows("density and viscosity as they are written, or at 20 °C")
-    .meaning(
-        "Temperature of the air, from 170 to 1900 K, which may be written instead of `air.density` and \
-         `air.kinematic_viscosity`; both follow for dry air at 101325 Pa.",
-    )
-    .label("Air temperature")
-    .slider(253.15, 373.15),
+    quantity("air.kinematic_viscosity", Dimension::KinematicViscosity, Positive)
+        .access(number!(air.kinematic_viscosity))
+        .value("1.51e-5 m²/s")
+        // From compressed to hot thin air.
+        .usual(5e-7, 1e-3)
+        .meaning("Kinematic viscosity of the air. The default is for 20 °C.")
+        .label("Kinematic viscosity *ν*")
+        .slider(1e-5, 6e-5)
+        .in_flight(),
+    quantity("air.temperature", Dimension::Temperature, Any)
+        .access(Access {
+            get: |_| None,
+            set: |case, value| {
+                let temperature = number(value)?;
+                if !SUTHERLAND_RANGE.contains(&temperature) {
+                    return Err(beyond_sutherland());
+                }
+                case.air.density = density_at(temperature);
+                case.air.kinematic_viscosity = kinematic_viscosity_at(temperature);
+                Ok(())
+            },
+        })
+        .alternative_to(
+            &["air.density", "air.kinematic_viscosity"],
+            "the temperature gives density and viscosity; leave it out, or leave out both of these",
+        )
+        .follows("density and viscosity as they are written, or at 20 °C")
+        .meaning(
+            "Temperature of the air, from 170 to 1900 K, which may be written instead of `air.density` and \
+             `air.kinematic_viscosity`; both follow for dry air at 101325 Pa.",
+        )
+        .label("Air temperature")
+        .slider(253.15, 373.15),
 ];

@@ -9,9 +9,13 @@ use crate::spinline::Spinline;
 macro_rules! of_spinline {
     ($($field:ident).+) => {
         $crate::case::keys::row::Access {
-            get: |case| $crate::case::keys::table::spinline::access::known(case.spinline.as_ref()?.$($field).+),
+            get: |case| {
+                use $crate::case::keys::table::spinline::access::known;
+                known(case.spinline.as_ref()?.$($field).+)
+            },
             set: |case, value| {
-                $crate::case::keys::table::spinline::access::spinline(case)?.$($field).+ = $crate::case::keys::row::number(value)?;
+                use $crate::case::keys::table::spinline::access::spinline;
+                spinline(case)?.$($field).+ = $crate::case::keys::row::number(value)?;
                 Ok(())
             },
         }

@@ -11,41 +11,46 @@ use crate::units::Dimension;
 /// A constant of the polymer.
 macro_rules! constant {
     ($name:literal, $dimension:ident, $sign:ident, $($field:ident).+) => {
-        quantity(
-            concat!("spinline.material.", $name),
+        quantity(concat!("spinline.material.", $name),
             Dimension::$dimension,
-            $sign,
-            of_spinline!(material.$($field).+),
-        )
+            $sign)
+        .access(of_spinline!(material.$($field).+))
         .follows("that of the polymer")
     };
 }
 
 pub(super) const KEYS: &[Key] = &[
-    key("spinline.material.source", Kind::Text("data sheet of the grade, 2024"), Access {
-        get: |case| case.spinline.as_ref()?.source.clone().map(Value::Text),
-        set: |case, value| {
-            spinline(case)?.source = Some(text(value)?);
-            Ok(())
-        },
-    })
-    .follows("that of the polymer")
-    .meaning("Where the constants come from, in your words. A file with a polymer needs it."),
-    quantity("spinline.material.viscosity", Dimension::DynamicViscosity, Positive, Access {
-        get: |case| {
-            let line = case.spinline.as_ref()?;
-            if line.melt == Melt::Viscosity { known(line.material.viscosity) } else { None }
-        },
-        set: |case, value| {
-            let line = spinline(case)?;
-            (line.material.viscosity, line.melt) = (number(value)?, Melt::Viscosity);
-            Ok(())
-        },
-    })
-        .alternative_to(&["spinline.melt_flow_rate"], "the melt flow rate gives the viscosity; write one of the two")
+    key("spinline.material.source", Kind::Text("data sheet of the grade, 2024"))
+        .access(Access {
+            get: |case| case.spinline.as_ref()?.source.clone().map(Value::Text),
+            set: |case, value| {
+                spinline(case)?.source = Some(text(value)?);
+                Ok(())
+            },
+        })
+        .follows("that of the polymer")
+        .meaning("Where the constants come from, in your words. A file with a polymer needs it."),
+    quantity("spinline.material.viscosity", Dimension::DynamicViscosity, Positive)
+        .access(Access {
+            get: |case| {
+                let line = case.spinline.as_ref()?;
+                if line.melt == Melt::Viscosity { known(line.material.viscosity) } else { None }
+            },
+            set: |case, value| {
+                let line = spinline(case)?;
+                (line.material.viscosity, line.melt) = (number(value)?, Melt::Viscosity);
+                Ok(())
+            },
+        })
+        .alternative_to(
+            &["spinline.melt_flow_rate"],
+            "the melt flow rate gives the viscosity; write one of the two",
+        )
         .follows("that of the polymer, or that of the melt flow rate")
         .usual(0.1, 100000.0)
-        .meaning("Viscosity of the melt at `viscosity_temperature` and at low rates. It depends on the grade.")
+        .meaning(
+            "Viscosity of the melt at `viscosity_temperature` and at low rates. It depends on the grade.",
+        )
         .label("Viscosity *η*_{r}"),
     constant!("viscosity_temperature", Temperature, Positive, viscosity_temperature)
         .usual(373.15, 723.15)
@@ -101,7 +106,10 @@ pub(super) const KEYS: &[Key] = &[
         .label("Stress-optical coefficient"),
     constant!("stress_optical_temperature", Temperature, Positive, stress_optical_temperature)
         .usual(200.0, 700.0)
-        .meaning("Temperature at which `stress_optical_coefficient` holds; at others it is proportional to 1/T. Left out, it is the same at all.")
+        .meaning(
+            "Temperature at which `stress_optical_coefficient` holds; at others it is proportional to 1/T. \
+             Left out, it is the same at all.",
+        )
         .label("Temperature of the stress-optical coefficient"),
     constant!("full_birefringence", Ratio, Positive, full_birefringence)
         .usual(0.001, 1.0)
@@ -109,7 +117,10 @@ pub(super) const KEYS: &[Key] = &[
         .label("Birefringence of full orientation"),
     constant!("unoriented_modulus", Pressure, Positive, unoriented_modulus)
         .usual(10000000.0, 1000000000000.0)
-        .meaning("Young's modulus of the solid filament without orientation, from which the modulus is estimated.")
+        .meaning(
+            "Young's modulus of the solid filament without orientation, from which the modulus is \
+             estimated.",
+        )
         .label("Young’s modulus without orientation *E*_{0}"),
     constant!("oriented_modulus", Pressure, Positive, oriented_modulus)
         .usual(10000000.0, 1000000000000.0)
@@ -145,7 +156,10 @@ pub(super) const KEYS: &[Key] = &[
         .label("Heat of fusion Δ*H*"),
     constant!("orientation_enhancement", Ratio, NotNegative, crystals.orientation_enhancement)
         .usual(1.0, 100000.0)
-        .meaning("Factor C by which orientation speeds crystallisation up, exp(C f²). It was chosen, for pet by where the neck begins (700 to 1500).")
+        .meaning(
+            "Factor C by which orientation speeds crystallisation up, exp(C f²). It was chosen, for pet by \
+             where the neck begins (700 to 1500).",
+        )
         .label("Enhancement by orientation *C*"),
     constant!("enhancement_limit", Ratio, Positive, crystals.enhancement_limit)
         .usual(1.0, 100000000.0)

@@ -22,60 +22,67 @@ macro_rules! spinline_switch {
 }
 
 pub(super) const KEYS: &[Key] = &[
-    choose("spinline.law", || Law::ALL.map(Law::name).to_vec(), Access {
-        get: |case| Some(case.spinline.as_ref()?.law.name().into()),
-        set: |case, value| {
-            spinline(case)?.law = named(value, &Law::ALL, |law| law.name())?;
-            Ok(())
-        },
-    })
-    .value("newtonian")
-    .meaning(
-        "How the melt resists stretching: as a Newtonian liquid, or viscoelastic by Giesekus (with `modulus` and `mobility` of \
-         [spinline.material]) or Phan-Thien–Tanner (with `modulus` and `extensibility`).",
-    )
-    .label("Law of the melt"),
-    key("spinline.crystallisation", Kind::Switch, Access {
-        get: |case| Some(Value::from_switch(case.spinline.as_ref()?.crystallisation)),
-        set: |case, value| {
-            let (line, crystallises) = (spinline(case)?, switch(value)?);
-            if crystallises != line.crystallisation
-                && let PolymerSource::Known(polymer) = line.polymer
-            {
-                let [before, after] =
-                    [line.crystallisation, crystallises].map(|flag| polymer.material(flag).freezing_temperature);
-                if line.material.freezing_temperature == before {
-                    line.material.freezing_temperature = after;
+    choose("spinline.law", || Law::ALL.map(Law::name).to_vec())
+        .access(Access {
+            get: |case| Some(case.spinline.as_ref()?.law.name().into()),
+            set: |case, value| {
+                spinline(case)?.law = named(value, &Law::ALL, |law| law.name())?;
+                Ok(())
+            },
+        })
+        .value("newtonian")
+        .meaning(
+            "How the melt resists stretching: as a Newtonian liquid, or viscoelastic by Giesekus (with \
+             `modulus` and `mobility` of [spinline.material]) or Phan-Thien–Tanner (with `modulus` and \
+             `extensibility`).",
+        )
+        .label("Law of the melt"),
+    key("spinline.crystallisation", Kind::Switch)
+        .access(Access {
+            get: |case| Some(Value::from_switch(case.spinline.as_ref()?.crystallisation)),
+            set: |case, value| {
+                let (line, crystallises) = (spinline(case)?, switch(value)?);
+                if crystallises != line.crystallisation
+                    && let PolymerSource::Known(polymer) = line.polymer
+                {
+                    let [before, after] = [line.crystallisation, crystallises]
+                        .map(|flag| polymer.material(flag).freezing_temperature);
+                    if line.material.freezing_temperature == before {
+                        line.material.freezing_temperature = after;
+                    }
                 }
-            }
-            line.crystallisation = crystallises;
-            Ok(())
-        },
-    })
-    .value("false")
-    .meaning(
-        "Whether crystallisation on the way is computed. Its enhancement by orientation was chosen and not measured, so that \
-         places of crystallisation are no predictions.",
-    )
-    .label("Crystallisation")
-    .varies(),
-    quantity("spinline.emissivity", Dimension::Ratio, Share, of_spinline!(emissivity))
+                line.crystallisation = crystallises;
+                Ok(())
+            },
+        })
+        .value("false")
+        .meaning(
+            "Whether crystallisation on the way is computed. Its enhancement by orientation was chosen and \
+             not measured, so that places of crystallisation are no predictions.",
+        )
+        .label("Crystallisation")
+        .varies(),
+    quantity("spinline.emissivity", Dimension::Ratio, Share)
+        .access(of_spinline!(emissivity))
         .value("0.0")
         .usual(0.01, 1.0)
         .meaning("Emissivity of the thread, from 0, which leaves radiation out, to 1.")
         .label("Emissivity *ε*"),
-    key("spinline.dissipation", Kind::Switch, spinline_switch!(dissipation))
+    key("spinline.dissipation", Kind::Switch)
+        .access(spinline_switch!(dissipation))
         .value("false")
         .meaning("Whether the work of stretching heats the thread.")
         .label("Dissipation")
         .varies(),
-    quantity("spinline.nusselt_factor", Dimension::Ratio, Positive, of_spinline!(nusselt_factor))
+    quantity("spinline.nusselt_factor", Dimension::Ratio, Positive)
+        .access(of_spinline!(nusselt_factor))
         .value("1.0")
         .usual(0.2, 5.0)
         .meaning("Factor on the Nusselt number of Kase and Matsuo. Measurements leave a doubt of some 20 %.")
         .label("Factor on the Nusselt number")
         .slider(0.5, 1.5),
-    quantity("spinline.break_stress", Dimension::Pressure, Positive, of_spinline!(break_stress))
+    quantity("spinline.break_stress", Dimension::Pressure, Positive)
+        .access(of_spinline!(break_stress))
         .follows("no limit, because none is known well enough")
         .usual(1e5, 1e9)
         .meaning("Stress at which the thread breaks. A line in which it is reached is refused.")
