@@ -172,7 +172,7 @@ mod tests {
         let is_known = |name: &&str| table.find(name).is_some() || table.list(name).is_some();
         for key in table.rows {
             let Relations { alternative_to, remedy, read_after, .. } = key.relations;
-            assert!([alternative_to, read_after].concat().iter().all(|name| is_known(&name)), "{}", key.name);
+            assert!([alternative_to, read_after].concat().iter().all(is_known), "{}", key.name);
             assert_eq!(alternative_to.is_empty(), remedy.is_empty(), "{}", key.name);
             assert_eq!(matches!(key.kind, Kind::File(_)), !key.relations.gives.is_empty(), "{}", key.name);
             let of_case = key.relations.same_in_case.iter().chain(key.relations.gives_case);
