@@ -1,6 +1,6 @@
 //! `Case`: a case file with changes, read and checked.
 
-use crate::merged::merged;
+use crate::merged::{merged, replaced};
 use crate::source::{Source, stem};
 use crate::state::full_path;
 use crate::value::{overrides, to_python};
@@ -126,11 +126,11 @@ impl Case {
     /// A text has a unit, a number is in SI units, and None takes a key out, so that its default applies. What follows
     /// from the changed keys follows anew.
     fn with_(&self, py: Python<'_>, values: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let mut changes = self.changes.clone();
-        for (key, text) in overrides(values)? {
-            changes.retain(|(other, _)| *other != key);
-            changes.push((key, text));
-        }
+        let (mut changes, new) = (self.changes.clone(), overrides(values)?);
+        changes.retain(|(other, _)| {
+            new.iter().all(|(key, _)| key != other) && !replaced(&new).contains(&&**other)
+        });
+        changes.extend(new);
         Self::parsed(py, Arc::clone(&self.text), self.file.clone(), changes)
     }
 

@@ -30,6 +30,10 @@ pub(crate) fn merged(text: &str, changes: &[(String, String)]) -> String {
             _ => put("", name.get_ref(), text.get(span).map(str::to_owned)),
         }
     }
+    for name in replaced(changes) {
+        let (table, key) = name.split_once('.').unwrap_or(("", name));
+        put(table, key, None);
+    }
     for (name, value) in changes {
         let (table, key) = name.split_once('.').unwrap_or(("", name));
         let removed = value.trim().trim_matches('"') == "auto";
@@ -44,6 +48,13 @@ pub(crate) fn merged(text: &str, changes: &[(String, String)]) -> String {
         keys.iter().for_each(|(key, value)| merged.push_str(&format!("{key} = {value}\n")));
     }
     merged
+}
+
+/// The keys that changes replace in other words.
+pub(crate) fn replaced(changes: &[(String, String)]) -> Vec<&'static str> {
+    let is_set = |value: &str| value.trim().trim_matches('"') != "auto";
+    let set = changes.iter().filter(|(_, value)| is_set(value)).map(|(key, _)| key.trim());
+    keys::CASE.replaced_by(&set.collect::<Vec<_>>())
 }
 
 /// The value of a change as TOML. What is not TOML is a text.

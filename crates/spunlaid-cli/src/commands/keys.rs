@@ -153,9 +153,9 @@ This page is made by `spunlaid keys --markdown > docs/keys.md`. `spunlaid keys W
 name or meaning, or among the other words for them, or with this unit: `spunlaid keys dtex`.
 
 A quantity is written with its unit, in quotes: `diameter = \"50 µm\"`. `um` is the same as `µm`, and `kg/m^3` is the same
-as `kg/m³`. Each key can also be set for one run, `--set air.velocity=\"20 m/s\"`. `spunlaid sweep` can vary keys marked
-*study*. A program can change keys marked *flight* during a flight. A value outside of the range after *usually*, unless it is zero, is
-most likely in a wrong unit: the program warns and uses it.
+as `kg/m³`. Each key can also be set for one run, `--set air.velocity=\"20 m/s\"`, and replaces what stands in the file, also
+in other words. `spunlaid sweep` can vary keys marked *study*. A program can change keys marked *flight* during a flight. A
+value outside of the range after *usually*, unless it is zero, is most likely in a wrong unit: the program warns and uses it.
 ";
 const WEB_HEAD: &str = "# The keys of a web
 

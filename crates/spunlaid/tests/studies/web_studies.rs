@@ -64,6 +64,16 @@ fn study(text: &str) -> Result<StudyFile, Error> {
 }
 
 #[test]
+fn what_is_asked_for_replaces_what_a_study_sets_in_other_words() {
+    let study = "web = 'web.toml'\ndesign = 'grid'\n[set]\n'line.basis_weight' = '20 g/m²'\n[vary]\n'web.seed' = [3]\n";
+    let belt =
+        |set: &[(String, String)]| layer(&study_of(WEB, study, set).unwrap().study.points[0]).belt_speed;
+    let asked = ("line.belt_speed".to_owned(), "4 m/s".to_owned());
+    assert_ne!(belt(&[]), 4.0);
+    assert_eq!(belt(&[asked]), 4.0);
+}
+
+#[test]
 fn points_are_webs_with_these_values() {
     let file = study(
         "web = 'web.toml'\ndesign = 'grid'\nreplicates = 3\n[set]\nweb.cell = '5 mm'\n[vary]\n\

@@ -10,7 +10,7 @@ use super::replicates::MOST_REPLICATES;
 use super::{Base, StudyChanges, links};
 use crate::case::keys::{self, Kind};
 use crate::error::{Fault, FileKind};
-use crate::layers::full_names::are_alternatives;
+use crate::layers::full_names::{are_alternatives, is_replaced};
 use crate::study::{Design, Factor, Link, Point, Quantity, Replicates, Study};
 use toml::de::DeValue;
 
@@ -91,6 +91,9 @@ impl<'a> Reader<'a> {
                 set.push((key, entry.text.to_owned()));
             }
         }
+        let is_given = |(_, text): &&(String, String)| text.trim().trim_matches('"') != AUTO;
+        let names: Vec<&str> = asked.values.iter().filter(is_given).map(|(key, _)| key.trim()).collect();
+        set.retain(|(other, _)| !is_replaced(other, &names));
         for (key, text) in asked.values {
             let key = key.trim().to_owned();
             let entry = Entry::from_override(asked.word, text);
