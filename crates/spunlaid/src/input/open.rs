@@ -98,8 +98,8 @@ pub(super) fn open_part(
 /// The tables of which each makes a fibre one that is fed.
 const OF_FED: [&str; 3] = ["feed", "belt", "spinline"];
 
-/// Files come first, because they may give the values of other keys. Names come next, because a law or a model decides which
-/// numbers have a meaning.
+/// Files come first, because they may give the values of other keys. Names come next, because a law or a model
+/// decides which numbers have a meaning.
 fn rank(key: &Key) -> usize {
     let own = match key.kind {
         Kind::File(_) => 0,

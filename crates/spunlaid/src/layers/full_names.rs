@@ -22,7 +22,7 @@ pub(crate) fn are_alternatives(one: &str, other: &str) -> bool {
     WEB.are_alternatives(key.name, found.name) && (key.relations.of_all_layers || is_of_same_layer())
 }
 
-/// Whether keys of a case or a web give all that another one gives, by their full names, so that it is replaced by them.
+/// Whether keys of a case or a web give all that another one gives, by their full names, and so replace it.
 pub(crate) fn is_replaced(other: &str, names: &[&str]) -> bool {
     let gives = |name: &&str| web_key(name).is_some() && are_alternatives(name, other);
     !names.contains(&other) && (CASE.replaced_by(names).contains(&other) || names.iter().any(gives))

@@ -19,7 +19,8 @@ pub struct KeyTable<T: 'static = Case> {
     pub(crate) file: &'static str,
 }
 
-/// A list of tables in a file, like `[[layer]]`. An entry has a number in the full name of its keys, `layer.2.line.belt_speed`.
+/// A list of tables in a file, like `[[layer]]`. An entry has a number in the full name of its keys,
+/// `layer.2.line.belt_speed`.
 #[derive(Debug)]
 pub(crate) struct TableList {
     /// Its name with the table in which it stands, `line.rows`.
@@ -110,7 +111,8 @@ impl<T> KeyTable<T> {
         only(&|key| !of_spinline(key)).or_else(|| only(&of_spinline))
     }
 
-    /// The keys of any table that are similar to one written in `table`, or that have such a synonym, the most similar first.
+    /// The keys of any table that are similar to one written in `table`, or that have such a synonym, the most
+    /// similar first.
     pub(crate) fn like(&self, table: &str, key: &str) -> Vec<&'static Key<T>> {
         // Of equally similar keys, prefer the one of the same table.
         let bonus = |home: &str| if home == table { 0.05 } else { 0.0 };

@@ -213,7 +213,9 @@ impl<T> Key<T> {
     /// Whether it is found by this word: in its name, its meaning or its synonyms, or as one of its units.
     pub fn has_word(&self, word: &str) -> bool {
         let has = |text: &str| text.to_lowercase().contains(&word.to_lowercase());
-        [self.name, self.meaning].into_iter().chain(self.synonyms.iter().copied()).any(has)
+        let Relations { needed_if, default_if, .. } = self.relations;
+        let when = [needed_if, default_if].into_iter().flatten().map(|(when, _)| when.words);
+        [self.name, self.meaning].into_iter().chain(self.synonyms.iter().copied()).chain(when).any(has)
             || self.dimension().is_some_and(|dimension| dimension.has_unit(word))
     }
 

@@ -55,9 +55,21 @@ impl WebKey {
         self.synonyms.iter().chain(of_case).copied().collect()
     }
 
-    /// Outside of these a value, unless it is zero, is most likely a slip, in SI units: as for the same key of a case, where
-    /// there is one.
+    /// Outside of these a value, unless it is zero, is most likely a slip, in SI units: as for the same key of a
+    /// case, where there is one.
     pub fn usual_range(&self) -> Option<(f64, f64)> {
         self.key_of_case().map_or(self.usual, |key| key.usual)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::WEB;
+
+    #[test]
+    fn relations_name_keys_that_are_there_and_values_that_they_take() {
+        WEB.check_relations();
+        assert_eq!(WEB.replaced_by(&["line.rows"]), ["line.filaments_per_metre"]);
+        assert_eq!(WEB.replaced_by(&["laydown.results"]), ["laydown.case"]);
     }
 }
