@@ -14,9 +14,7 @@ use spunlaid::input::{LayerSpec, WebFile, WebSpec};
 use spunlaid::layers::LayerFibres;
 use spunlaid::spinline::Solution;
 use spunlaid::surrogate::Residual;
-use spunlaid::web::{
-    FewFilamentsCv, Fibres, Findings, LayControl, PatchFindings, SharedAirFindings, Web, strands,
-};
+use spunlaid::web::{FewDoubt, Fibres, Findings, LayControl, PatchFindings, SharedAirFindings, Web, strands};
 use spunlaid_charts::Figure;
 use std::borrow::Cow;
 
@@ -189,14 +187,19 @@ pub fn notes(web: &Web, findings: &Findings, layers: &[LayerFibres]) -> Vec<Stri
              outermost filament (web.edges = \"cut\")"
         ));
     }
-    let unsure: Vec<String> = (findings.patches.iter().filter(|patch| patch.map.standard_error.is_none()))
-        .map(|patch| significant(1e3 * patch.map.patch, 3))
+    let is_untold = |patch: f64| {
+        let together = findings.laid.shared_air.iter().flat_map(|together| &together.few);
+        together.into_iter().any(|few| few.doubt_over(patch).is_some())
+    };
+    let unsure: Vec<f64> = (findings.patches.iter().map(|patch| patch.map))
+        .filter(|map| map.standard_error.is_none() && !is_untold(map.patch))
+        .map(|map| map.patch)
         .collect();
     if !unsure.is_empty() {
         notes.push(format!(
             "the CV over patches of {} mm has no error: the sheet holds too few independent clouds or streaks for one; make it larger, or lay several webs with \
              other seeds",
-            unsure.join(", ")
+            sizes(unsure.into_iter())
         ));
     }
     if map.cells.len() > web::MOST_CELLS {
@@ -206,6 +209,11 @@ pub fn notes(web: &Web, findings: &Findings, layers: &[LayerFibres]) -> Vec<Stri
         );
     }
     notes
+}
+
+/// Sides of patches, in mm.
+fn sizes(patches: impl Iterator<Item = f64>) -> String {
+    patches.map(|patch| significant(1e3 * patch, 3)).collect::<Vec<_>>().join(", ")
 }
 
 /// How many filaments of a web in one air were lost.
@@ -224,23 +232,33 @@ fn lost_filament_notes(web: &Web, together: &SharedAirFindings) -> Vec<String> {
     }
 }
 
-/// Patches that the few filaments of a web in one air must tell well [m], and how far every second one may be off.
-const TOLD_WELL: f64 = 0.01;
-const FAR_OFF: f64 = 0.05;
 /// Part of the variance that filled-in filaments may miss where small patches of the map are to be believed.
 const MISSING: f64 = 0.1;
 
 /// Whether the few filaments that were flown are enough for what is told of all.
 fn few_filament_notes(findings: &Findings, together: &SharedAirFindings) -> Vec<String> {
     let mut notes = Vec::new();
-    let of_few = findings.patches.iter().filter_map(|patch| patch.few);
-    let off = |few: &FewFilamentsCv| few.patch >= TOLD_WELL && few.of_halves.abs() > FAR_OFF;
-    if let Some(few) = of_few.filter(off).max_by(|a, b| a.of_halves.abs().total_cmp(&b.of_halves.abs())) {
+    for few in &together.few {
+        let what = match few.doubt() {
+            Some(FewDoubt::Halves(patch, off)) => format!(
+                "every second one of the flown filaments would tell a CV over patches of {} mm that is {} % {}",
+                significant(1e3 * patch, 3),
+                significant(100.0 * off.abs(), 2),
+                if off > 0.0 { "higher" } else { "lower" }
+            ),
+            Some(FewDoubt::Neighbours(correlation)) => format!(
+                "the flown filaments are {} mm apart, and the places where such neighbours come down have a correlation of {}",
+                significant(1e3 * few.pitch, 3),
+                significant(correlation, 2)
+            ),
+            None => continue,
+        };
+        let untold = few.cvs.iter().filter(|cv| few.doubt_over(cv.patch).is_some());
         notes.push(format!(
-            "every second one of the flown filaments would tell a CV over patches of {} mm that is {} % {}: fly more of them (web.flown)",
-            significant(1e3 * few.patch, 3),
-            significant(100.0 * few.of_halves.abs(), 2),
-            if few.of_halves > 0.0 { "higher" } else { "lower" }
+            "the CV over patches of {} mm has no error, because {what}: too few filaments were flown to tell what all do. Fly twice as many, web.flown = {}, or \"all\"; \
+             \"auto\" flies as many as are needed, up to four times its first number",
+            sizes(untold.map(|cv| cv.patch)),
+            (2.0 / few.pitch).round()
         ));
     }
     let missing = together.few.iter().flat_map(|few| few.missing).fold(0.0, f64::max);
@@ -251,15 +269,15 @@ fn few_filament_notes(findings: &Findings, together: &SharedAirFindings) -> Vec<
             significant(100.0 * missing, 2)
         ));
     }
-    let larger: Vec<String> = (findings.patches.iter())
+    let larger: Vec<f64> = (findings.patches.iter())
         .filter(|patch| patch.few.is_none() && !together.few.is_empty())
-        .map(|patch| significant(1e3 * patch.map.patch, 3))
+        .map(|patch| patch.map.patch)
         .collect();
     if !larger.is_empty() {
         notes.push(format!(
             "the sheet that was flown is too small for patches of {} mm: their CV is that of the map, which is made of pieces of that sheet, and it has \
              no error",
-            larger.join(", ")
+            sizes(larger.into_iter())
         ));
     }
     notes

@@ -3,7 +3,7 @@
 use super::{Flown, LaydownSource, Method, WebSpec};
 use crate::beam::{Beam, BeamFindings};
 use crate::case::Case;
-use crate::curtain::{Belt, FlownCurves, lay};
+use crate::curtain::{Belt, Covariances, Filling, FlownCurves, lay};
 use crate::error::Error;
 use crate::fibre::{Place, rows};
 use crate::flight::LaidPoint;
@@ -55,7 +55,8 @@ impl WebSpec {
     /// The few filaments that are flown for all of a layer; None if all are flown.
     ///
     /// * `area` – of the sheet that they lay, unless the web is smaller [m²]
-    pub(super) fn few(&self, layer: usize, area: f64) -> Option<FewFlight> {
+    /// * `finer` – how often the distance of those that are flown is halved, unless the file gives their number
+    pub(super) fn few(&self, layer: usize, area: f64, finer: u32) -> Option<FewFlight> {
         let spec = self.layers.get(layer)?;
         let LaydownSource::Case { case, .. } = &spec.source else { return None };
         if self.method != Method::SharedAir {
@@ -64,10 +65,11 @@ impl WebSpec {
         let pitch = match self.flown {
             Flown::All => return None,
             Flown::PerMetre(number) => 1.0 / number as f64,
-            Flown::Auto => PITCH * case.smallest_length_scale(),
+            Flown::Auto => PITCH * case.smallest_length_scale() / f64::from(1 << finer),
         };
         let sheet = self.flown_sheet(case, area);
-        let all = spec.filaments.count(&self.sheet) as f64 * sheet.width / self.sheet.width;
+        let of_web = spec.filaments.count(&self.sheet) as f64;
+        let all = of_web * sheet.width / self.sheet.width;
         // An even number, so that every second one is at an even pitch as well.
         let count = 2 * (0.5 * sheet.width / pitch).round().max(1.0) as u64;
         let is_few = |of_all: f64| LEAST_SAVING * count as f64 <= of_all;
@@ -80,7 +82,7 @@ impl WebSpec {
                 (Filaments::Slot { per_metre, depth: *depth }, Arrangement::Slot)
             }
             Filaments::Rows(rows) => {
-                let share = sheet.width / self.sheet.width;
+                let share = (sheet.width / self.sheet.width).min(1.0);
                 if !rows.iter().all(|row| is_few(row.filaments as f64 * share)) {
                     return None;
                 }
@@ -88,7 +90,7 @@ impl WebSpec {
                 (Filaments::Rows(few.collect()), Arrangement::Rows)
             }
         };
-        if !is_few(all) || (count as usize) < FEWEST_OF_FEW {
+        if !is_few(all.min(of_web)) || (count as usize) < FEWEST_OF_FEW {
             return None;
         }
         let place = |[z, y]: [f64; 2]| Place { y, z };
@@ -114,11 +116,13 @@ impl WebSpec {
         let cell = self.sheet.cell;
         let cells = |size: f64| (size / cell).ceil() * cell;
         let [width, length] = [self.sheet.width, self.sheet.length];
-        let sheet = Sheet { edges: Edges::Periodic, ..self.sheet.clone() };
-        if width * length <= NEARLY * area {
+        // In a narrower one the air repeats itself too soon.
+        let least = cells(case.extent_of_air().z);
+        let sheet = Sheet { edges: Edges::Periodic, width: width.max(least), ..self.sheet.clone() };
+        if sheet.width * length <= NEARLY * area {
             return sheet;
         }
-        let narrow = cells(case.extent_of_air().z.max(WIDTH * way)).min(width);
+        let narrow = cells(WIDTH * way).min(width).max(least);
         Sheet { width: narrow, length: cells(area / narrow), ..sheet }
     }
 }
@@ -157,11 +161,14 @@ impl FewPlan {
         curves: &FlownCurves,
         by: (usize, &AtomicBool),
     ) -> Result<LayerFew, Error> {
-        let filled = self.filled((sheet, flown.back), beam, curves, by)?;
-        self.filaments(sheet, beam, flown).tell(number, filled.as_ref(), by.0)
+        let covariances = Covariances::fit(curves, by.0);
+        let filled = self.filled((sheet, flown.back), beam, (curves, &covariances), by)?;
+        let told = self.filaments(sheet, beam, flown).tell(number, filled.as_ref(), by.0)?;
+        let correlation = covariances.smooth.map(|covariance| covariance.correlation([told.pitch, 0.0]));
+        Ok(LayerFew { correlation: correlation[0].min(correlation[1]), ..told })
     }
 
-    /// Maps of rows in which the filaments between the flown ones have been filled in, from all of them and from every second one; None of other filaments.
+    /// Maps of rows in which the filaments between the flown ones have been filled in, from all of them and from every second one; None of a slot.
     ///
     /// * `back` – where the sheet begins on the belt [m]
     ///
@@ -171,24 +178,28 @@ impl FewPlan {
         &self,
         (sheet, back): (&Sheet, f64),
         beam: &Beam<'_>,
-        curves: &FlownCurves,
+        (curves, covariances): (&FlownCurves, &Covariances),
         by: (usize, &AtomicBool),
     ) -> Result<Option<[Map; 2]>, Error> {
-        if self.arrangement != Arrangement::Rows {
-            return Ok(None);
-        }
+        // Rows are filled in up to their own pitch.
+        let most = match self.arrangement {
+            Arrangement::Slot => return Ok(None),
+            Arrangement::AtRandom => usize::MAX,
+            Arrangement::Rows => (self.all / self.rows.len() as f64).round() as usize,
+        };
         let row = |row: &Vec<usize>| {
-            let (y, count) = (row.first().map_or(0.0, |first| beam.places[*first].y), FINER * row.len());
+            let y = row.first().map_or(0.0, |first| beam.places[*first].y);
+            let count = most.min(FINER * row.len());
             let pitch = sheet.width / count as f64;
             (0..count).map(move |i| Place { y, z: (i as f64 + 0.5) * pitch })
         };
         let places: Vec<Place> = self.rows.iter().flat_map(row).collect();
-        let map = |curves: &FlownCurves| {
-            let filled = curves.fill(places.clone(), by.0);
+        let map = |filled: &Filling<'_>| {
             let belt = Belt { sheet, window: Window { corner: [0.0; 2], sides: [0.0; 2] }, back };
-            lay(&filled, belt, beam.element_mass(), by).map(|(laid, _)| laid.map)
+            lay(filled, belt, beam.element_mass(), by).map(|(laid, _)| laid.map)
         };
-        Ok(Some([map(curves)?, map(&curves.every_second()?)?]))
+        let of_all = map(&curves.fill_by(covariances, places.clone(), by.0))?;
+        Ok(Some([of_all, map(&curves.every_second()?.fill(places, by.0))?]))
     }
 
     /// The filaments, with what they have laid on their sheet.

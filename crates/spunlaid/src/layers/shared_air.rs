@@ -2,7 +2,7 @@
 
 use super::few::{AREA, AREA_OF_COMPARISON, FewFlight, FewPlan};
 use super::flyer::Flights;
-use super::{FlownFibres, Flyer, LaydownSource, LayerFibres, Method, WebSpec};
+use super::{Flown, FlownFibres, Flyer, LaydownSource, LayerFibres, Method, WebSpec};
 use crate::air::Lateral;
 use crate::beam::{Airs, Beam, BeamControl, BeamFindings};
 use crate::case::Case;
@@ -13,7 +13,8 @@ use crate::fibre::Place;
 use crate::lanes::Isa;
 use crate::units::Dimension;
 use crate::web::{
-    Canvas, Curves, Edges, Fibres, LaidWeb, LayerFew, OneAir, SharedAirFindings, Sheet, Strand, inlets,
+    Canvas, Curves, Edges, Fibres, LaidWeb, LayerFew, OneAir, SharedAirFindings, Sheet, Strand, TimeSpent,
+    inlets,
 };
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
@@ -23,6 +24,9 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// Smallest lateral cut-off that is worth to be written.
 const FEWEST_WAVES: f64 = 5.0;
+
+/// How often more filaments are flown where a few do not tell what all do; each time twice as many.
+const FINEST: u32 = 2;
 
 /// Width of filaments beside each other of which those beside them hardly know, in parts of the distance after which the air repeats itself at
 /// least, which is ten length scales.
@@ -112,16 +116,14 @@ impl Flyer<'_> {
         let weight = beams.iter().map(LayerBeam::basis_weight).sum();
         let canvas = Canvas::new(&spec.sheet, &elements, weight)?;
         let (mut layers, mut shared_air) = (Vec::new(), SharedAirFindings::default());
-        for (number, (layer, element)) in beams.iter().zip(elements).enumerate() {
+        for (number, (layer, element)) in beams.into_iter().zip(elements).enumerate() {
             let on = (&canvas, canvas.quanta(element));
-            let mut flown = self.fly_layer(layer, spec, layer.few.is_none().then_some(on))?;
+            let (layer, mut flown, told) = self.fly_until_told(spec, (number, layer), on)?;
             let mut of_layer = flown.take_shared_air();
-            if let Some(few) = &layer.few {
-                let curves = few.curves(&layer.sheet, &layer.beam(), &flown)?;
-                let told = few.tell((number, &layer.sheet), (&layer.beam(), &flown), &curves, self.by())?;
+            if let Some((curves, told)) = told {
                 let missing;
                 (of_layer.strands, missing) =
-                    self.draw_all(spec, (number, layer), (&curves, flown.back), on)?;
+                    self.draw_all(spec, (number, &layer), (&curves, flown.back), on)?;
                 of_layer.few = vec![LayerFew { missing, ..told }];
             }
             shared_air.add(number, of_layer);
@@ -132,6 +134,32 @@ impl Flyer<'_> {
                 .push(LayerFibres { fibres: Fibres::Curves(Arc::clone(&flown.curves)), flown: Some(flown) });
         }
         Ok((layers, LaidWeb { shared_air: Some(shared_air), ..canvas.finish()? }))
+    }
+
+    /// Flies a layer. Unless the file says how many filaments are flown, more of them fly where a few do not tell what all do.
+    fn fly_until_told<'a>(
+        &self,
+        spec: &'a WebSpec,
+        (number, mut layer): (usize, LayerBeam<'a>),
+        on: (&Canvas, u32),
+    ) -> Result<(LayerBeam<'a>, BeamFindings, Option<(FlownCurves, LayerFew)>), Error> {
+        let (mut finer, mut spent) = (0, TimeSpent::default());
+        loop {
+            let mut flown = self.fly_layer(&layer, spec, layer.few.is_none().then_some(on))?;
+            spent.whole += flown.spent.whole;
+            spent.in_parallel += flown.spent.in_parallel;
+            flown.spent = spent;
+            let Some(few) = &layer.few else { return Ok((layer, flown, None)) };
+            let curves = few.curves(&layer.sheet, &layer.beam(), &flown)?;
+            let told = few.tell((number, &layer.sheet), (&layer.beam(), &flown), &curves, self.by())?;
+            finer += 1;
+            let more = told.doubt().is_some() && spec.flown == Flown::Auto && finer <= FINEST;
+            let more = more.then(|| finer_beam(spec, number, AREA, finer)).transpose()?;
+            let Some(more) = more.filter(|more| more.few.is_some()) else {
+                return Ok((layer, flown, Some((curves, told))));
+            };
+            layer = more;
+        }
     }
 
     /// Draws all filaments of a layer, which follow from a few: those between them on the sheet that these have laid, and pieces of it on any other sheet.
@@ -154,7 +182,8 @@ impl Flyer<'_> {
         }
         let library = Library::new(curves, self.threads)?;
         let around = match sheet.edges {
-            Edges::Periodic => sheet.width,
+            // A web that is narrower than the flown sheet is a strip of it.
+            Edges::Periodic => sheet.width.max(layer.sheet.width),
             // Filaments at the two edges know nothing of each other.
             Edges::Cut => sheet.width + layer.sheet.width,
         };
@@ -253,6 +282,13 @@ fn beams(spec: &WebSpec, area: f64) -> Result<Vec<LayerBeam<'_>>, Error> {
 /// The filaments of a layer at their places. Air that a case leaves the same across the flow becomes a field in space. The seed of the web and the number of the layer are in the key of the air, so that layers and webs have
 /// airs of their own.
 pub(super) fn beam(spec: &WebSpec, number: usize, area: f64) -> Result<LayerBeam<'_>, Error> {
+    finer_beam(spec, number, area, 0)
+}
+
+/// As [`beam`], with more filaments.
+///
+/// * `finer` – how often the distance of those that are flown is halved
+fn finer_beam(spec: &WebSpec, number: usize, area: f64, finer: u32) -> Result<LayerBeam<'_>, Error> {
     let layer = &spec.layers[number];
     let LaydownSource::Case { path, case } = &layer.source else {
         let fault = Fault::new("a web in one air flies its filaments", "name their case (laydown.case)");
@@ -264,7 +300,7 @@ pub(super) fn beam(spec: &WebSpec, number: usize, area: f64) -> Result<LayerBeam
     }
     case.run.seed = key(case.run.seed, spec.seed, number as u64);
     let depth = layer.filaments.depth();
-    Ok(match spec.few(number, area) {
+    Ok(match spec.few(number, area, finer) {
         Some(FewFlight { sheet, places, few }) => {
             LayerBeam { path, case, sheet, few: Some(few), places, depth }
         }

@@ -19,6 +19,21 @@ pub struct FewFilamentsCv {
     pub few: f64,
 }
 
+/// Patches that the few filaments of a web in one air must tell well [m], and how far every second one may be off.
+const TOLD_WELL: f64 = 0.01;
+const FAR_OFF: f64 = 0.05;
+/// Correlation of the places where neighbours come down, at the pitch of the few, below which those between them are not told.
+const TOGETHER: f64 = 0.7;
+
+/// Why a few filaments do not tell the CV of all.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FewDoubt {
+    /// Every second one of them would tell another CV over patches of 10 mm or more: side of the patch [m], and how far it is off as a share of the CV.
+    Halves(f64, f64),
+    /// Neighbours have too little in common: correlation of the places where they come down.
+    Neighbours(f64),
+}
+
 /// What a few filaments of a layer say about all of them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LayerFew {
@@ -30,6 +45,10 @@ pub struct LayerFew {
     pub lost: u64,
     /// Size of the sheet that they laid, across and along [m].
     pub sheet: [f64; 2],
+    /// Distance of neighbours in a row [m].
+    pub pitch: f64,
+    /// Correlation of the places where filaments at this distance and equal depth come down, in the direction in which it is smaller.
+    pub correlation: f64,
     /// Part of the variance of a filament between them that they do not tell, in machine and in cross direction.
     pub missing: [f64; 2],
     /// CV over patches of each size.
@@ -37,4 +56,62 @@ pub struct LayerFew {
     /// For each of these sizes, how much the blocks of the sheet vary: the mean square of the deviations of the patches of the few filaments in each
     /// block from the mean of all, over that mean. Two webs in the same air are compared block by block.
     pub blocks: Vec<Vec<f64>>,
+}
+
+impl LayerFew {
+    /// Why they do not tell the CV over patches of a side; None if they do.
+    pub fn doubt_over(&self, patch: f64) -> Option<FewDoubt> {
+        let of_patch =
+            |cv: &&FewFilamentsCv| cv.patch == patch && patch >= TOLD_WELL && cv.of_halves.abs() > FAR_OFF;
+        match self.correlation < TOGETHER {
+            true => Some(FewDoubt::Neighbours(self.correlation)),
+            false => self.cvs.iter().find(of_patch).map(|cv| FewDoubt::Halves(patch, cv.of_halves)),
+        }
+    }
+
+    /// Why they do not tell the CV over patches of every side; None if they do. Of several reasons the strongest.
+    pub fn doubt(&self) -> Option<FewDoubt> {
+        let off = |doubt: &FewDoubt| match doubt {
+            FewDoubt::Halves(_, off) => off.abs(),
+            FewDoubt::Neighbours(_) => f64::INFINITY,
+        };
+        let all = self.cvs.iter().filter_map(|cv| self.doubt_over(cv.patch));
+        all.max_by(|a, b| off(a).total_cmp(&off(b)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cv(patch: f64, of_halves: f64) -> FewFilamentsCv {
+        FewFilamentsCv {
+            patch,
+            cv: 0.2,
+            by_chance: Some(0.01),
+            by_pitch: 0.01,
+            of_halves,
+            own: 0.0,
+            few: 0.2,
+        }
+    }
+
+    /// Small patches may know the pitch; larger ones must not.
+    #[test]
+    fn a_few_tell_what_every_second_one_tells_too() {
+        let cvs = vec![cv(0.002, 0.3), cv(0.01, -0.06), cv(0.02, 0.08), cv(0.05, 0.049)];
+        let told = LayerFew { correlation: 0.9, cvs, ..LayerFew::default() };
+        let doubts = [0.002, 0.01, 0.02, 0.05].map(|patch| told.doubt_over(patch).is_some());
+        assert_eq!(doubts, [false, true, true, false]);
+        assert_eq!(told.doubt(), Some(FewDoubt::Halves(0.02, 0.08)));
+    }
+
+    #[test]
+    fn neighbours_with_little_in_common_tell_nothing_of_those_between_them() {
+        let told =
+            LayerFew { correlation: 0.69, cvs: vec![cv(0.002, 0.0), cv(0.01, 0.2)], ..LayerFew::default() };
+        assert_eq!(told.doubt_over(0.002), Some(FewDoubt::Neighbours(0.69)));
+        assert_eq!(told.doubt(), Some(FewDoubt::Neighbours(0.69)));
+        assert_eq!(LayerFew { correlation: 0.7, cvs: vec![cv(0.002, 0.0)], ..told }.doubt(), None);
+    }
 }

@@ -252,7 +252,9 @@ fn of_all_layers(web: &Web, together: &SharedAirFindings, map: Unevenness) -> Op
     let layers = weights.iter().enumerate().map(|(number, weight)| {
         let few = together.few.iter().find(|few| few.layer == number)?;
         let cv = few.cvs.iter().find(|cv| cv.patch == map.patch)?;
-        Some((weight / whole, *cv))
+        // What they do not tell has no error.
+        let by_chance = cv.by_chance.filter(|_| few.doubt_over(map.patch).is_none());
+        Some((weight / whole, FewFilamentsCv { by_chance, ..*cv }))
     });
     let layers: Vec<(f64, FewFilamentsCv)> = layers.collect::<Option<_>>()?;
     let sum = |of: &dyn Fn(&FewFilamentsCv) -> f64, power: i32| {

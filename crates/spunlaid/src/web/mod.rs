@@ -39,7 +39,7 @@ pub use curves::Curves;
 pub(crate) use curves::OneAir;
 pub use expected::{ExpectedCv, expected_cv, inner_columns};
 pub(crate) use few::{Arrangement, FEWEST as FEWEST_OF_FEW, FewFilaments};
-pub use few_findings::{FewFilamentsCv, LayerFew};
+pub use few_findings::{FewDoubt, FewFilamentsCv, LayerFew};
 pub use findings::{Findings, IndependentCv, PatchFindings, find, find_laid, measure, measure_laid};
 pub use laid_web::{LaidWeb, SharedAirFindings};
 pub use lay::{lay, pieces};

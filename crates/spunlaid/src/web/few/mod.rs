@@ -83,11 +83,14 @@ impl FewFilaments<'_> {
         });
         let sheet = [self.sheet.width, self.sheet.length];
         let lost = self.rows.iter().flatten().filter(|curve| curve.is_none()).count() as u64;
-        let mut told = LayerFew { layer, filaments: count as u64, lost, sheet, ..LayerFew::default() };
+        let (filaments, pitch) = (count as u64, self.pitch());
+        let mut told = LayerFew { layer, filaments, lost, sheet, pitch, ..LayerFew::default() };
         for ((found, blocks), ([itself, next, second, fourth], patch)) in
             found.into_iter().zip(products.into_iter().zip(&self.sheet.patches))
         {
             let [Some(all), Some(even), Some(odd)] = found else { continue };
+            // What filaments at random places of a row have more than those of an even one.
+            let at_random = |square: f64| (itself - 1.0 - square) / self.all;
             // What is left of the CV² of this many filaments where there are all of them, and their own part.
             let of_all = |cv: f64, count: f64, [near, far]: [f64; 2]| {
                 let own = itself - (4.0 * near - far) / 3.0;
@@ -96,7 +99,7 @@ impl FewFilaments<'_> {
                     Arrangement::Rows => [square, 0.0],
                     Arrangement::Slot => [square - (1.0 / count - 1.0 / self.all) * own, own / self.all],
                     Arrangement::AtRandom => {
-                        let own = (itself - 1.0 - square) / self.all;
+                        let own = at_random(square);
                         [square + own, own]
                     }
                 }
@@ -107,8 +110,9 @@ impl FewFilaments<'_> {
             let cv = root(whole);
             let off = 0.5 * (halves[0] + halves[1]) - cv;
             told.blocks.push(blocks);
-            if let Some(told_by_filling) = filled.and_then(|maps| self.by_filling(maps, *patch)) {
-                told.cvs.push(told_by_filling);
+            let by_filling = filled.and_then(|maps| self.by_filling(maps, *patch, (root(whole), &at_random)));
+            if let Some(by_filling) = by_filling {
+                told.cvs.push(by_filling);
                 continue;
             }
             told.cvs.push(FewFilamentsCv {
@@ -126,22 +130,40 @@ impl FewFilaments<'_> {
     }
 
     /// The CV over patches that are so small that they know the pitch of a row, with the filaments filled in; None for larger ones.
-    fn by_filling(&self, maps: &[Map; 2], patch: f64) -> Option<FewFilamentsCv> {
-        let pitch = self.sheet.width / self.rows.iter().map(Vec::len).max()? as f64;
-        if self.arrangement != Arrangement::Rows || patch >= PITCHES * pitch {
+    ///
+    /// * `few` – what the flown ones tell as they are
+    /// * `at_random` – what filaments at random places have more, of a CV²
+    fn by_filling(
+        &self,
+        maps: &[Map; 2],
+        patch: f64,
+        (few, at_random): (f64, &dyn Fn(f64) -> f64),
+    ) -> Option<FewFilamentsCv> {
+        if self.arrangement == Arrangement::Slot || patch >= PITCHES * self.pitch() {
             return None;
         }
         let [filled, half] = maps.each_ref().map(|map| unevenness(map, self.side(patch)));
         let (filled, half) = (filled?, half?);
+        let own = |cv: f64| match self.arrangement {
+            Arrangement::AtRandom => at_random(cv * cv),
+            Arrangement::Rows | Arrangement::Slot => 0.0,
+        };
+        let [cv, half] = [filled.cv, half.cv].map(|cv| (cv * cv + own(cv)).max(0.0).sqrt());
         Some(FewFilamentsCv {
             patch,
-            cv: filled.cv,
-            by_chance: filled.standard_error,
-            by_pitch: 0.5 * (half.cv - filled.cv).abs(),
-            of_halves: half.cv / filled.cv - 1.0,
-            own: 0.0,
-            few: filled.cv,
+            cv,
+            by_chance: filled.standard_error.map(|error| error * filled.cv / cv),
+            // Filled-in filaments lie more alike than they do. Two errors of a filling may cancel in its halves, so the flown ones have a say too.
+            by_pitch: (0.5 * (half - cv)).hypot(0.5 * (few - cv)),
+            of_halves: half / cv - 1.0,
+            own: own(filled.cv),
+            few,
         })
+    }
+
+    /// Distance of neighbours in the row that has most of them [m].
+    pub(crate) fn pitch(&self) -> f64 {
+        self.sheet.width / self.rows.iter().map(Vec::len).max().unwrap_or(1) as f64
     }
 
     /// Number of those that were not lost.

@@ -192,6 +192,30 @@ fn stat_an_even_row_tells_the_cv_of_random_places() {
     }
 }
 
+/// Over patches as small as the pitch, the row that is flown is a comb; with the filaments between them filled in, it tells what random places do.
+#[test]
+fn stat_small_patches_of_random_places_are_told_by_the_filled_row() {
+    const WEBS: u64 = 6;
+    let (sheet, field) = (sheet(&[2.0]), Field::new(4));
+    let row = |count: usize| even(count).map(|z| curve(z, |s| field.at(s, z)));
+    let flown = few(&sheet, Arrangement::AtRandom, 120, row(24));
+    let filled = few(&sheet, Arrangement::AtRandom, 120, row(192)).map(None).unwrap();
+    let [comb, found] = [None, Some([filled.clone(), filled])]
+        .map(|filled| flown.tell(0, filled.as_ref(), 2).unwrap().cvs[0]);
+    let squares = (0..WEBS).map(|seed| {
+        let mut random = SplitMix64::seed_from_u64(seed);
+        let mut place = || (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64 * WIDTH;
+        let places: Vec<f64> = (0..120).map(|_| place()).collect();
+        on_map(&sheet, places.into_iter().map(|z| curve(z, |s| field.at(s, z))))[0].powi(2)
+    });
+    let mean = (squares.sum::<f64>() / WEBS as f64).sqrt();
+    // Six webs, whose streaks differ.
+    assert!((found.cv / mean - 1.0).abs() < 0.06, "{found:?} {mean}");
+    assert!(comb.cv > 1.2 * mean, "{comb:?} {mean}");
+    // The two halves tell the same here, and the comb still counts.
+    assert!(found.by_pitch > 0.4 * (comb.cv - found.cv), "{found:?} {comb:?}");
+}
+
 #[test]
 fn identical_for_any_number_of_threads() {
     let (sheet, field) = (sheet(&[5.0]), Field::new(5));
