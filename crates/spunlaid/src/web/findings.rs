@@ -96,9 +96,15 @@ impl IndependentCv {
 }
 
 impl PatchFindings {
-    /// The 95 % confidence interval of the CV of all such webs; none if the sheet is too small to say.
+    /// The 95 % confidence interval of the CV of all such webs; none if the sheet is too small to say, or if a few filaments do not tell it. Which filaments were
+    /// flown for all is chance too.
     pub fn interval(&self) -> Option<[f64; 2]> {
-        if self.independent.is_some() { self.map.interval_of_few() } else { self.map.interval() }
+        if self.independent.is_none() {
+            return self.map.interval();
+        }
+        let by_pitch = self.few.map_or(0.0, |few| few.by_pitch);
+        let standard_error = self.map.standard_error.map(|error| error.hypot(by_pitch));
+        Unevenness { standard_error, ..self.map }.interval_of_few()
     }
 }
 

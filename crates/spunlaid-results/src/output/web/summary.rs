@@ -142,6 +142,9 @@ struct WebSummary {
 #[derive(Debug, Serialize)]
 struct FlownSummary {
     filaments: u64,
+    /// Distance of neighbours in a row, and the correlation of the places where two filaments at this distance and equal depth come down.
+    pitch_m: f64,
+    neighbour_correlation: f64,
     /// The sheet that they laid.
     width_m: f64,
     length_m: f64,
@@ -153,7 +156,16 @@ struct FlownSummary {
 impl FlownSummary {
     fn from_few(few: &LayerFew) -> Self {
         let ([width_m, length_m], [missing_variance_md, missing_variance_cd]) = (few.sheet, few.missing);
-        Self { filaments: few.filaments, width_m, length_m, missing_variance_md, missing_variance_cd }
+        let (filaments, pitch_m, neighbour_correlation) = (few.filaments, few.pitch, few.correlation);
+        Self {
+            filaments,
+            pitch_m,
+            neighbour_correlation,
+            width_m,
+            length_m,
+            missing_variance_md,
+            missing_variance_cd,
+        }
     }
 }
 
