@@ -187,12 +187,10 @@ pub fn notes(web: &Web, findings: &Findings, layers: &[LayerFibres]) -> Vec<Stri
              outermost filament (web.edges = \"cut\")"
         ));
     }
-    let is_untold = |patch: f64| {
-        let together = findings.laid.shared_air.iter().flat_map(|together| &together.few);
-        together.into_iter().any(|few| few.doubt_over(patch).is_some())
-    };
+    let together = findings.laid.shared_air.as_ref();
+    let is_told = |patch: f64| together.is_none_or(|together| together.tells(patch));
     let unsure: Vec<f64> = (findings.patches.iter().map(|patch| patch.map))
-        .filter(|map| map.standard_error.is_none() && !is_untold(map.patch))
+        .filter(|map| map.standard_error.is_none() && is_told(map.patch))
         .map(|map| map.patch)
         .collect();
     if !unsure.is_empty() {

@@ -87,7 +87,7 @@ pub fn fit_html(input: &FitReport<'_>) -> String {
 /// The paragraph for a paper.
 fn methods(input: &FitReport<'_>) -> Methods {
     let fit = input.fit;
-    let (mut sentences, mut cited) = web_account(input.spec);
+    let (mut sentences, mut cited) = web_account(input.spec, None);
     let [width, length] = input.target.sides().map(|side| Dimension::Length.pretty(side));
     sentences.push(format!(
         "These values were found by a simulated method of moments ({}): the logarithms of {} numbers (CV over square patches{}) of a piece of {width} × {length} \

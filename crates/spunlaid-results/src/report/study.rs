@@ -126,7 +126,7 @@ pub fn study_html(input: &StudyReport<'_>) -> String {
 fn account(study: &Study, results: &[PointResults]) -> Account {
     let (base, references) = match study.points.first().map(|point| &point.experiment) {
         Some(Experiment::Case(case)) => case_account(case),
-        Some(Experiment::Web(spec)) => web_account(spec),
+        Some(Experiment::Web(spec)) => web_account(spec, None),
         Some(Experiment::Spinline(spec)) => spinline::account(spec, &[]),
         None => Account::default(),
     };

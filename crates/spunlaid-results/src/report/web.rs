@@ -108,7 +108,14 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
     let page = WebPage {
         command: "web",
         name: input.name,
-        methods_paragraph: Methods::new("web", web_account(input.spec), found),
+        methods_paragraph: Methods::new(
+            "web",
+            web_account(
+                input.spec,
+                input.findings.laid.shared_air.as_ref().map(|together| &together.few[..]),
+            ),
+            found,
+        ),
         headline,
         summary: [summary(input.web), air_sentence(findings), error_sentences(findings)].join(" "),
         notes: input.notes,

@@ -41,6 +41,11 @@ pub struct SharedAirFindings {
 }
 
 impl SharedAirFindings {
+    /// Whether the few filaments of each layer tell the CV of all over patches of a side.
+    pub fn tells(&self, patch: f64) -> bool {
+        self.few.iter().all(|few| few.doubt_over(patch).is_none())
+    }
+
     /// Adds what is known of another layer.
     pub(crate) fn add(&mut self, layer: usize, other: Self) {
         self.strands.extend(other.strands.into_iter().map(|strand| Strand { layer, ..strand }));

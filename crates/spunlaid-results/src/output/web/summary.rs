@@ -191,7 +191,7 @@ struct Cloudiness {
     to_m: f64,
     index: f64,
     standard_error: Option<f64>,
-    /// 95 % confidence interval for all such webs; null if the map is too small to say.
+    /// 95 % confidence interval for all such webs; null if the map is too small to say, or if too few filaments were flown.
     interval: Option<[f64; 2]>,
     /// Why the true index cannot be known.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -346,7 +346,12 @@ impl<'a> Summary<'a> {
         notes: &'a [String],
     ) -> Self {
         let patches = findings.patches.iter().map(|patch| {
-            let interval = patch.interval().ok_or_else(|| "the map is too small".to_owned());
+            let together = findings.laid.shared_air.as_ref();
+            let why = match together.is_none_or(|together| together.tells(patch.map.patch)) {
+                true => "the map is too small",
+                false => "too few filaments were flown",
+            };
+            let interval = patch.interval().ok_or_else(|| why.to_owned());
             let declared = |is_of_map: bool| {
                 let declared = OF_PATCHES.iter().filter(move |measure| measure.is_of_map == is_of_map);
                 declared.map(|measure| (measure.name, (measure.number)(patch)))

@@ -6,6 +6,7 @@ use crate::report::words::{self, count, length, quantity};
 use spunlaid::air::{EddyModel, Flow, Lateral, SpectrumShape};
 use spunlaid::case::Case;
 use spunlaid::layers::{LaydownSource, LayerSpec, Method, WebSpec};
+use spunlaid::web::LayerFew;
 
 /// Sentences, and the works that they cite.
 pub(in crate::report) type Account = (Vec<String>, Vec<Reference>);
@@ -92,14 +93,16 @@ fn turbulence(case: &Case) -> String {
 }
 
 /// How a web is laid, and of what.
-pub(in crate::report) fn web_account(spec: &WebSpec) -> Account {
+///
+/// * `flown` – the few filaments of a web in one air; None before it is laid
+pub(in crate::report) fn web_account(spec: &WebSpec, flown: Option<&[LayerFew]>) -> Account {
     let sheet = &spec.sheet;
     let how = match spec.method {
         Method::Surrogate => {
             format!("paths of a stochastic surrogate of the laid fibre ({})", SURROGATE.short)
         }
         Method::Dynamics => "the curves of the flown fibres".to_owned(),
-        Method::SharedAir => in_one_air(spec),
+        Method::SharedAir => in_one_air(spec, flown),
     };
     let mut sentences = vec![format!(
         "A sheet of {} across by {} along the belt was laid of {how}, on a map with cells of {} (seed {}).",
@@ -122,16 +125,21 @@ pub(in crate::report) fn web_account(spec: &WebSpec) -> Account {
 }
 
 /// What is laid of a web in one air.
-fn in_one_air(spec: &WebSpec) -> String {
+fn in_one_air(spec: &WebSpec, flown: Option<&[LayerFew]>) -> String {
     let flights = spec.planned_flights();
     let few: Vec<_> = flights.iter().filter(|flight| flight.is_few).collect();
     let Some(first) = few.first() else {
         return "the curves of all filaments of the sheet, which fly in one air".to_owned();
     };
     let all_few = few.len() == flights.len();
+    // More may have been flown than were planned.
+    let filaments = match flown {
+        Some(flown) => flown.iter().map(|few| few.filaments + few.lost).sum(),
+        None => few.iter().map(|flight| flight.filaments).sum(),
+    };
     format!(
         "the curves of {}, which fly in one air on a sheet of {} by {}, {}and of the filaments between them, which follow by simple kriging{}",
-        count(few.iter().map(|flight| flight.filaments).sum(), "filament"),
+        count(filaments, "filament"),
         length(first.sheet[0]),
         length(first.sheet[1]),
         if all_few { "" } else { "of all filaments of the other layers, " },
