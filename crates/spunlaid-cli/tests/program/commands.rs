@@ -197,6 +197,13 @@ fn check_tells_in_which_air_the_filaments_of_a_web_hang() {
         "{said}"
     );
     assert!(!said.contains("--set line.depth"), "{said}");
+    // Ten length scales of the air, for a web that is narrower.
+    let narrow = ["web.width=0.1 m", "line.filaments_per_metre=5000"];
+    let said = success(&mut desk.with("check web.toml", &narrow));
+    assert!(
+        said.contains("#   80 filaments fly in one field of eddies, on a sheet of 160 mm × 500 mm; the web of 500 follows"),
+        "{said}"
+    );
     let together = desk.with("check web.toml", &["web.method=shared-air", "web.flown=all"]).output().unwrap();
     let said = String::from_utf8(together.stdout).unwrap();
     assert!(

@@ -211,9 +211,9 @@ fn stat_small_patches_of_random_places_are_told_by_the_filled_row() {
     let mean = (squares.sum::<f64>() / WEBS as f64).sqrt();
     // Six webs, whose streaks differ.
     assert!((found.cv / mean - 1.0).abs() < 0.06, "{found:?} {mean}");
-    assert!(comb.cv > 1.2 * mean, "{comb:?} {mean}");
-    // The two halves tell the same here, and the comb still counts.
-    assert!(found.by_pitch > 0.4 * (comb.cv - found.cv), "{found:?} {comb:?}");
+    assert!(comb.cv > 1.08 * mean, "{comb:?} {mean}");
+    // The two halves tell the same here, and a filling has an error all the same.
+    assert!(found.by_pitch > 0.01 * found.cv && found.by_pitch < 0.03 * found.cv, "{found:?}");
 }
 
 #[test]
