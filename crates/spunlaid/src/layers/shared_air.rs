@@ -46,6 +46,9 @@ pub(super) struct LayerBeam<'a> {
     depth: f64,
 }
 
+/// The flight of a layer, with the curves of a few filaments and what they say of all.
+type ToldFlight<'a> = (LayerBeam<'a>, BeamFindings, Option<(FlownCurves, LayerFew)>);
+
 impl LayerBeam<'_> {
     pub(super) fn beam(&self) -> Beam<'_> {
         Beam { case: &self.case, places: &self.places, airs: Airs::Shared, depth: self.depth }
@@ -142,7 +145,7 @@ impl Flyer<'_> {
         spec: &'a WebSpec,
         (number, mut layer): (usize, LayerBeam<'a>),
         on: (&Canvas, u32),
-    ) -> Result<(LayerBeam<'a>, BeamFindings, Option<(FlownCurves, LayerFew)>), Error> {
+    ) -> Result<ToldFlight<'a>, Error> {
         let (mut finer, mut spent) = (0, TimeSpent::default());
         loop {
             let mut flown = self.fly_layer(&layer, spec, layer.few.is_none().then_some(on))?;
