@@ -12,7 +12,7 @@ pub use setting::{Change, ChangedKey, Setting};
 
 use self::few::WebOfFew;
 use crate::error::Error;
-use crate::layers::{Flights, Flyer, LaydownSource, LayerSpec, Method, WebSpec};
+use crate::layers::{Flights, Flyer, LaydownSource, LayerSpec, Method, WebSpec, steps_in_same_air};
 use crate::sort::sort_by_key;
 use crate::statistics::Difference;
 use crate::threads::try_each;
@@ -101,15 +101,21 @@ impl Advice {
     }
 }
 
-/// Steps of all fibres of the flights that it takes to try some changes; of webs in one air, about.
-pub fn steps(changes: &[Change]) -> u64 {
+/// Steps of all fibres of the flights that it takes to try some changes of a web; of webs in one air, about.
+pub fn steps(spec: &WebSpec, changes: &[Change]) -> u64 {
+    if spec.method == Method::SharedAir {
+        return steps_in_same_air(&all_webs(spec, changes));
+    }
     changes.iter().map(|change| steps_of_web(&change.spec)).sum()
 }
 
+/// A web and the changed ones.
+fn all_webs<'a>(spec: &'a WebSpec, changes: &'a [Change]) -> Vec<&'a WebSpec> {
+    std::iter::once(spec).chain(changes.iter().map(|change| &change.spec)).collect()
+}
+
+/// Steps of all fibres of a web of independent ones.
 fn steps_of_web(spec: &WebSpec) -> u64 {
-    if spec.method == Method::SharedAir {
-        return spec.steps_in_one_air();
-    }
     let mut cases: Vec<_> = (spec.layers.iter())
         .filter_map(|layer| match &layer.source {
             LaydownSource::Case { path, case } => Some((path, case)),
@@ -133,32 +139,12 @@ pub fn advise(
     changes: Vec<Change>,
     by: LayControl<'_>,
 ) -> Result<Advice, Error> {
-    let is_shared = spec.method == Method::SharedAir;
-    let aside = AtomicU64::new(0);
     let has_few = findings.laid.shared_air.as_ref().is_some_and(|together| !together.few.is_empty());
-    let base = match (is_shared, has_few) {
-        // On the sheet of the changes, which is smaller.
-        (true, true) => unevennesses(spec, true, LayControl { laid: &aside, ..by })?,
-        (true, false) => Unevennesses::OfMaps(findings.patches.clone()),
-        (false, _) => Unevennesses::Expected(expected_cv(web, LayControl { laid: &aside, ..by })?),
+    let in_same_air = if has_few { few_of_changes(spec, &changes, by)? } else { None };
+    let tried = match in_same_air {
+        Some(tried) => tried,
+        None => try_alone(spec, (web, findings), &changes, by)?,
     };
-    // A flight of eight fibres takes one thread, and many changes are tried side by side. All filaments in one air take all threads.
-    let (abreast, threads) = if is_shared { (1, by.threads) } else { (by.threads, 1) };
-    let is_few = matches!(base, Unevennesses::OfFew(_));
-    let tried = try_each(abreast, changes.len(), |i| {
-        let spec = &changes[i].spec;
-        let tried = unevennesses(spec, is_few, LayControl { threads, laid: &aside, ..by });
-        by.laid.fetch_add(steps_of_web(spec), Ordering::Relaxed);
-        match tried {
-            // So few filaments of the changed web that all of them were flown.
-            Ok(found @ Unevennesses::OfMaps(_)) if is_few => {
-                Ok(Ok(Unevennesses::OfMaps(findings.patches.clone()).changes_to(&found)))
-            }
-            Ok(found) => Ok(Ok(base.changes_to(&found))),
-            Err(Error::Interrupted) => Err(Error::Interrupted),
-            Err(error) => Ok(Err(error.to_string())),
-        }
-    })?;
     let belt_speed = |spec: &WebSpec| spec.layers.first().map_or(f64::NAN, |layer| layer.belt_speed);
     let mut advice = Advice::default();
     for (change, tried) in changes.into_iter().zip(tried) {
@@ -175,13 +161,58 @@ pub fn advise(
     Ok(advice)
 }
 
+/// What each of some changes does to the CV, or why it cannot be flown or laid.
+type Tried = Vec<Result<Vec<CvChange>, String>>;
+
+/// Flies a few filaments of all webs in the same air; None if a few do not tell the web as it is.
+fn few_of_changes(spec: &WebSpec, changes: &[Change], by: LayControl<'_>) -> Result<Option<Tried>, Error> {
+    let flyer = Flyer::new(by.threads, by.stop, &unwatched);
+    let webs = all_webs(spec, changes);
+    let Some(told) = flyer.few_in_same_air(&webs, by.laid)? else { return Ok(None) };
+    let mut told = webs.into_iter().zip(told).map(|(spec, few)| few.map(|few| WebOfFew::new(spec, few)));
+    let Some(base) = told.next().transpose()? else { return Ok(None) };
+    Ok(Some(
+        told.map(|of_few| of_few.map(|of_few| base.changes_to(&of_few)).map_err(|why| why.to_string()))
+            .collect(),
+    ))
+}
+
+/// Flies and lays each changed web by itself.
+fn try_alone(
+    spec: &WebSpec,
+    (web, findings): (&Web, &Findings),
+    changes: &[Change],
+    by: LayControl<'_>,
+) -> Result<Tried, Error> {
+    let is_shared = spec.method == Method::SharedAir;
+    let aside = AtomicU64::new(0);
+    let base = match is_shared {
+        true => Unevennesses::OfMaps(findings.patches.clone()),
+        false => Unevennesses::Expected(expected_cv(web, LayControl { laid: &aside, ..by })?),
+    };
+    // A flight of eight fibres takes one thread, and many changes are tried side by side. All filaments in one air take all threads.
+    let (abreast, threads) = if is_shared { (1, by.threads) } else { (by.threads, 1) };
+    try_each(abreast, changes.len(), |i| {
+        let changed = &changes[i..=i];
+        let tried = unevennesses(&changed[0].spec, LayControl { threads, laid: &aside, ..by });
+        by.laid.fetch_add(steps(spec, changed), Ordering::Relaxed);
+        match tried {
+            Ok(found) => Ok(Ok(base.changes_to(&found))),
+            Err(Error::Interrupted) => Err(Error::Interrupted),
+            Err(error) => Ok(Err(error.to_string())),
+        }
+    })
+}
+
+fn unwatched(_: Flights<'_>, work: &mut (dyn FnMut() + Send)) {
+    work();
+}
+
 /// How uneven a web is over patches of each size.
 enum Unevennesses {
     /// As it is expected of independent filaments.
     Expected(Vec<ExpectedCv>),
-    /// As a few filaments in one air tell it.
-    OfFew(WebOfFew),
-    /// On the map of filaments in one air, of which all were flown in one of the two webs.
+    /// On the map of filaments in one air, all of which were flown.
     OfMaps(Vec<PatchFindings>),
 }
 
@@ -198,7 +229,6 @@ impl Unevennesses {
                 };
                 before.iter().filter_map(to).collect()
             }
-            (Self::OfFew(before), Self::OfFew(after)) => before.changes_to(after),
             (Self::OfMaps(before), Self::OfMaps(after)) => {
                 let to = |before: &PatchFindings| {
                     let (before, after) =
@@ -224,19 +254,14 @@ impl Unevennesses {
     }
 }
 
-/// * `is_few` – whether a few filaments of a web in one air tell it where they can
-fn unevennesses(spec: &WebSpec, is_few: bool, by: LayControl<'_>) -> Result<Unevennesses, Error> {
-    let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
+fn unevennesses(spec: &WebSpec, by: LayControl<'_>) -> Result<Unevennesses, Error> {
     let is_flown = |layer: &LayerSpec| matches!(layer.source, LaydownSource::Case { .. });
     // The flown curves are compared, whether a surrogate is found in them or not.
     let method = match spec.method {
         Method::Surrogate if spec.layers.iter().all(is_flown) => Method::Dynamics,
         method => method,
     };
-    let mut flyer = Flyer::new(by.threads, by.stop, &follow);
-    if is_few && let Some(few) = flyer.few(spec)? {
-        return Ok(Unevennesses::OfFew(WebOfFew::new(spec, few)));
-    }
+    let mut flyer = Flyer::new(by.threads, by.stop, &unwatched);
     let mut flown = flyer.web(&WebSpec { method, ..spec.clone() })?;
     Ok(match spec.method {
         Method::SharedAir => Unevennesses::OfMaps(flown.measure(by)?.patches),

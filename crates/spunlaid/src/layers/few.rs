@@ -2,7 +2,6 @@
 
 use super::{Flown, LaydownSource, Method, WebSpec};
 use crate::beam::{Beam, BeamFindings};
-use crate::case::Case;
 use crate::curtain::{Belt, FlownCurves, lay};
 use crate::error::Error;
 use crate::fibre::{Place, rows};
@@ -54,8 +53,8 @@ pub(super) struct FewPlan {
 impl WebSpec {
     /// The few filaments that are flown for all of a layer; None if all are flown.
     ///
-    /// * `area` – of the sheet that they lay, unless the web is smaller [m²]
-    pub(super) fn few(&self, layer: usize, area: f64) -> Option<FewFlight> {
+    /// * `sheet` – that they lay
+    pub(super) fn few(&self, layer: usize, sheet: &Sheet) -> Option<FewFlight> {
         let spec = self.layers.get(layer)?;
         let LaydownSource::Case { case, .. } = &spec.source else { return None };
         if self.method != Method::SharedAir {
@@ -66,7 +65,7 @@ impl WebSpec {
             Flown::PerMetre(number) => 1.0 / number as f64,
             Flown::Auto => PITCH * case.smallest_length_scale(),
         };
-        let sheet = self.flown_sheet(case, area);
+        let sheet = sheet.clone();
         let all = spec.filaments.count(&self.sheet) as f64 * sheet.width / self.sheet.width;
         // An even number, so that every second one is at an even pitch as well.
         let count = 2 * (0.5 * sheet.width / pitch).round().max(1.0) as u64;
@@ -108,18 +107,21 @@ impl WebSpec {
     }
 
     /// The sheet that the filaments of a case lay: that of the web unless a smaller one says as much. Long and narrow ones take the least time, because
-    /// filaments are flown for a while before they lay the sheet.
-    fn flown_sheet(&self, case: &Case, area: f64) -> Sheet {
+    /// filaments are flown for a while before they lay the sheet. None of a layer that flies no case.
+    ///
+    /// * `area` – of the sheet that they lay, unless the web is smaller [m²]
+    pub(super) fn flown_sheet(&self, layer: usize, area: f64) -> Option<Sheet> {
+        let case = self.layers.get(layer)?.source.case()?;
         let way = case.line.map_or(0.0, |line| line.distance);
         let cell = self.sheet.cell;
         let cells = |size: f64| (size / cell).ceil() * cell;
         let [width, length] = [self.sheet.width, self.sheet.length];
         let sheet = Sheet { edges: Edges::Periodic, ..self.sheet.clone() };
         if width * length <= NEARLY * area {
-            return sheet;
+            return Some(sheet);
         }
         let narrow = cells(case.extent_of_air().z.max(WIDTH * way)).min(width);
-        Sheet { width: narrow, length: cells(area / narrow), ..sheet }
+        Some(Sheet { width: narrow, length: cells(area / narrow), ..sheet })
     }
 }
 
@@ -148,17 +150,21 @@ impl FewPlan {
 
     /// What they say of all filaments.
     ///
+    /// * `blocks` – number of those that are told of the sheet, across and along
+    /// * `curves` – of the filaments; only those of rows are looked at
+    ///
     /// # Errors
     /// If a cell would hold more fibre than can be counted, or if it is stopped.
     pub(super) fn tell(
         &self,
-        (number, sheet): (usize, &Sheet),
+        (number, sheet, blocks): (usize, &Sheet, [usize; 2]),
         (beam, flown): (&Beam<'_>, &BeamFindings),
-        curves: &FlownCurves,
+        curves: Option<&FlownCurves>,
         by: (usize, &AtomicBool),
     ) -> Result<LayerFew, Error> {
-        let filled = self.filled((sheet, flown.back), beam, curves, by)?;
-        self.filaments(sheet, beam, flown).tell(number, filled.as_ref(), by.0)
+        let filled = curves.map(|curves| self.filled((sheet, flown.back), beam, curves, by));
+        let filled = filled.transpose()?.flatten();
+        self.filaments((sheet, blocks), beam, flown).tell(number, filled.as_ref(), by.0)
     }
 
     /// Maps of rows in which the filaments between the flown ones have been filled in, from all of them and from every second one; None of other filaments.
@@ -192,7 +198,12 @@ impl FewPlan {
     }
 
     /// The filaments, with what they have laid on their sheet.
-    fn filaments<'a>(&self, sheet: &'a Sheet, beam: &Beam<'_>, flown: &BeamFindings) -> FewFilaments<'a> {
+    fn filaments<'a>(
+        &self,
+        (sheet, blocks): (&'a Sheet, [usize; 2]),
+        beam: &Beam<'_>,
+        flown: &BeamFindings,
+    ) -> FewFilaments<'a> {
         let curve = |number: &usize| {
             let (_, points) = flown.kept.iter().find(|(filament, _)| filament == number)?;
             let place = beam.places[*number];
@@ -200,7 +211,7 @@ impl FewPlan {
         };
         let rows = self.rows.iter().map(|row| row.iter().map(curve).collect()).collect();
         let (arrangement, all) = (self.arrangement, self.all);
-        FewFilaments { sheet, rows, piece: beam.element_mass(), arrangement, all }
+        FewFilaments { sheet, blocks, rows, piece: beam.element_mass(), arrangement, all }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Webs whose filaments all fly in one air, and lay the sheet as they come down.
 
-use super::few::{AREA, AREA_OF_COMPARISON, FewFlight, FewPlan};
+use super::few::{AREA, FewFlight, FewPlan};
 use super::flyer::Flights;
 use super::{FlownFibres, Flyer, LaydownSource, LayerFibres, Method, WebSpec};
 use crate::air::Lateral;
@@ -13,7 +13,8 @@ use crate::fibre::Place;
 use crate::lanes::Isa;
 use crate::units::Dimension;
 use crate::web::{
-    Canvas, Curves, Edges, Fibres, LaidWeb, LayerFew, OneAir, SharedAirFindings, Sheet, Strand, inlets,
+    Canvas, Curves, Edges, Fibres, LaidWeb, LayerFew, OneAir, SharedAirFindings, Sheet, Strand, blocks_on,
+    inlets,
 };
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
@@ -76,29 +77,6 @@ impl LayerBeam<'_> {
 }
 
 impl Flyer<'_> {
-    /// What a few filaments say about a web in one air, without laying it, to be compared with another web in the same air; None of any other web, and where all filaments of a layer are flown.
-    ///
-    /// # Errors
-    /// As of [`Flyer::web`].
-    pub fn few(&self, spec: &WebSpec) -> Result<Option<Vec<LayerFew>>, Error> {
-        if spec.method != Method::SharedAir {
-            return Ok(None);
-        }
-        let beams = beams(spec, AREA_OF_COMPARISON)?;
-        if beams.iter().any(|layer| layer.few.is_none()) {
-            return Ok(None);
-        }
-        let told = beams.iter().enumerate().filter_map(|(number, layer)| {
-            let tell = |few: &FewPlan| {
-                let flown = self.fly_layer(layer, spec, None)?;
-                let curves = few.curves(&layer.sheet, &layer.beam(), &flown)?;
-                few.tell((number, &layer.sheet), (&layer.beam(), &flown), &curves, self.by())
-            };
-            layer.few.as_ref().map(tell)
-        });
-        told.collect::<Result<_, _>>().map(Some)
-    }
-
     /// Threads and stop flag.
     const fn by(&self) -> (usize, &AtomicBool) {
         (self.threads, self.stop)
@@ -107,7 +85,7 @@ impl Flyer<'_> {
     /// Flies all filaments of each layer, or a few for all of them, in an air of its own, and lays them. A few curves of each layer are kept, which say
     /// what independent filaments would give.
     pub(super) fn fly_together(&self, spec: &WebSpec) -> Result<(Vec<LayerFibres>, LaidWeb), Error> {
-        let beams = beams(spec, AREA)?;
+        let beams = beams(spec)?;
         let elements: Vec<f64> = beams.iter().map(|layer| layer.beam().element_mass()).collect();
         let weight = beams.iter().map(LayerBeam::basis_weight).sum();
         let canvas = Canvas::new(&spec.sheet, &elements, weight)?;
@@ -118,7 +96,8 @@ impl Flyer<'_> {
             let mut of_layer = flown.take_shared_air();
             if let Some(few) = &layer.few {
                 let curves = few.curves(&layer.sheet, &layer.beam(), &flown)?;
-                let told = few.tell((number, &layer.sheet), (&layer.beam(), &flown), &curves, self.by())?;
+                let of_sheet = (number, &layer.sheet, blocks_on(&layer.sheet));
+                let told = few.tell(of_sheet, (&layer.beam(), &flown), Some(&curves), self.by())?;
                 let missing;
                 (of_layer.strands, missing) =
                     self.draw_all(spec, (number, layer), (&curves, flown.back), on)?;
@@ -194,18 +173,12 @@ impl WebSpec {
         Some(case.air.lateral.cutoff().unwrap_or(Lateral::USUAL_CUTOFF))
     }
 
-    /// About how many steps the filaments of a web in one air take that is compared with another one.
-    pub(crate) fn steps_in_one_air(&self) -> u64 {
-        let beams = (0..self.layers.len()).filter_map(|number| beam(self, number, AREA_OF_COMPARISON).ok());
-        beams.map(|layer| layer.beam().steps(&layer.sheet)).sum()
-    }
-
     /// The problem of a web in one air whose field of eddies does not fit into the memory that it may take.
     pub(crate) fn air_beyond_memory(&self) -> Option<Problem> {
         if self.method != Method::SharedAir {
             return None;
         }
-        let beams = (0..self.layers.len()).filter_map(|number| beam(self, number, AREA).ok());
+        let beams = (0..self.layers.len()).filter_map(|number| beam_on(self, number, None).ok());
         let largest = beams
             .map(|layer| (layer.beam().memory_of_air(&layer.sheet), layer.case.air.lateral))
             .max_by(|a, b| a.0.total_cmp(&b.0));
@@ -243,16 +216,22 @@ impl WebSpec {
 ///
 /// # Errors
 /// If a layer is not flown, or if its air does not fit into the memory.
-fn beams(spec: &WebSpec, area: f64) -> Result<Vec<LayerBeam<'_>>, Error> {
+fn beams(spec: &WebSpec) -> Result<Vec<LayerBeam<'_>>, Error> {
     if let Some(problem) = spec.air_beyond_memory() {
         return Err(vec![problem].into());
     }
-    (0..spec.layers.len()).map(|number| beam(spec, number, area)).collect()
+    (0..spec.layers.len()).map(|number| beam_on(spec, number, None)).collect()
 }
 
 /// The filaments of a layer at their places. Air that a case leaves the same across the flow becomes a field in space. The seed of the web and the number of the layer are in the key of the air, so that layers and webs have
 /// airs of their own.
-pub(super) fn beam(spec: &WebSpec, number: usize, area: f64) -> Result<LayerBeam<'_>, Error> {
+///
+/// * `sheet` – that a few of them lay; None for the one whose clouds tell the CV
+pub(super) fn beam_on<'a>(
+    spec: &'a WebSpec,
+    number: usize,
+    sheet: Option<&Sheet>,
+) -> Result<LayerBeam<'a>, Error> {
     let layer = &spec.layers[number];
     let LaydownSource::Case { path, case } = &layer.source else {
         let fault = Fault::new("a web in one air flies its filaments", "name their case (laydown.case)");
@@ -264,7 +243,8 @@ pub(super) fn beam(spec: &WebSpec, number: usize, area: f64) -> Result<LayerBeam
     }
     case.run.seed = key(case.run.seed, spec.seed, number as u64);
     let depth = layer.filaments.depth();
-    Ok(match spec.few(number, area) {
+    let flown_sheet = sheet.cloned().or_else(|| spec.flown_sheet(number, AREA));
+    Ok(match flown_sheet.and_then(|sheet| spec.few(number, &sheet)) {
         Some(FewFlight { sheet, places, few }) => {
             LayerBeam { path, case, sheet, few: Some(few), places, depth }
         }

@@ -38,7 +38,7 @@ pub use clouds::{Clouds, autocorrelation};
 pub use curves::Curves;
 pub(crate) use curves::OneAir;
 pub use expected::{ExpectedCv, expected_cv, inner_columns};
-pub(crate) use few::{Arrangement, FEWEST as FEWEST_OF_FEW, FewFilaments};
+pub(crate) use few::{Arrangement, FEWEST as FEWEST_OF_FEW, FewFilaments, blocks_on};
 pub use few_findings::{FewFilamentsCv, LayerFew};
 pub use findings::{Findings, IndependentCv, PatchFindings, find, find_laid, measure, measure_laid};
 pub use laid_web::{LaidWeb, SharedAirFindings};
