@@ -35,23 +35,31 @@ impl WebOfFew {
         let change = |patch: f64| {
             let (before, after) = (self.over(patch)?, other.over(patch)?);
             let ratio = (after.square / before.square).sqrt();
-            let (mut variance, mut degrees) = (0.0, f64::INFINITY);
+            let (mut variance, mut degrees, mut common) = (0.0, f64::INFINITY, [0.0; 3]);
             for ((weight, blocks), (other_weight, other_blocks)) in before.layers.iter().zip(&after.layers) {
                 let count = blocks.len().min(other_blocks.len());
                 // To first order, half the relative change of CV² is that of CV.
-                let parts = blocks.iter().zip(*other_blocks).map(|(here, there)| {
-                    0.5 * (other_weight * there / after.square - weight * here / before.square)
-                });
-                let parts: Vec<f64> = parts.collect();
-                let mean = parts.iter().sum::<f64>() / count as f64;
-                let squares = parts.iter().map(|part| (part - mean).powi(2)).sum::<f64>();
+                let shares = |blocks: &[f64], share: f64| {
+                    let mean = blocks.iter().take(count).sum::<f64>() / count as f64;
+                    blocks.iter().take(count).map(|block| 0.5 * share * (block - mean)).collect::<Vec<_>>()
+                };
+                let here = shares(blocks, weight / before.square);
+                let there = shares(other_blocks, other_weight / after.square);
+                let sum = |of: &dyn Fn(f64, f64) -> f64| -> f64 {
+                    here.iter().zip(&there).map(|(here, there)| of(*here, *there)).sum()
+                };
+                let squares = sum(&|here, there| (there - here).powi(2));
+                let moments = [sum(&|a, _| a * a), sum(&|_, b| b * b), sum(&|a, b| a * b)];
+                common.iter_mut().zip(moments).for_each(|(all, of_layer)| *all += of_layer);
                 variance += squares / (count as f64 * (count as f64 - 1.0));
                 degrees = degrees.min(count as f64 - 1.0);
             }
             let by_pitch = 0.5 * (after.of_halves - before.of_halves);
             let standard_error = ratio * (variance + by_pitch * by_pitch).sqrt();
             let own = Some(0.5 * (after.own - before.own) / before.square);
-            Some(CvChange { patch, change: ratio - 1.0, standard_error, degrees, own })
+            let [here, there, both] = common;
+            let in_common = Some(both / (here * there).sqrt()).filter(|common| common.is_finite());
+            Some(CvChange { patch, change: ratio - 1.0, standard_error, degrees, own, in_common })
         };
         first.cvs.iter().filter_map(|cv| change(cv.patch)).collect()
     }

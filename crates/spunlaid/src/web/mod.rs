@@ -52,6 +52,7 @@ pub(crate) use plan::inlets;
 pub use sensitivity::{Lever, Sensitivity, Source, sensitivities};
 pub use strands::strands;
 pub use waves::{Places, Streaks};
+pub use uniformity::nearest_to_seen;
 pub use whole_error::WholeError;
 pub use window::{Strand, Window};
 pub(crate) use window::{Strands, WindowOnSheet};
