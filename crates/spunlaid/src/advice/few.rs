@@ -16,8 +16,8 @@ struct Patches<'a> {
     square: f64,
     /// The part of it that filaments make each for itself.
     own: f64,
-    /// Of each layer the squared share of the basis weight, and the blocks of the sheet.
-    layers: Vec<(f64, &'a [f64])>,
+    /// Of each layer the squared share of the basis weight, the blocks of the sheet, and their number across.
+    layers: Vec<(f64, &'a [f64], usize)>,
     /// How far every second filament is off, as a share of the CV.
     of_halves: f64,
 }
@@ -36,7 +36,9 @@ impl WebOfFew {
             let (before, after) = (self.over(patch)?, other.over(patch)?);
             let ratio = (after.square / before.square).sqrt();
             let (mut variance, mut degrees, mut common) = (0.0, f64::INFINITY, [0.0; 3]);
-            for ((weight, blocks), (other_weight, other_blocks)) in before.layers.iter().zip(&after.layers) {
+            for ((weight, blocks, across), (other_weight, other_blocks, _)) in
+                before.layers.iter().zip(&after.layers)
+            {
                 let count = blocks.len().min(other_blocks.len());
                 // To first order, half the relative change of CV² is that of CV.
                 let shares = |blocks: &[f64], share: f64| {
@@ -48,11 +50,12 @@ impl WebOfFew {
                 let sum = |of: &dyn Fn(f64, f64) -> f64| -> f64 {
                     here.iter().zip(&there).map(|(here, there)| of(*here, *there)).sum()
                 };
-                let squares = sum(&|here, there| (there - here).powi(2));
+                let parts: Vec<f64> = here.iter().zip(&there).map(|(here, there)| there - here).collect();
+                let [of_mean, of_error] = variance_of_mean(&parts, *across);
                 let moments = [sum(&|a, _| a * a), sum(&|_, b| b * b), sum(&|a, b| a * b)];
                 common.iter_mut().zip(moments).for_each(|(all, of_layer)| *all += of_layer);
-                variance += squares / (count as f64 * (count as f64 - 1.0));
-                degrees = degrees.min(count as f64 - 1.0);
+                variance += of_mean;
+                degrees = degrees.min(of_error);
             }
             let by_pitch = 0.5 * (after.of_halves - before.of_halves);
             let standard_error = ratio * (variance + by_pitch * by_pitch).sqrt();
@@ -76,9 +79,42 @@ impl WebOfFew {
             patches.square += weight * cv.cv * cv.cv;
             patches.own += weight * cv.own;
             patches.of_halves += weight * cv.cv * cv.cv * cv.of_halves;
-            patches.layers.push((weight, &layer.1.blocks[number][..]));
+            patches.layers.push((weight, &layer.1.blocks[number][..], layer.1.blocks_across));
         }
         patches.of_halves /= patches.square;
         Some(patches)
     }
+}
+
+/// Blocks along and across the belt, as far as one still knows of another.
+const ALONG: usize = 3;
+const ACROSS: usize = 2;
+
+/// Variance of the mean of some blocks, and its degrees of freedom. A cloud may reach into the blocks beside its own, so what these have in common counts too.
+///
+/// * `parts` – deviations from their mean, block after block across
+/// * `across` – number of blocks across; the web goes on at its edges
+fn variance_of_mean(parts: &[f64], across: usize) -> [f64; 2] {
+    let (count, across) = (parts.len() as f64, across.max(1));
+    let along = parts.len() / across;
+    // Weights fall with the distance as those of moving sums of blocks do, so that the variance is never negative.
+    let weight = |steps: usize, reach: usize| 1.0 - steps as f64 / reach as f64;
+    let (mut sum, mut weights, mut squares) = (0.0, 0.0, 0.0);
+    for (number, part) in parts.iter().enumerate() {
+        let [row, column] = [number / across, number % across];
+        for (other, other_part) in parts.iter().enumerate() {
+            let steps = (other % across).abs_diff(column);
+            let steps = [(other / across).abs_diff(row), steps.min(across - steps)];
+            if steps[0] >= ALONG.min(along) || steps[1] >= ACROSS.min(across) {
+                continue;
+            }
+            let weight = weight(steps[0], ALONG) * weight(steps[1], ACROSS);
+            sum += weight * part * other_part;
+            weights += weight / count;
+            squares += weight * weight / count;
+        }
+    }
+    // The mean of all takes a part of the variance away.
+    let left = (1.0 - weights / count).max(0.0);
+    [sum / (count * count) / left, left * count / squares]
 }

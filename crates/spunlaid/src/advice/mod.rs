@@ -88,8 +88,8 @@ impl Effect {
 
 /// Least change of a CV that is advice, as a share of it.
 const LEAST: f64 = 0.01;
-/// Most changes that are flown once more in another air.
-pub const CONFIRMED: usize = 2;
+/// Largest number of settings that are named. In one air their changes are flown once more.
+pub const NAMED: usize = 2;
 /// Bits of a seed that are others in another air.
 const ANOTHER_AIR: u64 = 0x9e37_79b9_7f4a_7c15;
 
@@ -100,7 +100,8 @@ impl Advice {
             let cv: &CvChange = Effect::over(effect, patch)?;
             (cv.change <= -LEAST && cv.is_beyond_chance()).then_some((effect, cv))
         };
-        let told = self.effects.iter().filter(|effect| !(self.is_confirmed && effect.in_first_air.is_empty()));
+        let told =
+            self.effects.iter().filter(|effect| !(self.is_confirmed && effect.in_first_air.is_empty()));
         let mut improvements: Vec<(&Effect, &CvChange)> = told.filter_map(lowers).collect();
         sort_by_key(&mut improvements, |(_, cv)| cv.change);
         let setting = |effect: &Effect| (effect.change.setting, effect.change.layers.clone());
@@ -117,7 +118,7 @@ impl Advice {
 /// Steps of all fibres of the flights that it takes to try some changes of a web; of webs in one air, about.
 pub fn steps(spec: &WebSpec, changes: &[Change]) -> u64 {
     if spec.method == Method::SharedAir {
-        let again = 1 + CONFIRMED.min(changes.len()) as u64;
+        let again = 1 + NAMED.min(changes.len()) as u64;
         return steps_in_same_air(&all_webs(spec, changes)) + again * steps_in_same_air(&[spec]);
     }
     changes.iter().map(|change| steps_of_web(&change.spec)).sum()
@@ -186,7 +187,8 @@ fn confirm(spec: &WebSpec, advice: &mut Advice, by: LayControl<'_>) -> Result<()
     let patches = || advice.effects.iter().flat_map(|effect| &effect.cvs).map(|cv| cv.patch);
     let seen = nearest_to_seen(patches()).and_then(|number| patches().nth(number));
     let improvements = seen.map_or_else(Vec::new, |patch| advice.improvements(patch));
-    let is_best = |effect: &&Effect| improvements.iter().take(CONFIRMED).any(|(best, _)| std::ptr::eq(*best, *effect));
+    let is_best =
+        |effect: &&Effect| improvements.iter().take(NAMED).any(|(best, _)| std::ptr::eq(*best, *effect));
     let best: Vec<usize> = (0..advice.effects.len()).filter(|i| is_best(&&advice.effects[*i])).collect();
     let changes: Vec<Change> = best.iter().map(|i| advice.effects[*i].change.clone()).collect();
     advice.is_confirmed = true;

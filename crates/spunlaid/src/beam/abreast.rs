@@ -16,6 +16,10 @@ use crate::web::{Sheet, Window};
 use std::ops::Range;
 use std::sync::Arc;
 
+/// Largest lateral wave number of the air, times its length scale. Smaller eddies change no CV from patches of 10 mm on, and hardly any change of it, but
+/// take as much time again.
+const HIGHEST: f64 = 10.0;
+
 /// A beam that has flown beside others.
 #[derive(Debug)]
 pub(crate) struct FlownAbreast {
@@ -72,6 +76,7 @@ fn fields(beams: &[Beam<'_>], room: &Room) -> Result<Vec<BeamField>, Error> {
         let (air, seed) = (&beam.case.air, beam.case.run.seed);
         let cutoff = air.lateral.cutoff();
         let cutoff = cutoff.ok_or_else(|| Fault::plain("the air of a beam is the same everywhere across"))?;
+        let cutoff = cutoff.min(HIGHEST);
         let mut makers = (0..number).filter(|maker| fields[*maker].maker == *maker);
         let shared = makers.find_map(|maker| {
             let other = beams[maker].case;

@@ -6,7 +6,6 @@
 //!      → what all have laid while the same part of the pattern of the air passed → few filaments of each web
 //! ```
 
-use super::few::AREA_OF_COMPARISON;
 use super::shared_air::{LayerBeam, beam_on};
 use super::{Flyer, WebSpec};
 use crate::beam::{Beam, BeamControl, BeamFindings, FlownAbreast, fly_abreast};
@@ -126,15 +125,15 @@ fn comparisons<'a>(specs: &[&'a WebSpec]) -> Result<Option<Vec<Comparison<'a>>>,
 
 impl<'a> Comparison<'a> {
     fn new(specs: &[&'a WebSpec], number: usize) -> Result<Option<Self>, Error> {
-        let sheet = specs.iter().filter_map(|spec| spec.flown_sheet(number, AREA_OF_COMPARISON));
-        let Some(sheet) = sheet.max_by(|a, b| a.width.total_cmp(&b.width)) else { return Ok(None) };
+        let sheet = specs.iter().filter_map(|spec| spec.flown_sheet(number, true));
+        let Some(on) = sheet.max_by(|a, b| a.sheet.width.total_cmp(&b.sheet.width)) else { return Ok(None) };
         let is_few = |of_beam: LayerBeam<'a>| match of_beam.few {
             Some(_) => Ok(of_beam),
             None => Err(Fault::plain("its filaments are so few that all of them are flown").into()),
         };
         let beams: Vec<Result<LayerBeam<'_>, Error>> =
-            specs.iter().map(|spec| beam_on(spec, number, Some(&sheet)).and_then(is_few)).collect();
-        match specs.first().map(|first| first.few(number, &sheet)) {
+            specs.iter().map(|spec| beam_on(spec, number, Some(&on)).and_then(is_few)).collect();
+        match specs.first().map(|first| first.few(number, &on)) {
             Some(Some(_)) => {}
             _ => return Ok(None),
         }
@@ -144,7 +143,7 @@ impl<'a> Comparison<'a> {
             Some((0..web).find(is_same).unwrap_or(web))
         });
         let flight_of = flight_of.collect();
-        Ok(Some(Self { blocks: blocks_on(&sheet), sheet, flight_of, beams }))
+        Ok(Some(Self { blocks: blocks_on(&on.sheet), sheet: on.sheet, flight_of, beams }))
     }
 
     /// The filaments that are flown, with the number of their web.

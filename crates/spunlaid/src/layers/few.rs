@@ -16,9 +16,11 @@ const PITCH: f64 = 1.0 / 8.0;
 /// Filaments are left out only where there are so many for each that is flown.
 const LEAST_SAVING: f64 = 1.5;
 /// Area whose clouds tell the CV over patches of 10 mm within some 3 % [m²].
-pub(super) const AREA: f64 = 0.2;
-/// Area on which webs in the same air are compared, whose clouds are the same [m²].
-pub(super) const AREA_OF_COMPARISON: f64 = 0.1;
+const AREA: f64 = 0.2;
+/// Area on which webs in the same air are compared [m²].
+const AREA_OF_COMPARISON: f64 = 0.2;
+/// Distance of the filaments of webs that are compared, in that of those which tell the CV: what a larger pitch does to one web it does to the other.
+const PITCH_OF_COMPARISON: f64 = 1.5;
 /// Width of the sheet that is flown, in ways from inlet to belt at least: eight spreads of a usual filament.
 const WIDTH: f64 = 0.4;
 /// Filaments that are filled in for each flown one where a row is looked at over small patches.
@@ -37,6 +39,14 @@ pub(super) struct FewFlight {
     pub(super) few: FewPlan,
 }
 
+/// The sheet that a few filaments lay.
+#[derive(Clone, Debug)]
+pub(super) struct FlownSheet {
+    pub(super) sheet: Sheet,
+    /// Distance of the filaments, in the usual one.
+    pitches: f64,
+}
+
 /// For which filaments a few stand.
 #[derive(Clone, Debug)]
 pub(super) struct FewPlan {
@@ -53,8 +63,8 @@ pub(super) struct FewPlan {
 impl WebSpec {
     /// The few filaments that are flown for all of a layer; None if all are flown.
     ///
-    /// * `sheet` – that they lay
-    pub(super) fn few(&self, layer: usize, sheet: &Sheet) -> Option<FewFlight> {
+    /// * `on` – the sheet that they lay
+    pub(super) fn few(&self, layer: usize, on: &FlownSheet) -> Option<FewFlight> {
         let spec = self.layers.get(layer)?;
         let LaydownSource::Case { case, .. } = &spec.source else { return None };
         if self.method != Method::SharedAir {
@@ -65,7 +75,7 @@ impl WebSpec {
             Flown::PerMetre(number) => 1.0 / number as f64,
             Flown::Auto => PITCH * case.smallest_length_scale(),
         };
-        let sheet = sheet.clone();
+        let (sheet, pitch) = (on.sheet.clone(), on.pitches * pitch);
         let all = spec.filaments.count(&self.sheet) as f64 * sheet.width / self.sheet.width;
         // An even number, so that every second one is at an even pitch as well.
         let count = 2 * (0.5 * sheet.width / pitch).round().max(1.0) as u64;
@@ -109,8 +119,10 @@ impl WebSpec {
     /// The sheet that the filaments of a case lay: that of the web unless a smaller one says as much. Long and narrow ones take the least time, because
     /// filaments are flown for a while before they lay the sheet. None of a layer that flies no case.
     ///
-    /// * `area` – of the sheet that they lay, unless the web is smaller [m²]
-    pub(super) fn flown_sheet(&self, layer: usize, area: f64) -> Option<Sheet> {
+    /// * `compared` – whether the web is compared with others in the same air
+    pub(super) fn flown_sheet(&self, layer: usize, compared: bool) -> Option<FlownSheet> {
+        let (area, pitches) = if compared { (AREA_OF_COMPARISON, PITCH_OF_COMPARISON) } else { (AREA, 1.0) };
+        let on = |sheet| Some(FlownSheet { sheet, pitches });
         let case = self.layers.get(layer)?.source.case()?;
         let way = case.line.map_or(0.0, |line| line.distance);
         let cell = self.sheet.cell;
@@ -118,10 +130,10 @@ impl WebSpec {
         let [width, length] = [self.sheet.width, self.sheet.length];
         let sheet = Sheet { edges: Edges::Periodic, ..self.sheet.clone() };
         if width * length <= NEARLY * area {
-            return Some(sheet);
+            return on(sheet);
         }
         let narrow = cells(case.extent_of_air().z.max(WIDTH * way)).min(width);
-        Some(Sheet { width: narrow, length: cells(area / narrow), ..sheet })
+        on(Sheet { width: narrow, length: cells(area / narrow), ..sheet })
     }
 }
 

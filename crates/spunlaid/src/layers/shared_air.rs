@@ -1,6 +1,6 @@
 //! Webs whose filaments all fly in one air, and lay the sheet as they come down.
 
-use super::few::{AREA, FewFlight, FewPlan};
+use super::few::{FewFlight, FewPlan, FlownSheet};
 use super::flyer::Flights;
 use super::{FlownFibres, Flyer, LaydownSource, LayerFibres, Method, WebSpec};
 use crate::air::Lateral;
@@ -230,7 +230,7 @@ fn beams(spec: &WebSpec) -> Result<Vec<LayerBeam<'_>>, Error> {
 pub(super) fn beam_on<'a>(
     spec: &'a WebSpec,
     number: usize,
-    sheet: Option<&Sheet>,
+    sheet: Option<&FlownSheet>,
 ) -> Result<LayerBeam<'a>, Error> {
     let layer = &spec.layers[number];
     let LaydownSource::Case { path, case } = &layer.source else {
@@ -243,7 +243,7 @@ pub(super) fn beam_on<'a>(
     }
     case.run.seed = key(case.run.seed, spec.seed, number as u64);
     let depth = layer.filaments.depth();
-    let flown_sheet = sheet.cloned().or_else(|| spec.flown_sheet(number, AREA));
+    let flown_sheet = sheet.cloned().or_else(|| spec.flown_sheet(number, false));
     Ok(match flown_sheet.and_then(|sheet| spec.few(number, &sheet)) {
         Some(FewFlight { sheet, places, few }) => {
             LayerBeam { path, case, sheet, few: Some(few), places, depth }

@@ -37,4 +37,6 @@ pub struct LayerFew {
     /// For each of these sizes, how much the blocks of the sheet vary: the mean square of the deviations of the patches of the few filaments in each
     /// block from the mean of all, over that mean. Two webs in the same air are compared block by block.
     pub blocks: Vec<Vec<f64>>,
+    /// Number of blocks across; those beside each other across come one after the other.
+    pub blocks_across: usize,
 }

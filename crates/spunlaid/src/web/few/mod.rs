@@ -85,7 +85,9 @@ impl FewFilaments<'_> {
         });
         let sheet = [self.sheet.width, self.sheet.length];
         let lost = self.rows.iter().flatten().filter(|curve| curve.is_none()).count() as u64;
-        let mut told = LayerFew { layer, filaments: count as u64, lost, sheet, ..LayerFew::default() };
+        let blocks_across = self.blocks[0];
+        let mut told =
+            LayerFew { layer, filaments: count as u64, lost, sheet, blocks_across, ..LayerFew::default() };
         for ((found, blocks), ([itself, next, second, fourth], patch)) in
             found.into_iter().zip(products.into_iter().zip(&self.sheet.patches))
         {
@@ -263,7 +265,6 @@ fn blocks(map: &Map, side: usize, numbers: [usize; 2]) -> Vec<f64> {
         return Vec::new();
     }
     let places = [0, 1].map(|axis| if map.closed[axis] { sizes[axis] } else { sizes[axis] - side + 1 });
-    let numbers = [0, 1].map(|axis| numbers[axis].min(places[axis]));
     let mut sums = vec![(0.0, 0.0); numbers[0] * numbers[1]];
     boxes(map, side, places, |row, boxes| {
         let along = row * numbers[1] / places[1];
