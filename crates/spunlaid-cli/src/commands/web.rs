@@ -103,12 +103,11 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     Ok(())
 }
 
-/// Most steps of all fibres that are flown for advice without `--advice`: a minute or two of a processor, and some minutes of filaments in one air, of which
-/// a few for all take so many.
+/// Most steps of all fibres that are flown for advice without `--advice`: a minute or two of a processor, of filaments in one air too, whose steps are shorter.
 const fn most_steps(method: Method) -> u64 {
     match method {
         Method::Surrogate | Method::Dynamics => 4_000_000,
-        Method::SharedAir => 8_000_000,
+        Method::SharedAir => 20_000_000,
     }
 }
 

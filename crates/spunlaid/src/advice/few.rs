@@ -118,3 +118,36 @@ fn variance_of_mean(parts: &[f64], across: usize) -> [f64; 2] {
     let left = (1.0 - weights / count).max(0.0);
     [sum / (count * count) / left, left * count / squares]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand_xoshiro::SplitMix64;
+    use rand_xoshiro::rand_core::{Rng, SeedableRng};
+
+    /// Blocks that know nothing of each other, and blocks of which each has a half of its clouds in common with the next one along.
+    #[test]
+    fn stat_the_variance_of_the_mean_of_blocks_counts_what_they_have_in_common() {
+        const ACROSS: usize = 4;
+        let mut random = SplitMix64::seed_from_u64(1);
+        let mut normal = || (0..12).map(|_| random.next_u64() as f64 / u64::MAX as f64).sum::<f64>() - 6.0;
+        for in_common in [false, true] {
+            let (mut told, mut found, trials) = (0.0, 0.0, 2000.0);
+            for _ in 0..trials as usize {
+                let clouds: Vec<f64> = (0..16 * ACROSS + ACROSS).map(|_| normal()).collect();
+                let next = |i: usize| if in_common { clouds[i + ACROSS] } else { 0.0 };
+                let mut blocks: Vec<f64> = (0..16 * ACROSS).map(|i| clouds[i] + next(i)).collect();
+                let mean = blocks.iter().sum::<f64>() / blocks.len() as f64;
+                blocks.iter_mut().for_each(|block| *block -= mean);
+                let [variance, degrees] = variance_of_mean(&blocks, ACROSS);
+                assert!((15.0..21.0).contains(&degrees), "{degrees}");
+                told += variance / trials;
+                found += mean * mean / trials;
+            }
+            println!("{told} {found}");
+            // Two thirds of what a block has in common with the next one count, of five sixths of the whole.
+            let expected = if in_common { 10.0 / 12.0 } else { 1.0 };
+            assert!((told / found / expected - 1.0).abs() < 0.1, "{told} {found}");
+        }
+    }
+}

@@ -1,9 +1,9 @@
 //! Webs of a few filaments each in the same air.
 
-use spunlaid::advice::{Advice, Change, advise};
-use spunlaid::input::{Flyer, Overrides, WebFile, parse_changes, parse_web};
-use spunlaid::lanes::Isa;
-use spunlaid::web::{LayControl, LayerFew};
+use spunlaid::input::{Overrides, WebFile, parse_web};
+use spunlaid::layers::{Flights, Flyer};
+use spunlaid::web::LayerFew;
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// A short line above a fast belt, so that little has to be flown.
@@ -27,3 +27,47 @@ const SHORT: [(&str, &str); 5] = [
     ("run.duration", "0.1 s"),
     ("air.lateral_cutoff", "5"),
 ];
+
+fn read(set: &[(&str, &str)]) -> WebFile {
+    let set: Vec<(String, String)> =
+        SHORT.iter().chain(set).map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/web_shared.toml");
+    parse_web(WEB, &cases.display().to_string(), Overrides { values: &set, word: "--set" }).unwrap()
+}
+
+fn unwatched(_: Flights<'_>, work: &mut (dyn FnMut() + Send)) {
+    work();
+}
+
+fn few(webs: &[&WebFile], threads: usize) -> Vec<LayerFew> {
+    let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
+    let specs: Vec<_> = webs.iter().map(|web| &web.spec).collect();
+    let flyer = Flyer::new(threads, &stop, &unwatched);
+    let told = flyer.few_in_same_air(&specs, &steps).unwrap().unwrap();
+    told.into_iter().flat_map(|layers| layers.unwrap()).collect()
+}
+
+/// Another web beside it makes the room larger, in which both of them hang.
+#[test]
+fn identical_a_web_beside_itself_has_not_changed() {
+    let (web, farther) = (read(&[]), read(&[("belt.distance", "0.12 m")]));
+    let [one, two] = [1, 2].map(|threads| few(&[&web, &farther, &web], threads));
+    assert_eq!(one, two);
+    assert_eq!(one[0], one[2]);
+    assert!(one[0].cvs[0].cv > 0.0 && one[0].cvs != one[1].cvs);
+}
+
+/// theory.md (75): every point comes down at the same time and place above a slow belt. A web on another belt is told by the same flight, as if it had been
+/// flown anew.
+#[test]
+fn analytic_a_web_on_another_slow_belt_needs_no_flight() {
+    let set: &[(&str, &str)] = &[("belt.speed", "4 m/s"), ("web.length", "0.24 m")];
+    let (web, slower) = (read(&[]), read(set));
+    // The belt that is named first says for how long they fly.
+    let [told, flown] = [few(&[&web, &slower], 2).remove(1), few(&[&slower], 2).remove(0)];
+    for (told, flown) in told.cvs.iter().zip(&flown.cvs) {
+        println!("{} {}", told.cv, flown.cv);
+        assert!((told.cv / flown.cv - 1.0).abs() < 0.03, "{told:?} {flown:?}");
+    }
+    assert!(told.sheet[1] < 0.9 * few(&[&web], 2)[0].sheet[1]);
+}
