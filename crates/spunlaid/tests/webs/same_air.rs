@@ -15,7 +15,7 @@ filaments_per_metre = 2000
 depth = \"10 mm\"
 [web]
 width = \"0.16 m\"
-length = \"0.3 m\"
+length = \"0.2 m\"
 cell = \"1 mm\"
 patches = [\"5 mm\", \"10 mm\"]
 flown = 150
@@ -25,7 +25,7 @@ const SHORT: [(&str, &str); 5] = [
     ("belt.speed", "5 m/s"),
     ("run.spin_up", "10 ms"),
     ("run.duration", "0.1 s"),
-    ("air.lateral_cutoff", "5"),
+    ("air.lateral_cutoff", "4"),
 ];
 
 fn read(set: &[(&str, &str)]) -> WebFile {
@@ -51,23 +51,27 @@ fn few(webs: &[&WebFile], threads: usize) -> Vec<LayerFew> {
 #[test]
 fn identical_a_web_beside_itself_has_not_changed() {
     let (web, farther) = (read(&[]), read(&[("belt.distance", "0.12 m")]));
-    let [one, two] = [1, 2].map(|threads| few(&[&web, &farther, &web], threads));
+    // Sixteen filaments are too few to tell the CV of all, but what they have laid is told, block by block.
+    let laid =
+        |few: &LayerFew| (few.sheet, few.blocks.clone(), few.cvs.iter().map(|cv| cv.few).collect::<Vec<_>>());
+    let [one, two] =
+        [1, 2].map(|threads| few(&[&web, &farther, &web], threads).iter().map(laid).collect::<Vec<_>>());
     assert_eq!(one, two);
     assert_eq!(one[0], one[2]);
-    assert!(one[0].cvs[0].cv > 0.0 && one[0].cvs != one[1].cvs);
+    assert!(one[0].2[0] > 0.1 && one[0].1 != one[1].1, "{one:?}");
 }
 
 /// theory.md (75): every point comes down at the same time and place above a slow belt. A web on another belt is told by the same flight, as if it had been
 /// flown anew.
 #[test]
 fn analytic_a_web_on_another_slow_belt_needs_no_flight() {
-    let set: &[(&str, &str)] = &[("belt.speed", "4 m/s"), ("web.length", "0.24 m")];
+    let set: &[(&str, &str)] = &[("belt.speed", "4 m/s"), ("web.length", "0.16 m")];
     let (web, slower) = (read(&[]), read(set));
     // The belt that is named first says for how long they fly.
     let [told, flown] = [few(&[&web, &slower], 2).remove(1), few(&[&slower], 2).remove(0)];
     for (told, flown) in told.cvs.iter().zip(&flown.cvs) {
-        println!("{} {}", told.cv, flown.cv);
-        assert!((told.cv / flown.cv - 1.0).abs() < 0.03, "{told:?} {flown:?}");
+        println!("{} {}", told.few, flown.few);
+        assert!((told.few / flown.few - 1.0).abs() < 0.03, "{told:?} {flown:?}");
     }
     assert!(told.sheet[1] < 0.9 * few(&[&web], 2)[0].sheet[1]);
 }
