@@ -21,6 +21,9 @@ const LEAST: f64 = 0.4;
 /// Fastest belt, over the speed of the feed, that does not pull at the filament in the air.
 const SLOW: f64 = 0.1;
 
+/// What a few filaments say about the layers of a web, or why they cannot be flown.
+pub type FewOfWeb = Result<Vec<LayerFew>, Error>;
+
 impl Flyer<'_> {
     /// What a few filaments say about webs in the same air, without laying them; None if some of the first one are not flown as a few for all.
     ///
@@ -33,9 +36,9 @@ impl Flyer<'_> {
         &self,
         specs: &[&WebSpec],
         steps: &AtomicU64,
-    ) -> Result<Option<Vec<Result<Vec<LayerFew>, Error>>>, Error> {
+    ) -> Result<Option<Vec<FewOfWeb>>, Error> {
         let Some(layers) = comparisons(specs)? else { return Ok(None) };
-        let mut told: Vec<Result<Vec<LayerFew>, Error>> = specs.iter().map(|_| Ok(Vec::new())).collect();
+        let mut told: Vec<FewOfWeb> = specs.iter().map(|_| Ok(Vec::new())).collect();
         for (number, layer) in layers.into_iter().enumerate() {
             for (told, of_layer) in told.iter_mut().zip(self.compare((number, layer), steps)?) {
                 match (&mut *told, of_layer) {

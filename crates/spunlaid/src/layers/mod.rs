@@ -13,6 +13,7 @@ pub(crate) mod keys;
 mod plan;
 mod shared_air;
 
+pub use comparison::FewOfWeb;
 pub(crate) use comparison::steps_in_same_air;
 pub use finished_run::{LAID, read as read_laid};
 pub use flyer::{Flights, FlownFibres, FlownWeb, Flyer, LayerFibres, ProgressDisplay};
