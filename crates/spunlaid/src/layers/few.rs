@@ -18,7 +18,7 @@ const LEAST_SAVING: f64 = 1.5;
 /// Area whose clouds tell the CV over patches of 10 mm within some 3 % [m²].
 const AREA: f64 = 0.2;
 /// Area on which webs in the same air are compared [m²].
-const AREA_OF_COMPARISON: f64 = 0.2;
+const AREA_OF_COMPARISON: f64 = 0.15;
 /// Distance of the filaments of webs that are compared, in that of those which tell the CV: what a larger pitch does to one web it does to the other.
 const PITCH_OF_COMPARISON: f64 = 1.5;
 /// Width of the sheet that is flown, in ways from inlet to belt at least: eight spreads of a usual filament.
