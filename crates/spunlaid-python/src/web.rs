@@ -70,7 +70,7 @@ pub(crate) fn lay_web(
         let findings = flown.find(laying)?;
         let advice = match tried {
             Some(changes) => {
-                watch.begin(steps(&changes));
+                watch.begin(steps(&file.spec, &changes));
                 Some(advise(&file.spec, (&flown.web, &findings), changes, laying)?)
             }
             None => None,

@@ -52,7 +52,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     let laying_s = started.elapsed().as_secs_f64();
     let FlownWeb { web, layers, .. } = &flown;
     let is_short = |changes: &Vec<Change>| {
-        says_enough(&file.spec, &findings) && steps(changes) <= most_steps(file.spec.method)
+        says_enough(&file.spec, &findings) && steps(&file.spec, changes) <= most_steps(file.spec.method)
     };
     let changes = changes.filter(|changes| arguments.advice || is_short(changes));
     let tried = changes.as_ref().map(|changes| trying(changes.len()));
@@ -103,18 +103,17 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     Ok(())
 }
 
-/// Most steps of all fibres that are flown for advice without `--advice`: a minute or two of a processor, and some minutes of filaments in one air, of which
-/// a few for all take so many.
+/// Most steps of all fibres that are flown for advice without `--advice`: a minute or two of a processor, of filaments in one air too, whose steps are shorter.
 const fn most_steps(method: Method) -> u64 {
     match method {
         Method::Surrogate | Method::Dynamics => 4_000_000,
-        Method::SharedAir => 8_000_000,
+        Method::SharedAir => 20_000_000,
     }
 }
 
 /// Whether changes take longer with the flights for their tensions.
 fn is_long(spec: &WebSpec, unflown: &Unflown<Vec<Change>>) -> bool {
-    let flights = unflown.without_flights().map_or(0, |changes| steps(changes));
+    let flights = unflown.without_flights().map_or(0, |changes| steps(spec, changes));
     flights + unflown.most_steps() > most_steps(spec.method)
 }
 
@@ -137,7 +136,7 @@ fn compute_advice(
     quiet: bool,
 ) -> Result<Advice, Failure> {
     let done = AtomicU64::new(0);
-    let (all, label) = (steps(&changes), trying(changes.len()));
+    let (all, label) = (steps(&file.spec, &changes), trying(changes.len()));
     let by = LayControl { laid: &done, ..by };
     let work = || advise(&file.spec, (web, findings), changes, by);
     Ok(progress::follow(&done, all, &label, quiet, work)?)

@@ -5,13 +5,11 @@ use super::words::millimetres;
 use crate::command::web_command;
 use crate::numbers::{HARD, THIN, plus_minus, significant};
 use crate::output::web::HOUR;
-use spunlaid::advice::{Advice, Change, ChangedKey, CvChange, Effect, Setting};
+use spunlaid::advice::{Advice, Change, ChangedKey, CvChange, Effect, NAMED, Setting};
 use spunlaid::layers::WebSpec;
 use spunlaid::web::Findings;
 
 const PER_CENT: f64 = 100.0;
-/// Largest number of settings that the sentence names.
-const NAMED: usize = 2;
 
 /// What a report says of the settings: a sentence, and a table.
 #[derive(Default)]
@@ -46,8 +44,9 @@ pub fn advice_words(spec: &WebSpec, findings: &Findings, advice: Option<&Advice>
     let also = elsewhere.map_or_else(String::new, |found| found.words(spec, patch));
     if improvements.is_empty() {
         return format!(
-            "At the same {weight}, none of the {} changes of the line that were tried lowers the {what} {place} by more than 1{THIN}% and beyond chance.{also}",
-            advice.effects.len()
+            "At the same {weight}, none of the {} changes of the line that were tried lowers the {what} {place} by more than 1{THIN}% and beyond chance.{}{also}",
+            advice.effects.len(),
+            unconfirmed(spec, advice, patch)
         );
     }
     let named: Vec<String> = improvements
@@ -74,6 +73,10 @@ pub fn advice_words(spec: &WebSpec, findings: &Findings, advice: Option<&Advice>
             " No other setting that was tried lowers it {place} by more than 1{THIN}% and beyond chance."
         );
     }
+    if advice.is_confirmed {
+        words += " These numbers come from a second flight in another air, because the best of many changes is overrated.";
+    }
+    words += &unconfirmed(spec, advice, patch);
     words += &also;
     if is_known(spec) {
         words += " The lay-down itself is taken as it is, because no fibre was flown.";
@@ -127,6 +130,41 @@ impl Elsewhere<'_> {
             cost(effect)
         )
     }
+}
+
+/// What seemed to be among the best in a first air, and was not in a second one.
+fn unconfirmed(spec: &WebSpec, advice: &Advice, patch: f64) -> String {
+    let confirmed = advice.improvements(patch);
+    let is_confirmed = |effect: &Effect| confirmed.iter().any(|(other, _)| std::ptr::eq(*other, effect));
+    let words = |effect: &Effect| {
+        let change = describe_change(&effect.change, spec);
+        let again = effect.over(patch).map_or_else(String::new, per_cent);
+        format!(
+            " In a first air it seemed to fall with {change} as well; in a second one that changed it by {again}{THIN}%."
+        )
+    };
+    let again =
+        advice.effects.iter().filter(|effect| !effect.in_first_air.is_empty() && !is_confirmed(effect));
+    again.map(words).collect()
+}
+
+/// Least correlation of the clouds of two webs from which on it makes their comparison better.
+const IN_COMMON: f64 = 0.3;
+
+/// Which changes are compared as two webs by themselves, because hardly any cloud is the same in both.
+fn clouds_apart(spec: &WebSpec, advice: &Advice, patch: f64) -> String {
+    let is_apart = |effect: &&Effect| {
+        effect.over(patch).and_then(|cv| cv.in_common).is_some_and(|common| common < IN_COMMON)
+    };
+    let names: Vec<String> =
+        advice.effects.iter().filter(is_apart).map(|effect| describe_change(&effect.change, spec)).collect();
+    if names.is_empty() {
+        return String::new();
+    }
+    format!(
+        " With these the filaments come down in other clouds, although the air is the same, so that only a large effect is seen: {}.",
+        names.join("; ")
+    )
 }
 
 /// Whether nothing of the web was flown.
@@ -209,7 +247,9 @@ impl AdviceSection {
         let failed: Vec<String> = (advice.failed.iter())
             .map(|(change, why)| format!("{}: {why}", describe_change(change, spec)))
             .collect();
-        let error = if findings.laid.shared_air.is_some() {
+        let error = if advice.is_confirmed {
+            "from blocks of both webs which the same air has laid, so that what both have by chance does not count; the best ones were flown once more in another air"
+        } else if findings.laid.shared_air.is_some() {
             "which counts both maps as independent"
         } else if is_known(spec) {
             "from paths with the same random numbers before and after; the lay-down itself (σ MD, σ CD, A) is taken as it is, because no fibre was flown"
@@ -225,6 +265,9 @@ impl AdviceSection {
              slower or faster. The command below each change lays that web.",
             grams(findings.within().basis_weight())
         );
+        if let Some(patch) = headline_patch(findings).and_then(|i| patches.get(i)) {
+            caption += &clouds_apart(spec, advice, *patch);
+        }
         if !failed.is_empty() {
             caption += &format!(" These could not be tried: {}.", failed.join("; "));
         }

@@ -1,7 +1,6 @@
 //! `report.html` of a scanned web: the web on a light table, how uneven it is, and the figures.
 
 use super::advice::AdviceSection;
-use super::headline::nearest;
 use super::light_table::{picture_note, sheet};
 use super::methods::Methods;
 use super::rendered;
@@ -13,7 +12,7 @@ use crate::numbers::{THIN, plus_minus, significant};
 use crate::output::web::Performance;
 use spunlaid::observe::{OF_SCANNED_PATCHES, OF_SCANS, ScanMeasure, Unit};
 use spunlaid::scan::{Findings, PatchFindings};
-use spunlaid::web::Map;
+use spunlaid::web::{Map, nearest_to_seen};
 use spunlaid_charts::Figure;
 use std::borrow::Cow;
 
@@ -38,7 +37,7 @@ pub struct ScanReport<'a> {
 pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
     let findings = input.findings;
     let sheet = sheet(&with_spots(findings), None)?;
-    let nearest_patch = nearest(findings.patches.iter().map(|patch| patch.unevenness.patch));
+    let nearest_patch = nearest_to_seen(findings.patches.iter().map(|patch| patch.unevenness.patch));
     let weight = findings.mean_known.then(|| findings.map.basis_weight());
     let headline = headline(weight, nearest_patch.map(|i| &findings.patches[i].unevenness), false);
     let summary = format!(

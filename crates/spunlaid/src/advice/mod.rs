@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! settings of the line → webs with one of them changed, on the belt that lays the same weight
-//!   → flown anew in the same gusts → expected CV, compared with that of the web itself fibre by fibre → Advice
+//!   → flown anew in the same gusts → expected CV, compared with that of the web itself fibre by fibre, or block by block
+//!   → in one air the best ones flown once more in another air → Advice
 //! ```
 
 mod few;
@@ -12,12 +13,12 @@ pub use setting::{Change, ChangedKey, Setting};
 
 use self::few::WebOfFew;
 use crate::error::Error;
-use crate::layers::{Flights, Flyer, LaydownSource, LayerSpec, Method, WebSpec};
+use crate::layers::{Flights, Flyer, LaydownSource, LayerSpec, Method, WebSpec, steps_in_same_air};
 use crate::sort::sort_by_key;
 use crate::statistics::Difference;
 use crate::threads::try_each;
 use crate::web::uniformity::Unevenness;
-use crate::web::{ExpectedCv, Findings, LayControl, PatchFindings, Web, expected_cv};
+use crate::web::{ExpectedCv, Findings, LayControl, PatchFindings, Web, expected_cv, nearest_to_seen};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// What changes of settings do to the CV of a web.
@@ -25,6 +26,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub struct Advice {
     /// The changes, each with what it does.
     pub effects: Vec<Effect>,
+    /// Whether the best changes were flown once more, in another air. Only these are [`Advice::improvements`] then.
+    pub is_confirmed: bool,
     /// Changes that cannot be flown or laid, and why.
     pub failed: Vec<(Change, String)>,
 }
@@ -40,6 +43,8 @@ pub struct Effect {
     pub mass_flow: [f64; 2],
     /// What becomes of the CV over patches of each size.
     pub cvs: Vec<CvChange>,
+    /// What became of it in the first air, if that chose the change and `cvs` are from another air; none of any other change.
+    pub in_first_air: Vec<CvChange>,
 }
 
 /// What a change does to the CV over patches of one size.
@@ -56,6 +61,9 @@ pub struct CvChange {
     /// The part of the change that filaments make each for itself, to first order; the rest is that of the clouds which they make together. None where it
     /// is not known.
     pub own: Option<f64>,
+    /// Correlation of the unevenness of the blocks of the two webs, if they hang in the same air: one where they have the same clouds, zero where they
+    /// have other ones and the error is that of two webs by themselves.
+    pub in_common: Option<f64>,
 }
 
 impl CvChange {
@@ -80,6 +88,10 @@ impl Effect {
 
 /// Least change of a CV that is advice, as a share of it.
 const LEAST: f64 = 0.01;
+/// Largest number of settings that are named. In one air their changes are flown once more.
+pub const NAMED: usize = 2;
+/// Bits of a seed that are others in another air.
+const ANOTHER_AIR: u64 = 0x9e37_79b9_7f4a_7c15;
 
 impl Advice {
     /// The changes that lower the CV over patches of this side by at least one per cent of it and beyond chance: the best of each setting, and of these the best first.
@@ -88,7 +100,9 @@ impl Advice {
             let cv: &CvChange = Effect::over(effect, patch)?;
             (cv.change <= -LEAST && cv.is_beyond_chance()).then_some((effect, cv))
         };
-        let mut improvements: Vec<(&Effect, &CvChange)> = self.effects.iter().filter_map(lowers).collect();
+        let told =
+            self.effects.iter().filter(|effect| !(self.is_confirmed && effect.in_first_air.is_empty()));
+        let mut improvements: Vec<(&Effect, &CvChange)> = told.filter_map(lowers).collect();
         sort_by_key(&mut improvements, |(_, cv)| cv.change);
         let setting = |effect: &Effect| (effect.change.setting, effect.change.layers.clone());
         let mut settings = Vec::new();
@@ -101,15 +115,22 @@ impl Advice {
     }
 }
 
-/// Steps of all fibres of the flights that it takes to try some changes; of webs in one air, about.
-pub fn steps(changes: &[Change]) -> u64 {
+/// Steps of all fibres of the flights that it takes to try some changes of a web; of webs in one air, about.
+pub fn steps(spec: &WebSpec, changes: &[Change]) -> u64 {
+    if spec.method == Method::SharedAir {
+        let again = 1 + NAMED.min(changes.len()) as u64;
+        return steps_in_same_air(&all_webs(spec, changes)) + again * steps_in_same_air(&[spec]);
+    }
     changes.iter().map(|change| steps_of_web(&change.spec)).sum()
 }
 
+/// A web and the changed ones.
+fn all_webs<'a>(spec: &'a WebSpec, changes: &'a [Change]) -> Vec<&'a WebSpec> {
+    std::iter::once(spec).chain(changes.iter().map(|change| &change.spec)).collect()
+}
+
+/// Steps of all fibres of a web of independent ones.
 fn steps_of_web(spec: &WebSpec) -> u64 {
-    if spec.method == Method::SharedAir {
-        return spec.steps_in_one_air();
-    }
     let mut cases: Vec<_> = (spec.layers.iter())
         .filter_map(|layer| match &layer.source {
             LaydownSource::Case { path, case } => Some((path, case)),
@@ -133,32 +154,13 @@ pub fn advise(
     changes: Vec<Change>,
     by: LayControl<'_>,
 ) -> Result<Advice, Error> {
-    let is_shared = spec.method == Method::SharedAir;
-    let aside = AtomicU64::new(0);
     let has_few = findings.laid.shared_air.as_ref().is_some_and(|together| !together.few.is_empty());
-    let base = match (is_shared, has_few) {
-        // On the sheet of the changes, which is smaller.
-        (true, true) => unevennesses(spec, true, LayControl { laid: &aside, ..by })?,
-        (true, false) => Unevennesses::OfMaps(findings.patches.clone()),
-        (false, _) => Unevennesses::Expected(expected_cv(web, LayControl { laid: &aside, ..by })?),
+    let in_same_air = if has_few { few_of_changes(spec, &changes, by)? } else { None };
+    let is_in_same_air = in_same_air.is_some();
+    let tried = match in_same_air {
+        Some(tried) => tried,
+        None => try_alone(spec, (web, findings), &changes, by)?,
     };
-    // A flight of eight fibres takes one thread, and many changes are tried side by side. All filaments in one air take all threads.
-    let (abreast, threads) = if is_shared { (1, by.threads) } else { (by.threads, 1) };
-    let is_few = matches!(base, Unevennesses::OfFew(_));
-    let tried = try_each(abreast, changes.len(), |i| {
-        let spec = &changes[i].spec;
-        let tried = unevennesses(spec, is_few, LayControl { threads, laid: &aside, ..by });
-        by.laid.fetch_add(steps_of_web(spec), Ordering::Relaxed);
-        match tried {
-            // So few filaments of the changed web that all of them were flown.
-            Ok(found @ Unevennesses::OfMaps(_)) if is_few => {
-                Ok(Ok(Unevennesses::OfMaps(findings.patches.clone()).changes_to(&found)))
-            }
-            Ok(found) => Ok(Ok(base.changes_to(&found))),
-            Err(Error::Interrupted) => Err(Error::Interrupted),
-            Err(error) => Ok(Err(error.to_string())),
-        }
-    })?;
     let belt_speed = |spec: &WebSpec| spec.layers.first().map_or(f64::NAN, |layer| layer.belt_speed);
     let mut advice = Advice::default();
     for (change, tried) in changes.into_iter().zip(tried) {
@@ -168,20 +170,95 @@ pub fn advise(
                 mass_flow: [spec, &change.spec].map(WebSpec::mass_flow),
                 change,
                 cvs,
+                in_first_air: Vec::new(),
             }),
             Err(why) => advice.failed.push((change, why)),
         }
     }
+    if is_in_same_air {
+        confirm(spec, &mut advice, by)?;
+    }
     Ok(advice)
+}
+
+/// Flies the best changes once more in another air, and takes what they do there. They were chosen for what they did in the first air, in which chance was
+/// kinder to them than to the others.                                                            theory.md, "Two webs in the same air"
+fn confirm(spec: &WebSpec, advice: &mut Advice, by: LayControl<'_>) -> Result<(), Error> {
+    let patches = || advice.effects.iter().flat_map(|effect| &effect.cvs).map(|cv| cv.patch);
+    let seen = nearest_to_seen(patches()).and_then(|number| patches().nth(number));
+    let improvements = seen.map_or_else(Vec::new, |patch| advice.improvements(patch));
+    let is_best =
+        |effect: &&Effect| improvements.iter().take(NAMED).any(|(best, _)| std::ptr::eq(*best, *effect));
+    let best: Vec<usize> = (0..advice.effects.len()).filter(|i| is_best(&&advice.effects[*i])).collect();
+    let changes: Vec<Change> = best.iter().map(|i| advice.effects[*i].change.clone()).collect();
+    advice.is_confirmed = true;
+    if changes.is_empty() {
+        return Ok(());
+    }
+    let in_another_air = |spec: &WebSpec| WebSpec { seed: spec.seed ^ ANOTHER_AIR, ..spec.clone() };
+    let changed = changes.into_iter().map(|change| Change { spec: in_another_air(&change.spec), ..change });
+    let found = few_of_changes(&in_another_air(spec), &changed.collect::<Vec<_>>(), by)?;
+    for (i, found) in best.into_iter().zip(found.into_iter().flatten()) {
+        if let Ok(cvs) = found {
+            let effect = &mut advice.effects[i];
+            effect.in_first_air = std::mem::replace(&mut effect.cvs, cvs);
+        }
+    }
+    Ok(())
+}
+
+/// What each of some changes does to the CV, or why it cannot be flown or laid.
+type Tried = Vec<Result<Vec<CvChange>, String>>;
+
+/// Flies a few filaments of all webs in the same air; None if a few do not tell the web as it is.
+fn few_of_changes(spec: &WebSpec, changes: &[Change], by: LayControl<'_>) -> Result<Option<Tried>, Error> {
+    let flyer = Flyer::new(by.threads, by.stop, &unwatched);
+    let webs = all_webs(spec, changes);
+    let Some(told) = flyer.few_in_same_air(&webs, by.laid)? else { return Ok(None) };
+    let mut told = webs.into_iter().zip(told).map(|(spec, few)| few.map(|few| WebOfFew::new(spec, few)));
+    let Some(base) = told.next().transpose()? else { return Ok(None) };
+    Ok(Some(
+        told.map(|of_few| of_few.map(|of_few| base.changes_to(&of_few)).map_err(|why| why.to_string()))
+            .collect(),
+    ))
+}
+
+/// Flies and lays each changed web by itself.
+fn try_alone(
+    spec: &WebSpec,
+    (web, findings): (&Web, &Findings),
+    changes: &[Change],
+    by: LayControl<'_>,
+) -> Result<Tried, Error> {
+    let is_shared = spec.method == Method::SharedAir;
+    let aside = AtomicU64::new(0);
+    let base = match is_shared {
+        true => Unevennesses::OfMaps(findings.patches.clone()),
+        false => Unevennesses::Expected(expected_cv(web, LayControl { laid: &aside, ..by })?),
+    };
+    // A flight of eight fibres takes one thread, and many changes are tried side by side. All filaments in one air take all threads.
+    let (abreast, threads) = if is_shared { (1, by.threads) } else { (by.threads, 1) };
+    try_each(abreast, changes.len(), |i| {
+        let changed = &changes[i..=i];
+        let tried = unevennesses(&changed[0].spec, LayControl { threads, laid: &aside, ..by });
+        by.laid.fetch_add(steps(spec, changed), Ordering::Relaxed);
+        match tried {
+            Ok(found) => Ok(Ok(base.changes_to(&found))),
+            Err(Error::Interrupted) => Err(Error::Interrupted),
+            Err(error) => Ok(Err(error.to_string())),
+        }
+    })
+}
+
+fn unwatched(_: Flights<'_>, work: &mut (dyn FnMut() + Send)) {
+    work();
 }
 
 /// How uneven a web is over patches of each size.
 enum Unevennesses {
     /// As it is expected of independent filaments.
     Expected(Vec<ExpectedCv>),
-    /// As a few filaments in one air tell it.
-    OfFew(WebOfFew),
-    /// On the map of filaments in one air, of which all were flown in one of the two webs.
+    /// On the map of filaments in one air, all of which were flown.
     OfMaps(Vec<PatchFindings>),
 }
 
@@ -194,11 +271,17 @@ impl Unevennesses {
                     let after = after.iter().find(|after| after.patch == before.patch)?;
                     let (change, standard_error) = before.change_to(after);
                     let degrees = before.fibres().min(after.fibres()).max(2) as f64 - 1.0;
-                    Some(CvChange { patch: before.patch, change, standard_error, degrees, own: None })
+                    Some(CvChange {
+                        patch: before.patch,
+                        change,
+                        standard_error,
+                        degrees,
+                        own: None,
+                        in_common: None,
+                    })
                 };
                 before.iter().filter_map(to).collect()
             }
-            (Self::OfFew(before), Self::OfFew(after)) => before.changes_to(after),
             (Self::OfMaps(before), Self::OfMaps(after)) => {
                 let to = |before: &PatchFindings| {
                     let (before, after) =
@@ -214,6 +297,7 @@ impl Unevennesses {
                         standard_error,
                         degrees: f64::INFINITY,
                         own: None,
+                        in_common: None,
                     })
                 };
                 before.iter().filter_map(to).collect()
@@ -224,19 +308,14 @@ impl Unevennesses {
     }
 }
 
-/// * `is_few` – whether a few filaments of a web in one air tell it where they can
-fn unevennesses(spec: &WebSpec, is_few: bool, by: LayControl<'_>) -> Result<Unevennesses, Error> {
-    let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
+fn unevennesses(spec: &WebSpec, by: LayControl<'_>) -> Result<Unevennesses, Error> {
     let is_flown = |layer: &LayerSpec| matches!(layer.source, LaydownSource::Case { .. });
     // The flown curves are compared, whether a surrogate is found in them or not.
     let method = match spec.method {
         Method::Surrogate if spec.layers.iter().all(is_flown) => Method::Dynamics,
         method => method,
     };
-    let mut flyer = Flyer::new(by.threads, by.stop, &follow);
-    if is_few && let Some(few) = flyer.few(spec)? {
-        return Ok(Unevennesses::OfFew(WebOfFew::new(spec, few)));
-    }
+    let mut flyer = Flyer::new(by.threads, by.stop, &unwatched);
     let mut flown = flyer.web(&WebSpec { method, ..spec.clone() })?;
     Ok(match spec.method {
         Method::SharedAir => Unevennesses::OfMaps(flown.measure(by)?.patches),

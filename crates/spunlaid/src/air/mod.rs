@@ -32,6 +32,7 @@ pub use atmosphere::Atmosphere;
 pub(crate) use atmosphere::{Instant, Velocities, VelocityAt, VelocityTask, misfit};
 pub use dry_air::{SUTHERLAND_RANGE, density_at, kinematic_viscosity_at};
 pub use eddies::{Eddies, EddyModel};
+pub(crate) use eddy_field::Room;
 pub use eddy_field::{EddyField, Extent};
 pub use eddy_turbulence::EddyTurbulence;
 pub use eddy_wind::EddyWind;

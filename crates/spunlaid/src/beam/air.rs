@@ -1,7 +1,7 @@
 //! The air that the filaments of a beam share: a field of eddies, made block by block as the time goes on.
 
 use super::{Airs, Beam};
-use crate::air::{Air, EddyField, Extent, Flow, Lateral, StreamKey};
+use crate::air::{Air, EddyField, Extent, Flow, Lateral, Room, StreamKey};
 use crate::field::Hint;
 use crate::vec3::Vec3;
 use crate::web::{Edges, Sheet};
@@ -68,6 +68,12 @@ impl Beam<'_> {
         };
         Extent { y: y.max(least), z }
     }
+}
+
+/// The room in which the airs of beams have the same pattern as far as they can.
+pub(super) fn room_of(beams: &[Beam<'_>], sheet: &Sheet) -> Room {
+    let airs = beams.iter().map(|beam| (&beam.case.air, beam.case.way_of_air(), beam.extent_of_air(sheet)));
+    Room::of(&airs.collect::<Vec<_>>())
 }
 
 /// The largest of some numbers less the smallest.

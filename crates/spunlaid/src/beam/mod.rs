@@ -13,37 +13,38 @@
 //!                              └ no point of the start lies behind here
 //! ```
 
+mod abreast;
 mod air;
 mod filament;
+mod flying;
 mod neighbours;
 mod pack;
 mod pairs;
 
 use crate::air::EddyField;
 use crate::case::Case;
-use crate::error::{Error, Fault};
+use crate::error::Error;
 use crate::fibre::Place;
 use crate::flight::LaidPoint;
 use crate::lanes::Isa;
 use crate::sort::sort_by_key;
-use crate::threads::{lock, try_each, unlock};
+use crate::threads::try_each;
 use crate::web::{
     Canvas, LaidWeb, NeighbourCorrelation, SharedAirFindings, SharedVariance, Sheet, Strand, TimeSpent,
     Window,
 };
+pub(crate) use abreast::{FlownAbreast, fly_abreast};
 use air::SharedField;
-use filament::{Reach, Stretch};
+use filament::Reach;
+use flying::Flying;
 use neighbours::Neighbours;
-use pack::Pack;
 use std::ops::Range;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::{Duration, Instant};
 
 /// Filaments whose whole curves are kept, spread over the beam: some hundred kilobytes each.
 const KEPT: usize = 64;
-/// Most filaments that may be lost, of all.
-const MOST_LOST: f64 = 0.02;
 /// Time by which all flights advance before the next block, unless the air has one [s].
 const BLOCK: f64 = 4e-3;
 /// How far from its place a filament is reckoned to land before it is known, in ways from inlet to belt. Only the display of progress needs it.
@@ -171,8 +172,7 @@ impl Beam<'_> {
         by: BeamControl<'_>,
     ) -> Result<BeamFindings, Error> {
         let started = Instant::now();
-        let line = self.case.line.filter(|line| line.belt_speed > 0.0);
-        let line = line.ok_or_else(|| Fault::plain("the fibre of the case is not laid on a moving belt"))?;
+        let mut flying = Flying::new(*self, (sheet, window))?;
         let (mut spent, mut making) = (TimeSpent::default(), Duration::ZERO);
         let mut shared = SharedField::new(self, sheet, by.threads);
         let block = shared.as_ref().map_or(BLOCK, SharedField::block);
@@ -183,57 +183,28 @@ impl Beam<'_> {
             spent.in_parallel += begun.elapsed();
             done
         };
-        let neighbours = pack::neighbours(self.places);
-        let packs: Vec<Mutex<Option<Pack>>> = neighbours.iter().map(|_| Mutex::new(None)).collect();
-        let locked = |i: usize| lock(&packs[i]);
         let start = make_air(&mut shared, 0..steps, &mut making);
-        in_parallel(packs.len(), &|i| {
-            *locked(i) = Some(Pack::new(self, (&neighbours[i], on.is_none()), by.isa, start.as_ref())?);
-            Ok(Reach::default())
+        in_parallel(flying.packs(), &|i| {
+            flying.start(i, on.is_none(), start.as_ref(), by).map(|()| Reach::default())
         })?;
         drop(start);
-        let spun_up = line.feed_speed * self.case.run.spin_up();
-        let (mut stretch, mut reach) = (Stretch::before(&line, spun_up, window, sheet), Reach::default());
         let mut together = Neighbours::new(self, sheet);
-        let mut done = 0;
-        while !stretch.is_laid(&reach) {
-            let field = make_air(&mut shared, done..done + steps, &mut making);
-            let (now, before) = (&stretch, reach);
-            let reaches = in_parallel(packs.len(), &|i| {
-                if by.stop.load(Ordering::Relaxed) {
-                    return Err(Error::Interrupted);
-                }
-                let mut pack = locked(i);
-                let Some(pack) = pack.as_mut() else { return Ok(before) };
-                let reach = pack.advance(steps, field.as_ref(), now, on);
-                by.steps.fetch_add(steps * pack.filaments().len() as u64, Ordering::Relaxed);
-                Ok(reach)
-            })?;
-            done += steps;
-            reach = reaches.into_iter().fold(Reach { fed: f64::INFINITY, lost: 0, ..before }, Reach::with);
-            if reach.lost as f64 > MOST_LOST * self.places.len() as f64 {
-                break;
+        while !flying.has_ended() {
+            let field = make_air(&mut shared, flying.done..flying.done + steps, &mut making);
+            let reaches = in_parallel(flying.packs(), &|i| flying.advance(i, steps, field.as_ref(), on, by))?;
+            flying.reached(steps, reaches);
+            if !flying.has_lost_too_many() {
+                flying.compare(&mut together);
+                together.add();
             }
-            (0..packs.len()).for_each(|i| locked(i).iter_mut().for_each(|pack| pack.compare(&mut together)));
-            together.add();
-            stretch.settle(&reach);
         }
-        let mut flown = BeamFindings {
+        let flown = BeamFindings {
             neighbours: together.correlations(),
             // A few filaments do not know what those between them do.
             pairs: on.map_or_else(Vec::new, |_| together.variances(self, sheet, by.threads)),
-            back: stretch.back().unwrap_or(f64::NAN),
-            time: done as f64 * self.case.run.time_step,
             ..BeamFindings::default()
         };
-        for pack in packs {
-            let pack = unlock(pack);
-            pack.into_iter().for_each(|pack| pack.finish(&mut flown));
-        }
-        flown.sort();
-        if reach.lost as f64 > MOST_LOST * self.places.len() as f64 {
-            return Err(too_many_lost(flown, self.places.len()));
-        }
+        let flown = flying.finish(flown)?;
         spent.in_parallel += making;
         spent.whole = started.elapsed();
         Ok(BeamFindings { spent, ..flown })
@@ -290,15 +261,4 @@ fn make_air(
     let field = shared.as_mut().map(|shared| shared.during(steps));
     *making += begun.elapsed();
     field
-}
-
-/// The error that is returned when so many filaments are lost that no usable web remains.
-fn too_many_lost(flown: BeamFindings, filaments: usize) -> Error {
-    let count = flown.lost.len();
-    match flown.lost.into_iter().next() {
-        Some((_, reason)) => Error::Flight(Fault::plain(format!(
-            "{count} of {filaments} filaments were lost, which leaves no web to look at. The first: {reason}"
-        ))),
-        None => Error::no_fibre(),
-    }
 }

@@ -2,7 +2,6 @@
 
 use super::{Flown, LaydownSource, Method, WebSpec};
 use crate::beam::{Beam, BeamFindings};
-use crate::case::Case;
 use crate::curtain::{Belt, Covariances, Filling, FlownCurves, lay};
 use crate::error::Error;
 use crate::fibre::{Place, rows};
@@ -17,9 +16,11 @@ const PITCH: f64 = 1.0 / 8.0;
 /// Filaments are left out only where there are so many for each that is flown.
 const LEAST_SAVING: f64 = 1.5;
 /// Area whose clouds tell the CV over patches of 10 mm within some 3 % [m²].
-pub(super) const AREA: f64 = 0.2;
-/// Area on which webs in the same air are compared, whose clouds are the same [m²].
-pub(super) const AREA_OF_COMPARISON: f64 = 0.1;
+const AREA: f64 = 0.2;
+/// Area on which webs in the same air are compared [m²].
+const AREA_OF_COMPARISON: f64 = 0.15;
+/// Distance of the filaments of webs that are compared, in that of those which tell the CV: what a larger pitch does to one web it does to the other.
+const PITCH_OF_COMPARISON: f64 = 1.5;
 /// Width of the sheet that is flown, in ways from inlet to belt at least: eight spreads of a usual filament.
 const WIDTH: f64 = 0.4;
 /// Filaments that are filled in for each flown one where a row is looked at over small patches.
@@ -38,6 +39,21 @@ pub(super) struct FewFlight {
     pub(super) few: FewPlan,
 }
 
+/// The sheet that a few filaments lay.
+#[derive(Clone, Debug)]
+pub(super) struct FlownSheet {
+    pub(super) sheet: Sheet,
+    /// Distance of the filaments, in the usual one.
+    pitches: f64,
+}
+
+impl FlownSheet {
+    /// The same sheet with twice as many filaments.
+    pub(super) fn finer(self) -> Self {
+        Self { pitches: 0.5 * self.pitches, ..self }
+    }
+}
+
 /// For which filaments a few stand.
 #[derive(Clone, Debug)]
 pub(super) struct FewPlan {
@@ -54,9 +70,8 @@ pub(super) struct FewPlan {
 impl WebSpec {
     /// The few filaments that are flown for all of a layer; None if all are flown.
     ///
-    /// * `area` – of the sheet that they lay, unless the web is smaller [m²]
-    /// * `finer` – how often the distance of those that are flown is halved, unless the file gives their number
-    pub(super) fn few(&self, layer: usize, area: f64, finer: u32) -> Option<FewFlight> {
+    /// * `on` – the sheet that they lay
+    pub(super) fn few(&self, layer: usize, on: &FlownSheet) -> Option<FewFlight> {
         let spec = self.layers.get(layer)?;
         let LaydownSource::Case { case, .. } = &spec.source else { return None };
         if self.method != Method::SharedAir {
@@ -65,9 +80,9 @@ impl WebSpec {
         let pitch = match self.flown {
             Flown::All => return None,
             Flown::PerMetre(number) => 1.0 / number as f64,
-            Flown::Auto => PITCH * case.smallest_length_scale() / f64::from(1 << finer),
+            Flown::Auto => PITCH * case.smallest_length_scale(),
         };
-        let sheet = self.flown_sheet(case, area);
+        let (sheet, pitch) = (on.sheet.clone(), on.pitches * pitch);
         let of_web = spec.filaments.count(&self.sheet) as f64;
         let all = of_web * sheet.width / self.sheet.width;
         // An even number, so that every second one is at an even pitch as well.
@@ -110,8 +125,13 @@ impl WebSpec {
     }
 
     /// The sheet that the filaments of a case lay: that of the web unless a smaller one says as much. Long and narrow ones take the least time, because
-    /// filaments are flown for a while before they lay the sheet.
-    fn flown_sheet(&self, case: &Case, area: f64) -> Sheet {
+    /// filaments are flown for a while before they lay the sheet. None of a layer that flies no case.
+    ///
+    /// * `compared` – whether the web is compared with others in the same air
+    pub(super) fn flown_sheet(&self, layer: usize, compared: bool) -> Option<FlownSheet> {
+        let (area, pitches) = if compared { (AREA_OF_COMPARISON, PITCH_OF_COMPARISON) } else { (AREA, 1.0) };
+        let on = |sheet| Some(FlownSheet { sheet, pitches });
+        let case = self.layers.get(layer)?.source.case()?;
         let way = case.line.map_or(0.0, |line| line.distance);
         let cell = self.sheet.cell;
         let cells = |size: f64| (size / cell).ceil() * cell;
@@ -120,10 +140,10 @@ impl WebSpec {
         let least = cells(case.extent_of_air().z);
         let sheet = Sheet { edges: Edges::Periodic, width: width.max(least), ..self.sheet.clone() };
         if sheet.width * length <= NEARLY * area {
-            return sheet;
+            return on(sheet);
         }
         let narrow = cells(WIDTH * way).min(width).max(least);
-        Sheet { width: narrow, length: cells(area / narrow), ..sheet }
+        on(Sheet { width: narrow, length: cells(area / narrow), ..sheet })
     }
 }
 
@@ -152,18 +172,26 @@ impl FewPlan {
 
     /// What they say of all filaments.
     ///
+    /// * `blocks` – number of those that are told of the sheet, across and along
+    /// * `curves` – of the filaments; only those of rows are looked at
+    ///
     /// # Errors
     /// If a cell would hold more fibre than can be counted, or if it is stopped.
     pub(super) fn tell(
         &self,
-        (number, sheet): (usize, &Sheet),
+        (number, sheet, blocks): (usize, &Sheet, [usize; 2]),
         (beam, flown): (&Beam<'_>, &BeamFindings),
-        curves: &FlownCurves,
+        curves: Option<&FlownCurves>,
         by: (usize, &AtomicBool),
     ) -> Result<LayerFew, Error> {
+        let filaments = self.filaments((sheet, blocks), beam, flown);
+        let Some(curves) = curves else {
+            let told = filaments.tell(number, None, by.0)?;
+            return Ok(LayerFew { correlation: f64::NAN, ..told });
+        };
         let covariances = Covariances::fit(curves, by.0);
         let filled = self.filled((sheet, flown.back), beam, (curves, &covariances), by)?;
-        let told = self.filaments(sheet, beam, flown).tell(number, filled.as_ref(), by.0)?;
+        let told = filaments.tell(number, filled.as_ref(), by.0)?;
         let correlation = covariances.smooth.map(|covariance| covariance.correlation([told.pitch, 0.0]));
         Ok(LayerFew { correlation: correlation[0].min(correlation[1]), ..told })
     }
@@ -203,7 +231,12 @@ impl FewPlan {
     }
 
     /// The filaments, with what they have laid on their sheet.
-    fn filaments<'a>(&self, sheet: &'a Sheet, beam: &Beam<'_>, flown: &BeamFindings) -> FewFilaments<'a> {
+    fn filaments<'a>(
+        &self,
+        (sheet, blocks): (&'a Sheet, [usize; 2]),
+        beam: &Beam<'_>,
+        flown: &BeamFindings,
+    ) -> FewFilaments<'a> {
         let curve = |number: &usize| {
             let (_, points) = flown.kept.iter().find(|(filament, _)| filament == number)?;
             let place = beam.places[*number];
@@ -211,7 +244,7 @@ impl FewPlan {
         };
         let rows = self.rows.iter().map(|row| row.iter().map(curve).collect()).collect();
         let (arrangement, all) = (self.arrangement, self.all);
-        FewFilaments { sheet, rows, piece: beam.element_mass(), arrangement, all }
+        FewFilaments { sheet, blocks, rows, piece: beam.element_mass(), arrangement, all }
     }
 }
 

@@ -4,6 +4,7 @@
 //! WebSpec (sheet and layers) → Flyer: the fibres of each layer, flown or read or known → Web, which `web` lays
 //! ```
 
+mod comparison;
 mod few;
 mod finished_run;
 mod flyer;
@@ -12,6 +13,8 @@ pub(crate) mod keys;
 mod plan;
 mod shared_air;
 
+pub use comparison::FewOfWeb;
+pub(crate) use comparison::steps_in_same_air;
 pub use finished_run::{LAID, read as read_laid};
 pub use flyer::{Flights, FlownFibres, FlownWeb, Flyer, LayerFibres, ProgressDisplay};
 pub use full_names::{place_in_web, web_key};

@@ -1,7 +1,6 @@
 //! What a web in one air will fly, before it is flown.
 
-use super::few::AREA;
-use super::shared_air::beam;
+use super::shared_air::beam_on;
 use super::{Method, WebSpec};
 
 /// The flight of a layer of a web in one air.
@@ -23,7 +22,7 @@ impl WebSpec {
         if self.method != Method::SharedAir {
             return Vec::new();
         }
-        let layers = (0..self.layers.len()).filter_map(|number| beam(self, number, AREA).ok());
+        let layers = (0..self.layers.len()).filter_map(|number| beam_on(self, number, None).ok());
         let plan = layers.map(|layer| PlannedFlight {
             filaments: layer.places.len() as u64,
             is_few: layer.few.is_some(),

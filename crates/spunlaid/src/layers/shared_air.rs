@@ -1,6 +1,6 @@
 //! Webs whose filaments all fly in one air, and lay the sheet as they come down.
 
-use super::few::{AREA, AREA_OF_COMPARISON, FewFlight, FewPlan};
+use super::few::{FewFlight, FewPlan, FlownSheet};
 use super::flyer::Flights;
 use super::{Flown, FlownFibres, Flyer, LaydownSource, LayerFibres, Method, WebSpec};
 use crate::air::Lateral;
@@ -14,7 +14,7 @@ use crate::lanes::Isa;
 use crate::units::Dimension;
 use crate::web::{
     Canvas, Curves, Edges, Fibres, LaidWeb, LayerFew, OneAir, SharedAirFindings, Sheet, Strand, TimeSpent,
-    inlets,
+    blocks_on, inlets,
 };
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
@@ -83,29 +83,6 @@ impl LayerBeam<'_> {
 }
 
 impl Flyer<'_> {
-    /// What a few filaments say about a web in one air, without laying it, to be compared with another web in the same air; None of any other web, and where all filaments of a layer are flown.
-    ///
-    /// # Errors
-    /// As of [`Flyer::web`].
-    pub fn few(&self, spec: &WebSpec) -> Result<Option<Vec<LayerFew>>, Error> {
-        if spec.method != Method::SharedAir {
-            return Ok(None);
-        }
-        let beams = beams(spec, AREA_OF_COMPARISON)?;
-        if beams.iter().any(|layer| layer.few.is_none()) {
-            return Ok(None);
-        }
-        let told = beams.iter().enumerate().filter_map(|(number, layer)| {
-            let tell = |few: &FewPlan| {
-                let flown = self.fly_layer(layer, spec, None)?;
-                let curves = few.curves(&layer.sheet, &layer.beam(), &flown)?;
-                few.tell((number, &layer.sheet), (&layer.beam(), &flown), &curves, self.by())
-            };
-            layer.few.as_ref().map(tell)
-        });
-        told.collect::<Result<_, _>>().map(Some)
-    }
-
     /// Threads and stop flag.
     const fn by(&self) -> (usize, &AtomicBool) {
         (self.threads, self.stop)
@@ -114,7 +91,7 @@ impl Flyer<'_> {
     /// Flies all filaments of each layer, or a few for all of them, in an air of its own, and lays them. A few curves of each layer are kept, which say
     /// what independent filaments would give.
     pub(super) fn fly_together(&self, spec: &WebSpec) -> Result<(Vec<LayerFibres>, LaidWeb), Error> {
-        let beams = beams(spec, AREA)?;
+        let beams = beams(spec)?;
         let elements: Vec<f64> = beams.iter().map(|layer| layer.beam().element_mass()).collect();
         let weight = beams.iter().map(LayerBeam::basis_weight).sum();
         let canvas = Canvas::new(&spec.sheet, &elements, weight)?;
@@ -147,6 +124,7 @@ impl Flyer<'_> {
         on: (&Canvas, u32),
     ) -> Result<ToldFlight<'a>, Error> {
         let (mut finer, mut spent) = (0, TimeSpent::default());
+        let mut sheet = spec.flown_sheet(number, false);
         loop {
             let mut flown = self.fly_layer(&layer, spec, layer.few.is_none().then_some(on))?;
             spent.whole += flown.spent.whole;
@@ -154,10 +132,12 @@ impl Flyer<'_> {
             flown.spent = spent;
             let Some(few) = &layer.few else { return Ok((layer, flown, None)) };
             let curves = few.curves(&layer.sheet, &layer.beam(), &flown)?;
-            let told = few.tell((number, &layer.sheet), (&layer.beam(), &flown), &curves, self.by())?;
+            let of_sheet = (number, &layer.sheet, blocks_on(&layer.sheet));
+            let told = few.tell(of_sheet, (&layer.beam(), &flown), Some(&curves), self.by())?;
             finer += 1;
+            sheet = sheet.map(FlownSheet::finer);
             let more = told.doubt().is_some() && spec.flown == Flown::Auto && finer <= FINEST;
-            let more = more.then(|| finer_beam(spec, number, AREA, finer)).transpose()?;
+            let more = more.then(|| beam_on(spec, number, sheet.as_ref())).transpose()?;
             let Some(more) = more.filter(|more| more.few.is_some()) else {
                 return Ok((layer, flown, Some((curves, told))));
             };
@@ -226,18 +206,12 @@ impl WebSpec {
         Some(case.air.lateral.cutoff().unwrap_or(Lateral::USUAL_CUTOFF))
     }
 
-    /// About how many steps the filaments of a web in one air take that is compared with another one.
-    pub(crate) fn steps_in_one_air(&self) -> u64 {
-        let beams = (0..self.layers.len()).filter_map(|number| beam(self, number, AREA_OF_COMPARISON).ok());
-        beams.map(|layer| layer.beam().steps(&layer.sheet)).sum()
-    }
-
     /// The problem of a web in one air whose field of eddies does not fit into the memory that it may take.
     pub(crate) fn air_beyond_memory(&self) -> Option<Problem> {
         if self.method != Method::SharedAir {
             return None;
         }
-        let beams = (0..self.layers.len()).filter_map(|number| beam(self, number, AREA).ok());
+        let beams = (0..self.layers.len()).filter_map(|number| beam_on(self, number, None).ok());
         let largest = beams
             .map(|layer| (layer.beam().memory_of_air(&layer.sheet), layer.case.air.lateral))
             .max_by(|a, b| a.0.total_cmp(&b.0));
@@ -275,23 +249,22 @@ impl WebSpec {
 ///
 /// # Errors
 /// If a layer is not flown, or if its air does not fit into the memory.
-fn beams(spec: &WebSpec, area: f64) -> Result<Vec<LayerBeam<'_>>, Error> {
+fn beams(spec: &WebSpec) -> Result<Vec<LayerBeam<'_>>, Error> {
     if let Some(problem) = spec.air_beyond_memory() {
         return Err(vec![problem].into());
     }
-    (0..spec.layers.len()).map(|number| beam(spec, number, area)).collect()
+    (0..spec.layers.len()).map(|number| beam_on(spec, number, None)).collect()
 }
 
 /// The filaments of a layer at their places. Air that a case leaves the same across the flow becomes a field in space. The seed of the web and the number of the layer are in the key of the air, so that layers and webs have
 /// airs of their own.
-pub(super) fn beam(spec: &WebSpec, number: usize, area: f64) -> Result<LayerBeam<'_>, Error> {
-    finer_beam(spec, number, area, 0)
-}
-
-/// As [`beam`], with more filaments.
 ///
-/// * `finer` – how often the distance of those that are flown is halved
-fn finer_beam(spec: &WebSpec, number: usize, area: f64, finer: u32) -> Result<LayerBeam<'_>, Error> {
+/// * `sheet` – that a few of them lay; None for the one whose clouds tell the CV
+pub(super) fn beam_on<'a>(
+    spec: &'a WebSpec,
+    number: usize,
+    sheet: Option<&FlownSheet>,
+) -> Result<LayerBeam<'a>, Error> {
     let layer = &spec.layers[number];
     let LaydownSource::Case { path, case } = &layer.source else {
         let fault = Fault::new("a web in one air flies its filaments", "name their case (laydown.case)");
@@ -303,7 +276,8 @@ fn finer_beam(spec: &WebSpec, number: usize, area: f64, finer: u32) -> Result<La
     }
     case.run.seed = key(case.run.seed, spec.seed, number as u64);
     let depth = layer.filaments.depth();
-    Ok(match spec.few(number, area, finer) {
+    let flown_sheet = sheet.cloned().or_else(|| spec.flown_sheet(number, false));
+    Ok(match flown_sheet.and_then(|sheet| spec.few(number, &sheet)) {
         Some(FewFlight { sheet, places, few }) => {
             LayerBeam { path, case, sheet, few: Some(few), places, depth }
         }

@@ -47,7 +47,8 @@ pub struct LayerFew {
     pub sheet: [f64; 2],
     /// Distance of neighbours in a row [m].
     pub pitch: f64,
-    /// Correlation of the places where filaments at this distance and equal depth come down, in the direction in which it is smaller.
+    /// Correlation of the places where filaments at this distance and equal depth come down, in the direction in which it is smaller; not a number
+    /// where it was not looked for.
     pub correlation: f64,
     /// Part of the variance of a filament between them that they do not tell, in machine and in cross direction.
     pub missing: [f64; 2],
@@ -56,6 +57,8 @@ pub struct LayerFew {
     /// For each of these sizes, how much the blocks of the sheet vary: the mean square of the deviations of the patches of the few filaments in each
     /// block from the mean of all, over that mean. Two webs in the same air are compared block by block.
     pub blocks: Vec<Vec<f64>>,
+    /// Number of blocks across; those beside each other across come one after the other.
+    pub blocks_across: usize,
 }
 
 impl LayerFew {

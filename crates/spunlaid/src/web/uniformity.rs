@@ -38,6 +38,14 @@ impl Unevenness {
 pub(super) const DEGREES: f64 = 5.0;
 /// Most places of a patch each way whose waves are looked at.
 const WAVES: usize = 512;
+/// Size of the patches that the eye judges first [m].
+const SEEN: f64 = 10e-3;
+
+/// Which of the sides of patches [m] is nearest to what the eye judges first.
+pub fn nearest_to_seen(patches: impl Iterator<Item = f64>) -> Option<usize> {
+    let far = |patch: f64| libm::log(patch / SEEN).abs();
+    patches.map(far).enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).map(|(number, _)| number)
+}
 
 /// [`unevenness_at`] of filaments at places of which nothing is known.
 pub fn unevenness(map: &Map, side: usize) -> Option<Unevenness> {

@@ -6,6 +6,7 @@ mod beam;
 mod curtain;
 mod fit;
 mod neighbours;
+mod same_air;
 mod surrogate;
 mod two_filaments;
 mod web;

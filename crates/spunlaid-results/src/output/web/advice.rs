@@ -34,6 +34,9 @@ struct ChangeSummary {
     belt_speed_change: f64,
     throughput_kg_h_m: f64,
     throughput_change: f64,
+    /// Whether it was among the best in one air and the numbers are from another one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    flown_again: Option<bool>,
     patches: Vec<Patch>,
 }
 
@@ -59,6 +62,12 @@ struct Patch {
     /// The part of the change that filaments in one air make each for itself; the rest is that of their clouds.
     #[serde(skip_serializing_if = "Option::is_none")]
     of_own_part: Option<f64>,
+    /// Correlation of the clouds of the two webs in the same air.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    clouds_in_common: Option<f64>,
+    /// The change in the first air, of one that was flown again.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cv_change_in_first_air: Option<f64>,
 }
 
 #[derive(Debug, Serialize)]
@@ -91,12 +100,17 @@ fn alone(change: &Change) -> Option<usize> {
 
 impl AdviceSummary {
     pub(super) fn new(advice: &Advice) -> Self {
-        let patch = |cv: &CvChange| Patch {
+        let in_first_air = |effect: &Effect, patch: f64| {
+            effect.in_first_air.iter().find(|cv| cv.patch == patch).map(|cv| cv.change)
+        };
+        let patch = |effect: &Effect, cv: &CvChange| Patch {
             patch_m: cv.patch,
             cv_change: cv.change,
             standard_error: cv.standard_error,
             beyond_chance: cv.is_beyond_chance(),
             of_own_part: cv.own,
+            clouds_in_common: cv.in_common,
+            cv_change_in_first_air: in_first_air(effect, cv.patch),
         };
         let change = |effect: &Effect| ChangeSummary {
             setting: effect.change.setting.name(),
@@ -109,7 +123,8 @@ impl AdviceSummary {
             belt_speed_change: effect.belt_speed[1] / effect.belt_speed[0] - 1.0,
             throughput_kg_h_m: HOUR * effect.mass_flow[1],
             throughput_change: effect.mass_flow[1] / effect.mass_flow[0] - 1.0,
-            patches: effect.cvs.iter().map(patch).collect(),
+            flown_again: advice.is_confirmed.then_some(!effect.in_first_air.is_empty()),
+            patches: effect.cvs.iter().map(|cv| patch(effect, cv)).collect(),
         };
         let failed = |(change, why): &(Change, String)| Failure {
             setting: change.setting.name(),

@@ -37,7 +37,7 @@ use self::plan::Plan;
 use self::synthesis::Synthesis;
 use self::tape::Tape;
 use self::way::EddyPath;
-use super::{Air, StreamKey};
+use super::{Air, SpectrumShape, StreamKey};
 use crate::lanes::Isa;
 use std::ops::Range;
 use std::sync::Arc;
@@ -65,13 +65,50 @@ impl std::fmt::Debug for EddyField {
     }
 }
 
+/// A room in which airs that differ in their speed or their turbulence have the same pattern as far as they can: it is as long and as wide as the largest
+/// of their ways needs, and has as many generations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Room {
+    pub(crate) extent: Extent,
+    /// Length of the way [m].
+    pub(crate) distance: f64,
+    /// Steps from one generation to the next.
+    steps: usize,
+}
+
+impl Room {
+    /// The room of some airs, each with the length of its way and the distances after which it repeats itself.
+    pub(crate) fn of(airs: &[(&Air, f64, Extent)]) -> Self {
+        let largest = |size: fn(&(&Air, f64, Extent)) -> f64| airs.iter().map(size).fold(0.0, f64::max);
+        let extent = Extent { y: largest(|(.., extent)| extent.y), z: largest(|(.., extent)| extent.z) };
+        let room = Self { extent, distance: largest(|(_, distance, _)| *distance), steps: 0 };
+        let steps = airs.iter().map(|(air, ..)| room.way(air).stages.len() - 1);
+        Self { steps: steps.max().unwrap_or(0), ..room }
+    }
+
+    fn way(&self, air: &Air) -> EddyPath {
+        EddyPath::with_steps(air, self.distance, self.steps)
+    }
+}
+
 impl EddyField {
     /// * `distance` – from the inlet, or the root, to the end of the way [m]
     /// * `extent` – after which the field repeats itself across
     /// * `cutoff` – largest wave number across, times the smallest length scale [-]; zero for the same fluctuation everywhere
     ///   across
     pub fn new(air: &Air, distance: f64, extent: Extent, cutoff: f64, key: StreamKey) -> Self {
-        let plan = Plan::new(air, distance, extent, cutoff);
+        Self::on_way(air, EddyPath::new(air, distance), extent, (cutoff, key))
+    }
+
+    /// A field that is as long and as wide as a room, and has as many generations.
+    ///
+    /// * `cutoff`, `key` – as of [`EddyField::new`]
+    pub(crate) fn in_room(air: &Air, room: &Room, cutoff: f64, key: StreamKey) -> Self {
+        Self::on_way(air, room.way(air), room.extent, (cutoff, key))
+    }
+
+    fn on_way(air: &Air, way: EddyPath, extent: Extent, (cutoff, key): (f64, StreamKey)) -> Self {
+        let plan = Plan::new(air, way, extent, cutoff);
         let tapes = vec![Tape::default(); plan.generations.len()];
         Self {
             synthesis: Arc::new(Synthesis::new(&plan, Isa::detect())),
@@ -80,6 +117,30 @@ impl EddyField {
             tapes,
             made: 0.0..0.0,
         }
+    }
+
+    /// The field of another air in the same room, if that has the pattern of this one and lets it pass faster or slower, with its pace: how many times as
+    /// fast it passes. What has been made is shared.
+    ///
+    /// * `airs` – the one of this field, and the other one
+    pub(crate) fn at_pace_of(&self, airs: [&Air; 2], room: &Room) -> Option<(Self, f64)> {
+        let [own, other] = airs.map(|air| &air.spectrum);
+        // A measured spectrum stays as it is measured, however fast the air is.
+        if own != other || matches!(own, SpectrumShape::Measured(_)) {
+            return None;
+        }
+        let plan = self.plan.on_way(room.way(airs[1]))?;
+        let pace = self.plan.repeat_time / plan.repeat_time;
+        Some((Self { plan: Arc::new(plan), ..self.clone() }, pace))
+    }
+
+    /// This field as far as another one has been made, of which it has the pattern.
+    ///
+    /// * `pace` – how many times as fast it passes in this one
+    #[must_use]
+    pub(crate) fn made_as(&self, other: &Self, pace: f64) -> Self {
+        let made = other.made.start / pace..other.made.end / pace;
+        Self { tapes: other.tapes.clone(), made, ..self.clone() }
     }
 
     /// Whether both are fields of the same air.

@@ -4,6 +4,7 @@ use super::lattice::{Extent, Lattice, left, samples};
 use super::way::{EddyPath, Stage};
 use crate::air::{Air, Spectrum};
 use std::f64::consts::{SQRT_2, TAU};
+use std::sync::Arc;
 
 /// Wave number of the energy in von Kármán's turbulence, times the length scale. theory.md (79)
 const ENERGY_WAVE: f64 = 0.746834;
@@ -36,7 +37,7 @@ pub(super) struct Generation {
     /// Samples per time [1/s].
     pub(super) samples_per_time: f64,
     /// Of each harmonic.
-    pub(super) harmonics: Vec<Harmonic>,
+    pub(super) harmonics: Arc<Vec<Harmonic>>,
 }
 
 /// The shape of the turbulence at one frequency.                                                    theory.md (79)
@@ -52,10 +53,8 @@ pub(super) struct Harmonic {
 }
 
 impl Plan {
-    /// * `distance` – from the inlet, or the root, to the end of the way [m]
     /// * `cutoff` – largest wave number across, times the length scale [-]
-    pub(super) fn new(air: &Air, distance: f64, extent: Extent, cutoff: f64) -> Self {
-        let way = EddyPath::new(air, distance);
+    pub(super) fn new(air: &Air, way: EddyPath, extent: Extent, cutoff: f64) -> Self {
         let (lattice, harmonics) = sizes(&way, extent, cutoff);
         let highest = way.stages.iter().map(|stage| stage.cutoff_frequency).fold(0.0, f64::max);
         let repeat_time = harmonics as f64 / highest;
@@ -70,6 +69,18 @@ impl Plan {
         let correlations = (0..shapes.len()).map(correlation).collect();
         let generations = shapes.into_iter().map(|shape| shape.generation).collect();
         Self { way, lattice, repeat_time, generations, correlations, turn: libm::acos(walk) }
+    }
+
+    /// The same plan on a way on which its pattern passes faster or slower; None if the way has another pattern.
+    pub(super) fn on_way(&self, way: EddyPath) -> Option<Self> {
+        let pace = way.pace_of(&self.way)?;
+        let generation = |(of, stage): (&Generation, &Stage)| Generation {
+            travel: stage.travel,
+            samples_per_time: of.samples_per_time * pace,
+            ..of.clone()
+        };
+        let generations = self.generations.iter().zip(&way.stages).map(generation).collect();
+        Some(Self { generations, repeat_time: self.repeat_time / pace, way, ..self.clone() })
     }
 
     /// Time from sample to sample of a generation [s].
@@ -145,7 +156,7 @@ impl Shape {
             };
             Harmonic { wave_number, scale: [0, 1, 2].map(|i| scale(i) as f32), amplitudes: of_modes }
         };
-        let harmonics = (0..amplitudes[0].len()).map(harmonic).collect();
+        let harmonics = Arc::new((0..amplitudes[0].len()).map(harmonic).collect());
         let samples_per_time = samples as f64 / repeat_time;
         Self { generation: Generation { travel: stage.travel, samples, samples_per_time, harmonics }, modes }
     }

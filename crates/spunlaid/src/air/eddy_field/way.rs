@@ -12,6 +12,8 @@ const LONGEST_AGE: f64 = 1.0 / 6.0;
 const LARGEST_CHANGE: f64 = 0.2;
 /// Most generations.
 const MOST: usize = 1000;
+/// Share by which two numbers of one pattern may differ.
+const SAME: f64 = 1e-6;
 /// Slowest air that carries eddies, over the fastest.
 const SLOWEST: f64 = 1e-3;
 
@@ -43,6 +45,11 @@ pub(super) struct EddyPath {
 impl EddyPath {
     /// * `distance` – from the inlet, or the root, to the end of the way [m]
     pub(super) fn new(air: &Air, distance: f64) -> Self {
+        Self::with_steps(air, distance, 0)
+    }
+
+    /// * `least` – steps from one generation to the next that there are at least, where eddies are carried
+    pub(super) fn with_steps(air: &Air, distance: f64, least: usize) -> Self {
         let mut hint = Hint::default();
         let x = |i: f64| distance * i / PIECES as f64;
         let mut stage = |i: f64| {
@@ -80,7 +87,7 @@ impl EddyPath {
             return Self { pieces_per_length, passages, stages, ageing: f64::INFINITY };
         };
         let whole = travels[PIECES];
-        let steps = steps(&stages, &travels, whole / decay_time);
+        let steps = steps(&stages, &travels, whole / decay_time, least);
         let travel = if steps == 0 { 0.0 } else { whole / steps as f64 };
         let passages = travels.iter().map(|&time| [if steps == 0 { 0.0 } else { time / travel }, time]);
         Self {
@@ -89,6 +96,21 @@ impl EddyPath {
             stages: (0..=steps).map(|j| at(&stages, &travels, j as f64 * travel)).collect(),
             ageing: travel / decay_time,
         }
+    }
+
+    /// How many times as fast as on another way the same pattern passes on this one; None if the two have other patterns.
+    pub(super) fn pace_of(&self, other: &Self) -> Option<f64> {
+        let (first, of_other) = (self.stages.first()?, other.stages.first()?);
+        let pace = first.cutoff_frequency / of_other.cutoff_frequency;
+        let is_near = |a: f64, b: f64| (a - b).abs() <= SAME * a.abs().max(b.abs());
+        let stages_agree = self.stages.iter().zip(&other.stages).all(|(a, b)| {
+            is_near(a.travel * pace, b.travel)
+                && is_near(a.speed, b.speed * pace)
+                && is_near(a.cutoff_frequency, b.cutoff_frequency * pace)
+                && is_near(a.length_scale, b.length_scale)
+        });
+        let ageing_agrees = self.ageing == other.ageing || is_near(self.ageing, other.ageing);
+        (self.stages.len() == other.stages.len() && stages_agree && ageing_agrees).then_some(pace)
     }
 
     /// Whether the pattern of one generation passes into that of the next.
@@ -165,14 +187,15 @@ fn at(stages: &[Stage], rising: &[f64], value: f64) -> Stage {
 /// Steps of equal travel time in which neither age nor air change too much. None if the pattern is the same everywhere.
 ///
 /// * `age` – of the air at the end of the way, in decay times
-fn steps(stages: &[Stage], travels: &[f64], age: f64) -> usize {
+/// * `least` – number of them
+fn steps(stages: &[Stage], travels: &[f64], age: f64, least: usize) -> usize {
     let whole = travels[travels.len() - 1];
     let change = |a: &Stage, b: &Stage| {
         let ratios =
             [a.speed / b.speed, a.length_scale / b.length_scale, a.cutoff_frequency / b.cutoff_frequency];
         ratios.into_iter().map(|ratio| libm::log(ratio).abs()).fold(0.0, f64::max)
     };
-    let least = (age / LONGEST_AGE - 1e-9).ceil().clamp(0.0, MOST as f64) as usize;
+    let least = least.max((age / LONGEST_AGE - 1e-9).ceil().clamp(0.0, MOST as f64) as usize);
     (least..MOST)
         .find(|&steps| {
             let stage = |j: usize| at(stages, travels, whole * j as f64 / steps.max(1) as f64);

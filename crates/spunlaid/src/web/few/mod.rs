@@ -32,6 +32,8 @@ pub(crate) enum Arrangement {
 pub(crate) struct FewFilaments<'a> {
     /// The sheet on which they are laid, with the patches that are looked at.
     pub(crate) sheet: &'a Sheet,
+    /// Number of blocks of the sheet that are told apart, across and along.
+    pub(crate) blocks: [usize; 2],
     /// Of each row of filaments the curves in order across, as places on the sheet in cross and in machine direction [m]; None of one that was lost.
     pub(crate) rows: Vec<Vec<Option<Vec<[f64; 2]>>>>,
     /// Mass of a piece of a curve [kg].
@@ -81,12 +83,13 @@ impl FewFilaments<'_> {
             Arrangement::Slot | Arrangement::AtRandom => self.products(&maps[0], &sides, threads)?,
         };
         let found = each(threads, sides.len(), |i| {
-            (maps.each_ref().map(|map| unevenness(map, sides[i])), blocks(&maps[0], sides[i]))
+            (maps.each_ref().map(|map| unevenness(map, sides[i])), blocks(&maps[0], sides[i], self.blocks))
         });
         let sheet = [self.sheet.width, self.sheet.length];
         let lost = self.rows.iter().flatten().filter(|curve| curve.is_none()).count() as u64;
-        let (filaments, pitch) = (count as u64, self.pitch());
-        let mut told = LayerFew { layer, filaments, lost, sheet, pitch, ..LayerFew::default() };
+        let (filaments, pitch, blocks_across) = (count as u64, self.pitch(), self.blocks[0]);
+        let mut told =
+            LayerFew { layer, filaments, lost, sheet, pitch, blocks_across, ..LayerFew::default() };
         for ((found, blocks), ([itself, next, second, fourth], patch)) in
             found.into_iter().zip(products.into_iter().zip(&self.sheet.patches))
         {
@@ -271,15 +274,21 @@ impl FewFilaments<'_> {
     }
 }
 
+/// Number of blocks of a sheet, across and along.
+pub(crate) fn blocks_on(sheet: &Sheet) -> [usize; 2] {
+    [sheet.width, sheet.length].map(|size| ((size / BLOCK) as usize).max(1))
+}
+
 /// The mean square of the deviations of the patches in each block of a map from the mean of all, over that mean.
-fn blocks(map: &Map, side: usize) -> Vec<f64> {
+///
+/// * `numbers` – of the blocks, across and along
+fn blocks(map: &Map, side: usize, numbers: [usize; 2]) -> Vec<f64> {
     let sizes = [map.columns, map.rows];
     let mean = map.total() as f64 / map.cells.len() as f64 * (side * side) as f64;
     if side == 0 || sizes.iter().any(|size| side > *size) || mean <= 0.0 {
         return Vec::new();
     }
     let places = [0, 1].map(|axis| if map.closed[axis] { sizes[axis] } else { sizes[axis] - side + 1 });
-    let numbers = places.map(|places| ((places as f64 * map.cell / BLOCK) as usize).max(1));
     let mut sums = vec![(0.0, 0.0); numbers[0] * numbers[1]];
     boxes(map, side, places, |row, boxes| {
         let along = row * numbers[1] / places[1];

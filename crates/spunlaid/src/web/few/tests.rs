@@ -73,7 +73,14 @@ fn few<'a>(
     all: usize,
     curves: impl Iterator<Item = Option<Vec<[f64; 2]>>>,
 ) -> FewFilaments<'a> {
-    FewFilaments { sheet, rows: vec![curves.collect()], piece: 1e-9, arrangement, all: all as f64 }
+    FewFilaments {
+        sheet,
+        blocks: blocks_on(sheet),
+        rows: vec![curves.collect()],
+        piece: 1e-9,
+        arrangement,
+        all: all as f64,
+    }
 }
 
 /// The CV on the map of all.

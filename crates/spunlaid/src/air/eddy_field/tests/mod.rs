@@ -3,7 +3,7 @@
 mod formulas;
 mod statistics;
 
-use super::{EddyField, EddyFields, Extent};
+use super::{EddyField, EddyFields, Extent, Room};
 use crate::air::{Air, EddyModel, SpectrumShape, StreamKey};
 use crate::lanes::{Isa, Register, Task, WIDTH};
 use crate::vec3::Vec3;
@@ -250,4 +250,35 @@ fn invariant_a_field_repeats_itself_after_its_extent() {
             assert_eq!(here, at(&field, 0.5 * block, [0.1, y + laps_y * extent.y, z + laps_z * extent.z]));
         }
     }
+}
+
+/// What passes 1.25 times as fast is there as much earlier: the field that shares its samples, and the one that is made for the fast air alone.
+#[test]
+fn analytic_faster_air_of_one_pattern_is_the_same_field_earlier() {
+    let (pace, decay_time) = (1.25, 20e-3);
+    let slow = air(decay_time, SpectrumShape::VonKarman, CUTOFF);
+    let eddies = EddyModel::Convected { decay_time: decay_time / pace };
+    let fast = Air { eddies, velocity: pace * SPEED, cutoff_frequency: pace * CUTOFF, ..slow.clone() };
+    let room = Room::of(&[(&slow, 0.4, EXTENT), (&fast, 0.5, Extent { y: 0.1, z: 0.1 })]);
+    assert_eq!((room.extent, room.distance), (EXTENT, 0.5));
+    let mut of_slow = EddyField::in_room(&slow, &room, 6.0, KEY);
+    let (of_fast, found) = of_slow.at_pace_of([&slow, &fast], &room).unwrap();
+    assert!((found / pace - 1.0).abs() < 1e-6, "{found}");
+    let mut alone = EddyField::in_room(&fast, &room, 6.0, KEY);
+    let block = of_slow.block();
+    of_slow.make(0.0..block, 1);
+    alone.make(0.0..block / pace, 1);
+    let of_fast = of_fast.made_as(&of_slow, found);
+    for i in 0..1000 {
+        let (time, place) = spread(i, 0.01 * block, 0.98 * block, 0.5);
+        let [slow, fast, alone] = [(&of_slow, time), (&of_fast, time / pace), (&alone, time / pace)]
+            .map(|(field, time)| at(field, time, place));
+        for component in 0..3 {
+            assert!((slow[component] - fast[component]).abs() < 2e-3, "{slow:?} {fast:?}");
+            assert!((alone[component] - fast[component]).abs() < 1e-2, "{alone:?} {fast:?}");
+        }
+    }
+    // Another decay time for its speed is another pattern.
+    let forgetful = Air { eddies: EddyModel::Convected { decay_time }, ..fast.clone() };
+    assert!(of_slow.at_pace_of([&slow, &forgetful], &room).is_none());
 }

@@ -1,0 +1,220 @@
+//! Webs in the same air, of which a few filaments are flown side by side, to be compared.
+//!
+//! ```text
+//! webs → the filaments of a layer of each, on sheets of one width, at the same places
+//!      → flights; one for all webs that differ in the speed of a slow belt only
+//!      → what all have laid while the same part of the pattern of the air passed → few filaments of each web
+//! ```
+
+use super::shared_air::{LayerBeam, beam_on};
+use super::{Flyer, WebSpec};
+use crate::beam::{Beam, BeamControl, BeamFindings, FlownAbreast, fly_abreast};
+use crate::error::{Error, Fault};
+use crate::lanes::Isa;
+use crate::line::{Contact, Line};
+use crate::web::{Arrangement, LayerFew, Sheet, blocks_on};
+use std::ops::Range;
+use std::sync::atomic::AtomicU64;
+
+/// Shortest sheet that is compared, in parts of the one that was to be laid.
+const LEAST: f64 = 0.4;
+/// Fastest belt, over the speed of the feed, that does not pull at the filament in the air.
+const SLOW: f64 = 0.1;
+
+/// What a few filaments say about the layers of a web, or why they cannot be flown.
+pub type FewOfWeb = Result<Vec<LayerFew>, Error>;
+
+impl Flyer<'_> {
+    /// What a few filaments say about webs in the same air, without laying them; None if some of the first one are not flown as a few for all.
+    ///
+    /// * `specs` – the web as it is, and changed ones
+    /// * `steps` – grows by the steps of all filaments; [`steps_in_same_air`] says about how many there are
+    ///
+    /// # Errors
+    /// For each web as of [`Flyer::web`]; and if it is stopped.
+    pub fn few_in_same_air(
+        &self,
+        specs: &[&WebSpec],
+        steps: &AtomicU64,
+    ) -> Result<Option<Vec<FewOfWeb>>, Error> {
+        let Some(layers) = comparisons(specs)? else { return Ok(None) };
+        let mut told: Vec<FewOfWeb> = specs.iter().map(|_| Ok(Vec::new())).collect();
+        for (number, layer) in layers.into_iter().enumerate() {
+            for (told, of_layer) in told.iter_mut().zip(self.compare((number, layer), steps)?) {
+                match (&mut *told, of_layer) {
+                    (Ok(told), Ok(few)) => told.push(few),
+                    (Ok(_), Err(error)) => *told = Err(error),
+                    (Err(_), _) => {}
+                }
+            }
+        }
+        Ok(Some(told))
+    }
+
+    /// Flies a layer of all webs and says what the filaments of each tell.
+    fn compare(
+        &self,
+        (number, layer): (usize, Comparison<'_>),
+        steps: &AtomicU64,
+    ) -> Result<Vec<Result<LayerFew, Error>>, Error> {
+        let by = BeamControl { threads: self.threads, isa: Isa::detect(), stop: self.stop, steps };
+        let beams: Vec<Beam<'_>> = layer.flights().map(|(_, of_beam)| of_beam.beam()).collect();
+        let flown = fly_abreast(&beams, &layer.sheet, by)?;
+        let flown: Vec<(usize, _)> = layer.flights().map(|(web, _)| web).zip(flown).collect();
+        let of_web = |web: usize| {
+            let of_beam = layer.beams[web].as_ref().map_err(again)?;
+            let flight = flown.iter().find(|(flight, _)| Some(*flight) == layer.flight_of[web]);
+            let (flight, flown) = flight.ok_or_else(Error::no_fibre)?;
+            let above = layer.beams[*flight].as_ref().map_err(again)?;
+            Laid::new([&above.beam(), &of_beam.beam()], flown.as_ref().map_err(again)?)
+        };
+        let laid: Vec<Result<Laid, Error>> = (0..layer.beams.len()).map(of_web).collect();
+        let during = laid.iter().flatten().fold(f64::NEG_INFINITY..f64::INFINITY, |all, laid| {
+            all.start.max(laid.during.start)..all.end.min(laid.during.end)
+        });
+        let tell = |(laid, of_beam): (Result<Laid, Error>, &Result<LayerBeam<'_>, Error>)| {
+            let (mut laid, of_beam) = (laid?, of_beam.as_ref().map_err(again)?);
+            let few = of_beam.few.as_ref().ok_or_else(Error::no_fibre)?;
+            let sheet = laid.sheet(&layer.sheet, &during)?;
+            let (beam, flown) = (of_beam.beam(), &laid.flown);
+            let curves = match few.arrangement {
+                Arrangement::Rows => Some(few.curves(&sheet, &beam, flown)?),
+                Arrangement::Slot | Arrangement::AtRandom => None,
+            };
+            let of_sheet = (number, &sheet, layer.blocks);
+            few.tell(of_sheet, (&beam, flown), curves.as_ref(), (self.threads, self.stop))
+        };
+        Ok(laid.into_iter().zip(&layer.beams).map(tell).collect())
+    }
+}
+
+/// The same error once more, of which several webs tell.
+fn again(error: &Error) -> Error {
+    Error::Flight(Fault::plain(error.to_string()))
+}
+
+/// About how many steps all filaments take for webs in the same air; where all filaments are flown, those of all webs but the first.
+pub(crate) fn steps_in_same_air(specs: &[&WebSpec]) -> u64 {
+    let Some(layers) = comparisons(specs).ok().flatten() else {
+        let layers = |spec: &&'_ WebSpec| -> u64 {
+            let beams = (0..spec.layers.len()).filter_map(|number| beam_on(spec, number, None).ok());
+            beams.map(|of_beam| of_beam.beam().steps(&of_beam.sheet)).sum()
+        };
+        return specs.iter().skip(1).map(layers).sum();
+    };
+    let of_layer = |layer: &Comparison<'_>| -> u64 {
+        layer.flights().map(|(_, of_beam)| of_beam.beam().steps(&layer.sheet)).sum()
+    };
+    layers.iter().map(of_layer).sum()
+}
+
+/// A layer of webs that are compared.
+struct Comparison<'a> {
+    /// The sheet of the web as it is.
+    sheet: Sheet,
+    /// Number of blocks of the sheet, across and along.
+    blocks: [usize; 2],
+    /// The filaments of each web.
+    beams: Vec<Result<LayerBeam<'a>, Error>>,
+    /// Of each web, the one whose flight says what its filaments do.
+    flight_of: Vec<Option<usize>>,
+}
+
+/// The layers of webs that are compared; None if some of the first one are not flown as a few for all.
+fn comparisons<'a>(specs: &[&'a WebSpec]) -> Result<Option<Vec<Comparison<'a>>>, Error> {
+    let Some((first, _)) = specs.split_first() else { return Ok(None) };
+    (0..first.layers.len()).map(|number| Comparison::new(specs, number)).collect()
+}
+
+impl<'a> Comparison<'a> {
+    fn new(specs: &[&'a WebSpec], number: usize) -> Result<Option<Self>, Error> {
+        let sheet = specs.iter().filter_map(|spec| spec.flown_sheet(number, true));
+        let Some(on) = sheet.max_by(|a, b| a.sheet.width.total_cmp(&b.sheet.width)) else { return Ok(None) };
+        let is_few = |of_beam: LayerBeam<'a>| match of_beam.few {
+            Some(_) => Ok(of_beam),
+            None => Err(Fault::plain("its filaments are so few that all of them are flown").into()),
+        };
+        let beams: Vec<Result<LayerBeam<'_>, Error>> =
+            specs.iter().map(|spec| beam_on(spec, number, Some(&on)).and_then(is_few)).collect();
+        match specs.first().map(|first| first.few(number, &on)) {
+            Some(Some(_)) => {}
+            _ => return Ok(None),
+        }
+        let flight_of = (0..beams.len()).map(|web| {
+            let of_beam = beams[web].as_ref().ok()?;
+            let is_same = |other: &usize| beams[*other].as_ref().is_ok_and(|other| flies_as(of_beam, other));
+            Some((0..web).find(is_same).unwrap_or(web))
+        });
+        let flight_of = flight_of.collect();
+        Ok(Some(Self { blocks: blocks_on(&on.sheet), sheet: on.sheet, flight_of, beams }))
+    }
+
+    /// The filaments that are flown, with the number of their web.
+    fn flights(&self) -> impl Iterator<Item = (usize, &LayerBeam<'a>)> {
+        let all = self.beams.iter().enumerate();
+        all.filter_map(|(web, of_beam)| Some((web, of_beam.as_ref().ok()?)))
+            .filter(|(web, _)| self.flight_of[*web] == Some(*web))
+    }
+}
+
+/// Whether filaments fly as others do: they differ in nothing but the speed of a belt that is too slow to pull at them.    theory.md (75)
+fn flies_as(of_beam: &LayerBeam<'_>, other: &LayerBeam<'_>) -> bool {
+    let [own, other] = [of_beam, other].map(|of_beam| of_beam.beam());
+    let is_slow = |line: Line| line.belt_ratio() <= SLOW && line.contact == Contact::Stick;
+    let (Some(line), Some(of_other)) = (own.case.line, other.case.line) else { return false };
+    let mut case = own.case.clone();
+    case.line = Some(Line { belt_speed: of_other.belt_speed, ..line });
+    let is_same = case == *other.case && own.places == other.places && own.depth == other.depth;
+    is_same && (line.belt_speed == of_other.belt_speed || (is_slow(line) && is_slow(of_other)))
+}
+
+/// What the filaments of a web have laid.
+struct Laid {
+    flown: BeamFindings,
+    /// The times at which the belt has passed on which all filaments lie as after their start, counted in what passes of the pattern of the air [s].
+    during: Range<f64>,
+    /// How far the belt moves in such a time [m/s].
+    belt_speed: f64,
+}
+
+impl Laid {
+    /// * `beams` – the one that was flown, and the one of the web, which fly alike: every point comes down at the same time and place above both belts
+    fn new(beams: [&Beam<'_>; 2], flight: &FlownAbreast) -> Result<Self, Error> {
+        let [above, line] = beams.map(|beam| beam.case.line);
+        let (above, line) = above.zip(line).ok_or_else(Error::no_fibre)?;
+        let start = line.feed_speed * beams[1].case.run.spin_up();
+        let (mut front, mut ahead, mut fed) = (f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY);
+        let mut kept = flight.flown.kept.clone();
+        for (filament, points) in &mut kept {
+            let y = beams[1].places[*filament].y;
+            for point in &mut *points {
+                point.md += (above.belt_speed - line.belt_speed) * point.time;
+                ahead = ahead.max(y + point.md + line.belt_ratio() * point.fed);
+                if point.fed < start {
+                    front = front.min(y + point.md);
+                }
+            }
+            fed = fed.min(points.last().map_or(0.0, |point| point.fed));
+        }
+        let belt_speed = line.belt_speed / flight.pace;
+        let [from, to] = [front, ahead - line.belt_ratio() * fed].map(|place| -place / belt_speed);
+        Ok(Self { flown: BeamFindings { kept, ..BeamFindings::default() }, during: from..to, belt_speed })
+    }
+
+    /// The stretch of belt that passes during some time; the filaments lie on it from then on.
+    ///
+    /// # Errors
+    /// If hardly anything was laid during it.
+    fn sheet(&mut self, like: &Sheet, during: &Range<f64>) -> Result<Sheet, Error> {
+        let [front, behind] = [during.start, during.end].map(|time| -time * self.belt_speed);
+        let length = ((front - behind) / like.cell).floor() * like.cell;
+        if length < LEAST * like.length {
+            return Err(Fault::plain(
+                "what has been laid while the same air passed is too short to be compared",
+            )
+            .into());
+        }
+        self.flown.back = front - length;
+        Ok(Sheet { length, ..like.clone() })
+    }
+}

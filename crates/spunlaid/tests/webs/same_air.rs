@@ -1,0 +1,77 @@
+//! Webs of a few filaments each in the same air.
+
+use spunlaid::input::{Overrides, WebFile, parse_web};
+use spunlaid::layers::{Flights, Flyer};
+use spunlaid::web::LayerFew;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, AtomicU64};
+
+/// A short line above a fast belt, so that little has to be flown.
+const WEB: &str = "
+[laydown]
+case = \"spunbond_slot.toml\"
+[line]
+filaments_per_metre = 2000
+depth = \"10 mm\"
+[web]
+width = \"0.16 m\"
+length = \"0.2 m\"
+cell = \"1 mm\"
+patches = [\"5 mm\", \"10 mm\"]
+flown = 150
+";
+const SHORT: [(&str, &str); 5] = [
+    ("belt.distance", "0.1 m"),
+    ("belt.speed", "5 m/s"),
+    ("run.spin_up", "10 ms"),
+    ("run.duration", "0.1 s"),
+    ("air.lateral_cutoff", "4"),
+];
+
+fn read(set: &[(&str, &str)]) -> WebFile {
+    let set: Vec<(String, String)> =
+        SHORT.iter().chain(set).map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/web_shared.toml");
+    parse_web(WEB, &cases.display().to_string(), Overrides { values: &set, word: "--set" }).unwrap()
+}
+
+fn unwatched(_: Flights<'_>, work: &mut (dyn FnMut() + Send)) {
+    work();
+}
+
+fn few(webs: &[&WebFile], threads: usize) -> Vec<LayerFew> {
+    let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
+    let specs: Vec<_> = webs.iter().map(|web| &web.spec).collect();
+    let flyer = Flyer::new(threads, &stop, &unwatched);
+    let told = flyer.few_in_same_air(&specs, &steps).unwrap().unwrap();
+    told.into_iter().flat_map(|layers| layers.unwrap()).collect()
+}
+
+/// Another web beside it makes the room larger, in which both of them hang.
+#[test]
+fn identical_a_web_beside_itself_has_not_changed() {
+    let (web, farther) = (read(&[]), read(&[("belt.distance", "0.12 m")]));
+    // Sixteen filaments are too few to tell the CV of all, but what they have laid is told, block by block.
+    let laid =
+        |few: &LayerFew| (few.sheet, few.blocks.clone(), few.cvs.iter().map(|cv| cv.few).collect::<Vec<_>>());
+    let [one, two] =
+        [1, 2].map(|threads| few(&[&web, &farther, &web], threads).iter().map(laid).collect::<Vec<_>>());
+    assert_eq!(one, two);
+    assert_eq!(one[0], one[2]);
+    assert!(one[0].2[0] > 0.1 && one[0].1 != one[1].1, "{one:?}");
+}
+
+/// theory.md (75): every point comes down at the same time and place above a slow belt. A web on another belt is told by the same flight, as if it had been
+/// flown anew.
+#[test]
+fn analytic_a_web_on_another_slow_belt_needs_no_flight() {
+    let set: &[(&str, &str)] = &[("belt.speed", "4 m/s"), ("web.length", "0.16 m")];
+    let (web, slower) = (read(&[]), read(set));
+    // The belt that is named first says for how long they fly.
+    let [told, flown] = [few(&[&web, &slower], 2).remove(1), few(&[&slower], 2).remove(0)];
+    for (told, flown) in told.cvs.iter().zip(&flown.cvs) {
+        println!("{} {}", told.few, flown.few);
+        assert!((told.few / flown.few - 1.0).abs() < 0.03, "{told:?} {flown:?}");
+    }
+    assert!(told.sheet[1] < 0.9 * few(&[&web], 2)[0].sheet[1]);
+}
