@@ -8,10 +8,10 @@ use crate::watched::{LOOK, Watch, read_file, watched};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use spunlaid::advice::{Advice, advise, steps};
+use spunlaid::advice::{Advice, Change, advise, are_tried, steps};
 use spunlaid::case::Note;
 use spunlaid::error::FileKind;
-use spunlaid::input::{Overrides, WebFile, parse_changes, parse_web};
+use spunlaid::input::{Overrides, WebFile, parse_changes, parse_guesses, parse_web};
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
 use spunlaid::observe::OF_PATCHES;
 use spunlaid::threads::look_while;
@@ -32,6 +32,7 @@ pub(crate) struct LaidWeb {
     flown: FlownWeb,
     findings: Findings,
     advice: Option<Advice>,
+    guesses: Option<Advice>,
     #[pyo3(get)]
     notes: Vec<String>,
     performance: Performance,
@@ -39,12 +40,13 @@ pub(crate) struct LaidWeb {
 
 /// Lays a web. See spunlaid.web, which calls it.
 #[pyfunction]
-#[pyo3(signature = (path, changes, advice = false, threads = None, progress = None))]
+#[pyo3(signature = (path, changes, advice = false, guesses = true, threads = None, progress = None))]
 pub(crate) fn lay_web(
     py: Python<'_>,
     path: Option<PathBuf>,
     changes: &Bound<'_, PyAny>,
     advice: bool,
+    guesses: bool,
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<LaidWeb> {
@@ -53,9 +55,11 @@ pub(crate) fn lay_web(
     let Source { name, text, file } = Source::read(py, path, FileKind::Web, "web")?;
     let changes = advice.then(|| read_file(py, threads, || parse_changes(text.clone(), &file, set)));
     let tried = changes.transpose()?;
+    let guesses = guesses.then(|| read_file(py, threads, || parse_guesses(text.clone(), &file, set)));
+    let guesses = guesses.transpose()?;
     let file = read_file(py, threads, || parse_web(&text, &file, set))?;
     let watch = Watch::default();
-    let (flown, findings, advice, performance) = watched(py, &watch, progress.as_ref(), || {
+    let (flown, findings, [advice, guesses], performance) = watched(py, &watch, progress.as_ref(), || {
         let started = Instant::now();
         // The flights have a counter of their own; it is looked at while they fly.
         let follow = |Flights { done, steps, .. }: Flights<'_>, work: &mut (dyn FnMut() + Send)| {
@@ -68,18 +72,17 @@ pub(crate) fn lay_web(
         let mut flown = flyer.web(&file.spec)?;
         watch.begin(flown.pieces()?);
         let findings = flown.find(laying)?;
-        let advice = match tried {
-            Some(changes) => {
-                watch.begin(steps(&file.spec, &changes));
-                Some(advise(&file.spec, (&flown.web, &findings), changes, laying)?)
-            }
-            None => None,
+        let compare = |changes: Vec<Change>| {
+            watch.begin(steps(&file.spec, &changes));
+            advise(&file.spec, (&flown.web, &findings), changes, laying)
         };
+        let guesses = guesses.filter(|guesses| are_tried(&file.spec, &findings, guesses));
+        let (guesses, advice) = (guesses.map(compare).transpose()?, tried.map(compare).transpose()?);
         let performance = Performance::measure(started, laying.threads, laying.isa).with_flights(&findings);
-        Ok((flown, findings, advice, performance))
+        Ok((flown, findings, [advice, guesses], performance))
     })?;
     let notes = [Note::notes_of_results(&file.notes), notes(&flown.web, &findings, &flown.layers)].concat();
-    Ok(LaidWeb { name, file, flown, findings, advice, notes, performance })
+    Ok(LaidWeb { name, file, flown, findings, advice, guesses, notes, performance })
 }
 
 /// Basis weight of every cell of a map [kg/m2], which cannot be written to.
@@ -99,6 +102,7 @@ impl LaidWeb {
             layers: &self.flown.layers,
             findings: &self.findings,
             advice: self.advice.as_ref(),
+            guesses: self.guesses.as_ref(),
             notes: &self.notes,
             performance: self.performance,
         }

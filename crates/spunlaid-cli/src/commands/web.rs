@@ -5,17 +5,17 @@ use super::{aligned, lay_control, plural, say_report, staged, stem};
 use crate::args::{self, Invocation, overrides};
 use crate::failure::Failure;
 use crate::{progress, say};
-use spunlaid::advice::{Advice, Change, advise, steps};
+use spunlaid::advice::{Advice, Change, advise, are_tried, steps};
 use spunlaid::case::Note;
 use spunlaid::error::Error;
-use spunlaid::input::{Method, Unflown, Unread, WebFile, WebSpec, read_changes, read_web};
+use spunlaid::input::{Method, Unflown, Unread, WebFile, WebSpec, read_changes, read_guesses, read_web};
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
 use spunlaid::web::{Findings, LayControl, PatchFindings, Web};
 use spunlaid_results::folders;
 use spunlaid_results::folders::web::WebFolder;
 use spunlaid_results::numbers::significant;
 use spunlaid_results::output::web::{ENTRIES, PatchTable, Performance, Reader};
-use spunlaid_results::report::{advice_commands, advice_words};
+use spunlaid_results::report::{advice_commands, advice_words, guess_words};
 use std::path::PathBuf;
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
@@ -33,11 +33,13 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     };
     let staging = folder.as_ref().map(staged).transpose()?;
     // Before anything is flown, because the file may change meanwhile.
-    let changes = match (!arguments.no_advice).then(|| read_changes(&arguments.file, set)) {
+    let read = |read| match read {
         // What is too long to be tried is not flown for either.
-        Some(Err(Unread::Unflown(unflown))) if !arguments.advice && is_long(&file.spec, &unflown) => None,
-        changes => changes.map(|read| flown(read, threads, quiet)).transpose()?,
+        Err(Unread::Unflown(unflown)) if !arguments.advice && is_long(&file.spec, &unflown) => Ok(None),
+        read => flown(read, threads, quiet).map(Some),
     };
+    let guesses = read(read_guesses(&arguments.file, set))?;
+    let changes = if arguments.no_advice { None } else { read(read_changes(&arguments.file, set))? };
 
     let started = Instant::now();
     let follow = flying(arguments.output.quiet);
@@ -54,18 +56,31 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     let is_short = |changes: &Vec<Change>| {
         says_enough(&file.spec, &findings) && steps(&file.spec, changes) <= most_steps(file.spec.method)
     };
+    let mut tried = Vec::new();
+    let mut compare =
+        |changes: Option<Vec<Change>>, [noun, of, leave_out]: [&str; 3]| -> Result<Option<Advice>, Failure> {
+            let Some(changes) = changes else { return Ok(None) };
+            let (label, begun) =
+                (format!("trying {} of {of}", plural(changes.len() as u64, noun)), Instant::now());
+            match compare_with(changes, (&file, web, &findings), by, (&label, quiet)) {
+                Err(Failure::Error(error)) if !matches!(error, Error::Interrupted) => {
+                    say::warning(&format!("{label} of {name} failed: {error}"));
+                    Ok(None)
+                }
+                compared => {
+                    tried.push(format!(
+                        "{label} took {:.2} s; {leave_out} leaves it out",
+                        begun.elapsed().as_secs_f64()
+                    ));
+                    compared.map(Some)
+                }
+            }
+        };
+    let is_asked = |guesses: &[Change]| arguments.advice && !guesses.is_empty();
+    let guesses = guesses.filter(|all| is_asked(all) || are_tried(&file.spec, &findings, all));
+    let guesses = compare(guesses, ["other value", "guesses", "--set web.guessed=none"])?;
     let changes = changes.filter(|changes| arguments.advice || is_short(changes));
-    let tried = changes.as_ref().map(|changes| trying(changes.len()));
-    let advice = match changes
-        .map(|changes| compute_advice(changes, (&file, web, &findings), by, arguments.output.quiet))
-    {
-        Some(Err(Failure::Error(error))) if !matches!(error, Error::Interrupted) => {
-            say::warning(&format!("what makes the web more even was not found: {error}"));
-            None
-        }
-        advice => advice.transpose()?,
-    };
-    let advice_s = started.elapsed().as_secs_f64() - laying_s;
+    let advice = compare(changes, ["change", "the line", "--no-advice"])?;
     let performance = Performance::measure(started, by.threads, by.isa).with_flights(&findings);
     let found = folders::web::notes(web, &findings, layers);
     let notes = [Note::notes_of_results(&file.notes), found.clone()].concat();
@@ -76,6 +91,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
         layers,
         findings: &findings,
         advice: advice.as_ref(),
+        guesses: guesses.as_ref(),
         notes: &notes,
         performance,
     };
@@ -87,6 +103,10 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
         say::text(&written.summary());
     } else if !arguments.output.quiet {
         say::table(&terminal_table(&findings));
+        let words = guess_words(&file.spec, &findings, guesses.as_ref());
+        if !words.is_empty() {
+            say::line(&format!("\n{words}"));
+        }
         let words = advice_words(&file.spec, &findings, advice.as_ref());
         if !(words.is_empty() || arguments.no_advice) {
             say::line(&format!("\n{words}"));
@@ -94,9 +114,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
             commands.into_iter().flatten().for_each(|command| say::line(&format!("  {command}")));
         }
         say::line(&format!("\n{label} took {laying_s:.2} s"));
-        if let Some(tried) = tried {
-            say::line(&format!("{tried} took {advice_s:.2} s; --no-advice leaves it out"));
-        }
+        tried.iter().for_each(|line| say::line(line));
         found.iter().for_each(|note| say::remark(false, note));
         folder.iter().for_each(say_report);
     }
@@ -123,23 +141,17 @@ fn says_enough(spec: &WebSpec, findings: &Findings) -> bool {
     few.is_none_or(|layers| layers == spec.layers.len())
 }
 
-/// What is done while changes are tried.
-fn trying(changes: usize) -> String {
-    format!("trying {} of the line", plural(changes as u64, "change"))
-}
-
-/// What changes of the line do to a web, with their progress.
-fn compute_advice(
+/// What changes do to a web, with their progress.
+fn compare_with(
     changes: Vec<Change>,
     (file, web, findings): (&WebFile, &Web, &Findings),
     by: LayControl<'_>,
-    quiet: bool,
+    (label, quiet): (&str, bool),
 ) -> Result<Advice, Failure> {
     let done = AtomicU64::new(0);
-    let (all, label) = (steps(&file.spec, &changes), trying(changes.len()));
-    let by = LayControl { laid: &done, ..by };
+    let (all, by) = (steps(&file.spec, &changes), LayControl { laid: &done, ..by });
     let work = || advise(&file.spec, (web, findings), changes, by);
-    Ok(progress::follow(&done, all, &label, quiet, work)?)
+    Ok(progress::follow(&done, all, label, quiet, work)?)
 }
 
 /// Shows the progress of the flights of a case.
@@ -166,8 +178,12 @@ fn terminal_table(findings: &Findings) -> String {
     } else {
         "of this map ± its standard error by chance alone"
     };
+    let bound = match findings.laid.shared_air {
+        Some(_) => "",
+        None => "a lower bound, because the filaments are independent of each other; ",
+    };
     format!(
-        "basis weight {} g/m²\nunevenness, CV in %: {whole}, and as expected\n{}",
+        "basis weight {} g/m²\nunevenness, CV in %: {bound}{whole}, and as expected\n{}",
         significant(findings.within().basis_weight() * 1e3, 4),
         aligned(&rows)
     )

@@ -359,6 +359,7 @@ fn analytic_new_writes_a_web_from_the_numbers_of_a_line() {
         "web.cell=1 mm",
         "line.basis_weight=2 g/m²",
         "web.method=dynamics",
+        "web.guessed=none",
     ];
     std::fs::write(desk.path("line_filament.toml"), case.replace("\"1 s\"", "\"0.15 s\"")).unwrap();
     success(&mut desk.with("web line.toml --out w --quiet", &small));

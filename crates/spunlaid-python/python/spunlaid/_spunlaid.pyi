@@ -289,6 +289,7 @@ def lay_web(
     path: str | None,
     changes: Mapping[str, Any],
     advice: bool = False,
+    guesses: bool = True,
     threads: int | None = None,
     progress: _Progress = None,
 ) -> LaidWeb: ...

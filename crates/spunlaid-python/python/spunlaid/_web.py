@@ -50,6 +50,7 @@ def web(
     *,
     set: Mapping[str, Any] | None = None,  # noqa: A002 - the word of the program
     advice: bool = False,
+    guesses: bool = True,
     threads: int | None = None,
     progress: Progress = None,
 ) -> Web:
@@ -59,9 +60,11 @@ def web(
         {...}}`, with texts that have a unit, and numbers in SI units. `spunlaid keys --web` lists the keys
     set: keys that replace those of the file, `{"line.belt_speed": 5.0}`; and those of the case that it flies, `{"belt.distance": "0.4 m"}`
     advice: whether to try what settings of the line would make it more even at the same basis weight; `summary["advice"]` then says it
+    guesses: whether a web whose file calls numbers guesses (`web.guessed`) is also tried with half and twice of each;
+        `summary["guesses"]` then has the CVs
     threads: number of threads, by default one for each processor; the results do not depend on it
     progress: None, True, False, or a function that gets the parts done and their number
     """
     path, changes = split_source(web, set)
     with shown(progress, "web") as show:
-        return Web(_spunlaid.lay_web(path, changes, advice, check_threads(threads), show))
+        return Web(_spunlaid.lay_web(path, changes, advice, guesses, check_threads(threads), show))

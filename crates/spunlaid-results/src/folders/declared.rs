@@ -93,6 +93,7 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
             layers: &flown.layers,
             findings,
             advice: None,
+            guesses: None,
             notes: &[],
             performance: Performance::default(),
         };

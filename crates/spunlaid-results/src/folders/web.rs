@@ -33,6 +33,8 @@ pub struct WebFolder<'a> {
     pub findings: &'a Findings,
     /// What would make it more even; None if it was not tried.
     pub advice: Option<&'a Advice>,
+    /// What guesses matter for it; None if it was not tried.
+    pub guesses: Option<&'a Advice>,
     /// Notes for the reader.
     pub notes: &'a [String],
     /// What it cost.
@@ -43,7 +45,8 @@ impl WebFolder<'_> {
     /// The text of `summary.json`.
     pub fn summary(&self) -> String {
         let rows = rows(&self.file.spec, self.web, self.layers);
-        Summary::new(self.web, (self.findings, self.advice), &rows, self.performance, self.notes).to_json()
+        let found = (self.findings, self.advice, self.guesses);
+        Summary::new(self.web, found, &rows, self.performance, self.notes).to_json()
     }
 
     /// Writes the map, the single fibres of a window, the figures, the report, the file of the web and the summary.
@@ -89,6 +92,7 @@ impl WebFolder<'_> {
                 web: self.web,
                 findings: self.findings,
                 advice: self.advice,
+                guesses: self.guesses,
                 layers: &rows(&self.file.spec, self.web, self.layers),
                 strands: &strands,
                 window,

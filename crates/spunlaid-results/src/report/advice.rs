@@ -168,7 +168,7 @@ fn clouds_apart(spec: &WebSpec, advice: &Advice, patch: f64) -> String {
 }
 
 /// Whether nothing of the web was flown.
-fn is_known(spec: &WebSpec) -> bool {
+pub(super) fn is_known(spec: &WebSpec) -> bool {
     spec.layers.iter().all(|layer| layer.source.case().is_none())
 }
 

@@ -70,6 +70,7 @@ pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
         about_patches: "The interval is that of the web, of which the scan is one piece. The noise of the camera \
             is as it was given, and then taken out of the CV, or the most that it can be. Where one more pixel of \
             blur changes little, the camera’s own blur has changed little as well.",
+        guesses: String::new(),
         advice: AdviceSection::default(),
         lever_heads: Vec::new(),
         levers: Vec::new(),

@@ -1,6 +1,7 @@
 //! `report.html` of a web: the web on a light table, what makes it uneven, and the figures.
 
-use super::advice::AdviceSection;
+use super::advice::{AdviceSection, is_known};
+use super::guesses::guess_words;
 use super::headline::{grams, headline_patch};
 use super::light_table::{Fibres, Sheet, Strands, picture_note, sheet};
 use super::methods::{Methods, web_account};
@@ -33,6 +34,8 @@ pub struct WebReport<'a> {
     pub findings: &'a Findings,
     /// What would make it more even; None if it was not tried.
     pub advice: Option<&'a Advice>,
+    /// What guesses matter for it; None if it was not tried.
+    pub guesses: Option<&'a Advice>,
     /// Its layers.
     pub layers: &'a [Layer],
     /// The fibres in the window, and the diameter of those of the first layer [m].
@@ -61,6 +64,7 @@ pub(super) struct WebPage<'a> {
     pub(super) command: &'static str,
     pub(super) name: &'a str,
     pub(super) headline: String,
+    pub(super) guesses: String,
     pub(super) summary: String,
     pub(super) notes: &'a [String],
     pub(super) caption: String,
@@ -117,7 +121,9 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
             found,
         ),
         headline,
-        summary: [summary(input.web), air_sentence(findings), error_sentences(findings)].join(" "),
+        guesses: guess_words(input.spec, findings, input.guesses),
+        summary: [summary(input.web), air_sentence(input.spec, findings), error_sentences(findings)]
+            .join(" "),
         notes: input.notes,
         caption: format!("{} {}", picture_note(sheet.pixel), strands.words()),
         sheet,
@@ -225,7 +231,7 @@ fn whole(patch: &PatchFindings) -> Unevenness {
 
 /// What the filaments of a web without independent filaments have in common, and what those with airs of their own leave out, in
 /// a sentence or two.
-fn air_sentence(findings: &Findings) -> String {
+fn air_sentence(spec: &WebSpec, findings: &Findings) -> String {
     let patch = headline_patch(findings).map(|i| &findings.patches[i]);
     match (&findings.laid.shared_air, patch.and_then(|patch| Some((patch, patch.independent?.cv)))) {
         (Some(_), Some((patch, independent))) => format!(
@@ -235,6 +241,9 @@ fn air_sentence(findings: &Findings) -> String {
             significant(patch.map.cv / independent, 2)
         ),
         (Some(_), None) => "All filaments were flown in one air.".to_owned(),
+        (None, _) if is_known(spec) => "This is a lower bound: in a line neighbours hang in the same gusts and come down together, and σ and A of one filament do \
+                      not say how. Name a case whose filament lies as this one (laydown.case) in place of the numbers to fly them in one air."
+            .to_owned(),
         (None, _) => "This is a lower bound: in a line neighbours hang in the same gusts and come down together. Name a case (laydown.case) and leave \
                       web.method out to fly them in one air."
             .to_owned(),

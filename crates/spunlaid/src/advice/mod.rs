@@ -7,8 +7,10 @@
 //! ```
 
 mod few;
+mod guesses;
 mod setting;
 
+pub use guesses::are_tried;
 pub use setting::{Change, ChangedKey, Setting};
 
 use self::few::WebOfFew;
@@ -175,7 +177,9 @@ pub fn advise(
             Err(why) => advice.failed.push((change, why)),
         }
     }
-    if is_in_same_air {
+    // Nobody chooses the best one of some guesses.
+    let is_choice = advice.effects.iter().any(|effect| effect.change.setting != Setting::Guess);
+    if is_in_same_air && is_choice {
         confirm(spec, &mut advice, by)?;
     }
     Ok(advice)

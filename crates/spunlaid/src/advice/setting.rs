@@ -26,6 +26,8 @@ pub enum Setting {
     Depth,
     /// Places of the rows in machine direction.
     RowPlaces,
+    /// None of the machine: a number that is a guess, and may be another one than is written.
+    Guess,
 }
 
 impl Setting {
@@ -42,6 +44,7 @@ impl Setting {
             Self::DieTemperature => "die_temperature",
             Self::Depth => "depth",
             Self::RowPlaces => "row_places",
+            Self::Guess => "guess",
         }
     }
 
@@ -58,6 +61,7 @@ impl Setting {
             Self::DieTemperature => "die temperature",
             Self::Depth => "depth of the slot",
             Self::RowPlaces => "distance of the rows",
+            Self::Guess => "guessed number",
         }
     }
 }

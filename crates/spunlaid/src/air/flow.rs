@@ -110,8 +110,14 @@ impl Air {
         let from = self.from_flow;
         let turbulent = k > 0.0 && epsilon > 0.0;
         let length = if turbulent { placed.length_constant * k * k.sqrt() / epsilon } else { f64::INFINITY };
-        let length_scale = if from.length_scale { length.min(placed.size()) } else { self.length_scale };
-        let turnover = if turbulent { epsilon / (placed.time_constant * k) } else { 0.0 };
+        let length_scale = if from.length_scale {
+            (self.length_factor * length).min(placed.size())
+        } else {
+            self.length_scale
+        };
+        // Longer eddies live longer, and stronger ones less long.
+        let lifetimes = self.length_factor / self.intensity_factor;
+        let turnover = if turbulent { epsilon / (placed.time_constant * k) / lifetimes } else { 0.0 };
         LocalAir {
             velocity,
             rms: self.rms_in_field(velocity, k),
@@ -137,7 +143,7 @@ impl Air {
                 let [u, v, w, root_k] = around.value.map(|value| value * self.speed_factor);
                 around.gradients =
                     around.gradients.map(|gradient| gradient.map(|change| change * self.speed_factor));
-                let rms_per_root = (2.0_f64 / 3.0).sqrt();
+                let rms_per_root = self.intensity_factor * (2.0_f64 / 3.0).sqrt();
                 let rms = if self.from_flow.turbulence_intensity {
                     around.gradients.iter_mut().for_each(|gradient| gradient[3] *= rms_per_root);
                     rms_per_root * root_k
@@ -257,7 +263,7 @@ impl Air {
 
     fn rms_in_field(&self, velocity: Vec3<f64>, k: f64) -> f64 {
         if self.from_flow.turbulence_intensity {
-            (2.0 / 3.0 * k).sqrt()
+            self.intensity_factor * (2.0 / 3.0 * k).sqrt()
         } else {
             self.turbulence_intensity * velocity.norm()
         }
@@ -271,13 +277,17 @@ impl Air {
 
     fn profile_air(&self, profile: &Profile, at: Vec3<f64>) -> LocalAir {
         let x = at.x;
-        let column = |wanted: bool, column: &[f64], otherwise: f64| {
-            if wanted { profile.at(column, x).unwrap_or(otherwise) } else { otherwise }
+        let column = |wanted: bool, column: &[f64], factor: f64, otherwise: f64| {
+            if wanted { profile.at(column, x).map_or(otherwise, |value| factor * value) } else { otherwise }
         };
         let velocity = self.speed_factor * profile.at(&profile.velocity, x).unwrap_or(0.0);
         let from = self.from_flow;
-        let intensity =
-            column(from.turbulence_intensity, &profile.turbulence_intensity, self.turbulence_intensity);
+        let intensity = column(
+            from.turbulence_intensity,
+            &profile.turbulence_intensity,
+            self.intensity_factor,
+            self.turbulence_intensity,
+        );
         LocalAir {
             velocity: Vec3::new(
                 velocity,
@@ -285,14 +295,19 @@ impl Air {
                 0.0,
             ),
             rms: intensity * velocity.abs(),
-            length_scale: column(from.length_scale, &profile.length_scale, self.length_scale),
-            cutoff_frequency: if from.cutoff_frequency {
-                // In faster air the same eddies pass in less time.
-                let cutoff = profile.at(&profile.cutoff_frequency, x);
-                self.speed_factor * cutoff.unwrap_or(self.cutoff_frequency)
-            } else {
-                self.cutoff_frequency
-            },
+            length_scale: column(
+                from.length_scale,
+                &profile.length_scale,
+                self.length_factor,
+                self.length_scale,
+            ),
+            // In faster air the same eddies pass in less time, and longer ones take more.
+            cutoff_frequency: column(
+                from.cutoff_frequency,
+                &profile.cutoff_frequency,
+                self.speed_factor / self.length_factor,
+                self.cutoff_frequency,
+            ),
             inside: profile.contains(x),
         }
     }

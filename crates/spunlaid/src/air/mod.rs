@@ -77,6 +77,10 @@ pub struct Air {
     pub from_flow: FlowNumbers,
     /// Factor on all velocities of a flow that is not uniform [-].
     pub speed_factor: f64,
+    /// Factor on the turbulence intensity that a flow gives [-].
+    pub intensity_factor: f64,
+    /// Factor on the length of the eddies that a flow gives [-].
+    pub length_factor: f64,
     /// How the energy of the turbulence spreads over frequency.
     pub spectrum: SpectrumShape,
     /// How the turbulence is related along the fibre.
@@ -116,6 +120,8 @@ impl Air {
             flow: Flow::Uniform,
             from_flow: FlowNumbers::default(),
             speed_factor: 1.0,
+            intensity_factor: 1.0,
+            length_factor: 1.0,
             spectrum: SpectrumShape::Flat,
             eddies: EddyModel::Independent,
             lateral: Lateral::Uniform,

@@ -32,8 +32,8 @@ pub use kind::kind_of;
 pub use spinline::{SpinFile, parse_spinline, read_spinline, write_spinline};
 pub use study::{
     FitFile, MOST_POINTS_UNASKED, StudyChanges, StudyFile, StudyNote, differences, parse_changed_study,
-    parse_changes, parse_fit, parse_study, read_changed_study, read_changes, read_fit, read_study,
-    starter_study,
+    parse_changes, parse_fit, parse_guesses, parse_study, read_changed_study, read_changes, read_fit,
+    read_guesses, read_study, starter_study,
 };
 pub use unread::{KeptTensions, Unflown, Unread};
 pub use web::{WebFile, parse_web, parse_web_and_cases, read_web, write_web};

@@ -56,6 +56,8 @@ pub struct WebSpec {
     pub memory_limit: f64,
     /// Mass of all layers per area, if it is given in place of the speed of the belt, which follows from it [kg/m²].
     pub basis_weight: Option<f64>,
+    /// Keys of the web and of its cases whose numbers are guesses, as the file names them.
+    pub guessed: Vec<String>,
 }
 
 /// What a web is laid of.
@@ -199,6 +201,7 @@ impl WebSpec {
             window: nan,
             memory_limit: nan,
             basis_weight: None,
+            guessed: Vec::new(),
         }
     }
 

@@ -541,3 +541,38 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn rejects_guesses_that_have_no_half() {
+    let two = LAYERS.replace("[web]", "[web]\nguessed = \"line.throughput\"");
+    for (text, guessed, message) in [
+        (
+            KNOWN,
+            "line.filaments_per_meter",
+            "no key of the web or of its cases; did you mean line.filaments_per_metre?",
+        ),
+        (KNOWN, "belt.distance", "it is a key of a case, and this web flies none"),
+        (KNOWN, "line.depth", "names line.depth, which is zero or not written here"),
+        (KNOWN, "web.edges", "names web.edges, of which there is no half and no twice"),
+        (
+            FLOWN,
+            "air.length_scale",
+            "names air.length_scale, which is given by a file; name air.length_factor",
+        ),
+        (FLOWN, "fibre.diameter, air.spectrum", "names air.spectrum, of which"),
+    ] {
+        let refused = read_web(text.as_ref(), &set("web.guessed", guessed)[..]).unwrap_err().to_string();
+        assert!(refused.contains("web.guessed") && refused.contains(message), "{guessed}: {refused}");
+    }
+    let refused = parse_web(&two, "layers.toml", &[]).unwrap_err().to_string();
+    assert!(
+        refused.contains("layers.toml:4: web.guessed") && refused.contains("line.throughput"),
+        "{refused}"
+    );
+    // What can be halved is read, and written as it was.
+    let file = read_web(FLOWN.as_ref(), &set("web.guessed", "belt.distance,line.rows.1.pitch")[..]).unwrap();
+    assert_eq!(file.spec.guessed, ["belt.distance", "line.rows.1.pitch"]);
+    assert!(file.text.contains("guessed = \"belt.distance, line.rows.1.pitch\""), "{}", file.text);
+    assert_reads_back(&file);
+    assert!(read_web(FLOWN.as_ref(), &set("web.guessed", "none")[..]).unwrap().spec.guessed.is_empty());
+}

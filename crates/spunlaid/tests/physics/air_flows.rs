@@ -252,6 +252,45 @@ fn analytic_turbulence_from_k_and_epsilon() {
     air.settle(Vec3::new(1.0, 0.0, 0.0));
     near(air.velocity, 16.0);
     near(air.turbulence_intensity, 0.125);
+    // Eddies twice as long at half the rms take twice the time to pass, and four times to decay.
+    (air.speed_factor, air.length_factor, air.intensity_factor) = (1.0, 2.0, 0.5);
+    let longer = air.local(at, &mut Hint::default());
+    near(longer.rms, 0.5);
+    near(longer.length_scale, 2.0 * length);
+    near(longer.cutoff_frequency, 0.25 * (8.0 / (2.0 * length) + epsilon / (0.3 * k) / 4.0));
+}
+
+/// Where a profile gives the turbulence, factors on its eddies and its intensity keep their places, and the cut-off follows by Taylor's hypothesis.
+#[test]
+fn analytic_longer_eddies_of_a_profile_pass_more_slowly() {
+    let table = Profile {
+        x: vec![0.0, 1.0],
+        velocity: vec![40.0, 20.0],
+        turbulence_intensity: vec![0.1, 0.2],
+        length_scale: vec![0.01, 0.03],
+        cutoff_frequency: vec![1000.0, 400.0],
+    };
+    let plain = Air { flow: profile(table), from_flow: TOLD, ..Air::uniform(1.0, 0.0, 1.0, 1.0) };
+    let changed = Air { length_factor: 2.0, intensity_factor: 0.5, ..plain.clone() };
+    for x in [0.0, 0.25, 1.0] {
+        let at = Vec3::new(x, 0.0, 0.0);
+        let [before, after] = [&plain, &changed].map(|air| air.local(at, &mut Hint::default()));
+        assert_eq!(after.velocity, before.velocity);
+        for (after, before) in [
+            (after.rms, 0.5 * before.rms),
+            (after.length_scale, 2.0 * before.length_scale),
+            (after.cutoff_frequency, 0.5 * before.cutoff_frequency),
+        ] {
+            assert!((after / before - 1.0).abs() < 1e-12, "{x}: {after} {before}");
+        }
+    }
+    // Without a flow that gives them there is nothing to multiply.
+    let uniform = [("air.length_factor".to_owned(), "2".to_owned())];
+    let refused = parse_case(cases::papers_starter(), "Table 1", &uniform).unwrap_err().to_string();
+    assert!(
+        refused.contains("a profile or a field that gives length_scale; change air.length_scale"),
+        "{refused}"
+    );
 }
 
 /// A field in millimetres whose flow is along −z gives the flight that the same flow along x does.

@@ -5,6 +5,7 @@ mod advice;
 mod beam;
 mod curtain;
 mod fit;
+mod guesses;
 mod neighbours;
 mod same_air;
 mod surrogate;

@@ -24,7 +24,8 @@ pub(super) fn web(check: &Check) -> Result<(), Failure> {
         say::text(&versioned_json(&Summary::new(&file.spec, notes)));
         return Ok(());
     }
-    let comments = [line(&file.spec), sheet(&file.spec).to_vec(), air(&file.spec)].concat();
+    let spec = &file.spec;
+    let comments = [line(spec), sheet(spec).to_vec(), air(spec), guesses(spec)].concat();
     show("web", &file.text, &comments, "web", &check.source);
     Ok(())
 }
@@ -206,6 +207,18 @@ fn in_one_air(spec: &WebSpec) -> Vec<String> {
         lines.push("  they come in one row, at random places of it; the slot of a line has a depth: --set line.depth=\"20 mm\"".to_owned());
     }
     lines
+}
+
+/// Which numbers are guesses, and what is done about them.
+fn guesses(spec: &WebSpec) -> Vec<String> {
+    if spec.guessed.is_empty() {
+        return Vec::new();
+    }
+    let each = format!(
+        "  {}: spunlaid web also tells the CV for half and twice of each, from a few filaments",
+        spec.guessed.join(", ")
+    );
+    vec!["guesses (web.guessed)".to_owned(), each]
 }
 
 /// That the web is a lower bound, and the way out of it.

@@ -16,6 +16,9 @@ const INTENSITY: f64 = 0.1;
 const EDDY: f64 = 16e-3;
 const SLOWED: f64 = 1.0 / 6.0;
 
+/// The keys of the numbers that are made up and count for much. Those of the air are factors on what its table has.
+const GUESSED: &str = "line.depth, air.intensity_factor, air.length_factor";
+
 /// Digits with which a number that was given is written.
 const GIVEN: usize = 9;
 
@@ -147,7 +150,8 @@ impl Line {
         text + &format!(
             "\n[web]\nwidth = \"{}\"\nlength = \"1 m\"   # of the stretch that is looked at\n\
              # method = \"dynamics\"   # filaments that are independent of each other, a lower bound; left out, they hang in one air\n\
-             # edges = \"cut\"   # if the edges of the web are to be seen; without, it is a part of a wide web\n",
+             # edges = \"cut\"   # if the edges of the web are to be seen; without, it is a part of a wide web\n\
+             guessed = \"{GUESSED}\"   # made up: the CV is also told for half and twice of each; take out what you have measured\n",
             exact_text(Dimension::Length, width)
         )
     }

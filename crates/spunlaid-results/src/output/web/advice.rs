@@ -41,7 +41,7 @@ struct ChangeSummary {
 }
 
 #[derive(Debug, Serialize)]
-struct Key {
+pub(super) struct Key {
     key: String,
     from: f64,
     to: f64,
@@ -71,14 +71,14 @@ struct Patch {
 }
 
 #[derive(Debug, Serialize)]
-struct Failure {
+pub(super) struct Failure {
     setting: &'static str,
     layer: Option<usize>,
     keys: Vec<Key>,
     why: String,
 }
 
-fn keys(change: &Change) -> Vec<Key> {
+pub(super) fn keys(change: &Change) -> Vec<Key> {
     let key = |changed: &ChangedKey| Key {
         key: changed.key.clone(),
         from: changed.from,
@@ -91,6 +91,11 @@ fn keys(change: &Change) -> Vec<Key> {
         },
     };
     change.keys.iter().map(key).collect()
+}
+
+/// A change that could not be tried.
+pub(super) fn failure((change, why): &(Change, String)) -> Failure {
+    Failure { setting: change.setting.name(), layer: alone(change), keys: keys(change), why: why.clone() }
 }
 
 /// The layer that changes, if it is the only one.
@@ -126,15 +131,9 @@ impl AdviceSummary {
             flown_again: advice.is_confirmed.then_some(!effect.in_first_air.is_empty()),
             patches: effect.cvs.iter().map(|cv| patch(effect, cv)).collect(),
         };
-        let failed = |(change, why): &(Change, String)| Failure {
-            setting: change.setting.name(),
-            layer: alone(change),
-            keys: keys(change),
-            why: why.clone(),
-        };
         Self {
             changes: advice.effects.iter().map(change).collect(),
-            failed: advice.failed.iter().map(failed).collect(),
+            failed: advice.failed.iter().map(failure).collect(),
         }
     }
 }

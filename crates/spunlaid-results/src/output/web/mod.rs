@@ -1,6 +1,7 @@
 //! The files of a web's results folder.
 
 mod advice;
+mod guesses;
 mod map;
 mod patches;
 mod pieces;

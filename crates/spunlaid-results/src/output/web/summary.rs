@@ -1,6 +1,7 @@
 //! `summary.json`: all results of a web.
 
 use super::advice::AdviceSummary;
+use super::guesses::GuessesSummary;
 use crate::figures::SEEN;
 use crate::output::in_order::OrderedObject;
 use crate::output::spinline::SpinSummary;
@@ -30,6 +31,8 @@ pub struct Summary<'a> {
     web: WebSummary,
     #[serde(skip_serializing_if = "Option::is_none")]
     advice: Option<AdviceSummary>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    guesses: Option<GuessesSummary>,
     #[serde(skip_serializing_if = "Option::is_none")]
     neighbours: Option<NeighboursSummary<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -340,7 +343,7 @@ impl<'a> Summary<'a> {
     /// Gathers everything.
     pub fn new(
         web: &Web,
-        (findings, advice): (&Findings, Option<&Advice>),
+        (findings, advice, guesses): (&Findings, Option<&Advice>, Option<&Advice>),
         layers: &'a [Layer],
         performance: Performance,
         notes: &'a [String],
@@ -393,6 +396,7 @@ impl<'a> Summary<'a> {
                 ..WebSummary::from_map(&findings.laid.map, findings.clouds.as_ref(), patches.collect())
             },
             advice: advice.map(AdviceSummary::new),
+            guesses: guesses.map(|guesses| GuessesSummary::new(guesses, findings)),
             neighbours: NeighboursSummary::from_findings(findings, layers),
             scan: None,
             performance,
@@ -437,6 +441,7 @@ impl<'a> Summary<'a> {
             layers: &[],
             web: WebSummary { basis_weight_kg_m2, ..web },
             advice: None,
+            guesses: None,
             neighbours: None,
             scan: Some(OrderedObject(scan.collect())),
             performance,

@@ -61,6 +61,23 @@ macro_rules! of_air {
     };
 }
 
+/// Access to a factor on a number of the air that the flow gives: `of_flow!(length_scale, length_factor)`.
+macro_rules! of_flow {
+    ($number:ident, $factor:ident) => {
+        Access {
+            get: |case| case.air.from_flow.$number.then_some(Value::Number(case.air.$factor)),
+            set: |case, value| {
+                if !case.air.flow.numbers().$number {
+                    let needed = concat!("a profile or a field that gives ", stringify!($number));
+                    return Err(Fault::needs(needed, concat!("change air.", stringify!($number))));
+                }
+                case.air.$factor = number(value)?;
+                Ok(())
+            },
+        }
+    };
+}
+
 /// Access to a number that only matters for a CFD field.
 macro_rules! of_field {
     ($field:ident) => {

@@ -6,6 +6,7 @@ mod design;
 mod differences;
 mod fit;
 mod fixed_keys;
+mod guesses;
 mod levels;
 mod links;
 mod plan;
@@ -19,6 +20,7 @@ mod write;
 pub use advice::{parse_changes, read_changes};
 pub use differences::differences;
 pub use fit::{FitFile, parse_fit, read_fit};
+pub use guesses::{parse_guesses, read_guesses};
 pub use points::StudyNote;
 pub use starter::starter_study;
 

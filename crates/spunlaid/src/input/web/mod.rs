@@ -1,6 +1,7 @@
 //! Files of webs: reads a file to what is to be laid, and writes it back.
 
 mod check;
+mod guessed;
 mod laydown;
 mod read;
 mod sheet;
@@ -8,6 +9,7 @@ mod sides;
 mod speeds;
 mod write;
 
+pub(super) use guessed::Guess;
 pub(super) use sides::{AllSides, Sides, flies_none, is_of_case, replaces};
 pub use write::write_web;
 

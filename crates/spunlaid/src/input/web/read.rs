@@ -62,6 +62,7 @@ pub(super) fn spec(
     reading.check_names(&prefixes);
     reading.complete_sheet(&mut web);
     reading.check_method(&prefixes, &web);
+    reading.check_guessed(&web);
     reading.settle_belt(&prefixes, &mut web);
     for (number, prefix) in prefixes.iter().enumerate() {
         reading.check_layer(prefix, &web.alone(number));

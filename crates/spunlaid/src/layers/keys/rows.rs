@@ -21,6 +21,8 @@ const ALL_METHODS: [Method; 3] = [Method::Surrogate, Method::Dynamics, Method::S
 /// How many filaments are flown: as many as it takes, or all.
 const AUTO: &str = "auto";
 const ALL: &str = "all";
+/// No number is a guess.
+const NONE: &str = "none";
 /// What becomes of fibre beyond the edges.
 const EDGES: [&str; 2] = ["periodic", "cut"];
 
@@ -122,7 +124,11 @@ pub const WEB_KEYS: &[WebKey] = &[
         .access(of_surrogate!(sigma_md))
         .needed_if(KNOWN, "18.4 mm")
         .follows(IDENTIFIED)
-        .meaning("Spread of a laid filament in machine direction: the σ₁ of the surrogate.")
+        .meaning(
+            "Spread of a laid filament in machine direction: the σ₁ of the surrogate. Known numbers do not \
+             say how neighbours come down together, so the CV of such a web is a lower bound; a case in place \
+             of them (`laydown.case`) is flown in one air, as in a line.",
+        )
         .label("Spread in machine direction")
         .usual(1e-5, 1.0),
     positive("laydown.sigma_cd", Dimension::Length)
@@ -468,6 +474,25 @@ pub const WEB_KEYS: &[WebKey] = &[
         )
         .label("Memory limit")
         .usual(1e7, 1e13),
+    key("web.guessed", Kind::Text("line.depth, air.length_factor"))
+        .access(Access {
+            get: |web| (!web.guessed.is_empty()).then(|| web.guessed.join(", ").into()),
+            set: |web, value| {
+                let names = text(value)?;
+                let names = names.split(',').map(str::trim).filter(|name| !["", NONE].contains(name));
+                web.guessed = names.map(ToOwned::to_owned).collect();
+                Ok(())
+            },
+        })
+        .or_words(&[NONE])
+        .follows("`none`: every number counts as known")
+        .meaning(
+            "Keys of the web and of its cases whose numbers are guesses, with commas between them. \
+             `spunlaid web` also tells the CV for half and for twice of each, from a few filaments. Take out \
+             each whose number has been measured.",
+        )
+        .synonyms(&["assumed", "uncertain", "made up"])
+        .label("Guessed numbers"),
     positive("web.window", Dimension::Length)
         .access(of_sheet!(window))
         .follows("20 mm, at most the web's smaller side")

@@ -106,6 +106,28 @@ pub(super) const KEYS: &[Key] = &[
         )
         .label("Cut-off frequency *f*")
         .slider(10.0, 1000.0),
+    quantity("air.intensity_factor", Dimension::Ratio, NotNegative)
+        .access(of_flow!(turbulence_intensity, intensity_factor))
+        .value("1")
+        .usual(0.01, 100.0)
+        .meaning(
+            "Factor on the turbulence intensity of a profile or a field. It makes the same air calmer or \
+             rougher everywhere.",
+        )
+        .label("Factor on the turbulence intensity")
+        .slider(0.2, 3.0),
+    quantity("air.length_factor", Dimension::Ratio, Positive)
+        .access(of_flow!(length_scale, length_factor))
+        .value("1")
+        .usual(0.01, 100.0)
+        .meaning(
+            "Factor on the length scale of a profile or a field. All eddies are so many times as long, and \
+             the cut-off frequency of the flow is so many times lower, because longer eddies take more time \
+             to pass.",
+        )
+        .synonyms(&["eddy size"])
+        .label("Factor on the length of the eddies")
+        .slider(0.2, 3.0),
     quantity("air.density", Dimension::Density, NotNegative)
         .access(number!(air.density))
         .value("1.204 kg/m³")

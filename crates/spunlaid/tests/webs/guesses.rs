@@ -1,0 +1,106 @@
+//! Guesses: what half and twice of a number that nobody has measured does to the CV.
+
+use spunlaid::advice::{Change, advise, are_tried};
+use spunlaid::input::{Overrides, parse_guesses, parse_web};
+use spunlaid::lanes::Isa;
+use spunlaid::layers::Flyer;
+use spunlaid::web::LayControl;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, AtomicU64};
+
+fn cases() -> String {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/web.toml").display().to_string()
+}
+
+fn read(text: &str, set: &[(&str, &str)]) -> Vec<Change> {
+    let set: Vec<(String, String)> =
+        set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+    parse_guesses(text.to_owned(), &cases(), Overrides { values: &set, word: "--set" }).unwrap()
+}
+
+/// What each web changes: the keys, and their factors.
+fn factors(changes: &[Change]) -> Vec<(&str, f64)> {
+    changes.iter().flat_map(|change| &change.keys).map(|key| (&*key.key, key.to / key.from)).collect()
+}
+
+/// Two beams with slots, in air from a table.
+const BEAMS: &str = "
+[[layer]]
+[layer.laydown]
+case = \"spunbond_slot.toml\"
+[layer.line]
+filaments_per_metre = 3000
+depth = \"20 mm\"
+[[layer]]
+[layer.laydown]
+case = \"spunbond_slot.toml\"
+[layer.line]
+filaments_per_metre = 2000
+depth = \"20 mm\"
+[web]
+width = \"250 mm\"
+length = \"250 mm\"
+";
+
+/// What each says to set makes the very web that is tried, also beside what was set before.
+#[test]
+fn identical_what_a_guess_says_to_set_is_the_web_that_is_tried() {
+    let guessed = "line.depth, air.length_factor, air.intensity_factor";
+    let mut set = vec![("web.guessed", guessed), ("air.intensity_factor", "0.9")];
+    let changes = read(BEAMS, &set);
+    let keys = ["line.depth", "air.length_factor", "air.intensity_factor"];
+    let wanted: Vec<(&str, f64)> = keys.iter().flat_map(|key| [(*key, 0.5), (*key, 2.0)]).collect();
+    assert_eq!(factors(&changes), wanted);
+    for change in &changes {
+        let set = Overrides { values: &change.set, word: "--set" };
+        let pasted = parse_web(BEAMS, &cases(), set).unwrap().spec;
+        assert_eq!(format!("{pasted:?}"), format!("{:?}", change.spec), "{:?}", change.set);
+    }
+    // Both slots become deeper together; eddies half as long keep the smallest waves.
+    let both = changes[1].set.iter().filter(|(key, value)| key.ends_with(".depth") && value == "40 mm");
+    assert_eq!(both.count(), 2, "{:?}", changes[1].set);
+    let cutoffs: Vec<f64> = changes.iter().map(|change| change.spec.lateral_cutoff(0).unwrap()).collect();
+    assert!(
+        cutoffs.iter().enumerate().all(|(i, cutoff)| *cutoff == cutoffs[0] * if i == 2 { 0.5 } else { 1.0 })
+    );
+    // Nothing is a guess once it has been measured.
+    set[0].1 = "none";
+    assert!(read(BEAMS, &set).is_empty());
+}
+
+/// Independent filaments at random places on a belt of the same speed have CV² ∝ 1/number.
+#[test]
+fn analytic_the_cv_of_half_and_twice_of_the_filaments() {
+    let text = "
+[fibre]
+linear_density = \"2 dtex\"
+density = \"910 kg/m³\"
+[laydown]
+sigma_md = \"9 mm\"
+sigma_cd = \"8 mm\"
+noise = \"15 m^-0.5\"
+[line]
+throughput = \"0.6 g/min\"
+belt_speed = \"1 m/s\"
+filaments_per_metre = 2000
+[web]
+width = \"150 mm\"
+length = \"150 mm\"
+cell = \"1 mm\"
+patches = [\"2 mm\", \"10 mm\"]
+guessed = \"line.filaments_per_metre\"
+";
+    let (spec, changes) = (parse_web(text, &cases(), &[]).unwrap().spec, read(text, &[]));
+    assert_eq!(factors(&changes), [("line.filaments_per_metre", 0.5), ("line.filaments_per_metre", 2.0)]);
+    let (laid, stop) = (AtomicU64::new(0), AtomicBool::new(false));
+    let by = LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &laid };
+    let mut flown = Flyer::new(2, &stop, &|_, work| work()).web(&spec).unwrap();
+    let findings = flown.measure(by).unwrap();
+    assert!(are_tried(&spec, &findings, &changes) && !are_tried(&spec, &findings, &[]));
+    let guesses = advise(&spec, (&flown.web, &findings), changes, by).unwrap();
+    let ends = guesses.range(10e-3);
+    for (found, wanted) in ends.iter().zip([0.5_f64.sqrt(), 2.0_f64.sqrt()]) {
+        assert!((found / wanted - 1.0).abs() < 1e-6, "{ends:?}");
+    }
+    assert_eq!(guesses.range(7e-3), [1.0, 1.0]);
+}
