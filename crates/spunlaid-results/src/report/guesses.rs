@@ -1,4 +1,4 @@
-//! What guesses matter for a web, in the sentences below its headline.
+//! How much guesses matter for a web, in the sentences below its headline.
 
 use super::headline::headline_patch;
 use super::words::millimetres;

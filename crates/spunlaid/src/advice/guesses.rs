@@ -1,4 +1,4 @@
-//! What guesses matter for a web.
+//! How much the guesses of a web matter.
 
 use super::{Advice, Change, CvChange, Effect, steps};
 use crate::layers::{Method, WebSpec};

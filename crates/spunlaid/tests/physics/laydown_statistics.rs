@@ -55,7 +55,7 @@ fn stat_the_lay_down_depends_on_neither_mesh_nor_step_nor_scheme_nor_where_the_c
     assert_same("an eighth of a birth", usual, run(&[("run.time_step", "10 µs")]));
     let fine = spunbond(&[("run.duration", "0.4 s"), ("fibre.element_length", "1 mm")]);
     assert_same("1 mm", usual, statistics(&fine, 0.4));
-    assert_same("three times the length on the belt", usual, run(&[("belt.kept_length", "90 mm")]));
+    assert_same("twice the length on the belt", usual, run(&[("belt.kept_length", "250 mm")]));
     let leapfrog = spunbond(&[("run.duration", "0.3 s"), ("run.scheme", "leapfrog")]);
     assert_same("leapfrog", usual, statistics(&leapfrog, 0.3));
 }

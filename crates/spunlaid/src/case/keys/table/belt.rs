@@ -73,7 +73,7 @@ pub(super) const KEYS: &[Key] = &[
         .slider(0.0, 2000.0),
     quantity("belt.kept_length", Dimension::Length, Positive)
         .access(of_line!(kept_length))
-        .follows("6 % of the distance to the belt")
+        .follows("a quarter of the distance to the belt")
         .usual(1e-7, 2.0)
         .meaning(
             "Length of fibre behind the newest touch-down that still moves. What comes after it is laid; \
