@@ -48,7 +48,20 @@ pub fn guess_words(spec: &WebSpec, findings: &Findings, guesses: Option<&Advice>
             format!("it lies between {from} and {to}{THIN}%")
         }
     };
-    format!("{begin}. With half and twice of each, {whole} {place}: {}.", each.join("; "))
+    format!(
+        "{begin}. With half and twice of each, {whole} {place}: {}.{}",
+        each.join("; "),
+        failed_words(guesses)
+    )
+}
+
+/// Which values could not be flown.
+fn failed_words(guesses: &Advice) -> String {
+    let failed = guesses.failed.iter().filter_map(|(change, why)| {
+        let key = change.keys.first()?;
+        Some(format!(" {} = {} could not be tried: {why}.", key.key, key.pretty(key.to)))
+    });
+    failed.collect()
 }
 
 /// A key, and `10 mm: 18.3 ± 1.5 %`.

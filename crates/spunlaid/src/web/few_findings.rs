@@ -19,7 +19,7 @@ pub struct FewFilamentsCv {
     pub few: f64,
 }
 
-/// Patches that the few filaments of a web in one air must tell well [m], and how far every second one may be off.
+/// Patches that the few filaments of a web in one air must tell well [m], and how far every second one may be off if that matters beside chance.
 const TOLD_WELL: f64 = 0.01;
 const FAR_OFF: f64 = 0.05;
 /// Correlation of the places where neighbours come down, at the pitch of the few, below which those between them are not told.
@@ -64,8 +64,11 @@ pub struct LayerFew {
 impl LayerFew {
     /// Why they do not tell the CV over patches of a side; None if they do.
     pub fn doubt_over(&self, patch: f64) -> Option<FewDoubt> {
-        let of_patch =
-            |cv: &&FewFilamentsCv| cv.patch == patch && patch >= TOLD_WELL && cv.of_halves.abs() > FAR_OFF;
+        // Where chance leaves more open, more filaments would tell hardly more.
+        let matters = |cv: &FewFilamentsCv| cv.by_chance.is_none_or(|by_chance| cv.by_pitch > by_chance);
+        let of_patch = |cv: &&FewFilamentsCv| {
+            cv.patch == patch && patch >= TOLD_WELL && cv.of_halves.abs() > FAR_OFF && matters(cv)
+        };
         match self.correlation < TOGETHER {
             true => Some(FewDoubt::Neighbours(self.correlation)),
             false => self.cvs.iter().find(of_patch).map(|cv| FewDoubt::Halves(patch, cv.of_halves)),
@@ -92,7 +95,7 @@ mod tests {
             patch,
             cv: 0.2,
             by_chance: Some(0.01),
-            by_pitch: 0.01,
+            by_pitch: 0.011,
             of_halves,
             own: 0.0,
             few: 0.2,
@@ -107,6 +110,9 @@ mod tests {
         let doubts = [0.002, 0.01, 0.02, 0.05].map(|patch| told.doubt_over(patch).is_some());
         assert_eq!(doubts, [false, true, true, false]);
         assert_eq!(told.doubt(), Some(FewDoubt::Halves(0.02, 0.08)));
+        let within_chance = |cv: &FewFilamentsCv| FewFilamentsCv { by_chance: Some(0.012), ..*cv };
+        let cvs = told.cvs.iter().map(within_chance).collect();
+        assert_eq!(LayerFew { cvs, ..told }.doubt(), None);
     }
 
     #[test]

@@ -106,8 +106,13 @@ const START: f64 = 4e-4;
 /// leapfrog, with steps that resolve these waves, and tells the whole difference.
 #[test]
 fn invariant_the_step_check_of_a_fed_fibre_compares_it_with_resolved_axial_waves() {
-    // As long as the check, so that its flights are those below: a way of 10 ms takes twice that to come down.
-    let mut case = common::laying::spunbond(&[("run.duration", "40 ms"), ("run.spin_up", "20 ms")]);
+    // As long as the check, so that its flights are those below: a way of 10 ms takes twice that to come down. What is kept
+    // on the belt is short, so that most of what comes down is compared.
+    let mut case = common::laying::spunbond(&[
+        ("run.duration", "40 ms"),
+        ("run.spin_up", "20 ms"),
+        ("belt.kept_length", "30 mm"),
+    ]);
     case.run.replicates = 8;
     let (flown, check) = checked(&case, 2, Isa::detect(), false).unwrap();
     let check = check.expect("long enough");

@@ -76,7 +76,8 @@ fn stat_two_filaments_say_how_uneven_a_web_in_one_air_is() {
         let alone: f64 = covariances.iter().filter(|(neighbour, ..)| *neighbour == 0).map(term).sum();
         let shared: f64 = covariances.iter().filter(|(neighbour, ..)| *neighbour != 0).map(term).sum();
         let (expected, found) = ((alone + shared).sqrt(), cv(&laid.map, side));
-        assert!((expected / found - 1.0).abs() < 0.05, "{side} mm: {expected} for {found}");
+        // Two filaments are no normal pair, which counts for up to a tenth (theory.md (83a)).
+        assert!((expected / found - 1.0).abs() < 0.1, "{side} mm: {expected} for {found}");
         // The program knows the correlations at a few distances and lags only.
         let pairs =
             flown.pairs.iter().find(|pair| pair.patch == patch).expect("pairs at every distance").variance;
