@@ -8,6 +8,7 @@ mod desk;
 
 mod air;
 mod cases;
+mod check;
 mod commands;
 mod compare;
 mod compared_webs;
@@ -18,6 +19,7 @@ mod flown_tension;
 mod gusts;
 mod keys;
 mod lost;
+mod new;
 mod records;
 mod refusals;
 mod results;

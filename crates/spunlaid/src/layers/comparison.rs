@@ -28,7 +28,7 @@ impl Flyer<'_> {
     /// What a few filaments say about webs in the same air, without laying them; None if some of the first one are not flown as a few for all.
     ///
     /// * `specs` – the web as it is, and changed ones
-    /// * `steps` – grows by the steps of all filaments; [`steps_in_same_air`] says about how many there are
+    /// * `steps` – grows by the steps of all filaments
     ///
     /// # Errors
     /// For each web as of [`Flyer::web`]; and if it is stopped.

@@ -19,3 +19,4 @@ mod keys;
 mod rejects;
 mod slips;
 mod web_files;
+mod web_lines;

@@ -1,0 +1,226 @@
+//! `check`: what it tells of a case and of a web.
+
+use crate::desk::{Desk, FED, names, success};
+
+#[test]
+fn check_prints_a_case_that_can_be_read_again() {
+    let desk = Desk::new();
+    let said = success(&mut desk.with("check brief.toml", &["air.velocity=12 m/s"]));
+    for part in [
+        "velocity = \"12 m/s\"",
+        "friction_coefficient = 0.9",
+        "4 elements of 50 mm, 4 eddies of 50 mm",
+        "time step 20 µs, 500 steps; stable below",
+        "34.46 µs",
+        "axial waves",
+        "the shortest, axial waves: sound crosses an element in this time",
+        "expected: less than a second on 1 of ",
+        "MiB of memory, 3 MB of results",
+        "ready: spunlaid run brief.toml --set 'air.velocity=12 m/s'",
+    ] {
+        assert!(said.contains(part), "{part}\n{said}");
+    }
+    assert_eq!(desk.entries(""), names(&["brief.toml"]));
+    // What it prints is the case file that a run resolves to, and remarks.
+    success(&mut desk.with("run brief.toml --out r", &["air.velocity=12 m/s"]));
+    let resolved = String::from_utf8(desk.read("r/case.toml")).unwrap();
+    assert!(said.contains(&resolved), "{said}");
+    std::fs::write(desk.path("printed.toml"), said.split("\nready").next().unwrap()).unwrap();
+    assert!(success(&mut desk.spunlaid("check printed.toml")).contains(&resolved));
+}
+
+#[test]
+fn check_says_which_place_of_a_field_decides_the_step() {
+    let desk = Desk::new();
+    // A channel along x whose turbulence is quickest at three quarters of the fibre: ε/k is four times as large there.
+    let rows = "x_m,y_m,z_m,u_m_s,v_m_s,w_m_s,k_m2_s2,epsilon_m2_s3\n";
+    let plane = |i: usize, j: usize| {
+        let (x, epsilon) = (0.125 * i as f64, if i == 3 { 400.0 } else { 100.0 });
+        format!("{x},{},{},8,0,0,1,{epsilon}\n", j % 2, j / 2)
+    };
+    let all: String = (0..5).flat_map(|i| (0..4).map(move |j| plane(i, j))).collect();
+    std::fs::write(desk.path("channel.csv"), rows.to_owned() + &all).unwrap();
+    let case = "version = 1\n[fibre]\nlength = \"0.5 m\"\ndiameter = \"20 um\"\ndensity = \"950 kg/m3\"\n\
+                youngs_modulus = \"2 GPa\"\nelement_length = \"10 mm\"\n[air]\nfield = \"channel.csv\"\n\
+                [run]\nduration = \"10 ms\"\nscheme = \"implicit-tension\"\n";
+    std::fs::write(desk.path("channel.toml"), case).unwrap();
+    let said = success(&mut desk.spunlaid("check channel.toml"));
+    assert!(said.contains("the turbulence changes fastest 37"), "{said}");
+    assert!(said.contains("mm from the root, where its cut-off frequency is"), "{said}");
+    assert!(
+        said.contains("the shortest, waves of the taut string: a wave of the taut fibre crosses"),
+        "{said}"
+    );
+    // A case whose air is the same everywhere has no such place.
+    let uniform = Desk::new();
+    assert!(!success(&mut uniform.spunlaid("check brief.toml")).contains("changes fastest"));
+}
+
+#[test]
+fn check_tells_what_was_read_of_a_field_and_the_axis_of_its_air() {
+    let desk = Desk::new();
+    // A duct along y.
+    let rows = "x_m,y_m,z_m,u_m_s,v_m_s,w_m_s,k_m2_s2,epsilon_m2_s3\n";
+    let corner = |i: usize| format!("{},{},{},0,-8,{},1,100\n", i % 2, i / 2 % 2, i / 4, i % 2);
+    std::fs::write(desk.path("duct.csv"), rows.to_owned() + &(0..8).map(corner).collect::<String>()).unwrap();
+    let case = "version = 1\n[fibre]\nlength = \"0.5 m\"\ndiameter = \"20 um\"\ndensity = \"950 kg/m3\"\n\
+                youngs_modulus = \"2 GPa\"\nelement_length = \"10 mm\"\n[air]\nfield = \"duct.csv\"\nfield_axis = \"-y\"\n\
+                [run]\nduration = \"10 ms\"\n";
+    std::fs::write(desk.path("duct.toml"), case).unwrap();
+    let said = success(&mut desk.spunlaid("check duct.toml"));
+    for part in [
+        "#   a lattice of 2 × 2 × 2 points",
+        "#     x from 0 m to 1 m",
+        "#   velocity 8 to 8.06 m/s, 8.03 m/s on average",
+        "#   k 1 to 1 m²/s², 1 m²/s² on average",
+        "#   the air flows along -y of the field (1 of its mean velocity), as the fibre hangs",
+    ] {
+        assert!(said.contains(part), "{part}\n{said}");
+    }
+    let plane = |i: usize| format!("{},{},0,-8,{},100\n", i % 2, i / 2, 1 + i % 2);
+    let flat = "x_m,y_m,u_m_s,v_m_s,k_m2_s2,epsilon_m2_s3\n".to_owned();
+    std::fs::write(desk.path("flat.csv"), flat + &(0..4).map(plane).collect::<String>()).unwrap();
+    std::fs::write(desk.path("flat.toml"), case.replace("duct.csv", "flat.csv")).unwrap();
+    let flat = success(&mut desk.spunlaid("check flat.toml"));
+    let line = "#   a plane flow: the air is the same everywhere along z of the field\n";
+    assert!(flat.contains(line) && !said.contains("a plane flow"), "{flat}");
+    // A mesh of faces, too.
+    let mesh = "# vtk DataFile Version 3.0\na\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0 1 0 0 1 1 0 0 1 0\n\
+                CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n9\nPOINT_DATA 4\nVECTORS U double\n0 -8 0 0 -8 0 0 -8 0 0 -8 0\n\
+                SCALARS k double 1\nLOOKUP_TABLE default\n1 1 1 1\nSCALARS epsilon double 1\nLOOKUP_TABLE default\n9 9 9 9\n";
+    std::fs::write(desk.path("flat.vtk"), mesh).unwrap();
+    std::fs::write(desk.path("mesh.toml"), case.replace("duct.csv", "flat.vtk")).unwrap();
+    let flat = success(&mut desk.spunlaid("check mesh.toml"));
+    assert!(flat.contains(line), "{flat}");
+    let said = success(&mut desk.with("check duct.toml", &["air.field_axis=z"]));
+    assert!(said.contains("but the fibre hangs along z; write air.field_axis = \"-y\""), "{said}");
+}
+
+#[test]
+fn check_remarks_on_rounded_elements_and_extrapolated_drag_once() {
+    let desk = Desk::new();
+    let mut command = desk.with("check brief.toml", &["fibre.element_length=33 mm", "fibre.diameter=5 um"]);
+    let output = command.arg("--set").arg("run.time_step=1 us").output().unwrap();
+    assert!(output.status.success());
+    let said = String::from_utf8(output.stderr).unwrap();
+    let note = "note: --set fibre.element_length = \"33 mm\" does not divide fibre.length into whole elements: 6 of 33.33 mm are used";
+    assert_eq!(said.matches(note).count(), 1, "{said}");
+    assert_eq!(
+        said.matches("warning: --set fibre.diameter = \"5 um\" is outside 13 µm to 390 µm").count(),
+        1
+    );
+    assert_eq!(said.lines().count(), 2, "{said}");
+}
+
+/// The numbers of a line: what is told is what the file says, and what follows from it.
+#[test]
+fn analytic_check_tells_the_numbers_of_a_web() {
+    let desk = Desk::new();
+    let web = "[fibre]\nlinear_density = \"2 dtex\"\ndensity = \"910 kg/m³\"\n[laydown]\nsigma_md = \"18 mm\"\nsigma_cd = \"18 mm\"\n\
+               noise = \"12 m^-0.5\"\n[line]\nthroughput = \"0.5 g/min\"\nbasis_weight = \"20 g/m²\"\nfilaments_per_metre = 5000\n\
+               [web]\nwidth = \"0.5 m\"\nlength = \"0.5 m\"\n";
+    std::fs::write(desk.path("web.toml"), web).unwrap();
+    let said = success(&mut desk.spunlaid("check web.toml"));
+    for part in [
+        // 5000 × 0.5 g/min; 2500 g/min over 20 g/m²; 0.5 g/min over 2 dtex.
+        "#   20 g/m² on a belt of 2.083 m/s: 150 kg/h from each metre of width\n",
+        "#   5000 holes per metre of width, each with 0.5 g/min: filaments of 2 dtex, 16.73 µm, fed at 41.67 m/s; 20 m of filament on \
+         each metre of belt\n",
+        "#   500 mm wide and 500 mm long, 1000 × 1000 cells of 500 µm; 2500 filaments cross it\n",
+        "#   nothing is flown: the spread and the noise are given\n",
+        "#   the filaments are independent of each other, which gives a lower bound of the unevenness\n",
+        "# ready: spunlaid web web.toml\n",
+        "basis_weight = \"0.02 kg/m²\"\n",
+    ] {
+        assert!(said.contains(part), "{part}\n{said}");
+    }
+    // What it prints is a web that says the same.
+    std::fs::write(desk.path("printed.toml"), &said).unwrap();
+    assert_eq!(
+        success(&mut desk.spunlaid("check printed.toml")),
+        said.replace("web web.toml", "web printed.toml")
+    );
+    let json: serde_json::Value =
+        serde_json::from_str(&success(&mut desk.spunlaid("check web.toml --json"))).unwrap();
+    for (path, wanted) in [
+        ("/basis_weight_kg_m2", 20e-3),
+        ("/belt_speed_m_s", 2500.0 / 60.0 / 20.0),
+        ("/mass_flow_kg_s_m", 150.0 / 3600.0),
+        ("/layers/0/throughput_kg_s", 0.5e-3 / 60.0),
+        ("/layers/0/linear_density_kg_m", 2e-7),
+        ("/layers/0/filaments_per_m", 5000.0),
+    ] {
+        let found = json.pointer(path).and_then(serde_json::Value::as_f64).unwrap();
+        assert!((found / wanted - 1.0).abs() < 1e-12, "{path} {found} {wanted}");
+    }
+
+    // Each point of a study has numbers of its own.
+    let study = "web = 'web.toml'\ndesign = 'grid'\nreplicates = 2\n[vary]\n'line.basis_weight' = ['10 g/m²', '20 g/m²']\n";
+    std::fs::write(desk.path("study.toml"), study).unwrap();
+    let said = success(&mut desk.spunlaid("check study.toml"));
+    assert!(said.contains("# 2 points of web.toml, each with 2 webs\n"), "{said}");
+    let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
+    let lines: Vec<String> = said.lines().map(words).collect();
+    for line in [
+        "# 1 10 g/m² 10 g/m² 4.167 m/s 150 kg/h",
+        "# 2 20 g/m² 20 g/m² 2.083 m/s 150 kg/h",
+        "# ready: spunlaid sweep study.toml",
+    ] {
+        assert!(lines.iter().any(|said| said == line), "{line}\n{said}");
+    }
+    let json = success(&mut desk.spunlaid("check study.toml --json"));
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["points"][1]["line.basis_weight_kg_m2"], 0.02);
+}
+
+/// Whether the air of the case is the same everywhere, and how all filaments fly in one.
+#[test]
+fn check_tells_in_which_air_the_filaments_of_a_web_hang() {
+    let desk = Desk::with_case(FED);
+    let web = "[laydown]\ncase = \"brief.toml\"\n[line]\nfilaments_per_metre = 1000\n[web]\nwidth = \"0.5 m\"\nlength = \"0.5 m\"\n";
+    std::fs::write(desk.path("web.toml"), web).unwrap();
+    let said = success(&mut desk.spunlaid("check web.toml"));
+    for part in [
+        "#   brief.toml: its eddies are given a place in space (air.lateral = \"von-karman\")\n",
+        // Eight in the length scale of the case, 16 mm.
+        "#   250 filaments fly in one field of eddies, on a sheet of 500 mm × 500 mm; the web of 500 follows from them (web.flown)\n",
+        "#   the field takes ",
+        "--set line.depth=\"20 mm\"\n",
+        "fed at 50 m/s; 16.7 m of filament on each metre of belt",
+    ] {
+        assert!(said.contains(part), "{part}\n{said}");
+    }
+    // As many as the file says, and all of them.
+    let said = success(&mut desk.with("check web.toml", &["web.flown=100", "line.depth=20 mm"]));
+    assert!(
+        said.contains("#   50 filaments fly in one field of eddies, on a sheet of 500 mm × 500 mm;"),
+        "{said}"
+    );
+    assert!(!said.contains("--set line.depth"), "{said}");
+    // Ten length scales of the air, for a web that is narrower.
+    let narrow = ["web.width=0.1 m", "line.filaments_per_metre=5000"];
+    let said = success(&mut desk.with("check web.toml", &narrow));
+    assert!(
+        said.contains("#   80 filaments fly in one field of eddies, on a sheet of 160 mm × 500 mm; the web of 500 follows"),
+        "{said}"
+    );
+    let together = desk.with("check web.toml", &["web.method=shared-air", "web.flown=all"]).output().unwrap();
+    let said = String::from_utf8(together.stdout).unwrap();
+    assert!(
+        said.contains(
+            "#   all 500 filaments fly in one field of eddies, so that neighbours come down together\n"
+        ),
+        "{said}"
+    );
+    // The notes about the case are told, as `spunlaid web` tells them.
+    let notes = String::from_utf8(together.stderr).unwrap();
+    assert!(notes.contains("note:") && notes.contains("web.method"), "{notes}");
+    let alone = success(&mut desk.with("check web.toml", &["web.method=dynamics"]));
+    for part in [
+        "#   brief.toml: each fibre that is flown has turbulence of its own\n",
+        "lower bound",
+        "to fly them in one air, as in a line: --set web.method=shared-air --set line.depth=\"20 mm\"",
+    ] {
+        assert!(alone.contains(part), "{part}\n{alone}");
+    }
+}

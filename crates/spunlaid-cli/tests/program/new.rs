@@ -1,0 +1,274 @@
+//! `new`: the files that it writes, from nothing and from the numbers of a line.
+
+use crate::desk::{Desk, names, refusal, success};
+
+#[test]
+fn new_writes_a_case_that_can_be_run_and_overwrites_nothing() {
+    let desk = Desk::new();
+    let said = success(&mut desk.spunlaid("new my.toml"));
+    assert_eq!(said, "wrote my.toml; change it, then: spunlaid run my.toml\n");
+    let written = desk.read("my.toml");
+    let shorter = ["run.duration=2 ms", "run.time_step=20 us"];
+    success(&mut desk.with("run my.toml", &shorter));
+    assert_eq!(
+        refusal(&mut desk.spunlaid("new my.toml"), 1),
+        "error: my.toml: exists already and is not overwritten; name another file\n"
+    );
+    assert!(desk.read("my.toml") == written);
+    // On standard output the same.
+    assert_eq!(success(&mut desk.spunlaid("new -")).as_bytes(), written);
+    assert!(success(&mut desk.spunlaid("new - --fed")).contains("[belt]") && !desk.path("-").exists());
+    let said = refusal(&mut desk.spunlaid("new no/such/folder/my.toml"), 2);
+    assert!(said.starts_with("error: no/such/folder/my.toml: cannot be written: "), "{said}");
+    assert!(said.ends_with("; name another file\n"), "{said}");
+}
+
+#[test]
+fn new_writes_a_study_beside_its_case() {
+    let desk = Desk::new();
+    let said = success(&mut desk.spunlaid("new --study brief.toml"));
+    let wanted =
+        "wrote brief_study.toml, which varies brief.toml; change it, then: spunlaid sweep brief_study.toml\n";
+    assert_eq!(said, wanted);
+    let said = success(&mut desk.spunlaid("sweep brief_study.toml"));
+    assert!(said.contains("9 points"), "{said}");
+    assert_eq!(
+        refusal(&mut desk.spunlaid("new --study brief.toml"), 1),
+        "error: brief_study.toml: exists already and is not overwritten; name another file\n"
+    );
+    // Without a case, that is written too.
+    let said = success(&mut desk.spunlaid("new --study --fed line.toml"));
+    assert!(said.starts_with("wrote line.toml\nwrote line_study.toml, which varies line.toml;"), "{said}");
+    assert!(success(&mut desk.spunlaid("sweep line_study.toml --print-point 1")).contains("[belt]"));
+    let said = refusal(&mut desk.spunlaid("new --study line_study.toml"), 1);
+    assert!(said.contains("line_study.toml: is a study already"), "{said}");
+    assert!(refusal(&mut desk.spunlaid("new --study -"), 1).contains("name a file"));
+    std::fs::write(desk.path("bad.toml"), "[fibre]\nlength = 3\n").unwrap();
+    assert!(refusal(&mut desk.spunlaid("new --study bad.toml"), 1).starts_with("error: bad.toml:"));
+}
+
+#[test]
+fn new_writes_a_fed_fibre_that_can_be_run() {
+    let desk = Desk::new();
+    success(&mut desk.spunlaid("new --fed line.toml"));
+    let said = success(&mut desk.spunlaid("check line.toml"));
+    for part in [
+        "elements of 2 mm, one fed every 40 µs (2 steps); 250 from the inlet to the belt",
+        "16.7 m of fibre on each metre of belt; 12.5 m are fed in the run, 10.5 m of them after the spin-up",
+        "the air at 126 stations, 4 mm apart",
+        "feed of an element",
+    ] {
+        assert!(said.contains(part), "{part}\n{said}");
+    }
+    assert!(!said.contains("eddies of"), "{said}");
+    let said = success(&mut desk.with("run line.toml", &["run.duration=30 ms", "run.replicates=2"]));
+    assert!(said.contains("Spread in machine direction"), "{said}");
+    // Lines that are commented out show the default.
+    let written = String::from_utf8(desk.read("line.toml")).unwrap();
+    let optional = |line: &&str| {
+        line.strip_prefix("# ").is_some_and(|rest| rest.contains(" = ") && !rest.contains("version"))
+    };
+    let all: Vec<&str> = written.lines().filter(optional).collect();
+    assert!(all.len() > 8, "{all:?}");
+    let uncommented: String = written
+        .lines()
+        .map(|line| if optional(&line) { &line[2..] } else { line }.to_owned() + "\n")
+        .collect();
+    std::fs::write(desk.path("all.toml"), uncommented).unwrap();
+    let resolved = |name: &str| {
+        success(&mut desk.spunlaid(&format!("check {name}"))).split("# mesh").next().unwrap().to_owned()
+    };
+    assert_eq!(resolved("all.toml"), resolved("line.toml"));
+}
+
+/// The numbers of a line as options.
+const LINE: [&str; 12] = [
+    "--polymer",
+    "pp",
+    "--throughput",
+    "0.5 g/min",
+    "--dtex",
+    "2",
+    "--basis-weight",
+    "20 g/m²",
+    "--holes-per-metre",
+    "1000",
+    "--air-speed",
+    "60 m/s",
+];
+
+/// Throughput, titre, holes and basis weight give both speeds; the files can be checked and laid as they are.
+#[test]
+fn analytic_new_writes_a_web_from_the_numbers_of_a_line() {
+    let desk = Desk::new();
+    let said = success(desk.spunlaid("new --web line.toml").args(LINE));
+    assert_eq!(
+        said,
+        "wrote line.toml, line_filament.toml and line_air.csv; change them, then: spunlaid check line.toml, spunlaid web line.toml\n"
+    );
+    let text = |name: &str| String::from_utf8(desk.read(name)).unwrap();
+    let (web, case) = (text("line.toml"), text("line_filament.toml"));
+    // 0.5 g/min / 2 dtex; 1000 × 0.5 g/min / 20 g/m²; √(4 × 2 dtex / π / 905 kg/m³).
+    for part in [
+        "throughput = \"0.5 g/min\"   # of each hole: 0.5 g/min / 2 dtex = fed at 41.67 m/s\n",
+        "basis_weight = \"20 g/m²\"   # of the whole web: 1000 holes/m × 0.5 g/min / 20 g/m² = a belt of 0.4167 m/s\n",
+        "filaments_per_metre = 1000   # 30 kg/h from each metre of width, 30 kg/h in all\n",
+    ] {
+        assert!(web.contains(part), "{part}\n{web}");
+    }
+    for part in
+        ["linear_density = \"2 dtex\"   # of 16.77 µm", "speed = \"41.67 m/s\"", "speed = \"0.4167 m/s\""]
+    {
+        assert!(case.contains(part), "{part}\n{case}");
+    }
+    let said = success(&mut desk.spunlaid("check line.toml"));
+    assert!(
+        said.contains("#   20 g/m² on a belt of 0.4167 m/s: 30 kg/h from each metre of width\n"),
+        "{said}"
+    );
+    assert!(said.contains(
+        "1000 holes per metre of width, each with 0.5 g/min: filaments of 2 dtex, 16.77 µm, fed at 41.67 m/s"
+    ));
+    // Independent filaments lay their weight exactly.
+    let small = [
+        "web.width=0.4 m",
+        "web.length=0.4 m",
+        "web.cell=1 mm",
+        "line.basis_weight=2 g/m²",
+        "web.method=dynamics",
+        "web.guessed=none",
+    ];
+    std::fs::write(desk.path("line_filament.toml"), case.replace("\"1 s\"", "\"0.15 s\"")).unwrap();
+    success(&mut desk.with("web line.toml --out w --quiet", &small));
+    let weight = desk.summary("w")["web"]["basis_weight_kg_m2"].as_f64().unwrap();
+    assert!((weight / 2e-3 - 1.0).abs() < 1e-6, "{weight}");
+    // Nothing is overwritten, and nothing is written beside what is there.
+    std::fs::remove_file(desk.path("line.toml")).unwrap();
+    let said = refusal(desk.spunlaid("new --web line.toml").args(LINE), 1);
+    assert_eq!(
+        said,
+        "note: 2 has no unit and is taken as 2 dtex\nerror: line_air.csv: exists already and is not overwritten; name \
+         another file\n"
+    );
+    assert!(!desk.path("line.toml").exists());
+}
+
+/// The commands of docs/line.md write and print what the page shows.
+#[test]
+fn the_page_of_a_line_shows_what_its_commands_do() {
+    let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/line.md");
+    let page = std::fs::read_to_string(page).unwrap();
+    let blocks: Vec<Vec<&str>> = page
+        .split("\n\n")
+        .filter(|block| block.starts_with("    "))
+        .map(|block| block.lines().map(str::trim).collect())
+        .collect();
+    let [commands, file, checked, ..] = &blocks[..] else { panic!("{page}") };
+    let command = commands.join(" ").replace('\\', "");
+    let (new, check) = command.split_once("spunlaid check").unwrap();
+    assert!(check.starts_with(" line.toml spunlaid web line.toml"), "{check}");
+    // Every other part between quotes is one word.
+    let words = new.split('"').enumerate().flat_map(|(i, part)| match i % 2 {
+        0 => part.split_whitespace().collect::<Vec<_>>(),
+        _ => vec![part],
+    });
+    let desk = Desk::new();
+    success(desk.spunlaid("").args(words.skip(1)));
+    let written = String::from_utf8(desk.read("line.toml")).unwrap();
+    let said = success(&mut desk.spunlaid("check line.toml"));
+    for (lines, text) in [(file, written), (checked, said)] {
+        assert!(lines.len() > 4);
+        for line in lines {
+            assert!(text.lines().any(|one| one == *line), "{line}\n{text}");
+        }
+    }
+}
+
+#[test]
+fn new_writes_beams_from_a_diameter_and_all_holes() {
+    let desk = Desk::new();
+    let options = "new --web two.toml --polymer pet --holes 9000 --beams 2";
+    let more =
+        ["--width", "4.5 m", "--throughput", "0.6 g/min", "--diameter", "16 µm", "--basis-weight", "15 gsm"];
+    let mut command = desk.spunlaid(options);
+    let output = command.args(more).args(["--air-speed", "30 m/s"]).output().unwrap();
+    assert!(output.status.success());
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.contains("warning: the air of 30 m/s is not faster than the filament, 37.12 m/s"), "{said}");
+    let said = success(&mut desk.spunlaid("check two.toml"));
+    // 2 × 2000 × 0.6 g/min / 15 g/m², and π/4 (16 µm)² × 1340 kg/m³.
+    for part in [
+        "#   15 g/m² on a belt of 2.667 m/s: 144 kg/h from each metre of width\n",
+        "#   layer \"beam 2\": 2000 holes per metre of width, each with 0.6 g/min: filaments of 2.694 dtex, 16 µm",
+        "18000 filaments cross it",
+    ] {
+        assert!(said.contains(part), "{part}\n{said}");
+    }
+}
+
+/// A number alone has the unit that its option names, and a polymer may come with the melt flow rate of its grade: the files are
+/// the same, and each is said once.
+#[test]
+fn identical_new_reads_the_numbers_of_a_line_however_they_are_written() {
+    let written = |polymer: &str, throughput: &str, dtex: &str, weight: &str, speed: &str| {
+        let desk = Desk::new();
+        let mut command = desk.spunlaid("new --web line.toml --holes-per-metre 1000");
+        command.args(["--polymer", polymer, "--throughput", throughput, "--dtex", dtex]);
+        let output = command.args(["--basis-weight", weight, "--air-speed", speed]).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.success(), "{said}");
+        (["line.toml", "line_filament.toml", "line_air.csv"].map(|file| desk.read(file)), said)
+    };
+    let (files, said) = written("pp", "0.55 g/min", "2 dtex", "20 g/m²", "60 m/s");
+    assert!(!said.contains("note:") && !said.contains("warning:"), "{said}");
+    let (same, said) = written("PP", "0.55 g/min/hole", "2 dtex", "20 gsm", "60 m/s");
+    assert!(same == files && !said.contains("note:"), "{said}");
+    let (same, said) = written("PP, MFR 35 g/10min", "0.55 g/(min hole)", "2", "20", "60");
+    assert!(same == files);
+    for note in [
+        "note: the melt flow rate is not used, because these filaments begin at the slot with their titre",
+        "note: 2 has no unit and is taken as 2 dtex",
+        "note: 20 has no unit and is taken as 20 g/m²",
+        "note: 60 has no unit and is taken as 60 m/s",
+    ] {
+        assert_eq!(said.matches(note).count(), 1, "{note}\n{said}");
+    }
+    assert!(said.contains("spinline.melt_flow_rate") && said.matches("note:").count() == 4, "{said}");
+    let desk = Desk::new();
+    let said = refusal(desk.spunlaid("new --web line.toml --polymer").args(["MFR 35"]), 1);
+    assert!(said.contains("write one of pp, pet, pa6, pla before the melt flow rate"), "{said}");
+    let said = refusal(&mut desk.spunlaid("new --web line.toml --beams 0"), 1);
+    assert!(said.contains("write a whole number from 1 to 20"), "{said}");
+}
+
+#[test]
+fn rejects_a_line_that_is_not_whole_or_cannot_run() {
+    let desk = Desk::new();
+    assert_eq!(
+        refusal(&mut desk.spunlaid("new --web line.toml --polymer pp --dtex 2 --holes-per-metre 5000"), 1),
+        "error: the numbers of the line are incomplete: --throughput, --basis-weight and --air-speed are missing; give them, or \
+         call the command in a terminal, where it asks; `spunlaid new --help` has examples\n"
+    );
+    let other = |more: &[&str]| refusal(desk.spunlaid("new --web line.toml").args(&LINE[..6]).args(more), 1);
+    let said = other(&["--basis-weight", "0.01 g/m²", "--holes-per-metre", "1000", "--air-speed", "60 m/s"]);
+    assert!(
+        said.contains(
+            "line.basis_weight = \"0.01 g/m²\" takes a belt of 833.3 m/s, which is more than line.feed_speed"
+        ),
+        "{said}"
+    );
+    let said = other(&[
+        "--width",
+        "3.2173 m",
+        "--basis-weight",
+        "10 g/m²",
+        "--holes-per-metre",
+        "1000",
+        "--air-speed",
+        "60 m/s",
+    ]);
+    assert!(said.contains("web.width = \"3.2173 m\" is not a whole number of cells"), "{said}");
+    assert_eq!(desk.entries(""), names(&["brief.toml"]), "nothing is left");
+    let said = refusal(&mut desk.spunlaid("new line.toml --dtex 2"), 1);
+    assert!(said.contains("--web"), "{said}");
+}

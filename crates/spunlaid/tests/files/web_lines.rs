@@ -1,0 +1,195 @@
+//! Webs in the words of a line: throughput, titre, holes and basis weight, and the speeds that follow.
+
+use crate::web_files::{KNOWN, assert_reads_back, bits, set};
+use spunlaid::input::{LaydownSource, WebFile, parse_web, read_case, read_web};
+use spunlaid::web::{Fibres, Filaments};
+
+/// A line in its own words: 2 dtex, half a gram per minute and hole, 20 g/m².
+const LINE: &str = r#"
+[fibre]
+linear_density = "2 dtex"
+density = "910 kg/m³"
+[laydown]
+sigma_md = "18.4 mm"
+sigma_cd = "18.3 mm"
+noise = "12.4 m^-0.5"
+[line]
+throughput = "0.5 g/min"
+basis_weight = "20 g/m²"
+rows = [{ pitch = "even", filaments = 5000 }]
+[web]
+width = "1 m"
+length = "1 m"
+"#;
+
+fn read_line(values: &[(&str, &str)]) -> WebFile {
+    let values: Vec<_> = values.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
+    parse_web(LINE, "../../cases/line.toml", &values).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn analytic_speeds_follow_from_throughput_and_basis_weight() {
+    let file = read_line(&[]);
+    assert_reads_back(&file);
+    for line in [
+        "linear_density = \"2e-7 kg/m\"",
+        "basis_weight = \"0.02 kg/m²\"",
+        "pitch = \"even\"",
+        "throughput = ",
+    ] {
+        assert!(file.text.contains(line), "{line}: {}", file.text);
+    }
+    let layer = &file.spec.layers[0];
+    // 0.5 g/min over 2 dtex; 5000 of them over 20 g/m².
+    let near = |found: f64, wanted: f64| assert!((found / wanted - 1.0).abs() < 1e-12, "{found} {wanted}");
+    near(layer.feed_speed, 0.5e-3 / 60.0 / 2e-7);
+    near(layer.belt_speed, 5000.0 * 0.5e-3 / 60.0 / 20e-3);
+    let LaydownSource::Surrogate(surrogate) = layer.source else { panic!("numbers") };
+    near(file.spec.web([Fibres::Surrogate(surrogate)]).basis_weight(), 20e-3);
+    // The nozzles of a row stay even when their number or the width changes.
+    for (key, value, pitch) in [("line.rows.1.filaments", "4000", 0.25e-3), ("web.width", "2 m", 0.4e-3)] {
+        let Filaments::Rows(rows) = &read_line(&[(key, value)]).spec.layers[0].filaments else {
+            panic!("rows")
+        };
+        near(rows[0].pitch, pitch);
+    }
+}
+
+/// What is written in other words comes to the same, and numbers that are rounded to three digits agree.
+#[test]
+fn any_consistent_set_of_numbers_is_read() {
+    let [feed, belt] = [0.5e-3 / 60.0 / 2e-7, 5000.0 * 0.5e-3 / 60.0 / 20e-3];
+    let speeds = |file: &WebFile| [file.spec.layers[0].feed_speed, file.spec.layers[0].belt_speed];
+    let of_text = |text: &str| parse_web(text, "line.toml", &[]).unwrap_or_else(|error| panic!("{error}"));
+    for (line, wanted) in [
+        (
+            "throughput = \"0.5 g/min\"\nfeed_speed = \"41.7 m/s\"\nbasis_weight = \"20 g/m²\"",
+            [41.7, belt * 41.7 / feed],
+        ),
+        ("throughput = \"0.5 g/min\"\nbelt_speed = \"2.08 m/s\"\nbasis_weight = \"20 gsm\"", [feed, 2.08]),
+        ("feed_speed = \"2500 m/min\"\nbasis_weight = \"20 g/m²\"", [feed, belt]),
+        ("throughput = \"0.03 kg/h\"\nbelt_speed = \"125 m/min\"", [feed, belt]),
+    ] {
+        let text = LINE.replace("throughput = \"0.5 g/min\"\nbasis_weight = \"20 g/m²\"", line);
+        let file = of_text(&text);
+        assert_reads_back(&file);
+        for (found, wanted) in speeds(&file).into_iter().zip(wanted) {
+            assert!((found / wanted - 1.0).abs() < 1e-12 * wanted.max(1.0), "{line}: {found} {wanted}");
+        }
+    }
+}
+
+/// An override stands in place of what the file says in other words.
+#[test]
+fn an_override_replaces_the_other_key() {
+    let layer = |key: &str, value: &str| {
+        let file = read_line(&[(key, value)]);
+        assert_reads_back(&file);
+        file.spec.layers[0].clone()
+    };
+    assert_eq!(layer("line.feed_speed", "50 m/s").feed_speed, 50.0);
+    assert_eq!(layer("line.belt_speed", "3 m/s").belt_speed, 3.0);
+    assert_eq!(layer("fibre.diameter", "18 µm").diameter, 18e-6);
+    let known =
+        |key: &str, value: &str| read_web(KNOWN.as_ref(), &set(key, value)).unwrap().spec.layers[0].clone();
+    assert!((known("line.throughput", "0.5 g/min").feed_speed - 35.99).abs() < 0.01);
+    assert!((known("line.basis_weight", "30 g/m²").belt_speed - 0.5 * 3.8594).abs() < 1e-4);
+    assert!((known("fibre.linear_density", "2 dtex").diameter - 16.73e-6).abs() < 1e-8);
+    let rows = known("line.rows", "[{ pitch = 'even', filaments = 1000 }]").filaments;
+    assert!(matches!(&rows, Filaments::Rows(rows) if rows[0].filaments == 1000), "{rows:?}");
+    assert_eq!(
+        layer("line.filaments_per_metre", "4000").filaments,
+        Filaments::AtRandom { per_metre: 4000.0 }
+    );
+    // Both as overrides are compared.
+    let both = [("line.feed_speed", "50 m/s"), ("line.throughput", "0.5 g/min")];
+    let both = both.map(|(key, value)| (key.to_owned(), value.to_owned()));
+    let said = parse_web(LINE, "line.toml", &both).unwrap_err().to_string();
+    assert!(
+        said.contains(
+            "disagrees with line.feed_speed = 50 m/s and filaments of 2 dtex, which make 0.6 g/min"
+        ),
+        "{said}"
+    );
+}
+
+/// The basis weight is that of all layers: one belt carries them.
+#[test]
+fn analytic_several_layers_make_up_the_basis_weight() {
+    let second = |line: &str| {
+        format!(
+            "[[layer]]\n[layer.fibre]\nlinear_density = \"1 dtex\"\ndensity = \"910 kg/m³\"\n[layer.laydown]\nsigma_md = \"20 mm\"\n\
+             sigma_cd = \"20 mm\"\nnoise = \"10 m^-0.5\"\n[layer.line]\nfilaments_per_metre = 3000\nfeed_speed = \"40 m/s\"\n{line}"
+        )
+    };
+    let first = LINE
+        .replace("[fibre]", "[[layer]]\n[layer.fibre]")
+        .replace("[laydown]", "[layer.laydown]")
+        .replace("[line]", "[layer.line]")
+        .replace("basis_weight = \"20 g/m²\"\n", "");
+    let weight = "basis_weight = \"20 g/m²\"\n";
+    for text in [
+        format!("{}{}", first.replace("rows = ", &format!("{weight}rows = ")), second("")),
+        format!("{first}{}", second(weight)),
+        format!("{}{}", first.replace("rows = ", &format!("{weight}rows = ")), second(weight)),
+    ] {
+        let file = parse_web(&text, "layers.toml", &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        assert_reads_back(&file);
+        let belt = (5000.0 * 0.5e-3 / 60.0 + 3000.0 * 1e-7 * 40.0) / 20e-3;
+        for layer in &file.spec.layers {
+            assert!((layer.belt_speed / belt - 1.0).abs() < 1e-12, "{}", layer.belt_speed);
+        }
+        // Whichever layer is named, the belt is that of both.
+        let faster = parse_web(&text, "layers.toml", &set("layer.2.line.belt_speed", "5 m/s")).unwrap().spec;
+        assert!(faster.layers.iter().all(|layer| layer.belt_speed == 5.0), "{faster:?}");
+    }
+}
+
+/// The numbers of the line hold for the case that is flown.
+#[test]
+fn a_case_is_flown_with_the_throughput_and_the_belt_of_its_web() {
+    let read = |case: &str, values: &[(&str, &str)]| {
+        let text = format!(
+            "[laydown]\ncase = \"{case}.toml\"\n[line]\nfilaments_per_metre = 5000\n[web]\nwidth = \"1 m\"\nlength = \"1 m\"\n"
+        );
+        let values: Vec<_> = values.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
+        parse_web(&text, "../../cases/line.toml", &values).unwrap_or_else(|error| panic!("{error}"))
+    };
+    let case = |file: &WebFile| file.spec.layers[0].source.case().unwrap().clone();
+    let near = |found: f64, wanted: f64| assert!((found / wanted - 1.0).abs() < 1e-9, "{found} {wanted}");
+    let line = [("line.throughput", "0.5 g/min"), ("line.basis_weight", "20 g/m²")];
+    let file = read("spunbond", &line);
+    assert_reads_back_beside_cases(&file);
+    let (layer, flown) = (&file.spec.layers[0], case(&file));
+    near(flown.throughput().unwrap(), 0.5e-3 / 60.0);
+    near(flown.line.unwrap().belt_speed, 5000.0 * 0.5e-3 / 60.0 / 20e-3);
+    let Some(speeds) = flown.line.map(|line| [line.feed_speed, line.belt_speed]) else { panic!("no line") };
+    assert_eq!([layer.feed_speed, layer.belt_speed], speeds);
+    let said: Vec<String> = file.notes.iter().map(ToString::to_string).collect();
+    for note in [
+        "line.throughput = \"0.5 g/min\" is laid with feed.speed = 35.99 m/s in place of the 50 m/s of ",
+        "line.basis_weight = \"20 g/m²\" is laid with belt.speed = 2.083 m/s in place of the 3 m/s of ",
+    ] {
+        assert!(said.iter().any(|said| said.contains(note)), "{said:?}");
+    }
+    // The same case with these speeds written into it.
+    let alone =
+        [("feed.speed", format!("{:e} m/s", speeds[0])), ("belt.speed", format!("{:e} m/s", speeds[1]))];
+    let alone = alone.map(|(key, value)| (key.to_owned(), value));
+    assert_eq!(read_case("../../cases/spunbond.toml".as_ref(), &alone).unwrap().0, flown);
+    // A spinline is solved with the throughput.
+    let file = read("whole_line_fibre", &[("line.throughput", "0.4 g/min")]);
+    let flown = case(&file);
+    near(flown.throughput().unwrap(), 0.4e-3 / 60.0);
+    assert_eq!(flown.spinline.as_ref().unwrap().throughput, 0.4e-3 / 60.0);
+    assert!(flown.fibre.diameter < case(&read("whole_line_fibre", &[])).fibre.diameter);
+    // What the case has itself is no change.
+    let file =
+        read("whole_line_fibre", &[("line.throughput", "0.5 g/min"), ("line.basis_weight", "13.9 g/m²")]);
+    assert!(!file.notes.iter().any(|note| note.to_string().contains("in place of")), "{:?}", file.notes);
+}
+
+fn assert_reads_back_beside_cases(file: &WebFile) {
+    let again = parse_web(&file.text, "web.toml", &[]).unwrap();
+    assert_eq!(bits(&again.spec), bits(&file.spec), "{}", file.text);
+}
