@@ -221,10 +221,19 @@ fn few_of_changes(spec: &WebSpec, changes: &[Change], by: LayControl<'_>) -> Res
     let Some(told) = flyer.few_in_same_air(&webs, by.laid)? else { return Ok(None) };
     let mut told = webs.into_iter().zip(told).map(|(spec, few)| few.map(|few| WebOfFew::new(spec, few)));
     let Some(base) = told.next().transpose()? else { return Ok(None) };
-    Ok(Some(
-        told.map(|of_few| of_few.map(|of_few| base.changes_to(&of_few)).map_err(|why| why.to_string()))
-            .collect(),
-    ))
+    let change = |of_few: Result<WebOfFew, Error>| {
+        of_few.map(|of_few| base.changes_to(&of_few)).map_err(|why| why.to_string())
+    };
+    let mut tried: Tried = told.map(change).collect();
+    // Where eddies are far longer or shorter than those of others, too little of a web may be laid while the same air passes for all.
+    let is_odd = |(change, tried): (&Change, &Result<_, _>)| change.setting == Setting::Guess && tried.is_err();
+    for number in 0..changes.len() {
+        if changes.len() > 1 && is_odd((&changes[number], &tried[number])) {
+            let alone = few_of_changes(spec, &changes[number..=number], by)?;
+            tried[number] = alone.into_iter().flatten().next().unwrap_or_else(|| tried[number].clone());
+        }
+    }
+    Ok(Some(tried))
 }
 
 /// Flies and lays each changed web by itself.
