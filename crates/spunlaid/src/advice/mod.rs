@@ -226,7 +226,8 @@ fn few_of_changes(spec: &WebSpec, changes: &[Change], by: LayControl<'_>) -> Res
     };
     let mut tried: Tried = told.map(change).collect();
     // Where eddies are far longer or shorter than those of others, too little of a web may be laid while the same air passes for all.
-    let is_odd = |(change, tried): (&Change, &Result<_, _>)| change.setting == Setting::Guess && tried.is_err();
+    let is_odd =
+        |(change, tried): (&Change, &Result<_, _>)| change.setting == Setting::Guess && tried.is_err();
     for number in 0..changes.len() {
         if changes.len() > 1 && is_odd((&changes[number], &tried[number])) {
             let alone = few_of_changes(spec, &changes[number..=number], by)?;
