@@ -4,22 +4,19 @@
 //!
 //! ```text
 //! access   where a web has what a key names
-//! rows     one row for each key: its values, its meaning and its access
+//! table    one row for each key, a file for each table: its values, its meaning and its access
 //! ```
 
 mod access;
-mod rows;
+mod table;
 
 pub use access::WebKey;
 pub(crate) use access::in_rows;
-pub use rows::WEB_KEYS;
-pub(crate) use rows::{METHODS, NUMBERS, ONE_SOURCE};
+pub(crate) use table::{METHODS, NUMBERS, ONE_SOURCE};
+pub use table::{WEB_KEYS, WEB_TABLES};
 
 use super::WebSpec;
 use crate::case::keys::{self, Key, KeyTable, TableList};
-
-/// The tables of the file of a web, in order. A file with several layers has the first three in each `[[layer]]`.
-pub const WEB_TABLES: [&str; 5] = ["layer", "fibre", "laydown", "line", "web"];
 
 /// The keys of a web.
 pub static WEB: KeyTable<WebSpec> = KeyTable {

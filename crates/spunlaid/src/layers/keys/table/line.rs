@@ -1,0 +1,217 @@
+//! The keys of the table `[line]`.
+
+use super::super::access::{Access, WebKey, first_row, in_rows, is_flown, layer, layer_mut, of_row};
+use super::{EITHER, MOST_FILAMENTS, positive};
+use crate::case::keys::row::{key, number, quantity, whole};
+use crate::case::keys::{EVEN, Kind, Sign, Value};
+use crate::units::Dimension;
+use crate::web::Filaments;
+
+/// In the order of the file.
+pub(super) const KEYS: &[WebKey] = &[
+    positive("line.feed_speed", Dimension::Velocity)
+        .access(Access {
+            get: |web| {
+                layer(web).filter(|layer| layer.throughput.is_none()).map(|layer| layer.feed_speed.into())
+            },
+            set: |web, value| {
+                let layer = layer_mut(web)?;
+                (layer.feed_speed, layer.throughput) = (number(value)?, None);
+                Ok(())
+            },
+        })
+        .derived(is_flown)
+        .same_in_case("feed.speed")
+        .required("50 m/s")
+        .meaning(
+            "Speed at which each filament is fed: the spinning speed. With `laydown.case` or \
+             `laydown.results` it is that of the case.",
+        )
+        .label("Feed speed"),
+    positive("line.throughput", Dimension::MassFlow)
+        .access(Access {
+            get: |web| layer(web)?.throughput.map(Value::Number),
+            set: |web, value| {
+                let (throughput, layer) = (number(value)?, layer_mut(web)?);
+                (layer.feed_speed, layer.throughput) =
+                    (throughput / layer.linear_density(), Some(throughput));
+                Ok(())
+            },
+        })
+        .alternative_to(&["line.feed_speed"], EITHER)
+        .in_other_words(|web| layer(web).map(|layer| (layer.linear_density() * layer.feed_speed).into()))
+        .gives_case(&["feed.speed", "spinline.throughput"])
+        .read_last()
+        .follows("`feed_speed` and the filament give it")
+        .usual(1e-8, 1e-3)
+        .meaning(
+            "Mass flow of a hole, which may be written instead of `line.feed_speed`: the feed speed is the \
+             throughput over the linear density. With `laydown.case` the case is flown with this \
+             throughput, whatever it has itself.",
+        )
+        .synonyms(&["output per hole", "mass flow", "grams per minute"])
+        .label("Throughput of a hole"),
+    positive("line.belt_speed", Dimension::Velocity)
+        .access(Access {
+            get: |web| layer(web).filter(|_| web.basis_weight.is_none()).map(|layer| layer.belt_speed.into()),
+            set: |web, value| {
+                let belt_speed = number(value)?;
+                layer_mut(web)?;
+                web.layers.iter_mut().for_each(|layer| layer.belt_speed = belt_speed);
+                web.basis_weight = None;
+                Ok(())
+            },
+        })
+        .derived(is_flown)
+        .same_in_case("belt.speed")
+        .of_all_layers()
+        .required("3 m/s")
+        .meaning(
+            "Speed of the belt. It is written once, in any of the layers, because all lie on one belt. \
+             With `laydown.case` or `laydown.results` it is that of the case.",
+        )
+        .label("Belt speed"),
+    positive("line.basis_weight", Dimension::BasisWeight)
+        .access(Access {
+            get: |web| layer(web).and(web.basis_weight).map(Value::Number),
+            set: |web, value| {
+                let basis_weight = number(value)?;
+                let belt_speed = web.belt_speed_for(basis_weight);
+                web.layers.iter_mut().for_each(|layer| layer.belt_speed = belt_speed);
+                web.basis_weight = Some(basis_weight);
+                Ok(())
+            },
+        })
+        .alternative_to(&["line.belt_speed"], EITHER)
+        .gives_case(&["belt.speed"])
+        .read_last()
+        .of_all_layers()
+        .follows("`belt_speed` and the filaments give it")
+        .usual(1e-3, 2.0)
+        .meaning(
+            "Mass of the web per area, that of all layers together, which may be written instead of \
+             `line.belt_speed`, in any of the layers: the belt is as fast as it takes to lay it. With \
+             `laydown.case` the case is flown above this belt, whatever it has itself.",
+        )
+        .synonyms(&["grammage", "mass per area", "surface weight"])
+        .label("Basis weight"),
+    key("line.filaments_per_metre", Kind::Whole(1, MOST_FILAMENTS))
+        .access(Access {
+            get: |web| match layer(web)?.filaments {
+                Filaments::AtRandom { per_metre } | Filaments::Slot { per_metre, .. } => {
+                    Some(Value::Whole(per_metre.round() as u64))
+                }
+                Filaments::Rows(_) => None,
+            },
+            set: |web, value| {
+                let filaments = &mut layer_mut(web)?.filaments;
+                let per_metre = whole(value)? as f64;
+                *filaments = match *filaments {
+                    Filaments::Slot { depth, .. } => Filaments::Slot { per_metre, depth },
+                    _ => Filaments::AtRandom { per_metre },
+                };
+                Ok(())
+            },
+        })
+        .alternative_to(&["line.rows"], "filaments come down at random places or in rows; keep one")
+        .follows("`rows`")
+        .varies()
+        .meaning(
+            "Number of filaments per metre of width, which come down at random places, or with `depth` at \
+             an even pitch. The nearest whole number is laid.",
+        )
+        .synonyms(&["holes per metre", "capillaries per metre"])
+        .label("Filaments per metre"),
+    quantity("line.depth", Dimension::Length, Sign::NotNegative)
+        .access(Access {
+            get: |web| match layer(web)?.filaments {
+                Filaments::Slot { depth, .. } => Some(depth.into()),
+                _ => None,
+            },
+            set: |web, value| {
+                let filaments = &mut layer_mut(web)?.filaments;
+                *filaments = match *filaments {
+                    Filaments::Slot { per_metre, .. } | Filaments::AtRandom { per_metre } => {
+                        Filaments::Slot { per_metre, depth: number(value)? }
+                    }
+                    Filaments::Rows(_) => return Err(in_rows()),
+                };
+                Ok(())
+            },
+        })
+        .follows("places at random in cross direction, all in the middle of the slot")
+        .meaning(
+            "Size in machine direction of the slot through which the filaments come, with \
+             `filaments_per_metre`: they are at an even pitch across the web, each at a random place of \
+             the depth. It changes a web in one air (`web.method = \"shared-air\"`), for filaments that \
+             are deeper in the slot hang in other eddies; elsewhere only the even pitch counts.",
+        )
+        .label("Depth of the slot")
+        .usual(1e-4, 1.0),
+    quantity("line.rows.offset", Dimension::Length, Sign::Any)
+        .access(of_row!(offset))
+        .value("0 mm")
+        .meaning(
+            "In place of `filaments_per_metre`: `rows = [{ offset = \"0 mm\", pitch = \"0.2 mm\", \
+             filaments = 5000 }, …]`, the rows of nozzles of the beam. The offset is the place of a row's \
+             first nozzle, from the edge of the web.",
+        )
+        .label("Place of the first nozzle")
+        .usual(1e-6, 30.0),
+    positive("line.rows.pitch", Dimension::Length)
+        .access(Access {
+            get: |web| match &layer(web)?.filaments {
+                Filaments::Rows(rows) => {
+                    rows.first().map(|row| if row.is_even { EVEN.into() } else { row.pitch.into() })
+                }
+                Filaments::AtRandom { .. } | Filaments::Slot { .. } => None,
+            },
+            set: |web, value| {
+                let (is_even, width) = (matches!(value, Value::Text(word) if word == EVEN), web.sheet.width);
+                for row in first_row(web)? {
+                    row.is_even = is_even;
+                    row.pitch = if is_even { width / row.filaments as f64 } else { number(value)? };
+                }
+                Ok(())
+            },
+        })
+        .required("0.2 mm")
+        .or_words(&[EVEN])
+        .meaning(
+            "Distance from nozzle to nozzle in a row, or `\"even\"` for the width of the web over the \
+             number of filaments. With periodic edges, pitch times filaments is the width of the web.",
+        )
+        .label("Distance of the nozzles")
+        .usual(1e-6, 1.0),
+    key("line.rows.filaments", Kind::Whole(1, MOST_FILAMENTS))
+        .access(Access {
+            get: |web| match &layer(web)?.filaments {
+                Filaments::Rows(rows) => Some(rows.first()?.filaments.into()),
+                Filaments::AtRandom { .. } | Filaments::Slot { .. } => None,
+            },
+            set: |web, value| {
+                let (filaments, width) = (whole(value)?, web.sheet.width);
+                for row in first_row(web)? {
+                    row.filaments = filaments;
+                    if row.is_even {
+                        row.pitch = width / filaments as f64;
+                    }
+                }
+                Ok(())
+            },
+        })
+        .required("5000")
+        .varies()
+        .meaning("Number of nozzles in a row.")
+        .synonyms(&["holes", "nozzles", "capillaries"])
+        .label("Nozzles of a row"),
+    quantity("line.rows.md", Dimension::Length, Sign::Any)
+        .access(of_row!(md))
+        .value("0 mm")
+        .meaning(
+            "Place of the row in machine direction at the inlet, from the middle of the slot. It changes a \
+             web in one air (`web.method = \"shared-air\"`).",
+        )
+        .label("Place of the row in machine direction")
+        .usual(1e-5, 1.0),
+];

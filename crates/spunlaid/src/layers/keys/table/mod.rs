@@ -1,0 +1,45 @@
+//! The rows of the keys of a web, in the order of its file. A row says what its values are, where a web has it and what
+//! it has to do with other keys.
+
+mod fibre;
+mod laydown;
+mod layer;
+mod line;
+mod web;
+
+pub(crate) use laydown::{NUMBERS, ONE_SOURCE};
+pub(crate) use web::METHODS;
+
+use super::access::WebKey;
+use crate::case::keys::Sign;
+use crate::case::keys::joined::{self, Table};
+use crate::case::keys::row::{NewKey, quantity};
+use crate::layers::WebSpec;
+use crate::units::Dimension;
+
+/// Most filaments of a row, and per metre.
+pub(super) const MOST_FILAMENTS: u64 = 10_000_000;
+/// Why two numbers cannot both be written.
+pub(super) const EITHER: &str = "either gives the other; write one of the two";
+
+/// A length, speed or other quantity above zero, which a study may vary.
+pub(super) const fn positive(name: &'static str, dimension: Dimension) -> NewKey {
+    quantity(name, dimension, Sign::Positive)
+}
+
+/// The tables of the file of a web and their keys.
+const TABLES: [Table<WebSpec>; 5] = [
+    ("layer", &[layer::KEYS]),
+    ("fibre", &[fibre::KEYS]),
+    ("laydown", &[laydown::KEYS]),
+    ("line", &[line::KEYS]),
+    ("web", &[web::KEYS]),
+];
+
+/// The tables of the file of a web, in order. A file with several layers has the first ones, up to `line`, in each `[[layer]]`.
+pub const WEB_TABLES: [&str; TABLES.len()] = joined::names(&TABLES);
+
+/// Every key of the file of a web, in its order.
+pub const WEB_KEYS: &[WebKey] = &KEYS;
+
+const KEYS: [WebKey; joined::count(&TABLES)] = joined::keys(&TABLES);

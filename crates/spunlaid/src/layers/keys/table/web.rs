@@ -1,0 +1,177 @@
+//! The keys of the table `[web]`.
+
+use super::super::access::{Access, WebKey, of_sheet};
+use super::{MOST_FILAMENTS, positive};
+use crate::case::keys::row::{choose, key, named, number, text, whole};
+use crate::case::keys::{Kind, Value};
+use crate::layers::{Flown, Method};
+use crate::units::Dimension;
+use crate::web::Edges;
+
+/// How a web can be laid.
+pub(crate) const METHODS: [&str; 3] = ["surrogate", "dynamics", "shared-air"];
+/// The values of [`METHODS`].
+const ALL_METHODS: [Method; 3] = [Method::Surrogate, Method::Dynamics, Method::SharedAir];
+/// How many filaments are flown: as many as it takes, or all.
+const AUTO: &str = "auto";
+const ALL: &str = "all";
+/// No number is a guess.
+const NONE: &str = "none";
+/// What becomes of fibre beyond the edges.
+const EDGES: [&str; 2] = ["periodic", "cut"];
+
+/// In the order of the file.
+pub(super) const KEYS: &[WebKey] = &[
+    positive("web.width", Dimension::Length)
+        .access(of_sheet!(sheet.width))
+        .required("1 m")
+        .meaning("Size of the web in cross direction, a whole number of cells.")
+        .synonyms(&["working width"])
+        .label("Width of the web")
+        .usual(1e-3, 30.0),
+    positive("web.length", Dimension::Length)
+        .access(of_sheet!(sheet.length))
+        .required("1 m")
+        .meaning(
+            "Size of the web in machine direction, a whole number of cells. It is a stretch of an endless \
+             web, closed to a ring.",
+        )
+        .label("Length of the web")
+        .usual(1e-3, 300.0),
+    key("web.patches", Kind::Lengths)
+        .access(Access {
+            get: |web| Some(Value::Numbers(web.sheet.patches.clone())),
+            set: |web, value| match value {
+                Value::Numbers(sides) => {
+                    web.sheet.patches.clone_from(sides);
+                    Ok(())
+                }
+                other => number(other).map(|side| web.sheet.patches = vec![side]),
+            },
+        })
+        .follows("those of 1, 2, 5, 10, 20 and 50 mm that fit")
+        .meaning(
+            "Sides of the square patches over which the basis weight is compared, each a whole number of \
+             cells and at most half as large as the web.",
+        )
+        .usual(1e-5, 10.0),
+    positive("web.cell", Dimension::Length)
+        .access(of_sheet!(sheet.cell))
+        .follows(
+            "the smallest of 0.5, 1, 2, 5 and 10 mm that makes at most ten million cells and divides the \
+             web",
+        )
+        .meaning("Side of the square cells of the map of the basis weight.")
+        .synonyms(&["test area"])
+        .label("Cell of the map")
+        .usual(1e-6, 0.1),
+    key("web.seed", Kind::Whole(0, u64::MAX))
+        .access(Access {
+            get: |web| Some(web.seed.into()),
+            set: |web, value| {
+                web.seed = whole(value)?;
+                Ok(())
+            },
+        })
+        .value("1")
+        .varies()
+        .meaning("Seed of all random numbers of the web. Equal files with equal seeds give the same bits.")
+        .label("Seed of the web"),
+    choose("web.edges", || EDGES.to_vec())
+        .access(Access {
+            get: |web| Some(EDGES[usize::from(web.sheet.edges == Edges::Cut)].into()),
+            set: |web, value| {
+                web.sheet.edges =
+                    named(value, &[Edges::Periodic, Edges::Cut], |edges| EDGES[edges as usize])?;
+                Ok(())
+            },
+        })
+        .value("periodic")
+        .meaning(
+            "What becomes of fibre beyond the edges in cross direction: `periodic`, it comes in at the \
+             other edge, as in a web that is wide everywhere; `cut`, it is cut off, and the strips where \
+             the web is thinner for it, up to 3 σ_CD inwards of the outermost filament, are left out of \
+             the unevenness.",
+        )
+        .label("Edges"),
+    choose("web.method", || METHODS.to_vec())
+        .access(Access {
+            get: |web| Some(METHODS[web.method as usize].into()),
+            set: |web, value| {
+                web.method = named(value, &ALL_METHODS, |one| METHODS[one as usize])?;
+                Ok(())
+            },
+        })
+        .follows("`shared-air` where cases are flown, but for cases with a record; otherwise `surrogate`")
+        .meaning(
+            "What is laid: `shared-air`, filaments are flown in one air, so that neighbours hang in the \
+             same gust and come down together; `dynamics`, the very curves of single flown fibres, again \
+             and again at other places; `surrogate`, paths of the stochastic model, each its own. In the \
+             last two the filaments are independent of each other, which gives a lower bound of the \
+             unevenness.",
+        )
+        .label("Method"),
+    key("web.flown", Kind::Whole(1, MOST_FILAMENTS))
+        .access(Access {
+            get: |web| match web.flown {
+                Flown::Auto => None,
+                Flown::All => Some(ALL.into()),
+                Flown::PerMetre(number) => Some(Value::Whole(number)),
+            },
+            set: |web, value| {
+                web.flown = match value {
+                    Value::Text(word) if word == ALL => Flown::All,
+                    Value::Text(_) => Flown::Auto,
+                    value => Flown::PerMetre(whole(value)?),
+                };
+                Ok(())
+            },
+        })
+        .or_words(&[AUTO, ALL])
+        .follows("eight in a length scale of the air, on a sheet of 0.2 m² at most")
+        .meaning(
+            "Filaments per metre of width that are flown for all others in a web in one air (`web.method = \
+             \"shared-air\"`): neighbours come down almost alike, so a few of them carry the unevenness of \
+             all. `all` flies every filament of the sheet, `auto` as many as the length scale of the air \
+             asks for.",
+        )
+        .label("Filaments per metre that are flown"),
+    positive("web.memory_limit", Dimension::Memory)
+        .access(of_sheet!(memory_limit))
+        .value("4 GB")
+        .fixed()
+        .meaning(
+            "Most memory that the field of eddies may take with `web.method = \"shared-air\"`. A web that \
+             needs more is refused before it is flown.",
+        )
+        .label("Memory limit")
+        .usual(1e7, 1e13),
+    key("web.guessed", Kind::Text("line.depth, air.length_factor"))
+        .access(Access {
+            get: |web| (!web.guessed.is_empty()).then(|| web.guessed.join(", ").into()),
+            set: |web, value| {
+                let names = text(value)?;
+                let names = names.split(',').map(str::trim).filter(|name| !["", NONE].contains(name));
+                web.guessed = names.map(ToOwned::to_owned).collect();
+                Ok(())
+            },
+        })
+        .or_words(&[NONE])
+        .follows("`none`: every number counts as known")
+        .meaning(
+            "Keys of the web and of its cases whose numbers are guesses, with commas between them. \
+             `spunlaid web` also tells the CV for half and for twice of each, from a few filaments. Take out \
+             each whose number has been measured.",
+        )
+        .synonyms(&["assumed", "uncertain", "made up"])
+        .label("Guessed numbers"),
+    positive("web.window", Dimension::Length)
+        .access(of_sheet!(window))
+        .follows("20 mm, at most the web's smaller side")
+        .meaning(
+            "Side of the square in the middle of the web whose single fibres are written to a file of \
+             polylines.",
+        )
+        .label("Window")
+        .usual(1e-5, 10.0),
+];
