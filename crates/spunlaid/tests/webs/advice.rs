@@ -53,7 +53,8 @@ width = \"250 mm\"
 length = \"250 mm\"
 ";
 
-fn cases() -> String {
+/// The name of a file beside the cases.
+pub fn cases() -> String {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/web.toml").display().to_string()
 }
 

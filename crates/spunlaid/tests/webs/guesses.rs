@@ -1,16 +1,12 @@
 //! Guesses: what half and twice of a number that nobody has measured does to the CV.
 
+use crate::advice::cases;
 use spunlaid::advice::{Change, advise, are_tried};
 use spunlaid::input::{Overrides, parse_guesses, parse_web};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::Flyer;
 use spunlaid::web::LayControl;
-use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
-
-fn cases() -> String {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/web.toml").display().to_string()
-}
 
 fn read(text: &str, set: &[(&str, &str)]) -> Vec<Change> {
     let set: Vec<(String, String)> =
@@ -66,6 +62,23 @@ fn identical_what_a_guess_says_to_set_is_the_web_that_is_tried() {
     // Nothing is a guess once it has been measured.
     set[0].1 = "none";
     assert!(read(BEAMS, &set).is_empty());
+}
+
+/// A number that was set before is replaced, and stands once in what is to be pasted.
+#[test]
+fn identical_a_guess_takes_the_place_of_what_was_set_before() {
+    let one = BEAMS.split("[[layer]]").nth(1).unwrap().replace("[layer.", "[");
+    let text = format!("{one}[web]\nwidth = \"250 mm\"\nlength = \"250 mm\"\n");
+    let changes = read(&text, &[("line.depth", "30 mm"), ("web.guessed", "line.depth")]);
+    assert_eq!(factors(&changes), [("line.depth", 0.5), ("line.depth", 2.0)]);
+    for (change, depth) in changes.iter().zip(["15 mm", "60 mm"]) {
+        let depths: Vec<&str> =
+            change.set.iter().filter(|(key, _)| key == "line.depth").map(|(_, value)| &**value).collect();
+        assert_eq!(depths, [depth], "{:?}", change.set);
+        let set = Overrides { values: &change.set, word: "--set" };
+        let pasted = parse_web(&text, &cases(), set).unwrap().spec;
+        assert_eq!(format!("{pasted:?}"), format!("{:?}", change.spec));
+    }
 }
 
 /// Independent filaments at random places on a belt of the same speed have CV² ∝ 1/number.

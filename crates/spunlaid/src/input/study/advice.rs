@@ -1,15 +1,11 @@
 //! The webs of advice: the same web with one setting of the line changed, on the belt that lays the same weight.
 
-use super::super::entry::Entry;
-use super::super::lookup::Lookup;
-use super::super::unread::{self, Unread};
-use super::super::web::replaces;
-use super::super::{Overrides, file};
-use super::web::WebBase;
+use super::super::Overrides;
+use super::super::unread::Unread;
+use super::open_web::{OpenWeb, changed_webs, changed_webs_of_file};
 use super::{Base, VariedKey};
 use crate::advice::{Change, ChangedKey, Setting};
 use crate::air::{Air, Flow};
-use crate::error::FileKind;
 use crate::layers::{LaydownSource, LayerSpec, Method, WebSpec, web_key};
 use crate::units::Dimension;
 use crate::web::Filaments;
@@ -25,8 +21,7 @@ const KELVINS: [f64; 2] = [-10.0, 10.0];
 /// # Errors
 /// If the web cannot be read. And what has to be flown first, if a case has a spinline whose tension is that of flights.
 pub fn read_changes(path: &Path, set: Overrides<'_>) -> Result<Vec<Change>, Unread<Vec<Change>>> {
-    let text = file::read(path, FileKind::Web).map_err(Unread::Faulty)?;
-    parse_changes(text, &path.display().to_string(), set)
+    changed_webs_of_file(path, set, changes)
 }
 
 /// [`read_changes`] of a text.
@@ -38,17 +33,16 @@ pub fn parse_changes(
     name: &str,
     set: Overrides<'_>,
 ) -> Result<Vec<Change>, Unread<Vec<Change>>> {
-    let (name, word, values) = (name.to_owned(), set.word.to_owned(), set.values.to_vec());
-    unread::read(move |lookup| {
-        let [none, set] = [&[][..], &values].map(|values| Overrides { values, word: &word });
-        let base = WebBase::new(text.clone(), name.clone(), [none, set], lookup)?;
-        let is_laid = |layer: &LayerSpec| matches!(layer.source, LaydownSource::Results { .. });
-        if base.spec().layers.iter().any(is_laid) {
-            // What has been flown lies on the belt of its flight.
-            return Ok(Vec::new());
-        }
-        Ok(Line { base: &base, set: &values, lookup }.changes())
-    })
+    changed_webs(text, name, set, changes)
+}
+
+fn changes(web: OpenWeb<'_>) -> Vec<Change> {
+    let is_laid = |layer: &LayerSpec| matches!(layer.source, LaydownSource::Results { .. });
+    if web.base.spec().layers.iter().any(is_laid) {
+        // What has been flown lies on the belt of its flight.
+        return Vec::new();
+    }
+    Line { web }.changes()
 }
 
 /// Digits of a changed setting.
@@ -71,10 +65,7 @@ fn throughput(layer: usize, power: f64) -> (String, f64) {
 
 /// The line of a web, whose settings change.
 struct Line<'a> {
-    base: &'a WebBase,
-    /// What is set beside the file.
-    set: &'a [(String, String)],
-    lookup: &'a Lookup,
+    web: OpenWeb<'a>,
 }
 
 /// Keys that change together, each with the power of the factor by which it changes.
@@ -82,7 +73,7 @@ type KeyPowers = Vec<(String, f64)>;
 
 impl Line<'_> {
     fn spec(&self) -> &WebSpec {
-        self.base.spec()
+        self.web.base.spec()
     }
 
     fn changes(&self) -> Vec<Change> {
@@ -131,7 +122,7 @@ impl Line<'_> {
         let is_flown = |layer: &usize| self.spec().layers[layer - 1].source.case().is_some();
         let fed = (1..=self.spec().layers.len()).filter(is_flown).map(|layer| throughput(layer, 0.0));
         let titre = std::iter::once(("fibre.linear_density".to_owned(), 1.0)).chain(fed).collect();
-        let is_spun = self.base.number_of_cases("spinline.throughput").is_some();
+        let is_spun = self.web.base.number_of_cases("spinline.throughput").is_some();
         let mut all = vec![
             // The spinline decides the titre.
             (Setting::Titre, if is_spun { Vec::new() } else { vec![titre] }),
@@ -207,9 +198,9 @@ impl Line<'_> {
 
     /// The value of a key.
     fn number(&self, name: &str, key: &VariedKey) -> Option<f64> {
-        let number = self.base.value(key);
+        let number = self.web.base.value(key);
         if !number.is_nan() && !name.starts_with("layer.") {
-            return self.base.number_of_cases(name);
+            return self.web.base.number_of_cases(name);
         }
         if !number.is_nan() {
             return Some(number);
@@ -224,7 +215,7 @@ impl Line<'_> {
         let of_way = |way: &KeyPowers| -> Option<Vec<Change>> {
             let known: Vec<(VariedKey, f64, f64)> = (way.iter())
                 .map(|(name, power)| {
-                    let key = self.base.varied(name).ok()?;
+                    let key = self.web.base.varied(name).ok()?;
                     let number = self.number(name, &key).filter(|number| *number != 0.0)?;
                     Some((key, number, *power))
                 })
@@ -262,7 +253,7 @@ impl Line<'_> {
             (key.clone(), to)
         };
         let values: Vec<(VariedKey, f64)> = known.iter().map(to).collect();
-        let mut spec = self.base.changed(&values, self.lookup).ok()?.spec;
+        let mut spec = self.web.base.changed(&values, self.web.lookup).ok()?.spec;
         let belt = spec.belt_speed_for(self.weight());
         let slowest = spec.layers.iter().map(|layer| layer.feed_speed).fold(f64::INFINITY, f64::min);
         if belt.is_nan() || belt > slowest {
@@ -271,7 +262,7 @@ impl Line<'_> {
         spec.set_belt_speed(belt).ok()?;
         let changed = |((key, from, power), (_, to)): (&(VariedKey, f64, f64), &(VariedKey, f64))| {
             let (dimension, whole) = (key.dimension(), key.is_whole());
-            let key = self.base.short_name(&key.name).to_owned();
+            let key = self.web.base.short_name(&key.name).to_owned();
             (*power != 0.0 && from != to).then_some(ChangedKey {
                 key,
                 dimension,
@@ -281,7 +272,7 @@ impl Line<'_> {
             })
         };
         let keys: Vec<ChangedKey> = known.iter().zip(&values).filter_map(changed).collect();
-        let (layers, file) = (layers.to_vec(), self.base.path().to_owned());
+        let (layers, file) = (layers.to_vec(), self.web.base.path().to_owned());
         let set = self.settings_of(&values);
         (!keys.is_empty()).then_some(Change { setting, layers, keys, file, set, spec })
     }
@@ -291,27 +282,21 @@ impl Line<'_> {
         let layer = key.name.strip_prefix("layer.").and_then(|rest| rest.split_once('.'));
         let layer = layer.filter(|(_, name)| *name == THROUGHPUT);
         let layer = layer.and_then(|(number, _)| self.spec().layers.get(number.parse::<usize>().ok()? - 1));
-        layer.is_some_and(|layer| layer.throughput.is_some_and(|held| held == self.base.value(key)))
+        layer.is_some_and(|layer| layer.throughput.is_some_and(|held| held == self.web.base.value(key)))
     }
 
     /// The keys and values that make a changed web of the file: what was set before, unless it is replaced, the values, and what else has to be held.
     fn settings_of(&self, values: &[(VariedKey, f64)]) -> Vec<(String, String)> {
         let spec = self.spec();
         let is_new =
-            |(key, value): &&(VariedKey, f64)| !(self.is_held(key) && *value == self.base.value(key));
-        let text = |(key, value): &(VariedKey, f64)| {
-            let name = self.base.short_name(&key.name).to_owned();
-            (name, if key.is_whole() { format!("{value:.0}") } else { key.dimension().written(*value) })
-        };
-        let mut new: Vec<(String, String)> = values.iter().filter(is_new).map(text).collect();
+            |(key, value): &&(VariedKey, f64)| !(self.is_held(key) && *value == self.web.base.value(key));
+        let mut new: Vec<(String, String)> =
+            values.iter().filter(is_new).map(|value| self.web.setting(value)).collect();
         if spec.basis_weight.is_none() {
-            let weight = self.base.short_name("layer.1.line.basis_weight").to_owned();
+            let weight = self.web.base.short_name("layer.1.line.basis_weight").to_owned();
             new.push((weight, Dimension::BasisWeight.written(self.weight())));
         }
-        let is_replaced = |(set, _): &&(String, String)| new.iter().any(|(key, _)| replaces(key, set.trim()));
-        let before = self.set.iter().filter(|set| !is_replaced(set));
-        let before = before.map(|(key, value)| (key.clone(), Entry::plain_override(value)));
-        before.chain(new.iter().cloned()).collect()
+        self.web.with_settings(new)
     }
 
     /// Mass per area of the changed webs [kg/m²].

@@ -1,14 +1,11 @@
 //! The webs that say what guesses matter: the same web with half and with twice of a number that its file calls a guess.
 
-use super::super::entry::Entry;
-use super::super::lookup::Lookup;
-use super::super::unread::{self, Unread};
-use super::super::web::{Guess, replaces};
-use super::super::{Overrides, file};
-use super::web::WebBase;
+use super::super::Overrides;
+use super::super::unread::Unread;
+use super::super::web::Guess;
+use super::open_web::{OpenWeb, changed_webs, changed_webs_of_file};
 use super::{Base, VariedKey};
 use crate::advice::{Change, ChangedKey, Setting};
-use crate::error::FileKind;
 use std::path::Path;
 
 /// The factors on a guess.
@@ -26,8 +23,7 @@ const IN_SPACE: (&str, &str) = ("air.lateral", "von-karman");
 /// # Errors
 /// If the web cannot be read. And what has to be flown first, if a case has a spinline whose tension is that of flights.
 pub fn read_guesses(path: &Path, set: Overrides<'_>) -> Result<Vec<Change>, Unread<Vec<Change>>> {
-    let text = file::read(path, FileKind::Web).map_err(Unread::Faulty)?;
-    parse_guesses(text, &path.display().to_string(), set)
+    changed_webs_of_file(path, set, changes)
 }
 
 /// [`read_guesses`] of a text.
@@ -39,32 +35,19 @@ pub fn parse_guesses(
     name: &str,
     set: Overrides<'_>,
 ) -> Result<Vec<Change>, Unread<Vec<Change>>> {
-    let (name, word, values) = (name.to_owned(), set.word.to_owned(), set.values.to_vec());
-    unread::read(move |lookup| {
-        let [none, set] = [&[][..], &values].map(|values| Overrides { values, word: &word });
-        let base = WebBase::new(text.clone(), name.clone(), [none, set], lookup)?;
-        Ok(Guesses { base: &base, set: &values, lookup }.changes())
-    })
+    changed_webs(text, name, set, changes)
 }
 
-/// The guesses of a web.
-struct Guesses<'a> {
-    base: &'a WebBase,
-    /// What is set beside the file.
-    set: &'a [(String, String)],
-    lookup: &'a Lookup,
+fn changes(web: OpenWeb<'_>) -> Vec<Change> {
+    let spec = web.base.spec();
+    let named = spec.guessed.iter().filter_map(|name| Some((name, Guess::new(spec, name).ok()?)));
+    named
+        .flat_map(|(name, guess)| FACTORS.map(|factor| web.changed(name, &guess, factor)))
+        .flatten()
+        .collect()
 }
 
-impl Guesses<'_> {
-    fn changes(&self) -> Vec<Change> {
-        let spec = self.base.spec();
-        let named = spec.guessed.iter().filter_map(|name| Some((name, Guess::new(spec, name).ok()?)));
-        named
-            .flat_map(|(name, guess)| FACTORS.map(|factor| self.changed(name, &guess, factor)))
-            .flatten()
-            .collect()
-    }
-
+impl OpenWeb<'_> {
     /// The web with another value of a guess; None if it cannot be laid.
     fn changed(&self, name: &str, guess: &Guess, factor: f64) -> Option<Change> {
         let value = factor * guess.value;
@@ -92,22 +75,7 @@ impl Guesses<'_> {
             to,
         };
         let (keys, layers, file) = (vec![changed], Vec::new(), self.base.path().to_owned());
-        let set = self.settings_of(&values);
+        let set = self.with_settings(values.iter().map(|value| self.setting(value)).collect());
         (to != guess.value).then_some(Change { setting: Setting::Guess, layers, keys, file, set, spec })
-    }
-
-    /// The keys and values that make a changed web of the file: what was set before, unless it is replaced, and the values.
-    fn settings_of(&self, values: &[(VariedKey, f64)]) -> Vec<(String, String)> {
-        let is_replaced = |set: &str| values.iter().any(|(key, _)| replaces(&key.name, set.trim()));
-        let before = self.set.iter().filter(|(key, _)| !is_replaced(key));
-        let before = before.map(|(key, value)| (key.clone(), Entry::plain_override(value)));
-        let text = |(key, value): &(VariedKey, f64)| {
-            let name = self.base.short_name(&key.name).to_owned();
-            let word = key.words().get(*value as usize).map(|word| (*word).to_owned());
-            let number =
-                || if key.is_whole() { format!("{value:.0}") } else { key.dimension().written(*value) };
-            (name, word.unwrap_or_else(number))
-        };
-        before.chain(values.iter().map(text)).collect()
     }
 }

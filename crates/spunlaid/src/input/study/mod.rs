@@ -9,6 +9,7 @@ mod fixed_keys;
 mod guesses;
 mod levels;
 mod links;
+mod open_web;
 mod plan;
 mod points;
 mod reader;
