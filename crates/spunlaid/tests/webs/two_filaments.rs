@@ -1,6 +1,7 @@
 //! The unevenness of a web in one air from what two of its filaments have in common.
 
 use crate::beam::{case_in, cv, lay_by, row, sheet};
+use spunlaid::air::Lateral;
 use spunlaid::beam::Airs;
 use spunlaid::flight::LaidPoint;
 use spunlaid::lanes::Isa;
@@ -31,7 +32,9 @@ fn overlap(apart: f64, variance: f64, side: f64) -> f64 {
 fn stat_two_filaments_say_how_uneven_a_web_in_one_air_is() {
     const COUNT: usize = 64;
     let sheet = Sheet { patches: vec![10e-3, 20e-3], ..sheet(COUNT, 2000) };
-    let case = case_in("von-karman");
+    let mut case = case_in("von-karman");
+    // With coarser waves the sum is 4 to 6 % too high.
+    case.air.lateral = Lateral::VonKarman { cutoff: 15.0 };
     let (laid, flown) = lay_by((&case, &sheet), &row(&sheet, COUNT), Airs::Shared, Isa::detect(), 2);
     assert_eq!(flown.kept.len(), COUNT);
     let (line, spacing) = (case.line.unwrap(), case.fibre.rest_length());
@@ -76,8 +79,7 @@ fn stat_two_filaments_say_how_uneven_a_web_in_one_air_is() {
         let alone: f64 = covariances.iter().filter(|(neighbour, ..)| *neighbour == 0).map(term).sum();
         let shared: f64 = covariances.iter().filter(|(neighbour, ..)| *neighbour != 0).map(term).sum();
         let (expected, found) = ((alone + shared).sqrt(), cv(&laid.map, side));
-        // Two filaments are no normal pair, which counts for up to a tenth (theory.md (83a)).
-        assert!((expected / found - 1.0).abs() < 0.1, "{side} mm: {expected} for {found}");
+        assert!((expected / found - 1.0).abs() < 0.05, "{side} mm: {expected} for {found}");
         // The program knows the correlations at a few distances and lags only.
         let pairs =
             flown.pairs.iter().find(|pair| pair.patch == patch).expect("pairs at every distance").variance;
