@@ -133,7 +133,7 @@ pub(super) const KEYS: &[WebKey] = &[
             "Filaments per metre of width that are flown for all others in a web in one air (`web.method = \
              \"shared-air\"`): neighbours come down almost alike, so a few of them carry the unevenness of \
              all. `all` flies every filament of the sheet, `auto` as many as the length scale of the air \
-             asks for.",
+             asks for, and twice or four times as many where these do not tell what all do.",
         )
         .label("Filaments per metre that are flown"),
     positive("web.memory_limit", Dimension::Memory)
