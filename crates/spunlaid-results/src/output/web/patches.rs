@@ -28,11 +28,11 @@ impl PatchTable {
         // That of a web of few filaments holds what these do too.
         let is_of_few = findings.patches.iter().any(|patch| patch.few.is_some());
         let of_map = match (reader, is_of_few) {
-            (Reader::Report, true) => ["Patch", "CV of this map", "of its error: chance", "95 % interval"],
+            (Reader::Report, true) => ["Patch", "CV of this web", "of its error: chance", "95 % interval"],
             (Reader::Report, false) => {
                 ["Patch", "CV of this map", "of its error: chance", "95 % interval by chance"]
             }
-            (Reader::Terminal, true) => ["patch", "this map", "by chance", "95 % interval"],
+            (Reader::Terminal, true) => ["patch", "this web", "by chance", "95 % interval"],
             (Reader::Terminal, false) => ["patch", "this map", "by chance", "95 % by chance"],
         };
         let declared = columns(findings, reader);
