@@ -2,7 +2,6 @@
 
 use spunlaid::error::{Error, Fault, FileError};
 use std::fmt;
-use std::io;
 use std::panic::{self, AssertUnwindSafe};
 
 /// What ends the program.
@@ -76,23 +75,12 @@ impl fmt::Display for Failure {
     }
 }
 
-/// The page cannot be served.
-pub(crate) fn not_served(source: &io::Error) -> Failure {
-    let message = format!("the page cannot be served: {source}");
-    let fault = match source.kind() {
-        io::ErrorKind::AddrInUse | io::ErrorKind::PermissionDenied => {
-            Fault::new(message, "name another port with --port, or leave it out")
-        }
-        _ => Fault::plain(message),
-    };
-    Error::System(Box::new(fault.into())).into()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use spunlaid::error::Problem;
     use spunlaid::study::{foreign, in_use, unsynced};
+    use std::io;
     use std::path::Path;
 
     /// Every failure of the program, and those of the library that are not about the text of an input.

@@ -3,7 +3,6 @@
 mod args;
 mod commands;
 mod failure;
-mod live;
 mod progress;
 mod say;
 

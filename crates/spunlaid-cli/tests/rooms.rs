@@ -15,7 +15,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 /// The rooms of the program from left to right; those of one group may not import one another.
-const PROGRAM: &[&[&str]] = &[&["args", "failure", "progress", "say"], &["live"], &["commands"]];
+const PROGRAM: &[&[&str]] = &[&["args", "failure", "progress", "say"], &["commands"]];
 
 const RESULTS: &[&[&str]] =
     &[&["command", "failure", "numbers"], &["figures"], &["output"], &["report"], &["folders"]];
@@ -40,7 +40,7 @@ fn rooms_import_only_from_their_left_and_files_not_from_one_another() {
     let mut wrong = faults(&crates.join("spunlaid-cli/src"), PROGRAM, &["main"]);
     wrong.extend(faults(&crates.join("spunlaid-results/src"), RESULTS, &["lib"]));
     wrong.extend(faults(&crates.join("spunlaid-charts/src"), CHARTS, &["lib"]));
-    for name in ["cli", "results", "charts", "python"] {
+    for name in ["cli", "live", "results", "charts", "python"] {
         wrong.extend(circles(&crates.join(format!("spunlaid-{name}/src"))));
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));

@@ -18,7 +18,6 @@ pub(crate) use new::{
 };
 pub(crate) use output::{Output, Threads};
 pub(crate) use source::{CaseSource, is_standard, overrides};
-pub(crate) use spunlaid_results::command::quoted;
 
 use clap::{Args, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;

@@ -2,14 +2,15 @@
 
 use crate::args::Live;
 use crate::failure::Failure;
-use crate::live::{Start, live as fly};
-use crate::say;
-use spunlaid::error::FileKind;
-use spunlaid::input::{Unread, read_case, read_text};
-use spunlaid::paper;
 
 /// Serves the page until the program is ended.
+#[cfg(feature = "live")]
 pub(crate) fn live(live: &Live) -> Result<(), Failure> {
+    use crate::say;
+    use spunlaid::error::FileKind;
+    use spunlaid::input::{Unread, read_case, read_text};
+    use spunlaid::paper;
+
     let text = match &live.case {
         Some(path) => {
             // Its mistakes are reported as by all commands.
@@ -18,8 +19,8 @@ pub(crate) fn live(live: &Live) -> Result<(), Failure> {
         }
         None => paper::TABLE1.to_owned(),
     };
-    let start = Start { text, file: live.case.clone(), port: live.port.unwrap_or(0) };
-    fly(start, |address, remark| {
+    let start = spunlaid_live::Start { text, file: live.case.clone(), port: live.port.unwrap_or(0) };
+    let ready = |address: &str, remark: Option<&str>| {
         remark.iter().for_each(|remark| say::remark(false, remark));
         say::line(address);
         say::aside("Open this address in a browser of this machine; Ctrl-C ends the program.");
@@ -28,5 +29,14 @@ pub(crate) fn live(live: &Live) -> Result<(), Failure> {
         {
             say::warning(&format!("no browser could be opened: {error}"));
         }
-    })
+    };
+    Ok(spunlaid_live::live(start, ready)?)
+}
+
+/// Says that this program has no page.
+#[cfg(not(feature = "live"))]
+pub(crate) fn live(_: &Live) -> Result<(), Failure> {
+    let message = "this program was built without the page on which fibres fly";
+    Err(spunlaid::error::Fault::new(message, "build it with the feature `live`, which is there by default")
+        .into())
 }

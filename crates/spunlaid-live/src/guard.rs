@@ -1,6 +1,7 @@
 //! Who may talk to the server: programs of this machine that know the token.
 
-use crate::failure::{Failure, not_served};
+use super::not_served;
+use spunlaid::error::Error;
 use std::fmt::Write;
 use std::io;
 
@@ -38,9 +39,9 @@ impl Guard {
     ///
     /// # Errors
     /// The operating system gives no random numbers.
-    pub(super) fn new(port: u16) -> Result<Self, Failure> {
+    pub(super) fn new(port: u16) -> Result<Self, Error> {
         let mut random = [0; 16];
-        getrandom::fill(&mut random).map_err(|error| not_served(&io::Error::other(error)))?;
+        getrandom::fill(&mut random).map_err(|error| not_served(io::Error::other(error)))?;
         let token = random.iter().fold(String::new(), |mut text, byte| {
             // Writing to a text cannot fail.
             let _ = write!(text, "{byte:02x}");

@@ -1,7 +1,7 @@
 //! The tension at the end of the spinline, which flights find in a thread of their own while the fibres of the page fly on.
 
 use super::Session;
-use crate::live::document::complaints;
+use crate::document::complaints;
 use spunlaid::ensemble::RunControl;
 use spunlaid::error::Error;
 use spunlaid::input::{CaseWithNotes, Unflown, Unread};

@@ -8,17 +8,17 @@ const SCRIPT: &str = "text/javascript; charset=utf-8";
 
 /// Name, kind and text of each file. The page itself has no name.
 const FILES: [(&str, &str, &str); 11] = [
-    ("", HTML, include_str!("../../assets/live/live.html")),
-    ("live.css", CSS, include_str!("../../assets/live/live.css")),
-    ("uPlot.min.css", CSS, include_str!("../../assets/uplot/uPlot.min.css")),
-    ("uPlot.iife.min.js", SCRIPT, include_str!("../../assets/uplot/uPlot.iife.min.js")),
+    ("", HTML, include_str!("../assets/live.html")),
+    ("live.css", CSS, include_str!("../assets/live.css")),
+    ("uPlot.min.css", CSS, include_str!("../assets/uplot/uPlot.min.css")),
+    ("uPlot.iife.min.js", SCRIPT, include_str!("../assets/uplot/uPlot.iife.min.js")),
     ("camera.js", SCRIPT, spunlaid_results::report::CAMERA),
     ("scene.js", SCRIPT, spunlaid_results::report::SCENE),
-    ("link.js", SCRIPT, include_str!("../../assets/live/link.js")),
-    ("view.js", SCRIPT, include_str!("../../assets/live/view.js")),
-    ("plots.js", SCRIPT, include_str!("../../assets/live/plots.js")),
-    ("controls.js", SCRIPT, include_str!("../../assets/live/controls.js")),
-    ("live.js", SCRIPT, include_str!("../../assets/live/live.js")),
+    ("link.js", SCRIPT, include_str!("../assets/link.js")),
+    ("view.js", SCRIPT, include_str!("../assets/view.js")),
+    ("plots.js", SCRIPT, include_str!("../assets/plots.js")),
+    ("controls.js", SCRIPT, include_str!("../assets/controls.js")),
+    ("live.js", SCRIPT, include_str!("../assets/live.js")),
 ];
 
 /// What every answer says: nothing is stored, nothing from elsewhere is loaded, no other page may show this one.

@@ -2,10 +2,10 @@
 
 use super::Session;
 use super::tension::TensionSearch;
-use crate::live::document::{Document, complaints};
-use crate::live::measured::Statistics;
-use crate::live::message::{Answer, Command, KeyValue};
-use crate::live::save;
+use crate::document::{Document, complaints};
+use crate::measured::Statistics;
+use crate::message::{Answer, Command, KeyValue};
+use crate::save;
 use spunlaid::case::keys::{self, Key, Kind};
 use spunlaid::units::Dimension;
 use std::time::Instant;

@@ -1,12 +1,12 @@
 //! The case as text: keys are changed in it, comments stay, and it is saved.
 
 use super::message::Complaint;
-use crate::args::quoted;
 use spunlaid::case::Case;
 use spunlaid::case::keys::{self, Key, Kind};
 use spunlaid::error::{Error, Place};
 use spunlaid::input::{CaseWithNotes, LARGEST_FILE, Unflown, Unread, parse_case};
 use spunlaid::units::Dimension;
+use spunlaid_results::command::quoted;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use toml_edit::{DocumentMut, Item, TableLike, Value, value};

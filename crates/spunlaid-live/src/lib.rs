@@ -1,4 +1,4 @@
-//! `spunlaid live`: a page on which fibres fly, and change while they do.
+//! A page on which fibres fly, and change while they do: what `spunlaid live` serves.
 //!
 //! ```text
 //! page ←→ server (loopback only, token) ← board: frames, statistics ← session, a thread of its own: clock → fibres → measured
@@ -34,7 +34,6 @@ mod server;
 mod session;
 mod settings;
 
-use crate::failure::{Failure, not_served};
 use document::Document;
 use guard::Guard;
 use message::Complaint;
@@ -44,7 +43,9 @@ use spunlaid::case::keys;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::error::{Error, Fault, Problem};
 use spunlaid::units::Dimension;
+use std::io;
 use std::net::{Ipv4Addr, TcpListener};
+use std::panic;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc;
 use std::thread;
@@ -56,13 +57,13 @@ const WAITING: usize = 64;
 const ERROR_TOLERANCE: f64 = 0.012;
 
 /// A case to be flown.
-pub(crate) struct Start {
+pub struct Start {
     /// The case as text.
-    pub(crate) text: String,
+    pub text: String,
     /// The file that it was read from.
-    pub(crate) file: Option<PathBuf>,
+    pub file: Option<PathBuf>,
     /// The port; 0 for any that is free.
-    pub(crate) port: u16,
+    pub port: u16,
 }
 
 /// Flies a case for pages, until the program is ended.
@@ -71,14 +72,13 @@ pub(crate) struct Start {
 ///
 /// # Errors
 /// The case cannot be flown, or the server cannot start.
-pub(crate) fn live(start: Start, ready: impl FnOnce(&str, Option<&str>)) -> Result<(), Failure> {
+pub fn live(start: Start, ready: impl FnOnce(&str, Option<&str>)) -> Result<(), Error> {
     let name = start.file.as_ref().map_or_else(|| "the case".to_owned(), |file| file.display().to_string());
     let rejected = |complaints: Vec<Complaint>| {
         let problem = |why: String| Problem::with_path(Path::new(&name), Fault::plain(why));
         Error::Rejected(complaint_lines(&complaints).into_iter().map(problem).collect())
     };
     let (document, remark) = adapt_to_clock(Document::new(start.text, start.file)).map_err(rejected)?;
-    let not_served = |source: std::io::Error| not_served(&source);
     let folder = std::env::current_dir().map_err(not_served)?;
     let session = Session::new(document, remark.clone(), folder).map_err(rejected)?;
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, start.port)).map_err(not_served)?;
@@ -93,7 +93,7 @@ pub(crate) fn live(start: Start, ready: impl FnOnce(&str, Option<&str>)) -> Resu
     serving.map_err(not_served)?;
     ready(&address, remark.as_deref());
     // The flight ends by a fault of the program only, and the server with it.
-    flight.join().map_err(|_| Failure::Panicked)
+    flight.join().or_else(|fault| panic::resume_unwind(fault))
 }
 
 /// The case with the scheme and the step that keep up with the clock, and what is to be said of it.
@@ -125,6 +125,18 @@ fn adapt_to_clock(document: Document) -> Result<(Document, Option<String>), Vec<
         Scheme::ImplicitTension.name()
     );
     Ok((other, Some(note)))
+}
+
+/// The page cannot be served.
+fn not_served(source: io::Error) -> Error {
+    let message = format!("the page cannot be served: {source}");
+    let fault = match source.kind() {
+        io::ErrorKind::AddrInUse | io::ErrorKind::PermissionDenied => {
+            Fault::new(message, "name another port with --port, or leave it out")
+        }
+        _ => Fault::plain(message),
+    };
+    Error::System(Box::new(fault.into()))
 }
 
 fn complaint_lines(complaints: &[Complaint]) -> Vec<String> {

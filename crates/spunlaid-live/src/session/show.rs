@@ -1,9 +1,9 @@
 //! What pages see: frames, and as JSON the settings, the state and the statistics.
 
 use super::Session;
-use crate::live::board::Topic;
-use crate::live::frame::Frame;
-use crate::live::settings::{present, settings};
+use crate::board::Topic;
+use crate::frame::Frame;
+use crate::settings::{present, settings};
 use serde_json::{Value as Json, json};
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
