@@ -24,7 +24,7 @@ use std::sync::Arc;
 /// numbers of their layers, a checksum over all of it, and the replicates to make, from the first to before the last.
 pub(crate) type BundlePart = (u64, String, Cases, u32, u64, u64);
 /// Layers of a web, and the texts of their cases; None for a case.
-type Cases = Option<Vec<(usize, String)>>;
+pub(crate) type Cases = Option<Vec<(usize, String)>>;
 
 /// Columns of the records before the numbers: point, replicate, whether the fibre was lost. Of a lost fibre the numbers are the
 /// node and the time.
@@ -33,17 +33,39 @@ const HEAD: usize = 3;
 /// What a machine needs to make batches of points.
 pub(crate) fn parts(points: &[Point], batches: &[Batch]) -> Vec<BundlePart> {
     let part = |Batch { point, replicates: Range { start, end } }: &Batch| {
-        let experiment = make_portable(&points[*point].experiment);
-        let (text, cases) = match &experiment {
-            Experiment::Case(case) => (write_case(case), None),
-            Experiment::Spinline(spec) => (write_spinline(spec), None),
-            Experiment::Web(web) => {
-                (write_web(web), Some(flown(web).map(|(layer, case)| (layer, write_case(case))).collect()))
-            }
-        };
-        (*point as u64, text, cases, checksum(&experiment), *start, *end)
+        let (text, cases, sum) = packed(&points[*point].experiment);
+        (*point as u64, text, cases, sum, *start, *end)
     };
     batches.iter().map(part).collect()
+}
+
+/// The text of what is computed, with the texts of the cases that it flies, and a checksum over all of it.
+pub(crate) fn packed(experiment: &Experiment) -> (String, Cases, u32) {
+    let experiment = make_portable(experiment);
+    let (text, cases) = match &experiment {
+        Experiment::Case(case) => (write_case(case), None),
+        Experiment::Spinline(spec) => (write_spinline(spec), None),
+        Experiment::Web(web) => {
+            (write_web(web), Some(flown(web).map(|(layer, case)| (layer, write_case(case))).collect()))
+        }
+    };
+    (text, cases, checksum(&experiment))
+}
+
+/// What [`packed`] has packed; None if it is another one on this machine.
+pub(crate) fn unpacked(text: &str, cases: &Cases, sum: u32) -> Result<Option<Experiment>, Error> {
+    Ok(Some(read(text, cases)?).filter(|experiment| checksum(experiment) == sum))
+}
+
+/// The error of a machine on which something is another one than on the client.
+///
+/// * `what` – that is another one: "point 3: its case or web"
+pub(crate) fn another(py: Python<'_>, what: &str) -> PyErr {
+    let text = format!(
+        "{what} is another one on this machine, because a file that it names has another content here, or \
+         this machine has another version of spunlaid; give all machines the same"
+    );
+    raised_as(py, "ClusterError", text)
 }
 
 /// The same on any machine that has the files: full paths of files, and names in place of the paths of cases, which are sent
@@ -122,10 +144,7 @@ pub(crate) fn fly_bundle(
             let point = match known.get(&(text.as_str(), cases)) {
                 Some(point) => *point,
                 None => {
-                    let experiment = read(text, cases)?;
-                    if checksum(&experiment) != *sum {
-                        return Ok(Err(*number));
-                    }
+                    let Some(experiment) = unpacked(text, cases, *sum)? else { return Ok(Err(*number)) };
                     known.insert((text, cases), points.len());
                     points.push(Point { values: Vec::new(), experiment });
                     points.len() - 1
@@ -135,14 +154,8 @@ pub(crate) fn fly_bundle(
         }
         Ok::<_, Failure>(Ok((fly((&points, &sides), &batches, watch.run_control(Some(threads)))?, batches)))
     })?;
-    let (records, batches) = flown.map_err(|number| {
-        let text = format!(
-            "point {}: its case or web is another one on this machine, because a file that it names has another content here, or \
-             this machine has another version of spunlaid; give all machines the same",
-            number + 1
-        );
-        raised_as(py, "ClusterError", text)
-    })?;
+    let (records, batches) =
+        flown.map_err(|number| another(py, &format!("point {}: its case or web", number + 1)))?;
     // Webs are never lost, so their first record has all their numbers.
     let numbers =
         records.first().and_then(|record| record.outcome.measured()).map_or(MEASURES.len(), <[f64]>::len);

@@ -5,7 +5,7 @@
 //! failure   errors as exceptions        value     values of Python as those of keys
 //! watched   work without the lock of the interpreter, with Ctrl-C and progress
 //! save      results in a folder         source    the file that a user names
-//! case, run, flight, air, spinline, study, web, scan, record, compare, keys     the classes and functions
+//! case, run, flight, air, spinline, study, web, stretch, scan, record, compare, keys     the classes and functions
 //! ```
 
 // Names such as CaseError are those of Python; units are written in brackets, [m/s].
@@ -35,6 +35,7 @@ mod bundle;
 mod compare;
 mod scan;
 mod spinline;
+mod stretch;
 mod study;
 mod table;
 mod web;
@@ -61,6 +62,7 @@ mod _spunlaid {
         scan::{AnalysedScan, analyse_scan, is_scan},
         spinline::{SolvedSpinline, solve_spinline},
         state::flown_from,
+        stretch::{WebFlight, fly_web, lay_stretch},
         study::Study,
         table::read_table,
         web::{LaidWeb, lay_web},

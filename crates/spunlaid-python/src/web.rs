@@ -10,12 +10,13 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use spunlaid::advice::{Advice, Change, advise, are_tried, steps};
 use spunlaid::case::Note;
-use spunlaid::error::FileKind;
+use spunlaid::error::{Error, FileKind};
 use spunlaid::input::{Overrides, WebFile, parse_changes, parse_guesses, parse_web};
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
 use spunlaid::observe::OF_PATCHES;
 use spunlaid::threads::look_while;
-use spunlaid::web::{Findings, Map, PatchFindings};
+use spunlaid::web::{Findings, LayControl, Map, PatchFindings};
+use spunlaid_results::Failure;
 use spunlaid_results::folders::web::{WebFolder, notes};
 use spunlaid_results::output::web::{ENTRIES, Performance};
 use std::path::PathBuf;
@@ -38,6 +39,81 @@ pub(crate) struct LaidWeb {
     performance: Performance,
 }
 
+/// The file of a web, and what is tried with it once it has been laid.
+#[derive(Debug)]
+pub(crate) struct Asked {
+    name: String,
+    pub(crate) file: WebFile,
+    advice: Option<Vec<Change>>,
+    guesses: Option<Vec<Change>>,
+}
+
+impl Asked {
+    /// * `advice`, `guesses` – whether they are tried
+    pub(crate) fn read(
+        py: Python<'_>,
+        path: Option<PathBuf>,
+        changes: &Bound<'_, PyAny>,
+        [advice, guesses]: [bool; 2],
+        threads: Option<usize>,
+    ) -> PyResult<Self> {
+        let changes = overrides(changes)?;
+        let set = Overrides { values: &changes, word: "web:" };
+        let Source { name, text, file } = Source::read(py, path, FileKind::Web, "web")?;
+        let advice = advice.then(|| read_file(py, threads, || parse_changes(text.clone(), &file, set)));
+        let advice = advice.transpose()?;
+        let guesses = guesses.then(|| read_file(py, threads, || parse_guesses(text.clone(), &file, set)));
+        let guesses = guesses.transpose()?;
+        let file = read_file(py, threads, || parse_web(&text, &file, set))?;
+        Ok(Self { name, file, advice, guesses })
+    }
+
+    pub(crate) fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Looks at a web, which is laid unless it has been, and tries what is asked for.
+    ///
+    /// * `started` – when the computation began
+    pub(crate) fn find(
+        &self,
+        mut flown: FlownWeb,
+        started: Instant,
+        (watch, laying): (&Watch, LayControl<'_>),
+    ) -> Result<LaidWeb, Failure> {
+        watch.begin(flown.pieces()?);
+        let findings = flown.find(laying)?;
+        let spec = &self.file.spec;
+        let compare = |changes: Vec<Change>| {
+            watch.begin(steps(spec, &changes));
+            advise(spec, (&flown.web, &findings), changes, laying)
+        };
+        let guesses = self.guesses.clone().filter(|guesses| are_tried(spec, &findings, guesses));
+        let guesses = guesses.map(compare).transpose()?;
+        let advice = self.advice.clone().map(compare).transpose()?;
+        let performance = Performance::measure(started, laying.threads, laying.isa).with_flights(&findings);
+        let of_results = notes(&flown.web, &findings, &flown.layers);
+        let notes = [Note::notes_of_results(&self.file.notes), of_results].concat();
+        let (name, file) = (self.name.clone(), self.file.clone());
+        Ok(LaidWeb { name, file, flown, findings, advice, guesses, notes, performance })
+    }
+}
+
+/// What flies fibres while a watch looks on.
+pub(crate) fn flown_while_watched<T>(
+    watch: &Watch,
+    laying: LayControl<'_>,
+    fly: impl FnOnce(&mut Flyer<'_>) -> Result<T, Error>,
+) -> Result<T, Error> {
+    // The flights have a counter of their own; it is looked at while they fly.
+    let follow = |Flights { done, steps, .. }: Flights<'_>, work: &mut (dyn FnMut() + Send)| {
+        watch.total.store(steps, Ordering::Relaxed);
+        let look = || watch.done.store(done.load(Ordering::Relaxed), Ordering::Relaxed);
+        look_while(LOOK, look, work);
+    };
+    fly(&mut Flyer::new(laying.threads, laying.stop, &follow))
+}
+
 /// Lays a web. See spunlaid.web, which calls it.
 #[pyfunction]
 #[pyo3(signature = (path, changes, advice = false, guesses = true, threads = None, progress = None))]
@@ -50,39 +126,13 @@ pub(crate) fn lay_web(
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<LaidWeb> {
-    let changes = overrides(changes)?;
-    let set = Overrides { values: &changes, word: "web:" };
-    let Source { name, text, file } = Source::read(py, path, FileKind::Web, "web")?;
-    let changes = advice.then(|| read_file(py, threads, || parse_changes(text.clone(), &file, set)));
-    let tried = changes.transpose()?;
-    let guesses = guesses.then(|| read_file(py, threads, || parse_guesses(text.clone(), &file, set)));
-    let guesses = guesses.transpose()?;
-    let file = read_file(py, threads, || parse_web(&text, &file, set))?;
+    let asked = Asked::read(py, path, changes, [advice, guesses], threads)?;
     let watch = Watch::default();
-    let (flown, findings, [advice, guesses], performance) = watched(py, &watch, progress.as_ref(), || {
-        let started = Instant::now();
-        // The flights have a counter of their own; it is looked at while they fly.
-        let follow = |Flights { done, steps, .. }: Flights<'_>, work: &mut (dyn FnMut() + Send)| {
-            watch.total.store(steps, Ordering::Relaxed);
-            let look = || watch.done.store(done.load(Ordering::Relaxed), Ordering::Relaxed);
-            look_while(LOOK, look, work);
-        };
-        let laying = watch.lay_control(threads);
-        let mut flyer = Flyer::new(laying.threads, laying.stop, &follow);
-        let mut flown = flyer.web(&file.spec)?;
-        watch.begin(flown.pieces()?);
-        let findings = flown.find(laying)?;
-        let compare = |changes: Vec<Change>| {
-            watch.begin(steps(&file.spec, &changes));
-            advise(&file.spec, (&flown.web, &findings), changes, laying)
-        };
-        let guesses = guesses.filter(|guesses| are_tried(&file.spec, &findings, guesses));
-        let (guesses, advice) = (guesses.map(compare).transpose()?, tried.map(compare).transpose()?);
-        let performance = Performance::measure(started, laying.threads, laying.isa).with_flights(&findings);
-        Ok((flown, findings, [advice, guesses], performance))
-    })?;
-    let notes = [Note::notes_of_results(&file.notes), notes(&flown.web, &findings, &flown.layers)].concat();
-    Ok(LaidWeb { name, file, flown, findings, advice, guesses, notes, performance })
+    watched(py, &watch, progress.as_ref(), || {
+        let (started, laying) = (Instant::now(), watch.lay_control(threads));
+        let flown = flown_while_watched(&watch, laying, |flyer| flyer.web(&asked.file.spec))?;
+        asked.find(flown, started, (&watch, laying))
+    })
 }
 
 /// Basis weight of every cell of a map [kg/m2], which cannot be written to.

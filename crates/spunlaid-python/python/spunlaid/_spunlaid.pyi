@@ -17,6 +17,7 @@ __all__ = [
     "LaidWeb",
     "SolvedSpinline",
     "Study",
+    "WebFlight",
     "__version__",
     "analyse",
     "analyse_scan",
@@ -27,8 +28,10 @@ __all__ = [
     "flown_from",
     "fly",
     "fly_bundle",
+    "fly_web",
     "is_scan",
     "keys",
+    "lay_stretch",
     "lay_web",
     "measures",
     "read_table",
@@ -41,6 +44,11 @@ _Floats = NDArray[np.float64]
 _Progress = Callable[[int, int], object] | None
 _Figures = tuple[Any, str | float | None]
 _Scale = tuple[str, float, float, bool]
+PackedWeb = tuple[str, list[tuple[int, str]] | None, int]
+PackedCurtain = tuple[int, tuple[float | None, float, float], tuple[list[float], float], _Floats, NDArray[np.float32]]
+PackedStretch = tuple[
+    int, NDArray[np.uint32], tuple[float, float, bool, float], list[tuple[int, int, _Floats]], list[list[float]]
+]
 _Part = tuple[int, str, list[tuple[int, str]] | None, int, int, int]
 
 @final
@@ -229,6 +237,17 @@ class LaidWeb(_Results):
     patches: Final[dict[str, _Floats]]
 
 @final
+class WebFlight:
+    """A web in one air that has been flown."""
+
+    web: Final[PackedWeb]
+    curtains: Final[list[PackedCurtain]]
+    cell: Final[float]
+    name: Final[str]
+    def stretches(self, count: int) -> list[tuple[int, int]]: ...
+    def join(self, stretches: Sequence[PackedStretch], threads: int | None = None, progress: _Progress = None) -> LaidWeb: ...
+
+@final
 class AnalysedScan(_Results):
     """What is found of a scan."""
 
@@ -293,6 +312,15 @@ def lay_web(
     threads: int | None = None,
     progress: _Progress = None,
 ) -> LaidWeb: ...
+def fly_web(
+    path: str | None,
+    changes: Mapping[str, Any],
+    advice: bool = False,
+    guesses: bool = True,
+    threads: int | None = None,
+    progress: _Progress = None,
+) -> WebFlight: ...
+def lay_stretch(web: PackedWeb, curtains: list[PackedCurtain], rows: tuple[int, int], threads: int | None) -> PackedStretch: ...
 def analyse_scan(picture: str | bytes, options: dict[str, Any]) -> AnalysedScan: ...
 def column_unit(name: str) -> str: ...
 def compare_folders(folders: Sequence[str]) -> Compared: ...

@@ -48,7 +48,7 @@ impl<'a> Belt<'a> {
     }
 }
 
-/// Draws all filaments of a curtain; the parts of them in the window are returned.
+/// Draws all filaments of a curtain on the rows of a canvas. The parts of them in the window are returned where it begins on these rows.
 ///
 /// * `quanta` – of the canvas, for a piece from point to point
 ///
@@ -63,11 +63,36 @@ pub(crate) fn draw(
     let count = curtain.places().len();
     // Neighbours are drawn together, because they lie on the same part of the sheet.
     let together = (count / (GROUPS * threads.max(1))).clamp(1, MOST_TOGETHER);
+    let (points, window) = points_on(curtain, belt, canvas.ends());
     let strands = try_each(threads, count.div_ceil(together), |group| {
         let filaments = group * together..count.min((group + 1) * together);
-        draw_neighbours(curtain, filaments, belt, (canvas, quanta), stop)
+        draw_neighbours(curtain, (filaments, &points), (belt, window), (canvas, quanta), stop)
     })?;
     Ok(strands.concat())
+}
+
+/// The points whose pieces may touch a stretch of the sheet, and the window if it begins there, which is then a part of the stretch.
+///
+/// * `ends` – of the stretch [m]
+fn points_on(
+    curtain: &dyn Curtain,
+    belt: Belt<'_>,
+    [mut from, mut to]: [f64; 2],
+) -> (Range<usize>, Option<WindowOnSheet>) {
+    let Window { corner, sides } = belt.window;
+    let window = (from..to).contains(&corner[1]).then(|| WindowOnSheet::new(belt.window, belt.sheet));
+    if window.is_some() {
+        // Pieces a cell beside it are looked at.
+        from = from.min(corner[1] - 2.0 * belt.sheet.cell);
+        to = to.max(corner[1] + sides[1] + 2.0 * belt.sheet.cell);
+    }
+    let (advance, farthest) = (curtain.belt_ratio() * curtain.spacing(), curtain.farthest());
+    let y = || curtain.places().iter().map(|place| place.y - belt.back);
+    let [first, last] = [y().fold(f64::INFINITY, f64::min), y().fold(f64::NEG_INFINITY, f64::max)];
+    // A piece more on each side, for numbers that are rounded.
+    let begin = (first - farthest - to) / advance - 2.0;
+    let end = (last + farthest - from) / advance + 3.0;
+    (begin as usize..(end as usize).min(curtain.points()), window)
 }
 
 /// A filament while it is drawn.
@@ -79,21 +104,20 @@ struct Pen {
 
 fn draw_neighbours(
     curtain: &dyn Curtain,
-    filaments: Range<usize>,
-    belt: Belt<'_>,
+    (filaments, points_on): (Range<usize>, &Range<usize>),
+    (belt, window): (Belt<'_>, Option<WindowOnSheet>),
     (canvas, quanta): (&Canvas, u32),
     stop: &AtomicBool,
 ) -> Result<Vec<Strand>, Error> {
     let advance = curtain.belt_ratio() * curtain.spacing();
     let mut pens: Vec<Pen> = filaments.clone().map(|_| Pen::default()).collect();
-    let window = WindowOnSheet::new(belt.window, belt.sheet);
     let mut part = CanvasPart::new(canvas);
     let (mut values, mut points) = ([[0.0; BLOCK]; 2], Vec::new());
-    for first in (0..curtain.points()).step_by(BLOCK) {
+    for first in points_on.clone().step_by(BLOCK) {
         if stop.load(Ordering::Relaxed) {
             return Err(Error::Interrupted);
         }
-        let count = BLOCK.min(curtain.points() - first);
+        let count = BLOCK.min(points_on.end - first);
         points.clear();
         let mut corners = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
         for filament in filaments.clone() {
@@ -114,7 +138,9 @@ fn draw_neighbours(
             for to in points {
                 if let Some(from) = pen.last.replace(*to) {
                     part.draw(from, *to, quanta);
-                    pen.strands.keep(filament, [from, *to], &window);
+                    if let Some(window) = &window {
+                        pen.strands.keep(filament, [from, *to], window);
+                    }
                 }
             }
         }

@@ -164,6 +164,15 @@ impl Curtain for Filling<'_> {
     fn reach(&self) -> [f64; 2] {
         self.flown.reach()
     }
+
+    fn farthest(&self) -> f64 {
+        let of_flown = self.flown.farthest();
+        let farthest = |[md, _]: &[Estimate; 2]| {
+            let weights: f64 = md.weights.iter().map(|(_, weight)| f64::from(weight.abs())).sum();
+            f64::from(md.constant.abs()) + weights * of_flown
+        };
+        self.curves.iter().map(farthest).fold(0.0, f64::max)
+    }
 }
 
 /// Adds a multiple of some values.

@@ -185,6 +185,16 @@ impl Curtain for FlownCurves {
         }
         reach
     }
+
+    fn farthest(&self) -> f64 {
+        farthest(&self.curves)
+    }
+}
+
+/// The largest deviation in machine direction [m].
+pub(super) fn farthest(curves: &[[Vec<f32>; 2]]) -> f64 {
+    let values = curves.iter().flat_map(|[md, _]| md);
+    values.fold(0.0, |farthest, value| f64::from(value.abs()).max(farthest))
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! The curves of a curtain on a lattice of places, from which sheets of any size are made.
 
 use super::filling::Covariances;
+use super::flown_curves::farthest;
 use super::{Curtain, FlownCurves};
 use crate::error::Fault;
 use crate::fibre::Place;
@@ -37,6 +38,8 @@ pub struct Library {
     pub(super) fade_across: f64,
     missing: [f64; 2],
     reach: [f64; 2],
+    /// No filament of the curtain is farther from its mean in machine direction [m].
+    farthest: f64,
 }
 
 /// The places of the lattice along the machine direction, and the mean deviation at each.
@@ -127,6 +130,7 @@ impl Library {
                 values.iter_mut().for_each(|value| *value -= mean as f32);
             }
         }
+        let farthest = MOST_WITHIN * MOST * farthest(&curves);
         let longest = PIECE * half_lag;
         Ok(Self {
             curves,
@@ -141,6 +145,7 @@ impl Library {
             fade_across,
             missing: filling.missing(),
             reach: flown.reach(),
+            farthest,
         })
     }
 
@@ -152,6 +157,11 @@ impl Library {
     /// The smallest and the largest deviation in machine direction, each counted from the middle of the slot [m].
     pub(super) fn reach(&self) -> [f64; 2] {
         self.reach
+    }
+
+    /// No deviation of a filament from the mean at its place is larger in machine direction [m].
+    pub(super) fn farthest(&self) -> f64 {
+        self.farthest
     }
 
     /// The curves of the lattice that a filament follows from, with their weights.
@@ -171,6 +181,10 @@ impl Library {
         around.iter().flat_map(of_level).collect()
     }
 }
+
+/// Largest sum of the sizes of the weights of a cubic: between its inner two values, where filaments across lie, and between any two, where those of a slot do.
+const MOST_WITHIN: f64 = 1.25;
+const MOST: f64 = 1.64;
 
 /// Weights of four values at −1, 0, 1 and 2 for the cubic through them.
 fn cubic(at: f64) -> [f64; 4] {

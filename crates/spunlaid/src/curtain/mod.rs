@@ -48,4 +48,7 @@ pub trait Curtain: Sync {
 
     /// The smallest and the largest deviation in machine direction, each counted from the middle of the slot [m].
     fn reach(&self) -> [f64; 2];
+
+    /// No deviation in machine direction is larger than this [m].
+    fn farthest(&self) -> f64;
 }

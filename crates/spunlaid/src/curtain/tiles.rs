@@ -183,6 +183,12 @@ impl Curtain for Tiles<'_> {
     fn reach(&self) -> [f64; 2] {
         self.source.reach()
     }
+
+    fn farthest(&self) -> f64 {
+        let mean = |around: &Vec<(usize, f64)>| self.source.levels.mean(around)[0].abs();
+        // Two pieces fade into each other along the fibre and two across: the sum of sine and cosine is √2 at most, of each pair.
+        self.levels.iter().map(mean).fold(0.0, f64::max) + 2.0 * self.source.farthest()
+    }
 }
 
 impl Tiles<'_> {

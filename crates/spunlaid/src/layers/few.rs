@@ -63,8 +63,6 @@ pub(super) struct FewPlan {
     pub(super) arrangement: Arrangement,
     /// Number of all filaments over the width of the sheet that is flown.
     pub(super) all: f64,
-    /// Where all filaments of the web are fed, in order across.
-    pub(super) places: Vec<Place>,
 }
 
 impl WebSpec {
@@ -109,19 +107,13 @@ impl WebSpec {
             return None;
         }
         let place = |[z, y]: [f64; 2]| Place { y, z };
-        let places_on = |sheet: &Sheet, filaments: &Filaments| -> Vec<Place> {
-            inlets(sheet, self.seed, layer, filaments).into_iter().map(place).collect()
-        };
-        let places = places_on(&sheet, &filaments);
+        let places: Vec<Place> =
+            inlets(&sheet, self.seed, layer, &filaments).into_iter().map(place).collect();
         let rows = match arrangement {
             Arrangement::Slot | Arrangement::AtRandom => vec![(0..places.len()).collect()],
             Arrangement::Rows => rows(&places),
         };
-        Some(FewFlight {
-            sheet,
-            places,
-            few: FewPlan { rows, arrangement, all, places: places_on(&self.sheet, &spec.filaments) },
-        })
+        Some(FewFlight { sheet, places, few: FewPlan { rows, arrangement, all } })
     }
 
     /// The sheet that the filaments of a case lay: that of the web unless a smaller one says as much. Long and narrow ones take the least time, because

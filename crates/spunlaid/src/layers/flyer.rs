@@ -70,7 +70,7 @@ pub struct FlownWeb {
     /// The fibres of its layers.
     pub layers: Vec<LayerFibres>,
     /// What filaments in one air have laid; None of a web that is still to be laid.
-    laid: Option<LaidWeb>,
+    pub(super) laid: Option<LaidWeb>,
 }
 
 /// Number of cases and folders whose curves are kept, some megabytes each.
@@ -284,7 +284,7 @@ impl FlownWeb {
 }
 
 /// The web with the fibres of its layers. Beside flown curves stands their surrogate, and the other way round.
-fn web_to_lay(spec: &WebSpec, layers: &[LayerFibres]) -> Web {
+pub(super) fn web_to_lay(spec: &WebSpec, layers: &[LayerFibres]) -> Web {
     let mut web = spec.web(layers.iter().map(|layer| layer.fibres.clone()));
     for ((layer, fibres), named) in web.layers.iter_mut().zip(layers).zip(&spec.layers) {
         layer.other_description = fibres.flown.as_ref().and_then(|flown| match spec.method {

@@ -1,23 +1,21 @@
 //! Webs whose filaments all fly in one air, and lay the sheet as they come down.
 
 use super::few::{FewFlight, FewPlan, FlownSheet};
+use super::flown_curtain::{FlownCurtain, FlownLayers};
 use super::flyer::Flights;
 use super::{Flown, FlownFibres, Flyer, LaydownSource, LayerFibres, Method, WebSpec};
 use crate::air::Lateral;
 use crate::beam::{Airs, Beam, BeamControl, BeamFindings};
 use crate::case::Case;
-use crate::curtain::drawing::draw;
-use crate::curtain::{Belt, FlownCurves, Library};
+use crate::curtain::FlownCurves;
 use crate::error::{Error, Fault, Place as ErrorPlace, Problem};
 use crate::fibre::Place;
 use crate::lanes::Isa;
 use crate::units::Dimension;
-use crate::web::{
-    Canvas, Curves, Edges, Fibres, LaidWeb, LayerFew, OneAir, SharedAirFindings, Sheet, Strand, TimeSpent,
-    blocks_on, inlets,
-};
+use crate::web::{Canvas, Curves, Fibres, LaidWeb, LayerFew, OneAir, Sheet, TimeSpent, blocks_on, inlets};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
+use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -92,28 +90,66 @@ impl Flyer<'_> {
     /// what independent filaments would give.
     pub(super) fn fly_together(&self, spec: &WebSpec) -> Result<(Vec<LayerFibres>, LaidWeb), Error> {
         let beams = beams(spec)?;
-        let elements: Vec<f64> = beams.iter().map(|layer| layer.beam().element_mass()).collect();
-        let weight = beams.iter().map(LayerBeam::basis_weight).sum();
-        let canvas = Canvas::new(&spec.sheet, &elements, weight)?;
-        let (mut layers, mut shared_air) = (Vec::new(), SharedAirFindings::default());
-        for (number, (layer, element)) in beams.into_iter().zip(elements).enumerate() {
-            let on = (&canvas, canvas.quanta(element));
+        let canvas = canvas(spec, 0..spec.sheet.cells()[1])?;
+        let mut flown = self.fly_layers(spec, beams, Some(&canvas))?;
+        let drawn = flown.curtains.draw(spec, &canvas, self.by())?;
+        flown.add(drawn);
+        Ok((flown.layers, LaidWeb { shared_air: Some(flown.shared_air), ..canvas.finish()? }))
+    }
+
+    /// Flies a few filaments of each layer, in an air of its own.
+    ///
+    /// # Errors
+    /// If all filaments of a layer would fly, which lay the sheet while they do.
+    pub(super) fn fly_few(&self, spec: &WebSpec) -> Result<FlownLayers, Error> {
+        let beams = beams(spec)?;
+        if let Some(layer) = beams.iter().position(|layer| layer.few.is_none()) {
+            return Err(Fault::new(
+                format!(
+                    "all filaments of layer {} fly, and they lay the whole sheet while they do; stretches of it are laid from a few of them",
+                    layer + 1
+                ),
+                "lay it at once, or let fewer filaments fly (web.flown)",
+            )
+            .into());
+        }
+        self.fly_layers(spec, beams, None)
+    }
+
+    /// Flies each layer.
+    ///
+    /// * `canvas` – on which all filaments of a layer are laid, unless only a few of them fly
+    fn fly_layers(
+        &self,
+        spec: &WebSpec,
+        beams: Vec<LayerBeam<'_>>,
+        canvas: Option<&Canvas>,
+    ) -> Result<FlownLayers, Error> {
+        let mut all = FlownLayers::default();
+        for (number, layer) in beams.into_iter().enumerate() {
+            let on = canvas.map(|canvas| (canvas, canvas.quanta(layer.beam().element_mass())));
             let (layer, mut flown, told) = self.fly_until_told(spec, (number, layer), on)?;
             let mut of_layer = flown.take_shared_air();
             if let Some((curves, told)) = told {
-                let missing;
-                (of_layer.strands, missing) =
-                    self.draw_all(spec, (number, &layer), (&curves, flown.back), on)?;
-                of_layer.few = vec![LayerFew { missing, ..told }];
+                let flown_sheet = [layer.sheet.width, layer.sheet.length];
+                all.curtains.0.push(FlownCurtain {
+                    layer: number,
+                    curves,
+                    sheet: flown_sheet,
+                    back: flown.back,
+                });
+                of_layer.few = vec![told];
+                // Those of all filaments are found when they are drawn.
+                of_layer.strands = Vec::new();
             }
-            shared_air.add(number, of_layer);
+            all.shared_air.add(number, of_layer);
             let flown = Arc::new(layer.gather(flown)?);
             // In machine direction the sheet is not closed.
             spec.check_spreads([0.0, flown.numbers[1].mean])?;
-            layers
-                .push(LayerFibres { fibres: Fibres::Curves(Arc::clone(&flown.curves)), flown: Some(flown) });
+            let fibres = Fibres::Curves(Arc::clone(&flown.curves));
+            all.layers.push(LayerFibres { fibres, flown: Some(flown) });
         }
-        Ok((layers, LaidWeb { shared_air: Some(shared_air), ..canvas.finish()? }))
+        Ok(all)
     }
 
     /// Flies a layer. Unless the file says how many filaments are flown, more of them fly where a few do not tell what all do.
@@ -121,12 +157,12 @@ impl Flyer<'_> {
         &self,
         spec: &'a WebSpec,
         (number, mut layer): (usize, LayerBeam<'a>),
-        on: (&Canvas, u32),
+        on: Option<(&Canvas, u32)>,
     ) -> Result<ToldFlight<'a>, Error> {
         let (mut finer, mut spent) = (0, TimeSpent::default());
         let mut sheet = spec.flown_sheet(number, false);
         loop {
-            let mut flown = self.fly_layer(&layer, spec, layer.few.is_none().then_some(on))?;
+            let mut flown = self.fly_layer(&layer, spec, on.filter(|_| layer.few.is_none()))?;
             spent.whole += flown.spent.whole;
             spent.in_parallel += flown.spent.in_parallel;
             flown.spent = spent;
@@ -143,36 +179,6 @@ impl Flyer<'_> {
             };
             layer = more;
         }
-    }
-
-    /// Draws all filaments of a layer, which follow from a few: those between them on the sheet that these have laid, and pieces of it on any other sheet.
-    /// Returns their parts in the window, and the part of the variance that the few do not tell.
-    ///
-    /// * `back` – where the flown sheet begins on the belt [m]
-    fn draw_all(
-        &self,
-        spec: &WebSpec,
-        (number, layer): (usize, &LayerBeam<'_>),
-        (curves, back): (&FlownCurves, f64),
-        on: (&Canvas, u32),
-    ) -> Result<(Vec<Strand>, [f64; 2]), Error> {
-        let (sheet, window) = (&spec.sheet, spec.window());
-        let places = layer.few.as_ref().map_or_else(Vec::new, |few| few.places.clone());
-        if [sheet.width, sheet.length] == [layer.sheet.width, layer.sheet.length] {
-            let all = curves.fill(places, self.threads);
-            let strands = draw(&all, Belt { sheet, window, back }, on, self.by())?;
-            return Ok((strands, all.missing()));
-        }
-        let library = Library::new(curves, self.threads)?;
-        let around = match sheet.edges {
-            // A web that is narrower than the flown sheet is a strip of it.
-            Edges::Periodic => sheet.width.max(layer.sheet.width),
-            // Filaments at the two edges know nothing of each other.
-            Edges::Cut => sheet.width + layer.sheet.width,
-        };
-        let tiles = library.tiles(places, around, sheet.length, [spec.seed, number as u64])?;
-        let strands = draw(&tiles, Belt::within(&tiles, sheet, window)?, on, self.by())?;
-        Ok((strands, library.missing()))
     }
 
     /// Flies a layer and shows the progress.
@@ -254,6 +260,15 @@ fn beams(spec: &WebSpec) -> Result<Vec<LayerBeam<'_>>, Error> {
         return Err(vec![problem].into());
     }
     (0..spec.layers.len()).map(|number| beam_on(spec, number, None)).collect()
+}
+
+/// The canvas of some rows of the sheet.
+pub(super) fn canvas(spec: &WebSpec, rows: Range<usize>) -> Result<Canvas, Error> {
+    let beams = (0..spec.layers.len()).map(|number| beam_on(spec, number, None));
+    let beams = beams.collect::<Result<Vec<_>, _>>()?;
+    let elements: Vec<f64> = beams.iter().map(|layer| layer.beam().element_mass()).collect();
+    let weight = beams.iter().map(LayerBeam::basis_weight).sum();
+    Ok(Canvas::of_rows(&spec.sheet, rows, &elements, weight)?)
 }
 
 /// The filaments of a layer at their places. Air that a case leaves the same across the flow becomes a field in space. The seed of the web and the number of the layer are in the key of the air, so that layers and webs have

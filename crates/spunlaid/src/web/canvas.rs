@@ -5,6 +5,7 @@ use super::laid_web::{HIGHEST, LaidWeb, too_full};
 use super::map::Map;
 use super::{Edges, Sheet};
 use crate::error::Fault;
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 
 /// Basis weight of the thickest ropes that are reckoned with, over the mean: filaments that hang in the same air come down together.
@@ -23,7 +24,8 @@ const MOST_NEAR: i64 = 1 << 20;
 #[derive(Debug)]
 pub(crate) struct Canvas {
     columns: i64,
-    rows: i64,
+    /// Those of the sheet that are drawn on.
+    rows: Range<i64>,
     cell: f64,
     quantum: f64,
     edges: Edges,
@@ -39,7 +41,20 @@ impl Canvas {
     /// # Errors
     /// If the cells are too large for the fibre that they would hold.
     pub(crate) fn new(sheet: &Sheet, pieces: &[f64], basis_weight: f64) -> Result<Self, Fault> {
-        let [columns, rows] = sheet.cells();
+        Self::of_rows(sheet, 0..sheet.cells()[1], pieces, basis_weight)
+    }
+
+    /// A stretch of the sheet, whose cells hold what they hold on all of it.
+    ///
+    /// # Errors
+    /// As [`Canvas::new`].
+    pub(crate) fn of_rows(
+        sheet: &Sheet,
+        rows: Range<usize>,
+        pieces: &[f64],
+        basis_weight: f64,
+    ) -> Result<Self, Fault> {
+        let columns = sheet.cells()[0];
         let heaviest = pieces.iter().copied().fold(0.0, f64::max);
         let lightest = pieces.iter().copied().fold(f64::INFINITY, f64::min);
         let highest = HIGHEST + ROPE * basis_weight * sheet.cell * sheet.cell / heaviest;
@@ -51,14 +66,19 @@ impl Canvas {
         }
         Ok(Self {
             columns: columns as i64,
-            rows: rows as i64,
+            rows: rows.start as i64..rows.end as i64,
             cell: sheet.cell,
             quantum,
             edges: sheet.edges,
-            cells: (0..columns * rows).map(|_| AtomicU32::new(0)).collect(),
+            cells: (0..columns * rows.len()).map(|_| AtomicU32::new(0)).collect(),
             cut: AtomicU64::new(0),
             is_full: AtomicBool::new(false),
         })
+    }
+
+    /// Where its rows begin and end on the sheet [m].
+    pub(crate) fn ends(&self) -> [f64; 2] {
+        [self.rows.start, self.rows.end].map(|row| row as f64 * self.cell)
     }
 
     /// Quanta of a piece of this mass [kg].
@@ -103,13 +123,13 @@ impl Canvas {
         let is_across = (0..self.columns).contains(&column);
         let column =
             if is_across || self.edges == Edges::Cut { column } else { column.rem_euclid(self.columns) };
-        let is_on = (0..self.rows).contains(&row) && (is_across || self.edges == Edges::Periodic);
-        is_on.then_some((row * self.columns + column) as usize)
+        let is_on = self.rows.contains(&row) && (is_across || self.edges == Edges::Periodic);
+        is_on.then(|| ((row - self.rows.start) * self.columns + column) as usize)
     }
 
-    /// Counts what lies beyond an edge. What lies before and behind the sheet is not counted.
+    /// Counts what lies beyond an edge. What lies before and behind the rows is not counted.
     fn cut_off(&self, [_, row]: [i64; 2], quanta: u32) {
-        if (0..self.rows).contains(&row) {
+        if self.rows.contains(&row) {
             self.cut.fetch_add(u64::from(quanta), Ordering::Relaxed);
         }
     }
@@ -126,7 +146,7 @@ impl Canvas {
         let cells = self.cells.into_iter().map(AtomicU32::into_inner).collect();
         let map = Map {
             columns: self.columns as usize,
-            rows: self.rows as usize,
+            rows: (self.rows.end - self.rows.start) as usize,
             cell: self.cell,
             quantum: self.quantum,
             closed,
@@ -281,6 +301,26 @@ mod tests {
             let (on, cut) = (laid.map.total(), (laid.cut / laid.map.quantum).round() as u64);
             let beyond = if edges == Edges::Periodic { [3, 0] } else { [2, 1] };
             assert_eq!([on, cut], beyond.map(|halves| halves * u64::from(quanta) / 2), "{edges:?}");
+        }
+    }
+
+    /// Stretches of a sheet that follow each other hold what all of it holds, also where a piece leaves one and enters the next.
+    #[test]
+    fn identical_a_sheet_and_its_stretches() {
+        let sheet = Sheet { edges: Edges::Cut, ..Sheet::new(10e-3, 20e-3, CELL) };
+        let draw = |rows: Range<usize>| {
+            let canvas = Canvas::of_rows(&sheet, rows, &[1e-9], 1e-3).unwrap();
+            for i in 0..40 {
+                let [z, y] = [i % 13, i * 7 % 20].map(|number| 1.03e-3 * f64::from(number));
+                canvas.draw([z, y], [z - 2.1e-3, y + 1.7e-3], canvas.quanta(1e-9));
+            }
+            canvas.finish().unwrap()
+        };
+        let whole = draw(0..20);
+        assert!(whole.cut > 0.0);
+        for at in [1, 7, 19] {
+            let joined = LaidWeb::joined(vec![draw(0..at), draw(at..20)]).unwrap();
+            assert_eq!((joined.map, joined.cut), (whole.map.clone(), whole.cut), "{at}");
         }
     }
 

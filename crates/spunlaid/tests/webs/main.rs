@@ -8,6 +8,7 @@ mod fit;
 mod guesses;
 mod neighbours;
 mod same_air;
+mod stretches;
 mod surrogate;
 mod two_filaments;
 mod web;

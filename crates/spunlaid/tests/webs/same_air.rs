@@ -28,14 +28,14 @@ const SHORT: [(&str, &str); 5] = [
     ("air.lateral_cutoff", "4"),
 ];
 
-fn read(set: &[(&str, &str)]) -> WebFile {
+pub(super) fn read(set: &[(&str, &str)]) -> WebFile {
     let set: Vec<(String, String)> =
         SHORT.iter().chain(set).map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/web_shared.toml");
     parse_web(WEB, &cases.display().to_string(), Overrides { values: &set, word: "--set" }).unwrap()
 }
 
-fn unwatched(_: Flights<'_>, work: &mut (dyn FnMut() + Send)) {
+pub(super) fn unwatched(_: Flights<'_>, work: &mut (dyn FnMut() + Send)) {
     work();
 }
 
