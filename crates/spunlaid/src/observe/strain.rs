@@ -1,7 +1,7 @@
 //! Strain of the elements.
 
 use super::{
-    Aggregate, Declaration, FIBRE, Figure, Kind, Measure, Observation, Observer, PERCENT, Value, fixed,
+    Aggregate, Declaration, FIBRE, Figure, Measure, Observation, Observer, PERCENT, Value, figure, fixed,
     number_of_each,
 };
 use crate::fibre::Root;
@@ -48,17 +48,21 @@ const fn measure(
     aggregate: Aggregate,
     series: &'static str,
 ) -> Measure {
-    let figure = &Figure {
-        name: "strain",
-        title: "Strain",
-        words: "strain",
-        logarithmic: false,
-        from_zero: true,
-        caption: "",
-    };
-    let (column, unit, kind, group) = (name, PERCENT, Kind::Number, FIBRE);
-    Measure { name, column, label, meaning, unit, kind, group, aggregate, figure, series }
+    Measure {
+        name,
+        column: name,
+        label,
+        meaning,
+        unit: PERCENT,
+        group: FIBRE,
+        aggregate,
+        figure: &FIGURE,
+        series,
+        ..Measure::NUMBER
+    }
 }
+
+const FIGURE: Figure = figure("strain", "Strain", "strain");
 
 /// Strain at the root, averaged over some intervals that end at the recorded instants after the spin-up.       theory.md (57)
 #[derive(Debug)]
