@@ -40,6 +40,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
 };
 
 const AMPLITUDE: Measure = Measure {
+    is_main: true,
     meaning: "standard deviation over time of the free end’s position",
     unit: MILLIMETRES,
     figure: &figure("amplitude", "Amplitude", "amplitude"),
@@ -47,6 +48,7 @@ const AMPLITUDE: Measure = Measure {
 };
 
 const FREQUENCY: Measure = Measure {
+    is_main: true,
     meaning: "half the number of sign changes per second of the free end’s position",
     unit: HERTZ,
     figure: &figure("frequency", "Frequency", "frequency"),
@@ -55,6 +57,7 @@ const FREQUENCY: Measure = Measure {
 
 const MEAN_X: Measure = Measure {
     name: "mean_x",
+    is_main: true,
     column: "mean_x_m",
     label: "Mean position along the flow",
     meaning: "mean over time of the free end’s x; the smaller it is against the fibre’s length, the more the fibre is bent",

@@ -63,6 +63,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         },
         Measure {
             name: "orientation_md",
+            is_main: true,
             column: "orientation_md",
             label: "Orientation in machine direction",
             meaning: "mean of cos² of the angle between chords of 10 mm of fibre and the machine direction: 0.5 without \
@@ -115,6 +116,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
         },
         Measure {
             name: "noise",
+            is_main: true,
             column: "noise_per_sqrt_m",
             label: "Noise A of the surrogate",
             meaning: "strength of the noise in the direction of the surrogate, from its autocorrelation over lags \
@@ -177,6 +179,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
 };
 
 const SPREAD: Measure = Measure {
+    is_main: true,
     unit: MILLIMETRES,
     group: LAYDOWN,
     figure: &figure("spread", "Spread of the laid fibre", "spread"),
@@ -184,12 +187,14 @@ const SPREAD: Measure = Measure {
 };
 
 const SURROGATE_SPREAD: Measure = Measure {
+    is_main: false,
     group: SURROGATE,
     figure: &figure("surrogate_spread", "Spread of the surrogate", "spread of the surrogate"),
     ..SPREAD
 };
 
 const HALF_LENGTH: Measure = Measure {
+    is_main: true,
     unit: MILLIMETRES,
     group: LAYDOWN,
     figure: &figure("half_correlation_length", "Half correlation length", "half correlation length"),

@@ -35,6 +35,8 @@ pub struct Measure<T: 'static = Flight> {
     pub digits: Option<i32>,
     /// Whether a table has it, if it has a label.
     pub is_shown: fn(&T) -> bool,
+    /// Whether the tables of studies show it.
+    pub is_main: bool,
     /// Number or curve.
     pub kind: Kind,
     /// Its group.
@@ -161,6 +163,7 @@ impl<T> Measure<T> {
         zero: 0.0,
         digits: None,
         is_shown: |_| true,
+        is_main: false,
         kind: Kind::Number,
         group: END_NODE,
         aggregate: Aggregate::Mean,
@@ -229,6 +232,11 @@ impl<T> Measure<T> {
     /// It as studies keep it, under a name and in a column of another name than in `summary.json`.
     pub(super) const fn kept(self, name: &'static str, column: &'static str) -> Self {
         Self { name, column, entry: Some(self.column), ..self }
+    }
+
+    /// It in the tables of studies.
+    pub(super) const fn main(self) -> Self {
+        Self { is_main: true, ..self }
     }
 
     /// It where `summary.json` has it in another place.

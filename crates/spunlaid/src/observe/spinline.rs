@@ -9,14 +9,17 @@ pub const OF_SPINLINES: &[Measure<Solution>] = &[
     spun("final_diameter_m", "Diameter, cold", MICROMETRES, |found| found.final_diameter)
         .meaning("diameter of the solid filament at the end of the line, with the density of the solid")
         .named("final_diameter")
+        .main()
         .figure(&figure("final_diameter", "Diameter of the filament", "diameter of the filament")),
     spun("linear_density_kg_m", "Line density", DECITEX, |found| found.linear_density)
         .meaning("mass per length of the filament: throughput over speed")
         .named("linear_density")
+        .main()
         .figure(&figure("linear_density", "Titre of the filament", "titre")),
     spun("final_speed_m_s", "Speed at the end", METRES_PER_SECOND, |found| found.final_speed)
         .meaning("speed of the filament at the end of the line")
         .named("final_speed")
+        .main()
         .figure(&figure("final_speed", "Speed at the end of the spinline", "speed of the filament")),
     spun("draw_ratio", "Draw ratio", RATIO, Solution::draw_ratio)
         .meaning("speed at the end over the speed of the melt at the die")
@@ -27,6 +30,7 @@ pub const OF_SPINLINES: &[Measure<Solution>] = &[
     })
     .meaning("from here on the filament is solid and keeps its speed")
     .kept("freezing_distance", "freezing_distance_m")
+    .main()
     .figure(&figure(
         "freezing_distance",
         "Distance of the freezing point from the die",
@@ -60,6 +64,7 @@ pub const OF_SPINLINES: &[Measure<Solution>] = &[
     spun("freezing.stress_pa", "Stress at the freezing point", MEGAPASCALS, |found| found.freezing.stress)
         .meaning("tensile stress of the thread where it becomes solid, which orients the polymer")
         .kept("freezing_stress", "freezing_stress_pa")
+        .main()
         .figure(&figure("freezing_stress", "Stress at the freezing point", "stress at the freezing point")),
     spun("freezing.cooling_rate_k_s", "Cooling rate at the freezing point", KELVIN_PER_SECOND, |found| {
         found.freezing.cooling_rate
@@ -106,6 +111,7 @@ pub const OF_SPINLINES: &[Measure<Solution>] = &[
         })
     })
     .named("modulus_estimate")
+    .main()
     .figure(&figure("modulus_estimate", "Estimate of Young’s modulus", "estimate of Young’s modulus")),
     spun("momentum_residual", "Balance of momentum", RATIO, |found| found.momentum_residual)
         .meaning("by how much it fails over the whole line, as a share of the largest tension")

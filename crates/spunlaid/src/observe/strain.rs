@@ -12,16 +12,19 @@ use std::collections::VecDeque;
 
 /// The strain that does not depend on the time step.
 pub(super) const USUAL: Declaration = Declaration {
-    measures: &[measure(
-        "strain_99",
-        "Strain, 99 % of the time",
-        "strain that the element at the root does not exceed during 99 % of the time after the spin-up. It is \
-         averaged over the period of the slowest axial wave, 4 L √(density / Young's modulus), or over the output \
-         interval if that is longer. It hardly depends on the time step; compare it with the strain that the \
-         polymer can take",
-        Aggregate::Mean,
-        "99 % of the time",
-    )],
+    measures: &[Measure {
+        is_main: true,
+        ..measure(
+            "strain_99",
+            "Strain, 99 % of the time",
+            "strain that the element at the root does not exceed during 99 % of the time after the spin-up. It is \
+             averaged over the period of the slowest axial wave, 4 L √(density / Young's modulus), or over the \
+             output interval if that is longer. It hardly depends on the time step; compare it with the strain that \
+             the polymer can take",
+            Aggregate::Mean,
+            "99 % of the time",
+        )
+    }],
     applies: |case| case.fibre.root != Root::Free,
     observer: |flight| Box::new(AveragedStrain::new(flight)),
 };

@@ -11,6 +11,7 @@ pub const OF_PATCHES: &[Measure<PatchFindings>] = &[
     share("cv", "CV over patches of # mm", |patch| Some(patch.map.cv))
         .meaning("coefficient of variation of the basis weight of the map over square patches")
         .kept("cv_#_mm", "cv_#_mm")
+        .main()
         .figure(&figure("cv", "Unevenness of the web, CV", "CV of the web"))
         .errors(&[
             share("cv_standard_error", "Error of the CV by chance", |patch| patch.map.standard_error)
@@ -92,6 +93,7 @@ pub const OF_PATCHES: &[Measure<PatchFindings>] = &[
     share("cv_flown", "CV expected from the flown curves", |patch| Some(patch.flown?.0))
         .meaning("CV that is expected from the flown curves")
         .kept("cv_#_mm_flown", "cv_#_mm_flown")
+        .main()
         .figure(&figure("cv_flown", "CV expected from the flown curves", "CV of the flown curves"))
         .short("flown curves")
         .shown_if(is_flown_alone)
@@ -126,6 +128,7 @@ pub const OF_WEBS: &[Measure<Findings>] = &[
     )
     .meaning("mean mass of the web per area")
     .named("basis_weight")
+    .main()
     .elsewhere()
     .figure(&figure("basis_weight", "Basis weight", "basis weight")),
     Measure::<Findings>::new(
@@ -151,6 +154,7 @@ pub const OF_WEBS: &[Measure<Findings>] = &[
     Measure::<Findings>::new("md_cd_ratio", "MD/CD", RATIO, Number(|found| found.orientation.md_cd_ratio()))
         .meaning("length of fibre along the machine direction over that along the cross direction")
         .named("md_cd_ratio")
+        .main()
         .figure(&figure("md_cd_ratio", "Ratio of fibre along MD and CD", "MD/CD ratio")),
     Measure::<Findings>::new(
         "sigma_md_m",

@@ -23,6 +23,8 @@ pub struct Quantity {
     pub meaning: &'static str,
     /// The unit in which it is shown.
     pub unit: Unit,
+    /// Whether tables show it.
+    pub is_main: bool,
     /// The figure that shows it.
     pub figure: &'static Figure,
     /// Its label in that figure.
@@ -46,6 +48,7 @@ impl Quantity {
             meaning: measure.meaning,
             // A temperature is kept in kelvin.
             unit: if measure.zero == 0.0 { measure.unit } else { KELVIN },
+            is_main: measure.is_main,
             figure: measure.figure,
             series: named(measure.series),
             errors: Vec::new(),
