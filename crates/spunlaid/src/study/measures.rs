@@ -190,3 +190,35 @@ impl ReplicateOutcome {
 pub fn measured(trajectory: &Trajectory) -> Measurements {
     MEASURES.iter().map(|measure| trajectory.number(measure.name)).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_errors_of_a_cv_follow_it_and_are_known_to_it() {
+        let mut all = Vec::new();
+        add(&mut all, OF_SPINLINES, "");
+        add(&mut all, OF_PATCHES, "2.5");
+        let errors_of = |name: &str| -> Vec<(ErrorRole, &str)> {
+            let quantity = all.iter().find(|quantity| quantity.name == name);
+            let errors = quantity.into_iter().flat_map(|quantity| &quantity.errors);
+            errors.map(|(role, index)| (*role, all[*index].name.as_str())).collect()
+        };
+        assert_eq!(
+            errors_of("cv_2.5_mm"),
+            [
+                (ErrorRole::OfOne, "cv_2.5_mm_chance"),
+                (ErrorRole::Further, "cv_2.5_mm_few_fibres"),
+                (ErrorRole::Further, "cv_2.5_mm_model")
+            ]
+        );
+        assert_eq!(errors_of("cv_2.5_mm_flown"), [(ErrorRole::Always, "cv_2.5_mm_flown_error")]);
+        // Its error is not kept.
+        assert_eq!(errors_of("cv_2.5_mm_one_fibre"), []);
+        // A temperature is kept in kelvin.
+        assert!(
+            all.iter().any(|quantity| quantity.column == "freezing_temperature_k" && quantity.unit == KELVIN)
+        );
+    }
+}
