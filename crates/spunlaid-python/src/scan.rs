@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use spunlaid::error::Error;
 use spunlaid::lanes::Isa;
-use spunlaid::observe::OF_SCANNED_PATCHES;
+use spunlaid::observe::{OF_SCANNED_PATCHES, with_errors};
 use spunlaid::scan::{Findings, LightKind, PatchFindings, ScanRequest, is_picture_file, parse};
 use spunlaid::units::Dimension;
 use spunlaid_results::folders::scan::{ScanFolder, notes};
@@ -154,10 +154,8 @@ impl AnalysedScan {
             all.set_item(name, PyArray1::from_vec(py, column.collect()))
         };
         put("patch_m", &|patch| Some(patch.unevenness.patch))?;
-        put("cv", &|patch| Some(patch.unevenness.cv))?;
-        put("cv_standard_error", &|patch| patch.unevenness.standard_error)?;
-        for measure in OF_SCANNED_PATCHES {
-            put(measure.name, &measure.number)?;
+        for measure in with_errors(OF_SCANNED_PATCHES) {
+            put(measure.entry(), &|patch| Some(measure.number(patch)))?;
         }
         put("cv_low", &|patch| patch.interval.ok().map(|ends| ends[0]))?;
         put("cv_high", &|patch| patch.interval.ok().map(|ends| ends[1]))?;

@@ -13,7 +13,7 @@ use spunlaid::case::Note;
 use spunlaid::error::{Error, FileKind};
 use spunlaid::input::{Overrides, WebFile, parse_changes, parse_guesses, parse_web};
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
-use spunlaid::observe::OF_PATCHES;
+use spunlaid::observe::{OF_PATCHES, with_errors};
 use spunlaid::threads::look_while;
 use spunlaid::web::{Findings, LayControl, Map, PatchFindings};
 use spunlaid_results::Failure;
@@ -185,17 +185,18 @@ impl LaidWeb {
     fn patches<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let patches = &self.findings.patches;
         let all = PyDict::new(py);
-        let put = |name: &str, number: fn(&PatchFindings) -> Option<f64>| {
+        let put = |name: &str, number: &dyn Fn(&PatchFindings) -> Option<f64>| {
             let column = patches.iter().map(|patch| number(patch).unwrap_or(f64::NAN)).collect();
             all.set_item(name, PyArray1::from_vec(py, column))
         };
-        put("patch_m", |patch| Some(patch.map.patch))?;
-        for measure in OF_PATCHES {
+        put("patch_m", &|patch| Some(patch.map.patch))?;
+        for measure in with_errors(OF_PATCHES) {
             // The older name of these.
-            put(&measure.name.replace("one_fibre", "single_fibres"), measure.number)?;
+            let name = measure.entry().replace("one_fibre", "single_fibres");
+            put(&name, &|patch| Some(measure.number(patch)))?;
         }
-        put("cv_low", |patch| Some(patch.interval()?[0]))?;
-        put("cv_high", |patch| Some(patch.interval()?[1]))?;
+        put("cv_low", &|patch| Some(patch.interval()?[0]))?;
+        put("cv_high", &|patch| Some(patch.interval()?[1]))?;
         Ok(all)
     }
 

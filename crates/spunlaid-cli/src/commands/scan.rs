@@ -1,13 +1,15 @@
 //! `spunlaid analyse` of a scan or a map of a web.
 
-use super::{say_report, staged, stem};
+use super::{aligned, say_report, staged, stem};
 use crate::args::{Analyse, Direction, Invocation, LightName};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::lanes::Isa;
-use spunlaid::scan::{Findings, LightKind, ScanRequest};
+use spunlaid::observe::{Measured, OF_SCANNED_PATCHES, measured};
+use spunlaid::scan::{Findings, LightKind, PatchFindings, ScanRequest};
 use spunlaid_results::folders::scan::{ScanFolder, notes};
-use spunlaid_results::numbers::{plus_minus, significant};
+use spunlaid_results::numbers::significant;
+use spunlaid_results::output::measured::text as shown;
 use spunlaid_results::output::web::{ENTRIES, Performance};
 use std::time::Instant;
 
@@ -59,26 +61,23 @@ fn table(findings: &Findings) -> String {
     if findings.mean_known {
         text.push_str(&format!("basis weight {} g/m²\n", significant(findings.map.basis_weight() * 1e3, 4)));
     }
-    let heads = ["patch", "CV", "camera noise", "lost by blur", "95 % interval"];
-    let line = |cells: [&str; 5]| {
-        let [patch, cv, noise, blur, interval] = cells;
-        format!("  {patch:>7}  {cv:>12}  {noise:>12}  {blur:>12}  {interval}\n")
-    };
-    text.push_str("unevenness, CV in % ± standard error; what the camera adds, and what one more pixel of blur takes away\n");
-    text.push_str(&line(heads));
-    for patch in &findings.patches {
-        let found = patch.unevenness;
+    text.push_str(
+        "unevenness ± standard error; what the camera adds, and what one more pixel of blur takes away\n",
+    );
+    let heads = OF_SCANNED_PATCHES.iter().map(|measure| measure.terse());
+    let heads: Vec<String> =
+        ["patch"].into_iter().chain(heads).chain(["95 % interval"]).map(str::to_owned).collect();
+    let row = |patch: &PatchFindings| -> Vec<String> {
+        let cell = |row: Measured<PatchFindings>| {
+            format!("{} {}", shown(&row).unwrap_or_default(), row.measure.unit.shown)
+        };
         let interval = patch.interval.map_or_else(
             |doubt| format!("none: {doubt}"),
-            |ends| ends.map(|end| significant(100.0 * end, 3)).join(" to "),
+            |ends| format!("{} %", ends.map(|end| significant(100.0 * end, 3)).join(" to ")),
         );
-        text.push_str(&line([
-            &format!("{} mm", significant(found.patch * 1e3, 3)),
-            &plus_minus(100.0 * found.cv, found.standard_error.map(|error| 100.0 * error)),
-            &significant(100.0 * patch.noise, 2),
-            &format!("{} %", significant(100.0 * patch.blur, 2)),
-            &interval,
-        ]));
-    }
-    text
+        let side = format!("{} mm", significant(patch.unevenness.patch * 1e3, 3));
+        [side].into_iter().chain(measured(OF_SCANNED_PATCHES, patch).map(cell)).chain([interval]).collect()
+    };
+    let rows: Vec<_> = [heads].into_iter().chain(findings.patches.iter().map(row)).collect();
+    text + &aligned(&rows)
 }

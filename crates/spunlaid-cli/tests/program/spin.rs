@@ -52,10 +52,10 @@ fn a_spinline_of_the_repository_is_solved_in_one_command() {
     let command = format!("spin {} --out a", cases.join("spinline.toml").display());
     let said = success(&mut desk.spunlaid(&command));
     for part in [
-        "Diameter, cold                    24.89 µm",
-        "Line density                      4.405 dtex",
-        "Speed                             18.92 m/s",
-        "Temperature there                   110 °C  (it freezes by its temperature)",
+        "Diameter, cold                         24.89 µm",
+        "Line density                           4.405 dtex",
+        "Speed at the end                       18.92 m/s",
+        "Temperature at the freezing point        110 °C  (it freezes by its temperature)",
         "Young’s modulus, an estimate",
         "what decides the diameter",
         "% finer",

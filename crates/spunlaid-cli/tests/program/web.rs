@@ -170,7 +170,7 @@ fn a_web_of_a_flight_tells_its_error_by_causes_and_the_cv_of_the_flown_curves() 
     assert!(residual("fit_residual_by_chance") > 0.0);
     let page = String::from_utf8(desk.read("s/report.html")).unwrap();
     for words in
-        ["the small number of flown fibres", "CV expected, from the flown curves", "Residual of the fit"]
+        ["the small number of flown fibres", "CV expected from the flown curves", "Residual of the fit"]
     {
         assert!(page.contains(words), "{words}");
     }

@@ -13,7 +13,8 @@ use spunlaid::input::{parse_spinline, parse_web};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::Flyer;
 use spunlaid::observe::{
-    OF_COMPONENTS, OF_PATCHES, OF_RECORDS, OF_SCANNED_PATCHES, OF_SCANS, OF_SPINLINES, OF_WEBS, RecordMeasure,
+    Measure, OF_COMPONENTS, OF_PATCHES, OF_RECORDS, OF_SCANNED_PATCHES, OF_SCANS, OF_SPINLINES, OF_WEBS,
+    Value, measured, with_errors,
 };
 use spunlaid::scan::{self, Format, Light, Picture};
 use spunlaid::web::{FewFilamentsCv, Findings, IndependentCv, LayControl, PatchFindings};
@@ -103,31 +104,31 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
         let (summary, report): (Json, _) =
             (serde_json::from_str(&read("summary.json")).unwrap(), read("report.html"));
         for declared in OF_WEBS {
-            let column = declared.measure.column;
+            let column = declared.column;
             let places = [&summary["web"], &summary["layers"][0]];
             let json = places.into_iter().find_map(|place| place.get(column)).cloned();
             let mean = json.as_ref().map(|json| json.get("mean").unwrap_or(json).as_f64().unwrap());
-            assert_eq!(mean, (declared.number)(&flown.web, findings).map(|found| found.value()), "{column}");
+            assert_eq!(mean, declared.value(findings).map(|value| value.number()), "{column}");
         }
         let terminal = PatchTable::new(findings, Reader::Terminal).heads;
         for (patch, json) in findings.patches.iter().zip(summary["web"]["patches"].as_array().unwrap()) {
-            for declared in OF_PATCHES {
-                let number = (declared.number)(patch);
-                assert_eq!(json.get(declared.name).and_then(Json::as_f64), number, "{}", declared.name);
-                names.extend(number.map(|_| declared.name));
-                let Some(column) = &declared.column else { continue };
-                if (column.is_shown)(patch) {
-                    assert!(report.contains(&format!(">{}</th>", column.heads[0])), "{}", declared.name);
-                    assert!(column.heads[1].is_empty() || terminal.contains(&column.heads[1]));
-                    heads.insert(declared.name);
+            for declared in with_errors(OF_PATCHES) {
+                let (name, number) = (declared.entry(), declared.value(patch).map(|value| value.number()));
+                assert_eq!(json.get(name).and_then(Json::as_f64), number, "{name}");
+                names.extend(number.map(|_| name));
+                let [head, short] = [declared.label, declared.terse()];
+                if declared.short.is_some() && (declared.is_shown)(patch) {
+                    assert!(report.contains(&format!(">{head}</th>")), "{name}");
+                    assert!(short.is_empty() || terminal.contains(&short), "{name}");
+                    heads.insert(name);
                 }
             }
         }
     }
     // Each of them has been looked at.
-    assert_eq!(names, OF_PATCHES.iter().map(|declared| declared.name).collect());
-    let with_column = OF_PATCHES.iter().filter(|declared| declared.column.is_some());
-    assert_eq!(heads, with_column.map(|declared| declared.name).collect());
+    assert_eq!(names, with_errors(OF_PATCHES).map(Measure::entry).collect());
+    let with_column = with_errors(OF_PATCHES).filter(|declared| declared.short.is_some());
+    assert_eq!(heads, with_column.map(Measure::entry).collect());
 }
 
 #[test]
@@ -165,15 +166,15 @@ fn every_declared_measure_of_a_scan_is_in_summary_and_report() {
     };
     let report = scan_html(&report).unwrap();
     for declared in OF_SCANS {
-        let number = (declared.number)(&findings);
-        assert_eq!(summary["scan"].get(declared.name).unwrap().as_f64(), number, "{}", declared.name);
+        let number = declared.value(&findings).map(|value| value.number());
+        assert_eq!(summary["scan"].get(declared.entry()).unwrap().as_f64(), number, "{}", declared.entry());
         let is_told = !declared.label.is_empty() && number.is_some_and(|number| number != 0.0);
-        assert!(!is_told || report.contains(declared.label), "{}", declared.name);
+        assert!(!is_told || report.contains(declared.label), "{}", declared.entry());
     }
     for declared in OF_SCANNED_PATCHES {
-        let json = summary["web"]["patches"][0][declared.name].as_f64();
-        assert_eq!(json, (declared.number)(&findings.patches[0]), "{}", declared.name);
-        assert!(report.contains(declared.label), "{}", declared.name);
+        let json = summary["web"]["patches"][0][declared.entry()].as_f64();
+        assert_eq!(json, Some(declared.number(&findings.patches[0])), "{}", declared.entry());
+        assert!(report.contains(declared.label), "{}", declared.entry());
     }
 }
 
@@ -186,12 +187,11 @@ fn every_declared_measure_of_a_spinline_is_in_summary_terminal_and_report() {
     let folder = SpinFolder { name: "line", file: &file, results: &results, notes: &[] };
     let summary: Json = serde_json::from_str(&folder.summary()).unwrap();
     let (report, terminal) = (folder.report(), text(&results.rows, &results.influences));
-    for declared in OF_SPINLINES {
-        let json = summary.pointer(&format!("/spinline/{}", declared.name.replace('.', "/")));
-        let value = Some(declared.value(&results.rows[0]));
-        assert_eq!(json.and_then(Json::as_f64), value, "{}", declared.name);
-        assert!(report.contains(declared.label), "{}", declared.name);
-        assert!(declared.is_residual || terminal.contains(declared.label), "{}", declared.name);
+    for row in measured(OF_SPINLINES, &results.rows[0]) {
+        let name = row.measure.entry();
+        let json = summary.pointer(&format!("/spinline/{}", name.replace('.', "/")));
+        assert_eq!(json.and_then(Json::as_f64), row.value.map(|value| value.number()), "{name}");
+        assert!(report.contains(row.measure.label) && terminal.contains(row.measure.terse()), "{name}");
     }
 }
 
@@ -209,11 +209,11 @@ fn every_declared_measure_of_a_record_is_in_summary_terminal_and_report() {
         air: "[air]\n",
     };
     let pages = [analysis_html(&report), result_table(&record, &analysis)];
-    fn check<T>(declared: &[RecordMeasure<T>], found: &T, json: &Json, pages: &[String; 2]) {
-        for declared in declared {
-            let number = serde_json::to_value((declared.number)(found)).unwrap();
-            assert_eq!(json.get(declared.name), Some(&number), "{}", declared.name);
-            assert!(pages.iter().all(|page| page.contains(declared.label)), "{}", declared.name);
+    fn check<T>(measures: &'static [Measure<T>], found: &T, json: &Json, pages: &[String; 2]) {
+        for row in measured(measures, found) {
+            let value = row.value.as_ref().map(|value: &Value| serde_json::to_value(value).unwrap());
+            assert_eq!(json.get(row.measure.entry()), value.as_ref(), "{}", row.measure.entry());
+            assert!(pages.iter().all(|page| page.contains(row.measure.label)), "{}", row.measure.entry());
         }
     }
     check(OF_RECORDS, &analysis, &json, &pages);

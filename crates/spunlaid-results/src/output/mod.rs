@@ -11,6 +11,7 @@ pub mod fit;
 pub mod folder;
 pub mod in_order;
 pub mod leftovers;
+pub mod measured;
 mod neighbours;
 pub mod origin;
 pub mod paraview;

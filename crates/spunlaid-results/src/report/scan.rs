@@ -9,8 +9,9 @@ use super::words::{metres, millimetres};
 use crate::Failure;
 use crate::figures::SEEN;
 use crate::numbers::{THIN, plus_minus, significant};
+use crate::output::measured::text;
 use crate::output::web::Performance;
-use spunlaid::observe::{OF_SCANNED_PATCHES, OF_SCANS, ScanMeasure, Unit};
+use spunlaid::observe::{Measured, OF_SCANNED_PATCHES, OF_SCANS, measured};
 use spunlaid::scan::{Findings, PatchFindings};
 use spunlaid::web::{Map, nearest_to_seen};
 use spunlaid_charts::Figure;
@@ -64,7 +65,7 @@ pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
         verdict: verdict(findings),
         heads: ["Patch", "CV", "95 % interval"]
             .into_iter()
-            .chain(OF_SCANNED_PATCHES.iter().map(|measure| measure.label))
+            .chain(OF_SCANNED_PATCHES.iter().skip(1).map(|measure| measure.label))
             .collect(),
         patches: findings.patches.iter().map(row).collect(),
         about_patches: "The interval is that of the web, of which the scan is one piece. The noise of the camera \
@@ -100,15 +101,15 @@ fn row(patch: &PatchFindings) -> Vec<String> {
             },
         ),
     ];
-    cells.extend(OF_SCANNED_PATCHES.iter().map(|measure| shown(measure, patch).unwrap_or_default()));
+    // The CV stands before the interval.
+    cells.extend(measured(OF_SCANNED_PATCHES, patch).skip(1).map(|row| shown(&row).unwrap_or_default()));
     cells
 }
 
-/// The value of a declared measure with its unit; none if there is no value.
-fn shown<T>(measure: &ScanMeasure<T>, findings: &T) -> Option<String> {
-    let Unit { shown, per_si } = measure.unit;
-    let number = significant((measure.number)(findings)? * per_si, measure.digits);
-    Some(if shown.is_empty() { number } else { format!("{number}{THIN}{shown}") })
+/// The value of a measure with its unit; none if there is no value.
+fn shown<T>(row: &Measured<T>) -> Option<String> {
+    let (number, unit) = (text(row)?, row.measure.unit.shown);
+    Some(if unit.is_empty() { number } else { format!("{number}{THIN}{unit}") })
 }
 
 /// The map with the spots that were left out, as dark as they were.
@@ -151,11 +152,10 @@ fn reading_rows(input: &ScanReport<'_>) -> Vec<Vec<String>> {
         ),
     ];
     // What is zero has not been found.
-    let is_found = |measure: &&ScanMeasure<Findings>| {
-        !measure.label.is_empty() && (measure.number)(findings) != Some(0.0)
-    };
-    let labelled = OF_SCANS.iter().filter(is_found);
-    facts.extend(labelled.filter_map(|measure| Some((measure.label, shown(measure, findings)?))));
+    let is_found =
+        |row: &Measured<Findings>| !row.measure.label.is_empty() && row.measure.number(findings) != 0.0;
+    let labelled = measured(OF_SCANS, findings).filter(is_found);
+    facts.extend(labelled.filter_map(|row| Some((row.measure.label, shown(&row)?))));
     if let Some(largest) = findings.aside.spots.first() {
         let spots = format!(
             "{}, {}{THIN}mm² in all; the largest {}{THIN}mm², {} from the left and {} from the top of the picture",

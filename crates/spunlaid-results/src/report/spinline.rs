@@ -4,12 +4,13 @@ use super::methods::{Account, Methods};
 use super::rendered;
 use super::words::length;
 use crate::numbers::{THIN, number_to, significant};
-use crate::output::spinline::{SpinResults, doubt, freezing, influence, model_error, numerical_error, shown};
+use crate::output::measured::text;
+use crate::output::spinline::{SpinResults, freezing, influence, model_error, numerical_error};
 use crate::output::web::Layer;
 use askama::Template;
 use spunlaid::case::Case;
 use spunlaid::input::SpinFile;
-use spunlaid::observe::{OF_SPINLINES, SpinlineMeasure};
+use spunlaid::observe::{Measured, OF_SPINLINES, measured};
 use spunlaid::spinline::{End, Law, PolymerSource, Solution, SpinSpec, Surroundings, ZERO_CELSIUS};
 use spunlaid::web::Web;
 use spunlaid_charts::Figure;
@@ -64,7 +65,7 @@ pub(super) struct Row {
     pub(super) name: &'static str,
     pub(super) value: String,
     pub(super) unit: &'static str,
-    pub(super) meaning: &'static str,
+    pub(super) meaning: String,
 }
 
 impl<'a> SpinSection<'a> {
@@ -77,13 +78,13 @@ impl<'a> SpinSection<'a> {
         figures: &'a [Figure],
     ) -> Self {
         let of_row = |solution: &Solution| {
-            let row = |measure: &'static SpinlineMeasure| Row {
-                name: measure.label,
-                value: shown(measure, solution),
-                unit: measure.unit.shown,
-                meaning: doubt(measure, solution).unwrap_or(measure.meaning),
+            let row = |row: Measured<Solution>| Row {
+                name: row.measure.label,
+                value: text(&row).unwrap_or_default(),
+                unit: row.measure.unit.shown,
+                meaning: row.meaning().to_owned(),
             };
-            OF_SPINLINES.iter().map(row).collect()
+            measured(OF_SPINLINES, solution).map(row).collect()
         };
         Self {
             id: id.to_owned(),
@@ -105,14 +106,12 @@ impl<'a> SpinSection<'a> {
 pub fn spinline_html(input: &SpinReport<'_>) -> String {
     let (spec, rows) = (&input.file.spec, &input.results.rows);
     let headline = rows.first().map_or_else(String::new, headline);
-    let result = |(measure, solution): (&SpinlineMeasure, &Solution)| {
-        format!("{} {} {}", measure.label, shown(measure, solution), measure.unit.shown).trim_end().to_owned()
+    let result = |row: Measured<Solution>| {
+        let value = text(&row).unwrap_or_default();
+        format!("{} {value} {}", row.measure.label, row.measure.unit.shown).trim_end().to_owned()
     };
-    let results: Vec<String> = rows
-        .first()
-        .into_iter()
-        .flat_map(|row| OF_SPINLINES.iter().map(move |measure| result((measure, row))))
-        .collect();
+    let results: Vec<String> =
+        rows.iter().take(1).flat_map(|row| measured(OF_SPINLINES, row).map(result)).collect();
     let found = [headline.clone(), format!("{}.", results.join(", ")), numerical_error(rows)];
     let page = SpinPage {
         name: input.name,

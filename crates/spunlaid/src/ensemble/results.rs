@@ -162,20 +162,20 @@ impl Collector {
         if self.numbers.is_empty() && self.curves.is_empty() {
             for (measure, value) in &trajectory.values {
                 match value {
-                    Value::Number(_) => self.numbers.push((measure, Vec::new())),
                     Value::Curve(places, _) => {
                         self.curves.push((measure, places.clone(), vec![Sums::NONE; places.len()]));
                     }
+                    _ => self.numbers.push((measure, Vec::new())),
                 }
             }
         }
         let (mut numbers, mut curves) = (self.numbers.iter_mut(), self.curves.iter_mut());
         for (_, value) in &trajectory.values {
             match value {
-                Value::Number(value) => numbers.next().into_iter().for_each(|(_, all)| all.push(*value)),
                 Value::Curve(_, values) => curves.next().into_iter().for_each(|(.., sums)| {
                     sums.iter_mut().zip(values).for_each(|(sums, value)| sums.add(*value));
                 }),
+                number => numbers.next().into_iter().for_each(|(_, all)| all.push(number.number())),
             }
         }
         if self.trajectories.len() < self.keep {

@@ -1,7 +1,7 @@
 //! Amplitude of each node of the fibre.
 
 use super::{
-    Declaration, FIBRE, Figure, Kind, MILLIMETRES, Measure, Observation, Observer, Value, fixed,
+    Declaration, FIBRE, Figure, Kind, MILLIMETRES, Measure, Observation, Observer, Value, figure, fixed,
     number_of_each,
 };
 use crate::flight::Flight;
@@ -35,12 +35,8 @@ const AMPLITUDE: Measure = Measure {
     kind: Kind::Profile,
     group: FIBRE,
     figure: &Figure {
-        name: "amplitude_along_fibre",
-        title: "Amplitude along the fibre",
-        words: "amplitude along the fibre",
-        logarithmic: false,
-        from_zero: true,
         caption: "Amplitude of each node: the standard deviation of its y and z over time.",
+        ..figure("amplitude_along_fibre", "Amplitude along the fibre", "amplitude along the fibre")
     },
     ..Measure::NUMBER
 };

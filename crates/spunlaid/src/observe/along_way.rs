@@ -1,7 +1,7 @@
 //! Speed and tension of a fed fibre on its way from the inlet to the belt.
 
 use super::{
-    Declaration, FIBRE, Figure, Kind, MILLINEWTONS, Measure, Observation, Observer, Unit, Value, fed,
+    Declaration, FIBRE, Figure, Kind, MILLINEWTONS, Measure, Observation, Observer, Unit, Value, fed, figure,
     number_of_each,
 };
 use crate::flight::Flight;
@@ -41,12 +41,9 @@ pub(super) const DECLARATION: Declaration = Declaration {
             kind: Kind::Way,
             group: FIBRE,
             figure: &Figure {
-                name: "tension_along_way",
-                title: "Tension",
-                words: "tension",
-                logarithmic: false,
                 from_zero: false,
                 caption: "Mean tension of the fibre on its way to the belt.",
+                ..figure("tension_along_way", "Tension", "tension")
             },
             ..Measure::NUMBER
         },

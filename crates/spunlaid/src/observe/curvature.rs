@@ -1,8 +1,7 @@
 //! Curvature along the fibre.
 
 use super::{
-    Aggregate, Declaration, FIBRE, Figure, Kind, Measure, Observation, Observer, PER_METRE, Value, fixed,
-    number_of_each,
+    Declaration, FIBRE, Figure, Kind, Measure, Observation, Observer, PER_METRE, Value, fixed, number_of_each,
 };
 use crate::chain::forces::Element;
 use crate::flight::Flight;
@@ -19,7 +18,6 @@ pub(super) const DECLARATION: Declaration = Declaration {
         unit: PER_METRE,
         kind: Kind::Profile,
         group: FIBRE,
-        aggregate: Aggregate::Mean,
         figure: &Figure {
             name: "curvature_along_fibre",
             title: "Curvature along the fibre",
@@ -30,6 +28,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
                       than an element are not resolved.",
         },
         series: "rms",
+        ..Measure::NUMBER
     }],
     applies: fixed,
     observer: |flight| Box::new(Curvature::new(flight)),

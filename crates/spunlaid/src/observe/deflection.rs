@@ -1,6 +1,6 @@
 //! Distance of the free end from the axis of the flow.
 
-use super::{Declaration, Figure, MILLIMETRES, Measure, Observation, Observer, Value, fixed};
+use super::{Declaration, MILLIMETRES, Measure, Observation, Observer, Value, figure, fixed};
 use crate::flight::Flight;
 use crate::lanes::WIDTH;
 use crate::statistics::{EvenSample, quantile};
@@ -31,14 +31,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
 
 const DEFLECTION: Measure = Measure {
     unit: MILLIMETRES,
-    figure: &Figure {
-        name: "deflection",
-        title: "Deflection of the free end",
-        words: "deflection",
-        logarithmic: false,
-        from_zero: true,
-        caption: "",
-    },
+    figure: &figure("deflection", "Deflection of the free end", "deflection"),
     ..Measure::NUMBER
 };
 

@@ -1,6 +1,6 @@
 //! Amplitude, frequency and mean position of the free end, from every step after the spin-up.
 
-use super::{Declaration, Figure, HERTZ, MILLIMETRES, Measure, Observation, Observer, Value, fixed};
+use super::{Declaration, Figure, HERTZ, MILLIMETRES, Measure, Observation, Observer, Value, figure, fixed};
 use crate::flight::Flight;
 
 pub(super) const DECLARATION: Declaration = Declaration {
@@ -40,33 +40,32 @@ pub(super) const DECLARATION: Declaration = Declaration {
 };
 
 const AMPLITUDE: Measure = Measure {
+    is_main: true,
     meaning: "standard deviation over time of the free end’s position",
     unit: MILLIMETRES,
-    figure: &figure("amplitude", "Amplitude", "amplitude", true),
+    figure: &figure("amplitude", "Amplitude", "amplitude"),
     ..Measure::NUMBER
 };
 
 const FREQUENCY: Measure = Measure {
+    is_main: true,
     meaning: "half the number of sign changes per second of the free end’s position",
     unit: HERTZ,
-    figure: &figure("frequency", "Frequency", "frequency", true),
+    figure: &figure("frequency", "Frequency", "frequency"),
     ..Measure::NUMBER
 };
 
 const MEAN_X: Measure = Measure {
     name: "mean_x",
+    is_main: true,
     column: "mean_x_m",
     label: "Mean position along the flow",
     meaning: "mean over time of the free end’s x; the smaller it is against the fibre’s length, the more the fibre is bent",
     unit: MILLIMETRES,
-    figure: &figure("mean_x", "Mean position along the flow", "mean position", false),
+    figure: &Figure { from_zero: false, ..figure("mean_x", "Mean position along the flow", "mean position") },
     series: "*x*",
     ..Measure::NUMBER
 };
-
-const fn figure(name: &'static str, title: &'static str, words: &'static str, from_zero: bool) -> Figure {
-    Figure { name, title, words, logarithmic: false, from_zero, caption: "" }
-}
 
 /// The flight itself takes the statistics of the free ends at every step.
 #[derive(Debug)]

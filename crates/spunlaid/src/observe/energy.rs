@@ -2,7 +2,7 @@
 
 use super::{
     Aggregate, Declaration, ENERGY, Figure, Kind, Measure, OF_PERCENT, Observation, Observer, Sample, Value,
-    always,
+    always, figure,
 };
 use crate::chain::schemes::Scheme;
 use crate::flight::Flight;
@@ -128,27 +128,14 @@ const OVER_TIME: Measure = Measure {
 };
 
 const TAKEN_OUT: Measure = Measure {
-    figure: &Figure {
-        name: "tension_dissipation",
-        title: "Axial waves damped by the scheme",
-        words: "dissipation of the scheme",
-        logarithmic: false,
-        from_zero: true,
-        caption: "",
-    },
+    figure: &figure("tension_dissipation", "Axial waves damped by the scheme", "dissipation of the scheme"),
     ..ERROR
 };
 
 const ERROR: Measure = Measure { unit: OF_PERCENT, group: ENERGY, ..Measure::NUMBER };
 
-const FIGURE: Figure = Figure {
-    name: "energy_error",
-    title: "Energy error",
-    words: "energy error",
-    logarithmic: true,
-    from_zero: false,
-    caption: "",
-};
+const FIGURE: Figure =
+    Figure { logarithmic: true, from_zero: false, ..figure("energy_error", "Energy error", "energy error") };
 
 /// An error at the recorded instants.
 #[derive(Debug)]

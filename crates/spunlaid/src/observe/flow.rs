@@ -1,6 +1,6 @@
 //! Share of the time that the fibres spend outside the given flow.
 
-use super::{Aggregate, Declaration, FIBRE, Figure, Kind, Measure, Observation, Observer, PERCENT, Value};
+use super::{Declaration, FIBRE, Measure, Observation, Observer, PERCENT, Value, figure};
 use crate::air::Flow;
 use crate::flight::Flight;
 
@@ -12,18 +12,10 @@ pub(super) const DECLARATION: Declaration = Declaration {
         meaning: "share of the time that the elements spend outside the profile or the field, the spin-up included; the simulation uses the air at the \
                   nearest point there",
         unit: PERCENT,
-        kind: Kind::Number,
         group: FIBRE,
-        aggregate: Aggregate::Mean,
-        figure: &Figure {
-            name: "share_outside_flow",
-            title: "Time outside the flow",
-            words: "time outside the flow",
-            logarithmic: false,
-            from_zero: true,
-            caption: "",
-        },
+        figure: &figure("share_outside_flow", "Time outside the flow", "time outside the flow"),
         series: "share",
+        ..Measure::NUMBER
     }],
     // A profile reaches from the inlet to the belt as far as it was measured; a fed fibre does not leave it sideways.
     applies: |case| match case.air.flow {

@@ -2,7 +2,7 @@
 
 use super::{
     Declaration, Figure, Group, Kind, MILLIMETRES, Measure, Observation, Observer, RATIO, Unit, Value, fed,
-    number_of_each,
+    figure, number_of_each,
 };
 use crate::case::Case;
 use crate::flight::Flight;
@@ -58,16 +58,17 @@ pub(super) const DECLARATION: Declaration = Declaration {
             label: "Belt speed found from the laid fibre, over the true one",
             meaning: "mean of −d md/ds along the laid fibre, divided by belt speed / feed speed. It is one within its \
                       statistical error, whatever the fibre does",
-            figure: &numbers("belt_speed_ratio", "Ratio of belt speeds", "ratio of belt speeds"),
+            figure: &figure("belt_speed_ratio", "Ratio of belt speeds", "ratio of belt speeds"),
             ..RATIO_OF
         },
         Measure {
             name: "orientation_md",
+            is_main: true,
             column: "orientation_md",
             label: "Orientation in machine direction",
             meaning: "mean of cos² of the angle between chords of 10 mm of fibre and the machine direction: 0.5 without \
                       orientation, 1 if all lie in machine direction",
-            figure: &numbers("orientation", "Mean cos² to the machine direction", "orientation"),
+            figure: &figure("orientation", "Mean cos² to the machine direction", "orientation"),
             ..RATIO_OF
         },
         Measure {
@@ -77,7 +78,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             meaning: "mean length on the belt of 10 mm of fibre, divided by 10 mm: the texture of the laid fibre, with straight \
                       elements. It gets smaller with a finer mesh, because a thin fibre folds more closely than elements can \
                       show; with elements longer than 10 mm it is not defined",
-            figure: &numbers("chord_over_arc", "Chord over arc at 10 mm", "chord over arc"),
+            figure: &figure("chord_over_arc", "Chord over arc at 10 mm", "chord over arc"),
             ..RATIO_OF
         },
         Measure {
@@ -86,7 +87,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             label: "Length laid",
             meaning: "length of fibre that was laid after the spin-up, from which the statistics are computed",
             unit: METRES,
-            figure: &numbers("laid_length", "Length laid", "length laid"),
+            figure: &figure("laid_length", "Length laid", "length laid"),
             ..RATIO_OF
         },
         Measure {
@@ -94,7 +95,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             column: "nodes_in_air",
             label: "Nodes in the air",
             meaning: "mean number of nodes between the inlet and the newest touch-down",
-            figure: &numbers("nodes_in_air", "Nodes in the air", "nodes in the air"),
+            figure: &figure("nodes_in_air", "Nodes in the air", "nodes in the air"),
             ..RATIO_OF
         },
         Measure {
@@ -115,13 +116,14 @@ pub(super) const DECLARATION: Declaration = Declaration {
         },
         Measure {
             name: "noise",
+            is_main: true,
             column: "noise_per_sqrt_m",
             label: "Noise A of the surrogate",
             meaning: "strength of the noise in the direction of the surrogate, from its autocorrelation over lags \
                 from 0.5 to 12 times the spread; not defined where the laid fibre is not a random curve",
             unit: Unit { shown: "m^-0.5", per_si: 1.0 },
             group: SURROGATE,
-            figure: &numbers("noise", "Noise A of the surrogate", "noise of the surrogate"),
+            figure: &figure("noise", "Noise A of the surrogate", "noise of the surrogate"),
             ..Measure::NUMBER
         },
         Measure {
@@ -176,27 +178,26 @@ pub(super) const DECLARATION: Declaration = Declaration {
     observer: |flight| Box::new(LaidFibres::new(flight)),
 };
 
-const fn numbers(name: &'static str, title: &'static str, words: &'static str) -> Figure {
-    Figure { name, title, words, logarithmic: false, from_zero: true, caption: "" }
-}
-
 const SPREAD: Measure = Measure {
+    is_main: true,
     unit: MILLIMETRES,
     group: LAYDOWN,
-    figure: &numbers("spread", "Spread of the laid fibre", "spread"),
+    figure: &figure("spread", "Spread of the laid fibre", "spread"),
     ..Measure::NUMBER
 };
 
 const SURROGATE_SPREAD: Measure = Measure {
+    is_main: false,
     group: SURROGATE,
-    figure: &numbers("surrogate_spread", "Spread of the surrogate", "spread of the surrogate"),
+    figure: &figure("surrogate_spread", "Spread of the surrogate", "spread of the surrogate"),
     ..SPREAD
 };
 
 const HALF_LENGTH: Measure = Measure {
+    is_main: true,
     unit: MILLIMETRES,
     group: LAYDOWN,
-    figure: &numbers("half_correlation_length", "Half correlation length", "half correlation length"),
+    figure: &figure("half_correlation_length", "Half correlation length", "half correlation length"),
     ..Measure::NUMBER
 };
 
@@ -207,12 +208,9 @@ const CORRELATION: Measure = Measure {
     kind: Kind::Lag,
     group: LAYDOWN,
     figure: &Figure {
-        name: "correlation",
-        title: "Autocorrelation of the place",
-        words: "autocorrelation",
-        logarithmic: false,
         from_zero: false,
         caption: "Autocorrelation of the laid fibre’s place about its straight trace, and that of the surrogate fitted to it.",
+        ..figure("correlation", "Autocorrelation of the place", "autocorrelation")
     },
     ..Measure::NUMBER
 };

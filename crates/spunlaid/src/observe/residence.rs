@@ -1,8 +1,6 @@
 //! The circle in which the free end stays.
 
-use super::{
-    Aggregate, Declaration, END_NODE, Figure, Kind, MILLIMETRES, Measure, Observation, Observer, Value, fixed,
-};
+use super::{Declaration, MILLIMETRES, Measure, Observation, Observer, Value, figure, fixed};
 use crate::flight::Flight;
 use crate::lanes::WIDTH;
 use crate::statistics::{EvenSample, quantile};
@@ -15,18 +13,9 @@ pub(super) const DECLARATION: Declaration = Declaration {
         meaning: "radius of the circle around the free end’s mean position, seen along the flow, in which the free end is at \
                   90 % of the recorded instants",
         unit: MILLIMETRES,
-        kind: Kind::Number,
-        group: END_NODE,
-        aggregate: Aggregate::Mean,
-        figure: &Figure {
-            name: "residence",
-            title: "Circle of 90 % of the time",
-            words: "circle of 90 % of the time",
-            logarithmic: false,
-            from_zero: true,
-            caption: "",
-        },
+        figure: &figure("residence", "Circle of 90 % of the time", "circle of 90 % of the time"),
         series: "radius",
+        ..Measure::NUMBER
     }],
     applies: fixed,
     observer: |_| Box::new(Residence::default()),

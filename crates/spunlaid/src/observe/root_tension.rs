@@ -1,6 +1,6 @@
 //! Tension at the root.
 
-use super::{Aggregate, Declaration, FIBRE, Figure, MILLINEWTONS, Measure, Observation, Observer, Value};
+use super::{Aggregate, Declaration, FIBRE, MILLINEWTONS, Measure, Observation, Observer, Value, figure};
 use crate::fibre::Root;
 use crate::flight::Flight;
 use crate::lanes::Lanes;
@@ -35,14 +35,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
 const TENSION: Measure = Measure {
     unit: MILLINEWTONS,
     group: FIBRE,
-    figure: &Figure {
-        name: "root_tension",
-        title: "Tension at the root",
-        words: "tension at the root",
-        logarithmic: false,
-        from_zero: true,
-        caption: "",
-    },
+    figure: &figure("root_tension", "Tension at the root", "tension at the root"),
     ..Measure::NUMBER
 };
 

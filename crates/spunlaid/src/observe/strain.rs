@@ -1,7 +1,7 @@
 //! Strain of the elements.
 
 use super::{
-    Aggregate, Declaration, FIBRE, Figure, Kind, Measure, Observation, Observer, PERCENT, Value, fixed,
+    Aggregate, Declaration, FIBRE, Figure, Measure, Observation, Observer, PERCENT, Value, figure, fixed,
     number_of_each,
 };
 use crate::fibre::Root;
@@ -12,16 +12,19 @@ use std::collections::VecDeque;
 
 /// The strain that does not depend on the time step.
 pub(super) const USUAL: Declaration = Declaration {
-    measures: &[measure(
-        "strain_99",
-        "Strain, 99 % of the time",
-        "strain that the element at the root does not exceed during 99 % of the time after the spin-up. It is \
-         averaged over the period of the slowest axial wave, 4 L √(density / Young's modulus), or over the output \
-         interval if that is longer. It hardly depends on the time step; compare it with the strain that the \
-         polymer can take",
-        Aggregate::Mean,
-        "99 % of the time",
-    )],
+    measures: &[Measure {
+        is_main: true,
+        ..measure(
+            "strain_99",
+            "Strain, 99 % of the time",
+            "strain that the element at the root does not exceed during 99 % of the time after the spin-up. It is \
+             averaged over the period of the slowest axial wave, 4 L √(density / Young's modulus), or over the \
+             output interval if that is longer. It hardly depends on the time step; compare it with the strain that \
+             the polymer can take",
+            Aggregate::Mean,
+            "99 % of the time",
+        )
+    }],
     applies: |case| case.fibre.root != Root::Free,
     observer: |flight| Box::new(AveragedStrain::new(flight)),
 };
@@ -48,17 +51,21 @@ const fn measure(
     aggregate: Aggregate,
     series: &'static str,
 ) -> Measure {
-    let figure = &Figure {
-        name: "strain",
-        title: "Strain",
-        words: "strain",
-        logarithmic: false,
-        from_zero: true,
-        caption: "",
-    };
-    let (column, unit, kind, group) = (name, PERCENT, Kind::Number, FIBRE);
-    Measure { name, column, label, meaning, unit, kind, group, aggregate, figure, series }
+    Measure {
+        name,
+        column: name,
+        label,
+        meaning,
+        unit: PERCENT,
+        group: FIBRE,
+        aggregate,
+        figure: &FIGURE,
+        series,
+        ..Measure::NUMBER
+    }
 }
+
+const FIGURE: Figure = figure("strain", "Strain", "strain");
 
 /// Strain at the root, averaged over some intervals that end at the recorded instants after the spin-up.       theory.md (57)
 #[derive(Debug)]

@@ -85,6 +85,8 @@ pub struct Component {
     pub flatness: Interval,
     /// [s]
     pub integral_time: Interval,
+    /// Its rule.
+    pub integral: IntegralRule,
     /// Autocorrelation up to a few times the limit of the integral.
     pub autocorrelation: Autocorrelation,
     /// Spectrum.

@@ -267,6 +267,7 @@ fn component(
         skewness: estimates.skewness(),
         flatness: estimates.flatness(),
         integral_time,
+        integral: settings.integral,
         autocorrelation: estimates.autocorrelation.clone(),
         spectrum,
         flat,

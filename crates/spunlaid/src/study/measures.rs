@@ -3,12 +3,11 @@
 use crate::ensemble::Trajectory;
 use crate::layers::WebSpec;
 use crate::observe::{
-    Deviation, Figure, MEASURES, Measure, OF_PATCHES, OF_SPINLINES, OF_WEBS, PatchMeasure, SpinlineMeasure,
-    Unit, WebNumber, in_studies,
+    ErrorRole, Figure, KELVIN, MEASURES, Measure, OF_PATCHES, OF_SPINLINES, OF_WEBS, Unit, with_errors,
 };
 use crate::spinline::Solution;
 use crate::units::shortest;
-use crate::web::{Findings, Web};
+use crate::web::Findings;
 
 /// A number that a study keeps, as its measure is declared in [`observe`](crate::observe). That of patches has their side in its
 /// name.
@@ -24,53 +23,64 @@ pub struct Quantity {
     pub meaning: &'static str,
     /// The unit in which it is shown.
     pub unit: Unit,
+    /// Whether tables show it.
+    pub is_main: bool,
     /// The figure that shows it.
     pub figure: &'static Figure,
     /// Its label in that figure.
     pub series: String,
-    /// Where its standard error comes from.
-    pub error: ErrorSource,
-    /// Further errors, which more replicates do not lower: indices of the quantities that are their sizes.
-    pub causes: Vec<usize>,
-}
-
-/// Where the standard error of the mean of a quantity comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ErrorSource {
-    /// The scatter of the replicates.
-    Replicates,
-    /// The scatter of the replicates; of a single one, the quantity with this index.
-    OfOne(usize),
-    /// The quantity with this index.
-    Always(usize),
+    /// Its errors: what each is to it, and the index of the quantity that is its size.
+    pub errors: Vec<(ErrorRole, usize)>,
 }
 
 impl Quantity {
     /// A declared measure, with the side of the patches in place of `#`.
-    fn new(measure: &'static Measure, side: &str) -> Self {
+    fn new<T>(measure: &'static Measure<T>, side: &str) -> Self {
         let named = |text: &str| text.replace('#', side);
+        let label = match measure.name.contains('#') && !measure.label.contains('#') {
+            true => format!("{}, {side} mm", measure.label),
+            false => named(measure.label),
+        };
         Self {
             name: named(measure.name),
             column: named(measure.column),
-            label: named(measure.label),
+            label,
             meaning: measure.meaning,
-            unit: measure.unit,
+            // A temperature is kept in kelvin.
+            unit: if measure.zero == 0.0 { measure.unit } else { KELVIN },
+            is_main: measure.is_main,
             figure: measure.figure,
             series: named(measure.series),
-            error: ErrorSource::Replicates,
-            causes: Vec::new(),
+            errors: Vec::new(),
         }
+    }
+
+    /// The quantities that are its further errors, which more replicates do not lower, by their indices.
+    pub fn further_errors(&self) -> impl Iterator<Item = usize> {
+        self.errors.iter().filter(|(role, _)| *role == ErrorRole::Further).map(|(_, index)| *index)
     }
 }
 
-/// The measures of spinlines that studies keep, in the order of their columns.
-fn spinline_columns() -> Vec<(&'static SpinlineMeasure, &'static Measure)> {
-    in_studies(OF_SPINLINES, |declared| (&declared.study, declared.study_place))
+/// Whether studies keep a measure.
+fn is_kept<T>(measure: &Measure<T>) -> bool {
+    !measure.name.is_empty()
 }
 
-/// The measures of patches that studies keep, in the order of their columns.
-fn patch_columns() -> Vec<(&'static PatchMeasure, &'static Measure)> {
-    in_studies(OF_PATCHES, |declared| (&declared.study, declared.study_place))
+/// Adds the quantities of some measures, each before its errors.
+fn add<T>(all: &mut Vec<Quantity>, measures: &'static [Measure<T>], side: &str) {
+    for measure in measures.iter().filter(|measure| is_kept(measure)) {
+        let kept = || measure.errors.iter().filter(|error| is_kept(error));
+        let first = all.len() + 1;
+        let errors = kept().enumerate().map(|(i, error)| (error.role, first + i)).collect();
+        all.push(Quantity { errors, ..Quantity::new(measure, side) });
+        all.extend(kept().map(|error| Quantity::new(error, side)));
+    }
+}
+
+/// The numbers of some measures, in the order of their quantities; NaN where there is nothing.
+fn numbers<T>(measures: &'static [Measure<T>], found: Option<&T>) -> impl Iterator<Item = f64> {
+    let kept = with_errors(measures).filter(|measure| is_kept(measure));
+    kept.map(move |measure| found.map_or(f64::NAN, |found| measure.number(found)))
 }
 
 /// The quantities of a fibre.
@@ -80,12 +90,14 @@ pub(super) fn quantities_of_fibres() -> Vec<Quantity> {
 
 /// The quantities of a spinline.
 pub(super) fn quantities_of_spinlines() -> Vec<Quantity> {
-    spinline_columns().into_iter().map(|(_, measure)| Quantity::new(measure, "")).collect()
+    let mut all = Vec::new();
+    add(&mut all, OF_SPINLINES, "");
+    all
 }
 
-/// The numbers of a spinline, in the order of [`of_spinlines`].
+/// The numbers of a spinline, in the order of [`quantities_of_spinlines`].
 pub(super) fn measured_of_spinline(found: &Solution) -> Measurements {
-    spinline_columns().into_iter().map(|(declared, _)| (declared.number)(found)).collect()
+    numbers(OF_SPINLINES, Some(found)).collect()
 }
 
 /// The sides of the patches of some webs, each once, the smallest first [m].
@@ -102,41 +114,22 @@ fn is_same(a: f64, b: f64) -> bool {
 
 /// The quantities of some webs.
 pub(super) fn quantities_of_webs<'a>(webs: impl Iterator<Item = &'a WebSpec>) -> Vec<Quantity> {
-    let (mut all, columns) = (Vec::new(), patch_columns());
+    let mut all = Vec::new();
     for side in sides(webs) {
-        let first = all.len();
-        let place = |end: &str| {
-            let is_it = |(_, measure): &(_, &Measure)| measure.name.strip_prefix("cv_#") == Some(end);
-            first + columns.iter().position(is_it).unwrap_or(0)
-        };
         // In millimetres, without the rounding of the file.
-        let side = shortest((side * 1e9).round() / 1e6);
-        all.extend(columns.iter().map(|(declared, measure)| Quantity {
-            error: match declared.error {
-                None => ErrorSource::Replicates,
-                Some(Deviation::OfOne(end)) => ErrorSource::OfOne(place(end)),
-                Some(Deviation::Always(end)) => ErrorSource::Always(place(end)),
-            },
-            causes: declared.causes.iter().map(|end| place(end)).collect(),
-            ..Quantity::new(measure, &side)
-        }));
+        add(&mut all, OF_PATCHES, &shortest((side * 1e9).round() / 1e6));
     }
-    all.extend(OF_WEBS.iter().map(|declared| Quantity::new(&declared.measure, "")));
+    add(&mut all, OF_WEBS, "");
     all
 }
 
-/// The numbers of a web, in the order of [`of_webs`].
+/// The numbers of a web, in the order of [`quantities_of_webs`].
 ///
 /// * `sides` – of the patches of the study [m]
-pub(super) fn measured_of_web(sides: &[f64], web: &Web, found: &Findings) -> Measurements {
-    let columns = patch_columns();
-    let of_side = |&side: &f64| {
-        let patch = found.patches.iter().find(|patch| is_same(patch.map.patch, side));
-        columns.iter().map(move |(declared, _)| patch.and_then(declared.number).unwrap_or(f64::NAN))
-    };
-    let of_web =
-        OF_WEBS.iter().map(|declared| (declared.number)(web, found).map_or(f64::NAN, WebNumber::value));
-    sides.iter().flat_map(of_side).chain(of_web).collect()
+pub(super) fn measured_of_web(sides: &[f64], found: &Findings) -> Measurements {
+    let of_side =
+        |&side: &f64| numbers(OF_PATCHES, found.patches.iter().find(|patch| is_same(patch.map.patch, side)));
+    sides.iter().flat_map(of_side).chain(numbers(OF_WEBS, Some(found))).collect()
 }
 
 /// The numbers measured on one replicate, in the order of the study's quantities, in SI units and percent. NaN means that a
@@ -196,4 +189,36 @@ impl ReplicateOutcome {
 /// The numbers of a trajectory.
 pub fn measured(trajectory: &Trajectory) -> Measurements {
     MEASURES.iter().map(|measure| trajectory.number(measure.name)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_errors_of_a_cv_follow_it_and_are_known_to_it() {
+        let mut all = Vec::new();
+        add(&mut all, OF_SPINLINES, "");
+        add(&mut all, OF_PATCHES, "2.5");
+        let errors_of = |name: &str| -> Vec<(ErrorRole, &str)> {
+            let quantity = all.iter().find(|quantity| quantity.name == name);
+            let errors = quantity.into_iter().flat_map(|quantity| &quantity.errors);
+            errors.map(|(role, index)| (*role, all[*index].name.as_str())).collect()
+        };
+        assert_eq!(
+            errors_of("cv_2.5_mm"),
+            [
+                (ErrorRole::OfOne, "cv_2.5_mm_chance"),
+                (ErrorRole::Further, "cv_2.5_mm_few_fibres"),
+                (ErrorRole::Further, "cv_2.5_mm_model")
+            ]
+        );
+        assert_eq!(errors_of("cv_2.5_mm_flown"), [(ErrorRole::Always, "cv_2.5_mm_flown_error")]);
+        // Its error is not kept.
+        assert_eq!(errors_of("cv_2.5_mm_one_fibre"), []);
+        // A temperature is kept in kelvin.
+        assert!(
+            all.iter().any(|quantity| quantity.column == "freezing_temperature_k" && quantity.unit == KELVIN)
+        );
+    }
 }

@@ -27,7 +27,7 @@ pub use design::{Design, Factor, Levels, Spacing};
 pub use effects::{Effect, Ranking, Rankings, Refusal, Term, rankings};
 pub use experiment::Experiment;
 pub use journal::{Header, Journal, JournalState, foreign, in_use, other_format, unsynced};
-pub use measures::{ErrorSource, Measurements, Quantity, Record, ReplicateOutcome, measured};
+pub use measures::{Measurements, Quantity, Record, ReplicateOutcome, measured};
 pub use pack::{Batch, Bundles, fly_batches};
 pub use rounds::{PointResults, Rounds, results_of_point};
 pub use run::{Progress, fly_bundle, run};

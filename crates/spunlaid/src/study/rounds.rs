@@ -1,11 +1,11 @@
 //! Statistics of the points of a study, and how many replicates each of them still needs.
 
 use super::journal::Journal;
-use super::measures::{ErrorSource, Quantity};
+use super::measures::Quantity;
 use super::pack::Batch;
 use super::{Replicates, Study};
 use crate::error::Error;
-use crate::observe::MEASURES;
+use crate::observe::{ErrorRole, MEASURES};
 use crate::statistics::Estimate;
 
 /// Statistics of a point over its replicates.
@@ -37,9 +37,9 @@ impl PointResults {
     /// The error of the mean of a quantity by all its causes; None if one of them is not known, or if it has no other than
     /// the standard error.
     pub fn whole_error(&self, quantities: &[Quantity], quantity: usize) -> Option<f64> {
-        let causes = &quantities[quantity].causes;
-        let whole = causes.iter().map(|cause| self.mean[*cause]).fold(self.errors[quantity], f64::hypot);
-        Some(whole).filter(|whole| !causes.is_empty() && whole.is_finite())
+        let further = || quantities[quantity].further_errors();
+        let whole = further().map(|error| self.mean[error]).fold(self.errors[quantity], f64::hypot);
+        Some(whole).filter(|whole| further().next().is_some() && whole.is_finite())
     }
 }
 
@@ -62,10 +62,10 @@ fn results_of(
     let estimate = |i: usize| Estimate::new(measured.iter().map(|values| values[i]).collect());
     let estimates: Vec<Estimate> = (0..quantities.len()).map(estimate).collect();
     let scatter = |i: usize| estimates[i].standard_error.unwrap_or(f64::NAN);
-    let error = |i: usize| match quantities[i].error {
-        ErrorSource::OfOne(other) if measured.len() == 1 => estimates[other].mean,
-        ErrorSource::Always(other) => estimates[other].mean,
-        ErrorSource::OfOne(_) | ErrorSource::Replicates => scatter(i),
+    let error = |i: usize| {
+        let tells = |role| role == ErrorRole::Always || role == ErrorRole::OfOne && measured.len() == 1;
+        let told = quantities[i].errors.iter().find(|(role, _)| tells(*role));
+        told.map_or_else(|| scatter(i), |(_, other)| estimates[*other].mean)
     };
     Ok(PointResults {
         n: measured.len() as u64,

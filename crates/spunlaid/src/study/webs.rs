@@ -37,7 +37,7 @@ pub(super) fn lay(
             let mut flown = flyer.web(&WebSpec { seed: seed(spec, replicate), ..spec.clone() })?;
             steps.fetch_add(flown.pieces()?, Ordering::Relaxed);
             let found = flown.measure(LayControl { threads, isa, stop, laid: fibre_steps })?;
-            let outcome = ReplicateOutcome::Measured(measured_of_web(sides, &flown.web, &found));
+            let outcome = ReplicateOutcome::Measured(measured_of_web(sides, &found));
             take(Record { point: *point as u64, replicate, outcome })?;
         }
     }

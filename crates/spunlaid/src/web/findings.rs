@@ -15,6 +15,7 @@ use super::waves::Places;
 use super::{Fibres, Layer, Web};
 use crate::error::{Error, Fault};
 use crate::statistics::student_t_95_at;
+use crate::surrogate::Surrogate;
 use crate::threads::try_each;
 use crate::units::Dimension;
 use std::borrow::Cow;
@@ -38,6 +39,10 @@ pub struct Findings {
     pub clouds: Option<Clouds>,
     /// Autocorrelation coefficients of the basis weight in cross and in machine direction, cell by cell from lag zero.
     pub autocorrelation: [Vec<f64>; 2],
+    /// Length of all filaments [m].
+    pub fibre_length: f64,
+    /// The surrogate of the first layer, if it has one.
+    pub surrogate: Option<Surrogate>,
     /// What would make it more even, at the patches of [`Findings::patches`]; empty for several layers.
     pub sensitivities: Vec<Sensitivity>,
 }
@@ -239,7 +244,18 @@ pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Res
     let autocorrelation = autocorrelation(&map, lags, by.threads);
     let orientation = orientation(web, by)?;
     drop(map);
+    let fibres = web
+        .layers
+        .first()
+        .into_iter()
+        .flat_map(|layer| [Some(&layer.fibres), layer.other_description.as_ref()]);
+    let surrogate = fibres.flatten().find_map(|fibres| match fibres {
+        Fibres::Surrogate(surrogate) => Some(*surrogate),
+        Fibres::Curves(_) => None,
+    });
     Ok(Findings {
+        fibre_length: web.fibre_length(),
+        surrogate,
         orientation,
         clouds,
         autocorrelation,

@@ -114,8 +114,8 @@ fn batches(points: &[Point]) -> Vec<Batch> {
 /// The bits of a measure, of its places too if it is a curve.
 fn bits(value: &Measured) -> Vec<u64> {
     match value {
-        Measured::Number(number) => vec![number.to_bits()],
         Measured::Curve(places, values) => places.iter().chain(values).map(|x| x.to_bits()).collect(),
+        number => vec![number.number().to_bits()],
     }
 }
 

@@ -5,10 +5,11 @@ use spunlaid::ensemble::RunControl;
 use spunlaid::input::{LaydownSource, WEB_KEYS, WebFile, WebKey, WebSpec};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, Flyer, web_key};
-use spunlaid::observe::{OF_PATCHES, OF_WEBS, PatchMeasure, WebNumber};
+use spunlaid::observe::{Measure, OF_PATCHES, OF_WEBS, with_errors};
 use spunlaid::study::{Batch, fly_bundle};
 use spunlaid::units::Dimension;
 use spunlaid::web::LayControl;
+use spunlaid::web::PatchFindings;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -140,17 +141,15 @@ fn measured(spec: &WebSpec) -> Vec<u64> {
     let patch = |side: f64| found.patches.iter().find(|patch| (patch.map.patch / side - 1.0).abs() < 1e-9);
     let patches = spec.sheet.patches.iter().flat_map(|side| {
         let patch = patch(*side);
-        patch_columns().into_iter().map(move |of| patch.and_then(of.number).unwrap_or(f64::NAN))
+        patch_columns().map(move |of| patch.map_or(f64::NAN, |patch| of.number(patch)))
     });
-    let of_web = OF_WEBS.iter().map(|of| (of.number)(&flown.web, &found).map_or(f64::NAN, WebNumber::value));
+    let of_web = OF_WEBS.iter().map(|of| of.number(&found));
     patches.chain(of_web).map(f64::to_bits).collect()
 }
 
 /// The measures of patches that studies keep, in the order of their columns.
-fn patch_columns() -> Vec<&'static PatchMeasure> {
-    let mut columns: Vec<_> = OF_PATCHES.iter().filter(|of| of.study.is_some()).collect();
-    columns.sort_by_key(|of| of.study_place);
-    columns
+fn patch_columns() -> impl Iterator<Item = &'static Measure<PatchFindings>> {
+    with_errors(OF_PATCHES).filter(|of| !of.name.is_empty())
 }
 
 /// What the two points of a study give, or why it is refused.
@@ -172,7 +171,7 @@ fn together(text: &str, key: &str, values: &[String; 2]) -> Result<[Vec<u64>; 2]
         // A web has nothing of the patches of the other one.
         let sides = study.patch_sides();
         let own = &study.points[point].experiment.web().unwrap().sheet.patches;
-        let has = |i: usize| sides.get(i / patch_columns().len()).is_none_or(|side| own.contains(side));
+        let has = |i: usize| sides.get(i / patch_columns().count()).is_none_or(|side| own.contains(side));
         (0..measured.len()).filter(|i| has(*i)).map(|i| measured[i].to_bits()).collect()
     }))
 }

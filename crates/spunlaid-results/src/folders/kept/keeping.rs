@@ -105,7 +105,6 @@ impl Keeping {
             let Some((index, _)) = declared.find(|(_, other)| other.name == measure.name) else { return };
             numbers.push(index as f64);
             match value {
-                Value::Number(value) => numbers.extend([0.0, *value]),
                 Value::Curve(places, values) => {
                     let count = (places.len() + 1) as f64;
                     let known = self.places.entry(index).or_insert_with(|| {
@@ -124,6 +123,7 @@ impl Keeping {
                     }
                     numbers.extend(values);
                 }
+                number => numbers.extend([0.0, number.number()]),
             }
         }
         append(file, Kind::Landed, numbers);

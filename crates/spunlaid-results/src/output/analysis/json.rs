@@ -2,8 +2,9 @@
 
 use crate::output::in_order::OrderedObject;
 use crate::output::json_text;
+use crate::output::measured::values;
 use serde::Serialize;
-use spunlaid::observe::{OF_COMPONENTS, OF_RECORDS, RecordMeasure, RecordNumber};
+use spunlaid::observe::{OF_COMPONENTS, OF_RECORDS, Value};
 use spunlaid::record::{Analysis, Component, Record};
 
 /// Version of the layout; raised when a field is renamed, removed or changes its meaning.
@@ -16,7 +17,7 @@ struct Json<'a> {
     record: RecordJson<'a>,
     method: Method,
     #[serde(flatten)]
-    findings: OrderedObject<RecordNumber>,
+    findings: OrderedObject<Option<Value>>,
     components: Vec<ComponentJson<'a>>,
     /// Durations for intervals of ± 5 %.
     duration_for_5_percent_s: Durations,
@@ -54,7 +55,7 @@ struct Method {
 struct ComponentJson<'a> {
     name: &'a str,
     #[serde(flatten)]
-    findings: OrderedObject<RecordNumber>,
+    findings: OrderedObject<Option<Value>>,
 }
 
 #[derive(Serialize)]
@@ -93,7 +94,7 @@ pub fn analysis_json(record: &Record, analysis: &Analysis) -> String {
             segment_samples: spectrum.map_or(0, |s| s.segment),
             segments: spectrum.map_or(0, |s| s.segments),
         },
-        findings: findings(OF_RECORDS, analysis),
+        findings: values(OF_RECORDS, analysis),
         components: analysis.components.iter().map(component).collect(),
         duration_for_5_percent_s: Durations {
             turbulence_intensity: analysis.duration_for(&analysis.turbulence_intensity, 0.05),
@@ -106,10 +107,5 @@ pub fn analysis_json(record: &Record, analysis: &Analysis) -> String {
 }
 
 fn component(component: &Component) -> ComponentJson<'_> {
-    ComponentJson { name: &component.name, findings: findings(OF_COMPONENTS, component) }
-}
-
-/// The value of every declared measure under its name.
-fn findings<T>(declared: &[RecordMeasure<T>], found: &T) -> OrderedObject<RecordNumber> {
-    OrderedObject(declared.iter().map(|one| (one.name.to_owned(), (one.number)(found))).collect())
+    ComponentJson { name: &component.name, findings: values(OF_COMPONENTS, component) }
 }

@@ -2,7 +2,7 @@
 
 use super::half_width;
 use crate::numbers::{decimals, rounded, to_decimals};
-use spunlaid::observe::{OF_COMPONENTS, OF_RECORDS, RecordMeasure, RecordNumber, Unit};
+use spunlaid::observe::{Measure, Measured, OF_COMPONENTS, OF_RECORDS, Unit, Value, measured};
 use spunlaid::record::{Analysis, Component, Interval, Record};
 use spunlaid::units::Dimension;
 use std::fmt::Write;
@@ -24,35 +24,34 @@ pub struct ResultRow {
 }
 
 /// The measures that have a label, as rows of a table.
-fn rows<T>(declared: &[RecordMeasure<T>], analysis: &Analysis, found: &T) -> Vec<ResultRow> {
-    let row = |measure: &RecordMeasure<T>| {
-        let interval = match (measure.number)(found) {
-            RecordNumber::Interval(interval) => interval,
-            RecordNumber::Plain(value) => Interval::exactly(value),
+fn rows<T>(measures: &'static [Measure<T>], found: &T) -> Vec<ResultRow> {
+    let row = |row: Measured<T>| {
+        let interval = match row.value {
+            Some(Value::Interval(interval)) => interval,
+            _ => Interval::exactly(row.measure.number(found)),
         };
-        let Unit { shown, per_si } = measure.unit;
+        let Unit { shown, per_si } = row.measure.unit;
         let half = half_width(&interval) * per_si;
         // A value that was given has no interval.
         let end = |end: f64| {
             decimals(half).map_or_else(|| "–".to_owned(), |decimals| to_decimals(end * per_si, decimals))
         };
         ResultRow {
-            name: measure.label,
+            name: row.measure.label,
             value: rounded(interval.value * per_si, Some(half)).0,
             low: end(interval.low),
             high: end(interval.high),
             unit: shown,
-            meaning: (measure.meaning)(analysis, found),
+            meaning: row.meaning().to_owned(),
         }
     };
-    declared.iter().filter(|measure| !measure.label.is_empty()).map(row).collect()
+    measured(measures, found).filter(|row| !row.measure.label.is_empty()).map(row).collect()
 }
 
 /// The results for the [air] of a case, then those of each component.
 pub fn results(analysis: &Analysis) -> (Vec<ResultRow>, Vec<(String, Vec<ResultRow>)>) {
-    let component =
-        |component: &Component| (component.name.clone(), rows(OF_COMPONENTS, analysis, component));
-    (rows(OF_RECORDS, analysis, analysis), analysis.components.iter().map(component).collect())
+    let component = |component: &Component| (component.name.clone(), rows(OF_COMPONENTS, component));
+    (rows(OF_RECORDS, analysis), analysis.components.iter().map(component).collect())
 }
 
 /// The table for the terminal.

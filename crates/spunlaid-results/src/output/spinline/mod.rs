@@ -8,7 +8,7 @@ mod words;
 pub use stations::{COLUMNS, STATIONS, write as write_stations};
 pub use summary::{SpinSummary, Summary};
 pub use table::text;
-pub use words::{doubt, filament, freezing, influence, model_error, numerical_error, remarks, shown};
+pub use words::{filament, freezing, influence, model_error, numerical_error, remarks};
 
 use super::copied_files::CASE_FILES;
 use super::origin::ORIGIN;

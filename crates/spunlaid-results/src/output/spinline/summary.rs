@@ -4,6 +4,7 @@ use super::SpinResults;
 use super::words::model_error;
 use crate::output::in_order::OrderedObject;
 use crate::output::json_text;
+use crate::output::measured::{json, values};
 use serde::Serialize;
 use serde_json::Value as Json;
 use spunlaid::case::Case;
@@ -84,8 +85,8 @@ fn measured(solution: &Solution) -> Vec<(String, Json)> {
             }
         }
     };
-    for measure in OF_SPINLINES {
-        put(measure.name, measure.value(solution).into());
+    for (name, value) in values(OF_SPINLINES, solution).0 {
+        put(&name, json(value));
     }
     put("freezing.by", solution.freezing.by.name().into());
     put("second_steady_state", solution.has_second.into());

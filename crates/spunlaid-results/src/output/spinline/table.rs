@@ -1,10 +1,11 @@
 //! The table of a spinline for the terminal.
 
-use super::words::{doubt, influence, model_error, numerical_error, shown};
+use super::words::{influence, model_error, numerical_error};
 use crate::numbers::number_to;
+use crate::output::measured::text as value;
 use spunlaid::input::Influence;
-use spunlaid::observe::{OF_SPINLINES, SpinlineMeasure};
-use spunlaid::spinline::{FreezingCause, Solution};
+use spunlaid::observe::{Measured, OF_SPINLINES, measured};
+use spunlaid::spinline::Solution;
 use std::fmt::Write;
 
 /// Influences that are told.
@@ -19,11 +20,14 @@ pub fn text(rows: &[Solution], influences: &[Influence]) -> String {
         1 => "spinline, steady state\n".to_owned(),
         count => format!("spinline, steady state: the first of {count} rows\n"),
     };
-    let widest = OF_SPINLINES.iter().map(|measure| measure.label.chars().count()).max().unwrap_or(0);
-    for measure in OF_SPINLINES.iter().filter(|measure| !measure.is_residual) {
-        let row =
-            format!("  {:<widest$}  {:>8} {}", measure.label, shown(measure, first), measure.unit.shown);
-        let _ = writeln!(text, "{}{}", row.trim_end(), beside(measure, first));
+    let told = || measured(OF_SPINLINES, first).filter(|row| !row.measure.terse().is_empty());
+    let widest = told().map(|row| row.measure.terse().chars().count()).max().unwrap_or(0);
+    for row in told() {
+        let Measured { measure, remark, .. } = &row;
+        let value = value(&row).unwrap_or_default();
+        let cells = format!("  {:<widest$}  {value:>8} {}", measure.terse(), measure.unit.shown);
+        let remark = remark.as_ref().map_or_else(String::new, |remark| format!("  ({remark})"));
+        let _ = writeln!(text, "{}{remark}", cells.trim_end());
     }
     if let [first, .., last] = rows {
         let micrometres = |row: &Solution| number_to(row.final_diameter * 1e6, 4);
@@ -43,14 +47,4 @@ pub fn text(rows: &[Solution], influences: &[Influence]) -> String {
     let of_model = model_error(first.has_low_birefringence);
     let _ = writeln!(text, "errors\n  {}\n  {of_model}", numerical_error(rows));
     text
-}
-
-/// What stands beside a measure: by what the thread freezes, and what is known to be wrong.
-fn beside(measure: &SpinlineMeasure, solution: &Solution) -> String {
-    let cause = match solution.freezing.by {
-        FreezingCause::Temperature => "it freezes by its temperature",
-        FreezingCause::Crystallisation => "it freezes by crystallisation",
-    };
-    let cause = (measure.name == "freezing.temperature_c").then_some(cause);
-    cause.or_else(|| doubt(measure, solution)).map_or_else(String::new, |words| format!("  ({words})"))
 }

@@ -3,14 +3,9 @@
 use crate::numbers::{number_to, significant, to_decimals};
 use spunlaid::case::Case;
 use spunlaid::input::{Change, Influence};
-use spunlaid::observe::SpinlineMeasure;
 use spunlaid::spinline::{FreezingCause, Solution};
 use spunlaid::units::Dimension;
 use spunlaid_charts::label::plain;
-
-/// What is known of a birefringence that is too low, beside it and beside the modulus that follows from it.
-const LOW_BIREFRINGENCE: &str = "3 to 5 times too low for polypropylene";
-const LOW_MODULUS: &str = "too low, from a birefringence that is 3 to 5 times too low for polypropylene";
 
 /// What is known of the error of the model.
 ///
@@ -25,25 +20,6 @@ pub fn model_error(has_low_birefringence: bool) -> String {
     format!(
         "How far the model is from a real line is not known: no diameter that it gives has been compared with a measured one. {of_modulus}"
     )
-}
-
-/// What is known to be wrong with a measure; none where nothing is.
-pub fn doubt(measure: &SpinlineMeasure, solution: &Solution) -> Option<&'static str> {
-    match measure.name {
-        "birefringence" if solution.has_low_birefringence => Some(LOW_BIREFRINGENCE),
-        "modulus_estimate_pa" if solution.has_low_birefringence => Some(LOW_MODULUS),
-        _ => None,
-    }
-}
-
-/// The value of a measure in the unit in which it is shown, as text.
-pub fn shown(measure: &SpinlineMeasure, solution: &Solution) -> String {
-    /// A smaller force than this part of the one at the die is zero, but for rounding.
-    const ZERO: f64 = 1e-9;
-    let is_zero =
-        measure.name == "force_at_end_n" && solution.force_at_end.abs() < ZERO * solution.force_at_die;
-    let value = if is_zero { 0.0 } else { measure.value(solution) * measure.unit.per_si };
-    number_to(value, if measure.is_residual { 1 } else { 4 })
 }
 
 /// How well the equations are solved, in a sentence.

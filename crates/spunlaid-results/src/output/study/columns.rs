@@ -47,7 +47,7 @@ pub(super) fn columns_of_replicates(study: &Study) -> Vec<Column> {
 fn quantity_columns(quantity: &Quantity) -> impl Iterator<Item = String> {
     let ends = ["", "_se", "_whole_error"];
     ends.into_iter()
-        .take(if quantity.causes.is_empty() { 2 } else { 3 })
+        .take(if quantity.further_errors().next().is_none() { 2 } else { 3 })
         .map(|end| format!("{}{end}", quantity.column))
 }
 

@@ -1,48 +1,33 @@
 //! Quantities as tables for readers show them.
 
 use crate::numbers::plus_minus;
-use spunlaid::study::{PointResults, Quantity, Study};
+use spunlaid::case::Case;
+use spunlaid::observe::{DECLARED, Measure};
+use spunlaid::study::{Experiment, PointResults, Quantity, Study};
 
-/// The quantities that tables show, the most important first, by their indices.
+/// The quantities that tables show, by their indices: those of a figure together, which are the patches of all sizes.
 pub fn quantities(study: &Study) -> Vec<usize> {
-    let names: &[&str] = match study.points.first().map(|point| &point.experiment) {
-        Some(spunlaid::study::Experiment::Web(_)) => return quantities_of_webs(study),
-        Some(spunlaid::study::Experiment::Case(case)) if case.line.is_some() => &[
-            "sigma_md",
-            "sigma_cd",
-            "half_correlation_length_md",
-            "half_correlation_length_cd",
-            "noise",
-            "orientation_md",
-        ],
-        Some(spunlaid::study::Experiment::Spinline(_)) => &[
-            "final_diameter",
-            "final_speed",
-            "freezing_distance",
-            "freezing_stress",
-            "linear_density",
-            "modulus_estimate",
-        ],
-        _ => &["amplitude_y", "amplitude_z", "frequency_y", "frequency_z", "mean_x", "strain_99"],
+    let experiments = || study.points.iter().map(|point| &point.experiment);
+    let has = |quantity: &Quantity| {
+        experiments().any(|experiment| match experiment {
+            Experiment::Case(case) => applies(quantity, case),
+            Experiment::Web(web) => {
+                let flies = web.layers.iter().any(|layer| layer.source.case().is_some());
+                flies || quantity.figure.name != "cv_flown"
+            }
+            Experiment::Spinline(_) => true,
+        })
     };
-    names.iter().filter_map(|name| study.quantity(name)).collect()
+    let all = &study.quantities;
+    let mut shown: Vec<usize> = (0..all.len()).filter(|i| all[*i].is_main && has(&all[*i])).collect();
+    shown.sort_by_key(|i| all.iter().position(|other| other.figure.name == all[*i].figure.name));
+    shown
 }
 
-/// The unevenness of the maps, the one expected from the flown curves if anything is flown, and what else is in a web.
-fn quantities_of_webs(study: &Study) -> Vec<usize> {
-    let flies = |point: &spunlaid::study::Point| {
-        let web = point.experiment.web();
-        web.is_some_and(|web| web.layers.iter().any(|layer| layer.source.case().is_some()))
-    };
-    let figures: &[&str] = if study.points.iter().any(flies) { &["cv", "cv_flown"] } else { &["cv"] };
-    let of_figure = |figure: &&str| {
-        let all = study.quantities.iter().enumerate();
-        all.filter(move |(_, quantity)| quantity.figure.name == *figure)
-            .map(|(index, _)| index)
-            .collect::<Vec<_>>()
-    };
-    let others = ["basis_weight", "md_cd_ratio"].into_iter().filter_map(|name| study.quantity(name));
-    figures.iter().flat_map(of_figure).chain(others).collect()
+/// Whether a quantity has a meaning for a fibre.
+fn applies(quantity: &Quantity, case: &Case) -> bool {
+    let is_it = |measure: &Measure| measure.name == quantity.name;
+    DECLARED.iter().any(|declared| (declared.applies)(case) && declared.measures.iter().any(is_it))
 }
 
 /// The head of a column: `Amplitude in y (mm)`.

@@ -1,7 +1,8 @@
 //! The table of the unevenness over patches, for the report and for the terminal.
 
 use crate::numbers::{THIN, plus_minus, significant};
-use spunlaid::observe::{OF_PATCHES, PatchColumn, PatchMeasure};
+use crate::output::measured::text;
+use spunlaid::observe::{ErrorRole, Measure, OF_PATCHES};
 use spunlaid::web::{Findings, PatchFindings};
 
 /// Who reads a table; its heads differ, and in the report every number has its unit.
@@ -37,46 +38,34 @@ impl PatchTable {
         };
         let declared = columns(findings, reader);
         let row = |patch: &PatchFindings| {
-            let cells = declared.iter().map(|(measure, column)| {
-                let cv = (measure.number)(patch);
-                reader.cell(cv.map(|cv| match column.digits {
-                    Some(digits) => significant(100.0 * cv, digits),
-                    None => plus_minus(100.0 * cv, error_of(measure, patch).map(|error| 100.0 * error)),
-                }))
-            });
+            let cells = declared.iter().map(|measure| reader.cell(text(&measure.of(patch))));
             reader.cells_of_map(patch).into_iter().chain(cells).collect()
         };
         Self {
-            heads: of_map.into_iter().chain(declared.iter().map(|(_, column)| reader.head(column))).collect(),
+            heads: of_map.into_iter().chain(declared.iter().map(|measure| reader.head(measure))).collect(),
             rows: findings.patches.iter().map(row).collect(),
         }
     }
 }
 
-/// The declared columns that a reader sees of a web, in their order.
-fn columns(findings: &Findings, reader: Reader) -> Vec<(&'static PatchMeasure, &'static PatchColumn)> {
-    let column = |measure: &'static PatchMeasure| Some((measure, measure.column.as_ref()?));
-    let is_shown = |(_, column): &(&PatchMeasure, &PatchColumn)| {
-        !reader.head(column).is_empty() && findings.patches.iter().any(column.is_shown)
+/// The declared columns that a reader sees of a web, in their order: after that of the CV its further errors, then the other measures. The
+/// standard error of a measure stands with it.
+fn columns(findings: &Findings, reader: Reader) -> Vec<&'static Measure<PatchFindings>> {
+    let of_measure = |measure: &'static Measure<PatchFindings>| {
+        let further = measure.errors.iter().filter(|error| error.role == ErrorRole::Further);
+        std::iter::once(measure).chain(further)
     };
-    let mut shown: Vec<_> = OF_PATCHES.iter().filter_map(column).filter(is_shown).collect();
-    shown.sort_by_key(|(_, column)| column.place);
-    shown
-}
-
-/// The standard error of a measure, if one is declared and known.
-fn error_of(measure: &PatchMeasure, patch: &PatchFindings) -> Option<f64> {
-    let is_its_error =
-        |other: &&PatchMeasure| other.name.strip_suffix("_standard_error") == Some(measure.name);
-    OF_PATCHES.iter().find(is_its_error).and_then(|error| (error.number)(patch))
+    let is_shown = |measure: &&Measure<PatchFindings>| {
+        !reader.head(measure).is_empty() && findings.patches.iter().any(measure.is_shown)
+    };
+    OF_PATCHES.iter().flat_map(of_measure).skip(1).filter(is_shown).collect()
 }
 
 impl Reader {
-    const fn head(self, column: &PatchColumn) -> &'static str {
-        let [report, terminal] = column.heads;
+    const fn head(self, measure: &Measure<PatchFindings>) -> &'static str {
         match self {
-            Self::Report => report,
-            Self::Terminal => terminal,
+            Self::Report => measure.label,
+            Self::Terminal => measure.terse(),
         }
     }
 

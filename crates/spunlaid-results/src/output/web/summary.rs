@@ -4,17 +4,15 @@ use super::advice::AdviceSummary;
 use super::guesses::GuessesSummary;
 use crate::figures::SEEN;
 use crate::output::in_order::OrderedObject;
+use crate::output::measured::{json, values, with_errors};
 use crate::output::spinline::SpinSummary;
 use serde::Serialize;
-use serde_json::{Value as Json, json};
+use serde_json::Value as Json;
 use spunlaid::advice::Advice;
 use spunlaid::lanes::Isa;
-use spunlaid::observe::{
-    OF_PATCHES, OF_SCANNED_PATCHES, OF_SCANS, OF_WEBS, ScanMeasure, WebMeasure, WebNumber,
-};
+use spunlaid::observe::{Measure, OF_PATCHES, OF_SCANNED_PATCHES, OF_SCANS, OF_WEBS};
 use spunlaid::scan::{self, Doubt};
 use spunlaid::statistics::{Estimate, interval_of_deviation};
-use spunlaid::web::uniformity::Unevenness;
 use spunlaid::web::{Clouds, Edges, Findings, LayerFew, Map, NeighbourCorrelation, Web};
 use std::time::Instant;
 
@@ -296,41 +294,30 @@ impl WebSummary {
 
 /// The numbers of the patches of one size. Those that are not known are left out.
 ///
-/// * `errors` – of the CV by other causes than chance
 /// * `interval` – 95 % confidence interval of the CV of all such webs, or why it cannot be told
-fn numbers_of_patch<'a>(
-    unevenness: &Unevenness,
-    errors: impl Iterator<Item = (&'a str, Option<f64>)>,
+fn numbers_of_patch<T>(
+    side: f64,
+    measures: &'static [Measure<T>],
+    found: &T,
     interval: Result<[f64; 2], String>,
-    more: impl Iterator<Item = (&'a str, Option<f64>)>,
 ) -> OrderedObject<Json> {
-    let Unevenness { patch, cv, standard_error } = *unevenness;
-    let known = |(name, number): (&'a str, Option<f64>)| Some((name, number?.into()));
-    let chance = [("patch_m", patch.into()), ("cv", cv.into()), ("cv_standard_error", standard_error.into())];
-    let interval = match interval {
+    let (name, interval): (_, Json) = match interval {
         Ok(ends) => ("cv_interval", ends.to_vec().into()),
         Err(why) => ("no_interval", why.into()),
     };
-    let all =
-        chance.into_iter().chain(errors.filter_map(known)).chain([interval]).chain(more.filter_map(known));
-    OrderedObject(all.map(|(name, value): (&str, Json)| (name.to_owned(), value)).collect())
+    let mut all = vec![("patch_m".to_owned(), side.into())];
+    for (place, measure) in measures.iter().enumerate() {
+        all.extend(with_errors(measure, found));
+        // It follows the CV, which is the first.
+        all.extend((place == 0).then(|| (name.to_owned(), interval.clone())));
+    }
+    OrderedObject(all)
 }
 
-/// The declared measures that stand elsewhere in the file: with the map, and with each layer.
-const ELSEWHERE: [&str; 5] =
-    ["basis_weight_kg_m2", "fibre_length_m", "sigma_md_m", "sigma_cd_m", "noise_per_sqrt_m"];
-
-/// All other declared measures of a whole web. Those that it does not have are left out.
-fn declared_of_web(web: &Web, findings: &Findings) -> OrderedObject<Json> {
-    let entry = |declared: &WebMeasure| {
-        let json = match (declared.number)(web, findings)? {
-            WebNumber::Plain(value) => value.into(),
-            WebNumber::Mean(mean, error) => json!({ "mean": mean, "standard_error": error }),
-        };
-        Some((declared.measure.column.to_owned(), json))
-    };
-    let others = OF_WEBS.iter().filter(|declared| !ELSEWHERE.contains(&declared.measure.column));
-    OrderedObject(others.filter_map(entry).collect())
+/// The declared measures of a whole web that do not stand elsewhere in the file: with the map, or with each layer. Those that it does not have are left out.
+fn declared_of_web(findings: &Findings) -> OrderedObject<Json> {
+    let here = OF_WEBS.iter().filter(|measure| !measure.entry().is_empty());
+    OrderedObject(here.flat_map(|measure| with_errors(measure, findings)).collect())
 }
 
 impl NumberWithError {
@@ -355,12 +342,7 @@ impl<'a> Summary<'a> {
                 false => "too few filaments were flown",
             };
             let interval = patch.interval().ok_or_else(|| why.to_owned());
-            let declared = |is_of_map: bool| {
-                let declared = OF_PATCHES.iter().filter(move |measure| measure.is_of_map == is_of_map);
-                declared.map(|measure| (measure.name, (measure.number)(patch)))
-            };
-            // The CV of the map and its error by chance stand there already, as for a scan.
-            numbers_of_patch(&patch.map, declared(true).skip(2), interval, declared(false))
+            numbers_of_patch(patch.map.patch, OF_PATCHES, patch, interval)
         });
         let levers = findings.sensitivities.iter().flat_map(|sensitivity| {
             let each = sensitivity.elasticity.iter().zip(&findings.patches);
@@ -377,7 +359,7 @@ impl<'a> Summary<'a> {
             spunlaid_version: env!("CARGO_PKG_VERSION"),
             layers,
             web: WebSummary {
-                fibre_length_m: Some(web.fibre_length()),
+                fibre_length_m: Some(findings.fibre_length),
                 cut_off_kg: Some(findings.laid.cut),
                 flown: findings
                     .laid
@@ -391,7 +373,7 @@ impl<'a> Summary<'a> {
                     basis_weight_between_kg_m2: findings.within().basis_weight(),
                     basis_weight_sheet_kg_m2: findings.laid.map.basis_weight(),
                 }),
-                declared: declared_of_web(web, findings),
+                declared: declared_of_web(findings),
                 sensitivities: levers.collect(),
                 ..WebSummary::from_map(&findings.laid.map, findings.clouds.as_ref(), patches.collect())
             },
@@ -412,9 +394,8 @@ impl<'a> Summary<'a> {
         notes: &'a [String],
     ) -> Self {
         let patches = findings.patches.iter().map(|patch| {
-            let declared = OF_SCANNED_PATCHES.iter().map(|measure| (measure.name, (measure.number)(patch)));
             let interval = patch.interval.map_err(|doubt| doubt.to_string());
-            numbers_of_patch(&patch.unevenness, std::iter::empty(), interval, declared)
+            numbers_of_patch(patch.unevenness.patch, OF_SCANNED_PATCHES, patch, interval)
         });
         let mut web = WebSummary::from_map(&findings.map, findings.clouds.as_ref(), patches.collect());
         if let Some(guess) = findings.guess {
@@ -425,16 +406,11 @@ impl<'a> Summary<'a> {
             }
         }
         let basis_weight_kg_m2 = web.basis_weight_kg_m2.filter(|_| findings.mean_known);
-        let number = |measure: &ScanMeasure<scan::Findings>| {
-            let number = (measure.number)(findings);
-            let is_count = measure.digits == 0;
-            let json = if is_count { number.map(|count| count as u64).into() } else { number.into() };
-            (measure.name.to_owned(), json)
-        };
         let guess = Doubt::GUESSES.into_iter().find(|(_, doubt)| Some(*doubt) == findings.guess);
         let guess = guess.map(|(name, _)| name).into();
         let words = [("file".to_owned(), file.into()), ("guess".to_owned(), guess)];
-        let scan = words.into_iter().chain(OF_SCANS.iter().map(number));
+        let numbers = values(OF_SCANS, findings).0.into_iter();
+        let scan = words.into_iter().chain(numbers.map(|(name, value)| (name, json(value))));
         Self {
             schema_version: SCHEMA_VERSION,
             spunlaid_version: env!("CARGO_PKG_VERSION"),
