@@ -7,7 +7,7 @@ use crate::numbers::significant;
 use crate::output::folder::Staging;
 use crate::output::spinline::{SpinResults, SpinSummary, write_stations};
 use crate::output::web::{self, Layer, Performance, Summary};
-use crate::report::{LayerSpinline, WebReport, web_html};
+use crate::report::{LayerSpinline, web_report};
 use spunlaid::advice::Advice;
 use spunlaid::case::Case;
 use spunlaid::input::{LayerSpec, WebFile, WebSpec};
@@ -86,23 +86,15 @@ impl WebFolder<'_> {
                 staging.write_figures(&all)?;
                 web::write_strands(staging, &strands)
             });
-            let report = web_html(&WebReport {
-                name: self.name,
-                spec: &self.file.spec,
-                web: self.web,
-                findings: self.findings,
-                advice: self.advice,
-                guesses: self.guesses,
-                layers: &rows(&self.file.spec, self.web, self.layers),
-                strands: &strands,
-                window,
-                diameter: self.file.spec.layers.first().map_or(0.0, |layer| layer.diameter),
-                figures: &figures,
-                spinlines: &spinlines,
-                notes: self.notes,
-                toml: &toml,
-                performance: self.performance,
-            });
+            let report = web_report(
+                (&self.file.spec, &toml, self.web),
+                (self.findings, self.advice, self.guesses),
+                (&rows(&self.file.spec, self.web, self.layers), &spinlines),
+                &strands,
+                &figures,
+                self.performance,
+            );
+            let report = report.map(|report| report.named(self.name).noting(self.notes).html());
             others.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)).and(report)
         })?;
         staging.write("web.toml", &toml)?;
