@@ -81,7 +81,7 @@ pub(crate) fn lay_web(
         let performance = Performance::measure(started, laying.threads, laying.isa).with_flights(&findings);
         Ok((flown, findings, [advice, guesses], performance))
     })?;
-    let notes = [Note::notes_of_results(&file.notes), notes(&flown.web, &findings, &flown.layers)].concat();
+    let notes = [Note::notes_of_results(&file.notes), notes(&flown, &findings)].concat();
     Ok(LaidWeb { name, file, flown, findings, advice, guesses, notes, performance })
 }
 

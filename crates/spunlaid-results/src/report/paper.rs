@@ -56,12 +56,8 @@ pub fn paper_report<'a>(
 }
 
 fn claim_table(claims: &[Claim]) -> Table {
-    let columns = [
-        ("", Content::Words),
-        ("What the paper says", Content::Sentences),
-        ("Evidence", Content::Sentences),
-        ("Verdict", Content::Words),
-    ];
+    let sentences = ["What the paper says", "Evidence", "Verdict"].map(|head| (head, Content::Sentences));
+    let columns = [("", Content::Words)].into_iter().chain(sentences);
     let row = |claim: &Claim| {
         let tone = match claim.verdict {
             Verdict::Holds => Tone::Good,
