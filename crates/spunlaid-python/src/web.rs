@@ -92,7 +92,7 @@ impl Asked {
         let guesses = guesses.map(compare).transpose()?;
         let advice = self.advice.clone().map(compare).transpose()?;
         let performance = Performance::measure(started, laying.threads, laying.isa).with_flights(&findings);
-        let of_results = notes(&flown.web, &findings, &flown.layers);
+        let of_results = notes(&flown, &findings);
         let notes = [Note::notes_of_results(&self.file.notes), of_results].concat();
         let (name, file) = (self.name.clone(), self.file.clone());
         Ok(LaidWeb { name, file, flown, findings, advice, guesses, notes, performance })

@@ -13,7 +13,7 @@ use spunlaid_results::output::analysis::{
     air_block, analysis_json, autocorrelation_csv, result_table, spectrum_csv,
 };
 use spunlaid_results::output::folder::{ENTRIES, Staging};
-use spunlaid_results::report::{AnalysisReport, analysis_html};
+use spunlaid_results::report::analysis_report;
 
 pub(crate) fn analyse(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     let is_scan = analyse.scan.pixel.is_some() || is_picture_file(&analyse.record);
@@ -94,9 +94,8 @@ fn write(
     let figures = record_figures(record, analysis);
     staging.write_figures(&figures)?;
     let air = air_block(&record.file, analysis);
-    let page =
-        analysis_html(&AnalysisReport { name, record, analysis, figures: &figures, remarks, air: &air });
-    staging.write("report.html", page)?;
+    let report = analysis_report(record, analysis, &figures, remarks, &air).named(name);
+    staging.write("report.html", report.html())?;
     staging.write("spectrum.csv", spectrum_csv(analysis))?;
     staging.write("autocorrelation.csv", autocorrelation_csv(analysis))?;
     staging.write("air.toml", air)?;

@@ -24,7 +24,7 @@ use spunlaid_results::figures::paper as draw;
 use spunlaid_results::output::folder::ENTRIES;
 use spunlaid_results::output::pictures::Format;
 use spunlaid_results::output::study::shown;
-use spunlaid_results::report::{PaperReport, paper_html};
+use spunlaid_results::report::paper_report;
 use std::sync::Mutex;
 use std::sync::atomic::AtomicU64;
 
@@ -65,15 +65,8 @@ pub(crate) fn reproduce(arguments: &Reproduce, invocation: &Invocation) -> Resul
         scheme.name(),
         base.run.time_step * 1e6
     );
-    let report = paper_html(&PaperReport {
-        claims: &claims,
-        figures: &figures,
-        choices: &choices,
-        how: &how,
-        case: &base,
-        case_toml: &case_toml,
-    });
-    staging.write("report.html", report)?;
+    let report = paper_report(&claims, &figures, &choices, &how, (&base, &case_toml));
+    staging.write("report.html", report.html())?;
     staging.write("case.toml", case_toml)?;
     staging.write("summary.json", summary(&claims))?;
     staging.publish()?;

@@ -82,7 +82,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     let changes = changes.filter(|changes| arguments.advice || is_short(changes));
     let advice = compare(changes, ["change", "the line", "--no-advice"])?;
     let performance = Performance::measure(started, by.threads, by.isa).with_flights(&findings);
-    let found = folders::web::notes(web, &findings, layers);
+    let found = folders::web::notes(&flown, &findings);
     let notes = [Note::notes_of_results(&file.notes), found.clone()].concat();
     let written = WebFolder {
         name: &name,

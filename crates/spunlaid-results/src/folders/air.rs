@@ -5,7 +5,7 @@ use crate::numbers::{THIN, significant};
 use crate::output::air::{PLANES, Picture, Slices, Summary, pictures, write_vtk};
 use crate::output::copied_files;
 use crate::output::folder::Staging;
-use crate::report::{AirReport, air_html};
+use crate::report::air_report;
 use spunlaid::case::Case;
 use spunlaid::input::write_case;
 use spunlaid_charts::Figure;
@@ -57,15 +57,8 @@ impl AirFolder<'_> {
         }
         let figures: Vec<&Figure> = pictures.iter().map(|Picture { figure, .. }| figure).collect();
         staging.write_figures(&figures)?;
-        let page = AirReport {
-            name: self.name,
-            headline: self.headline(),
-            case: self.case,
-            slices: self.slices,
-            pictures: &pictures,
-            notes: self.notes,
-        };
-        staging.write("report.html", air_html(&page))?;
+        let report = air_report(self.case, self.slices, &pictures, self.headline());
+        staging.write("report.html", report.named(self.name).noting(self.notes).html())?;
         staging.write("summary.json", self.summary().to_json())
     }
 }

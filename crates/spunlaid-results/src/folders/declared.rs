@@ -7,7 +7,7 @@ use crate::output::analysis::{analysis_json, result_table};
 use crate::output::folder::Staging;
 use crate::output::spinline::{SpinResults, text};
 use crate::output::web::{ENTRIES, PatchTable, Performance, Reader, Summary};
-use crate::report::{AnalysisReport, ScanReport, analysis_html, scan_html};
+use crate::report::{analysis_report, scan_report};
 use serde_json::Value as Json;
 use spunlaid::input::{parse_spinline, parse_web};
 use spunlaid::lanes::Isa;
@@ -156,15 +156,7 @@ fn every_declared_measure_of_a_scan_is_in_summary_and_report() {
     let performance = Performance::default();
     let summary = Summary::from_scan(&picture.file, &findings, performance, &[]).to_json();
     let summary: Json = serde_json::from_str(&summary).unwrap();
-    let report = ScanReport {
-        name: "scan",
-        file: &picture.file,
-        findings: &findings,
-        figures: &[],
-        notes: &[],
-        performance,
-    };
-    let report = scan_html(&report).unwrap();
+    let report = scan_report(&picture.file, &findings, &[], performance).unwrap().html();
     for declared in OF_SCANS {
         let number = declared.value(&findings).map(|value| value.number());
         assert_eq!(summary["scan"].get(declared.entry()).unwrap().as_f64(), number, "{}", declared.entry());
@@ -200,15 +192,8 @@ fn every_declared_measure_of_a_record_is_in_summary_terminal_and_report() {
     let (record, analysis) = record_sample::autoregression(3, 20_000);
     let json: Json = serde_json::from_str(&analysis_json(&record, &analysis)).unwrap();
     let (figures, remarks) = (record_figures(&record, &analysis), []);
-    let report = AnalysisReport {
-        name: "wire",
-        record: &record,
-        analysis: &analysis,
-        figures: &figures,
-        remarks: &remarks,
-        air: "[air]\n",
-    };
-    let pages = [analysis_html(&report), result_table(&record, &analysis)];
+    let report = analysis_report(&record, &analysis, &figures, &remarks, "[air]\n");
+    let pages = [report.html(), result_table(&record, &analysis)];
     fn check<T>(measures: &'static [Measure<T>], found: &T, json: &Json, pages: &[String; 2]) {
         for row in measured(measures, found) {
             let value = row.value.as_ref().map(|value: &Value| serde_json::to_value(value).unwrap());

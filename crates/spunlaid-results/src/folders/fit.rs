@@ -10,7 +10,7 @@ use crate::output::fit::{fit_json, trials_csv};
 use crate::output::folder::Staging;
 use crate::output::origin::Origin;
 use crate::output::pictures::FigureFiles;
-use crate::report::{FitReport, fit_html};
+use crate::report::fit_report;
 use spunlaid::error::Fault;
 use spunlaid::fit::{Fit, MOST_TRIALS, Target, identity, numbers_of_record};
 use spunlaid::input::{FitFile, WebSpec};
@@ -114,16 +114,8 @@ impl<'a> FitFolder<'a> {
         let figures = fit_figures(fit);
         staging.write_figures(&figures)?;
         let FitInput { name, paths, target, notes, .. } = *input;
-        let report = fit_html(&FitReport {
-            name,
-            scan: paths[1],
-            fit,
-            target,
-            spec,
-            figures: &figures,
-            notes,
-            toml: &toml,
-        });
+        let report =
+            fit_report(fit, (paths[1], target), (spec, &toml), &figures).named(name).noting(notes).html();
         staging.write("web.toml", toml)?;
         staging.write("trials.csv", trials_csv(fit))?;
         staging.write("report.html", report)?;

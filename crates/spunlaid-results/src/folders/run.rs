@@ -9,7 +9,7 @@ use crate::output::spinline::{SpinResults, write_stations};
 use crate::output::summary::{Performance, Summary};
 use crate::output::tables::{TableRecorder, Tables};
 use crate::output::{copied_files, doubt, paraview};
-use crate::report::{self, ReportInput};
+use crate::report::run_report;
 use spunlaid::case::Case;
 use spunlaid::ensemble::{
     FinerChecks, FinerPlans, Keep, KeepShapes, Recorder, Results, RunControl, RunPaths, fly_for_checks,
@@ -228,17 +228,10 @@ impl Run<'_> {
     }
 
     fn page(&self, Drawn { case_toml, figures, spinline }: &Drawn) -> Result<String, Failure> {
-        report::html(&ReportInput {
-            name: self.name,
-            case: self.case,
-            case_toml,
-            results: self.results,
-            checks: self.checks,
-            figures,
-            spinline: spinline.as_ref().map(|(results, figures)| (results, &figures[..])),
-            notes: &self.all_notes(),
-            performance: self.performance,
-        })
+        let spinline = spinline.as_ref().map(|(results, figures)| (results, &figures[..]));
+        let (case, results) = ((self.case, &case_toml[..]), (self.results, self.checks));
+        let report = run_report(case, results, figures, spinline, self.performance)?;
+        Ok(report.named(self.name).noting(&self.all_notes()).html())
     }
 }
 

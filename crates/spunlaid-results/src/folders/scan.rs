@@ -4,7 +4,7 @@ use crate::Failure;
 use crate::figures::scan_figures;
 use crate::output::folder::Staging;
 use crate::output::web::{Performance, Summary, write_scan};
-use crate::report::{ScanReport, scan_html};
+use crate::report::scan_report;
 use spunlaid::scan::Findings;
 
 /// Everything of a scan that goes into the files.
@@ -42,8 +42,8 @@ impl ScanFolder<'_> {
         write_scan(staging, &findings.map)?;
         let figures = scan_figures(findings);
         staging.write_figures(&figures)?;
-        let report = ScanReport { name, file, findings, figures: &figures, notes, performance };
-        staging.write("report.html", scan_html(&report)?)?;
+        let report = scan_report(file, findings, &figures, performance)?;
+        staging.write("report.html", report.named(name).noting(notes).html())?;
         staging.write("summary.json", self.summary())
     }
 }

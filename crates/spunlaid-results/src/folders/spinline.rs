@@ -5,7 +5,7 @@ use crate::figures::{SPINLINE, spinline_figures};
 use crate::output::copied_files;
 use crate::output::folder::Staging;
 use crate::output::spinline::{SpinResults, Summary, write_stations};
-use crate::report::{SpinReport, spinline_html};
+use crate::report::spinline_report;
 use spunlaid::input::{SpinFile, write_spinline};
 use spunlaid_charts::Figure;
 
@@ -54,13 +54,7 @@ impl SpinFolder<'_> {
     }
 
     fn page(&self, toml: &str, figures: &[Figure]) -> String {
-        spinline_html(&SpinReport {
-            name: self.name,
-            file: self.file,
-            results: self.results,
-            figures,
-            notes: self.notes,
-            toml,
-        })
+        let report = spinline_report(&self.file.spec, self.results, figures, toml);
+        report.named(self.name).noting(self.notes).html()
     }
 }

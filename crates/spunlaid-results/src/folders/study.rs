@@ -9,7 +9,7 @@ use crate::output::folder::{self, MARKS, Staging};
 use crate::output::origin::Origin;
 use crate::output::pictures::FigureFiles;
 use crate::output::{self};
-use crate::report::{StudyReport, study_html};
+use crate::report::study_report;
 use spunlaid::case::MOST_REPLICATES;
 use spunlaid::error::Fault;
 use spunlaid::input::{StudyFile, StudyNote, differences};
@@ -161,18 +161,10 @@ impl<'a> StudyFolder<'a> {
         output::study::write_json(&staging, study, &results, &rankings)?;
         let refusal = rankings.refusal.filter(|_| study.factors.len() > 1).map(|refusal| refusal.to_string());
         staging.write_figures(&figures)?;
-        let report = study_html(&StudyReport {
-            name,
-            study,
-            results: &results,
-            rankings: &rankings.of_measures,
-            refusal: refusal.as_deref(),
-            figures: &figures,
-            notes: &StudyNote::notes_of_results(&file.notes),
-            study_toml: &file.text,
-            base_toml: &file.base_text,
-        });
-        staging.write("report.html", report)?;
+        let told = (&rankings.of_measures[..], refusal.as_deref());
+        let report = study_report(study, &results, told, &figures, [&file.text, &file.base_text]);
+        let report = report.named(name).noting(&StudyNote::notes_of_results(&file.notes));
+        staging.write("report.html", report.html())?;
         staging.publish()?;
         self.at.finish()?;
         Ok(StudyResults { results, refusal })

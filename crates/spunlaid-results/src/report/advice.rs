@@ -1,6 +1,7 @@
 //! What would make a web more even, for people: the sentence under the headline, and a table of all settings that were tried.
 
-use super::headline::{grams, headline_patch};
+use super::table::{Row, Table};
+use super::unevenness::{PER_CENT, grams, headline_patch};
 use super::words::millimetres;
 use crate::command::web_command;
 use crate::numbers::{HARD, THIN, plus_minus, significant};
@@ -8,19 +9,6 @@ use crate::output::web::HOUR;
 use spunlaid::advice::{Advice, Change, ChangedKey, CvChange, Effect, NAMED, Setting};
 use spunlaid::layers::WebSpec;
 use spunlaid::web::Findings;
-
-const PER_CENT: f64 = 100.0;
-
-/// What a report says of the settings: a sentence, and a table.
-#[derive(Default)]
-pub(super) struct AdviceSection {
-    /// [`advice_words`]; empty for a web that is no simulated one.
-    pub(super) sentence: String,
-    pub(super) heads: Vec<String>,
-    /// Of each row the change, the command that lays it, and the other cells.
-    pub(super) rows: Vec<(String, String, Vec<String>)>,
-    pub(super) caption: String,
-}
 
 /// Which changed settings lower the CV of a web most, by how much, and what they cost in throughput: a sentence or two.
 ///
@@ -228,49 +216,47 @@ fn cost(effect: &Effect) -> String {
     format!("with {}{THIN}% {way} throughput", significant(PER_CENT * change.abs(), 2))
 }
 
-impl AdviceSection {
-    /// * `advice` – None if no change was tried
-    pub(super) fn new(spec: &WebSpec, findings: &Findings, advice: Option<&Advice>) -> Self {
-        let sentence = advice_words(spec, findings, advice);
-        let Some(advice) = advice else { return Self { sentence, ..Self::default() } };
-        let patches: Vec<f64> = findings.patches.iter().map(|patch| patch.map.patch).collect();
-        let row = |effect: &Effect| {
-            let cv = |patch: &f64| effect.over(*patch).map_or_else(|| "–".to_owned(), per_cent);
-            let line =
-                [effect.belt_speed[1], HOUR * effect.mass_flow[1]].map(|number| significant(number, 4));
-            let cells = patches.iter().map(cv).chain(line).collect();
-            (describe_change(&effect.change, spec), web_command(&effect.change), cells)
-        };
-        let heads = (patches.iter().map(|patch| format!("CV at {}, %", millimetres(*patch))))
-            .chain(["Belt, m/s".to_owned(), "From each metre, kg/h".to_owned()])
-            .collect();
-        let failed: Vec<String> = (advice.failed.iter())
-            .map(|(change, why)| format!("{}: {why}", describe_change(change, spec)))
-            .collect();
-        let error = if advice.is_confirmed {
-            "from blocks of both webs which the same air has laid, so that what both have by chance does not count; the best ones were flown once more in another air"
-        } else if findings.laid.shared_air.is_some() {
-            "which counts both maps as independent"
-        } else if is_known(spec) {
-            "from paths with the same random numbers before and after; the lay-down itself (σ MD, σ CD, A) is taken as it is, because no fibre was flown"
-        } else if spec.layers.iter().any(|layer| layer.source.case().is_none()) {
-            "from paths with the same random numbers before and after the change, which leaves out the chance of the few flown fibres and takes the lay-down of the \
+/// All changes that were tried, with the command of each, and what is said below them. None if there are none.
+pub(super) fn advice_table(spec: &WebSpec, findings: &Findings, advice: &Advice) -> Option<(Table, String)> {
+    if advice.effects.is_empty() {
+        return None;
+    }
+    let patches: Vec<f64> = findings.patches.iter().map(|patch| patch.map.patch).collect();
+    let row = |effect: &Effect| {
+        let cv = |patch: &f64| effect.over(*patch).map_or_else(|| "–".to_owned(), per_cent);
+        let line = [effect.belt_speed[1], HOUR * effect.mass_flow[1]].map(|number| significant(number, 4));
+        let cells = patches.iter().map(cv).chain(line);
+        Row::new(describe_change(&effect.change, spec), cells).command(web_command(&effect.change))
+    };
+    let heads = patches.iter().map(|patch| format!("CV at {}, %", millimetres(*patch)));
+    let heads = ["At the same basis weight".to_owned()].into_iter().chain(heads);
+    let heads = heads.chain(["Belt, m/s", "From each metre, kg/h"].map(str::to_owned));
+    let failed: Vec<String> = (advice.failed.iter())
+        .map(|(change, why)| format!("{}: {why}", describe_change(change, spec)))
+        .collect();
+    let error = if advice.is_confirmed {
+        "from blocks of both webs which the same air has laid, so that what both have by chance does not count; the best ones were flown once more in another air"
+    } else if findings.laid.shared_air.is_some() {
+        "which counts both maps as independent"
+    } else if is_known(spec) {
+        "from paths with the same random numbers before and after; the lay-down itself (σ MD, σ CD, A) is taken as it is, because no fibre was flown"
+    } else if spec.layers.iter().any(|layer| layer.source.case().is_none()) {
+        "from paths with the same random numbers before and after the change, which leaves out the chance of the few flown fibres and takes the lay-down of the \
              other layers as exact"
-        } else {
-            "over the flown fibres, each compared with itself in the same gusts before the change"
-        };
-        let mut caption = format!(
-            "Change of the CV as a share of it when one setting of the line is changed and the belt follows, so that the basis weight stays {}: over patches of \
+    } else {
+        "over the flown fibres, each compared with itself in the same gusts before the change"
+    };
+    let mut caption = format!(
+        "Change of the CV as a share of it when one setting of the line is changed and the belt follows, so that the basis weight stays {}: over patches of \
              each size, ± one standard error, {error}. All other settings stay as they are; with another titre the throughput of a hole stays and the filament is fed \
              slower or faster. The command below each change lays that web.",
-            grams(findings.within().basis_weight())
-        );
-        if let Some(patch) = headline_patch(findings).and_then(|i| patches.get(i)) {
-            caption += &clouds_apart(spec, advice, *patch);
-        }
-        if !failed.is_empty() {
-            caption += &format!(" These could not be tried: {}.", failed.join("; "));
-        }
-        Self { sentence, heads, rows: advice.effects.iter().map(row).collect(), caption }
+        grams(findings.within().basis_weight())
+    );
+    if let Some(patch) = headline_patch(findings).and_then(|i| patches.get(i)) {
+        caption += &clouds_apart(spec, advice, *patch);
     }
+    if !failed.is_empty() {
+        caption += &format!(" These could not be tried: {}.", failed.join("; "));
+    }
+    Some((Table::new(heads).rows(advice.effects.iter().map(row)), caption))
 }

@@ -1,78 +1,39 @@
-//! `report.html` of the air of a case.
+//! The report of the air of a case.
 
-use super::methods::{Methods, case_account};
-use super::rendered;
+use super::document::{Report, Section};
+use super::methods::{case_account, methods};
+use super::pictures::Moving;
+use super::view::View;
 use super::words::length;
 use crate::numbers::{THIN, significant};
 use crate::output::air::{Picture, Slices};
-use askama::Template;
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
 use spunlaid::case::Case;
 use spunlaid::input::write_case;
 
-/// Content of the report.
-#[derive(Clone, Debug)]
-pub struct AirReport<'a> {
-    /// What the case is called: the name of its file.
-    pub name: &'a str,
-    /// How strong the gusts are.
-    pub headline: String,
-    /// The case.
-    pub case: &'a Case,
-    /// What was found.
-    pub slices: &'a Slices,
-    /// The planes.
-    pub pictures: &'a [Picture],
-    /// Notes for the reader.
-    pub notes: &'a [String],
-}
-
-/// Content of `assets/air.html`, which escapes everything.
-#[derive(Template)]
-#[template(path = "air.html")]
-struct AirPage<'a> {
-    name: &'a str,
-    headline: &'a str,
-    summary: String,
-    notes: &'a [String],
-    pictures: Vec<MovingPicture<'a>>,
-    methods_paragraph: Methods,
-    toml: String,
-}
-
-/// A moving picture.
-struct MovingPicture<'a> {
-    name: &'a str,
-    title: &'a str,
-    caption: &'a str,
-    gif: String,
-}
-
-impl<'a> MovingPicture<'a> {
-    fn new(Picture { figure, moving }: &'a Picture) -> Self {
-        Self {
-            name: &figure.name,
-            title: &figure.title,
-            caption: &figure.caption,
-            gif: STANDARD.encode(moving),
-        }
-    }
-}
-
-/// The report as one HTML file.
-pub fn air_html(input: &AirReport<'_>) -> String {
-    let summary = summary(input.case, input.slices);
-    let found = [summary.clone(), input.headline.clone()];
-    rendered(&AirPage {
-        name: input.name,
-        headline: &input.headline,
-        summary,
-        methods_paragraph: Methods::new("air", case_account(input.case), found),
-        notes: input.notes,
-        pictures: input.pictures.iter().map(MovingPicture::new).collect(),
-        toml: write_case(input.case),
-    })
+/// The air of a case, in moving pictures.
+///
+/// * `headline` – how strong the gusts are
+pub fn air_report<'a>(case: &Case, slices: &Slices, pictures: &'a [Picture], headline: String) -> Report<'a> {
+    let summary = summary(case, slices);
+    let moving = pictures.iter().map(|picture| {
+        Section::new(&picture.figure.name, &picture.figure.title).view(View::Moving(Moving::new(picture)))
+    });
+    let computed = Section::new("methods", "How it was computed").paragraph(
+        "The air is a field of eddies in space with the lateral structure of von Kármán’s isotropic turbulence, carried by the mean flow \
+         (air.lateral = \"von-karman\"). Fibres of this case that fly with the same seed and replicate meet this air, and so do the companions \
+         of [neighbours]. Waves across the flow that are shorter than 2π length scales over air.lateral_cutoff are left out.",
+    );
+    let file = Section::new("file", "The case").file("case-toml", write_case(case)).caption(
+        "along.pvd and across.pvd open the velocities, all three components, in ParaView; along.gif and across.gif are the pictures of \
+         this page; all numbers are in summary.json, beside this page.",
+    );
+    let found = [summary.clone(), headline.clone()];
+    Report::new("air", headline)
+        .lead(summary)
+        .with_all(moving)
+        .with(computed)
+        .with(methods("air", case_account(case), found))
+        .with(file)
 }
 
 /// What is seen, in sentences.

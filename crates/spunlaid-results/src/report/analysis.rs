@@ -1,76 +1,70 @@
-//! Writes `report.html` of the analysis of a velocity record.
+//! The report of the analysis of a velocity record.
 
-use super::methods::Methods;
-use super::rendered;
+use super::document::{Report, Section};
+use super::methods::methods;
+use super::table::{Content, Layout, Row, Table};
 use super::words::{count, time};
 use crate::numbers::{THIN, plus_minus, significant};
 use crate::output::analysis::{ResultRow, half_width, results};
-use askama::Template;
 use spunlaid::record::{Analysis, Interval, Record};
 use spunlaid::units::Dimension;
 use spunlaid_charts::Figure;
 
-/// Input of the report.
-#[derive(Clone, Copy, Debug)]
-pub struct AnalysisReport<'a> {
-    /// Name of the record: that of its file.
-    pub name: &'a str,
-    /// The record.
-    pub record: &'a Record,
-    /// What was found in it.
-    pub analysis: &'a Analysis,
-    /// The figures.
-    pub figures: &'a [Figure],
-    /// Notes about the reading of the record.
-    pub remarks: &'a [String],
-    /// The [air] of a case.
-    pub air: &'a str,
-}
-
-/// Values of the template `assets/analysis.html`. It escapes everything that is not marked as safe.
-#[derive(Template)]
-#[template(path = "analysis.html")]
-struct AnalysisPage<'a> {
-    name: &'a str,
-    headline: String,
-    summary: String,
-    notes: Vec<String>,
-    remarks: &'a [String],
-    air_rows: Vec<ResultRow>,
-    components: Vec<(String, Vec<ResultRow>)>,
-    durations: String,
+/// What was found in a velocity record.
+///
+/// * `remarks` – about the reading of the record
+/// * `air` – the [air] of a case
+pub fn analysis_report<'a>(
+    record: &Record,
+    analysis: &Analysis,
     figures: &'a [Figure],
-    air: &'a str,
-    methods: Vec<(&'static str, String)>,
-    methods_paragraph: Methods,
-}
-
-/// Makes the report as one HTML file.
-pub fn analysis_html(input: &AnalysisReport<'_>) -> String {
-    let analysis = input.analysis;
-    let (air_rows, components) = results(analysis);
-    let (headline, summary) = (headline(analysis), summary(input.record, analysis));
-    let methods = methods(analysis);
-    let texts = [summary.clone()].into_iter().chain(methods.iter().map(|(_, text)| text.clone()));
+    remarks: &[String],
+    air: &str,
+) -> Report<'a> {
+    let (rows, components) = results(analysis);
+    let (headline, summary) = (headline(analysis), summary(record, analysis));
+    let steps = steps(analysis);
+    let texts = [summary.clone()].into_iter().chain(steps.iter().map(|(_, text)| text.clone()));
     let value = |row: &ResultRow| {
         format!("{} {} ({} to {}) {}", row.name, row.value, row.low, row.high, row.unit).trim_end().to_owned()
     };
-    let found = format!("{}.", air_rows.iter().map(value).collect::<Vec<_>>().join(", "));
-    let page = AnalysisPage {
-        name: input.name,
-        methods_paragraph: Methods::new("analyse", (texts.collect(), Vec::new()), [headline.clone(), found]),
-        headline,
-        summary,
-        notes: analysis.warnings.iter().map(ToString::to_string).collect(),
-        remarks: input.remarks,
-        air_rows,
-        components,
-        durations: durations(analysis),
-        figures: input.figures,
-        air: input.air,
-        methods,
-    };
-    rendered(&page)
+    let found = format!("{}.", rows.iter().map(value).collect::<Vec<_>>().join(", "));
+    let methods = methods("analyse", (texts.collect(), Vec::new()), [headline.clone(), found]);
+    let remarks: String = remarks.iter().map(|remark| format!(" {remark}.")).collect();
+    let warnings: Vec<String> = analysis.warnings.iter().map(ToString::to_string).collect();
+    let air = Section::new("air", "The air of a case")
+        .table(table(rows))
+        .caption(durations(analysis))
+        .file("air-toml", air);
+    let components =
+        components.into_iter().fold(Section::new("components", "Each component"), |section, (name, rows)| {
+            section.heading(name).table(table(rows))
+        });
+    let computed = Section::new("methods", "How it was computed").descriptions(steps).caption(
+        "The curves are in spectrum.csv and autocorrelation.csv, all numbers in analysis.json, beside this page.",
+    );
+    Report::new("analyse", headline)
+        .lead(summary + &remarks)
+        .noting(&warnings)
+        .with(air)
+        .with(Section::of_figures(figures))
+        .with(components)
+        .with(computed)
+        .with(methods)
+}
+
+fn table(rows: Vec<ResultRow>) -> Table {
+    let columns = [
+        ("Result", Content::Words),
+        ("Value", Content::Numbers),
+        ("from", Content::Asides),
+        ("to", Content::Asides),
+        ("Unit", Content::Words),
+        ("How", Content::Sentences),
+    ];
+    let row =
+        |row: ResultRow| Row::new(row.name, [row.value, row.low, row.high, row.unit.to_owned(), row.meaning]);
+    Table::of(columns).laid_out(Layout::Results).rows(rows.into_iter().map(row))
 }
 
 /// `10.02 ± 0.04 m/s`; half the width of the interval follows the sign.
@@ -112,7 +106,8 @@ fn durations(analysis: &Analysis) -> String {
     )
 }
 
-fn methods(analysis: &Analysis) -> Vec<(&'static str, String)> {
+/// How each number was computed.
+fn steps(analysis: &Analysis) -> Vec<(&'static str, String)> {
     let Some(along) = analysis.components.first() else { return Vec::new() };
     let (spectrum, flat) = (&along.spectrum, &along.flat);
     let hertz = |f: f64| Dimension::Frequency.pretty_to(f, 3);
@@ -190,14 +185,7 @@ mod tests {
         let (record, analysis) = record_sample::autoregression(components, samples);
         let figures = record_figures(&record, &analysis);
         let remarks = [format!("{name} remark")];
-        analysis_html(&AnalysisReport {
-            name,
-            record: &record,
-            analysis: &analysis,
-            figures: &figures,
-            remarks: &remarks,
-            air: "[air]\n",
-        })
+        analysis_report(&record, &analysis, &figures, &remarks, "[air]\n").named(name).html()
     }
 
     #[test]

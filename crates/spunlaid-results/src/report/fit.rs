@@ -1,94 +1,84 @@
-//! `report.html` of a fit: the values, what they are worth, the figures.
+//! The report of a fit: the values, what they are worth, the figures.
 
-use super::methods::{MOMENTS, Methods, web_account};
-use super::rendered;
+use super::document::{Report, Section};
+use super::methods::{Account, MOMENTS, methods, web_account};
+use super::table::{Content, Row, Table};
 use crate::numbers::significant;
 use crate::output::fit::{doubt, pretty, refused, sentences as sentences_of, value_and_interval};
-use askama::Template;
 use spunlaid::fit::{Fit, FittedKey, FittedNumber, Target, Texture};
 use spunlaid::layers::WebSpec;
 use spunlaid::units::Dimension;
 use spunlaid_charts::Figure;
 
-/// Content of the report.
-#[derive(Clone, Copy, Debug)]
-pub struct FitReport<'a> {
-    /// What the fit is called: the name of the web's file.
-    pub name: &'a str,
-    /// The results folder of the scan.
-    pub scan: &'a str,
-    /// What was found.
-    pub fit: &'a Fit,
-    /// What it was compared with.
-    pub target: &'a Target,
-    /// The web with the values that were found.
-    pub spec: &'a WebSpec,
-    /// The figures.
-    pub figures: &'a [Figure],
-    /// Notes for the reader.
-    pub notes: &'a [String],
-    /// The web with the values that were found, as a file.
-    pub toml: &'a str,
-}
-
-/// Content of `assets/fit.html`, which escapes everything that is not marked safe.
-#[derive(Template)]
-#[template(path = "fit.html")]
-struct FitPage<'a> {
-    title: String,
-    name: &'a str,
-    summary: String,
-    notes: &'a [String],
-    sentences: Vec<String>,
-    keys: Vec<[String; 5]>,
-    correlation_heads: Vec<String>,
-    correlations: Vec<(String, Vec<String>)>,
-    numbers: Vec<[String; 5]>,
-    methods_paragraph: Methods,
-    trials: usize,
-    webs: u64,
+/// Values of a web that make it like a scan.
+///
+/// * `scan` – its results folder, and what of it was compared
+/// * `spec` – the web with the values that were found, and as a file
+pub fn fit_report<'a>(
+    fit: &Fit,
+    (scan, target): (&str, &Target),
+    (spec, toml): (&WebSpec, &str),
     figures: &'a [Figure],
-    toml: &'a str,
+) -> Report<'a> {
+    let title = title(fit);
+    let [width, length] = target.sides().map(|side| Dimension::Length.pretty(side));
+    let summary = format!(
+        "Fitted to {scan}: a piece of {width} across and {length} along the web, beside {} simulated webs of each trial.",
+        fit.webs
+    );
+    let found = std::iter::once(format!("Values with 95 % intervals: {title}.")).chain(sentences_of(fit));
+    let methods = methods("fit", account(fit, target, spec), found);
+    let file = Section::new("file", "The web with these values")
+        .paragraph("This file is web.toml in the folder of this page; `spunlaid web web.toml` lays it.")
+        .file("web-toml", toml);
+    Report::new("fit", title)
+        .lead(summary)
+        .with(values(fit))
+        .with(Section::of_figures(figures))
+        .with(numbers(fit))
+        .with(methods)
+        .with(file)
 }
 
-/// The report as one HTML file.
-pub fn fit_html(input: &FitReport<'_>) -> String {
-    let fit = input.fit;
-    let [width, length] = input.target.sides().map(|side| Dimension::Length.pretty(side));
-    let several = fit.keys.len() > 1;
-    let head = |key: &FittedKey| if several { key.parameter.key.clone() } else { String::new() };
-    let correlations = fit.keys.iter().zip(&fit.correlations).filter(|_| several);
-    let page = FitPage {
-        title: title(fit),
-        name: input.name,
-        summary: format!(
-            "Fitted to {}: a piece of {width} across and {length} along the web, beside {} simulated webs of each trial.",
-            input.scan, fit.webs
-        ),
-        notes: input.notes,
-        sentences: sentences_of(fit).into_iter().chain(refused(fit)).collect(),
-        keys: fit.keys.iter().map(row).collect(),
-        correlation_heads: fit.keys.iter().filter(|_| several).map(head).collect(),
-        correlations: correlations
-            .map(|(key, row)| {
-                (key.parameter.key.clone(), row.iter().map(|number| significant(*number, 2)).collect())
-            })
-            .collect(),
-        numbers: fit.numbers.iter().map(number).collect(),
-        methods_paragraph: methods(input),
-        trials: fit.trials.len(),
-        webs: fit.webs,
-        figures: input.figures,
-        toml: input.toml,
-    };
-    rendered(&page)
+/// The values, and what they are worth.
+fn values(fit: &Fit) -> Section<'static> {
+    let heads = ["Key", "Start", "Fit", "95\u{202f}% interval"].map(|head| (head, Content::Numbers));
+    let columns = heads.into_iter().chain([("Remark", Content::Sentences)]);
+    let name = |key: &FittedKey| key.parameter.key.clone();
+    let heads = std::iter::once("Correlation of the errors".to_owned()).chain(fit.keys.iter().map(name));
+    let correlations = fit.keys.iter().zip(&fit.correlations).filter(|_| fit.keys.len() > 1);
+    let rows =
+        correlations.map(|(key, row)| Row::new(name(key), row.iter().map(|number| significant(*number, 2))));
+    Section::new("values", "The values")
+        .table(Table::of(columns).rows(fit.keys.iter().map(row)))
+        .paragraphs(sentences_of(fit).into_iter().chain(refused(fit)))
+        .caption(
+            "The interval is that of a scan of this size: each simulated web took the place of the scan, and the values that would be found \
+             for it scatter as those for a real scan do. The noise and the blur of the camera, the few flown fibres and the surrogate are in \
+             it, as far as they are known. That the model of the line is right is not: other settings of keys that were not sought give other \
+             values.",
+        )
+        .table(Table::new(heads).rows(rows))
 }
 
-/// The paragraph for a paper.
-fn methods(input: &FitReport<'_>) -> Methods {
-    let fit = input.fit;
-    let (mut sentences, mut cited) = web_account(input.spec, None);
-    let [width, length] = input.target.sides().map(|side| Dimension::Length.pretty(side));
+/// What was compared.
+fn numbers(fit: &Fit) -> Section<'static> {
+    let heads = ["Number", "Scan", "Start", "Fit ± scatter of a web", "Residual"];
+    let caption = format!(
+        "The same part of every web is measured in the same way as the scan. The residual is the logarithm of scan over fit, in standard \
+         deviations of a single web. {} trials of {} webs were laid, all with the same random numbers; trials.csv has them, fit.json all numbers.",
+        fit.trials.len(),
+        fit.webs
+    );
+    Section::new("numbers", "What was compared")
+        .table(Table::new(heads).rows(fit.numbers.iter().map(number)))
+        .caption(caption)
+}
+
+/// How the values were found, with what is cited for it.
+fn account(fit: &Fit, target: &Target, spec: &WebSpec) -> Account {
+    let (mut sentences, mut cited) = web_account(spec, None);
+    let [width, length] = target.sides().map(|side| Dimension::Length.pretty(side));
     sentences.push(format!(
         "These values were found by a simulated method of moments ({}): the logarithms of {} numbers (CV over square patches{}) of a piece of {width} × {length} \
          were compared with the mean of {} simulated webs, weighted by the inverse of their covariance from web to web. A 95 % interval holds the values with \
@@ -103,9 +93,7 @@ fn methods(input: &FitReport<'_>) -> Methods {
         fit.webs,
     ));
     cited.push(MOMENTS);
-    let found =
-        std::iter::once(format!("Values with 95 % intervals: {}.", title(fit))).chain(sentences_of(fit));
-    Methods::new("fit", (sentences, cited), found)
+    (sentences, cited)
 }
 
 /// The answer.
@@ -123,21 +111,17 @@ fn title(fit: &Fit) -> String {
     if fit.worse == 0 { format!("Closest, but not like the scan: {values}") } else { values }
 }
 
-fn row(key: &FittedKey) -> [String; 5] {
+fn row(key: &FittedKey) -> Row {
     let [value, interval] = value_and_interval(key);
     let parameter = &key.parameter;
     let pretty = |value: f64| pretty(parameter, value);
     let [low, high] = parameter.range.map(pretty);
-    [
-        parameter.key.clone(),
-        pretty(parameter.start),
-        value,
-        interval,
-        key.doubt.map_or_else(|| format!("sought from {low} to {high}"), |found| doubt(found).to_owned()),
-    ]
+    let remark =
+        key.doubt.map_or_else(|| format!("sought from {low} to {high}"), |found| doubt(found).to_owned());
+    Row::new(&parameter.key, [pretty(parameter.start), value, interval, remark])
 }
 
-fn number(number: &FittedNumber) -> [String; 5] {
+fn number(number: &FittedNumber) -> Row {
     let millimetres = |size: f64| significant(size * 1e3, 3);
     let (name, scale, unit) = match number.texture {
         Texture::Patch(side) => (format!("CV over patches of {} mm", millimetres(side)), 100.0, "%"),
@@ -155,11 +139,8 @@ fn number(number: &FittedNumber) -> [String; 5] {
         }
     };
     let shown = |value: f64| format!("{} {unit}", significant(scale * value, 3));
-    [
-        name,
-        shown(number.scan),
-        shown(number.start),
-        format!("{} ± {}", significant(scale * number.found, 3), shown(number.found * number.scatter)),
-        significant(number.residual(), 2),
-    ]
+    let found =
+        format!("{} ± {}", significant(scale * number.found, 3), shown(number.found * number.scatter));
+    let residual = significant(number.residual(), 2);
+    Row::new(name, [shown(number.scan), shown(number.start), found, residual])
 }

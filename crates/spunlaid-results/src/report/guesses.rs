@@ -1,13 +1,11 @@
 //! How much guesses matter for a web, in the sentences below its headline.
 
-use super::headline::headline_patch;
+use super::unevenness::{PER_CENT, headline_patch};
 use super::words::millimetres;
 use crate::numbers::{HARD, THIN, plus_minus, significant};
 use spunlaid::advice::{Advice, Effect};
 use spunlaid::layers::WebSpec;
 use spunlaid::web::Findings;
-
-const PER_CENT: f64 = 100.0;
 
 /// What the CV of a web is with half and twice of each number that its file calls a guess, because the error of the CV knows nothing of them. Empty
 /// without such numbers.

@@ -17,6 +17,7 @@ const PIXELS: usize = 3_000_000;
 const POINTS: usize = 150_000;
 
 /// The picture of the web on the page.
+#[derive(Debug)]
 pub(super) struct Sheet {
     /// Base64 of the picture.
     pub(super) picture: String,
@@ -26,6 +27,8 @@ pub(super) struct Sheet {
     pub(super) aspect: f64,
     /// Side of a pixel of the picture [m].
     pub(super) pixel: f64,
+    /// Whether there are single fibres to be seen.
+    pub(super) has_fibres: bool,
     /// What the script of the light table gets. Numbers and base64 only: nothing in it can end the script element it stands in.
     pub(super) data: String,
 }
@@ -115,6 +118,7 @@ pub(super) fn sheet(map: &Map, window: Option<Fibres>) -> Result<Sheet, Failure>
         words: format!("The web is {} mm wide and {} mm long.", thousands(width), thousands(length)),
         aspect: width / length,
         pixel,
+        has_fibres: data.window.is_some(),
         data: serde_json::to_string(&data).map_err(|error| failed(error.to_string()))?,
     })
 }

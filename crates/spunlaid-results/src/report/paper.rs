@@ -1,79 +1,72 @@
-//! The page of `spunlaid reproduce`: the paper's claims with evidence and verdict, its figures, its choices.
+//! The report of `spunlaid reproduce`: the paper's claims with evidence and verdict, its figures, its choices.
 
-use super::methods::{Methods, case_account};
-use super::rendered;
-use askama::Template;
+use super::document::{Report, Section};
+use super::methods::{case_account, methods};
+use super::table::{Cell, Content, Row, Table, Tone};
 use spunlaid::case::Case;
 use spunlaid::paper::{Claim, Verdict};
 use spunlaid_charts::Figure;
 
-/// Everything the page shows.
-#[derive(Clone, Copy, Debug)]
-pub struct PaperReport<'a> {
-    /// What the paper claims, and what was found.
-    pub claims: &'a [Claim],
-    /// The figures.
-    pub figures: &'a [Figure],
-    /// Name of a choice, then amplitude y, z and frequency y, z as text.
-    pub choices: &'a [(String, Vec<String>)],
-    /// How it was computed, in a sentence.
-    pub how: &'a str,
-    /// The base case.
-    pub case: &'a Case,
-    /// The case as a case file.
-    pub case_toml: &'a str,
-}
-
-#[derive(Template)]
-#[template(path = "paper.html")]
-struct PaperPage<'a> {
-    headline: String,
-    claims: Vec<ClaimRow<'a>>,
+/// What the paper claims, and what was found.
+///
+/// * `choices` – name of a choice, then amplitude y, z and frequency y, z as text
+/// * `how` – how it was computed, in a sentence
+/// * `case` – the base case, and as a case file
+pub fn paper_report<'a>(
+    claims: &[Claim],
     figures: &'a [Figure],
-    choice_heads: [&'static str; 4],
-    choices: &'a [(String, Vec<String>)],
-    how: &'a str,
-    methods_paragraph: Methods,
-    case_toml: &'a str,
-}
-
-struct ClaimRow<'a> {
-    claim: &'a Claim,
-    class: &'static str,
-    verdict: &'static str,
-}
-
-/// The page as one HTML file.
-pub fn paper_html(input: &PaperReport<'_>) -> String {
-    let count = input.claims.iter().filter(|c| c.verdict == Verdict::Holds).count();
-    let headline = match input.claims.len() {
+    choices: &[(String, Vec<String>)],
+    how: &str,
+    (case, toml): (&Case, &str),
+) -> Report<'a> {
+    let holds = claims.iter().filter(|claim| claim.verdict == Verdict::Holds).count();
+    let headline = match claims.len() {
         0 => "The paper’s figures, drawn anew".to_owned(),
-        all => format!("{count} of the paper’s {all} claims hold"),
+        all => format!("{holds} of the paper’s {all} claims hold"),
     };
-    let rows = input.claims.iter().map(|claim| ClaimRow {
-        claim,
-        class: match claim.verdict {
-            Verdict::Holds => "holds",
-            Verdict::Fails => "fails",
-            Verdict::Open => "open",
-        },
-        verdict: claim.verdict.name(),
-    });
-    let found = [input.how.to_owned(), format!("{headline}.")];
-    let page = PaperPage {
-        methods_paragraph: Methods::new("reproduce", case_account(input.case), found),
-        headline,
-        claims: rows.collect(),
-        figures: input.figures,
-        choice_heads: [
+    let found = [how.to_owned(), format!("{headline}.")];
+    let mut report =
+        Report::new("reproduce", headline).named("Battocchio, Sutcliffe & Teschner 2015").lead(how);
+    if !claims.is_empty() {
+        report = report.with(Section::new("claims", "Claim by claim").table(claim_table(claims)).caption(
+            "The program computes the verdicts from the data. A trend is almost linear if a straight line explains 97\u{202f}% of the variance. \
+             A difference is real if it is larger than three standard errors. A step in the wrong direction counts against a trend if it is \
+             larger than 2.5 standard errors. “Nearly constant” means a change of at most 10\u{202f}%. “Open” means that the errors are too large \
+             to decide; more replicates would help.",
+        ));
+    }
+    if !choices.is_empty() {
+        let heads = [
+            "Choice",
             "Amplitude in y (mm)",
             "Amplitude in z (mm)",
             "Frequency in y (Hz)",
             "Frequency in z (Hz)",
-        ],
-        choices: input.choices,
-        how: input.how,
-        case_toml: input.case_toml,
+        ];
+        let rows = choices.iter().map(|(name, cells)| Row::new(name, cells));
+        let table = Table::new(heads).rows(rows);
+        report = report.with(Section::new("choices", "What the paper leaves open").table(table).caption(
+            "Table 1 of the paper with one choice changed at a time; mean ± one standard error of the mean.",
+        ));
+    }
+    let file = Section::new("case", "The base case")
+        .paragraph("Table 1 of the paper with every default filled in.")
+        .file("case-toml", toml);
+    report.with(Section::of_figures(figures)).with(methods("reproduce", case_account(case), found)).with(file)
+}
+
+fn claim_table(claims: &[Claim]) -> Table {
+    let sentences = ["What the paper says", "Evidence", "Verdict"].map(|head| (head, Content::Sentences));
+    let columns = [("", Content::Words)].into_iter().chain(sentences);
+    let row = |claim: &Claim| {
+        let tone = match claim.verdict {
+            Verdict::Holds => Tone::Good,
+            Verdict::Fails => Tone::Bad,
+            Verdict::Open => Tone::Open,
+        };
+        let said = [claim.claim, &claim.evidence].map(Cell::from);
+        let verdict = Cell::new(claim.verdict.name(), tone);
+        Row::new(format!("Figure {}", claim.figure), said.into_iter().chain([verdict]))
     };
-    rendered(&page)
+    Table::of(columns).rows(claims.iter().map(row))
 }

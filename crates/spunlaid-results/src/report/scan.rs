@@ -1,10 +1,11 @@
-//! `report.html` of a scanned web: the web on a light table, how uneven it is, and the figures.
+//! The report of a scanned web: the web on a light table, how uneven it is, and the figures.
 
-use super::advice::AdviceSection;
+use super::document::{Report, Section};
 use super::light_table::{picture_note, sheet};
-use super::methods::Methods;
-use super::rendered;
-use super::web::{File, WebPage, cost, headline, largest_clouds, per_cent, unevenness};
+use super::methods::methods;
+use super::table::{Row, Table};
+use super::unevenness::{CV_OF_PATCHES, cost, headline, largest_clouds, per_cent, unevenness};
+use super::view::View;
 use super::words::{metres, millimetres};
 use crate::Failure;
 use crate::figures::SEEN;
@@ -17,26 +18,18 @@ use spunlaid::web::{Map, nearest_to_seen};
 use spunlaid_charts::Figure;
 use std::borrow::Cow;
 
-/// Content of the report.
-#[derive(Clone, Copy, Debug)]
-pub struct ScanReport<'a> {
-    /// What the scan is called.
-    pub name: &'a str,
-    /// Path of its file.
-    pub file: &'a str,
-    /// What was found.
-    pub findings: &'a Findings,
-    /// The figures.
-    pub figures: &'a [Figure],
-    /// Notes for the reader.
-    pub notes: &'a [String],
-    /// What it cost.
-    pub performance: Performance,
-}
-
-/// The report as one HTML file.
-pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
-    let findings = input.findings;
+/// A scanned web.
+///
+/// * `file` – its path
+///
+/// # Errors
+/// The picture cannot be drawn.
+pub fn scan_report<'a>(
+    file: &str,
+    findings: &Findings,
+    figures: &'a [Figure],
+    performance: Performance,
+) -> Result<Report<'a>, Failure> {
     let sheet = sheet(&with_spots(findings), None)?;
     let nearest_patch = nearest_to_seen(findings.patches.iter().map(|patch| patch.unevenness.patch));
     let weight = findings.mean_known.then(|| findings.map.basis_weight());
@@ -46,53 +39,42 @@ pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
         metres(findings.map.columns as f64 * findings.map.cell),
         metres(findings.map.rows as f64 * findings.map.cell)
     );
-    let facts = reading_rows(input);
-    let numbers = facts.iter().map(|fact| fact.join(" ")).collect::<Vec<_>>().join(", ");
+    let facts = facts(file, findings);
+    let numbers = facts.iter().map(|(name, value)| format!("{name} {value}")).collect::<Vec<_>>().join(", ");
     let cvs = findings.patches.iter().map(|patch| patch.unevenness).collect::<Vec<_>>();
     let texts = vec![summary.clone(), format!("{numbers}.")];
-    let found = [headline.clone(), unevenness(&cvs)].into_iter().chain(verdict(findings));
-    let page = WebPage {
-        command: "analyse",
-        name: input.name,
-        methods_paragraph: Methods::new("analyse", (texts, Vec::new()), found),
-        headline,
-        summary,
-        notes: input.notes,
-        caption: picture_note(sheet.pixel)
-            + if findings.aside.spots.is_empty() { "" } else { " Black spots were left out." },
-        sheet,
-        fibres: false,
-        verdict: verdict(findings),
-        heads: ["Patch", "CV", "95 % interval"]
-            .into_iter()
-            .chain(OF_SCANNED_PATCHES.iter().skip(1).map(|measure| measure.label))
-            .collect(),
-        patches: findings.patches.iter().map(row).collect(),
-        about_patches: "The interval is that of the web, of which the scan is one piece. The noise of the camera \
-            is as it was given, and then taken out of the CV, or the most that it can be. Where one more pixel of \
-            blur changes little, the camera’s own blur has changed little as well.",
-        guesses: String::new(),
-        advice: AdviceSection::default(),
-        lever_heads: Vec::new(),
-        levers: Vec::new(),
-        figures: input.figures,
-        spinlines: Vec::new(),
-        file: File {
-            title: "The scan",
-            heads: &[],
-            rows: facts,
-            toml: "",
-            caption: "The map is in map.npy (kg/m², or parts of the mean where that is not known; a row of the web after the other), all \
-                      numbers in summary.json, beside this page.",
-        },
-        cost: cost(input.performance),
-    };
-    Ok(rendered(&page))
+    let verdict = verdict(findings);
+    let found = [headline.clone(), unevenness(&cvs)].into_iter().chain(verdict.clone());
+    let methods = methods("analyse", (texts, Vec::new()), found);
+    let spots = if findings.aside.spots.is_empty() { "" } else { " Black spots were left out." };
+    let caption = picture_note(sheet.pixel) + spots;
+    let heads = ["Patch", "CV", "95 % interval"].into_iter();
+    let heads = heads.chain(OF_SCANNED_PATCHES.iter().skip(1).map(|measure| measure.label));
+    let uneven = Section::new("verdict", "What makes it uneven")
+        .paragraphs(verdict)
+        .table(Table::new(heads).rows(findings.patches.iter().map(row)))
+        .caption(format!(
+            "{CV_OF_PATCHES} The interval is that of the web, of which the scan is one piece. The noise of the camera is as it was given, and \
+             then taken out of the CV, or the most that it can be. Where one more pixel of blur changes little, the camera’s own blur has \
+             changed little as well."
+        ));
+    let read = Section::new("file", "The scan").table(Table::of_facts(facts)).caption(
+        "The map is in map.npy (kg/m², or parts of the mean where that is not known; a row of the web after the other), all numbers in \
+         summary.json, beside this page.",
+    );
+    let web = Section::new("web", "The web on a light table").view(View::LightTable(sheet)).caption(caption);
+    Ok(Report::new("analyse", headline)
+        .lead(summary)
+        .with(web)
+        .with(uneven)
+        .with(Section::of_figures(figures))
+        .with(methods)
+        .with(read)
+        .costing(cost(performance)))
 }
 
-fn row(patch: &PatchFindings) -> Vec<String> {
+fn row(patch: &PatchFindings) -> Row {
     let mut cells = vec![
-        millimetres(patch.unevenness.patch),
         per_cent(patch.unevenness.cv, patch.unevenness.standard_error),
         patch.interval.map_or_else(
             |doubt| format!("none: {doubt}"),
@@ -103,7 +85,7 @@ fn row(patch: &PatchFindings) -> Vec<String> {
     ];
     // The CV stands before the interval.
     cells.extend(measured(OF_SCANNED_PATCHES, patch).skip(1).map(|row| shown(&row).unwrap_or_default()));
-    cells
+    Row::new(millimetres(patch.unevenness.patch), cells)
 }
 
 /// The value of a measure with its unit; none if there is no value.
@@ -142,10 +124,9 @@ fn verdict(findings: &Findings) -> Vec<String> {
 }
 
 /// How the scan was read: a name and a value each.
-fn reading_rows(input: &ScanReport<'_>) -> Vec<Vec<String>> {
-    let findings = input.findings;
+fn facts(file: &str, findings: &Findings) -> Vec<(&'static str, String)> {
     let mut facts = vec![
-        ("File", input.file.to_owned()),
+        ("File", file.to_owned()),
         (
             "Pixels",
             format!("{} × {} of {}", findings.map.columns, findings.map.rows, millimetres(findings.map.cell)),
@@ -167,5 +148,5 @@ fn reading_rows(input: &ScanReport<'_>) -> Vec<Vec<String>> {
         );
         facts.push(("Dark spots that were left out", spots));
     }
-    facts.into_iter().map(|(name, value)| vec![name.to_owned(), value]).collect()
+    facts
 }

@@ -1,15 +1,15 @@
-//! `report.html` of a spinline, and the section about it in the reports of runs and of webs.
+//! The report of a spinline, and the section about it in the reports of runs and of webs.
 
-use super::methods::{Account, Methods};
-use super::rendered;
+use super::document::{Part, Report, Section};
+use super::methods::{Account, methods};
+use super::table::{Content, Layout, Row, Table};
+use super::unevenness::grams;
 use super::words::length;
 use crate::numbers::{THIN, number_to, significant};
 use crate::output::measured::text;
 use crate::output::spinline::{SpinResults, freezing, influence, model_error, numerical_error};
 use crate::output::web::Layer;
-use askama::Template;
 use spunlaid::case::Case;
-use spunlaid::input::SpinFile;
 use spunlaid::observe::{Measured, OF_SPINLINES, measured};
 use spunlaid::spinline::{End, Law, PolymerSource, Solution, SpinSpec, Surroundings, ZERO_CELSIUS};
 use spunlaid::web::Web;
@@ -18,112 +18,76 @@ use spunlaid_charts::Figure;
 /// Influences that are told in a sentence each.
 const TOLD: usize = 3;
 
-/// Content of the report.
-#[derive(Clone, Copy, Debug)]
-pub struct SpinReport<'a> {
-    /// What the spinline is called: the name of its file.
-    pub name: &'a str,
-    /// The spinline.
-    pub file: &'a SpinFile,
-    /// Its solution.
-    pub results: &'a SpinResults,
-    /// The figures.
-    pub figures: &'a [Figure],
-    /// Notes for the reader.
-    pub notes: &'a [String],
-    /// The spinline with every default, as a file.
-    pub toml: &'a str,
-}
-
-/// Content of `assets/spinline.html`, which escapes everything that is not marked safe.
-#[derive(Template)]
-#[template(path = "spinline.html")]
-struct SpinPage<'a> {
-    name: &'a str,
-    headline: String,
-    summary: String,
-    notes: &'a [String],
-    spinline: SpinSection<'a>,
-    methods: Vec<(&'static str, String)>,
-    methods_paragraph: Methods,
-    toml: &'a str,
-}
-
-/// Content of `assets/spinline_section.html`.
-pub(super) struct SpinSection<'a> {
-    pub(super) id: String,
-    pub(super) title: String,
-    pub(super) sentences: Vec<String>,
-    pub(super) rows: Vec<Row>,
-    pub(super) errors: String,
-    pub(super) influences: Vec<String>,
-    pub(super) figures: &'a [Figure],
-}
-
-/// A measure of the table.
-pub(super) struct Row {
-    pub(super) name: &'static str,
-    pub(super) value: String,
-    pub(super) unit: &'static str,
-    pub(super) meaning: String,
-}
-
-impl<'a> SpinSection<'a> {
-    /// * `id` – of the section in its page
-    pub(super) fn new(
-        id: &str,
-        title: &str,
-        sentences: Vec<String>,
-        SpinResults { rows, influences }: &SpinResults,
-        figures: &'a [Figure],
-    ) -> Self {
-        let of_row = |solution: &Solution| {
-            let row = |row: Measured<Solution>| Row {
-                name: row.measure.label,
-                value: text(&row).unwrap_or_default(),
-                unit: row.measure.unit.shown,
-                meaning: row.meaning().to_owned(),
-            };
-            measured(OF_SPINLINES, solution).map(row).collect()
-        };
-        Self {
-            id: id.to_owned(),
-            title: title.to_owned(),
-            sentences: sentences.into_iter().chain(curtain(rows)).collect(),
-            rows: rows.first().map_or_else(Vec::new, of_row),
-            errors: format!(
-                "{} {}",
-                numerical_error(rows),
-                model_error(rows.first().is_some_and(|row| row.has_low_birefringence))
-            ),
-            influences: influences.iter().take(TOLD).map(influence).collect(),
-            figures,
-        }
-    }
-}
-
-/// The report as one HTML file.
-pub fn spinline_html(input: &SpinReport<'_>) -> String {
-    let (spec, rows) = (&input.file.spec, &input.results.rows);
+/// A spinline.
+///
+/// * `toml` – with every default, as a file
+pub fn spinline_report<'a>(
+    spec: &SpinSpec,
+    results: &SpinResults,
+    figures: &'a [Figure],
+    toml: &str,
+) -> Report<'a> {
+    let rows = &results.rows;
     let headline = rows.first().map_or_else(String::new, headline);
-    let result = |row: Measured<Solution>| {
+    let number = |row: Measured<Solution>| {
         let value = text(&row).unwrap_or_default();
         format!("{} {value} {}", row.measure.label, row.measure.unit.shown).trim_end().to_owned()
     };
-    let results: Vec<String> =
-        rows.iter().take(1).flat_map(|row| measured(OF_SPINLINES, row).map(result)).collect();
-    let found = [headline.clone(), format!("{}.", results.join(", ")), numerical_error(rows)];
-    let page = SpinPage {
-        name: input.name,
-        methods_paragraph: Methods::new("spin", account(spec, rows), found),
-        headline,
-        summary: summary(spec, rows),
-        notes: input.notes,
-        spinline: SpinSection::new("results", "Results", Vec::new(), input.results, input.figures),
-        methods: methods(spec),
-        toml: input.toml,
+    let first = rows.iter().take(1);
+    let numbers: Vec<String> = first.flat_map(|row| measured(OF_SPINLINES, row).map(number)).collect();
+    let found = [headline.clone(), format!("{}.", numbers.join(", ")), numerical_error(rows)];
+    let computed = Section::new("methods", "How it was computed").descriptions(model(spec));
+    let file = Section::new("file", "The spinline")
+        .paragraph(
+            "With every default filled in. `spunlaid spin spinline.toml` in the folder of this page gives the same numbers, to the last \
+             digit. In a case, the same table takes the place of `feed.speed` and `fibre.diameter`.",
+        )
+        .file("spinline-toml", toml)
+        .caption(
+            "The thread from the die to the end is in spinline.parquet, all numbers are in summary.json, and the numbers of each figure in \
+             figures/, beside this page.",
+        );
+    Report::new("spin", headline)
+        .lead(summary(spec, rows))
+        .with(section(Section::new("results", "Results"), Vec::new(), results, figures))
+        .with(computed)
+        .with(methods("spin", account(spec, rows), found))
+        .with(file)
+}
+
+/// What is known of a spinline.
+///
+/// * `sentences` – before everything else
+fn section<'a>(
+    section: Section<'a>,
+    sentences: Vec<String>,
+    SpinResults { rows, influences }: &SpinResults,
+    figures: &'a [Figure],
+) -> Section<'a> {
+    let columns = [
+        ("Result", Content::Words),
+        ("Value", Content::Numbers),
+        ("Unit", Content::Words),
+        ("Meaning", Content::Sentences),
+    ];
+    let row = |row: Measured<Solution>| {
+        let value = text(&row).unwrap_or_default();
+        Row::new(row.measure.label, [&value, row.measure.unit.shown, row.meaning()])
     };
-    rendered(&page)
+    let first = rows.first();
+    let results =
+        first.into_iter().flat_map(|first| measured(OF_SPINLINES, first).map(row));
+    let is_low = first.is_some_and(|row| row.has_low_birefringence);
+    let section = section
+        .paragraphs(sentences.into_iter().chain(curtain(rows)))
+        .table(Table::of(columns).laid_out(Layout::Results).rows(results))
+        .caption(format!("{} {}", numerical_error(rows), model_error(is_low)));
+    let told: Vec<String> = influences.iter().take(TOLD).map(influence).collect();
+    let section = match &told[..] {
+        [] => section,
+        _ => section.heading("What decides the diameter").with(Part::List(told)),
+    };
+    section.figures(figures)
 }
 
 /// The filament in a sentence.
@@ -167,11 +131,7 @@ fn celsius(temperature: f64) -> String {
 }
 
 /// The spinline from which a fibre in flight is fed.
-pub(super) fn section_of_fibre<'a>(
-    case: &Case,
-    results: &SpinResults,
-    figures: &'a [Figure],
-) -> SpinSection<'a> {
+pub(super) fn section_of_fibre<'a>(case: &Case, results: &SpinResults, figures: &'a [Figure]) -> Section<'a> {
     let gives = match results.rows.first() {
         Some(solution) if solution.modulus_estimate == case.fibre.youngs_modulus => {
             "diameter, density and speed, and an estimate of its Young’s modulus"
@@ -181,7 +141,7 @@ pub(super) fn section_of_fibre<'a>(
     let sentences = results.rows.first().map(|solution| {
         format!("{} {} This gives the fibre that flies its {gives}.", headline(solution), freezing(solution))
     });
-    SpinSection::new("spinline", "Spinline", sentences.into_iter().collect(), results, figures)
+    section(Section::new("spinline", "Spinline"), sentences.into_iter().collect(), results, figures)
 }
 
 /// A spinline from which filaments of a web come.
@@ -202,8 +162,8 @@ pub(super) fn sections_of_web<'a>(
     web: &Web,
     layers: &[Layer],
     spinlines: &'a [LayerSpinline],
-) -> Vec<SpinSection<'a>> {
-    let section = |(number, spinline): (usize, &'a LayerSpinline)| {
+) -> Vec<Section<'a>> {
+    let of_layers = |(number, spinline): (usize, &'a LayerSpinline)| {
         let own = |layer: &usize| {
             let row = layers.get(*layer)?;
             Some(way(row, row.filaments as f64 / web.sheet.width, spinline, layers.len() > 1))
@@ -214,9 +174,9 @@ pub(super) fn sections_of_web<'a>(
             0 => ("spinline".to_owned(), "From the die to the web"),
             _ => (format!("spinline-{}", number + 1), "Another spinline"),
         };
-        SpinSection::new(&id, title, sentences, &spinline.results, &spinline.figures)
+        section(Section::new(id, title), sentences, &spinline.results, &spinline.figures)
     };
-    spinlines.iter().enumerate().map(section).collect()
+    spinlines.iter().enumerate().map(of_layers).collect()
 }
 
 /// The way from the die to the web, with its basis weight from the holes, in a sentence.
@@ -231,7 +191,6 @@ fn way(layer: &Layer, holes: f64, spinline: &LayerSpinline, is_named: bool) -> S
     } else {
         format!("{}{THIN}% apart", significant(100.0 * apart, 2))
     };
-    let grams = |weight: f64| format!("{}{THIN}g/m²", significant(weight * 1e3, 3));
     format!(
         "Die → diffuser → belt → web{}: {} holes per metre with {}{THIN}g/min each; filaments of {}{THIN}µm that enter at {}{THIN}m/s; a belt of \
          {}{THIN}m/s. Holes × throughput / belt speed is {}, and the web has {}: {verdict}.",
@@ -261,13 +220,13 @@ fn curtain(rows: &[Solution]) -> Option<String> {
 
 /// What is computed of a spinline and how, with what is cited for it.
 pub(super) fn account(spec: &SpinSpec, rows: &[Solution]) -> Account {
-    let texts = methods(spec).into_iter().map(|(_, text)| text);
+    let texts = model(spec).into_iter().map(|(_, text)| text);
     let length = format!("The line is {} long.", length(spec.spinline.length));
     ([summary(spec, rows), length].into_iter().chain(texts).collect(), vec![spec.drag.along.source()])
 }
 
 /// What the model is, in a few words each.
-fn methods(spec: &SpinSpec) -> Vec<(&'static str, String)> {
+fn model(spec: &SpinSpec) -> Vec<(&'static str, String)> {
     let spinline = &spec.spinline;
     let melt = match spinline.law {
         Law::Newtonian => "a Newtonian melt whose viscosity rises as it cools",

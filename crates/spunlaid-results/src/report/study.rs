@@ -1,13 +1,13 @@
-//! `report.html` of a study: question, ranking, figures and points. It does not depend on the time of computation.
+//! The report of a study: question, ranking, figures and points. It does not depend on the time of computation.
 
-use super::methods::{Account, Methods, case_account, web_account};
-use super::rendered;
+use super::document::{Report, Section};
+use super::methods::{Account, case_account, methods, web_account};
 use super::spinline;
+use super::table::{Cell, Layout, Row, Table, Tone};
 use super::words::count;
 use crate::figures::name_of_key;
 use crate::numbers::{THIN, number};
 use crate::output::study::shown;
-use askama::Template;
 use spunlaid::study::{Design, Effect, Experiment, PointResults, Ranking, Study};
 use spunlaid_charts::Figure;
 
@@ -16,110 +16,106 @@ const LISTED: usize = 500;
 /// Most values of a factor that the methods list.
 const MOST_VALUES: usize = 12;
 
-/// Content of the report.
-#[derive(Clone, Copy, Debug)]
-pub struct StudyReport<'a> {
-    /// Name of the study: the name of its file.
-    pub name: &'a str,
-    /// The study.
-    pub study: &'a Study,
-    /// Of every point.
-    pub results: &'a [PointResults],
-    /// Main effects; empty if the study cannot tell them.
-    pub rankings: &'a [Ranking],
-    /// Why there are no main effects.
-    pub refusal: Option<&'a str>,
-    /// The figures.
-    pub figures: &'a [Figure],
-    /// Warnings and remarks for the reader.
-    pub notes: &'a [String],
-    /// The study as a file.
-    pub study_toml: &'a str,
-    /// The case or web that the study varies, as text.
-    pub base_toml: &'a str,
-}
-
-/// Content of `assets/study.html`, which escapes everything that is not marked safe.
-#[derive(Template)]
-#[template(path = "study.html")]
-struct StudyPage<'a> {
-    name: &'a str,
-    title: String,
-    summary: String,
-    phases: &'static str,
-    intervals: &'static str,
-    notes: &'a [String],
-    ranking_heads: Vec<String>,
-    rankings: Vec<RankingRow>,
-    refusal: Option<&'a str>,
-    explained: Vec<String>,
+/// A study.
+///
+/// * `results` – of every point
+/// * `rankings` – main effects; empty if the study cannot tell them, and why
+/// * `texts` – the study as a file, and the case or web that it varies
+pub fn study_report<'a>(
+    study: &Study,
+    results: &[PointResults],
+    (rankings, refusal): (&[Ranking], Option<&str>),
     figures: &'a [Figure],
-    heads: Vec<String>,
-    rows: Vec<PointRow>,
-    unlisted: usize,
-    methods_paragraph: Methods,
-    study_toml: &'a str,
-    base_toml: &'a str,
-    /// What the study varies, a case or a web, and the command that shows a point.
-    base: [&'static str; 2],
-}
-
-struct PointRow {
-    number: usize,
-    cells: Vec<String>,
-}
-
-struct RankingRow {
-    name: String,
-    range: String,
-    cells: Vec<EffectCell>,
-}
-
-struct EffectCell {
-    text: String,
-    /// Whether the interval contains zero.
-    faint: bool,
-}
-
-/// The report as one HTML file.
-pub fn study_html(input: &StudyReport<'_>) -> String {
-    let study = input.study;
-    let shown = if study.factors.len() > 1 { input.rankings } else { &[] };
+    texts: [&str; 2],
+) -> Report<'a> {
     let question = question(study);
     // The title is the answer, where there is one; the question then begins the text.
-    let (title, asked) = match answer(study, input.rankings) {
+    let (title, asked) = match answer(study, rankings) {
         Some(answer) => (answer, format!("{question} ")),
         None => (question, String::new()),
     };
-    let effects = effects(study, input.rankings);
-    let page = StudyPage {
-        name: input.name,
-        methods_paragraph: Methods::new("sweep", account(study, input.results), effects),
-        title,
-        summary: format!("{asked}{}", summary(study, input.results)),
-        phases: phases(study),
-        intervals: intervals(study),
-        notes: input.notes,
-        ranking_heads: shown::quantities(study)
-            .into_iter()
-            .map(|i| shown::head(&study.quantities[i]))
-            .collect(),
-        rankings: ranking_rows(study, shown),
-        refusal: input.refusal,
-        explained: explained(study, shown),
-        figures: input.figures,
-        heads: heads(study),
-        rows: rows(study, input.results),
-        unlisted: input.results.len().saturating_sub(LISTED),
-        study_toml: input.study_toml,
-        base_toml: input.base_toml,
-        base: match study.noun() {
-            "web" => ["web", "web"],
-            "spinline" => ["spinline", "spin"],
-            _ => ["case", "run"],
-        },
+    let effects = effects(study, rankings);
+    Report::new("sweep", title)
+        .lead(format!("{asked}{}", summary(study, results)))
+        .lead(phases(study))
+        .with_all(ranking(study, rankings, refusal))
+        .with(Section::of_figures(figures))
+        .with(points(study, results))
+        .with(methods("sweep", account(study, results), effects))
+        .with(files(study, texts))
+}
+
+/// What matters most; why that cannot be told; or nothing if there is nothing to choose from.
+fn ranking(study: &Study, rankings: &[Ranking], refusal: Option<&str>) -> Option<Section<'static>> {
+    let section = Section::new("ranking", "What matters most");
+    if let Some(refusal) = refusal {
+        return Some(section.paragraph(format!("The factors are not ranked: {refusal}.")));
+    }
+    // The rows have the order of the effects on the amplitude.
+    let first = rankings.first().filter(|_| study.factors.len() > 1)?;
+    let quantities = shown::quantities(study);
+    let row = |effect: &Effect| {
+        let factor = &study.factors[effect.factor];
+        let [from, to] = [effect.from, effect.to].map(|value| factor.input().pretty(value));
+        let range = if factor.words.is_empty() {
+            format!("{from} to {to}")
+        } else {
+            format!("{to} instead of {from}")
+        };
+        let cells = quantities.iter().map(|quantity| cell((study, rankings), *quantity, effect));
+        Row::new(name_of_key(&factor.key), cells).detail(range)
     };
-    rendered(&page)
+    let heads = quantities.iter().map(|quantity| shown::head(&study.quantities[*quantity]));
+    let table = Table::new(["Factor".to_owned()].into_iter().chain(heads))
+        .rows(first.effects.iter().map(row))
+        .foot(Row::new("explained", explained(study, rankings)));
+    Some(section.table(table).caption(format!(
+        "Change of the mean from the least to the greatest value of a factor, on the straight line that fits the points best, or from one word \
+         to another, ± half a 95\u{202f}% confidence interval. Grey values have an interval that contains zero. “Explained” is the fraction of \
+         the variation between points that straight lines explain (adjusted R²). If it is low, the response is curved or the factors act \
+         together, and the figures tell more than the ranking. {}",
+        intervals(study)
+    )))
+}
+
+/// The points with their results.
+fn points(study: &Study, results: &[PointResults]) -> Section<'static> {
+    let row = |(index, point): (usize, &PointResults)| {
+        let values = study.points[index].values.iter().zip(study.inputs());
+        let inputs = values.map(|(value, input)| input.pretty(*value));
+        let results = shown::quantities(study).into_iter().map(|i| shown::cell(study, point, i));
+        Row::new((index + 1).to_string(), inputs.chain(results).chain([point.n.to_string()]))
+    };
+    let heads = ["Point".to_owned()].into_iter().chain(study.inputs().map(|input| input.key.to_owned()));
+    let quantities = shown::quantities(study).into_iter().map(|i| shown::head(&study.quantities[i]));
+    let table = Table::new(heads.chain(quantities).chain(["n".to_owned()]))
+        .laid_out(Layout::Scrolled("all points and columns"))
+        .rows(results.iter().enumerate().take(LISTED).map(row));
+    let more = match results.len().saturating_sub(LISTED) {
+        0 => String::new(),
+        more => format!(" {more} more points are in results.csv."),
+    };
+    Section::new("points", "Points").table(table).caption(format!(
+        "Mean ± one standard error of the mean over n replicates.{more} The files results.parquet and replicates.parquet hold all digits and \
+         every replicate."
+    ))
+}
+
+/// The study, and what it varies.
+fn files(study: &Study, [text, base_text]: [&str; 2]) -> Section<'static> {
+    let [base, command] = match study.noun() {
+        "web" => ["web", "web"],
+        "spinline" => ["spinline", "spin"],
+        _ => ["case", "run"],
+    };
+    Section::new("study", "The study")
+        .paragraph(format!(
+            "The study with every default, and below it the {base} that it varies. Both files are in the folder of this page. `spunlaid sweep \
+             study.toml` gives exactly the same numbers again. `spunlaid sweep study.toml --print-point K` prints the {base} of point K for \
+             `spunlaid {command}`."
+        ))
+        .file("study-toml", text)
+        .file("base-toml", base_text)
 }
 
 /// What was varied and of what, with what is cited for it.
@@ -337,55 +333,18 @@ fn phases(study: &Study) -> &'static str {
     }
 }
 
-fn heads(study: &Study) -> Vec<String> {
-    let inputs = study.inputs().map(|input| input.key.to_owned());
-    let shown = shown::quantities(study).into_iter().map(|i| shown::head(&study.quantities[i]));
-    inputs.chain(shown).chain(["n".to_owned()]).collect()
-}
-
-fn rows(study: &Study, results: &[PointResults]) -> Vec<PointRow> {
-    let row = |(index, point): (usize, &PointResults)| {
-        let values = study.points[index].values.iter().zip(study.inputs());
-        let inputs = values.map(|(value, input)| input.pretty(*value));
-        let results = shown::quantities(study).into_iter().map(|i| shown::cell(study, point, i));
-        PointRow { number: index + 1, cells: inputs.chain(results).chain([point.n.to_string()]).collect() }
-    };
-    results.iter().enumerate().take(LISTED).map(row).collect()
-}
-
-fn ranking_rows(study: &Study, rankings: &[Ranking]) -> Vec<RankingRow> {
-    let Some(first) = rankings.first() else {
-        return Vec::new();
-    };
-    let row = |effect: &Effect| {
-        let factor = &study.factors[effect.factor];
-        let [from, to] = [effect.from, effect.to].map(|value| factor.input().pretty(value));
-        RankingRow {
-            name: name_of_key(&factor.key),
-            range: if factor.words.is_empty() {
-                format!("{from} to {to}")
-            } else {
-                format!("{to} instead of {from}")
-            },
-            cells: shown::quantities(study).iter().map(|i| cell((study, rankings), *i, effect)).collect(),
-        }
-    };
-    // The rows have the order of the effects on the amplitude.
-    first.effects.iter().map(row).collect()
-}
-
 fn ranking_of(rankings: &[Ranking], quantity: usize) -> Option<&Ranking> {
     rankings.iter().find(|ranking| ranking.measure == quantity)
 }
 
-fn cell((study, rankings): (&Study, &[Ranking]), quantity: usize, head: &Effect) -> EffectCell {
+fn cell((study, rankings): (&Study, &[Ranking]), quantity: usize, head: &Effect) -> Cell {
     let ranking = ranking_of(rankings, quantity);
     let effect = ranking.and_then(|ranking| ranking.effects.iter().find(|effect| effect.is_like(head)));
     effect.map_or_else(
-        || EffectCell { text: "–".to_owned(), faint: true },
+        || Cell::new("–", Tone::Faint),
         |effect| {
             let text = shown::in_unit(&study.quantities[quantity], effect.change, effect.half_width);
-            EffectCell { text, faint: is_by_chance(effect) }
+            Cell::new(text, if is_by_chance(effect) { Tone::Faint } else { Tone::Plain })
         },
     )
 }

@@ -1,103 +1,196 @@
-//! The rows of the results table.
+//! A table of a report: what its columns and rows are; the page says how they are drawn.
 
-use super::words::{estimate_text, unbroken};
-use crate::numbers::{number, signed};
-use spunlaid::ensemble::{Number, Results};
-use spunlaid::observe::Aggregate;
+use askama::Template;
 
-/// Results under a heading.
-pub(super) struct Group {
-    pub(super) title: String,
-    pub(super) rows: Vec<ResultRow>,
+/// Rows under heads. The first column holds their names.
+#[derive(Debug, Default, Template)]
+#[template(path = "table.html")]
+pub(super) struct Table {
+    layout: Layout,
+    /// Heads over several columns, with the number of these columns, above the others.
+    spans: Vec<(String, usize)>,
+    columns: Vec<Column>,
+    groups: Vec<Group>,
+    /// Below all rows.
+    foot: Option<Row>,
 }
 
-/// A result with its unit.
-pub(super) struct ResultRow {
-    pub(super) name: String,
-    pub(super) value: String,
-    pub(super) unit: &'static str,
-    /// Number of replicates it is taken over.
-    pub(super) n: usize,
-    pub(super) meaning: String,
+/// Where a table has room.
+#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
+pub(super) enum Layout {
+    /// On a narrow screen, a row is its name and a line for each number with the head of its column.
+    #[default]
+    Stacked,
+    /// Results with what they mean: on a narrow screen the number stands below its name, and its meaning below both.
+    Results,
+    /// In a frame that scrolls, which holds so many of this: `all points and columns`.
+    Scrolled(&'static str),
 }
 
-/// The results of one replicate.
-pub(super) struct ReplicateRow {
-    pub(super) number: usize,
-    pub(super) values: Vec<String>,
+#[derive(Debug)]
+pub(super) struct Column {
+    head: String,
+    content: Content,
 }
 
-/// A row for each number, under the headings of the measures.
-pub(super) fn groups(results: &Results) -> Vec<Group> {
-    let same = |a: &Number, b: &Number| a.measure.group == b.measure.group;
-    let group = |numbers: &[Number]| Group {
-        title: capitalised(numbers.first().map_or("", |one| one.measure.group.title)),
-        rows: numbers.iter().map(row).collect(),
-    };
-    results.numbers.chunk_by(same).map(group).collect()
+/// What the cells of a column hold.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(super) enum Content {
+    Numbers,
+    /// Numbers that explain the one before them: the ends of its interval.
+    Asides,
+    Words,
+    Sentences,
 }
 
-/// The results of a group in a sentence.
-pub(super) fn sentence(group: &Group) -> String {
-    let result = |row: &ResultRow| format!("{} {} {}", row.name, row.value, row.unit).trim_end().to_owned();
-    let n = group.rows.iter().map(|row| row.n).max().unwrap_or(0);
-    let errors = if n > 1 {
-        format!(" (mean ± one standard error of the mean over {n} replicates)")
-    } else {
-        String::new()
-    };
-    let all: Vec<String> = group.rows.iter().map(result).collect();
-    format!("{}: {}{errors}.", group.title, all.join(", "))
+/// Rows that belong together.
+#[derive(Debug)]
+struct Group {
+    /// Empty if all rows are one group.
+    title: String,
+    rows: Vec<Row>,
 }
 
-fn row(one: &Number) -> ResultRow {
-    let (measure, factor) = (one.measure, one.measure.unit.per_si);
-    let (value, note) = match measure.aggregate {
-        Aggregate::Mean => (estimate_text(&one.estimate, factor), ""),
-        Aggregate::Median => (number(one.value() * factor), "; median over the replicates"),
-        Aggregate::Largest => (number(one.value() * factor), "; the largest of all replicates"),
-    };
-    let n = one.estimate.values.iter().filter(|value| value.is_finite()).count();
-    let note = if n > 1 { note } else { "" };
-    ResultRow {
-        name: unbroken(measure.label),
-        value,
-        unit: measure.unit.shown,
-        n,
-        meaning: unbroken(&format!("{}{note}", measure.meaning)),
+#[derive(Debug, Default)]
+pub(super) struct Row {
+    name: String,
+    /// Below the name.
+    detail: String,
+    cells: Vec<Cell>,
+    /// The command that makes what the row is about, below it.
+    command: String,
+}
+
+#[derive(Debug)]
+pub(super) struct Cell {
+    text: String,
+    tone: Tone,
+}
+
+/// What is to be made of a cell.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(super) enum Tone {
+    Plain,
+    /// It may be by chance.
+    Faint,
+    Good,
+    Bad,
+    Open,
+}
+
+impl Table {
+    /// A table whose columns hold numbers. The first head is that of the names.
+    pub(super) fn new(heads: impl IntoIterator<Item: Into<String>>) -> Self {
+        Self::of(heads.into_iter().map(|head| (head, Content::Numbers)))
+    }
+
+    /// The heads, each with what its column holds.
+    pub(super) fn of(columns: impl IntoIterator<Item = (impl Into<String>, Content)>) -> Self {
+        let columns = columns.into_iter().map(|(head, content)| Column { head: head.into(), content });
+        Self { columns: columns.collect(), ..Self::default() }
+    }
+
+    /// Names with a value each, without heads.
+    pub(super) fn of_facts(facts: impl IntoIterator<Item = (impl Into<String>, String)>) -> Self {
+        let rows = facts.into_iter().map(|(name, value)| Row::new(name, [value]));
+        Self::new(["", ""]).rows(rows)
+    }
+
+    pub(super) fn laid_out(self, layout: Layout) -> Self {
+        Self { layout, ..self }
+    }
+
+    pub(super) fn rows(self, rows: impl IntoIterator<Item = Row>) -> Self {
+        self.group(String::new(), rows)
+    }
+
+    pub(super) fn group(mut self, title: String, rows: impl IntoIterator<Item = Row>) -> Self {
+        self.groups.push(Group { title, rows: rows.into_iter().collect() });
+        self
+    }
+
+    pub(super) fn spans(self, spans: Vec<(String, usize)>) -> Self {
+        Self { spans, ..self }
+    }
+
+    pub(super) fn foot(self, row: Row) -> Self {
+        Self { foot: Some(row), ..self }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.groups.iter().all(|group| group.rows.is_empty())
+    }
+
+    /// Whether its columns have heads.
+    pub(super) fn has_heads(&self) -> bool {
+        self.columns.iter().any(|column| !column.head.is_empty())
+    }
+
+    /// What the style sheet calls the table.
+    const fn class(&self) -> &'static str {
+        match self.layout {
+            Layout::Stacked => "numbers stacked",
+            Layout::Results => "results",
+            Layout::Scrolled(_) => "numbers",
+        }
+    }
+
+    /// What it calls a cell of a column, from 0 at the names.
+    fn class_of(&self, column: &usize, tone: &Tone) -> String {
+        let content = match self.columns.get(*column).map(|column| column.content) {
+            // In other tables every cell is a number, unless it says something else.
+            Some(Content::Numbers) if self.layout == Layout::Results => "value",
+            Some(Content::Asides) => "value aside",
+            Some(Content::Sentences) => "sentence",
+            _ => "",
+        };
+        let tone = match tone {
+            Tone::Plain => "",
+            Tone::Faint => "faint",
+            Tone::Good => "good",
+            Tone::Bad => "bad",
+            Tone::Open => "open",
+        };
+        format!("{content} {tone}").trim().to_owned()
+    }
+
+    /// The head of a column for a screen that shows no heads.
+    fn head_of(&self, column: &usize) -> Option<&str> {
+        let is_scrolled = matches!(self.layout, Layout::Scrolled(_));
+        self.columns.get(*column).filter(|_| !is_scrolled).map(|column| column.head.as_str())
     }
 }
 
-fn capitalised(text: &str) -> String {
-    let mut chars = text.chars();
-    chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
+impl Row {
+    pub(super) fn new(name: impl Into<String>, cells: impl IntoIterator<Item: Into<Cell>>) -> Self {
+        Self { name: name.into(), cells: cells.into_iter().map(Into::into).collect(), ..Self::default() }
+    }
+
+    pub(super) fn detail(self, detail: String) -> Self {
+        Self { detail, ..self }
+    }
+
+    pub(super) fn command(self, command: String) -> Self {
+        Self { command, ..self }
+    }
 }
 
-/// Heads of the columns of [`replicate_rows`].
-pub(super) fn replicate_heads(results: &Results) -> Vec<String> {
-    let head = |one: &Number| unbroken(&format!("{} ({})", one.measure.label, one.measure.unit.shown));
-    results.numbers.iter().map(head).collect()
+/// A name, then its cells.
+impl From<Vec<String>> for Row {
+    fn from(row: Vec<String>) -> Self {
+        let mut texts = row.into_iter();
+        Self::new(texts.next().unwrap_or_default(), texts)
+    }
 }
 
-/// One row per replicate that was not lost, up to `most`.
-pub(super) fn replicate_rows(results: &Results, most: usize) -> Vec<ReplicateRow> {
-    let is_lost = |i: &usize| results.lost.iter().any(|fibre| fibre.replicate == *i as u64);
-    let all = results.replicates() + results.lost.len();
-    let listed: Vec<usize> = (0..all).filter(|i| !is_lost(i)).take(most).collect();
-    let cell = |one: &Number| {
-        let values: Vec<f64> = listed.iter().filter_map(|i| one.estimate.values.get(*i).copied()).collect();
-        column(&values, one.measure.unit.per_si)
-    };
-    let columns: Vec<Vec<String>> = results.numbers.iter().map(cell).collect();
-    let values = |row: usize| columns.iter().filter_map(|c| c.get(row).cloned()).collect();
-    listed.iter().enumerate().map(|(row, i)| ReplicateRow { number: i + 1, values: values(row) }).collect()
+impl Cell {
+    pub(super) fn new(text: impl Into<String>, tone: Tone) -> Self {
+        Self { text: text.into(), tone }
+    }
 }
 
-/// Values with as many decimals as give the largest four digits; far from one each with its power of ten.
-fn column(values: &[f64], factor: f64) -> Vec<String> {
-    let scaled: Vec<f64> = values.iter().map(|v| v * factor).collect();
-    let largest = scaled.iter().map(|v| v.abs()).fold(0.0, f64::max);
-    let decimals = if largest > 0.0 { 3 - largest.log10().floor() as i32 } else { 0 };
-    let plain = (0..=6).contains(&decimals) && scaled.iter().all(|v| v.is_finite());
-    scaled.iter().map(|&v| if plain { signed(v, decimals as usize) } else { number(v) }).collect()
+impl<T: Into<String>> From<T> for Cell {
+    fn from(text: T) -> Self {
+        Self::new(text, Tone::Plain)
+    }
 }

@@ -1,6 +1,6 @@
 //! The page holds what it should, safely and small.
 
-use super::{ReportInput, SpinReport, html, spinline_html};
+use super::{run_report, spinline_report};
 use crate::figures::{SPINLINE, run_figures, sample, spinline_figures};
 use crate::numbers::plus_minus;
 use crate::output::spinline::SpinResults;
@@ -26,18 +26,9 @@ const MOST: usize = 6_000_000;
 
 fn page(case: &Case, results: &Results, name: &str, notes: &[String], case_toml: &str) -> String {
     let figures = run_figures(case, results, &sample::turbulence());
-    html(&ReportInput {
-        name,
-        case,
-        case_toml,
-        results,
-        checks: &FinerChecks::none(Unchecked::TooShort),
-        figures: &figures,
-        spinline: None,
-        notes,
-        performance: PERFORMANCE,
-    })
-    .expect("shapes in memory")
+    let checks = FinerChecks::none(Unchecked::TooShort);
+    let report = run_report((case, case_toml), (results, &checks), &figures, None, PERFORMANCE);
+    report.expect("shapes in memory").named(name).noting(notes).html()
 }
 
 /// Fails unless every element that is opened is closed, in order.
@@ -260,8 +251,8 @@ fn spin_page(lines: &str, name: &str) -> String {
     let file = parse_spinline(&text, "line.toml", &[]).unwrap();
     let results = SpinResults::new(&file).unwrap();
     let figures = spinline_figures(SPINLINE, &results.rows, &results.influences);
-    let (notes, toml) = (&[name.to_owned()], name);
-    spinline_html(&SpinReport { name, file: &file, results: &results, figures: &figures, notes, toml })
+    let report = spinline_report(&file.spec, &results, &figures, name);
+    report.named(name).noting(&[name.to_owned()]).html()
 }
 
 #[test]
@@ -307,18 +298,9 @@ fn the_report_of_a_run_shows_its_spinline() {
     let mut case = sample::case(4, 50, 2);
     let flown = sample::results(&case, 0.01);
     let shown = |case: &Case| {
-        html(&ReportInput {
-            name: "case",
-            case,
-            case_toml: "",
-            results: &flown,
-            checks: &FinerChecks::none(Unchecked::TooShort),
-            figures: &[],
-            spinline: Some((&results, &figures)),
-            notes: &[],
-            performance: PERFORMANCE,
-        })
-        .unwrap()
+        let checks = FinerChecks::none(Unchecked::TooShort);
+        let spinline = Some((&results, &figures[..]));
+        run_report((case, ""), (&flown, &checks), &[], spinline, PERFORMANCE).unwrap().html()
     };
     let page = shown(&case);
     check_well_formed(&page);

@@ -1,210 +1,127 @@
-//! `report.html` of a web: the web on a light table, what makes it uneven, and the figures.
+//! The report of a web: the web on a light table, what makes it uneven, and the figures.
 
-use super::advice::{AdviceSection, is_known};
+use super::advice::{advice_table, advice_words, is_known};
+use super::document::{Report, Section};
 use super::guesses::guess_words;
-use super::headline::{grams, headline_patch};
-use super::light_table::{Fibres, Sheet, Strands, picture_note, sheet};
-use super::methods::{Methods, web_account};
-use super::rendered;
-use super::spinline::{self, LayerSpinline, SpinSection};
-use super::words::{count, metres, millimetres, time};
+use super::light_table::{Fibres, Strands, picture_note, sheet};
+use super::methods::{methods, web_account};
+use super::spinline::{LayerSpinline, sections_of_web};
+use super::table::{Row, Table};
+use super::unevenness::{
+    CV_OF_PATCHES, PER_CENT, cost, grams, headline, headline_patch, largest_clouds, per_cent, unevenness,
+};
+use super::view::View;
+use super::words::{count, metres, millimetres};
 use crate::Failure;
 use crate::numbers::{THIN, number, plus_minus, significant};
 use crate::output::web::{Layer, PatchTable, Performance, Reader};
-use askama::Template;
 use spunlaid::advice::Advice;
 use spunlaid::layers::WebSpec;
 use spunlaid::statistics::Estimate;
 use spunlaid::web::uniformity::Unevenness;
-use spunlaid::web::{Clouds, Findings, Lever, PatchFindings, Sensitivity, Source, Strand, Web, Window};
+use spunlaid::web::{Findings, Lever, PatchFindings, Sensitivity, Source, Strand, Web};
 use spunlaid_charts::Figure;
 
-const PER_CENT: f64 = 100.0;
-
-/// Content of the report.
-#[derive(Clone, Copy, Debug)]
-pub struct WebReport<'a> {
-    /// What the web is called.
-    pub name: &'a str,
-    /// What is said of the web.
-    pub spec: &'a WebSpec,
-    /// The web.
-    pub web: &'a Web,
-    /// What was found.
-    pub findings: &'a Findings,
-    /// What would make it more even; None if it was not tried.
-    pub advice: Option<&'a Advice>,
-    /// What guesses matter for it; None if it was not tried.
-    pub guesses: Option<&'a Advice>,
-    /// Its layers.
-    pub layers: &'a [Layer],
-    /// The fibres in the window, and the diameter of those of the first layer [m].
-    pub strands: &'a [Strand],
-    /// The window whose single fibres are shown.
-    pub window: Window,
-    /// Diameter of the fibres of the first layer [m].
-    pub diameter: f64,
-    /// The figures.
-    pub figures: &'a [Figure],
-    /// The spinlines from which its filaments come.
-    pub spinlines: &'a [LayerSpinline],
-    /// Notes for the reader.
-    pub notes: &'a [String],
-    /// The web file with every default.
-    pub toml: &'a str,
-    /// What it cost.
-    pub performance: Performance,
-}
-
-/// Content of `assets/web.html`, which escapes everything that is not marked safe.
-#[derive(Template)]
-#[template(path = "web.html")]
-pub(super) struct WebPage<'a> {
-    /// The command that wrote it.
-    pub(super) command: &'static str,
-    pub(super) name: &'a str,
-    pub(super) headline: String,
-    pub(super) guesses: String,
-    pub(super) summary: String,
-    pub(super) notes: &'a [String],
-    pub(super) caption: String,
-    pub(super) sheet: Sheet,
-    /// Whether there are single fibres to be seen.
-    pub(super) fibres: bool,
-    pub(super) verdict: Vec<String>,
-    pub(super) heads: Vec<&'static str>,
-    pub(super) patches: Vec<Vec<String>>,
-    pub(super) about_patches: &'static str,
-    pub(super) advice: AdviceSection,
-    pub(super) lever_heads: Vec<String>,
-    pub(super) levers: Vec<(String, Vec<String>)>,
-    pub(super) figures: &'a [Figure],
-    pub(super) spinlines: Vec<SpinSection<'a>>,
-    pub(super) methods_paragraph: Methods,
-    pub(super) file: File<'a>,
-    pub(super) cost: String,
-}
-
-/// What the web was made from.
-pub(super) struct File<'a> {
-    pub(super) title: &'static str,
-    pub(super) heads: &'static [&'static str],
-    pub(super) rows: Vec<Vec<String>>,
-    pub(super) toml: &'a str,
-    pub(super) caption: &'static str,
-}
-
-/// The report as one HTML file.
-pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
-    let findings = input.findings;
-    let strands = Strands { window: input.window, strands: input.strands, diameter: input.diameter };
+/// A web.
+///
+/// * `web` – what is said of it, the same as a file, and the web
+/// * `found` – its findings; what would make it more even, and what guesses matter for it, None if these were not tried
+/// * `layers` – with the spinlines from which their filaments come
+/// * `strands` – the fibres in the window
+///
+/// # Errors
+/// The picture cannot be drawn.
+pub fn web_report<'a>(
+    (spec, toml, web): (&WebSpec, &str, &Web),
+    (findings, advice, guesses): (&Findings, Option<&Advice>, Option<&Advice>),
+    (layers, spinlines): (&[Layer], &'a [LayerSpinline]),
+    strands: &[Strand],
+    figures: &'a [Figure],
+    performance: Performance,
+) -> Result<Report<'a>, Failure> {
+    let diameter = spec.layers.first().map_or(0.0, |layer| layer.diameter);
+    let strands = Strands { window: spec.window(), strands, diameter };
     let sheet = sheet(&findings.laid.map, Some(Fibres::new(strands)))?;
-    let is_shared = findings.laid.shared_air.is_some();
-    let has_flown = !is_shared && findings.patches.iter().any(|patch| patch.flown.is_some());
-    let PatchTable { heads, rows: patches } = PatchTable::new(findings, Reader::Report);
+    let caption = format!("{} {}", picture_note(sheet.pixel), strands.words());
+    let table =
+        Section::new("web", "The web on a light table").view(View::LightTable(sheet)).caption(caption);
+    let together = findings.laid.shared_air.as_ref();
     let headline = headline(
         Some(findings.within().basis_weight()),
         headline_patch(findings).map(|i| whole(&findings.patches[i])).as_ref(),
-        !is_shared,
+        together.is_none(),
     );
+    let errors = error_sentences(findings);
     let cvs = findings.patches.iter().map(whole).collect::<Vec<_>>();
-    let found = [headline.clone(), unevenness(&cvs), error_sentences(findings)];
-    let page = WebPage {
-        command: "web",
-        name: input.name,
-        methods_paragraph: Methods::new(
-            "web",
-            web_account(
-                input.spec,
-                input.findings.laid.shared_air.as_ref().map(|together| &together.few[..]),
-            ),
-            found,
-        ),
-        headline,
-        guesses: guess_words(input.spec, findings, input.guesses),
-        summary: [summary(input.web), air_sentence(input.spec, findings), error_sentences(findings)]
-            .join(" "),
-        notes: input.notes,
-        caption: format!("{} {}", picture_note(sheet.pixel), strands.words()),
-        sheet,
-        fibres: true,
-        verdict: verdict(findings, input.advice.is_some()),
-        heads,
-        patches,
-        about_patches: if is_shared && findings.patches.iter().any(|patch| patch.few.is_some()) {
-            "Filaments were flown in one air, a few for all others. The error is by chance (another piece of the same web, in other gusts, has another CV) \
-             and by the few filaments."
-        } else if is_shared {
-            "All filaments were flown in one air. The error is by chance: another piece of the same web, in other gusts, has another CV."
-        } else if has_flown {
-            "The error of the map is that of all its causes together: chance (another piece of the same web), the \
-             few fibres that were flown, and the model (the CV of the surrogate against that of the flown \
-             curves). It does not include what the flight itself leaves out."
-        } else {
-            "The error is by chance only: no fibre was flown, so it is not known how far the surrogate is from \
-             real fibres."
-        },
-        advice: AdviceSection::new(input.spec, findings, input.advice),
-        lever_heads: findings.patches.iter().map(|patch| millimetres(patch.map.patch)).collect(),
-        levers: findings.sensitivities.iter().map(levers).collect(),
-        figures: input.figures,
-        spinlines: spinline::sections_of_web(input.web, input.layers, input.spinlines),
-        file: File {
-            title: "The web file",
-            heads: &[
-                "Layer",
-                "Filaments",
-                "Basis weight",
-                "σ MD",
-                "σ CD",
-                "A",
-                "Residual of the fit",
-                "of which chance",
-            ],
-            rows: input.layers.iter().map(layer).collect(),
-            toml: input.toml,
-            caption: "The map is in map.npy (kg/m², a row of the web after the other), map.png (16 bit) and map.parquet, the fibres of \
-                      the window in fibres.vtp, all numbers in summary.json, beside this page.",
-        },
-        cost: cost(input.performance),
-    };
-    Ok(rendered(&page))
+    let found = [headline.clone(), unevenness(&cvs), errors.clone()];
+    let account = web_account(spec, together.map(|together| &together.few[..]));
+    let spun = spinlines
+        .first()
+        .map_or("", |_| "Its filaments begin at the die: [from the melt to the web](#spinline).");
+    Ok(Report::new("web", headline)
+        .lead(guess_words(spec, findings, guesses))
+        .lead(advice_words(spec, findings, advice))
+        .lead([summary(web), air_sentence(spec, findings), errors].join(" "))
+        .lead(spun)
+        .with(table)
+        .with(uneven(spec, findings, advice))
+        .with(Section::of_figures(figures))
+        .with_all(sections_of_web(web, layers, spinlines))
+        .with(methods("web", account, found))
+        .with(file(layers, toml))
+        .costing(cost(performance)))
 }
 
-pub(super) fn cost(performance: Performance) -> String {
-    format!("computed in {} on {}", time(performance.wall_s), count(performance.threads as u64, "thread"))
-}
-
-/// * `weight` – mean basis weight, if it is known [kg/m²]
-/// * `is_bound` – whether its filaments are independent of each other, so that a real web is more uneven
-pub(super) fn headline(weight: Option<f64>, patch: Option<&Unevenness>, is_bound: bool) -> String {
-    let web = weight.map_or_else(|| "A web".to_owned(), |weight| format!("A web of {}", grams(weight)));
-    match patch {
-        Some(unevenness) => format!(
-            "{web} that varies by {}{} over patches of {}{}.",
-            if is_bound { "at least " } else { "" },
-            per_cent(unevenness.cv, unevenness.standard_error),
-            millimetres(unevenness.patch),
-            if is_bound { ": its filaments are independent of each other" } else { "" }
-        ),
-        None => format!("{web}."),
+/// What makes it uneven, and what would make it more even.
+fn uneven(spec: &WebSpec, findings: &Findings, advice: Option<&Advice>) -> Section<'static> {
+    let PatchTable { heads, rows } = PatchTable::new(findings, Reader::Report);
+    let mut section = Section::new("verdict", "What makes it uneven")
+        .paragraphs(verdict(findings, advice.is_some()))
+        .table(Table::new(heads).rows(rows.into_iter().map(Row::from)))
+        .caption(format!("{CV_OF_PATCHES} {}", about_errors(findings)));
+    if let Some((table, caption)) = advice.and_then(|advice| advice_table(spec, findings, advice)) {
+        section = section.heading("What would make it more even").table(table).caption(caption);
     }
-}
-
-/// The CV over each size of patches, in a sentence.
-pub(super) fn unevenness(patches: &[Unevenness]) -> String {
-    let one = |patch: &Unevenness| {
-        format!("{} over patches of {}", per_cent(patch.cv, patch.standard_error), millimetres(patch.patch))
-    };
-    let all: Vec<String> = patches.iter().map(one).collect();
-    format!(
-        "Its CV (standard deviation over mean of the basis weight) is {}, ± one standard error.",
-        all.join(", ")
+    if findings.sensitivities.is_empty() {
+        return section;
+    }
+    let sizes = findings.patches.iter().map(|patch| millimetres(patch.map.patch));
+    let heads = ["One per cent more of".to_owned()].into_iter().chain(sizes);
+    section.table(Table::new(heads).rows(findings.sensitivities.iter().map(levers))).caption(
+        "What explains it: change of the expected CV in per cent, while the other numbers stay, ± one standard error, for patches of each \
+         size. The speed of the belt moves the flown curves on the belt and leaves the flight as it was (docs/web.md). “Not known”: the \
+         number would come from the surrogate, whose CV is more than 5 % from that of the flown curves there. A faster belt makes the web \
+         lighter, more filaments make it heavier.",
     )
 }
 
-pub(super) fn per_cent(cv: f64, error: Option<f64>) -> String {
-    format!("{}{THIN}%", plus_minus(cv * PER_CENT, error.map(|error| error * PER_CENT)))
+/// What the errors of the CV are made of.
+fn about_errors(findings: &Findings) -> &'static str {
+    let is_shared = findings.laid.shared_air.is_some();
+    if is_shared && findings.patches.iter().any(|patch| patch.few.is_some()) {
+        "Filaments were flown in one air, a few for all others. The error is by chance (another piece of the same web, in other gusts, has another CV) \
+         and by the few filaments."
+    } else if is_shared {
+        "All filaments were flown in one air. The error is by chance: another piece of the same web, in other gusts, has another CV."
+    } else if findings.patches.iter().any(|patch| patch.flown.is_some()) {
+        "The error of the map is that of all its causes together: chance (another piece of the same web), the few fibres that were flown, and \
+         the model (the CV of the surrogate against that of the flown curves). It does not include what the flight itself leaves out."
+    } else {
+        "The error is by chance only: no fibre was flown, so it is not known how far the surrogate is from real fibres."
+    }
+}
+
+/// What the web was made from.
+fn file(layers: &[Layer], toml: &str) -> Section<'static> {
+    let heads =
+        ["Layer", "Filaments", "Basis weight", "σ MD", "σ CD", "A", "Residual of the fit", "of which chance"];
+    Section::new("file", "The web file")
+        .table(Table::new(heads).rows(layers.iter().map(layer)))
+        .file("web-toml", toml)
+        .caption(
+            "The map is in map.npy (kg/m², a row of the web after the other), map.png (16 bit) and map.parquet, the fibres of the window in \
+             fibres.vtp, all numbers in summary.json, beside this page.",
+        )
 }
 
 fn summary(web: &Web) -> String {
@@ -298,7 +215,7 @@ const fn words(lever: Lever) -> &'static str {
     }
 }
 
-fn levers(sensitivity: &Sensitivity) -> (String, Vec<String>) {
+fn levers(sensitivity: &Sensitivity) -> Row {
     let cell = |elasticity: &Option<Estimate>| match elasticity {
         Some(estimate) => format!("{}{THIN}%", plus_minus(estimate.mean, estimate.standard_error)),
         None => "not known".to_owned(),
@@ -308,13 +225,12 @@ fn levers(sensitivity: &Sensitivity) -> (String, Vec<String>) {
         Source::Surrogate => ", from the surrogate",
         Source::Law => "",
     };
-    (format!("{}{source}", words(sensitivity.lever)), sensitivity.elasticity.iter().map(cell).collect())
+    Row::new(format!("{}{source}", words(sensitivity.lever)), sensitivity.elasticity.iter().map(cell))
 }
 
-fn layer(layer: &Layer) -> Vec<String> {
+fn layer(layer: &Layer) -> Row {
     let spread = |sigma: Option<f64>| sigma.map_or("–".to_owned(), millimetres);
-    vec![
-        layer.name.clone(),
+    let cells = [
         layer.filaments.to_string(),
         grams(layer.basis_weight_kg_m2),
         spread(layer.sigma_md_m),
@@ -324,22 +240,8 @@ fn layer(layer: &Layer) -> Vec<String> {
             .map_or("–".to_owned(), |noise| format!("{}{THIN}m^-½", significant(noise, 3))),
         layer.fit_residual.map_or("–".to_owned(), |residual| significant(residual, 2)),
         layer.fit_residual_by_chance.map_or("–".to_owned(), |residual| significant(residual, 2)),
-    ]
-}
-
-/// Which clouds hold most of the variance, in a sentence.
-pub(super) fn largest_clouds(clouds: &Clouds) -> Option<String> {
-    let octaves = clouds.octaves();
-    let whole: f64 = octaves.iter().map(|(_, variance)| variance.mean).sum();
-    let (waves, variance) = octaves.iter().max_by(|a, b| a.1.mean.total_cmp(&b.1.mean))?;
-    Some(format!(
-        "Clouds with wavelengths of {} to {} hold the most: {} % of the variance between {} and {}.",
-        millimetres(waves[0]),
-        millimetres(waves[1]),
-        significant(PER_CENT * variance.mean / whole, 2),
-        millimetres(clouds.shortest()),
-        millimetres(clouds.longest())
-    ))
+    ];
+    Row::new(&layer.name, cells)
 }
 
 /// What makes the web uneven, and what would make it more even, in sentences.

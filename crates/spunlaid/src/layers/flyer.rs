@@ -16,7 +16,7 @@ use crate::laydown::{Trace, TraceSettings};
 use crate::statistics::Estimate;
 use crate::surrogate::{IdentificationFailure, Residual, Surrogate, identify};
 use crate::web::{
-    Curves, Fibres, Findings, LaidWeb, LayControl, Map, Web, find_laid, lay, measure_laid, pieces,
+    Curves, Doubt, Fibres, Findings, LaidWeb, LayControl, Map, Web, find_laid, lay, measure_laid, pieces,
 };
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -29,6 +29,13 @@ pub struct LayerFibres {
     pub fibres: Fibres,
     /// What the flown fibres have laid, unless the numbers of the surrogate were known.
     pub flown: Option<Arc<FlownFibres>>,
+}
+
+impl LayerFibres {
+    /// How well the surrogate fits what the fibres have laid; None where nothing was flown, or without a surrogate.
+    pub fn residual(&self) -> Option<Residual> {
+        self.flown.as_ref()?.residual
+    }
 }
 
 /// What flown fibres have laid, and the surrogate of it.
@@ -249,6 +256,12 @@ impl FlownFibres {
 }
 
 impl FlownWeb {
+    /// What must be known of the numbers of this web before they are believed.
+    pub fn doubts(&self, findings: &Findings) -> Vec<Doubt> {
+        let residuals: Vec<_> = self.layers.iter().map(LayerFibres::residual).collect();
+        findings.doubts(&self.web, &residuals)
+    }
+
     /// Pieces of filaments that are still to be laid.
     ///
     /// # Errors

@@ -9,6 +9,8 @@
 mod canvas;
 mod clouds;
 mod curves;
+mod doubt;
+mod doubts;
 mod expected;
 mod few;
 mod few_findings;
@@ -37,6 +39,7 @@ pub(crate) use canvas::{Canvas, CanvasPart};
 pub use clouds::{Clouds, autocorrelation};
 pub use curves::Curves;
 pub(crate) use curves::OneAir;
+pub use doubt::Doubt;
 pub use expected::{ExpectedCv, expected_cv, inner_columns};
 pub(crate) use few::{Arrangement, FEWEST as FEWEST_OF_FEW, FewFilaments, blocks_on};
 pub use few_findings::{FewDoubt, FewFilamentsCv, LayerFew};

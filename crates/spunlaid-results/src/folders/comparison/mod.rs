@@ -12,7 +12,7 @@ use crate::figures::MOST_COMPARED;
 use crate::output::comparison::{self, Comparison};
 use crate::output::folder::Staging;
 use crate::output::origin::ORIGIN;
-use crate::report::{ComparisonReport, comparison_html};
+use crate::report::comparison_report;
 use found::Found;
 use spunlaid::error::Fault;
 use std::path::{Path, PathBuf};
@@ -99,7 +99,7 @@ impl ComparedFolders {
     /// The report as one HTML file.
     pub fn report(&self) -> String {
         let Found { comparisons, figures, pictures, notes } = &self.found;
-        comparison_html(&ComparisonReport { comparisons, figures, pictures: pictures.as_ref(), notes })
+        comparison_report(comparisons, figures, pictures.as_ref()).noting(notes).html()
     }
 
     /// Writes figures, pictures of webs, report and numbers.

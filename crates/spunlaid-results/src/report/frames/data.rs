@@ -12,13 +12,12 @@ use spunlaid::vec3::Vec3;
 pub(super) const POSITIONS: usize = 375_000;
 
 /// What the page's script draws.
+#[derive(Debug)]
 pub(in crate::report) struct Frames {
     /// The data as JSON; nothing where no shapes were kept.
     pub(in crate::report) json: String,
     /// What was left out, in sentences.
     pub(in crate::report) remarks: Vec<String>,
-    /// Whether it is a fed fibre above a belt.
-    pub(in crate::report) fed: bool,
 }
 
 /// What `assets/frames.js` and `assets/belt.js` read.
@@ -78,7 +77,7 @@ impl Data {
 
     /// What the page draws. Numbers and base64 only: nothing in it can end the script element it stands in.
     pub(super) fn frames(&self, remarks: Vec<String>) -> Option<Frames> {
-        Some(Frames { json: serde_json::to_string(self).ok()?, remarks, fed: self.belt.is_some() })
+        Some(Frames { json: serde_json::to_string(self).ok()?, remarks })
     }
 }
 

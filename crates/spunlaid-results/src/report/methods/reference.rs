@@ -1,7 +1,7 @@
 //! What a paper cites beside its numbers: the program, and the sources of the models that the numbers rest on.
 
 /// A work that is cited. A law of the drag names its own.
-pub(in crate::report) use spunlaid::drag::Source as Reference;
+pub(super) use spunlaid::drag::Source as Reference;
 
 /// The program itself.
 pub(in crate::report) const PROGRAM: Reference = Reference {

@@ -166,3 +166,8 @@ function startTable(canvas, image, data) {
   if (image.complete) start();
   else image.addEventListener("load", start);
 }
+
+{
+  const byId = (id) => document.getElementById(id);
+  startTable(byId("table"), byId("sheet"), JSON.parse(byId("web-data").textContent));
+}

@@ -1,0 +1,222 @@
+//! What is said of results, whatever they are of. Each product is a function that makes a [`Report`]; one template shows all of them.
+
+use super::table::Table;
+use super::view::View;
+use askama::Template;
+use spunlaid_charts::Figure;
+
+/// The version of the program that writes the pages.
+pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// A page: what was found first, then sections of sentences, tables, figures and views.
+///
+/// In paragraphs, captions and descriptions, `` `word` `` stands for code and `[words](#id)` for a link within the page. Everything is escaped.
+#[derive(Debug, Default, Template)]
+#[template(path = "page.html")]
+pub struct Report<'a> {
+    /// The command that makes these results.
+    command: &'static str,
+    /// What the results are called; empty if they have no name of their own.
+    name: String,
+    /// The result, in a sentence.
+    headline: String,
+    /// Paragraphs below it.
+    lead: Vec<String>,
+    /// Warnings and remarks for the reader.
+    notes: Vec<String>,
+    sections: Vec<Section<'a>>,
+    /// What the computation took.
+    cost: String,
+}
+
+impl<'a> Report<'a> {
+    /// * `command` – `web`, of `spunlaid web`
+    pub(super) fn new(command: &'static str, headline: impl Into<String>) -> Self {
+        Self { command, headline: headline.into(), ..Self::default() }
+    }
+
+    /// With a paragraph below the headline; none if it is empty.
+    pub(super) fn lead(mut self, paragraph: impl Into<String>) -> Self {
+        self.lead.extend(Some(paragraph.into()).filter(|paragraph| !paragraph.is_empty()));
+        self
+    }
+
+    pub(super) fn with(mut self, section: Section<'a>) -> Self {
+        self.sections.extend(Some(section).filter(|section| !section.parts.is_empty()));
+        self
+    }
+
+    pub(super) fn with_all(self, sections: impl IntoIterator<Item = Section<'a>>) -> Self {
+        sections.into_iter().fold(self, Self::with)
+    }
+
+    /// What the results are called: the name of their file.
+    pub fn named(self, name: &str) -> Self {
+        Self { name: name.to_owned(), ..self }
+    }
+
+    /// Warnings and remarks for the reader.
+    pub fn noting(self, notes: &[String]) -> Self {
+        Self { notes: notes.to_vec(), ..self }
+    }
+
+    pub(super) fn costing(self, cost: String) -> Self {
+        Self { cost, ..self }
+    }
+
+    /// The page as one HTML file, which asks nothing of the network.
+    pub fn html(&self) -> String {
+        // Writing to a string fails only where a value's own formatting does, and none here can.
+        self.render().unwrap_or_else(|error| format!("<!doctype html><title>Report</title><p>{error}"))
+    }
+
+    /// Of the tab of a browser.
+    fn title(&self) -> &str {
+        if self.name.is_empty() { &self.headline } else { &self.name }
+    }
+
+    /// The scripts that the views need, each once.
+    fn scripts(&self) -> Vec<&'static str> {
+        let mut scripts = vec![include_str!("../../assets/save.js")];
+        let parts = self.sections.iter().flat_map(|section| &section.parts);
+        for script in parts
+            .filter_map(|part| if let Part::View(view) = part { Some(view) } else { None })
+            .flat_map(View::scripts)
+        {
+            if !scripts.contains(script) {
+                scripts.push(script);
+            }
+        }
+        scripts
+    }
+}
+
+/// Parts under a heading. A report leaves out a section without parts.
+#[derive(Debug)]
+pub(super) struct Section<'a> {
+    /// In its page.
+    id: String,
+    heading: String,
+    parts: Vec<Part<'a>>,
+}
+
+/// A part of a section.
+#[derive(Debug, Template)]
+#[template(path = "part.html")]
+pub(super) enum Part<'a> {
+    /// A heading below that of the section.
+    Heading(String),
+    Paragraph(String),
+    /// What explains the part above it.
+    Caption(String),
+    List(Vec<String>),
+    /// Names, each with its description.
+    Descriptions(Vec<(String, String)>),
+    Table(Table),
+    Figures {
+        figures: Vec<&'a Figure>,
+        level: u8,
+    },
+    /// The text of a file, to copy.
+    File {
+        id: &'static str,
+        text: String,
+    },
+    /// Paragraphs to copy.
+    Prose {
+        id: &'static str,
+        paragraphs: Vec<String>,
+    },
+    View(View<'a>),
+    /// What is seen after a click on a summary.
+    Folded(&'static str, Vec<Self>),
+}
+
+impl<'a> Section<'a> {
+    /// * `id` – in its page
+    pub(super) fn new(id: impl Into<String>, heading: impl Into<String>) -> Self {
+        Self { id: id.into(), heading: heading.into(), parts: Vec::new() }
+    }
+
+    /// Figures under this heading; nothing without figures.
+    pub(super) fn of_figures(figures: &'a [Figure]) -> Self {
+        Self::new("figures", "Figures").figures(figures)
+    }
+
+    pub(super) fn with(mut self, part: Part<'a>) -> Self {
+        self.parts.push(part);
+        self
+    }
+
+    pub(super) fn heading(self, heading: impl Into<String>) -> Self {
+        self.with(Part::Heading(heading.into()))
+    }
+
+    pub(super) fn paragraph(self, words: impl Into<String>) -> Self {
+        self.with(Part::Paragraph(words.into()))
+    }
+
+    pub(super) fn paragraphs(self, all: impl IntoIterator<Item = String>) -> Self {
+        all.into_iter().fold(self, Self::paragraph)
+    }
+
+    pub(super) fn caption(self, words: impl Into<String>) -> Self {
+        self.with(Part::Caption(words.into()))
+    }
+
+    /// Nothing if the table is empty.
+    pub(super) fn table(self, table: Table) -> Self {
+        if table.is_empty() { self } else { self.with(Part::Table(table)) }
+    }
+
+    pub(super) fn descriptions<T: Into<String>>(self, all: impl IntoIterator<Item = (T, String)>) -> Self {
+        self.with(Part::Descriptions(all.into_iter().map(|(name, text)| (name.into(), text)).collect()))
+    }
+
+    pub(super) fn figures(self, figures: &'a [Figure]) -> Self {
+        if figures.is_empty() {
+            self
+        } else {
+            self.with(Part::Figures { figures: figures.iter().collect(), level: 3 })
+        }
+    }
+
+    /// Figures under a heading of their own.
+    pub(super) fn figures_below(self, heading: &str, figures: Vec<&'a Figure>) -> Self {
+        self.heading(heading).with(Part::Figures { figures, level: 4 })
+    }
+
+    pub(super) fn file(self, id: &'static str, text: impl Into<String>) -> Self {
+        self.with(Part::File { id, text: text.into() })
+    }
+
+    pub(super) fn view(self, view: View<'a>) -> Self {
+        self.with(Part::View(view))
+    }
+}
+
+/// A text as HTML, with code and links, see [`Report`].
+pub(crate) fn marked(text: &str) -> String {
+    let escaped = |text: &str| match askama::filters::escape(text, askama::filters::Html) {
+        Ok(escaped) => escaped.to_string(),
+        Err(never) => match never {},
+    };
+    if let Some((before, (code, after))) =
+        text.split_once('`').and_then(|(before, rest)| Some((before, rest.split_once('`')?)))
+    {
+        return format!("{}<code>{}</code>{}", marked(before), escaped(code), marked(after));
+    }
+    let link = || {
+        let (words, rest) = text.split_once("](#")?;
+        let (before, words) = words.rsplit_once('[')?;
+        let (id, after) = rest.split_once(')')?;
+        Some(format!(
+            "{}<a href=\"#{}\">{}</a>{}",
+            escaped(before),
+            escaped(id),
+            escaped(words),
+            marked(after)
+        ))
+    };
+    link().unwrap_or_else(|| escaped(text))
+}

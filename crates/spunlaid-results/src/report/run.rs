@@ -1,0 +1,171 @@
+//! The report of a run: the moving fibre, the results, the figures, and how far the computation can be trusted.
+
+use super::document::{Part, Report, Section};
+use super::frames;
+use super::methods::{case_account, methods};
+use super::run_table::{capitalised, groups, replicate_table, result_table, sentence};
+use super::spinline::section_of_fibre;
+use super::view::View;
+use super::words::{self, count};
+use crate::Failure;
+use crate::numbers::{THIN, number};
+use crate::output::finer::{self, FinerWords};
+use crate::output::spinline::SpinResults;
+use crate::output::summary::Performance;
+use spunlaid::case::Case;
+use spunlaid::ensemble::{FinerChecks, Number, Results};
+use spunlaid::observe::{DECLARED, Kind};
+use spunlaid_charts::Figure;
+
+/// A run. The page has less than 6 MB.
+///
+/// * `case` – and the resolved case as a case file
+/// * `results` – with the trajectories that are to be seen moving, and what finer steps and elements change
+/// * `figures` – see [`crate::figures::run_figures`]
+/// * `spinline` – from which the fibre is fed, with its figures
+///
+/// # Errors
+/// The file of the shapes cannot be read.
+pub fn run_report<'a>(
+    (case, toml): (&Case, &str),
+    (results, checks): (&Results, &FinerChecks),
+    figures: &'a [Figure],
+    spinline: Option<(&SpinResults, &'a [Figure])>,
+    performance: Performance,
+) -> Result<Report<'a>, Failure> {
+    let headline = words::headline(case, results, checks);
+    let finer = finer::words(checks, case, results);
+    let found = [headline.clone()].into_iter().chain(groups(results).first().map(|group| sentence(group)));
+    let found = found.chain(finer.iter().flatten().flat_map(FinerWords::sentences));
+    let methods = methods("run", case_account(case), found);
+    let cost = format!(
+        "computed in {} on {} with {} instructions, {} per element and step",
+        words::time(performance.wall_s),
+        count(performance.threads as u64, "thread"),
+        performance.instruction_set,
+        words::quantity(performance.ns_per_element_step, "ns"),
+    );
+    let file = Section::new("case", "The case")
+        .paragraph("With every default filled in. Save it as a case file and run it again: the same numbers come out, to the last digit.")
+        .file("case-toml", toml);
+    Ok(Report::new("run", headline)
+        .lead(words::case(case))
+        .with(motion(case, results)?)
+        .with(numbers(results))
+        .with_all(spinline.map(|(results, figures)| section_of_fibre(case, results, figures)))
+        .with(under_headings(figures))
+        .with(trust(case, results, finer))
+        .with(methods)
+        .with(file)
+        .costing(cost))
+}
+
+/// The moving fibre.
+fn motion(case: &Case, results: &Results) -> Result<Section<'static>, Failure> {
+    let section = Section::new("motion", "The moving fibre");
+    let Some(frames) = frames::pack(case, results)? else {
+        return Ok(section.paragraph("No shapes of the fibre were kept in this run."));
+    };
+    let axes = if case.line.is_some() {
+        "x runs from the inlet down to the belt, y in machine direction (MD), z in cross direction (CD)"
+    } else {
+        "x runs along the mean flow and gravity, y and z across"
+    };
+    let remarks: String = frames.remarks.iter().map(|remark| format!(" {remark}")).collect();
+    let caption = format!(
+        "{axes}; all axes in millimetres. So that the motion can be seen, the sideways scale (y and z) may be stretched against the length; \
+         the picture says by how much.{remarks}"
+    );
+    Ok(section.view(View::Fibre(frames)).caption(caption))
+}
+
+/// The results, and those of each replicate.
+fn numbers(results: &Results) -> Section<'static> {
+    let caption = if results.replicates() > 1 {
+        "Mean ± one standard error of the mean over n replicates: fibres that differ in nothing but the random phases of the turbulence. About \
+         two times in three the true mean lies within one standard error."
+    } else {
+        "From a single replicate, so without a standard error: run more to learn how sure these numbers are."
+    };
+    let (table, unlisted) = replicate_table(results);
+    let mut of_each = vec![Part::Table(table)];
+    if unlisted > 0 {
+        of_each.push(Part::Caption(format!("{unlisted} more are in summary.json.")));
+    }
+    Section::new("results", "Results")
+        .table(result_table(results))
+        .caption(caption)
+        .with(Part::Folded("Values of each replicate", of_each))
+}
+
+/// How far the computation can be trusted: what finer steps and elements change, and whether energy is kept.
+fn trust(case: &Case, results: &Results, checks: [Result<FinerWords, String>; 2]) -> Section<'static> {
+    let check = |check: Result<FinerWords, String>| match check {
+        Ok(FinerWords { what, with, differences, meaning, extent, advice }) => {
+            let differences: String =
+                differences.iter().map(|difference| format!("{difference}. ")).collect();
+            let name = format!("{}: compared with {with} in the same turbulence", capitalised(what));
+            (name, format!("{differences}{meaning} Compared: {extent}. {advice}."))
+        }
+        Err(why) => (capitalised(&why), "The error is not known, then.".to_owned()),
+    };
+    let work_error = results.number("work_error");
+    let balance = number(results.number("balance_error").map_or(f64::NAN, Number::value));
+    let carried = if case.line.is_some() {
+        " of feed and belt, and what the fed fibre brings and the laid fibre takes along,"
+    } else {
+        ""
+    };
+    let scheme = if work_error.is_none() { " and the scheme" } else { "" };
+    let balance = (
+        format!("Energy balance: {balance}{THIN}%"),
+        format!(
+            "Kinetic and elastic energy must equal the work of gravity and air,{carried} minus what damping{scheme} took out. This is the \
+             difference, relative to the work of the air. It also finds errors in the forces. If it is above one per cent, halve `run.time_step` \
+             and see whether the results move."
+        ),
+    );
+    let work = work_error.map(|error| {
+        let name = format!("Work check: {}{THIN}%", number(error.value()));
+        let meaning = "The work of all forces must equal the kinetic energy. This is the difference, relative to the kinetic energy. It grows \
+                       with the time step, and says nothing about the forces.";
+        (name, meaning.to_owned())
+    });
+    let all = checks.map(check).into_iter().chain([balance]).chain(words::mesh(case)).chain(work);
+    Section::new("trust", "Can the computation be trusted?").descriptions(all).caption(
+        "The energy errors are medians over time and replicates. All of this says how well the equations were solved, not how well they describe \
+         a fibre.",
+    )
+}
+
+/// The figures under headings, in the order of the headings.
+fn under_headings(figures: &[Figure]) -> Section<'_> {
+    const HEADINGS: [&str; 7] = [
+        "The laid fibre",
+        "From the inlet to the belt",
+        "Motion of the free end",
+        "Along the fibre",
+        "Over time",
+        "Air",
+        "Neighbours in the same air",
+    ];
+    let kind = |figure: &Figure| {
+        let mut measures = DECLARED.iter().flat_map(|declaration| declaration.measures);
+        measures.find(|measure| measure.figure.name == figure.name).map(|measure| measure.kind)
+    };
+    let heading = |figure: &Figure| match kind(figure) {
+        Some(Kind::Lag | Kind::Direction) => HEADINGS[0],
+        None if ["laid_trace", "footprint"].contains(&figure.name.as_str()) => HEADINGS[0],
+        Some(Kind::Way) => HEADINGS[1],
+        Some(Kind::Number | Kind::Spectrum) => HEADINGS[2],
+        Some(Kind::Profile) => HEADINGS[3],
+        Some(Kind::Series) => HEADINGS[4],
+        Some(Kind::Neighbour) => HEADINGS[6],
+        None if figure.name.starts_with("end_node") => HEADINGS[2],
+        None => HEADINGS[5],
+    };
+    HEADINGS.into_iter().fold(Section::new("figures", "Figures"), |section, title| {
+        let below: Vec<&Figure> = figures.iter().filter(|figure| heading(figure) == title).collect();
+        if below.is_empty() { section } else { section.figures_below(title, below) }
+    })
+}

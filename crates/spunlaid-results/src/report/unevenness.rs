@@ -1,0 +1,74 @@
+//! How uneven a web is, in the words that the reports of laid and of scanned webs share.
+
+use super::words::{count, millimetres, time};
+use crate::numbers::{THIN, plus_minus, significant};
+use crate::output::web::Performance;
+use spunlaid::web::uniformity::Unevenness;
+use spunlaid::web::{Clouds, Findings, nearest_to_seen};
+
+pub(super) const PER_CENT: f64 = 100.0;
+
+/// What is said below every table of CVs.
+pub(super) const CV_OF_PATCHES: &str = "Coefficient of variation of the basis weight over square patches, ± one standard error, which is a share \
+    of the CV; the interval holds the CV of all such webs in 95 % of the cases.";
+
+/// A basis weight in grams per square metre.
+pub(super) fn grams(weight: f64) -> String {
+    format!("{}{THIN}g/m²", significant(weight * 1e3, 3))
+}
+
+/// The patch nearest to what the eye judges first.
+pub(super) fn headline_patch(findings: &Findings) -> Option<usize> {
+    nearest_to_seen(findings.patches.iter().map(|patch| patch.map.patch))
+}
+
+pub(super) fn cost(performance: Performance) -> String {
+    format!("computed in {} on {}", time(performance.wall_s), count(performance.threads as u64, "thread"))
+}
+
+/// * `weight` – mean basis weight, if it is known [kg/m²]
+/// * `is_bound` – whether its filaments are independent of each other, so that a real web is more uneven
+pub(super) fn headline(weight: Option<f64>, patch: Option<&Unevenness>, is_bound: bool) -> String {
+    let web = weight.map_or_else(|| "A web".to_owned(), |weight| format!("A web of {}", grams(weight)));
+    match patch {
+        Some(unevenness) => format!(
+            "{web} that varies by {}{} over patches of {}{}.",
+            if is_bound { "at least " } else { "" },
+            per_cent(unevenness.cv, unevenness.standard_error),
+            millimetres(unevenness.patch),
+            if is_bound { ": its filaments are independent of each other" } else { "" }
+        ),
+        None => format!("{web}."),
+    }
+}
+
+/// The CV over each size of patches, in a sentence.
+pub(super) fn unevenness(patches: &[Unevenness]) -> String {
+    let one = |patch: &Unevenness| {
+        format!("{} over patches of {}", per_cent(patch.cv, patch.standard_error), millimetres(patch.patch))
+    };
+    let all: Vec<String> = patches.iter().map(one).collect();
+    format!(
+        "Its CV (standard deviation over mean of the basis weight) is {}, ± one standard error.",
+        all.join(", ")
+    )
+}
+
+pub(super) fn per_cent(cv: f64, error: Option<f64>) -> String {
+    format!("{}{THIN}%", plus_minus(cv * PER_CENT, error.map(|error| error * PER_CENT)))
+}
+
+/// Which clouds hold most of the variance, in a sentence.
+pub(super) fn largest_clouds(clouds: &Clouds) -> Option<String> {
+    let octaves = clouds.octaves();
+    let whole: f64 = octaves.iter().map(|(_, variance)| variance.mean).sum();
+    let (waves, variance) = octaves.iter().max_by(|a, b| a.1.mean.total_cmp(&b.1.mean))?;
+    Some(format!(
+        "Clouds with wavelengths of {} to {} hold the most: {} % of the variance between {} and {}.",
+        millimetres(waves[0]),
+        millimetres(waves[1]),
+        significant(PER_CENT * variance.mean / whole, 2),
+        millimetres(clouds.shortest()),
+        millimetres(clouds.longest())
+    ))
+}

@@ -1,0 +1,275 @@
+//! What must be known of the numbers of a web before they are believed, and how it is said.
+
+use super::few_findings::FewDoubt;
+use crate::surrogate::Residual;
+use std::fmt::{Display, Formatter, Result};
+
+/// A reason to doubt numbers of a web, or to read them with care. It is shown as a sentence without a full stop.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Doubt {
+    /// Filaments were lost in flight, of so many.
+    Lost {
+        /// Number of lost ones.
+        filaments: u64,
+        /// Number of all that were flown.
+        of: u64,
+    },
+    /// Too few filaments were flown to tell what all do.
+    FewFilaments {
+        /// Sides of the patches whose CV they do not tell [m].
+        sides: Vec<f64>,
+        /// The strongest reason.
+        why: FewDoubt,
+        /// Distance of the flown ones [m].
+        pitch: f64,
+    },
+    /// The map is too uneven over small patches, because filaments between the flown ones are not known well.
+    FilledIn {
+        /// Part of their variance that is not known.
+        missing: f64,
+    },
+    /// The sheet that was flown is too small for these patches.
+    SmallSheet {
+        /// Sides of the patches [m].
+        sides: Vec<f64>,
+    },
+    /// The surrogate's CV is more than 5 % from that of the flown curves.
+    FarSurrogate {
+        /// Sides of the patches where it is [m].
+        sides: Vec<f64>,
+        /// Side of those where it is farthest [m].
+        farthest: f64,
+        /// There, the CV of the surrogate and of the flown curves.
+        cv: [f64; 2],
+        /// There, the surrogate's CV over that of the flown curves, less one.
+        apart: f64,
+        /// Whether the map was laid of the surrogate.
+        is_laid: bool,
+    },
+    /// Over patches that are smaller than an element, surrogate and flown curves differ by more than 5 %, and neither is accurate.
+    CoarseFlight {
+        /// Sides of the patches [m].
+        sides: Vec<f64>,
+        /// Length of an element [m].
+        element: f64,
+    },
+    /// The flown curves are too few to check the surrogate within 5 %.
+    FewFibres {
+        /// Sides of the patches [m].
+        sides: Vec<f64>,
+        /// Largest standard error of the CV of the flown curves, as a share of it; NaN of a single fibre.
+        error: f64,
+    },
+    /// No fibre was flown beside the surrogate.
+    NothingFlown,
+    /// What a faster belt does is not known, because this one pulls at the fibre in the air.
+    PullingBelt {
+        /// Speed of the belt over that of the feed.
+        ratio: f64,
+    },
+    /// No surrogate describes the laid fibre of a layer well.
+    PoorSurrogate {
+        /// Basis weight of the layer [kg/m²].
+        basis_weight: f64,
+        /// How far the best one is off.
+        residual: Residual,
+    },
+    /// Fibre lies beyond the edges of the sheet.
+    CutOff {
+        /// As a share of all fibre.
+        share: f64,
+    },
+    /// The web is thinner at its edges, and these strips are left out.
+    ThinEdges {
+        /// Widths of the strips [m].
+        margins: [f64; 2],
+    },
+    /// The sheet is too small for an error of the CV.
+    NoError {
+        /// Sides of the patches [m].
+        sides: Vec<f64>,
+    },
+}
+
+impl Display for Doubt {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        match self {
+            Self::Lost { filaments, of } => write!(
+                f,
+                "{filaments} of {of} filaments {} lost in flight, and each is missing from then on: the web is lighter by that, and a little more uneven",
+                if *filaments == 1 { "was" } else { "were" }
+            ),
+            Self::FewFilaments { sides, why, pitch } => write!(
+                f,
+                "the CV over patches of {} has no error, because {}: too few filaments were flown to tell what all do. Fly twice as many, web.flown = \
+                 {}, or \"all\"; \"auto\" flies as many as are needed, up to four times its first number",
+                millimetres(sides),
+                reason(*why, *pitch),
+                (2.0 / pitch).round()
+            ),
+            Self::FilledIn { missing } => write!(
+                f,
+                "filaments between the flown ones are known but for {} % of their variance, so the map is too uneven over patches below 10 mm; the \
+                 CV that is told is not. Fly more filaments for the map (web.flown)",
+                per_cent(*missing, 2)
+            ),
+            Self::SmallSheet { sides } => write!(
+                f,
+                "the sheet that was flown is too small for patches of {}: their CV is that of the map, which is made of pieces of that sheet, and it \
+                 has no error",
+                millimetres(sides)
+            ),
+            Self::FarSurrogate { sides, farthest, cv: [surrogate, flown], apart, is_laid } => write!(
+                f,
+                "the surrogate’s CV is more than 5 % from that of the flown curves over patches of {}: {} for {} %, {} % {}, over patches of {}. \
+                 Rely on the flown curves there: the flight has laid them, and the surrogate has only their spread and their autocorrelation. {}",
+                listed(sides),
+                per_cent(*surrogate, 3),
+                per_cent(*flown, 3),
+                per_cent(apart.abs(), 2),
+                if *apart < 0.0 { "too low" } else { "too high" },
+                listed(&[*farthest]),
+                if *is_laid {
+                    "web.method = \"dynamics\" lays the map from them"
+                } else {
+                    "this map is laid from them"
+                }
+            ),
+            Self::CoarseFlight { sides, element } => write!(
+                f,
+                "over patches of {} the surrogate and the flown curves also differ by more than 5 %, and neither is accurate to 5 % there, because \
+                 these patches are smaller than an element of the flight, {} mm (fibre.element_length)",
+                listed(sides),
+                digits(element * 1e3, 3)
+            ),
+            Self::FewFibres { sides, error } => {
+                write!(f, "over patches of {} the CV of the flown curves ", listed(sides))?;
+                if error.is_nan() {
+                    write!(f, "rests on a single fibre, so its error is not known")?;
+                } else {
+                    write!(f, "is known within {} % only, one standard error", per_cent(*error, 2))?;
+                }
+                write!(
+                    f,
+                    "; the surrogate cannot be checked within 5 %. Fly more fibre (run.replicates, run.duration)"
+                )
+            }
+            Self::NothingFlown => write!(
+                f,
+                "no fibre was flown for every layer of this web, so the errors are by chance only, and it is not known how far a surrogate with these \
+                 numbers is from real fibres. Compared with flown curves, its CV was up to 20 % wrong (docs/web.md)"
+            ),
+            Self::PullingBelt { ratio } => write!(
+                f,
+                "the effect of a faster belt is not given, because this belt runs at {} of the feed speed and pulls at the fibre in the air, so the \
+                 flight changes with it; fly webs at other speeds (a study over belt.speed, docs/web.md)",
+                digits(*ratio, 2)
+            ),
+            Self::PoorSurrogate { basis_weight, residual: Residual { rms, by_chance } } => write!(
+                f,
+                "no surrogate describes the laid fibre of the layer of {} g/m² well: its autocorrelation differs by {} (rms) from that of the best \
+                 one, and chance would explain {}",
+                digits(basis_weight * 1e3, 3),
+                digits(*rms, 2),
+                by_chance.map_or_else(|| "an unknown part".to_owned(), |by_chance| digits(by_chance, 2))
+            ),
+            Self::CutOff { share } => write!(
+                f,
+                "{} % of the fibre lies beyond the edges of the sheet and is cut off",
+                per_cent(*share, 2)
+            ),
+            Self::ThinEdges { margins } => {
+                let [first, last] = margins.map(|margin| digits(1e3 * margin, 3));
+                write!(
+                    f,
+                    "the first {first} mm and the last {last} mm across the web are left out of CV, clouds and autocorrelation, because the web is \
+                     thinner at its edges, which reach 3 σ_CD inwards from the outermost filament (web.edges = \"cut\")"
+                )
+            }
+            Self::NoError { sides } => write!(
+                f,
+                "the CV over patches of {} has no error: the sheet holds too few independent clouds or streaks for one; make it larger, or lay several \
+                 webs with other seeds",
+                millimetres(sides)
+            ),
+        }
+    }
+}
+
+/// Why a few filaments do not tell what all do.
+fn reason(why: FewDoubt, pitch: f64) -> String {
+    match why {
+        FewDoubt::Halves(patch, off) => format!(
+            "every second one of the flown filaments would tell a CV over patches of {} that is {} % {}",
+            millimetres(&[patch]),
+            per_cent(off.abs(), 2),
+            if off > 0.0 { "higher" } else { "lower" }
+        ),
+        FewDoubt::Neighbours(correlation) => format!(
+            "the flown filaments are {} mm apart, and the places where such neighbours come down have a correlation of {}",
+            digits(1e3 * pitch, 3),
+            digits(correlation, 2)
+        ),
+    }
+}
+
+/// `2, 5, 10 mm`.
+fn millimetres(sides: &[f64]) -> String {
+    let sides: Vec<String> = sides.iter().map(|side| digits(1e3 * side, 3)).collect();
+    format!("{} mm", sides.join(", "))
+}
+
+/// `2, 5 and 10 mm`.
+fn listed(sides: &[f64]) -> String {
+    match sides {
+        [first @ .., last] if !first.is_empty() => {
+            format!("{} and {}", millimetres(first).trim_end_matches(" mm"), millimetres(&[*last]))
+        }
+        sides => millimetres(sides),
+    }
+}
+
+fn per_cent(share: f64, count: usize) -> String {
+    digits(100.0 * share, count)
+}
+
+/// A number with so many digits, and without zeros at its end.
+fn digits(value: f64, count: usize) -> String {
+    let decimals = count - 1;
+    let rounded: f64 = format!("{value:.decimals$e}").parse().unwrap_or(value);
+    format!("{rounded}").replace('-', "−")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn doubts_are_sentences_with_their_numbers() {
+        let sides = vec![0.002, 0.005, 0.0125];
+        let far =
+            Doubt::FarSurrogate { sides, farthest: 0.005, cv: [0.0812, 0.1], apart: -0.188, is_laid: true };
+        let said = far.to_string();
+        let begin = "the surrogate’s CV is more than 5 % from that of the flown curves over patches of 2, 5 and 12.5 mm: 8.12 for 10 %, 19 % too low, \
+                     over patches of 5 mm. ";
+        assert!(
+            said.starts_with(begin) && said.ends_with("web.method = \"dynamics\" lays the map from them"),
+            "{said}"
+        );
+        let few =
+            Doubt::FewFilaments { sides: vec![0.01, 0.02], why: FewDoubt::Halves(0.02, -0.08), pitch: 0.002 };
+        let said = few.to_string();
+        assert!(
+            said.starts_with("the CV over patches of 10, 20 mm has no error, because every second one"),
+            "{said}"
+        );
+        assert!(
+            said.contains("over patches of 20 mm that is 8 % lower") && said.contains("web.flown = 1000"),
+            "{said}"
+        );
+        let single = Doubt::FewFibres { sides: vec![0.05], error: f64::NAN }.to_string();
+        assert!(single.contains("50 mm the CV of the flown curves rests on a single fibre"), "{single}");
+        assert!(Doubt::Lost { filaments: 1, of: 40 }.to_string().starts_with("1 of 40 filaments was lost"));
+    }
+}
