@@ -6,25 +6,21 @@ use crate::watched::{Watch, watched};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use spunlaid::case::Case;
 use spunlaid::error::Error;
-use spunlaid::input::{
-    Unread, parse_case, parse_spinline, parse_web_and_cases, write_case, write_spinline, write_web,
-};
-use spunlaid::layers::{LaydownSource, WebSpec};
+use spunlaid::input::{Unread, parse_case, parse_spinline, parse_web, write_experiment};
+use spunlaid::layers::LaydownSource;
 use spunlaid::observe::MEASURES;
 use spunlaid::study::{Batch, Experiment, Point, Record, ReplicateOutcome, fly_bundle as fly};
 use spunlaid_results::Failure;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::PathBuf;
-use std::sync::Arc;
 
-/// A point of a bundle: its index in the study, the text of its case, or of its web with those of the cases that it flies and the
-/// numbers of their layers, a checksum over all of it, and the replicates to make, from the first to before the last.
-pub(crate) type BundlePart = (u64, String, Cases, u32, u64, u64);
-/// Layers of a web, and the texts of their cases; None for a case.
-pub(crate) type Cases = Option<Vec<(usize, String)>>;
+/// What is computed, as any machine reads it: what it is, the text of its file, and a checksum over all of it.
+pub(crate) type Packed = (String, String, u32);
+/// A point of a bundle: its index in the study, what it is, the text of its file, a checksum over all of it, and the replicates to
+/// make, from the first to before the last.
+pub(crate) type BundlePart = (u64, String, String, u32, u64, u64);
 
 /// Columns of the records before the numbers: point, replicate, whether the fibre was lost. Of a lost fibre the numbers are the
 /// node and the time.
@@ -33,28 +29,21 @@ const HEAD: usize = 3;
 /// What a machine needs to make batches of points.
 pub(crate) fn parts(points: &[Point], batches: &[Batch]) -> Vec<BundlePart> {
     let part = |Batch { point, replicates: Range { start, end } }: &Batch| {
-        let (text, cases, sum) = packed(&points[*point].experiment);
-        (*point as u64, text, cases, sum, *start, *end)
+        let (noun, text, sum) = packed(&points[*point].experiment);
+        (*point as u64, noun, text, sum, *start, *end)
     };
     batches.iter().map(part).collect()
 }
 
-/// The text of what is computed, with the texts of the cases that it flies, and a checksum over all of it.
-pub(crate) fn packed(experiment: &Experiment) -> (String, Cases, u32) {
+/// What is computed, for another machine.
+pub(crate) fn packed(experiment: &Experiment) -> Packed {
     let experiment = make_portable(experiment);
-    let (text, cases) = match &experiment {
-        Experiment::Case(case) => (write_case(case), None),
-        Experiment::Spinline(spec) => (write_spinline(spec), None),
-        Experiment::Web(web) => {
-            (write_web(web), Some(flown(web).map(|(layer, case)| (layer, write_case(case))).collect()))
-        }
-    };
-    (text, cases, checksum(&experiment))
+    (experiment.noun().to_owned(), write_experiment(&experiment), checksum(&experiment))
 }
 
 /// What [`packed`] has packed; None if it is another one on this machine.
-pub(crate) fn unpacked(text: &str, cases: &Cases, sum: u32) -> Result<Option<Experiment>, Error> {
-    Ok(Some(read(text, cases)?).filter(|experiment| checksum(experiment) == sum))
+pub(crate) fn unpacked(noun: &str, text: &str, sum: u32) -> Result<Option<Experiment>, Error> {
+    Ok(Some(read(noun, text)?).filter(|experiment| checksum(experiment) == sum))
 }
 
 /// The error of a machine on which something is another one than on the client.
@@ -68,23 +57,18 @@ pub(crate) fn another(py: Python<'_>, what: &str) -> PyErr {
     raised_as(py, "ClusterError", text)
 }
 
-/// The same on any machine that has the files: full paths of files, and names in place of the paths of cases, which are sent
-/// along.
+/// The same on any machine that has the files, which have full paths.
 fn make_portable(experiment: &Experiment) -> Experiment {
     match experiment {
         Experiment::Case(case) => Experiment::Case(case.with_files_at(full_path)),
         Experiment::Spinline(spec) => Experiment::Spinline(Box::new(spec.with_files_at(full_path))),
         Experiment::Web(web) => {
-            let mut web = web.clone();
-            for (number, layer) in web.layers.iter_mut().enumerate() {
+            let mut web = web.with_files_at(full_path);
+            for layer in &mut web.layers {
                 match &mut layer.source {
-                    LaydownSource::Case { path, case } => {
-                        *path = case_file_name(number);
-                        *case = Arc::new(case.with_files_at(full_path));
-                    }
-                    LaydownSource::Results { folder, .. } => {
-                        *folder = full_path(folder);
-                    }
+                    // It is read from this file.
+                    LaydownSource::Case { path, .. } => *path = PathBuf::from(WEB),
+                    LaydownSource::Results { folder, .. } => *folder = full_path(folder),
                     LaydownSource::Surrogate(_) => {}
                 }
             }
@@ -93,32 +77,19 @@ fn make_portable(experiment: &Experiment) -> Experiment {
     }
 }
 
-/// The name of the case of a layer that is sent along.
-fn case_file_name(layer: usize) -> PathBuf {
-    PathBuf::from(format!("layer-{}.toml", layer + 1))
-}
-
-/// The cases that a web flies, with the numbers of their layers.
-fn flown(web: &WebSpec) -> impl Iterator<Item = (usize, &Case)> {
-    web.layers.iter().enumerate().filter_map(|(number, layer)| match &layer.source {
-        LaydownSource::Case { case, .. } => Some((number, &**case)),
-        _ => None,
-    })
-}
+/// What the file of a web is called that is sent along.
+const WEB: &str = "web.toml";
 
 /// What was sent, read again. Tensions of flights were found before it was sent, and are numbers.
-fn read(text: &str, cases: &Cases) -> Result<Experiment, Error> {
-    let Some(cases) = cases else {
-        // A case has a fibre; a spinline alone has none.
-        if !text.contains("\n[fibre]\n") {
+fn read(noun: &str, text: &str) -> Result<Experiment, Error> {
+    Ok(match noun {
+        "web" => Experiment::Web(parse_web(text, WEB, &[]).map_err(Unread::refuse)?.spec),
+        "spinline" => {
             let read = parse_spinline(text, "spinline.toml", &[]).map_err(Unread::refuse)?;
-            return Ok(Experiment::Spinline(Box::new(read.spec)));
+            Experiment::Spinline(Box::new(read.spec))
         }
-        return Ok(Experiment::Case(parse_case(text, "case.toml", &[]).map_err(Unread::refuse)?.0));
-    };
-    let cases = cases.iter().map(|(layer, text)| (case_file_name(*layer), text.clone())).collect();
-    let read = parse_web_and_cases(text, "web.toml", cases);
-    Ok(Experiment::Web(read.map_err(Unread::refuse)?.spec))
+        _ => Experiment::Case(parse_case(text, "case.toml", &[]).map_err(Unread::refuse)?.0),
+    })
 }
 
 /// A checksum over all that the results depend on, also over the content of files.
@@ -138,14 +109,14 @@ pub(crate) fn fly_bundle(
     let watch = Watch::default();
     let flown = watched(py, &watch, None, || {
         let mut points: Vec<Point> = Vec::new();
-        let mut known: BTreeMap<(&str, &Cases), usize> = BTreeMap::new();
+        let mut known: BTreeMap<&str, usize> = BTreeMap::new();
         let mut batches = Vec::new();
-        for (number, text, cases, sum, start, end) in &parts {
-            let point = match known.get(&(text.as_str(), cases)) {
+        for (number, noun, text, sum, start, end) in &parts {
+            let point = match known.get(text.as_str()) {
                 Some(point) => *point,
                 None => {
-                    let Some(experiment) = unpacked(text, cases, *sum)? else { return Ok(Err(*number)) };
-                    known.insert((text, cases), points.len());
+                    let Some(experiment) = unpacked(noun, text, *sum)? else { return Ok(Err(*number)) };
+                    known.insert(text, points.len());
                     points.push(Point { values: Vec::new(), experiment });
                     points.len() - 1
                 }

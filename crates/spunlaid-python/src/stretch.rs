@@ -1,6 +1,6 @@
 //! `WebFlight`: a web in one air whose filaments have been flown, and stretches of its sheet as plain values of Python, which any machine lays.
 
-use crate::bundle::{Cases, another, packed, unpacked};
+use crate::bundle::{Packed, another, packed, unpacked};
 use crate::failure::raised;
 use crate::watched::{Watch, watched};
 use crate::web::{Asked, LaidWeb, flown_while_watched};
@@ -26,8 +26,6 @@ pub(crate) struct WebFlight {
     began: Instant,
 }
 
-/// The text of a web, with those of the cases that it flies and the numbers of their layers, and a checksum over all of it.
-type PackedWeb = (String, Cases, u32);
 /// What a few filaments of a layer have laid: the number of the layer; width of the curtain, length from point to point and belt ratio; the sheet and where it
 /// begins on the belt; places of the filaments, filaments × 2; deviations, filaments × 2 × points.
 type PackedCurtain<'py, Places, Curves> = (usize, (Option<f64>, f64, f64), ([f64; 2], f64), Places, Curves);
@@ -61,7 +59,7 @@ pub(crate) fn fly_web(
 impl WebFlight {
     /// The web, as any machine reads it.
     #[getter]
-    fn web(&self) -> PackedWeb {
+    fn web(&self) -> Packed {
         packed(&Experiment::Web(self.asked.file.spec.clone()))
     }
 
@@ -131,7 +129,7 @@ impl WebFlight {
 #[expect(clippy::type_complexity, reason = "the arrays of a curtain and of a stretch")]
 pub(crate) fn lay_stretch<'py>(
     py: Python<'py>,
-    web: PackedWeb,
+    web: Packed,
     curtains: Vec<PackedCurtain<'py, PyReadonlyArray2<'py, f64>, PyReadonlyArray3<'py, f32>>>,
     rows: (usize, usize),
     threads: Option<usize>,

@@ -1,7 +1,7 @@
 //! The folder of a fit: its journal, and what is made from it.
 
-use super::flown_cases::write_cases;
 use super::journalled::{JournalFolder, Work};
+use super::web::keep_web;
 use crate::Failure;
 use crate::failure::other_version;
 use crate::figures::fit_figures;
@@ -18,7 +18,7 @@ use spunlaid::study::{Header, Journal, JournalState};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-/// The files of a fit; the last one marks it as complete.
+/// The files of a fit, with the cases of earlier versions; the last one marks it as complete.
 const FILES: &[&str] = &["web.toml", "cases", CASE_FILES, "trials.csv", "figures", "report.html", "fit.json"];
 /// A results folder that this process has locked.
 #[derive(Debug)]
@@ -110,7 +110,7 @@ impl<'a> FitFolder<'a> {
     pub fn write(&mut self, input: &FitInput<'_>, fit: &Fit, spec: &WebSpec) -> Result<(), Failure> {
         let mut staging = Staging::new(&self.at.place, FILES, true, self.stop)?;
         staging.set_figures(&self.figures);
-        let toml = write_cases(&staging, spec.clone())?;
+        let toml = keep_web(&staging, spec)?;
         let figures = fit_figures(fit);
         staging.write_figures(&figures)?;
         let FitInput { name, paths, target, notes, .. } = *input;

@@ -6,7 +6,6 @@
 //! finished   what the folder of a run or a web says
 //! scan       what is found of a scan: map, figures, report, summary
 //! spinline   a solved spinline: the thread, figures, report, summary
-//! flown_cases the cases of a web, beside its file
 //! fit        the journal of a fit, and what is made from it
 //! kept       flights of a run that outlive the process that flies them
 //! journalled a folder with a journal, which fit and study share: begun, continued, replaced
@@ -22,7 +21,6 @@ pub mod comparison;
 mod declared;
 mod finished;
 pub mod fit;
-mod flown_cases;
 mod journalled;
 mod kept;
 mod measured_web;

@@ -201,14 +201,15 @@ fn keep_files(file: &StudyFile, staging: &Staging<'_>) -> Result<String, Failure
     let files = file.study.points.iter().flat_map(|point| match &point.experiment {
         Experiment::Case(case) => case.files(),
         Experiment::Spinline(spec) => spec.files(),
-        Experiment::Web(_) => Vec::new(),
+        Experiment::Web(web) => web.files(),
     });
     let copied = copied_files::copy(files, &staging.place(CASE_FILES).0)?;
     let folder = file.base_path.parent().unwrap_or(Path::new(""));
     Ok(copied.iter().fold(file.base_text.clone(), |text, (from, to)| {
-        let written = from.strip_prefix(folder).unwrap_or(from);
         let quoted = |path: &Path| format!("{:?}", path.to_string_lossy());
-        text.replace(&quoted(written), &quoted(to))
+        // A case is the text of its user; a web has been written with whole paths.
+        let written = [from, from.strip_prefix(folder).unwrap_or(from)];
+        written.into_iter().fold(text, |text, from| text.replace(&quoted(from), &quoted(to)))
     }))
 }
 

@@ -1,15 +1,15 @@
 //! The folder of a web.
 
-use super::flown_cases::write_cases;
 use crate::Failure;
 use crate::figures::{SPINLINE, spinline_figures, web_figures};
+use crate::output::copied_files::{self, CASE_FILES};
 use crate::output::folder::Staging;
 use crate::output::spinline::{SpinResults, SpinSummary, write_stations};
 use crate::output::web::{self, Layer, Performance, Summary};
 use crate::report::{LayerSpinline, web_report};
 use spunlaid::advice::Advice;
 use spunlaid::case::Case;
-use spunlaid::input::{LayerSpec, WebFile, WebSpec};
+use spunlaid::input::{LayerSpec, WebFile, WebSpec, write_web};
 use spunlaid::layers::{FlownWeb, LayerFibres};
 use spunlaid::spinline::Solution;
 use spunlaid::web::{Fibres, Findings, LayControl, Web, strands};
@@ -62,7 +62,7 @@ impl WebFolder<'_> {
 
     /// Writes all files but those of the map.
     fn write_others(&self, staging: &Staging<'_>, laying: LayControl<'_>) -> Result<(), Failure> {
-        let (window, toml) = (self.file.spec.window(), write_cases(staging, self.file.spec.clone())?);
+        let (window, toml) = (self.file.spec.window(), keep_web(staging, &self.file.spec)?);
         let strands = match &self.findings.laid.shared_air {
             Some(together) => Cow::Borrowed(&together.strands[..]),
             None => Cow::Owned(strands(self.web, window, laying)?),
@@ -99,6 +99,12 @@ impl WebFolder<'_> {
         staging.write("report.html", report)?;
         staging.write("summary.json", self.summary())
     }
+}
+
+/// Copies the files that the cases of a web name. Returns the text of the web's file, which names the copies.
+pub(super) fn keep_web(staging: &Staging<'_>, spec: &WebSpec) -> Result<String, Failure> {
+    let copied = copied_files::copy(spec.files(), &staging.place(CASE_FILES).0)?;
+    Ok(write_web(&spec.with_files_at(copied_files::place(&copied))))
 }
 
 /// What layers were laid from, for the files.

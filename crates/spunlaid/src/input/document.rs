@@ -1,4 +1,4 @@
-//! Reads the file of a case or of a web into its values. Each remembers where it was written.
+//! Reads the file of a case, or of a web with the case of its filament, into its values. Each remembers where it was written.
 //!
 //! A value has the full name of its key, `line.belt_speed`. In a list of tables the number of the entry stands in it,
 //! `layer.2.line.rows.1.pitch`, and the list itself, `layer.2.line.rows`, has its length as value.
@@ -67,12 +67,24 @@ fn other_file<T>(keys: &KeyTable<T>, name: &str) -> Option<Fault> {
         "vary" | "design" => ("a study", "read the file as a study", "`spunlaid sweep`"),
         _ if keys.tables.contains(&name) => return None,
         _ if WEB.tables.contains(&name) => ("the file of a web", "read it as a web", "`spunlaid web`"),
-        _ if CASE.tables.contains(&name) => {
-            ("a case", "a web names its case, as in [laydown] case = \"spunbond.toml\"", "`spunlaid run`")
-        }
         _ => return None,
     };
     Some(Fault::new(format!("belongs to {other}, not to {}", keys.noun), remedy).option(command))
+}
+
+/// Whether a file has tables of a web, which a case has not.
+pub(super) fn is_of_web(text: &str) -> bool {
+    let is_own = |name: &str| WEB.tables.contains(&name) && !CASE.tables.contains(&name);
+    // A study names its web.
+    let is_of_web = |root: &DeTable<'_>| {
+        root.iter().any(|(key, value)| is_own(key.get_ref()) && !value.get_ref().is_str())
+    };
+    DeTable::parse(text).is_ok_and(|root| is_of_web(root.get_ref()))
+}
+
+/// Whether the file of a web has a list of layers, whose numbers stand in the names of its keys.
+pub(super) fn has_layers(text: &str) -> bool {
+    DeTable::parse(text).is_ok_and(|root| root.get_ref().contains_key("layer"))
 }
 
 impl<'a, T> Document<'a, T> {
@@ -120,7 +132,7 @@ impl<'a, T> Document<'a, T> {
     /// Takes a table within another one, or at the top of the file.
     fn take_inner(&mut self, full: &str, table: &'static str, mut entry: Entry<'a>) {
         let header = if full == table { format!("[{table}]") } else { format!("[layer.{table}]") };
-        if self.layered && full == table && self.list_of(table).is_some() {
+        if self.layered && full == table && self.list_of(table).is_some() && !self.keys.is_common(table) {
             let remedy = format!("write [layer.{table}] below the [[layer]] that it belongs to");
             entry.shown = None;
             self.reject(&header, &entry, Fault::new("cannot stand beside [[layer]]", remedy));

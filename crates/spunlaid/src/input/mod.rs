@@ -36,15 +36,17 @@ pub use study::{
     read_guesses, read_study, starter_study,
 };
 pub use unread::{KeptTensions, Unflown, Unread};
-pub use web::{WebFile, parse_web, parse_web_and_cases, read_web, write_web};
+pub use web::{WebFile, parse_web, read_web, write_web};
 pub use write::write_case;
 
 use crate::case::{Case, Note, keys};
 use crate::error::{Error, Fault, FileError, FileKind};
 use crate::study::Experiment;
+use data::DataFiles;
 use lookup::Lookup;
 use open::OpenCase;
 use std::path::Path;
+use written_values::WrittenValues;
 
 /// What is read of a case file: the case, with notes and warnings about it.
 pub type CaseWithNotes = (Case, Vec<Note>);
@@ -82,7 +84,7 @@ impl<'a> From<&'a Vec<(String, String)>> for Overrides<'a> {
     }
 }
 
-/// Reads and checks a case file.
+/// Reads and checks a case file. Of the file of a web it is the case of its filament.
 ///
 /// * `overrides` – keys and values that replace values of the file or add to them: `&[]`, `&[(key, value)]` or
 ///   [`Overrides`]
@@ -146,7 +148,24 @@ fn open_case(
     name: &str,
     overrides: &[Overrides<'_>],
 ) -> Result<OpenCase, Error> {
-    let mut key_values = document::read(&keys::CASE, text, name, overrides)?;
+    open_values(values_of_case(lookup, text, name, overrides)?, &lookup.files)
+}
+
+/// What is written of a case: in a file of its own, or in that of a web as its filament.
+fn values_of_case(
+    lookup: &Lookup,
+    text: &str,
+    name: &str,
+    overrides: &[Overrides<'_>],
+) -> Result<WrittenValues, Error> {
+    match document::is_of_web(text) {
+        true => web::filament(text, name, overrides, lookup),
+        false => document::read(&keys::CASE, text, name, overrides),
+    }
+}
+
+/// A case of its values.
+fn open_values(mut key_values: WrittenValues, files: &DataFiles) -> Result<OpenCase, Error> {
     if spinline::is_spinline_alone(&key_values) {
         let fault = Fault::new(
             "stands alone in this file, so that no fibre flies",
@@ -155,7 +174,7 @@ fn open_case(
         key_values.reject("[spinline]", fault.option("`spunlaid spin`"));
         return Err(key_values.problems.into());
     }
-    open::open(key_values, &lookup.files)
+    open::open(key_values, files)
 }
 
 /// Writes what a point of a study repeats, a case or a web, as a file.

@@ -39,21 +39,28 @@ impl<'a, T> Document<'a, T> {
         self.leave_out_alternatives(&set);
     }
 
-    /// Leaves out the keys whose values are set in other words, unless they are set too.
+    /// Leaves out the keys whose values are set in other words, or for all layers at once, unless they are set too.
     ///
     /// * `set` – what comes before their names where these depend on a layer, and the names
     fn leave_out_alternatives(&mut self, set: &[(String, String)]) {
-        for (layer, _) in set {
+        let keys = self.keys;
+        let of_all_layers = |name: &str| keys.find(name).is_some_and(|key| key.relations.of_all_layers);
+        for (layer, path) in set {
             let here: Vec<&str> =
                 set.iter().filter(|(other, _)| other == layer).map(|(_, path)| &**path).collect();
-            for other in self.keys.replaced_by(&here) {
-                let of_all_layers = self.keys.find(other).is_some_and(|key| key.relations.of_all_layers);
+            let is_common = self.layered && layer.is_empty();
+            let mut replaced = [keys.replaced_by(&here), keys.replaced_between(&here)].concat();
+            if is_common {
+                replaced.extend(keys.find(path).map(|key| key.name));
+            }
+            for other in replaced {
+                let everywhere =
+                    is_common || of_all_layers(other) || here.iter().any(|name| of_all_layers(name));
+                let all = self.entries.iter().filter(|(_, (key, _))| everywhere && key.name == other);
+                let mut left_out: Vec<String> = all.map(|(full, _)| full.clone()).collect();
+                left_out.push(format!("{layer}{other}"));
                 let is_set =
                     |full: &str| set.iter().any(|(layer, path)| full.strip_prefix(&**layer) == Some(&**path));
-                let everywhere =
-                    self.entries.iter().filter(|(_, (key, _))| of_all_layers && key.name == other);
-                let mut left_out: Vec<String> = everywhere.map(|(full, _)| full.clone()).collect();
-                left_out.push(format!("{layer}{other}"));
                 left_out.iter().filter(|full| !is_set(full)).for_each(|full| self.remove(full));
             }
         }
@@ -76,7 +83,8 @@ impl<'a, T> Document<'a, T> {
                 }
                 rest = after;
             } else if let Some(inner) = self.keys.table_in(table, name) {
-                if self.layered && table.is_empty() && self.list_of(inner).is_some() {
+                let is_common = self.keys.is_common(inner);
+                if self.layered && table.is_empty() && self.list_of(inner).is_some() && !is_common {
                     let remedy = format!("write layer.1.{}, or the layer's name in place of 1", fit(key));
                     return Err(Fault::new("does not say of which layer", remedy));
                 }

@@ -6,7 +6,7 @@ use super::lookup::Lookup;
 use super::open::{OpenCase, open_part};
 use super::unread::{self, Unread};
 use super::written_values::{WrittenValues, sorted};
-use super::{FORMAT_VERSION, Overrides, document, file, open_case, write};
+use super::{FORMAT_VERSION, Overrides, file, open_case, values_of_case, write};
 use crate::air::Flow;
 use crate::case::keys::{self, Key};
 use crate::case::{Case, Note, Remark};
@@ -71,7 +71,7 @@ fn open_spinline_of(
     overrides: Overrides<'_>,
 ) -> Result<(OpenCase, Option<OpenCase>), Error> {
     let (lookup, overrides) = (Lookup::default(), [overrides]);
-    let key_values = document::read(&keys::CASE, text, name, &overrides)?;
+    let key_values = values_of_case(&lookup, text, name, &overrides)?;
     let open = open_spinline(key_values, &lookup.files)?;
     // Only a whole case has a fibre that can fly.
     let whole = open.waits_for_flights().then(|| open_case(&lookup, text, name, &overrides)).transpose()?;

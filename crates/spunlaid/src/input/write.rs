@@ -13,12 +13,17 @@ use std::path::Path;
 pub fn write_case(case: &Case) -> String {
     let mut text = format!("version = {FORMAT_VERSION}\n");
     for table in keys::TABLES {
-        let lines = lines(&keys::CASE, table, case, |key, value| tidy(case, key, value));
+        let lines = lines_of_case(case, table);
         if !lines.is_empty() {
             text += &format!("\n[{table}]\n{}", in_lines(&lines));
         }
     }
     text
+}
+
+/// The lines of a table of a case.
+pub(super) fn lines_of_case(case: &Case, table: &str) -> Vec<String> {
+    lines(&keys::CASE, table, case, |key, value| tidy(case, key, value))
 }
 
 /// A line for each key of a table that has a value, without those that the flow gives.

@@ -54,6 +54,19 @@ impl WrittenValues {
         self.values.insert(key.into(), written_value);
     }
 
+    /// The values whose full names begin like this, by the rest of their names, with what is excused of them. Problems stay here.
+    pub(super) fn part(&self, before: &str, is_wanted: impl Fn(&str) -> bool) -> Self {
+        let rest = |name: &str| name.strip_prefix(before).map(ToOwned::to_owned);
+        let mut part = Self::new(self.file.clone());
+        for (name, written_value) in self.all() {
+            if let Some(rest) = rest(name).filter(|rest| is_wanted(rest)) {
+                part.set(rest, written_value.clone());
+            }
+        }
+        part.excused = self.excused.iter().filter_map(|name| rest(name)).collect();
+        part
+    }
+
     /// Takes a value out, as if it had not been written.
     pub(super) fn remove(&mut self, key: &str) -> Option<WrittenValue> {
         self.values.remove(key)
@@ -75,6 +88,11 @@ impl WrittenValues {
     /// Suppresses messages about these missing keys. The name of a table ends in a dot.
     pub(super) fn excuse(&mut self, keys: impl Into<String>) {
         self.excused.push(keys.into());
+    }
+
+    /// Suppresses what is suppressed of other values.
+    pub(super) fn excuse_as(&mut self, other: &Self) {
+        self.excused.extend(other.excused.iter().cloned());
     }
 
     /// Whether messages about a key are suppressed.

@@ -7,6 +7,7 @@
 
 mod comparison;
 mod few;
+mod files;
 mod finished_run;
 mod flown_curtain;
 mod flyer;
@@ -173,6 +174,16 @@ impl LayerSpec {
         let filaments = Filaments::AtRandom { per_metre: nan };
         let (name, titre, throughput) = (None, None, None);
         Self { name, diameter, titre, density, source, feed_speed, throughput, belt_speed, filaments }
+    }
+
+    /// Takes the size and the speeds with which its fibres are flown, if they are.
+    pub(crate) fn take_flown(&mut self) {
+        let Some(case) = self.source.case() else { return };
+        let (fibre, line) = (case.fibre, case.line);
+        (self.diameter, self.density) = (fibre.diameter, fibre.density);
+        if let Some(line) = line {
+            (self.feed_speed, self.belt_speed) = (line.feed_speed, line.belt_speed);
+        }
     }
 
     /// Mass per length of a filament [kg/m].

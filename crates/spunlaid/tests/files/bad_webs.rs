@@ -13,10 +13,13 @@ fn rejects_every_bad_web_with_its_message() {
 }
 
 #[test]
-fn rejects_a_web_that_is_read_as_a_case() {
+fn rejects_a_web_without_a_filament_that_is_read_as_a_case() {
     let text = fs::read_to_string("../../cases/web_known.toml").unwrap();
     let said = parse_case(&text, "web_known.toml", &[]).unwrap_err().to_string();
-    assert!(said.contains("belongs to the file of a web, not to a case"), "{said}");
+    assert!(
+        said.contains("[laydown] flies no filament: how its fibres lie is known; to lay the web"),
+        "{said}"
+    );
 }
 
 #[test]

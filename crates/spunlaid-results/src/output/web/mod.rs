@@ -19,7 +19,7 @@ use super::copied_files::CASE_FILES;
 use super::origin::ORIGIN;
 use super::spinline::STATIONS;
 
-/// The contents of the folder. The last entry marks it as complete.
+/// The contents of the folder, with the cases of earlier versions. The last entry marks it as complete.
 pub const ENTRIES: &[&str] = &[
     ORIGIN,
     "web.toml",

@@ -1,6 +1,6 @@
 //! Tables of keys, joined into one list while the program is compiled.
 
-use super::Key;
+use super::{Key, Relations};
 
 /// Name of a table, and its keys in one or several parts.
 pub(crate) type Table<T> = (&'static str, &'static [&'static [Key<T>]]);
@@ -47,4 +47,50 @@ pub(crate) const fn keys<T, const COUNT: usize>(tables: &[Table<T>]) -> [Key<T>;
         i += 1;
     }
     all
+}
+
+/// What the keys of tables say of their values and of other keys, without access to an input: for a file that describes several
+/// inputs.
+pub(crate) const fn without_access<T, const COUNT: usize>(keys: &[Key<T>; COUNT]) -> [Key<()>; COUNT] {
+    let mut all = [described(&keys[0]); COUNT];
+    let mut i = 0;
+    while i < COUNT {
+        all[i] = described(&keys[i]);
+        i += 1;
+    }
+    all
+}
+
+const fn described<T>(key: &Key<T>) -> Key<()> {
+    let of = &key.relations;
+    let relations = Relations {
+        alternative_to: of.alternative_to,
+        remedy: of.remedy,
+        read_after: of.read_after,
+        gives: of.gives,
+        takes_unit: of.takes_unit,
+        in_study: of.in_study,
+        same_in_case: of.same_in_case,
+        gives_case: of.gives_case,
+        of_all_layers: of.of_all_layers,
+        ..Relations::NONE
+    };
+    Key {
+        name: key.name,
+        kind: key.kind,
+        omission: key.omission,
+        meaning: key.meaning,
+        synonyms: key.synonyms,
+        label: key.label,
+        varies: key.varies,
+        in_flight: key.in_flight,
+        slider: key.slider,
+        usual: key.usual,
+        read_last: key.read_last,
+        words: key.words,
+        relations,
+        get: |()| None,
+        set: |(), _| Ok(()),
+        derived: |()| false,
+    }
 }

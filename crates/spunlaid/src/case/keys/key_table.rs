@@ -27,6 +27,8 @@ pub(crate) struct TableList {
     pub(crate) name: &'static str,
     /// The tables that stand in each of its entries.
     pub(crate) tables: &'static [&'static str],
+    /// Those of them that may also stand once, at the top of the file, and then hold for all entries.
+    pub(crate) common: &'static [&'static str],
     /// What an entry is, `a layer`.
     pub(crate) entry: &'static str,
     /// What to write, in words.
@@ -48,6 +50,21 @@ impl<T> KeyTable<T> {
             let Some(next) = others.into_iter().find(|other| !gives(other)) else { return replaced };
             replaced.push(next);
         }
+    }
+
+    /// The keys of flown cases whose values these keys give, and the keys that give a value of these in other words: all of them are
+    /// replaced where these are set.
+    pub(crate) fn replaced_between(&self, names: &[&str]) -> Vec<&'static str> {
+        let giving = || self.rows.iter().filter(|key| !key.relations.gives_case.is_empty());
+        let given = giving().filter(|key| names.contains(&key.name)).flat_map(|key| key.relations.gives_case);
+        let others = giving().filter(|key| key.relations.gives_case.iter().any(|name| names.contains(name)));
+        given.copied().chain(others.map(|key| key.name)).filter(|name| !names.contains(name)).collect()
+    }
+
+    /// Whether a table may stand at the top of the file beside the list in whose entries it stands.
+    pub(crate) fn is_common(&self, table: &str) -> bool {
+        let top = table.split('.').next().unwrap_or(table);
+        self.lists.iter().any(|list| list.common.contains(&top))
     }
 
     /// Whether written keys give the value of a key in other words.

@@ -1,11 +1,10 @@
 //! The case that a study varies.
 
-use super::super::Overrides;
-use super::super::document;
 use super::super::lookup::Lookup;
 use super::super::open::{self, OpenCase};
 use super::super::spinline::{self, SpinFile};
 use super::super::written_values::{WrittenValue, WrittenValues};
+use super::super::{Overrides, values_of_case};
 use super::fixed_keys::advice;
 use super::plan::Plan;
 use super::{Base, ExperimentWithNotes, VariedKey, level};
@@ -34,7 +33,7 @@ impl CaseBase {
         kind: FileKind,
         lookup: &Lookup,
     ) -> Result<Self, Error> {
-        let key_values = document::read(&keys::CASE, &text, name, set)?;
+        let key_values = values_of_case(lookup, &text, name, set)?;
         let open = match kind {
             FileKind::Spinline => spinline::open_spinline(key_values, &lookup.files)?,
             _ => open::open(key_values, &lookup.files)?,

@@ -1,8 +1,9 @@
 //! The web that a study varies, with the cases that it flies.
 
 use super::super::Overrides;
+use super::super::document;
 use super::super::lookup::Lookup;
-use super::super::web::{AllSides, Sides, WebFile, flies_none, is_of_case, parse_sides, replaces, write_web};
+use super::super::web::{WebFile, flies_none, is_of_case, parse_set, replaces, write_web};
 use super::fixed_keys::TAKE_A_NUMBER;
 use super::plan::Plan;
 use super::{Base, ExperimentWithNotes, VariedKey, level};
@@ -17,8 +18,8 @@ pub(super) struct WebBase {
     text: String,
     /// The path of its file.
     path: String,
-    /// What is the same at all points: of the study file, and asked for from outside.
-    set: Vec<Sides>,
+    /// What is the same at all points, each with the word for where it is set: of the study file, and asked for from outside.
+    set: Vec<(Vec<(String, String)>, String)>,
     /// Whether it flies a case.
     flies: bool,
     /// Whether its file has a list of layers.
@@ -35,8 +36,10 @@ impl WebBase {
         set: [Overrides<'_>; 2],
         lookup: &Lookup,
     ) -> Result<Self, Error> {
-        let AllSides { sides: set, flies, is_layered } = Sides::split(&text, &path, &set)?;
-        let WebFile { spec, .. } = parse_sides(&text, &path, &set, &[], lookup)?;
+        let WebFile { spec, .. } = parse_set(&text, &path, &set, lookup)?;
+        let flies = spec.layers.iter().any(|layer| matches!(layer.source, LaydownSource::Case { .. }));
+        let is_layered = document::has_layers(&text);
+        let set = set.map(|Overrides { values, word }| (values.to_vec(), word.to_owned())).to_vec();
         Ok(Self { text, path, set, flies, is_layered, spec })
     }
 
@@ -49,14 +52,17 @@ impl WebBase {
     ) -> Result<WebFile, Error> {
         let value = |(key, value): &(VariedKey, f64)| (key.name.clone(), key.exact(*value));
         let seed = seed.map(|seed| ("web.seed".to_owned(), seed.to_string()));
-        let point = Sides::new(values.iter().map(value).chain(seed), "point", self.flies);
-        parse_sides(&self.text, &self.path, &[&self.set[..], &[point]].concat(), &[], lookup)
+        let point: Vec<(String, String)> = values.iter().map(value).chain(seed).collect();
+        let set = self.set.iter().map(|(values, word)| Overrides { values, word });
+        let set: Vec<Overrides<'_>> = set.chain([Overrides { values: &point, word: "point" }]).collect();
+        parse_set(&self.text, &self.path, &set, lookup)
     }
 
     /// [`WebBase::file`] with values that take the place of what is set in other words.
     pub(super) fn changed(&self, values: &[(VariedKey, f64)], lookup: &Lookup) -> Result<WebFile, Error> {
         let point = |key: &str| values.iter().any(|(value, _)| replaces(&value.name, key.trim()));
-        let set = self.set.iter().map(|sides| sides.without(point)).collect();
+        let without = |set: &[(String, String)]| set.iter().filter(|(key, _)| !point(key)).cloned().collect();
+        let set = self.set.iter().map(|(values, word)| (without(values), word.clone())).collect();
         let (text, path) = (self.text.clone(), self.path.clone());
         Self { text, path, set, spec: self.spec.clone(), ..*self }.file(values, None, lookup)
     }
@@ -101,7 +107,7 @@ impl Base for WebBase {
     fn varied(&self, name: &str) -> Result<VariedKey, String> {
         if let Some(key) = keys::find(name).filter(|_| is_of_case(name, self.flies)) {
             return match (self.flies, key.varies) {
-                (false, _) => Err(flies_none()),
+                (false, _) => Err(format!("it {}", flies_none())),
                 (true, false) => {
                     Err("the flights of all points have the same; write it under [set]".to_owned())
                 }
@@ -153,9 +159,9 @@ impl Base for WebBase {
         Ok((Experiment::Web(spec), notes))
     }
 
-    fn keys_to_write(&self, set: Vec<(String, String)>) -> Vec<(String, String)> {
-        // What is set is in the web already, but for its case.
-        Sides::new(set, "", self.flies).of_case
+    fn keys_to_write(&self, _: Vec<(String, String)>) -> Vec<(String, String)> {
+        // What is set is in the web already.
+        Vec::new()
     }
 
     fn text(&self) -> String {

@@ -1,6 +1,7 @@
 //! Checks layers together: with each other, and with the sheet on which they lie.
 
-use super::read::{BELT_SPEED, Reading};
+use super::read::Reading;
+use super::speeds::BELT_SPEED;
 use crate::air::Lateral;
 use crate::case::{Note, Remark};
 use crate::error::{Fault, Place};

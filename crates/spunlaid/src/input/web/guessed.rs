@@ -34,7 +34,9 @@ impl Guess {
         let cases = || web.layers.iter().filter_map(|layer| layer.source.case());
         let flies = cases().next().is_some();
         let (keys, kind, varies, values) = match keys::find(name).filter(|_| is_of_case(name, flies)) {
-            Some(_) if !flies => return Err(Fault::new(format!("names {name}"), flies_none())),
+            Some(_) if !flies => {
+                return Err(Fault::new(format!("names {name}"), format!("it {}", flies_none())));
+            }
             Some(key) if cases().any(|case| key.is_derived(case)) => return Err(given_by_flow(name)),
             Some(key) => {
                 let values = cases().map(|case| key.get(case).and_then(|value| value.number())).collect();

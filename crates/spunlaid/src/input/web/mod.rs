@@ -1,26 +1,34 @@
 //! Files of webs: reads a file to what is to be laid, and writes it back.
+//!
+//! ```text
+//! file, and the case that it names → values of one document ┬ web/read.rs, speeds.rs: layers, sheet, belt
+//!                                                           └ filament.rs: the case of a filament ┬ a web: flown and laid
+//!                                                                                                 └ a case: `spunlaid run`, `spin`, `air`
+//! ```
 
 mod check;
+mod filament;
 mod guessed;
 mod laydown;
+mod of_case;
 mod read;
 mod sheet;
-mod sides;
 mod speeds;
 mod write;
 
 pub(super) use guessed::Guess;
-pub(super) use sides::{AllSides, Sides, flies_none, is_of_case, replaces};
+pub(super) use of_case::{flies_none, is_of_case, replaces};
 pub use write::write_web;
 
 use super::lookup::Lookup;
 use super::unread::{self, Unread};
+use super::written_values::WrittenValues;
 use super::{Overrides, document, file};
-use crate::case::Note;
-use crate::error::{Error, FileKind};
-use crate::layers::WebSpec;
-use crate::layers::keys::WEB;
-use std::path::{Path, PathBuf};
+use crate::case::{Note, keys};
+use crate::error::{Error, Fault, FileKind, Problem};
+use crate::layers::keys::WEB_FILE;
+use crate::layers::{WebSpec, web_key};
+use std::path::Path;
 
 /// The file of a web, read.
 #[derive(Clone, Debug)]
@@ -36,8 +44,8 @@ pub struct WebFile {
 /// Reads and checks the file of a web, and the cases that it names.
 ///
 /// * `overrides` – keys and values that replace values of the file or add to them, `("line.belt_speed", "6 m/s")`; of a
-///   file with `[[layer]]`, `layer.2.line.belt_speed` or the layer's name in place of its number. Keys of a case,
-///   `("belt.distance", "0.4 m")`, are those of all cases that the web flies; they also say what both have, as `fibre.density`
+///   file with `[[layer]]`, `layer.2.line.belt_speed` or the layer's name in place of its number. Keys of a filament without a layer,
+///   `("belt.distance", "0.4 m")`, are those of all layers
 ///
 /// # Errors
 /// If the file cannot be read, or if the web cannot be laid; then with every problem found. And what has to be flown first, if a case
@@ -47,7 +55,7 @@ pub fn read_web<'a>(path: &Path, overrides: impl Into<Overrides<'a>>) -> Result<
     parse_web(&text, &path.display().to_string(), overrides)
 }
 
-/// Reads and checks the text of the file of a web. Messages call the file `name`; cases are looked for in its folder.
+/// Reads and checks the text of the file of a web. Messages call the file `name`; files that it names are looked for in its folder.
 ///
 /// # Errors
 /// As [`read_web`].
@@ -56,36 +64,62 @@ pub fn parse_web<'a>(
     name: &str,
     overrides: impl Into<Overrides<'a>>,
 ) -> Result<WebFile, Unread<WebFile>> {
-    let all = Sides::split(text, name, &[overrides.into()]).map_err(Unread::Faulty)?;
-    let (text, name) = (text.to_owned(), name.to_owned());
-    unread::read(move |lookup| parse_sides(&text, &name, &all.sides, &[], lookup))
-}
-
-/// [`parse_web`] with the texts of the cases that it names, each with its path. They need not be files.
-///
-/// # Errors
-/// As [`read_web`].
-pub fn parse_web_and_cases(
-    text: &str,
-    name: &str,
-    cases: Vec<(PathBuf, String)>,
-) -> Result<WebFile, Unread<WebFile>> {
-    let (text, name) = (text.to_owned(), name.to_owned());
-    unread::read(move |lookup| parse_sides(&text, &name, &[], &cases, lookup))
+    let Overrides { values, word } = overrides.into();
+    let (text, name, values, word) = (text.to_owned(), name.to_owned(), values.to_vec(), word.to_owned());
+    unread::read(move |lookup| parse_set(&text, &name, &[Overrides { values: &values, word: &word }], lookup))
 }
 
 /// [`parse_web`] with what is set from several places, each of which replaces those before it.
-pub(super) fn parse_sides(
+pub(super) fn parse_set(
     text: &str,
     name: &str,
-    sides: &[Sides],
-    cases: &[(PathBuf, String)],
+    set: &[Overrides<'_>],
     lookup: &Lookup,
 ) -> Result<WebFile, Error> {
-    let of_web: Vec<Overrides<'_>> = sides.iter().map(Sides::web).collect();
-    let of_case: Vec<Overrides<'_>> = sides.iter().map(Sides::case).collect();
-    let key_values = document::read(&WEB, text, name, &of_web)?;
-    let (spec, notes) = read::spec(key_values, name, (&of_case, cases), lookup)?;
+    let (spec, notes) = read::open(values(text, name, set)?, name, set, lookup)?.spec()?;
     let text = write_web(&spec);
     Ok(WebFile { spec, notes, text })
+}
+
+/// What is written of the filament of a web, as the values of a case.
+///
+/// # Errors
+/// Every problem with the file before the filament is spun and flown; and if it has none, or several.
+pub(super) fn filament(
+    text: &str,
+    name: &str,
+    set: &[Overrides<'_>],
+    lookup: &Lookup,
+) -> Result<WrittenValues, Error> {
+    let values = values(text, name, set)?;
+    let place = values.whole();
+    read::open(values, name, set, lookup)?.filament()?.ok_or_else(|| {
+        let fault = Fault::new(
+            "flies no filament: how its fibres lie is known",
+            "to lay the web, read the file as that of a web",
+        );
+        let what = fault.option("`spunlaid web`");
+        vec![Problem { place, key: "[laydown]".to_owned(), value: None, what }].into()
+    })
+}
+
+/// The values of a file, by the keys of the web and of the case of its filament.
+fn values(text: &str, name: &str, set: &[Overrides<'_>]) -> Result<WrittenValues, Error> {
+    let values = document::read(&WEB_FILE, text, name, set)?;
+    let is_of_web = |full: &str| web_key(full).is_some_and(|key| keys::find(key.name).is_none());
+    let is_case_alone =
+        values.problems.is_empty() && !values.all().any(|(full, _)| full == "layer" || is_of_web(full));
+    let first = values.all().min_by(|a, b| a.1.place.cmp(&b.1.place));
+    match first.filter(|_| is_case_alone) {
+        Some((full, written_value)) => {
+            let (table, place) = (full.split('.').next().unwrap_or(full), written_value.place.clone());
+            let fault = Fault::new(
+                "belongs to a case, and the file says nothing of a web",
+                "add [line] and [web], or read it as a case",
+            );
+            let what = fault.option("`spunlaid run`");
+            Err(vec![Problem { place, key: format!("[{table}]"), value: None, what }].into())
+        }
+        None => Ok(values),
+    }
 }

@@ -3,86 +3,162 @@
 use super::super::Overrides;
 use super::super::lookup::Lookup;
 use super::super::written_values::{WrittenValue, WrittenValues, sorted};
-use crate::case::keys::{Key, Value};
+use super::filament::Filament;
+use super::laydown::Way;
+use super::speeds::THROUGHPUT;
+use crate::case::keys::Value;
 use crate::case::{Note, unusual};
 use crate::error::{Error, Fault, Finding};
 use crate::layers::full_names::{web_key, without_numbers};
 use crate::layers::keys::{NUMBERS, WEB, in_rows};
-use crate::layers::{LaydownSource, LayerSpec, Method, SAME, WebKey, WebSpec};
+use crate::layers::{LaydownSource, LayerSpec, Method, WebKey, WebSpec};
 use crate::web::{Filaments, Row};
-use std::path::{Path, PathBuf};
-
-/// The key of the only thing that all layers have in common.
-pub(super) const BELT_SPEED: &str = "line.belt_speed";
-/// The keys that stand in place of the speeds.
-pub(super) const BASIS_WEIGHT: &str = "line.basis_weight";
-pub(super) const THROUGHPUT: &str = "line.throughput";
-/// Relative difference up to which two numbers agree if one is rounded to three digits and the other follows from such numbers.
-pub(super) const ROUNDED: f64 = 5e-3;
+use std::path::PathBuf;
 
 /// A file while it is read.
 pub(super) struct Reading<'a> {
     pub(super) key_values: WrittenValues,
-    /// The folder of the file.
-    pub(super) folder: PathBuf,
-    /// Changes to the cases that are flown.
-    pub(super) of_case: &'a [Overrides<'a>],
-    /// Texts of cases that are no files.
-    pub(super) cases: &'a [(PathBuf, String)],
+    /// Its path.
+    pub(super) file: PathBuf,
+    /// What is set from outside, which the named cases take too.
+    pub(super) set: &'a [Overrides<'a>],
     /// Files and tensions of the cases.
     pub(super) lookup: &'a Lookup,
     notes: Vec<Note>,
+    /// What comes before the names of each layer's keys: `layer.2.`, or nothing in a file without `[[layer]]`.
+    pub(super) prefixes: Vec<String>,
     /// The full name of the key that gives the basis weight, of one of the layers; empty if there is none.
     pub(super) basis_weight_key: String,
 }
 
-/// The web that is written, and notes about its cases.
+/// A layer before its filament is spun and flown.
+pub(super) struct Layer {
+    pub(super) spec: LayerSpec,
+    way: Way,
+    /// Its filament, if it has to be flown.
+    pub(super) filament: Option<Filament>,
+    /// The throughput of its holes, if the filament comes from a die [kg/s].
+    pub(super) spun: Option<f64>,
+}
+
+/// The file of a web, read as far as it goes before its filaments are spun and flown.
+pub(super) struct OpenWeb<'a> {
+    reading: Reading<'a>,
+    web: WebSpec,
+    layers: Vec<Layer>,
+}
+
+/// Reads the layers, the sheet, and what is written of the filaments.
 ///
 /// # Errors
-/// Every problem with any key.
-pub(super) fn spec(
+/// A case that cannot be read for another reason than what is in it.
+pub(super) fn open<'a>(
     key_values: WrittenValues,
     name: &str,
-    (of_case, cases): (&[Overrides<'_>], &[(PathBuf, String)]),
-    lookup: &Lookup,
-) -> Result<(WebSpec, Vec<Note>), Error> {
-    let folder = Path::new(name).parent().unwrap_or(Path::new("")).to_owned();
+    set: &'a [Overrides<'a>],
+    lookup: &'a Lookup,
+) -> Result<OpenWeb<'a>, Error> {
     let (notes, basis_weight_key) = (Vec::new(), String::new());
-    let mut reading = Reading { key_values, folder, of_case, cases, lookup, notes, basis_weight_key };
-    let (mut web, prefixes) = (WebSpec::unknown(), reading.prefixes());
-    reading.leave_to_case(&prefixes);
+    let prefixes = prefixes(&key_values);
+    let mut reading = Reading {
+        key_values,
+        file: PathBuf::from(name),
+        set,
+        lookup,
+        notes,
+        prefixes: prefixes.clone(),
+        basis_weight_key,
+    };
+    let (mut web, mut layers) = (WebSpec::unknown(), Vec::new());
     for prefix in &prefixes {
-        let layer = reading.layer(prefix)?;
-        web.layers.push(layer);
+        layers.push(reading.layer(prefix)?);
     }
-    reading.fill(&mut web, "web", "web.");
-    if !reading.is_written("web.method") {
-        web.method = Method::default_for(&web.layers);
-    }
-    reading.check_names(&prefixes);
-    reading.complete_sheet(&mut web);
-    reading.check_method(&prefixes, &web);
-    reading.check_guessed(&web);
-    reading.settle_belt(&prefixes, &mut web);
-    for (number, prefix) in prefixes.iter().enumerate() {
-        reading.check_layer(prefix, &web.alone(number));
-    }
-    let unusual = reading.unusual();
-    reading.note(unusual.clone());
-    let Reading { mut key_values, notes, .. } = reading;
-    if key_values.problems.is_empty() {
-        if let Some(problem) = web.air_beyond_memory() {
-            return Err(vec![key_values.placed(problem)].into());
-        }
-        return Ok((web, sorted(notes)));
-    }
-    // Unusual values may be why the web cannot be laid.
-    for note in unusual {
-        if !key_values.problems.iter().any(|problem| problem.key == note.key) {
-            key_values.problems.push(note.into());
+    reading.fill(&mut web, "web", "web.", false);
+    reading.lay_weight(&mut web, &mut layers);
+    Ok(OpenWeb { reading, web, layers })
+}
+
+/// What comes before the names of each layer's keys.
+fn prefixes(key_values: &WrittenValues) -> Vec<String> {
+    match key_values.get("layer") {
+        None => vec![String::new()],
+        Some(_) => {
+            let layers = key_values.number("layer").unwrap_or(0.0) as usize;
+            (1..=layers).map(|number| format!("layer.{number}.")).collect()
         }
     }
-    Err(sorted(key_values.problems).into())
+}
+
+impl OpenWeb<'_> {
+    /// The web, and notes about its cases.
+    ///
+    /// # Errors
+    /// Every problem with any key.
+    pub(super) fn spec(self) -> Result<(WebSpec, Vec<Note>), Error> {
+        let Self { mut reading, mut web, layers } = self;
+        let prefixes = reading.prefixes.clone();
+        let ways: Vec<Way> = layers.iter().map(|layer| layer.way).collect();
+        for (Layer { spec: mut layer, filament, .. }, prefix) in layers.into_iter().zip(&prefixes) {
+            if let Some(filament) = filament {
+                match reading.fly(prefix, filament)? {
+                    Some(source) => layer.source = source,
+                    None => reading.excuse_numbers_of_case(prefix),
+                }
+            }
+            layer.take_flown();
+            web.layers.push(layer);
+        }
+        if !reading.is_written("web.method") {
+            web.method = Method::default_for(&web.layers);
+        }
+        reading.check_names(&prefixes);
+        reading.complete_sheet(&mut web);
+        reading.check_method(&prefixes, &web);
+        reading.check_guessed(&web);
+        reading.settle_belt(&mut web, &ways);
+        for (number, prefix) in prefixes.iter().enumerate() {
+            reading.check_layer(prefix, &web.alone(number));
+        }
+        let unusual = reading.unusual();
+        reading.note(unusual.clone());
+        let Reading { mut key_values, notes, .. } = reading;
+        if key_values.problems.is_empty() {
+            if let Some(problem) = web.air_beyond_memory() {
+                return Err(vec![key_values.placed(problem)].into());
+            }
+            return Ok((web, sorted(notes)));
+        }
+        // Unusual values may be why the web cannot be laid.
+        for note in unusual {
+            if !key_values.problems.iter().any(|problem| problem.key == note.key) {
+                key_values.problems.push(note.into());
+            }
+        }
+        Err(sorted(key_values.problems).into())
+    }
+
+    /// What is written of its filament; none if it flies none.
+    ///
+    /// # Errors
+    /// Every problem with the file, and if several layers have different filaments.
+    pub(super) fn filament(self) -> Result<Option<WrittenValues>, Error> {
+        let Self { mut reading, layers, .. } = self;
+        let filaments: Vec<Filament> = layers.into_iter().filter_map(|layer| layer.filament).collect();
+        if let Some(number) = filaments.iter().position(|filament| !filament.is_same(&filaments[0])) {
+            let fault = Fault::new(
+                format!(
+                    "have different filaments, and one is flown (the first and the {}. that fly)",
+                    number + 1
+                ),
+                "write the filament of one layer in a file of its own, without [[layer]], [line] and [web]",
+            );
+            reading.key_values.reject("layer", fault);
+        }
+        if !reading.key_values.problems.is_empty() {
+            return Err(sorted(reading.key_values.problems).into());
+        }
+        Ok(filaments.into_iter().next().map(|filament| filament.values))
+    }
 }
 
 /// Changes a layer through the keys, which are those of a web.
@@ -93,17 +169,6 @@ fn as_web(layer: &mut LayerSpec, change: impl FnOnce(&mut WebSpec)) {
 }
 
 impl Reading<'_> {
-    /// What comes before the names of each layer's keys: `layer.2.`, or nothing in a file without `[[layer]]`.
-    fn prefixes(&self) -> Vec<String> {
-        match self.key_values.get("layer") {
-            None => vec![String::new()],
-            Some(_) => {
-                let layers = self.key_values.number("layer").unwrap_or(0.0) as usize;
-                (1..=layers).map(|number| format!("layer.{number}.")).collect()
-            }
-        }
-    }
-
     /// Warnings about written values that are most likely slips.
     fn unusual(&self) -> Vec<Note> {
         let entry = |(full, written_value): (&str, &WrittenValue)| {
@@ -144,30 +209,55 @@ impl Reading<'_> {
 
     /// Whether a key is written, with a value that can be read or not.
     pub(super) fn is_written(&self, full: &str) -> bool {
-        self.key_values.get(full).is_some()
+        self.written(full).is_some()
     }
 
-    /// Sets the keys of a table: what is written, or else the default. What is missing is noted, unless a flown case gives it.
+    /// Whether a key is written, or missing only because of another problem.
+    pub(super) fn is_told(&self, full: &str) -> bool {
+        self.is_written(full) || self.key_values.is_excused(full)
+    }
+
+    /// What is written of a key: of that of a layer, or of one that all layers have in common.
+    fn written(&self, full: &str) -> Option<&WrittenValue> {
+        let common = || {
+            let (number, rest) = full.strip_prefix("layer.")?.split_once('.')?;
+            let is_common = WEB.find(rest).is_some_and(|key| WEB.is_common(key.table()));
+            let own =
+                || self.key_values.all().filter_map(|(name, _)| name.strip_prefix("layer.")?.split_once('.'));
+            let own: Vec<&str> = own().filter(|(of, _)| *of == number).map(|(_, name)| name).collect();
+            let is_replaced = WEB.replaced_by(&own).contains(&rest);
+            self.key_values.get(rest).filter(|_| is_common && !is_replaced)
+        };
+        self.key_values.get(full).or_else(common)
+    }
+
+    /// The full names of a key of a layer, or of one of all layers in each of them.
+    pub(super) fn places_of(&self, key: &WebKey, prefix: &str) -> Vec<String> {
+        match key.relations.of_all_layers {
+            true => self.prefixes.iter().map(|prefix| format!("{prefix}{}", key.name)).collect(),
+            false => vec![format!("{prefix}{}", key.name)],
+        }
+    }
+
+    /// Sets the keys of a table: what is written, or else the default. What is missing is noted.
     ///
     /// * `before` – what comes before the names of its keys, `layer.2.line.`
-    fn fill(&mut self, web: &mut WebSpec, table: &str, before: &str) {
-        for key in WEB.keys_of_table(table) {
+    /// * `by_case` – whether a case gives what it has too
+    fn fill(&mut self, web: &mut WebSpec, table: &str, before: &str, by_case: bool) {
+        for key in WEB.keys_of_table(table).filter(|key| !(by_case && key.key_of_case().is_some())) {
             let full = format!("{before}{}", key.short());
             let is_there = |name: &str| {
                 let (_, short) = name.rsplit_once('.').unwrap_or(("", name));
                 self.is_written(&format!("{before}{short}"))
             };
-            let is_given = || {
-                let is_common = key.relations.of_all_layers;
-                is_common || flown(web, key).is_some() || WEB.is_given(key.name, is_there)
-            };
-            let written = self.key_values.get(&full).map(|written_value| written_value.value.clone());
+            let is_given = || key.relations.of_all_layers || WEB.is_given(key.name, is_there);
+            let written = self.written(&full).map(|written_value| written_value.value.clone());
             let set = match (written, key.default_in(web)) {
                 (Some(None), _) => Ok(()),
-                // They are settled when all else is known.
-                (Some(Some(_)), _) if key.read_last => Ok(()),
                 (Some(Some(value)), _) => match key.beside_alternative(is_there) {
                     Some(fault) => Err(fault),
+                    // They are settled when all else is known.
+                    None if key.read_last => Ok(()),
                     None => key.apply(web, &value),
                 },
                 (None, Some(text)) => key.set(web, text).map_err(|problem| problem.what),
@@ -183,57 +273,61 @@ impl Reading<'_> {
     }
 
     /// A layer. Its values are NaN where there is a problem with them, which is noted.
-    fn layer(&mut self, prefix: &str) -> Result<LayerSpec, Error> {
-        let source = self.laydown(prefix)?;
-        let by_case =
-            ["case", "results"].iter().any(|way| self.is_written(&format!("{prefix}laydown.{way}")));
-        if source.is_none() && (by_case || self.key_values.is_excused(&format!("{prefix}laydown."))) {
-            // The case would give them.
-            for key in WEB.rows.iter().filter(|key| key.key_of_case().is_some()) {
-                self.key_values.excuse(format!("{prefix}{}", key.name));
+    fn layer(&mut self, prefix: &str) -> Result<Layer, Error> {
+        let (way, mut filament, mut source) = (self.way(prefix), None, None);
+        match way {
+            Way::Fly => filament = self.filament(prefix)?,
+            Way::Results => {
+                source = self.results(prefix)?;
+                self.refuse_flown(prefix, source.as_ref());
             }
+            Way::Numbers | Way::Unknown => {}
         }
-        let numbers = matches!(source, Some(LaydownSource::Surrogate(_)));
-        let mut layer = LayerSpec::unknown(source.unwrap_or(LaydownSource::UNKNOWN));
-        as_web(&mut layer, |web| {
-            self.fill(web, "layer", prefix);
-            for table in ["fibre", "laydown", "line"].iter().filter(|table| **table != "laydown" || numbers) {
-                self.fill(web, table, &format!("{prefix}{table}."));
+        let by_case = matches!(way, Way::Fly | Way::Results);
+        if by_case && filament.is_none() && source.is_none()
+            || way == Way::Unknown && self.key_values.is_excused(&format!("{prefix}laydown."))
+        {
+            self.excuse_numbers_of_case(prefix);
+        }
+        let mut spec = LayerSpec::unknown(source.unwrap_or(LaydownSource::UNKNOWN));
+        as_web(&mut spec, |web| {
+            self.fill(web, "layer", prefix, by_case);
+            for table in ["fibre", "laydown", "line"]
+                .iter()
+                .filter(|table| **table != "laydown" || way == Way::Numbers)
+            {
+                self.fill(web, table, &format!("{prefix}{table}."), by_case);
             }
-            self.take_flown(web, prefix);
-            self.settle_throughput(web, prefix);
         });
         let rows = self.rows(&format!("{prefix}line."));
         if !rows.is_empty() {
-            layer.filaments = Filaments::Rows(rows);
+            spec.filaments = Filaments::Rows(rows);
         }
-        Ok(layer)
+        spec.throughput = self.key_values.number(&format!("{prefix}{THROUGHPUT}"));
+        if let (Way::Numbers, Some(throughput)) = (way, spec.throughput) {
+            spec.feed_speed = throughput / spec.linear_density();
+        }
+        let mut layer = Layer { spec, way, filament: None, spun: None };
+        filament.iter().for_each(|filament: &Filament| filament.tell_flow(&mut layer));
+        Ok(Layer { filament, ..layer })
     }
 
-    /// Takes the values with which the fibres of a layer are flown, and refuses others.
-    fn take_flown(&mut self, web: &mut WebSpec, prefix: &str) {
-        for key in WEB.rows {
-            let Some((of_case, value)) = flown(web, key) else { continue };
-            let numbers = (key.get(web).and_then(|here| here.number()), value.number());
-            // A titre is rounded more often than the diameter for which it stands.
-            let apart = if key.relations.alternative_to.is_empty() { SAME } else { ROUNDED };
-            if let (Some(here), Some(there)) = numbers
-                && (here / there - 1.0).abs() > apart
-            {
-                let path = web.layers.first().map_or(Path::new(""), |layer| layer.source.path()).display();
-                let message = format!(
-                    "differs from {} = {} of {path}, with which the fibres are flown, and they would lie otherwise",
-                    of_case.name,
-                    of_case.kind.pretty(&value)
-                );
-                let remedy = "leave it out here, and set it in the case";
-                self.key_values.reject(&format!("{prefix}{}", key.name), Fault::new(message, remedy));
-            }
+    /// Excuses that the numbers are missing which a case would give.
+    fn excuse_numbers_of_case(&mut self, prefix: &str) {
+        for key in WEB.rows.iter().filter(|key| key.key_of_case().is_some()) {
+            self.key_values.excuse(format!("{prefix}{}", key.name));
         }
-        for key in WEB.rows.iter().filter(|key| key.relations.alternative_to.is_empty()) {
-            if let Some((_, value)) = flown(web, key) {
-                // The kinds of both keys are the same.
-                drop(key.apply(web, &value));
+    }
+
+    /// Refuses numbers of fibres that have been flown already: they are those of their case.
+    fn refuse_flown(&mut self, prefix: &str, source: Option<&LaydownSource>) {
+        let Some(LaydownSource::Results { folder, .. }) = source else { return };
+        let is_of_case = |key: &&WebKey| key.key_of_case().is_some() || key.name == THROUGHPUT;
+        for key in WEB.rows.iter().filter(is_of_case) {
+            let full = format!("{prefix}{}", key.name);
+            if self.key_values.get(&full).is_some() {
+                let message = format!("is that of {}, with which the fibres were flown", folder.display());
+                self.key_values.reject(&full, Fault::new(message, "leave it out"));
             }
         }
     }
@@ -262,7 +356,7 @@ impl Reading<'_> {
             };
             as_web(&mut layer, |web| {
                 web.sheet.width = self.key_values.number("web.width").unwrap_or(f64::NAN);
-                self.fill(web, "line.rows", &format!("{rows}.{number}."));
+                self.fill(web, "line.rows", &format!("{rows}.{number}."), false);
             });
             match layer.filaments {
                 Filaments::Rows(rows) => rows.first().copied(),
@@ -297,10 +391,4 @@ impl Reading<'_> {
             Method::Surrogate => {}
         }
     }
-}
-
-/// What the case of a layer's flown fibres gives for a key of the web: the key of the case, and its value.
-fn flown(web: &WebSpec, key: &WebKey) -> Option<(&'static Key, Value)> {
-    let (of_case, case) = (key.key_of_case()?, web.layers.first()?.source.case()?);
-    Some((of_case, of_case.value_in(case)?))
 }

@@ -1,39 +1,92 @@
 //! Writes a web as a file that reads back to the same bits.
 
 use super::super::FORMAT_VERSION;
-use super::super::write::{in_lines, lines};
-use crate::layers::WebSpec;
+use super::super::write::{in_lines, lines, lines_of_case};
+use crate::case::keys;
 use crate::layers::keys::WEB;
+use crate::layers::{LaydownSource, LayerSpec, WebSpec};
 use crate::web::Filaments;
 
-/// Writes a web as TOML: every key, in SI units. Reading the text gives the same web to the last bit.
+/// Writes a web as TOML, with the cases that it flies: every key, in SI units. Reading the text gives the same web to the last bit.
 pub fn write_web(spec: &WebSpec) -> String {
     let mut text = format!("version = {FORMAT_VERSION}\n");
-    let lines_of_table = |spec: &WebSpec, table: &str| lines(&WEB, table, spec, |_, value| value);
     let layered = spec.layers.len() > 1 || spec.layers.iter().any(|layer| layer.name.is_some());
+    let filaments: Vec<Option<Tables>> =
+        (0..spec.layers.len()).map(|number| filament(spec, number)).collect();
+    let mut flown = filaments.iter().flatten();
+    let first = flown.next().filter(|_| layered);
+    let (common, _): (Tables, Tables) = first
+        .cloned()
+        .unwrap_or_default()
+        .into_iter()
+        .partition(|table| flown.clone().all(|other| other.contains(table)));
+    text += &written(&common, "");
     for (number, layer) in spec.layers.iter().enumerate() {
+        let before = if layered { "layer." } else { "" };
         let alone = spec.alone(number);
         if layered {
-            text += &format!("\n[[layer]]\n{}", in_lines(&lines_of_table(&alone, "layer")));
+            text += &format!("\n[[layer]]\n{}", in_lines(&lines_of_web(&alone, "layer")));
         }
-        // All layers lie on one belt, whose speed is that of a flown case or is written once.
-        let no_belt = number > 0 || spec.layers.iter().any(|layer| layer.source.case().is_some());
-        for table in ["fibre", "laydown", "line"] {
-            let header = if layered { format!("layer.{table}") } else { table.to_owned() };
-            let mut lines = lines_of_table(&alone, table);
-            lines.retain(|line| !(no_belt && line.starts_with("belt_speed = ")));
-            lines.retain(|line| !(number > 0 && line.starts_with("basis_weight = ")));
-            text += &format!("\n[{header}]\n{}", in_lines(&lines));
-        }
+        let mut tables =
+            filaments[number].clone().unwrap_or_else(|| vec![("fibre", lines_of_web(&alone, "fibre"))]);
+        tables.retain(|table| !common.contains(table));
+        tables.push(("laydown", lines_of_web(&alone, "laydown")));
+        tables.push(("line", line(spec, number)));
+        text += &written(&tables, before);
         if let Filaments::Rows(rows) = &layer.filaments {
             let row = |row| {
                 let mut with_row = alone.clone();
                 with_row.layers.iter_mut().for_each(|layer| layer.filaments = Filaments::Rows(vec![row]));
-                format!("{{ {} }}", lines_of_table(&with_row, "line.rows").join(", "))
+                format!("{{ {} }}", lines_of_web(&with_row, "line.rows").join(", "))
             };
             let rows: Vec<String> = rows.iter().copied().map(row).collect();
             text += &format!("rows = [\n  {},\n]\n", rows.join(",\n  "));
         }
     }
-    text + "\n[web]\n" + &in_lines(&lines_of_table(spec, "web"))
+    text + "\n[web]\n" + &in_lines(&lines_of_web(spec, "web"))
+}
+
+/// Tables with their lines.
+type Tables = Vec<(&'static str, Vec<String>)>;
+
+fn lines_of_web(spec: &WebSpec, table: &str) -> Vec<String> {
+    lines(&WEB, table, spec, |_, value| value)
+}
+
+/// Tables as text, without those that are empty; `[line]` is always there, because rows may follow.
+fn written(tables: &Tables, before: &str) -> String {
+    let is_there = |(table, lines): &&(&str, Vec<String>)| *table == "line" || !lines.is_empty();
+    tables
+        .iter()
+        .filter(is_there)
+        .map(|(table, lines)| format!("\n[{before}{table}]\n{}", in_lines(lines)))
+        .collect()
+}
+
+/// The lines of `[line]` of a layer. All layers lie on one belt, whose speed is that of a flown case or is written once.
+fn line(spec: &WebSpec, number: usize) -> Vec<String> {
+    let mut lines = lines_of_web(&spec.alone(number), "line");
+    let no_belt = number > 0 || spec.layers.iter().any(|layer| layer.source.case().is_some());
+    lines.retain(|line| !(no_belt && line.starts_with("belt_speed = ")));
+    lines.retain(|line| !(number > 0 && line.starts_with("basis_weight = ")));
+    lines
+}
+
+/// The tables of the case that a layer flies, without what keys of the web give.
+fn filament(spec: &WebSpec, number: usize) -> Option<Tables> {
+    let LayerSpec { source: LaydownSource::Case { case, .. }, .. } = spec.layers.get(number)? else {
+        return None;
+    };
+    let alone = spec.alone(number);
+    let giving = WEB.rows.iter().filter(|key| !key.is_derived(&alone) && key.get(&alone).is_some());
+    let given: Vec<&str> = giving.flat_map(|key| key.relations.gives_case).copied().collect();
+    let lines = |table: &'static str| {
+        let mut lines = lines_of_case(case, table);
+        lines.retain(|line| {
+            let short = line.split(" = ").next().unwrap_or(line);
+            !given.contains(&&*format!("{table}.{short}"))
+        });
+        (table, lines)
+    };
+    Some(keys::TABLES.into_iter().map(lines).collect())
 }

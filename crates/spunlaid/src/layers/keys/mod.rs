@@ -12,7 +12,7 @@ mod table;
 
 pub use access::WebKey;
 pub(crate) use access::in_rows;
-pub(crate) use table::{METHODS, NUMBERS, ONE_SOURCE};
+pub(crate) use table::{EITHER, METHODS, NUMBERS, ONE_SOURCE};
 pub use table::{WEB_KEYS, WEB_TABLES};
 
 use super::WebSpec;
@@ -26,18 +26,58 @@ pub static WEB: KeyTable<WebSpec> = KeyTable {
         TableList {
             name: "layer",
             tables: &["fibre", "laydown", "line"],
+            common: &["fibre"],
             entry: "a layer",
-            wanted: "a list of tables: [[layer]], and below it [layer.fibre], [layer.laydown] and [layer.line]",
+            wanted: WANTED_LAYERS,
         },
-        TableList {
-            name: "line.rows",
-            tables: &[],
-            entry: "a row of nozzles",
-            wanted: "a list of rows, like [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }]",
-        },
+        ROWS,
     ],
     noun: "a web",
     file: "a web file",
+};
+
+/// The keys of the file of a web: those of the web, and those of the case of its filament. They say how a file is read, and have no
+/// access to either.
+pub(crate) static WEB_FILE: KeyTable<()> = KeyTable {
+    rows: &table::OF_FILE,
+    tables: &table::TABLES_OF_FILE,
+    lists: &[
+        TableList {
+            name: "layer",
+            tables: &[
+                "spinline",
+                "fibre",
+                "feed",
+                "belt",
+                "air",
+                "drag",
+                "neighbours",
+                "run",
+                "laydown",
+                "line",
+            ],
+            common: OF_FILAMENT,
+            entry: "a layer",
+            wanted: WANTED_LAYERS,
+        },
+        ROWS,
+    ],
+    noun: "a web",
+    file: "a web file",
+};
+
+/// The tables of a filament, which all layers may have in common.
+pub(crate) const OF_FILAMENT: &[&str] =
+    &["spinline", "fibre", "feed", "belt", "air", "drag", "neighbours", "run"];
+
+const WANTED_LAYERS: &str =
+    "a list of tables: [[layer]], and below it [layer.fibre], [layer.laydown] and [layer.line]";
+const ROWS: TableList = TableList {
+    name: "line.rows",
+    tables: &[],
+    common: &[],
+    entry: "a row of nozzles",
+    wanted: "a list of rows, like [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }]",
 };
 
 impl WebKey {
@@ -61,11 +101,14 @@ impl WebKey {
 
 #[cfg(test)]
 mod tests {
-    use super::WEB;
+    use super::{OF_FILAMENT, WEB, WEB_FILE};
 
     #[test]
     fn relations_name_keys_that_are_there_and_values_that_they_take() {
         WEB.check_relations();
+        WEB_FILE.check_relations();
+        let top = crate::case::keys::TABLES.into_iter().filter(|table| !table.contains('.'));
+        assert!(top.eq(OF_FILAMENT.iter().copied()), "each table of a case is one of a filament");
         assert_eq!(WEB.replaced_by(&["line.rows"]), ["line.filaments_per_metre"]);
         assert_eq!(WEB.replaced_by(&["laydown.results"]), ["laydown.case"]);
     }

@@ -1,6 +1,6 @@
 //! The keys of the table `[laydown]`.
 
-use super::super::access::{WebKey, flown, layer, layer_mut, of_path, of_surrogate, written};
+use super::super::access::{Access, WebKey, flown, layer, layer_mut, of_path, of_surrogate, written};
 use super::positive;
 use crate::case::keys::row::{key, number, read_with_case};
 use crate::case::keys::{Condition, Kind};
@@ -20,16 +20,18 @@ const IDENTIFIED: &str = "identified in what the fibres of the case have laid";
 
 /// Why a layer names one source of its fibres.
 pub(crate) const ONE_SOURCE: &str =
-    "keep one of a case, results, and the numbers sigma_md, sigma_cd and noise";
+    "keep one of a filament to fly, results, and the numbers sigma_md, sigma_cd and noise";
 
 /// In the order of the file.
 pub(super) const KEYS: &[WebKey] = &[
     key("laydown.case", Kind::Text("spunbond.toml"))
-        .access(of_path!(Case, path))
-        .follows("`results`, or the three numbers")
+        // What stands there is written into the file of the web.
+        .access(Access { get: |_| None, set: |_, _| Err(read_with_case()) })
+        .follows("the tables of a case in this file, `results`, or the three numbers")
         .meaning(
-            "Path of the case of a fed fibre, relative to this file. It is flown, and the web is laid of \
-             what it lays.",
+            "Path of the case of a fed fibre, relative to this file, which several webs may share. It is \
+             flown, and the web is laid of what it lays. Keys of it that stand in this file too, as \
+             `air.velocity`, take the place of those there.",
         ),
     key("laydown.results", Kind::Text("results/spunbond"))
         .access(of_path!(Results, folder))

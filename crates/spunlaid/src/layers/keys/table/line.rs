@@ -22,6 +22,7 @@ pub(super) const KEYS: &[WebKey] = &[
         })
         .derived(is_flown)
         .same_in_case("feed.speed")
+        .gives_case(&["feed.speed"])
         .required("50 m/s")
         .meaning(
             "Speed at which each filament is fed: the spinning speed. With `laydown.case` or \
@@ -64,6 +65,7 @@ pub(super) const KEYS: &[WebKey] = &[
         })
         .derived(is_flown)
         .same_in_case("belt.speed")
+        .gives_case(&["belt.speed"])
         .of_all_layers()
         .required("3 m/s")
         .meaning(

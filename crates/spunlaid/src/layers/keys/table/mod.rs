@@ -11,16 +11,16 @@ pub(crate) use laydown::{NUMBERS, ONE_SOURCE};
 pub(crate) use web::METHODS;
 
 use super::access::WebKey;
-use crate::case::keys::Sign;
 use crate::case::keys::joined::{self, Table};
 use crate::case::keys::row::{NewKey, quantity};
+use crate::case::keys::{self as case_keys, Key, Sign};
 use crate::layers::WebSpec;
 use crate::units::Dimension;
 
 /// Most filaments of a row, and per metre.
 pub(super) const MOST_FILAMENTS: u64 = 10_000_000;
 /// Why two numbers cannot both be written.
-pub(super) const EITHER: &str = "either gives the other; write one of the two";
+pub(crate) const EITHER: &str = "either gives the other; write one of the two";
 
 /// A length, speed or other quantity above zero, which a study may vary.
 pub(super) const fn positive(name: &'static str, dimension: Dimension) -> NewKey {
@@ -43,3 +43,40 @@ pub const WEB_TABLES: [&str; TABLES.len()] = joined::names(&TABLES);
 pub const WEB_KEYS: &[WebKey] = &KEYS;
 
 const KEYS: [WebKey; joined::count(&TABLES)] = joined::keys(&TABLES);
+
+/// Every key of the file of a web and of the filament that it flies. A key that both have stands here once, as that of the filament.
+pub(super) static OF_FILE: [Key<()>; case_keys::DESCRIBED.len() + OWN] = {
+    let (web, mut all) = (joined::without_access(&KEYS), [case_keys::DESCRIBED[0]; _]);
+    let (mut count, mut i) = (0, 0);
+    while i < case_keys::DESCRIBED.len() {
+        all[count] = case_keys::DESCRIBED[i];
+        (count, i) = (count + 1, i + 1);
+    }
+    i = 0;
+    while i < web.len() {
+        // Those of `[fibre]` are the first of a layer after its name.
+        if i < layer::KEYS.len() || i >= layer::KEYS.len() + fibre::KEYS.len() {
+            all[count] = web[i];
+            count += 1;
+        }
+        i += 1;
+    }
+    all
+};
+const OWN: usize = KEYS.len() - fibre::KEYS.len();
+
+/// The tables and the list of layers of such a file.
+pub(super) static TABLES_OF_FILE: [&str; case_keys::TABLES.len() + TABLES.len() - 1] = {
+    let (mut all, mut i) = ([""; case_keys::TABLES.len() + TABLES.len() - 1], 0);
+    while i < case_keys::TABLES.len() {
+        all[i] = case_keys::TABLES[i];
+        i += 1;
+    }
+    let own = ["layer", "laydown", "line", "web"];
+    let mut j = 0;
+    while j < own.len() {
+        all[i + j] = own[j];
+        j += 1;
+    }
+    all
+};

@@ -1,0 +1,326 @@
+//! The filament of a layer that is to be flown: the values of its case. They stand in the file of the web, in that of a case which
+//! the layer names, or in both; what the file of the web says takes the place of what the other one says.
+
+use super::super::open::OpenCase;
+use super::super::written_values::{WrittenValue, WrittenValues};
+use super::super::{Overrides, document, file, open_values};
+use super::laydown::CASE;
+use super::read::{Layer, Reading};
+use super::speeds::THROUGHPUT;
+use crate::case::keys::{self, CASE as OF_CASE, Value};
+use crate::case::{Case, Note, Remark};
+use crate::error::{Error, Fault, FileKind, Place, Problem};
+use crate::layers::keys::{EITHER, WEB};
+use crate::layers::{LaydownSource, WebKey};
+use crate::units::Dimension;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Relative difference up to which two numbers agree if one is rounded to three digits and the other follows from such numbers.
+const ROUNDED: f64 = 5e-3;
+
+/// The filament of a layer, as it is written.
+pub(super) struct Filament {
+    /// The values of its case.
+    pub(super) values: WrittenValues,
+    /// The file that describes it, for messages.
+    path: PathBuf,
+    /// Numbers of that file in whose place the file of the web has others.
+    replaced: Vec<Replaced>,
+}
+
+/// A number of a case in whose place a web has another one.
+struct Replaced {
+    /// The key of the web in its place, by its full name.
+    by: String,
+    /// The key of the case.
+    name: String,
+    number: f64,
+}
+
+impl Filament {
+    /// Puts values in the place of those that there are, also of those that they give in other words.
+    fn put(&mut self, upper: &WrittenValues, prefix: &str) {
+        let names: Vec<&str> = upper.all().map(|(name, _)| name).collect();
+        for other in OF_CASE.replaced_by(&names) {
+            let by = names.iter().find(|name| OF_CASE.are_alternatives(name, other));
+            self.take_out(other, &format!("{prefix}{}", by.unwrap_or(&other)));
+        }
+        for (name, written_value) in upper.all() {
+            self.take_out(name, &format!("{prefix}{name}"));
+            self.values.set(name.to_owned(), written_value.clone());
+        }
+        self.values.excuse_as(upper);
+    }
+
+    /// Takes a value out, because another key gives it.
+    fn take_out(&mut self, name: &str, by: &str) {
+        let number = self.values.remove(name).and_then(|written_value| written_value.value?.number());
+        let replaced = |number| Replaced { by: by.to_owned(), name: name.to_owned(), number };
+        self.replaced.extend(number.map(replaced));
+    }
+
+    /// Sets a number that follows from a key of the web.
+    fn derive(&mut self, name: &'static str, dimension: Dimension, number: f64, from: (&str, &WrittenValue)) {
+        let shown = Some(format!("{} (from {})", dimension.pretty(number), from.0));
+        let value = Some(Value::Number(number));
+        self.values.set(name, WrittenValue { place: from.1.place.clone(), shown, value });
+    }
+
+    /// A case of which nothing but the size of the filament is known.
+    fn sized(&self) -> Case {
+        let mut case = Case::unset();
+        // The titre gives the diameter with the density.
+        for name in ["fibre.density", "fibre.diameter", "fibre.linear_density"] {
+            let value = self.values.get(name).and_then(|written_value| written_value.value.as_ref());
+            if let (Some(key), Some(value)) = (keys::find(name), value) {
+                // A value that has no meaning is reported with the case.
+                drop(key.apply(&mut case, value));
+            }
+        }
+        case
+    }
+
+    /// Whether it comes from a die.
+    fn is_spun(&self) -> bool {
+        self.values.has_table("spinline")
+    }
+
+    /// Tells a layer how much comes from each of its holes, as far as it is known before the filament is spun.
+    pub(super) fn tell_flow(&self, layer: &mut Layer) {
+        let fibre = self.sized().fibre;
+        let spec = &mut layer.spec;
+        (spec.diameter, spec.density) = (fibre.diameter, fibre.density);
+        spec.feed_speed = self.values.number("feed.speed").unwrap_or(f64::NAN);
+        layer.spun = self.is_spun().then(|| self.values.number("spinline.throughput").unwrap_or(f64::NAN));
+    }
+
+    /// Sets the speed of the belt on which the web has the basis weight that is written.
+    pub(super) fn lay_on(&mut self, belt: f64, from: (&str, &WrittenValue)) {
+        self.derive("belt.speed", Dimension::Velocity, belt, from);
+    }
+
+    /// Whether another filament has the same values.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        let values = |filament: &Self| -> Vec<(String, Option<Value>)> {
+            filament.values.all().map(|(name, written)| (name.to_owned(), written.value.clone())).collect()
+        };
+        values(self) == values(other)
+    }
+}
+
+impl Reading<'_> {
+    /// The filament of a layer; none if the file that it names cannot be read, which is noted.
+    ///
+    /// # Errors
+    /// If that file cannot be read for another reason than what is in it.
+    pub(super) fn filament(&mut self, prefix: &str) -> Result<Option<Filament>, Error> {
+        let named = format!("{prefix}{CASE}");
+        let (values, path) = if self.is_written(&named) {
+            let Some(path) = self.path(&named) else { return Ok(None) };
+            match self.named_case(prefix, &path) {
+                Ok(values) => (values, path),
+                Err(Error::File(error)) => {
+                    self.key_values.reject(&named, error.into());
+                    return Ok(None);
+                }
+                Err(Error::Rejected(problems)) => {
+                    self.key_values.problems.extend(problems);
+                    return Ok(None);
+                }
+                Err(other) => return Err(other),
+            }
+        } else {
+            (WrittenValues::new(self.key_values.whole()), self.file.clone())
+        };
+        let mut filament = Filament { values, path, replaced: Vec::new() };
+        let is_of_case = |name: &str| keys::find(name).is_some();
+        // What all layers have in common stands above them.
+        let levels = if prefix.is_empty() { vec![""] } else { vec!["", prefix] };
+        for level in levels {
+            let part = self.key_values.part(level, is_of_case);
+            filament.put(&part, level);
+        }
+        for key in WEB.rows.iter().filter(|key| !key.relations.gives_case.is_empty()) {
+            self.give(&mut filament, prefix, key);
+        }
+        Ok(Some(filament))
+    }
+
+    /// Takes what a key of the web gives of the case, which the same file must not say too.
+    fn give(&mut self, filament: &mut Filament, prefix: &str, key: &'static WebKey) {
+        let places = self.places_of(key, prefix);
+        let Some(full) = places.into_iter().find(|full| self.is_told(full)) else { return };
+        let Some(written_value) = self.key_values.get(&full).cloned() else {
+            // It is missing because of another problem.
+            key.relations.gives_case.iter().for_each(|name| filament.values.excuse(*name));
+            return;
+        };
+        for of_case in key.relations.gives_case {
+            let here = [format!("{prefix}{of_case}"), (*of_case).to_owned()];
+            let here = if key.relations.of_all_layers { &here[..] } else { &here[..1] };
+            if here.iter().any(|name| self.is_written(name)) {
+                self.key_values.reject(&full, Fault::excludes(of_case, EITHER));
+                return;
+            }
+            filament.take_out(of_case, &full);
+        }
+        let same = key.key_of_case().map(|same| same.name);
+        let number = written_value.value.as_ref().and_then(Value::number);
+        match (same, number) {
+            (Some(same), _) => filament.values.set(same, written_value),
+            (None, Some(throughput)) if !key.relations.of_all_layers => {
+                if filament.is_spun() {
+                    filament.values.set("spinline.throughput", written_value);
+                } else {
+                    let speed = throughput / filament.sized().linear_density();
+                    filament.derive("feed.speed", Dimension::Velocity, speed, (&full, &written_value));
+                }
+            }
+            // The belt follows when all layers are known.
+            (None, _) => filament.values.excuse("belt.speed"),
+        }
+    }
+
+    /// The values of the case that a layer names, with what is set for it.
+    fn named_case(&mut self, prefix: &str, path: &Path) -> Result<WrittenValues, Error> {
+        let text = file::read(path, FileKind::Case)?;
+        let set: Vec<Vec<(String, String)>> = self.set.iter().map(|set| self.set_for(prefix, set)).collect();
+        let set: Vec<Overrides<'_>> = (set.iter().zip(self.set))
+            .map(|(values, Overrides { word, .. })| Overrides { values, word })
+            .collect();
+        let mut values = document::read(&OF_CASE, &text, &path.display().to_string(), &set)?;
+        self.key_values.problems.append(&mut values.problems);
+        Ok(values)
+    }
+
+    /// What is set of the case of a layer, by the names of a case.
+    fn set_for(&self, prefix: &str, set: &Overrides<'_>) -> Vec<(String, String)> {
+        let name = self.key_values.text(&format!("{prefix}name")).map(|name| format!("layer.{name}."));
+        let of_case = |(key, value): &(String, String)| {
+            let key = key.trim();
+            let here = [Some(prefix), name.as_deref()].into_iter().flatten();
+            let key = here.filter_map(|start| key.strip_prefix(start)).next().unwrap_or(key);
+            keys::find(key).map(|_| (key.to_owned(), value.clone()))
+        };
+        set.values.iter().filter_map(of_case).collect()
+    }
+
+    /// The case of a filament, checked, as the source of its layer; none if there is a problem with it, which is noted.
+    ///
+    /// # Errors
+    /// A case that cannot be read for another reason than what is in it.
+    pub(super) fn fly(&mut self, prefix: &str, filament: Filament) -> Result<Option<LaydownSource>, Error> {
+        let Filament { values, path, replaced } = filament;
+        if values.all().any(|(_, written_value)| written_value.value.is_none()) {
+            return Ok(None);
+        }
+        let unflown = self.lookup.unflown_cases();
+        let opened = open_values(values, &self.lookup.files);
+        let read = opened.and_then(|open: OpenCase| self.lookup.resolve(open));
+        if self.lookup.unflown_cases() > unflown {
+            // What the web has from a case, it has from one with another tension.
+            self.lookup.doubt();
+        }
+        let read = read.map_err(|error| self.by_full_names(prefix, error));
+        let (named, throughput) = (format!("{prefix}{CASE}"), format!("{prefix}{THROUGHPUT}"));
+        if matches!(read, Err(Error::Rejected(_))) && self.is_written(&named) && self.is_written(&throughput)
+        {
+            let message =
+                format!("cannot be flown by {} (the message about that file says why)", path.display());
+            let fault = Fault::new(message, "write another throughput, or change the case");
+            self.key_values.reject(&throughput, fault);
+        }
+        let case = self.fed_case(&named, read)?;
+        if let Some(case) = &case {
+            replaced.iter().for_each(|number| self.note_replaced(number, case, &path));
+        }
+        Ok(case.map(|case| LaydownSource::Case { path, case }))
+    }
+
+    /// Problems with a case, where it stands among several layers by the full names of its keys.
+    fn by_full_names(&self, prefix: &str, error: Error) -> Error {
+        let full = |problem: Problem| {
+            let full = format!("{prefix}{}", problem.key);
+            let is_there = |written_value: &WrittenValue| written_value.place == problem.place;
+            let key = if self.key_values.get(&full).is_some_and(is_there) { full } else { problem.key };
+            Problem { key, ..problem }
+        };
+        match error {
+            Error::Rejected(problems) => problems.into_iter().map(full).collect::<Vec<_>>().into(),
+            other => other,
+        }
+    }
+
+    /// Notes that a case is flown with another number than its file says, unless the two differ by rounding.
+    fn note_replaced(&mut self, replaced: &Replaced, case: &Case, path: &Path) {
+        let Replaced { by, name, number: own } = replaced;
+        let Some(key) = keys::find(name) else { return };
+        let (Some(used), Some(dimension)) =
+            (key.value_in(case).and_then(|value| value.number()), key.dimension())
+        else {
+            return;
+        };
+        let is_set = |written_value: &WrittenValue| matches!(written_value.place, Place::Override(_));
+        if (own / used - 1.0).abs() > ROUNDED
+            && !(by.ends_with(name) && self.key_values.get(by).is_some_and(is_set))
+        {
+            let [used, own] = [used, *own].map(|value| dimension.pretty(value));
+            let what = Remark::CaseChanged { of_case: key.name, used, own, case: path.display().to_string() };
+            let note = Note { place: self.key_values.whole(), key: by.clone(), value: None, what };
+            self.note(vec![self.key_values.placed(note)]);
+        }
+    }
+
+    /// A case whose fibres are laid down on a moving belt.
+    pub(super) fn fed_case(
+        &mut self,
+        key: &str,
+        read: Result<(Case, Vec<Note>), Error>,
+    ) -> Result<Option<Arc<Case>>, Error> {
+        let (case, notes) = match read {
+            Ok(read) => read,
+            Err(Error::File(error)) => {
+                self.key_values.reject(key, error.into());
+                return Ok(None);
+            }
+            Err(Error::Rejected(problems)) => {
+                for problem in problems {
+                    if !self.key_values.problems.contains(&problem) {
+                        self.key_values.problems.push(problem);
+                    }
+                }
+                return Ok(None);
+            }
+            Err(other) => return Err(other),
+        };
+        // The case stands in this file where none is named.
+        let is_named = self.is_written(key);
+        let [of_feed, of_belt, of_air] =
+            ["[feed]", "belt.speed", "air.profile"].map(|here| if is_named { key } else { here });
+        let (key, fault) = match case.line {
+            None if is_named => {
+                let message = "is the case of a fibre of fixed length, which lays nothing";
+                (of_feed, Fault::new(message, "name a case with [feed] and [belt]"))
+            }
+            None => {
+                let message = "is missing, and a fibre of fixed length lays nothing";
+                (of_feed, Fault::new(message, "add [feed] and [belt]"))
+            }
+            Some(line) if line.belt_speed <= 0.0 => {
+                let message = "has a belt that stands still (belt.speed = 0 m/s), on which no web is laid";
+                (of_belt, Fault::new(message, "give the belt of the case a speed"))
+            }
+            Some(_) => {
+                self.note(notes);
+                if let Some(what) = case.slows_only() {
+                    let (place, key) = (self.key_values.whole(), of_air.to_owned());
+                    self.note(vec![self.key_values.placed(Note { place, key, value: None, what })]);
+                }
+                return Ok(Some(Arc::new(case)));
+            }
+        };
+        self.key_values.reject(key, fault);
+        Ok(None)
+    }
+}
