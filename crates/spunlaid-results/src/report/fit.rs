@@ -3,6 +3,7 @@
 use super::document::{Report, Section};
 use super::methods::{Account, MOMENTS, methods, web_account};
 use super::table::{Content, Row, Table};
+use super::text::text;
 use crate::numbers::significant;
 use crate::output::fit::{doubt, pretty, refused, sentences as sentences_of, value_and_interval};
 use spunlaid::fit::{Fit, FittedKey, FittedNumber, Target, Texture};
@@ -40,10 +41,16 @@ pub fn fit_report<'a>(
         .with(file)
 }
 
+/// The same for a terminal of so many columns.
+pub fn fit_text(fit: &Fit, room: usize) -> String {
+    text("", [values(fit)], room)
+}
+
 /// The values, and what they are worth.
 fn values(fit: &Fit) -> Section<'static> {
-    let heads = ["Key", "Start", "Fit", "95\u{202f}% interval"].map(|head| (head, Content::Numbers));
-    let columns = heads.into_iter().chain([("Remark", Content::Sentences)]);
+    let numbers = ["Start", "Fit", "95\u{202f}% interval"].map(|head| (head, Content::Numbers));
+    let columns = [("Key", Content::Words)].into_iter().chain(numbers);
+    let columns = columns.chain([("Remark", Content::Sentences)]);
     let name = |key: &FittedKey| key.parameter.key.clone();
     let heads = std::iter::once("Correlation of the errors".to_owned()).chain(fit.keys.iter().map(name));
     let correlations = fit.keys.iter().zip(&fit.correlations).filter(|_| fit.keys.len() > 1);
