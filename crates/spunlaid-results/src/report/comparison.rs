@@ -3,7 +3,7 @@
 use super::document::{Report, Section};
 use super::methods::methods;
 use super::pictures::{Beside, ComparedPictures, caption};
-use super::table::{Cell, Content, Row, Table, Tone};
+use super::table::{Cell, Row, Table, Tone};
 use super::text::text;
 use super::view::View;
 use crate::output::comparison::{ComparedMeasure, Comparison};
@@ -46,15 +46,13 @@ fn pairs<'a>(comparisons: &[Comparison]) -> impl Iterator<Item = Section<'a>> {
 fn pair<'a>(number: usize, comparison: &Comparison) -> Section<'a> {
     let Comparison { run, against, reason, errors, measures, .. } = comparison;
     let (beyond, all) = comparison.beyond_chance();
-    let numbers = [against, run, "Difference"].map(|head| (head, Content::Numbers));
-    let columns = [("Measure", Content::Words)].into_iter().chain(numbers);
-    let columns = columns.chain([("Verdict", Content::Sentences)]);
+    let table = Table::new(["Measure", against, run, "Difference"]).sentences(["Verdict"]);
     Section::new(format!("pair-{number}"), format!("{run} against {against}"))
         .paragraph(format!(
             "Compared {reason}. {beyond} of {all} measures differ beyond chance: the 95\u{202f}% interval of the difference leaves out zero. Of twenty \
              measures without any difference, one would by chance."
         ))
-        .table(Table::of(columns).rows(measures.iter().map(row)))
+        .table(table.rows(measures.iter().map(row)))
         .caption(format!("{errors} The difference has its standard error."))
 }
 

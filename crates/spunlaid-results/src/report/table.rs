@@ -79,9 +79,17 @@ pub(super) enum Tone {
 }
 
 impl Table {
-    /// A table whose columns hold numbers. The first head is that of the names.
+    /// A table of names and numbers. The first head is that of the names.
     pub(super) fn new(heads: impl IntoIterator<Item: Into<String>>) -> Self {
-        Self::of(heads.into_iter().map(|head| (head, Content::Numbers)))
+        let contents = std::iter::once(Content::Words).chain(std::iter::repeat(Content::Numbers));
+        Self::of(heads.into_iter().zip(contents))
+    }
+
+    /// With columns of sentences at their right.
+    pub(super) fn sentences<const N: usize>(mut self, heads: [&str; N]) -> Self {
+        let column = |head: &str| Column { head: head.to_owned(), content: Content::Sentences };
+        self.columns.extend(heads.map(column));
+        self
     }
 
     /// The heads, each with what its column holds.
