@@ -9,11 +9,9 @@ use spunlaid::error::{Fault, FileError, Problem};
 use spunlaid::record::{Analysis, Layout, Record, Settings, SpectrumSettings, read_record};
 use spunlaid::scan::is_picture_file;
 use spunlaid_results::figures::record_figures;
-use spunlaid_results::output::analysis::{
-    air_block, analysis_json, autocorrelation_csv, result_table, spectrum_csv,
-};
+use spunlaid_results::output::analysis::{air_block, analysis_json, autocorrelation_csv, spectrum_csv};
 use spunlaid_results::output::folder::{ENTRIES, Staging};
-use spunlaid_results::report::analysis_report;
+use spunlaid_results::report::{analysis_report, analysis_text};
 
 pub(crate) fn analyse(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     let is_scan = analyse.scan.pixel.is_some() || is_picture_file(&analyse.record);
@@ -51,7 +49,7 @@ fn record(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     if analyse.json {
         say::text(&json);
     } else if !analyse.output.quiet {
-        say::table(&result_table(&record, &analysis));
+        say::table(&analysis_text(&record, &analysis, say::room()));
         say::line(&format!("\nthe [air] of a case is in {}", folder.join("air.toml").display()));
         say_report(&folder);
     }

@@ -5,7 +5,7 @@ use crate::args::{Compare, Invocation};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid_results::folders::comparison::{FILES, Folders};
-use spunlaid_results::output::comparison;
+use spunlaid_results::report::comparison_text;
 use std::path::{Path, PathBuf};
 
 pub(crate) fn compare(compare: &Compare, invocation: &Invocation) -> Result<(), Failure> {
@@ -26,7 +26,7 @@ pub(crate) fn compare(compare: &Compare, invocation: &Invocation) -> Result<(), 
     if compare.json {
         say::text(&found.json());
     } else if !compare.output.quiet {
-        found.comparisons().iter().for_each(|comparison| say::table(&comparison::table(comparison)));
+        say::table(&comparison_text(found.comparisons(), say::room()));
         found.notes().iter().for_each(|note| say::remark(false, note));
         say_report(&folder);
     }

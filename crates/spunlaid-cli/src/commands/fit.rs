@@ -2,7 +2,7 @@
 
 use super::flown::flown;
 use super::interrupt::stop_on_ctrl_c;
-use super::{aligned, lay_control, plural, say_report, stem};
+use super::{lay_control, plural, say_report, stem};
 use crate::args::{self, Invocation, overrides};
 use crate::failure::Failure;
 use crate::{progress, say};
@@ -14,7 +14,8 @@ use spunlaid::layers::{Flights, Flyer};
 use spunlaid::study::{Journal, JournalState};
 use spunlaid_results::folders::fit::{FitFolder, FitInput};
 use spunlaid_results::folders::read_measured_web;
-use spunlaid_results::output::fit::{fit_json, pretty, refused, sentences, value_and_interval};
+use spunlaid_results::output::fit::{fit_json, pretty};
+use spunlaid_results::report::fit_text;
 use std::sync::atomic::AtomicU64;
 
 pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), Failure> {
@@ -55,8 +56,9 @@ pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), 
     if arguments.json {
         say::text(&fit_json(&found, &target, input.paths, &notes));
     } else if !arguments.output.quiet {
-        say::table(&table(&found));
-        sentences(&found).iter().chain(&refused(&found)).for_each(|sentence| say::line(sentence));
+        say::table(&fit_text(&found, say::room()));
+        let trials = plural(found.trials.len() as u64, "trial");
+        say::line(&format!("{trials} of {} each", plural(found.webs, "web")));
         say_report(&path);
     }
     Ok(())
@@ -103,20 +105,4 @@ fn search(
     let found = find(question, flyer, by, journal, &watch);
     bar.finish_and_clear();
     found
-}
-
-/// The table for the terminal.
-fn table(fit: &Fit) -> String {
-    let mut rows = vec![["key", "start", "fit", "95 % interval"].map(str::to_owned).to_vec()];
-    for key in &fit.keys {
-        let [value, interval] = value_and_interval(key);
-        let start = pretty(&key.parameter, key.parameter.start);
-        rows.push(vec![key.parameter.key.clone(), start, value, interval]);
-    }
-    format!(
-        "{}{} of {} each\n",
-        aligned(&rows),
-        plural(fit.trials.len() as u64, "trial"),
-        plural(fit.webs, "web")
-    )
 }

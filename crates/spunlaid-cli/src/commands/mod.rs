@@ -103,49 +103,5 @@ fn plural(count: u64, noun: &str) -> String {
 
 /// A table whose columns stand below their heads. Columns for which the terminal is too narrow follow below, beside the first column once more.
 fn aligned(rows: &[Vec<String>]) -> String {
-    aligned_within(rows, say::columns().unwrap_or(usize::MAX))
-}
-
-fn aligned_within(rows: &[Vec<String>], room: usize) -> String {
-    let columns = rows.first().map_or(0, Vec::len);
-    let width = |i: usize| rows.iter().map(|row| row[i].chars().count()).max().unwrap_or(0);
-    let widths: Vec<usize> = (0..columns).map(width).collect();
-    let own = |column: &usize| 2 + widths[*column];
-    let mut blocks: Vec<Vec<usize>> = Vec::new();
-    for column in 0..columns {
-        match blocks.last_mut() {
-            Some(block) if block.iter().chain([&column]).map(own).sum::<usize>() <= room => {
-                block.push(column)
-            }
-            Some(block) if block.len() == 1 => block.push(column),
-            Some(_) => blocks.push(vec![0, column]),
-            None => blocks.push(vec![column]),
-        }
-    }
-    let block = |block: &Vec<usize>| -> String {
-        let line = |row: &Vec<String>| {
-            let cells: Vec<String> =
-                block.iter().map(|i| format!("{:>width$}", row[*i], width = widths[*i])).collect();
-            format!("  {}\n", cells.join("  "))
-        };
-        rows.iter().map(line).collect()
-    };
-    blocks.iter().map(block).collect::<Vec<_>>().join("\n")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::aligned_within;
-
-    #[test]
-    fn columns_without_room_follow_below_beside_the_first() {
-        let rows = [["patch", "this map", "as expected"], ["1 mm", "12.9", "13.4"]];
-        let rows = rows.map(|row| row.map(str::to_owned).to_vec());
-        let whole = "  patch  this map  as expected\n   1 mm      12.9         13.4\n";
-        assert_eq!(aligned_within(&rows, 30), whole);
-        let parts = "  patch  this map\n   1 mm      12.9\n\n  patch  as expected\n   1 mm         13.4\n";
-        assert_eq!(aligned_within(&rows, 29), parts);
-        // No room at all does not end in a table without columns.
-        assert_eq!(aligned_within(&rows, 3), parts);
-    }
+    spunlaid_results::report::aligned(rows, &[], say::room())
 }

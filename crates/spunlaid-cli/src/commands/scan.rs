@@ -5,12 +5,10 @@ use crate::args::{Analyse, Direction, Invocation, LightName};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::lanes::Isa;
-use spunlaid::observe::{Measured, OF_SCANNED_PATCHES, measured};
-use spunlaid::scan::{Findings, LightKind, PatchFindings, ScanRequest};
+use spunlaid::scan::{LightKind, ScanRequest};
 use spunlaid_results::folders::scan::{ScanFolder, notes};
-use spunlaid_results::numbers::significant;
-use spunlaid_results::output::measured::text as shown;
 use spunlaid_results::output::web::{ENTRIES, Performance};
+use spunlaid_results::report::scan_text;
 use std::time::Instant;
 
 pub(super) fn scan(arguments: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
@@ -28,7 +26,7 @@ pub(super) fn scan(arguments: &Analyse, invocation: &Invocation) -> Result<(), F
     if arguments.json {
         say::text(&results.summary());
     } else if !arguments.output.quiet {
-        say::table(&table(&findings));
+        say::table(&scan_text(&findings, say::room()));
         notes.iter().for_each(|note| say::remark(false, note));
         say_report(&folder);
     }
@@ -53,31 +51,4 @@ fn request(arguments: &Analyse) -> ScanRequest {
         noise: options.noise,
         patches: options.patches.clone(),
     }
-}
-
-/// The table for the terminal.
-fn table(findings: &Findings) -> String {
-    let mut text = String::new();
-    if findings.mean_known {
-        text.push_str(&format!("basis weight {} g/m²\n", significant(findings.map.basis_weight() * 1e3, 4)));
-    }
-    text.push_str(
-        "unevenness ± standard error; what the camera adds, and what one more pixel of blur takes away\n",
-    );
-    let heads = OF_SCANNED_PATCHES.iter().map(|measure| measure.terse());
-    let heads: Vec<String> =
-        ["patch"].into_iter().chain(heads).chain(["95 % interval"]).map(str::to_owned).collect();
-    let row = |patch: &PatchFindings| -> Vec<String> {
-        let cell = |row: Measured<PatchFindings>| {
-            format!("{} {}", shown(&row).unwrap_or_default(), row.measure.unit.shown)
-        };
-        let interval = patch.interval.map_or_else(
-            |doubt| format!("none: {doubt}"),
-            |ends| format!("{} %", ends.map(|end| significant(100.0 * end, 3)).join(" to ")),
-        );
-        let side = format!("{} mm", significant(patch.unevenness.patch * 1e3, 3));
-        [side].into_iter().chain(measured(OF_SCANNED_PATCHES, patch).map(cell)).chain([interval]).collect()
-    };
-    let rows: Vec<_> = [heads].into_iter().chain(findings.patches.iter().map(row)).collect();
-    text + &aligned(&rows)
 }

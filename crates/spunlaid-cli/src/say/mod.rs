@@ -71,6 +71,11 @@ pub(crate) fn columns() -> Option<usize> {
     terminal_size_of(std::io::stdout()).map(|(width, _)| usize::from(width.0))
 }
 
+/// Columns for tables of results; any number if they do not go to a terminal.
+pub(crate) fn room() -> usize {
+    columns().unwrap_or(usize::MAX)
+}
+
 /// A line of results, which the terminal shows in several if it is not wide enough.
 pub(crate) fn line(line: &str) {
     table(&format!("{line}\n"));

@@ -66,7 +66,7 @@ fn a_laid_web_and_its_scan_have_the_same_unevenness() {
     scan(&desk, "scan.png", 200, &laid);
     let command = "analyse scan.png --pixel 0.5mm --white 60000 --keep-shading --patches 2mm,4mm,10mm";
     let said = success(&mut desk.spunlaid(&format!("{command} --weight 18gsm --out scan")));
-    assert!(said.contains("basis weight 18 g/m²") && said.contains("95 % interval"), "{said}");
+    assert!(said.contains("A web of 18 g/m²") && said.contains("95 % interval"), "{said}");
     assert!(said.contains("open scan/report.html"), "{said}");
     assert_eq!(
         desk.entries("scan"),
@@ -129,10 +129,12 @@ fn a_laid_web_and_its_scan_have_the_same_unevenness() {
     // Both beside each other.
     let said = success(&mut desk.spunlaid("compare laid scan --out both"));
     assert!(
-        said.contains("scan against laid: as independent pieces of web; basis weight 18 g/m² against "),
+        said.contains(
+            "scan against laid\nCompared as independent pieces of web; basis weight 18 g/m² against "
+        ),
         "{said}"
     );
-    assert!(said.contains("CV over patches of 10 mm") && said.contains("  0 of "), "{said}");
+    assert!(said.contains("CV over patches of 10 mm") && said.contains(" 0 of "), "{said}");
     assert_eq!(desk.entries("both"), names(&["comparison.json", "figures", "origin.toml", "report.html"]));
     let both: Value = serde_json::from_slice(&desk.read("both/comparison.json")).unwrap();
     let measure = &both["comparisons"][0]["measures"]["cv_10_mm"];
@@ -157,7 +159,7 @@ fn a_laid_web_and_its_scan_have_the_same_unevenness() {
     assert!(notes.contains("so no interval is given; take a picture of the lamp"), "{notes}");
     let told = success(&mut desk.spunlaid("compare laid guessed --out guesses"));
     assert!(
-        told.contains("  0 of 1 measures differ")
+        told.contains(" 0 of 1 measures differ")
             && told.contains("the level of the lamp is a guess (guessed)"),
         "{told}"
     );

@@ -3,11 +3,11 @@
 use super::spinline::SpinFolder;
 use super::web::WebFolder;
 use crate::figures::{record_figures, record_sample};
-use crate::output::analysis::{analysis_json, result_table};
+use crate::output::analysis::analysis_json;
 use crate::output::folder::Staging;
 use crate::output::spinline::{SpinResults, text};
 use crate::output::web::{ENTRIES, PatchTable, Performance, Reader, Summary};
-use crate::report::{analysis_report, scan_report};
+use crate::report::{analysis_report, analysis_text, scan_report};
 use serde_json::Value as Json;
 use spunlaid::input::{parse_spinline, parse_web};
 use spunlaid::lanes::Isa;
@@ -193,7 +193,7 @@ fn every_declared_measure_of_a_record_is_in_summary_terminal_and_report() {
     let json: Json = serde_json::from_str(&analysis_json(&record, &analysis)).unwrap();
     let (figures, remarks) = (record_figures(&record, &analysis), []);
     let report = analysis_report(&record, &analysis, &figures, &remarks, "[air]\n");
-    let pages = [report.html(), result_table(&record, &analysis)];
+    let pages = [report.html(), analysis_text(&record, &analysis, 200)];
     fn check<T>(measures: &'static [Measure<T>], found: &T, json: &Json, pages: &[String; 2]) {
         for row in measured(measures, found) {
             let value = row.value.as_ref().map(|value: &Value| serde_json::to_value(value).unwrap());

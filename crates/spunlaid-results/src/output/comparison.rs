@@ -4,7 +4,6 @@ use super::in_order::OrderedObject;
 use crate::numbers::{decimals, plus_minus, to_decimals};
 use serde::Serialize;
 use spunlaid::statistics::{Difference, Estimate};
-use std::fmt::Write;
 
 /// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
 const SCHEMA_VERSION: u32 = 1;
@@ -167,36 +166,4 @@ impl ComparedMeasure {
         };
         [mean(&self.means[0]), mean(&self.means[1]), difference, verdict.to_owned()]
     }
-}
-
-/// A comparison for the terminal.
-pub fn table(comparison: &Comparison) -> String {
-    let mut rows = vec![[
-        String::new(),
-        comparison.against.clone(),
-        comparison.run.clone(),
-        "difference".to_owned(),
-        String::new(),
-    ]];
-    for one in &comparison.measures {
-        let [against, run, difference, verdict] = one.cells();
-        let unit = if one.unit.is_empty() { String::new() } else { format!(", {}", one.unit) };
-        rows.push([format!("{}{unit}", one.label), against, run, difference, verdict]);
-    }
-    let width = |i: usize| rows.iter().map(|row| row[i].chars().count()).max().unwrap_or(0);
-    let widths: Vec<usize> = (0..4).map(width).collect();
-    let mut text = format!("{} against {}: {}\n", comparison.run, comparison.against, comparison.reason);
-    for row in &rows {
-        let mut line = format!("  {:<1$}", row[0], widths[0]);
-        for i in 1..4 {
-            let _ = write!(line, "  {:>1$}", row[i], widths[i]);
-        }
-        let _ = writeln!(text, "{}", format!("{line}  {}", row[4]).trim_end());
-    }
-    let (beyond, all) = comparison.beyond_chance();
-    let _ = writeln!(
-        text,
-        "  {beyond} of {all} measures differ beyond chance (95 % interval); one in twenty would by chance alone"
-    );
-    text
 }

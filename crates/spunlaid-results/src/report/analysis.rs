@@ -3,6 +3,7 @@
 use super::document::{Report, Section};
 use super::methods::methods;
 use super::table::{Content, Layout, Row, Table};
+use super::text::text;
 use super::words::{count, time};
 use crate::numbers::{THIN, plus_minus, significant};
 use crate::output::analysis::{ResultRow, half_width, results};
@@ -21,7 +22,7 @@ pub fn analysis_report<'a>(
     remarks: &[String],
     air: &str,
 ) -> Report<'a> {
-    let (rows, components) = results(analysis);
+    let (rows, _) = results(analysis);
     let (headline, summary) = (headline(analysis), summary(record, analysis));
     let steps = steps(analysis);
     let texts = [summary.clone()].into_iter().chain(steps.iter().map(|(_, text)| text.clone()));
@@ -32,25 +33,33 @@ pub fn analysis_report<'a>(
     let methods = methods("analyse", (texts.collect(), Vec::new()), [headline.clone(), found]);
     let remarks: String = remarks.iter().map(|remark| format!(" {remark}.")).collect();
     let warnings: Vec<String> = analysis.warnings.iter().map(ToString::to_string).collect();
-    let air = Section::new("air", "The air of a case")
-        .table(table(rows))
-        .caption(durations(analysis))
-        .file("air-toml", air);
-    let components =
-        components.into_iter().fold(Section::new("components", "Each component"), |section, (name, rows)| {
-            section.heading(name).table(table(rows))
-        });
+    let [of_air, components] = numbers(analysis);
     let computed = Section::new("methods", "How it was computed").descriptions(steps).caption(
         "The curves are in spectrum.csv and autocorrelation.csv, all numbers in analysis.json, beside this page.",
     );
     Report::new("analyse", headline)
         .lead(summary + &remarks)
         .noting(&warnings)
-        .with(air)
+        .with(of_air.file("air-toml", air))
         .with(Section::of_figures(figures))
         .with(components)
         .with(computed)
         .with(methods)
+}
+
+/// The same for a terminal of so many columns.
+pub fn analysis_text(record: &Record, analysis: &Analysis, room: usize) -> String {
+    let sentences = format!("{} {}", headline(analysis), summary(record, analysis));
+    text(&sentences, numbers(analysis), room)
+}
+
+/// The numbers for the air of a case, then those of each component.
+fn numbers(analysis: &Analysis) -> [Section<'static>; 2] {
+    let (rows, components) = results(analysis);
+    let air = Section::new("air", "The air of a case").table(table(rows)).caption(durations(analysis));
+    let of_each = Section::new("components", "Each component");
+    let add = |section: Section<'static>, (name, rows)| section.heading(name).table(table(rows));
+    [air, components.into_iter().fold(of_each, add)]
 }
 
 fn table(rows: Vec<ResultRow>) -> Table {

@@ -3,7 +3,8 @@
 use super::document::{Report, Section};
 use super::methods::methods;
 use super::pictures::{Beside, ComparedPictures, caption};
-use super::table::{Cell, Content, Row, Table, Tone};
+use super::table::{Cell, Row, Table, Tone};
+use super::text::text;
 use super::view::View;
 use crate::output::comparison::{ComparedMeasure, Comparison};
 use spunlaid::statistics::Difference;
@@ -27,24 +28,32 @@ pub fn comparison_report<'a>(
     let methods = methods("compare", (sentences, Vec::new()), found);
     Report::new("compare", title)
         .with_all(beside)
-        .with_all((1..).zip(comparisons).map(|(number, comparison)| pair(number, comparison)))
+        .with_all(pairs(comparisons))
         .with(Section::of_figures(figures))
         .with(methods)
+}
+
+/// The same for a terminal of so many columns.
+pub fn comparison_text(comparisons: &[Comparison], room: usize) -> String {
+    text("", pairs(comparisons), room)
+}
+
+fn pairs<'a>(comparisons: &[Comparison]) -> impl Iterator<Item = Section<'a>> {
+    (1..).zip(comparisons).map(|(number, comparison)| pair(number, comparison))
 }
 
 /// A result against another one, measure by measure.
 fn pair<'a>(number: usize, comparison: &Comparison) -> Section<'a> {
     let Comparison { run, against, reason, errors, measures, .. } = comparison;
     let (beyond, all) = comparison.beyond_chance();
-    let numbers = ["Measure", against, run, "Difference"].map(|head| (head, Content::Numbers));
-    let columns = numbers.into_iter().chain([("Verdict", Content::Sentences)]);
+    let table = Table::new(["Measure", against, run, "Difference"]).sentences(["Verdict"]);
     Section::new(format!("pair-{number}"), format!("{run} against {against}"))
-        .paragraph(format!("Compared {reason}. {beyond} of {all} measures differ beyond chance."))
-        .table(Table::of(columns).rows(measures.iter().map(row)))
-        .caption(format!(
-            "{errors} The difference has its standard error. “Beyond chance” means that the 95\u{202f}% interval of the difference leaves out \
-             zero; of twenty measures without any difference, one would by chance."
+        .paragraph(format!(
+            "Compared {reason}. {beyond} of {all} measures differ beyond chance: the 95\u{202f}% interval of the difference leaves out zero. Of twenty \
+             measures without any difference, one would by chance."
         ))
+        .table(table.rows(measures.iter().map(row)))
+        .caption(format!("{errors} The difference has its standard error."))
 }
 
 fn row(compared: &ComparedMeasure) -> Row {

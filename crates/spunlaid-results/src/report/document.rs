@@ -96,8 +96,8 @@ impl<'a> Report<'a> {
 pub(super) struct Section<'a> {
     /// In its page.
     id: String,
-    heading: String,
-    parts: Vec<Part<'a>>,
+    pub(super) heading: String,
+    pub(super) parts: Vec<Part<'a>>,
 }
 
 /// A part of a section.

@@ -2,7 +2,8 @@
 
 use super::document::{Report, Section};
 use super::methods::{Account, MOMENTS, methods, web_account};
-use super::table::{Content, Row, Table};
+use super::table::{Row, Table};
+use super::text::text;
 use crate::numbers::significant;
 use crate::output::fit::{doubt, pretty, refused, sentences as sentences_of, value_and_interval};
 use spunlaid::fit::{Fit, FittedKey, FittedNumber, Target, Texture};
@@ -40,17 +41,21 @@ pub fn fit_report<'a>(
         .with(file)
 }
 
+/// The same for a terminal of so many columns.
+pub fn fit_text(fit: &Fit, room: usize) -> String {
+    text("", [values(fit)], room)
+}
+
 /// The values, and what they are worth.
 fn values(fit: &Fit) -> Section<'static> {
-    let heads = ["Key", "Start", "Fit", "95\u{202f}% interval"].map(|head| (head, Content::Numbers));
-    let columns = heads.into_iter().chain([("Remark", Content::Sentences)]);
+    let table = Table::new(["Key", "Start", "Fit", "95\u{202f}% interval"]).sentences(["Remark"]);
     let name = |key: &FittedKey| key.parameter.key.clone();
     let heads = std::iter::once("Correlation of the errors".to_owned()).chain(fit.keys.iter().map(name));
     let correlations = fit.keys.iter().zip(&fit.correlations).filter(|_| fit.keys.len() > 1);
     let rows =
         correlations.map(|(key, row)| Row::new(name(key), row.iter().map(|number| significant(*number, 2))));
     Section::new("values", "The values")
-        .table(Table::of(columns).rows(fit.keys.iter().map(row)))
+        .table(table.rows(fit.keys.iter().map(row)))
         .paragraphs(sentences_of(fit).into_iter().chain(refused(fit)))
         .caption(
             "The interval is that of a scan of this size: each simulated web took the place of the scan, and the values that would be found \

@@ -27,6 +27,7 @@ mod study;
 mod table;
 #[cfg(test)]
 mod tests;
+mod text;
 mod unevenness;
 mod view;
 mod web;
@@ -34,17 +35,18 @@ mod words;
 
 pub use advice::{advice_commands, advice_words};
 pub use air::air_report;
-pub use analysis::analysis_report;
-pub use comparison::comparison_report;
+pub use analysis::{analysis_report, analysis_text};
+pub use comparison::{comparison_report, comparison_text};
 pub use document::Report;
-pub use fit::fit_report;
+pub use fit::{fit_report, fit_text};
 pub use guesses::guess_words;
 pub use paper::paper_report;
 pub use pictures::ComparedPictures;
 pub use run::run_report;
-pub use scan::scan_report;
+pub use scan::{scan_report, scan_text};
 pub use spinline::{LayerSpinline, spinline_report};
 pub use study::study_report;
+pub use text::aligned;
 pub use web::web_report;
 
 /// Script with the class `Camera`: how the space of the moving fibre is seen and turned, for other pages that show one.

@@ -2,7 +2,7 @@
 
 use super::document::{Report, Section};
 use super::methods::{case_account, methods};
-use super::table::{Cell, Content, Row, Table, Tone};
+use super::table::{Cell, Row, Table, Tone};
 use spunlaid::case::Case;
 use spunlaid::paper::{Claim, Verdict};
 use spunlaid_charts::Figure;
@@ -56,8 +56,6 @@ pub fn paper_report<'a>(
 }
 
 fn claim_table(claims: &[Claim]) -> Table {
-    let sentences = ["What the paper says", "Evidence", "Verdict"].map(|head| (head, Content::Sentences));
-    let columns = [("", Content::Words)].into_iter().chain(sentences);
     let row = |claim: &Claim| {
         let tone = match claim.verdict {
             Verdict::Holds => Tone::Good,
@@ -68,5 +66,5 @@ fn claim_table(claims: &[Claim]) -> Table {
         let verdict = Cell::new(claim.verdict.name(), tone);
         Row::new(format!("Figure {}", claim.figure), said.into_iter().chain([verdict]))
     };
-    Table::of(columns).rows(claims.iter().map(row))
+    Table::new([""]).sentences(["What the paper says", "Evidence", "Verdict"]).rows(claims.iter().map(row))
 }

@@ -4,13 +4,14 @@ use super::document::{Report, Section};
 use super::light_table::{picture_note, sheet};
 use super::methods::methods;
 use super::table::{Row, Table};
+use super::text::text;
 use super::unevenness::{CV_OF_PATCHES, cost, headline, largest_clouds, per_cent, unevenness};
 use super::view::View;
 use super::words::{metres, millimetres};
 use crate::Failure;
 use crate::figures::SEEN;
 use crate::numbers::{THIN, plus_minus, significant};
-use crate::output::measured::text;
+use crate::output::measured::text as shown_number;
 use crate::output::web::Performance;
 use spunlaid::observe::{Measured, OF_SCANNED_PATCHES, OF_SCANS, measured};
 use spunlaid::scan::{Findings, PatchFindings};
@@ -31,9 +32,7 @@ pub fn scan_report<'a>(
     performance: Performance,
 ) -> Result<Report<'a>, Failure> {
     let sheet = sheet(&with_spots(findings), None)?;
-    let nearest_patch = nearest_to_seen(findings.patches.iter().map(|patch| patch.unevenness.patch));
-    let weight = findings.mean_known.then(|| findings.map.basis_weight());
-    let headline = headline(weight, nearest_patch.map(|i| &findings.patches[i].unevenness), false);
+    let headline = title(findings);
     let summary = format!(
         "A scan of {} across and {} along the web.",
         metres(findings.map.columns as f64 * findings.map.cell),
@@ -43,21 +42,10 @@ pub fn scan_report<'a>(
     let numbers = facts.iter().map(|(name, value)| format!("{name} {value}")).collect::<Vec<_>>().join(", ");
     let cvs = findings.patches.iter().map(|patch| patch.unevenness).collect::<Vec<_>>();
     let texts = vec![summary.clone(), format!("{numbers}.")];
-    let verdict = verdict(findings);
-    let found = [headline.clone(), unevenness(&cvs)].into_iter().chain(verdict.clone());
+    let found = [headline.clone(), unevenness(&cvs)].into_iter().chain(verdict(findings));
     let methods = methods("analyse", (texts, Vec::new()), found);
     let spots = if findings.aside.spots.is_empty() { "" } else { " Black spots were left out." };
     let caption = picture_note(sheet.pixel) + spots;
-    let heads = ["Patch", "CV", "95 % interval"].into_iter();
-    let heads = heads.chain(OF_SCANNED_PATCHES.iter().skip(1).map(|measure| measure.label));
-    let uneven = Section::new("verdict", "What makes it uneven")
-        .paragraphs(verdict)
-        .table(Table::new(heads).rows(findings.patches.iter().map(row)))
-        .caption(format!(
-            "{CV_OF_PATCHES} The interval is that of the web, of which the scan is one piece. The noise of the camera is as it was given, and \
-             then taken out of the CV, or the most that it can be. Where one more pixel of blur changes little, the camera’s own blur has \
-             changed little as well."
-        ));
     let read = Section::new("file", "The scan").table(Table::of_facts(facts)).caption(
         "The map is in map.npy (kg/m², or parts of the mean where that is not known; a row of the web after the other), all numbers in \
          summary.json, beside this page.",
@@ -66,11 +54,36 @@ pub fn scan_report<'a>(
     Ok(Report::new("analyse", headline)
         .lead(summary)
         .with(web)
-        .with(uneven)
+        .with(uneven(findings))
         .with(Section::of_figures(figures))
         .with(methods)
         .with(read)
         .costing(cost(performance)))
+}
+
+/// The same for a terminal of so many columns.
+pub fn scan_text(findings: &Findings, room: usize) -> String {
+    text(&title(findings), [uneven(findings)], room)
+}
+
+fn title(findings: &Findings) -> String {
+    let nearest_patch = nearest_to_seen(findings.patches.iter().map(|patch| patch.unevenness.patch));
+    let weight = findings.mean_known.then(|| findings.map.basis_weight());
+    headline(weight, nearest_patch.map(|i| &findings.patches[i].unevenness), false)
+}
+
+/// How uneven it is.
+fn uneven(findings: &Findings) -> Section<'static> {
+    let heads = ["Patch", "CV", "95 % interval"].into_iter();
+    let heads = heads.chain(OF_SCANNED_PATCHES.iter().skip(1).map(|measure| measure.label));
+    Section::new("verdict", "What makes it uneven")
+        .paragraphs(verdict(findings))
+        .table(Table::new(heads).rows(findings.patches.iter().map(row)))
+        .caption(format!(
+            "{CV_OF_PATCHES} The interval is that of the web, of which the scan is one piece. The noise of the camera is as it was given, and \
+             then taken out of the CV, or the most that it can be. Where one more pixel of blur changes little, the camera’s own blur has \
+             changed little as well."
+        ))
 }
 
 fn row(patch: &PatchFindings) -> Row {
@@ -90,7 +103,7 @@ fn row(patch: &PatchFindings) -> Row {
 
 /// The value of a measure with its unit; none if there is no value.
 fn shown<T>(row: &Measured<T>) -> Option<String> {
-    let (number, unit) = (text(row)?, row.measure.unit.shown);
+    let (number, unit) = (shown_number(row)?, row.measure.unit.shown);
     Some(if unit.is_empty() { number } else { format!("{number}{THIN}{unit}") })
 }
 

@@ -9,8 +9,8 @@ pub(super) struct Table {
     layout: Layout,
     /// Heads over several columns, with the number of these columns, above the others.
     spans: Vec<(String, usize)>,
-    columns: Vec<Column>,
-    groups: Vec<Group>,
+    pub(super) columns: Vec<Column>,
+    pub(super) groups: Vec<Group>,
     /// Below all rows.
     foot: Option<Row>,
 }
@@ -29,8 +29,8 @@ pub(super) enum Layout {
 
 #[derive(Debug)]
 pub(super) struct Column {
-    head: String,
-    content: Content,
+    pub(super) head: String,
+    pub(super) content: Content,
 }
 
 /// What the cells of a column hold.
@@ -45,25 +45,25 @@ pub(super) enum Content {
 
 /// Rows that belong together.
 #[derive(Debug)]
-struct Group {
+pub(super) struct Group {
     /// Empty if all rows are one group.
     title: String,
-    rows: Vec<Row>,
+    pub(super) rows: Vec<Row>,
 }
 
 #[derive(Debug, Default)]
 pub(super) struct Row {
-    name: String,
+    pub(super) name: String,
     /// Below the name.
     detail: String,
-    cells: Vec<Cell>,
+    pub(super) cells: Vec<Cell>,
     /// The command that makes what the row is about, below it.
     command: String,
 }
 
 #[derive(Debug)]
 pub(super) struct Cell {
-    text: String,
+    pub(super) text: String,
     tone: Tone,
 }
 
@@ -79,9 +79,17 @@ pub(super) enum Tone {
 }
 
 impl Table {
-    /// A table whose columns hold numbers. The first head is that of the names.
+    /// A table of names and numbers. The first head is that of the names.
     pub(super) fn new(heads: impl IntoIterator<Item: Into<String>>) -> Self {
-        Self::of(heads.into_iter().map(|head| (head, Content::Numbers)))
+        let contents = std::iter::once(Content::Words).chain(std::iter::repeat(Content::Numbers));
+        Self::of(heads.into_iter().zip(contents))
+    }
+
+    /// With columns of sentences at their right.
+    pub(super) fn sentences<const N: usize>(mut self, heads: [&str; N]) -> Self {
+        let column = |head: &str| Column { head: head.to_owned(), content: Content::Sentences };
+        self.columns.extend(heads.map(column));
+        self
     }
 
     /// The heads, each with what its column holds.

@@ -8,7 +8,7 @@ mod table;
 pub use air::air_block;
 pub use curves::{autocorrelation_csv, spectrum_csv};
 pub use json::analysis_json;
-pub use table::{ResultRow, result_table, results};
+pub use table::{ResultRow, results};
 
 use spunlaid::record::Interval;
 

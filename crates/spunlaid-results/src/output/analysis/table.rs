@@ -1,11 +1,9 @@
-//! Makes the rows of the result tables for the terminal and the report.
+//! Makes the rows of the result tables for the report and the terminal.
 
 use super::half_width;
 use crate::numbers::{decimals, rounded, to_decimals};
 use spunlaid::observe::{Measure, Measured, OF_COMPONENTS, OF_RECORDS, Unit, Value, measured};
-use spunlaid::record::{Analysis, Component, Interval, Record};
-use spunlaid::units::Dimension;
-use std::fmt::Write;
+use spunlaid::record::{Analysis, Component, Interval};
 
 /// A result with its interval and how it was computed.
 pub struct ResultRow {
@@ -52,30 +50,4 @@ fn rows<T>(measures: &'static [Measure<T>], found: &T) -> Vec<ResultRow> {
 pub fn results(analysis: &Analysis) -> (Vec<ResultRow>, Vec<(String, Vec<ResultRow>)>) {
     let component = |component: &Component| (component.name.clone(), rows(OF_COMPONENTS, component));
     (rows(OF_RECORDS, analysis), analysis.components.iter().map(component).collect())
-}
-
-/// The table for the terminal.
-pub fn result_table(record: &Record, analysis: &Analysis) -> String {
-    let mut text = format!(
-        "{}: {} samples of {} at {} over {}, 95 % confidence intervals\n",
-        record.file,
-        analysis.samples,
-        analysis.components.iter().map(|c| c.name.as_str()).collect::<Vec<_>>().join(", "),
-        Dimension::Frequency.pretty(1.0 / analysis.interval),
-        Dimension::Time.pretty(analysis.duration),
-    );
-    let (air, components) = results(analysis);
-    let write = |text: &mut String, rows: &[ResultRow]| {
-        for r in rows {
-            let range = if r.low == r.high { r.low.clone() } else { format!("{} to {}", r.low, r.high) };
-            let line = format!("  {:<24}{:>10}   {range:<22}{:<5} {}", r.name, r.value, r.unit, r.meaning);
-            let _ = writeln!(text, "{}", line.trim_end());
-        }
-    };
-    write(&mut text, &air);
-    for (name, rows) in &components {
-        let _ = writeln!(text, "{name}");
-        write(&mut text, rows);
-    }
-    text
 }
