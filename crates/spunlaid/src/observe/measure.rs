@@ -72,7 +72,7 @@ pub enum Formula<T: 'static> {
     Interval(fn(&T) -> Interval),
 }
 
-/// What an error is to its measure.
+/// What an error is to its measure, as studies and tables have to know.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ErrorRole {
     /// Its standard error, unless there are several replicates, whose scatter tells it.
@@ -174,7 +174,7 @@ impl<T> Measure<T> {
         role: ErrorRole::About,
     };
 
-    /// A measure that studies leave out.
+    /// A measure by its name in files, its label in tables, the unit in which it is shown, and its formula.
     pub(super) const fn new(
         column: &'static str,
         label: &'static str,
@@ -184,67 +184,67 @@ impl<T> Measure<T> {
         Self { column, label, unit, formula, ..Self::NUMBER }
     }
 
-    /// It with its definition.
+    /// Sets its definition in words.
     pub(super) const fn meaning(self, meaning: &'static str) -> Self {
         Self { meaning, ..self }
     }
 
-    /// It with another label on the terminal, or without one.
+    /// Sets its label on the terminal; empty leaves it out there.
     pub(super) const fn short(self, short: &'static str) -> Self {
         Self { short: Some(short), ..self }
     }
 
-    /// It with an SI value that is shown as zero.
+    /// Sets the SI value that is shown as zero.
     pub(super) const fn zero(self, zero: f64) -> Self {
         Self { zero, ..self }
     }
 
-    /// It with a number of digits.
+    /// Sets the number of digits that are shown.
     pub(super) const fn digits(self, digits: i32) -> Self {
         Self { digits: Some(digits), ..self }
     }
 
-    /// It with what is special of a value.
+    /// Says what is special of a value.
     pub(super) const fn remark(self, remark: fn(&T) -> Option<String>) -> Self {
         Self { remark, ..self }
     }
 
-    /// It in tables of some only.
+    /// Limits it to some tables.
     pub(super) const fn shown_if(self, is_shown: fn(&T) -> bool) -> Self {
         Self { is_shown, ..self }
     }
 
-    /// It with its errors.
+    /// Adds its errors.
     pub(super) const fn errors(self, errors: &'static [Self]) -> Self {
         Self { errors, ..self }
     }
 
-    /// It as an error.
+    /// Says what it is to the measure whose error it is.
     pub(super) const fn role(self, role: ErrorRole) -> Self {
         Self { role, ..self }
     }
 
-    /// It as studies keep it, under a name.
+    /// Puts it into studies under a name, in a column that is named as in `summary.json`.
     pub(super) const fn named(self, name: &'static str) -> Self {
         Self { name, ..self }
     }
 
-    /// It as studies keep it, under a name and in a column of another name than in `summary.json`.
+    /// Puts it into studies under a name, in a column that has another name than in `summary.json`.
     pub(super) const fn kept(self, name: &'static str, column: &'static str) -> Self {
         Self { name, column, entry: Some(self.column), ..self }
     }
 
-    /// It in the tables of studies.
+    /// Puts it into the tables of studies too.
     pub(super) const fn main(self) -> Self {
         Self { is_main: true, ..self }
     }
 
-    /// It where `summary.json` has it in another place.
+    /// Says that another part of `summary.json` has it.
     pub(super) const fn elsewhere(self) -> Self {
         Self { entry: Some(""), ..self }
     }
 
-    /// It in a figure.
+    /// Puts it into a figure of studies.
     pub(super) const fn figure(self, figure: &'static Figure) -> Self {
         Self { figure, ..self }
     }
