@@ -50,7 +50,7 @@ pub(crate) fn fly_web(
     let (watch, began) = (Watch::default(), Instant::now());
     let flight = watched(py, &watch, progress.as_ref(), || {
         let laying = watch.lay_control(threads);
-        Ok(flown_while_watched(&watch, laying, |flyer| flyer.flight(&asked.file.spec))?)
+        flown_while_watched(&watch, laying, |flyer| flyer.flight(&asked.file.spec))
     })?;
     Ok(WebFlight { asked, flight, began })
 }

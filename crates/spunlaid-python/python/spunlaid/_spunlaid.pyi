@@ -44,9 +44,9 @@ _Floats = NDArray[np.float64]
 _Progress = Callable[[int, int], object] | None
 _Figures = tuple[Any, str | float | None]
 _Scale = tuple[str, float, float, bool]
-PackedWeb = tuple[str, list[tuple[int, str]] | None, int]
-PackedCurtain = tuple[int, tuple[float | None, float, float], tuple[list[float], float], _Floats, NDArray[np.float32]]
-PackedStretch = tuple[
+_PackedWeb = tuple[str, list[tuple[int, str]] | None, int]
+_PackedCurtain = tuple[int, tuple[float | None, float, float], tuple[list[float], float], _Floats, NDArray[np.float32]]
+_PackedStretch = tuple[
     int, NDArray[np.uint32], tuple[float, float, bool, float], list[tuple[int, int, _Floats]], list[list[float]]
 ]
 _Part = tuple[int, str, list[tuple[int, str]] | None, int, int, int]
@@ -240,12 +240,12 @@ class LaidWeb(_Results):
 class WebFlight:
     """A web in one air that has been flown."""
 
-    web: Final[PackedWeb]
-    curtains: Final[list[PackedCurtain]]
+    web: Final[_PackedWeb]
+    curtains: Final[list[_PackedCurtain]]
     cell: Final[float]
     name: Final[str]
     def stretches(self, count: int) -> list[tuple[int, int]]: ...
-    def join(self, stretches: Sequence[PackedStretch], threads: int | None = None, progress: _Progress = None) -> LaidWeb: ...
+    def join(self, stretches: Sequence[_PackedStretch], threads: int | None = None, progress: _Progress = None) -> LaidWeb: ...
 
 @final
 class AnalysedScan(_Results):
@@ -320,7 +320,7 @@ def fly_web(
     threads: int | None = None,
     progress: _Progress = None,
 ) -> WebFlight: ...
-def lay_stretch(web: PackedWeb, curtains: list[PackedCurtain], rows: tuple[int, int], threads: int | None) -> PackedStretch: ...
+def lay_stretch(web: _PackedWeb, curtains: list[_PackedCurtain], rows: tuple[int, int], threads: int | None) -> _PackedStretch: ...
 def analyse_scan(picture: str | bytes, options: dict[str, Any]) -> AnalysedScan: ...
 def column_unit(name: str) -> str: ...
 def compare_folders(folders: Sequence[str]) -> Compared: ...

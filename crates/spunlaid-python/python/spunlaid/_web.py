@@ -90,7 +90,7 @@ class LaidStretch:
     """What tells one flight from another."""
     first: int
     """First row of cells on the sheet."""
-    values: _spunlaid.PackedStretch
+    values: Any
     """What lies there."""
 
     def __repr__(self) -> str:
@@ -106,9 +106,9 @@ class Stretch:
     """What tells one flight from another."""
     rows: tuple[int, int]
     """Its first row of cells, and the row after its last one."""
-    web: _spunlaid.PackedWeb
+    web: Any
     """The web."""
-    curtains: list[_spunlaid.PackedCurtain]
+    curtains: list[Any]
     """The filaments that were flown."""
 
     def lay(self, threads: int | None = None) -> LaidStretch:

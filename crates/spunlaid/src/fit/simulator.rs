@@ -96,7 +96,7 @@ impl Simulator for WebSimulator<'_> {
             let of_side = |side: f64| {
                 let far = |patch: &&PatchFindings| (patch.map.patch / side).ln().abs();
                 let patch = found.patches.iter().min_by(|a, b| far(a).total_cmp(&far(b)));
-                patch.and_then(|patch| Some(cause(patch)? / patch.map.cv)).unwrap_or(0.0)
+                patch.map_or(0.0, |patch| of_logarithm(cause(patch), patch.filled.unwrap_or(patch.map.cv)))
             };
             let error = |texture: &Texture| match texture {
                 Texture::Patch(side) => of_side(*side),
@@ -115,7 +115,30 @@ impl Simulator for WebSimulator<'_> {
     }
 }
 
+/// The error of the logarithm of a CV, which is that of the map that is compared. Where a few filaments tell so little of all that the CV which follows from them is zero, it has no
+/// error of its own, and the map is off by all of its CV.
+fn of_logarithm(error: Option<f64>, compared: f64) -> f64 {
+    let part = error.map_or(0.0, |error| error / compared);
+    if part.is_finite() { part } else { 0.0 }
+}
+
 /// The seed of a web of a trial.
 fn seed(spec: &WebSpec, replicate: u64) -> u64 {
     if replicate == 0 { spec.seed } else { seed_of_point(spec.seed, replicate) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A few filaments that tell nothing of all made an error of an unknown part of zero, and intervals of unknown ends.
+    #[test]
+    fn analytic_errors_are_parts_of_the_cv_that_is_compared() {
+        assert_eq!(of_logarithm(Some(0.01), 0.2), 0.05);
+        assert_eq!(of_logarithm(None, 0.2), 0.0);
+        let (told, of_map) = (0.0_f64, 0.2);
+        assert_eq!(of_logarithm(Some((of_map - told).abs()), of_map), 1.0);
+        assert_eq!(of_logarithm(Some(f64::NAN), of_map), 0.0);
+        assert_eq!(of_logarithm(Some(0.0), 0.0), 0.0);
+    }
 }

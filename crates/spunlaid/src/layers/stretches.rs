@@ -74,7 +74,7 @@ impl WebFlight {
         sort_by_key(&mut stretches, |stretch| stretch.rows.start);
         let [_, rows] = self.spec.sheet.cells();
         let mut end = 0;
-        let ends = stretches.iter().map(|stretch| stretch.rows.clone()).chain([rows..rows]);
+        let ends = stretches.iter().map(|stretch| stretch.rows.clone()).chain(std::iter::once(rows..rows));
         for next in ends {
             let from_to = |rows: Range<usize>| {
                 [rows.start, rows.end]

@@ -43,8 +43,10 @@ pub struct SharedAirFindings {
 impl LaidWeb {
     /// Stretches of a sheet that follow each other in machine direction, as one; None without any.
     pub(crate) fn joined(stretches: Vec<Self>) -> Option<Self> {
+        let cells: usize = stretches.iter().map(|stretch| stretch.map.cells.len()).sum();
         let mut stretches = stretches.into_iter();
         let mut all = stretches.next()?;
+        all.map.cells.reserve_exact(cells - all.map.cells.len());
         let quanta = |laid: &Self| (laid.cut / laid.map.quantum).round();
         let mut cut = quanta(&all);
         for stretch in stretches {
