@@ -157,24 +157,26 @@ Examples:
 pub(super) const WEB_HELP: &str = "\
 A web is a small text file:
 
-  [laydown]                       # how a filament lies; one of these three:
-  case = \"spunbond.toml\"          #   a case with [feed] and [belt], which is flown first
-  # results = \"results/spunbond\"  #   the results folder of such a case
-  # sigma_md = \"18.4 mm\"          #   the numbers of the surrogate, with [fibre] and both speeds
-  # sigma_cd = \"18.3 mm\"
-  # noise = \"12.4 m^-0.5\"
   [line]
   filaments_per_metre = 5000      # at random places, or the rows of nozzles of a beam:
   # rows = [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }]
-  # feed_speed = \"50 m/s\"         # with a case, these are the case's
-  # belt_speed = \"3 m/s\"
   [web]
   width = \"1 m\"
   length = \"1 m\"
-  # method = \"dynamics\"           # lay the flown curves themselves, in place of the surrogate's
+  # method = \"dynamics\"           # lay the flown curves themselves, independent of each other
 
-Several beams are [[layer]] tables, each with its own [layer.laydown], [layer.line] and
-[layer.fibre]. `spunlaid keys --web` explains every key. The results folder holds
+and how a filament lies, in one of four ways:
+
+  - the tables of a case, [fibre], [feed], [belt], [air], [drag] and [run], in the same file: its
+    filament is flown. `spunlaid run`, `spin` and `air` take the file too
+  - [laydown] case = \"spunbond.toml\": they stand in that file, which several webs may share
+  - [laydown] results = \"results/spunbond\": the results folder of such a case
+  - [laydown] sigma_md, sigma_cd and noise: the numbers of the surrogate, with [fibre] and in
+    [line] feed_speed and belt_speed
+
+A throughput and a basis weight may stand in [line] in place of the speeds. Several beams are
+[[layer]] tables, each with its own [layer.line]; what stands above them is that of all.
+`spunlaid keys` and `spunlaid keys --web` explain every key. The results folder holds
   report.html    for the browser: the web on a light table, what would make it more even, figures
   summary.json   basis weight, CV over patches with errors, directions, clouds, advice
   map.npy, map.parquet, map.png   the basis weight of each cell
@@ -285,9 +287,9 @@ Examples:
 pub(super) const NEW_HELP: &str = "\
 Without --fed and --web it is the case of Table 1 of the paper. With --web it is the file of a
 web, from the numbers by which a line is known; in a terminal it asks for those that are not
-given. Beside it stand the case of the filament and a table of the air between slot and belt, so
-FILE line.toml makes line.toml, line_filament.toml and line_air.csv. Each number that follows
-from others has a comment that says how.
+given. The file also has the filament, which `spunlaid run` flies alone; beside it stands a table
+of the air between slot and belt, so FILE line.toml makes line.toml and line_air.csv. Each number
+that follows from others has a comment that says how.
 
 Examples:
   spunlaid new my.toml && spunlaid run my.toml

@@ -15,8 +15,11 @@ pub fn web_key(full: &str) -> Option<&'static WebKey> {
 
 /// Whether one of two keys of a case or a web gives the value of the other, by their full names.
 pub(crate) fn are_alternatives(one: &str, other: &str) -> bool {
-    let [Some(key), Some(found)] = [one, other].map(web_key) else {
-        return CASE.are_alternatives(one, other);
+    let (key, found) = match [one, other].map(web_key) {
+        [Some(key), Some(found)] => (key, found),
+        [Some(key), None] => return WEB.gives(key.name, other),
+        [None, Some(found)] => return WEB.gives(found.name, one),
+        [None, None] => return CASE.are_alternatives(one, other),
     };
     let is_of_same_layer = || one.strip_suffix(key.name) == other.strip_suffix(found.name);
     WEB.are_alternatives(key.name, found.name) && (key.relations.of_all_layers || is_of_same_layer())
@@ -24,7 +27,8 @@ pub(crate) fn are_alternatives(one: &str, other: &str) -> bool {
 
 /// Whether keys of a case or a web give all that another one gives, by their full names, and so replace it.
 pub(crate) fn is_replaced(other: &str, names: &[&str]) -> bool {
-    let gives = |name: &&str| web_key(name).is_some() && are_alternatives(name, other);
+    let is_of_web = |name: &str| web_key(name).is_some() || web_key(other).is_some();
+    let gives = |name: &&str| is_of_web(name) && are_alternatives(name, other);
     !names.contains(&other) && (CASE.replaced_by(names).contains(&other) || names.iter().any(gives))
 }
 

@@ -16,6 +16,7 @@ mod case_files_at_random;
 mod case_notes;
 mod fuzz_findings;
 mod keys;
+mod one_file;
 mod rejects;
 mod slips;
 mod web_files;

@@ -5,12 +5,11 @@ use spunlaid::ensemble::{Keep, RunControl, fly};
 use spunlaid::error::Error;
 use spunlaid::input::{
     CaseWithNotes, FlownTension, KeptTensions, Overrides, StudyChanges, StudyFile, Unflown, Unread,
-    parse_case, parse_changed_study, parse_spinline, parse_web_and_cases,
+    parse_case, parse_changed_study, parse_spinline, parse_web,
 };
 use spunlaid::lanes::Isa;
 use spunlaid::units::Dimension;
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
@@ -198,13 +197,9 @@ fn identical_points_of_a_study_that_was_stopped_between_two_tensions() {
 
 const WEB: &str = "
 [[layer]]
-[layer.laydown]
-case = 'layer.toml'
 [layer.line]
 filaments_per_metre = 200
 [[layer]]
-[layer.laydown]
-case = 'layer.toml'
 [layer.line]
 filaments_per_metre = 100
 throughput = '0.45 g/min'
@@ -216,11 +211,10 @@ length = '0.4 m'
 #[test]
 fn identical_cases_of_layers_of_which_one_has_another_throughput() {
     let read_web = || {
-        let cases = vec![(PathBuf::from("../../cases/layer.toml"), case())];
-        parse_web_and_cases(WEB, "../../cases/web.toml", cases)
+        // The filament stands above the layers, which have it in common.
+        parse_web(&format!("{}{WEB}", case()), "../../cases/line.toml", &[])
     };
-    // How far the throughput of the second layer is from its own is known when its own is.
-    assert_eq!(unflown(read_web()).tensions(), 1);
+    assert_eq!(unflown(read_web()).tensions(), 2);
     let web = flown(read_web(), 2);
     for (layer, throughput) in web.spec.layers.iter().zip(["0.5 g/min", "0.45 g/min"]) {
         let (alone, _) = flown(read(&[("spinline.throughput", throughput)]), 1);

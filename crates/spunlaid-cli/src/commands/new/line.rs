@@ -1,4 +1,4 @@
-//! The files of a line: its web, the case of its filament, and the air between slot and belt.
+//! The files of a line: one of its web and its filament, and the air between slot and belt.
 
 use crate::args::{Given, LineNumbers};
 use spunlaid::spinline::Polymer;
@@ -104,8 +104,26 @@ impl Line {
         (self.air_speed <= self.feed_speed()).then_some(slow).into_iter().collect()
     }
 
-    /// The file of the web.
-    pub(super) fn web(&self, name: &str, case: &str) -> String {
+    /// The file of the line: its web, and the case of its filament.
+    ///
+    /// * `name` – what it is called
+    /// * `air` – the file of the air
+    pub(super) fn file(&self, name: &str, air: &str) -> String {
+        format!(
+            "# A spunbond line in its own words; the speeds follow. Each comment says how.\n\
+             #\n\
+             #     spunlaid check {name}.toml     # these numbers, and those that follow from them\n\
+             #     spunlaid web {name}.toml       # flies some filaments, lays the web and says how even it is\n\
+             #     spunlaid run {name}.toml       # flies single filaments, and says how each of them moves and lies\n\
+             version = 1\n{}{}{}",
+            self.holes_and_weight(),
+            self.sheet(),
+            self.filament(air)
+        )
+    }
+
+    /// What comes from each beam, and the weight of all.
+    fn holes_and_weight(&self) -> String {
         let Self { throughput, basis_weight, holes_per_metre, beams, width, .. } = *self;
         let flow = self.mass_flow();
         let times_beams = if beams > 1 { format!("{beams} beams × ") } else { String::new() };
@@ -113,13 +131,7 @@ impl Line {
             Some(holes) => format!("{holes} holes / {}; ", exact_text(Dimension::Length, width)),
             None => String::new(),
         };
-        let mut text = format!(
-            "# A spunbond line in its own words; the speeds follow. Each comment says how.\n\
-             #\n\
-             #     spunlaid check {name}.toml     # these numbers, and those that follow from them\n\
-             #     spunlaid web {name}.toml       # flies some filaments, lays the web and says how even it is\n\
-             version = 1\n"
-        );
+        let mut text = String::new();
         for number in 1..=beams {
             let (header, prefix) = match beams {
                 1 => (String::new(), ""),
@@ -134,8 +146,7 @@ impl Line {
                 speed(self.belt_speed()),
             );
             text += &format!(
-                "\n[{prefix}laydown]\ncase = \"{case}\"   # the filament, its air and the way to the belt\n\n\
-                 [{prefix}line]\nthroughput = \"{}\"   # of each hole: {} / {} dtex = fed at {}\n{}\
+                "\n[{prefix}line]\nthroughput = \"{}\"   # of each hole: {} / {} dtex = fed at {}\n{}\
                  filaments_per_metre = {holes_per_metre}   # {holes}{} kg/h from each metre of width, {} kg/h in all\n",
                 exact_text(Dimension::MassFlow, throughput),
                 flow_of_hole(throughput),
@@ -147,17 +158,22 @@ impl Line {
             );
             text += "depth = \"20 mm\"   # of the slot, a guess: the filaments come at an even pitch, each at a random depth\n";
         }
-        text + &format!(
+        text
+    }
+
+    /// The sheet, and which numbers are guesses.
+    fn sheet(&self) -> String {
+        format!(
             "\n[web]\nwidth = \"{}\"\nlength = \"1 m\"   # of the stretch that is looked at\n\
              # method = \"dynamics\"   # filaments that are independent of each other, a lower bound; left out, they hang in one air\n\
              # edges = \"cut\"   # if the edges of the web are to be seen; without, it is a part of a wide web\n\
              guessed = \"{GUESSED}\"   # made up: the CV is also told for half and twice of each; take out what you have measured\n",
-            exact_text(Dimension::Length, width)
+            exact_text(Dimension::Length, self.width)
         )
     }
 
-    /// The case of the filament.
-    pub(super) fn case(&self, name: &str, air: &str) -> String {
+    /// The case of the filament, which is that of all beams.
+    fn filament(&self, air: &str) -> String {
         let density = self.density();
         let size = match self.size {
             Size::Titre(titre) => format!(
@@ -174,14 +190,11 @@ impl Line {
         // A filament as spun is oriented somewhat.
         let modulus = 1.5 * self.polymer.material(false).unoriented_modulus;
         format!(
-            "# The filament of {name}.toml, from the end of the slot to the belt.\n\
-             # The speeds are those of the line. {name}.toml sets them anew from its throughput and basis weight.\n\
-             version = 1\n\n\
+            "\n# The filament, from the end of the slot to the belt.\n\
              [fibre]\n{size}\ndensity = \"{}\"   # of solid {}\n\
              youngs_modulus = \"{}\"   # half as much again as without orientation, a guess: the lay-down hardly depends on it\n\
              root = \"clamped\"   # the filament leaves the slot straight down\n\n\
-             [feed]\nspeed = \"{}\"   # {} / {} dtex\n\n\
-             [belt]\ndistance = \"{}\"   # from the slot to the belt\nspeed = \"{}\"   # {} / {}\n\n\
+             [belt]\ndistance = \"{}\"   # from the slot to the belt\n\n\
              [air]\nprofile = \"{air}\"   # made up, of the usual shape: replace it by measured or computed air (docs/air.md)\n\
              widening = \"md\"   # the air slows down because it widens along the belt\n\n\
              [drag]\nacross = \"marheineke-wegener\"   # agrees with measurements\n\n\
@@ -189,13 +202,7 @@ impl Line {
             Dimension::Density.pretty(density),
             self.polymer.name(),
             Dimension::Pressure.pretty_to(modulus, 2),
-            speed(self.feed_speed()),
-            flow_of_hole(self.throughput),
-            significant(self.titre() * 1e7, 4),
             exact_text(Dimension::Length, self.distance),
-            speed(self.belt_speed()),
-            format_args!("{} kg/h and metre", significant(self.mass_flow() * 3600.0, 4)),
-            Dimension::BasisWeight.pretty(self.basis_weight),
         )
     }
 

@@ -33,7 +33,7 @@ pub(crate) fn new(new: &New) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Writes the file of a web, the case of its filament and the table of the air.
+/// Writes the file of a line, and the table of its air.
 fn web(new: &New) -> Result<(), Failure> {
     let is_terminal = stdin().is_terminal() && stderr().is_terminal();
     let mut answers = is_terminal.then(|| stdin().lock());
@@ -41,14 +41,10 @@ fn web(new: &New) -> Result<(), Failure> {
     numbers.remarks().for_each(|remark| say::remark(false, &remark));
     let line = Line::new(&numbers);
     let path = &new.file;
-    need_file(path, "a web is written with two files beside it")?;
+    need_file(path, "a web is written with the table of its air beside it")?;
     let name = super::stem(path, "line").to_string_lossy().into_owned();
-    let [case, air] = [format!("{name}_filament.toml"), format!("{name}_air.csv")];
-    let files = [
-        (path.with_file_name(&air), line.air()),
-        (path.with_file_name(&case), line.case(&name, &air)),
-        (path.clone(), line.web(&name, &case)),
-    ];
+    let air = format!("{name}_air.csv");
+    let files = [(path.with_file_name(&air), line.air()), (path.clone(), line.file(&name, &air))];
     let mut written: Vec<&PathBuf> = Vec::new();
     let done = files.iter().try_for_each(|(path, text)| {
         write(path, text)?;
@@ -67,7 +63,7 @@ fn web(new: &New) -> Result<(), Failure> {
     line.warnings().iter().for_each(|warning| say::warning(warning));
     let path = path.display();
     say::line(&format!(
-        "wrote {path}, {case} and {air}; change them, then: spunlaid check {path}, spunlaid web {path}"
+        "wrote {path} and {air}; change them, then: spunlaid check {path}, spunlaid web {path}"
     ));
     Ok(())
 }

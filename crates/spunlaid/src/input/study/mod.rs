@@ -52,7 +52,7 @@ pub struct StudyFile {
     pub study: Study,
     /// Remarks on its points.
     pub notes: Vec<StudyNote>,
-    /// The text of what the points vary: of a case, unchanged; of a web, with every default written out.
+    /// The text of what the points vary: of a case, unchanged; of a web, with every default, and with what is written of its filaments.
     pub base_text: String,
     /// Path of the base case or web, or its name if it is not a file.
     pub base_path: PathBuf,

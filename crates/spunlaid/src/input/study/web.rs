@@ -3,7 +3,8 @@
 use super::super::Overrides;
 use super::super::document;
 use super::super::lookup::Lookup;
-use super::super::web::{WebFile, flies_none, is_of_case, parse_set, replaces, write_web};
+use super::super::web::{WebFile, flies_none, is_of_case, parse_set, replaces, write_web_to_vary};
+use super::super::written_values::WrittenValues;
 use super::fixed_keys::TAKE_A_NUMBER;
 use super::plan::Plan;
 use super::{Base, ExperimentWithNotes, VariedKey, level};
@@ -25,6 +26,8 @@ pub(super) struct WebBase {
     /// Whether its file has a list of layers.
     is_layered: bool,
     spec: WebSpec,
+    /// What is written of the filament of each layer.
+    filaments: Vec<Option<WrittenValues>>,
 }
 
 impl WebBase {
@@ -36,11 +39,11 @@ impl WebBase {
         set: [Overrides<'_>; 2],
         lookup: &Lookup,
     ) -> Result<Self, Error> {
-        let WebFile { spec, .. } = parse_set(&text, &path, &set, lookup)?;
+        let (WebFile { spec, .. }, filaments) = parse_set(&text, &path, &set, lookup)?;
         let flies = spec.layers.iter().any(|layer| matches!(layer.source, LaydownSource::Case { .. }));
         let is_layered = document::has_layers(&text);
         let set = set.map(|Overrides { values, word }| (values.to_vec(), word.to_owned())).to_vec();
-        Ok(Self { text, path, set, flies, is_layered, spec })
+        Ok(Self { text, path, set, flies, is_layered, spec, filaments })
     }
 
     /// The web with these values of keys, and with a seed of its own if there is one.
@@ -55,7 +58,7 @@ impl WebBase {
         let point: Vec<(String, String)> = values.iter().map(value).chain(seed).collect();
         let set = self.set.iter().map(|(values, word)| Overrides { values, word });
         let set: Vec<Overrides<'_>> = set.chain([Overrides { values: &point, word: "point" }]).collect();
-        parse_set(&self.text, &self.path, &set, lookup)
+        Ok(parse_set(&self.text, &self.path, &set, lookup)?.0)
     }
 
     /// [`WebBase::file`] with values that take the place of what is set in other words.
@@ -64,7 +67,8 @@ impl WebBase {
         let without = |set: &[(String, String)]| set.iter().filter(|(key, _)| !point(key)).cloned().collect();
         let set = self.set.iter().map(|(values, word)| (without(values), word.clone())).collect();
         let (text, path) = (self.text.clone(), self.path.clone());
-        Self { text, path, set, spec: self.spec.clone(), ..*self }.file(values, None, lookup)
+        let (spec, filaments) = (self.spec.clone(), Vec::new());
+        Self { text, path, set, spec, filaments, ..*self }.file(values, None, lookup)
     }
 
     /// The web before its keys vary.
@@ -165,6 +169,6 @@ impl Base for WebBase {
     }
 
     fn text(&self) -> String {
-        write_web(&self.spec)
+        write_web_to_vary(&self.spec, &self.filaments)
     }
 }

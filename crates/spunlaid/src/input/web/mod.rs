@@ -19,6 +19,7 @@ mod write;
 pub(super) use guessed::Guess;
 pub(super) use of_case::{flies_none, is_of_case, replaces};
 pub use write::write_web;
+pub(super) use write::write_web_to_vary;
 
 use super::lookup::Lookup;
 use super::unread::{self, Unread};
@@ -66,19 +67,24 @@ pub fn parse_web<'a>(
 ) -> Result<WebFile, Unread<WebFile>> {
     let Overrides { values, word } = overrides.into();
     let (text, name, values, word) = (text.to_owned(), name.to_owned(), values.to_vec(), word.to_owned());
-    unread::read(move |lookup| parse_set(&text, &name, &[Overrides { values: &values, word: &word }], lookup))
+    unread::read(move |lookup| {
+        parse_set(&text, &name, &[Overrides { values: &values, word: &word }], lookup).map(|(file, _)| file)
+    })
 }
 
-/// [`parse_web`] with what is set from several places, each of which replaces those before it.
+/// [`parse_web`] with what is set from several places, each of which replaces those before it; and what is written of the filament of
+/// each layer.
 pub(super) fn parse_set(
     text: &str,
     name: &str,
     set: &[Overrides<'_>],
     lookup: &Lookup,
-) -> Result<WebFile, Error> {
-    let (spec, notes) = read::open(values(text, name, set)?, name, set, lookup)?.spec()?;
+) -> Result<(WebFile, Vec<Option<WrittenValues>>), Error> {
+    let open = read::open(values(text, name, set)?, name, set, lookup)?;
+    let filaments = open.filaments();
+    let (spec, notes) = open.spec()?;
     let text = write_web(&spec);
-    Ok(WebFile { spec, notes, text })
+    Ok((WebFile { spec, notes, text }, filaments))
 }
 
 /// What is written of the filament of a web, as the values of a case.

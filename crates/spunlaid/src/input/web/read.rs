@@ -90,6 +90,12 @@ fn prefixes(key_values: &WrittenValues) -> Vec<String> {
 }
 
 impl OpenWeb<'_> {
+    /// What is written of the filament of each layer; none of one that flies none.
+    pub(super) fn filaments(&self) -> Vec<Option<WrittenValues>> {
+        let values = |filament: &Filament| filament.values.clone();
+        self.layers.iter().map(|layer| layer.filament.as_ref().map(values)).collect()
+    }
+
     /// The web, and notes about its cases.
     ///
     /// # Errors

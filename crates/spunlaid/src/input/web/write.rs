@@ -1,18 +1,45 @@
 //! Writes a web as a file that reads back to the same bits.
 
 use super::super::FORMAT_VERSION;
-use super::super::write::{in_lines, lines, lines_of_case};
-use crate::case::keys;
+use super::super::write::{in_lines, lines, lines_of_case, toml_value};
+use super::super::written_values::WrittenValues;
+use crate::case::keys::{self, Key};
 use crate::layers::keys::WEB;
 use crate::layers::{LaydownSource, LayerSpec, WebSpec};
 use crate::web::Filaments;
 
 /// Writes a web as TOML, with the cases that it flies: every key, in SI units. Reading the text gives the same web to the last bit.
 pub fn write_web(spec: &WebSpec) -> String {
+    let lines = |layer: &LayerSpec, _, table: &str| match &layer.source {
+        LaydownSource::Case { case, .. } => lines_of_case(case, table),
+        _ => Vec::new(),
+    };
+    write_with(spec, &lines)
+}
+
+/// [`write_web`] with nothing of the filaments but what is written: what follows from it follows anew where a key varies.
+///
+/// * `filaments` – what is written of that of each layer
+pub(in super::super) fn write_web_to_vary(spec: &WebSpec, filaments: &[Option<WrittenValues>]) -> String {
+    let lines = |_: &LayerSpec, number: usize, table: &str| {
+        let values = filaments.get(number).and_then(Option::as_ref);
+        let line = |key: &Key| {
+            let value = values?.get(key.name)?.value.clone()?;
+            Some(format!("{} = {}", key.short(), toml_value(&key.kind, value)))
+        };
+        keys::keys_of_table(table).filter_map(line).collect()
+    };
+    write_with(spec, &lines)
+}
+
+/// The lines of a table of the case that a layer flies, whose number from 0 is given.
+type LinesOfCase<'a> = &'a dyn Fn(&LayerSpec, usize, &str) -> Vec<String>;
+
+fn write_with(spec: &WebSpec, lines_of_case: LinesOfCase<'_>) -> String {
     let mut text = format!("version = {FORMAT_VERSION}\n");
     let layered = spec.layers.len() > 1 || spec.layers.iter().any(|layer| layer.name.is_some());
     let filaments: Vec<Option<Tables>> =
-        (0..spec.layers.len()).map(|number| filament(spec, number)).collect();
+        (0..spec.layers.len()).map(|number| filament(spec, number, lines_of_case)).collect();
     let mut flown = filaments.iter().flatten();
     let first = flown.next().filter(|_| layered);
     let (common, _): (Tables, Tables) = first
@@ -73,15 +100,13 @@ fn line(spec: &WebSpec, number: usize) -> Vec<String> {
 }
 
 /// The tables of the case that a layer flies, without what keys of the web give.
-fn filament(spec: &WebSpec, number: usize) -> Option<Tables> {
-    let LayerSpec { source: LaydownSource::Case { case, .. }, .. } = spec.layers.get(number)? else {
-        return None;
-    };
+fn filament(spec: &WebSpec, number: usize, lines_of_case: LinesOfCase<'_>) -> Option<Tables> {
+    let layer = spec.layers.get(number).filter(|layer| matches!(layer.source, LaydownSource::Case { .. }))?;
     let alone = spec.alone(number);
     let giving = WEB.rows.iter().filter(|key| !key.is_derived(&alone) && key.get(&alone).is_some());
     let given: Vec<&str> = giving.flat_map(|key| key.relations.gives_case).copied().collect();
     let lines = |table: &'static str| {
-        let mut lines = lines_of_case(case, table);
+        let mut lines = lines_of_case(layer, number, table);
         lines.retain(|line| {
             let short = line.split(" = ").next().unwrap_or(line);
             !given.contains(&&*format!("{table}.{short}"))
