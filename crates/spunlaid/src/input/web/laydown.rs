@@ -2,11 +2,11 @@
 
 use super::super::{Overrides, file, parse_with};
 use super::read::{Reading, THROUGHPUT};
-use crate::case::keys::Value;
+use crate::case::keys::{Value, find};
 use crate::case::{Case, Note};
 use crate::error::{Error, Fault, FileKind, Place};
 use crate::layers::LaydownSource;
-use crate::layers::keys::{NUMBERS, ONE_SOURCE};
+use crate::layers::keys::{METHODS, NUMBERS, ONE_SOURCE};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -54,7 +54,10 @@ impl Reading<'_> {
         let key = format!("{prefix}{CASE}");
         let Some(path) = self.path(&key) else { return Ok(None) };
         let unflown = self.lookup.unflown_cases();
-        let read = self.read_case(&path, self.of_case);
+        let in_one_air = self.set_in_one_air();
+        let in_one_air = Overrides { values: &in_one_air, word: "web.method as" };
+        let of_case = [self.of_case, &[in_one_air]].concat();
+        let read = self.read_case(&path, &of_case);
         let change = match &read {
             // How a case whose tension is still to be found has to change is known when it is.
             Ok((case, _)) if self.lookup.unflown_cases() == unflown => {
@@ -66,7 +69,7 @@ impl Reading<'_> {
             None => read,
             Some(change) => {
                 let change = Overrides { values: &[change], word: "line.throughput as" };
-                let read = self.read_case(&path, &[self.of_case, &[change]].concat());
+                let read = self.read_case(&path, &[&of_case[..], &[change]].concat());
                 if let Err(Error::Rejected(_)) = &read {
                     let message = format!(
                         "cannot be flown by {} (the message about that file says why)",
@@ -80,6 +83,17 @@ impl Reading<'_> {
         };
         let case = self.fed_case(&key, read)?;
         Ok(case.map(|case| LaydownSource::Case { path, case }))
+    }
+
+    /// What the cases of a web in one air have anyway, and must say for the keys that are set for them.
+    fn set_in_one_air(&self) -> Vec<(String, String)> {
+        if self.key_values.text("web.method").is_some_and(|method| method != METHODS[2]) {
+            return Vec::new();
+        }
+        let set = || self.of_case.iter().flat_map(|set| set.values).map(|(key, _)| key.trim());
+        let needed = set().filter_map(|key| find(key)?.relations.with_in_one_air);
+        let new = needed.filter(|(needed, _)| !set().any(|key| key == *needed));
+        new.map(|(key, value)| (key.to_owned(), value.to_owned())).collect()
     }
 
     fn results(&mut self, key: &str) -> Result<Option<LaydownSource>, Error> {
