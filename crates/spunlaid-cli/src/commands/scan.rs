@@ -1,6 +1,6 @@
 //! `spunlaid analyse` of a scan or a map of a web.
 
-use super::{aligned, say_report, staged, stem};
+use super::{say_report, staged, stem};
 use crate::args::{Analyse, Direction, Invocation, LightName};
 use crate::failure::Failure;
 use crate::say;

@@ -16,6 +16,7 @@ mod continued;
 mod figures;
 mod fit;
 mod flown_tension;
+mod guesses;
 mod gusts;
 mod keys;
 mod lost;

@@ -34,7 +34,8 @@ pub fn guess_words(spec: &WebSpec, findings: &Findings, guesses: Option<&Advice>
         }
     }
     if told.is_empty() {
-        return format!("{begin}, and no web with half or twice of them could be flown.");
+        let failed = failed_words(guesses);
+        return format!("{begin}, and no web with half or twice of them could be flown.{failed}");
     }
     let each: Vec<String> =
         told.iter().map(|(name, values)| format!("{name} = {}", values.join(", "))).collect();
@@ -53,11 +54,13 @@ pub fn guess_words(spec: &WebSpec, findings: &Findings, guesses: Option<&Advice>
     )
 }
 
-/// Which values could not be flown.
+/// Which values could not be laid or flown, and why.
 fn failed_words(guesses: &Advice) -> String {
     let failed = guesses.failed.iter().filter_map(|(change, why)| {
         let key = change.keys.first()?;
-        Some(format!(" {} = {} could not be tried: {why}.", key.key, key.pretty(key.to)))
+        let part = if key.to < key.from { "Half" } else { "Twice" };
+        let verb = if change.refusal.is_some() { "cannot be laid" } else { "could not be flown" };
+        Some(format!(" {part} of {}, {}, {verb}: {why}.", key.key, key.pretty(key.to)))
     });
     failed.collect()
 }

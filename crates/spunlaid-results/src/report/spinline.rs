@@ -75,8 +75,7 @@ fn section<'a>(
         Row::new(row.measure.label, [&value, row.measure.unit.shown, row.meaning()])
     };
     let first = rows.first();
-    let results =
-        first.into_iter().flat_map(|first| measured(OF_SPINLINES, first).map(row));
+    let results = first.into_iter().flat_map(|first| measured(OF_SPINLINES, first).map(row));
     let is_low = first.is_some_and(|row| row.has_low_birefringence);
     let section = section
         .paragraphs(sentences.into_iter().chain(curtain(rows)))

@@ -156,6 +156,13 @@ pub fn advise(
     changes: Vec<Change>,
     by: LayControl<'_>,
 ) -> Result<Advice, Error> {
+    let (refused, changes): (Vec<Change>, Vec<Change>) =
+        changes.into_iter().partition(|change| change.refusal.is_some());
+    let refused = refused.into_iter().filter_map(|change| Some((change.clone(), change.refusal?)));
+    let mut advice = Advice { failed: refused.collect(), ..Advice::default() };
+    if changes.is_empty() {
+        return Ok(advice);
+    }
     let has_few = findings.laid.shared_air.as_ref().is_some_and(|together| !together.few.is_empty());
     let in_same_air = if has_few { few_of_changes(spec, &changes, by)? } else { None };
     let is_in_same_air = in_same_air.is_some();
@@ -164,7 +171,6 @@ pub fn advise(
         None => try_alone(spec, (web, findings), &changes, by)?,
     };
     let belt_speed = |spec: &WebSpec| spec.layers.first().map_or(f64::NAN, |layer| layer.belt_speed);
-    let mut advice = Advice::default();
     for (change, tried) in changes.into_iter().zip(tried) {
         match tried {
             Ok(cvs) => advice.effects.push(Effect {

@@ -101,6 +101,8 @@ pub struct Change {
     pub file: String,
     /// Keys and values with which that file is the changed web. What was set before is among them.
     pub set: Vec<(String, String)>,
-    /// The changed web.
+    /// The changed web; where it cannot be laid, the web as it is.
     pub spec: WebSpec,
+    /// Why it cannot be laid.
+    pub refusal: Option<String>,
 }

@@ -139,6 +139,24 @@ fn rows_and_layers_are_read_in_their_order() {
     assert_eq!((spec.sheet.patches, spec.sheet.edges), (vec![1e-3, 5e-3], Edges::Cut));
 }
 
+/// The air of a web in one air differs across the flow whether its case says so or not, so that the cut-off alone can be set.
+#[test]
+fn identical_the_cutoff_of_one_air_is_set_with_or_without_its_turbulence_across() {
+    let read = |values: &[(&str, &str)]| {
+        let values: Vec<_> = values.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
+        read_web(FLOWN.as_ref(), &values)
+    };
+    let (cutoff, lateral) = (("air.lateral_cutoff", "12"), ("air.lateral", "von-karman"));
+    let [alone, both] = [&[cutoff][..], &[lateral, cutoff]].map(|set| read(set).unwrap().spec);
+    assert_eq!(alone.lateral_cutoff(0), Some(12.0));
+    assert_eq!(alone, both);
+    // Independent filaments have no such air, and nobody overrules what is set.
+    for other in [("web.method", "dynamics"), ("air.lateral", "uniform")] {
+        let said = read(&[other, cutoff]).unwrap_err().to_string();
+        assert!(said.contains("air.lateral_cutoff = 12 has no effect without air.lateral"), "{said}");
+    }
+}
+
 #[test]
 fn a_slot_rows_at_places_along_and_one_air_are_read_and_written() {
     let read = |values: &[(&str, &str)]| {

@@ -40,6 +40,8 @@ pub struct Relations<T: 'static = Case> {
     pub(crate) same_in_case: Option<&'static str>,
     /// Keys of the flown cases whose values it gives.
     pub(crate) gives_case: &'static [&'static str],
+    /// Another key and its value, without which it cannot be set, and which a web in one air has anyway.
+    pub(crate) with_in_one_air: Option<(&'static str, &'static str)>,
     /// Whether it is one number for all layers of a web, which any of them may give.
     pub(crate) of_all_layers: bool,
 }
@@ -68,6 +70,7 @@ impl<T> Relations<T> {
         in_study: None,
         same_in_case: None,
         gives_case: &[],
+        with_in_one_air: None,
         of_all_layers: false,
     };
 }
@@ -118,6 +121,10 @@ impl<T> Key<T> {
 
     pub(crate) const fn gives_case(self, keys: &'static [&'static str]) -> Self {
         Self { relations: Relations { gives_case: keys, ..self.relations }, ..self }
+    }
+
+    pub(crate) const fn with_in_one_air(self, key: &'static str, value: &'static str) -> Self {
+        Self { relations: Relations { with_in_one_air: Some((key, value)), ..self.relations }, ..self }
     }
 
     pub(crate) const fn of_all_layers(self) -> Self {
@@ -183,6 +190,9 @@ mod tests {
                 );
                 let of_case = key.relations.same_in_case.iter().chain(key.relations.gives_case);
                 assert!(of_case.copied().all(|name| CASE.find(name).is_some()), "{}", key.name);
+                if let Some((name, value)) = key.relations.with_in_one_air {
+                    assert!(self.find(name).is_some_and(|other| takes(other, value)), "{}", key.name);
+                }
                 let texts = [key.relations.needed_if, key.relations.default_if];
                 assert!(texts.iter().flatten().all(|(_, value)| takes(key, value)), "{}", key.name);
                 if let Omission::Required(value) | Omission::Value(value) = key.omission

@@ -274,7 +274,7 @@ impl Line<'_> {
         let keys: Vec<ChangedKey> = known.iter().zip(&values).filter_map(changed).collect();
         let (layers, file) = (layers.to_vec(), self.web.base.path().to_owned());
         let set = self.settings_of(&values);
-        (!keys.is_empty()).then_some(Change { setting, layers, keys, file, set, spec })
+        (!keys.is_empty()).then_some(Change { setting, layers, keys, file, set, spec, refusal: None })
     }
 
     /// Whether the file says the throughput of a layer itself, so that it holds.

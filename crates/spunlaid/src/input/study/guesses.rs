@@ -15,8 +15,6 @@ const CUTOFF: &str = "air.lateral_cutoff";
 /// Guesses at the length of the eddies. Half as long ones keep the smallest waves across, because a field of half as long waves would take four times the
 /// memory.
 const OF_EDDIES: [&str; 3] = ["air.length_factor", "air.length_scale", "air.length_constant"];
-/// What a case must say that has one.
-const IN_SPACE: (&str, &str) = ("air.lateral", "von-karman");
 
 /// Reads the file of a web and makes the webs in which one of the numbers that it calls guesses is half and twice as large.
 ///
@@ -48,7 +46,7 @@ fn changes(web: OpenWeb<'_>) -> Vec<Change> {
 }
 
 impl OpenWeb<'_> {
-    /// The web with another value of a guess; None if it cannot be laid.
+    /// The web with another value of a guess; None if that is no other value.
     fn changed(&self, name: &str, guess: &Guess, factor: f64) -> Option<Change> {
         let value = factor * guess.value;
         let to = if guess.kind.dimension().is_none() { value.round().max(1.0) } else { value };
@@ -60,12 +58,10 @@ impl OpenWeb<'_> {
         {
             values.push((self.base.varied(CUTOFF).ok()?, factor * cutoff));
         }
-        if values.iter().any(|(key, _)| key.name == CUTOFF) {
-            let key = self.base.varied(IN_SPACE.0).ok()?;
-            let word = key.words().iter().position(|word| *word == IN_SPACE.1)?;
-            values.push((key, word as f64));
-        }
-        let spec = self.base.changed(&values, self.lookup).ok()?.spec;
+        let (spec, refusal) = match self.base.changed(&values, self.lookup) {
+            Ok(changed) => (changed.spec, None),
+            Err(why) => (self.base.spec().clone(), Some(why.to_string())),
+        };
         let (key, _) = values.first()?;
         let changed = ChangedKey {
             key: name.to_owned(),
@@ -76,6 +72,7 @@ impl OpenWeb<'_> {
         };
         let (keys, layers, file) = (vec![changed], Vec::new(), self.base.path().to_owned());
         let set = self.with_settings(values.iter().map(|value| self.setting(value)).collect());
-        (to != guess.value).then_some(Change { setting: Setting::Guess, layers, keys, file, set, spec })
+        let setting = Setting::Guess;
+        (to != guess.value).then_some(Change { setting, layers, keys, file, set, spec, refusal })
     }
 }

@@ -172,6 +172,7 @@ pub(super) const KEYS: &[Key] = &[
              only.",
         )
         .label("Lateral cut-off *k*_{max}*L*_{T}")
+        .with_in_one_air("air.lateral", "von-karman")
         .slider(8.0, 25.0),
     key("air.harmonics", Kind::Whole(1, usize::MAX as u64))
         .access(Access {
