@@ -277,7 +277,7 @@ fn a_study_of_a_spinline_continues_and_runs_again_to_the_same_bits() {
                  \"spinline.die_temperature\" = [\"220 °C\", \"240 °C\"]\n";
     fs::write(desk.path("study.toml"), study).unwrap();
     let said = success(&mut desk.spunlaid("sweep study.toml --out a"));
-    for part in ["Diameter of the filament (µm)", "0.3 g/min", "220 °C", "4 spinlines at 4 points"] {
+    for part in ["Diameter, cold (µm)", "0.3 g/min", "220 °C", "4 spinlines at 4 points"] {
         assert!(said.contains(part), "{part}\n{said}");
     }
     assert!(desk.entries("a").contains("spinline.toml"));
