@@ -3,7 +3,7 @@
 use super::Curtain;
 use crate::error::{Error, Fault};
 use crate::threads::try_each;
-use crate::web::{Canvas, CanvasPart, LaidWeb, Sheet, Strand, Strands, Window, WindowOnSheet};
+use crate::web::{Canvas, CanvasPart, KeptFibres, LaidWeb, Sheet, Strand, Strands, WindowOnSheet, Windows};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -19,8 +19,8 @@ const GROUPS: usize = 8;
 pub struct Belt<'a> {
     /// The sheet.
     pub sheet: &'a Sheet,
-    /// Window of the sheet, whose single fibres are kept.
-    pub window: Window,
+    /// Windows of the sheet, whose single fibres are kept.
+    pub windows: Windows,
     /// Where the sheet begins, at its back [m].
     pub back: f64,
 }
@@ -30,7 +30,11 @@ impl<'a> Belt<'a> {
     ///
     /// # Errors
     /// If the curves are too short for the sheet.
-    pub fn within(curtain: &dyn Curtain, sheet: &'a Sheet, window: Window) -> Result<Self, Fault> {
+    pub fn within(
+        curtain: &dyn Curtain,
+        sheet: &'a Sheet,
+        windows: impl Into<Windows>,
+    ) -> Result<Self, Fault> {
         let [back_of_start, front_of_end] = curtain.reach();
         let passed = curtain.belt_ratio() * curtain.spacing() * (curtain.points() as f64 - 1.0);
         let longest = back_of_start - (front_of_end - passed);
@@ -44,11 +48,11 @@ impl<'a> Belt<'a> {
                 "fly the filaments for longer, or make the sheet shorter (web.length)",
             ));
         }
-        Ok(Self { sheet, window, back: back_of_start - sheet.length })
+        Ok(Self { sheet, windows: windows.into(), back: back_of_start - sheet.length })
     }
 }
 
-/// Draws all filaments of a curtain; the parts of them in the window are returned.
+/// Draws all filaments of a curtain; the parts of them in the windows are returned.
 ///
 /// * `quanta` – of the canvas, for a piece from point to point
 ///
@@ -59,15 +63,17 @@ pub(crate) fn draw(
     belt: Belt<'_>,
     (canvas, quanta): (&Canvas, u32),
     (threads, stop): (usize, &AtomicBool),
-) -> Result<Vec<Strand>, Error> {
+) -> Result<KeptFibres, Error> {
     let count = curtain.places().len();
     // Neighbours are drawn together, because they lie on the same part of the sheet.
     let together = (count / (GROUPS * threads.max(1))).clamp(1, MOST_TOGETHER);
-    let strands = try_each(threads, count.div_ceil(together), |group| {
+    let groups = try_each(threads, count.div_ceil(together), |group| {
         let filaments = group * together..count.min((group + 1) * together);
         draw_neighbours(curtain, filaments, belt, (canvas, quanta), stop)
     })?;
-    Ok(strands.concat())
+    let mut kept = KeptFibres::default();
+    groups.into_iter().for_each(|group| kept.add(group));
+    Ok(kept)
 }
 
 /// A filament while it is drawn.
@@ -83,10 +89,10 @@ fn draw_neighbours(
     belt: Belt<'_>,
     (canvas, quanta): (&Canvas, u32),
     stop: &AtomicBool,
-) -> Result<Vec<Strand>, Error> {
+) -> Result<KeptFibres, Error> {
     let advance = curtain.belt_ratio() * curtain.spacing();
     let mut pens: Vec<Pen> = filaments.clone().map(|_| Pen::default()).collect();
-    let window = WindowOnSheet::new(belt.window, belt.sheet);
+    let window = WindowOnSheet::new(belt.windows, belt.sheet);
     let mut part = CanvasPart::new(canvas);
     let (mut values, mut points) = ([[0.0; BLOCK]; 2], Vec::new());
     for first in (0..curtain.points()).step_by(BLOCK) {
@@ -120,7 +126,9 @@ fn draw_neighbours(
         }
     }
     part.pass_on();
-    Ok(pens.into_iter().flat_map(|pen| pen.strands.into_parts()).collect())
+    let mut kept = KeptFibres::default();
+    pens.into_iter().for_each(|pen| kept.add(pen.strands.into_parts()));
+    Ok(kept)
 }
 
 /// Lays all filaments of a curtain on a sheet; the parts of them in the window are returned too.
@@ -138,8 +146,8 @@ pub fn lay(
     let per_length = element / curtain.spacing() * curtain.places().len() as f64;
     let basis_weight = per_length / curtain.belt_ratio() / belt.sheet.width;
     let canvas = Canvas::new(belt.sheet, &[element], basis_weight)?;
-    let strands = draw(curtain, belt, (&canvas, canvas.quanta(element)), by)?;
-    Ok((canvas.finish()?, strands))
+    let KeptFibres { strands, pieces } = draw(curtain, belt, (&canvas, canvas.quanta(element)), by)?;
+    Ok((LaidWeb { pieces, ..canvas.finish()? }, strands))
 }
 
 #[cfg(test)]
@@ -148,6 +156,7 @@ mod tests {
     use super::super::synthetic::{BELT_RATIO, Field, SPACING, row};
     use super::*;
     use crate::fibre::Place;
+    use crate::web::Window;
 
     const CELL: f64 = 1e-3;
     const ELEMENT: f64 = 1e-9;
@@ -222,7 +231,7 @@ mod tests {
         let window = Window { corner: [0.0; 2], sides: [20e-3; 2] };
         let fault = Belt::within(&flown, &sheet, window).unwrap_err().to_string();
         assert!(fault.contains("the sheet is 500 mm long"), "{fault}");
-        let belt = Belt { sheet: &sheet, window, back: 0.0 };
+        let belt = Belt { sheet: &sheet, windows: window.into(), back: 0.0 };
         assert!(matches!(lay(&flown, belt, ELEMENT, (1, &AtomicBool::new(true))), Err(Error::Interrupted)));
     }
 }

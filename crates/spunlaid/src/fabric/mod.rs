@@ -14,17 +14,21 @@
 mod air_through;
 mod directions;
 mod formation;
+mod given;
 mod holes;
 mod known;
 mod light;
 mod patches;
 mod strips;
+mod tell;
 #[cfg(test)]
 mod tests;
+mod water;
 
 pub use air_through::{Filaments, air_permeability, air_speed, davies, jackson_james, solid_fraction};
 pub use directions::stiffness_ratio;
 pub use formation::formation;
+pub use given::FabricKeys;
 pub use holes::{
     Disc, FabricHoles, HolesOfRadius, LEAST_RADIUS, LocalLength, Piece, RADII, WindowHoles, carry,
     count_holes, expected_holes,
@@ -33,3 +37,5 @@ pub use known::Known;
 pub use light::{opacity, scattering};
 pub use patches::{HEAVIER, LIGHTER, QUANTILES, ThinPlaces, thin_places};
 pub use strips::{StripSize, Strips, WEAK, strips};
+pub use tell::{AirThrough, Fabric, FabricPatch, Laid, Opacity, tell};
+pub use water::hydrohead;

@@ -13,8 +13,8 @@ use crate::fibre::Place;
 use crate::lanes::Isa;
 use crate::units::Dimension;
 use crate::web::{
-    Canvas, Curves, Edges, Fibres, LaidWeb, LayerFew, OneAir, SharedAirFindings, Sheet, Strand, TimeSpent,
-    blocks_on, inlets,
+    Canvas, Curves, Edges, Fibres, KeptFibres, LaidWeb, LayerFew, OneAir, PieceInWindow, SharedAirFindings,
+    Sheet, TimeSpent, blocks_on, inlets,
 };
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
@@ -95,25 +95,27 @@ impl Flyer<'_> {
         let elements: Vec<f64> = beams.iter().map(|layer| layer.beam().element_mass()).collect();
         let weight = beams.iter().map(LayerBeam::basis_weight).sum();
         let canvas = Canvas::new(&spec.sheet, &elements, weight)?;
-        let (mut layers, mut shared_air) = (Vec::new(), SharedAirFindings::default());
+        let (mut layers, mut pieces, mut shared_air) = (Vec::new(), Vec::new(), SharedAirFindings::default());
         for (number, (layer, element)) in beams.into_iter().zip(elements).enumerate() {
             let on = (&canvas, canvas.quanta(element));
             let (layer, mut flown, told) = self.fly_until_told(spec, (number, layer), on)?;
             let mut of_layer = flown.take_shared_air();
+            let mut kept = std::mem::take(&mut flown.in_windows);
             if let Some((curves, told)) = told {
                 let missing;
-                (of_layer.strands, missing) =
-                    self.draw_all(spec, (number, &layer), (&curves, flown.back), on)?;
+                (kept, missing) = self.draw_all(spec, (number, &layer), (&curves, flown.back), on)?;
+                of_layer.strands = std::mem::take(&mut kept.strands);
                 of_layer.few = vec![LayerFew { missing, ..told }];
             }
             shared_air.add(number, of_layer);
+            pieces.extend(kept.pieces.into_iter().map(|piece| PieceInWindow { layer: number, ..piece }));
             let flown = Arc::new(layer.gather(flown)?);
             // In machine direction the sheet is not closed.
             spec.check_spreads([0.0, flown.numbers[1].mean])?;
             layers
                 .push(LayerFibres { fibres: Fibres::Curves(Arc::clone(&flown.curves)), flown: Some(flown) });
         }
-        Ok((layers, LaidWeb { shared_air: Some(shared_air), ..canvas.finish()? }))
+        Ok((layers, LaidWeb { pieces, shared_air: Some(shared_air), ..canvas.finish()? }))
     }
 
     /// Flies a layer. Unless the file says how many filaments are flown, more of them fly where a few do not tell what all do.
@@ -146,7 +148,7 @@ impl Flyer<'_> {
     }
 
     /// Draws all filaments of a layer, which follow from a few: those between them on the sheet that these have laid, and pieces of it on any other sheet.
-    /// Returns their parts in the window, and the part of the variance that the few do not tell.
+    /// Returns their parts in the windows, and the part of the variance that the few do not tell.
     ///
     /// * `back` – where the flown sheet begins on the belt [m]
     fn draw_all(
@@ -155,13 +157,13 @@ impl Flyer<'_> {
         (number, layer): (usize, &LayerBeam<'_>),
         (curves, back): (&FlownCurves, f64),
         on: (&Canvas, u32),
-    ) -> Result<(Vec<Strand>, [f64; 2]), Error> {
-        let (sheet, window) = (&spec.sheet, spec.window());
+    ) -> Result<(KeptFibres, [f64; 2]), Error> {
+        let (sheet, windows) = (&spec.sheet, spec.windows());
         let places = layer.few.as_ref().map_or_else(Vec::new, |few| few.places.clone());
         if [sheet.width, sheet.length] == [layer.sheet.width, layer.sheet.length] {
             let all = curves.fill(places, self.threads);
-            let strands = draw(&all, Belt { sheet, window, back }, on, self.by())?;
-            return Ok((strands, all.missing()));
+            let kept = draw(&all, Belt { sheet, windows, back }, on, self.by())?;
+            return Ok((kept, all.missing()));
         }
         let library = Library::new(curves, self.threads)?;
         let around = match sheet.edges {
@@ -171,8 +173,8 @@ impl Flyer<'_> {
             Edges::Cut => sheet.width + layer.sheet.width,
         };
         let tiles = library.tiles(places, around, sheet.length, [spec.seed, number as u64])?;
-        let strands = draw(&tiles, Belt::within(&tiles, sheet, window)?, on, self.by())?;
-        Ok((strands, library.missing()))
+        let kept = draw(&tiles, Belt::within(&tiles, sheet, windows)?, on, self.by())?;
+        Ok((kept, library.missing()))
     }
 
     /// Flies a layer and shows the progress.
@@ -194,7 +196,7 @@ impl Flyer<'_> {
             time_step: layer.case.run.time_step,
         };
         let mut flown = Err(Error::Interrupted);
-        (self.follow)(flights, &mut || flown = beam.fly((&layer.sheet, spec.window()), on, by));
+        (self.follow)(flights, &mut || flown = beam.fly((&layer.sheet, spec.windows()), on, by));
         flown
     }
 }

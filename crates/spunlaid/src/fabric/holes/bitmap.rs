@@ -78,11 +78,6 @@ impl Bitmap {
         }
     }
 
-    /// Whether a pixel is bare.
-    pub(super) fn is_bare(&self, row: usize, column: usize) -> bool {
-        self.words[row * self.side.div_ceil(BITS) + column / BITS] >> (column % BITS) & 1 == 0
-    }
-
     /// Passes on the runs of bare pixels of a row.
     pub(super) fn bare_runs(&self, row: usize, mut take: impl FnMut(std::ops::Range<usize>)) {
         let words = self.side.div_ceil(BITS);

@@ -1,6 +1,7 @@
 //! From the holes that are counted in windows to those of the whole sheet.
 
 use super::super::Known;
+use super::super::patches::weights;
 use super::{LEAST_RADIUS, WindowHoles};
 use crate::statistics::Estimate;
 use crate::web::{Map, straight_fibres};
@@ -56,22 +57,14 @@ impl LocalLength {
     pub fn new(map: &Map, mean: f64) -> Self {
         let side = ((LOCAL / map.cell).round().max(1.0) as usize).min(map.columns.min(map.rows));
         let patches = [map.columns / side, map.rows / side];
-        let mut sums = vec![0u64; patches[0] * patches[1]];
-        for row in 0..patches[1] * side {
-            let sums = &mut sums[row / side * patches[0]..][..patches[0]];
-            for (sum, cells) in sums.iter_mut().zip(map.row(row).chunks_exact(side)) {
-                *sum += cells.iter().map(|cell| u64::from(*cell)).sum::<u64>();
-            }
-        }
-        let count = sums.len() as f64;
-        let of_mean = sums.iter().sum::<u64>() as f64 / count;
-        let deviation = |sum: &u64| *sum as f64 / of_mean - 1.0;
-        let variance = sums.iter().map(|sum| deviation(sum).powi(2)).sum::<f64>() / count;
+        let weights = weights(map, LOCAL);
+        let count = weights.len() as f64;
+        let variance = weights.iter().map(|weight| (weight - 1.0).powi(2)).sum::<f64>() / count;
         let size = side as f64 * map.cell;
         let by_chance = straight_fibres(mean, size).powi(2);
         let lower = if variance > by_chance { (1.0 - by_chance / variance).sqrt() } else { 0.0 };
         let lengths: Vec<f64> =
-            sums.iter().map(|sum| mean * (1.0 + lower * deviation(sum)).max(0.0)).collect();
+            weights.iter().map(|weight| mean * (1.0 + lower * (weight - 1.0)).max(0.0)).collect();
         let mut classes = vec![(0.0, 0.0); CLASSES];
         for length in &lengths {
             let class = &mut classes[((length / mean * CLASSES_PER_MEAN) as usize).min(CLASSES - 1)];

@@ -56,6 +56,7 @@ pub(super) fn spec(
         web.layers.push(layer);
     }
     reading.fill(&mut web, "web", "web.");
+    reading.fill(&mut web, "fabric", "fabric.");
     if !reading.is_written("web.method") {
         web.method = Method::default_for(&web.layers);
     }

@@ -35,5 +35,8 @@ pub fn write_web(spec: &WebSpec) -> String {
             text += &format!("rows = [\n  {},\n]\n", rows.join(",\n  "));
         }
     }
-    text + "\n[web]\n" + &in_lines(&lines_of_table(spec, "web"))
+    for table in ["web", "fabric"] {
+        text += &format!("\n[{table}]\n{}", in_lines(&lines_of_table(spec, table)));
+    }
+    text
 }
