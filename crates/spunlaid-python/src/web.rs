@@ -11,6 +11,7 @@ use pyo3::types::PyDict;
 use spunlaid::advice::{Advice, Change, advise, are_tried, steps};
 use spunlaid::case::Note;
 use spunlaid::error::FileKind;
+use spunlaid::fabric::Fabric;
 use spunlaid::input::{Overrides, WebFile, parse_changes, parse_guesses, parse_web};
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
 use spunlaid::observe::OF_PATCHES;
@@ -31,6 +32,7 @@ pub(crate) struct LaidWeb {
     file: WebFile,
     flown: FlownWeb,
     findings: Findings,
+    fabric: Fabric,
     advice: Option<Advice>,
     guesses: Option<Advice>,
     #[pyo3(get)]
@@ -81,8 +83,9 @@ pub(crate) fn lay_web(
         let performance = Performance::measure(started, laying.threads, laying.isa).with_flights(&findings);
         Ok((flown, findings, [advice, guesses], performance))
     })?;
+    let fabric = file.spec.fabric(&flown.web, &findings, watch.lay_control(threads).threads);
     let notes = [Note::notes_of_results(&file.notes), notes(&flown.web, &findings, &flown.layers)].concat();
-    Ok(LaidWeb { name, file, flown, findings, advice, guesses, notes, performance })
+    Ok(LaidWeb { name, file, flown, findings, fabric, advice, guesses, notes, performance })
 }
 
 /// Basis weight of every cell of a map [kg/m2], which cannot be written to.
@@ -101,6 +104,7 @@ impl LaidWeb {
             web: &self.flown.web,
             layers: &self.flown.layers,
             findings: &self.findings,
+            fabric: &self.fabric,
             advice: self.advice.as_ref(),
             guesses: self.guesses.as_ref(),
             notes: &self.notes,

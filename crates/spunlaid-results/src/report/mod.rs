@@ -8,6 +8,7 @@ mod advice;
 mod air;
 mod analysis;
 mod comparison;
+mod fabric;
 mod fit;
 mod frames;
 mod guesses;

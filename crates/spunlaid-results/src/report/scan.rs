@@ -1,6 +1,7 @@
 //! `report.html` of a scanned web: the web on a light table, how uneven it is, and the figures.
 
 use super::advice::AdviceSection;
+use super::fabric::FabricSection;
 use super::light_table::{picture_note, sheet};
 use super::methods::Methods;
 use super::rendered;
@@ -74,6 +75,7 @@ pub fn scan_html(input: &ScanReport<'_>) -> Result<String, Failure> {
         advice: AdviceSection::default(),
         lever_heads: Vec::new(),
         levers: Vec::new(),
+        fabric: FabricSection::default(),
         figures: input.figures,
         spinlines: Vec::new(),
         file: File {

@@ -1,6 +1,7 @@
 //! `report.html` of a web: the web on a light table, what makes it uneven, and the figures.
 
 use super::advice::{AdviceSection, is_known};
+use super::fabric::{FabricSection, fabric_section};
 use super::guesses::guess_words;
 use super::headline::{grams, headline_patch};
 use super::light_table::{Fibres, Sheet, Strands, picture_note, sheet};
@@ -13,6 +14,7 @@ use crate::numbers::{THIN, number, plus_minus, significant};
 use crate::output::web::{Layer, PatchTable, Performance, Reader};
 use askama::Template;
 use spunlaid::advice::Advice;
+use spunlaid::fabric::Fabric;
 use spunlaid::layers::WebSpec;
 use spunlaid::statistics::Estimate;
 use spunlaid::web::uniformity::Unevenness;
@@ -32,6 +34,8 @@ pub struct WebReport<'a> {
     pub web: &'a Web,
     /// What was found.
     pub findings: &'a Findings,
+    /// What is told of the fabric.
+    pub fabric: &'a Fabric,
     /// What would make it more even; None if it was not tried.
     pub advice: Option<&'a Advice>,
     /// What guesses matter for it; None if it was not tried.
@@ -78,6 +82,7 @@ pub(super) struct WebPage<'a> {
     pub(super) advice: AdviceSection,
     pub(super) lever_heads: Vec<String>,
     pub(super) levers: Vec<(String, Vec<String>)>,
+    pub(super) fabric: FabricSection,
     pub(super) figures: &'a [Figure],
     pub(super) spinlines: Vec<SpinSection<'a>>,
     pub(super) methods_paragraph: Methods,
@@ -147,6 +152,7 @@ pub fn web_html(input: &WebReport<'_>) -> Result<String, Failure> {
         advice: AdviceSection::new(input.spec, findings, input.advice),
         lever_heads: findings.patches.iter().map(|patch| millimetres(patch.map.patch)).collect(),
         levers: findings.sensitivities.iter().map(levers).collect(),
+        fabric: fabric_section(input.fabric),
         figures: input.figures,
         spinlines: spinline::sections_of_web(input.web, input.layers, input.spinlines),
         file: File {
