@@ -24,6 +24,7 @@ mod tell;
 #[cfg(test)]
 mod tests;
 mod water;
+mod words;
 
 pub use air_through::{Filaments, air_permeability, air_speed, davies, jackson_james, solid_fraction};
 pub use directions::stiffness_ratio;
@@ -39,3 +40,4 @@ pub use patches::{HEAVIER, LIGHTER, QUANTILES, ThinPlaces, thin_places};
 pub use strips::{StripSize, Strips, WEAK, strips};
 pub use tell::{AirThrough, Fabric, FabricPatch, Laid, Opacity, tell};
 pub use water::hydrohead;
+pub use words::about;
