@@ -13,7 +13,7 @@ use spunlaid::layers::{
     DrawnCurtains, FlownCurtain, FlownCurtains, LaidStretch, WebFlight as Flight, WebSpec,
 };
 use spunlaid::study::Experiment;
-use spunlaid::web::{LaidWeb as Laid, Map, Strand};
+use spunlaid::web::{LaidWeb as Laid, Map, PieceInWindow, Strand};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -30,9 +30,9 @@ pub(crate) struct WebFlight {
 /// begins on the belt; places of the filaments, filaments × 2; deviations, filaments × 2 × points.
 type PackedCurtain<'py, Places, Curves> = (usize, (Option<f64>, f64, f64), ([f64; 2], f64), Places, Curves);
 /// What lies on a stretch: its first row; cells, rows × columns; their side, the quantum, whether the sheet goes on at the other edge, and the mass beyond it; the strands
-/// of the window; what the few do not tell.
+/// of the window; pieces in the windows in which holes are counted, each with its window, layer and ends; what the few do not tell.
 type PackedStretch<Cells, Points> =
-    (usize, Cells, (f64, f64, bool, f64), Vec<(usize, usize, Points)>, Vec<[f64; 2]>);
+    (usize, Cells, (f64, f64, bool, f64), Vec<(usize, usize, Points)>, Points, Vec<[f64; 2]>);
 
 /// Flies a few filaments of a web. See spunlaid.fly_web, which calls it.
 #[pyfunction]
@@ -153,6 +153,8 @@ pub(crate) fn lay_stretch<'py>(
         PyArray1::from_vec(py, map.cells).reshape([map.rows, map.columns])?,
         (map.cell, map.quantum, map.closed[0], laid.cut),
         drawn.strands.into_iter().map(strand).collect::<PyResult<_>>()?,
+        PyArray1::from_iter(py, drawn.pieces.iter().flat_map(numbers))
+            .reshape([drawn.pieces.len(), NUMBERS])?,
         drawn.missing,
     ))
 }
@@ -175,8 +177,16 @@ fn flown_curtain(
     Ok(FlownCurtain { layer: *layer, curves, sheet: *sheet, back: *back })
 }
 
+/// Numbers of a piece in a window: the window, the layer, and its ends.
+const NUMBERS: usize = 6;
+
+/// Whole numbers below 2⁵³ are exact.
+fn numbers(PieceInWindow { window, layer, ends: [from, to] }: &PieceInWindow) -> [f64; NUMBERS] {
+    [*window as f64, *layer as f64, from[0], from[1], to[0], to[1]]
+}
+
 fn laid_stretch(
-    (first, cells, (cell, quantum, closed, cut), strands, missing): &PackedStretch<
+    (first, cells, (cell, quantum, closed, cut), strands, pieces, missing): &PackedStretch<
         PyReadonlyArray2<'_, u32>,
         PyReadonlyArray2<'_, f64>,
     >,
@@ -186,6 +196,11 @@ fn laid_stretch(
     let strand = |(layer, filament, points): &(usize, usize, PyReadonlyArray2<'_, f64>)| {
         let points = points.as_array().rows().into_iter().map(|point| [point[0], point[1]]).collect();
         Strand { layer: *layer, filament: *filament, points }
+    };
+    let piece = |row: numpy::ndarray::ArrayView1<'_, f64>| PieceInWindow {
+        window: row[0] as usize,
+        layer: row[1] as usize,
+        ends: [[row[2], row[3]], [row[4], row[5]]],
     };
     let map = Map {
         columns,
@@ -197,7 +212,11 @@ fn laid_stretch(
     };
     LaidStretch {
         rows: *first..first + rows,
-        laid: Laid { map, cut: *cut, shared_air: None },
-        drawn: DrawnCurtains { strands: strands.iter().map(strand).collect(), missing: missing.clone() },
+        laid: Laid { map, cut: *cut, pieces: Vec::new(), shared_air: None },
+        drawn: DrawnCurtains {
+            strands: strands.iter().map(strand).collect(),
+            pieces: pieces.as_array().rows().into_iter().map(piece).collect(),
+            missing: missing.clone(),
+        },
     }
 }

@@ -11,6 +11,7 @@ use pyo3::types::PyDict;
 use spunlaid::advice::{Advice, Change, advise, are_tried, steps};
 use spunlaid::case::Note;
 use spunlaid::error::{Error, FileKind};
+use spunlaid::fabric::Fabric;
 use spunlaid::input::{Overrides, WebFile, parse_changes, parse_guesses, parse_web};
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
 use spunlaid::observe::{OF_PATCHES, with_errors};
@@ -32,6 +33,7 @@ pub(crate) struct LaidWeb {
     file: WebFile,
     flown: FlownWeb,
     findings: Findings,
+    fabric: Fabric,
     advice: Option<Advice>,
     guesses: Option<Advice>,
     #[pyo3(get)]
@@ -93,9 +95,10 @@ impl Asked {
         let advice = self.advice.clone().map(compare).transpose()?;
         let performance = Performance::measure(started, laying.threads, laying.isa).with_flights(&findings);
         let of_results = notes(&flown, &findings);
+        let fabric = spec.fabric(&flown.web, &findings, laying.threads);
         let notes = [Note::notes_of_results(&self.file.notes), of_results].concat();
         let (name, file) = (self.name.clone(), self.file.clone());
-        Ok(LaidWeb { name, file, flown, findings, advice, guesses, notes, performance })
+        Ok(LaidWeb { name, file, flown, findings, fabric, advice, guesses, notes, performance })
     }
 }
 
@@ -151,6 +154,7 @@ impl LaidWeb {
             web: &self.flown.web,
             layers: &self.flown.layers,
             findings: &self.findings,
+            fabric: &self.fabric,
             advice: self.advice.as_ref(),
             guesses: self.guesses.as_ref(),
             notes: &self.notes,

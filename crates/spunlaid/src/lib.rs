@@ -92,6 +92,8 @@ pub mod web;
 
 pub mod curtain;
 
+pub mod fabric;
+
 pub mod record;
 pub mod scan;
 

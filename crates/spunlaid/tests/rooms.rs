@@ -26,7 +26,7 @@ const ROOMS: &[&[&str]] = &[
     &["statistics"],
     &["laydown", "surrogate"],
     &["record", "web"],
-    &["curtain", "scan"],
+    &["curtain", "fabric", "scan"],
     &["case"],
     &["flight"],
     &["observe"],

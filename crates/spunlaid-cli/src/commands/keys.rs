@@ -5,6 +5,7 @@ use crate::failure::Failure;
 use crate::say;
 use spunlaid::case::keys::{self, CASE, Key, KeyTable, Kind, TABLES};
 use spunlaid::error::Fault;
+use spunlaid::fabric::about;
 use spunlaid::layers::{WEB, WEB_KEYS, WEB_TABLES, WebKey};
 use spunlaid::units::{Dimension, UnitAdvice};
 use std::fmt::Write;
@@ -72,7 +73,8 @@ pub(crate) fn keys(arguments: &Keys) -> Result<(), Failure> {
             case_keys().chain(further.map(|key| KeyEntry { file: "  (of a web file)", ..key })).collect()
         }
     };
-    if found.is_empty() {
+    let about = about(&word).filter(|_| !arguments.markdown);
+    if found.is_empty() && about.is_none() {
         let nearest = if arguments.web { Vec::new() } else { keys::like(&word) };
         let nearest: Vec<&str> = nearest.iter().take(MOST_NEAREST).map(|key| key.name).collect();
         let message = format!("no key has \"{}\" in its name or meaning", pattern.escape_debug());
@@ -87,7 +89,12 @@ pub(crate) fn keys(arguments: &Keys) -> Result<(), Failure> {
             if arguments.web { (WEB_HEAD, &WEB_TABLES) } else { (HEAD, &TABLES) };
         say::text(&markdown(&found, head, tables));
     } else {
-        let texts: Vec<String> = found.iter().map(reference).collect();
+        let about = about.map(|sentence| {
+            let mut text = String::new();
+            wrap(&mut text, String::new(), 0, &sentence.replace('`', "\""));
+            text
+        });
+        let texts: Vec<String> = about.into_iter().chain(found.iter().map(reference)).collect();
         say::text(&texts.join("\n"));
     }
     Ok(())
@@ -95,7 +102,6 @@ pub(crate) fn keys(arguments: &Keys) -> Result<(), Failure> {
 
 /// The description of a key for the terminal.
 fn reference(key: &KeyEntry) -> String {
-    let width = say::columns().map_or(WIDTH, |columns| columns.min(WIDTH));
     let mut text = format!("{}{}\n", key.name, key.file);
     let none = if key.left_out.starts_with("required") { "none; " } else { "" };
     let default = none.to_owned() + &key.left_out.replace('`', "");
@@ -109,18 +115,30 @@ fn reference(key: &KeyEntry) -> String {
         if words.is_empty() {
             continue;
         }
-        let mut line = if title.is_empty() { "   ".to_owned() } else { format!("    {title}") };
-        for word in words.split(' ') {
-            if line.chars().count() + 1 + word.chars().count() > width {
-                let _ = writeln!(text, "{line}");
-                line = if title.is_empty() { "   ".to_owned() } else { " ".repeat(14) };
-            }
-            line.push(' ');
-            line.push_str(word);
-        }
-        let _ = writeln!(text, "{line}");
+        let (first, next) =
+            if title.is_empty() { ("   ".to_owned(), 3) } else { (format!("    {title}"), 14) };
+        wrap(&mut text, first, next, &words);
     }
     text
+}
+
+/// Adds words in lines that are not too long.
+///
+/// * `line` – with which the first one begins
+/// * `next` – spaces with which the others begin
+fn wrap(text: &mut String, mut line: String, next: usize, words: &str) {
+    let width = say::columns().map_or(WIDTH, |columns| columns.min(WIDTH));
+    for word in words.split(' ') {
+        if line.chars().count() + 1 + word.chars().count() > width {
+            let _ = writeln!(text, "{line}");
+            line = " ".repeat(next);
+        }
+        if !line.is_empty() {
+            line.push(' ');
+        }
+        line.push_str(word);
+    }
+    let _ = writeln!(text, "{line}");
 }
 
 /// The allowed values, with the units of a quantity and its usual range.

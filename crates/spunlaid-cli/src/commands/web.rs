@@ -8,13 +8,14 @@ use crate::{progress, say};
 use spunlaid::advice::{Advice, Change, advise, are_tried, steps};
 use spunlaid::case::Note;
 use spunlaid::error::Error;
+use spunlaid::fabric::Fabric;
 use spunlaid::input::{Method, Unflown, Unread, WebFile, WebSpec, read_changes, read_guesses, read_web};
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
 use spunlaid::web::{Findings, LayControl, PatchFindings, Web};
 use spunlaid_results::folders;
 use spunlaid_results::folders::web::WebFolder;
 use spunlaid_results::numbers::significant;
-use spunlaid_results::output::web::{ENTRIES, PatchTable, Performance, Reader};
+use spunlaid_results::output::web::{ENTRIES, PatchTable, Performance, Reader, fabric_rows};
 use spunlaid_results::report::{advice_commands, advice_words, guess_words};
 use std::path::PathBuf;
 use std::sync::atomic::AtomicU64;
@@ -53,6 +54,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
         progress::follow(&laid, flown.pieces()?, &label, arguments.output.quiet, || flown.find(by))?;
     let laying_s = started.elapsed().as_secs_f64();
     let FlownWeb { web, layers, .. } = &flown;
+    let fabric = file.spec.fabric(web, &findings, by.threads);
     let is_short = |changes: &Vec<Change>| {
         says_enough(&file.spec, &findings) && steps(&file.spec, changes) <= most_steps(file.spec.method)
     };
@@ -90,6 +92,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
         web,
         layers,
         findings: &findings,
+        fabric: &fabric,
         advice: advice.as_ref(),
         guesses: guesses.as_ref(),
         notes: &notes,
@@ -103,6 +106,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
         say::text(&written.summary());
     } else if !arguments.output.quiet {
         say::table(&terminal_table(&findings));
+        say::table(&fabric_table(&fabric));
         let words = guess_words(&file.spec, &findings, guesses.as_ref());
         if !words.is_empty() {
             say::line(&format!("\n{words}"));
@@ -163,6 +167,16 @@ fn flying(quiet: bool) -> impl Fn(Flights<'_>, &mut (dyn FnMut() + Send)) {
         let label = format!("flying {} of {name}, {seconds} fibre-seconds", plural(fibres, "fibre"));
         progress::follow(done, steps, &label, quiet, work);
     }
+}
+
+/// A few numbers of the fabric, for the terminal.
+fn fabric_table(fabric: &Fabric) -> String {
+    let rows = fabric_rows(fabric, true).into_iter().map(|row| vec![row.name, row.value]);
+    let notes: String = fabric.notes.iter().map(|note| format!("\n{note}")).collect();
+    format!(
+        "\nfabric, of the map and of the curves of the fibres\n{}{notes}",
+        aligned(&rows.collect::<Vec<_>>())
+    )
 }
 
 /// The table for the terminal.

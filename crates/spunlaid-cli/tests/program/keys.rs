@@ -48,6 +48,31 @@ fn keys_are_explained_by_a_word_in_their_name_or_meaning() {
     assert!(all.matches("\n    takes").count() > 35 && all.lines().all(|line| line.chars().count() <= 100));
 }
 
+/// Those who buy fabric find a key, or what there is in place of one.
+#[test]
+fn words_of_buyers_are_answered() {
+    let desk = Desk::new();
+    for word in [
+        "tensile",
+        "caliper",
+        "thickness",
+        "permeability",
+        "porosity",
+        "opacity",
+        "formation",
+        "cloudiness",
+        "pinholes",
+        "\"thin spot\"",
+        "hydrohead",
+        "trim",
+        "saleable",
+        "softness",
+    ] {
+        let told = success(&mut desk.spunlaid(&format!("keys {}", word.replace('"', "").replace(' ', "-"))));
+        assert!(told.contains("fabric") && told.lines().all(|line| line.chars().count() <= 100), "{told}");
+    }
+}
+
 #[test]
 fn rejects_a_word_that_no_key_has() {
     let desk = Desk::new();

@@ -13,8 +13,8 @@ use spunlaid::input::{parse_spinline, parse_web};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::Flyer;
 use spunlaid::observe::{
-    Measure, OF_COMPONENTS, OF_PATCHES, OF_RECORDS, OF_SCANNED_PATCHES, OF_SCANS, OF_SPINLINES, OF_WEBS,
-    Value, measured, with_errors,
+    Measure, OF_COMPONENTS, OF_FABRICS, OF_PATCHES, OF_RECORDS, OF_SCANNED_PATCHES, OF_SCANS, OF_SPINLINES,
+    OF_WEBS, Value, measured, with_errors,
 };
 use spunlaid::scan::{self, Format, Light, Picture};
 use spunlaid::web::{FewFilamentsCv, Findings, IndependentCv, LayControl, PatchFindings};
@@ -87,12 +87,14 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
         let desk = tempfile::tempdir().unwrap();
         let folder = desk.path().join("w");
         let staging = Staging::new(&folder, ENTRIES, false, &STOP).unwrap();
+        let fabric = file.spec.fabric(&flown.web, findings, 2);
         let written = WebFolder {
             name: "web",
             file: &file,
             web: &flown.web,
             layers: &flown.layers,
             findings,
+            fabric: &fabric,
             advice: None,
             guesses: None,
             notes: &[],
@@ -109,6 +111,11 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
             let json = places.into_iter().find_map(|place| place.get(column)).cloned();
             let mean = json.as_ref().map(|json| json.get("mean").unwrap_or(json).as_f64().unwrap());
             assert_eq!(mean, declared.value(findings).map(|value| value.number()), "{column}");
+        }
+        for declared in OF_FABRICS {
+            let value = declared.value(&fabric).map(|value| serde_json::to_value(value).unwrap());
+            assert_eq!(summary["fabric"].get(declared.entry()), value.as_ref(), "{}", declared.entry());
+            assert!(value.is_none() || report.contains(declared.label), "{}", declared.entry());
         }
         let terminal = PatchTable::new(findings, Reader::Terminal).heads;
         for (patch, json) in findings.patches.iter().zip(summary["web"]["patches"].as_array().unwrap()) {

@@ -9,6 +9,7 @@ use crate::output::web::{self, Layer, Performance, Summary};
 use crate::report::{LayerSpinline, web_report};
 use spunlaid::advice::Advice;
 use spunlaid::case::Case;
+use spunlaid::fabric::Fabric;
 use spunlaid::input::{LayerSpec, WebFile, WebSpec, write_web};
 use spunlaid::layers::{FlownWeb, LayerFibres};
 use spunlaid::spinline::Solution;
@@ -29,6 +30,8 @@ pub struct WebFolder<'a> {
     pub layers: &'a [LayerFibres],
     /// What was found of it.
     pub findings: &'a Findings,
+    /// What is told of the fabric.
+    pub fabric: &'a Fabric,
     /// What would make it more even; None if it was not tried.
     pub advice: Option<&'a Advice>,
     /// What guesses matter for it; None if it was not tried.
@@ -43,8 +46,8 @@ impl WebFolder<'_> {
     /// The text of `summary.json`.
     pub fn summary(&self) -> String {
         let rows = rows(&self.file.spec, self.web, self.layers);
-        let found = (self.findings, self.advice, self.guesses);
-        Summary::new(self.web, found, &rows, self.performance, self.notes).to_json()
+        let (found, tried) = ((self.findings, self.fabric), (self.advice, self.guesses));
+        Summary::new(self.web, found, tried, &rows, self.performance, self.notes).to_json()
     }
 
     /// Writes the map, the single fibres of a window, the figures, the report, the file of the web and the summary.
@@ -86,7 +89,8 @@ impl WebFolder<'_> {
             });
             let report = web_report(
                 (&self.file.spec, &toml, self.web),
-                (self.findings, self.advice, self.guesses),
+                (self.findings, self.fabric),
+                (self.advice, self.guesses),
                 (&rows(&self.file.spec, self.web, self.layers), &spinlines),
                 &strands,
                 &figures,

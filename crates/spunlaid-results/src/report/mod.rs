@@ -12,6 +12,7 @@ mod air;
 mod analysis;
 mod comparison;
 mod document;
+mod fabric;
 mod fit;
 mod frames;
 mod guesses;

@@ -2,6 +2,7 @@
 
 use super::advice::{advice_table, advice_words, is_known};
 use super::document::{Report, Section};
+use super::fabric::fabric_section;
 use super::guesses::guess_words;
 use super::light_table::{Fibres, Strands, picture_note, sheet};
 use super::methods::{methods, web_account};
@@ -16,6 +17,7 @@ use crate::Failure;
 use crate::numbers::{THIN, number, plus_minus, significant};
 use crate::output::web::{Layer, PatchTable, Performance, Reader};
 use spunlaid::advice::Advice;
+use spunlaid::fabric::Fabric;
 use spunlaid::layers::WebSpec;
 use spunlaid::statistics::Estimate;
 use spunlaid::web::uniformity::Unevenness;
@@ -25,7 +27,8 @@ use spunlaid_charts::Figure;
 /// A web.
 ///
 /// * `web` – what is said of it, the same as a file, and the web
-/// * `found` – its findings; what would make it more even, and what guesses matter for it, None if these were not tried
+/// * `findings` – of the web, with what is told of its fabric
+/// * `advice` – what would make it more even, and what guesses matter for it; None if these were not tried
 /// * `layers` – with the spinlines from which their filaments come
 /// * `strands` – the fibres in the window
 ///
@@ -33,7 +36,8 @@ use spunlaid_charts::Figure;
 /// The picture cannot be drawn.
 pub fn web_report<'a>(
     (spec, toml, web): (&WebSpec, &str, &Web),
-    (findings, advice, guesses): (&Findings, Option<&Advice>, Option<&Advice>),
+    (findings, fabric): (&Findings, &Fabric),
+    (advice, guesses): (Option<&Advice>, Option<&Advice>),
     (layers, spinlines): (&[Layer], &'a [LayerSpinline]),
     strands: &[Strand],
     figures: &'a [Figure],
@@ -65,6 +69,7 @@ pub fn web_report<'a>(
         .lead(spun)
         .with(table)
         .with(uneven(spec, findings, advice))
+        .with(fabric_section(fabric))
         .with(Section::of_figures(figures))
         .with_all(sections_of_web(web, layers, spinlines))
         .with(methods("web", account, found))

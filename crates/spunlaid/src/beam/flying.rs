@@ -8,7 +8,7 @@ use crate::air::EddyField;
 use crate::error::{Error, Fault};
 use crate::line::Line;
 use crate::threads::{lock, unlock};
-use crate::web::{Canvas, Sheet, Window};
+use crate::web::{Canvas, Sheet, Windows};
 use std::ops::Range;
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex};
@@ -33,12 +33,12 @@ impl<'a> Flying<'a> {
     ///
     /// # Errors
     /// If the fibre of the case is not laid on a moving belt.
-    pub(super) fn new(beam: Beam<'a>, (sheet, window): (&Sheet, Window)) -> Result<Self, Error> {
+    pub(super) fn new(beam: Beam<'a>, (sheet, windows): (&Sheet, Windows)) -> Result<Self, Error> {
         let line = beam.case.line.filter(|line| line.belt_speed > 0.0);
         let line = line.ok_or_else(|| Fault::plain("the fibre of the case is not laid on a moving belt"))?;
         let numbers = pack::neighbours(beam.places);
         let packs = numbers.iter().map(|_| Mutex::new(None)).collect();
-        let stretch = Stretch::before(&line, line.feed_speed * beam.case.run.spin_up(), window, sheet);
+        let stretch = Stretch::before(&line, line.feed_speed * beam.case.run.spin_up(), windows, sheet);
         Ok(Self { beam, line, numbers, packs, stretch, reach: Reach::default(), done: 0 })
     }
 

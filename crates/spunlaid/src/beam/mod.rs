@@ -30,8 +30,8 @@ use crate::lanes::Isa;
 use crate::sort::sort_by_key;
 use crate::threads::try_each;
 use crate::web::{
-    Canvas, LaidWeb, NeighbourCorrelation, SharedAirFindings, SharedVariance, Sheet, Strand, TimeSpent,
-    Window,
+    Canvas, KeptFibres, LaidWeb, NeighbourCorrelation, SharedAirFindings, SharedVariance, Sheet, TimeSpent,
+    Window, Windows,
 };
 pub(crate) use abreast::{FlownAbreast, fly_abreast};
 use air::SharedField;
@@ -91,8 +91,8 @@ pub struct BeamControl<'a> {
 pub struct BeamFindings {
     /// All points that some filaments have laid, from the start on, with their numbers across the web.
     pub kept: Vec<(usize, Vec<LaidPoint>)>,
-    /// The parts of all filaments in a window of the sheet.
-    pub strands: Vec<Strand>,
+    /// The parts of all filaments in the windows of the sheet.
+    pub(crate) in_windows: KeptFibres,
     /// How filaments come down together, over their distance.
     pub neighbours: Vec<NeighbourCorrelation>,
     /// The part of CV² that neighbours make together, over patches of each side of the sheet; empty if pairs do not tell it.
@@ -141,7 +141,7 @@ impl Beam<'_> {
     ) -> Result<(LaidWeb, BeamFindings), Error> {
         let element = self.element_mass();
         let canvas = Canvas::new(sheet, &[element], self.basis_weight(sheet))?;
-        let mut flown = self.fly((sheet, window), Some((&canvas, canvas.quanta(element))), by)?;
+        let mut flown = self.fly((sheet, window.into()), Some((&canvas, canvas.quanta(element))), by)?;
         let shared_air = Some(flown.take_shared_air());
         Ok((LaidWeb { shared_air, ..canvas.finish()? }, flown))
     }
@@ -160,19 +160,19 @@ impl Beam<'_> {
 
     /// Flies all filaments, and lays them on a canvas or keeps all their curves.
     ///
-    /// * `window` – of the sheet, whose single fibres are kept
+    /// * `windows` – of the sheet, whose single fibres are kept
     /// * `on` – the canvas, and its quanta for an element of fibre; None to keep the curves of all filaments in place of it
     ///
     /// # Errors
     /// If the case cannot be flown or its fibre is not laid on a moving belt, if more than 2 % of the filaments are lost, or if it is stopped.
     pub(crate) fn fly(
         &self,
-        (sheet, window): (&Sheet, Window),
+        (sheet, windows): (&Sheet, Windows),
         on: Option<(&Canvas, u32)>,
         by: BeamControl<'_>,
     ) -> Result<BeamFindings, Error> {
         let started = Instant::now();
-        let mut flying = Flying::new(*self, (sheet, window))?;
+        let mut flying = Flying::new(*self, (sheet, windows))?;
         let (mut spent, mut making) = (TimeSpent::default(), Duration::ZERO);
         let mut shared = SharedField::new(self, sheet, by.threads);
         let block = shared.as_ref().map_or(BLOCK, SharedField::block);
@@ -228,9 +228,9 @@ impl Beam<'_> {
 impl BeamFindings {
     /// The findings on the web in one air. The strands of single fibres are moved out of `self`.
     pub(crate) fn take_shared_air(&mut self) -> SharedAirFindings {
-        let Self { strands, neighbours, pairs, lost, time, spent, .. } = self;
+        let Self { in_windows, neighbours, pairs, lost, time, spent, .. } = self;
         SharedAirFindings {
-            strands: std::mem::take(strands),
+            strands: std::mem::take(&mut in_windows.strands),
             neighbours: neighbours.clone(),
             pairs: pairs.clone(),
             few: Vec::new(),
@@ -245,7 +245,7 @@ impl BeamFindings {
         sort_by_key(&mut self.kept, |(filament, _)| *filament);
         sort_by_key(&mut self.lost, |(filament, _)| *filament);
         // A filament comes through the window in the order of its strands.
-        sort_by_key(&mut self.strands, |strand| strand.filament);
+        sort_by_key(&mut self.in_windows.strands, |strand| strand.filament);
     }
 }
 

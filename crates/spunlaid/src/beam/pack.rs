@@ -108,7 +108,7 @@ impl Pack {
     pub(super) fn finish(self, flown: &mut BeamFindings) {
         for filament in self.filaments {
             let Filament { number, kept, strands, lost, .. } = filament;
-            flown.strands.extend(strands.into_parts());
+            flown.in_windows.add(strands.into_parts());
             match lost {
                 Some(reason) => flown.lost.push((number, reason)),
                 None => flown.kept.extend(kept.map(|points| (number, points))),

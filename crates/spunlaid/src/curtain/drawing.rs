@@ -3,7 +3,7 @@
 use super::Curtain;
 use crate::error::{Error, Fault};
 use crate::threads::try_each;
-use crate::web::{Canvas, CanvasPart, LaidWeb, Sheet, Strand, Strands, Window, WindowOnSheet};
+use crate::web::{Canvas, CanvasPart, KeptFibres, LaidWeb, Sheet, Strand, Strands, WindowOnSheet, Windows};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -19,8 +19,8 @@ const GROUPS: usize = 8;
 pub struct Belt<'a> {
     /// The sheet.
     pub sheet: &'a Sheet,
-    /// Window of the sheet, whose single fibres are kept.
-    pub window: Window,
+    /// Windows of the sheet, whose single fibres are kept.
+    pub windows: Windows,
     /// Where the sheet begins, at its back [m].
     pub back: f64,
 }
@@ -30,7 +30,11 @@ impl<'a> Belt<'a> {
     ///
     /// # Errors
     /// If the curves are too short for the sheet.
-    pub fn within(curtain: &dyn Curtain, sheet: &'a Sheet, window: Window) -> Result<Self, Fault> {
+    pub fn within(
+        curtain: &dyn Curtain,
+        sheet: &'a Sheet,
+        windows: impl Into<Windows>,
+    ) -> Result<Self, Fault> {
         let [back_of_start, front_of_end] = curtain.reach();
         let passed = curtain.belt_ratio() * curtain.spacing() * (curtain.points() as f64 - 1.0);
         let longest = back_of_start - (front_of_end - passed);
@@ -44,11 +48,11 @@ impl<'a> Belt<'a> {
                 "fly the filaments for longer, or make the sheet shorter (web.length)",
             ));
         }
-        Ok(Self { sheet, window, back: back_of_start - sheet.length })
+        Ok(Self { sheet, windows: windows.into(), back: back_of_start - sheet.length })
     }
 }
 
-/// Draws all filaments of a curtain on the rows of a canvas. The parts of them in the window are returned where it begins on these rows.
+/// Draws all filaments of a curtain on the rows of a canvas. The parts of them in the windows that begin on these rows are returned.
 ///
 /// * `quanta` – of the canvas, for a piece from point to point
 ///
@@ -59,32 +63,31 @@ pub(crate) fn draw(
     belt: Belt<'_>,
     (canvas, quanta): (&Canvas, u32),
     (threads, stop): (usize, &AtomicBool),
-) -> Result<Vec<Strand>, Error> {
+) -> Result<KeptFibres, Error> {
     let count = curtain.places().len();
     // Neighbours are drawn together, because they lie on the same part of the sheet.
     let together = (count / (GROUPS * threads.max(1))).clamp(1, MOST_TOGETHER);
-    let (points, window) = points_on(curtain, belt, canvas.ends());
-    let strands = try_each(threads, count.div_ceil(together), |group| {
+    let (points, windows) = points_on(curtain, belt, canvas.ends());
+    let groups = try_each(threads, count.div_ceil(together), |group| {
         let filaments = group * together..count.min((group + 1) * together);
-        draw_neighbours(curtain, (filaments, &points), (belt, window), (canvas, quanta), stop)
+        draw_neighbours(curtain, (filaments, &points), (belt, &windows), (canvas, quanta), stop)
     })?;
-    Ok(strands.concat())
+    let mut kept = KeptFibres::default();
+    groups.into_iter().for_each(|group| kept.add(group));
+    Ok(kept)
 }
 
-/// The points whose pieces may touch a stretch of the sheet, and the window if it begins there, which is then a part of the stretch.
+/// The points whose pieces may touch a stretch of the sheet, and the windows that begin there, which are then a part of the stretch.
 ///
 /// * `ends` – of the stretch [m]
 fn points_on(
     curtain: &dyn Curtain,
     belt: Belt<'_>,
     [mut from, mut to]: [f64; 2],
-) -> (Range<usize>, Option<WindowOnSheet>) {
-    let Window { corner, sides } = belt.window;
-    let window = (from..to).contains(&corner[1]).then(|| WindowOnSheet::new(belt.window, belt.sheet));
-    if window.is_some() {
-        // Pieces a cell beside it are looked at.
-        from = from.min(corner[1] - 2.0 * belt.sheet.cell);
-        to = to.max(corner[1] + sides[1] + 2.0 * belt.sheet.cell);
+) -> (Range<usize>, WindowOnSheet) {
+    let windows = WindowOnSheet::beginning_on(belt.windows, belt.sheet, [from, to]);
+    if let Some([first, last]) = windows.reach() {
+        (from, to) = (from.min(first), to.max(last));
     }
     let (advance, farthest) = (curtain.belt_ratio() * curtain.spacing(), curtain.farthest());
     let y = || curtain.places().iter().map(|place| place.y - belt.back);
@@ -92,7 +95,7 @@ fn points_on(
     // A piece more on each side, for numbers that are rounded.
     let begin = (first - farthest - to) / advance - 2.0;
     let end = (last + farthest - from) / advance + 3.0;
-    (begin as usize..(end as usize).min(curtain.points()), window)
+    (begin as usize..(end as usize).min(curtain.points()), windows)
 }
 
 /// A filament while it is drawn.
@@ -105,10 +108,10 @@ struct Pen {
 fn draw_neighbours(
     curtain: &dyn Curtain,
     (filaments, points_on): (Range<usize>, &Range<usize>),
-    (belt, window): (Belt<'_>, Option<WindowOnSheet>),
+    (belt, windows): (Belt<'_>, &WindowOnSheet),
     (canvas, quanta): (&Canvas, u32),
     stop: &AtomicBool,
-) -> Result<Vec<Strand>, Error> {
+) -> Result<KeptFibres, Error> {
     let advance = curtain.belt_ratio() * curtain.spacing();
     let mut pens: Vec<Pen> = filaments.clone().map(|_| Pen::default()).collect();
     let mut part = CanvasPart::new(canvas);
@@ -138,15 +141,15 @@ fn draw_neighbours(
             for to in points {
                 if let Some(from) = pen.last.replace(*to) {
                     part.draw(from, *to, quanta);
-                    if let Some(window) = &window {
-                        pen.strands.keep(filament, [from, *to], window);
-                    }
+                    pen.strands.keep(filament, [from, *to], windows);
                 }
             }
         }
     }
     part.pass_on();
-    Ok(pens.into_iter().flat_map(|pen| pen.strands.into_parts()).collect())
+    let mut kept = KeptFibres::default();
+    pens.into_iter().for_each(|pen| kept.add(pen.strands.into_parts()));
+    Ok(kept)
 }
 
 /// Lays all filaments of a curtain on a sheet; the parts of them in the window are returned too.
@@ -164,8 +167,8 @@ pub fn lay(
     let per_length = element / curtain.spacing() * curtain.places().len() as f64;
     let basis_weight = per_length / curtain.belt_ratio() / belt.sheet.width;
     let canvas = Canvas::new(belt.sheet, &[element], basis_weight)?;
-    let strands = draw(curtain, belt, (&canvas, canvas.quanta(element)), by)?;
-    Ok((canvas.finish()?, strands))
+    let KeptFibres { strands, pieces } = draw(curtain, belt, (&canvas, canvas.quanta(element)), by)?;
+    Ok((LaidWeb { pieces, ..canvas.finish()? }, strands))
 }
 
 #[cfg(test)]
@@ -174,6 +177,7 @@ mod tests {
     use super::super::synthetic::{BELT_RATIO, Field, SPACING, row};
     use super::*;
     use crate::fibre::Place;
+    use crate::web::Window;
 
     const CELL: f64 = 1e-3;
     const ELEMENT: f64 = 1e-9;
@@ -248,7 +252,7 @@ mod tests {
         let window = Window { corner: [0.0; 2], sides: [20e-3; 2] };
         let fault = Belt::within(&flown, &sheet, window).unwrap_err().to_string();
         assert!(fault.contains("the sheet is 500 mm long"), "{fault}");
-        let belt = Belt { sheet: &sheet, window, back: 0.0 };
+        let belt = Belt { sheet: &sheet, windows: window.into(), back: 0.0 };
         assert!(matches!(lay(&flown, belt, ELEMENT, (1, &AtomicBool::new(true))), Err(Error::Interrupted)));
     }
 }

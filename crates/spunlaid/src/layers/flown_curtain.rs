@@ -6,7 +6,7 @@ use crate::curtain::{Belt, FlownCurves, Library};
 use crate::error::Error;
 use crate::fibre::Place;
 use crate::sort::sort_by_key;
-use crate::web::{Canvas, Edges, SharedAirFindings, Strand, inlets};
+use crate::web::{Canvas, Edges, KeptFibres, PieceInWindow, SharedAirFindings, Strand, inlets};
 use std::sync::atomic::AtomicBool;
 
 /// The curves of a few filaments of a layer, from which those of all others follow.
@@ -32,6 +32,8 @@ pub(super) struct FlownLayers {
     pub(super) layers: Vec<LayerFibres>,
     pub(super) shared_air: SharedAirFindings,
     pub(super) curtains: FlownCurtains,
+    /// The pieces of fibres in the windows in which holes are counted, by window.
+    pub(super) pieces: Vec<PieceInWindow>,
 }
 
 /// What is found while the filaments of curtains are drawn.
@@ -39,6 +41,8 @@ pub(super) struct FlownLayers {
 pub struct DrawnCurtains {
     /// Their parts in the window of the sheet, by layer.
     pub strands: Vec<Strand>,
+    /// Their pieces in the windows in which holes are counted.
+    pub pieces: Vec<PieceInWindow>,
     /// Of each curtain, the part of the variance that the few do not tell, in machine and in cross direction.
     pub missing: Vec<[f64; 2]>,
 }
@@ -49,6 +53,8 @@ impl FlownLayers {
         let strands = &mut self.shared_air.strands;
         strands.extend(drawn.strands);
         sort_by_key(strands, |strand| strand.layer);
+        self.pieces.extend(drawn.pieces);
+        sort_by_key(&mut self.pieces, |piece| piece.window);
         for (few, missing) in self.shared_air.few.iter_mut().zip(drawn.missing) {
             few.missing = missing;
         }
@@ -65,9 +71,10 @@ impl FlownCurtains {
     ) -> Result<DrawnCurtains, Error> {
         let mut all = DrawnCurtains::default();
         for curtain in &self.0 {
-            let (strands, missing) = curtain.draw(spec, canvas, by)?;
+            let (KeptFibres { strands, pieces }, missing) = curtain.draw(spec, canvas, by)?;
             let layer = curtain.layer;
             all.strands.extend(strands.into_iter().map(|strand| Strand { layer, ..strand }));
+            all.pieces.extend(pieces.into_iter().map(|piece| PieceInWindow { layer, ..piece }));
             all.missing.push(missing);
         }
         Ok(all)
@@ -76,23 +83,23 @@ impl FlownCurtains {
 
 impl FlownCurtain {
     /// Draws all filaments: those between the flown ones on the sheet that these have laid, and pieces of it on any other sheet.
-    /// Returns their parts in the window, and the part of the variance that the few do not tell.
+    /// Returns their parts in the windows, and the part of the variance that the few do not tell.
     fn draw(
         &self,
         spec: &WebSpec,
         canvas: &Canvas,
         by: (usize, &AtomicBool),
-    ) -> Result<(Vec<Strand>, [f64; 2]), Error> {
-        let (sheet, window, back) = (&spec.sheet, spec.window(), self.back);
-        let Some(layer) = spec.layers.get(self.layer) else { return Ok((Vec::new(), [0.0; 2])) };
+    ) -> Result<(KeptFibres, [f64; 2]), Error> {
+        let (sheet, windows, back) = (&spec.sheet, spec.windows(), self.back);
+        let Some(layer) = spec.layers.get(self.layer) else { return Ok((KeptFibres::default(), [0.0; 2])) };
         let mass = layer.source.case().map_or(f64::NAN, |case| case.fibre.element_mass());
         let on = (canvas, canvas.quanta(mass));
         let inlets = inlets(sheet, spec.seed, self.layer, &layer.filaments);
         let places = inlets.into_iter().map(|[z, y]| Place { y, z }).collect();
         if [sheet.width, sheet.length] == self.sheet {
             let all = self.curves.fill(places, by.0);
-            let strands = draw(&all, Belt { sheet, window, back }, on, by)?;
-            return Ok((strands, all.missing()));
+            let kept = draw(&all, Belt { sheet, windows, back }, on, by)?;
+            return Ok((kept, all.missing()));
         }
         let library = Library::new(&self.curves, by.0)?;
         let around = match sheet.edges {
@@ -102,7 +109,7 @@ impl FlownCurtain {
             Edges::Cut => sheet.width + self.sheet[0],
         };
         let tiles = library.tiles(places, around, sheet.length, [spec.seed, self.layer as u64])?;
-        let strands = draw(&tiles, Belt::within(&tiles, sheet, window)?, on, by)?;
-        Ok((strands, library.missing()))
+        let kept = draw(&tiles, Belt::within(&tiles, sheet, windows)?, on, by)?;
+        Ok((kept, library.missing()))
     }
 }

@@ -16,7 +16,8 @@ use crate::laydown::{Trace, TraceSettings};
 use crate::statistics::Estimate;
 use crate::surrogate::{IdentificationFailure, Residual, Surrogate, identify};
 use crate::web::{
-    Curves, Doubt, Fibres, Findings, LaidWeb, LayControl, Map, Web, find_laid, lay, measure_laid, pieces,
+    Curves, Doubt, Fibres, Findings, LaidWeb, LayControl, Map, Web, WindowLattice, find_laid, lay,
+    lay_in_windows, measure_laid, pieces,
 };
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -78,6 +79,8 @@ pub struct FlownWeb {
     pub layers: Vec<LayerFibres>,
     /// What filaments in one air have laid; None of a web that is still to be laid.
     pub(super) laid: Option<LaidWeb>,
+    /// The windows in which holes are counted.
+    pub(super) windows: Option<WindowLattice>,
 }
 
 /// Number of cases and folders whose curves are kept, some megabytes each.
@@ -123,7 +126,7 @@ impl<'a> Flyer<'a> {
                 (layers.collect::<Result<_, _>>()?, None)
             }
         };
-        Ok(FlownWeb { web: web_to_lay(spec, &layers), layers, laid })
+        Ok(FlownWeb { web: web_to_lay(spec, &layers), layers, laid, windows: spec.windows().counted })
     }
 
     /// The fibres of a layer.
@@ -284,7 +287,8 @@ impl FlownWeb {
     /// # Errors
     /// If the web cannot be laid, or if it is stopped.
     pub fn find(&mut self, by: LayControl<'_>) -> Result<Findings, Error> {
-        find_laid(&self.web, self.laid.take(), by)
+        let laid = self.laid.take().map_or_else(|| lay_in_windows(&self.web, self.windows, by), Ok)?;
+        find_laid(&self.web, Some(laid), by)
     }
 
     /// [`FlownWeb::find`] without the sensitivities, which take as long as the rest.

@@ -6,6 +6,7 @@
 //! ```
 
 mod comparison;
+mod fabric;
 mod few;
 mod files;
 mod finished_run;
@@ -30,15 +31,22 @@ pub use stretches::{LaidStretch, WebFlight};
 use crate::case::Case;
 use crate::case::keys::{self as case_keys, Value};
 use crate::error::{Error, Fault, Finding, Place, Problem};
+use crate::fabric::FabricKeys;
 use crate::surrogate::Surrogate;
 use crate::units::Dimension;
-use crate::web::{Edges, Fibres, Filaments, Layer, Sheet, Web, Window};
+use crate::web::{Edges, Fibres, Filaments, Layer, Sheet, Web, Window, WindowLattice, Windows};
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Fewest standard deviations of a filament's place that a closed side of the web is long.
 const LEAST_SPREADS: f64 = 8.0;
+
+/// Windows in which holes are counted, their side at most [m], in diameters of the thinnest fibre, and the margin about them in their side.
+const COUNTED_WINDOWS: usize = 49;
+const COUNTED: f64 = 5e-3;
+const COUNTED_DIAMETERS: f64 = 300.0;
+const COUNTED_MARGIN: f64 = 0.1;
 
 /// Relative difference up to which two numbers are the same.
 pub(crate) const SAME: f64 = 1e-9;
@@ -62,6 +70,8 @@ pub struct WebSpec {
     pub memory_limit: f64,
     /// Mass of all layers per area, if it is given in place of the speed of the belt, which follows from it [kg/m²].
     pub basis_weight: Option<f64>,
+    /// What is given of the fabric and of its tests.
+    pub fabric: FabricKeys,
     /// Keys of the web and of its cases whose numbers are guesses, as the file names them.
     pub guessed: Vec<String>,
 }
@@ -217,6 +227,7 @@ impl WebSpec {
             window: nan,
             memory_limit: nan,
             basis_weight: None,
+            fabric: FabricKeys::USUAL,
             guessed: Vec::new(),
         }
     }
@@ -262,6 +273,15 @@ impl WebSpec {
     pub fn window(&self) -> Window {
         let corner = [self.sheet.width, self.sheet.length].map(|size| 0.5 * (size - self.window));
         Window { corner, sides: [self.window; 2] }
+    }
+
+    /// The windows of the sheet whose fibres are kept: the one that is shown, and those in which holes are counted, some fifty that are as large as
+    /// fibres of this diameter allow.
+    pub(crate) fn windows(&self) -> Windows {
+        let thinnest = self.layers.iter().map(|layer| layer.diameter).fold(f64::INFINITY, f64::min);
+        let side = COUNTED.min(COUNTED_DIAMETERS * thinnest);
+        let size = (side, COUNTED_MARGIN * side);
+        Windows { shown: self.window(), counted: WindowLattice::new(&self.sheet, size, COUNTED_WINDOWS) }
     }
 
     /// The web, once the fibres of each layer are known, in their order.

@@ -12,7 +12,9 @@ use crate::error::{Error, Fault, Place as ErrorPlace, Problem};
 use crate::fibre::Place;
 use crate::lanes::Isa;
 use crate::units::Dimension;
-use crate::web::{Canvas, Curves, Fibres, LaidWeb, LayerFew, OneAir, Sheet, TimeSpent, blocks_on, inlets};
+use crate::web::{
+    Canvas, Curves, Fibres, LaidWeb, LayerFew, OneAir, PieceInWindow, Sheet, TimeSpent, blocks_on, inlets,
+};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use std::ops::Range;
@@ -94,7 +96,8 @@ impl Flyer<'_> {
         let mut flown = self.fly_layers(spec, beams, Some(&canvas))?;
         let drawn = flown.curtains.draw(spec, &canvas, self.by())?;
         flown.add(drawn);
-        Ok((flown.layers, LaidWeb { shared_air: Some(flown.shared_air), ..canvas.finish()? }))
+        let FlownLayers { layers, pieces, shared_air, .. } = flown;
+        Ok((layers, LaidWeb { pieces, shared_air: Some(shared_air), ..canvas.finish()? }))
     }
 
     /// Flies a few filaments of each layer, in an air of its own.
@@ -141,6 +144,9 @@ impl Flyer<'_> {
                 of_layer.few = vec![told];
                 // Those of all filaments are found when they are drawn.
                 of_layer.strands = Vec::new();
+            } else {
+                let pieces = std::mem::take(&mut flown.in_windows.pieces).into_iter();
+                all.pieces.extend(pieces.map(|piece| PieceInWindow { layer: number, ..piece }));
             }
             all.shared_air.add(number, of_layer);
             let flown = Arc::new(layer.gather(flown)?);
@@ -200,7 +206,7 @@ impl Flyer<'_> {
             time_step: layer.case.run.time_step,
         };
         let mut flown = Err(Error::Interrupted);
-        (self.follow)(flights, &mut || flown = beam.fly((&layer.sheet, spec.window()), on, by));
+        (self.follow)(flights, &mut || flown = beam.fly((&layer.sheet, spec.windows()), on, by));
         flown
     }
 }

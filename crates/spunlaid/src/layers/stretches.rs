@@ -103,8 +103,14 @@ impl WebFlight {
             flown.add(stretch.drawn);
             laid.push(stretch.laid);
         }
-        let laid = LaidWeb::joined(laid).map(|laid| LaidWeb { shared_air: Some(flown.shared_air), ..laid });
-        Ok(FlownWeb { web: web_to_lay(&self.spec, &flown.layers), layers: flown.layers, laid })
+        let FlownLayers { layers, pieces, shared_air, .. } = flown;
+        let laid = LaidWeb::joined(laid).map(|laid| LaidWeb { pieces, shared_air: Some(shared_air), ..laid });
+        Ok(FlownWeb {
+            web: web_to_lay(&self.spec, &layers),
+            layers,
+            laid,
+            windows: self.spec.windows().counted,
+        })
     }
 }
 

@@ -4,6 +4,7 @@
 //! a list of measures + what was found → rows of values with their errors → JSON, tables, studies, Python
 //! ```
 
+use crate::fabric::Known;
 use crate::flight::Flight;
 use crate::record::Interval;
 use crate::units::{si_unit_of, udunits};
@@ -70,6 +71,8 @@ pub enum Formula<T: 'static> {
     Mean(fn(&T) -> (f64, Option<f64>)),
     /// A number with its 95 % confidence interval.
     Interval(fn(&T) -> Interval),
+    /// A number of which only a bound or a range may be known, or none if this one has none.
+    Told(fn(&T) -> Option<Known>),
 }
 
 /// What an error is to its measure, as studies and tables have to know.
@@ -102,6 +105,8 @@ pub enum Value {
     },
     /// A number with its 95 % confidence interval.
     Interval(Interval),
+    /// A number, a bound or a range.
+    Told(Known),
     /// Places, times or frequencies, and the values there, as many of both, in SI units.
     Curve(Vec<f64>, Vec<f64>),
 }
@@ -114,6 +119,7 @@ impl Value {
                 *value
             }
             Self::Count(count) => *count as f64,
+            Self::Told(known) => known.value(),
             Self::Curve(..) => f64::NAN,
         }
     }
@@ -277,6 +283,7 @@ impl<T> Measure<T> {
                 Some(Value::Mean { mean, standard_error })
             }
             Formula::Interval(interval) => Some(Value::Interval(interval(found))),
+            Formula::Told(known) => known(found).map(Value::Told),
         }
     }
 

@@ -8,7 +8,7 @@
 //! tables, the report with its figures and CSV files, and the studies loop over the declarations.
 //!
 //! A measure of anything else is a [`Measure`] with its [`Formula`] in a list: [`OF_WEBS`] and [`OF_PATCHES`], [`OF_SCANS`] and
-//! [`OF_SCANNED_PATCHES`], [`OF_RECORDS`] and [`OF_COMPONENTS`], [`OF_SPINLINES`].
+//! [`OF_SCANNED_PATCHES`], [`OF_FABRICS`] and others beside it, [`OF_RECORDS`] and [`OF_COMPONENTS`], [`OF_SPINLINES`].
 
 mod along_fibre;
 mod along_way;
@@ -16,6 +16,7 @@ mod curvature;
 mod deflection;
 mod end_node;
 mod energy;
+mod fabric;
 mod flow;
 mod laydown;
 mod measure;
@@ -30,6 +31,7 @@ mod spinline;
 mod strain;
 mod web;
 
+pub use fabric::{OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES, OF_STRIPS};
 pub use laydown::{LAYDOWN, SURROGATE};
 pub use measure::{
     Aggregate, END_NODE, ENERGY, ErrorRole, FIBRE, Figure, Formula, Group, HERTZ, KELVIN, Kind,

@@ -60,7 +60,7 @@ impl Powers {
             Dimension::MolarEnergy => Self::new(2.0, 1.0, -2.0),
             Dimension::TemperatureDifference => Self { kelvin: 1.0, ..Self::new(0.0, 0.0, 0.0) },
             Dimension::Noise => Self::new(-0.5, 0.0, 0.0),
-            Dimension::Memory | Dimension::Ratio => Self::new(0.0, 0.0, 0.0),
+            Dimension::Memory | Dimension::Angle | Dimension::Ratio => Self::new(0.0, 0.0, 0.0),
         }
     }
 

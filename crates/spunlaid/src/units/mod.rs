@@ -74,12 +74,14 @@ pub enum Dimension {
     Noise,
     /// [B]
     Memory,
+    /// [rad]
+    Angle,
     /// A plain number, or a percentage.
     Ratio,
 }
 
 /// Every dimension.
-const ALL: [Dimension; 27] = [
+const ALL: [Dimension; 28] = [
     Dimension::Length,
     Dimension::Velocity,
     Dimension::Time,
@@ -106,6 +108,7 @@ const ALL: [Dimension; 27] = [
     Dimension::TemperatureDifference,
     Dimension::Noise,
     Dimension::Memory,
+    Dimension::Angle,
     Dimension::Ratio,
 ];
 
@@ -162,6 +165,7 @@ impl Dimension {
             Self::TemperatureDifference => "a temperature difference",
             Self::Noise => "a noise",
             Self::Memory => "a size of memory",
+            Self::Angle => "an angle",
             Self::Ratio => "a ratio",
         }
     }

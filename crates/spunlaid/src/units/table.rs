@@ -123,6 +123,12 @@ const MEMORY: &[Unit] = &[
     also("MiB", "MiB", Times(1_048_576.0)),
     also("GiB", "GiB", Times(1_073_741_824.0)),
 ];
+// A degree is the 180th part of π.
+const ANGLE: &[Unit] = &[
+    also("rad", "rad", Ten(0)),
+    unit("°", "°", Over(180.0 / std::f64::consts::PI)),
+    also("deg", "deg", Over(180.0 / std::f64::consts::PI)),
+];
 const RATIO: &[Unit] = &[unit("", "", Ten(0)), also("%", "%", Ten(-2))];
 
 impl Dimension {
@@ -155,6 +161,7 @@ impl Dimension {
             Self::TemperatureDifference => TEMPERATURE_DIFFERENCE,
             Self::Noise => NOISE,
             Self::Memory => MEMORY,
+            Self::Angle => ANGLE,
             Self::Ratio => RATIO,
         }
     }

@@ -152,7 +152,8 @@ impl Canvas {
             closed,
             cells,
         };
-        Ok(LaidWeb { map, cut: self.cut.into_inner() as f64 * self.quantum, shared_air: None })
+        let cut = self.cut.into_inner() as f64 * self.quantum;
+        Ok(LaidWeb { map, cut, pieces: Vec::new(), shared_air: None })
     }
 }
 

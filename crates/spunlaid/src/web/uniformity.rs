@@ -126,7 +126,7 @@ pub fn cv_of_piece(map: &Map, side: usize) -> Option<f64> {
 }
 
 /// Passes on the quanta in all patches, row by row of their places.
-pub(super) fn boxes(map: &Map, side: usize, places: [usize; 2], mut take: impl FnMut(usize, &[u64])) {
+pub(crate) fn boxes(map: &Map, side: usize, places: [usize; 2], mut take: impl FnMut(usize, &[u64])) {
     let mut columns = vec![0u64; map.columns];
     for row in 0..side - 1 {
         add(&mut columns, map.row(row % map.rows));

@@ -1,6 +1,7 @@
 //! The files of a web's results folder.
 
 mod advice;
+mod fabric;
 mod guesses;
 mod map;
 mod patches;
@@ -9,6 +10,7 @@ mod strands;
 mod summary;
 
 pub(crate) use advice::HOUR;
+pub use fabric::{FabricRow, fabric_rows};
 pub use map::{light_table, write as write_map, write_array as write_scan};
 pub use patches::{PatchTable, Reader};
 pub use pieces::{MapFile, Pictures};

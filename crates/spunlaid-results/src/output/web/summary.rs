@@ -1,6 +1,7 @@
 //! `summary.json`: all results of a web.
 
 use super::advice::AdviceSummary;
+use super::fabric::FabricSummary;
 use super::guesses::GuessesSummary;
 use crate::figures::SEEN;
 use crate::output::in_order::OrderedObject;
@@ -9,6 +10,7 @@ use crate::output::spinline::SpinSummary;
 use serde::Serialize;
 use serde_json::Value as Json;
 use spunlaid::advice::Advice;
+use spunlaid::fabric::Fabric;
 use spunlaid::lanes::Isa;
 use spunlaid::observe::{Measure, OF_PATCHES, OF_SCANNED_PATCHES, OF_SCANS, OF_WEBS};
 use spunlaid::scan::{self, Doubt};
@@ -27,6 +29,8 @@ pub struct Summary<'a> {
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     layers: &'a [Layer],
     web: WebSummary,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fabric: Option<FabricSummary<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     advice: Option<AdviceSummary>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -330,7 +334,8 @@ impl<'a> Summary<'a> {
     /// Gathers everything.
     pub fn new(
         web: &Web,
-        (findings, advice, guesses): (&Findings, Option<&Advice>, Option<&Advice>),
+        (findings, fabric): (&Findings, &'a Fabric),
+        (advice, guesses): (Option<&Advice>, Option<&Advice>),
         layers: &'a [Layer],
         performance: Performance,
         notes: &'a [String],
@@ -377,6 +382,7 @@ impl<'a> Summary<'a> {
                 sensitivities: levers.collect(),
                 ..WebSummary::from_map(&findings.laid.map, findings.clouds.as_ref(), patches.collect())
             },
+            fabric: Some(FabricSummary::new(fabric)),
             advice: advice.map(AdviceSummary::new),
             guesses: guesses.map(|guesses| GuessesSummary::new(guesses, findings)),
             neighbours: NeighboursSummary::from_findings(findings, layers),
@@ -416,6 +422,7 @@ impl<'a> Summary<'a> {
             spunlaid_version: env!("CARGO_PKG_VERSION"),
             layers: &[],
             web: WebSummary { basis_weight_kg_m2, ..web },
+            fabric: None,
             advice: None,
             guesses: None,
             neighbours: None,

@@ -74,6 +74,7 @@ pub(super) fn open<'a>(
         layers.push(reading.layer(prefix)?);
     }
     reading.fill(&mut web, "web", "web.", false);
+    reading.fill(&mut web, "fabric", "fabric.", false);
     reading.lay_weight(&mut web, &mut layers);
     Ok(OpenWeb { reading, web, layers })
 }

@@ -50,6 +50,11 @@ impl Reading<'_> {
         if whole {
             self.complete_patches(&mut web.sheet.patches, side, cell);
         }
+        if let Some(saleable) = web.fabric.saleable_width.filter(|saleable| *saleable > width) {
+            let [shown, width] = [saleable, width].map(|size| Dimension::Length.pretty(size));
+            let fault = Fault::new(format!("is wider than the web, {width}"), "write a smaller one");
+            self.refuse("fabric.saleable_width", shown, fault);
+        }
         if !self.is_written("web.window") {
             web.window = WINDOW.min(side);
         } else if web.window > side {

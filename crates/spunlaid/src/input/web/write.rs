@@ -70,7 +70,10 @@ fn write_with(spec: &WebSpec, lines_of_case: LinesOfCase<'_>) -> String {
             text += &format!("rows = [\n  {},\n]\n", rows.join(",\n  "));
         }
     }
-    text + "\n[web]\n" + &in_lines(&lines_of_web(spec, "web"))
+    for table in ["web", "fabric"] {
+        text += &format!("\n[{table}]\n{}", in_lines(&lines_of_web(spec, table)));
+    }
+    text
 }
 
 /// Tables with their lines.

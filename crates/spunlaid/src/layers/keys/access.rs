@@ -74,7 +74,20 @@ macro_rules! of_sheet {
     };
 }
 
-pub(super) use {of_path, of_row, of_sheet, of_surrogate};
+/// Access to a number of the fabric that may be left out.
+macro_rules! of_fabric {
+    ($field:ident) => {
+        $crate::case::keys::row::AccessTo {
+            get: |web: &$crate::layers::WebSpec| web.fabric.$field.map(Into::into),
+            set: |web: &mut $crate::layers::WebSpec, value| {
+                web.fabric.$field = Some(number(value)?);
+                Ok(())
+            },
+        }
+    };
+}
+
+pub(super) use {of_fabric, of_path, of_row, of_sheet, of_surrogate};
 
 /// A number of a surrogate that follows from flights.
 pub(super) fn flown() -> Fault {

@@ -1,6 +1,7 @@
 //! The rows of the keys of a web, in the order of its file. A row says what its values are, where a web has it and what
 //! it has to do with other keys.
 
+mod fabric;
 mod fibre;
 mod laydown;
 mod layer;
@@ -28,12 +29,13 @@ pub(super) const fn positive(name: &'static str, dimension: Dimension) -> NewKey
 }
 
 /// The tables of the file of a web and their keys.
-const TABLES: [Table<WebSpec>; 5] = [
+const TABLES: [Table<WebSpec>; 6] = [
     ("layer", &[layer::KEYS]),
     ("fibre", &[fibre::KEYS]),
     ("laydown", &[laydown::KEYS]),
     ("line", &[line::KEYS]),
     ("web", &[web::KEYS]),
+    ("fabric", &[fabric::KEYS]),
 ];
 
 /// The tables of the file of a web, in order. A file with several layers has the first ones, up to `line`, in each `[[layer]]`.

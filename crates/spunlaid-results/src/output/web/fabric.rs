@@ -1,0 +1,126 @@
+//! What is told of a fabric, for `summary.json`, the terminal and the report.
+
+use crate::numbers::{THIN, number, plus_minus, range};
+use crate::output::in_order::OrderedObject;
+use serde::Serialize;
+use spunlaid::fabric::{Fabric, Known};
+use spunlaid::observe::{
+    Measure, Measured, OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES, OF_STRIPS, Unit, Value, measured,
+};
+
+/// The fabric in `summary.json`.
+#[derive(Debug, Serialize)]
+pub(super) struct FabricSummary<'a> {
+    #[serde(flatten)]
+    numbers: OrderedObject<Value>,
+    patches: Vec<OrderedObject<Value>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    strips_md: Option<OrderedObject<Value>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    strips_cd: Option<OrderedObject<Value>>,
+    /// Windows in which fibres were drawn to count holes, and their area together.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    windows: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    windows_m2: Option<f64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    holes: Vec<OrderedObject<Value>>,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    notes: &'a [String],
+}
+
+impl<'a> FabricSummary<'a> {
+    pub(super) fn new(fabric: &'a Fabric) -> Self {
+        let [strips_md, strips_cd] = fabric.strips.each_ref().map(|strips| strips.as_ref());
+        let holes = fabric.holes.as_ref();
+        Self {
+            numbers: entries(OF_FABRICS, fabric),
+            patches: fabric.patches.iter().map(|patch| entries(OF_FABRIC_PATCHES, patch)).collect(),
+            strips_md: strips_md.map(|strips| entries(OF_STRIPS, strips)),
+            strips_cd: strips_cd.map(|strips| entries(OF_STRIPS, strips)),
+            windows: holes.map(|holes| holes.windows),
+            windows_m2: holes.map(|holes| holes.area),
+            holes: holes.into_iter().flat_map(|holes| &holes.radii).map(|of| entries(OF_HOLES, of)).collect(),
+            notes: &fabric.notes,
+        }
+    }
+}
+
+/// All numbers that are known.
+fn entries<T>(measures: &'static [Measure<T>], of: &T) -> OrderedObject<Value> {
+    let known = measured(measures, of).filter_map(|row| Some((row.measure.entry().to_owned(), row.value?)));
+    OrderedObject(known.collect())
+}
+
+/// A row of the table: what it is, the number, and its definition.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FabricRow {
+    /// Its label.
+    pub name: String,
+    /// The number with what is known of it.
+    pub value: String,
+    /// Its definition.
+    pub meaning: &'static str,
+}
+
+/// Side of the patches of which the terminal tells [m].
+const SHOWN: f64 = 5e-3;
+/// Radius of the holes of which the terminal tells [m].
+const SHOWN_HOLE: f64 = 100e-6;
+
+/// A table of everything that is told of a fabric.
+///
+/// * `is_short` – whether only a few patches and holes are told of
+pub fn fabric_rows(fabric: &Fabric, is_short: bool) -> Vec<FabricRow> {
+    let near = |value: f64, shown: f64| !is_short || (value / shown - 1.0).abs() < 1e-6;
+    let mut all = rows(OF_FABRICS, fabric, "", 0);
+    for patch in fabric.patches.iter().filter(|patch| near(patch.thin.patch, SHOWN)) {
+        let before = format!("Patches of {} mm: ", number(patch.thin.patch * 1e3));
+        let known = rows(OF_FABRIC_PATCHES, patch, &before, 1);
+        all.extend(known.into_iter().take(if is_short { 4 } else { usize::MAX }));
+    }
+    for (strips, direction) in fabric.strips.iter().zip(["MD", "CD"]) {
+        let before = format!("Strips along {direction}: ");
+        let known = strips.iter().flat_map(|strips| rows(OF_STRIPS, strips, &before, 2));
+        all.extend(known.take(if is_short { 1 } else { usize::MAX }));
+    }
+    let holes = fabric.holes.iter().flat_map(|holes| &holes.radii);
+    for of in holes.filter(|of| near(of.radius, SHOWN_HOLE)) {
+        let before = format!("Radius of {} µm or more: ", number(of.radius * 1e6));
+        let known = rows(OF_HOLES, of, &before, if is_short { 2 } else { 1 });
+        all.extend(known.into_iter().take(if is_short { 1 } else { usize::MAX }));
+    }
+    all
+}
+
+fn rows<T>(measures: &'static [Measure<T>], of: &T, before: &str, skip: usize) -> Vec<FabricRow> {
+    let row = |Measured { measure, value, .. }: Measured<T>| {
+        let Some(Value::Told(known)) = value else { return None };
+        let name = match before {
+            "" => measure.label.to_owned(),
+            _ => before.to_owned() + &lower(measure.label),
+        };
+        Some(FabricRow { name, value: text(known, measure.unit), meaning: measure.meaning })
+    };
+    measured(measures, of).skip(skip).filter_map(row).collect()
+}
+
+/// With a small first letter.
+fn lower(label: &str) -> String {
+    let mut letters = label.chars();
+    letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())
+}
+
+/// A number in words, with its unit.
+fn text(known: Known, unit: Unit) -> String {
+    let shown = match known.times(unit.per_si) {
+        Known::Exact(value) => number(value),
+        Known::Value(value, error) => plus_minus(value, error),
+        Known::AtLeast(least) => format!("at least {}", number(least)),
+        Known::AtMost(most) => format!("at most {}", number(most)),
+        Known::Between([low, high]) if high >= 1e6 => format!("{} to {}", number(low), number(high)),
+        Known::Between([low, high]) if low < 1e-3 => format!("at most {}", number(high)),
+        Known::Between([low, high]) => range(low, high),
+    };
+    if unit.shown.is_empty() { shown } else { format!("{shown}{THIN}{}", unit.shown) }
+}

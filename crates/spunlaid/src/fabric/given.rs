@@ -1,0 +1,35 @@
+//! What is given of the fabric and of its tests.
+
+use super::StripSize;
+
+/// What is given of the fabric and of its tests.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FabricKeys {
+    /// Thickness of the finished fabric [m]; without it no air permeability is told.
+    pub thickness: Option<f64>,
+    /// Width in the middle of the web that is sold [m]; all of it between the edges if it is not given.
+    pub saleable_width: Option<f64>,
+    /// Strips that are pulled, and the sections of which the lightest is looked for.
+    pub strip: StripSize,
+    /// Angle at which the edge of water meets the polymer [rad]; without it no hydrohead is told.
+    pub contact_angle: Option<f64>,
+    /// Pressure that drives air through the fabric [Pa].
+    pub pressure: f64,
+    /// Opacity that was measured of a fabric of the same filaments, and its basis weight if that was another one [kg/m²].
+    pub measured_opacity: Option<f64>,
+    /// See `measured_opacity`.
+    pub opacity_weight: Option<f64>,
+}
+
+impl FabricKeys {
+    /// What is usual: strips as in ISO 9073-3, and the pressure of ISO 9073-15.
+    pub const USUAL: Self = Self {
+        thickness: None,
+        saleable_width: None,
+        strip: StripSize { width: 50e-3, length: 200e-3, section: 5e-3 },
+        contact_angle: None,
+        pressure: 200.0,
+        measured_opacity: None,
+        opacity_weight: None,
+    };
+}

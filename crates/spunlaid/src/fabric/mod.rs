@@ -1,0 +1,43 @@
+//! The fabric in the words of those who buy it: how even it looks, where it is thin, where it has holes, what it lets through.
+//!
+//! Everything follows from the map of the basis weight, from the curves of the fibres in windows of the sheet, and from a few given
+//! numbers. Bonds and finishes of the fabric are not known here.
+//!
+//! ```text
+//! map ─────────────→ formation, thin places, strips ┐
+//! directions ──────→ ratio of stiffness             │
+//! map and windows ─→ bare area, holes, hydrohead    ├→ Fabric
+//! thickness ───────→ air permeability               │
+//! measured opacity → opacity, place by place        ┘
+//! ```
+
+mod air_through;
+mod directions;
+mod formation;
+mod given;
+mod holes;
+mod known;
+mod light;
+mod patches;
+mod strips;
+mod tell;
+#[cfg(test)]
+mod tests;
+mod water;
+mod words;
+
+pub use air_through::{Filaments, air_permeability, air_speed, davies, jackson_james, solid_fraction};
+pub use directions::stiffness_ratio;
+pub use formation::formation;
+pub use given::FabricKeys;
+pub use holes::{
+    Disc, FabricHoles, HolesOfRadius, LEAST_RADIUS, LocalLength, Piece, RADII, WindowHoles, carry,
+    count_holes, expected_holes,
+};
+pub use known::Known;
+pub use light::{opacity, scattering};
+pub use patches::{HEAVIER, LIGHTER, QUANTILES, ThinPlaces, thin_places};
+pub use strips::{StripSize, Strips, WEAK, strips};
+pub use tell::{AirThrough, Fabric, FabricPatch, Laid, Opacity, tell};
+pub use water::hydrohead;
+pub use words::about;

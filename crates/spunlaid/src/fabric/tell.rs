@@ -1,0 +1,257 @@
+//! Everything that is told of a fabric.
+
+use super::air_through::{Filaments, air_permeability, sensitivity, solid_fraction};
+use super::directions::stiffness_ratio;
+use super::formation::formation as formation_number;
+use super::given::FabricKeys;
+use super::holes::{FabricHoles, LocalLength, Piece, carry, count_holes};
+use super::known::Known;
+use super::light;
+use super::patches::{ThinPlaces, thin_places, weights};
+use super::strips::{Strips, strips};
+use super::water::hydrohead;
+use crate::statistics::Estimate;
+use crate::threads::each;
+use crate::web::uniformity::{Unevenness, unevenness};
+use crate::web::{Map, Orientation, PieceInWindow, WindowLattice, straight_fibres};
+use std::borrow::Cow;
+use std::f64::consts::PI;
+
+/// Sides of the patches of which thin places are told [m].
+const PATCHES: [f64; 5] = [1e-3, 2e-3, 5e-3, 10e-3, 20e-3];
+/// Area of a test of the hydrohead (ISO 9073-16) and of the air permeability (ISO 9073-15) [m²], and side of the patches over which the opacity varies [m].
+const WATER_AREA: f64 = 100e-4;
+const AIR_AREA: f64 = 20e-4;
+const OPACITY_PATCH: f64 = 2e-3;
+/// Fewest areas whose spread is told.
+const FEWEST: usize = 12;
+
+/// What was laid.
+#[derive(Clone, Debug)]
+pub struct Laid<'a> {
+    /// The map of the sheet.
+    pub map: &'a Map,
+    /// Widths of the strips at its edges that are left out [m].
+    pub margins: [f64; 2],
+    /// Where the web begins and ends across the sheet [m]; None of a scan.
+    pub reach: Option<[f64; 2]>,
+    /// Its filaments; none of a scan, of which they are not known.
+    pub filaments: Vec<Filaments>,
+    /// Directions of the fibres, if they are known.
+    pub orientation: Option<&'a Orientation>,
+    /// Its unevenness over patches of some sides.
+    pub patches: Vec<Unevenness>,
+    /// Windows, and the pieces of fibres in them.
+    pub windows: Option<(&'a WindowLattice, &'a [PieceInWindow])>,
+}
+
+/// A fabric in the words of those who buy it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fabric {
+    /// Width of the part of the sheet of which all else is told [m].
+    pub width: f64,
+    /// What is cut off of the web at both edges together [m]; None unless a saleable width is given.
+    pub trim: Option<f64>,
+    /// Patches of each side.
+    pub patches: Vec<FabricPatch>,
+    /// Strips along MD and along CD.
+    pub strips: [Option<Strips>; 2],
+    /// Stiffness along MD over that along CD, of the directions alone.
+    pub stiffness_ratio: Option<Known>,
+    /// Holes.
+    pub holes: Option<FabricHoles>,
+    /// Pressure at which water comes through [Pa].
+    pub hydrohead: Option<Known>,
+    /// Air that is blown through.
+    pub air: Option<AirThrough>,
+    /// Opacity.
+    pub opacity: Option<Opacity>,
+    /// What is not told, and why.
+    pub notes: Vec<String>,
+}
+
+/// Patches of one side.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FabricPatch {
+    /// Thin and thick places.
+    pub thin: ThinPlaces,
+    /// CV over that of straight fibres at random, squared; None where no CV is known, or not the filaments.
+    pub formation: Option<Known>,
+}
+
+/// Air that is blown through.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AirThrough {
+    /// Share of the volume that is fibre.
+    pub solid: f64,
+    /// Speed of the air [m/s].
+    pub permeability: Known,
+    /// Its coefficient of variation over areas of a test; None of a small sheet.
+    pub spread: Option<Known>,
+}
+
+/// Opacity of the fabric.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Opacity {
+    /// Mean of all patches.
+    pub mean: Known,
+    /// Standard deviation over patches.
+    pub spread: Known,
+}
+
+/// Tells everything that is known of a fabric.
+pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
+    let (first, map) = part(laid, keys);
+    let map = map.as_ref();
+    let corner = first as f64 * map.cell;
+    let mut notes = Vec::new();
+    let filaments = of_this_weight(&laid.filaments, map.basis_weight());
+    let (length, diameter) = lengths(&filaments);
+    let whole = |patch: f64| {
+        let side = (patch / map.cell).round();
+        ((side * map.cell / patch - 1.0).abs() < 1e-6).then_some(side as usize)
+    };
+    let sides: Vec<usize> = PATCHES.into_iter().filter_map(whole).collect();
+    let patches = each(threads, sides.len(), |i| {
+        let thin = thin_places(map, sides[i])?;
+        let same = |found: &&Unevenness| (found.patch / thin.patch - 1.0).abs() < 1e-6;
+        let found = match keys.saleable_width {
+            Some(_) => unevenness(map, sides[i]),
+            None => laid.patches.iter().find(same).copied(),
+        };
+        let formation = found.filter(|_| length > 0.0);
+        let formation = formation.map(|found| formation_number(&found, straight_fibres(length, thin.patch)));
+        Some(FabricPatch { thin, formation })
+    });
+    let holes = laid.windows.filter(|_| length > 0.0).and_then(|(windows, pieces)| {
+        let local = LocalLength::new(map, length);
+        let sizes = ([corner, map.columns as f64 * map.cell], threads);
+        carry(&counted(windows, pieces, &filaments, sizes), &local, diameter, WATER_AREA)
+    });
+    let hydrohead = holes.as_ref().zip(keys.contact_angle).and_then(|(holes, angle)| {
+        let found = hydrohead(holes.largest, angle);
+        if found.is_none() {
+            notes.push(
+                "the hydrohead is not told: it needs a contact angle above 90° (fabric.contact_angle) and holes of \
+                 20 µm or more in the windows"
+                    .to_owned(),
+            );
+        }
+        found
+    });
+    let air = (!laid.filaments.is_empty()).then(|| {
+        let found = keys.thickness.and_then(|thickness| air(map, &filaments, thickness, keys.pressure));
+        if found.is_none() {
+            notes.push(match keys.thickness {
+                None => "the air permeability is not told: it needs the thickness of the fabric (fabric.thickness)"
+                    .to_owned(),
+                Some(thickness) => format!(
+                    "the air permeability is not told: at fabric.thickness = {} µm fibre would fill {} % of the fabric, \
+                     and the formulas hold up to 30 %",
+                    (thickness * 1e6).round(),
+                    (100.0 * solid_fraction(&filaments, thickness)).round()
+                ),
+            });
+        }
+        found
+    });
+    let air = air.flatten();
+    Fabric {
+        width: map.columns as f64 * map.cell,
+        trim: keys.saleable_width.zip(laid.reach).map(|(width, [from, to])| (to - from - width).max(0.0)),
+        patches: patches.into_iter().flatten().collect(),
+        strips: strips(map, keys.strip),
+        stiffness_ratio: laid.orientation.map(stiffness_ratio),
+        holes,
+        hydrohead,
+        air,
+        opacity: keys.measured_opacity.and_then(|measured| {
+            let scattering = light::scattering(measured);
+            let heavier = keys.opacity_weight.map_or(1.0, |weight| map.basis_weight() / weight);
+            opacity(map, scattering * heavier)
+        }),
+        notes,
+    }
+}
+
+/// The part of the map that is told of, and its first column: what is sold, or all but the edges.
+fn part<'a>(laid: &Laid<'a>, keys: &FabricKeys) -> (usize, Cow<'a, Map>) {
+    let map = laid.map;
+    let cells = |width: f64| (width / map.cell).round().max(0.0) as usize;
+    let [first, last] = laid.margins.map(cells);
+    let all = first..map.columns - last;
+    let within = match keys.saleable_width {
+        None => all,
+        Some(width) => {
+            let [from, to] = laid.reach.unwrap_or([0.0, map.columns as f64 * map.cell]);
+            let middle = 0.5 * (from + to);
+            let columns = cells(middle - 0.5 * width)..cells(middle + 0.5 * width).min(map.columns);
+            if columns.is_empty() { all } else { columns }
+        }
+    };
+    (within.start, map.between(within))
+}
+
+/// The same filaments with the basis weight of a part of the sheet.
+fn of_this_weight(filaments: &[Filaments], basis_weight: f64) -> Vec<Filaments> {
+    let whole: f64 = filaments.iter().map(|of| of.basis_weight).sum();
+    let share = |of: &Filaments| Filaments { basis_weight: of.basis_weight * basis_weight / whole, ..*of };
+    filaments.iter().map(share).collect()
+}
+
+/// Length of fibre per area [1/m], and the mean of the diameter over it [m].
+fn lengths(filaments: &[Filaments]) -> (f64, f64) {
+    let length = |of: &Filaments| of.basis_weight / (0.25 * PI * of.diameter * of.diameter * of.density);
+    let whole: f64 = filaments.iter().map(length).sum();
+    (whole, filaments.iter().map(|of| length(of) * of.diameter).sum::<f64>() / whole)
+}
+
+/// The holes of all windows that lie on a stretch across the sheet, each with its place on that stretch.
+///
+/// * `across` – where the stretch begins, and its width [m]
+fn counted(
+    windows: &WindowLattice,
+    pieces: &[PieceInWindow],
+    filaments: &[Filaments],
+    (across, threads): ([f64; 2], usize),
+) -> Vec<([f64; 2], super::WindowHoles)> {
+    let mut of_windows = vec![Vec::new(); windows.windows()];
+    for PieceInWindow { window, layer, ends: [from, to] } in pieces {
+        if let Some((pieces, kind)) = of_windows.get_mut(*window).zip(filaments.get(*layer)) {
+            pieces.push(Piece { from: *from, to: *to, half_width: 0.5 * kind.diameter });
+        }
+    }
+    let on_stretch = |window: &usize| {
+        let from = windows.corner(*window)[0] - across[0];
+        from >= 0.0 && from + windows.side <= across[1]
+    };
+    let numbers: Vec<usize> = (0..windows.windows()).filter(on_stretch).collect();
+    each(threads, numbers.len(), |i| {
+        let [cd, md] = windows.corner(numbers[i]);
+        ([cd - across[0], md], count_holes(windows.side, windows.margin, &of_windows[numbers[i]]))
+    })
+}
+
+fn air(map: &Map, filaments: &[Filaments], thickness: f64, pressure: f64) -> Option<AirThrough> {
+    let permeability = air_permeability(filaments, thickness, pressure)?;
+    let spread = spread(&weights(map, AIR_AREA.sqrt()))
+        .map(|cv| cv.times(sensitivity(filaments, thickness, pressure).abs()));
+    Some(AirThrough { solid: solid_fraction(filaments, thickness), permeability, spread })
+}
+
+fn opacity(map: &Map, scattering: f64) -> Option<Opacity> {
+    let opacities = weights(map, OPACITY_PATCH).into_iter().map(|weight| light::opacity(scattering * weight));
+    let opacities: Vec<f64> = opacities.collect();
+    let spread = spread(&opacities)?;
+    let mean = Known::of(&Estimate::new(opacities));
+    Some(Opacity { mean, spread: spread.times(mean.value()) })
+}
+
+/// Standard deviation over the mean.
+fn spread(values: &[f64]) -> Option<Known> {
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
+    let deviation = (squares / (count - 1.0)).sqrt() / mean;
+    (values.len() >= FEWEST).then(|| Known::Value(deviation, Some(deviation / (2.0 * (count - 1.0)).sqrt())))
+}

@@ -1,0 +1,97 @@
+//! The keys of the table `[fabric]`.
+
+use super::super::access::{WebKey, of_fabric, of_sheet};
+use super::positive;
+use crate::case::keys::Sign;
+use crate::case::keys::row::{number, quantity};
+use crate::units::Dimension;
+
+/// In the order of the file.
+pub(super) const KEYS: &[WebKey] = &[
+    positive("fabric.thickness", Dimension::Length)
+        .access(of_fabric!(thickness))
+        .fixed()
+        .follows("no air permeability is told")
+        .meaning(
+            "Thickness of the finished fabric, between its bonds. The program does not know it: it follows \
+             from the calender.",
+        )
+        .synonyms(&["caliper", "gauge", "loft"])
+        .label("Thickness")
+        .usual(1e-5, 0.1),
+    positive("fabric.saleable_width", Dimension::Length)
+        .access(of_fabric!(saleable_width))
+        .fixed()
+        .follows("all of the web between its edges")
+        .meaning(
+            "Width in the middle of the web that is sold; what lies beside it is trimmed. What is told of \
+             the fabric is that of this width.",
+        )
+        .synonyms(&["trim", "slit width", "net width"])
+        .label("Saleable width")
+        .usual(1e-2, 30.0),
+    positive("fabric.strip_width", Dimension::Length)
+        .access(of_sheet!(fabric.strip.width))
+        .value("50 mm")
+        .fixed()
+        .meaning("Width of a strip of the tensile test, as in ISO 9073-3.")
+        .synonyms(&["tensile", "specimen"])
+        .label("Width of a strip")
+        .usual(1e-3, 1.0),
+    positive("fabric.strip_length", Dimension::Length)
+        .access(of_sheet!(fabric.strip.length))
+        .value("200 mm")
+        .fixed()
+        .meaning("Length of a strip between the jaws of the tensile test, as in ISO 9073-3.")
+        .synonyms(&["tensile", "gauge length"])
+        .label("Length of a strip")
+        .usual(1e-2, 10.0),
+    positive("fabric.section", Dimension::Length)
+        .access(of_sheet!(fabric.strip.section))
+        .value("5 mm")
+        .fixed()
+        .meaning(
+            "Length of a section of a strip. Of each strip the lightest section is looked for, where it \
+             would tear if its strength were that of its fibres.",
+        )
+        .synonyms(&["tensile", "weakest link"])
+        .label("Section of a strip")
+        .usual(1e-4, 0.1),
+    positive("fabric.contact_angle", Dimension::Angle)
+        .access(of_fabric!(contact_angle))
+        .fixed()
+        .follows("no hydrohead is told")
+        .meaning(
+            "Angle at which the edge of water meets the polymer, above 90°; that of clean polypropylene is \
+             some 105°. It gives the bound of the hydrohead.",
+        )
+        .synonyms(&["hydrohead", "hydrostatic head", "wetting"])
+        .label("Contact angle")
+        .usual(0.5, 3.0),
+    positive("fabric.pressure", Dimension::Pressure)
+        .access(of_sheet!(fabric.pressure))
+        .value("200 Pa")
+        .fixed()
+        .meaning("Pressure that drives air through the fabric in the test, as in ISO 9073-15.")
+        .synonyms(&["air permeability", "porosity"])
+        .label("Pressure of the air")
+        .usual(1.0, 1e4),
+    quantity("fabric.measured_opacity", Dimension::Ratio, Sign::Share)
+        .access(of_fabric!(measured_opacity))
+        .fixed()
+        .follows("no opacity is told")
+        .meaning(
+            "Opacity (ISO 2471) that was measured of a fabric of the same filaments. Pigment and titre are \
+             in it; the program adds what the basis weight and its clouds do.",
+        )
+        .synonyms(&["cover", "whiteness"])
+        .label("Measured opacity")
+        .usual(0.01, 0.99),
+    positive("fabric.opacity_weight", Dimension::BasisWeight)
+        .access(of_fabric!(opacity_weight))
+        .fixed()
+        .follows("that of this web")
+        .meaning("Basis weight of the fabric whose opacity was measured.")
+        .label("Basis weight of the measured opacity")
+        .usual(1e-3, 1.0),
+];

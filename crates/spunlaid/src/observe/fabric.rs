@@ -1,0 +1,155 @@
+//! What is told of a fabric, of its patches, strips and holes.
+
+use super::{Formula::Told, MILLIMETRES, Measure, PERCENT, RATIO, Unit};
+use crate::fabric::Known::Exact;
+use crate::fabric::{Fabric, FabricPatch, HolesOfRadius, Strips};
+
+const PER_SQUARE_METRE: Unit = Unit { shown: "1/m²", per_si: 1.0 };
+const MICROMETRES: Unit = Unit { shown: "µm", per_si: 1e6 };
+
+/// The numbers of a whole fabric.
+pub const OF_FABRICS: &[Measure<Fabric>] = &[
+    Measure::new("width_m", "Width that is told of", MILLIMETRES, Told(|fabric: &Fabric| Some(Exact(fabric.width))))
+        .meaning("width of the part of the web of which all else is told"),
+    Measure::new("trim_m", "Trim", MILLIMETRES, Told(|fabric: &Fabric| fabric.trim.map(Exact)))
+        .meaning("what is cut off of the web at both edges together"),
+    Measure::new("stiffness_ratio", "Stiffness MD/CD, of the directions alone", RATIO, Told(|fabric: &Fabric| fabric.stiffness_ratio))
+        .meaning("stiffness along MD over that along CD of straight fibres in these directions, within 20 %: curl and \
+            bonds are not in it"),
+    Measure::new("bare_area", "Bare area", PERCENT, Told(|fabric: &Fabric| Some(fabric.holes.as_ref()?.bare)))
+        .meaning("share of the area that no fibre covers"),
+    Measure::new("largest_hole_m", "Radius of the largest hole in 100 cm²", MICROMETRES, Told(|fabric: &Fabric| Some(fabric.holes.as_ref()?.largest)))
+        .meaning("radius of the largest disc that fits into a hole of 100 cm², the area of the test of the hydrohead: half of all such areas have a larger one"),
+    Measure::new("hydrohead_pa", "Hydrohead", Unit { shown: "Pa", per_si: 1.0 }, Told(|fabric: &Fabric| fabric.hydrohead))
+        .meaning("pressure at which water comes through the largest hole"),
+    Measure::new("solid_fraction", "Share of the volume that is fibre", PERCENT, Told(|fabric: &Fabric| Some(Exact(fabric.air?.solid))))
+        .meaning("volume of the fibre over that of the fabric"),
+    Measure::new("air_permeability_m_s", "Air permeability", Unit { shown: "m/s", per_si: 1.0 }, Told(|fabric: &Fabric| Some(fabric.air?.permeability)))
+        .meaning("speed of the air at the pressure of the test, between the formulas of Davies and of Jackson and James, both with an \
+            inertial term; trust the ratio of two webs, not the number"),
+    Measure::new("air_permeability_cv", "Spread of the air permeability over 20 cm²", PERCENT, Told(|fabric: &Fabric| fabric.air?.spread))
+        .meaning("coefficient of variation of the speed of the air over areas of 20 cm² by the basis weight"),
+    Measure::new("opacity", "Opacity", PERCENT, Told(|fabric: &Fabric| Some(fabric.opacity?.mean)))
+        .meaning("opacity, from that which was measured: the mean of patches of 2 mm"),
+    Measure::new("opacity_spread", "Spread of the opacity over 2 mm", PERCENT, Told(|fabric: &Fabric| Some(fabric.opacity?.spread)))
+        .meaning("standard deviation of the opacity over patches of 2 mm by the basis weight"),
+];
+
+/// The numbers of the patches of one size.
+pub const OF_FABRIC_PATCHES: &[Measure<FabricPatch>] = &[
+    Measure::new("patch_m", "Patch", MILLIMETRES, Told(|patch: &FabricPatch| Some(Exact(patch.thin.patch))))
+        .meaning("side of the square patches"),
+    Measure::new("formation", "Formation number", RATIO, Told(|patch: &FabricPatch| patch.formation))
+        .meaning("CV² over that of straight fibres at random, which have 1; a cloudy web has more"),
+    Measure::new(
+        "lighter_than_50_percent_per_m2",
+        "Lighter than 50 %",
+        PER_SQUARE_METRE,
+        Told(|patch: &FabricPatch| Some(patch.thin.lighter[0])),
+    )
+    .meaning("patches per area that are lighter than this share of the mean"),
+    Measure::new(
+        "lighter_than_70_percent_per_m2",
+        "Lighter than 70 %",
+        PER_SQUARE_METRE,
+        Told(|patch: &FabricPatch| Some(patch.thin.lighter[1])),
+    )
+    .meaning("patches per area that are lighter than this share of the mean"),
+    Measure::new(
+        "lighter_than_80_percent_per_m2",
+        "Lighter than 80 %",
+        PER_SQUARE_METRE,
+        Told(|patch: &FabricPatch| Some(patch.thin.lighter[2])),
+    )
+    .meaning("patches per area that are lighter than this share of the mean"),
+    Measure::new(
+        "heavier_than_130_percent_per_m2",
+        "Heavier than 130 %",
+        PER_SQUARE_METRE,
+        Told(|patch: &FabricPatch| Some(patch.thin.heavier)),
+    )
+    .meaning("patches per area that are heavier than this share of the mean"),
+    Measure::new(
+        "weight_of_1_percent",
+        "Lightest 1 %",
+        PERCENT,
+        Told(|patch: &FabricPatch| Some(patch.thin.quantiles[0])),
+    )
+    .meaning("weight over the mean that this share of the patches goes below, or above"),
+    Measure::new(
+        "weight_of_5_percent",
+        "Lightest 5 %",
+        PERCENT,
+        Told(|patch: &FabricPatch| Some(patch.thin.quantiles[1])),
+    )
+    .meaning("weight over the mean that this share of the patches goes below, or above"),
+    Measure::new(
+        "median_weight",
+        "Median",
+        PERCENT,
+        Told(|patch: &FabricPatch| Some(patch.thin.quantiles[2])),
+    )
+    .meaning("weight over the mean that this share of the patches goes below, or above"),
+    Measure::new(
+        "weight_of_95_percent",
+        "Heaviest 5 %",
+        PERCENT,
+        Told(|patch: &FabricPatch| Some(patch.thin.quantiles[3])),
+    )
+    .meaning("weight over the mean that this share of the patches goes below, or above"),
+    Measure::new(
+        "weight_of_99_percent",
+        "Heaviest 1 %",
+        PERCENT,
+        Told(|patch: &FabricPatch| Some(patch.thin.quantiles[4])),
+    )
+    .meaning("weight over the mean that this share of the patches goes below, or above"),
+];
+
+/// The numbers of the strips in one direction.
+pub const OF_STRIPS: &[Measure<Strips>] = &[
+    Measure::new("strips", "Strips", RATIO, Told(|strips: &Strips| Some(Exact(strips.count as f64))))
+        .meaning("number of strips on the sheet"),
+    Measure::new(
+        "section_m",
+        "Section",
+        MILLIMETRES,
+        Told(|strips: &Strips| Some(Exact(strips.size.section))),
+    )
+    .meaning("length of a section of a strip, in whole cells"),
+    Measure::new("weakest_section", "Weakest section", PERCENT, Told(|strips: &Strips| Some(strips.weakest)))
+        .meaning("weight of the lightest section of a strip over the mean of the strip, over all strips"),
+    Measure::new(
+        "weakest_section_cv",
+        "Scatter of the weakest section",
+        PERCENT,
+        Told(|strips: &Strips| strips.scatter),
+    )
+    .meaning("standard deviation of the weakest section over its mean, from strip to strip"),
+    Measure::new(
+        "weakest_section_of_5_percent",
+        "5 % of strips are below",
+        PERCENT,
+        Told(|strips: &Strips| strips.low),
+    )
+    .meaning("the weakest section below which one strip in twenty is"),
+    Measure::new(
+        "sections_cv",
+        "Scatter of all sections",
+        PERCENT,
+        Told(|strips: &Strips| Some(strips.sections)),
+    )
+    .meaning("standard deviation of a section about the mean of its strip, over that mean"),
+];
+
+/// The numbers of the holes of one radius.
+pub const OF_HOLES: &[Measure<HolesOfRadius>] = &[
+    Measure::new("radius_m", "Radius", MICROMETRES, Told(|holes: &HolesOfRadius| Some(Exact(holes.radius))))
+        .meaning("radius of a disc"),
+    Measure::new("counted", "Counted", RATIO, Told(|holes: &HolesOfRadius| Some(Exact(holes.counted as f64))))
+        .meaning("holes in the windows into which such a disc fits"),
+    Measure::new("per_m2", "Holes", PER_SQUARE_METRE, Told(|holes: &HolesOfRadius| Some(holes.per_area)))
+        .meaning("holes per area into which such a disc fits: carried from the windows over the sheet, and where few were counted also from smaller radii"),
+    Measure::new("over_straight", "Over straight fibres", RATIO, Told(|holes: &HolesOfRadius| holes.over_straight))
+        .meaning("holes over those of straight fibres at random with the local basis weight"),
+];
