@@ -49,8 +49,8 @@ fn pair<'a>(number: usize, comparison: &Comparison) -> Section<'a> {
     let table = Table::new(["Measure", against, run, "Difference"]).sentences(["Verdict"]);
     Section::new(format!("pair-{number}"), format!("{run} against {against}"))
         .paragraph(format!(
-            "Compared {reason}. {beyond} of {all} measures differ beyond chance: the 95\u{202f}% interval of the difference leaves out zero. Of twenty \
-             measures without any difference, one would by chance."
+            "Compared {reason}. {beyond} of {all} measures differ beyond chance (the 95\u{202f}% interval of the difference leaves out zero); of \
+             twenty without any difference, one would by chance."
         ))
         .table(table.rows(measures.iter().map(row)))
         .caption(format!("{errors} The difference has its standard error."))
