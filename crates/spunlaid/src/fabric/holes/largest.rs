@@ -1,10 +1,12 @@
 //! The largest disc in each hole of a window.
 
+use super::Piece;
 use super::bitmap::Bitmap;
 use super::nearest::Nearest;
 use super::regions::Regions;
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BinaryHeap};
+use std::rc::Rc;
 
 /// A disc that fits into a hole.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +28,8 @@ struct Square {
     side: f64,
     /// The largest disc of which the centre may lie in it has at most this radius.
     bound: f64,
+    /// The pieces of fibre that may be nearest to a place in it; None where they have not been looked for.
+    near: Option<Rc<[Piece]>>,
 }
 
 impl PartialEq for Square {
@@ -73,7 +77,12 @@ pub(super) fn largest_discs(
                 if bound >= least
                     && let Some(region) = regions.at(y, x)
                 {
-                    holes.entry(region).or_default().push(Square { centre, side: coarse.pixel, bound });
+                    holes.entry(region).or_default().push(Square {
+                        centre,
+                        side: coarse.pixel,
+                        bound,
+                        near: None,
+                    });
                 }
             }
         });
@@ -90,20 +99,24 @@ fn largest(squares: Vec<Square>, nearest: &Nearest, accuracy: f64) -> Disc {
             *best = Disc { centre, radius };
         }
     };
-    for Square { centre, side, bound } in &squares {
+    for Square { centre, side, bound, .. } in &squares {
         take(*centre, bound - HALF_DIAGONAL * side, &mut best);
     }
     let mut squares = BinaryHeap::from(squares);
-    while let Some(Square { centre, side, bound }) = squares.pop() {
+    while let Some(Square { centre, side, bound, near }) = squares.pop() {
         if bound <= best.radius + accuracy {
             break;
         }
+        // What is nearest to any place in the square is not farther from its middle than that.
+        let reach = bound + HALF_DIAGONAL * side;
+        let near = near.unwrap_or_else(|| nearest.around(centre, reach).into());
         let side = 0.5 * side;
         for corner in [[-0.5, -0.5], [0.5, -0.5], [-0.5, 0.5], [0.5, 0.5]] {
             let centre = [0, 1].map(|axis| centre[axis] + corner[axis] * side);
-            let room = nearest.room(centre);
+            let room = nearest.room_among(&near, centre);
             take(centre, room, &mut best);
-            squares.push(Square { centre, side, bound: room + HALF_DIAGONAL * side });
+            let bound = room + HALF_DIAGONAL * side;
+            squares.push(Square { centre, side, bound, near: Some(Rc::clone(&near)) });
         }
     }
     best

@@ -55,10 +55,35 @@ impl Nearest {
         Self { side, square, squares, first, pieces, widest }
     }
 
+    /// The pieces that a disc about a place touches, some of them twice.
+    pub(super) fn around(&self, place: [f64; 2], radius: f64) -> Vec<Piece> {
+        let reach = radius + self.widest;
+        let last = self.squares - 1;
+        let [columns, rows] = place.map(|at| {
+            let number = |at: f64| ((at / self.square).max(0.0) as usize).min(last);
+            number(at - reach)..=number(at + reach)
+        });
+        let squares = rows.flat_map(|row| columns.clone().map(move |column| row * self.squares + column));
+        let pieces = squares.flat_map(|number| {
+            let [first, last] = [number, number + 1].map(|i| self.first[i] as usize);
+            &self.pieces[first..last]
+        });
+        pieces.filter(|piece| piece.distance(place) - piece.half_width <= radius).copied().collect()
+    }
+
+    /// [`Nearest::room`] where it is known which pieces may be nearest.
+    pub(super) fn room_among(&self, pieces: &[Piece], place: [f64; 2]) -> f64 {
+        let to_piece = |piece: &Piece| piece.distance(place) - piece.half_width;
+        pieces.iter().map(to_piece).fold(self.to_edge(place), f64::min)
+    }
+
+    fn to_edge(&self, [x, y]: [f64; 2]) -> f64 {
+        x.min(y).min(self.side - x).min(self.side - y)
+    }
+
     /// Radius of the largest disc about a place that touches no fibre and stays within what has been drawn.
     pub(super) fn room(&self, place: [f64; 2]) -> f64 {
-        let [x, y] = place;
-        let mut room = x.min(y).min(self.side - x).min(self.side - y);
+        let mut room = self.to_edge(place);
         let [column, row] = place.map(|at| ((at / self.square) as i64).clamp(0, self.squares as i64 - 1));
         let squares = self.squares as i64;
         for ring in 0..squares {
