@@ -504,7 +504,7 @@ fn identical_web_and_filament_of_one_file_and_of_two() {
     let case = String::from_utf8(desk.read("brief.toml")).unwrap();
     let web = WEB.split_once("[line]").unwrap().1;
     fs::write(desk.path("one.toml"), format!("{case}\n[line]{web}")).unwrap();
-    let small = ["--set", "web.method=surrogate", "--set", "run.duration=0.3 s", "--set", "run.replicates=2"];
+    let small = ["--set", "web.method=dynamics", "--set", "run.duration=0.3 s", "--set", "run.replicates=2"];
     for (file, out) in [("one.toml", "one"), ("web.toml", "two")] {
         let command = format!("web {file} --no-advice --quiet --out {out}");
         success(desk.spunlaid(&command).args(small));
