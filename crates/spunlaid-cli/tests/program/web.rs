@@ -21,11 +21,14 @@ fn rejects_bad_webs_with_the_command_that_helps() {
             "web nowhere.toml",
             "error: nowhere.toml: there is no such file; name the file of a web (`spunlaid help web` shows one)\n",
         ),
-        ("web brief.toml", "case = \"spunbond.toml\" (`spunlaid run`)\n"),
-        ("run web.toml", "belongs to the file of a web, not to a case; read it as a web (`spunlaid web`)\n"),
         (
-            "web web.toml --set line.belt_speed=6m/s",
-            "error: --set line.belt_speed = \"6m/s\" differs from belt.speed = 3 m/s of brief.toml",
+            "web brief.toml",
+            "error: brief.toml:5: [fibre] belongs to a case, and the file says nothing of a web; add [line] and [web], or read it \
+             as a case (`spunlaid run`)\n",
+        ),
+        (
+            "web web.toml --set line.belt_speed=60m/s",
+            "error: --set line.belt_speed = \"60m/s\" is more than line.feed_speed = 50 m/s, which would tear the fibre",
         ),
         ("web web.toml --set web.width", "write a key and a value"),
         ("web web.toml --threads 0", "--threads"),
@@ -459,7 +462,7 @@ fn keys_of_the_flown_case_are_set_and_advice_can_be_pasted() {
     let summary = desk.summary("w");
     let titre = summary["layers"][0]["linear_density_kg_m"].as_f64().unwrap();
     assert!((titre / 2e-7 - 1.0).abs() < 1e-9, "{titre}");
-    let case = String::from_utf8(desk.read("w/cases/layer_1.toml")).unwrap();
+    let case = String::from_utf8(desk.read("w/web.toml")).unwrap();
     assert!(case.contains("distance = \"0.3 m\"") && case.contains("replicates = 2"), "{case}");
     success(&mut desk.spunlaid("web w/web.toml --out again --no-advice --quiet"));
     assert_eq!(desk.read("w/map.npy"), desk.read("again/map.npy"));
@@ -492,4 +495,30 @@ fn keys_of_the_flown_case_are_set_and_advice_can_be_pasted() {
         ),
         "{said}"
     );
+}
+
+/// One file is the line: its web is laid, its filament is flown, and its air is looked at, as from two files.
+#[test]
+fn identical_web_and_filament_of_one_file_and_of_two() {
+    let desk = desk();
+    let case = String::from_utf8(desk.read("brief.toml")).unwrap();
+    let web = WEB.split_once("[line]").unwrap().1;
+    fs::write(desk.path("one.toml"), format!("{case}\n[line]{web}")).unwrap();
+    let small = ["--set", "web.method=dynamics", "--set", "run.duration=0.3 s", "--set", "run.replicates=2"];
+    for (file, out) in [("one.toml", "one"), ("web.toml", "two")] {
+        let command = format!("web {file} --no-advice --quiet --out {out}");
+        success(desk.spunlaid(&command).args(small));
+    }
+    for file in ["web.toml", "map.npy"] {
+        assert_eq!(desk.read(&format!("one/{file}")), desk.read(&format!("two/{file}")), "{file}");
+    }
+    assert!(!desk.path("one/cases").exists());
+    let flight = ["--set", "run.duration=0.1 s", "--set", "run.replicates=1", "--set", "run.checks=none"];
+    for (file, out) in [("one.toml", "flown_one"), ("brief.toml", "flown_two")] {
+        success(desk.spunlaid(&format!("run {file} --quiet --out {out}")).args(flight));
+    }
+    assert_eq!(desk.read("flown_one/case.toml"), desk.read("flown_two/case.toml"));
+    assert_eq!(desk.summary("flown_one")["laydown"], desk.summary("flown_two")["laydown"]);
+    let said = success(&mut desk.spunlaid("check one.toml"));
+    assert!(said.contains("#   one.toml: its eddies are given a place in space"), "{said}");
 }

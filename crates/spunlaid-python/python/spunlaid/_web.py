@@ -61,8 +61,9 @@ def web(
     """Lays a web of many filaments and says how even it is: the same bits as `spunlaid web`.
 
     web: the path of the file of a web; or a dict of its tables, `{"fibre": {...}, "laydown": {...}, "line": {...}, "web":
-        {...}}`, with texts that have a unit, and numbers in SI units. `spunlaid keys --web` lists the keys
-    set: keys that replace those of the file, `{"line.belt_speed": 5.0}`; and those of the case that it flies, `{"belt.distance": "0.4 m"}`
+        {...}}`, with texts that have a unit, and numbers in SI units, also with the tables of the filament that flies, `{"air":
+        {...}, "belt": {...}, ...}`. `spunlaid keys --web` and `spunlaid keys` list the keys
+    set: keys that replace those of the file, `{"line.belt_speed": 5.0}` or `{"belt.distance": "0.4 m"}`
     advice: whether to try what settings of the line would make it more even at the same basis weight; `summary["advice"]` then says it
     guesses: whether a web whose file calls numbers guesses (`web.guessed`) is also tried with half and twice of each;
         `summary["guesses"]` then has the CVs

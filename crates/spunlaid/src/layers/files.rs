@@ -7,11 +7,11 @@ use std::sync::Arc;
 impl WebSpec {
     /// The files from which the cases that it flies were read, each with the parts that it names, relative to its folder.
     pub fn files(&self) -> Vec<(&Path, &[PathBuf])> {
-        let of_layer = |source| match source {
-            &LaydownSource::Case { ref case, .. } => case.files(),
-            _ => Vec::new(),
-        };
-        self.layers.iter().flat_map(|layer| of_layer(&layer.source)).collect()
+        let flown = self.layers.iter().filter_map(|layer| match &layer.source {
+            LaydownSource::Case { case, .. } => Some(case),
+            _ => None,
+        });
+        flown.flat_map(|case| case.files()).collect()
     }
 
     /// The same web with these files at other paths.

@@ -18,7 +18,7 @@ mod value;
 pub use key_table::KeyTable;
 pub(crate) use key_table::TableList;
 pub use relations::{Condition, Relations};
-pub(crate) use table::DESCRIBED;
+pub(crate) use table::{COUNT, DESCRIBED};
 pub use value::{Content, FileKind, Kind, Sign, Value};
 
 use super::Case;

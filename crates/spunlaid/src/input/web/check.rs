@@ -1,7 +1,6 @@
 //! Checks layers together: with each other, and with the sheet on which they lie.
 
-use super::read::Reading;
-use super::speeds::BELT_SPEED;
+use super::read::{BELT_SPEED, Reading};
 use crate::air::Lateral;
 use crate::case::{Note, Remark};
 use crate::error::{Fault, Place};

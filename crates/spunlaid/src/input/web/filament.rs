@@ -4,14 +4,12 @@
 use super::super::open::OpenCase;
 use super::super::written_values::{WrittenValue, WrittenValues};
 use super::super::{Overrides, document, file, open_values};
-use super::laydown::CASE;
-use super::read::{Layer, Reading};
-use super::speeds::THROUGHPUT;
+use super::read::{CASE, Reading, THROUGHPUT};
 use crate::case::keys::{self, CASE as OF_CASE, Value};
 use crate::case::{Case, Note, Remark};
 use crate::error::{Error, Fault, FileKind, Place, Problem};
 use crate::layers::keys::{EITHER, METHODS, WEB};
-use crate::layers::{LaydownSource, WebKey};
+use crate::layers::{LaydownSource, LayerSpec, WebKey};
 use crate::units::Dimension;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -86,13 +84,13 @@ impl Filament {
         self.values.has_table("spinline")
     }
 
-    /// Tells a layer how much comes from each of its holes, as far as it is known before the filament is spun.
-    pub(super) fn tell_flow(&self, layer: &mut Layer) {
+    /// Tells a layer the size of its filament and the speed, as far as they are known before it is spun. Returns the throughput of a
+    /// hole of a die, if it comes from one.
+    pub(super) fn tell_flow(&self, layer: &mut LayerSpec) -> Option<f64> {
         let fibre = self.sized().fibre;
-        let spec = &mut layer.spec;
-        (spec.diameter, spec.density) = (fibre.diameter, fibre.density);
-        spec.feed_speed = self.values.number("feed.speed").unwrap_or(f64::NAN);
-        layer.spun = self.is_spun().then(|| self.values.number("spinline.throughput").unwrap_or(f64::NAN));
+        (layer.diameter, layer.density) = (fibre.diameter, fibre.density);
+        layer.feed_speed = self.values.number("feed.speed").unwrap_or(f64::NAN);
+        self.is_spun().then(|| self.values.number("spinline.throughput").unwrap_or(f64::NAN))
     }
 
     /// Sets the speed of the belt on which the web has the basis weight that is written.

@@ -2,15 +2,15 @@
 
 use super::super::written_values::WrittenValue;
 use super::super::{file, parse_with};
+use super::filament::Filament;
 use super::flies_none;
-use super::read::Reading;
+use super::read::{CASE, Reading};
 use crate::case::keys::{self, Value};
 use crate::error::{Error, Fault, FileKind, Place};
-use crate::layers::LaydownSource;
 use crate::layers::keys::{NUMBERS, OF_FILAMENT, ONE_SOURCE};
+use crate::layers::{LaydownSource, LayerSpec};
 use std::path::PathBuf;
 
-pub(super) const CASE: &str = "laydown.case";
 const RESULTS: &str = "laydown.results";
 /// Files of a finished run.
 const SUMMARY: &str = "summary.json";
@@ -27,6 +27,16 @@ pub(super) enum Way {
     Numbers,
     /// It is not known, because of a problem that is noted.
     Unknown,
+}
+
+/// A layer before its filament is spun and flown.
+pub(super) struct Layer {
+    pub(super) spec: LayerSpec,
+    pub(super) way: Way,
+    /// Its filament, if it has to be flown.
+    pub(super) filament: Option<Filament>,
+    /// The throughput of its holes, if the filament comes from a die [kg/s].
+    pub(super) spun: Option<f64>,
 }
 
 impl Reading<'_> {

@@ -1,7 +1,7 @@
 //! Files of webs: reads a file to what is to be laid, and writes it back.
 //!
 //! ```text
-//! file, and the case that it names → values of one document ┬ web/read.rs, speeds.rs: layers, sheet, belt
+//! file, and the case that it names → values of one document ┬ web/open.rs: layers, sheet, belt            
 //!                                                           └ filament.rs: the case of a filament ┬ a web: flown and laid
 //!                                                                                                 └ a case: `spunlaid run`, `spin`, `air`
 //! ```
@@ -11,6 +11,7 @@ mod filament;
 mod guessed;
 mod laydown;
 mod of_case;
+mod open;
 mod read;
 mod sheet;
 mod speeds;
@@ -80,7 +81,7 @@ pub(super) fn parse_set(
     set: &[Overrides<'_>],
     lookup: &Lookup,
 ) -> Result<(WebFile, Vec<Option<WrittenValues>>), Error> {
-    let open = read::open(values(text, name, set)?, name, set, lookup)?;
+    let open = open::open(values(text, name, set)?, name, set, lookup)?;
     let filaments = open.filaments();
     let (spec, notes) = open.spec()?;
     let text = write_web(&spec);
@@ -99,7 +100,7 @@ pub(super) fn filament(
 ) -> Result<WrittenValues, Error> {
     let values = values(text, name, set)?;
     let place = values.whole();
-    read::open(values, name, set, lookup)?.filament()?.ok_or_else(|| {
+    open::open(values, name, set, lookup)?.filament()?.ok_or_else(|| {
         let fault = Fault::new(
             "flies no filament: how its fibres lie is known",
             "to lay the web, read the file as that of a web",

@@ -1,18 +1,15 @@
 //! The belt on which all layers lie: its speed, or the basis weight in its place.
 
-use super::laydown::Way;
-use super::read::{Layer, Reading};
+use super::laydown::{Layer, Way};
+use super::read::{BELT_SPEED, Reading};
 use crate::error::Fault;
 use crate::layers::full_names::without_numbers;
 use crate::layers::keys::EITHER;
 use crate::layers::{LaydownSource, LayerSpec, SAME, WebSpec};
 use crate::units::Dimension;
 
-/// The key of the only thing that all layers have in common.
-pub(super) const BELT_SPEED: &str = "line.belt_speed";
-/// The keys that stand in place of the speeds.
+/// The key that stands in its place.
 const BASIS_WEIGHT: &str = "line.basis_weight";
-pub(super) const THROUGHPUT: &str = "line.throughput";
 
 impl Reading<'_> {
     /// Gives the layers the belt on which they have the basis weight that is written, if one is. The cases are flown above it.

@@ -29,9 +29,10 @@ const TABLES: [Table<Case>; 9] = [
 /// The names of the tables.
 pub(super) const NAMES: [&str; TABLES.len()] = joined::names(&TABLES);
 
-pub(super) static KEYS: [Key; joined::count(&TABLES)] = ROWS;
+/// Number of the keys.
+pub(crate) const COUNT: usize = joined::count(&TABLES);
 
-const ROWS: [Key; joined::count(&TABLES)] = joined::keys(&TABLES);
+pub(super) static KEYS: [Key; COUNT] = joined::keys(&TABLES);
 
 /// The same without access to a case, for the file of a web, in which they stand too.
-pub(crate) const DESCRIBED: [Key<()>; ROWS.len()] = joined::without_access(&ROWS);
+pub(crate) static DESCRIBED: [Key<()>; COUNT] = joined::without_access(&KEYS);

@@ -21,7 +21,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .required("18 µm")
         .meaning(
             "Diameter of the round filaments. With `laydown.case` or `laydown.results` it is that of the \
-             case.",
+             case, and where a filament flies it is the key of its case.",
         )
         .label("Fibre diameter *d*"),
     positive("fibre.density", Dimension::Density)

@@ -16,6 +16,6 @@ pub(super) const KEYS: &[WebKey] = &[key("layer.name", Kind::Text("first beam"))
     .follows("the layer's number")
     .meaning(
         "Name of a layer. A web of several layers has a `[[layer]]` for each beam, with its own \
-             `[layer.fibre]`, `[layer.laydown]` and `[layer.line]` in place of the three tables below; \
-             their basis weights add up.",
+             `[layer.line]`, `[layer.laydown]` and `[layer.fibre]` in place of the three tables below; \
+             their basis weights add up. Tables of a filament that stand above the layers are those of all.",
     )];

@@ -25,8 +25,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .gives_case(&["feed.speed"])
         .required("50 m/s")
         .meaning(
-            "Speed at which each filament is fed: the spinning speed. With `laydown.case` or \
-             `laydown.results` it is that of the case.",
+            "Speed at which each filament is fed: the spinning speed. Of a filament that flies it is \
+             `feed.speed`, in whose place it may be written; with `laydown.results` it is that of the case.",
         )
         .label("Feed speed"),
     positive("line.throughput", Dimension::MassFlow)
@@ -47,8 +47,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .usual(1e-8, 1e-3)
         .meaning(
             "Mass flow of a hole, which may be written instead of `line.feed_speed`: the feed speed is the \
-             throughput over the linear density. With `laydown.case` the case is flown with this \
-             throughput, whatever it has itself.",
+             throughput over the linear density. Of a filament that flies it gives `feed.speed`, or \
+             `spinline.throughput`.",
         )
         .synonyms(&["output per hole", "mass flow", "grams per minute"])
         .label("Throughput of a hole"),
@@ -70,7 +70,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .required("3 m/s")
         .meaning(
             "Speed of the belt. It is written once, in any of the layers, because all lie on one belt. \
-             With `laydown.case` or `laydown.results` it is that of the case.",
+             Of a filament that flies it is `belt.speed`, in whose place it may be written; with \
+             `laydown.results` it is that of the case.",
         )
         .label("Belt speed"),
     positive("line.basis_weight", Dimension::BasisWeight)
@@ -92,8 +93,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .usual(1e-3, 2.0)
         .meaning(
             "Mass of the web per area, that of all layers together, which may be written instead of \
-             `line.belt_speed`, in any of the layers: the belt is as fast as it takes to lay it. With \
-             `laydown.case` the case is flown above this belt, whatever it has itself.",
+             `line.belt_speed`, in any of the layers: the belt is as fast as it takes to lay it, and filaments \
+             fly above this belt.",
         )
         .synonyms(&["grammage", "mass per area", "surface weight"])
         .label("Basis weight"),

@@ -47,7 +47,7 @@ pub const WEB_KEYS: &[WebKey] = &KEYS;
 const KEYS: [WebKey; joined::count(&TABLES)] = joined::keys(&TABLES);
 
 /// Every key of the file of a web and of the filament that it flies. A key that both have stands here once, as that of the filament.
-pub(super) static OF_FILE: [Key<()>; case_keys::DESCRIBED.len() + OWN] = {
+pub(super) static OF_FILE: [Key<()>; case_keys::COUNT + OWN] = {
     let (web, mut all) = (joined::without_access(&KEYS), [case_keys::DESCRIBED[0]; _]);
     let (mut count, mut i) = (0, 0);
     while i < case_keys::DESCRIBED.len() {

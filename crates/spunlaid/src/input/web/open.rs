@@ -1,0 +1,202 @@
+//! Makes the web of its file: layers, sheet and belt from what is written, then each filament, and all of it checked together.
+
+use super::super::Overrides;
+use super::super::lookup::Lookup;
+use super::super::written_values::{WrittenValues, sorted};
+use super::filament::Filament;
+use super::laydown::{Layer, Way};
+use super::read::{Reading, THROUGHPUT, as_web};
+use crate::case::Note;
+use crate::error::{Error, Fault};
+use crate::layers::keys::WEB;
+use crate::layers::{LaydownSource, LayerSpec, Method, WebKey, WebSpec};
+use crate::web::Filaments;
+use std::path::PathBuf;
+
+/// The file of a web, read as far as it goes before its filaments are spun and flown.
+pub(super) struct OpenWeb<'a> {
+    reading: Reading<'a>,
+    web: WebSpec,
+    layers: Vec<Layer>,
+}
+
+/// Reads the layers, the sheet, and what is written of the filaments.
+///
+/// # Errors
+/// A case that cannot be read for another reason than what is in it.
+pub(super) fn open<'a>(
+    key_values: WrittenValues,
+    name: &str,
+    set: &'a [Overrides<'a>],
+    lookup: &'a Lookup,
+) -> Result<OpenWeb<'a>, Error> {
+    let (notes, basis_weight_key) = (Vec::new(), String::new());
+    let prefixes = prefixes(&key_values);
+    let mut reading = Reading {
+        key_values,
+        file: PathBuf::from(name),
+        set,
+        lookup,
+        notes,
+        prefixes: prefixes.clone(),
+        basis_weight_key,
+    };
+    let (mut web, mut layers) = (WebSpec::unknown(), Vec::new());
+    for prefix in &prefixes {
+        layers.push(reading.layer(prefix)?);
+    }
+    reading.fill(&mut web, "web", "web.", false);
+    reading.fill(&mut web, "fabric", "fabric.", false);
+    reading.lay_weight(&mut web, &mut layers);
+    Ok(OpenWeb { reading, web, layers })
+}
+
+/// What comes before the names of each layer's keys.
+fn prefixes(key_values: &WrittenValues) -> Vec<String> {
+    match key_values.get("layer") {
+        None => vec![String::new()],
+        Some(_) => {
+            let layers = key_values.number("layer").unwrap_or(0.0) as usize;
+            (1..=layers).map(|number| format!("layer.{number}.")).collect()
+        }
+    }
+}
+
+impl OpenWeb<'_> {
+    /// What is written of the filament of each layer; none of one that flies none.
+    pub(super) fn filaments(&self) -> Vec<Option<WrittenValues>> {
+        let values = |filament: &Filament| filament.values.clone();
+        self.layers.iter().map(|layer| layer.filament.as_ref().map(values)).collect()
+    }
+
+    /// The web, and notes about its cases.
+    ///
+    /// # Errors
+    /// Every problem with any key.
+    pub(super) fn spec(self) -> Result<(WebSpec, Vec<Note>), Error> {
+        let Self { mut reading, mut web, layers } = self;
+        let prefixes = reading.prefixes.clone();
+        let ways: Vec<Way> = layers.iter().map(|layer| layer.way).collect();
+        for (Layer { spec: mut layer, filament, .. }, prefix) in layers.into_iter().zip(&prefixes) {
+            if let Some(filament) = filament {
+                match reading.fly(prefix, filament)? {
+                    Some(source) => layer.source = source,
+                    None => reading.excuse_numbers_of_case(prefix),
+                }
+            }
+            layer.take_flown();
+            web.layers.push(layer);
+        }
+        if !reading.is_written("web.method") {
+            web.method = Method::default_for(&web.layers);
+        }
+        reading.check_names(&prefixes);
+        reading.complete_sheet(&mut web);
+        reading.check_method(&prefixes, &web);
+        reading.check_guessed(&web);
+        reading.settle_belt(&mut web, &ways);
+        for (number, prefix) in prefixes.iter().enumerate() {
+            reading.check_layer(prefix, &web.alone(number));
+        }
+        let unusual = reading.unusual();
+        reading.note(unusual.clone());
+        let Reading { mut key_values, notes, .. } = reading;
+        if key_values.problems.is_empty() {
+            if let Some(problem) = web.air_beyond_memory() {
+                return Err(vec![key_values.placed(problem)].into());
+            }
+            return Ok((web, sorted(notes)));
+        }
+        // Unusual values may be why the web cannot be laid.
+        for note in unusual {
+            if !key_values.problems.iter().any(|problem| problem.key == note.key) {
+                key_values.problems.push(note.into());
+            }
+        }
+        Err(sorted(key_values.problems).into())
+    }
+
+    /// What is written of its filament; none if it flies none.
+    ///
+    /// # Errors
+    /// Every problem with the file, and if several layers have different filaments.
+    pub(super) fn filament(self) -> Result<Option<WrittenValues>, Error> {
+        let Self { mut reading, layers, .. } = self;
+        let filaments: Vec<Filament> = layers.into_iter().filter_map(|layer| layer.filament).collect();
+        if let Some(number) = filaments.iter().position(|filament| !filament.is_same(&filaments[0])) {
+            let fault = Fault::new(
+                format!(
+                    "have different filaments, and one is flown (the first and the {}. that fly)",
+                    number + 1
+                ),
+                "write the filament of one layer in a file of its own, without [[layer]], [line] and [web]",
+            );
+            reading.key_values.reject("layer", fault);
+        }
+        if !reading.key_values.problems.is_empty() {
+            return Err(sorted(reading.key_values.problems).into());
+        }
+        Ok(filaments.into_iter().next().map(|filament| filament.values))
+    }
+}
+
+impl Reading<'_> {
+    /// A layer. Its values are NaN where there is a problem with them, which is noted.
+    fn layer(&mut self, prefix: &str) -> Result<Layer, Error> {
+        let (way, mut filament, mut source) = (self.way(prefix), None, None);
+        match way {
+            Way::Fly => filament = self.filament(prefix)?,
+            Way::Results => {
+                source = self.results(prefix)?;
+                self.refuse_flown(prefix, source.as_ref());
+            }
+            Way::Numbers | Way::Unknown => {}
+        }
+        let by_case = matches!(way, Way::Fly | Way::Results);
+        if by_case && filament.is_none() && source.is_none()
+            || way == Way::Unknown && self.key_values.is_excused(&format!("{prefix}laydown."))
+        {
+            self.excuse_numbers_of_case(prefix);
+        }
+        let mut spec = LayerSpec::unknown(source.unwrap_or(LaydownSource::UNKNOWN));
+        as_web(&mut spec, |web| {
+            self.fill(web, "layer", prefix, by_case);
+            for table in ["fibre", "laydown", "line"]
+                .iter()
+                .filter(|table| **table != "laydown" || way == Way::Numbers)
+            {
+                self.fill(web, table, &format!("{prefix}{table}."), by_case);
+            }
+        });
+        let rows = self.rows(&format!("{prefix}line."));
+        if !rows.is_empty() {
+            spec.filaments = Filaments::Rows(rows);
+        }
+        spec.throughput = self.key_values.number(&format!("{prefix}{THROUGHPUT}"));
+        if let (Way::Numbers, Some(throughput)) = (way, spec.throughput) {
+            spec.feed_speed = throughput / spec.linear_density();
+        }
+        let spun = filament.as_ref().and_then(|filament| filament.tell_flow(&mut spec));
+        Ok(Layer { spec, way, filament, spun })
+    }
+
+    /// Excuses that the numbers are missing which a case would give.
+    fn excuse_numbers_of_case(&mut self, prefix: &str) {
+        for key in WEB.rows.iter().filter(|key| key.key_of_case().is_some()) {
+            self.key_values.excuse(format!("{prefix}{}", key.name));
+        }
+    }
+
+    /// Refuses numbers of fibres that have been flown already: they are those of their case.
+    fn refuse_flown(&mut self, prefix: &str, source: Option<&LaydownSource>) {
+        let Some(LaydownSource::Results { folder, .. }) = source else { return };
+        let is_of_case = |key: &&WebKey| key.key_of_case().is_some() || key.name == THROUGHPUT;
+        for key in WEB.rows.iter().filter(is_of_case) {
+            let full = format!("{prefix}{}", key.name);
+            if self.key_values.get(&full).is_some() {
+                let message = format!("is that of {}, with which the fibres were flown", folder.display());
+                self.key_values.reject(&full, Fault::new(message, "leave it out"));
+            }
+        }
+    }
+}
