@@ -33,7 +33,7 @@ use crate::web::{
     Canvas, LaidWeb, NeighbourCorrelation, SharedAirFindings, SharedVariance, Sheet, Strand, TimeSpent,
     Window,
 };
-pub(crate) use abreast::{FlownAbreast, fly_abreast};
+pub(crate) use abreast::{FlownAbreast, fly_abreast, memory_abreast};
 use air::SharedField;
 use filament::Reach;
 use flying::Flying;

@@ -14,7 +14,7 @@ mod plan;
 mod shared_air;
 
 pub use comparison::FewOfWeb;
-pub(crate) use comparison::steps_in_same_air;
+pub(crate) use comparison::{fits_memory, steps_in_same_air};
 pub use finished_run::{LAID, read as read_laid};
 pub use flyer::{Flights, FlownFibres, FlownWeb, Flyer, LayerFibres, ProgressDisplay};
 pub use full_names::{place_in_web, web_key};
