@@ -1,7 +1,7 @@
 //! How much the guesses of a web matter.
 
-use super::{Advice, Change, CvChange, Effect, steps};
-use crate::layers::{Method, WebSpec};
+use super::{Advice, Change, CvChange, Effect, all_webs, steps};
+use crate::layers::{Method, WebSpec, fits_memory};
 use crate::web::Findings;
 
 /// Most steps of all fibres that are flown for guesses without being asked: some twenty seconds of a processor.
@@ -12,12 +12,13 @@ const fn most_steps(method: Method) -> u64 {
     }
 }
 
-/// Whether guesses are tried without being asked: there are some, their flights are short, and a few filaments tell the web. Where all filaments in one air
+/// Whether guesses are tried without being asked: there are some, their flights are short and fit into the memory, and a few filaments tell the web. Where all filaments in one air
 /// are flown, whole webs would have to be compared.
 pub fn are_tried(spec: &WebSpec, findings: &Findings, guesses: &[Change]) -> bool {
     let few = findings.laid.shared_air.as_ref().map(|together| together.few.len());
     let says_enough = few.is_none_or(|layers| layers == spec.layers.len());
-    !guesses.is_empty() && says_enough && steps(spec, guesses) <= most_steps(spec.method)
+    let fits = || spec.method != Method::SharedAir || fits_memory(&all_webs(spec, guesses));
+    !guesses.is_empty() && says_enough && steps(spec, guesses) <= most_steps(spec.method) && fits()
 }
 
 impl Advice {

@@ -69,6 +69,16 @@ pub(crate) fn fly_abreast(
     Ok(found.into_iter().map(|found| found.unwrap_or_else(|| Err(Error::no_fibre()))).collect())
 }
 
+/// Most memory that the airs of beams take which fly abreast, one field after the other [B].
+pub(crate) fn memory_abreast(beams: &[Beam<'_>], sheet: &Sheet) -> f64 {
+    let room = room_of(beams, sheet);
+    let of_beam = |beam: &Beam<'_>| {
+        let air = &beam.case.air;
+        air.lateral.cutoff().map_or(0.0, |cutoff| EddyField::memory_in_room(air, &room, cutoff.min(HIGHEST)))
+    };
+    beams.iter().map(of_beam).fold(0.0, f64::max)
+}
+
 /// The fields of the airs of beams, of which those with one pattern share one.
 fn fields(beams: &[Beam<'_>], room: &Room) -> Result<Vec<BeamField>, Error> {
     let mut fields: Vec<BeamField> = Vec::new();

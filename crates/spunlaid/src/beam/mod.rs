@@ -33,7 +33,7 @@ use crate::web::{
     Canvas, KeptFibres, LaidWeb, NeighbourCorrelation, SharedAirFindings, SharedVariance, Sheet, TimeSpent,
     Window, Windows,
 };
-pub(crate) use abreast::{FlownAbreast, fly_abreast};
+pub(crate) use abreast::{FlownAbreast, fly_abreast, memory_abreast};
 use air::SharedField;
 use filament::Reach;
 use flying::Flying;

@@ -8,10 +8,12 @@
 
 use super::shared_air::{LayerBeam, beam_on};
 use super::{Flyer, WebSpec};
-use crate::beam::{Beam, BeamControl, BeamFindings, FlownAbreast, fly_abreast};
+use crate::beam::{Beam, BeamControl, BeamFindings, FlownAbreast, fly_abreast, memory_abreast};
 use crate::error::{Error, Fault};
+use crate::flight::LaidPoint;
 use crate::lanes::Isa;
 use crate::line::{Contact, Line};
+use crate::units::Dimension;
 use crate::web::{Arrangement, LayerFew, Sheet, blocks_on};
 use std::ops::Range;
 use std::sync::atomic::AtomicU64;
@@ -58,8 +60,8 @@ impl Flyer<'_> {
         steps: &AtomicU64,
     ) -> Result<Vec<Result<LayerFew, Error>>, Error> {
         let by = BeamControl { threads: self.threads, isa: Isa::detect(), stop: self.stop, steps };
-        let beams: Vec<Beam<'_>> = layer.flights().map(|(_, of_beam)| of_beam.beam()).collect();
-        let flown = fly_abreast(&beams, &layer.sheet, by)?;
+        layer.check_memory()?;
+        let flown = fly_abreast(&layer.flown_beams(), &layer.sheet, by)?;
         let flown: Vec<(usize, _)> = layer.flights().map(|(web, _)| web).zip(flown).collect();
         let of_web = |web: usize| {
             let of_beam = layer.beams[web].as_ref().map_err(again)?;
@@ -68,21 +70,21 @@ impl Flyer<'_> {
             let above = layer.beams[*flight].as_ref().map_err(again)?;
             Laid::new([&above.beam(), &of_beam.beam()], flown.as_ref().map_err(again)?)
         };
-        let laid: Vec<Result<Laid, Error>> = (0..layer.beams.len()).map(of_web).collect();
+        let laid: Vec<Result<Laid<'_>, Error>> = (0..layer.beams.len()).map(of_web).collect();
         let during = laid.iter().flatten().fold(f64::NEG_INFINITY..f64::INFINITY, |all, laid| {
             all.start.max(laid.during.start)..all.end.min(laid.during.end)
         });
-        let tell = |(laid, of_beam): (Result<Laid, Error>, &Result<LayerBeam<'_>, Error>)| {
-            let (mut laid, of_beam) = (laid?, of_beam.as_ref().map_err(again)?);
+        let tell = |(laid, of_beam): (Result<Laid<'_>, Error>, &Result<LayerBeam<'_>, Error>)| {
+            let (laid, of_beam) = (laid?, of_beam.as_ref().map_err(again)?);
             let few = of_beam.few.as_ref().ok_or_else(Error::no_fibre)?;
-            let sheet = laid.sheet(&layer.sheet, &during)?;
-            let (beam, flown) = (of_beam.beam(), &laid.flown);
+            let (sheet, flown) = laid.sheet(&layer.sheet, &during)?;
+            let beam = of_beam.beam();
             let curves = match few.arrangement {
-                Arrangement::Rows => Some(few.curves(&sheet, &beam, flown)?),
+                Arrangement::Rows => Some(few.curves(&sheet, &beam, &flown)?),
                 Arrangement::Slot | Arrangement::AtRandom => None,
             };
             let of_sheet = (number, &sheet, layer.blocks);
-            few.tell(of_sheet, (&beam, flown), curves.as_ref(), (self.threads, self.stop))
+            few.tell(of_sheet, (&beam, &flown), curves.as_ref(), (self.threads, self.stop))
         };
         Ok(laid.into_iter().zip(&layer.beams).map(tell).collect())
     }
@@ -108,6 +110,12 @@ pub(crate) fn steps_in_same_air(specs: &[&WebSpec]) -> u64 {
     layers.iter().map(of_layer).sum()
 }
 
+/// Whether the air in which webs fly beside each other takes no more memory than the first of them may take.
+pub(crate) fn fits_memory(specs: &[&WebSpec]) -> bool {
+    let layers = comparisons(specs).ok().flatten().unwrap_or_default();
+    layers.iter().all(|layer| layer.check_memory().is_ok())
+}
+
 /// A layer of webs that are compared.
 struct Comparison<'a> {
     /// The sheet of the web as it is.
@@ -116,6 +124,8 @@ struct Comparison<'a> {
     blocks: [usize; 2],
     /// The filaments of each web.
     beams: Vec<Result<LayerBeam<'a>, Error>>,
+    /// Most memory that their air may take [B].
+    memory_limit: f64,
     /// Of each web, the one whose flight says what its filaments do.
     flight_of: Vec<Option<usize>>,
 }
@@ -131,7 +141,7 @@ impl<'a> Comparison<'a> {
         let sheet = specs.iter().filter_map(|spec| spec.flown_sheet(number, true));
         let Some(on) = sheet.max_by(|a, b| a.sheet.width.total_cmp(&b.sheet.width)) else { return Ok(None) };
         let is_few = |of_beam: LayerBeam<'a>| match of_beam.few {
-            Some(_) => Ok(of_beam),
+            Some(_) => Ok(of_beam.with_coarser_mesh()),
             None => Err(Fault::plain("its filaments are so few that all of them are flown").into()),
         };
         let beams: Vec<Result<LayerBeam<'_>, Error>> =
@@ -146,7 +156,28 @@ impl<'a> Comparison<'a> {
             Some((0..web).find(is_same).unwrap_or(web))
         });
         let flight_of = flight_of.collect();
-        Ok(Some(Self { blocks: blocks_on(&on.sheet), sheet: on.sheet, flight_of, beams }))
+        let memory_limit = specs.first().map_or(f64::INFINITY, |first| first.memory_limit);
+        Ok(Some(Self { blocks: blocks_on(&on.sheet), sheet: on.sheet, memory_limit, flight_of, beams }))
+    }
+
+    /// Refuses webs whose common air does not fit into the memory that it may take.
+    fn check_memory(&self) -> Result<(), Fault> {
+        let needed = memory_abreast(&self.flown_beams(), &self.sheet);
+        if needed <= self.memory_limit {
+            return Ok(());
+        }
+        let memory = |size: f64| Dimension::Memory.pretty_to(size, 3);
+        let message = format!(
+            "the field of eddies in which the changed webs fly beside each other takes {}, more than web.memory_limit = {}",
+            memory(needed),
+            memory(self.memory_limit)
+        );
+        let remedy = format!("write {} or more there if the machine has it", memory(1.05 * needed));
+        Err(Fault::new(message, remedy))
+    }
+
+    fn flown_beams(&self) -> Vec<Beam<'_>> {
+        self.flights().map(|(_, of_beam)| of_beam.beam()).collect()
     }
 
     /// The filaments that are flown, with the number of their web.
@@ -169,43 +200,45 @@ fn flies_as(of_beam: &LayerBeam<'_>, other: &LayerBeam<'_>) -> bool {
 }
 
 /// What the filaments of a web have laid.
-struct Laid {
-    flown: BeamFindings,
+struct Laid<'a> {
+    flight: &'a FlownAbreast,
+    /// How much faster the belt is above which they have flown than that of the web [m/s].
+    faster: f64,
     /// The times at which the belt has passed on which all filaments lie as after their start, counted in what passes of the pattern of the air [s].
     during: Range<f64>,
     /// How far the belt moves in such a time [m/s].
     belt_speed: f64,
 }
 
-impl Laid {
+impl<'a> Laid<'a> {
     /// * `beams` – the one that was flown, and the one of the web, which fly alike: every point comes down at the same time and place above both belts
-    fn new(beams: [&Beam<'_>; 2], flight: &FlownAbreast) -> Result<Self, Error> {
+    fn new(beams: [&Beam<'_>; 2], flight: &'a FlownAbreast) -> Result<Self, Error> {
         let [above, line] = beams.map(|beam| beam.case.line);
         let (above, line) = above.zip(line).ok_or_else(Error::no_fibre)?;
-        let start = line.feed_speed * beams[1].case.run.spin_up();
+        let (start, faster) =
+            (line.feed_speed * beams[1].case.run.spin_up(), above.belt_speed - line.belt_speed);
         let (mut front, mut ahead, mut fed) = (f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY);
-        let mut kept = flight.flown.kept.clone();
-        for (filament, points) in &mut kept {
+        for (filament, points) in &flight.flown.kept {
             let y = beams[1].places[*filament].y;
-            for point in &mut *points {
-                point.md += (above.belt_speed - line.belt_speed) * point.time;
-                ahead = ahead.max(y + point.md + line.belt_ratio() * point.fed);
+            for point in points {
+                let md = y + on_slower_belt(point, faster);
+                ahead = ahead.max(md + line.belt_ratio() * point.fed);
                 if point.fed < start {
-                    front = front.min(y + point.md);
+                    front = front.min(md);
                 }
             }
             fed = fed.min(points.last().map_or(0.0, |point| point.fed));
         }
         let belt_speed = line.belt_speed / flight.pace;
         let [from, to] = [front, ahead - line.belt_ratio() * fed].map(|place| -place / belt_speed);
-        Ok(Self { flown: BeamFindings { kept, ..BeamFindings::default() }, during: from..to, belt_speed })
+        Ok(Self { flight, faster, during: from..to, belt_speed })
     }
 
-    /// The stretch of belt that passes during some time; the filaments lie on it from then on.
+    /// The stretch of belt that passes during some time, and what comes down on it; the filaments lie on it from then on.
     ///
     /// # Errors
     /// If hardly anything was laid during it.
-    fn sheet(&mut self, like: &Sheet, during: &Range<f64>) -> Result<Sheet, Error> {
+    fn sheet(&self, like: &Sheet, during: &Range<f64>) -> Result<(Sheet, BeamFindings), Error> {
         let [front, behind] = [during.start, during.end].map(|time| -time * self.belt_speed);
         let length = ((front - behind) / like.cell).floor() * like.cell;
         if length < LEAST * like.length {
@@ -214,7 +247,15 @@ impl Laid {
             )
             .into());
         }
-        self.flown.back = front - length;
-        Ok(Sheet { length, ..like.clone() })
+        let mut kept = self.flight.flown.kept.clone();
+        let points = kept.iter_mut().flat_map(|(_, points)| points);
+        points.for_each(|point| point.md = on_slower_belt(point, self.faster));
+        let flown = BeamFindings { kept, back: front - length, ..BeamFindings::default() };
+        Ok((Sheet { length, ..like.clone() }, flown))
     }
+}
+
+/// Where a point lies on a belt that is slower than the one above which it has flown [m].
+fn on_slower_belt(point: &LaidPoint, faster: f64) -> f64 {
+    point.md + faster * point.time
 }

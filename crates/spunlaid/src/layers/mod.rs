@@ -19,7 +19,7 @@ mod shared_air;
 mod stretches;
 
 pub use comparison::FewOfWeb;
-pub(crate) use comparison::steps_in_same_air;
+pub(crate) use comparison::{fits_memory, steps_in_same_air};
 pub use finished_run::{LAID, read as read_laid};
 pub use flown_curtain::{DrawnCurtains, FlownCurtain, FlownCurtains};
 pub use flyer::{Flights, FlownFibres, FlownWeb, Flyer, LayerFibres, ProgressDisplay};

@@ -28,6 +28,11 @@ const FEWEST_WAVES: f64 = 5.0;
 /// How often more filaments are flown where a few do not tell what all do; each time twice as many.
 const FINEST: u32 = 2;
 
+/// How many times as long elements and steps are where webs are compared.
+const MESH_OF_COMPARISON: f64 = 2.0;
+/// Longest element that still follows the eddies, in their smallest length scale.
+const LONGEST_ELEMENT: f64 = 0.5;
+
 /// Width of filaments beside each other of which those beside them hardly know, in parts of the distance after which the air repeats itself at
 /// least, which is ten length scales.
 const APART: f64 = 0.5;
@@ -52,6 +57,24 @@ type ToldFlight<'a> = (LayerBeam<'a>, BeamFindings, Option<(FlownCurves, LayerFe
 impl LayerBeam<'_> {
     pub(super) fn beam(&self) -> Beam<'_> {
         Beam { case: &self.case, places: &self.places, airs: Airs::Shared, depth: self.depth }
+    }
+
+    /// The same filaments in elements twice as long, and in steps twice as long, as far as these still follow the eddies: what a coarse mesh does to one web
+    /// it does to another one with which it is compared.
+    pub(super) fn with_coarser_mesh(mut self) -> Self {
+        let mut coarse = self.case.clone();
+        let element = MESH_OF_COMPARISON * self.case.fibre.rest_length();
+        let Some(line) = coarse.line.filter(|_| element <= LONGEST_ELEMENT * coarse.smallest_length_scale())
+        else {
+            return self;
+        };
+        coarse.fibre.span(line.distance, element);
+        let looks = self.case.steps_between_looks() as f64 * self.case.run.time_step;
+        coarse.set_time_step((MESH_OF_COMPARISON * self.case.run.time_step).min(looks));
+        if coarse.check().is_ok() {
+            self.case = coarse;
+        }
+        self
     }
 
     /// Mass of all filaments, the ones that are not flown too, over the area on which they are laid [kg/m²].

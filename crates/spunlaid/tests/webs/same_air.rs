@@ -75,3 +75,15 @@ fn analytic_a_web_on_another_slow_belt_needs_no_flight() {
     }
     assert!(told.sheet[1] < 0.9 * few(&[&web], 2)[0].sheet[1]);
 }
+
+/// Webs beside each other need the room of the largest; one that may not take it says how much it is.
+#[test]
+fn rejects_webs_whose_common_air_does_not_fit_into_the_memory() {
+    let (mut web, farther) = (read(&[]), read(&[("belt.distance", "0.5 m")]));
+    let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
+    let flyer = Flyer::new(1, &stop, &unwatched);
+    web.spec.memory_limit = 1e6;
+    let said = flyer.few_in_same_air(&[&web.spec, &farther.spec], &steps).unwrap_err().to_string();
+    let begin = "the field of eddies in which the changed webs fly beside each other takes ";
+    assert!(said.starts_with(begin) && said.contains("more than web.memory_limit = 1 MB; write "), "{said}");
+}

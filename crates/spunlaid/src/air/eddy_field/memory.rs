@@ -4,12 +4,10 @@ use super::lattice::{Extent, Lattice, samples};
 use super::plan::{BLOCKS, sizes};
 use super::way::EddyPath;
 use super::{synthesis, tape};
-use crate::air::Air;
 
 /// The most memory that so many fields take, of which one at a time is made in such blocks [bytes].
-pub(super) fn memory(fields: u64, air: &Air, distance: f64, extent: Extent, cutoff: f64) -> f64 {
-    let way = EddyPath::new(air, distance);
-    let (lattice, harmonics) = sizes(&way, extent, cutoff);
+pub(super) fn memory(fields: u64, way: &EddyPath, extent: Extent, cutoff: f64) -> f64 {
+    let (lattice, harmonics) = sizes(way, extent, cutoff);
     let highest = way.stages.iter().map(|stage| stage.cutoff_frequency).fold(0.0, f64::max);
     let (mut kept, mut making) = (0.0, 0.0_f64);
     for (j, stage) in way.stages.iter().enumerate() {

@@ -166,7 +166,12 @@ impl EddyField {
     ///
     /// * as of [`EddyField::new`]
     pub fn memory(fields: u64, air: &Air, distance: f64, extent: Extent, cutoff: f64) -> f64 {
-        memory::memory(fields, air, distance, extent, cutoff)
+        memory::memory(fields, &EddyPath::new(air, distance), extent, cutoff)
+    }
+
+    /// [`EddyField::memory`] of one field in a room.
+    pub(crate) fn memory_in_room(air: &Air, room: &Room, cutoff: f64) -> f64 {
+        memory::memory(1, &room.way(air), room.extent, cutoff)
     }
 
     /// Longest time between two looks at the air around a fibre that is fed [s]: an eighth of the shortest period that it feels, and no
