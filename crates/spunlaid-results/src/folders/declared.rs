@@ -82,12 +82,12 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
     let laid = AtomicU64::new(0);
     let laying = LayControl { threads: 2, isa: Isa::detect(), stop: &STOP, laid: &laid };
     let found = flown.find(laying).unwrap();
+    let fabric = file.spec.fabric(&flown.web, &found, 2);
     let (mut names, mut heads) = (BTreeSet::new(), BTreeSet::new());
     for findings in &kinds(&found) {
         let desk = tempfile::tempdir().unwrap();
         let folder = desk.path().join("w");
         let staging = Staging::new(&folder, ENTRIES, false, &STOP).unwrap();
-        let fabric = file.spec.fabric(&flown.web, findings, 2);
         let written = WebFolder {
             name: "web",
             file: &file,

@@ -43,7 +43,7 @@ use std::sync::Arc;
 const LEAST_SPREADS: f64 = 8.0;
 
 /// Windows in which holes are counted, their side at most [m], in diameters of the thinnest fibre, and the margin about them in their side.
-const COUNTED_WINDOWS: usize = 49;
+const COUNTED_WINDOWS: usize = 16;
 const COUNTED: f64 = 5e-3;
 const COUNTED_DIAMETERS: f64 = 300.0;
 const COUNTED_MARGIN: f64 = 0.1;
@@ -275,7 +275,7 @@ impl WebSpec {
         Window { corner, sides: [self.window; 2] }
     }
 
-    /// The windows of the sheet whose fibres are kept: the one that is shown, and those in which holes are counted, some fifty that are as large as
+    /// The windows of the sheet whose fibres are kept: the one that is shown, and those in which holes are counted, some sixteen that are as large as
     /// fibres of this diameter allow.
     pub(crate) fn windows(&self) -> Windows {
         let thinnest = self.layers.iter().map(|layer| layer.diameter).fold(f64::INFINITY, f64::min);
