@@ -43,7 +43,7 @@ use std::sync::Arc;
 const LEAST_SPREADS: f64 = 8.0;
 
 /// Windows in which holes are counted, their side at most [m], in diameters of the thinnest fibre, and the margin about them in their side.
-const COUNTED_WINDOWS: usize = 16;
+const COUNTED_WINDOWS: usize = 25;
 const COUNTED: f64 = 5e-3;
 const COUNTED_DIAMETERS: f64 = 300.0;
 const COUNTED_MARGIN: f64 = 0.1;

@@ -9,7 +9,7 @@ const MICROMETRES: Unit = Unit { shown: "µm", per_si: 1e6 };
 
 /// The numbers of a whole fabric.
 pub const OF_FABRICS: &[Measure<Fabric>] = &[
-    Measure::new("width_m", "Width that is told of", MILLIMETRES, Told(|fabric: &Fabric| Some(Exact(fabric.width))))
+    Measure::new("width_m", "Width", MILLIMETRES, Told(|fabric: &Fabric| Some(Exact(fabric.width))))
         .meaning("width of the part of the web of which all else is told"),
     Measure::new("trim_m", "Trim", MILLIMETRES, Told(|fabric: &Fabric| fabric.trim.map(Exact)))
         .meaning("what is cut off of the web at both edges together"),

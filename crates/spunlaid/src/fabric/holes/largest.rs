@@ -28,7 +28,7 @@ struct Square {
     side: f64,
     /// The largest disc of which the centre may lie in it has at most this radius.
     bound: f64,
-    /// The pieces of fibre that may be nearest to a place in it; None where they have not been looked for.
+    /// Pieces of fibre among which are all that may be nearest to a place in it; None where they have not been looked for.
     near: Option<Rc<[Piece]>>,
 }
 
@@ -109,7 +109,10 @@ fn largest(squares: Vec<Square>, nearest: &Nearest, accuracy: f64) -> Disc {
         }
         // What is nearest to any place in the square is not farther from its middle than that.
         let reach = bound + HALF_DIAGONAL * side;
-        let near = near.unwrap_or_else(|| nearest.around(centre, reach).into());
+        let near: Rc<[Piece]> = match near {
+            None => nearest.around(centre, reach).into(),
+            Some(near) => near.iter().filter(|piece| piece.touches(centre, reach)).copied().collect(),
+        };
         let side = 0.5 * side;
         for corner in [[-0.5, -0.5], [0.5, -0.5], [-0.5, 0.5], [0.5, 0.5]] {
             let centre = [0, 1].map(|axis| centre[axis] + corner[axis] * side);

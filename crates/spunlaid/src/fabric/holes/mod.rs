@@ -63,14 +63,21 @@ impl Piece {
     }
 
     /// Distance of a place from its axis.
-    fn distance(&self, place: [f64; 2]) -> f64 {
-        let along = [0, 1].map(|axis| self.to[axis] - self.from[axis]);
-        let from = [0, 1].map(|axis| place[axis] - self.from[axis]);
-        let squared = along[0] * along[0] + along[1] * along[1];
-        let share = (from[0] * along[0] + from[1] * along[1]) / squared;
+    #[inline]
+    fn distance(&self, [x, y]: [f64; 2]) -> f64 {
+        let (along_x, along_y) = (self.to[0] - self.from[0], self.to[1] - self.from[1]);
+        let (from_x, from_y) = (x - self.from[0], y - self.from[1]);
+        let squared = along_x * along_x + along_y * along_y;
+        let share = (from_x * along_x + from_y * along_y) / squared;
         let share = if squared > 0.0 { share.clamp(0.0, 1.0) } else { 0.0 };
-        let off = [0, 1].map(|axis| from[axis] - share * along[axis]);
-        (off[0] * off[0] + off[1] * off[1]).sqrt()
+        let (off_x, off_y) = (from_x - share * along_x, from_y - share * along_y);
+        (off_x * off_x + off_y * off_y).sqrt()
+    }
+
+    /// Whether a disc about a place touches it.
+    #[inline]
+    fn touches(&self, place: [f64; 2], radius: f64) -> bool {
+        self.distance(place) - self.half_width <= radius
     }
 }
 

@@ -68,7 +68,7 @@ impl Nearest {
             let [first, last] = [number, number + 1].map(|i| self.first[i] as usize);
             &self.pieces[first..last]
         });
-        pieces.filter(|piece| piece.distance(place) - piece.half_width <= radius).copied().collect()
+        pieces.filter(|piece| piece.touches(place, radius)).copied().collect()
     }
 
     /// [`Nearest::room`] where it is known which pieces may be nearest.
