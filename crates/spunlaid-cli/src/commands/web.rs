@@ -171,7 +171,7 @@ fn flying(quiet: bool) -> impl Fn(Flights<'_>, &mut (dyn FnMut() + Send)) {
 
 /// A few numbers of the fabric, for the terminal.
 fn fabric_table(fabric: &Fabric) -> String {
-    let rows = fabric_rows(fabric, true).into_iter().map(|row| vec![row.name, row.value]);
+    let rows = fabric_rows(fabric).into_iter().map(Vec::from);
     let notes: String = fabric.notes.iter().map(|note| format!("\n{note}")).collect();
     format!(
         "\nfabric, of the map and of the curves of the fibres\n{}{notes}",

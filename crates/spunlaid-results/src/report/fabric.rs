@@ -2,8 +2,9 @@
 
 use super::document::Section;
 use super::table::{Content, Layout, Row, Table};
-use crate::output::web::fabric_rows;
+use crate::output::web::known_text;
 use spunlaid::fabric::Fabric;
+use spunlaid::observe::{Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES, OF_STRIPS, PERCENT, measured};
 
 /// Everything that is told of a fabric.
 pub(super) fn fabric_section(fabric: &Fabric) -> Section<'static> {
@@ -12,12 +13,58 @@ pub(super) fn fabric_section(fabric: &Fabric) -> Section<'static> {
         format!(" Holes were counted in {} windows, {area} mm² together, in which fibres were drawn with their width.", holes.windows)
     });
     let columns = [("Number", Content::Words), ("Value", Content::Numbers), ("Meaning", Content::Sentences)];
-    let rows = fabric_rows(fabric, false);
-    let rows = rows.into_iter().map(|row| Row::new(row.name, [row.value.as_str(), row.meaning]));
-    let section = Section::new("fabric", "Fabric")
+    let rows = measured(OF_FABRICS, fabric).filter_map(|row| {
+        let value = known_text(&row)?;
+        Some(Row::new(row.measure.label, [value.as_str(), row.measure.meaning]))
+    });
+    let mut section = Section::new("fabric", "Fabric")
         .table(Table::of(columns).laid_out(Layout::Results).rows(rows))
         .caption(format!(
             "From the map, from the curves of the fibres and from what the file says of the fabric ([fabric]); bonds and finishes are not known.{windows}"
         ));
-    fabric.notes.iter().fold(section, |section, note| section.caption(note))
+    for note in &fabric.notes {
+        section = section.caption(note);
+    }
+    let [patch, places @ ..] = OF_FABRIC_PATCHES else { return section };
+    let weights = places.iter().position(|measure| measure.unit == PERCENT).unwrap_or(places.len());
+    let (places, weights) = places.split_at(weights);
+    let sides: Vec<_> = fabric.patches.iter().map(|of| (shown(patch, of), of)).collect();
+    section = compare(section, ("Thin and thick places", patch.label), places, &sides);
+    section = compare(section, ("Weight of patches over the mean", patch.label), weights, &sides);
+    let strips = ["Along MD", "Along CD"].into_iter().zip(&fabric.strips);
+    let strips: Vec<_> = strips.filter_map(|(along, of)| Some((along.to_owned(), of.as_ref()?))).collect();
+    section = compare(section, ("Strips", "Direction"), OF_STRIPS, &strips);
+    let [radius, holes @ ..] = OF_HOLES else { return section };
+    let radii = fabric.holes.iter().flat_map(|holes| &holes.radii);
+    let radii: Vec<_> = radii.map(|of| (shown(radius, of), of)).collect();
+    compare(section, ("Holes into which a disc fits", radius.label), holes, &radii)
+}
+
+/// A row for each of several parts of the fabric, a column for each measure; below it, what the measures mean.
+///
+/// * `heads` – above the table, and above the names of its rows
+fn compare<T>(
+    section: Section<'static>,
+    (heading, head): (&str, &'static str),
+    measures: &'static [Measure<T>],
+    parts: &[(String, &T)],
+) -> Section<'static> {
+    if parts.is_empty() {
+        return section;
+    }
+    let heads = std::iter::once(head).chain(measures.iter().map(|measure| measure.label));
+    let row = |(name, of): &(String, &T)| Row::new(name, measures.iter().map(|measure| shown(measure, *of)));
+    let mut meanings: Vec<String> = Vec::new();
+    for measure in measures {
+        let meaning = format!("{}: {}.", measure.label, measure.meaning);
+        if !meanings.iter().any(|other| other.ends_with(&format!(": {}.", measure.meaning))) {
+            meanings.push(meaning);
+        }
+    }
+    section.heading(heading).table(Table::new(heads).rows(parts.iter().map(row))).caption(meanings.join(" "))
+}
+
+/// A dash where there is no such number.
+fn shown<T>(measure: &'static Measure<T>, of: &T) -> String {
+    known_text(&measure.of(of)).unwrap_or_else(|| "–".to_owned())
 }

@@ -275,7 +275,7 @@ impl WebSpec {
         Window { corner, sides: [self.window; 2] }
     }
 
-    /// The windows of the sheet whose fibres are kept: the one that is shown, and those in which holes are counted, some sixteen that are as large as
+    /// The windows of the sheet whose fibres are kept: the one that is shown, and those in which holes are counted, some twenty-five that are as large as
     /// fibres of this diameter allow.
     pub(crate) fn windows(&self) -> Windows {
         let thinnest = self.layers.iter().map(|layer| layer.diameter).fold(f64::INFINITY, f64::min);

@@ -5,7 +5,7 @@ use crate::output::in_order::OrderedObject;
 use serde::Serialize;
 use spunlaid::fabric::{Fabric, Known};
 use spunlaid::observe::{
-    Measure, Measured, OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES, OF_STRIPS, Unit, Value, measured,
+    Measure, Measured, OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES, OF_STRIPS, Value, measured,
 };
 
 /// The fabric in `summary.json`.
@@ -52,57 +52,38 @@ fn entries<T>(measures: &'static [Measure<T>], of: &T) -> OrderedObject<Value> {
     OrderedObject(known.collect())
 }
 
-/// A row of the table: what it is, the number, and its definition.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct FabricRow {
-    /// Its label.
-    pub name: String,
-    /// The number with what is known of it.
-    pub value: String,
-    /// Its definition.
-    pub meaning: &'static str,
-}
-
 /// Side of the patches of which the terminal tells [m].
 const SHOWN: f64 = 5e-3;
 /// Radius of the holes of which the terminal tells [m].
 const SHOWN_HOLE: f64 = 100e-6;
 
-/// A table of everything that is told of a fabric.
-///
-/// * `is_short` – whether only a few patches and holes are told of
-pub fn fabric_rows(fabric: &Fabric, is_short: bool) -> Vec<FabricRow> {
-    let near = |value: f64, shown: f64| !is_short || (value / shown - 1.0).abs() < 1e-6;
-    let mut all = rows(OF_FABRICS, fabric, "", 0);
-    for patch in fabric.patches.iter().filter(|patch| near(patch.thin.patch, SHOWN)) {
+/// What the terminal tells of a fabric: names and numbers.
+pub fn fabric_rows(fabric: &Fabric) -> Vec<[String; 2]> {
+    let is_near = |value: f64, shown: f64| (value / shown - 1.0).abs() < 1e-6;
+    let mut all = rows("", OF_FABRICS, fabric);
+    for patch in fabric.patches.iter().filter(|patch| is_near(patch.thin.patch, SHOWN)) {
         let before = format!("Patches of {} mm: ", number(patch.thin.patch * 1e3));
-        let known = rows(OF_FABRIC_PATCHES, patch, &before, 1);
-        all.extend(known.into_iter().take(if is_short { 4 } else { usize::MAX }));
+        all.extend(rows(&before, &OF_FABRIC_PATCHES[1..5], patch));
     }
     for (strips, direction) in fabric.strips.iter().zip(["MD", "CD"]) {
         let before = format!("Strips along {direction}: ");
-        let known = strips.iter().flat_map(|strips| rows(OF_STRIPS, strips, &before, 2));
-        all.extend(known.take(if is_short { 1 } else { usize::MAX }));
+        all.extend(strips.iter().flat_map(|strips| rows(&before, &OF_STRIPS[2..3], strips)));
     }
     let holes = fabric.holes.iter().flat_map(|holes| &holes.radii);
-    for of in holes.filter(|of| near(of.radius, SHOWN_HOLE)) {
+    for of in holes.filter(|of| is_near(of.radius, SHOWN_HOLE)) {
         let before = format!("Radius of {} µm or more: ", number(of.radius * 1e6));
-        let known = rows(OF_HOLES, of, &before, if is_short { 2 } else { 1 });
-        all.extend(known.into_iter().take(if is_short { 1 } else { usize::MAX }));
+        all.extend(rows(&before, &OF_HOLES[2..3], of));
     }
     all
 }
 
-fn rows<T>(measures: &'static [Measure<T>], of: &T, before: &str, skip: usize) -> Vec<FabricRow> {
-    let row = |Measured { measure, value, .. }: Measured<T>| {
-        let Some(Value::Told(known)) = value else { return None };
-        let name = match before {
-            "" => measure.label.to_owned(),
-            _ => before.to_owned() + &lower(measure.label),
-        };
-        Some(FabricRow { name, value: text(known, measure.unit), meaning: measure.meaning })
+fn rows<T>(before: &str, measures: &'static [Measure<T>], of: &T) -> Vec<[String; 2]> {
+    let row = |row: Measured<T>| {
+        let label = row.measure.label;
+        let name = if before.is_empty() { label.to_owned() } else { before.to_owned() + &lower(label) };
+        Some([name, known_text(&row)?])
     };
-    measured(measures, of).skip(skip).filter_map(row).collect()
+    measured(measures, of).filter_map(row).collect()
 }
 
 /// With a small first letter.
@@ -111,8 +92,9 @@ fn lower(label: &str) -> String {
     letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())
 }
 
-/// A number in words, with its unit.
-fn text(known: Known, unit: Unit) -> String {
+/// The number of a row in words, with its unit; none if it has none.
+pub fn known_text<T>(row: &Measured<T>) -> Option<String> {
+    let (Some(Value::Told(known)), unit) = (&row.value, row.measure.unit) else { return None };
     let shown = match known.times(unit.per_si) {
         Known::Exact(value) => number(value),
         Known::Value(value, error) => plus_minus(value, error),
@@ -122,5 +104,5 @@ fn text(known: Known, unit: Unit) -> String {
         Known::Between([low, high]) if low < 1e-3 => format!("at most {}", number(high)),
         Known::Between([low, high]) => range(low, high),
     };
-    if unit.shown.is_empty() { shown } else { format!("{shown}{THIN}{}", unit.shown) }
+    Some(if unit.shown.is_empty() { shown } else { format!("{shown}{THIN}{}", unit.shown) })
 }

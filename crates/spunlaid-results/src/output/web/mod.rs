@@ -10,7 +10,7 @@ mod strands;
 mod summary;
 
 pub(crate) use advice::HOUR;
-pub use fabric::{FabricRow, fabric_rows};
+pub use fabric::{fabric_rows, known_text};
 pub use map::{light_table, write as write_map, write_array as write_scan};
 pub use patches::{PatchTable, Reader};
 pub use pieces::{MapFile, Pictures};

@@ -74,11 +74,30 @@ pub(super) static TABLES_OF_FILE: [&str; case_keys::TABLES.len() + TABLES.len() 
         all[i] = case_keys::TABLES[i];
         i += 1;
     }
-    let own = ["layer", "laydown", "line", "web"];
     let mut j = 0;
-    while j < own.len() {
-        all[i + j] = own[j];
+    while j < WEB_TABLES.len() {
+        if !is_of_case(WEB_TABLES[j]) {
+            all[i] = WEB_TABLES[j];
+            i += 1;
+        }
         j += 1;
     }
     all
 };
+
+/// Whether a table is one of the filament too.
+const fn is_of_case(table: &str) -> bool {
+    let mut i = 0;
+    while i < case_keys::TABLES.len() {
+        let (a, b) = (table.as_bytes(), case_keys::TABLES[i].as_bytes());
+        let mut same = 0;
+        while same < a.len() && same < b.len() && a[same] == b[same] {
+            same += 1;
+        }
+        if same == a.len() && same == b.len() {
+            return true;
+        }
+        i += 1;
+    }
+    false
+}
