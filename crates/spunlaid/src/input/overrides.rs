@@ -49,13 +49,16 @@ impl<'a, T> Document<'a, T> {
             let here: Vec<&str> =
                 set.iter().filter(|(other, _)| other == layer).map(|(_, path)| &**path).collect();
             let is_common = self.layered && layer.is_empty();
-            let mut replaced = [keys.replaced_by(&here), keys.replaced_between(&here)].concat();
+            let replaced_by =
+                |names: &[&str]| [keys.replaced_by(names), keys.replaced_between(names)].concat();
+            let mut replaced = replaced_by(&here);
+            let common: Vec<&str> = here.iter().copied().filter(|name| of_all_layers(name)).collect();
+            let replaced_everywhere = replaced_by(&common);
             if is_common {
                 replaced.extend(keys.find(path).map(|key| key.name));
             }
             for other in replaced {
-                let everywhere =
-                    is_common || of_all_layers(other) || here.iter().any(|name| of_all_layers(name));
+                let everywhere = is_common || of_all_layers(other) || replaced_everywhere.contains(&other);
                 let all = self.entries.iter().filter(|(_, (key, _))| everywhere && key.name == other);
                 let mut left_out: Vec<String> = all.map(|(full, _)| full.clone()).collect();
                 left_out.push(format!("{layer}{other}"));

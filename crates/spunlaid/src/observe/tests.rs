@@ -115,8 +115,5 @@ fn every_measure_stands_in_the_docs() {
         std::fs::write(&path, &text).unwrap();
     }
     let page = std::fs::read_to_string(&path).unwrap_or_default();
-    assert!(
-        page == text,
-        "docs/measures.md is not up to date: SPUNLAID_RENEW=1 cargo test -p spunlaid --lib measure"
-    );
+    assert!(page == text, "docs/measures.md is not up to date: the test writes it with SPUNLAID_RENEW=1");
 }

@@ -120,8 +120,10 @@ impl Line<'_> {
     fn settings_of_all_layers(&self) -> Vec<(Setting, Vec<KeyPowers>)> {
         let alone = |keys: &[&str]| keys.iter().map(|key| vec![((*key).to_owned(), 1.0)]).collect();
         let is_flown = |layer: &usize| self.spec().layers[layer - 1].source.case().is_some();
-        let fed = (1..=self.spec().layers.len()).filter(is_flown).map(|layer| throughput(layer, 0.0));
-        let titre = std::iter::once(("fibre.linear_density".to_owned(), 1.0)).chain(fed).collect();
+        let titre = (1..=self.spec().layers.len()).filter(is_flown);
+        let titre = titre
+            .flat_map(|layer| [(format!("layer.{layer}.fibre.linear_density"), 1.0), throughput(layer, 0.0)]);
+        let titre = titre.collect();
         let is_spun = self.web.base.number_of_cases("spinline.throughput").is_some();
         let mut all = vec![
             // The spinline decides the titre.
