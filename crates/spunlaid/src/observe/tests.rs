@@ -14,11 +14,12 @@ fn check_unit(column: &str, unit: Unit) {
         // A power that is no whole number has words.
         "m-0.5" => "per_sqrt_m".to_owned(),
         "1/m" => "per_m".to_owned(),
+        "1/m2" => "per_m2".to_owned(),
         "1/s" => "per_s".to_owned(),
         "(m/s)2/Hz" => "m2_s2_per_hz".to_owned(),
         unit => unit.to_lowercase().replace('/', "_"),
     };
-    assert!(column.ends_with(&format!("_{ending}")), "{column} in {unit}");
+    assert!(column == ending || column.ends_with(&format!("_{ending}")), "{column} in {unit}");
 }
 
 /// Fails unless names that are not empty are unique.
@@ -65,6 +66,10 @@ fn every_measure_has_names_a_label_a_meaning_and_a_unit() {
     check_list(OF_RECORDS);
     check_list(OF_COMPONENTS);
     check_list(OF_SPINLINES);
+    check_list(OF_FABRICS);
+    check_list(OF_FABRIC_PATCHES);
+    check_list(OF_STRIPS);
+    check_list(OF_HOLES);
 }
 
 /// A table of measures for `docs/measures.md`.
@@ -105,6 +110,10 @@ fn every_measure_stands_in_the_docs() {
     }
     table(&mut text, "The patches of a web", with_errors(OF_PATCHES));
     table(&mut text, "A web", with_errors(OF_WEBS));
+    table(&mut text, "The fabric of a web", with_errors(OF_FABRICS));
+    table(&mut text, "The patches of a fabric", with_errors(OF_FABRIC_PATCHES));
+    table(&mut text, "Strips of a fabric", with_errors(OF_STRIPS));
+    table(&mut text, "Holes of a fabric", with_errors(OF_HOLES));
     table(&mut text, "A scan", with_errors(OF_SCANS));
     table(&mut text, "The patches of a scan", with_errors(OF_SCANNED_PATCHES));
     table(&mut text, "A velocity record", with_errors(OF_RECORDS));
