@@ -44,7 +44,7 @@ pub const WEB_TABLES: [&str; TABLES.len()] = joined::names(&TABLES);
 /// Every key of the file of a web, in its order.
 pub const WEB_KEYS: &[WebKey] = &KEYS;
 
-const KEYS: [WebKey; joined::count(&TABLES)] = joined::keys(&TABLES);
+static KEYS: [WebKey; joined::count(&TABLES)] = joined::keys(&TABLES);
 
 /// Every key of the file of a web and of the filament that it flies. A key that both have stands here once, as that of the filament.
 pub(super) static OF_FILE: [Key<()>; case_keys::COUNT + OWN] = {
@@ -65,7 +65,7 @@ pub(super) static OF_FILE: [Key<()>; case_keys::COUNT + OWN] = {
     }
     all
 };
-const OWN: usize = KEYS.len() - fibre::KEYS.len();
+const OWN: usize = joined::count(&TABLES) - fibre::KEYS.len();
 
 /// The tables and the list of layers of such a file.
 pub(super) static TABLES_OF_FILE: [&str; case_keys::TABLES.len() + TABLES.len() - 1] = {
