@@ -130,7 +130,7 @@ impl Value {
 pub struct Measured<T: 'static> {
     /// The measure.
     pub measure: &'static Measure<T>,
-    /// Its value, from [`Measure::zero`]; none if there is none.
+    /// Its value, from `zero` of the measure; none if there is none.
     pub value: Option<Value>,
     /// Its standard error, if it is known.
     pub error: Option<f64>,
