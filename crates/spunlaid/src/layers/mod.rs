@@ -44,8 +44,8 @@ const LEAST_SPREADS: f64 = 8.0;
 
 /// Windows in which holes are counted, their side at most [m], in diameters of the thinnest fibre, and the margin about them in their side.
 const COUNTED_WINDOWS: usize = 25;
-const COUNTED: f64 = 5e-3;
-const COUNTED_DIAMETERS: f64 = 300.0;
+const COUNTED: f64 = 3e-3;
+const COUNTED_DIAMETERS: f64 = 180.0;
 const COUNTED_MARGIN: f64 = 0.1;
 
 /// Relative difference up to which two numbers are the same.
