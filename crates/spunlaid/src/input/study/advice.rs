@@ -134,7 +134,11 @@ impl Line<'_> {
             (Setting::AirSpeed, alone(&["air.speed_factor", "air.velocity"])),
             (
                 Setting::Turbulence,
-                if self.is_evenly_turbulent() { alone(&["air.turbulence_intensity"]) } else { Vec::new() },
+                // A web that names the factor as a guess has no other number in its place.
+                match self.is_evenly_turbulent() {
+                    true => alone(&["air.turbulence_intensity", "air.intensity_factor"]),
+                    false => Vec::new(),
+                },
             ),
         ];
         if self.spec().method == Method::SharedAir {
