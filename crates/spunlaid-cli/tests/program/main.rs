@@ -31,4 +31,6 @@ mod spin;
 mod sweep;
 mod sweep_killed;
 mod web;
+mod web_advice;
+mod web_in_one_air;
 mod web_study;

@@ -1,0 +1,103 @@
+//! `spunlaid web`: what it says would make a web more even, and that each piece of advice can be pasted.
+
+use super::web::{BEAMS, desk};
+use crate::desk::{self, refusal, success};
+use std::fs;
+
+/// The sentence is that of the terminal and of the report; a setting that costs throughput says so.
+#[test]
+fn a_web_says_which_settings_of_the_line_would_make_it_more_even() {
+    let desk = desk();
+    fs::write(desk.path("beams.toml"), BEAMS).unwrap();
+    let said = desk::success(&mut desk.spunlaid("web beams.toml --out w"));
+    let sentence =
+        said.lines().find(|line| line.starts_with("At the same ")).unwrap_or_else(|| panic!("{said}"));
+    assert!(said.contains("\ntrying 12 changes of the line took "), "{said}");
+    let page = String::from_utf8(desk.read("w/report.html")).unwrap();
+    assert!(page.contains(sentence), "{sentence}");
+    let advice = desk.summary("w")["advice"].clone();
+    let changes = advice["changes"].as_array().unwrap();
+    assert_eq!(changes.len(), 12);
+    let place = |change: &serde_json::Value| {
+        change["patches"].as_array().unwrap().iter().find(|patch| patch["patch_m"] == 0.005).unwrap().clone()
+    };
+    let number = |of: &serde_json::Value| of.as_f64().unwrap();
+    // 5 mm is nearest to what the eye judges first: the first setting of the sentence is the one that lowers this CV most.
+    let lowers = |change: &&serde_json::Value| place(change)["beyond_chance"] == true;
+    let by = |change: &&serde_json::Value| number(&place(change)["cv_change"]);
+    let best = changes.iter().filter(lowers).min_by(|a, b| by(a).total_cmp(&by(b))).unwrap();
+    let [named, ..] = sentence.split("; ").collect::<Vec<_>>()[..] else { panic!("{sentence}") };
+    let layer = format!(" of layer S{}", best["layer"]);
+    let setting = best["setting"].as_str().unwrap().replace("throughput", "throughput of a hole");
+    assert!(named.contains(&format!("{setting}{layer}, ")), "{sentence} {best}");
+    let cost = number(&best["throughput_change"]);
+    assert_eq!(named.contains("the same throughput"), cost.abs() < 1e-4, "{sentence} {best}");
+    for change in changes {
+        let key = &change["keys"][0];
+        let command = change["command"].as_str().unwrap();
+        let escaped = [("&", "&#38;"), ("'", "&#39;"), ("\"", "&#34;"), ("<", "&#60;"), (">", "&#62;")]
+            .iter()
+            .fold(command.to_owned(), |text, (sign, escaped)| text.replace(sign, escaped));
+        assert!(page.contains(&format!("<code>{escaped}</code>")), "{command}");
+        // A fifth less or more, of what can be written in the file.
+        assert!(((number(&key["to"]) / number(&key["from"]) - 1.0).abs() - 0.2).abs() < 1e-3, "{change}");
+        // The same weight on the belt, of which advice gives five digits.
+        let belt = number(&change["belt_speed_m_s"]) / 5.0;
+        assert!((belt / (1.0 + number(&change["throughput_change"])) - 1.0).abs() < 5e-5, "{change}");
+    }
+
+    desk::success(&mut desk.spunlaid("web beams.toml --out one --threads 1 --quiet"));
+    assert_eq!(desk.summary("one")["advice"], advice);
+    let said = desk::success(&mut desk.spunlaid("web beams.toml --out without --no-advice"));
+    assert!(!said.contains("At the same") && !said.contains("trying"), "{said}");
+    assert!(desk.summary("without").get("advice").is_none());
+    refusal(&mut desk.spunlaid("web beams.toml --advice --no-advice"), 1);
+}
+
+/// The keys of the case that a web flies are set by the same names as in a study; the folder holds the case as it was flown, so that the web can
+/// be laid again from there, to the same map. Each piece of advice is a command that the program takes.
+#[test]
+fn keys_of_the_flown_case_are_set_and_advice_can_be_pasted() {
+    let desk = desk();
+    let small = ["--set", "web.method=dynamics", "--set", "web.width=0.6 m", "--set", "web.length=0.6 m"];
+    let of_case =
+        ["--set", "belt.distance=0.3 m", "--set", "fibre.linear_density=2 dtex", "--set", "run.replicates=2"];
+    let of_case = [&of_case[..], &["--set", "run.duration=0.3 s"]].concat();
+    success(desk.spunlaid("web web.toml --out w --advice --quiet").args(small).args(of_case));
+    let summary = desk.summary("w");
+    let titre = summary["layers"][0]["linear_density_kg_m"].as_f64().unwrap();
+    assert!((titre / 2e-7 - 1.0).abs() < 1e-9, "{titre}");
+    let case = String::from_utf8(desk.read("w/web.toml")).unwrap();
+    assert!(case.contains("distance = \"0.3 m\"") && case.contains("replicates = 2"), "{case}");
+    success(&mut desk.spunlaid("web w/web.toml --out again --no-advice --quiet"));
+    assert_eq!(desk.read("w/map.npy"), desk.read("again/map.npy"));
+    let changes = summary["advice"]["changes"].as_array().unwrap();
+    assert!(changes.len() >= 8, "{changes:?}");
+    for change in changes {
+        let command = change["command"].as_str().unwrap();
+        let pasted = command.strip_prefix("spunlaid web ").unwrap();
+        // The words between single quotes are one.
+        let words = pasted.split('\'').enumerate().flat_map(|(i, part)| match i % 2 {
+            0 => part.split_whitespace().map(str::to_owned).collect::<Vec<_>>(),
+            _ => vec![part.to_owned()],
+        });
+        let words: Vec<String> = words.collect();
+        let said = success(desk.spunlaid("check --json").args(words));
+        let checked: serde_json::Value = serde_json::from_str(&said).unwrap();
+        let weight = checked["basis_weight_kg_m2"].as_f64().unwrap();
+        let wanted = summary["web"]["basis_weight_kg_m2"].as_f64().unwrap();
+        assert!((weight / wanted - 1.0).abs() < 1e-4, "{command}: {weight} {wanted}");
+        let flow = 3600.0 * checked["mass_flow_kg_s_m"].as_f64().unwrap();
+        assert!((flow / change["throughput_kg_h_m"].as_f64().unwrap() - 1.0).abs() < 1e-9, "{command}");
+    }
+    let known = "[fibre]\ndiameter = \"18 µm\"\ndensity = \"910 kg/m³\"\n[laydown]\nsigma_md = \"10 mm\"\nsigma_cd = \"10 mm\"\n\
+                 noise = \"12 m^-0.5\"\n[line]\nfeed_speed = \"50 m/s\"\nbelt_speed = \"3 m/s\"\nfilaments_per_metre = 500\n";
+    fs::write(desk.path("known.toml"), known).unwrap();
+    let said = refusal(&mut desk.spunlaid("check known.toml --set belt.distance=0.4m"), 1);
+    assert!(
+        said.contains(
+            "--set belt.distance = \"0.4m\" is a key of a filament that flies, and this web flies none; leave it out"
+        ),
+        "{said}"
+    );
+}

@@ -1,0 +1,156 @@
+//! `spunlaid web`: webs whose filaments hang in one air, all flown or a few for all.
+
+use super::web::WEB;
+use crate::desk::{self, Desk, FED, success};
+use std::fs;
+
+#[test]
+fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
+    let desk =
+        Desk::with_case(&FED.replace("duration = \"40 ms\"", "duration = \"120 ms\"\nspin_up = \"10 ms\""));
+    let web = WEB.replace(
+        "filaments_per_metre = 500\n[web]\nwidth = \"1 m\"\nlength = \"1 m\"",
+        "filaments_per_metre = 500\ndepth = \"10 mm\"\n[web]\nwidth = \"0.1 m\"\nlength = \"40 mm\"\npatches = [\"5 mm\", \"10 mm\"]",
+    );
+    fs::write(desk.path("web.toml"), format!("{web}method = \"shared-air\"\n")).unwrap();
+    let table = desk::success(&mut desk.spunlaid("web web.toml --out w"));
+    assert!(table.contains("airs of their own") && !table.contains("few fibres"), "{table}");
+    let summary = desk.summary("w");
+    // Advice takes such a web for each change, and has to be asked for.
+    assert!(
+        table.contains("\nWhat would make it more even was not tried: spunlaid web with --advice"),
+        "{table}"
+    );
+    assert!(summary.get("advice").is_none());
+    desk::success(&mut desk.spunlaid("web web.toml --out advised --advice --quiet"));
+    let advised = desk.summary("advised");
+    assert_eq!(advised["web"], summary["web"]);
+    let changes = advised["advice"]["changes"].as_array().unwrap();
+    let depths: Vec<f64> = (changes.iter())
+        .filter(|change| change["setting"] == "depth")
+        .map(|change| change["keys"][0]["to"].as_f64().unwrap())
+        .collect();
+    assert_eq!(depths, [8e-3, 12e-3]);
+    for patch in changes.iter().flat_map(|change| change["patches"].as_array().unwrap()) {
+        // The air of each web is another one.
+        assert!(patch["cv_change"].as_f64().unwrap() != 0.0, "{patch}");
+    }
+    assert_eq!(summary["layers"][0]["lateral_cutoff"], 10.0, "{summary}");
+    assert_eq!(summary["web"]["lost_filaments"], 0);
+    for patch in summary["web"]["patches"].as_array().unwrap() {
+        let number = |name: &str| patch[name].as_f64().unwrap();
+        assert!(number("cv") > number("cv_independent"), "{summary}");
+        assert_eq!(number("cv_independent"), number("cv_one_fibre"));
+    }
+    // Filaments at a pitch of 2 mm, in summary and table alike, nearer ones more alike.
+    let neighbours = summary["neighbours"]["cd"].as_array().unwrap();
+    let csv = String::from_utf8(desk.read("w/figures/web_neighbours.csv")).unwrap();
+    for (neighbour, wanted) in neighbours.iter().zip([2e-3, 4e-3, 10e-3]) {
+        let number = |name: &str| neighbour[name].as_f64().unwrap();
+        assert!((number("distance_m") - wanted).abs() < 1e-9, "{neighbour}");
+        assert_eq!(neighbour["layer"], "1");
+        assert!(number("correlation_cd") > 0.0 && number("correlation_cd") < 1.0, "{neighbour}");
+        assert!(neighbour.get("correlation_md_se").is_some(), "{neighbour}");
+        assert!(csv.contains(&number("correlation_md").to_string()[..8]), "{neighbour} {csv}");
+    }
+    assert!(neighbours[0]["correlation_cd"].as_f64() > neighbours[2]["correlation_cd"].as_f64());
+    let [flights, parallel] =
+        ["flights_s", "flights_in_parallel_s"].map(|name| summary["performance"][name].as_f64().unwrap());
+    assert!(0.0 < parallel && parallel <= flights, "{flights} {parallel}");
+    let page = String::from_utf8(desk.read("w/report.html")).unwrap();
+    assert!(page.contains("In airs of their own the same filaments would give"), "no headline sentence");
+    assert!(page.contains("the same filaments in airs of their own"), "no curve of them");
+    assert!(page.contains("Correlation of neighbours"), "no figure of neighbours");
+    let lines = String::from_utf8(desk.read("w/fibres.vtp")).unwrap_or_default();
+    assert!(lines.contains("NumberOfLines") && !lines.contains("NumberOfLines=\"0\""), "single fibres");
+
+    // The same file again, and the same web with independent filaments, whose report says what they leave out.
+    desk::success(&mut desk.spunlaid("web web.toml --out again --threads 1 --quiet"));
+    for file in ["map.npy", "fibres.vtp", "figures/web_cv.csv"] {
+        let [one, other] = ["w", "again"].map(|folder| desk.read(&format!("{folder}/{file}")));
+        assert!(one == other, "{file}");
+    }
+    desk::success(
+        desk.spunlaid("web web.toml --set web.method=dynamics --out d --quiet")
+            .args(["--set", "web.length=0.2 m"]),
+    );
+    let page = String::from_utf8(desk.read("d/report.html")).unwrap();
+    let way_out =
+        page.contains("lower bound") && page.contains("leave web.method out to fly them in one air");
+    assert!(way_out, "nothing of a lower bound");
+    let independent = desk.summary("d");
+    assert!(independent["web"]["patches"][0].get("cv_independent").is_none());
+    assert!(independent.get("neighbours").is_none());
+}
+
+/// A web of twelve hundred filaments, larger than the sheet that a few of them lay: that sheet is cut into pieces, which make the web.
+#[test]
+fn a_few_filaments_in_one_air_lay_a_web_of_any_size() {
+    let case = FED
+        .replace("speed = \"3 m/s\"", "speed = \"10 m/s\"")
+        .replace("duration", "spin_up = \"10 ms\"\nduration");
+    let desk = Desk::with_case(&case);
+    let web = WEB.replace("= 500", "= 2000").replace(
+        "width = \"1 m\"\nlength = \"1 m\"",
+        "width = \"0.6 m\"\nlength = \"0.5 m\"\npatches = [\"5 mm\", \"10 mm\", \"20 mm\"]\nflown = 250",
+    );
+    fs::write(desk.path("web.toml"), web).unwrap();
+    let table = success(&mut desk.spunlaid("web web.toml --out w --no-advice"));
+    assert!(table.contains("airs of their own") && table.contains("few fibres"), "{table}");
+    let summary = desk.summary("w");
+    let number = |summary: &serde_json::Value, path: &str| {
+        summary
+            .pointer(path)
+            .and_then(serde_json::Value::as_f64)
+            .unwrap_or_else(|| panic!("{path}: {summary}"))
+    };
+    assert_eq!(summary["layers"][0]["filaments"], 1200, "{summary}");
+    let flown = summary["web"]["flown"].as_array().unwrap();
+    let of_flown = |name: &str| flown[0][name].as_f64().unwrap();
+    // Ten length scales of the air wide, and a fifth of a square metre large.
+    assert_eq!((flown.len(), of_flown("filaments"), of_flown("width_m")), (1, 40.0, 0.16), "{summary}");
+    assert!((of_flown("width_m") * of_flown("length_m") / 0.2 - 1.0).abs() < 0.01, "{summary}");
+    for missing in ["missing_variance_md", "missing_variance_cd"].map(of_flown) {
+        assert!(missing > 0.0 && missing < 0.5, "{summary}");
+    }
+    // All that is fed lies on the web: 2000 × 50 m/s over 10 m/s of 18 µm.
+    let weight = 910.0 * std::f64::consts::PI * 18e-6_f64.powi(2) / 4.0 * 2000.0 * 5.0;
+    assert!((number(&summary, "/web/basis_weight_kg_m2") / weight - 1.0).abs() < 1e-3, "{weight} {summary}");
+    let map = |folder: &str| -> Vec<f32> {
+        let array = desk.read(&format!("{folder}/map.npy"));
+        let numbers = array[128..].chunks_exact(4).map(|bytes| f32::from_le_bytes(bytes.try_into().unwrap()));
+        numbers.collect()
+    };
+    let cells = map("w");
+    let mean = cells.iter().map(|cell| f64::from(*cell)).sum::<f64>() / cells.len() as f64;
+    assert!((mean / weight - 1.0).abs() < 0.01, "{mean} {weight}");
+    let page = String::from_utf8(desk.read("w/report.html")).unwrap();
+    let sentence =
+        "40 filaments of all were flown, evenly across, on a sheet of 160\u{202f}mm × 1.25\u{202f}m;";
+    assert!(page.contains(sentence), "no {sentence}");
+
+    // The same bits from any number of threads, and from the folder.
+    success(&mut desk.spunlaid("web web.toml --out one --no-advice --quiet --threads 1"));
+    success(&mut desk.spunlaid("web w/web.toml --out three --no-advice --quiet --threads 3"));
+    for file in ["map.npy", "map.parquet", "fibres.vtp", "figures/web_cv.csv"] {
+        let [first, one, three] = ["w", "one", "three"].map(|folder| desk.read(&format!("{folder}/{file}")));
+        assert!(first == one && first == three, "{file}");
+    }
+
+    // All filaments, each flown, say the same.
+    success(
+        &mut desk.spunlaid("web web.toml --set web.flown=all --set web.seed=2 --out all --no-advice --quiet"),
+    );
+    let all = desk.summary("all");
+    assert!(all["web"].get("flown").is_none(), "{all}");
+    for patch in 0..3 {
+        let [few, all] = [&summary, &all].map(|summary| {
+            let value = |name: &str| number(summary, &format!("/web/patches/{patch}/{name}"));
+            (value("cv"), value("cv_whole_error"), value("cv_independent"))
+        });
+        let apart = (few.0 - all.0).abs();
+        assert!(apart < 4.0 * few.1.hypot(all.1), "{few:?} {all:?}");
+        // What is compared is no trifle.
+        assert!(few.0 > 1.2 * few.2 && few.1 < 0.2 * few.0, "{few:?} {all:?}");
+    }
+}
