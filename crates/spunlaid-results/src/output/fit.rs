@@ -34,7 +34,7 @@ pub fn fit_json(fit: &Fit, target: &Target, [web, scan]: [&str; 2], notes: &[Str
     let number = |number: &FittedNumber| {
         let mut entry = json!({
             "scan": number.scan, "start": number.start, "fit": number.found,
-            "scatter": number.scatter, "residual": number.residual(),
+            "scatter": number.scatter, "model_error": number.model_error, "residual": number.residual(),
         });
         match number.texture {
             Texture::Patch(side) => entry["patch_m"] = side.into(),

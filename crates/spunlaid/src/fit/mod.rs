@@ -46,7 +46,7 @@ use crate::error::{Error, Fault};
 use crate::layers::{Flyer, WebSpec};
 use crate::study::{Experiment, Journal};
 use crate::web::LayControl;
-use simulator::WebSimulator;
+use simulator::{Simulator, WebSimulator};
 use webs::Webs;
 
 /// Most keys that are sought at a time.
@@ -123,6 +123,20 @@ pub fn fit<'a>(
     let start: Vec<f64> = parameters.iter().map(|sought| sought.start).collect();
     let mut simulator = WebSimulator::new((make, target), flyer, by, &start)?;
     find(&mut Webs::new((parameters, target), (&mut simulator, count), journal, watch))
+}
+
+/// How far the numbers of simulated webs are off at the start by causes other than chance: standard errors of their logarithms by each cause, common to
+/// all numbers. These causes are the few filaments that are flown for all, and the surrogate.
+///
+/// # Errors
+/// If the webs of the start cannot be laid; if it is stopped.
+pub fn errors_of_model(
+    question: Question<'_>,
+    flyer: Flyer<'_>,
+    by: LayControl<'_>,
+) -> Result<Vec<Vec<f64>>, Error> {
+    let start: Vec<f64> = question.parameters.iter().map(|sought| sought.start).collect();
+    WebSimulator::new((question.make, question.target), flyer, by, &start)?.errors_of_model()
 }
 
 /// Searches until the values are near the place where the search has ended.

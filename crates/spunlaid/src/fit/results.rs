@@ -97,6 +97,8 @@ pub struct FittedNumber {
     pub found: f64,
     /// Standard deviation of its logarithm from one simulated web to another: a scan of such a web is as far off by chance.
     pub scatter: f64,
+    /// Standard error of its logarithm by the few filaments that are flown for all and by the surrogate.
+    pub model_error: f64,
 }
 
 impl FittedNumber {
@@ -123,7 +125,7 @@ pub(super) fn collect_results(
         keys: keys(webs, (&surface, ends), &coordinates, profiles),
         correlations: Vec::new(),
         alike: Vec::new(),
-        numbers: numbers(webs, place, &surface),
+        numbers: numbers(webs, place, &surface, others),
         misfit: [0, place.trial].map(|trial| misfit(&place.weights, &residuals_of(webs, trial))),
         worse: count_larger_misfits(webs, place, &surface, others),
         webs: webs.count,
@@ -189,7 +191,7 @@ fn correlate_keys(surface: &Surface, weights: &Matrix, count: usize) -> (Matrix,
 }
 
 /// What was compared.
-fn numbers(webs: &Webs<'_>, place: &Place, surface: &Surface) -> Vec<FittedNumber> {
+fn numbers(webs: &Webs<'_>, place: &Place, surface: &Surface, others: &Matrix) -> Vec<FittedNumber> {
     let trial = &webs.trials[place.trial];
     let number = |i: usize| {
         let mean = trial.mean[i];
@@ -200,6 +202,7 @@ fn numbers(webs: &Webs<'_>, place: &Place, surface: &Surface) -> Vec<FittedNumbe
             start: libm::exp(webs.trials[0].mean[i]),
             found: libm::exp(surface.numbers[i]),
             scatter: (squares / (trial.webs.len() as f64 - 1.0)).sqrt(),
+            model_error: others.iter().map(|cause| cause[i] * cause[i]).sum::<f64>().sqrt(),
         }
     };
     (0..webs.target.logarithms.len()).map(number).collect()

@@ -8,7 +8,10 @@ use crate::layers::{Flown, Flyer, Method, WebSpec};
 use crate::study::seed_of_point;
 use crate::web::{LayControl, PatchFindings, inner_columns};
 
-/// What makes the numbers of simulated self.
+/// Webs of a few filaments that are compared with those of all in the same air.
+const TWINS: u64 = 3;
+
+/// What makes the numbers of simulated webs.
 pub(super) trait Simulator {
     /// Webs of these values follow.
     ///
@@ -65,25 +68,23 @@ impl Simulator for WebSimulator<'_> {
     }
 
     fn web(&mut self, replicate: u64) -> Result<Vec<f64>, Error> {
-        let spec = WebSpec { seed: seed(&self.spec, replicate), ..self.spec.clone() };
-        let mut flown = self.flyer.web(&spec)?;
-        let inner = inner_columns(&flown.web);
-        let map = flown.map(self.by)?;
-        self.target.logarithms_of(&map, inner, self.by.threads).ok_or_else(|| {
-            Error::Flight(Fault::new(
-                "the part of the web that is not edge is smaller than what it is compared with, or empty",
-                "set web.width to more, or web.edges to \"periodic\"",
-            ))
-        })
+        self.web_of(&self.spec.clone(), replicate)
     }
 
-    /// The errors of the logarithms of CV by the few flown fibres, and by the model that lays the webs in their place.
+    /// The errors of the logarithms by the few flown fibres, and by the model that lays the webs in their place.
     fn errors_of_model(&mut self) -> Result<Matrix, Error> {
         let mut spec = self.spec.clone();
         // Where all filaments in one air have been flown nothing is left out, and known numbers say nothing of real fibres.
-        let all_fly = spec.method == Method::SharedAir && spec.flown == Flown::All;
+        let is_shared = spec.method == Method::SharedAir;
+        let all_fly = is_shared && spec.flown == Flown::All;
         if all_fly || spec.layers.iter().all(|layer| layer.source.case().is_none()) {
             return Ok(Vec::new());
+        }
+        if is_shared
+            && spec.lays_whole_sheet()
+            && let Some(error) = self.error_of_few()?
+        {
+            return Ok(vec![error]);
         }
         let sides = self.target.textures().iter().filter_map(|texture| match texture {
             Texture::Patch(side) => Some(*side),
@@ -112,6 +113,50 @@ impl Simulator for WebSimulator<'_> {
             errors(&of_map),
         ];
         Ok(causes.into_iter().filter(|errors| errors.iter().any(|error| *error > 0.0)).collect())
+    }
+}
+
+impl WebSimulator<'_> {
+    /// The logarithms of the numbers of a web.
+    ///
+    /// # Errors
+    /// If it cannot be laid.
+    fn web_of(&mut self, spec: &WebSpec, replicate: u64) -> Result<Vec<f64>, Error> {
+        let spec = WebSpec { seed: seed(spec, replicate), ..spec.clone() };
+        let mut flown = self.flyer.web(&spec)?;
+        let inner = inner_columns(&flown.web);
+        let map = flown.map(self.by)?;
+        self.target.logarithms_of(&map, inner, self.by.threads).ok_or_else(|| {
+            Error::Flight(Fault::new(
+                "the part of the web that is not edge is smaller than what it is compared with, or empty",
+                "set web.width to more, or web.edges to \"periodic\"",
+            ))
+        })
+    }
+
+    /// How far the logarithms of webs of a few filaments are from those of all filaments in the same air: the root of the mean square. None if all of
+    /// them cannot be flown.
+    ///
+    /// # Errors
+    /// As [`Simulator::web`].
+    fn error_of_few(&mut self) -> Result<Option<Vec<f64>>, Error> {
+        let specs = [self.spec.clone(), WebSpec { flown: Flown::All, ..self.spec.clone() }];
+        let mut squares = vec![0.0; self.target.textures().len()];
+        for replicate in 0..TWINS {
+            let [few, all] = specs.each_ref().map(|spec| self.web_of(spec, replicate));
+            let all = match all {
+                Err(
+                    Error::Rejected(_) | Error::Flight(_) | Error::Diverged { .. } | Error::NotLanding { .. },
+                ) => {
+                    return Ok(None);
+                }
+                all => all?,
+            };
+            for (square, (few, all)) in squares.iter_mut().zip(few?.iter().zip(&all)) {
+                *square += (few - all).powi(2) / TWINS as f64;
+            }
+        }
+        Ok(Some(squares.into_iter().map(f64::sqrt).collect()))
     }
 }
 

@@ -116,6 +116,13 @@ impl WebSpec {
         Some(FewFlight { sheet, places, few: FewPlan { rows, arrangement, all } })
     }
 
+    /// Whether a few filaments of each layer lay the whole sheet of the web, as all of them would, in the same air.
+    pub(crate) fn lays_whole_sheet(&self) -> bool {
+        let is_whole =
+            |on: FlownSheet| on.sheet.width >= self.sheet.width && on.sheet.length >= self.sheet.length;
+        (0..self.layers.len()).all(|layer| self.flown_sheet(layer, false).is_some_and(is_whole))
+    }
+
     /// The sheet that the filaments of a case lay: that of the web unless a smaller one says as much. Long and narrow ones take the least time, because
     /// filaments are flown for a while before they lay the sheet. None of a layer that flies no case.
     ///

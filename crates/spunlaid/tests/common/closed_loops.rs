@@ -2,7 +2,7 @@
 #![allow(dead_code)]
 
 use spunlaid::error::Error;
-use spunlaid::fit::{Fit, MeasuredWeb, Question, Target, fit};
+use spunlaid::fit::{Fit, MeasuredWeb, Question, Target, errors_of_model, fit};
 use spunlaid::input::{FitFile, Overrides, Unread, parse_fit};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, Flyer};
@@ -79,13 +79,28 @@ pub fn fitted(
     webs: u64,
     journal: &mut Journal,
 ) -> Result<Fit, Error> {
+    asked(file, scan, (spectrum, webs), |question, flyer, by| fit(question, flyer, by, journal, &|_| {}))
+}
+
+/// How far the numbers of simulated webs are off by causes other than chance.
+pub fn model_errors(file: &FitFile, scan: &MeasuredWeb) -> Result<Vec<Vec<f64>>, Error> {
+    asked(file, scan, (false, 8), errors_of_model)
+}
+
+/// Asks a question about a scan.
+fn asked<T>(
+    file: &FitFile,
+    scan: &MeasuredWeb,
+    (spectrum, webs): (bool, u64),
+    ask: impl FnOnce(Question<'_>, Flyer<'_>, LayControl<'_>) -> Result<T, Error>,
+) -> Result<T, Error> {
     let target = Target::new(scan, &file.start.spec.sheet, spectrum)?;
     let make = |values: &[f64]| Ok(file.web(values).map_err(Unread::refuse)?.spec);
     let question = Question { parameters: &file.parameters, target: &target, make: &make, webs };
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
     let laid = AtomicU64::new(0);
     let by = LayControl { threads: 1, isa: Isa::detect(), stop: &STOP, laid: &laid };
-    fit(question, Flyer::new(1, &STOP, &follow), by, journal, &|_| {})
+    ask(question, Flyer::new(1, &STOP, &follow), by)
 }
 
 /// Webs of known values, each scanned and fitted.

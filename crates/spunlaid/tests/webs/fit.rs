@@ -3,8 +3,9 @@
 #[path = "../common/closed_loops.rs"]
 mod closed_loops;
 
-use closed_loops::{SMALL, closed_loops, coverage, fitted, laid, read, scanned};
+use closed_loops::{SMALL, closed_loops, coverage, fitted, laid, model_errors, read, scanned};
 use spunlaid::fit::{KeyDoubt, MeasuredPatch, MeasuredWeb, Target};
+use spunlaid::input::{Overrides, parse_fit};
 use spunlaid::statistics::student_t_95;
 use spunlaid::study::Journal;
 
@@ -86,4 +87,46 @@ fn what_cannot_be_compared_is_refused() {
     let guessed = MeasuredWeb { doubt: Some("the level of the lamp is a guess".to_owned()), ..scan };
     let found = fitted(&file, &guessed, false, 8, &mut Journal::in_memory(200)).unwrap();
     assert_eq!(found.keys[0].interval, Err("the level of the lamp is a guess".to_owned()));
+}
+
+/// A tenth of the filaments of a small line lay maps nearly like those of all in the same air; that is the error that counts, and not the far
+/// larger one by which every second of them would be off.
+#[test]
+fn few_filaments_of_a_trial_are_held_against_all_in_the_same_air() {
+    const LINE: &str = "
+[laydown]
+case = \"spunbond_slot.toml\"
+[line]
+filaments_per_metre = 8000
+depth = \"5 mm\"
+[belt]
+distance = \"0.1 m\"
+speed = \"5 m/s\"
+[run]
+spin_up = \"10 ms\"
+[air]
+lateral_cutoff = 4
+length_factor = 0.25
+[web]
+width = \"40 mm\"
+length = \"30 mm\"
+cell = \"0.5 mm\"
+flown = 1000
+";
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/web_shared.toml");
+    let read = |set: &[(String, String)]| {
+        let set = Overrides { values: set, word: "--set" };
+        parse_fit(LINE.to_owned(), path, set, &["line.depth".to_owned()], "--vary").unwrap()
+    };
+    let few = read(&[]);
+    let all = read(&[("web.flown".to_owned(), "\"all\"".to_owned())]);
+    let map = laid(&all, &[5e-3], 1);
+    let patch = |side| MeasuredPatch { side, noise: 0.0, blur: 0.0 };
+    let patches = [1e-3, 2e-3, 5e-3].map(patch).to_vec();
+    let scan = MeasuredWeb { map, patches, knows_noise: true, flat: false, doubt: None };
+    assert_eq!(model_errors(&all, &scan).unwrap(), Vec::<Vec<f64>>::new());
+    let errors = model_errors(&few, &scan).unwrap();
+    println!("{errors:?}");
+    assert_eq!(errors.len(), 1, "{errors:?}");
+    assert!(errors[0].iter().all(|error| (1e-4..0.2).contains(error)), "{errors:?}");
 }
