@@ -147,17 +147,13 @@ fn leave_out(key: &Key, case: &mut Case, key_values: &WrittenValues) -> Result<(
 
 /// What the case says of the files of its records.
 fn record_layout(key_values: &WrittenValues) -> RecordLayout {
-    let whole = |key: &str| match key_values.get(key).and_then(|written_value| written_value.value.as_ref()) {
-        Some(Value::Whole(number)) => Some(*number),
-        _ => None,
-    };
     RecordLayout {
         rate: key_values.number("air.record_rate"),
-        skip: whole("air.record_skip"),
+        skip: key_values.integer("air.record_skip"),
         columns: key_values.text("air.record_columns"),
         time: key_values.text("air.record_time"),
         velocity_unit: key_values.text("air.record_velocity_unit"),
-        max_gap: whole("air.record_max_gap"),
+        max_gap: key_values.integer("air.record_max_gap"),
     }
 }
 

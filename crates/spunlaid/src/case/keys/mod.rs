@@ -226,6 +226,8 @@ impl<T> Key<T> {
         let (Omission::Required(value) | Omission::Value(value) | Omission::Follows(value)) = self.omission;
         let value = self.relations.needed_if.map_or(value, |(_, example)| example);
         match self.dimension() {
+            // Of any name.
+            None if self.short() == "*" => value.to_owned(),
             Some(Dimension::Ratio) | None => format!("{} = {value}", self.short()),
             Some(_) => format!("{} = \"{value}\"", self.short()),
         }

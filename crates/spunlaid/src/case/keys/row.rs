@@ -241,6 +241,11 @@ impl NewKey {
             derived: |_| false,
         }
     }
+
+    /// A key of a file that is read as a whole: its value can be told, and is never set alone.
+    pub(crate) const fn told<T>(self, get: fn(&T) -> Option<Value>) -> Key<T> {
+        self.access(AccessTo { get, set: |_, _| Err(read_with_case()) })
+    }
 }
 
 impl<T> Key<T> {

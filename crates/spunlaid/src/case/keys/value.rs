@@ -227,6 +227,8 @@ pub enum Kind {
     Lengths,
     /// The path of a file.
     File(FileKind),
+    /// What another key takes, in words.
+    Other(&'static str),
 }
 
 /// The words of a switch that is off, and of one that is on.
@@ -298,6 +300,9 @@ impl Kind {
             }
             (Self::Lengths, Value::Numbers(lengths)) => lengths_fault(lengths, self),
             (Self::Point, Value::Vector(_)) | (Self::File(_), Value::Paths(_) | Value::Content(_)) => None,
+            (&Self::Whole(least, most), Value::Number(number)) if !(0.0..1.8e19).contains(number) => {
+                Some(Fault::out_of_range(least, most))
+            }
             (_, value) => Some(Fault::wrong_type(value.what(), self.wanted())),
         }
     }
@@ -337,6 +342,7 @@ impl Kind {
                 "the path of a record, \"probe.csv\", or a list with one for each eddy".to_owned()
             }
             Self::File(_) => "the path of a file, in quotes".to_owned(),
+            Self::Other(words) => (*words).to_owned(),
         }
     }
 
@@ -363,7 +369,7 @@ impl Kind {
             Self::Whole(least, most) if most > 1 << 50 => format!("a whole number from {least} up"),
             Self::Whole(least, most) => format!("a whole number from {least} to {most}"),
             Self::Switch => "true or false".to_owned(),
-            Self::Choice(_) | Self::Text(_) => self.wanted(),
+            Self::Choice(_) | Self::Text(_) | Self::Other(_) => self.wanted(),
             Self::File(kind) if !kind.words().0.is_empty() => {
                 let names = self.words().iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>();
                 format!("{} or the path of a file", names.join(", "))
@@ -405,7 +411,7 @@ impl Kind {
                     parts().into_iter().map(|part| Dimension::Length.parse(part)).collect();
                 Ok(Value::Numbers(lengths?))
             }
-            Self::Choice(_) | Self::Text(_) => Ok(Value::Text(text.to_owned())),
+            Self::Choice(_) | Self::Text(_) | Self::Other(_) => Ok(Value::Text(text.to_owned())),
             Self::Switch => Ok(Value::Text(text.trim().to_owned())),
             Self::File(kind) if kind.is_word(text) => Ok(Value::Text(text.to_owned())),
             Self::File(_) => Ok(Value::Paths(vec![PathBuf::from(text)])),
