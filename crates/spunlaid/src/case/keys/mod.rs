@@ -18,7 +18,6 @@ mod value;
 pub use key_table::KeyTable;
 pub(crate) use key_table::TableList;
 pub use relations::{Condition, Relations};
-pub(crate) use table::{COUNT, DESCRIBED};
 pub use value::{Content, FileKind, Kind, Sign, Value};
 
 use super::Case;

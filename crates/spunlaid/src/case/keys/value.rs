@@ -49,27 +49,29 @@ pub enum Content {
 impl Content {
     /// The files that it was read from.
     pub fn paths(&self) -> Vec<&Path> {
+        self.files().into_iter().map(|(path, _)| path).collect()
+    }
+
+    /// The path and the checksum of each file.
+    fn files(&self) -> Vec<(&Path, u32)> {
+        fn of<T>(file: &FileContent<T>) -> (&Path, u32) {
+            (file.path(), file.checksum())
+        }
         match self {
-            Self::Profile(file) => vec![file.path()],
-            Self::Field(file) => vec![file.path()],
-            Self::Spectrum(file) => vec![file.path()],
-            Self::SpinlineAir(file) => vec![file.path()],
-            Self::Polymer(file) => vec![file.path()],
-            Self::Records(files) => files.iter().map(FileContent::path).collect(),
+            Self::Profile(file) => vec![of(file)],
+            Self::Field(file) => vec![of(file)],
+            Self::Spectrum(file) => vec![of(file)],
+            Self::SpinlineAir(file) => vec![of(file)],
+            Self::Polymer(file) => vec![of(file)],
+            Self::Records(files) => files.iter().map(of).collect(),
         }
     }
-}
 
-impl Content {
-    /// The checksum of each file.
-    fn checksums(&self) -> Vec<u32> {
-        match self {
-            Self::Profile(file) => vec![file.checksum()],
-            Self::Field(file) => vec![file.checksum()],
-            Self::Spectrum(file) => vec![file.checksum()],
-            Self::SpinlineAir(file) => vec![file.checksum()],
-            Self::Polymer(file) => vec![file.checksum()],
-            Self::Records(files) => files.iter().map(FileContent::checksum).collect(),
+    /// Together with further records.
+    pub(crate) fn with(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Records(records), Self::Records(more)) => Self::Records([records, more].concat()),
+            (content, _) => content,
         }
     }
 }
@@ -146,7 +148,9 @@ impl Value {
             Self::Paths(paths) => {
                 paths.iter().flat_map(|path| path.as_os_str().as_encoded_bytes()).copied().collect()
             }
-            Self::Content(content) => content.checksums().into_iter().flat_map(u32::to_le_bytes).collect(),
+            Self::Content(content) => {
+                content.files().into_iter().flat_map(|(_, checksum)| checksum.to_le_bytes()).collect()
+            }
         }
     }
 
