@@ -275,7 +275,10 @@ fn rejects_what_cannot_vary() {
             format!("case = 'c.toml'\n{}", vary("")),
             "cannot be combined with case; a study varies a case, a web or a spinline, so keep one of them",
         ),
-        ("web = 3\ndesign = 'grid'\n".to_owned(), "web = 3 is a whole number; write a text like \"web.toml\""),
+        (
+            "web = 3\ndesign = 'grid'\n".to_owned(),
+            "web = 3 is a whole number; write a text like \"web.toml\"",
+        ),
         (
             vary("'line.belt_speed' = ['4 m/s']\n[set]\n'line.belt_speed' = '5 m/s'"),
             "is set to one value for all points, and varied",
