@@ -288,6 +288,11 @@ impl<'a, T> Document<'a, T> {
         }
     }
 
+    /// An entry as a value of this kind.
+    pub(super) fn as_kind(&self, kind: &Kind, entry: &Entry<'_>) -> Result<Value, Fault> {
+        values::read(kind, &entry.value, |named| self.beside(&entry.place, named))
+    }
+
     /// The value of a key: what is written, or else its default.
     pub(super) fn value(&self, name: &str) -> Option<Value> {
         match (self.key_values.get(name), self.keys.find(name)?) {

@@ -116,7 +116,7 @@ pub fn claims_of_trend(parameter: Parameter, points: &[TrendPoint]) -> Vec<Claim
     let (figure, trend) = (parameter.figure(), Trend { amplitude, frequency });
     let judge = |(claim, judge): &Judged| {
         let (evidence, verdict) = judge(&trend);
-        Claim { figure, claim: *claim, evidence, verdict }
+        Claim { figure, claim, evidence, verdict }
     };
     parameter.claims().iter().map(judge).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::{Design, Spacing, Study};
 use crate::case::keys::row::{choose, key};
-use crate::case::keys::{Key, KeyTable, Kind, Sign};
+use crate::case::keys::{Key, KeyTable, Kind, Sign, Value};
 use crate::units::Dimension;
 
 /// Largest number of points of a study, and of values of a range.
@@ -26,16 +26,16 @@ const ONE_BASE: &str = "a study varies a case, a web or a spinline, so keep one 
 /// In the order of the file.
 const KEYS: &[Key<Study>] = &[
     key("case", Kind::Text("table1.toml"))
-        .told(|study: &Study| (study.noun() == "fibre").then(|| "case.toml".into()))
+        .told(|study: &Study| base(study, "case.toml"))
         .required("\"table1.toml\"")
         .meaning("The file of the case to vary, named from where the study lies. Every key that is not varied or linked is as it says."),
     key("web", Kind::Text("web.toml"))
-        .told(|study: &Study| (study.noun() == "web").then(|| "web.toml".into()))
+        .told(|study: &Study| base(study, "web.toml"))
         .alternative_to(&["case"], ONE_BASE)
         .follows("a case varies")
         .meaning("The file of a web to vary, in place of a case."),
     key("spinline", Kind::Text("spinline.toml"))
-        .told(|study: &Study| (study.noun() == "spinline").then(|| "spinline.toml".into()))
+        .told(|study: &Study| base(study, "spinline.toml"))
         .alternative_to(&["case", "web"], ONE_BASE)
         .follows("a case varies")
         .meaning("The file of a spinline to vary alone, in place of a case."),
@@ -106,6 +106,22 @@ const KEYS: &[Key<Study>] = &[
         .value("linear")
         .meaning("Equal differences between the values, or equal ratios."),
 ];
+
+impl Study {
+    /// The file of what its points vary, in the folder of its results.
+    pub fn base_file(&self) -> &'static str {
+        match self.noun() {
+            "web" => "web.toml",
+            "spinline" => "spinline.toml",
+            _ => "case.toml",
+        }
+    }
+}
+
+/// The file of what varies, if it is this one.
+fn base(study: &Study, file: &str) -> Option<Value> {
+    (study.base_file() == file).then(|| file.into())
+}
 
 #[cfg(test)]
 mod tests {

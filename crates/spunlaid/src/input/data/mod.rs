@@ -25,10 +25,12 @@ type Found = Result<(Content, Vec<Remark>), FileError>;
 /// What the case says of the files of its records and of its field.
 pub(super) type Layouts = (RecordLayout, FieldLayout);
 
-/// The files read so far, of which a study names few: each by its path, what it is read as, and a text that tells different ways to
-/// read it apart.
+/// A file by its path, what it is read as, and a text that tells different ways to read it apart.
+type FileKey = (PathBuf, Kind, String);
+
+/// The files read so far, of which a study names few.
 #[derive(Default)]
-pub(super) struct DataFiles(RefCell<Vec<((PathBuf, Kind, String), Found)>>);
+pub(super) struct DataFiles(RefCell<Vec<(FileKey, Found)>>);
 
 impl DataFiles {
     /// The content of a file that is kept from an earlier reading, or is read now.

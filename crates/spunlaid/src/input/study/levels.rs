@@ -2,13 +2,11 @@
 
 use super::super::document::Named;
 use super::super::entry::{Entry, kind};
-use super::super::values;
 use super::reader::Reader;
 use super::{VariedKey, level};
 use crate::case::keys::Value;
-use crate::error::{Fault, nearest_word};
+use crate::error::{Fault, Finding, nearest_word};
 use crate::study::{Design, Levels, RANGE, Spacing, Study};
-use std::path::PathBuf;
 use toml::de::{DeTable, DeValue};
 
 /// Whole numbers up to this one are the same as floating-point numbers.
@@ -59,13 +57,9 @@ impl<'a> Reader<'a> {
             (None, Some(other)) if !words.is_empty() => {
                 Err(Fault::not_one_of(nearest_word(other, words.iter().copied()), &words))
             }
-            _ => values::read(varied.kind, &entry.value, |path| PathBuf::from(path)).and_then(|value| {
-                match value {
-                    Value::Whole(number) if number > LARGEST_WHOLE => {
-                        Err(Fault::out_of_range(1, LARGEST_WHOLE))
-                    }
-                    value => level(varied.kind, &value).ok_or_else(|| Fault::not_one_of(None, &words)),
-                }
+            _ => self.as_kind(varied.kind, entry).and_then(|value| match value {
+                Value::Whole(number) if number > LARGEST_WHOLE => Err(Fault::out_of_range(1, LARGEST_WHOLE)),
+                value => level(varied.kind, &value).ok_or_else(|| Fault::not_one_of(None, &words)),
             }),
         };
         read.map_err(|fault| self.reject(name, entry, fault)).ok()
@@ -89,26 +83,17 @@ impl<'a> Reader<'a> {
             return None;
         }
         let [Some(from), Some(to)] = ends else {
-            for ((key, which), _) in
-                [("from", "first"), ("to", "last")].into_iter().zip(ends).filter(|(_, end)| end.is_none())
-            {
-                let fault = Fault::missing("", &format!("{key} = with the {which} value"));
-                let whole = Entry {
-                    place: whole.place.clone(),
-                    shown: None,
-                    value: DeValue::Boolean(true),
-                    ..*whole
-                };
-                self.reject(&name(key), &whole, fault);
+            let missing = [("from", "first"), ("to", "last")].into_iter().zip(ends);
+            for ((key, which), _) in missing.filter(|(_, end)| end.is_none()) {
+                let what = Fault::missing("", &format!("{key} = with the {which} value"));
+                let (place, key) = (whole.place.clone(), name(key));
+                self.key_values.problems.push(Finding { place, key, value: None, what });
             }
             return None;
         };
         let steps = self.key_values.integer(&name("steps"));
-        let spacing = self.key_values.text(&name("spacing"));
-        let spacing = spacing.map_or(Spacing::Linear, |word| match word == Spacing::Logarithmic.name() {
-            true => Spacing::Logarithmic,
-            false => Spacing::Linear,
-        });
+        let is_log = self.key_values.text(&name("spacing")).as_deref() == Some(Spacing::Logarithmic.name());
+        let spacing = if is_log { Spacing::Logarithmic } else { Spacing::Linear };
         let name = design.name();
         let fault = match steps {
             None if !design.draws() => Fault::new(

@@ -2,13 +2,11 @@
 
 use super::super::document::Named;
 use super::super::entry::Entry;
-use super::super::values as read_values;
 use super::reader::{Reader, not_written};
 use super::{Base, VariedKey};
 use crate::error::{Fault, Finding};
 use crate::study::{Factor, Link};
 use crate::units::{Expression, Powers, unknown_name};
-use std::path::PathBuf;
 
 /// Formulas with a name: the name, the key it is for, the formula.
 const READY_MADE: [(&str, &str, &str); 1] =
@@ -28,7 +26,7 @@ impl Reader<'_> {
             } else if factors.iter().any(|factor| factor.key == linked.name) {
                 Err(Fault::new("is both varied and linked", "keep one"))
             } else {
-                read_values::read(&row.kind, &entry.value, |path| PathBuf::from(path))
+                self.as_kind(&row.kind, &entry)
                     .and_then(|_| read(base, &linked, entry.value.as_str().unwrap_or_default()))
             };
             match link {

@@ -60,11 +60,7 @@ pub struct StudyFile {
 impl StudyFile {
     /// The name of the file of what the points vary, in the folder of the study: `case.toml`, `web.toml` or `spinline.toml`.
     pub fn base_name(&self) -> &'static str {
-        match self.study.noun() {
-            "web" => "web.toml",
-            "spinline" => "spinline.toml",
-            _ => "case.toml",
-        }
+        self.study.base_file()
     }
 }
 

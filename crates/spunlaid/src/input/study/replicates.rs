@@ -1,12 +1,10 @@
 //! How many replicates a point of a study has: a number, or until its results are as exact as asked.
 
 use super::super::document::Named;
-use super::super::values;
 use super::Base;
 use super::reader::Reader;
 use crate::error::{Fault, nearest_word};
 use crate::study::Replicates;
-use std::path::PathBuf;
 
 impl Reader<'_> {
     pub(super) fn replicates(&mut self, base: &dyn Base) -> Replicates {
@@ -38,14 +36,13 @@ impl Reader<'_> {
                 let nearest = nearest_word(&name, names.iter().copied()).map(ToOwned::to_owned);
                 Fault::unknown("is not the name of a result", nearest, "the results are", &names)
             });
-            let fraction =
-                || match values::read(&row.kind, &entry.value, |path| PathBuf::from(path))?.number() {
-                    Some(fraction) if fraction < 1.0 => Ok(fraction),
-                    _ => Err(Fault::new(
-                        "is not a fraction of the mean",
-                        "write a number between 0 and 1, like 0.05 or \"5 %\"",
-                    )),
-                };
+            let fraction = || match self.as_kind(&row.kind, &entry)?.number() {
+                Some(fraction) if fraction < 1.0 => Ok(fraction),
+                _ => Err(Fault::new(
+                    "is not a fraction of the mean",
+                    "write a number between 0 and 1, like 0.05 or \"5 %\"",
+                )),
+            };
             match measure.and_then(|measure| Ok((measure, fraction()?))) {
                 Ok(wanted) => until.push(wanted),
                 Err(fault) => self.reject(&format!("replicates.until.{name}"), &entry, fault),
