@@ -33,7 +33,8 @@ Examples:
   spunlaid keys run.spin_up            one of them
   spunlaid keys dtex                   the keys with this unit; titre, gsm, MFR find theirs too
   spunlaid keys --markdown > keys.md   the same as a Markdown document
-  spunlaid keys --web                  the keys of the file of a web";
+  spunlaid keys --web                  the keys of the file of a web
+  spunlaid keys --study                the keys of the file of a study";
 
 pub(super) const LIVE_HELP: &str = "\
 The page shows eight fibres of the case in flight. Sliders change air and fibre while they fly;

@@ -324,6 +324,9 @@ pub(crate) struct Keys {
     /// Show the keys of the file of a web in place of those of a case
     #[arg(long)]
     pub(crate) web: bool,
+    /// Show the keys of the file of a study in place of those of a case
+    #[arg(long, conflicts_with = "web")]
+    pub(crate) study: bool,
 }
 
 #[derive(Debug, Args)]

@@ -1,12 +1,13 @@
-//! `spunlaid keys`: explains the keys of a case and of a web.
+//! `spunlaid keys`: explains the keys of a case, of a web and of a study.
 
 use crate::args::Keys;
 use crate::failure::Failure;
 use crate::say;
-use spunlaid::case::keys::{self, CASE, Key, KeyTable, Kind, TABLES};
+use spunlaid::case::keys::{self, CASE, Key, KeyTable, Kind};
 use spunlaid::error::Fault;
 use spunlaid::fabric::about;
-use spunlaid::layers::{WEB, WEB_KEYS, WEB_TABLES, WebKey};
+use spunlaid::layers::{WEB, WEB_KEYS, WebKey};
+use spunlaid::study::STUDY;
 use spunlaid::units::{Dimension, UnitAdvice};
 use std::fmt::Write;
 
@@ -15,7 +16,7 @@ const MOST_NEAREST: usize = 3;
 /// Longest line of the reference, in characters.
 const WIDTH: usize = 100;
 
-/// What is shown of a key, of a case or of a web.
+/// What is shown of a key, of a case, a web or a study.
 struct KeyEntry {
     name: &'static str,
     kind: Kind,
@@ -53,7 +54,10 @@ impl KeyEntry {
 
     /// Its name within a table, if it belongs there.
     fn within(&self, table: &str) -> Option<&'static str> {
-        self.name.strip_prefix(table)?.strip_prefix('.')
+        match table {
+            "" => Some(self.name).filter(|name| !name.contains('.')),
+            _ => self.name.strip_prefix(table)?.strip_prefix('.'),
+        }
     }
 }
 
@@ -64,18 +68,24 @@ pub(crate) fn keys(arguments: &Keys) -> Result<(), Failure> {
         |key: &&WebKey| key.has_word(&word) || key.key_of_case().is_some_and(|key| key.has_word(&word));
     let web_keys = || WEB_KEYS.iter().filter(is_of_web).map(KeyEntry::from_web_key);
     let case_keys = || keys::all().iter().filter(|key| key.has_word(&word)).map(KeyEntry::from_case_key);
+    let of_study = STUDY.rows.iter().filter(|key| key.has_word(&word));
+    let study_keys = of_study.map(|key| KeyEntry::new(&STUDY, key));
     let found: Vec<KeyEntry> = match arguments {
         Keys { web: true, .. } => web_keys().collect(),
+        Keys { study: true, .. } => study_keys.collect(),
         _ if word.is_empty() || arguments.markdown => case_keys().collect(),
         // Who searches a word need not know whose key it is.
         _ => {
             let further = web_keys().filter(|key| keys::find(key.name).is_none());
-            case_keys().chain(further.map(|key| KeyEntry { file: "  (of a web file)", ..key })).collect()
+            let further = further.map(|key| KeyEntry { file: "  (of a web file)", ..key });
+            let of_study = study_keys.map(|key| KeyEntry { file: "  (of a study file)", ..key });
+            case_keys().chain(further).chain(of_study).collect()
         }
     };
     let about = about(&word).filter(|_| !arguments.markdown);
     if found.is_empty() && about.is_none() {
-        let nearest = if arguments.web { Vec::new() } else { keys::like(&word) };
+        let is_of_case = !arguments.web && !arguments.study;
+        let nearest = if is_of_case { keys::like(&word) } else { Vec::new() };
         let nearest: Vec<&str> = nearest.iter().take(MOST_NEAREST).map(|key| key.name).collect();
         let message = format!("no key has \"{}\" in its name or meaning", pattern.escape_debug());
         let remedy = match &nearest[..] {
@@ -85,9 +95,11 @@ pub(crate) fn keys(arguments: &Keys) -> Result<(), Failure> {
         return Err(Fault::new(message, remedy).into());
     }
     if arguments.markdown {
-        let (head, tables): (_, &[&str]) =
-            if arguments.web { (WEB_HEAD, &WEB_TABLES) } else { (HEAD, &TABLES) };
-        say::text(&markdown(&found, head, tables));
+        say::text(&match arguments {
+            Keys { web: true, .. } => markdown(&found, WEB_HEAD, &WEB, &[]),
+            Keys { study: true, .. } => markdown(&found, STUDY_HEAD, &STUDY, &["range"]),
+            _ => markdown(&found, HEAD, &CASE, &[]),
+        });
     } else {
         let about = about.map(|sentence| {
             let mut text = String::new();
@@ -186,10 +198,19 @@ layer's name in place of its number. `spunlaid sweep` can vary keys marked *stud
 by its number: `layer.2.line.filaments_per_metre`, `line.rows.1.pitch`.
 ";
 
+const STUDY_HEAD: &str = "# The keys of a study
+
+This page is made by `spunlaid keys --study --markdown > docs/study_keys.md`. A key called `*` stands for any key of the case,
+the web or the spinline that varies; of `[replicates.until]` for any result. [studies.md](studies.md) says how to use them.
+";
+
 /// The keys as a Markdown document with one table for each table of the file.
-fn markdown(found: &[KeyEntry], head: &str, tables: &[&str]) -> String {
+///
+/// * `within` – tables in place of values
+fn markdown<T>(found: &[KeyEntry], head: &str, keys: &KeyTable<T>, within: &[&'static str]) -> String {
     let mut text = head.to_owned();
-    for table in tables {
+    let tables = [&[""], keys.tables, within].concat();
+    for table in &tables {
         // A key of a table that stands in this one is shown there, if that table has a section of its own.
         let is_deeper = |key: &KeyEntry| {
             tables.iter().any(|inner| inner.len() > table.len() && key.within(inner).is_some())
@@ -200,7 +221,7 @@ fn markdown(found: &[KeyEntry], head: &str, tables: &[&str]) -> String {
             continue;
         }
         // Writing to a text cannot fail.
-        let title = if *table == "layer" { "[[layer]]".to_owned() } else { format!("[{table}]") };
+        let title = if table.is_empty() { "Above the tables".to_owned() } else { keys.header(table) };
         let _ = writeln!(
             text,
             "\n## {title}\n\n| key | takes | if left out | meaning | |\n|---|---|---|---|---|"

@@ -18,6 +18,12 @@ fn the_page_of_keys_is_up_to_date() {
         of_webs == std::fs::read_to_string(path).unwrap_or_default(),
         "docs/web_keys.md is out of date; renew it: cargo run --release -- keys --web --markdown > docs/web_keys.md"
     );
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/study_keys.md");
+    let of_studies = success(&mut Desk::new().spunlaid("keys --study --markdown"));
+    assert!(
+        of_studies == std::fs::read_to_string(path).unwrap_or_default(),
+        "docs/study_keys.md is out of date; renew it: cargo run --release -- keys --study --markdown > docs/study_keys.md"
+    );
     assert!(
         of_webs
             .contains("| `rows.pitch` | a length above zero; in m, cm, mm, µm or nm; usually 1 µm to 1 m |"),

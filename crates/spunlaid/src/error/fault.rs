@@ -102,11 +102,15 @@ impl Fault {
     ///
     /// * `line` – a line that would do
     pub(crate) fn missing(table: &str, line: &str) -> Self {
-        Self::new("is missing", format!("add {line} to [{table}]"))
+        let to = if table.is_empty() { String::new() } else { format!(" to [{table}]") };
+        Self::new("is missing", format!("add {line}{to}"))
     }
 
     /// A key belongs to another table.
     pub(crate) fn misplaced(table: &str, key: &str) -> Self {
+        if table.is_empty() {
+            return Self::plain("is out of place; it belongs above the tables");
+        }
         Self::plain(format!("is out of place; it belongs in [{table}], as {table}.{key}"))
     }
 

@@ -4,12 +4,14 @@
 //! `layer.2.line.rows.1.pitch`, and the list itself, `layer.2.line.rows`, has its length as value.
 
 use super::entry::{Entry, VERSION, check_version, in_order, kind, root};
-use super::source::{Source, fit};
+use super::source::Source;
 use super::written_values::{WrittenValue, WrittenValues};
 use super::{Overrides, values};
-use crate::case::keys::{CASE, Key, KeyTable, TableList, Value};
-use crate::error::{Error, Fault, Finding, Place};
+use crate::case::keys::{CASE, Key, KeyTable, Kind, Omission, TableList, Value};
+use crate::error::{Error, Fault, Finding, Place, Problem};
+use crate::layers::full_names::without_numbers;
 use crate::layers::keys::WEB;
+use crate::sort::sort_by_key;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
@@ -23,8 +25,17 @@ pub(super) struct Document<'a, T: 'static> {
     version: Option<Entry<'a>>,
     pub(super) entries: BTreeMap<String, (&'static Key<T>, Entry<'a>)>,
     pub(super) key_values: WrittenValues,
+    /// What stands in tables whose keys have any name, and values that another key reads.
+    pub(super) named: Vec<Named<'a, T>>,
     /// Whether the file has a list of tables at its top, whose entries have tables of their own.
     pub(super) layered: bool,
+}
+
+/// A value that is read by what has its name: a key of another file, or a result.
+pub(super) struct Named<'a, T: 'static> {
+    pub(super) row: &'static Key<T>,
+    pub(super) name: String,
+    pub(super) entry: Entry<'a>,
 }
 
 /// Reads the values of the file called `name` and of the overrides.
@@ -37,49 +48,82 @@ pub(super) fn read<'a, T>(
     name: &str,
     overrides: &[Overrides<'a>],
 ) -> Result<WrittenValues, Error> {
+    Ok(open(keys, text, name, overrides)?.key_values)
+}
+
+/// [`read`], with what is named by keys of other files.
+///
+/// # Errors
+/// As [`read`].
+pub(super) fn open<'a, T>(
+    keys: &'static KeyTable<T>,
+    text: &'a str,
+    name: &str,
+    overrides: &[Overrides<'a>],
+) -> Result<Document<'a, T>, Error> {
     let source = Source::new(text, name);
     let key_values = WrittenValues::new(source.whole());
     let root = root(&source, text)?;
-    for (key, value) in &root {
-        if let Some(what) = other_file(keys, key.get_ref()) {
-            let is_table = value.get_ref().is_table();
-            let key_shown = if is_table { format!("[{}]", key.get_ref()) } else { key.get_ref().to_string() };
-            let place = source.place(key.span().start);
-            return Err(vec![Finding { place, key: key_shown, value: None, what }].into());
-        }
-    }
+    check_kind(keys, &root, &source)?;
     let layered = keys.lists.iter().any(|list| root.contains_key(list.name));
-    let (name, entries) = (name.to_owned(), BTreeMap::new());
-    let mut document = Document { keys, name, source, version: None, entries, key_values, layered };
+    let (name, entries, named) = (name.to_owned(), BTreeMap::new(), Vec::new());
+    let mut document = Document { keys, name, source, version: None, entries, key_values, named, layered };
     document.take_table("", "", root, None);
     overrides.iter().for_each(|set| document.take_overrides(set));
     // A newer format may mean other things, so this check comes first.
     document.version.take().map_or(Ok(()), |entry| check_version(&entry))?;
-    for (full, (key, entry)) in std::mem::take(&mut document.entries) {
-        document.read_entry(full, key, entry);
-    }
-    Ok(document.key_values)
+    document.read_entries();
+    Ok(document)
 }
 
-/// What a file is that has this key or table at its top, if it is of another kind.
-fn other_file<T>(keys: &KeyTable<T>, name: &str) -> Option<Fault> {
-    let (other, remedy, command) = match name {
-        "vary" | "design" => ("a study", "read the file as a study", "`spunlaid sweep`"),
-        _ if keys.tables.contains(&name) => return None,
-        _ if WEB.tables.contains(&name) => ("the file of a web", "read it as a web", "`spunlaid web`"),
-        _ => return None,
-    };
-    Some(Fault::new(format!("belongs to {other}, not to {}", keys.noun), remedy).option(command))
+/// Rejects a file of another kind, by a key or table at its top.
+fn check_kind<T>(keys: &KeyTable<T>, root: &DeTable<'_>, source: &Source<'_>) -> Result<(), Vec<Problem>> {
+    type IsOf = fn(&str) -> bool;
+    const KINDS: [(IsOf, &str, &str, &str, &str); 3] = [
+        (|name| ["vary", "design"].contains(&name), "a study", "the file as a study", "`spunlaid sweep`", ""),
+        (is_of_web_alone, "the file of a web", "it as a web", "`spunlaid web`", "web"),
+        (|name| CASE.tables.contains(&name), "a case", "it as a case", "`spunlaid run`", "case"),
+    ];
+    for (is_of, kind, it, command, base) in KINDS.into_iter().filter(|(_, kind, ..)| *kind != keys.noun) {
+        let is_other = |name: &str, value: &DeValue<'_>| {
+            // A study names its web or spinline; a web or a case has tables.
+            let is_own_key = keys.find(name).is_some() && !value.is_table();
+            is_of(name) && !is_own_key && keys.table_in("", name).is_none() && keys.list(name).is_none()
+        };
+        let others = root.iter().filter(|(key, value)| is_other(key.get_ref(), value.get_ref()));
+        if let Some((key, value)) = others.min_by_key(|(key, _)| key.span().start) {
+            let (name, place) = (key.get_ref(), source.place(key.span().start));
+            let key = if value.get_ref().is_table() { format!("[{name}]") } else { name.to_string() };
+            let remedy = match keys.find(base) {
+                Some(_) => format!("name its file, as in {base} = \"{base}.toml\", or read {it}"),
+                None => format!("read {it}"),
+            };
+            let what = Fault::new(format!("belongs to {kind}, not to {}", keys.noun), remedy).option(command);
+            return Err(vec![Finding { place, key, value: None, what }]);
+        }
+    }
+    Ok(())
+}
+
+/// Whether a table at the top of a file is one of a web, which a case has not.
+fn is_of_web_alone(name: &str) -> bool {
+    WEB.tables.contains(&name) && !CASE.tables.contains(&name)
 }
 
 /// Whether a file has tables of a web, which a case has not.
 pub(super) fn is_of_web(text: &str) -> bool {
-    let is_own = |name: &str| WEB.tables.contains(&name) && !CASE.tables.contains(&name);
     // A study names its web.
     let is_of_web = |root: &DeTable<'_>| {
-        root.iter().any(|(key, value)| is_own(key.get_ref()) && !value.get_ref().is_str())
+        root.iter().any(|(key, value)| is_of_web_alone(key.get_ref()) && !value.get_ref().is_str())
     };
     DeTable::parse(text).is_ok_and(|root| is_of_web(root.get_ref()))
+}
+
+/// Whether this is the full name of a table of a case or a web, which may be one of a layer: `air`, `layer.2.line`.
+fn is_table_of_other(full: &str) -> bool {
+    let in_layer = full.strip_prefix("layer.").and_then(|rest| rest.split_once('.'));
+    let name = without_numbers(in_layer.map_or(full, |(_, rest)| rest));
+    CASE.tables.contains(&&*name) || WEB.tables.contains(&&*name) || name == "line.rows"
 }
 
 /// Whether the file of a web has a list of layers, whose numbers stand in the names of its keys.
@@ -92,7 +136,13 @@ impl<'a, T> Document<'a, T> {
     ///
     /// * `before` – what comes before its keys in their full names, `layer.2.line.`
     /// * `list` – the override in which it stands
-    fn take_table(&mut self, before: &str, table: &'static str, keys: DeTable<'a>, list: Option<&Entry<'a>>) {
+    pub(super) fn take_table(
+        &mut self,
+        before: &str,
+        table: &'static str,
+        keys: DeTable<'a>,
+        list: Option<&Entry<'a>>,
+    ) {
         for ((at, name), value) in in_order(keys) {
             let entry = self.entry(at, value, list);
             self.take(before, table, &name, entry);
@@ -100,7 +150,12 @@ impl<'a, T> Document<'a, T> {
     }
 
     /// An entry that stands at byte `at` of the file, or in an override; a position in it is not one in the file.
-    fn entry(&self, at: usize, value: Spanned<DeValue<'a>>, list: Option<&Entry<'a>>) -> Entry<'a> {
+    pub(super) fn entry(
+        &self,
+        at: usize,
+        value: Spanned<DeValue<'a>>,
+        list: Option<&Entry<'a>>,
+    ) -> Entry<'a> {
         let mut entry = Entry::from_file(&self.source, at, value);
         if let Some(Entry { place, shown, .. }) = list {
             (entry.place, entry.shown) = (place.clone(), shown.clone());
@@ -108,7 +163,7 @@ impl<'a, T> Document<'a, T> {
         entry
     }
 
-    fn reject(&mut self, key: &str, entry: &Entry<'_>, what: Fault) {
+    pub(super) fn reject(&mut self, key: &str, entry: &Entry<'_>, what: Fault) {
         self.key_values.problems.push(entry.problem(key, what));
     }
 
@@ -116,17 +171,47 @@ impl<'a, T> Document<'a, T> {
     pub(super) fn take(&mut self, before: &str, table: &'static str, name: &str, entry: Entry<'a>) {
         let full = format!("{before}{name}");
         let path = if table.is_empty() { name.to_owned() } else { format!("{table}.{name}") };
+        let key = self.keys.find(&path).filter(|key| key.table() == table);
+        let is_inner = key.is_none() || entry.value.is_table();
         if full == VERSION {
             self.version = Some(entry);
         } else if let Some(list) = self.keys.list(&path) {
             self.take_list(&full, list, entry);
-        } else if let Some(inner) = self.keys.table_in(table, name) {
+        } else if let Some(inner) = self.keys.table_in(table, name).filter(|_| is_inner) {
             self.take_inner(&full, inner, entry);
-        } else if let Some(key) = self.keys.find(&path).filter(|key| key.table() == table) {
+        } else if let Some(row) = key.filter(|key| matches!(key.kind, Kind::Other(_))) {
+            self.named.push(Named { row, name: full, entry });
+        } else if let Some(key) = key {
             self.entries.insert(full, (key, entry));
+        } else if let Some(row) = self.keys.of_any_name(table) {
+            self.take_named(row, "", name, entry);
         } else {
             self.unknown(before, table, name, &entry);
         }
+    }
+
+    /// Takes a value with the name of a key of another file, or what stands in a table of that file: `air.velocity = …` and
+    /// `"air.velocity" = …` are equal.
+    fn take_named(&mut self, row: &'static Key<T>, before: &str, name: &str, entry: Entry<'a>) {
+        let name = format!("{before}{name}");
+        match entry.value {
+            DeValue::Table(keys) if before == "layer." || is_table_of_other(&name) => {
+                for ((at, inner), value) in in_order(keys) {
+                    let entry = self.entry(at, value, None);
+                    self.take_named(row, &format!("{name}."), &inner, entry);
+                }
+            }
+            value => self.named.push(Named { row, name, entry: Entry { value, ..entry } }),
+        }
+    }
+
+    /// What is named in a table, in the order of the file.
+    pub(super) fn named(&mut self, table: &str) -> Vec<Named<'a, T>> {
+        let all = std::mem::take(&mut self.named).into_iter();
+        let (mut of_table, others): (Vec<_>, _) = all.partition(|named| named.row.table() == table);
+        self.named = others;
+        sort_by_key(&mut of_table, |named| named.entry.at);
+        of_table
     }
 
     /// Takes a table within another one, or at the top of the file.
@@ -143,7 +228,14 @@ impl<'a, T> Document<'a, T> {
                 entry.shown = None;
                 Fault::wrong_type("a table", format!("one of its keys, {word} {full}.key=value"))
             }
-            (_, DeValue::Table(keys)) => return self.take_table(&format!("{full}."), table, keys, None),
+            (_, DeValue::Table(keys)) => {
+                let needed =
+                    self.keys.of_any_name(table).filter(|row| matches!(row.omission, Omission::Required(_)));
+                match needed.filter(|_| keys.is_empty()) {
+                    None => return self.take_table(&format!("{full}."), table, keys, None),
+                    Some(row) => Fault::new("is empty", format!("add a key, like {}", row.example())),
+                }
+            }
             (_, other) => Fault::wrong_type(kind(&other), format!("a table, {header}")),
         };
         self.key_values.excuse(format!("{full}."));
@@ -189,76 +281,25 @@ impl<'a, T> Document<'a, T> {
         self.entries.retain(|name, _| name != full && !in_list(name));
     }
 
-    /// Rejects a key or a table that is not known where it stands.
-    fn unknown(&mut self, before: &str, table: &'static str, name: &str, entry: &Entry<'_>) {
-        let keys = self.keys;
-        let word = name.split_once('.').map_or(name, |(word, _)| word);
-        let is_of_table = word != name && keys.table_in(table, word).is_none();
-        let is_table = !keys.tables_in(table).is_empty() && (entry.value.is_table() || is_of_table);
-        let key = if is_table && before.is_empty() {
-            format!("[{}]", fit(word))
-        } else {
-            format!("{before}{name}")
-        };
-        // The part of the name that says which layer it is of.
-        let layer = before.match_indices('.').nth(1).map_or("", |(dot, _)| &before[..=dot]);
-        let layer = if self.layered { layer } else { "" };
-        let mut nearest = None;
-        if is_table {
-            let mut table_meant = keys.nearest_table(table, word);
-            // If the table's name is not similar to a known one, its keys may show which table is meant.
-            if let DeValue::Table(inner) = &entry.value {
-                for (key, _) in inner {
-                    table_meant =
-                        table_meant.or_else(|| keys.find_by_short_name(key.get_ref()).map(Key::table));
-                }
-            }
-            if let Some(meant) = table_meant {
-                self.key_values.excuse(format!("{before}{meant}."));
-                nearest = Some(self.header(layer, meant));
-            }
-        } else if let Some(home) = keys.find_by_short_name(name) {
-            self.key_values.excuse(format!("{layer}{}", home.name));
-            let what = Fault::misplaced(home.table(), home.short());
-            self.reject(&key, entry, what);
-            return;
-        } else if let Some(meant) = keys.like(table, name).first() {
-            let full = if meant.table() == table {
-                format!("{before}{}", meant.short())
-            } else {
-                format!("{layer}{}", meant.name)
-            };
-            self.key_values.excuse(full.clone());
-            nearest = Some(full);
+    /// Reads what has been taken.
+    pub(super) fn read_entries(&mut self) {
+        for (full, (key, entry)) in std::mem::take(&mut self.entries) {
+            self.read_entry(full, key, entry);
         }
-        let message = format!("is not a {} of {}", if is_table { "table" } else { "key" }, keys.file);
-        let takes = if table.is_empty() {
-            "the top of the file takes".to_owned()
-        } else {
-            format!("{} takes", self.header(layer, table))
-        };
-        let what = Fault::unknown(message, nearest, &takes, &self.known(table));
-        let value = entry.shown.clone().filter(|_| !is_table);
-        self.key_values.problems.push(Finding { value, ..entry.problem(&key, what) });
     }
 
-    /// A table of the file as it is written.
-    fn header(&self, layer: &str, table: &str) -> String {
-        let of_a_layer = !layer.is_empty() && self.list_of(table).is_some();
-        if of_a_layer { format!("[layer.{table}]") } else { self.keys.header(table) }
+    /// An entry as a value of this kind.
+    pub(super) fn as_kind(&self, kind: &Kind, entry: &Entry<'_>) -> Result<Value, Fault> {
+        values::read(kind, &entry.value, |named| self.beside(&entry.place, named))
     }
 
-    /// What a table or the top of the file takes.
-    fn known(&self, table: &'static str) -> Vec<String> {
-        let keys = self.keys;
-        let version = table.is_empty().then(|| VERSION.to_owned());
-        let names = keys.keys_of_table(table).map(|key| key.short().to_owned());
-        let tables = keys
-            .tables_in(table)
-            .into_iter()
-            .map(|inner| self.header(if table.is_empty() { "" } else { "layer." }, inner));
-        let in_table = |list: &TableList| Some(list.name.strip_prefix(table)?.strip_prefix('.')?.to_owned());
-        version.into_iter().chain(names).chain(tables).chain(keys.lists.iter().filter_map(in_table)).collect()
+    /// The value of a key: what is written, or else its default.
+    pub(super) fn value(&self, name: &str) -> Option<Value> {
+        match (self.key_values.get(name), self.keys.find(name)?) {
+            (Some(written_value), _) => written_value.value.clone(),
+            (None, Key { kind, omission: Omission::Value(text), .. }) => kind.accept((*text).into()).ok(),
+            (None, _) => None,
+        }
     }
 
     fn read_entry(&mut self, full: String, key: &'static Key<T>, entry: Entry<'_>) {

@@ -19,6 +19,7 @@ mod source;
 mod spinline;
 mod study;
 mod unclosed;
+mod unknown;
 mod unread;
 mod values;
 mod web;

@@ -2,7 +2,7 @@
 
 use super::data::DataFiles;
 use super::written_values::{WrittenValue, WrittenValues, sorted};
-use crate::air::{FileContent, Flow, Measured, RecordLayout};
+use crate::air::{Flow, RecordLayout};
 use crate::case::keys::{self, Content, FileKind, Key, Kind, Omission, Value};
 use crate::case::{Case, Note, Remark};
 use crate::error::{Error, Fault, FileError};
@@ -147,17 +147,13 @@ fn leave_out(key: &Key, case: &mut Case, key_values: &WrittenValues) -> Result<(
 
 /// What the case says of the files of its records.
 fn record_layout(key_values: &WrittenValues) -> RecordLayout {
-    let whole = |key: &str| match key_values.get(key).and_then(|written_value| written_value.value.as_ref()) {
-        Some(Value::Whole(number)) => Some(*number),
-        _ => None,
-    };
     RecordLayout {
         rate: key_values.number("air.record_rate"),
-        skip: whole("air.record_skip"),
+        skip: key_values.integer("air.record_skip"),
         columns: key_values.text("air.record_columns"),
         time: key_values.text("air.record_time"),
         velocity_unit: key_values.text("air.record_velocity_unit"),
-        max_gap: whole("air.record_max_gap"),
+        max_gap: key_values.integer("air.record_max_gap"),
     }
 }
 
@@ -171,37 +167,23 @@ fn field_layout(key_values: &WrittenValues) -> FieldLayout {
     }
 }
 
+/// The content of the files that a key names, and what is said of them.
 fn load(
     files: &DataFiles,
     kind: FileKind,
     paths: &[PathBuf],
     key_values: &WrittenValues,
 ) -> Result<(Content, Vec<Remark>), FileError> {
-    let path = paths.first().cloned().unwrap_or_default();
-    let content = match kind {
-        FileKind::Profile => Content::Profile(files.profile(&path)?),
-        FileKind::Spectrum => Content::Spectrum(files.spectrum(&path)?),
-        FileKind::SpinlineAir => Content::SpinlineAir(files.spinline_air(&path)?),
-        FileKind::Polymer => Content::Polymer(files.polymer(&path)?),
-        FileKind::Records => {
-            let layout = record_layout(key_values);
-            let records = paths.iter().map(|path| files.record(path, &layout));
-            let records: Vec<_> = records.collect::<Result<_, _>>()?;
-            let several = records.len() > 1;
-            let of = |(record, remarks): &(FileContent<Measured>, Vec<Remark>)| {
-                let file = record.path().display().to_string();
-                let remarks = remarks.iter().cloned();
-                remarks.map(|what| if several { what.of_file(&file) } else { what }).collect::<Vec<_>>()
-            };
-            let remarks = records.iter().flat_map(of).collect();
-            return Ok((Content::Records(records.into_iter().map(|(record, _)| record).collect()), remarks));
-        }
-        FileKind::Field => {
-            let (field, remarks) = files.field(&path, &field_layout(key_values))?;
-            return Ok((Content::Field(field), remarks));
-        }
-    };
-    Ok((content, Vec::new()))
+    let layouts = (record_layout(key_values), field_layout(key_values));
+    let (mut all, mut remarks): (Option<Content>, Vec<Remark>) = (None, Vec::new());
+    for path in paths {
+        let (content, of_file) = files.read(kind, path, &layouts)?;
+        let place =
+            |what: Remark| if paths.len() > 1 { what.of_file(&path.display().to_string()) } else { what };
+        remarks.extend(of_file.into_iter().map(place));
+        all = Some(all.map_or(content.clone(), |others| others.with(content)));
+    }
+    Ok((all.unwrap_or(Content::Records(Vec::new())), remarks))
 }
 
 impl OpenCase {

@@ -77,6 +77,14 @@ impl WrittenValues {
         self.get(key)?.value.as_ref()?.number()
     }
 
+    /// The whole number of a key, if it is written.
+    pub(super) fn integer(&self, key: &str) -> Option<u64> {
+        match self.get(key)?.value.as_ref()? {
+            Value::Whole(number) => Some(*number),
+            _ => None,
+        }
+    }
+
     /// The text of a key, if it is written.
     pub(super) fn text(&self, key: &str) -> Option<String> {
         match self.get(key)?.value.as_ref()? {

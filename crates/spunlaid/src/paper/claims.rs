@@ -36,6 +36,15 @@ impl Verdict {
     fn new(holds: bool) -> Self {
         if holds { Self::Holds } else { Self::Fails }
     }
+
+    /// Of a difference in standard errors, which the claim says is above zero.
+    fn of_difference(difference: f64) -> Self {
+        match difference {
+            _ if difference > REAL => Self::Holds,
+            _ if difference < -REAL => Self::Fails,
+            _ => Self::Open,
+        }
+    }
 }
 
 /// Written as its name.
@@ -58,46 +67,62 @@ pub struct Claim {
     pub verdict: Verdict,
 }
 
+/// How amplitude [mm] and frequency [Hz] depend on a parameter.
+struct Trend {
+    amplitude: Vec<Spot>,
+    frequency: Vec<Spot>,
+}
+
+/// A claim, and what judges it.
+type Judged = (&'static str, fn(&Trend) -> (String, Verdict));
+
+impl Parameter {
+    /// What the paper claims of it.
+    const fn claims(self) -> &'static [Judged] {
+        match self {
+            Self::Velocity => &[
+                ("The amplitude grows almost linearly with the mean air velocity.", |of| {
+                    straight(&of.amplitude, "mm per m/s")
+                }),
+                ("The frequency grows almost linearly with the mean air velocity.", |of| {
+                    straight(&of.frequency, "Hz per m/s")
+                }),
+            ],
+            Self::Intensity => &[
+                ("The amplitude grows with the turbulence intensity.", rising),
+                ("The frequency grows until Tu = 0.15 and then is nearly constant.", |of| {
+                    plateau(&of.frequency, 0.15)
+                }),
+            ],
+            Self::Diameter => &[
+                ("A thick fibre has a larger amplitude than a thin one (200 µm against 18 µm).", |of| {
+                    thicker(&of.amplitude)
+                }),
+                ("The amplitude is a sigmoid of the diameter.", |of| sigmoid(&of.amplitude)),
+            ],
+            Self::LengthScale => &[("The amplitude grows with the turbulent length scale.", rising)],
+            Self::Cutoff => &[(
+                "The amplitude falls strongly as the frequency of turbulence rises, at constant rms.",
+                |of| monotone(&of.amplitude, -1.0, "mm"),
+            )],
+        }
+    }
+}
+
 /// The paper's claims about a parameter. Empty if there are fewer than two replicates.
 pub fn claims_of_trend(parameter: Parameter, points: &[TrendPoint]) -> Vec<Claim> {
-    let Some(amplitude) = spots(points, |p| p.amplitude, 1e3) else { return Vec::new() };
-    let Some(frequency) = spots(points, |p| p.frequency, 1.0) else { return Vec::new() };
-    let figure = parameter.figure();
-    let claim = |claim, (evidence, verdict): (String, Verdict)| Claim { figure, claim, evidence, verdict };
-    match parameter {
-        Parameter::Velocity => vec![
-            claim(
-                "The amplitude grows almost linearly with the mean air velocity.",
-                straight(&amplitude, "mm per m/s"),
-            ),
-            claim(
-                "The frequency grows almost linearly with the mean air velocity.",
-                straight(&frequency, "Hz per m/s"),
-            ),
-        ],
-        Parameter::Intensity => vec![
-            claim("The amplitude grows with the turbulence intensity.", monotone(&amplitude, 1.0, "mm")),
-            claim(
-                "The frequency grows until Tu = 0.15 and then is nearly constant.",
-                plateau(&frequency, 0.15),
-            ),
-        ],
-        Parameter::Diameter => vec![
-            claim(
-                "A thick fibre has a larger amplitude than a thin one (200 µm against 18 µm).",
-                thicker(&amplitude),
-            ),
-            claim("The amplitude is a sigmoid of the diameter.", sigmoid(&amplitude)),
-        ],
-        Parameter::LengthScale => vec![claim(
-            "The amplitude grows with the turbulent length scale.",
-            monotone(&amplitude, 1.0, "mm"),
-        )],
-        Parameter::Cutoff => vec![claim(
-            "The amplitude falls strongly as the frequency of turbulence rises, at constant rms.",
-            monotone(&amplitude, -1.0, "mm"),
-        )],
-    }
+    let spots = [spots(points, |p| p.amplitude, 1e3), spots(points, |p| p.frequency, 1.0)];
+    let [Some(amplitude), Some(frequency)] = spots else { return Vec::new() };
+    let (figure, trend) = (parameter.figure(), Trend { amplitude, frequency });
+    let judge = |(claim, judge): &Judged| {
+        let (evidence, verdict) = judge(&trend);
+        Claim { figure, claim, evidence, verdict }
+    };
+    parameter.claims().iter().map(judge).collect()
+}
+
+fn rising(of: &Trend) -> (String, Verdict) {
+    monotone(&of.amplitude, 1.0, "mm")
 }
 
 /// The claims about the work error, from (time step [s], final error [%], median error over time [%]).
@@ -160,14 +185,7 @@ fn monotone(spots: &[Spot], direction: f64, unit: &str) -> (String, Verdict) {
         "{:.2} ± {:.2} to {:.2} ± {:.2} {unit}; largest step in the other direction {back:.1} standard errors",
         first.y, first.error, last.y, last.error
     );
-    let verdict = if back > CHANCE || overall < -REAL {
-        Verdict::Fails
-    } else if overall > REAL {
-        Verdict::Holds
-    } else {
-        Verdict::Open
-    };
-    (evidence, verdict)
+    (evidence, if back > CHANCE { Verdict::Fails } else { Verdict::of_difference(overall) })
 }
 
 /// Whether a trend rises up to a place and changes by less than a tenth after it.
@@ -204,15 +222,7 @@ fn thicker(spots: &[Spot]) -> (String, Verdict) {
         "{:.2} ± {:.2} mm at 18 µm, {:.2} ± {:.2} mm at 200 µm",
         thin.y, thin.error, thick.y, thick.error
     );
-    let difference = significance(thin, thick);
-    let verdict = if difference > REAL {
-        Verdict::Holds
-    } else if difference < -REAL {
-        Verdict::Fails
-    } else {
-        Verdict::Open
-    };
-    (evidence, verdict)
+    (evidence, Verdict::of_difference(significance(thin, thick)))
 }
 
 /// Whether the curve over the diameter is steepest between its ends and flatter at both ends. The paper plots the

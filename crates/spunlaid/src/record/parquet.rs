@@ -4,12 +4,10 @@ use super::columns::{Column, roles};
 use super::rows::Rows;
 use super::{Layout, Record};
 use crate::error::{Fault, FileError, Position};
-use crate::table::{FirstCell, Head, Meaning, NumberColumn, PageGuard, durations};
+use crate::table::{FirstCell, Head, Meaning, ParquetTable};
 use crate::units::excerpt;
 use bytes::Bytes;
 use parquet::errors::ParquetError;
-use parquet::file::metadata::{ParquetMetaData, ParquetMetaDataReader};
-use std::sync::Arc;
 
 /// First bytes of a Parquet file.
 pub(super) const MAGIC: &[u8] = b"PAR1";
@@ -27,10 +25,9 @@ pub(super) fn parse(bytes: Bytes, name: &str, layout: &Layout) -> Result<Record,
 
 fn read(source: Bytes, layout: &Layout) -> Result<Record, FileError> {
     let undecodable = |error: ParquetError| FileError::from(unreadable(&excerpt(&error.to_string(), 200)));
-    let metadata = ParquetMetaDataReader::new().parse_and_finish(&source).map_err(undecodable)?;
-    let schema = metadata.file_metadata().schema_descr();
-    let heads: Vec<Head> = schema.columns().iter().map(|column| Head::new(&column.path().string())).collect();
-    let meanings = meanings(&metadata);
+    let table = ParquetTable::open(source).map_err(undecodable)?;
+    let (names, meanings): (Vec<String>, Vec<Result<Meaning, String>>) = table.columns().into_iter().unzip();
+    let heads: Vec<Head> = names.iter().map(|name| Head::new(name)).collect();
     let first: Vec<FirstCell> = meanings.iter().map(first_cell).collect();
     let mut roles = roles(&heads, true, &first, layout)?;
     let meaning_of = |column: &Column| {
@@ -47,9 +44,8 @@ fn read(source: Bytes, layout: &Layout) -> Result<Record, FileError> {
     let used: Vec<Column> = roles.time.iter().chain(&roles.components).cloned().collect();
     let timed = roles.time.is_some();
     let mut rows = Rows::new(roles, layout);
-    let source = Arc::new(PageGuard(source));
     let (mut row, mut origin) = (0, None);
-    for group in 0..metadata.num_row_groups() {
+    for group in 0..table.groups() {
         let mut columns = Vec::new();
         for column in &used {
             let refused = |found: String| {
@@ -57,7 +53,8 @@ fn read(source: Bytes, layout: &Layout) -> Result<Record, FileError> {
                 FileError::from(Fault::new(format!("holds {found}"), remedy)).column(&column.header)
             };
             let meaning = meaning_of(column).map_err(refused)?;
-            let mut values = NumberColumn::open(&source, &metadata, group, column.index, meaning)
+            let mut values = table
+                .column(group, column.index, meaning)
                 .map_err(|error| undecodable(error).column(&column.header))?;
             values.origin = origin.filter(|_| column.stamped);
             columns.push(values);
@@ -100,17 +97,6 @@ fn read(source: Bytes, layout: &Layout) -> Result<Record, FileError> {
         return Err(Fault::no_rows().into());
     }
     rows.finish()
-}
-
-/// What each column holds; the error names what is no number.
-fn meanings(metadata: &ParquetMetaData) -> Vec<Result<Meaning, String>> {
-    let about = metadata.file_metadata();
-    let schema =
-        about.key_value_metadata().and_then(|entries| entries.iter().find(|e| e.key == "ARROW:schema"));
-    let durations = schema.and_then(|entry| entry.value.as_deref()).map_or_else(Vec::new, durations);
-    let duration = |name: &str| durations.iter().find(|(column, _)| column == name).map(|(_, unit)| *unit);
-    let columns = about.schema_descr().columns().iter();
-    columns.map(|column| Meaning::of(column, duration(&column.path().string()))).collect()
 }
 
 fn first_cell(meaning: &Result<Meaning, String>) -> FirstCell {

@@ -84,6 +84,11 @@ impl Design {
         }
     }
 
+    /// All of them; those that draw have this number of points.
+    pub(crate) const fn all(points: u64) -> [Self; 5] {
+        [Self::Grid, Self::OneAtATime, Self::Paired, Self::LatinHypercube(points), Self::Sobol(points)]
+    }
+
     /// Largest number of factors.
     pub const fn most_factors(self) -> usize {
         match self {

@@ -22,7 +22,7 @@ impl Meaning {
     /// What a column holds; the error names what is no number.
     ///
     /// * `duration` – unit of the durations that the Arrow schema says the column has [s]
-    pub(crate) fn of(column: &ColumnDescriptor, duration: Option<f64>) -> Result<Self, String> {
+    pub(super) fn of(column: &ColumnDescriptor, duration: Option<f64>) -> Result<Self, String> {
         let physical = column.physical_type();
         if column.max_rep_level() > 0 || column.max_def_level() > 1 {
             return Err("nested values".to_owned());
@@ -131,7 +131,7 @@ fn big_endian(bytes: &[u8]) -> Option<i128> {
 
 /// Units of the durations in an Arrow schema [s], by the name of the column; the schema is the text that Parquet files of
 /// Arrow carry in their metadata.
-pub(crate) fn durations(schema: &str) -> Vec<(String, f64)> {
+pub(super) fn durations(schema: &str) -> Vec<(String, f64)> {
     use base64::Engine;
     let engine = base64::engine::general_purpose::STANDARD_NO_PAD;
     let bytes = engine.decode(schema.trim().trim_end_matches('=')).unwrap_or_default();

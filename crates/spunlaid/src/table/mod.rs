@@ -45,8 +45,8 @@ mod start;
 mod thousands;
 
 pub use head::{Head, scale};
-pub(crate) use logical::{Meaning, durations};
-pub(crate) use parquet::{NumberColumn, PageGuard};
+pub(crate) use logical::Meaning;
+pub(crate) use parquet::ParquetTable;
 pub(crate) use stamp::{FORMS, Stamp};
 
 use crate::error::{Fault, FileError, FileKind, Position, counted};

@@ -1,13 +1,13 @@
 //! Reads columns of numbers from Parquet.
 
-use super::logical::Meaning;
+use super::logical::{Meaning, durations};
 use bytes::Bytes;
 use parquet::basic::Encoding;
 use parquet::column::page::{Page, PageMetadata, PageReader};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
 use parquet::data_type::DataType;
 use parquet::errors::{ParquetError, Result as Decoded};
-use parquet::file::metadata::ParquetMetaData;
+use parquet::file::metadata::{ParquetMetaData, ParquetMetaDataReader};
 use parquet::file::reader::{ChunkReader, Length};
 use parquet::file::serialized_reader::SerializedPageReader;
 use std::io::Read;
@@ -15,8 +15,63 @@ use std::sync::Arc;
 
 /// Largest number of bytes that Snappy makes of one: a copy of 64 bytes takes three.
 const EXPANSION: u64 = 22;
+/// Rows read at a time.
+const ROWS: usize = 1 << 16;
 /// Largest number of rows of a group.
 const MOST_ROWS: usize = 1 << 28;
+
+/// A Parquet file, whose columns are read group by group.
+pub(crate) struct ParquetTable {
+    source: Arc<PageGuard>,
+    metadata: ParquetMetaData,
+}
+
+impl ParquetTable {
+    pub(crate) fn open(bytes: Bytes) -> Decoded<Self> {
+        let metadata = ParquetMetaDataReader::new().parse_and_finish(&bytes)?;
+        Ok(Self { source: Arc::new(PageGuard(bytes)), metadata })
+    }
+
+    /// Number of the groups of rows.
+    pub(crate) fn groups(&self) -> usize {
+        self.metadata.num_row_groups()
+    }
+
+    /// The name of each column, with what it holds; the error names what is no number.
+    pub(crate) fn columns(&self) -> Vec<(String, Result<Meaning, String>)> {
+        let about = self.metadata.file_metadata();
+        let schema =
+            about.key_value_metadata().and_then(|entries| entries.iter().find(|e| e.key == "ARROW:schema"));
+        let durations = schema.and_then(|entry| entry.value.as_deref()).map_or_else(Vec::new, durations);
+        let columns = about.schema_descr().columns().iter().map(|column| (column.path().string(), column));
+        let duration =
+            |name: &str| durations.iter().find(|(column, _)| column == name).map(|(_, unit)| *unit);
+        columns.map(|(name, column)| (name.clone(), Meaning::of(column, duration(&name)))).collect()
+    }
+
+    /// All numbers of a column of this name, of which none may be missing.
+    pub(crate) fn numbers(&self, name: &str) -> Decoded<Vec<f64>> {
+        let none = || ParquetError::General(format!("it has no column {name} of numbers"));
+        let found = self.columns().into_iter().enumerate().find(|(_, (column, _))| column == name);
+        let (index, (_, meaning)) = found.ok_or_else(none)?;
+        let meaning = meaning.map_err(|_| none())?;
+        let mut numbers = Vec::new();
+        for group in 0..self.groups() {
+            let mut column = self.column(group, index, meaning)?;
+            while column.next(ROWS).map(|()| !column.numbers.is_empty())? {
+                numbers.append(&mut column.numbers);
+            }
+        }
+        if numbers.iter().any(|number| number.is_nan()) { Err(none()) } else { Ok(numbers) }
+    }
+
+    /// Opens a column of a group of rows.
+    ///
+    /// * `meaning` – as [`ParquetTable::columns`] finds it
+    pub(crate) fn column(&self, group: usize, index: usize, meaning: Meaning) -> Decoded<NumberColumn> {
+        NumberColumn::open(&self.source, &self.metadata, group, index, meaning)
+    }
+}
 
 /// A column of a row group while it is read.
 pub(crate) struct NumberColumn {
@@ -30,10 +85,7 @@ pub(crate) struct NumberColumn {
 }
 
 impl NumberColumn {
-    /// Opens the column.
-    ///
-    /// * `meaning` – as [`Meaning::of`] finds it
-    pub(crate) fn open(
+    fn open(
         source: &Arc<PageGuard>,
         metadata: &ParquetMetaData,
         group: usize,
@@ -163,7 +215,7 @@ fn missing(what: &str) -> ParquetError {
 
 /// Refuses pages that state an impossible size, because the decoder allocates the memory that a header states before
 /// it reads the page.
-pub(crate) struct PageGuard(pub(crate) Bytes);
+struct PageGuard(Bytes);
 
 impl Length for PageGuard {
     fn len(&self) -> u64 {

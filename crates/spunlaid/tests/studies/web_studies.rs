@@ -273,9 +273,12 @@ fn rejects_what_cannot_vary() {
         (vary("'line.belt_speed' = [4]"), "line.belt_speed"),
         (
             format!("case = 'c.toml'\n{}", vary("")),
-            "stands beside web; a study varies a case, a web or a spinline, so keep one of them",
+            "cannot be combined with case; a study varies a case, a web or a spinline, so keep one of them",
         ),
-        ("web = 3\ndesign = 'grid'\n".to_owned(), "the path of the file of a web, in quotes"),
+        (
+            "web = 3\ndesign = 'grid'\n".to_owned(),
+            "web = 3 is a whole number; write a text like \"web.toml\"",
+        ),
         (
             vary("'line.belt_speed' = ['4 m/s']\n[set]\n'line.belt_speed' = '5 m/s'"),
             "is set to one value for all points, and varied",
@@ -289,7 +292,7 @@ fn rejects_what_cannot_vary() {
             "gives a value in m, but a velocity in m s^-1 is needed",
         ),
         (format!("replicates = 0\n{}", vary("'line.belt_speed' = ['4 m/s']")), "replicates = 0"),
-        (vary(""), "names no key to vary"),
+        (vary(""), "vary is empty; add a key, like "),
     ] {
         let said = study(&text).unwrap_err().to_string();
         assert!(said.contains(wanted), "{text}\n{said}\n{wanted}");

@@ -49,19 +49,8 @@ pub(crate) const fn keys<T, const COUNT: usize>(tables: &[Table<T>]) -> [Key<T>;
     all
 }
 
-/// What the keys of tables say of their values and of other keys, without access to an input: for a file that describes several
-/// inputs.
-pub(crate) const fn without_access<T, const COUNT: usize>(keys: &[Key<T>; COUNT]) -> [Key<()>; COUNT] {
-    let mut all = [described(&keys[0]); COUNT];
-    let mut i = 0;
-    while i < COUNT {
-        all[i] = described(&keys[i]);
-        i += 1;
-    }
-    all
-}
-
-const fn described<T>(key: &Key<T>) -> Key<()> {
+/// What a key says of its values and of other keys, without access to an input: for a file that describes several inputs.
+pub(crate) fn described<T>(key: &Key<T>) -> Key<()> {
     let of = &key.relations;
     let relations = Relations {
         alternative_to: of.alternative_to,

@@ -100,8 +100,10 @@ impl<T> KeyTable<T> {
             words += &format!("; {}, {}", when.words, required(example));
         }
         let is_instead = |other: &&Key<T>| other.relations.alternative_to.contains(&key.name);
-        match (key.omission, self.rows.iter().find(is_instead)) {
-            (Omission::Required(_), Some(other)) => words + &format!(", unless `{}` is written", other.name),
+        let instead = self.rows.iter().filter(is_instead).map(|other| format!("`{}`", other.name));
+        let instead = instead.collect::<Vec<_>>().join(" or ");
+        match key.omission {
+            Omission::Required(_) if !instead.is_empty() => words + &format!(", unless {instead} is written"),
             _ => words,
         }
     }
@@ -121,7 +123,8 @@ impl<T> KeyTable<T> {
         // The air of a spinline has the names of the air, which are meant more often.
         let of_spinline = |key: &&Key<T>| key.table().starts_with("spinline");
         let only = |is_wanted: &dyn Fn(&&Key<T>) -> bool| {
-            let mut homes = self.rows.iter().filter(|key| key.short() == name).filter(is_wanted);
+            let homes = self.rows.iter().filter(|key| key.short() == name && !self.is_within(key.table()));
+            let mut homes = homes.filter(is_wanted);
             let home = homes.next();
             if homes.next().is_some() { None } else { home }
         };
@@ -141,6 +144,16 @@ impl<T> KeyTable<T> {
         let mut names = std::collections::BTreeSet::new();
         like.retain(|key| names.insert(key.name));
         like
+    }
+
+    /// The row of a table whose keys may have any name.
+    pub(crate) fn of_any_name(&self, table: &str) -> Option<&'static Key<T>> {
+        self.keys_of_table(table).find(|key| key.short() == "*")
+    }
+
+    /// Whether a table has no place of its own in the file: it stands in place of a value.
+    pub(crate) fn is_within(&self, table: &str) -> bool {
+        !table.is_empty() && !self.tables.contains(&table) && self.list(table).is_none()
     }
 
     /// The list with this name.
@@ -168,8 +181,12 @@ impl<T> KeyTable<T> {
     }
 
     /// A table or list of the file as it is written, `[air]` or `[[layer]]`.
-    pub(crate) fn header(&self, table: &str) -> String {
-        if self.list(table).is_some() { format!("[[{table}]]") } else { format!("[{table}]") }
+    pub fn header(&self, table: &str) -> String {
+        match self.list(table) {
+            Some(_) => format!("[[{table}]]"),
+            None if self.is_within(table) => format!("a {table}"),
+            None => format!("[{table}]"),
+        }
     }
 }
 

@@ -18,7 +18,6 @@ mod value;
 pub use key_table::KeyTable;
 pub(crate) use key_table::TableList;
 pub use relations::{Condition, Relations};
-pub(crate) use table::{COUNT, DESCRIBED};
 pub use value::{Content, FileKind, Kind, Sign, Value};
 
 use super::Case;
@@ -226,6 +225,8 @@ impl<T> Key<T> {
         let (Omission::Required(value) | Omission::Value(value) | Omission::Follows(value)) = self.omission;
         let value = self.relations.needed_if.map_or(value, |(_, example)| example);
         match self.dimension() {
+            // Of any name.
+            None if self.short() == "*" => value.to_owned(),
             Some(Dimension::Ratio) | None => format!("{} = {value}", self.short()),
             Some(_) => format!("{} = \"{value}\"", self.short()),
         }

@@ -196,7 +196,7 @@ mod tests {
                 let texts = [key.relations.needed_if, key.relations.default_if];
                 assert!(texts.iter().flatten().all(|(_, value)| takes(key, value)), "{}", key.name);
                 if let Omission::Required(value) | Omission::Value(value) = key.omission
-                    && !matches!(key.kind, Kind::File(_) | Kind::Direction)
+                    && !matches!(key.kind, Kind::File(_) | Kind::Direction | Kind::Other(_))
                 {
                     assert!(takes(key, value), "{}: {value}", key.name);
                 }

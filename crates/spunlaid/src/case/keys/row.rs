@@ -21,31 +21,83 @@ pub(super) type Access = AccessTo<Case>;
 /// A fibre that is fed on to a belt.
 pub(super) const FED: &Condition = &Condition { words: "of a fed fibre", holds: |case| case.line.is_some() };
 
-/// Access to a number of the case: `number!(fibre.diameter)`.
-macro_rules! number {
+/// What a key is in memory.
+pub(crate) trait KeyField {
+    /// Its value; None if there is none.
+    fn tell(&self) -> Option<Value>;
+
+    /// Sets it.
+    fn take(&mut self, value: &Value) -> Result<(), Fault>;
+}
+
+/// Fields of a plain type, each with what makes a value of them and what takes one.
+macro_rules! fields {
+    ($($type:ty: $tell:expr, $take:ident;)+) => {
+        $(impl KeyField for $type {
+            fn tell(&self) -> Option<Value> {
+                let tell: fn(&Self) -> Value = $tell;
+                Some(tell(self))
+            }
+
+            fn take(&mut self, value: &Value) -> Result<(), Fault> {
+                *self = $take(value)?;
+                Ok(())
+            }
+        })+
+    };
+}
+
+fields! {
+    f64: |number| Value::Number(*number), number;
+    u64: |number| Value::Whole(*number), whole;
+    bool: |switch| Value::from_switch(*switch), switch;
+    String: |text| Value::Text(text.clone()), text;
+    Vec3<f64>: |vector| Value::Vector(*vector), vector;
+}
+
+impl<F: KeyField + Default> KeyField for Option<F> {
+    fn tell(&self) -> Option<Value> {
+        self.as_ref()?.tell()
+    }
+
+    fn take(&mut self, value: &Value) -> Result<(), Fault> {
+        self.insert(F::default()).take(value)
+    }
+}
+
+/// Fields that are one of several named options: `named_fields!(Root)`.
+macro_rules! named_fields {
+    ($($type:ty),+) => {
+        $(impl $crate::case::keys::row::KeyField for $type {
+            fn tell(&self) -> Option<$crate::case::keys::Value> {
+                Some(self.name().into())
+            }
+
+            fn take(&mut self, value: &$crate::case::keys::Value) -> Result<(), $crate::error::Fault> {
+                $crate::case::keys::row::change(self, value, &Self::ALL, |one| one.name())
+            }
+        })+
+    };
+}
+
+/// Access to a field, `at!(fibre.diameter)`; or to one of a part that an input may lack, which two functions find,
+/// `at!(placed, placed_mut, root)`.
+macro_rules! at {
     ($($field:ident).+) => {
         Access {
-            get: |case| Some(Value::Number(case.$($field).+)),
-            set: |case, value| {
-                case.$($field).+ = number(value)?;
-                Ok(())
-            },
+            get: |input| $crate::case::keys::row::KeyField::tell(&input.$($field).+),
+            set: |input, value| $crate::case::keys::row::KeyField::take(&mut input.$($field).+, value),
+        }
+    };
+    ($get:ident, $set:ident, $($field:ident).+) => {
+        Access {
+            get: |input| $crate::case::keys::row::KeyField::tell(&$get(input)?.$($field).+),
+            set: |input, value| $crate::case::keys::row::KeyField::take(&mut $set(input)?.$($field).+, value),
         }
     };
 }
 
-/// Access to one of several named options: `choice!(fibre.root, Root::ALL)`.
-macro_rules! choice {
-    ($($field:ident).+, $all:expr) => {
-        Access {
-            get: |case| Some(case.$($field).+.name().into()),
-            set: |case, value| {
-                case.$($field).+ = named(value, &$all, |one| one.name())?;
-                Ok(())
-            },
-        }
-    };
-}
+pub(crate) use at;
 
 /// Access to a number of the air that the flow may give instead.
 macro_rules! of_air {
@@ -72,19 +124,6 @@ macro_rules! of_flow {
                     return Err(Fault::needs(needed, concat!("change air.", stringify!($number))));
                 }
                 case.air.$factor = number(value)?;
-                Ok(())
-            },
-        }
-    };
-}
-
-/// Access to a number that only matters for a CFD field.
-macro_rules! of_field {
-    ($field:ident) => {
-        Access {
-            get: |case| Some(Value::Number(placed(case)?.$field)),
-            set: |case, value| {
-                placed_mut(case)?.$field = number(value)?;
                 Ok(())
             },
         }
@@ -121,19 +160,6 @@ macro_rules! of_record {
                     Some(record) if record.layout.$field == Some(setting) => Ok(()),
                     Some(_) => Err(read_with_case()),
                 }
-            },
-        }
-    };
-}
-
-/// Access to a number of a fed fibre: `of_line!(feed_speed)`.
-macro_rules! of_line {
-    ($field:ident) => {
-        Access {
-            get: |case| Some(Value::Number(case.line?.$field)),
-            set: |case, value| {
-                line(case)?.$field = number(value)?;
-                Ok(())
             },
         }
     };
@@ -240,6 +266,11 @@ impl NewKey {
             set,
             derived: |_| false,
         }
+    }
+
+    /// A key of a file that is read as a whole: its value can be told, and is never set alone.
+    pub(crate) const fn told<T>(self, get: fn(&T) -> Option<Value>) -> Key<T> {
+        self.access(AccessTo { get, set: |_, _| Err(read_with_case()) })
     }
 }
 
@@ -391,6 +422,10 @@ pub(super) fn placed_mut(case: &mut Case) -> Result<&mut PlacedField, Fault> {
             Err(Fault::needs("air.field", remedy))
         }
     }
+}
+
+pub(super) fn fed(case: &Case) -> Option<&Line> {
+    case.line.as_ref()
 }
 
 /// Feed and belt of a fed fibre.

@@ -49,27 +49,29 @@ pub enum Content {
 impl Content {
     /// The files that it was read from.
     pub fn paths(&self) -> Vec<&Path> {
+        self.files().into_iter().map(|(path, _)| path).collect()
+    }
+
+    /// The path and the checksum of each file.
+    fn files(&self) -> Vec<(&Path, u32)> {
+        fn of<T>(file: &FileContent<T>) -> (&Path, u32) {
+            (file.path(), file.checksum())
+        }
         match self {
-            Self::Profile(file) => vec![file.path()],
-            Self::Field(file) => vec![file.path()],
-            Self::Spectrum(file) => vec![file.path()],
-            Self::SpinlineAir(file) => vec![file.path()],
-            Self::Polymer(file) => vec![file.path()],
-            Self::Records(files) => files.iter().map(FileContent::path).collect(),
+            Self::Profile(file) => vec![of(file)],
+            Self::Field(file) => vec![of(file)],
+            Self::Spectrum(file) => vec![of(file)],
+            Self::SpinlineAir(file) => vec![of(file)],
+            Self::Polymer(file) => vec![of(file)],
+            Self::Records(files) => files.iter().map(of).collect(),
         }
     }
-}
 
-impl Content {
-    /// The checksum of each file.
-    fn checksums(&self) -> Vec<u32> {
-        match self {
-            Self::Profile(file) => vec![file.checksum()],
-            Self::Field(file) => vec![file.checksum()],
-            Self::Spectrum(file) => vec![file.checksum()],
-            Self::SpinlineAir(file) => vec![file.checksum()],
-            Self::Polymer(file) => vec![file.checksum()],
-            Self::Records(files) => files.iter().map(FileContent::checksum).collect(),
+    /// Together with further records.
+    pub(crate) fn with(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Records(records), Self::Records(more)) => Self::Records([records, more].concat()),
+            (content, _) => content,
         }
     }
 }
@@ -146,7 +148,9 @@ impl Value {
             Self::Paths(paths) => {
                 paths.iter().flat_map(|path| path.as_os_str().as_encoded_bytes()).copied().collect()
             }
-            Self::Content(content) => content.checksums().into_iter().flat_map(u32::to_le_bytes).collect(),
+            Self::Content(content) => {
+                content.files().into_iter().flat_map(|(_, checksum)| checksum.to_le_bytes()).collect()
+            }
         }
     }
 
@@ -227,6 +231,8 @@ pub enum Kind {
     Lengths,
     /// The path of a file.
     File(FileKind),
+    /// What another key takes, in words.
+    Other(&'static str),
 }
 
 /// The words of a switch that is off, and of one that is on.
@@ -298,6 +304,9 @@ impl Kind {
             }
             (Self::Lengths, Value::Numbers(lengths)) => lengths_fault(lengths, self),
             (Self::Point, Value::Vector(_)) | (Self::File(_), Value::Paths(_) | Value::Content(_)) => None,
+            (&Self::Whole(least, most), Value::Number(number)) if !(0.0..1.8e19).contains(number) => {
+                Some(Fault::out_of_range(least, most))
+            }
             (_, value) => Some(Fault::wrong_type(value.what(), self.wanted())),
         }
     }
@@ -337,6 +346,7 @@ impl Kind {
                 "the path of a record, \"probe.csv\", or a list with one for each eddy".to_owned()
             }
             Self::File(_) => "the path of a file, in quotes".to_owned(),
+            Self::Other(words) => (*words).to_owned(),
         }
     }
 
@@ -363,7 +373,7 @@ impl Kind {
             Self::Whole(least, most) if most > 1 << 50 => format!("a whole number from {least} up"),
             Self::Whole(least, most) => format!("a whole number from {least} to {most}"),
             Self::Switch => "true or false".to_owned(),
-            Self::Choice(_) | Self::Text(_) => self.wanted(),
+            Self::Choice(_) | Self::Text(_) | Self::Other(_) => self.wanted(),
             Self::File(kind) if !kind.words().0.is_empty() => {
                 let names = self.words().iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>();
                 format!("{} or the path of a file", names.join(", "))
@@ -405,7 +415,7 @@ impl Kind {
                     parts().into_iter().map(|part| Dimension::Length.parse(part)).collect();
                 Ok(Value::Numbers(lengths?))
             }
-            Self::Choice(_) | Self::Text(_) => Ok(Value::Text(text.to_owned())),
+            Self::Choice(_) | Self::Text(_) | Self::Other(_) => Ok(Value::Text(text.to_owned())),
             Self::Switch => Ok(Value::Text(text.trim().to_owned())),
             Self::File(kind) if kind.is_word(text) => Ok(Value::Text(text.to_owned())),
             Self::File(_) => Ok(Value::Paths(vec![PathBuf::from(text)])),

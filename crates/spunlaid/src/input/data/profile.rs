@@ -1,10 +1,13 @@
 //! Reads profiles of the air and spectra: small tables with units in their headers.
 
 use crate::air::{Profile, SpectrumTable};
+use crate::case::keys::Kind;
+use crate::case::keys::Sign::{self, Any, NotNegative, Positive};
 use crate::error::{Fault, FileError, FileKind, listed};
 use crate::spinline::{AirTable, ZERO_CELSIUS};
 use crate::table::{Head, Table};
-use crate::units::{Dimension, excerpt, shortest};
+use crate::units::Dimension::{self, Frequency, Length, Ratio, Temperature, Velocity};
+use crate::units::excerpt;
 
 /// Fewest rows of a table.
 const LEAST_ROWS: usize = 2;
@@ -12,138 +15,83 @@ const LEAST_ROWS: usize = 2;
 /// A column that a table may or must have.
 struct ColumnRule {
     what: &'static str,
-    names: &'static [&'static str],
+    /// Names in small letters, with a space between them.
+    names: &'static str,
     dimension: Dimension,
     example: &'static str,
-    required: bool,
     sign: Sign,
+    required: bool,
 }
 
-#[derive(Clone, Copy, PartialEq)]
-enum Sign {
-    Any,
-    NotNegative,
-    Positive,
+const fn column(
+    what: &'static str,
+    names: &'static str,
+    dimension: Dimension,
+    example: &'static str,
+    sign: Sign,
+) -> ColumnRule {
+    ColumnRule { what, names, dimension, example, sign, required: true }
 }
+
+impl ColumnRule {
+    const fn optional(self) -> Self {
+        Self { required: false, ..self }
+    }
+}
+
+const PROFILE: [ColumnRule; 5] = [
+    column("of distances", "x distance position", Length, "x_mm", Any),
+    column("of mean velocities", "velocity u mean_velocity speed", Velocity, "velocity_m_s", Any),
+    column(
+        "of turbulence intensities",
+        "turbulence_intensity tu intensity",
+        Ratio,
+        "turbulence_intensity",
+        NotNegative,
+    )
+    .optional(),
+    column("of length scales", "length_scale l_t lt l", Length, "length_scale_mm", Positive).optional(),
+    column(
+        "of cut-off frequencies",
+        "cutoff_frequency cutoff f frequency",
+        Frequency,
+        "cutoff_frequency_hz",
+        Positive,
+    )
+    .optional(),
+];
+const SPINLINE_AIR: [ColumnRule; 4] = [
+    column("of distances from the die", "z distance x", Length, "z_mm", NotNegative),
+    column("of velocities along the thread", "velocity u speed", Velocity, "velocity_m_s", Any),
+    column("of velocities across the thread", ACROSS, Velocity, "cross_velocity_m_s", NotNegative),
+    column("of temperatures", "temperature air_temperature", Temperature, "temperature_c", Positive),
+];
+const ACROSS: &str = "cross_velocity quench_velocity v_c";
+const SPECTRUM: [ColumnRule; 2] = [
+    column("of frequencies", "frequency f", Frequency, "frequency_hz", NotNegative),
+    column("of energies", "energy density psd e s", Ratio, ENERGY, NotNegative),
+];
+/// Only the shape of a spectrum counts, so that its energies may have any unit.
+const ENERGY: &str = "energy";
 
 /// Reads a profile of the air: `x_m, velocity_m_s, turbulence_intensity, length_scale_m, cutoff_frequency_hz`; the
 /// last three are optional.
 pub(super) fn profile(text: &[u8]) -> Result<Profile, FileError> {
-    let column = |what, names, dimension, example, required, sign| ColumnRule {
-        what,
-        names,
-        dimension,
-        example,
-        required,
-        sign,
-    };
-    let rules = [
-        column("of distances", &["x", "distance", "position"], Dimension::Length, "x_mm", true, Sign::Any),
-        column(
-            "of mean velocities",
-            &["velocity", "u", "mean_velocity", "speed"],
-            Dimension::Velocity,
-            "velocity_m_s",
-            true,
-            Sign::Any,
-        ),
-        column(
-            "of turbulence intensities",
-            &["turbulence_intensity", "tu", "intensity"],
-            Dimension::Ratio,
-            "turbulence_intensity",
-            false,
-            Sign::NotNegative,
-        ),
-        column(
-            "of length scales",
-            &["length_scale", "l_t", "lt", "l"],
-            Dimension::Length,
-            "length_scale_mm",
-            false,
-            Sign::Positive,
-        ),
-        column(
-            "of cut-off frequencies",
-            &["cutoff_frequency", "cutoff", "f", "frequency"],
-            Dimension::Frequency,
-            "cutoff_frequency_hz",
-            false,
-            Sign::Positive,
-        ),
-    ];
     let [x, velocity, turbulence_intensity, length_scale, cutoff_frequency] =
-        read(text, &rules, "x_mm,velocity_m_s")?;
+        read(text, &PROFILE, "x_mm,velocity_m_s")?;
     Ok(Profile { x, velocity, turbulence_intensity, length_scale, cutoff_frequency })
 }
 
 /// Reads the air along a spinline: `z_mm, velocity_m_s, cross_velocity_m_s, temperature_c`.
 pub(super) fn spinline_air(text: &[u8]) -> Result<AirTable, FileError> {
-    let column = |what, names, dimension, example, sign| ColumnRule {
-        what,
-        names,
-        dimension,
-        example,
-        required: true,
-        sign,
-    };
-    let rules = [
-        column(
-            "of distances from the die",
-            &["z", "distance", "x"],
-            Dimension::Length,
-            "z_mm",
-            Sign::NotNegative,
-        ),
-        column(
-            "of velocities along the thread",
-            &["velocity", "u", "speed"],
-            Dimension::Velocity,
-            "velocity_m_s",
-            Sign::Any,
-        ),
-        column(
-            "of velocities across the thread",
-            &["cross_velocity", "quench_velocity", "v_c"],
-            Dimension::Velocity,
-            "cross_velocity_m_s",
-            Sign::NotNegative,
-        ),
-        column(
-            "of temperatures",
-            &["temperature", "air_temperature"],
-            Dimension::Temperature,
-            "temperature_c",
-            Sign::Any,
-        ),
-    ];
     let [distance, velocity, cross_velocity, temperature] =
-        read(text, &rules, "z_mm,velocity_m_s,cross_velocity_m_s,temperature_c")?;
+        read(text, &SPINLINE_AIR, "z_mm,velocity_m_s,cross_velocity_m_s,temperature_c")?;
     Ok(AirTable { distance, velocity, cross_velocity, temperature })
 }
 
 /// Reads a spectrum: `frequency_hz, energy`.
 pub(super) fn spectrum(text: &[u8]) -> Result<SpectrumTable, FileError> {
-    let rules = [
-        ColumnRule {
-            what: "of frequencies",
-            names: &["frequency", "f"],
-            dimension: Dimension::Frequency,
-            example: "frequency_hz",
-            required: true,
-            sign: Sign::NotNegative,
-        },
-        ColumnRule {
-            what: "of energies",
-            names: &["energy", "density", "psd", "e", "s"],
-            // Only the shape counts, so that any unit will do.
-            dimension: Dimension::Ratio,
-            example: "energy",
-            required: true,
-            sign: Sign::NotNegative,
-        },
-    ];
-    let [frequency, energy] = read(text, &rules, "frequency_hz,energy")?;
+    let [frequency, energy] = read(text, &SPECTRUM, "frequency_hz,energy")?;
     if energy.iter().all(|e| *e == 0.0) {
         return Err(Fault::new("is zero at every frequency", "at least one value must be positive").into());
     }
@@ -173,29 +121,15 @@ fn read<const N: usize>(
                 Err(_) if !table.is_number(index) => f64::NAN,
                 Err(error) => return Err(error),
             };
+            let text = excerpt(table.text(index), 40);
             if !value.is_finite() {
-                let text = excerpt(table.text(index), 40);
-                return Err(table.blame(
-                    index,
-                    Fault::new(
-                        format!("\"{text}\" is not a finite number"),
-                        "every cell of the table needs one",
-                    ),
-                ));
+                let message = format!("\"{text}\" is not a finite number");
+                return Err(table.blame(index, Fault::new(message, "every cell of the table needs one")));
             }
-            let zero = rule.sign == Sign::NotNegative;
-            if rule.dimension == Dimension::Temperature && value <= 0.0 {
-                let text = excerpt(table.text(index), 40);
-                let remedy = "a temperature above 0 K, which is -273.15 °C, is needed";
-                return Err(
-                    table.blame(index, Fault::new(format!("{text} is not above absolute zero"), remedy))
-                );
-            }
-            if rule.sign != Sign::Any && (value < 0.0 || value == 0.0 && !zero) {
-                let sign = if value < 0.0 { "negative" } else { "zero" };
-                let needed = if zero { "zero or more is needed" } else { "more than zero is needed" };
-                let fault = Fault::new(format!("{} is {sign}", shortest(value)), needed);
-                return Err(table.blame(index, fault));
+            if let Some(Fault { message, remedy, .. }) =
+                Kind::Quantity(rule.dimension, rule.sign).fault(&value.into())
+            {
+                return Err(table.blame(index, Fault::new(format!("{text} {message}"), remedy)));
             }
             if i == 0
                 && let Some(before) = values[0].last().copied().filter(|before| *before >= value)
@@ -225,9 +159,10 @@ struct ColumnUnit {
 
 /// Index of the column, and its unit.
 fn find(heads: &[Head], rule: &ColumnRule) -> Result<Option<(usize, ColumnUnit)>, FileError> {
+    let names: Vec<&str> = rule.names.split(' ').collect();
     let named = heads.iter().enumerate();
     let matching: Vec<(usize, Option<&str>)> =
-        named.filter_map(|(i, head)| Some((i, head.named(rule.names)?))).collect();
+        named.filter_map(|(i, head)| Some((i, head.named(&names)?))).collect();
     let text = |i: usize| excerpt(&heads[i].text, 60);
     let (index, unit) = match matching[..] {
         [] if rule.required => {
@@ -250,8 +185,7 @@ fn find(heads: &[Head], rule: &ColumnRule) -> Result<Option<(usize, ColumnUnit)>
             .into());
         }
     };
-    // The unit of an energy does not matter.
-    if rule.names.contains(&"energy") || unit.is_none() && rule.dimension == Dimension::Ratio {
+    if rule.example == ENERGY || unit.is_none() && rule.dimension == Dimension::Ratio {
         return Ok(Some((index, ColumnUnit { factor: 1.0, zero: 0.0 })));
     }
     if rule.dimension == Dimension::Temperature

@@ -5,8 +5,8 @@ use super::super::open::{self, OpenCase};
 use super::super::spinline::{self, SpinFile};
 use super::super::written_values::{WrittenValue, WrittenValues};
 use super::super::{Overrides, values_of_case};
-use super::fixed_keys::advice;
 use super::plan::Plan;
+use super::reader::advice;
 use super::{Base, ExperimentWithNotes, VariedKey, level};
 use crate::case::keys::{self, Value};
 use crate::case::{Note, Remark};
@@ -195,15 +195,8 @@ fn no_flights(at: &Place) -> Vec<Problem> {
 
 /// A number as the value of a key: a quantity, a whole number, or the place of a word among the words of the key.
 fn value_of(key: &VariedKey, value: f64) -> Result<Value, Fault> {
-    if let Some(word) = key.kind.words().get(value as usize) {
-        return Ok((*word).into());
-    }
-    if !key.is_whole() {
-        return key.kind.accept(Value::Number(value));
-    }
-    if (1.0..1e15).contains(&value) {
-        Ok(Value::Whole(value as u64))
-    } else {
-        Err(Fault::out_of_range(1, 1_000_000_000_000_000))
+    match key.kind.words().get(value as usize) {
+        Some(word) => Ok((*word).into()),
+        None => key.kind.accept(Value::Number(value)),
     }
 }

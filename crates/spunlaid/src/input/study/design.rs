@@ -1,96 +1,57 @@
 //! The design of a study: which keys vary, and how many points they make.
 
-use super::super::entry::Entry;
-use super::reader::{Reader, not_varied, not_written, unknown_key};
-use super::{Base, MOST_FIBRES, MOST_POINTS, MOST_POINTS_UNASKED, VariedKey};
-use crate::error::{Fault, nearest_word};
-use crate::study::{Design, Factor};
-use toml::de::DeValue;
+use super::super::document::Named;
+use super::reader::{Reader, not_varied, not_written};
+use super::{Base, MOST_FIBRES, MOST_POINTS_UNASKED, VariedKey};
+use crate::error::{Fault, Finding};
+use crate::study::{Design, Factor, MOST_POINTS, Study};
 
-impl Reader<'_> {
-    pub(super) fn design(&mut self, entry: Option<&Entry<'_>>) -> Design {
-        const NAMES: [&str; 5] = ["grid", "one-at-a-time", "paired", "latin-hypercube", "sobol"];
-        let points_entry = self.entries.remove("points");
-        let points = points_entry.as_ref().and_then(|entry| self.whole_in(entry, "points", 1, MOST_POINTS));
-        let Some(entry) = entry else {
-            let line = "design = \"grid\" (or \"one-at-a-time\", \"paired\", \"latin-hypercube\", \"sobol\")";
-            self.missing("design", line);
-            return Design::Grid;
+impl<'a> Reader<'a> {
+    pub(super) fn design(&mut self) -> Design {
+        let points = self.key_values.integer("points");
+        let name = self.key_values.text("design").unwrap_or_default();
+        let all = Design::all(points.unwrap_or(1)).into_iter();
+        // One that is unknown or missing has been noted.
+        let Some(design) = all.into_iter().find(|design| design.name() == name) else { return Design::Grid };
+        let is_told = self.key_values.get("points").is_some() || self.key_values.is_excused("points");
+        let fault = match (design.draws(), is_told) {
+            (true, false) => Fault::missing("", "points = 64, the number of points of the design"),
+            (false, true) => Fault::new(
+                format!("does not fit design = \"{name}\", whose number of points follows from its values"),
+                "leave it out",
+            ),
+            _ => return design,
         };
-        let DeValue::String(text) = &entry.value else {
-            self.wrong_type(
-                entry,
-                "design",
-                "\"grid\", \"one-at-a-time\", \"paired\", \"latin-hypercube\" or \"sobol\"",
-            );
-            return Design::Grid;
-        };
-        let draws = matches!(text.as_ref(), "latin-hypercube" | "sobol");
-        let design = match text.as_ref() {
-            "grid" => Design::Grid,
-            "one-at-a-time" => Design::OneAtATime,
-            "paired" => Design::Paired,
-            "latin-hypercube" => Design::LatinHypercube(points.unwrap_or(1)),
-            "sobol" => Design::Sobol(points.unwrap_or(1)),
-            other => {
-                let nearest = nearest_word(other, NAMES.into_iter());
-                self.reject(entry, "design", Fault::not_one_of(nearest, &NAMES));
-                return Design::Grid;
-            }
-        };
-        match points_entry {
-            None if draws => {
-                self.missing("points", "points = 64, the number of points of the design");
-            }
-            Some(points) if !draws => {
-                let advice = format!(
-                    "the number of points of design = \"{text}\" follows from its values; remove this key"
-                );
-                self.reject(&points, "points", unknown_key(advice));
-            }
-            _ => {}
-        }
+        self.key_values.reject("points", fault);
         design
     }
 
-    /// The key with this name; `None` if a study cannot vary it, after noting the problem.
-    pub(super) fn varied(&mut self, base: &dyn Base, entry: &Entry<'_>, name: &str) -> Option<VariedKey> {
-        let key = base.varied(name);
-        key.map_err(|advice| self.reject(entry, name, not_varied(advice))).ok()
+    /// The key that is named; `None` if a study cannot vary it or it is one of some others, after noting the problem.
+    pub(super) fn varied(
+        &mut self,
+        base: &dyn Base,
+        named: &Named<'a, Study>,
+        others: &[&str],
+    ) -> Option<VariedKey> {
+        let Named { name, entry, .. } = named;
+        match base.varied(name) {
+            Ok(key) if others.contains(&&*key.name) => {
+                let (place, value) = (entry.place.clone(), None);
+                let what = Fault::duplicate(name);
+                self.key_values.problems.push(Finding { place, key: String::new(), value, what });
+                None
+            }
+            key => key.map_err(|advice| self.reject(name, entry, not_varied(advice))).ok(),
+        }
     }
 
     /// The keys that vary.
     pub(super) fn factors(&mut self, design: Design, base: &dyn Base) -> Vec<Factor> {
-        let Some(entry) = self.entries.remove("vary") else {
-            let line =
-                "[vary] and below it a key and its values, like \"air.velocity\" = [\"5 m/s\", \"10 m/s\"]";
-            self.missing("vary", line);
-            return Vec::new();
-        };
-        let DeValue::Table(table) = entry.value else {
-            self.wrong_type(&entry, "vary", "a table, [vary]");
-            return Vec::new();
-        };
-        let flat = self.flat(table);
-        if flat.is_empty() {
-            let entry = Entry { value: DeValue::Boolean(true), ..entry };
-            let fault = Fault::new(
-                "names no key to vary",
-                "write a key and its values, as in \"air.velocity\" = [\"5 m/s\", \"10 m/s\"]",
-            );
-            self.reject(&entry, "[vary]", fault);
-        }
-        let mut factors = Vec::new();
-        for (key, entry) in flat {
-            let Some(varied) = self.varied(base, &entry, &key) else {
-                continue;
-            };
-            if factors.iter().any(|factor: &Factor| factor.key == varied.name) {
-                let entry = Entry { shown: None, ..entry };
-                self.reject(&entry, "", Fault::duplicate(&key));
-                continue;
-            }
-            if let Some(levels) = self.levels(&varied, entry, design) {
+        let mut factors: Vec<Factor> = Vec::new();
+        for named in self.named("vary") {
+            let keys: Vec<&str> = factors.iter().map(|factor| &*factor.key).collect();
+            let Some(varied) = self.varied(base, &named, &keys) else { continue };
+            if let Some(levels) = self.levels(&varied, named, design) {
                 factors.push(varied.factor(levels));
             }
         }
@@ -100,18 +61,13 @@ impl Reader<'_> {
     /// Checks the factors together.
     ///
     /// * `base` – values of the factors before they vary; NaN for none
-    pub(super) fn combination(
-        &mut self,
-        entry: &Entry<'_>,
-        design: Design,
-        factors: &[Factor],
-        base: &[f64],
-    ) {
+    pub(super) fn combination(&mut self, design: Design, factors: &[Factor], base: &[f64]) {
         let (found, most) = (factors.len(), design.most_factors());
         if found > most {
             let message =
                 format!("varies {found} keys; design = \"{}\" allows at most {most}", design.name());
-            self.reject(entry, "design", Fault::new(message, "vary fewer keys, or choose another design"));
+            self.key_values
+                .reject("design", Fault::new(message, "vary fewer keys, or choose another design"));
         }
         if let (Design::Paired, Some(first)) = (design, factors.first()) {
             let wanted = first.levels.count();
@@ -121,36 +77,36 @@ impl Reader<'_> {
                     format!("has {found} values, but \"{}\" has {wanted}", first.key),
                     "paired lists must have the same length",
                 );
-                self.reject_whole(&factor.key, fault);
+                self.key_values.reject(&factor.key, fault);
             }
         }
         if design == Design::OneAtATime {
             for (factor, base) in factors.iter().zip(base) {
                 if base.is_nan() {
-                    self.reject_whole(&factor.key, not_written("vary it around this value"));
+                    self.key_values.reject(&factor.key, not_written("vary it around this value"));
                 }
             }
         }
     }
 
     /// Checks the number of points, and that of fibres.
-    pub(super) fn size(&mut self, entry: &Entry<'_>, count: f64, asked: Option<u64>, replicates: u64) {
+    pub(super) fn size(&mut self, count: f64, asked: Option<u64>, replicates: u64) {
         let exact = count as u64;
         if count > MOST_POINTS as f64 {
             let points = if count < 1e15 { exact.to_string() } else { format!("{count:.1e}") };
             let advice = format!(
                 "at most {MOST_POINTS} are possible: vary fewer keys or values, or write design = \"latin-hypercube\""
             );
-            self.reject(entry, "design", too_many_points(&points, advice));
+            self.key_values.reject("design", too_many_points(&points, advice));
         } else if let Some(asked) = asked.filter(|asked| *asked != exact) {
             let fault = Fault::new(
                 format!("makes {exact} points, but {asked} were requested"),
                 format!("request {exact} points"),
             );
-            self.reject(entry, "design", fault.option("--points"));
+            self.key_values.reject("design", fault.option("--points"));
         } else if exact > MOST_POINTS_UNASKED && asked.is_none() {
             let advice = format!("request {exact} points by this number");
-            self.reject(entry, "design", too_many_points(&exact.to_string(), advice));
+            self.key_values.reject("design", too_many_points(&exact.to_string(), advice));
         }
         let fibres = count * replicates as f64;
         if fibres > MOST_FIBRES as f64 && count <= MOST_POINTS as f64 {
@@ -159,7 +115,7 @@ impl Reader<'_> {
                 format!("needs {fibres:.1e} fibres in total; at most {most:e} are possible"),
                 "reduce the replicates or the points",
             );
-            self.reject(entry, "design", fault);
+            self.key_values.reject("design", fault);
         }
     }
 }

@@ -1,170 +1,119 @@
 //! The values that a factor takes: a list, or a range.
 
-use super::super::entry::{Entry, in_order, kind};
-use super::super::values::{integer, number};
-use super::VariedKey;
-use super::reader::{Reader, missing, unknown_key};
+use super::super::document::Named;
+use super::super::entry::{Entry, kind};
+use super::reader::Reader;
+use super::{VariedKey, level};
 use crate::case::keys::Value;
-use crate::error::{Fault, nearest_word};
-use crate::study::{Design, Levels, Spacing};
-use toml::de::DeValue;
+use crate::error::{Fault, Finding, nearest_word};
+use crate::study::{Design, Levels, RANGE, Spacing, Study};
+use toml::de::{DeTable, DeValue};
 
-/// Largest number of values in a list or range.
-const MOST_VALUES: u64 = 10_000_000;
+/// Whole numbers up to this one are the same as floating-point numbers.
+const LARGEST_WHOLE: u64 = 1 << 50;
 
 impl<'a> Reader<'a> {
     /// The values of a factor; `None` if they cannot be read, after noting the problems.
-    pub(super) fn levels(&mut self, varied: &VariedKey, entry: Entry<'a>, design: Design) -> Option<Levels> {
-        match entry.value {
+    pub(super) fn levels(
+        &mut self,
+        varied: &VariedKey,
+        named: Named<'a, Study>,
+        design: Design,
+    ) -> Option<Levels> {
+        let Named { row, mut entry, .. } = named;
+        let words = varied.words();
+        let fault = match std::mem::replace(&mut entry.value, DeValue::Boolean(true)) {
+            DeValue::Array(list) if list.is_empty() => Fault::new(
+                "has no values",
+                "list some, as in [\"5 m/s\", \"10 m/s\"], or write { from, to, steps }",
+            ),
             DeValue::Array(list) => {
-                let mut values = Vec::with_capacity(list.len());
-                let mut sound = !list.is_empty();
-                for value in list {
-                    let entry = self.entry(value.span().start, value);
-                    let value = self.value(varied, &varied.name, &entry);
-                    sound &= value.is_some();
-                    values.extend(value);
-                }
-                if values.is_empty() && !sound {
-                    if entry.shown.as_ref().is_some_and(|text| text.trim_matches(['[', ']', ' ']).is_empty())
-                    {
-                        let entry = Entry { value: DeValue::Boolean(true), ..entry };
-                        let fault = Fault::new(
-                            "has no values",
-                            "list some, as in [\"5 m/s\", \"10 m/s\"], or write { from, to, steps }",
-                        );
-                        self.reject(&entry, &varied.name, fault);
-                    }
-                    return None;
-                }
-                sound.then_some(Levels::List(values))
+                let level = |value: toml::Spanned<DeValue<'a>>| {
+                    let entry = self.entry(value.span().start, value, None);
+                    self.level(varied, &varied.name, &entry)
+                };
+                // All of them are looked at.
+                let levels: Vec<Option<f64>> = list.into_iter().map(level).collect();
+                return levels.into_iter().collect::<Option<_>>().map(Levels::List);
             }
-            DeValue::Table(_) if !varied.words().is_empty() => {
-                let words = varied.words();
+            DeValue::Table(_) if !words.is_empty() => {
                 let words: Vec<String> = words.iter().take(2).map(|word| format!("\"{word}\"")).collect();
                 let remedy = format!("list them, as in [{}]", words.join(", "));
-                self.reject(&entry, &varied.name, Fault::new("takes words, which have no range", remedy));
-                None
+                Fault::new("takes words, which have no range", remedy)
             }
-            DeValue::Table(_) => self.range(varied, entry, design),
-            _ => {
-                let wanted = "a list of values, or { from, to, steps }; a formula belongs in [link]";
-                self.wrong_type(&entry, &varied.name, wanted);
-                None
-            }
-        }
+            DeValue::Table(table) => return self.range(varied, &entry, table, design),
+            other => Fault::wrong_type(kind(&other), row.kind.wanted()),
+        };
+        self.reject(&varied.name, &entry, fault);
+        None
     }
 
-    fn value(&mut self, varied: &VariedKey, key: &str, entry: &Entry<'_>) -> Option<f64> {
+    /// A value of a key that varies as a number.
+    fn level(&mut self, varied: &VariedKey, name: &str, entry: &Entry<'_>) -> Option<f64> {
         let words = varied.words();
-        let read = match &entry.value {
-            DeValue::String(word) if !words.is_empty() => words
-                .iter()
-                .position(|one| one == word)
-                .map(|i| i as f64)
-                .ok_or_else(|| Fault::not_one_of(nearest_word(word, words.iter().copied()), &words)),
-            value if !words.is_empty() => {
-                let wanted = format!("one of the words {}", words.join(", "));
-                Err(Fault::wrong_type(kind(value), wanted))
+        let word = entry.value.as_str().and_then(|word| words.iter().position(|one| *one == word));
+        let read = match (word, entry.value.as_str()) {
+            (Some(place), _) => Ok(place as f64),
+            (None, Some(other)) if !words.is_empty() => {
+                Err(Fault::not_one_of(nearest_word(other, words.iter().copied()), &words))
             }
-            value if !varied.is_whole() => number(varied.dimension(), value)
-                .and_then(|value| varied.kind.fault(&Value::Number(value)).map_or(Ok(value), Err)),
-            DeValue::Integer(number) => match integer(number) {
-                Some(number) if (1..=1 << 50).contains(&number) => Ok(number as f64),
-                _ => Err(Fault::out_of_range(1, 1 << 50)),
-            },
-            value => {
-                let wanted = "whole numbers without quotes, like 256";
-                Err(Fault::wrong_type(kind(value), wanted))
-            }
+            _ => self.as_kind(varied.kind, entry).and_then(|value| match value {
+                Value::Whole(number) if number > LARGEST_WHOLE => Err(Fault::out_of_range(1, LARGEST_WHOLE)),
+                value => level(varied.kind, &value).ok_or_else(|| Fault::not_one_of(None, &words)),
+            }),
         };
-        read.map_err(|fault| self.reject(entry, key, fault)).ok()
+        read.map_err(|fault| self.reject(name, entry, fault)).ok()
     }
 
-    fn range(&mut self, varied: &VariedKey, entry: Entry<'a>, design: Design) -> Option<Levels> {
-        const KEYS: [&str; 4] = ["from", "to", "steps", "spacing"];
-        let mut whole = entry;
-        let DeValue::Table(table) = std::mem::replace(&mut whole.value, DeValue::Boolean(true)) else {
-            return None;
-        };
-        let (mut ends, mut steps, mut spacing, mut sound) = ([None; 2], None, Spacing::Linear, true);
-        for ((at, name), value) in in_order(table) {
-            let (key, entry) = (format!("{}.{name}", varied.name), self.entry(at, value));
-            match name.as_str() {
-                "from" | "to" => {
-                    let value = self.value(varied, &key, &entry);
-                    sound &= value.is_some();
-                    ends[usize::from(name == "to")] = value;
-                }
-                "steps" => match &entry.value {
-                    DeValue::Integer(number)
-                        if integer(number).is_some_and(|n| (2..=MOST_VALUES).contains(&n)) =>
-                    {
-                        steps = integer(number);
-                    }
-                    _ => {
-                        self.reject(&entry, &key, Fault::out_of_range(2, MOST_VALUES));
-                        sound = false;
-                    }
-                },
-                "spacing" => match &entry.value {
-                    DeValue::String(text) if text == "linear" => {}
-                    DeValue::String(text) if text == "log" => spacing = Spacing::Logarithmic,
-                    _ => {
-                        self.reject(&entry, &key, Fault::not_one_of(None, &["linear", "log"]));
-                        sound = false;
-                    }
-                },
-                other => {
-                    let advice = nearest_word(other, KEYS.into_iter()).map_or_else(
-                        || "a range has the keys from, to, steps and spacing".to_owned(),
-                        |key| format!("did you mean {key}?"),
-                    );
-                    self.reject(&entry, &key, unknown_key(advice));
-                    sound = false;
-                }
-            }
+    fn range(
+        &mut self,
+        varied: &VariedKey,
+        whole: &Entry<'a>,
+        table: DeTable<'a>,
+        design: Design,
+    ) -> Option<Levels> {
+        let (name, problems) = (|key: &str| format!("{}.{key}", varied.name), self.problems());
+        self.take_table(&name(""), RANGE, table, None);
+        self.read_entries();
+        let mut ends = [None; 2];
+        for Named { row, name, entry } in self.named(RANGE) {
+            ends[usize::from(row.short() == "to")] = self.level(varied, &name, &entry);
         }
-        if !sound {
+        if self.problems() > problems {
             return None;
         }
         let [Some(from), Some(to)] = ends else {
-            whole.shown = None;
-            for (end, line) in
-                ends.into_iter().zip(["from = with the first value", "to = with the last value"])
-            {
-                if end.is_none() {
-                    let key = format!("{}.{}", varied.name, &line[..line.find(' ').unwrap_or(0)]);
-                    self.reject(&whole, &key, missing(line));
-                }
+            let missing = [("from", "first"), ("to", "last")].into_iter().zip(ends);
+            for ((key, which), _) in missing.filter(|(_, end)| end.is_none()) {
+                let what = Fault::missing("", &format!("{key} = with the {which} value"));
+                let (place, key) = (whole.place.clone(), name(key));
+                self.key_values.problems.push(Finding { place, key, value: None, what });
             }
             return None;
         };
+        let steps = self.key_values.integer(&name("steps"));
+        let is_log = self.key_values.text(&name("spacing")).as_deref() == Some(Spacing::Logarithmic.name());
+        let spacing = if is_log { Spacing::Logarithmic } else { Spacing::Linear };
         let name = design.name();
         let fault = match steps {
-            None if !design.draws() => Some(Fault::new(
+            None if !design.draws() => Fault::new(
                 format!("has no steps, which design = \"{name}\" needs"),
                 "add steps = 5, or list the values",
-            )),
-            Some(_) if design.draws() => Some(Fault::new(
+            ),
+            Some(_) if design.draws() => Fault::new(
                 format!("has steps, but design = \"{name}\" draws its values from the range"),
                 "leave steps out",
-            )),
+            ),
             _ if from == to => {
-                Some(Fault::new("has two equal ends", "write two different ends, or a list of one value"))
+                Fault::new("has two equal ends", "write two different ends, or a list of one value")
             }
-            _ if spacing == Spacing::Logarithmic && (from <= 0.0 || to <= 0.0) => Some(Fault::new(
+            _ if spacing == Spacing::Logarithmic && (from <= 0.0 || to <= 0.0) => Fault::new(
                 "has logarithmic spacing, which needs both ends above zero",
                 "write spacing = \"linear\"",
-            )),
-            _ => None,
+            ),
+            _ => return Some(Levels::Range { from, to, steps, spacing }),
         };
-        match fault {
-            Some(fault) => {
-                self.reject(&whole, &varied.name, fault);
-                None
-            }
-            None => Some(Levels::Range { from, to, steps, spacing }),
-        }
+        self.reject(&varied.name, whole, fault);
+        None
     }
 }

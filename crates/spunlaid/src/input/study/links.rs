@@ -1,12 +1,12 @@
 //! Links: keys that follow from other keys by a formula.
 
+use super::super::document::Named;
 use super::super::entry::Entry;
 use super::reader::{Reader, not_written};
 use super::{Base, VariedKey};
 use crate::error::{Fault, Finding};
 use crate::study::{Factor, Link};
 use crate::units::{Expression, Powers, unknown_name};
-use toml::de::DeValue;
 
 /// Formulas with a name: the name, the key it is for, the formula.
 const READY_MADE: [(&str, &str, &str); 1] =
@@ -16,47 +16,25 @@ const READY_MADE: [(&str, &str, &str); 1] =
 impl Reader<'_> {
     /// The keys that follow from others. Those that cannot are noted as problems.
     pub(super) fn links(&mut self, factors: &[Factor], base: &dyn Base) -> Vec<Link> {
-        let Some(entry) = self.entries.remove("link") else {
-            return Vec::new();
-        };
-        let DeValue::Table(table) = entry.value else {
-            self.wrong_type(&entry, "link", "a table, [link]");
-            return Vec::new();
-        };
-        let (mut links, mut entries) = (Vec::new(), Vec::new());
-        for (key, entry) in self.flat(table) {
-            let Some(linked) = self.varied(base, &entry, &key) else {
-                continue;
+        let (mut links, mut entries): (Vec<Link>, Vec<Entry<'_>>) = (Vec::new(), Vec::new());
+        for named in self.named("link") {
+            let others: Vec<&str> = links.iter().map(|link| &*link.key).collect();
+            let Some(linked) = self.varied(base, &named, &others) else { continue };
+            let Named { row, name, entry } = named;
+            let link = if !linked.words().is_empty() {
+                Err(Fault::new("takes words, and a formula gives a number", "list the words under [vary]"))
+            } else if factors.iter().any(|factor| factor.key == linked.name) {
+                Err(Fault::new("is both varied and linked", "keep one"))
+            } else {
+                self.as_kind(&row.kind, &entry)
+                    .and_then(|_| read(base, &linked, entry.value.as_str().unwrap_or_default()))
             };
-            if !linked.words().is_empty() {
-                let fault =
-                    Fault::new("takes words, and a formula gives a number", "list the words under [vary]");
-                self.reject(&entry, &key, fault);
-                continue;
-            }
-            if factors.iter().any(|factor| factor.key == linked.name) {
-                self.reject(&entry, &key, Fault::new("is both varied and linked", "keep one"));
-                continue;
-            }
-            if links.iter().any(|link: &Link| link.key == linked.name) {
-                let entry = Entry { shown: None, ..entry };
-                self.reject(&entry, "", Fault::duplicate(&key));
-                continue;
-            }
-            let DeValue::String(text) = &entry.value else {
-                self.wrong_type(
-                    &entry,
-                    &key,
-                    "a formula in quotes, like \"air.velocity / (4 * air.length_scale)\"",
-                );
-                continue;
-            };
-            match read(base, &linked, text) {
+            match link {
                 Ok(link) => {
                     links.push(link);
                     entries.push(entry);
                 }
-                Err(fault) => self.reject(&entry, &key, fault),
+                Err(fault) => self.reject(&name, &entry, fault),
             }
         }
         let keys = factors.iter().map(|factor| &*factor.key).chain(links.iter().map(|link| &*link.key));
@@ -65,11 +43,11 @@ impl Reader<'_> {
             if let Some(name) = unwritten(link, &keys, base) {
                 let (place, key) = (entry.place.clone(), name.to_owned());
                 let what = not_written("use it in a formula");
-                self.problems.push(Finding { place, key, value: None, what });
+                self.key_values.problems.push(Finding { place, key, value: None, what });
             }
         }
         if let Err((link, fault)) = order(&links) {
-            self.reject(&entries[link], &links[link].key, fault);
+            self.reject(&links[link].key, &entries[link], fault);
         }
         links
     }

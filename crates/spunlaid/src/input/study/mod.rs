@@ -5,7 +5,6 @@ mod base;
 mod design;
 mod differences;
 mod fit;
-mod fixed_keys;
 mod guesses;
 mod levels;
 mod links;
@@ -38,8 +37,6 @@ use std::path::{Path, PathBuf};
 
 /// Largest number of points that is flown without an explicit request.
 pub const MOST_POINTS_UNASKED: u64 = 10_000;
-/// Largest number of points of a study.
-const MOST_POINTS: u64 = 10_000_000;
 /// Fewest replicates from which a standard error is a good guide to when to stop.
 const FEWEST_REPLICATES: u64 = 6;
 /// Largest number of fibres of a study.
@@ -63,11 +60,7 @@ pub struct StudyFile {
 impl StudyFile {
     /// The name of the file of what the points vary, in the folder of the study: `case.toml`, `web.toml` or `spinline.toml`.
     pub fn base_name(&self) -> &'static str {
-        match self.study.noun() {
-            "web" => "web.toml",
-            "spinline" => "spinline.toml",
-            _ => "case.toml",
-        }
+        self.study.base_file()
     }
 }
 
@@ -142,7 +135,7 @@ pub fn parse_changed_study(
     base: impl FnOnce(&str, FileKind) -> Result<(String, String), Error>,
 ) -> Result<StudyFile, Unread<StudyFile>> {
     let base = || -> Result<(String, String), Error> {
-        let mut reader = reader::Reader::new(text, name)?;
+        let reader = reader::open(text, name)?;
         let Some((named, kind)) = reader.base() else { return Err(reader.rejected()) };
         base(&named, kind)
     };
@@ -165,16 +158,20 @@ fn study_file(
     (base_text, base_name): (String, String),
     lookup: &Lookup,
 ) -> Result<StudyFile, Error> {
-    let mut reader = reader::Reader::new(text, name)?;
+    let mut reader = reader::open(text, name)?;
     let Some((_, kind)) = reader.base() else { return Err(reader.rejected()) };
+    let before = reader.problems();
     let set = reader.set(changes.set, kind);
-    if reader.has_problems() {
+    if reader.problems() > before {
         return Err(reader.rejected());
     }
     let word = format!("{name}: [set]");
     let of_file: Vec<_> = set.iter().filter(|(key, _)| !changes.sets(key)).cloned().collect();
     let set_by = [Overrides { values: &of_file, word: &word }, changes.set];
-    let base = open_base(kind, base_text, &base_name, set_by, lookup)?;
+    let base = match open_base(kind, base_text, &base_name, set_by, lookup) {
+        Err(_) if reader.problems() > 0 => return Err(reader.rejected()),
+        base => base?,
+    };
     let plan = reader.plan(&*base, &set, changes);
     let Some(plan) = plan else {
         return Err(reader.rejected());

@@ -1,17 +1,16 @@
 //! The plan of a study: its file, checked as far as it can be before its points are made.
 
 use super::super::Overrides;
-use super::super::entry::{Entry, VERSION, check_version};
+use super::super::document::Named;
+use super::super::entry::Entry;
 use super::super::overrides::AUTO;
 use super::super::write::quoted;
-use super::fixed_keys::advice;
-use super::reader::{self, Reader, not_varied, set_twice};
-use super::replicates::MOST_REPLICATES;
+use super::reader::{Reader, advice, not_varied, set_twice};
 use super::{Base, StudyChanges, links};
 use crate::case::keys::{self, Kind};
-use crate::error::{Fault, FileKind};
+use crate::error::{Fault, FileKind, Finding};
 use crate::layers::full_names::{are_alternatives, is_replaced};
-use crate::study::{Design, Factor, Link, Point, Quantity, Replicates, Study};
+use crate::study::{Design, Factor, Link, MOST_REPLICATES, Point, Quantity, Replicates, Study};
 use toml::de::DeValue;
 
 /// A study before its points are made.
@@ -42,54 +41,21 @@ impl Plan {
     }
 }
 
-impl<'a> Reader<'a> {
-    /// The name of the case or web to vary; `None` if it is missing or the file is newer, after noting the problem.
-    pub(super) fn base(&mut self) -> Option<(String, FileKind)> {
-        // A newer format may mean other things, so nothing else is said then.
-        if let Some(Err(problem)) = self.entries.remove(VERSION).map(|entry| check_version(&entry)) {
-            self.problems = vec![*problem];
-            return None;
-        }
-        const BASES: [(&str, FileKind, &str); 3] = [
-            ("case", FileKind::Case, "the path of a case file, in quotes"),
-            ("web", FileKind::Web, "the path of the file of a web, in quotes"),
-            ("spinline", FileKind::Spinline, "the path of the file of a spinline, in quotes"),
-        ];
-        let mut named = BASES.into_iter().filter_map(|base| Some((base, self.entries.remove(base.0)?)));
-        let (first, second) = (named.next(), named.next());
-        drop(named);
-        let Some(((key, kind, wanted), entry)) = first else {
-            self.missing("case", "case = \"table1.toml\" (the case to vary, beside this file)");
-            return None;
-        };
-        if let Some(((other, ..), _)) = second {
-            let fault = Fault::new(
-                format!("stands beside {other}"),
-                "a study varies a case, a web or a spinline, so keep one of them",
-            );
-            self.reject(&entry, key, fault);
-            return None;
-        }
-        let name = entry.value.as_str().map(|name| (name.to_owned(), kind));
-        if name.is_none() {
-            self.wrong_type(&entry, key, wanted);
-        }
-        name
+impl Reader<'_> {
+    /// The name of the case, web or spinline to vary; `None` if it is missing or no text, which has been noted.
+    pub(super) fn base(&self) -> Option<(String, FileKind)> {
+        const BASES: [(&str, FileKind); 3] =
+            [("case", FileKind::Case), ("web", FileKind::Web), ("spinline", FileKind::Spinline)];
+        BASES.into_iter().find_map(|(key, kind)| Some((self.key_values.text(key)?, kind)))
     }
 
     /// The keys that are the same at all points, with their values as text: those of the file, and then those asked for
     /// from outside, which replace them.
     pub(super) fn set(&mut self, asked: Overrides<'_>, base: FileKind) -> Vec<(String, String)> {
         let mut set: Vec<(String, String)> = Vec::new();
-        if let Some(entry) = self.entries.remove("set") {
-            let DeValue::Table(table) = entry.value else {
-                self.wrong_type(&entry, "set", "a table, [set]");
-                return set;
-            };
-            for (key, entry) in self.flat(table) {
-                self.check_set(&key, &entry, base);
-                set.push((key, entry.text.to_owned()));
-            }
+        for Named { name, entry, .. } in self.named("set") {
+            self.check_set(&name, &entry, base);
+            set.push((name, entry.text.to_owned()));
         }
         let is_given = |(_, text): &&(String, String)| text.trim().trim_matches('"') != AUTO;
         let names: Vec<&str> = asked.values.iter().filter(is_given).map(|(key, _)| key.trim()).collect();
@@ -111,12 +77,12 @@ impl<'a> Reader<'a> {
             return;
         };
         if key.relations.in_study.is_some() {
-            self.reject(entry, name, not_varied(advice(name)));
+            self.reject(name, entry, not_varied(advice(name)));
         }
         let is_word = |word: &str| word == AUTO || key.kind.words().contains(&word);
         if matches!(key.kind, Kind::File(_)) && !entry.value.as_str().is_some_and(is_word) {
             let fault = Fault::new("names a file, which a study takes from its case", "write it there");
-            self.reject(entry, name, fault);
+            self.reject(name, entry, fault);
         }
     }
 
@@ -127,7 +93,7 @@ impl<'a> Reader<'a> {
         let varied = factors.iter().map(|factor| &factor.key).chain(links.iter().map(|link| &link.key));
         for key in varied {
             if let Some(other) = set.iter().find(|set| *set == key || are_alternatives(set, key)) {
-                self.reject_whole(key, set_twice(key, other));
+                self.key_values.reject(key, set_twice(key, other));
             }
         }
     }
@@ -141,33 +107,32 @@ impl<'a> Reader<'a> {
         set: &[(String, String)],
         changes: &StudyChanges<'_>,
     ) -> Option<Plan> {
-        let design_entry = self.entries.remove("design");
-        let design = self.design(design_entry.as_ref());
-        let seed = self.whole("seed", 0, u64::MAX).unwrap_or(base.seed_and_replicates().0);
-        let common_phases = self.truth("common_phases").unwrap_or(true);
+        let design = self.design();
+        let seed = self.key_values.integer("seed").unwrap_or(base.seed_and_replicates().0);
+        let common_phases = self.value("common_phases") != Some("false".into());
         let mut replicates = self.replicates(base);
         if let Some(asked) = changes.replicates {
             if !(1..=MOST_REPLICATES).contains(&asked) {
-                self.reject_whole("replicates", reader::replicates(asked, MOST_REPLICATES));
+                let message = format!("= {asked} are asked for");
+                let fault = Fault::new(message, format!("ask for 1 to {MOST_REPLICATES}"));
+                let (place, key) = (self.key_values.whole(), "replicates".to_owned());
+                self.key_values.problems.push(Finding { place, key, value: None, what: fault });
             }
             replicates = Replicates::fixed(asked);
         }
         let factors = self.factors(design, base);
         let links = self.links(&factors, base);
         self.check_once(base, set, &factors, &links);
-        if !self.problems.is_empty() {
+        if self.problems() > 0 {
             return None;
         }
         let order = links::order(&links).ok()?;
-        if let Some(entry) = &design_entry {
-            let base: Vec<f64> = factors.iter().map(|factor| base_value(base, factor)).collect();
-            self.combination(entry, design, &factors, &base);
-            if self.problems.is_empty() {
-                let count = design.count(&factors, &base);
-                self.size(entry, count, changes.points, replicates.at_most);
-            }
+        let values: Vec<f64> = factors.iter().map(|factor| base_value(base, factor)).collect();
+        self.combination(design, &factors, &values);
+        if self.problems() == 0 {
+            self.size(design.count(&factors, &values), changes.points, replicates.at_most);
         }
-        self.problems.is_empty().then_some(Plan {
+        (self.problems() == 0).then_some(Plan {
             factors,
             links,
             order,

@@ -1,7 +1,8 @@
 //! Writes a study as a file, with every default.
 
 use super::super::FORMAT_VERSION;
-use crate::study::{Design, Factor, Levels, Study};
+use super::super::write::{in_lines, lines};
+use crate::study::{Factor, Levels, Replicates, STUDY, Study};
 use crate::units::shortest;
 use std::fmt::Write;
 
@@ -11,30 +12,15 @@ use std::fmt::Write;
 ///
 /// * `set` – the keys that are the same at all points, with their values as TOML
 pub(super) fn write_study(study: &Study, set: &[(String, String)]) -> String {
-    let base = match study.noun() {
-        "fibre" => "case",
-        other => other,
-    };
-    let mut text = format!("version = {FORMAT_VERSION}\n{base} = \"{base}.toml\"\n");
-    // Writing to a text cannot fail.
-    let _ = writeln!(text, "design = \"{}\"", study.design.name());
-    if let Design::LatinHypercube(points) | Design::Sobol(points) = study.design {
-        let _ = writeln!(text, "points = {points}");
+    let lines = |table: &str| in_lines(&lines(&STUDY, table, study, |_, value| value));
+    let mut text = format!("version = {FORMAT_VERSION}\n{}", lines(""));
+    let Replicates { until, .. } = &study.replicates;
+    if !until.is_empty() {
+        text += &format!("\n[replicates]\n{}\n[replicates.until]\n", lines("replicates"));
     }
-    let _ = writeln!(text, "seed = {}\ncommon_phases = {}", study.seed, study.common_phases);
-    let replicates = &study.replicates;
-    if replicates.until.is_empty() {
-        let _ = writeln!(text, "replicates = {}", replicates.at_most);
-    } else {
-        let _ = writeln!(
-            text,
-            "\n[replicates]\nat_least = {}\nat_most = {}",
-            replicates.at_least, replicates.at_most
-        );
-        text.push_str("\n[replicates.until]\n");
-        for (measure, fraction) in &replicates.until {
-            let _ = writeln!(text, "{} = {}", study.quantities[*measure].name, shortest(*fraction));
-        }
+    // Writing to a text cannot fail.
+    for (measure, fraction) in until {
+        let _ = writeln!(text, "{} = {}", study.quantities[*measure].name, shortest(*fraction));
     }
     write_values(&mut text, set, &study.factors);
     if !study.links.is_empty() {

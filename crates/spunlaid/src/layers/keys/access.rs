@@ -31,19 +31,6 @@ macro_rules! of_surrogate {
     };
 }
 
-/// Access to the path from which the fibres come.
-macro_rules! of_path {
-    ($variant:ident, $path:ident) => {
-        $crate::case::keys::row::AccessTo {
-            get: |web| match &layer(web)?.source {
-                LaydownSource::$variant { $path, .. } => Some(written($path)),
-                _ => None,
-            },
-            set: |_, _| Err(read_with_case()),
-        }
-    };
-}
-
 /// Access to a length of the first row of nozzles.
 macro_rules! of_row {
     ($field:ident) => {
@@ -61,33 +48,7 @@ macro_rules! of_row {
     };
 }
 
-/// Access to a number of the sheet.
-macro_rules! of_sheet {
-    ($($field:ident).+) => {
-        $crate::case::keys::row::AccessTo {
-            get: |web: &$crate::layers::WebSpec| Some(web.$($field).+.into()),
-            set: |web: &mut $crate::layers::WebSpec, value| {
-                web.$($field).+ = number(value)?;
-                Ok(())
-            },
-        }
-    };
-}
-
-/// Access to a number of the fabric that may be left out.
-macro_rules! of_fabric {
-    ($field:ident) => {
-        $crate::case::keys::row::AccessTo {
-            get: |web: &$crate::layers::WebSpec| web.fabric.$field.map(Into::into),
-            set: |web: &mut $crate::layers::WebSpec, value| {
-                web.fabric.$field = Some(number(value)?);
-                Ok(())
-            },
-        }
-    };
-}
-
-pub(super) use {of_fabric, of_path, of_row, of_sheet, of_surrogate};
+pub(super) use {of_row, of_surrogate};
 
 /// A number of a surrogate that follows from flights.
 pub(super) fn flown() -> Fault {

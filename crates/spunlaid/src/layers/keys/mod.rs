@@ -16,7 +16,9 @@ pub(crate) use table::{EITHER, METHODS, NUMBERS, ONE_SOURCE};
 pub use table::{WEB_KEYS, WEB_TABLES};
 
 use super::WebSpec;
-use crate::case::keys::{self, Key, KeyTable, TableList};
+use crate::case::keys::joined::described;
+use crate::case::keys::{self, CASE, Key, KeyTable, TableList};
+use std::sync::LazyLock;
 
 /// The keys of a web.
 pub static WEB: KeyTable<WebSpec> = KeyTable {
@@ -37,34 +39,31 @@ pub static WEB: KeyTable<WebSpec> = KeyTable {
 };
 
 /// The keys of the file of a web: those of the web, and those of the case of its filament. They say how a file is read, and have no
-/// access to either.
-pub(crate) static WEB_FILE: KeyTable<()> = KeyTable {
-    rows: &table::OF_FILE,
-    tables: &table::TABLES_OF_FILE,
-    lists: &[
-        TableList {
-            name: "layer",
-            tables: &[
-                "spinline",
-                "fibre",
-                "feed",
-                "belt",
-                "air",
-                "drag",
-                "neighbours",
-                "run",
-                "laydown",
-                "line",
-            ],
-            common: OF_FILAMENT,
-            entry: "a layer",
-            wanted: WANTED_LAYERS,
-        },
-        ROWS,
-    ],
-    noun: "a web",
-    file: "a web file",
-};
+/// access to either. A key or a table that both have stands here once, as that of the filament.
+pub(crate) static WEB_FILE: LazyLock<KeyTable<()>> = LazyLock::new(|| {
+    let own_keys = WEB.rows.iter().filter(|key| CASE.find(key.name).is_none());
+    let rows: Vec<Key<()>> = CASE.rows.iter().map(described).chain(own_keys.map(described)).collect();
+    let own_tables = WEB.tables.iter().filter(|table| !CASE.tables.contains(table));
+    let tables: Vec<&str> = CASE.tables.iter().chain(own_tables).copied().collect();
+    KeyTable {
+        rows: rows.leak(),
+        tables: tables.leak(),
+        lists: LISTS_OF_FILE,
+        noun: WEB.noun,
+        file: WEB.file,
+    }
+});
+
+const LISTS_OF_FILE: &[TableList] = &[
+    TableList {
+        name: "layer",
+        tables: &["spinline", "fibre", "feed", "belt", "air", "drag", "neighbours", "run", "laydown", "line"],
+        common: OF_FILAMENT,
+        entry: "a layer",
+        wanted: WANTED_LAYERS,
+    },
+    ROWS,
+];
 
 /// The tables of a filament, which all layers may have in common.
 pub(crate) const OF_FILAMENT: &[&str] =

@@ -1,12 +1,14 @@
 //! The belt.
 
 use super::super::Key;
-use super::super::row::{Access, FED, change, choose, line, number, quantity};
+use super::super::row::{Access, FED, choose, fed, line, number, quantity};
 use super::super::value::Sign::{NotNegative, Positive};
 use super::super::value::Value;
 use crate::error::Fault;
 use crate::line::Contact;
 use crate::units::Dimension;
+
+named_fields!(Contact);
 
 pub(super) const KEYS: &[Key] = &[
     quantity("belt.distance", Dimension::Length, Positive)
@@ -32,7 +34,7 @@ pub(super) const KEYS: &[Key] = &[
         .label("Distance to the belt *H*")
         .slider(0.1, 2.0),
     quantity("belt.speed", Dimension::Velocity, NotNegative)
-        .access(of_line!(belt_speed))
+        .access(at!(fed, line, belt_speed))
         .needed_if(FED, "3 m/s")
         .follows("a fibre of fixed length")
         .usual(0.0001, 50.0)
@@ -41,12 +43,7 @@ pub(super) const KEYS: &[Key] = &[
         .label("Belt speed *v*_{b}")
         .slider(0.0, 10.0),
     choose("belt.contact", || Contact::ALL.map(|contact| contact.name()).to_vec())
-        .access(Access {
-            get: |case| Some(case.line?.contact.name().into()),
-            set: |case, value| {
-                change(&mut line(case)?.contact, value, &Contact::ALL, |contact| contact.name())
-            },
-        })
+        .access(at!(fed, line, contact))
         .value("stick")
         .meaning(
             "What holds the fibre on the belt: it sticks where it touches down, or it slides against \
@@ -72,7 +69,7 @@ pub(super) const KEYS: &[Key] = &[
         .label("Suction")
         .slider(0.0, 2000.0),
     quantity("belt.kept_length", Dimension::Length, Positive)
-        .access(of_line!(kept_length))
+        .access(at!(fed, line, kept_length))
         .follows("a quarter of the distance to the belt")
         .usual(1e-7, 2.0)
         .meaning(

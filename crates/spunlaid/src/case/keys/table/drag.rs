@@ -1,25 +1,24 @@
 //! The drag laws.
 
 use super::super::Key;
-use super::super::row::{Access, change, choose, named, number, quantity};
+use super::super::row::{Access, choose, number, quantity};
 use super::super::value::Sign::NotNegative;
 use super::super::value::Value;
 use crate::drag::{FrictionLaw, NormalLaw};
 use crate::error::Fault;
 use crate::units::Dimension;
 
+named_fields!(FrictionLaw, NormalLaw);
+
 pub(super) const KEYS: &[Key] = &[
     choose("drag.along", || FrictionLaw::ALL.map(FrictionLaw::name).to_vec())
-        .access(Access {
-            get: |case| Some(case.drag.along.name().into()),
-            set: |case, value| change(&mut case.drag.along, value, &FrictionLaw::ALL, |law| law.name()),
-        })
+        .access(at!(drag.along))
         .value("matsui")
         .meaning("Law of the friction along the fibre. Source and range of each law: docs/theory.md.")
         .label("Law of the friction along the fibre")
         .in_flight(),
     choose("drag.across", || NormalLaw::ALL.map(NormalLaw::name).to_vec())
-        .access(choice!(drag.across, NormalLaw::ALL))
+        .access(at!(drag.across))
         .value("ju-shambaugh")
         .meaning(
             "Law of the drag across the fibre. \"marheineke-wegener\" agrees with measurements from fine \

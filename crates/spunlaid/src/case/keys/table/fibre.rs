@@ -1,7 +1,7 @@
 //! The fibre.
 
 use super::super::Key;
-use super::super::row::{Access, choose, key, named, number, quantity, vector, without_spinline};
+use super::super::row::{Access, choose, key, number, quantity, without_spinline};
 use super::super::value::Sign::{NotNegative, Positive};
 use super::super::value::{Kind, Value};
 use crate::case::whole_parts;
@@ -23,6 +23,8 @@ macro_rules! from_spinline {
         }
     };
 }
+
+named_fields!(Root);
 
 pub(super) const KEYS: &[Key] = &[
     quantity("fibre.length", Dimension::Length, Positive)
@@ -109,7 +111,7 @@ pub(super) const KEYS: &[Key] = &[
         .slider(1e7, 1e10)
         .in_flight(),
     quantity("fibre.bending_viscosity_time", Dimension::Time, NotNegative)
-        .access(number!(fibre.bending_viscosity_time))
+        .access(at!(fibre.bending_viscosity_time))
         .value("0 s")
         .usual(1e-7, 0.1)
         .meaning(
@@ -144,23 +146,14 @@ pub(super) const KEYS: &[Key] = &[
         .slider(2e-3, 0.1)
         .read_last(),
     choose("fibre.root", || Root::ALL.map(Root::name).to_vec())
-        .access(choice!(fibre.root, Root::ALL))
+        .access(at!(fibre.root))
         .value("pinned")
         .meaning(
             "How the root is held: `pinned` can turn, `clamped` keeps its direction, `free` is not held.",
         )
         .label("Root"),
-    key("fibre.direction", Kind::Direction)
-        .access(Access {
-            get: |case| Some(case.fibre.direction.into()),
-            set: |case, value| {
-                case.fibre.direction = vector(value)?;
-                Ok(())
-            },
-        })
-        .value("[1.0, 0.0, 0.0]")
-        .meaning(
-            "Direction of the straight fibre at the start, and of a clamped root throughout. The air and \
+    key("fibre.direction", Kind::Direction).access(at!(fibre.direction)).value("[1.0, 0.0, 0.0]").meaning(
+        "Direction of the straight fibre at the start, and of a clamped root throughout. The air and \
              gravity act along x.",
-        ),
+    ),
 ];

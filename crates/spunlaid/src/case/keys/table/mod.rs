@@ -29,10 +29,4 @@ const TABLES: [Table<Case>; 9] = [
 /// The names of the tables.
 pub(super) const NAMES: [&str; TABLES.len()] = joined::names(&TABLES);
 
-/// Number of the keys.
-pub(crate) const COUNT: usize = joined::count(&TABLES);
-
-pub(super) static KEYS: [Key; COUNT] = joined::keys(&TABLES);
-
-/// The same without access to a case, for the file of a web, in which they stand too.
-pub(crate) static DESCRIBED: [Key<()>; COUNT] = joined::without_access(&KEYS);
+pub(super) static KEYS: [Key; joined::count(&TABLES)] = joined::keys(&TABLES);

@@ -1,12 +1,14 @@
 //! The run: times, replicates, scheme and what is kept.
 
 use super::super::Key;
-use super::super::row::{Access, FED, choose, key, named, number, quantity, whole};
+use super::super::row::{Access, FED, choose, key, number, quantity};
 use super::super::value::Sign::{Any, NotNegative, Positive};
 use super::super::value::{Kind, Value};
 use crate::case::{Checks, MOST_REPLICATES, MOST_SHAPES, whole_parts};
 use crate::chain::schemes::Scheme;
 use crate::units::Dimension;
+
+named_fields!(Checks, Scheme);
 
 pub(super) const KEYS: &[Key] = &[
     quantity("run.duration", Dimension::Time, Positive)
@@ -57,34 +59,18 @@ pub(super) const KEYS: &[Key] = &[
         .slider(1e-4, 0.03)
         .read_last(),
     key("run.replicates", Kind::Whole(1, MOST_REPLICATES))
-        .access(Access {
-            get: |case| Some(Value::Whole(case.run.replicates)),
-            set: |case, value| {
-                case.run.replicates = whole(value)?;
-                Ok(())
-            },
-        })
+        .access(at!(run.replicates))
         .value("10")
         .in_study("replicates = 10")
         .meaning(
             "Number of fibres, each in its own turbulence. Means and standard errors are taken over them.",
         ),
-    key("run.seed", Kind::Whole(0, u64::MAX))
-        .access(Access {
-            get: |case| Some(Value::Whole(case.run.seed)),
-            set: |case, value| {
-                case.run.seed = whole(value)?;
-                Ok(())
-            },
-        })
-        .value("1")
-        .in_study("seed = 1")
-        .meaning(
-            "Seed of the random phases. Another seed gives other turbulence; the same seed gives the same \
+    key("run.seed", Kind::Whole(0, u64::MAX)).access(at!(run.seed)).value("1").in_study("seed = 1").meaning(
+        "Seed of the random phases. Another seed gives other turbulence; the same seed gives the same \
              results to the last bit.",
-        ),
+    ),
     choose("run.scheme", || Scheme::ALL.map(Scheme::name).to_vec())
-        .access(choice!(run.scheme, Scheme::ALL))
+        .access(at!(run.scheme))
         .value("semi-implicit-euler")
         .default_if(FED, "implicit-tension")
         .meaning(
@@ -93,7 +79,7 @@ pub(super) const KEYS: &[Key] = &[
         )
         .label("Scheme"),
     quantity("run.gravity", Dimension::Acceleration, Any)
-        .access(number!(run.gravity))
+        .access(at!(run.gravity))
         .value("9.81 m/s²")
         // From a thousandth of the earth's to thirty times it.
         .usual(0.01, 300.0)
@@ -124,13 +110,7 @@ pub(super) const KEYS: &[Key] = &[
         .slider(1e-4, 1e-2)
         .read_last(),
     key("run.shapes", Kind::Whole(0, MOST_SHAPES))
-        .access(Access {
-            get: |case| case.run.shapes.map(Value::Whole),
-            set: |case, value| {
-                case.run.shapes = Some(whole(value)?);
-                Ok(())
-            },
-        })
+        .access(at!(run.shapes))
         .follows("every recorded instant as far as they fit into 96 MB, of which 500 go to ParaView")
         .meaning(
             "Number of shapes of a fibre that are kept for the moving picture and for ParaView, evenly \
@@ -138,7 +118,7 @@ pub(super) const KEYS: &[Key] = &[
              follow it. `0` keeps none.",
         ),
     choose("run.checks", || Checks::ALL.map(Checks::name).to_vec())
-        .access(choice!(run.checks, Checks::ALL))
+        .access(at!(run.checks))
         .value("auto")
         .meaning(
             "What the checks of time step and mesh may cost, which fly some fibres again when the results \
@@ -148,7 +128,7 @@ pub(super) const KEYS: &[Key] = &[
         )
         .label("Checks"),
     quantity("run.damping", Dimension::Rate, NotNegative)
-        .access(number!(run.damping))
+        .access(at!(run.damping))
         .value("0 1/s")
         .usual(0.001, 100000.0)
         .meaning("Rate at which the velocity of every node decays, in addition to the drag of the air.")

@@ -1,15 +1,15 @@
 //! The keys of the table `[fabric]`.
 
-use super::super::access::{WebKey, of_fabric, of_sheet};
+use super::super::access::{Access, WebKey};
 use super::positive;
 use crate::case::keys::Sign;
-use crate::case::keys::row::{number, quantity};
+use crate::case::keys::row::{at, quantity};
 use crate::units::Dimension;
 
 /// In the order of the file.
 pub(super) const KEYS: &[WebKey] = &[
     positive("fabric.thickness", Dimension::Length)
-        .access(of_fabric!(thickness))
+        .access(at!(fabric.thickness))
         .fixed()
         .follows("no air permeability is told")
         .meaning(
@@ -20,7 +20,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .label("Thickness")
         .usual(1e-5, 0.1),
     positive("fabric.saleable_width", Dimension::Length)
-        .access(of_fabric!(saleable_width))
+        .access(at!(fabric.saleable_width))
         .fixed()
         .follows("all of the web between its edges")
         .meaning(
@@ -31,7 +31,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .label("Saleable width")
         .usual(1e-2, 30.0),
     positive("fabric.strip_width", Dimension::Length)
-        .access(of_sheet!(fabric.strip.width))
+        .access(at!(fabric.strip.width))
         .value("50 mm")
         .fixed()
         .meaning("Width of a strip of the tensile test, as in ISO 9073-3.")
@@ -39,7 +39,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .label("Width of a strip")
         .usual(1e-3, 1.0),
     positive("fabric.strip_length", Dimension::Length)
-        .access(of_sheet!(fabric.strip.length))
+        .access(at!(fabric.strip.length))
         .value("200 mm")
         .fixed()
         .meaning("Length of a strip between the jaws of the tensile test, as in ISO 9073-3.")
@@ -47,7 +47,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .label("Length of a strip")
         .usual(1e-2, 10.0),
     positive("fabric.section", Dimension::Length)
-        .access(of_sheet!(fabric.strip.section))
+        .access(at!(fabric.strip.section))
         .value("5 mm")
         .fixed()
         .meaning(
@@ -58,7 +58,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .label("Section of a strip")
         .usual(1e-4, 0.1),
     positive("fabric.contact_angle", Dimension::Angle)
-        .access(of_fabric!(contact_angle))
+        .access(at!(fabric.contact_angle))
         .fixed()
         .follows("no hydrohead is told")
         .meaning(
@@ -69,7 +69,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .label("Contact angle")
         .usual(0.5, 3.0),
     positive("fabric.pressure", Dimension::Pressure)
-        .access(of_sheet!(fabric.pressure))
+        .access(at!(fabric.pressure))
         .value("200 Pa")
         .fixed()
         .meaning("Pressure that drives air through the fabric in the test, as in ISO 9073-15.")
@@ -77,7 +77,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .label("Pressure of the air")
         .usual(1.0, 1e4),
     quantity("fabric.measured_opacity", Dimension::Ratio, Sign::Share)
-        .access(of_fabric!(measured_opacity))
+        .access(at!(fabric.measured_opacity))
         .fixed()
         .follows("no opacity is told")
         .meaning(
@@ -88,7 +88,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .label("Measured opacity")
         .usual(0.01, 0.99),
     positive("fabric.opacity_weight", Dimension::BasisWeight)
-        .access(of_fabric!(opacity_weight))
+        .access(at!(fabric.opacity_weight))
         .fixed()
         .follows("that of this web")
         .meaning("Basis weight of the fabric whose opacity was measured.")

@@ -3,7 +3,7 @@
 use super::super::access::{Access, WebKey, diameter, is_flown, layer, layer_mut};
 use super::{EITHER, positive};
 use crate::case::keys::Value;
-use crate::case::keys::row::number;
+use crate::case::keys::row::{at, number};
 use crate::units::Dimension;
 
 /// In the order of the file.
@@ -25,13 +25,7 @@ pub(super) const KEYS: &[WebKey] = &[
         )
         .label("Fibre diameter *d*"),
     positive("fibre.density", Dimension::Density)
-        .access(Access {
-            get: |web| Some(layer(web)?.density.into()),
-            set: |web, value| {
-                layer_mut(web)?.density = number(value)?;
-                Ok(())
-            },
-        })
+        .access(at!(layer, layer_mut, density))
         .derived(is_flown)
         .required("910 kg/m³")
         .meaning("Density of the polymer. With `laydown.case` or `laydown.results` it is that of the case.")

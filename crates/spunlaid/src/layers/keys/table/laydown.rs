@@ -1,8 +1,8 @@
 //! The keys of the table `[laydown]`.
 
-use super::super::access::{Access, WebKey, flown, layer, layer_mut, of_path, of_surrogate, written};
+use super::super::access::{WebKey, flown, layer, layer_mut, of_surrogate, written};
 use super::positive;
-use crate::case::keys::row::{key, number, read_with_case};
+use crate::case::keys::row::{key, number};
 use crate::case::keys::{Condition, Kind};
 use crate::layers::{LaydownSource, WebSpec};
 use crate::surrogate::Surrogate;
@@ -26,7 +26,7 @@ pub(crate) const ONE_SOURCE: &str =
 pub(super) const KEYS: &[WebKey] = &[
     key("laydown.case", Kind::Text("spunbond.toml"))
         // What stands there is written into the file of the web.
-        .access(Access { get: |_| None, set: |_, _| Err(read_with_case()) })
+        .told(|_: &WebSpec| None)
         .follows("the tables of a case in this file, `results`, or the three numbers")
         .meaning(
             "Path of the case of a fed fibre, relative to this file, which several webs may share. It is \
@@ -34,7 +34,10 @@ pub(super) const KEYS: &[WebKey] = &[
              `air.velocity`, take the place of those there.",
         ),
     key("laydown.results", Kind::Text("results/spunbond"))
-        .access(of_path!(Results, folder))
+        .told(|web: &WebSpec| match &layer(web)?.source {
+            LaydownSource::Results { folder, .. } => Some(written(folder)),
+            _ => None,
+        })
         .alternative_to(&["laydown.case"], ONE_SOURCE)
         .follows("`case`, or the three numbers")
         .meaning("Folder with the results of such a case, which has been flown already."),

@@ -2,17 +2,11 @@
 
 use super::super::access::{Access, WebKey, layer, layer_mut};
 use crate::case::keys::Kind;
-use crate::case::keys::row::{key, text};
+use crate::case::keys::row::{at, key};
 
 /// In the order of the file.
 pub(super) const KEYS: &[WebKey] = &[key("layer.name", Kind::Text("first beam"))
-    .access(Access {
-        get: |web| Some(layer(web)?.name.clone()?.into()),
-        set: |web, value| {
-            layer_mut(web)?.name = Some(text(value)?);
-            Ok(())
-        },
-    })
+    .access(at!(layer, layer_mut, name))
     .follows("the layer's number")
     .meaning(
         "Name of a layer. A web of several layers has a `[[layer]]` for each beam, with its own \

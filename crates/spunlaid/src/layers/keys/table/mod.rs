@@ -12,9 +12,9 @@ pub(crate) use laydown::{NUMBERS, ONE_SOURCE};
 pub(crate) use web::METHODS;
 
 use super::access::WebKey;
+use crate::case::keys::Sign;
 use crate::case::keys::joined::{self, Table};
 use crate::case::keys::row::{NewKey, quantity};
-use crate::case::keys::{self as case_keys, Key, Sign};
 use crate::layers::WebSpec;
 use crate::units::Dimension;
 
@@ -45,59 +45,3 @@ pub const WEB_TABLES: [&str; TABLES.len()] = joined::names(&TABLES);
 pub const WEB_KEYS: &[WebKey] = &KEYS;
 
 static KEYS: [WebKey; joined::count(&TABLES)] = joined::keys(&TABLES);
-
-/// Every key of the file of a web and of the filament that it flies. A key that both have stands here once, as that of the filament.
-pub(super) static OF_FILE: [Key<()>; case_keys::COUNT + OWN] = {
-    let (web, mut all) = (joined::without_access(&KEYS), [case_keys::DESCRIBED[0]; _]);
-    let (mut count, mut i) = (0, 0);
-    while i < case_keys::DESCRIBED.len() {
-        all[count] = case_keys::DESCRIBED[i];
-        (count, i) = (count + 1, i + 1);
-    }
-    i = 0;
-    while i < web.len() {
-        // Those of `[fibre]` are the first of a layer after its name.
-        if i < layer::KEYS.len() || i >= layer::KEYS.len() + fibre::KEYS.len() {
-            all[count] = web[i];
-            count += 1;
-        }
-        i += 1;
-    }
-    all
-};
-const OWN: usize = joined::count(&TABLES) - fibre::KEYS.len();
-
-/// The tables and the list of layers of such a file.
-pub(super) static TABLES_OF_FILE: [&str; case_keys::TABLES.len() + TABLES.len() - 1] = {
-    let (mut all, mut i) = ([""; case_keys::TABLES.len() + TABLES.len() - 1], 0);
-    while i < case_keys::TABLES.len() {
-        all[i] = case_keys::TABLES[i];
-        i += 1;
-    }
-    let mut j = 0;
-    while j < WEB_TABLES.len() {
-        if !is_of_case(WEB_TABLES[j]) {
-            all[i] = WEB_TABLES[j];
-            i += 1;
-        }
-        j += 1;
-    }
-    all
-};
-
-/// Whether a table is one of the filament too.
-const fn is_of_case(table: &str) -> bool {
-    let mut i = 0;
-    while i < case_keys::TABLES.len() {
-        let (a, b) = (table.as_bytes(), case_keys::TABLES[i].as_bytes());
-        let mut same = 0;
-        while same < a.len() && same < b.len() && a[same] == b[same] {
-            same += 1;
-        }
-        if same == a.len() && same == b.len() {
-            return true;
-        }
-        i += 1;
-    }
-    false
-}

@@ -1,8 +1,8 @@
 //! The keys of the table `[web]`.
 
-use super::super::access::{Access, WebKey, of_sheet};
+use super::super::access::{Access, WebKey};
 use super::{MOST_FILAMENTS, positive};
-use crate::case::keys::row::{choose, key, named, number, text, whole};
+use crate::case::keys::row::{at, choose, key, named, number, text, whole};
 use crate::case::keys::{Kind, Value};
 use crate::layers::{Flown, Method};
 use crate::units::Dimension;
@@ -23,14 +23,14 @@ const EDGES: [&str; 2] = ["periodic", "cut"];
 /// In the order of the file.
 pub(super) const KEYS: &[WebKey] = &[
     positive("web.width", Dimension::Length)
-        .access(of_sheet!(sheet.width))
+        .access(at!(sheet.width))
         .required("1 m")
         .meaning("Size of the web in cross direction, a whole number of cells.")
         .synonyms(&["working width"])
         .label("Width of the web")
         .usual(1e-3, 30.0),
     positive("web.length", Dimension::Length)
-        .access(of_sheet!(sheet.length))
+        .access(at!(sheet.length))
         .required("1 m")
         .meaning(
             "Size of the web in machine direction, a whole number of cells. It is a stretch of an endless \
@@ -56,7 +56,7 @@ pub(super) const KEYS: &[WebKey] = &[
         )
         .usual(1e-5, 10.0),
     positive("web.cell", Dimension::Length)
-        .access(of_sheet!(sheet.cell))
+        .access(at!(sheet.cell))
         .follows(
             "the smallest of 0.5, 1, 2, 5 and 10 mm that makes at most ten million cells and divides the \
              web",
@@ -66,13 +66,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .label("Cell of the map")
         .usual(1e-6, 0.1),
     key("web.seed", Kind::Whole(0, u64::MAX))
-        .access(Access {
-            get: |web| Some(web.seed.into()),
-            set: |web, value| {
-                web.seed = whole(value)?;
-                Ok(())
-            },
-        })
+        .access(at!(seed))
         .value("1")
         .varies()
         .meaning("Seed of all random numbers of the web. Equal files with equal seeds give the same bits.")
@@ -137,7 +131,7 @@ pub(super) const KEYS: &[WebKey] = &[
         )
         .label("Filaments per metre that are flown"),
     positive("web.memory_limit", Dimension::Memory)
-        .access(of_sheet!(memory_limit))
+        .access(at!(memory_limit))
         .value("4 GB")
         .fixed()
         .meaning(
@@ -166,7 +160,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .synonyms(&["assumed", "uncertain", "made up"])
         .label("Guessed numbers"),
     positive("web.window", Dimension::Length)
-        .access(of_sheet!(window))
+        .access(at!(window))
         .follows("20 mm, at most the web's smaller side")
         .meaning(
             "Side of the square in the middle of the web whose single fibres are written to a file of \

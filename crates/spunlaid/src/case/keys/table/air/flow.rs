@@ -4,12 +4,13 @@ use crate::air::{Axis, Flow, LENGTH_CONSTANT, PlacedField, TIME_CONSTANT, Wideni
 use crate::case::keys::Key;
 use crate::case::keys::row::{
     Access, choose, file, key, named, number, placed, placed_mut, quantity, read_with_case, take, text,
-    vector,
 };
 use crate::case::keys::value::Sign::{Any, Positive};
 use crate::case::keys::value::{Content, FileKind, Kind, Value};
 use crate::error::Fault;
 use crate::units::Dimension;
+
+named_fields!(Axis);
 
 pub(super) const KEYS: &[Key] = &[
     quantity("air.velocity", Dimension::Velocity, Any)
@@ -86,13 +87,7 @@ pub(super) const KEYS: &[Key] = &[
              available, k with ε or ω.",
         ),
     key("air.field_root", Kind::Point)
-        .access(Access {
-            get: |case| Some(placed(case)?.root.into()),
-            set: |case, value| {
-                placed_mut(case)?.root = vector(value)?;
-                Ok(())
-            },
-        })
+        .access(at!(placed, placed_mut, root))
         .read_after(&["air.field_axis", "air.field_unit"])
         .inferred(|case| {
             let Ok(placed) = placed_mut(case) else { return false };
@@ -105,13 +100,7 @@ pub(super) const KEYS: &[Key] = &[
              spinneret's hole, or of the slot where the fibre enters the diffuser.",
         ),
     choose("air.field_axis", || Axis::ALL.map(Axis::name).to_vec())
-        .access(Access {
-            get: |case| Some(placed(case)?.axis.name().into()),
-            set: |case, value| {
-                placed_mut(case)?.axis = named(value, &Axis::ALL, |axis| axis.name())?;
-                Ok(())
-            },
-        })
+        .access(at!(placed, placed_mut, axis))
         .value("x")
         .meaning(
             "Direction in the field that is the fibre's x, the direction of gravity. Write `-z` if the CFD \
@@ -119,7 +108,7 @@ pub(super) const KEYS: &[Key] = &[
         )
         .label("Direction of the fibre in the field"),
     quantity("air.field_unit", Dimension::Length, Positive)
-        .access(of_field!(unit))
+        .access(at!(placed, placed_mut, unit))
         .or_unit()
         .value("1 m")
         .usual(1e-6, 10.0)
@@ -152,14 +141,14 @@ pub(super) const KEYS: &[Key] = &[
             "Array of the specific dissipation rate ω of the turbulence in a field, by name, in place of ε.",
         ),
     quantity("air.length_constant", Dimension::Ratio, Positive)
-        .access(of_field!(length_constant))
+        .access(at!(placed, placed_mut, length_constant))
         .value("0.43")
         .usual(0.01, 10.0)
         .meaning("Constant C_L of the eddies' length C_L k^1.5/ε in a field.")
         .label("Constant of the eddies’ length *C*_{L}")
         .slider(0.1, 1.0),
     quantity("air.time_constant", Dimension::Ratio, Positive)
-        .access(of_field!(time_constant))
+        .access(at!(placed, placed_mut, time_constant))
         .value("0.3")
         .usual(0.01, 10.0)
         .meaning(

@@ -129,7 +129,7 @@ pub(super) const KEYS: &[Key] = &[
         .label("Factor on the length of the eddies")
         .slider(0.2, 3.0),
     quantity("air.density", Dimension::Density, NotNegative)
-        .access(number!(air.density))
+        .access(at!(air.density))
         .value("1.204 kg/m³")
         // From a thousandth to fifty times that of the atmosphere.
         .usual(0.01, 50.0)
@@ -138,7 +138,7 @@ pub(super) const KEYS: &[Key] = &[
         .slider(0.0, 2.0)
         .in_flight(),
     quantity("air.kinematic_viscosity", Dimension::KinematicViscosity, Positive)
-        .access(number!(air.kinematic_viscosity))
+        .access(at!(air.kinematic_viscosity))
         .value("1.51e-5 m²/s")
         // From compressed to hot thin air.
         .usual(5e-7, 1e-3)

@@ -15,6 +15,8 @@ const MOST_SKIPPED: u64 = 1_000_000;
 /// Largest gap of a record that may be filled in [samples].
 const MOST_MISSING: u64 = 1_000_000;
 
+named_fields!(Lateral);
+
 pub(super) const KEYS: &[Key] = &[
     file("air.spectrum", FileKind::Spectrum)
         .access(Access {
@@ -139,10 +141,7 @@ pub(super) const KEYS: &[Key] = &[
         .label("Decay time of the eddies")
         .slider(1e-3, 0.1),
     choose("air.lateral", || Lateral::ALL.map(Lateral::name).to_vec())
-        .access(Access {
-            get: |case| Some(case.air.lateral.name().into()),
-            set: |case, value| change(&mut case.air.lateral, value, &Lateral::ALL, Lateral::name),
-        })
+        .access(at!(air.lateral))
         .value("uniform")
         .meaning(
             "How the turbulence differs across the flow. `uniform`: not at all, and each fibre has \

@@ -33,6 +33,10 @@ pub(super) fn known(number: f64) -> Option<Value> {
     number.is_finite().then_some(Value::Number(number))
 }
 
+pub(super) fn spun(case: &Case) -> Option<&Spinline> {
+    case.spinline.as_deref()
+}
+
 /// The spinline of a case that has one.
 pub(super) fn spinline(case: &mut Case) -> Result<&mut Spinline, Fault> {
     let remedy = "leave it out, or describe the spinline";

@@ -1,10 +1,10 @@
 //! The constants of the polymer.
 
-use super::access::{known, of_spinline, spinline};
+use super::access::{known, of_spinline, spinline, spun};
 use crate::case::keys::Key;
-use crate::case::keys::row::{Access, key, number, quantity, text};
+use crate::case::keys::row::{Access, key, number, quantity};
+use crate::case::keys::value::Kind;
 use crate::case::keys::value::Sign::{Any, NotNegative, Positive, Share};
-use crate::case::keys::value::{Kind, Value};
 use crate::spinline::Melt;
 use crate::units::Dimension;
 
@@ -21,13 +21,7 @@ macro_rules! constant {
 
 pub(super) const KEYS: &[Key] = &[
     key("spinline.material.source", Kind::Text("data sheet of the grade, 2024"))
-        .access(Access {
-            get: |case| case.spinline.as_ref()?.source.clone().map(Value::Text),
-            set: |case, value| {
-                spinline(case)?.source = Some(text(value)?);
-                Ok(())
-            },
-        })
+        .access(at!(spun, spinline, source))
         .follows("that of the polymer")
         .meaning("Where the constants come from, in your words. A file with a polymer needs it."),
     quantity("spinline.material.viscosity", Dimension::DynamicViscosity, Positive)

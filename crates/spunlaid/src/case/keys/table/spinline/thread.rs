@@ -1,35 +1,18 @@
 //! What the thread does on its way: how the melt stretches, freezes, cools and breaks.
 
-use super::access::{of_spinline, spinline};
+use super::access::{of_spinline, spinline, spun};
 use crate::case::keys::Key;
-use crate::case::keys::row::{Access, choose, key, named, quantity, switch};
+use crate::case::keys::row::{Access, choose, key, quantity, switch};
 use crate::case::keys::value::Sign::{Positive, Share};
 use crate::case::keys::value::{Kind, Value};
 use crate::spinline::{Law, PolymerSource};
 use crate::units::Dimension;
 
-/// Access to a switch of the spinline.
-macro_rules! spinline_switch {
-    ($field:ident) => {
-        Access {
-            get: |case| Some(Value::from_switch(case.spinline.as_ref()?.$field)),
-            set: |case, value| {
-                spinline(case)?.$field = switch(value)?;
-                Ok(())
-            },
-        }
-    };
-}
+named_fields!(Law);
 
 pub(super) const KEYS: &[Key] = &[
     choose("spinline.law", || Law::ALL.map(Law::name).to_vec())
-        .access(Access {
-            get: |case| Some(case.spinline.as_ref()?.law.name().into()),
-            set: |case, value| {
-                spinline(case)?.law = named(value, &Law::ALL, |law| law.name())?;
-                Ok(())
-            },
-        })
+        .access(at!(spun, spinline, law))
         .value("newtonian")
         .meaning(
             "How the melt resists stretching: as a Newtonian liquid, or viscoelastic by Giesekus (with \
@@ -69,7 +52,7 @@ pub(super) const KEYS: &[Key] = &[
         .meaning("Emissivity of the thread, from 0, which leaves radiation out, to 1.")
         .label("Emissivity *ε*"),
     key("spinline.dissipation", Kind::Switch)
-        .access(spinline_switch!(dissipation))
+        .access(at!(spun, spinline, dissipation))
         .value("false")
         .meaning("Whether the work of stretching heats the thread.")
         .label("Dissipation")
