@@ -1,13 +1,14 @@
 //! Study files: reads a file to a [`Study`] with all its points, and writes it back.
 
-mod advice;
 mod base;
+mod changes;
 mod design;
 mod differences;
 mod fit;
 mod fixed_keys;
 mod guesses;
 mod levels;
+mod line;
 mod links;
 mod open_web;
 mod plan;
@@ -18,10 +19,9 @@ mod starter;
 mod web;
 mod write;
 
-pub use advice::{parse_changes, read_changes};
+pub use changes::{Changes, parse_changes, read_changes};
 pub use differences::differences;
 pub use fit::{FitFile, parse_fit, read_fit};
-pub use guesses::{parse_guesses, read_guesses};
 pub use points::StudyNote;
 pub use starter::starter_study;
 
