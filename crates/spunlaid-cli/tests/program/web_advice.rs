@@ -62,7 +62,9 @@ fn a_web_says_which_settings_of_the_line_would_make_it_more_even() {
     assert_eq!(other["changes"], advice["changes"]);
     let figure =
         |folder: &str| String::from_utf8(desk.read(&format!("{folder}/figures/web_advice.svg"))).unwrap();
-    assert!(figure("w").contains("over patches of 5 mm") && figure("other").contains("over patches of 20 mm"));
+    assert!(
+        figure("w").contains("over patches of 5 mm") && figure("other").contains("over patches of 20 mm")
+    );
     let said = refusal(&mut desk.spunlaid("web beams.toml --for 7mm"), 1);
     assert!(said.contains("1 mm, 5 mm, 20 mm, and not of 7 mm; name one of these"), "{said}");
 }
