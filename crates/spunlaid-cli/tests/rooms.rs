@@ -18,7 +18,7 @@ use std::path::Path;
 const PROGRAM: &[&[&str]] = &[&["args", "failure", "progress", "say"], &["commands"]];
 
 const RESULTS: &[&[&str]] =
-    &[&["command", "failure", "numbers"], &["figures"], &["output"], &["report"], &["folders"]];
+    &[&["command", "failure", "numbers"], &["effects"], &["figures"], &["output"], &["report"], &["folders"]];
 
 const CHARTS: &[&[&str]] = &[
     &["decimate", "glyphs", "numbers", "palette"],

@@ -305,13 +305,13 @@ impl Study {
         for ranking in &found.of_measures {
             for effect in &ranking.effects {
                 let dict = PyDict::new(py);
-                let factor = &study.factors[effect.factor];
+                let factor = &study.factors[effect.of.factor];
                 dict.set_item("measure", &study.quantities[ranking.measure].column)?;
                 dict.set_item("factor", &factor.key)?;
-                dict.set_item("from", effect.from)?;
-                dict.set_item("to", effect.to)?;
-                dict.set_item("change", effect.change)?;
-                dict.set_item("half_width", effect.half_width)?;
+                dict.set_item("from", effect.of.from)?;
+                dict.set_item("to", effect.of.to)?;
+                dict.set_item("change", effect.difference.value)?;
+                dict.set_item("half_width", effect.difference.known_half_width())?;
                 dict.set_item("explained", ranking.explained)?;
                 all.append(dict)?;
             }

@@ -12,7 +12,7 @@ use spunlaid::advice::{Advice, Change, advise, are_tried, steps};
 use spunlaid::case::Note;
 use spunlaid::error::{Error, FileKind};
 use spunlaid::fabric::Fabric;
-use spunlaid::input::{Overrides, WebFile, parse_changes, parse_guesses, parse_web};
+use spunlaid::input::{Changes, Overrides, WebFile, parse_changes, parse_web};
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
 use spunlaid::observe::{OF_PATCHES, with_errors};
 use spunlaid::threads::look_while;
@@ -62,10 +62,9 @@ impl Asked {
         let changes = overrides(changes)?;
         let set = Overrides { values: &changes, word: "web:" };
         let Source { name, text, file } = Source::read(py, path, FileKind::Web, "web")?;
-        let advice = advice.then(|| read_file(py, threads, || parse_changes(text.clone(), &file, set)));
-        let advice = advice.transpose()?;
-        let guesses = guesses.then(|| read_file(py, threads, || parse_guesses(text.clone(), &file, set)));
-        let guesses = guesses.transpose()?;
+        let read = |of| read_file(py, threads, || parse_changes(text.clone(), &file, set, of));
+        let advice = advice.then(|| read(Changes::OfLine)).transpose()?;
+        let guesses = guesses.then(|| read(Changes::OfGuesses)).transpose()?;
         let file = read_file(py, threads, || parse_web(&text, &file, set))?;
         Ok(Self { name, file, advice, guesses })
     }
@@ -88,9 +87,9 @@ impl Asked {
         let spec = &self.file.spec;
         let compare = |changes: Vec<Change>| {
             watch.begin(steps(spec, &changes));
-            advise(spec, (&flown.web, &findings), changes, laying)
+            advise(spec, (&flown.web, &findings), changes, None, laying)
         };
-        let guesses = self.guesses.clone().filter(|guesses| are_tried(spec, &findings, guesses));
+        let guesses = self.guesses.clone().filter(|all| !all.is_empty() && are_tried(spec, &findings, all));
         let guesses = guesses.map(compare).transpose()?;
         let advice = self.advice.clone().map(compare).transpose()?;
         let performance = Performance::measure(started, laying.threads, laying.isa).with_flights(&findings);

@@ -12,6 +12,10 @@ pub fn quoted(word: &str) -> String {
 
 /// The command that lays a changed web.
 pub fn web_command(change: &Change) -> String {
-    let set = change.set.iter().map(|(key, value)| format!(" --set {}", quoted(&format!("{key}={value}"))));
-    format!("spunlaid web {}{}", quoted(&change.file), set.collect::<String>())
+    let set = change
+        .experiment
+        .set
+        .iter()
+        .map(|(key, value)| format!(" --set {}", quoted(&format!("{key}={value}"))));
+    format!("spunlaid web {}{}", quoted(&change.experiment.file), set.collect::<String>())
 }

@@ -14,6 +14,8 @@ pub mod command;
 mod failure;
 pub mod numbers;
 
+mod effects;
+
 pub mod figures;
 
 pub mod output;

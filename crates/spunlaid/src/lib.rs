@@ -86,6 +86,8 @@ pub mod energy;
 
 pub mod statistics;
 
+pub mod effects;
+
 pub mod laydown;
 pub mod surrogate;
 pub mod web;

@@ -24,6 +24,7 @@ const ROOMS: &[&[&str]] = &[
     &["chain"],
     &["energy"],
     &["statistics"],
+    &["effects"],
     &["laydown", "surrogate"],
     &["record", "web"],
     &["curtain", "fabric", "scan"],

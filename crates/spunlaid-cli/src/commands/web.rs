@@ -5,11 +5,11 @@ use super::{aligned, lay_control, plural, say_report, staged, stem};
 use crate::args::{self, Invocation, overrides};
 use crate::failure::Failure;
 use crate::{progress, say};
-use spunlaid::advice::{Advice, Change, advise, are_tried, steps};
+use spunlaid::advice::{Advice, Change, advise, are_tried, check_patch, most_steps, steps};
 use spunlaid::case::Note;
 use spunlaid::error::Error;
 use spunlaid::fabric::Fabric;
-use spunlaid::input::{Method, Unflown, Unread, WebFile, WebSpec, read_changes, read_guesses, read_web};
+use spunlaid::input::{Changes, Unflown, Unread, WebFile, WebSpec, read_changes, read_web};
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
 use spunlaid::web::{Findings, LayControl, PatchFindings, Web};
 use spunlaid_results::folders;
@@ -26,6 +26,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     let (threads, quiet) = (arguments.threads, arguments.output.quiet);
     let file = flown(read_web(&arguments.file, set), threads, quiet)?;
     file.notes.iter().for_each(say::note);
+    arguments.judged_by.map_or(Ok(()), |patch| check_patch(&file.spec, patch))?;
     let name = stem(&arguments.file, "web").to_string_lossy().into_owned();
     let folder = arguments.output.optional_folder(arguments.json, &name);
     let staged = |folder: &PathBuf| {
@@ -39,8 +40,12 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
         Err(Unread::Unflown(unflown)) if !arguments.advice && is_long(&file.spec, &unflown) => Ok(None),
         read => flown(read, threads, quiet).map(Some),
     };
-    let guesses = read(read_guesses(&arguments.file, set))?;
-    let changes = if arguments.no_advice { None } else { read(read_changes(&arguments.file, set))? };
+    let guesses = read(read_changes(&arguments.file, set, Changes::OfGuesses))?;
+    let guesses = guesses.filter(|guesses| !guesses.is_empty());
+    let changes = (!arguments.no_advice)
+        .then(|| read(read_changes(&arguments.file, set, Changes::OfLine)))
+        .transpose()?
+        .flatten();
 
     let started = Instant::now();
     let follow = flying(arguments.output.quiet);
@@ -55,16 +60,14 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     let laying_s = started.elapsed().as_secs_f64();
     let FlownWeb { web, layers, .. } = &flown;
     let fabric = file.spec.fabric(web, &findings, by.threads);
-    let is_short = |changes: &Vec<Change>| {
-        says_enough(&file.spec, &findings) && steps(&file.spec, changes) <= most_steps(file.spec.method)
-    };
+    let is_tried = |all: &Vec<Change>| arguments.advice || are_tried(&file.spec, &findings, all);
     let mut tried = Vec::new();
     let mut compare =
         |changes: Option<Vec<Change>>, [noun, of, leave_out]: [&str; 3]| -> Result<Option<Advice>, Failure> {
             let Some(changes) = changes else { return Ok(None) };
             let (label, begun) =
                 (format!("trying {} of {of}", plural(changes.len() as u64, noun)), Instant::now());
-            match compare_with(changes, (&file, web, &findings), by, (&label, quiet)) {
+            match compare_with(changes, (&file, web, &findings), arguments.judged_by, by, (&label, quiet)) {
                 Err(Failure::Error(error)) if !matches!(error, Error::Interrupted) => {
                     say::warning(&format!("{label} of {name} failed: {error}"));
                     Ok(None)
@@ -78,11 +81,8 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
                 }
             }
         };
-    let is_asked = |guesses: &[Change]| arguments.advice && !guesses.is_empty();
-    let guesses = guesses.filter(|all| is_asked(all) || are_tried(&file.spec, &findings, all));
-    let guesses = compare(guesses, ["other value", "guesses", "--set web.guessed=none"])?;
-    let changes = changes.filter(|changes| arguments.advice || is_short(changes));
-    let advice = compare(changes, ["change", "the line", "--no-advice"])?;
+    let guesses = compare(guesses.filter(is_tried), ["other value", "guesses", "--set web.guessed=none"])?;
+    let advice = compare(changes.filter(is_tried), ["change", "the line", "--no-advice"])?;
     let performance = Performance::measure(started, by.threads, by.isa).with_flights(&findings);
     let found = folders::web::notes(&flown, &findings);
     let notes = [Note::notes_of_results(&file.notes), found.clone()].concat();
@@ -125,36 +125,23 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     Ok(())
 }
 
-/// Most steps of all fibres that are flown for advice without `--advice`: a minute or two of a processor, of filaments in one air too, whose steps are shorter.
-const fn most_steps(method: Method) -> u64 {
-    match method {
-        Method::Surrogate | Method::Dynamics => 4_000_000,
-        Method::SharedAir => 20_000_000,
-    }
-}
-
 /// Whether changes take longer with the flights for their tensions.
 fn is_long(spec: &WebSpec, unflown: &Unflown<Vec<Change>>) -> bool {
     let flights = unflown.without_flights().map_or(0, |changes| steps(spec, changes));
     flights + unflown.most_steps() > most_steps(spec.method)
 }
 
-/// Whether changes of a web can be told from chance. Where all filaments in one air are flown, two maps are compared, and only large effects are seen.
-fn says_enough(spec: &WebSpec, findings: &Findings) -> bool {
-    let few = findings.laid.shared_air.as_ref().map(|together| together.few.len());
-    few.is_none_or(|layers| layers == spec.layers.len())
-}
-
 /// What changes do to a web, with their progress.
 fn compare_with(
     changes: Vec<Change>,
     (file, web, findings): (&WebFile, &Web, &Findings),
+    judged_by: Option<f64>,
     by: LayControl<'_>,
     (label, quiet): (&str, bool),
 ) -> Result<Advice, Failure> {
     let done = AtomicU64::new(0);
     let (all, by) = (steps(&file.spec, &changes), LayControl { laid: &done, ..by });
-    let work = || advise(&file.spec, (web, findings), changes, by);
+    let work = || advise(&file.spec, (web, findings), changes, judged_by, by);
     Ok(progress::follow(&done, all, label, quiet, work)?)
 }
 

@@ -52,6 +52,21 @@ fn a_web_says_which_settings_of_the_line_would_make_it_more_even() {
     assert!(!said.contains("At the same") && !said.contains("trying"), "{said}");
     assert!(desk.summary("without").get("advice").is_none());
     refusal(&mut desk.spunlaid("web beams.toml --advice --no-advice"), 1);
+
+    // Judged by other patches, the numbers are the same.
+    let said = desk::success(&mut desk.spunlaid("web beams.toml --out other --for 20mm"));
+    let sentence = said.lines().find(|line| line.starts_with("At the same ")).unwrap();
+    assert!(sentence.contains("over patches of 20\u{202f}mm"), "{sentence}");
+    let other = desk.summary("other")["advice"].clone();
+    assert_eq!((&other["judged_by_patch_m"], &advice["judged_by_patch_m"]), (&0.02.into(), &0.005.into()));
+    assert_eq!(other["changes"], advice["changes"]);
+    let figure =
+        |folder: &str| String::from_utf8(desk.read(&format!("{folder}/figures/web_advice.svg"))).unwrap();
+    assert!(
+        figure("w").contains("over patches of 5 mm") && figure("other").contains("over patches of 20 mm")
+    );
+    let said = refusal(&mut desk.spunlaid("web beams.toml --for 7mm"), 1);
+    assert!(said.contains("1 mm, 5 mm, 20 mm, and not of 7 mm; name one of these"), "{said}");
 }
 
 /// The keys of the case that a web flies are set by the same names as in a study; the folder holds the case as it was flown, so that the web can

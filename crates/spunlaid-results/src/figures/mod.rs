@@ -3,6 +3,7 @@
 mod compare;
 #[cfg(test)]
 mod drag_laws;
+mod effects;
 mod fit;
 pub mod paper;
 mod record;
@@ -29,7 +30,8 @@ pub use spinline::{SPINLINE, spinline_figures};
 pub use spunlaid::web::uniformity::Unevenness;
 pub use study::{name_of_key, study_figures};
 pub use web::{
-    ComparedPatch, ComparedSpectrum, SEEN, overlaid_spectra, overlaid_webs, scan_figures, web_figures,
+    ComparedPatch, ComparedSpectrum, SEEN, effects_figure, overlaid_spectra, overlaid_webs, scan_figures,
+    web_figures,
 };
 
 /// Label of an axis: `Length laid (m)`.

@@ -1,8 +1,11 @@
 //! Spinlines for tests, as a user would write them.
 
 use spunlaid::drag::FrictionLaw;
-use spunlaid::input::{Change, Influence};
+use spunlaid::effects::{Change, ChangedKey, Effect, Setting, Tried};
+use spunlaid::input::{Influence, OfFilament};
 use spunlaid::spinline::{AirTable, Curtain, Melt, Polymer, Solution, Spinline, Surroundings};
+use spunlaid::statistics::Difference;
+use spunlaid::units::Dimension;
 
 /// Friction between thread and air.
 pub const FRICTION: FrictionLaw = FrictionLaw::Matsui { factor: 0.37 };
@@ -44,26 +47,23 @@ pub fn rows(spinline: &Spinline) -> Vec<Solution> {
 
 /// Influences of both kinds.
 pub fn influences() -> Vec<Influence> {
-    let one = |key, label: &'static str, change, diameter: f64| Influence {
-        key,
-        label,
-        change,
-        diameter,
-        speed: -2.0 * diameter,
+    let one = |name: &'static str, words, by_kelvin, diameter: f64| {
+        let (dimension, key) = (Dimension::Ratio, name.to_owned());
+        let keys = vec![ChangedKey { key, dimension, whole: false, by_kelvin, from: 1.0, to: 1.1 }];
+        let setting = Setting { name, words };
+        let change = Change { setting, layers: Vec::new(), keys, experiment: (), refusal: None };
+        let effects = [(OfFilament::Diameter, diameter), (OfFilament::Speed, -2.0 * diameter)]
+            .map(|(of, value)| Effect::new(of, Difference::exact(value)));
+        Tried { change, effects: effects.to_vec(), at_first: Vec::new() }
     };
     vec![
-        one(
-            "spinline.velocity_factor",
-            "Air velocity along the thread, from 10 m/s",
-            Change::Relative,
-            -0.78,
-        ),
-        one("spinline.throughput", "Throughput", Change::Relative, 0.43),
-        one("drag.friction_coefficient", "Friction coefficient *β*", Change::Relative, -0.30),
-        one("spinline.melt_flow_rate", "Melt flow rate", Change::Relative, -0.27),
-        one("spinline.die_temperature", "Die temperature", Change::TenKelvin, -0.057),
-        one("spinline.temperature_offset", "Air temperature", Change::TenKelvin, -0.018),
-        one("spinline.material.freezing_temperature", "Freezing temperature", Change::TenKelvin, 0.006),
-        one("spinline.hole_diameter", "Hole diameter", Change::Relative, 0.14),
+        one("spinline.velocity_factor", "Air velocity along the thread, from 10 m/s", false, -0.78),
+        one("spinline.throughput", "Throughput", false, 0.43),
+        one("drag.friction_coefficient", "Friction coefficient *β*", false, -0.30),
+        one("spinline.melt_flow_rate", "Melt flow rate", false, -0.27),
+        one("spinline.die_temperature", "Die temperature", true, -0.057),
+        one("spinline.temperature_offset", "Air temperature", true, -0.018),
+        one("spinline.material.freezing_temperature", "Freezing temperature", true, 0.006),
+        one("spinline.hole_diameter", "Hole diameter", false, 0.14),
     ]
 }

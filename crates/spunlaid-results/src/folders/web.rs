@@ -1,7 +1,7 @@
 //! The folder of a web.
 
 use crate::Failure;
-use crate::figures::{SPINLINE, spinline_figures, web_figures};
+use crate::figures::{SPINLINE, effects_figure, spinline_figures, web_figures};
 use crate::output::copied_files::{self, CASE_FILES};
 use crate::output::folder::Staging;
 use crate::output::spinline::{SpinResults, SpinSummary, write_stations};
@@ -70,7 +70,9 @@ impl WebFolder<'_> {
             Some(together) => Cow::Borrowed(&together.strands[..]),
             None => Cow::Owned(strands(self.web, window, laying)?),
         };
-        let figures = web_figures(self.web, self.findings);
+        let tried = [self.advice, self.guesses].into_iter().flatten();
+        let effects = tried.filter_map(|tried| effects_figure(&self.file.spec, tried));
+        let figures: Vec<Figure> = web_figures(self.web, self.findings).into_iter().chain(effects).collect();
         let spinlines = spinlines(&self.file.spec);
         let threads: Vec<(usize, &[Solution])> = (spinlines.iter())
             .map(|spinline| {

@@ -1,7 +1,8 @@
 //! `comparison.json` and its table: what differs between two runs, and whether it is beyond chance.
 
 use super::in_order::OrderedObject;
-use crate::numbers::{decimals, plus_minus, to_decimals};
+use crate::effects::difference_text;
+use crate::numbers::plus_minus;
 use serde::Serialize;
 use spunlaid::statistics::{Difference, Estimate};
 
@@ -147,17 +148,7 @@ impl ComparedMeasure {
         let mean = |estimate: &Estimate| {
             plus_minus(estimate.mean * factor, estimate.standard_error.map(|error| error * factor))
         };
-        let difference = self.difference.map_or_else(
-            || "–".to_owned(),
-            |d| {
-                let (value, error) = (d.value * factor, d.standard_error * factor);
-                let is_above = value > 0.0
-                    && decimals(error).is_none_or(|digits| {
-                        to_decimals(value, digits).contains(|c| ('1'..='9').contains(&c))
-                    });
-                format!("{}{}", if is_above { "+" } else { "" }, plus_minus(value, Some(error)))
-            },
-        );
+        let difference = self.difference.map_or_else(|| "–".to_owned(), |d| difference_text(&d, factor));
         let verdict = match self.difference {
             None => self.doubt.as_deref().unwrap_or("too few data"),
             Some(d) if d.value == 0.0 && d.standard_error == 0.0 => "the same",

@@ -7,15 +7,14 @@
 //! `document` has the parts, `table` tables, `view` what is looked at. `words`, `unevenness`, `methods` and `spinline` say what several reports
 //! say.
 
-mod advice;
 mod air;
 mod analysis;
 mod comparison;
 mod document;
+mod effects;
 mod fabric;
 mod fit;
 mod frames;
-mod guesses;
 mod light_table;
 mod methods;
 mod paper;
@@ -34,13 +33,12 @@ mod view;
 mod web;
 mod words;
 
-pub use advice::{advice_commands, advice_words};
 pub use air::air_report;
 pub use analysis::{analysis_report, analysis_text};
 pub use comparison::{comparison_report, comparison_text};
 pub use document::Report;
+pub use effects::{advice_commands, advice_words, guess_words};
 pub use fit::{fit_report, fit_text};
-pub use guesses::guess_words;
 pub use paper::paper_report;
 pub use pictures::ComparedPictures;
 pub use run::run_report;

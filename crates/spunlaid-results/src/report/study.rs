@@ -1,14 +1,17 @@
 //! The report of a study: question, ranking, figures and points. It does not depend on the time of computation.
 
 use super::document::{Report, Section};
+use super::effects::effect_cell;
 use super::methods::{Account, case_account, methods, web_account};
 use super::spinline;
-use super::table::{Cell, Layout, Row, Table, Tone};
+use super::table::{Cell, Layout, Row, Table};
 use super::words::count;
 use crate::figures::name_of_key;
 use crate::numbers::{THIN, number};
 use crate::output::study::shown;
-use spunlaid::study::{Design, Effect, Experiment, PointResults, Ranking, Study};
+use spunlaid::effects::Effect;
+use spunlaid::statistics::Difference;
+use spunlaid::study::{Contrast, Design, Experiment, PointResults, Quantity, Ranking, Study};
 use spunlaid_charts::Figure;
 
 /// Largest number of points that are listed.
@@ -54,16 +57,14 @@ fn ranking(study: &Study, rankings: &[Ranking], refusal: Option<&str>) -> Option
     // The rows have the order of the effects on the amplitude.
     let first = rankings.first().filter(|_| study.factors.len() > 1)?;
     let quantities = shown::quantities(study);
-    let row = |effect: &Effect| {
-        let factor = &study.factors[effect.factor];
-        let [from, to] = [effect.from, effect.to].map(|value| factor.input().pretty(value));
-        let range = if factor.words.is_empty() {
-            format!("{from} to {to}")
-        } else {
-            format!("{to} instead of {from}")
+    let row = |effect: &Effect<Contrast>| {
+        let cells = quantities.iter().map(|quantity| cell((study, rankings), *quantity, effect.of));
+        let [from, to] = ends(study, effect.of);
+        let range = match is_of_words(study, effect.of) {
+            false => format!("{from} to {to}"),
+            true => format!("{to} instead of {from}"),
         };
-        let cells = quantities.iter().map(|quantity| cell((study, rankings), *quantity, effect));
-        Row::new(name_of_key(&factor.key), cells).detail(range)
+        Row::new(name_of_key(&study.factors[effect.of.factor].key), cells).detail(range)
     };
     let heads = quantities.iter().map(|quantity| shown::head(&study.quantities[*quantity]));
     let table = Table::new(["Factor".to_owned()].into_iter().chain(heads))
@@ -151,11 +152,10 @@ fn account(study: &Study, results: &[PointResults]) -> Account {
 fn effects(study: &Study, rankings: &[Ranking]) -> Vec<String> {
     let sentence = |quantity: usize| {
         let result = &study.quantities[quantity];
-        let effect = |effect: &Effect| {
-            let factor = &study.factors[effect.factor];
-            let [from, to] = [effect.from, effect.to].map(|value| factor.input().pretty(value));
-            let change = shown::in_unit(result, effect.change, effect.half_width);
-            format!("{change} from {from} to {to} of the {}", name_of_key(&factor.key))
+        let effect = |effect: &Effect<Contrast>| {
+            let [from, to] = ends(study, effect.of);
+            let key = &study.factors[effect.of.factor].key;
+            format!("{} from {from} to {to} of the {}", change(result, &effect.difference), name_of_key(key))
         };
         let effects: Vec<String> = ranking_of(rankings, quantity)?.effects.iter().map(effect).collect();
         Some(format!(
@@ -194,25 +194,22 @@ fn answer(study: &Study, rankings: &[Ranking]) -> Option<String> {
     let effects = &ranking_of(rankings, quantity)?.effects;
     let result = &study.quantities[quantity];
     let label = &result.label;
-    let known = effects.iter().filter(|effect| effect.half_width.is_some_and(f64::is_finite));
-    let size = |effect: &&Effect| effect.change.abs();
-    let largest = known.filter(|effect| !is_by_chance(effect)).max_by(|a, b| size(a).total_cmp(&size(b)));
-    let Some(effect) = largest else {
-        let all_known = effects.iter().all(|effect| effect.half_width.is_some_and(f64::is_finite));
+    let size = |effect: &&Effect<Contrast>| effect.difference.value.abs();
+    let known = effects.iter().filter(|effect| effect.difference.is_beyond_chance());
+    let Some(effect) = known.max_by(|a, b| size(a).total_cmp(&size(b))) else {
+        let all_known = effects.iter().all(|effect| effect.difference.known_half_width().is_some());
         return all_known.then(|| format!("{label} does not change beyond chance"));
     };
-    let factor = &study.factors[effect.factor];
-    let name = name_of_key(&factor.key);
-    let [from, to] = [effect.from, effect.to].map(|value| factor.input().pretty(value));
-    let sign = if effect.change > 0.0 { "+" } else { "" };
-    let change = shown::in_unit(result, effect.change, effect.half_width);
+    let name = name_of_key(&study.factors[effect.of.factor].key);
+    let [from, to] = ends(study, effect.of);
+    let sign = if effect.difference.value > 0.0 { "+" } else { "" };
+    let change = change(result, &effect.difference);
     let unit = Some(result.unit.shown)
         .filter(|unit| !unit.is_empty())
         .map_or(String::new(), |unit| format!("{THIN}{unit}"));
-    let difference = if factor.words.is_empty() {
-        format!("from {from} to {to}")
-    } else {
-        format!("with {to} instead of {from}")
+    let difference = match is_of_words(study, effect.of) {
+        false => format!("from {from} to {to}"),
+        true => format!("with {to} instead of {from}"),
     };
     Some(if study.factors.len() == 1 {
         format!("{label}: {sign}{change}{unit} {difference} of the {name}")
@@ -221,9 +218,18 @@ fn answer(study: &Study, rankings: &[Ranking]) -> Option<String> {
     })
 }
 
-/// Whether the interval of an effect contains zero.
-fn is_by_chance(effect: &Effect) -> bool {
-    effect.half_width.is_none_or(|half| half.is_nan() || half >= effect.change.abs())
+/// The values of a factor between which it changes.
+fn ends(study: &Study, Contrast { factor, from, to }: Contrast) -> [String; 2] {
+    [from, to].map(|value| study.factors[factor].input().pretty(value))
+}
+
+fn is_of_words(study: &Study, contrast: Contrast) -> bool {
+    !study.factors[contrast.factor].words.is_empty()
+}
+
+/// The change of a result, ± half a 95 % interval.
+fn change(result: &Quantity, difference: &Difference) -> String {
+    shown::in_unit(result, difference.value, difference.known_half_width())
 }
 
 fn summary(study: &Study, results: &[PointResults]) -> String {
@@ -337,16 +343,10 @@ fn ranking_of(rankings: &[Ranking], quantity: usize) -> Option<&Ranking> {
     rankings.iter().find(|ranking| ranking.measure == quantity)
 }
 
-fn cell((study, rankings): (&Study, &[Ranking]), quantity: usize, head: &Effect) -> Cell {
-    let ranking = ranking_of(rankings, quantity);
-    let effect = ranking.and_then(|ranking| ranking.effects.iter().find(|effect| effect.is_like(head)));
-    effect.map_or_else(
-        || Cell::new("–", Tone::Faint),
-        |effect| {
-            let text = shown::in_unit(&study.quantities[quantity], effect.change, effect.half_width);
-            Cell::new(text, if is_by_chance(effect) { Tone::Faint } else { Tone::Plain })
-        },
-    )
+fn cell((study, rankings): (&Study, &[Ranking]), quantity: usize, of: Contrast) -> Cell {
+    let effect = ranking_of(rankings, quantity).and_then(|ranking| ranking.of(of));
+    let difference = effect.map(|effect| &effect.difference);
+    effect_cell(difference, "–", |difference| change(&study.quantities[quantity], difference))
 }
 
 fn explained(study: &Study, rankings: &[Ranking]) -> Vec<String> {

@@ -1,27 +1,26 @@
 //! The report of a web: the web on a light table, what makes it uneven, and the figures.
 
-use super::advice::{advice_table, advice_words, is_known};
 use super::document::{Report, Section};
+use super::effects::{advice_words, effect_cell, effects_table, guess_words, is_known};
 use super::fabric::fabric_section;
-use super::guesses::guess_words;
 use super::light_table::{Fibres, Strands, picture_note, sheet};
 use super::methods::{methods, web_account};
 use super::spinline::{LayerSpinline, sections_of_web};
 use super::table::{Row, Table};
 use super::unevenness::{
-    CV_OF_PATCHES, PER_CENT, cost, grams, headline, headline_patch, largest_clouds, per_cent, unevenness,
+    CV_OF_PATCHES, cost, grams, headline, headline_patch, largest_clouds, per_cent, unevenness,
 };
 use super::view::View;
 use super::words::{count, metres, millimetres};
 use crate::Failure;
+use crate::effects::{PER_CENT, difference_text};
 use crate::numbers::{THIN, number, plus_minus, significant};
 use crate::output::web::{Layer, PatchTable, Performance, Reader};
 use spunlaid::advice::Advice;
 use spunlaid::fabric::Fabric;
 use spunlaid::layers::WebSpec;
-use spunlaid::statistics::Estimate;
 use spunlaid::web::uniformity::Unevenness;
-use spunlaid::web::{Findings, Lever, PatchFindings, Sensitivity, Source, Strand, Web};
+use spunlaid::web::{Findings, PatchFindings, Sensitivity, Source, Strand, Web};
 use spunlaid_charts::Figure;
 
 /// A web.
@@ -68,7 +67,7 @@ pub fn web_report<'a>(
         .lead([summary(web), air_sentence(spec, findings), errors].join(" "))
         .lead(spun)
         .with(table)
-        .with(uneven(spec, findings, advice))
+        .with(uneven(spec, findings, (advice, guesses)))
         .with(fabric_section(fabric))
         .with(Section::of_figures(figures))
         .with_all(sections_of_web(web, layers, spinlines))
@@ -78,21 +77,28 @@ pub fn web_report<'a>(
 }
 
 /// What makes it uneven, and what would make it more even.
-fn uneven(spec: &WebSpec, findings: &Findings, advice: Option<&Advice>) -> Section<'static> {
+fn uneven(
+    spec: &WebSpec,
+    findings: &Findings,
+    (advice, guesses): (Option<&Advice>, Option<&Advice>),
+) -> Section<'static> {
     let PatchTable { heads, rows } = PatchTable::new(findings, Reader::Report);
     let mut section = Section::new("verdict", "What makes it uneven")
         .paragraphs(verdict(findings, advice.is_some()))
         .table(Table::new(heads).rows(rows.into_iter().map(Row::from)))
         .caption(format!("{CV_OF_PATCHES} {}", about_errors(findings)));
-    if let Some((table, caption)) = advice.and_then(|advice| advice_table(spec, findings, advice)) {
-        section = section.heading("What would make it more even").table(table).caption(caption);
+    let effects = [("What would make it more even", advice), ("How much the guesses matter", guesses)];
+    for (heading, tried) in effects {
+        if let Some((table, caption)) = tried.and_then(|tried| effects_table(spec, findings, tried)) {
+            section = section.heading(heading).table(table).caption(caption);
+        }
     }
     if findings.sensitivities.is_empty() {
         return section;
     }
     let sizes = findings.patches.iter().map(|patch| millimetres(patch.map.patch));
     let heads = ["One per cent more of".to_owned()].into_iter().chain(sizes);
-    section.table(Table::new(heads).rows(findings.sensitivities.iter().map(levers))).caption(
+    section.table(Table::new(heads).rows(findings.sensitivities.iter().map(|of| levers(of, findings)))).caption(
         "What explains it: change of the expected CV in per cent, while the other numbers stay, ± one standard error, for patches of each \
          size. The speed of the belt moves the flown curves on the belt and leaves the flight as it was (docs/web.md). “Not known”: the \
          number would come from the surrogate, whose CV is more than 5 % from that of the flown curves there. A faster belt makes the web \
@@ -210,27 +216,18 @@ fn error_sentences(findings: &Findings) -> String {
     )
 }
 
-const fn words(lever: Lever) -> &'static str {
-    match lever {
-        Lever::SigmaMd => "spread of the lay-down in machine direction, σ MD",
-        Lever::SigmaCd => "spread of the lay-down in cross direction, σ CD",
-        Lever::Noise => "noise of the direction, A",
-        Lever::BeltSpeed => "belt speed",
-        Lever::Filaments => "filaments",
-    }
-}
-
-fn levers(sensitivity: &Sensitivity) -> Row {
-    let cell = |elasticity: &Option<Estimate>| match elasticity {
-        Some(estimate) => format!("{}{THIN}%", plus_minus(estimate.mean, estimate.standard_error)),
-        None => "not known".to_owned(),
+fn levers(sensitivity: &Sensitivity, findings: &Findings) -> Row {
+    let cell = |patch: &PatchFindings| {
+        let effect = sensitivity.on(patch.map.patch).map(|effect| &effect.difference);
+        effect_cell(effect, "not known", |effect| format!("{}{THIN}%", difference_text(effect, 1.0)))
     };
-    let source = match sensitivity.source {
+    let source = match sensitivity.change.experiment {
         Source::FlownFibres => ", from the flown curves",
         Source::Surrogate => ", from the surrogate",
         Source::Law => "",
     };
-    Row::new(format!("{}{source}", words(sensitivity.lever)), sensitivity.elasticity.iter().map(cell))
+    let name = format!("{}{source}", sensitivity.change.setting.words);
+    Row::new(name, findings.patches.iter().map(cell))
 }
 
 fn layer(layer: &Layer) -> Row {
@@ -276,18 +273,14 @@ fn verdict(findings: &Findings, has_advice: bool) -> Vec<String> {
     if has_advice {
         return sentences;
     }
-    let known = findings
-        .sensitivities
-        .iter()
-        .filter_map(|sensitivity| Some((sensitivity, sensitivity.elasticity[i].as_ref()?)));
-    if let Some((most, elasticity)) = known.max_by(|a, b| a.1.mean.abs().total_cmp(&b.1.mean.abs())) {
-        let way = if elasticity.mean < 0.0 { "more" } else { "less" };
-        let effect =
-            plus_minus(10.0 * elasticity.mean.abs(), elasticity.standard_error.map(|error| 10.0 * error));
+    let of_patch = |of: &'_ Sensitivity| Some((of.change.setting.words, of.on(patch.map.patch)?.difference));
+    let known = findings.sensitivities.iter().filter_map(of_patch);
+    if let Some((words, effect)) = known.max_by(|a, b| a.1.value.abs().total_cmp(&b.1.value.abs())) {
+        let way = if effect.value < 0.0 { "more" } else { "less" };
+        let effect = plus_minus(10.0 * effect.value.abs(), Some(10.0 * effect.standard_error));
         sentences.push(format!(
-            "Among the numbers of the line whose effect is known, {} lowers the CV over patches of {} most: 10 % \
+            "Among the numbers of the line whose effect is known, {words} lowers the CV over patches of {} most: 10 % \
              {way} of it lowers the CV by about {effect} % of its value.",
-            words(most.lever),
             millimetres(patch.map.patch)
         ));
     }

@@ -1,7 +1,8 @@
 //! Webs of which a few filaments were flown in the same air, compared block by block.
 
-use super::CvChange;
+use crate::effects::Effect;
 use crate::layers::WebSpec;
+use crate::statistics::Difference;
 use crate::web::LayerFew;
 
 /// What a few filaments say about the layers of a web.
@@ -30,7 +31,7 @@ impl WebOfFew {
 
     /// The changes of the CV from this web to another one in the same air, over the patches that both have. What both have by chance, because they
     /// have the same clouds, does not count.                         theory.md, "Two webs in the same air"
-    pub(super) fn changes_to(&self, other: &Self) -> Vec<CvChange> {
+    pub(super) fn changes_to(&self, other: &Self) -> Vec<Effect<f64>> {
         let Some((_, first)) = self.layers.first() else { return Vec::new() };
         let change = |patch: f64| {
             let (before, after) = (self.over(patch)?, other.over(patch)?);
@@ -62,7 +63,8 @@ impl WebOfFew {
             let own = Some(0.5 * (after.own - before.own) / before.square);
             let [here, there, both] = common;
             let in_common = Some(both / (here * there).sqrt()).filter(|common| common.is_finite());
-            Some(CvChange { patch, change: ratio - 1.0, standard_error, degrees, own, in_common })
+            let difference = Difference { value: ratio - 1.0, standard_error, degrees };
+            Some(Effect { of: patch, difference, own, in_common })
         };
         first.cvs.iter().filter_map(|cv| change(cv.patch)).collect()
     }

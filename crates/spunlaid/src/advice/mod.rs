@@ -1,4 +1,4 @@
-//! What would make a web more even at the same basis weight, in settings of the machine.
+//! What changes of a web do to its CV: settings of the machine at the same basis weight, and numbers that are guesses.
 //!
 //! ```text
 //! settings of the line → webs with one of them changed, on the belt that lays the same weight
@@ -7,115 +7,30 @@
 //! ```
 
 mod few;
-mod guesses;
 mod setting;
 
-pub use guesses::are_tried;
-pub use setting::{Change, ChangedKey, Setting};
+pub use setting::ChangedWeb;
 
 use self::few::WebOfFew;
-use crate::error::Error;
-use crate::layers::{Flights, Flyer, LaydownSource, LayerSpec, Method, WebSpec, steps_in_same_air};
-use crate::sort::sort_by_key;
-use crate::statistics::Difference;
+use crate::effects::{self, NAMED, Outcome, Setting, Trials};
+use crate::error::{Error, Fault};
+use crate::layers::{
+    Flights, Flyer, LaydownSource, LayerSpec, Method, WebSpec, fits_memory, steps_in_same_air,
+};
 use crate::threads::try_each;
-use crate::web::uniformity::Unevenness;
+use crate::units::Dimension;
 use crate::web::{ExpectedCv, Findings, LayControl, PatchFindings, Web, expected_cv, nearest_to_seen};
 use std::sync::atomic::{AtomicU64, Ordering};
 
+/// A change of a web.
+pub type Change = effects::Change<ChangedWeb>;
+/// A change of a web with what it does to the CV over patches of each size, as a share of it: negative for a more even web.
+pub type Tried = effects::Tried<ChangedWeb, f64>;
 /// What changes of settings do to the CV of a web.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Advice {
-    /// The changes, each with what it does.
-    pub effects: Vec<Effect>,
-    /// Whether the best changes were flown once more, in another air. Only these are [`Advice::improvements`] then.
-    pub is_confirmed: bool,
-    /// Changes that cannot be flown or laid, and why.
-    pub failed: Vec<(Change, String)>,
-}
+pub type Advice = Trials<ChangedWeb, f64>;
 
-/// What a change does.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Effect {
-    /// The change.
-    pub change: Change,
-    /// Speed of the belt before and after [m/s].
-    pub belt_speed: [f64; 2],
-    /// Mass that is laid per time and width before and after [kg/(m s)].
-    pub mass_flow: [f64; 2],
-    /// What becomes of the CV over patches of each size.
-    pub cvs: Vec<CvChange>,
-    /// What became of it in the first air, if that chose the change and `cvs` are from another air; none of any other change.
-    pub in_first_air: Vec<CvChange>,
-}
-
-/// What a change does to the CV over patches of one size.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CvChange {
-    /// Side of the patches [m].
-    pub patch: f64,
-    /// Change of the CV as a share of it: negative for a more even web.
-    pub change: f64,
-    /// Its standard error.
-    pub standard_error: f64,
-    /// Degrees of freedom of the error.
-    pub degrees: f64,
-    /// The part of the change that filaments make each for itself, to first order; the rest is that of the clouds which they make together. None where it
-    /// is not known.
-    pub own: Option<f64>,
-    /// Correlation of the unevenness of the blocks of the two webs, if they hang in the same air: one where they have the same clouds, zero where they
-    /// have other ones and the error is that of two webs by themselves.
-    pub in_common: Option<f64>,
-}
-
-impl CvChange {
-    /// Whether the change is one of the clouds, and not of what each filament does for itself; None where that is not known.
-    pub fn is_of_clouds(&self) -> Option<bool> {
-        self.own.map(|own| (self.change - own).abs() >= own.abs())
-    }
-
-    /// Whether the 95 % confidence interval leaves out zero.
-    pub fn is_beyond_chance(&self) -> bool {
-        let Self { change: value, standard_error, degrees, .. } = *self;
-        Difference { value, standard_error, degrees }.is_beyond_chance()
-    }
-}
-
-impl Effect {
-    /// What it does over patches of this side [m].
-    pub fn over(&self, patch: f64) -> Option<&CvChange> {
-        self.cvs.iter().find(|cv| cv.patch == patch)
-    }
-}
-
-/// Least change of a CV that is advice, as a share of it.
-const LEAST: f64 = 0.01;
-/// Largest number of settings that are named. In one air their changes are flown once more.
-pub const NAMED: usize = 2;
 /// Bits of a seed that are others in another air.
 const ANOTHER_AIR: u64 = 0x9e37_79b9_7f4a_7c15;
-
-impl Advice {
-    /// The changes that lower the CV over patches of this side by at least one per cent of it and beyond chance: the best of each setting, and of these the best first.
-    pub fn improvements(&self, patch: f64) -> Vec<(&Effect, &CvChange)> {
-        let lowers = |effect| {
-            let cv: &CvChange = Effect::over(effect, patch)?;
-            (cv.change <= -LEAST && cv.is_beyond_chance()).then_some((effect, cv))
-        };
-        let told =
-            self.effects.iter().filter(|effect| !(self.is_confirmed && effect.in_first_air.is_empty()));
-        let mut improvements: Vec<(&Effect, &CvChange)> = told.filter_map(lowers).collect();
-        sort_by_key(&mut improvements, |(_, cv)| cv.change);
-        let setting = |effect: &Effect| (effect.change.setting, effect.change.layers.clone());
-        let mut settings = Vec::new();
-        improvements.retain(|(effect, _)| {
-            let is_new = !settings.contains(&setting(effect));
-            settings.push(setting(effect));
-            is_new
-        });
-        improvements
-    }
-}
 
 /// Steps of all fibres of the flights that it takes to try some changes of a web; of webs in one air, about.
 pub fn steps(spec: &WebSpec, changes: &[Change]) -> u64 {
@@ -123,12 +38,12 @@ pub fn steps(spec: &WebSpec, changes: &[Change]) -> u64 {
         let again = 1 + NAMED.min(changes.len()) as u64;
         return steps_in_same_air(&all_webs(spec, changes)) + again * steps_in_same_air(&[spec]);
     }
-    changes.iter().map(|change| steps_of_web(&change.spec)).sum()
+    changes.iter().map(|change| steps_of_web(&change.experiment.spec)).sum()
 }
 
 /// A web and the changed ones.
 fn all_webs<'a>(spec: &'a WebSpec, changes: &'a [Change]) -> Vec<&'a WebSpec> {
-    std::iter::once(spec).chain(changes.iter().map(|change| &change.spec)).collect()
+    std::iter::once(spec).chain(changes.iter().map(|change| &change.experiment.spec)).collect()
 }
 
 /// Steps of all fibres of a web of independent ones.
@@ -143,85 +58,99 @@ fn steps_of_web(spec: &WebSpec) -> u64 {
     cases.iter().map(|(_, case)| case.run.steps * case.run.replicates).sum()
 }
 
+/// Most steps of all fibres that are flown for advice or for guesses without being asked: a minute or two of a processor, of filaments in one air too, whose
+/// steps are shorter.
+pub const fn most_steps(method: Method) -> u64 {
+    match method {
+        Method::Surrogate | Method::Dynamics => 4_000_000,
+        Method::SharedAir => 20_000_000,
+    }
+}
+
+/// Whether changes of a web are tried without being asked: there are some, their flights are short, and a few filaments tell the web. Where all filaments in
+/// one air are flown, two maps are compared, and only large effects are seen. Guesses must also fit into the memory beside each other.
+pub fn are_tried(spec: &WebSpec, findings: &Findings, changes: &[Change]) -> bool {
+    let few = findings.laid.shared_air.as_ref().map(|together| together.few.len());
+    let says_enough = few.is_none_or(|layers| layers == spec.layers.len());
+    let are_guesses = changes.iter().any(is_guess);
+    let fits = || !are_guesses || spec.method != Method::SharedAir || fits_memory(&all_webs(spec, changes));
+    says_enough && steps(spec, changes) <= most_steps(spec.method) && fits()
+}
+
+/// Checks that the CV of a web is known over patches of a side [m], so that changes can be judged by it.
+///
+/// # Errors
+/// If the web is not looked at over such patches.
+pub fn check_patch(spec: &WebSpec, side: f64) -> Result<(), Error> {
+    if spec.sheet.patches.iter().any(|patch| is_same(*patch, side)) {
+        return Ok(());
+    }
+    let pretty = |patch: &f64| Dimension::Length.pretty_to(*patch, 3);
+    let known: Vec<String> = spec.sheet.patches.iter().map(pretty).collect();
+    let what =
+        format!("the web is looked at over patches of {}, and not of {}", known.join(", "), pretty(&side));
+    Err(Fault::new(what, "name one of these, or write the size to web.patches").into())
+}
+
+fn is_same(patch: f64, side: f64) -> bool {
+    (patch / side - 1.0).abs() < 1e-6
+}
+
+fn is_guess(change: &Change) -> bool {
+    change.setting == Setting::GUESS
+}
+
 /// Tries changes of a web.
 ///
 /// * `web`, `findings` – the web as it is, and what was found of it
+/// * `judged_by` – side of the patches by whose CV changes are judged [m], see [`check_patch`]; if None, that of the patches which the eye judges first
 /// * `by` – its counter grows by the [`steps`] of the changes that are done
 ///
 /// # Errors
-/// If it is stopped, or if nothing is expected of the web as it is.
+/// If it is stopped, if nothing is expected of the web as it is, or if no CV is known by which to judge.
 pub fn advise(
     spec: &WebSpec,
     (web, findings): (&Web, &Findings),
     changes: Vec<Change>,
+    judged_by: Option<f64>,
     by: LayControl<'_>,
 ) -> Result<Advice, Error> {
-    let (refused, changes): (Vec<Change>, Vec<Change>) =
-        changes.into_iter().partition(|change| change.refusal.is_some());
-    let refused = refused.into_iter().filter_map(|change| Some((change.clone(), change.refusal?)));
-    let mut advice = Advice { failed: refused.collect(), ..Advice::default() };
-    if changes.is_empty() {
-        return Ok(advice);
-    }
     let has_few = findings.laid.shared_air.as_ref().is_some_and(|together| !together.few.is_empty());
-    let in_same_air = if has_few { few_of_changes(spec, &changes, by)? } else { None };
-    let is_in_same_air = in_same_air.is_some();
-    let tried = match in_same_air {
-        Some(tried) => tried,
-        None => try_alone(spec, (web, findings), &changes, by)?,
+    let mut is_in_same_air = false;
+    let mut advice = Trials::new(changes, |changes| {
+        let in_same_air = if has_few { few_of_changes(spec, changes, by)? } else { None };
+        is_in_same_air = in_same_air.is_some();
+        in_same_air.map_or_else(|| try_alone(spec, (web, findings), changes, by), Ok)
+    })?;
+    let patches = || advice.tried.iter().flat_map(|tried| &tried.effects).map(|effect| effect.of);
+    advice.judged_by = match judged_by {
+        None => nearest_to_seen(patches()).and_then(|number| patches().nth(number)),
+        Some(side) => patches().find(|patch| is_same(*patch, side)),
     };
-    let belt_speed = |spec: &WebSpec| spec.layers.first().map_or(f64::NAN, |layer| layer.belt_speed);
-    for (change, tried) in changes.into_iter().zip(tried) {
-        match tried {
-            Ok(cvs) => advice.effects.push(Effect {
-                belt_speed: [spec, &change.spec].map(belt_speed),
-                mass_flow: [spec, &change.spec].map(WebSpec::mass_flow),
-                change,
-                cvs,
-                in_first_air: Vec::new(),
-            }),
-            Err(why) => advice.failed.push((change, why)),
-        }
+    if let (Some(side), None, false) = (judged_by, advice.judged_by, advice.tried.is_empty()) {
+        let side = Dimension::Length.pretty_to(side, 3);
+        let what = format!("the CV over patches of {side} is not known of the compared webs");
+        return Err(Fault::new(what, "take smaller patches, or a larger sheet").into());
     }
     // Nobody chooses the best one of some guesses.
-    let is_choice = advice.effects.iter().any(|effect| effect.change.setting != Setting::Guess);
-    if is_in_same_air && is_choice {
-        confirm(spec, &mut advice, by)?;
+    if is_in_same_air && advice.tried.iter().any(|tried| !is_guess(&tried.change)) {
+        advice.confirm(|changes| {
+            let in_another_air = |spec: &WebSpec| WebSpec { seed: spec.seed ^ ANOTHER_AIR, ..spec.clone() };
+            let mut changes = changes.to_vec();
+            changes.iter_mut().for_each(|Change { experiment, .. }| {
+                experiment.spec = in_another_air(&experiment.spec);
+            });
+            Ok(few_of_changes(&in_another_air(spec), &changes, by)?.unwrap_or_default())
+        })?;
     }
     Ok(advice)
 }
 
-/// Flies the best changes once more in another air, and takes what they do there. They were chosen for what they did in the first air, in which chance was
-/// kinder to them than to the others.                                                            theory.md, "Two webs in the same air"
-fn confirm(spec: &WebSpec, advice: &mut Advice, by: LayControl<'_>) -> Result<(), Error> {
-    let patches = || advice.effects.iter().flat_map(|effect| &effect.cvs).map(|cv| cv.patch);
-    let seen = nearest_to_seen(patches()).and_then(|number| patches().nth(number));
-    let improvements = seen.map_or_else(Vec::new, |patch| advice.improvements(patch));
-    let is_best =
-        |effect: &&Effect| improvements.iter().take(NAMED).any(|(best, _)| std::ptr::eq(*best, *effect));
-    let best: Vec<usize> = (0..advice.effects.len()).filter(|i| is_best(&&advice.effects[*i])).collect();
-    let changes: Vec<Change> = best.iter().map(|i| advice.effects[*i].change.clone()).collect();
-    advice.is_confirmed = true;
-    if changes.is_empty() {
-        return Ok(());
-    }
-    let in_another_air = |spec: &WebSpec| WebSpec { seed: spec.seed ^ ANOTHER_AIR, ..spec.clone() };
-    let changed = changes.into_iter().map(|change| Change { spec: in_another_air(&change.spec), ..change });
-    let found = few_of_changes(&in_another_air(spec), &changed.collect::<Vec<_>>(), by)?;
-    for (i, found) in best.into_iter().zip(found.into_iter().flatten()) {
-        if let Ok(cvs) = found {
-            let effect = &mut advice.effects[i];
-            effect.in_first_air = std::mem::replace(&mut effect.cvs, cvs);
-        }
-    }
-    Ok(())
-}
-
-/// What each of some changes does to the CV, or why it cannot be flown or laid.
-type Tried = Vec<Result<Vec<CvChange>, String>>;
+/// What changes do, each to the CV over patches of each size [m].
+type Outcomes = Vec<Outcome<f64>>;
 
 /// Flies a few filaments of all webs in the same air; None if a few do not tell the web as it is.
-fn few_of_changes(spec: &WebSpec, changes: &[Change], by: LayControl<'_>) -> Result<Option<Tried>, Error> {
+fn few_of_changes(spec: &WebSpec, changes: &[Change], by: LayControl<'_>) -> Result<Option<Outcomes>, Error> {
     let flyer = Flyer::new(by.threads, by.stop, &unwatched);
     let webs = all_webs(spec, changes);
     let Some(told) = flyer.few_in_same_air(&webs, by.laid)? else { return Ok(None) };
@@ -230,12 +159,10 @@ fn few_of_changes(spec: &WebSpec, changes: &[Change], by: LayControl<'_>) -> Res
     let change = |of_few: Result<WebOfFew, Error>| {
         of_few.map(|of_few| base.changes_to(&of_few)).map_err(|why| why.to_string())
     };
-    let mut tried: Tried = told.map(change).collect();
+    let mut tried: Outcomes = told.map(change).collect();
     // Where eddies are far longer or shorter than those of others, too little of a web may be laid while the same air passes for all.
-    let is_odd =
-        |(change, tried): (&Change, &Result<_, _>)| change.setting == Setting::Guess && tried.is_err();
     for number in 0..changes.len() {
-        if changes.len() > 1 && is_odd((&changes[number], &tried[number])) {
+        if changes.len() > 1 && is_guess(&changes[number]) && tried[number].is_err() {
             let alone = few_of_changes(spec, &changes[number..=number], by)?;
             tried[number] = alone.into_iter().flatten().next().unwrap_or_else(|| tried[number].clone());
         }
@@ -249,21 +176,21 @@ fn try_alone(
     (web, findings): (&Web, &Findings),
     changes: &[Change],
     by: LayControl<'_>,
-) -> Result<Tried, Error> {
+) -> Result<Outcomes, Error> {
     let is_shared = spec.method == Method::SharedAir;
     let aside = AtomicU64::new(0);
     let base = match is_shared {
-        true => Unevennesses::OfMaps(findings.patches.clone()),
-        false => Unevennesses::Expected(expected_cv(web, LayControl { laid: &aside, ..by })?),
+        true => of_maps(&findings.patches),
+        false => expected_cv(web, LayControl { laid: &aside, ..by })?,
     };
     // A flight of eight fibres takes one thread, and many changes are tried side by side. All filaments in one air take all threads.
     let (abreast, threads) = if is_shared { (1, by.threads) } else { (by.threads, 1) };
     try_each(abreast, changes.len(), |i| {
         let changed = &changes[i..=i];
-        let tried = unevennesses(&changed[0].spec, LayControl { threads, laid: &aside, ..by });
+        let found = cvs(&changed[0].experiment.spec, LayControl { threads, laid: &aside, ..by });
         by.laid.fetch_add(steps(spec, changed), Ordering::Relaxed);
-        match tried {
-            Ok(found) => Ok(Ok(base.changes_to(&found))),
+        match found {
+            Ok(found) => Ok(Ok(base.iter().filter_map(|before| before.effect_to(&found)).collect())),
             Err(Error::Interrupted) => Err(Error::Interrupted),
             Err(error) => Ok(Err(error.to_string())),
         }
@@ -274,61 +201,13 @@ fn unwatched(_: Flights<'_>, work: &mut (dyn FnMut() + Send)) {
     work();
 }
 
-/// How uneven a web is over patches of each size.
-enum Unevennesses {
-    /// As it is expected of independent filaments.
-    Expected(Vec<ExpectedCv>),
-    /// On the map of filaments in one air, all of which were flown.
-    OfMaps(Vec<PatchFindings>),
+/// How uneven the map of filaments in one air is, all of which were flown.
+fn of_maps(patches: &[PatchFindings]) -> Vec<ExpectedCv> {
+    patches.iter().map(|found| ExpectedCv::of_map(&found.map)).collect()
 }
 
-impl Unevennesses {
-    /// The changes from these numbers to others, over the patches that both have.
-    fn changes_to(&self, other: &Self) -> Vec<CvChange> {
-        match (self, other) {
-            (Self::Expected(before), Self::Expected(after)) => {
-                let to = |before: &ExpectedCv| {
-                    let after = after.iter().find(|after| after.patch == before.patch)?;
-                    let (change, standard_error) = before.change_to(after);
-                    let degrees = before.fibres().min(after.fibres()).max(2) as f64 - 1.0;
-                    Some(CvChange {
-                        patch: before.patch,
-                        change,
-                        standard_error,
-                        degrees,
-                        own: None,
-                        in_common: None,
-                    })
-                };
-                before.iter().filter_map(to).collect()
-            }
-            (Self::OfMaps(before), Self::OfMaps(after)) => {
-                let to = |before: &PatchFindings| {
-                    let (before, after) =
-                        (before.map, after.iter().find(|after| after.map.patch == before.map.patch)?.map);
-                    let ratio = after.cv / before.cv;
-                    let share = |unevenness: Unevenness| {
-                        unevenness.standard_error.map_or(f64::NAN, |error| error / unevenness.cv)
-                    };
-                    let standard_error = ratio * share(before).hypot(share(after));
-                    Some(CvChange {
-                        patch: before.patch,
-                        change: ratio - 1.0,
-                        standard_error,
-                        degrees: f64::INFINITY,
-                        own: None,
-                        in_common: None,
-                    })
-                };
-                before.iter().filter_map(to).collect()
-            }
-            // Both webs are laid by the same method.
-            _ => Vec::new(),
-        }
-    }
-}
-
-fn unevennesses(spec: &WebSpec, by: LayControl<'_>) -> Result<Unevennesses, Error> {
+/// How uneven a web is over patches of each size: on the map of filaments in one air, or as it is expected of independent ones.
+fn cvs(spec: &WebSpec, by: LayControl<'_>) -> Result<Vec<ExpectedCv>, Error> {
     let is_flown = |layer: &LayerSpec| matches!(layer.source, LaydownSource::Case { .. });
     // The flown curves are compared, whether a surrogate is found in them or not.
     let method = match spec.method {
@@ -337,8 +216,8 @@ fn unevennesses(spec: &WebSpec, by: LayControl<'_>) -> Result<Unevennesses, Erro
     };
     let mut flyer = Flyer::new(by.threads, by.stop, &unwatched);
     let mut flown = flyer.web(&WebSpec { method, ..spec.clone() })?;
-    Ok(match spec.method {
-        Method::SharedAir => Unevennesses::OfMaps(flown.measure(by)?.patches),
-        Method::Surrogate | Method::Dynamics => Unevennesses::Expected(expected_cv(&flown.web, by)?),
-    })
+    match spec.method {
+        Method::SharedAir => Ok(of_maps(&flown.measure(by)?.patches)),
+        Method::Surrogate | Method::Dynamics => expected_cv(&flown.web, by),
+    }
 }

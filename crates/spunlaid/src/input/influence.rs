@@ -1,42 +1,32 @@
 //! What decides the diameter of a filament: every number of a spinline is changed a little.
 
 use super::spinline::SpinFile;
+use super::step::{Step, changed_key, is_by_kelvin};
 use crate::case::Case;
-use crate::case::keys::{self, Key, Kind, Sign, Value};
+use crate::case::keys::{self, Key, Value};
+use crate::effects::{Change, Effect, Setting, Tried};
 use crate::sort::sort_by_key;
-use crate::spinline::{Failure, Solution, Spinline};
-use crate::units::Dimension;
+use crate::spinline::Solution;
+use crate::statistics::Difference;
 use std::cmp::Reverse;
 
-/// The change of a number, either way.
+/// The change of a number, either way, and that of a temperature [K].
 const STEP: f64 = 0.02;
-/// The change of a temperature, either way [K].
 const KELVIN: f64 = 2.0;
 /// Influences below this are left out.
 const LEAST: f64 = 5e-4;
 
-/// What a change of a number does to the filament.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Influence {
-    /// Full name of the key, `spinline.throughput`.
-    pub key: &'static str,
-    /// What is changed, with its symbol: `Throughput of a hole`.
-    pub label: &'static str,
-    /// How it is changed.
-    pub change: Change,
-    /// What the change does to the final diameter: `d ln d/d ln x` [-], or its relative change [-] for 10 K.
-    pub diameter: f64,
-    /// The same of the final speed.
-    pub speed: f64,
-}
+/// What a change of a number does to the cold filament: `d ln d/d ln x` [-] of its diameter d, or the relative change [-] for 10 K, and the same of its
+/// speed. They are computed and have no error of chance.
+pub type Influence = Tried<(), OfFilament>;
 
-/// How a number is changed to see its influence.
+/// What an [`Influence`] is on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Change {
-    /// By a share of its value.
-    Relative,
-    /// By 10 K.
-    TenKelvin,
+pub enum OfFilament {
+    /// The final diameter.
+    Diameter,
+    /// The final speed.
+    Speed,
 }
 
 impl SpinFile {
@@ -48,23 +38,10 @@ impl SpinFile {
     /// * `filament` – the steady state of the first row, from which those of the changed lines are not far
     pub fn influences(&self, filament: &Solution) -> Vec<Influence> {
         let carrier = Case::from(&self.spec);
-        let mut found = Vec::new();
         let tables = ["spinline", "spinline.material", "drag"];
-        for key in tables.into_iter().flat_map(keys::keys_of_table) {
-            let Some(Value::Number(value)) = key.get(&carrier) else { continue };
-            let change = Change::from_key(key);
-            if (value != 0.0 || change == Change::TenKelvin) && is_physical(key) {
-                let changed = |sign: f64| {
-                    let mut case = carrier.clone();
-                    key.set(&mut case, change.apply(value, sign)).ok()?;
-                    solve(&case, filament).ok()
-                };
-                // A factor on the air stands for the air.
-                let label = key.label.trim_end_matches(", factor").trim_end_matches(", change");
-                found.extend(change.influence(key.name, label, changed));
-            }
-        }
-        sort_by_key(&mut found, |influence| Reverse(influence.diameter.abs()));
+        let all = tables.into_iter().flat_map(keys::keys_of_table);
+        let mut found: Vec<Influence> = all.filter_map(|key| influence(key, &carrier, filament)).collect();
+        sort_by_key(&mut found, |influence| Reverse(influence.effects[0].difference.value.abs()));
         found
     }
 }
@@ -74,45 +51,40 @@ fn is_physical(key: &Key) -> bool {
     !["spinline.break_stress", "spinline.filaments_per_metre_and_row"].contains(&key.name)
 }
 
-/// Diameter [m] and speed [m/s] of the filament of a changed line.
-fn solve(case: &Case, near: &Solution) -> Result<Option<[f64; 2]>, Failure> {
-    let numbers = |line: &Spinline| {
-        let speed = line.final_speed_near(case.drag.along, near)?;
-        Ok([line.final_diameter(speed), speed])
+/// The influence of a number, from the filaments with a smaller and with a larger one; None if it has none, or hardly any.
+fn influence(key: &'static Key, carrier: &Case, near: &Solution) -> Option<Influence> {
+    let Some(Value::Number(number)) = key.get(carrier) else { return None };
+    let by_kelvin = is_by_kelvin(&key.kind);
+    if (number == 0.0 && !by_kelvin) || !is_physical(key) {
+        return None;
+    }
+    let ends = [-1.0, 1.0]
+        .map(|sign| Step { factor: 1.0 + sign * STEP, kelvin: sign * KELVIN }.apply(&key.kind, number));
+    // Diameter and speed of the filament of the changed line.
+    let solve = |number: f64| -> Option<[f64; 2]> {
+        let mut case = carrier.clone();
+        key.set(&mut case, number).ok()?;
+        let line = case.spinline.as_deref()?;
+        let speed = line.final_speed_near(case.drag.along, near).ok()?;
+        Some([line.final_diameter(speed), speed])
     };
-    case.spinline.as_deref().map(numbers).transpose()
-}
-
-impl Change {
-    /// How a key is changed: a temperature, and a difference of temperatures that may be zero, has no share of its value.
-    fn from_key(key: &Key) -> Self {
-        match key.kind {
-            Kind::Quantity(Dimension::Temperature, _)
-            | Kind::Quantity(Dimension::TemperatureDifference, Sign::Any) => Self::TenKelvin,
-            _ => Self::Relative,
-        }
-    }
-
-    fn apply(self, value: f64, sign: f64) -> f64 {
-        match self {
-            Self::Relative => value * (1.0 + sign * STEP),
-            Self::TenKelvin => value + sign * KELVIN,
-        }
-    }
-
-    /// The influence of a number, from the filaments with a larger and with a smaller one.
-    fn influence(
-        self,
-        key: &'static str,
-        label: &'static str,
-        changed: impl Fn(f64) -> Option<Option<[f64; 2]>>,
-    ) -> Option<Influence> {
-        let (more, less) = (changed(1.0)??, changed(-1.0)??);
-        let scale = match self {
-            Self::Relative => libm::log((1.0 + STEP) / (1.0 - STEP)),
-            Self::TenKelvin => 2.0 * KELVIN / 10.0,
-        };
-        let [diameter, speed] = [0, 1].map(|number| libm::log(more[number] / less[number]) / scale);
-        (diameter.abs() >= LEAST).then_some(Influence { key, label, change: self, diameter, speed })
-    }
+    let (less, more) = (solve(ends[0])?, solve(ends[1])?);
+    let scale = match by_kelvin {
+        true => 2.0 * KELVIN / 10.0,
+        false => libm::log((1.0 + STEP) / (1.0 - STEP)),
+    };
+    let effect = |(measure, number): (OfFilament, usize)| {
+        Effect::new(measure, Difference::exact(libm::log(more[number] / less[number]) / scale))
+    };
+    let effects = [(OfFilament::Diameter, 0), (OfFilament::Speed, 1)].map(effect).to_vec();
+    // A factor on the air stands for the air.
+    let words = key.label.trim_end_matches(", factor").trim_end_matches(", change");
+    let change = Change {
+        setting: Setting { name: key.name, words },
+        layers: Vec::new(),
+        keys: vec![changed_key(key.name.to_owned(), &key.kind, ends)],
+        experiment: (),
+        refusal: None,
+    };
+    (effects[0].difference.value.abs() >= LEAST).then_some(Tried { change, effects, at_first: Vec::new() })
 }

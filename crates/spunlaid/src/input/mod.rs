@@ -17,6 +17,7 @@ mod overrides;
 mod slip;
 mod source;
 mod spinline;
+mod step;
 mod study;
 mod unclosed;
 mod unknown;
@@ -28,13 +29,13 @@ mod written_values;
 
 pub use crate::layers::{LaydownSource, LayerSpec, Method, WEB_KEYS, WEB_TABLES, WebKey, WebSpec};
 pub use fed_back_tension::FlownTension;
-pub use influence::{Change, Influence};
+pub use influence::{Influence, OfFilament};
 pub use kind::kind_of;
 pub use spinline::{SpinFile, parse_spinline, read_spinline, write_spinline};
 pub use study::{
-    FitFile, MOST_POINTS_UNASKED, StudyChanges, StudyFile, StudyNote, differences, parse_changed_study,
-    parse_changes, parse_fit, parse_guesses, parse_study, read_changed_study, read_changes, read_fit,
-    read_guesses, read_study, starter_study,
+    Changes, FitFile, MOST_POINTS_UNASKED, StudyChanges, StudyFile, StudyNote, differences,
+    parse_changed_study, parse_changes, parse_fit, parse_study, read_changed_study, read_changes, read_fit,
+    read_study, starter_study,
 };
 pub use unread::{KeptTensions, Unflown, Unread};
 pub use web::{WebFile, parse_web, read_web, write_web};

@@ -14,6 +14,11 @@ pub struct Difference {
 }
 
 impl Difference {
+    /// A difference that has nothing to do with chance.
+    pub const fn exact(value: f64) -> Self {
+        Self { value, standard_error: 0.0, degrees: f64::INFINITY }
+    }
+
     /// Of two independent samples, which may have different variances (Welch's test).
     ///
     /// None if a sample has fewer than two finite values.
@@ -46,6 +51,11 @@ impl Difference {
     /// Half the width of the 95 % confidence interval.
     pub fn half_width(&self) -> f64 {
         if self.standard_error == 0.0 { 0.0 } else { student_t_95_at(self.degrees) * self.standard_error }
+    }
+
+    /// [`Difference::half_width`]; None if the error is not known.
+    pub fn known_half_width(&self) -> Option<f64> {
+        Some(self.half_width()).filter(|half| half.is_finite())
     }
 
     /// Whether the 95 % confidence interval leaves out zero.

@@ -25,7 +25,7 @@ mod spinlines;
 mod webs;
 
 pub use design::{Design, Factor, Levels, Spacing};
-pub use effects::{Effect, Ranking, Rankings, Refusal, Term, rankings};
+pub use effects::{Contrast, Ranking, Rankings, Refusal, Term, rankings};
 pub use experiment::Experiment;
 pub use journal::{Header, Journal, JournalState, foreign, in_use, other_format, unsynced};
 pub use keys::STUDY;

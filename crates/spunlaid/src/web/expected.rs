@@ -3,9 +3,11 @@
 use super::laying::LayControl;
 use super::one_fibre::{OneFibre, SingleFibres, one_fibre, straight_fibres};
 use super::plan::places;
+use super::uniformity::Unevenness;
 use super::{Edges, Fibres, Filaments, Layer, Sheet, Web};
+use crate::effects::Effect;
 use crate::error::Error;
-use crate::statistics::Estimate;
+use crate::statistics::{Difference, Estimate};
 use crate::threads::try_each;
 use std::ops::Range;
 
@@ -63,7 +65,7 @@ pub(super) struct PatchExpectation {
     parts: Vec<Vec<f64>>,
 }
 
-/// The CV over patches of one side that is expected of a web of independent filaments.
+/// The CV over patches of one side: as it is expected of a web of independent filaments, or of a map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExpectedCv {
     /// Side of the patches [m].
@@ -72,15 +74,24 @@ pub struct ExpectedCv {
     pub cv: f64,
     /// Its standard error over the fibres; NaN for a single one.
     pub standard_error: f64,
+    /// Degrees of freedom of the error.
+    degrees: f64,
     /// What each fibre says of CV², those of all layers together; empty if the layers have different numbers of fibres.
     parts: Vec<f64>,
 }
 
 impl ExpectedCv {
-    /// The change from this CV to another one as a share of it, with its standard error.
+    /// That of a map, which no other map has anything in common with.
+    pub fn of_map(map: &Unevenness) -> Self {
+        let standard_error = map.standard_error.unwrap_or(f64::NAN);
+        Self { patch: map.patch, cv: map.cv, standard_error, degrees: f64::INFINITY, parts: Vec::new() }
+    }
+
+    /// The change from this CV to the one over the same patches among others, as a share of it.
     ///
     /// The fibres of both are compared one by one where there are as many, because they fly in the same gusts; else the two are taken as independent.
-    pub fn change_to(&self, other: &Self) -> (f64, f64) {
+    pub fn effect_to(&self, others: &[Self]) -> Option<Effect<f64>> {
+        let other = others.iter().find(|other| other.patch == self.patch)?;
         let ratio = other.cv / self.cv;
         let fibres = self.parts.len();
         let error = if fibres > 1 && fibres == other.parts.len() {
@@ -92,12 +103,9 @@ impl ExpectedCv {
         } else {
             Some((self.standard_error / self.cv).hypot(other.standard_error / other.cv))
         };
-        (ratio - 1.0, ratio * error.unwrap_or(f64::NAN))
-    }
-
-    /// Number of fibres on which the error rests.
-    pub fn fibres(&self) -> usize {
-        self.parts.len()
+        let standard_error = ratio * error.unwrap_or(f64::NAN);
+        let degrees = self.degrees.min(other.degrees).max(1.0);
+        Some(Effect::new(self.patch, Difference { value: ratio - 1.0, standard_error, degrees }))
     }
 }
 
@@ -126,7 +134,8 @@ pub fn expected_cv(web: &Web, by: LayControl<'_>) -> Result<Vec<ExpectedCv>, Err
             let alike = parts.iter().all(|of_layer| of_layer.len() == fibres);
             let sum = |fibre: usize| parts.iter().map(|of_layer| of_layer[fibre]).sum();
             let parts = if alike { (0..fibres).map(sum).collect() } else { Vec::new() };
-            ExpectedCv { patch: *side as f64 * web.sheet.cell, cv, standard_error, parts }
+            let degrees = parts.len() as f64 - 1.0;
+            ExpectedCv { patch: *side as f64 * web.sheet.cell, cv, standard_error, degrees, parts }
         };
     Ok(found.into_iter().zip(&sides).map(of_side).collect())
 }

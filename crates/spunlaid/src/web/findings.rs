@@ -137,18 +137,16 @@ pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Result
         // What changes the unevenness of independent filaments says little about that of their clouds.
         return Ok(found);
     }
-    let sides: Vec<usize> = found.patches.iter().map(|patch| side(&web.sheet, patch.map.patch)).collect();
+    let patch = |found: &PatchFindings| (found.map.patch, side(&web.sheet, found.map.patch));
+    let patches: Vec<(f64, usize)> = found.patches.iter().map(patch).collect();
     let sample = OneFibre { cell: web.sheet.cell, fibres: TURNED, seed: web.seed };
     let aside = AtomicU64::new(0);
-    let mut sensitivities = sensitivities(web, &sides, sample, LayControl { laid: &aside, ..by })?;
+    let mut sensitivities = sensitivities(web, &patches, sample, LayControl { laid: &aside, ..by })?;
     // A surrogate that is not like the flown fibres does not say what would change their web.
-    for sensitivity in sensitivities.iter_mut().filter(|sensitivity| sensitivity.source == Source::Surrogate)
-    {
-        for (elasticity, patch) in sensitivity.elasticity.iter_mut().zip(&found.patches) {
-            if patch.surrogate_is_far() {
-                *elasticity = None;
-            }
-        }
+    let is_far =
+        |patch: f64| found.patches.iter().any(|found| found.map.patch == patch && found.surrogate_is_far());
+    for sensitivity in sensitivities.iter_mut().filter(|of| of.change.experiment == Source::Surrogate) {
+        sensitivity.effects.retain(|effect| !is_far(effect.of));
     }
     Ok(Findings { sensitivities, ..found })
 }

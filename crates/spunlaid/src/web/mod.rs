@@ -52,7 +52,7 @@ pub use neighbours::{Correlation, NeighbourCorrelation, SharedVariance};
 pub use one_fibre::{OneFibre, SingleFibres, one_fibre, straight_fibres};
 pub use orientation::{Orientation, orientation};
 pub(crate) use plan::inlets;
-pub use sensitivity::{Lever, Sensitivity, Source, sensitivities};
+pub use sensitivity::{Sensitivity, Source, sensitivities};
 pub use strands::strands;
 pub use uniformity::nearest_to_seen;
 pub use waves::{Places, Streaks};

@@ -3,15 +3,16 @@
 use super::laying::LayControl;
 use super::one_fibre::{OneFibre, one_fibre};
 use super::{Curves, Fibres, Layer, Web};
+use crate::effects::{Change, Effect, Setting, Tried};
 use crate::error::Error;
-use crate::statistics::Estimate;
+use crate::statistics::{Difference, Estimate};
 use crate::surrogate::Surrogate;
 use crate::threads::try_each;
 use std::sync::Arc;
 
 /// A number of a line that changes the unevenness of its web.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Lever {
+enum Lever {
     /// Spread of the lay-down in machine direction.
     SigmaMd,
     /// Spread of the lay-down in cross direction.
@@ -25,19 +26,14 @@ pub enum Lever {
 }
 
 impl Lever {
-    /// All of them.
-    pub const ALL: [Self; 5] = [Self::SigmaMd, Self::SigmaCd, Self::Noise, Self::BeltSpeed, Self::Filaments];
-
-    /// Name in results: `sigma_md`.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::SigmaMd => "sigma_md",
-            Self::SigmaCd => "sigma_cd",
-            Self::Noise => "noise",
-            Self::BeltSpeed => "belt_speed",
-            Self::Filaments => "filaments",
-        }
-    }
+    /// All of them, as they are called.
+    const ALL: [(Self, &'static str, &'static str); 5] = [
+        (Self::SigmaMd, "sigma_md", "spread of the lay-down in machine direction, σ MD"),
+        (Self::SigmaCd, "sigma_cd", "spread of the lay-down in cross direction, σ CD"),
+        (Self::Noise, "noise", "noise of the direction, A"),
+        (Self::BeltSpeed, "belt_speed", "belt speed"),
+        (Self::Filaments, "filaments", "filaments"),
+    ];
 
     /// The layer with the number times a factor; None if its curves do not let it change.
     fn turned(self, layer: &Layer, factor: f64) -> Option<Layer> {
@@ -107,18 +103,11 @@ impl Source {
     }
 }
 
-/// By how many per cent the unevenness over patches changes when a number of the first layer's line changes by one per cent.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Sensitivity {
-    /// The number.
-    pub lever: Lever,
-    /// What it rests on.
-    pub source: Source,
-    /// `d ln CV / d ln number` for each side of a patch, over the fibres. None where it would come from a surrogate whose CV is
-    /// [far](super::PatchFindings::surrogate_is_far) from that of the flown curves, and for the speed of a belt that
-    /// [changes the flight](Layer::belt_changes_flight).
-    pub elasticity: Vec<Option<Estimate>>,
-}
+/// By how many per cent the unevenness over patches changes when a number of the first layer's line changes by one per cent: `d ln CV / d ln number` over
+/// the fibres, for each side of a patch [m]. It has no effect where it would come from a surrogate whose CV is
+/// [far](super::PatchFindings::surrogate_is_far) from that of the flown curves, and none of the speed of a belt that
+/// [changes the flight](Layer::belt_changes_flight).
+pub type Sensitivity = Tried<Source, f64>;
 
 /// Belt speed over feed speed above which the sensitivity to it is not told. docs/validation.md has what was measured: up to here the
 /// moved curves have that of curves that are flown anew.
@@ -141,56 +130,63 @@ const STEP: f64 = 0.1;
 /// They say what a number does while the others stay. Basis weight is not held: with more filaments it rises, with a
 /// faster belt it falls.
 ///
-/// * `sides` – of the patches [cells]
+/// * `patches` – sides of the patches [m], and the same in cells
 ///
 /// # Errors
 /// As [`one_fibre`].
 pub fn sensitivities(
     web: &Web,
-    sides: &[usize],
+    patches: &[(f64, usize)],
     sample: OneFibre,
     by: LayControl<'_>,
 ) -> Result<Vec<Sensitivity>, Error> {
-    let mut found = Vec::new();
     let [layer] = &web.layers[..] else {
-        return Ok(found);
+        return Ok(Vec::new());
     };
+    let sides: Vec<usize> = patches.iter().map(|(_, side)| *side).collect();
     let largest = sides.iter().copied().max().unwrap_or(1) as f64 * sample.cell;
-    let both = |lever: Lever| Some((lever, lever.both(layer, 1.0 + STEP, largest + sample.cell)?));
-    let turned: Vec<(Lever, (Source, [Layer; 2]))> = Lever::ALL.into_iter().filter_map(both).collect();
+    let both = |(lever, name, words)| {
+        let (experiment, layers) = Lever::both(lever, layer, 1.0 + STEP, largest + sample.cell)?;
+        let (setting, keys) = (Setting { name, words }, Vec::new());
+        let change = Change { setting, layers: Vec::new(), keys, experiment, refusal: None };
+        Some((lever, change, layers))
+    };
+    let turned: Vec<(Lever, Change<Source>, [Layer; 2])> = Lever::ALL.into_iter().filter_map(both).collect();
+    // The effect of the number of filaments follows from a known law. A fast belt changes the flight, so its effect is not given.
+    let is_laid = |lever: Lever| {
+        !(lever == Lever::Filaments || lever == Lever::BeltSpeed && layer.belt_changes_flight())
+    };
     let of_both: Vec<Vec<Estimate>> = try_each(by.threads, 2 * turned.len(), |i| {
-        let (lever, (_, layers)) = &turned[i / 2];
-        // The effect of the number of filaments follows from a known law. A fast belt changes the flight, so its effect is not given.
-        if *lever == Lever::Filaments || (*lever == Lever::BeltSpeed && layer.belt_changes_flight()) {
+        let (lever, _, layers) = &turned[i / 2];
+        if !is_laid(*lever) {
             return Ok(Vec::new());
         }
-        let found = one_fibre(&layers[i % 2], sides, sample, by)?;
+        let found = one_fibre(&layers[i % 2], &sides, sample, by)?;
         Ok(found.iter().map(|alone| alone.estimate(&layer.filaments).clone()).collect())
     })?;
-    for ((lever, (source, _)), of_both) in turned.into_iter().zip(of_both.chunks_exact(2)) {
-        let elasticity = if lever == Lever::BeltSpeed && layer.belt_changes_flight() {
-            vec![None; sides.len()]
-        } else if lever == Lever::Filaments {
-            // Independent filaments: the variance goes with one over their number.
-            vec![Some(Estimate { mean: -0.5, standard_error: None, values: Vec::new() }); sides.len()]
-        } else {
-            // CV² is CV²τ/τ, and τ goes with one over the speed of the belt.
-            let thinner = if lever == Lever::BeltSpeed { 2.0 * libm::log1p(STEP) } else { 0.0 };
-            let of_side = |(less, more): (&Estimate, &Estimate)| {
-                let change = |less: f64, more: f64| {
-                    0.5 * (libm::log(more / less) + thinner) / (2.0 * libm::log1p(STEP))
-                };
-                // The logarithm of a mean and not the mean of logarithms: each fibre's part of the change.
-                let mean = change(less.mean, more.mean);
-                let part = |(l, m): (&f64, &f64)| {
-                    mean + 0.5 * (m / more.mean - l / less.mean) / (2.0 * libm::log1p(STEP))
-                };
-                let parts = less.values.iter().zip(&more.values).map(part).collect();
-                Some(Estimate { mean, ..Estimate::new(parts) })
+    let of_lever = |((lever, change, _), of_both): ((Lever, Change<Source>, _), &[Vec<Estimate>])| {
+        let effects = patches.iter().enumerate().filter_map(|(i, (patch, _))| {
+            let difference = match lever {
+                // Independent filaments: the variance goes with one over their number.
+                Lever::Filaments => Difference::exact(-0.5),
+                _ => elasticity(lever, [of_both[0].get(i)?, of_both[1].get(i)?]),
             };
-            of_both[0].iter().zip(&of_both[1]).map(of_side).collect()
-        };
-        found.push(Sensitivity { lever, source, elasticity });
-    }
-    Ok(found)
+            Some(Effect::new(*patch, difference))
+        });
+        Tried { change, effects: effects.collect(), at_first: Vec::new() }
+    };
+    Ok(turned.into_iter().zip(of_both.chunks_exact(2)).map(of_lever).collect())
+}
+
+/// `d ln CV / d ln number`, from `CV²·τ` of single fibres with less and with more of a number.
+fn elasticity(lever: Lever, [less, more]: [&Estimate; 2]) -> Difference {
+    // CV² is CV²τ/τ, and τ goes with one over the speed of the belt.
+    let thinner = if lever == Lever::BeltSpeed { 2.0 * libm::log1p(STEP) } else { 0.0 };
+    // The logarithm of a mean and not the mean of logarithms: each fibre's part of the change.
+    let value = 0.5 * (libm::log(more.mean / less.mean) + thinner) / (2.0 * libm::log1p(STEP));
+    let part =
+        |(l, m): (&f64, &f64)| value + 0.5 * (m / more.mean - l / less.mean) / (2.0 * libm::log1p(STEP));
+    let parts = Estimate::new(less.values.iter().zip(&more.values).map(part).collect());
+    let degrees = parts.values.len() as f64 - 1.0;
+    Difference { value, standard_error: parts.standard_error.unwrap_or(f64::NAN), degrees }
 }

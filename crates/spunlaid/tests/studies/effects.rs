@@ -89,10 +89,10 @@ fn coverage(design: &str, replicates: u64, model: Model, noise: Noise) -> (f64, 
         // A hypercube of few points may be refused for a correlation by chance.
         let rankings = rankings(&study, &mut journal).unwrap().of_measures;
         for effect in rankings.first().iter().flat_map(|ranking| &ranking.effects) {
-            let error = effect.change - [6.0, -2.0, 0.0][effect.factor];
-            inside += u32::from(error.abs() <= effect.half_width.unwrap());
+            let error = effect.difference.value - [6.0, -2.0, 0.0][effect.of.factor];
+            inside += u32::from(error.abs() <= effect.difference.known_half_width().unwrap());
             all += 1;
-            widths += effect.half_width.unwrap();
+            widths += effect.difference.known_half_width().unwrap();
             errors += error * error;
         }
     }
@@ -150,11 +150,11 @@ fn analytic_effects_of_a_straight_line() {
         let rankings = rankings(&study, &mut journal).unwrap();
         assert_eq!((rankings.of_measures.len(), rankings.refusal), (MEASURES.len(), None));
         let ranking = &rankings.of_measures[0];
-        let order: Vec<usize> = ranking.effects.iter().map(|effect| effect.factor).collect();
+        let order: Vec<usize> = ranking.effects.iter().map(|effect| effect.of.factor).collect();
         assert_eq!(order, [0, 1, 2], "{design}");
         for (effect, expected) in ranking.effects.iter().zip([6.0, -2.0, 0.0]) {
-            assert!((effect.change - expected).abs() < 1e-12, "{design}: {effect:?}");
-            assert!(effect.half_width.unwrap() < 1e-12, "{design}: {effect:?}");
+            assert!((effect.difference.value - expected).abs() < 1e-12, "{design}: {effect:?}");
+            assert!(effect.difference.known_half_width().unwrap() < 1e-12, "{design}: {effect:?}");
         }
         assert!((ranking.explained - explained).abs() < 1e-12, "{design}: {}", ranking.explained);
         // Without the other factors, each point lies on the line of its own.
@@ -216,9 +216,9 @@ fn the_differences_of_a_smallest_design_are_ranked_without_a_share() {
         values.iter().map(|record| record.outcome.measured().unwrap()[0]).sum::<f64>() / 4.0
     };
     let wanted = mean(1, &mut journal) - mean(0, &mut journal);
-    let effect = ranking.effects.iter().find(|effect| effect.factor == 0).unwrap();
-    assert!((effect.change - wanted).abs() < 1e-12);
-    assert_eq!((effect.from, effect.to), (10.0, 15.0));
+    let effect = ranking.effects.iter().find(|effect| effect.of.factor == 0).unwrap();
+    assert!((effect.difference.value - wanted).abs() < 1e-12);
+    assert_eq!((effect.of.from, effect.of.to), (10.0, 15.0));
 }
 
 /// Means of three words and the slope over the velocity, and the true effects: of the second and the third word against
@@ -261,8 +261,9 @@ fn effects_of_words(
     let ranking = &rankings.of_measures[0];
     assert_eq!(ranking.effects.len(), 3, "{design}");
     let of = |from: f64, to: f64| {
-        let effect = ranking.effects.iter().find(|effect| (effect.from, effect.to) == (from, to)).unwrap();
-        (effect.change, effect.half_width)
+        let effect =
+            ranking.effects.iter().find(|effect| (effect.of.from, effect.of.to) == (from, to)).unwrap();
+        (effect.difference.value, effect.difference.known_half_width())
     };
     (vec![of(matsui, sakiadis), of(matsui, glauert), of(5.0, 15.0)], ranking.explained)
 }

@@ -1,8 +1,9 @@
 //! Advice: what settings of a line do to the CV of its web at the same basis weight.
 
-use spunlaid::advice::{Advice, Change, Setting, advise};
+use spunlaid::advice::{Advice, Change, Tried, advise};
+use spunlaid::effects::Setting;
 use spunlaid::error::Error;
-use spunlaid::input::{LaydownSource, Overrides, WebFile, WebSpec, parse_changes, parse_web};
+use spunlaid::input::{Changes, LaydownSource, Overrides, WebFile, WebSpec, parse_changes, parse_web};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, Flyer};
 use spunlaid::web::LayControl;
@@ -62,7 +63,10 @@ fn read(text: &str, set: &[(&str, &str)]) -> (WebFile, Vec<Change>) {
     let set: Vec<(String, String)> =
         set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
     let set = Overrides { values: &set, word: "--set" };
-    (parse_web(text, &cases(), set).unwrap(), parse_changes(text.to_owned(), &cases(), set).unwrap())
+    (
+        parse_web(text, &cases(), set).unwrap(),
+        parse_changes(text.to_owned(), &cases(), set, Changes::OfLine).unwrap(),
+    )
 }
 
 fn advice(text: &str, threads: usize, stop: &AtomicBool) -> Result<Advice, Error> {
@@ -72,7 +76,7 @@ fn advice(text: &str, threads: usize, stop: &AtomicBool) -> Result<Advice, Error
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
     let mut flown = Flyer::new(threads, &on, &follow).web(&file.spec).unwrap();
     let findings = flown.measure(by).unwrap();
-    advise(&file.spec, (&flown.web, &findings), changes, LayControl { stop, ..by })
+    advise(&file.spec, (&flown.web, &findings), changes, None, LayControl { stop, ..by })
 }
 
 fn weight(spec: &WebSpec) -> f64 {
@@ -89,24 +93,43 @@ fn settings(changes: &[Change]) -> Vec<(Setting, Option<usize>)> {
 
 #[test]
 fn invariant_every_changed_web_has_the_same_basis_weight() {
-    use Setting::{
-        AirSpeed, Depth, DieTemperature, Distance, DrawingAir, Holes, Throughput, Titre, Turbulence,
-    };
     let file = |name: &str| std::fs::read_to_string(Path::new(&cases()).with_file_name(name)).unwrap();
     let alone = |all: &[Setting]| all.iter().map(|setting| (*setting, None)).collect::<Vec<_>>();
-    let flown = alone(&[Throughput, Holes, Titre, Distance, AirSpeed, Turbulence]);
-    let spun = alone(&[Throughput, Holes, DrawingAir, DieTemperature, Distance, AirSpeed, Turbulence]);
+    let flown = alone(&[
+        Setting::THROUGHPUT,
+        Setting::HOLES,
+        Setting::TITRE,
+        Setting::DISTANCE,
+        Setting::AIR_SPEED,
+        Setting::TURBULENCE,
+    ]);
+    let spun = alone(&[
+        Setting::THROUGHPUT,
+        Setting::HOLES,
+        Setting::DRAWING_AIR,
+        Setting::DIE_TEMPERATURE,
+        Setting::DISTANCE,
+        Setting::AIR_SPEED,
+        Setting::TURBULENCE,
+    ]);
+    let beams = [
+        (Setting::THROUGHPUT, Some(1)),
+        (Setting::HOLES, Some(1)),
+        (Setting::THROUGHPUT, Some(2)),
+        (Setting::HOLES, Some(2)),
+        (Setting::TITRE, Some(2)),
+    ];
     let beams =
-        [(Throughput, Some(1)), (Holes, Some(1)), (Throughput, Some(2)), (Holes, Some(2)), (Titre, Some(2))];
-    let beams = [&beams[..], &alone(&[Titre, Distance, AirSpeed, Turbulence])].concat();
+        [&beams[..], &alone(&[Setting::TITRE, Setting::DISTANCE, Setting::AIR_SPEED, Setting::TURBULENCE])]
+            .concat();
     let weight_written: &[(&str, &str)] = &[("line.basis_weight", "15 g/m²")];
     for (text, set, wanted) in [
-        (STRAIGHT, &[][..], alone(&[Throughput, Holes, Titre])),
-        (STRAIGHT, weight_written, alone(&[Throughput, Holes, Titre])),
+        (STRAIGHT, &[][..], alone(&[Setting::THROUGHPUT, Setting::HOLES, Setting::TITRE])),
+        (STRAIGHT, weight_written, alone(&[Setting::THROUGHPUT, Setting::HOLES, Setting::TITRE])),
         (BEAMS, &[], beams),
         (&file("web.toml"), &[], flown.clone()),
         (&file("web.toml"), weight_written, flown.clone()),
-        (&file("web_shared.toml"), &[], [&flown[..], &alone(&[Depth])].concat()),
+        (&file("web_shared.toml"), &[], [&flown[..], &alone(&[Setting::DEPTH])].concat()),
         (&file("whole_line.toml"), &[], spun),
     ] {
         let (base, changes) = read(text, set);
@@ -116,17 +139,17 @@ fn invariant_every_changed_web_has_the_same_basis_weight() {
         for change in &changes {
             let name = format!("{:?} {:?}", change.setting, change.keys);
             // All have one weight: that of the web, or if no file says it, its five digits that can be pasted.
-            let common = weight(&change.spec);
-            assert!((common / weight(&changes[0].spec) - 1.0).abs() < 1e-9, "{name}");
+            let common = weight(&change.experiment.spec);
+            assert!((common / weight(&changes[0].experiment.spec) - 1.0).abs() < 1e-9, "{name}");
             assert!((common / weight(&base.spec) - 1.0).abs() < tolerance, "{name}");
-            for (before, after) in base.spec.layers.iter().zip(&change.spec.layers) {
+            for (before, after) in base.spec.layers.iter().zip(&change.experiment.spec.layers) {
                 // All lie on one belt, above which the cases are flown.
-                assert_eq!(after.belt_speed, change.spec.layers[0].belt_speed, "{name}");
+                assert_eq!(after.belt_speed, change.experiment.spec.layers[0].belt_speed, "{name}");
                 if let LaydownSource::Case { case, .. } = &after.source {
                     assert_eq!(case.line.unwrap().belt_speed, after.belt_speed, "{name}");
                 }
                 let throughput = |of: &spunlaid::input::LayerSpec| of.linear_density() * of.feed_speed;
-                if change.setting != Throughput {
+                if change.setting != Setting::THROUGHPUT {
                     // Five digits, where the file does not give it.
                     let tolerance = if before.throughput.is_some() { 1e-9 } else { 5e-5 };
                     assert!((throughput(after) / throughput(before) - 1.0).abs() < tolerance, "{name}");
@@ -184,20 +207,20 @@ fn invariant_what_advice_says_to_set_makes_the_changed_web() {
         assert!(!changes.is_empty(), "{set:?}");
         for change in changes {
             // A row stays as wide as its web, to the last digit of the pitch.
-            for (key, value) in change.set.iter().filter(|(key, _)| !key.ends_with(".pitch")) {
+            for (key, value) in change.experiment.set.iter().filter(|(key, _)| !key.ends_with(".pitch")) {
                 let digits = value.split(' ').next().unwrap().chars().filter(char::is_ascii_digit);
                 // Zeros in front tell the size only.
                 let digits = digits.skip_while(|digit| *digit == '0').count();
                 assert!(digits <= 5, "{key} = {value} is no number that a person would write");
             }
-            let set = Overrides { values: &change.set, word: "--set" };
-            let name = format!("{:?}: {:?}", change.setting, change.set);
+            let set = Overrides { values: &change.experiment.set, word: "--set" };
+            let name = format!("{:?}: {:?}", change.setting, change.experiment.set);
             let pasted =
                 parse_web(text, &cases(), set).unwrap_or_else(|error| panic!("{name}: {error}")).spec;
-            for (found, wanted) in pasted.layers.iter().zip(&change.spec.layers) {
+            for (found, wanted) in pasted.layers.iter().zip(&change.experiment.spec.layers) {
                 let numbers = |of: &spunlaid::input::LayerSpec| {
                     let distance = of.source.case().map_or(1.0, |case| case.line.unwrap().distance);
-                    let filaments = of.filaments.count(&change.spec.sheet) as f64;
+                    let filaments = of.filaments.count(&change.experiment.spec.sheet) as f64;
                     [of.linear_density(), of.feed_speed, of.belt_speed, distance, filaments]
                 };
                 for (found, wanted) in numbers(found).iter().zip(numbers(wanted)) {
@@ -221,7 +244,7 @@ fn invariant_what_advice_says_to_set_makes_the_changed_web() {
             kinds.push(change.setting);
         }
     }
-    kinds.sort_by_key(|kind| kind.name());
+    kinds.sort_by_key(|kind| kind.name);
     kinds.dedup();
     // All but the places of rows in one air, of which no case is so small.
     assert_eq!(kinds.len(), 9, "{kinds:?}");
@@ -230,21 +253,21 @@ fn invariant_what_advice_says_to_set_makes_the_changed_web() {
 #[test]
 fn equal_beams_are_changed_together() {
     let (base, changes) = read(EQUAL_BEAMS, &[]);
-    let holes: Vec<&Change> = changes.iter().filter(|change| change.setting == Setting::Holes).collect();
+    let holes: Vec<&Change> = changes.iter().filter(|change| change.setting == Setting::HOLES).collect();
     let layers: Vec<&[usize]> = holes.iter().map(|change| &change.layers[..]).collect();
     assert_eq!(layers, [&[1, 2][..], &[1, 2], &[3], &[3]]);
     let counts = |spec: &WebSpec| -> Vec<u64> {
         spec.layers.iter().map(|layer| layer.filaments.count(&spec.sheet)).collect()
     };
     assert_eq!(counts(&base.spec), [750, 750, 250]);
-    assert_eq!(counts(&holes[0].spec), [600, 600, 250]);
-    assert_eq!(counts(&holes[3].spec), [750, 750, 300]);
+    assert_eq!(counts(&holes[0].experiment.spec), [600, 600, 250]);
+    assert_eq!(counts(&holes[3].experiment.spec), [750, 750, 300]);
     // Beams that are all equal need no numbers.
     let two = EQUAL_BEAMS.replace("filaments_per_metre = 1000", "filaments_per_metre = 3000");
     let (_, changes) = read(&two, &[]);
-    let holes: Vec<&Change> = changes.iter().filter(|change| change.setting == Setting::Holes).collect();
+    let holes: Vec<&Change> = changes.iter().filter(|change| change.setting == Setting::HOLES).collect();
     assert_eq!((holes.len(), &holes[0].layers[..]), (2, &[][..]));
-    assert_eq!(counts(&holes[1].spec), [900, 900, 900]);
+    assert_eq!(counts(&holes[1].experiment.spec), [900, 900, 900]);
 }
 
 #[test]
@@ -256,9 +279,9 @@ fn a_change_of_one_beam_leaves_the_other_one_as_it_is() {
             .find(|change| (change.setting, change.layers.first().copied()) == (setting, layer))
             .unwrap()
     };
-    let holes = of(Setting::Holes, Some(2));
-    assert_eq!(holes.spec.layers[0].filaments, base.spec.layers[0].filaments);
-    assert_eq!(holes.spec.layers[1].filaments.count(&base.spec.sheet), 600);
+    let holes = of(Setting::HOLES, Some(2));
+    assert_eq!(holes.experiment.spec.layers[0].filaments, base.spec.layers[0].filaments);
+    assert_eq!(holes.experiment.spec.layers[1].filaments.count(&base.spec.sheet), 600);
     let keys: Vec<(&str, f64)> = holes.keys.iter().map(|key| (&*key.key, key.to)).collect();
     // The rows stay as wide as they are.
     assert_eq!(
@@ -270,16 +293,17 @@ fn a_change_of_one_beam_leaves_the_other_one_as_it_is() {
             ("layer.2.line.rows.2.pitch", 1e-3 / 0.8),
         ]
     );
-    let titre = of(Setting::Titre, Some(2));
+    let titre = of(Setting::TITRE, Some(2));
     // The belt lays the five digits of the basis weight.
     let mut source = base.spec.layers[0].source.clone();
     let LaydownSource::Case { case, .. } = &mut source else { panic!("a case is flown") };
-    let belt = titre.spec.layers[0].belt_speed;
+    let belt = titre.experiment.spec.layers[0].belt_speed;
     assert!((belt / 3.0 - 1.0).abs() < 5e-5, "{belt}");
     std::sync::Arc::make_mut(case).line.as_mut().unwrap().belt_speed = belt;
-    assert_eq!(titre.spec.layers[0].source, source);
+    assert_eq!(titre.experiment.spec.layers[0].source, source);
     assert!(
-        (titre.spec.layers[1].linear_density() / base.spec.layers[1].linear_density() - 0.8).abs() < 1e-3
+        (titre.experiment.spec.layers[1].linear_density() / base.spec.layers[1].linear_density() - 0.8).abs()
+            < 1e-3
     );
 }
 
@@ -290,25 +314,25 @@ fn analytic_titre_of_straight_filaments() {
     let advice = advice(STRAIGHT, 2, &AtomicBool::new(false)).unwrap();
     assert_eq!(advice.failed, []);
     let change = |setting: Setting, more: bool| {
-        let found = advice.effects.iter().find(|effect| {
-            effect.change.setting == setting
-                && (effect.change.keys[0].to > effect.change.keys[0].from) == more
+        let found = advice.tried.iter().find(|Tried { change, .. }| {
+            change.setting == setting && (change.keys[0].to > change.keys[0].from) == more
         });
-        found.unwrap().cvs[0]
+        found.unwrap().effects[0].difference
     };
     for (more, titre) in [(false, 0.8_f64), (true, 1.2)] {
-        let cv = change(Setting::Titre, more);
-        println!("{more}: {} ± {}, {}", cv.change, cv.standard_error, titre.sqrt() - 1.0);
+        let cv = change(Setting::TITRE, more);
+        println!("{more}: {} ± {}, {}", cv.value, cv.standard_error, titre.sqrt() - 1.0);
         // Four standard errors of few paths, and a per cent for where a filament meets itself.
         let tolerance = 4.0 * cv.standard_error + 0.01;
-        assert!((cv.change - (titre.sqrt() - 1.0)).abs() < tolerance, "{cv:?}");
+        assert!((cv.value - (titre.sqrt() - 1.0)).abs() < tolerance, "{cv:?}");
         assert!(tolerance < 0.04, "{cv:?}");
         // With more throughput the belt is as much faster, and the same paths lie on it.
-        assert!(change(Setting::Throughput, more).change.abs() < 1e-9);
+        assert!(change(Setting::THROUGHPUT, more).value.abs() < 1e-9);
     }
-    let [(effect, cv), ..] = advice.improvements(2e-3)[..] else { panic!("nothing lowers it") };
-    assert_eq!((effect.change.setting, cv.change < -0.05), (Setting::Titre, true));
-    assert!((effect.mass_flow[1] / effect.mass_flow[0] - 1.0).abs() < 1e-9);
+    let [(tried, effect), ..] = advice.improvements(2e-3)[..] else { panic!("nothing lowers it") };
+    assert_eq!((tried.change.setting, effect.difference.value < -0.05), (Setting::TITRE, true));
+    let [before, after] = tried.change.experiment.mass_flow;
+    assert!((after / before - 1.0).abs() < 1e-9);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::advice::cases;
 use spunlaid::advice::{Change, advise, are_tried};
-use spunlaid::input::{Overrides, parse_guesses, parse_web};
+use spunlaid::input::{Changes, Overrides, parse_changes, parse_web};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::Flyer;
 use spunlaid::web::LayControl;
@@ -11,7 +11,8 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 fn read(text: &str, set: &[(&str, &str)]) -> Vec<Change> {
     let set: Vec<(String, String)> =
         set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
-    parse_guesses(text.to_owned(), &cases(), Overrides { values: &set, word: "--set" }).unwrap()
+    parse_changes(text.to_owned(), &cases(), Overrides { values: &set, word: "--set" }, Changes::OfGuesses)
+        .unwrap()
 }
 
 /// What each web changes: the keys, and their factors.
@@ -48,14 +49,21 @@ fn identical_what_a_guess_says_to_set_is_the_web_that_is_tried() {
     let wanted: Vec<(&str, f64)> = keys.iter().flat_map(|key| [(*key, 0.5), (*key, 2.0)]).collect();
     assert_eq!(factors(&changes), wanted);
     for change in &changes {
-        let set = Overrides { values: &change.set, word: "--set" };
+        let set = Overrides { values: &change.experiment.set, word: "--set" };
         let pasted = parse_web(BEAMS, &cases(), set).unwrap().spec;
-        assert_eq!(format!("{pasted:?}"), format!("{:?}", change.spec), "{:?}", change.set);
+        assert_eq!(
+            format!("{pasted:?}"),
+            format!("{:?}", change.experiment.spec),
+            "{:?}",
+            change.experiment.set
+        );
     }
     // Both slots become deeper together; eddies half as long keep the smallest waves.
-    let both = changes[1].set.iter().filter(|(key, value)| key.ends_with(".depth") && value == "40 mm");
-    assert_eq!(both.count(), 2, "{:?}", changes[1].set);
-    let cutoffs: Vec<f64> = changes.iter().map(|change| change.spec.lateral_cutoff(0).unwrap()).collect();
+    let both =
+        changes[1].experiment.set.iter().filter(|(key, value)| key.ends_with(".depth") && value == "40 mm");
+    assert_eq!(both.count(), 2, "{:?}", changes[1].experiment.set);
+    let cutoffs: Vec<f64> =
+        changes.iter().map(|change| change.experiment.spec.lateral_cutoff(0).unwrap()).collect();
     assert!(
         cutoffs.iter().enumerate().all(|(i, cutoff)| *cutoff == cutoffs[0] * if i == 2 { 0.5 } else { 1.0 })
     );
@@ -72,12 +80,17 @@ fn identical_a_guess_takes_the_place_of_what_was_set_before() {
     let changes = read(&text, &[("line.depth", "30 mm"), ("web.guessed", "line.depth")]);
     assert_eq!(factors(&changes), [("line.depth", 0.5), ("line.depth", 2.0)]);
     for (change, depth) in changes.iter().zip(["15 mm", "60 mm"]) {
-        let depths: Vec<&str> =
-            change.set.iter().filter(|(key, _)| key == "line.depth").map(|(_, value)| &**value).collect();
-        assert_eq!(depths, [depth], "{:?}", change.set);
-        let set = Overrides { values: &change.set, word: "--set" };
+        let depths: Vec<&str> = change
+            .experiment
+            .set
+            .iter()
+            .filter(|(key, _)| key == "line.depth")
+            .map(|(_, value)| &**value)
+            .collect();
+        assert_eq!(depths, [depth], "{:?}", change.experiment.set);
+        let set = Overrides { values: &change.experiment.set, word: "--set" };
         let pasted = parse_web(&text, &cases(), set).unwrap().spec;
-        assert_eq!(format!("{pasted:?}"), format!("{:?}", change.spec));
+        assert_eq!(format!("{pasted:?}"), format!("{:?}", change.experiment.spec));
     }
 }
 
@@ -109,8 +122,8 @@ guessed = \"line.filaments_per_metre\"
     let by = LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &laid };
     let mut flown = Flyer::new(2, &stop, &|_, work| work()).web(&spec).unwrap();
     let findings = flown.measure(by).unwrap();
-    assert!(are_tried(&spec, &findings, &changes) && !are_tried(&spec, &findings, &[]));
-    let guesses = advise(&spec, (&flown.web, &findings), changes, by).unwrap();
+    assert!(are_tried(&spec, &findings, &changes));
+    let guesses = advise(&spec, (&flown.web, &findings), changes, None, by).unwrap();
     let ends = guesses.range(10e-3);
     for (found, wanted) in ends.iter().zip([0.5_f64.sqrt(), 2.0_f64.sqrt()]) {
         assert!((found / wanted - 1.0).abs() < 1e-6, "{ends:?}");

@@ -5,8 +5,8 @@ use spunlaid::lanes::Isa;
 use spunlaid::surrogate::Surrogate;
 use spunlaid::web::uniformity::unevenness;
 use spunlaid::web::{
-    Curves, Edges, Fibres, Filaments, LaidWeb, LayControl, Layer, Lever, Map, OneFibre, Row, Sheet, Source,
-    Strand, Web, Window, find, lay, one_fibre, orientation, pieces, straight_fibres, strands,
+    Curves, Edges, Fibres, Filaments, LaidWeb, LayControl, Layer, Map, OneFibre, Row, Sheet, Source, Strand,
+    Web, Window, find, lay, one_fibre, orientation, pieces, straight_fibres, strands,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -296,7 +296,7 @@ fn the_error_of_a_surrogates_map_reaches_to_the_flown_curves() {
         find(&Web { sheet: sheet.clone(), layers: vec![layer.clone()], seed: 1 }, by).expect("findings");
     layer.other_description = Some(std::mem::replace(&mut layer.fibres, curves));
     let by_curves = find(&Web { sheet, layers: vec![layer], seed: 1 }, by).expect("findings");
-    for (i, (patch, other)) in by_surrogate.patches.iter().zip(&by_curves.patches).enumerate() {
+    for (patch, other) in by_surrogate.patches.iter().zip(&by_curves.patches) {
         assert_eq!((patch.flown, patch.surrogate), (Some(other.single_fibres), Some(patch.single_fibres)));
         assert_eq!(other.flown, Some(other.single_fibres));
         let (apart, of_apart) = patch.surrogate_over_flown().expect("both");
@@ -311,13 +311,14 @@ fn the_error_of_a_surrogates_map_reaches_to_the_flown_curves() {
         assert_eq!(other.whole_error().model, Some(0.0));
         for found in [&by_surrogate, &by_curves] {
             for of in &found.sensitivities {
-                let told = of.elasticity[i].is_some();
-                let source = match of.lever {
-                    Lever::BeltSpeed => Source::FlownFibres,
-                    Lever::Filaments => Source::Law,
+                let told = of.on(patch.map.patch).is_some();
+                let name = of.change.setting.name;
+                let source = match name {
+                    "belt_speed" => Source::FlownFibres,
+                    "filaments" => Source::Law,
                     _ => Source::Surrogate,
                 };
-                assert_eq!((of.source, told), (source, source != Source::Surrogate), "{:?}", of.lever);
+                assert_eq!((of.change.experiment, told), (source, source != Source::Surrogate), "{name}");
             }
             assert_eq!(found.sensitivities.len(), 5);
         }
@@ -337,6 +338,9 @@ fn the_whole_error_of_a_surrogate_alone_is_not_known() {
     assert!(error.chance.is_some() && error.model.is_none() && error.whole().is_none(), "{error:?}");
     assert!(patch.flown.is_none() && patch.surrogate.is_some() && !patch.surrogate_is_far());
     assert!(
-        found.sensitivities.iter().all(|of| of.source != Source::FlownFibres && of.elasticity[0].is_some())
+        found
+            .sensitivities
+            .iter()
+            .all(|of| of.change.experiment != Source::FlownFibres && of.on(patch.map.patch).is_some())
     );
 }

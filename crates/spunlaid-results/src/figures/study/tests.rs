@@ -2,8 +2,10 @@
 
 use super::super::sample;
 use super::*;
+use spunlaid::effects::Effect;
 use spunlaid::observe::MEASURES;
-use spunlaid::study::{Effect, Factor, Levels, Point, Replicates, Spacing};
+use spunlaid::statistics::Difference;
+use spunlaid::study::{Contrast, Factor, Levels, Point, Replicates, Spacing};
 use spunlaid::units::Dimension;
 use spunlaid_charts::png;
 
@@ -41,14 +43,13 @@ fn study(design: Design, counts: &[usize]) -> (Study, Vec<PointResults>) {
 }
 
 fn rankings(study: &Study) -> Vec<Ranking> {
-    let effect = |factor: usize| Effect {
-        factor,
-        from: 1e-3,
-        to: 1e-1,
-        change: -0.01 / (factor + 1) as f64,
-        half_width: (factor > 0).then_some(0.006),
+    let effect = |factor: usize| {
+        let standard_error = if factor > 0 { 0.003 } else { f64::NAN };
+        let value = -0.01 / (factor + 1) as f64;
+        let contrast = Contrast { factor, from: 1e-3, to: 1e-1 };
+        Effect::new(contrast, Difference { value, standard_error, degrees: f64::INFINITY })
     };
-    let effects: Vec<Effect> = (0..study.factors.len()).map(effect).collect();
+    let effects: Vec<Effect<Contrast>> = (0..study.factors.len()).map(effect).collect();
     let ranking = |measure| Ranking {
         measure,
         middle: 0.1,

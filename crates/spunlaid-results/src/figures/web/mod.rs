@@ -1,12 +1,14 @@
 //! The figures of a web's report.
 
 mod clouds;
+mod effects;
 mod neighbours;
 mod overlaid;
 mod profiles;
 mod unevenness;
 
 pub use clouds::SEEN;
+pub use effects::effects_figure;
 pub use overlaid::{ComparedPatch, ComparedSpectrum, overlaid_spectra, overlaid_webs};
 
 use spunlaid::scan;

@@ -4,11 +4,11 @@ use super::SpinResults;
 use super::words::model_error;
 use crate::output::in_order::OrderedObject;
 use crate::output::json_text;
-use crate::output::measured::{json, values};
+use crate::output::measured::{json as number, values};
 use serde::Serialize;
-use serde_json::Value as Json;
+use serde_json::{Value as Json, json};
 use spunlaid::case::Case;
-use spunlaid::input::{Change, Influence};
+use spunlaid::input::{Influence, OfFilament};
 use spunlaid::observe::OF_SPINLINES;
 use spunlaid::spinline::Solution;
 use spunlaid_charts::label::plain;
@@ -86,7 +86,7 @@ fn measured(solution: &Solution) -> Vec<(String, Json)> {
         }
     };
     for (name, value) in values(OF_SPINLINES, solution).0 {
-        put(&name, json(value));
+        put(&name, number(value));
     }
     put("freezing.by", solution.freezing.by.name().into());
     put("second_steady_state", solution.has_second.into());
@@ -95,13 +95,14 @@ fn measured(solution: &Solution) -> Vec<(String, Json)> {
 
 /// An influence: what is changed, how, and what it does.
 fn summarise_influence(influence: &Influence) -> Json {
-    let Influence { key, label, change, diameter, speed } = influence;
-    let change = match change {
-        Change::Relative => "relative",
-        Change::TenKelvin => "10 K",
-    };
-    let texts = [("key", *key), ("label", &plain(label)), ("change", change)];
-    let texts = texts.map(|(name, text)| (name.to_owned(), Json::from(text)));
-    let numbers = [("diameter", *diameter), ("speed", *speed)];
-    object(texts.into_iter().chain(numbers.map(|(name, number)| (name.to_owned(), number.into()))).collect())
+    let setting = influence.change.setting;
+    let change = if influence.change.keys[0].by_kelvin { "10 K" } else { "relative" };
+    let value = |of: OfFilament| influence.on(of).map(|effect| effect.difference.value);
+    json!({
+        "key": setting.name,
+        "label": plain(setting.words),
+        "change": change,
+        "diameter": value(OfFilament::Diameter),
+        "speed": value(OfFilament::Speed),
+    })
 }

@@ -2,7 +2,7 @@
 
 use crate::numbers::{number_to, significant, to_decimals};
 use spunlaid::case::Case;
-use spunlaid::input::{Change, Influence};
+use spunlaid::input::{Influence, OfFilament};
 use spunlaid::spinline::{FreezingCause, Solution};
 use spunlaid::units::Dimension;
 use spunlaid_charts::label::plain;
@@ -75,12 +75,13 @@ fn two_digits(value: f64) -> String {
 
 /// What a number does to the diameter, in a sentence: `Throughput: 1 % more makes the filament 0.43 % thicker.`
 pub fn influence(influence: &Influence) -> String {
-    let (change, percent) = match influence.change {
-        Change::Relative => ("1 % more makes", influence.diameter),
-        Change::TenKelvin => ("10 K more make", 100.0 * influence.diameter),
+    let diameter = influence.on(OfFilament::Diameter).map_or(f64::NAN, |effect| effect.difference.value);
+    let (change, percent) = match influence.change.keys[0].by_kelvin {
+        false => ("1 % more makes", diameter),
+        true => ("10 K more make", 100.0 * diameter),
     };
     let way = if percent < 0.0 { "finer" } else { "thicker" };
-    let label = plain(influence.label);
+    let label = plain(influence.change.setting.words);
     format!("{label}: {change} the filament {} % {way}.", significant(percent.abs(), 2))
 }
 

@@ -6,7 +6,8 @@ use super::columns::{Value, values};
 use crate::Failure;
 use serde::Serialize;
 use serde_json::Value as Json;
-use spunlaid::study::{Effect, PointResults, Ranking, Rankings, Study};
+use spunlaid::effects::Effect;
+use spunlaid::study::{Contrast, PointResults, Ranking, Rankings, Study};
 use std::fs::File;
 use std::io::{BufWriter, Write};
 
@@ -111,15 +112,16 @@ fn point(study: &Study, index: usize, measured: &PointResults) -> Point {
     }
 }
 
-fn effect_of<'a>(study: &'a Study, effect: &Effect) -> EffectEntry<'a> {
-    let factor = &study.factors[effect.factor];
+fn effect_of<'a>(study: &'a Study, effect: &Effect<Contrast>) -> EffectEntry<'a> {
+    let Contrast { factor, from, to } = effect.of;
+    let factor = &study.factors[factor];
     let end = |value: f64| factor.input().word(value).map_or_else(|| value.into(), Json::from);
     EffectEntry {
         factor: &factor.key,
-        from: end(effect.from),
-        to: end(effect.to),
-        change: effect.change,
-        half_width: effect.half_width,
+        from: end(from),
+        to: end(to),
+        change: effect.difference.value,
+        half_width: effect.difference.known_half_width(),
     }
 }
 

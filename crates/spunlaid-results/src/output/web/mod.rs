@@ -1,15 +1,14 @@
 //! The files of a web's results folder.
 
-mod advice;
+mod effects;
 mod fabric;
-mod guesses;
 mod map;
 mod patches;
 mod pieces;
 mod strands;
 mod summary;
 
-pub(crate) use advice::HOUR;
+pub(crate) use effects::HOUR;
 pub use fabric::{fabric_rows, known_text};
 pub use map::{light_table, write as write_map, write_array as write_scan};
 pub use patches::{PatchTable, Reader};

@@ -1,8 +1,7 @@
 //! `summary.json`: all results of a web.
 
-use super::advice::AdviceSummary;
+use super::effects::EffectsSummary;
 use super::fabric::FabricSummary;
-use super::guesses::GuessesSummary;
 use crate::figures::SEEN;
 use crate::output::in_order::OrderedObject;
 use crate::output::measured::{json, values, with_errors};
@@ -32,9 +31,9 @@ pub struct Summary<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     fabric: Option<FabricSummary<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    advice: Option<AdviceSummary>,
+    advice: Option<EffectsSummary<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    guesses: Option<GuessesSummary>,
+    guesses: Option<EffectsSummary<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     neighbours: Option<NeighboursSummary<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -335,7 +334,7 @@ impl<'a> Summary<'a> {
     pub fn new(
         web: &Web,
         (findings, fabric): (&Findings, &'a Fabric),
-        (advice, guesses): (Option<&Advice>, Option<&Advice>),
+        (advice, guesses): (Option<&'a Advice>, Option<&'a Advice>),
         layers: &'a [Layer],
         performance: Performance,
         notes: &'a [String],
@@ -350,13 +349,15 @@ impl<'a> Summary<'a> {
             numbers_of_patch(patch.map.patch, OF_PATCHES, patch, interval)
         });
         let levers = findings.sensitivities.iter().flat_map(|sensitivity| {
-            let each = sensitivity.elasticity.iter().zip(&findings.patches);
-            each.map(|(elasticity, patch)| Levers {
-                number: sensitivity.lever.name(),
-                patch_m: patch.map.patch,
-                source: sensitivity.source.name(),
-                elasticity: elasticity.as_ref().map(|estimate| estimate.mean),
-                standard_error: elasticity.as_ref().and_then(|estimate| estimate.standard_error),
+            findings.patches.iter().map(|patch| {
+                let effect = sensitivity.on(patch.map.patch).map(|effect| effect.difference);
+                Levers {
+                    number: sensitivity.change.setting.name,
+                    patch_m: patch.map.patch,
+                    source: sensitivity.change.experiment.name(),
+                    elasticity: effect.map(|effect| effect.value),
+                    standard_error: effect.map(|effect| effect.standard_error).filter(|error| *error > 0.0),
+                }
             })
         });
         Self {
@@ -383,8 +384,8 @@ impl<'a> Summary<'a> {
                 ..WebSummary::from_map(&findings.laid.map, findings.clouds.as_ref(), patches.collect())
             },
             fabric: Some(FabricSummary::new(fabric)),
-            advice: advice.map(AdviceSummary::new),
-            guesses: guesses.map(|guesses| GuessesSummary::new(guesses, findings)),
+            advice: advice.map(|advice| EffectsSummary::of_line(advice, findings)),
+            guesses: guesses.map(|guesses| EffectsSummary::of_guesses(guesses, findings)),
             neighbours: NeighboursSummary::from_findings(findings, layers),
             scan: None,
             performance,

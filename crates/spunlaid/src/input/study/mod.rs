@@ -1,12 +1,13 @@
 //! Study files: reads a file to a [`Study`] with all its points, and writes it back.
 
-mod advice;
 mod base;
+mod changes;
 mod design;
 mod differences;
 mod fit;
 mod guesses;
 mod levels;
+mod line;
 mod links;
 mod open_web;
 mod plan;
@@ -17,10 +18,9 @@ mod starter;
 mod web;
 mod write;
 
-pub use advice::{parse_changes, read_changes};
+pub use changes::{Changes, parse_changes, read_changes};
 pub use differences::differences;
 pub use fit::{FitFile, parse_fit, read_fit};
-pub use guesses::{parse_guesses, read_guesses};
 pub use points::StudyNote;
 pub use starter::starter_study;
 

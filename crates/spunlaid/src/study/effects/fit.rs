@@ -1,6 +1,6 @@
 //! The least-squares fits of a study: their terms and their points.
 
-use super::Refusal;
+use super::{Contrast, Refusal};
 use crate::statistics::linear::{add, dot, inverse};
 use crate::study::{Design, Study};
 
@@ -54,9 +54,8 @@ pub(super) struct Fit<'a> {
     inverse: Vec<Vec<f64>>,
 }
 
-/// A factor, two of its values, and the weights of the coefficients that give the change of a result from one to the
-/// other.
-pub(super) type Contrast = (usize, f64, f64, Vec<f64>);
+/// A change of a factor, and the weights of the coefficients that give the change of a result by it.
+pub(super) type Weighted = (Contrast, Vec<f64>);
 
 /// The fits of a study: one of all points, or one for each factor of a one-at-a-time design.
 pub(super) fn fits(study: &Study) -> Result<Vec<Fit<'_>>, Refusal> {
@@ -216,21 +215,21 @@ impl<'a> Fit<'a> {
     }
 
     /// Contrasts of the coefficients that are the main effects.
-    pub(super) fn contrasts(&self) -> Vec<Contrast> {
+    pub(super) fn contrasts(&self) -> Vec<Weighted> {
         let contrast = |(column, term): (usize, &Term)| {
             let mut weights = vec![0.0; self.size()];
             weights[column] = 2.0;
             match *term {
                 Term::Line(j) => {
                     let (least, greatest) = self.factors.iter().find(|span| span.0 == j)?.1;
-                    Some((j, least, greatest, weights))
+                    Some((Contrast { factor: j, from: least, to: greatest }, weights))
                 }
                 Term::Word(j, this, reference) => {
                     // The result with the word of reference is the mean over the words minus all their coefficients.
                     let same = |other: &Term| matches!(other, Term::Word(k, ..) if *k == j);
                     let others = (1..).zip(&self.terms).filter(|(at, other)| *at != column && same(other));
                     others.for_each(|(at, _)| weights[at] = 1.0);
-                    Some((j, reference, this, weights))
+                    Some((Contrast { factor: j, from: reference, to: this }, weights))
                 }
                 Term::Square(_) | Term::Product(..) => None,
             }

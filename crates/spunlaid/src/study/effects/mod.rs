@@ -33,6 +33,7 @@ pub use refusal::Refusal;
 
 use super::journal::Journal;
 use super::{Design, Study};
+use crate::effects::Effect;
 use crate::error::Error;
 use crate::sort::sort_by_key;
 use fit::{Fit, fits};
@@ -58,32 +59,21 @@ pub struct Ranking {
     /// Fraction of the variation between points that straight lines explain (adjusted R²); NaN if there are too few
     /// points to tell.
     pub explained: f64,
-    /// The effects.
-    pub effects: Vec<Effect>,
+    /// The effects. The error of one is not a number if neither replicates nor residuals tell it.
+    pub effects: Vec<Effect<Contrast>>,
     /// The terms of the fit with their coefficients, without the constant.
     pub terms: Vec<(Term, f64)>,
 }
 
-/// The main effect of a factor.
+/// A change of a factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Effect {
+pub struct Contrast {
     /// Index of the factor.
     pub factor: usize,
     /// The value that the change starts from: the least value, or the word of reference.
     pub from: f64,
-    /// The value that the change leads to: the greatest value, or another word. There is an effect for each of them.
+    /// The value that the change leads to: the greatest value, or another word. There is a contrast for each of them.
     pub to: f64,
-    /// Change of the result.
-    pub change: f64,
-    /// Half the width of its 95 % confidence interval; `None` if neither replicates nor residuals tell it.
-    pub half_width: Option<f64>,
-}
-
-impl Effect {
-    /// Whether it is the effect of the same change of the same factor, on another result.
-    pub fn is_like(&self, other: &Self) -> bool {
-        (self.factor, self.from, self.to) == (other.factor, other.from, other.to)
-    }
 }
 
 /// The rankings of all measures, or the reason why there are none.
@@ -107,9 +97,9 @@ pub fn rankings(study: &Study, journal: &mut Journal) -> Result<Rankings, Error>
         }
     }
     let ranking = |measure: usize| {
-        let mut effects: Vec<Effect> =
+        let mut effects: Vec<Effect<Contrast>> =
             solved.iter().flat_map(|solution| &solution.effects[measure]).copied().collect();
-        sort_by_key(&mut effects, |effect| Reverse(effect.change.abs()));
+        sort_by_key(&mut effects, |effect| Reverse(effect.difference.value.abs()));
         let terms = fits.iter().zip(&solved).flat_map(|(fit, solution)| {
             fit.terms.iter().copied().zip(solution.coefficients[measure].iter().skip(1).copied())
         });
@@ -135,6 +125,11 @@ pub fn rankings(study: &Study, journal: &mut Journal) -> Result<Rankings, Error>
 }
 
 impl Ranking {
+    /// The effect of a change of a factor.
+    pub fn of(&self, contrast: Contrast) -> Option<&Effect<Contrast>> {
+        self.effects.iter().find(|effect| effect.of == contrast)
+    }
+
     /// A point's mean without the fitted contributions of all factors but one: what is left to plot over this factor.
     ///
     /// * `mean` – mean of the measure at the point

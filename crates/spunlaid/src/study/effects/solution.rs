@@ -1,10 +1,11 @@
 //! The solution of a fit: coefficients, and effects with their intervals.
 
-use super::fit::{Contrast, Fit};
-use super::{Effect, Refusal};
+use super::fit::{Fit, Weighted};
+use super::{Contrast, Refusal};
+use crate::effects::Effect;
 use crate::error::Error;
+use crate::statistics::Difference;
 use crate::statistics::linear::{add, dot};
-use crate::statistics::student_t_95_at;
 use crate::study::PointResults;
 use crate::study::journal::Journal;
 use crate::study::measures::Record;
@@ -15,7 +16,7 @@ pub(super) struct Solution {
     /// By measure: the coefficients, the constant first.
     pub(super) coefficients: Vec<Vec<f64>>,
     /// By measure: the main effects.
-    pub(super) effects: Vec<Vec<Effect>>,
+    pub(super) effects: Vec<Vec<Effect<Contrast>>>,
     /// By measure: sum of squares about the straight lines, and about the mean.
     pub(super) squares: Vec<(f64, f64)>,
 }
@@ -121,10 +122,9 @@ impl FittedCoefficients {
         fit: &Fit<'_>,
         m: usize,
         rest: &Rest,
-        contrast: &Contrast,
+        (contrast, weights): &Weighted,
         independent: Variance,
-    ) -> Effect {
-        let (factor, from, to, weights) = contrast;
+    ) -> Effect<Contrast> {
         let free = (fit.points.len() - fit.size()) as f64;
         let noise = match (self.replicated, fit.study.common_phases) {
             (false, _) => Variance { value: 0.0, degrees: f64::INFINITY },
@@ -143,18 +143,9 @@ impl FittedCoefficients {
         };
         let unfitted = if unfitted == 0.0 { 0.0 } else { unfitted * dot(weights, &fit.solve(weights)) };
         let all = noise.and(Variance { value: unfitted, degrees: free });
-        let half_width = match (self.replicated || free > 0.0, all.value == 0.0) {
-            (false, _) => None,
-            (true, true) => Some(0.0),
-            (true, false) => Some(student_t_95_at(all.degrees) * all.value.sqrt()),
-        };
-        Effect {
-            factor: *factor,
-            from: *from,
-            to: *to,
-            change: dot(weights, &self.coefficients[m]),
-            half_width,
-        }
+        let standard_error = if self.replicated || free > 0.0 { all.value.sqrt() } else { f64::NAN };
+        let value = dot(weights, &self.coefficients[m]);
+        Effect::new(*contrast, Difference { value, standard_error, degrees: all.degrees })
     }
 }
 
@@ -177,7 +168,7 @@ impl Rest {
         fit: &Fit<'_>,
         journal: &mut Journal,
         fitted: &FittedCoefficients,
-        contrasts: &[Contrast],
+        contrasts: &[Weighted],
     ) -> Result<Vec<Self>, Error> {
         let none = Self { contrasts: vec![Variance::default(); contrasts.len()], ..Self::default() };
         let mut rest = vec![none; fit.study.quantities.len()];
@@ -195,7 +186,7 @@ impl Rest {
                 if !fit.study.common_phases {
                     let value = results.standard_error(m).map_or(0.0, |error| error * error);
                     rest.noise += value * (1.0 - leverage);
-                    for ((.., weights), sum) in contrasts.iter().zip(&mut rest.contrasts) {
+                    for ((_, weights), sum) in contrasts.iter().zip(&mut rest.contrasts) {
                         let value = dot(weights, &solved).powi(2) * value;
                         *sum = sum.and(Variance { value, degrees: (results.n as f64 - 1.0).max(1.0) });
                     }

@@ -1,42 +1,19 @@
 //! The webs of advice: the same web with one setting of the line changed, on the belt that lays the same weight.
 
-use super::super::Overrides;
-use super::super::unread::Unread;
-use super::open_web::{OpenWeb, changed_webs, changed_webs_of_file};
+use super::super::step::Step;
+use super::open_web::OpenWeb;
 use super::{Base, VariedKey};
-use crate::advice::{Change, ChangedKey, Setting};
+use crate::advice::Change;
 use crate::air::{Air, Flow};
+use crate::effects::{ChangedKey, Setting};
 use crate::layers::{LaydownSource, LayerSpec, Method, WebSpec, web_key};
 use crate::units::Dimension;
 use crate::web::Filaments;
-use std::path::Path;
 
-/// The factors by which settings are changed.
-const FACTORS: [f64; 2] = [0.8, 1.2];
-/// The change of the temperature of a die, for each of the factors [K].
-const KELVINS: [f64; 2] = [-10.0, 10.0];
+/// How settings are changed.
+const STEPS: [Step; 2] = [Step { factor: 0.8, kelvin: -10.0 }, Step { factor: 1.2, kelvin: 10.0 }];
 
-/// Reads the file of a web and makes the webs in which one setting of its line is changed.
-///
-/// # Errors
-/// If the web cannot be read. And what has to be flown first, if a case has a spinline whose tension is that of flights.
-pub fn read_changes(path: &Path, set: Overrides<'_>) -> Result<Vec<Change>, Unread<Vec<Change>>> {
-    changed_webs_of_file(path, set, changes)
-}
-
-/// [`read_changes`] of a text.
-///
-/// # Errors
-/// As [`read_changes`].
-pub fn parse_changes(
-    text: String,
-    name: &str,
-    set: Overrides<'_>,
-) -> Result<Vec<Change>, Unread<Vec<Change>>> {
-    changed_webs(text, name, set, changes)
-}
-
-fn changes(web: OpenWeb<'_>) -> Vec<Change> {
+pub(super) fn changes(web: OpenWeb<'_>) -> Vec<Change> {
     let is_laid = |layer: &LayerSpec| matches!(layer.source, LaydownSource::Results { .. });
     if web.base.spec().layers.iter().any(is_laid) {
         // What has been flown lies on the belt of its flight.
@@ -77,29 +54,36 @@ impl Line<'_> {
     }
 
     fn changes(&self) -> Vec<Change> {
-        let mut changes = Vec::new();
-        let groups = self.equal_layers();
-        // Nobody has to say which layers where all are changed.
-        let numbers = |group: &Vec<usize>| if groups.len() > 1 { group.clone() } else { Vec::new() };
-        let of_each = |group: &Vec<usize>, keys: &dyn Fn(usize) -> KeyPowers| -> KeyPowers {
-            group.iter().flat_map(|layer| keys(*layer)).collect()
+        let (groups, all) = (self.equal_layers(), Vec::new());
+        let of_each = |layers: &[usize], keys: &dyn Fn(usize) -> KeyPowers| {
+            vec![layers.iter().flat_map(|layer| keys(*layer)).collect::<KeyPowers>()]
         };
+        let titre =
+            |layer: usize| vec![(format!("layer.{layer}.fibre.linear_density"), 1.0), throughput(layer, 0.0)];
+        let is_flown = |layer: &usize| self.spec().layers[layer - 1].source.case().is_some();
+        // Nobody has to say which layers where all are changed.
+        let named = |group| if groups.len() > 1 { group } else { &all };
+        let mut settings: Vec<(Setting, &Vec<usize>, Vec<KeyPowers>)> = Vec::new();
         for group in &groups {
             let throughputs = of_each(group, &|layer| vec![throughput(layer, 1.0)]);
-            changes.extend(self.change(Setting::Throughput, &numbers(group), &[throughputs]));
-            let holes = of_each(group, &|layer| self.holes(layer));
-            changes.extend(self.change(Setting::Holes, &numbers(group), &[holes]));
+            settings.push((Setting::THROUGHPUT, named(group), throughputs));
+            settings.push((Setting::HOLES, named(group), of_each(group, &|layer| self.holes(layer))));
         }
-        for group in groups.iter().filter(|group| self.spec().layers[group[0] - 1].source.case().is_none()) {
-            let titres = of_each(group, &|layer| {
-                vec![(format!("layer.{layer}.fibre.linear_density"), 1.0), throughput(layer, 0.0)]
-            });
-            changes.extend(self.change(Setting::Titre, &numbers(group), &[titres]));
+        for group in groups.iter().filter(|group| !is_flown(&group[0])) {
+            settings.push((Setting::TITRE, named(group), of_each(group, &titre)));
         }
-        for (setting, ways) in self.settings_of_all_layers() {
-            changes.extend(self.change(setting, &[], &ways));
+        // The spinline decides the titre.
+        if self.web.base.number_of_cases("spinline.throughput").is_none() {
+            let flown: Vec<usize> = (1..=self.spec().layers.len()).filter(is_flown).collect();
+            settings.push((Setting::TITRE, &all, of_each(&flown, &titre)));
         }
-        changes
+        settings.extend(self.settings_of_air().into_iter().map(|(setting, ways)| (setting, &all, ways)));
+        if self.spec().method == Method::SharedAir {
+            let every: Vec<usize> = (1..=self.spec().layers.len()).collect();
+            settings.push((Setting::DEPTH, &all, of_each(&every, &|layer| self.depth(layer))));
+            settings.push((Setting::ROW_PLACES, &all, of_each(&every, &|layer| self.row_places(layer))));
+        }
+        settings.iter().flat_map(|(setting, layers, ways)| self.change(*setting, layers, ways)).collect()
     }
 
     /// The numbers of the layers, from 1, equal ones together: they differ in nothing but their names.
@@ -116,54 +100,22 @@ impl Line<'_> {
         groups
     }
 
-    /// The settings that all layers share, each with the ways to change it, the best first.
-    fn settings_of_all_layers(&self) -> Vec<(Setting, Vec<KeyPowers>)> {
-        let alone = |keys: &[&str]| keys.iter().map(|key| vec![((*key).to_owned(), 1.0)]).collect();
-        let is_flown = |layer: &usize| self.spec().layers[layer - 1].source.case().is_some();
-        let titre = (1..=self.spec().layers.len()).filter(is_flown);
-        let titre = titre
-            .flat_map(|layer| [(format!("layer.{layer}.fibre.linear_density"), 1.0), throughput(layer, 0.0)]);
-        let titre = titre.collect();
-        let is_spun = self.web.base.number_of_cases("spinline.throughput").is_some();
-        let mut all = vec![
-            // The spinline decides the titre.
-            (Setting::Titre, if is_spun { Vec::new() } else { vec![titre] }),
-            (Setting::DrawingAir, alone(&["spinline.velocity_factor", "spinline.velocity"])),
-            (Setting::DieTemperature, alone(&["spinline.die_temperature"])),
-            (Setting::Distance, alone(&["belt.distance"])),
-            (Setting::AirSpeed, alone(&["air.speed_factor", "air.velocity"])),
-            (
-                Setting::Turbulence,
-                // A web that names the factor as a guess has no other number in its place.
-                match self.is_evenly_turbulent() {
-                    true => alone(&["air.turbulence_intensity", "air.intensity_factor"]),
-                    false => Vec::new(),
-                },
-            ),
+    /// The settings of the spinline and of the air, each with the keys of which one changes it, the best first.
+    fn settings_of_air(&self) -> Vec<(Setting, Vec<KeyPowers>)> {
+        // A web that names the factor as a guess has no other number in its place.
+        let turbulence: &[&str] = match self.is_evenly_turbulent() {
+            true => &["air.turbulence_intensity", "air.intensity_factor"],
+            false => &[],
+        };
+        let settings: [(Setting, &[&str]); 5] = [
+            (Setting::DRAWING_AIR, &["spinline.velocity_factor", "spinline.velocity"]),
+            (Setting::DIE_TEMPERATURE, &["spinline.die_temperature"]),
+            (Setting::DISTANCE, &["belt.distance"]),
+            (Setting::AIR_SPEED, &["air.speed_factor", "air.velocity"]),
+            (Setting::TURBULENCE, turbulence),
         ];
-        if self.spec().method == Method::SharedAir {
-            all.push((
-                Setting::Depth,
-                vec![self.powers_of_each(|layer, filaments| match filaments {
-                    Filaments::Slot { .. } => vec![(format!("layer.{layer}.line.depth"), 1.0)],
-                    _ => Vec::new(),
-                })],
-            ));
-            all.push((
-                Setting::RowPlaces,
-                vec![self.powers_of_each(|layer, filaments| {
-                    match filaments {
-                        Filaments::Rows(rows) => (1..)
-                            .zip(rows)
-                            .filter(|(_, row)| row.md != 0.0)
-                            .map(|(row, _)| (format!("layer.{layer}.line.rows.{row}.md"), 1.0))
-                            .collect(),
-                        _ => Vec::new(),
-                    }
-                })],
-            ));
-        }
-        all
+        let alone = |key: &&str| vec![((*key).to_owned(), 1.0)];
+        settings.map(|(setting, keys)| (setting, keys.iter().map(alone).collect())).to_vec()
     }
 
     /// Whether one number tells how turbulent the air of the cases is. A flow whose turbulence differs from place to place would become another flow.
@@ -178,9 +130,19 @@ impl Line<'_> {
         })
     }
 
-    /// What each layer adds to a way.
-    fn powers_of_each(&self, keys: impl Fn(usize, &Filaments) -> KeyPowers) -> KeyPowers {
-        (1..).zip(&self.spec().layers).flat_map(|(layer, spec)| keys(layer, &spec.filaments)).collect()
+    /// The depth of the slot of a layer, if it has one.
+    fn depth(&self, layer: usize) -> KeyPowers {
+        match self.spec().layers[layer - 1].filaments {
+            Filaments::Slot { .. } => vec![(format!("layer.{layer}.line.depth"), 1.0)],
+            _ => Vec::new(),
+        }
+    }
+
+    /// The places of the rows of a layer.
+    fn row_places(&self, layer: usize) -> KeyPowers {
+        let Filaments::Rows(rows) = &self.spec().layers[layer - 1].filaments else { return Vec::new() };
+        let rows = (1..).zip(rows).filter(|(_, row)| row.md != 0.0);
+        rows.map(|(row, _)| (format!("layer.{layer}.line.rows.{row}.md"), 1.0)).collect()
     }
 
     /// The keys of the holes of a layer.
@@ -227,28 +189,28 @@ impl Line<'_> {
                 })
                 .collect::<Option<_>>()?;
             let some: Vec<Change> =
-                (0..FACTORS.len()).filter_map(|i| self.changed(setting, layers, &known, i)).collect();
+                STEPS.iter().filter_map(|step| self.changed(setting, layers, &known, *step)).collect();
             (!some.is_empty() && !known.is_empty()).then_some(some)
         };
         ways.iter().find_map(of_way).unwrap_or_default()
     }
 
-    /// The web with the known keys changed by one of the factors; None if it cannot be made.
+    /// The web with the known keys changed by a step; None if it cannot be made.
     fn changed(
         &self,
         setting: Setting,
         layers: &[usize],
         known: &[(VariedKey, f64, f64)],
-        which: usize,
+        step: Step,
     ) -> Option<Change> {
         let mut factor = 1.0_f64;
         let to = |(key, from, power): &(VariedKey, f64, f64)| {
-            let to = match (setting, key.dimension()) {
-                (Setting::DieTemperature, Dimension::Temperature) => from + KELVINS[which],
-                _ if *power == 0.0 && self.is_held(key) => *from,
-                (_, dimension) if *power == 0.0 => rounded(dimension, *from, HELD),
-                _ if key.is_whole() => (from * FACTORS[which]).round().max(1.0),
-                (_, dimension) if *power == 1.0 => rounded(dimension, from * FACTORS[which], CHANGED),
+            let dimension = key.dimension();
+            let to = match *power {
+                0.0 if self.is_held(key) => *from,
+                0.0 => rounded(dimension, *from, HELD),
+                1.0 if key.is_whole() || dimension == Dimension::Temperature => step.apply(key.kind, *from),
+                1.0 => rounded(dimension, step.apply(key.kind, *from), CHANGED),
                 // A row stays as wide as its web, to the last digit.
                 _ => from * factor.powf(*power),
             };
@@ -259,28 +221,19 @@ impl Line<'_> {
             (key.clone(), to)
         };
         let values: Vec<(VariedKey, f64)> = known.iter().map(to).collect();
-        let mut spec = self.web.base.changed(&values, self.web.lookup).ok()?.spec;
-        let belt = spec.belt_speed_for(self.weight());
-        let slowest = spec.layers.iter().map(|layer| layer.feed_speed).fold(f64::INFINITY, f64::min);
+        let mut made = self.web.with(&values).ok()?;
+        let belt = made.spec.belt_speed_for(self.weight());
+        let slowest = made.spec.layers.iter().map(|layer| layer.feed_speed).fold(f64::INFINITY, f64::min);
         if belt.is_nan() || belt > slowest {
             return None;
         }
-        spec.set_belt_speed(belt).ok()?;
+        made.spec.set_belt_speed(belt).ok()?;
         let changed = |((key, from, power), (_, to)): (&(VariedKey, f64, f64), &(VariedKey, f64))| {
-            let (dimension, whole) = (key.dimension(), key.is_whole());
-            let key = self.web.base.short_name(&key.name).to_owned();
-            (*power != 0.0 && from != to).then_some(ChangedKey {
-                key,
-                dimension,
-                whole,
-                from: *from,
-                to: *to,
-            })
+            (*power != 0.0 && from != to).then(|| self.web.changed_key(key, [*from, *to]))
         };
         let keys: Vec<ChangedKey> = known.iter().zip(&values).filter_map(changed).collect();
-        let (layers, file) = (layers.to_vec(), self.web.base.path().to_owned());
-        let set = self.settings_of(&values);
-        (!keys.is_empty()).then_some(Change { setting, layers, keys, file, set, spec, refusal: None })
+        let new = self.settings_of(&values);
+        (!keys.is_empty()).then(|| self.web.change((setting, layers.to_vec()), keys, new, Ok(made)))
     }
 
     /// Whether the file says the throughput of a layer itself, so that it holds.
@@ -291,7 +244,7 @@ impl Line<'_> {
         layer.is_some_and(|layer| layer.throughput.is_some_and(|held| held == self.web.base.value(key)))
     }
 
-    /// The keys and values that make a changed web of the file: what was set before, unless it is replaced, the values, and what else has to be held.
+    /// The keys and values that make a changed web of the file: the values, and what else has to be held.
     fn settings_of(&self, values: &[(VariedKey, f64)]) -> Vec<(String, String)> {
         let spec = self.spec();
         let is_new =
@@ -302,7 +255,7 @@ impl Line<'_> {
             let weight = self.web.base.short_name("layer.1.line.basis_weight").to_owned();
             new.push((weight, Dimension::BasisWeight.written(self.weight())));
         }
-        self.web.with_settings(new)
+        new
     }
 
     /// Mass per area of the changed webs [kg/m²].

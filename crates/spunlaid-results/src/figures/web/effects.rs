@@ -1,0 +1,68 @@
+//! What settings of the line and what guesses matter for the CV.
+
+use super::PER_CENT;
+use crate::effects::{describe, name};
+use crate::figures::effects::{EffectsFigure, Panel, Row, in_unit};
+use spunlaid::advice::{Advice, Tried};
+use spunlaid::effects::Setting;
+use spunlaid::layers::WebSpec;
+use spunlaid::statistics::Difference;
+use spunlaid::units::Dimension;
+use spunlaid_charts::{Figure, Table};
+
+/// What changes of a web do to its CV over the patches by which they are judged, the largest effect at the top. None if none is known.
+pub fn effects_figure(spec: &WebSpec, advice: &Advice) -> Option<Figure> {
+    let (patch, first) = (advice.judged_by?, advice.tried.first()?);
+    let are_guesses = first.change.setting == Setting::GUESS;
+    let mut rows: Vec<(String, Vec<&Tried>)> = Vec::new();
+    for tried in &advice.tried {
+        let name = name(&tried.change, spec);
+        match rows.iter_mut().find(|(other, _)| *other == name) {
+            Some((_, same)) => same.push(tried),
+            None => rows.push((name, vec![tried])),
+        }
+    }
+    let difference = |tried: &Tried| Some(in_unit(&tried.on(patch)?.difference, PER_CENT));
+    let size = |row: &Row| row.effects.iter().flatten().map(|effect| effect.value.abs()).fold(0.0, f64::max);
+    let mut rows: Vec<Row> = rows.into_iter().map(|(name, same)| row(name, &same, &difference)).collect();
+    rows.sort_by(|a, b| size(b).total_cmp(&size(a)));
+    let side = Dimension::Length.pretty_to(patch, 3);
+    let keys = if are_guesses { ["half", "twice"] } else { ["less", "more"] };
+    let label = format!("Change of the CV over patches of {side} (%)");
+    let panel = Panel { heading: "", keys: keys.map(str::to_owned).to_vec(), label, rows, decimals: 1 };
+    let mut table = Table::new(["cv_change_percent", "half_width_percent"]);
+    for tried in &advice.tried {
+        let numbers = difference(tried).map(|of| [of.value, of.known_half_width().unwrap_or(f64::NAN)]);
+        table.add(&describe(&tried.change, spec), numbers);
+    }
+    let (name, title, what) = match are_guesses {
+        true => (
+            "web_guesses",
+            "How much the guesses matter",
+            "when a number that is a guess is half or twice as large",
+        ),
+        false => (
+            "web_advice",
+            "What would make the web more even",
+            "at the same basis weight when one setting of the line is changed and the belt follows",
+        ),
+    };
+    let caption = format!(
+        "Change of the CV over patches of {side}, as a share of it, {what}. The bars are 95 % confidence intervals; if a bar crosses zero, there may be no effect."
+    );
+    let figure = EffectsFigure { name: name.to_owned(), title: title.to_owned(), panels: vec![panel] };
+    Some(figure.figure(table, caption))
+}
+
+/// The changes of one key, with less and with more of it.
+fn row(name: String, same: &[&Tried], difference: &dyn Fn(&Tried) -> Option<Difference>) -> Row {
+    let key = |tried: &&Tried| tried.change.keys.first().cloned();
+    let values: Vec<String> = same.iter().filter_map(key).map(|key| key.pretty(key.to)).collect();
+    let from = same.first().and_then(key).map_or_else(String::new, |key| key.pretty(key.from));
+    let effect = |less: bool| {
+        let is_it = |tried: &&&Tried| key(tried).is_some_and(|key| (key.to < key.from) == less);
+        difference(same.iter().find(is_it)?)
+    };
+    let detail = format!("{} instead of {from}", values.join(" or "));
+    Row { name, detail, effects: [true, false].map(effect).to_vec() }
+}

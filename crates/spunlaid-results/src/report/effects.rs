@@ -1,0 +1,324 @@
+//! What changes do to a web, for people: what would make it more even and how much guesses matter, in sentences under the headline, and a table of all
+//! changes that were tried.
+
+use super::table::{Cell, Row, Table, Tone};
+use super::unevenness::{grams, headline_patch};
+use super::words::millimetres;
+use crate::command::web_command;
+use crate::effects::{PER_CENT, describe, difference_text};
+use crate::numbers::{HARD, THIN, plus_minus, significant};
+use crate::output::web::HOUR;
+use spunlaid::advice::{Advice, ChangedWeb, Tried};
+use spunlaid::effects::{Effect, NAMED, Setting};
+use spunlaid::layers::WebSpec;
+use spunlaid::statistics::Difference;
+use spunlaid::web::Findings;
+
+/// Side of the patches by which changes are judged [m].
+fn judged_by(findings: &Findings, advice: &Advice) -> Option<f64> {
+    let seen = || headline_patch(findings).map(|i| findings.patches[i].map.patch);
+    advice.judged_by.or_else(seen)
+}
+
+/// Which changed settings lower the CV of a web most, by how much, and what they cost in throughput: a sentence or two.
+///
+/// * `advice` – None if no change was tried
+pub fn advice_words(spec: &WebSpec, findings: &Findings, advice: Option<&Advice>) -> String {
+    let Some(advice) = advice else {
+        return "What would make it more even was not tried: spunlaid web with --advice flies it anew for each setting of the line.".to_owned();
+    };
+    let Some(patch) = judged_by(findings, advice) else { return String::new() };
+    if advice.tried.is_empty() {
+        return "What would make it more even cannot be tried: its fibres have been flown above this belt, or no setting of its line can be changed. Name a \
+                case to fly (laydown.case)."
+            .to_owned();
+    }
+    let improvements = advice.improvements(patch);
+    let elsewhere = elsewhere(findings, advice, patch);
+    let weight = grams(findings.within().basis_weight());
+    let what = if findings.laid.shared_air.is_some() { "CV" } else { "expected CV" };
+    let place = format!("over patches of {}", millimetres(patch));
+    let also = elsewhere.map_or_else(String::new, |found| elsewhere_words(found, spec, patch));
+    if improvements.is_empty() {
+        return format!(
+            "At the same {weight}, none of the {} changes of the line that were tried lowers the {what} {place} by more than 1{THIN}% and beyond chance.{}{also}",
+            advice.tried.len(),
+            unconfirmed(spec, advice, patch)
+        );
+    }
+    let named: Vec<String> = improvements
+        .iter()
+        .take(NAMED)
+        .map(|(tried, effect)| {
+            let acts = match effect.is_of_clouds() {
+                Some(true) => ", which acts on the clouds",
+                Some(false) => ", which acts on what each filament does for itself",
+                None => "",
+            };
+            format!("{} ({}{THIN}%){acts}, {}", describe(&tried.change, spec), per_cent(effect), cost(tried))
+        })
+        .collect();
+    let mut words =
+        format!("At the same {weight}, the {what} {place} falls most with {}.", named.join("; then with "));
+    if named.len() < NAMED {
+        words += &format!(
+            " No other setting that was tried lowers it {place} by more than 1{THIN}% and beyond chance."
+        );
+    }
+    if advice.is_confirmed {
+        words += " These numbers come from a second flight in another air, because the best of many changes is overrated.";
+    }
+    words += &unconfirmed(spec, advice, patch);
+    words += &also;
+    if is_known(spec) {
+        words += " The lay-down itself is taken as it is, because no fibre was flown.";
+    }
+    words
+}
+
+/// The commands that lay the webs of the changes which [`advice_words`] names, in their order.
+pub fn advice_commands(findings: &Findings, advice: &Advice) -> Vec<String> {
+    let Some(patch) = judged_by(findings, advice) else { return Vec::new() };
+    let named = advice.improvements(patch).into_iter().take(NAMED).chain(elsewhere(findings, advice, patch));
+    named.map(|(tried, _)| web_command(&tried.change)).collect()
+}
+
+/// Least change of a CV over patches of another size that is named beside those of the headline, as a share of it: of many sizes and settings
+/// some changes seem to be beyond chance.
+const LARGE: f64 = 0.05;
+
+/// A change with what it does over patches of one size.
+type Found<'a> = (&'a Tried, &'a Effect<f64>);
+
+/// The change that lowers the CV most over patches of another size than the one by which they are judged, and is none of those that lower it there.
+fn elsewhere<'a>(findings: &Findings, advice: &'a Advice, patch: f64) -> Option<Found<'a>> {
+    let named = advice.improvements(patch);
+    let is_new = |tried: &Tried| !named.iter().any(|(other, _)| std::ptr::eq(*other, tried));
+    let patches = findings.patches.iter().map(|found| found.map.patch).filter(|other| *other != patch);
+    let found = patches.flat_map(|other| advice.improvements(other));
+    let found = found.filter(|(tried, effect)| effect.difference.value <= -LARGE && is_new(tried));
+    found.min_by(|(_, a), (_, b)| a.difference.value.total_cmp(&b.difference.value))
+}
+
+/// * `patch` – by which changes are judged [m]
+fn elsewhere_words((tried, effect): Found<'_>, spec: &WebSpec, patch: f64) -> String {
+    let here = tried.on(patch).map_or_else(String::new, |here| {
+        format!("; over patches of {} that changes it by {}{THIN}%", millimetres(patch), per_cent(here))
+    });
+    format!(
+        " Patches of another size ask for something else: over patches of {} it falls with {} ({}{THIN}%), {}{here}.",
+        millimetres(effect.of),
+        describe(&tried.change, spec),
+        per_cent(effect),
+        cost(tried)
+    )
+}
+
+/// What seemed to be among the best in a first air, and was not in a second one.
+fn unconfirmed(spec: &WebSpec, advice: &Advice, patch: f64) -> String {
+    let confirmed = advice.improvements(patch);
+    let is_confirmed = |tried: &Tried| confirmed.iter().any(|(other, _)| std::ptr::eq(*other, tried));
+    let words = |tried: &Tried| {
+        let again = tried.on(patch).map_or_else(String::new, per_cent);
+        format!(
+            " In a first air it seemed to fall with {} as well; in a second one that changed it by {again}{THIN}%.",
+            describe(&tried.change, spec)
+        )
+    };
+    let again = advice.tried.iter().filter(|tried| !tried.at_first.is_empty() && !is_confirmed(tried));
+    again.map(words).collect()
+}
+
+/// Least correlation of the clouds of two webs from which on it makes their comparison better.
+const IN_COMMON: f64 = 0.3;
+
+/// Which changes are compared as two webs by themselves, because hardly any cloud is the same in both.
+fn clouds_apart(spec: &WebSpec, advice: &Advice, patch: f64) -> String {
+    let is_apart = |tried: &&Tried| {
+        tried.on(patch).and_then(|effect| effect.in_common).is_some_and(|common| common < IN_COMMON)
+    };
+    let apart = advice.tried.iter().filter(is_apart);
+    let names: Vec<String> = apart.map(|tried| describe(&tried.change, spec)).collect();
+    if names.is_empty() {
+        return String::new();
+    }
+    format!(
+        " With these the filaments come down in other clouds, although the air is the same, so that only a large effect is seen: {}.",
+        names.join("; ")
+    )
+}
+
+/// Whether nothing of the web was flown.
+pub(super) fn is_known(spec: &WebSpec) -> bool {
+    spec.layers.iter().all(|layer| layer.source.case().is_none())
+}
+
+/// A change as a share, with its standard error.
+fn per_cent(effect: &Effect<f64>) -> String {
+    difference_text(&effect.difference, PER_CENT)
+}
+
+/// What a change costs in throughput.
+fn cost(tried: &Tried) -> String {
+    let [before, after] = tried.change.experiment.mass_flow;
+    let change = after / before - 1.0;
+    // What is held is rounded by less than this.
+    if change.abs() < 1e-4 {
+        return "with the same throughput".to_owned();
+    }
+    let way = if change < 0.0 { "less" } else { "more" };
+    format!("with {}{THIN}% {way} throughput", significant(PER_CENT * change.abs(), 2))
+}
+
+/// A cell of a table of effects; one that may be by chance is faint.
+pub(super) fn effect_cell(
+    difference: Option<&Difference>,
+    missing: &str,
+    text: impl Fn(&Difference) -> String,
+) -> Cell {
+    match difference {
+        None => Cell::new(missing, Tone::Faint),
+        Some(difference) if difference.is_beyond_chance() => Cell::new(text(difference), Tone::Plain),
+        Some(difference) => Cell::new(text(difference), Tone::Faint),
+    }
+}
+
+/// All changes that were tried, with the command of each, and what is said below them. None if there are none.
+pub(super) fn effects_table(spec: &WebSpec, findings: &Findings, advice: &Advice) -> Option<(Table, String)> {
+    let are_guesses = advice.tried.first()?.change.setting == Setting::GUESS;
+    let patches: Vec<f64> = findings.patches.iter().map(|patch| patch.map.patch).collect();
+    let row = |tried: &Tried| {
+        let cv = |patch: &f64| {
+            let effect = tried.on(*patch).map(|effect| &effect.difference);
+            effect_cell(effect, "–", |difference| difference_text(difference, PER_CENT))
+        };
+        let ChangedWeb { belt_speed, mass_flow, .. } = &tried.change.experiment;
+        let line = [belt_speed[1], HOUR * mass_flow[1]].map(|number| Cell::from(significant(number, 4)));
+        let cells = patches.iter().map(cv).chain(line);
+        Row::new(describe(&tried.change, spec), cells).command(web_command(&tried.change))
+    };
+    let first = if are_guesses { "With another value" } else { "At the same basis weight" };
+    let heads = patches.iter().map(|patch| format!("CV at {}, %", millimetres(*patch)));
+    let heads = [first.to_owned()].into_iter().chain(heads);
+    let heads = heads.chain(["Belt, m/s", "From each metre, kg/h"].map(str::to_owned));
+    let failed: Vec<String> =
+        (advice.failed.iter()).map(|(change, why)| format!("{}: {why}", describe(change, spec))).collect();
+    let in_same_air = |tried: &Tried| tried.effects.iter().any(|effect| effect.in_common.is_some());
+    let mut error = if advice.tried.iter().any(in_same_air) {
+        "from blocks of both webs which the same air has laid, so that what both have by chance does not count"
+    } else if findings.laid.shared_air.is_some() {
+        "which counts both maps as independent"
+    } else if is_known(spec) {
+        "from paths with the same random numbers before and after; the lay-down itself (σ MD, σ CD, A) is taken as it is, because no fibre was flown"
+    } else if spec.layers.iter().any(|layer| layer.source.case().is_none()) {
+        "from paths with the same random numbers before and after the change, which leaves out the chance of the few flown fibres and takes the lay-down of the \
+             other layers as exact"
+    } else {
+        "over the flown fibres, each compared with itself in the same gusts before the change"
+    }
+    .to_owned();
+    if advice.is_confirmed {
+        error += "; the best ones were flown once more in another air";
+    }
+    let (what, held) = if are_guesses {
+        ("when a number that is a guess is another one".to_owned(), "All other numbers stay as they are")
+    } else {
+        let weight = grams(findings.within().basis_weight());
+        let what = format!(
+            "when one setting of the line is changed and the belt follows, so that the basis weight stays {weight}"
+        );
+        (
+            what,
+            "All other settings stay as they are; with another titre the throughput of a hole stays and the filament is fed slower or faster",
+        )
+    };
+    let mut caption = format!(
+        "Change of the CV as a share of it {what}: over patches of each size, ± one standard error, {error}. Grey values may be by chance. {held}. The command \
+             below each change lays that web."
+    );
+    if let Some(patch) = judged_by(findings, advice).filter(|_| !are_guesses) {
+        caption += &clouds_apart(spec, advice, patch);
+    }
+    if !failed.is_empty() {
+        caption += &format!(" These could not be tried: {}.", failed.join("; "));
+    }
+    Some((Table::new(heads).rows(advice.tried.iter().map(row)), caption))
+}
+
+/// What the CV of a web is with half and twice of each number that its file calls a guess, because the error of the CV knows nothing of them. Empty
+/// without such numbers.
+///
+/// * `guesses` – None if nothing was tried
+pub fn guess_words(spec: &WebSpec, findings: &Findings, guesses: Option<&Advice>) -> String {
+    let names = listed(&spec.guessed);
+    if names.is_empty() {
+        return String::new();
+    }
+    let are = if spec.guessed.len() == 1 { "is a guess" } else { "are guesses" };
+    let begin = format!("Its error does not know that {names} {are} (web.guessed)");
+    let judged = guesses.and_then(|guesses| {
+        let patch = judged_by(findings, guesses)?;
+        let found = findings.patches.iter().find(|found| found.map.patch == patch)?;
+        Some((guesses, patch, found.map.cv))
+    });
+    let Some((guesses, patch, cv)) = judged else {
+        return format!(
+            "{begin}, and what half and twice of them would do was not tried: spunlaid web with --advice tries it."
+        );
+    };
+    let place = format!("over patches of {}", millimetres(patch));
+    let mut told: Vec<(String, Vec<String>)> = Vec::new();
+    for tried in &guesses.tried {
+        let Some((name, value)) = value_and_cv(tried, patch, cv) else { continue };
+        match told.iter_mut().find(|(other, _)| *other == name) {
+            Some((_, values)) => values.push(value),
+            None => told.push((name, vec![value])),
+        }
+    }
+    if told.is_empty() {
+        let failed = failed_words(guesses);
+        return format!("{begin}, and no web with half or twice of them could be flown.{failed}");
+    }
+    let each: Vec<String> =
+        told.iter().map(|(name, values)| format!("{name} = {}", values.join(", "))).collect();
+    let range = guesses.range(patch);
+    let whole = match range {
+        [1.0, 1.0] => "none of them changes it beyond chance".to_owned(),
+        ends => {
+            let [from, to] = ends.map(|end| significant(PER_CENT * end * cv, 2));
+            format!("it lies between {from} and {to}{THIN}%")
+        }
+    };
+    format!(
+        "{begin}. With half and twice of each, {whole} {place}: {}.{}",
+        each.join("; "),
+        failed_words(guesses)
+    )
+}
+
+/// Which values could not be laid or flown, and why.
+fn failed_words(guesses: &Advice) -> String {
+    let failed = guesses.failed.iter().filter_map(|(change, why)| {
+        let key = change.keys.first()?;
+        let part = if key.to < key.from { "Half" } else { "Twice" };
+        let verb = if change.refusal.is_some() { "cannot be laid" } else { "could not be flown" };
+        Some(format!(" {part} of {}, {}, {verb}: {why}.", key.key, key.pretty(key.to)))
+    });
+    failed.collect()
+}
+
+/// A key, and `10 mm: 18.3 ± 1.5 %`.
+fn value_and_cv(tried: &Tried, patch: f64, cv: f64) -> Option<(String, String)> {
+    let (key, change) = (tried.change.keys.first()?, tried.on(patch)?.difference);
+    let value = key.pretty(key.to).replace(' ', &HARD.to_string());
+    let told = plus_minus(PER_CENT * cv * (1.0 + change.value), Some(PER_CENT * cv * change.standard_error));
+    Some((key.key.clone(), format!("{value}: {told}{THIN}%")))
+}
+
+/// `a, b and c`.
+fn listed(names: &[String]) -> String {
+    match names {
+        [first @ .., last] if !first.is_empty() => format!("{} and {last}", first.join(", ")),
+        names => names.concat(),
+    }
+}
