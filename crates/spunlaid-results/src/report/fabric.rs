@@ -20,7 +20,13 @@ pub(super) fn fabric_section(fabric: &Fabric) -> Section<'static> {
     let mut section = Section::new("fabric", "Fabric")
         .table(Table::of(columns).laid_out(Layout::Results).rows(rows))
         .caption(format!(
-            "From the map, from the curves of the fibres and from what the file says of the fabric ([fabric]); bonds and finishes are not known.{windows}"
+            "{}; bonds and finishes are not known.{windows}",
+            match fabric.is_of_map_alone {
+                true => "From the map",
+                false => {
+                    "From the map, from the curves of the fibres and from what the file says of the fabric ([fabric])"
+                }
+            }
         ));
     for note in &fabric.notes {
         section = section.caption(note);

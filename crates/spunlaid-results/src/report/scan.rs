@@ -1,6 +1,7 @@
 //! The report of a scanned web: the web on a light table, how uneven it is, and the figures.
 
 use super::document::{Report, Section};
+use super::fabric::fabric_section;
 use super::light_table::{picture_note, sheet};
 use super::methods::methods;
 use super::table::{Row, Table};
@@ -13,6 +14,7 @@ use crate::figures::SEEN;
 use crate::numbers::{THIN, plus_minus, significant};
 use crate::output::measured::text as shown_number;
 use crate::output::web::Performance;
+use spunlaid::fabric::Fabric;
 use spunlaid::observe::{Measured, OF_SCANNED_PATCHES, OF_SCANS, measured};
 use spunlaid::scan::{Findings, PatchFindings};
 use spunlaid::web::{Map, nearest_to_seen};
@@ -22,12 +24,13 @@ use std::borrow::Cow;
 /// A scanned web.
 ///
 /// * `file` – its path
+/// * `findings` – of it, with what is told of its fabric
 ///
 /// # Errors
 /// The picture cannot be drawn.
 pub fn scan_report<'a>(
     file: &str,
-    findings: &Findings,
+    (findings, fabric): (&Findings, &Fabric),
     figures: &'a [Figure],
     performance: Performance,
 ) -> Result<Report<'a>, Failure> {
@@ -55,6 +58,7 @@ pub fn scan_report<'a>(
         .lead(summary)
         .with(web)
         .with(uneven(findings))
+        .with(fabric_section(fabric))
         .with(Section::of_figures(figures))
         .with(methods)
         .with(read)

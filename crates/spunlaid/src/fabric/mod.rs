@@ -19,6 +19,7 @@ mod holes;
 mod known;
 mod light;
 mod patches;
+mod scanned;
 mod strips;
 mod tell;
 #[cfg(test)]
@@ -37,6 +38,7 @@ pub use holes::{
 pub use known::Known;
 pub use light::{opacity, scattering};
 pub use patches::{HEAVIER, LIGHTER, QUANTILES, ThinPlaces, thin_places};
+pub use scanned::of_scan;
 pub use strips::{StripSize, Strips, WEAK, strips};
 pub use tell::{AirThrough, Fabric, FabricPatch, Laid, Opacity, tell};
 pub use water::hydrohead;

@@ -23,6 +23,8 @@ const PATCHES: [f64; 5] = [1e-3, 2e-3, 5e-3, 10e-3, 20e-3];
 const WATER_AREA: f64 = 100e-4;
 const AIR_AREA: f64 = 20e-4;
 const OPACITY_PATCH: f64 = 2e-3;
+/// A patch may be so much larger or smaller than it is called, to be one of whole cells.
+const ABOUT: f64 = 0.05;
 /// Fewest areas whose spread is told.
 const FEWEST: usize = 12;
 
@@ -66,6 +68,8 @@ pub struct Fabric {
     pub air: Option<AirThrough>,
     /// Opacity.
     pub opacity: Option<Opacity>,
+    /// Whether nothing is known but the map, as of a scan.
+    pub is_of_map_alone: bool,
     /// What is not told, and why.
     pub notes: Vec<String>,
 }
@@ -109,7 +113,7 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
     let (length, diameter) = lengths(&filaments);
     let whole = |patch: f64| {
         let side = (patch / map.cell).round();
-        ((side * map.cell / patch - 1.0).abs() < 1e-6).then_some(side as usize)
+        ((side * map.cell / patch - 1.0).abs() < ABOUT).then_some(side as usize)
     };
     let sides: Vec<usize> = PATCHES.into_iter().filter_map(whole).collect();
     let patches = each(threads, sides.len(), |i| {
@@ -170,6 +174,7 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
             let heavier = keys.opacity_weight.map_or(1.0, |weight| map.basis_weight() / weight);
             opacity(map, scattering * heavier)
         }),
+        is_of_map_alone: laid.orientation.is_none() && laid.windows.is_none(),
         notes,
     }
 }

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)]
 
 use super::*;
+use crate::scan::{Format, Light, Picture, Settings, analyse};
 use crate::statistics::Estimate;
 use crate::web::uniformity::unevenness;
 use crate::web::{Canvas, Edges, Map, Sheet, straight_fibres};
@@ -107,6 +108,50 @@ fn stat_straight_fibres_at_random_have_a_formation_number_of_one() {
             let number = formation(&found, straight_fibres(length, found.patch));
             assert!(off(number, f64::from(bundle)) < 3.0, "{bundle} of {side}: {number:?}");
         }
+    }
+}
+
+/// The map of a web, read as that of a gauge: what follows from a map is the same.
+#[test]
+fn identical_a_map_that_is_laid_and_one_that_is_measured() {
+    let (map, length) = random_fibres(3, 1);
+    let titre = 0.25 * PI * DIAMETER * DIAMETER * 910.0;
+    let picture = Picture {
+        file: "gauge.npy".to_owned(),
+        format: Format::Npy,
+        values: map.cells.iter().map(|quanta| f64::from(*quanta)).collect(),
+        columns: map.columns,
+        rows: map.rows,
+        pixel: map.cell,
+        pixel_of_file: None,
+        full_scale: None,
+        fewer_bits: None,
+        weight_of_black: None,
+        colour: false,
+        more: false,
+        numbered: [false; 2],
+    };
+    let light = Light::Weight { mean: Some(length * titre) };
+    let found = |titre| of_scan(&analyse(&picture, &Settings { titre, ..Settings::new(light) }).unwrap());
+    let [known, unknown] = [Some(titre), None].map(found);
+    for scanned in [&known, &unknown] {
+        assert!(scanned.holes.is_none() && scanned.stiffness_ratio.is_none() && scanned.air.is_none());
+        assert_eq!(scanned.notes.len(), 1, "{:?}", scanned.notes);
+        for (patch, side) in scanned.patches.iter().zip([2, 4, 10, 20]) {
+            let laid = thin_places(&map, side).unwrap();
+            let values = |thin: &ThinPlaces| thin.quantiles.map(Known::value);
+            for (one, other) in values(&laid).into_iter().zip(values(&patch.thin)) {
+                // A pixel is a whole number of millionths of the mean weight.
+                assert!((one / other - 1.0).abs() < 1e-5, "{side}: {one} {other}");
+            }
+        }
+    }
+    assert!(unknown.patches.iter().all(|patch| patch.formation.is_none()));
+    assert!(unknown.notes[0].contains("titre") && !known.notes[0].contains("titre"));
+    // Where blur may have lowered a CV, it has no error; the tests beside this one ask for it within errors.
+    for patch in &known.patches {
+        let number = patch.formation.unwrap().value();
+        assert!((number - 1.0).abs() < 0.1, "{}: {number}", patch.thin.patch);
     }
 }
 

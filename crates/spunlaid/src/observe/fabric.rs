@@ -1,10 +1,9 @@
 //! What is told of a fabric, of its patches, strips and holes.
 
-use super::{Formula::Told, MILLIMETRES, Measure, PERCENT, RATIO, Unit};
+use super::{Formula::Told, MILLIMETRES, Measure, PER_SQUARE_METRE, PERCENT, RATIO, Unit};
 use crate::fabric::Known::Exact;
 use crate::fabric::{Fabric, FabricPatch, HolesOfRadius, Strips};
 
-const PER_SQUARE_METRE: Unit = Unit { shown: "1/m²", per_si: 1.0 };
 const MICROMETRES: Unit = Unit { shown: "µm", per_si: 1e6 };
 
 /// The numbers of a whole fabric.

@@ -59,7 +59,7 @@ const SHOWN_HOLE: f64 = 100e-6;
 
 /// What the terminal tells of a fabric: names and numbers.
 pub fn fabric_rows(fabric: &Fabric) -> Vec<[String; 2]> {
-    let is_near = |value: f64, shown: f64| (value / shown - 1.0).abs() < 1e-6;
+    let is_near = |value: f64, shown: f64| (value / shown - 1.0).abs() < 0.05;
     let mut all = rows("", OF_FABRICS, fabric);
     for patch in fabric.patches.iter().filter(|patch| is_near(patch.thin.patch, SHOWN)) {
         let before = format!("Patches of {} mm: ", number(patch.thin.patch * 1e3));
@@ -94,7 +94,8 @@ fn lower(label: &str) -> String {
 
 /// The number of a row in words, with its unit; none if it has none.
 pub fn known_text<T>(row: &Measured<T>) -> Option<String> {
-    let (Some(Value::Told(known)), unit) = (&row.value, row.measure.unit) else { return None };
+    let Some(Value::Told(known)) = &row.value else { return None };
+    let unit = row.measure.unit.readable(known.value());
     let shown = match known.times(unit.per_si) {
         Known::Exact(value) => number(value),
         Known::Value(value, error) => plus_minus(value, error),
