@@ -2,7 +2,7 @@
 
 use super::document::{Report, Section};
 use super::fabric::fabric_section;
-use super::light_table::{picture_note, sheet};
+use super::light_table::{MarkedPlaces, marks_note, picture_note, sheet};
 use super::methods::methods;
 use super::table::{Row, Table};
 use super::text::text;
@@ -34,7 +34,7 @@ pub fn scan_report<'a>(
     figures: &'a [Figure],
     performance: Performance,
 ) -> Result<Report<'a>, Failure> {
-    let sheet = sheet(&with_spots(findings), None)?;
+    let sheet = sheet(&with_spots(findings), None, Some(MarkedPlaces::new(fabric)))?;
     let headline = title(findings);
     let summary = format!(
         "A scan of {} across and {} along the web.",
@@ -48,7 +48,7 @@ pub fn scan_report<'a>(
     let found = [headline.clone(), unevenness(&cvs)].into_iter().chain(verdict(findings));
     let methods = methods("analyse", (texts, Vec::new()), found);
     let spots = if findings.aside.spots.is_empty() { "" } else { " Black spots were left out." };
-    let caption = picture_note(sheet.pixel) + spots;
+    let caption = picture_note(sheet.pixel) + spots + &marks_note(fabric);
     let read = Section::new("file", "The scan").table(Table::of_facts(facts)).caption(
         "The map is in map.npy (kg/m², or parts of the mean where that is not known; a row of the web after the other), all numbers in \
          summary.json, beside this page.",

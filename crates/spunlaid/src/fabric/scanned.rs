@@ -25,6 +25,7 @@ pub fn of_scan(findings: &Findings) -> Fabric {
         orientation: None,
         patches: findings.patches.iter().map(|patch| patch.unevenness).collect(),
         windows: None,
+        defects: Vec::new(),
     };
     let mut fabric = tell(&laid, &FabricKeys::USUAL, 1);
     let formation = match titre {

@@ -31,7 +31,7 @@ mod spinline;
 mod strain;
 mod web;
 
-pub use fabric::{OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES, OF_STRIPS};
+pub use fabric::{OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES, OF_STREAKS, OF_STRIPS, OF_THINNEST};
 pub use laydown::{LAYDOWN, SURROGATE};
 pub use measure::{
     Aggregate, END_NODE, ENERGY, ErrorRole, FIBRE, Figure, Formula, Group, HERTZ, KELVIN, Kind,

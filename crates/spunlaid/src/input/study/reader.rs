@@ -184,7 +184,9 @@ impl<'a> Reader<'a> {
 fn is_table(full: &str) -> bool {
     let in_layer = full.strip_prefix("layer.").and_then(|rest| rest.split_once('.'));
     let name = without_numbers(in_layer.map_or(full, |(_, rest)| rest));
-    TABLES.contains(&&*name) || WEB_TABLES.contains(&&*name) || name == "line.rows"
+    TABLES.contains(&&*name)
+        || WEB_TABLES.contains(&&*name)
+        || ["line.rows", "line.defects"].contains(&&*name)
 }
 
 /// A required key is missing.

@@ -87,7 +87,35 @@ macro_rules! of_fabric {
     };
 }
 
-pub(super) use {of_fabric, of_path, of_row, of_sheet, of_surrogate};
+/// Access to what the first defect of the first layer may leave out.
+macro_rules! of_defect {
+    ($field:ident, $read:ident) => {
+        $crate::case::keys::row::AccessTo {
+            get: |web| layer(web)?.defects.first()?.$field.map(Into::into),
+            set: |web, value| {
+                let given = $read(value)?;
+                layer_mut(web)?.defects.iter_mut().take(1).for_each(|defect| defect.$field = Some(given));
+                Ok(())
+            },
+        }
+    };
+}
+
+/// Access to a number of the first defect of the first layer.
+macro_rules! of_each_defect {
+    ($field:ident) => {
+        $crate::case::keys::row::AccessTo {
+            get: |web| Some(layer(web)?.defects.first()?.$field.into()),
+            set: |web, value| {
+                let given = number(value)?;
+                layer_mut(web)?.defects.iter_mut().take(1).for_each(|defect| defect.$field = given);
+                Ok(())
+            },
+        }
+    };
+}
+
+pub(super) use {of_defect, of_each_defect, of_fabric, of_path, of_row, of_sheet, of_surrogate};
 
 /// A number of a surrogate that follows from flights.
 pub(super) fn flown() -> Fault {
