@@ -10,6 +10,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use spunlaid::error::Error;
+use spunlaid::fabric::{self, Fabric};
 use spunlaid::lanes::Isa;
 use spunlaid::observe::{OF_SCANNED_PATCHES, with_errors};
 use spunlaid::scan::{Findings, LightKind, PatchFindings, ScanRequest, is_picture_file, parse};
@@ -27,6 +28,7 @@ pub(crate) struct AnalysedScan {
     name: String,
     file: String,
     findings: Findings,
+    fabric: Fabric,
     #[pyo3(get)]
     notes: Vec<String>,
     performance: Performance,
@@ -64,8 +66,8 @@ pub(crate) fn analyse_scan(
         analysed.map(|(name, (picture, findings))| (name, picture, findings)).map_err(Error::File)
     })?;
     let performance = Performance::measure(started, 1, Isa::detect());
-    let notes = notes(&findings);
-    Ok(AnalysedScan { name, file: picture.file, findings, notes, performance })
+    let (fabric, notes) = (fabric::of_scan(&findings), notes(&findings));
+    Ok(AnalysedScan { name, file: picture.file, findings, fabric, notes, performance })
 }
 
 /// What messages call an array.
@@ -98,6 +100,7 @@ fn request(options: &Bound<'_, PyDict>) -> PyResult<ScanRequest> {
         keep_shading: flag("keep_shading")?,
         keep_spots: flag("keep_spots")?,
         noise: number("noise", Dimension::Ratio)?,
+        titre: number("titre", Dimension::LinearDensity)?,
         patches: given("patches")?.map(sides).transpose()?.unwrap_or_default(),
     };
     if request.lamp.is_some() && request.white.is_some() {
@@ -118,6 +121,7 @@ impl AnalysedScan {
             name: &self.name,
             file: &self.file,
             findings: &self.findings,
+            fabric: &self.fabric,
             notes: &self.notes,
             performance: self.performance,
         }

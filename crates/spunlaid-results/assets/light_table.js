@@ -11,6 +11,26 @@ function readStrands(window) {
   return window.counts.map((count) => numbers.subarray(at, (at += 2 * count)));
 }
 
+/** 32-bit numbers of base64 text, so many together. */
+function groupsOf(text, size) {
+  const numbers = new Float32Array(bytesOf(text).buffer);
+  return Array.from({ length: numbers.length / size }, (_, i) => numbers.subarray(i * size, (i + 1) * size));
+}
+
+/** The places that are worth a look, all lengths in mm; nothing on a page without them. */
+function readMarks(marks) {
+  if (!marks) return null;
+  const strips = ([all, weakest]) => ({ all: groupsOf(all, 4), weakest: groupsOf(weakest, 4) });
+  return {
+    thin: groupsOf(marks.thin, 4),
+    thinnest: groupsOf(marks.thinnest, 5),
+    stripsMd: strips(marks.strips[0]),
+    stripsCd: strips(marks.strips[1]),
+    streaks: groupsOf(marks.streaks, 4),
+    holes: groupsOf(marks.holes, 3),
+  };
+}
+
 /** Shows the picture on the canvas, where it can be moved; without a script the picture stands alone. */
 function startTable(canvas, image, data) {
   const strands = readStrands(data.window);
@@ -56,6 +76,115 @@ function startTable(canvas, image, data) {
     pen.restore();
   }
 
+  const marks = readMarks(data.marks);
+  // Which marks are shown, and the least radius of the holes.
+  const chosen = { radius: 0 };
+
+  /** Rectangles on the picture, never thinner than can be seen. */
+  function drawRectangles(rectangles, colour, isFilled) {
+    const [width, height] = size();
+    pen.strokeStyle = pen.fillStyle = colour;
+    for (const [x, y, across, along] of rectangles) {
+      const at = [width / 2 + (x - view.x) * view.scale, height / 2 + (y - view.y) * view.scale];
+      const sides = [Math.max(across * view.scale, 1.5), Math.max(along * view.scale, 1.5)];
+      if (isFilled) pen.fillRect(...at, ...sides);
+      else pen.strokeRect(...at, ...sides);
+    }
+  }
+
+  function drawMarks() {
+    if (!marks) return;
+    pen.save();
+    pen.lineWidth = 1;
+    if (chosen.streaks) {
+      drawRectangles(marks.streaks, "rgba(204, 121, 167, 0.28)", true);
+      drawRectangles(marks.streaks, "#cc79a7", false);
+    }
+    for (const strips of [chosen.stripsMd && marks.stripsMd, chosen.stripsCd && marks.stripsCd]) {
+      if (!strips) continue;
+      drawRectangles(strips.all, "#0072b2", false);
+      drawRectangles(strips.weakest, "rgba(213, 94, 0, 0.55)", true);
+    }
+    if (chosen.thin) drawRectangles(marks.thin, "rgba(213, 94, 0, 0.5)", true);
+    if (chosen.holes) {
+      const [width, height] = size();
+      pen.strokeStyle = "#009e73";
+      pen.lineWidth = 1.5;
+      for (const [x, y, radius] of marks.holes) {
+        if (radius < chosen.radius) break;
+        pen.beginPath();
+        const drawn = Math.max(radius * view.scale, 2);
+        pen.arc(width / 2 + (x - view.x) * view.scale, height / 2 + (y - view.y) * view.scale, drawn, 0, 2 * Math.PI);
+        pen.stroke();
+      }
+    }
+    pen.restore();
+  }
+
+  /** A button for each kind of mark that the web has, and the slider of the radius. */
+  function offerMarks() {
+    if (!marks) return;
+    for (const label of byId("marks").querySelectorAll("label")) {
+      const kind = label.dataset.marks;
+      const box = label.querySelector("input");
+      const count = (marks[kind].all ?? marks[kind]).length;
+      label.hidden = count === 0;
+      chosen[kind] = box.checked && count > 0;
+      box.addEventListener("change", () => {
+        chosen[kind] = box.checked;
+        requestAnimationFrame(draw);
+      });
+      if (count > 0) byId("marks").hidden = false;
+    }
+    const holes = marks.holes;
+    if (holes.length === 0) return;
+    const slider = byId("radius");
+    const least = Math.floor(1000 * holes[holes.length - 1][2]);
+    [slider.min, slider.max, slider.value] = [least, Math.floor(1000 * holes[0][2]), least];
+    const tell = () => {
+      chosen.radius = slider.value / 1000;
+      const count = holes.findIndex((hole) => hole[2] < chosen.radius);
+      byId("radius-words").value = `${slider.value} µm or more: ${count < 0 ? holes.length : count}`;
+      requestAnimationFrame(draw);
+    };
+    slider.addEventListener("input", () => {
+      byId("marks").querySelector('[data-marks="holes"] input').checked = chosen.holes = true;
+      tell();
+    });
+    tell();
+  }
+
+  /** The thinnest places as small pictures, each of which shows its place. */
+  function offerThinnest() {
+    if (!marks || marks.thinnest.length === 0) return;
+    const AROUND = 6;
+    byId("thumbs").hidden = false;
+    for (const [x, y, across, along, weight] of marks.thinnest) {
+      const button = document.createElement("button");
+      button.type = "button";
+      const small = document.createElement("canvas");
+      [small.width, small.height] = [144, 144];
+      const brush = small.getContext("2d");
+      const middle = [x + across / 2, y + along / 2];
+      const side = AROUND * across;
+      brush.fillStyle = "#e9e5d8";
+      brush.fillRect(0, 0, 144, 144);
+      const scale = 144 / side;
+      const pixel = data.pixel * scale;
+      const corner = middle.map((at) => 72 - at * scale);
+      brush.imageSmoothingEnabled = false;
+      brush.drawImage(image, ...corner, image.naturalWidth * pixel, image.naturalHeight * pixel);
+      brush.strokeStyle = "#d55e00";
+      brush.lineWidth = 2;
+      brush.strokeRect(72 - (across * scale) / 2, 72 - (along * scale) / 2, across * scale, along * scale);
+      const words = document.createElement("span");
+      words.textContent = `${(100 * weight).toPrecision(3)} % at ${middle[0].toFixed(0)}, ${middle[1].toFixed(0)} mm`;
+      button.append(small, words);
+      button.addEventListener("click", () => show(...middle, Math.min(...size()) / side));
+      byId("thumbs").append(button);
+    }
+  }
+
   function drawScale() {
     const [, height] = size();
     const rough = 120 / view.scale;
@@ -82,6 +211,7 @@ function startTable(canvas, image, data) {
     const pixel = data.pixel * view.scale;
     pen.drawImage(image, x, y, image.naturalWidth * pixel, image.naturalHeight * pixel);
     drawFibres();
+    drawMarks();
     drawScale();
   }
 
@@ -152,6 +282,8 @@ function startTable(canvas, image, data) {
     e.preventDefault();
   });
   const start = () => {
+    offerMarks();
+    offerThinnest();
     image.hidden = true;
     canvas.hidden = byId("moves").hidden = false;
     show(data.width / 2, data.length / 2, full());

@@ -98,6 +98,9 @@ pub(crate) struct Scan {
     /// Standard deviation of the noise of a single pixel, which is then taken out
     #[arg(long, value_name = "LEVELS", value_parser = above_zero)]
     pub(crate) noise: Option<f64>,
+    /// Titre of the filaments, as "2 dtex"; with --weight it gives the formation number
+    #[arg(long, value_name = "TITRE", value_parser = quantity(Dimension::LinearDensity))]
+    pub(crate) titre: Option<f64>,
     /// Where the machine direction runs in the picture
     #[arg(long, value_enum, default_value = "columns", hide_possible_values = false)]
     pub(crate) md: Direction,

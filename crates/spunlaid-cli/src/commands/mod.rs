@@ -26,12 +26,14 @@ use crate::say;
 use interrupt::stop_on_ctrl_c;
 use serde::Serialize;
 use spunlaid::ensemble::RunControl;
+use spunlaid::fabric::Fabric;
 use spunlaid::lanes::Isa;
 use spunlaid::web::LayControl;
 use spunlaid_results::output::folder::Staging;
 use spunlaid_results::output::json_text;
 use spunlaid_results::output::origin::Origin;
 use spunlaid_results::output::pictures::FigureFiles;
+use spunlaid_results::output::web::fabric_rows;
 use std::ffi::OsStr;
 use std::path::Path;
 use std::sync::atomic::AtomicU64;
@@ -99,6 +101,14 @@ fn versioned_json(content: &impl Serialize) -> String {
 /// `1 fibre`, `2 fibres`.
 fn plural(count: u64, noun: &str) -> String {
     if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
+}
+
+/// A few numbers of a fabric.
+fn fabric_table(fabric: &Fabric) -> String {
+    let rows = fabric_rows(fabric).into_iter().map(Vec::from);
+    let notes: String = fabric.notes.iter().map(|note| format!("\n{note}")).collect();
+    let of = if fabric.is_of_map_alone { "" } else { " and of the curves of the fibres" };
+    format!("\nfabric, of the map{of}\n{}{notes}", aligned(&rows.collect::<Vec<_>>()))
 }
 
 /// A table whose columns stand below their heads. Columns for which the terminal is too narrow follow below, beside the first column once more.

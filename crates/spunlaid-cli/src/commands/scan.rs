@@ -1,9 +1,10 @@
 //! `spunlaid analyse` of a scan or a map of a web.
 
-use super::{say_report, staged, stem};
+use super::{fabric_table, say_report, staged, stem};
 use crate::args::{Analyse, Direction, Invocation, LightName};
 use crate::failure::Failure;
 use crate::say;
+use spunlaid::fabric;
 use spunlaid::lanes::Isa;
 use spunlaid::scan::{LightKind, ScanRequest};
 use spunlaid_results::folders::scan::{ScanFolder, notes};
@@ -18,15 +19,17 @@ pub(super) fn scan(arguments: &Analyse, invocation: &Invocation) -> Result<(), F
     let staging = staged((&folder, ENTRIES), &arguments.output, origin, &arguments.figures.files())?;
     let started = Instant::now();
     let (picture, findings) = request(arguments).analyse_file(&arguments.record)?;
+    let fabric = fabric::of_scan(&findings);
     let performance = Performance::measure(started, 1, Isa::detect());
     let (file, notes) = (&picture.file, &notes(&findings));
-    let results = ScanFolder { name: &name, file, findings: &findings, notes, performance };
+    let results = ScanFolder { name: &name, file, findings: &findings, fabric: &fabric, notes, performance };
     results.write(&staging)?;
     staging.publish()?;
     if arguments.json {
         say::text(&results.summary());
     } else if !arguments.output.quiet {
         say::table(&scan_text(&findings, say::room()));
+        say::table(&fabric_table(&fabric));
         notes.iter().for_each(|note| say::remark(false, note));
         say_report(&folder);
     }
@@ -49,6 +52,7 @@ fn request(arguments: &Analyse) -> ScanRequest {
         keep_shading: options.keep_shading,
         keep_spots: options.keep_spots,
         noise: options.noise,
+        titre: options.titre,
         patches: options.patches.clone(),
     }
 }

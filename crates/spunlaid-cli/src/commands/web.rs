@@ -1,21 +1,20 @@
 //! `spunlaid web`: lays a web of many filaments and says how even it is.
 
 use super::flown::flown;
-use super::{aligned, lay_control, plural, say_report, staged, stem};
+use super::{aligned, fabric_table, lay_control, plural, say_report, staged, stem};
 use crate::args::{self, Invocation, overrides};
 use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::advice::{Advice, Change, advise, are_tried, check_patch, most_steps, steps};
 use spunlaid::case::Note;
 use spunlaid::error::Error;
-use spunlaid::fabric::Fabric;
 use spunlaid::input::{Changes, Unflown, Unread, WebFile, WebSpec, read_changes, read_web};
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
 use spunlaid::web::{Findings, LayControl, PatchFindings, Web};
 use spunlaid_results::folders;
 use spunlaid_results::folders::web::WebFolder;
 use spunlaid_results::numbers::significant;
-use spunlaid_results::output::web::{ENTRIES, PatchTable, Performance, Reader, fabric_rows};
+use spunlaid_results::output::web::{ENTRIES, PatchTable, Performance, Reader};
 use spunlaid_results::report::{advice_commands, advice_words, guess_words};
 use std::path::PathBuf;
 use std::sync::atomic::AtomicU64;
@@ -154,16 +153,6 @@ fn flying(quiet: bool) -> impl Fn(Flights<'_>, &mut (dyn FnMut() + Send)) {
         let label = format!("flying {} of {name}, {seconds} fibre-seconds", plural(fibres, "fibre"));
         progress::follow(done, steps, &label, quiet, work);
     }
-}
-
-/// A few numbers of the fabric, for the terminal.
-fn fabric_table(fabric: &Fabric) -> String {
-    let rows = fabric_rows(fabric).into_iter().map(Vec::from);
-    let notes: String = fabric.notes.iter().map(|note| format!("\n{note}")).collect();
-    format!(
-        "\nfabric, of the map and of the curves of the fibres\n{}{notes}",
-        aligned(&rows.collect::<Vec<_>>())
-    )
 }
 
 /// The table for the terminal.

@@ -109,6 +109,18 @@ fn a_laid_web_and_its_scan_have_the_same_unevenness() {
     }
     assert!(!page.contains("id=\"fibres\"") && !page.contains("map.parquet"));
 
+    // Its fabric, as far as a map tells it.
+    let fabric = desk.summary("scan")["fabric"].take();
+    assert!(fabric["patches"][2]["lighter_than_80_percent_per_m2"].is_object(), "{fabric}");
+    assert!(fabric.get("bare_area").is_none() && fabric["patches"][2].get("formation").is_none());
+    assert_eq!(fabric["notes"].as_array().unwrap().len(), 1, "{fabric}");
+    assert!(said.contains("fabric, of the map\n") && said.contains("a scan does not tell"), "{said}");
+    success(&mut desk.spunlaid(&format!("{command} --weight 15gsm --titre 2.3dtex --out known")));
+    let of_10_mm = |folder: &str| desk.summary(folder)["fabric"]["patches"][3]["formation"].take();
+    let [one, other] = [of_10_mm("laid"), of_10_mm("known")];
+    // The same web, of nearly this weight and titre.
+    assert!((number(&one["value"]) / number(&other["value"]) - 1.0).abs() < 0.3, "{one} {other}");
+
     // A picture that lies on its side, without its weight.
     let turned: Vec<f64> = (0..laid.len()).map(|i| laid[i % 300 * 200 + i / 300]).collect();
     scan(&desk, "turned.png", 300, &turned);
@@ -144,6 +156,8 @@ fn a_laid_web_and_its_scan_have_the_same_unevenness() {
     let towards = |patch: &Value, end: usize| number(&patch["cv_interval"][end]) - number(&patch["cv"]);
     let half_width = towards(a, 1 - end).hypot(towards(b, end));
     assert!((number(&measure["half_width"]) / half_width - 1.0).abs() < 1e-4, "{measure}");
+    let measure = &both["comparisons"][0]["measures"]["weight_of_5_percent_5_mm"];
+    assert!(measure["difference"].is_number() && said.contains("Lightest 5 %, patches of 5 mm"), "{measure}");
     // Nothing is said about a number that is not to be had, and the reason stands there.
     let measure = &both["comparisons"][0]["measures"]["cv_2_mm"];
     assert_eq!(measure["no_verdict"], "below the blur of the scan (scan)");

@@ -45,6 +45,7 @@ def scan(
     keep_shading: bool = False,
     keep_spots: bool = False,
     noise: float | None = None,
+    titre: str | float | None = None,
     md: str = "columns",
     patches: Sequence[str | float] = (),
 ) -> Scan:
@@ -60,12 +61,14 @@ def scan(
     keep_shading: whether the lamp is taken as even; else its shading is taken out
     keep_spots: whether all of the picture is web; else the bare lamp beside it, dust and blots are left out
     noise: standard deviation of the noise of a single pixel, which is then taken out [levels]
+    titre: titre of the filaments, "2 dtex" or in kg/m; with `weight` it gives the formation number of `summary["fabric"]`
     md: where the machine direction runs in the picture, along its "columns" or its "rows"
     patches: sides of the patches, "1 mm" or in metres
     """
     if md not in ("columns", "rows"):
         raise ValueError(f'md is "columns" or "rows", not {md!r}')
     options: dict[str, Any] = {"pixel": pixel, "weight": weight, "light": light, "white": white, "noise": noise}
+    options["titre"] = titre
     options |= {"keep_shading": keep_shading, "keep_spots": keep_spots, "md_along_rows": md == "rows"}
     options |= {"lamp": None if lamp is None else os.fspath(lamp), "patches": list(patches)}
     if isinstance(picture, (str, os.PathLike)):

@@ -9,6 +9,7 @@ use crate::output::spinline::{SpinResults, text};
 use crate::output::web::{ENTRIES, PatchTable, Performance, Reader, Summary};
 use crate::report::{analysis_report, analysis_text, scan_report};
 use serde_json::Value as Json;
+use spunlaid::fabric::of_scan;
 use spunlaid::input::{parse_spinline, parse_web};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::Flyer;
@@ -160,10 +161,10 @@ fn every_declared_measure_of_a_scan_is_in_summary_and_report() {
     let light = Light::Transmitted { mean: Some(0.02), white: Some(60_000.0) };
     let settings = scan::Settings { noise: Some(50.0), ..scan::Settings::new(light) };
     let findings = scan::analyse(&picture, &settings).unwrap();
-    let performance = Performance::default();
-    let summary = Summary::from_scan(&picture.file, &findings, performance, &[]).to_json();
+    let (performance, fabric) = (Performance::default(), of_scan(&findings));
+    let summary = Summary::from_scan(&picture.file, (&findings, &fabric), performance, &[]).to_json();
     let summary: Json = serde_json::from_str(&summary).unwrap();
-    let report = scan_report(&picture.file, &findings, &[], performance).unwrap().html();
+    let report = scan_report(&picture.file, (&findings, &fabric), &[], performance).unwrap().html();
     for declared in OF_SCANS {
         let number = declared.value(&findings).map(|value| value.number());
         assert_eq!(summary["scan"].get(declared.entry()).unwrap().as_f64(), number, "{}", declared.entry());

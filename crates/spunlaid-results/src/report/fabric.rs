@@ -2,9 +2,12 @@
 
 use super::document::Section;
 use super::table::{Content, Layout, Row, Table};
+use super::words::millimetres;
 use crate::output::web::known_text;
 use spunlaid::fabric::Fabric;
-use spunlaid::observe::{Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES, OF_STRIPS, PERCENT, measured};
+use spunlaid::observe::{
+    Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES, OF_STREAKS, OF_STRIPS, OF_THINNEST, PERCENT, measured,
+};
 
 /// Everything that is told of a fabric.
 pub(super) fn fabric_section(fabric: &Fabric) -> Section<'static> {
@@ -20,7 +23,13 @@ pub(super) fn fabric_section(fabric: &Fabric) -> Section<'static> {
     let mut section = Section::new("fabric", "Fabric")
         .table(Table::of(columns).laid_out(Layout::Results).rows(rows))
         .caption(format!(
-            "From the map, from the curves of the fibres and from what the file says of the fabric ([fabric]); bonds and finishes are not known.{windows}"
+            "{}; bonds and finishes are not known.{windows}",
+            match fabric.is_of_map_alone {
+                true => "From the map",
+                false => {
+                    "From the map, from the curves of the fibres and from what the file says of the fabric ([fabric])"
+                }
+            }
         ));
     for note in &fabric.notes {
         section = section.caption(note);
@@ -31,9 +40,16 @@ pub(super) fn fabric_section(fabric: &Fabric) -> Section<'static> {
     let sides: Vec<_> = fabric.patches.iter().map(|of| (shown(patch, of), of)).collect();
     section = compare(section, ("Thin and thick places", patch.label), places, &sides);
     section = compare(section, ("Weight of patches over the mean", patch.label), weights, &sides);
+    let thinnest: Vec<_> =
+        (1..).zip(&fabric.marks.thinnest).map(|(i, place)| (i.to_string(), place)).collect();
+    let heading = format!("The thinnest places, patches of {}", millimetres(fabric.marks.patch));
+    section = compare(section, (&heading, "Place"), OF_THINNEST, &thinnest);
     let strips = ["Along MD", "Along CD"].into_iter().zip(&fabric.strips);
     let strips: Vec<_> = strips.filter_map(|(along, of)| Some((along.to_owned(), of.as_ref()?))).collect();
     section = compare(section, ("Strips", "Direction"), OF_STRIPS, &strips);
+    let [place, told @ ..] = OF_STREAKS else { return section };
+    let streaks: Vec<_> = fabric.streaks.iter().map(|streak| (shown(place, streak), streak)).collect();
+    section = compare(section, ("Streaks of the defects", place.label), told, &streaks);
     let [radius, holes @ ..] = OF_HOLES else { return section };
     let radii = fabric.holes.iter().flat_map(|holes| &holes.radii);
     let radii: Vec<_> = radii.map(|of| (shown(radius, of), of)).collect();

@@ -8,6 +8,7 @@ use crate::output::web::light_table;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
+use spunlaid::fabric::{Fabric, Marked, Marks, Streak, StripPlace};
 use spunlaid::web::{Map, Strand, Window};
 
 const MM: f64 = 1e3;
@@ -29,6 +30,8 @@ pub(super) struct Sheet {
     pub(super) pixel: f64,
     /// Whether there are single fibres to be seen.
     pub(super) has_fibres: bool,
+    /// Whether there are places to be marked.
+    pub(super) has_marks: bool,
     /// What the script of the light table gets. Numbers and base64 only: nothing in it can end the script element it stands in.
     pub(super) data: String,
 }
@@ -41,6 +44,85 @@ struct Data {
     /// Side of a pixel of the picture.
     pixel: f64,
     window: Option<Fibres>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    marks: Option<MarkedPlaces>,
+}
+
+/// Places that are worth a look: rectangles by corner and sides; base64 of 32-bit numbers, low byte first.
+#[derive(Serialize)]
+pub(super) struct MarkedPlaces {
+    /// Thin patches.
+    thin: String,
+    /// The thinnest ones, with their weight over the mean.
+    thinnest: String,
+    /// Strips along MD and along CD, and their weakest sections.
+    strips: [[String; 2]; 2],
+    /// Streaks of the defects of the line.
+    streaks: String,
+    /// Middle and radius of holes.
+    holes: String,
+}
+
+impl MarkedPlaces {
+    pub(super) fn new(fabric: &Fabric) -> Self {
+        let marks = &fabric.marks;
+        let rectangle = |corner: [f64; 2], sides: [f64; 2]| [corner, sides].concat();
+        let of_patch = |place: &Marked| rectangle(place.corner, place.sides);
+        let parts = |strips: &Vec<StripPlace>| {
+            let strip = |strip: &StripPlace| rectangle(strip.corner, strip.sides);
+            [
+                packed(strips.iter().flat_map(strip)),
+                packed(strips.iter().flat_map(|one| of_patch(&one.weakest))),
+            ]
+        };
+        let streak =
+            |streak: &Streak| rectangle([streak.place - 0.5 * streak.band, 0.0], [streak.band, streak.until]);
+        // A weight is no length, and the script has all numbers in mm.
+        let thinnest = |place: &Marked| [of_patch(place), vec![place.weight / MM]].concat();
+        Self {
+            thin: packed(marks.thin.iter().flat_map(of_patch)),
+            thinnest: packed(marks.thinnest.iter().flat_map(thinnest)),
+            strips: marks.strips.each_ref().map(parts),
+            streaks: packed(fabric.streaks.iter().flat_map(streak)),
+            holes: packed(marks.holes.iter().flat_map(|([x, y], radius)| [*x, *y, *radius])),
+        }
+    }
+}
+
+/// What the marks of a picture mean; nothing without any.
+pub(super) fn marks_note(fabric: &Fabric) -> String {
+    let Marks { patch, thin, thin_of_all, strips, holes, .. } = &fabric.marks;
+    let mut words = Vec::new();
+    if !thin.is_empty() {
+        let all = if thin.len() < *thin_of_all {
+            format!("the lightest {} of {thin_of_all}", thin.len())
+        } else {
+            thin_of_all.to_string()
+        };
+        words.push(format!(
+            "orange, patches of {} that are lighter than 80 % of the mean, {all}",
+            millimetres(*patch)
+        ));
+    }
+    if strips.iter().any(|strips| !strips.is_empty()) {
+        words.push("blue, strips, with their weakest section in orange".to_owned());
+    }
+    if !fabric.streaks.is_empty() {
+        words.push("pink, the bands over which the defects of the line are looked for".to_owned());
+    }
+    if !holes.is_empty() {
+        words.push(
+            "green, holes in the windows in which they were counted, by the largest disc that fits"
+                .to_owned(),
+        );
+    }
+    if words.is_empty() { String::new() } else { format!(" Marked where chosen: {}.", words.join("; ")) }
+}
+
+/// Base64 of lengths in mm.
+fn packed(lengths: impl Iterator<Item = f64>) -> String {
+    let bytes: Vec<u8> = lengths.flat_map(|length| ((length * MM) as f32).to_le_bytes()).collect();
+    STANDARD.encode(bytes)
 }
 
 #[derive(Serialize)]
@@ -95,30 +177,34 @@ impl Fibres {
         let Strands { window, diameter, .. } = strands;
         let counts = strands.drawn().map(|strand| strand.points.len()).collect();
         let coordinates = strands.drawn().flat_map(|strand| strand.points.iter().flatten());
-        let points: Vec<u8> = coordinates.flat_map(|x| ((x * MM) as f32).to_le_bytes()).collect();
         Self {
             corner: window.corner.map(|x| x * MM),
             sides: window.sides.map(|x| x * MM),
             diameter: diameter * MM,
             counts,
-            points: STANDARD.encode(points),
+            points: packed(coordinates.copied()),
         }
     }
 }
 
 /// The picture of a map.
-pub(super) fn sheet(map: &Map, window: Option<Fibres>) -> Result<Sheet, Failure> {
+pub(super) fn sheet(
+    map: &Map,
+    window: Option<Fibres>,
+    marks: Option<MarkedPlaces>,
+) -> Result<Sheet, Failure> {
     let failed = |reason: String| undrawable("web", &reason);
     let (picture, each) = light_table(map, PIXELS).map_err(failed)?;
     let pixel = each as f64 * map.cell;
     let [width, length] = [map.columns, map.rows].map(|cells| cells as f64 * map.cell * MM);
-    let data = Data { width, length, pixel: pixel * MM, window };
+    let data = Data { width, length, pixel: pixel * MM, window, marks };
     Ok(Sheet {
         picture: STANDARD.encode(picture),
         words: format!("The web is {} mm wide and {} mm long.", thousands(width), thousands(length)),
         aspect: width / length,
         pixel,
         has_fibres: data.window.is_some(),
+        has_marks: data.marks.is_some(),
         data: serde_json::to_string(&data).map_err(|error| failed(error.to_string()))?,
     })
 }
@@ -160,7 +246,7 @@ mod tests {
             closed: [false; 2],
             cells: (0..4500 * 800).map(|i| 5 + i % 7).collect(),
         };
-        let sheet = sheet(&map, None).unwrap();
+        let sheet = sheet(&map, None, None).unwrap();
         assert_eq!(sheet.words, "The web is 4,500 mm wide and 800 mm long.");
         // Two cells to a pixel: an elongated web is as fine as a square one of the same area.
         assert_eq!((sheet.pixel, sheet.aspect), (2e-3, 5.625));

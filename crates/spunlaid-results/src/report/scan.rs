@@ -1,7 +1,8 @@
 //! The report of a scanned web: the web on a light table, how uneven it is, and the figures.
 
 use super::document::{Report, Section};
-use super::light_table::{picture_note, sheet};
+use super::fabric::fabric_section;
+use super::light_table::{MarkedPlaces, marks_note, picture_note, sheet};
 use super::methods::methods;
 use super::table::{Row, Table};
 use super::text::text;
@@ -13,6 +14,7 @@ use crate::figures::SEEN;
 use crate::numbers::{THIN, plus_minus, significant};
 use crate::output::measured::text as shown_number;
 use crate::output::web::Performance;
+use spunlaid::fabric::Fabric;
 use spunlaid::observe::{Measured, OF_SCANNED_PATCHES, OF_SCANS, measured};
 use spunlaid::scan::{Findings, PatchFindings};
 use spunlaid::web::{Map, nearest_to_seen};
@@ -22,16 +24,17 @@ use std::borrow::Cow;
 /// A scanned web.
 ///
 /// * `file` – its path
+/// * `findings` – of it, with what is told of its fabric
 ///
 /// # Errors
 /// The picture cannot be drawn.
 pub fn scan_report<'a>(
     file: &str,
-    findings: &Findings,
+    (findings, fabric): (&Findings, &Fabric),
     figures: &'a [Figure],
     performance: Performance,
 ) -> Result<Report<'a>, Failure> {
-    let sheet = sheet(&with_spots(findings), None)?;
+    let sheet = sheet(&with_spots(findings), None, Some(MarkedPlaces::new(fabric)))?;
     let headline = title(findings);
     let summary = format!(
         "A scan of {} across and {} along the web.",
@@ -45,7 +48,7 @@ pub fn scan_report<'a>(
     let found = [headline.clone(), unevenness(&cvs)].into_iter().chain(verdict(findings));
     let methods = methods("analyse", (texts, Vec::new()), found);
     let spots = if findings.aside.spots.is_empty() { "" } else { " Black spots were left out." };
-    let caption = picture_note(sheet.pixel) + spots;
+    let caption = picture_note(sheet.pixel) + spots + &marks_note(fabric);
     let read = Section::new("file", "The scan").table(Table::of_facts(facts)).caption(
         "The map is in map.npy (kg/m², or parts of the mean where that is not known; a row of the web after the other), all numbers in \
          summary.json, beside this page.",
@@ -55,6 +58,7 @@ pub fn scan_report<'a>(
         .lead(summary)
         .with(web)
         .with(uneven(findings))
+        .with(fabric_section(fabric))
         .with(Section::of_figures(figures))
         .with(methods)
         .with(read)

@@ -3,7 +3,7 @@
 use super::document::{Report, Section};
 use super::effects::{advice_words, effect_cell, effects_table, guess_words, is_known};
 use super::fabric::fabric_section;
-use super::light_table::{Fibres, Strands, picture_note, sheet};
+use super::light_table::{Fibres, MarkedPlaces, Strands, marks_note, picture_note, sheet};
 use super::methods::{methods, web_account};
 use super::spinline::{LayerSpinline, sections_of_web};
 use super::table::{Row, Table};
@@ -44,8 +44,8 @@ pub fn web_report<'a>(
 ) -> Result<Report<'a>, Failure> {
     let diameter = spec.layers.first().map_or(0.0, |layer| layer.diameter);
     let strands = Strands { window: spec.window(), strands, diameter };
-    let sheet = sheet(&findings.laid.map, Some(Fibres::new(strands)))?;
-    let caption = format!("{} {}", picture_note(sheet.pixel), strands.words());
+    let sheet = sheet(&findings.laid.map, Some(Fibres::new(strands)), Some(MarkedPlaces::new(fabric)))?;
+    let caption = format!("{} {}{}", picture_note(sheet.pixel), strands.words(), marks_note(fabric));
     let table =
         Section::new("web", "The web on a light table").view(View::LightTable(sheet)).caption(caption);
     let together = findings.laid.shared_air.as_ref();

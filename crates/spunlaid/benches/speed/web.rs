@@ -43,6 +43,7 @@ fn web(cell: f64) -> Web {
             belt_speed: 3.0,
             filaments: Filaments::AtRandom { per_metre: 1024.0 },
             fibres: Fibres::Surrogate(SURROGATE),
+            defects: Vec::new(),
             other_description: None,
         }],
         seed: 1,

@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::fibre::Place;
 use crate::flight::LaidPoint;
 use crate::line::Line;
-use crate::web::{Canvas, Sheet, Strands, WindowOnSheet, Windows};
+use crate::web::{Brush, Sheet, Strands, WindowOnSheet, Windows};
 
 /// How far what has been laid reaches along the belt.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,7 +111,7 @@ impl Filament {
         &mut self,
         points: Vec<LaidPoint>,
         stretch: &Stretch,
-        on: Option<(&Canvas, u32)>,
+        on: Option<&Brush<'_>>,
         reach: &mut Reach,
     ) {
         for point in &points {
@@ -128,13 +128,17 @@ impl Filament {
         }
         self.waiting.extend(points);
         if stretch.back.is_some() {
+            let titre = on.and_then(|brush| brush.titres.of(self.number));
             for pair in 1..self.waiting.len() {
                 let ends = [pair - 1, pair].map(|i| stretch.on_sheet(self.place, &self.waiting[i]));
                 if let [Some(from), Some(to)] = ends {
-                    if let Some((canvas, quanta)) = on {
-                        canvas.draw(from, to, quanta);
+                    let mut of_others = 1.0;
+                    if let Some(brush) = on {
+                        let (quanta, titre) = brush.quanta_at(titre, to[1]);
+                        brush.canvas.draw(from, to, quanta);
+                        of_others = titre;
                     }
-                    self.strands.keep(self.number, [from, to], &stretch.window);
+                    self.strands.keep(self.number, ([from, to], of_others), &stretch.window);
                 }
             }
         } else {

@@ -8,7 +8,7 @@ use crate::air::EddyField;
 use crate::error::{Error, Fault};
 use crate::line::Line;
 use crate::threads::{lock, unlock};
-use crate::web::{Canvas, Sheet, Windows};
+use crate::web::{Brush, Sheet, Windows};
 use std::ops::Range;
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex};
@@ -69,7 +69,7 @@ impl<'a> Flying<'a> {
         pack: usize,
         steps: u64,
         field: Option<&Arc<EddyField>>,
-        on: Option<(&Canvas, u32)>,
+        on: Option<&Brush<'_>>,
         by: BeamControl<'_>,
     ) -> Result<Reach, Error> {
         if by.stop.load(Ordering::Relaxed) {

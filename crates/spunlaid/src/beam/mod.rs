@@ -30,8 +30,8 @@ use crate::lanes::Isa;
 use crate::sort::sort_by_key;
 use crate::threads::try_each;
 use crate::web::{
-    Canvas, KeptFibres, LaidWeb, NeighbourCorrelation, SharedAirFindings, SharedVariance, Sheet, TimeSpent,
-    Window, Windows,
+    Brush, Canvas, KeptFibres, LaidWeb, NeighbourCorrelation, SharedAirFindings, SharedVariance, Sheet,
+    TimeSpent, Titres, Window, Windows,
 };
 pub(crate) use abreast::{FlownAbreast, fly_abreast, memory_abreast};
 use air::SharedField;
@@ -141,7 +141,8 @@ impl Beam<'_> {
     ) -> Result<(LaidWeb, BeamFindings), Error> {
         let element = self.element_mass();
         let canvas = Canvas::new(sheet, &[element], self.basis_weight(sheet))?;
-        let mut flown = self.fly((sheet, window.into()), Some((&canvas, canvas.quanta(element))), by)?;
+        let brush = Brush::new(&canvas, element, Titres::default());
+        let mut flown = self.fly((sheet, window.into()), Some(&brush), by)?;
         let shared_air = Some(flown.take_shared_air());
         Ok((LaidWeb { shared_air, ..canvas.finish()? }, flown))
     }
@@ -161,14 +162,14 @@ impl Beam<'_> {
     /// Flies all filaments, and lays them on a canvas or keeps all their curves.
     ///
     /// * `windows` – of the sheet, whose single fibres are kept
-    /// * `on` – the canvas, and its quanta for an element of fibre; None to keep the curves of all filaments in place of it
+    /// * `on` – what draws an element of fibre; None to keep the curves of all filaments in place of it
     ///
     /// # Errors
     /// If the case cannot be flown or its fibre is not laid on a moving belt, if more than 2 % of the filaments are lost, or if it is stopped.
     pub(crate) fn fly(
         &self,
         (sheet, windows): (&Sheet, Windows),
-        on: Option<(&Canvas, u32)>,
+        on: Option<&Brush<'_>>,
         by: BeamControl<'_>,
     ) -> Result<BeamFindings, Error> {
         let started = Instant::now();

@@ -9,7 +9,7 @@ use crate::fibre::Place;
 use crate::flight::{Flight, Job, SurroundingRun};
 use crate::lanes::{Isa, WIDTH};
 use crate::sort::sort_by_key;
-use crate::web::Canvas;
+use crate::web::Brush;
 use std::sync::Arc;
 
 /// Neighbours across the web that are shared out to packs by their places in the slot.
@@ -66,7 +66,7 @@ impl Pack {
         steps: u64,
         field: Option<&Arc<EddyField>>,
         stretch: &Stretch,
-        on: Option<(&Canvas, u32)>,
+        on: Option<&Brush<'_>>,
     ) -> Reach {
         field.iter().for_each(|field| self.flight.give_field(field));
         let mut left = steps;

@@ -3,7 +3,9 @@
 use super::Curtain;
 use crate::error::{Error, Fault};
 use crate::threads::try_each;
-use crate::web::{Canvas, CanvasPart, KeptFibres, LaidWeb, Sheet, Strand, Strands, WindowOnSheet, Windows};
+use crate::web::{
+    Brush, Canvas, CanvasPart, KeptFibres, LaidWeb, Sheet, Strand, Strands, Titres, WindowOnSheet, Windows,
+};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -54,23 +56,23 @@ impl<'a> Belt<'a> {
 
 /// Draws all filaments of a curtain on the rows of a canvas. The parts of them in the windows that begin on these rows are returned.
 ///
-/// * `quanta` – of the canvas, for a piece from point to point
+/// * `brush` – draws a piece from point to point
 ///
 /// # Errors
 /// If it is stopped.
 pub(crate) fn draw(
     curtain: &dyn Curtain,
     belt: Belt<'_>,
-    (canvas, quanta): (&Canvas, u32),
+    brush: &Brush<'_>,
     (threads, stop): (usize, &AtomicBool),
 ) -> Result<KeptFibres, Error> {
     let count = curtain.places().len();
     // Neighbours are drawn together, because they lie on the same part of the sheet.
     let together = (count / (GROUPS * threads.max(1))).clamp(1, MOST_TOGETHER);
-    let (points, windows) = points_on(curtain, belt, canvas.ends());
+    let (points, windows) = points_on(curtain, belt, brush.canvas.ends());
     let groups = try_each(threads, count.div_ceil(together), |group| {
         let filaments = group * together..count.min((group + 1) * together);
-        draw_neighbours(curtain, (filaments, &points), (belt, &windows), (canvas, quanta), stop)
+        draw_neighbours(curtain, (filaments, &points), (belt, &windows), brush, stop)
     })?;
     let mut kept = KeptFibres::default();
     groups.into_iter().for_each(|group| kept.add(group));
@@ -109,12 +111,12 @@ fn draw_neighbours(
     curtain: &dyn Curtain,
     (filaments, points_on): (Range<usize>, &Range<usize>),
     (belt, windows): (Belt<'_>, &WindowOnSheet),
-    (canvas, quanta): (&Canvas, u32),
+    brush: &Brush<'_>,
     stop: &AtomicBool,
 ) -> Result<KeptFibres, Error> {
     let advance = curtain.belt_ratio() * curtain.spacing();
     let mut pens: Vec<Pen> = filaments.clone().map(|_| Pen::default()).collect();
-    let mut part = CanvasPart::new(canvas);
+    let mut part = CanvasPart::new(brush.canvas);
     let (mut values, mut points) = ([[0.0; BLOCK]; 2], Vec::new());
     for first in points_on.clone().step_by(BLOCK) {
         if stop.load(Ordering::Relaxed) {
@@ -138,10 +140,12 @@ fn draw_neighbours(
         }
         part.move_to(corners, points.len());
         for ((filament, pen), points) in filaments.clone().zip(&mut pens).zip(points.chunks_exact(count)) {
+            let titre = brush.titres.of(filament);
             for to in points {
                 if let Some(from) = pen.last.replace(*to) {
+                    let (quanta, titre) = brush.quanta_at(titre, to[1]);
                     part.draw(from, *to, quanta);
-                    pen.strands.keep(filament, [from, *to], windows);
+                    pen.strands.keep(filament, ([from, *to], titre), windows);
                 }
             }
         }
@@ -167,7 +171,8 @@ pub fn lay(
     let per_length = element / curtain.spacing() * curtain.places().len() as f64;
     let basis_weight = per_length / curtain.belt_ratio() / belt.sheet.width;
     let canvas = Canvas::new(belt.sheet, &[element], basis_weight)?;
-    let KeptFibres { strands, pieces } = draw(curtain, belt, (&canvas, canvas.quanta(element)), by)?;
+    let KeptFibres { strands, pieces } =
+        draw(curtain, belt, &Brush::new(&canvas, element, Titres::default()), by)?;
     Ok((LaidWeb { pieces, ..canvas.finish()? }, strands))
 }
 

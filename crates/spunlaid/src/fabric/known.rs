@@ -33,6 +33,15 @@ impl Known {
         }
     }
 
+    /// The value alone.
+    #[must_use]
+    pub(super) const fn without_error(self) -> Self {
+        match self {
+            Self::Value(value, _) => Self::Value(value, None),
+            other => other,
+        }
+    }
+
     /// In another unit, or as a multiple of something.
     #[must_use]
     pub fn times(self, factor: f64) -> Self {

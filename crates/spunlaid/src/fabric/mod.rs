@@ -18,7 +18,11 @@ mod given;
 mod holes;
 mod known;
 mod light;
+mod marked;
+mod marks;
 mod patches;
+mod scanned;
+mod streaks;
 mod strips;
 mod tell;
 #[cfg(test)]
@@ -36,8 +40,12 @@ pub use holes::{
 };
 pub use known::Known;
 pub use light::{opacity, scattering};
+pub use marked::Marked;
+pub use marks::Marks;
 pub use patches::{HEAVIER, LIGHTER, QUANTILES, ThinPlaces, thin_places};
-pub use strips::{StripSize, Strips, WEAK, strips};
+pub use scanned::of_scan;
+pub use streaks::{Streak, StreakSource, streaks};
+pub use strips::{StripPlace, StripSize, Strips, WEAK, strips};
 pub use tell::{AirThrough, Fabric, FabricPatch, Laid, Opacity, tell};
 pub use water::hydrohead;
 pub use words::about;

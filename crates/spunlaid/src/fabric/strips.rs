@@ -1,6 +1,7 @@
 //! The weakest section of a strip, where a strip that is pulled would tear if its strength were that of its lightest section.
 
 use super::Known;
+use super::marked::Marked;
 use crate::statistics::{Estimate, quantile};
 use crate::web::Map;
 
@@ -41,7 +42,54 @@ pub fn strips(map: &Map, size: StripSize) -> [Option<Strips>; 2] {
     [true, false].map(|is_along_md| along(map, size, is_along_md))
 }
 
-fn along(map: &Map, size: StripSize, is_along_md: bool) -> Option<Strips> {
+/// Where a strip lies, and its weakest section.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StripPlace {
+    /// Its corner in cross and in machine direction [m].
+    pub corner: [f64; 2],
+    /// Its sides [m].
+    pub sides: [f64; 2],
+    /// The lightest section, with its weight over the mean of the strip.
+    pub weakest: Marked,
+}
+
+/// The strips of the sheet along MD and along CD; see [`strips`].
+pub(super) fn places(map: &Map, size: StripSize) -> [Vec<StripPlace>; 2] {
+    [true, false].map(|is_along_md| {
+        let Some(cut) = cut(map, size, is_along_md) else { return Vec::new() };
+        let turned = |[across, along]: [f64; 2]| if is_along_md { [across, along] } else { [along, across] };
+        let StripSize { width, section, .. } = cut.size;
+        let sides = turned([width, section * cut.in_strip as f64]);
+        let mut all = Vec::new();
+        for (column, sums) in cut.sums.iter().enumerate() {
+            for (row, strip) in sums.chunks_exact(cut.in_strip).enumerate() {
+                let mean = strip.iter().sum::<u64>() as f64 / cut.in_strip as f64;
+                let lightest = strip.iter().enumerate().min_by_key(|(_, sum)| **sum);
+                let Some((number, sum)) = lightest.filter(|_| mean > 0.0) else { continue };
+                let at = [column as f64 * width, (row * cut.in_strip) as f64 * section];
+                let weakest = Marked {
+                    corner: turned([at[0], at[1] + number as f64 * section]),
+                    sides: turned([width, section]),
+                    weight: *sum as f64 / mean,
+                };
+                all.push(StripPlace { corner: turned(at), sides, weakest });
+            }
+        }
+        all
+    })
+}
+
+/// A sheet that is cut into strips of one direction.
+struct Cut {
+    /// Weights of the sections of each strip and of those behind it.
+    sums: Vec<Vec<u64>>,
+    /// Sections of a strip.
+    in_strip: usize,
+    size: StripSize,
+}
+
+/// Cuts the sheet; none where no strip of two sections fits.
+fn cut(map: &Map, size: StripSize, is_along_md: bool) -> Option<Cut> {
     let cells = |length: f64| (length / map.cell).round() as usize;
     let (width, section) = (cells(size.width), cells(size.section));
     let (across, deep) = if is_along_md { (map.columns, map.rows) } else { (map.rows, map.columns) };
@@ -64,6 +112,14 @@ fn along(map: &Map, size: StripSize, is_along_md: bool) -> Option<Strips> {
             }
         }
     }
+    let length = |cells: usize| cells as f64 * map.cell;
+    let size =
+        StripSize { width: length(width), length: length(in_strip * section), section: length(section) };
+    Some(Cut { sums, in_strip, size })
+}
+
+fn along(map: &Map, size: StripSize, is_along_md: bool) -> Option<Strips> {
+    let Cut { sums, in_strip, size } = cut(map, size, is_along_md)?;
     let (mut weakest, mut squares) = (Vec::new(), Vec::new());
     for strip in sums.iter().flat_map(|sections| sections.chunks_exact(in_strip)) {
         let mean = strip.iter().sum::<u64>() as f64 / in_strip as f64;
@@ -76,7 +132,6 @@ fn along(map: &Map, size: StripSize, is_along_md: bool) -> Option<Strips> {
     }
     let count = weakest.len();
     (count > 0).then(|| {
-        let length = |cells: usize| cells as f64 * map.cell;
         let low = low(&weakest);
         let (weakest, squares) = (Estimate::new(weakest), Estimate::new(squares));
         let scatter = weakest.standard_error.map(|error| {
@@ -86,11 +141,7 @@ fn along(map: &Map, size: StripSize, is_along_md: bool) -> Option<Strips> {
         let deviation = squares.mean.sqrt();
         let of_deviation = |error: f64| if deviation > 0.0 { 0.5 * error / deviation } else { 0.0 };
         Strips {
-            size: StripSize {
-                width: length(width),
-                length: length(in_strip * section),
-                section: length(section),
-            },
+            size,
             count,
             weakest: Known::of(&weakest),
             scatter,

@@ -7,7 +7,9 @@ use super::given::FabricKeys;
 use super::holes::{FabricHoles, LocalLength, Piece, carry, count_holes};
 use super::known::Known;
 use super::light;
+use super::marks::Marks;
 use super::patches::{ThinPlaces, thin_places, weights};
+use super::streaks::{Streak, StreakSource, streaks};
 use super::strips::{Strips, strips};
 use super::water::hydrohead;
 use crate::statistics::Estimate;
@@ -23,6 +25,8 @@ const PATCHES: [f64; 5] = [1e-3, 2e-3, 5e-3, 10e-3, 20e-3];
 const WATER_AREA: f64 = 100e-4;
 const AIR_AREA: f64 = 20e-4;
 const OPACITY_PATCH: f64 = 2e-3;
+/// A patch may be so much larger or smaller than it is called, to be one of whole cells.
+const ABOUT: f64 = 0.05;
 /// Fewest areas whose spread is told.
 const FEWEST: usize = 12;
 
@@ -43,6 +47,8 @@ pub struct Laid<'a> {
     pub patches: Vec<Unevenness>,
     /// Windows, and the pieces of fibres in them.
     pub windows: Option<(&'a WindowLattice, &'a [PieceInWindow])>,
+    /// Defects of the line.
+    pub defects: Vec<StreakSource>,
 }
 
 /// A fabric in the words of those who buy it.
@@ -56,6 +62,10 @@ pub struct Fabric {
     pub patches: Vec<FabricPatch>,
     /// Strips along MD and along CD.
     pub strips: [Option<Strips>; 2],
+    /// Places that are worth a look.
+    pub marks: Marks,
+    /// The streaks that defects of the line leave.
+    pub streaks: Vec<Streak>,
     /// Stiffness along MD over that along CD, of the directions alone.
     pub stiffness_ratio: Option<Known>,
     /// Holes.
@@ -66,6 +76,8 @@ pub struct Fabric {
     pub air: Option<AirThrough>,
     /// Opacity.
     pub opacity: Option<Opacity>,
+    /// Whether nothing is known but the map, as of a scan.
+    pub is_of_map_alone: bool,
     /// What is not told, and why.
     pub notes: Vec<String>,
 }
@@ -109,7 +121,7 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
     let (length, diameter) = lengths(&filaments);
     let whole = |patch: f64| {
         let side = (patch / map.cell).round();
-        ((side * map.cell / patch - 1.0).abs() < 1e-6).then_some(side as usize)
+        ((side * map.cell / patch - 1.0).abs() < ABOUT).then_some(side as usize)
     };
     let sides: Vec<usize> = PATCHES.into_iter().filter_map(whole).collect();
     let patches = each(threads, sides.len(), |i| {
@@ -123,10 +135,13 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
         let formation = formation.map(|found| formation_number(&found, straight_fibres(length, thin.patch)));
         Some(FabricPatch { thin, formation })
     });
+    let mut marks = Marks::new(map, corner, keys.strip);
     let holes = laid.windows.filter(|_| length > 0.0).and_then(|(windows, pieces)| {
         let local = LocalLength::new(map, length);
         let sizes = ([corner, map.columns as f64 * map.cell], threads);
-        carry(&counted(windows, pieces, &filaments, sizes), &local, diameter, WATER_AREA)
+        let found = counted(windows, pieces, &filaments, sizes);
+        marks.mark_holes(&found, corner);
+        carry(&found, &local, diameter, WATER_AREA)
     });
     let hydrohead = holes.as_ref().zip(keys.contact_angle).and_then(|(holes, angle)| {
         let found = hydrohead(holes.largest, angle);
@@ -161,6 +176,8 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
         trim: keys.saleable_width.zip(laid.reach).map(|(width, [from, to])| (to - from - width).max(0.0)),
         patches: patches.into_iter().flatten().collect(),
         strips: strips(map, keys.strip),
+        marks,
+        streaks: streaks(map, corner, &laid.defects),
         stiffness_ratio: laid.orientation.map(stiffness_ratio),
         holes,
         hydrohead,
@@ -170,6 +187,7 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
             let heavier = keys.opacity_weight.map_or(1.0, |weight| map.basis_weight() / weight);
             opacity(map, scattering * heavier)
         }),
+        is_of_map_alone: laid.orientation.is_none() && laid.windows.is_none(),
         notes,
     }
 }
@@ -216,9 +234,9 @@ fn counted(
     (across, threads): ([f64; 2], usize),
 ) -> Vec<([f64; 2], super::WindowHoles)> {
     let mut of_windows = vec![Vec::new(); windows.windows()];
-    for PieceInWindow { window, layer, ends: [from, to] } in pieces {
+    for PieceInWindow { window, layer, ends: [from, to], titre } in pieces {
         if let Some((pieces, kind)) = of_windows.get_mut(*window).zip(filaments.get(*layer)) {
-            pieces.push(Piece { from: *from, to: *to, half_width: 0.5 * kind.diameter });
+            pieces.push(Piece { from: *from, to: *to, half_width: 0.5 * kind.diameter * titre.sqrt() });
         }
     }
     let on_stretch = |window: &usize| {

@@ -3,7 +3,8 @@
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)]
 
 use super::*;
-use crate::statistics::Estimate;
+use crate::scan::{Format, Light, Picture, Settings, analyse};
+use crate::statistics::{Estimate, NORMAL_95};
 use crate::web::uniformity::unevenness;
 use crate::web::{Canvas, Edges, Map, Sheet, straight_fibres};
 use rand_xoshiro::SplitMix64;
@@ -107,6 +108,50 @@ fn stat_straight_fibres_at_random_have_a_formation_number_of_one() {
             let number = formation(&found, straight_fibres(length, found.patch));
             assert!(off(number, f64::from(bundle)) < 3.0, "{bundle} of {side}: {number:?}");
         }
+    }
+}
+
+/// The map of a web, read as that of a gauge: what follows from a map is the same.
+#[test]
+fn identical_a_map_that_is_laid_and_one_that_is_measured() {
+    let (map, length) = random_fibres(3, 1);
+    let titre = 0.25 * PI * DIAMETER * DIAMETER * 910.0;
+    let picture = Picture {
+        file: "gauge.npy".to_owned(),
+        format: Format::Npy,
+        values: map.cells.iter().map(|quanta| f64::from(*quanta)).collect(),
+        columns: map.columns,
+        rows: map.rows,
+        pixel: map.cell,
+        pixel_of_file: None,
+        full_scale: None,
+        fewer_bits: None,
+        weight_of_black: None,
+        colour: false,
+        more: false,
+        numbered: [false; 2],
+    };
+    let light = Light::Weight { mean: Some(length * titre) };
+    let found = |titre| of_scan(&analyse(&picture, &Settings { titre, ..Settings::new(light) }).unwrap());
+    let [known, unknown] = [Some(titre), None].map(found);
+    for scanned in [&known, &unknown] {
+        assert!(scanned.holes.is_none() && scanned.stiffness_ratio.is_none() && scanned.air.is_none());
+        assert_eq!(scanned.notes.len(), 1, "{:?}", scanned.notes);
+        for (patch, side) in scanned.patches.iter().zip([2, 4, 10, 20]) {
+            let laid = thin_places(&map, side).unwrap();
+            let values = |thin: &ThinPlaces| thin.quantiles.map(Known::value);
+            for (one, other) in values(&laid).into_iter().zip(values(&patch.thin)) {
+                // A pixel is a whole number of millionths of the mean weight.
+                assert!((one / other - 1.0).abs() < 1e-5, "{side}: {one} {other}");
+            }
+        }
+    }
+    assert!(unknown.patches.iter().all(|patch| patch.formation.is_none()));
+    assert!(unknown.notes[0].contains("titre") && !known.notes[0].contains("titre"));
+    // Where blur may have lowered a CV, it has no error; the tests beside this one ask for it within errors.
+    for patch in &known.patches {
+        let number = patch.formation.unwrap().value();
+        assert!((number - 1.0).abs() < 0.1, "{}: {number}", patch.thin.patch);
     }
 }
 
@@ -229,6 +274,53 @@ fn stat_thin_places_of_normal_weights() {
     let even = thin_places(&map([100, 100], 1e-3, |_| 1.0), 5).unwrap();
     assert_eq!(even.heavier, Known::AtMost(300.0));
     assert_eq!(even.lighter, [Known::AtMost(300.0); 3]);
+}
+
+/// A web of normal cells with the streak of one blocked hole.
+fn streaked(random: &mut Random, depth: f64, noise: f64) -> (Map, [StreakSource; 1]) {
+    let (cell, columns, spread) = (1e-3, 600, 9e-3);
+    let place = 0.2503;
+    let profile = |column: usize| {
+        let off = ((column as f64 + 0.5) * cell - place) / spread;
+        1.0 - depth * libm::exp(-0.5 * off * off)
+    };
+    let map = map([columns, 320], cell, |i| profile(i % columns) + noise * random.normal());
+    // Of the mean weight of 1 kg/m² in these units.
+    let weight = 1e6 * map.weight_of_quantum();
+    let missing = depth * (2.0 * PI).sqrt() * spread * weight;
+    (map, [StreakSource { missing: vec![(place, missing)], spread, until: f64::INFINITY }])
+}
+
+#[test]
+fn analytic_the_dip_of_a_blocked_hole() {
+    let (even, source) = streaked(&mut Random::new(8), 0.02, 0.0);
+    let found = &streaks(&even, 0.0, &source)[0];
+    // A band of 2.8 σ holds erf(1.4/√2) of a normal profile.
+    let expected = 0.02 * (2.0 * PI).sqrt() * libm::erf(1.4 * std::f64::consts::FRAC_1_SQRT_2) / 2.8;
+    assert!((found.dip / expected - 1.0).abs() < 0.01, "{} {expected}", found.dip);
+    assert!((found.found.unwrap().value() / found.dip - 1.0).abs() < 0.01, "{found:?}");
+    // The same where the hole is blocked in the second half of the sheet only, which lies at its beginning.
+    let half = [StreakSource { until: 0.16, ..source[0].clone() }];
+    let found = &streaks(&even, 0.0, &half)[0];
+    assert!((found.found.unwrap().value() / found.dip - 1.0).abs() < 0.01, "{found:?}");
+}
+
+/// Even webs are beyond the bounds of 95 % once in twenty, and the length that is told makes a dip as large as its bound.
+#[test]
+fn stat_streaks_of_even_webs_and_of_a_defect() {
+    let mut random = Random::new(9);
+    let (_, mut even) = streaked(&mut random, 0.01, 0.0);
+    even[0].missing[0].1 = 0.0;
+    let off_by = |map: &Map, source: &[StreakSource]| off(streaks(map, 0.0, source)[0].found.unwrap(), 0.0);
+    let beyond = (0..200).filter(|_| off_by(&streaked(&mut random, 0.0, 0.3).0, &even) > NORMAL_95).count();
+    // Binomial: 10 ± 3.1.
+    assert!((2..20).contains(&beyond), "{beyond}");
+    let (map, source) = streaked(&mut random, 0.01, 0.3);
+    let found = &streaks(&map, 0.0, &source)[0];
+    // The variance of the mean of a band of 25 mm over a length L, 0.09 mm²/(25 mm · L).
+    let expected = NORMAL_95.powi(2) * 0.09 * 1e-6 / (25e-3 * found.dip.powi(2));
+    let length = found.length.unwrap();
+    assert!(off(length, expected) < 3.0, "{length:?} {expected}");
 }
 
 const STRIP: StripSize = StripSize { width: 50e-3, length: 200e-3, section: 5e-3 };

@@ -123,7 +123,9 @@ pub(super) fn is_of_web(text: &str) -> bool {
 fn is_table_of_other(full: &str) -> bool {
     let in_layer = full.strip_prefix("layer.").and_then(|rest| rest.split_once('.'));
     let name = without_numbers(in_layer.map_or(full, |(_, rest)| rest));
-    CASE.tables.contains(&&*name) || WEB.tables.contains(&&*name) || name == "line.rows"
+    CASE.tables.contains(&&*name)
+        || WEB.tables.contains(&&*name)
+        || name != "layer" && WEB.list(&name).is_some()
 }
 
 /// Whether the file of a web has a list of layers, whose numbers stand in the names of its keys.

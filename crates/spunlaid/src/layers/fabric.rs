@@ -1,8 +1,8 @@
 //! The fabric that a web becomes.
 
 use super::WebSpec;
-use crate::fabric::{Fabric, Filaments, Laid, tell};
-use crate::web::{Findings, Web};
+use crate::fabric::{Fabric, Filaments, Laid, StreakSource, tell};
+use crate::web::{Defect, Findings, Layer, Web, holes};
 
 impl WebSpec {
     /// What a buyer wants to know of the fabric.
@@ -23,8 +23,27 @@ impl WebSpec {
             filaments: kinds.collect(),
             orientation: Some(&found.orientation),
             patches: found.patches.iter().map(|patch| patch.map).collect(),
+            defects: self.streak_sources(web),
             windows: counted.as_ref().map(|windows| (windows, &found.laid.pieces[..])),
         };
         tell(&laid, &self.fabric, threads)
+    }
+
+    /// What the defects of its layers take from the web.
+    fn streak_sources(&self, web: &Web) -> Vec<StreakSource> {
+        let of_layer = |(number, layer): (usize, &Layer)| {
+            let mass = layer.linear_density / layer.belt_ratio();
+            let source = |(i, defect): (usize, &Defect)| {
+                let holes = holes((&web.sheet, web.seed), (number, &layer.filaments), (i, defect));
+                let less = (1.0 - defect.titre) * mass;
+                let missing = holes.into_iter().map(|(_, place)| (place, less)).collect();
+                let until = defect.until(web.sheet.length, layer.belt_speed);
+                StreakSource { missing, spread: layer.fibres.sigma_cd(), until }
+            };
+            layer.defects.iter().enumerate().map(source).collect::<Vec<_>>()
+        };
+        let all = web.layers.iter().enumerate().flat_map(of_layer);
+        // Where chance chose no hole, there is no streak.
+        all.filter(|source| !source.missing.is_empty()).collect()
     }
 }

@@ -6,7 +6,7 @@ use crate::curtain::{Belt, FlownCurves, Library};
 use crate::error::Error;
 use crate::fibre::Place;
 use crate::sort::sort_by_key;
-use crate::web::{Canvas, Edges, KeptFibres, PieceInWindow, SharedAirFindings, Strand, inlets};
+use crate::web::{Brush, Canvas, Edges, KeptFibres, PieceInWindow, SharedAirFindings, Strand, inlets};
 use std::sync::atomic::AtomicBool;
 
 /// The curves of a few filaments of a layer, from which those of all others follow.
@@ -93,12 +93,12 @@ impl FlownCurtain {
         let (sheet, windows, back) = (&spec.sheet, spec.windows(), self.back);
         let Some(layer) = spec.layers.get(self.layer) else { return Ok((KeptFibres::default(), [0.0; 2])) };
         let mass = layer.source.case().map_or(f64::NAN, |case| case.fibre.element_mass());
-        let on = (canvas, canvas.quanta(mass));
+        let brush = Brush::new(canvas, mass, spec.titres(self.layer));
         let inlets = inlets(sheet, spec.seed, self.layer, &layer.filaments);
         let places = inlets.into_iter().map(|[z, y]| Place { y, z }).collect();
         if [sheet.width, sheet.length] == self.sheet {
             let all = self.curves.fill(places, by.0);
-            let kept = draw(&all, Belt { sheet, windows, back }, on, by)?;
+            let kept = draw(&all, Belt { sheet, windows, back }, &brush, by)?;
             return Ok((kept, all.missing()));
         }
         let library = Library::new(&self.curves, by.0)?;
@@ -109,7 +109,7 @@ impl FlownCurtain {
             Edges::Cut => sheet.width + self.sheet[0],
         };
         let tiles = library.tiles(places, around, sheet.length, [spec.seed, self.layer as u64])?;
-        let kept = draw(&tiles, Belt::within(&tiles, sheet, windows)?, on, by)?;
+        let kept = draw(&tiles, Belt::within(&tiles, sheet, windows)?, &brush, by)?;
         Ok((kept, library.missing()))
     }
 }

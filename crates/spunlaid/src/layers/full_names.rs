@@ -44,15 +44,18 @@ pub(crate) fn full_name(web: &WebSpec, name: &str) -> Result<String, String> {
     let by_name = (1..).zip(&web.layers).find_map(|(number, layer)| Some((number, named(layer)?)));
     let full = by_name.map_or_else(|| name.to_owned(), |(number, rest)| format!("layer.{number}.{rest}"));
     let table = WEB.find(name).map_or("", WebKey::table);
-    if table == "line.rows" {
-        return Err(format!("write the number of the row, as in {}", name.replace("rows", "rows.1")));
+    for (list, entry, what) in [("line.rows", "rows", "row"), ("line.defects", "defects", "defect")] {
+        if table == list {
+            let numbered = name.replace(entry, &format!("{entry}.1"));
+            return Err(format!("write the number of the {what}, as in {numbered}"));
+        }
     }
     if layers > 1 && WEB.lists.iter().any(|list| list.tables.contains(&table)) {
         return Err(format!("write layer.1.{name}, or the layer's name in place of 1"));
     }
     if web_key(&full).is_some() && layer_and_row(web, &full).is_none() {
         let layers = if layers == 1 { "1 layer".to_owned() } else { format!("{layers} layers") };
-        return Err(format!("there is no such layer or row; the web has {layers}"));
+        return Err(format!("there is no such layer, row or defect; the web has {layers}"));
     }
     Ok(full)
 }
@@ -67,20 +70,22 @@ fn layer_and_row(web: &WebSpec, full: &str) -> Option<WebSpec> {
     let mut numbers = full.split('.').filter_map(|word| word.parse::<usize>().ok());
     let layer = if full.starts_with("layer.") { numbers.next()? } else { 1 };
     let mut alone = web.alone(layer.checked_sub(1)?);
-    let Filaments::Rows(rows) = &mut alone.layers.first_mut()?.filaments else {
-        return numbers.next().is_none().then_some(alone);
-    };
-    if let Some(row) = numbers.next() {
-        *rows = vec![*rows.get(row.checked_sub(1)?)?];
+    let Some(number) = numbers.next() else { return Some(alone) };
+    let (one, number) = (alone.layers.first_mut()?, number.checked_sub(1)?);
+    if full.contains(".defects.") {
+        one.defects = vec![*one.defects.get(number)?];
+    } else {
+        let Filaments::Rows(rows) = &mut one.filaments else { return None };
+        *rows = vec![*rows.get(number)?];
     }
     Some(alone)
 }
 
-/// The layer and the row of a full name in words, ` of layer 2, row 1`; nothing without them.
+/// The layer and the row or the defect of a full name in words, ` of layer 2, row 1`; nothing without them.
 pub fn place_in_web(full: &str) -> String {
     let words: Vec<&str> = full.split('.').collect();
     let number = |list: &str| words.iter().position(|word| *word == list).and_then(|at| words.get(at + 1));
-    let places = [("layer", number("layer")), ("row", number("rows"))];
+    let places = [("layer", number("layer")), ("row", number("rows")), ("defect", number("defects"))];
     let places: Vec<String> =
         places.into_iter().filter_map(|(what, number)| Some(format!("{what} {}", number?))).collect();
     if places.is_empty() { String::new() } else { format!(" of {}", places.join(", ")) }

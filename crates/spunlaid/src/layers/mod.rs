@@ -34,7 +34,9 @@ use crate::error::{Error, Fault, Finding, Place, Problem};
 use crate::fabric::FabricKeys;
 use crate::surrogate::Surrogate;
 use crate::units::Dimension;
-use crate::web::{Edges, Fibres, Filaments, Layer, Sheet, Web, Window, WindowLattice, Windows};
+use crate::web::{
+    Defect, Edges, Fibres, Filaments, Layer, Sheet, Titres, Web, Window, WindowLattice, Windows,
+};
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -131,6 +133,8 @@ pub struct LayerSpec {
     pub belt_speed: f64,
     /// Where the filaments come down.
     pub filaments: Filaments,
+    /// Holes that feed more or less than the others.
+    pub defects: Vec<Defect>,
 }
 
 /// What tells how a filament lies.
@@ -183,7 +187,19 @@ impl LayerSpec {
         let (diameter, density, feed_speed, belt_speed) = (nan, nan, nan, nan);
         let filaments = Filaments::AtRandom { per_metre: nan };
         let (name, titre, throughput) = (None, None, None);
-        Self { name, diameter, titre, density, source, feed_speed, throughput, belt_speed, filaments }
+        let defects = Vec::new();
+        Self {
+            name,
+            diameter,
+            titre,
+            density,
+            source,
+            feed_speed,
+            throughput,
+            belt_speed,
+            filaments,
+            defects,
+        }
     }
 
     /// Takes the size and the speeds with which its fibres are flown, if they are.
@@ -208,6 +224,7 @@ impl LayerSpec {
             feed_speed: self.feed_speed,
             belt_speed: self.belt_speed,
             filaments: self.filaments.clone(),
+            defects: self.defects.clone(),
             fibres,
             other_description: None,
         }
@@ -230,6 +247,15 @@ impl WebSpec {
             fabric: FabricKeys::USUAL,
             guessed: Vec::new(),
         }
+    }
+
+    /// What the defects of a layer make of its filaments.
+    pub(crate) fn titres(&self, number: usize) -> Titres {
+        let of = |layer: &LayerSpec| {
+            let LayerSpec { filaments, defects, belt_speed, .. } = layer;
+            Titres::new((&self.sheet, self.seed), (number, filaments), (defects, *belt_speed))
+        };
+        self.layers.get(number).map(of).unwrap_or_default()
     }
 
     /// Mass of all filaments that is fed per time over the width of the sheet [kg/(m s)].

@@ -13,7 +13,8 @@ use crate::fibre::Place;
 use crate::lanes::Isa;
 use crate::units::Dimension;
 use crate::web::{
-    Canvas, Curves, Fibres, LaidWeb, LayerFew, OneAir, PieceInWindow, Sheet, TimeSpent, blocks_on, inlets,
+    Brush, Canvas, Curves, Fibres, LaidWeb, LayerFew, OneAir, PieceInWindow, Sheet, TimeSpent, blocks_on,
+    inlets,
 };
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
@@ -153,8 +154,9 @@ impl Flyer<'_> {
     ) -> Result<FlownLayers, Error> {
         let mut all = FlownLayers::default();
         for (number, layer) in beams.into_iter().enumerate() {
-            let on = canvas.map(|canvas| (canvas, canvas.quanta(layer.beam().element_mass())));
-            let (layer, mut flown, told) = self.fly_until_told(spec, (number, layer), on)?;
+            let brush = |canvas| Brush::new(canvas, layer.beam().element_mass(), spec.titres(number));
+            let brush = canvas.map(brush);
+            let (layer, mut flown, told) = self.fly_until_told(spec, (number, layer), brush.as_ref())?;
             let mut of_layer = flown.take_shared_air();
             if let Some((curves, told)) = told {
                 let flown_sheet = [layer.sheet.width, layer.sheet.length];
@@ -186,7 +188,7 @@ impl Flyer<'_> {
         &self,
         spec: &'a WebSpec,
         (number, mut layer): (usize, LayerBeam<'a>),
-        on: Option<(&Canvas, u32)>,
+        on: Option<&Brush<'_>>,
     ) -> Result<ToldFlight<'a>, Error> {
         let (mut finer, mut spent) = (0, TimeSpent::default());
         let mut sheet = spec.flown_sheet(number, false);
@@ -212,12 +214,12 @@ impl Flyer<'_> {
 
     /// Flies a layer and shows the progress.
     ///
-    /// * `on` – the canvas on which all filaments are laid, and its quanta for an element of fibre; None if only a few are flown
+    /// * `on` – what lays an element of fibre; None if only a few are flown
     fn fly_layer(
         &self,
         layer: &LayerBeam<'_>,
         spec: &WebSpec,
-        on: Option<(&Canvas, u32)>,
+        on: Option<&Brush<'_>>,
     ) -> Result<BeamFindings, Error> {
         let (beam, done) = (layer.beam(), AtomicU64::new(0));
         let by = BeamControl { threads: self.threads, isa: Isa::detect(), stop: self.stop, steps: &done };

@@ -1,10 +1,10 @@
 //! What is told of a fabric, of its patches, strips and holes.
 
-use super::{Formula::Told, MILLIMETRES, Measure, PERCENT, RATIO, Unit};
+use super::{Formula::Told, MILLIMETRES, Measure, PER_SQUARE_METRE, PERCENT, RATIO, Unit};
 use crate::fabric::Known::Exact;
-use crate::fabric::{Fabric, FabricPatch, HolesOfRadius, Strips};
+use crate::fabric::{Fabric, FabricPatch, HolesOfRadius, Marked, Streak, Strips};
 
-const PER_SQUARE_METRE: Unit = Unit { shown: "1/m²", per_si: 1.0 };
+const METRES: Unit = Unit { shown: "m", per_si: 1.0 };
 const MICROMETRES: Unit = Unit { shown: "µm", per_si: 1e6 };
 
 /// The numbers of a whole fabric.
@@ -140,6 +140,32 @@ pub const OF_STRIPS: &[Measure<Strips>] = &[
         Told(|strips: &Strips| Some(strips.sections)),
     )
     .meaning("standard deviation of a section about the mean of its strip, over that mean"),
+];
+
+/// The numbers of one of the thinnest places.
+pub const OF_THINNEST: &[Measure<Marked>] = &[
+    Measure::new("across_m", "Across", MILLIMETRES, Told(|place: &Marked| Some(Exact(place.middle()[0]))))
+        .meaning("middle of the patch across the sheet"),
+    Measure::new("along_m", "Along", MILLIMETRES, Told(|place: &Marked| Some(Exact(place.middle()[1]))))
+        .meaning("middle of the patch along the sheet"),
+    Measure::new("weight", "Weight", PERCENT, Told(|place: &Marked| Some(Exact(place.weight))))
+        .meaning("weight of the patch over the mean; the patches stand side by side on the sheet and do not touch each other"),
+];
+
+/// The numbers of the streak that a defect of the line leaves.
+pub const OF_STREAKS: &[Measure<Streak>] = &[
+    Measure::new("place_m", "Place", MILLIMETRES, Told(|streak: &Streak| Some(Exact(streak.place))))
+        .meaning("middle of the streak across the sheet"),
+    Measure::new("holes", "Holes", RATIO, Told(|streak: &Streak| Some(Exact(streak.holes as f64))))
+        .meaning("holes that make it"),
+    Measure::new("band_m", "Band", MILLIMETRES, Told(|streak: &Streak| Some(Exact(streak.band))))
+        .meaning("width over which it is looked for"),
+    Measure::new("dip", "Dip", PERCENT, Told(|streak: &Streak| Some(Exact(streak.dip))))
+        .meaning("share by which the band is lighter than the web beside it, from the filaments that are missing; below zero where it is heavier"),
+    Measure::new("dip_of_map", "Dip in this map", PERCENT, Told(|streak: &Streak| streak.found))
+        .meaning("the same in this map, with the error by chance: it shows from two errors on"),
+    Measure::new("length_m", "Shows from a length of", METRES, Told(|streak: &Streak| streak.length))
+        .meaning("length of a scan over which the dip is as large as the 95 % bound of the chance at this place; none where the web has streaks of its own that are as large, or is too small to tell"),
 ];
 
 /// The numbers of the holes of one radius.

@@ -345,7 +345,20 @@ pub struct Unit {
     pub per_si: f64,
 }
 
+/// Counts over an area: large ones are easier to read over a smaller area.
+pub const PER_SQUARE_METRE: Unit = Unit { shown: "1/m²", per_si: 1.0 };
+const SMALLER_AREAS: [Unit; 2] =
+    [Unit { shown: "1/mm²", per_si: 1e-6 }, Unit { shown: "1/cm²", per_si: 1e-4 }];
+
 impl Unit {
+    /// This unit, or the one in which numbers of this size are easier to read.
+    ///
+    /// * `value` – of the size of the numbers, in the SI unit
+    pub fn readable(self, value: f64) -> Self {
+        let smaller = SMALLER_AREAS.into_iter().filter(|_| self == PER_SQUARE_METRE);
+        smaller.into_iter().find(|unit| value * unit.per_si >= 1.0).unwrap_or(self)
+    }
+
     /// The unit of the values as they are kept, before they are shown, in the spelling of [`udunits`].
     pub fn of_values(self) -> String {
         match self.shown.split_once(' ') {

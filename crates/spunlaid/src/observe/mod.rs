@@ -31,12 +31,12 @@ mod spinline;
 mod strain;
 mod web;
 
-pub use fabric::{OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES, OF_STRIPS};
+pub use fabric::{OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES, OF_STREAKS, OF_STRIPS, OF_THINNEST};
 pub use laydown::{LAYDOWN, SURROGATE};
 pub use measure::{
     Aggregate, END_NODE, ENERGY, ErrorRole, FIBRE, Figure, Formula, Group, HERTZ, KELVIN, Kind,
-    METRES_PER_SECOND, MILLIMETRES, MILLINEWTONS, Measure, Measured, OF_PERCENT, PER_METRE, PERCENT, RATIO,
-    SQUARE_MILLIMETRES_PER_HERTZ, Unit, Value, measured, with_errors,
+    METRES_PER_SECOND, MILLIMETRES, MILLINEWTONS, Measure, Measured, OF_PERCENT, PER_METRE, PER_SQUARE_METRE,
+    PERCENT, RATIO, SQUARE_MILLIMETRES_PER_HERTZ, Unit, Value, measured, with_errors,
 };
 pub use record::{OF_COMPONENTS, OF_RECORDS};
 pub use sample::Sample;

@@ -112,7 +112,9 @@ fn every_measure_stands_in_the_docs() {
     table(&mut text, "A web", with_errors(OF_WEBS));
     table(&mut text, "The fabric of a web", with_errors(OF_FABRICS));
     table(&mut text, "The patches of a fabric", with_errors(OF_FABRIC_PATCHES));
+    table(&mut text, "The thinnest places of a fabric", with_errors(OF_THINNEST));
     table(&mut text, "Strips of a fabric", with_errors(OF_STRIPS));
+    table(&mut text, "Streaks of a fabric, of the defects of its line", with_errors(OF_STREAKS));
     table(&mut text, "Holes of a fabric", with_errors(OF_HOLES));
     table(&mut text, "A scan", with_errors(OF_SCANS));
     table(&mut text, "The patches of a scan", with_errors(OF_SCANNED_PATCHES));

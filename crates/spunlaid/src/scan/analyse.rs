@@ -33,6 +33,7 @@ pub fn analyse(picture: &Picture, settings: &Settings) -> Result<Findings, FileE
 
 fn found(picture: &Picture, settings: &Settings) -> Result<Findings, Fault> {
     above_zero("a noise", settings.noise)?;
+    above_zero("a titre [kg/m]", settings.titre)?;
     let correction = Correction { lamp: settings.lamp.as_ref(), keep_shading: settings.keep_shading };
     let is_cleaned = matches!(settings.light, Light::Transmitted { .. }) && !settings.keep_spots;
     let spots = if is_cleaned { beside(picture, settings.light, correction)? } else { Spots::none(picture) };
@@ -96,6 +97,7 @@ fn found(picture: &Picture, settings: &Settings) -> Result<Findings, Fault> {
         density,
         shading,
         noise: settings.noise,
+        titre: settings.titre,
         pixels,
         guess,
         aside,

@@ -24,6 +24,8 @@ pub struct Settings {
     pub keep_spots: bool,
     /// Standard deviation of the noise of a single pixel, if it is known: its variance is taken out [levels].
     pub noise: Option<f64>,
+    /// Mass per length of a filament, if it is known: then the length of fibre is known too [kg/m].
+    pub titre: Option<f64>,
     /// Sides of the patches; if empty, usual ones up to a fifth of the picture [m].
     pub patches: Vec<f64>,
 }
@@ -38,6 +40,7 @@ impl Settings {
             keep_shading: false,
             keep_spots: false,
             noise: None,
+            titre: None,
             patches: Vec::new(),
         }
     }
@@ -58,6 +61,8 @@ pub struct Findings {
     pub shading: Option<f64>,
     /// Standard deviation of the noise of a single pixel, if it was given: its variance has been taken out [levels].
     pub noise: Option<f64>,
+    /// Mass per length of a filament, if it was given [kg/m].
+    pub titre: Option<f64>,
     /// Pixels that needed care.
     pub pixels: Pixels,
     /// What is only a guess about the lamp, if anything: then nothing that depends on it has an interval.

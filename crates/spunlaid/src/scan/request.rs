@@ -69,6 +69,8 @@ pub struct ScanRequest {
     pub keep_spots: bool,
     /// As [`Settings::noise`].
     pub noise: Option<f64>,
+    /// As [`Settings::titre`].
+    pub titre: Option<f64>,
     /// As [`Settings::patches`].
     pub patches: Vec<f64>,
 }
@@ -106,6 +108,7 @@ impl ScanRequest {
             keep_shading: self.keep_shading,
             keep_spots: self.keep_spots,
             noise: self.noise,
+            titre: self.titre,
             patches: self.patches.clone(),
             ..Settings::new(light.light(self.weight, self.white))
         })

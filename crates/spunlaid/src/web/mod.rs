@@ -9,6 +9,7 @@
 mod canvas;
 mod clouds;
 mod curves;
+mod defects;
 mod doubt;
 mod doubts;
 mod expected;
@@ -21,6 +22,7 @@ mod lay;
 mod laying;
 mod map;
 mod neighbours;
+mod nozzles;
 mod one_fibre;
 mod orientation;
 mod plan;
@@ -39,6 +41,8 @@ pub(crate) use canvas::{Canvas, CanvasPart};
 pub use clouds::{Clouds, autocorrelation};
 pub use curves::Curves;
 pub(crate) use curves::OneAir;
+pub use defects::Defect;
+pub(crate) use defects::{Brush, Titres, holes};
 pub use doubt::Doubt;
 pub use expected::{ExpectedCv, expected_cv, inner_columns};
 pub(crate) use few::{Arrangement, FEWEST as FEWEST_OF_FEW, FewFilaments, blocks_on};
@@ -49,9 +53,9 @@ pub use lay::{lay, lay_in_windows, pieces};
 pub use laying::{LayControl, TimeSpent};
 pub use map::Map;
 pub use neighbours::{Correlation, NeighbourCorrelation, SharedVariance};
+pub(crate) use nozzles::inlets;
 pub use one_fibre::{OneFibre, SingleFibres, one_fibre, straight_fibres};
 pub use orientation::{Orientation, orientation};
-pub(crate) use plan::inlets;
 pub use sensitivity::{Sensitivity, Source, sensitivities};
 pub use strands::strands;
 pub use uniformity::nearest_to_seen;
@@ -110,6 +114,8 @@ pub struct Layer {
     pub belt_speed: f64,
     /// Where the filaments come down.
     pub filaments: Filaments,
+    /// Holes that feed more or less than the others.
+    pub defects: Vec<Defect>,
     /// The curves that they lay.
     pub fibres: Fibres,
     /// Another description of the same filaments, whose unevenness is told beside that of `fibres`.

@@ -127,7 +127,7 @@ fn add(
     let row = Row::new((trace as f64 + 0.5) * sample.cell, pitch, sample.fibres);
     let web = Web {
         sheet: Sheet::new(pitch * sample.fibres as f64, rows as f64 * sample.cell, sample.cell),
-        layers: vec![Layer { filaments: Filaments::Rows(vec![row]), ..layer.clone() }],
+        layers: vec![Layer { filaments: Filaments::Rows(vec![row]), defects: Vec::new(), ..layer.clone() }],
         seed: sample.seed,
     };
     let map = lay(&web, by)?.map;
@@ -295,7 +295,7 @@ pub fn straight_fibres(tau: f64, patch: f64) -> f64 {
 
 impl Fibres {
     /// Spread about the straight trace in cross direction [m].
-    pub(super) fn sigma_cd(&self) -> f64 {
+    pub(crate) fn sigma_cd(&self) -> f64 {
         match self {
             Self::Surrogate(surrogate) => surrogate.sigma_cd,
             Self::Curves(curves) => curves.sigma_cd(),

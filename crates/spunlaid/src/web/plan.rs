@@ -1,18 +1,17 @@
 //! How the filaments of a layer are drawn: where they come down, in which pieces, with which random numbers.
 
 use super::curves::Stretches;
+use super::defects::Titres;
 use super::laying::LayControl;
+use super::nozzles::{PLACES, inlets, random, uniform};
 use super::points::Points;
 use super::raster::{Draw, Pens};
 use super::strip::Strip;
 use super::window::{PieceInWindow, WindowLattice};
-use super::{Fibres, Filaments, Layer, Sheet, Web};
+use super::{Fibres, Layer, Sheet, Web};
 use crate::error::{Error, Fault};
 use crate::lanes::{Isa, Lanes, WIDTH};
-use crate::sort::sort_by_key;
 use crate::surrogate::{PATH_POINTS, PathKey, Paths, Surrogate};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -21,10 +20,9 @@ use std::sync::atomic::Ordering;
 const LONGEST_PIECE: [f64; 2] = [0.06, 0.2];
 /// Points that are drawn at once.
 pub(super) const BLOCK: usize = PATH_POINTS + 1;
-/// Last word of the keys of the places of filaments, of the choice of stretches, and of the depths in a slot. Paths and winds have others.
-const PLACES: u64 = 4;
+/// Last word of the keys of the choice of stretches. Places, paths and winds have others.
 const STRETCHES: u64 = 5;
-const DEPTHS: u64 = 6;
+
 /// Paths of the surrogate.
 struct SurrogatePaths {
     paths: Paths,
@@ -69,6 +67,8 @@ pub(super) struct Plan<'a> {
     /// Parts of a piece, and quanta of a part.
     pub(super) parts: usize,
     pub(super) quanta: u32,
+    /// What is wrong with some filaments.
+    titres: Titres,
 }
 
 /// Time of a point of a path, in times that it takes to draw a part of a piece.
@@ -122,7 +122,10 @@ impl<'a> Plan<'a> {
         if places.is_empty() {
             return Err(no_layer(number + 1));
         }
-        Ok(Self { number: number as u64, layer, places, pieces: pieces as usize, piece, parts, quanta: 0 })
+        let titres =
+            Titres::new((sheet, web.seed), (number, &layer.filaments), (&layer.defects, layer.belt_speed));
+        let number = number as u64;
+        Ok(Self { number, layer, places, pieces: pieces as usize, piece, parts, quanta: 0, titres })
     }
 
     /// Mass of a part of a piece [kg].
@@ -167,6 +170,22 @@ impl<'a> Plan<'a> {
         }
     }
 
+    /// Mass per length of a filament over that of the others where its straight trace is at a place [m], the same for a block of pieces.
+    pub(super) fn titre_at(&self, filament: usize, along: f64, web: &Web) -> f64 {
+        self.titres.of(filament).map_or(1.0, |titre| titre.at(along.rem_euclid(web.sheet.length)))
+    }
+
+    /// Quanta of a part of the pieces of some filaments.
+    ///
+    /// * `along` – rows at which their straight traces are
+    fn quanta_at(&self, first: usize, count: usize, along: &Lanes, web: &Web) -> Lanes {
+        let of_lane = |lane: usize| {
+            let titre = self.titre_at(first + lane, along.0[lane] * web.sheet.cell, web);
+            (f64::from(self.quanta) * titre).round()
+        };
+        Lanes::from_fn(|lane| if lane < count { of_lane(lane) } else { 0.0 })
+    }
+
     /// Draws some filaments on a strip, and keeps their pieces in some windows.
     pub(super) fn draw(
         &self,
@@ -187,7 +206,14 @@ impl<'a> Plan<'a> {
             let mut at = self.start(web, start, count).map(|at| Lanes(at.0.map(|at| at * per_cell)));
             at[0] = Lanes(at[0].0.map(|at| at - first));
             let advance = self.layer.belt_ratio() * self.piece * per_cell;
-            Pens { curves: count, per_cell, advance, parts: self.parts, quanta: self.quanta, at }
+            Pens {
+                per_cell,
+                advance,
+                parts: self.parts,
+                quanta: self.quanta_at(start, count, &at[1], web),
+                at,
+                curves: count,
+            }
         };
         for start in which.clone().step_by(2 * WIDTH) {
             let starts: Vec<usize> = (start..which.end).step_by(WIDTH).take(2).collect();
@@ -197,9 +223,15 @@ impl<'a> Plan<'a> {
             let counts: Vec<usize> = pens.iter().map(|pens| pens.curves).collect();
             let sets = starts.iter().zip(&pens).map(|(start, pens)| (*start, pens.curves)).collect();
             self.walk_together(web, sets, by, |set, points| {
+                if !self.titres.is_empty() {
+                    let pens = &mut pens[set];
+                    pens.quanta = self.quanta_at(starts[set], counts[set], &pens.at[1], web);
+                }
                 by.isa.run(Draw { pens: &mut pens[set], strip, points });
                 if let Some((windows, pieces)) = &mut keep {
-                    self.keep(points, (&mut traces[set], counts[set]), windows, pieces);
+                    let along = &traces[set][1];
+                    let titres = Lanes::from_fn(|lane| self.titre_at(starts[set] + lane, along.0[lane], web));
+                    self.keep(points, (&mut traces[set], &titres.0[..counts[set]]), windows, pieces);
                 }
             })?;
         }
@@ -210,12 +242,12 @@ impl<'a> Plan<'a> {
     fn keep(
         &self,
         points: &[[Lanes; 2]],
-        ([across, along], count): (&mut [Lanes; 2], usize),
+        ([across, along], titres): (&mut [Lanes; 2], &[f64]),
         windows: &WindowLattice,
         pieces: &mut Vec<PieceInWindow>,
     ) {
         let (advance, layer) = (self.layer.belt_ratio() * self.piece, self.number as usize);
-        for lane in 0..count {
+        for (lane, titre) in titres.iter().enumerate().filter(|(_, titre)| **titre > 0.0) {
             let at = |i: usize| {
                 let [md, cd] = [points[i][0].0[lane], points[i][1].0[lane]];
                 [across.0[lane] + cd, along.0[lane] + md - advance * i as f64]
@@ -223,7 +255,7 @@ impl<'a> Plan<'a> {
             let mut from = at(0);
             for i in 1..points.len() {
                 let to = at(i);
-                pieces.extend(windows.piece(layer, [from, to], true));
+                pieces.extend(windows.piece(layer, [from, to], true).map(|piece| piece.of(*titre)));
                 from = to;
             }
         }
@@ -290,51 +322,9 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// A stream of random numbers of its own.
-fn random(seed: u64, number: u64, kind: u64) -> ChaCha8Rng {
-    let mut key = [0; 32];
-    for (bytes, word) in key.chunks_exact_mut(8).zip([seed, number, 0, kind]) {
-        bytes.copy_from_slice(&word.to_le_bytes());
-    }
-    ChaCha8Rng::from_seed(key)
-}
-
-/// A random number from 0 to below 1.
-fn uniform(random: &mut ChaCha8Rng) -> f64 {
-    (random.next_u64() >> 11) as f64 / 9_007_199_254_740_992.0
-}
-
 /// Where the filaments of a layer come down in cross direction, in order [m].
 pub(super) fn places(web: &Web, number: usize, layer: &Layer) -> Vec<f64> {
     inlets(&web.sheet, web.seed, number, &layer.filaments).into_iter().map(|[cd, _]| cd).collect()
-}
-
-/// Where the inlets of the filaments of a layer are in cross and in machine direction, in order across the web [m].
-///
-/// * `seed` – of the web
-/// * `number` – of the layer
-pub(crate) fn inlets(sheet: &Sheet, seed: u64, number: usize, filaments: &Filaments) -> Vec<[f64; 2]> {
-    let random = |kind| random(seed, (number as u64) << 48 | 1 << 47, kind);
-    let count = filaments.count(sheet);
-    let mut inlets: Vec<[f64; 2]> = match filaments {
-        Filaments::AtRandom { .. } => {
-            let mut random = random(PLACES);
-            (0..count).map(|_| [uniform(&mut random) * sheet.width, 0.0]).collect()
-        }
-        Filaments::Slot { depth, .. } => {
-            let (mut random, pitch) = (random(DEPTHS), sheet.width / count as f64);
-            let inlet = |i| [(i as f64 + 0.5) * pitch, (uniform(&mut random) - 0.5) * depth];
-            (0..count).map(inlet).collect()
-        }
-        Filaments::Rows(rows) => {
-            let nozzles = rows
-                .iter()
-                .flat_map(|row| (0..row.filaments).map(|i| [row.offset + row.pitch * i as f64, row.md]));
-            nozzles.collect()
-        }
-    };
-    sort_by_key(&mut inlets, |inlet| inlet[0]);
-    inlets
 }
 
 pub(super) fn plans(web: &Web) -> Result<Vec<Plan<'_>>, Fault> {

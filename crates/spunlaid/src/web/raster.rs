@@ -20,8 +20,8 @@ pub(super) struct Pens {
     pub(super) advance: f64,
     /// Parts of a piece that are drawn one by one, none longer than a cell.
     pub(super) parts: usize,
-    /// Quanta of a part.
-    pub(super) quanta: u32,
+    /// Quanta of a part of each curve; none of an unused one.
+    pub(super) quanta: Lanes,
     /// Column and row of the straight trace, from the first corner of the strip.
     pub(super) at: [Lanes; 2],
 }
@@ -120,13 +120,12 @@ struct Ink<S: Register> {
 impl<S: Register> Ink<S> {
     #[inline(always)]
     fn new(pens: &Pens, strip: &Strip) -> Self {
-        let all = Lanes::from_fn(|i| if i < pens.curves { f64::from(pens.quanta) } else { 0.0 });
         Self {
             stride: Wide::splat(strip.stride() as f64),
             // Nothing that starts so far inside ends outside.
             middle: Wide::splat(0.5 * strip.columns as f64),
             half: 0.5 * strip.columns as f64 - 0.5,
-            all: Wide::load(&all),
+            all: Wide::load(&pens.quanta),
             cell: Wide::splat(TWO_52),
             gathered: Wide::zero(),
             list: [0; LIST],

@@ -60,7 +60,8 @@ fn strands_of(
                 strands.extend(open.take());
             }
             let longest = (points.len() - 1) as f64 * (longest + advance);
-            if !window.nears(before, longest) {
+            let is_fed = plan.titre_at(first + lane, along.0[lane], web) > 0.0;
+            if !(is_fed && window.nears(before, longest)) {
                 strands.extend(open.take());
                 continue;
             }

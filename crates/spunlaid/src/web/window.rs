@@ -79,6 +79,15 @@ pub struct PieceInWindow {
     pub layer: usize,
     /// Its ends, from the corner of the window [m].
     pub ends: [[f64; 2]; 2],
+    /// Its mass per length over that of the other filaments of its layer.
+    pub titre: f64,
+}
+
+impl PieceInWindow {
+    /// Of a filament of another titre.
+    pub(super) const fn of(self, titre: f64) -> Self {
+        Self { titre, ..self }
+    }
 }
 
 impl WindowLattice {
@@ -122,7 +131,7 @@ impl WindowLattice {
         let along = self.near(1, ends, is_ring)?;
         let across = self.near(0, ends, self.is_closed)?;
         let ends = [0, 1].map(|end| [ends[end][0] - across.1, ends[end][1] - along.1]);
-        Some(PieceInWindow { window: along.0 * self.count[0] + across.0, layer, ends })
+        Some(PieceInWindow { window: along.0 * self.count[0] + across.0, layer, ends, titre: 1.0 })
     }
 
     /// The number of the window in one direction, and the place of its corner.
@@ -242,8 +251,18 @@ impl Strands {
     /// Keeps a piece of a filament that is in the window.
     ///
     /// * `from`, `to` – its ends on the sheet [m]
-    pub(crate) fn keep(&mut self, filament: usize, [from, to]: [[f64; 2]; 2], on: &WindowOnSheet) {
-        self.pieces.extend(on.counted_piece([from, to]));
+    /// * `titre` – its mass per length over that of the others; nothing is kept of one without mass
+    pub(crate) fn keep(
+        &mut self,
+        filament: usize,
+        ([from, to], titre): ([[f64; 2]; 2], f64),
+        on: &WindowOnSheet,
+    ) {
+        if titre == 0.0 {
+            self.enters = false;
+            return;
+        }
+        self.pieces.extend(on.counted_piece([from, to]).map(|piece| piece.of(titre)));
         // Most pieces are far before or behind it.
         let near = on.window.filter(|window| on.is_beside(*window, from) || on.is_beside(*window, to));
         let Some(window) = near else {

@@ -39,6 +39,7 @@ pub fn web(sides: [f64; 2], cell: f64, sigma: f64, filaments: f64, in_rows: bool
             Filaments::AtRandom { per_metre: filaments }
         },
         fibres,
+        defects: Vec::new(),
         other_description: None,
     };
     let sheet = Sheet::new(width, length, cell);

@@ -6,7 +6,7 @@ use spunlaid::case::keys::Value;
 use spunlaid::input::{LaydownSource, Method, WEB_KEYS, WEB_TABLES, WebFile, WebSpec, parse_web, read_web};
 use spunlaid::layers::Flown;
 use spunlaid::surrogate::Surrogate;
-use spunlaid::web::{Edges, Fibres, Filaments, Row};
+use spunlaid::web::{Defect, Edges, Fibres, Filaments, Row};
 use std::fs;
 
 pub(super) const KNOWN: &str = "../../cases/web_known.toml";
@@ -190,6 +190,14 @@ fn a_slot_rows_at_places_along_and_one_air_are_read_and_written() {
     assert_reads_back(&file);
     let Filaments::Rows(rows) = &file.spec.layers[0].filaments else { panic!("rows") };
     assert_eq!(rows.iter().map(|row| row.md).collect::<Vec<_>>(), [0.0, -5e-3]);
+
+    let defects =
+        "[{ from = \"0.2 m\", titre = 0.5 }, { row = 1, to = \"0.1 m\", share = 0.25, after = \"1 s\" }]";
+    let file = read(&[("line.defects", defects)]);
+    assert_reads_back(&file);
+    let half = Defect { from: Some(0.2), titre: 0.5, ..Defect::USUAL };
+    let later = Defect { row: Some(1), to: Some(0.1), share: 0.25, after: 1.0, ..Defect::USUAL };
+    assert_eq!(file.spec.layers[0].defects, [half, later]);
 }
 
 /// Webs hang in one air where their cases can be flown in one, unless the file says otherwise.

@@ -167,6 +167,7 @@ fn found(sheet: &Sheet, laid: LaidWeb, flown: &BeamFindings, filaments: Filament
         belt_speed: line.belt_speed,
         filaments,
         fibres: Fibres::Curves(Arc::new(curves.unwrap())),
+        defects: Vec::new(),
         other_description: None,
     };
     let web = Web { sheet: sheet.clone(), layers: vec![layer], seed: 1 };

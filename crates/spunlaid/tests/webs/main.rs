@@ -4,6 +4,7 @@
 mod advice;
 mod beam;
 mod curtain;
+mod defects;
 mod few;
 mod fit;
 mod guesses;

@@ -24,6 +24,7 @@ fn layer(fibres: Fibres, per_metre: f64) -> Layer {
         belt_speed: 3.0,
         filaments,
         fibres,
+        defects: Vec::new(),
         other_description: None,
     }
 }
@@ -61,6 +62,7 @@ fn straight(count: usize, length: f64, width: f64, cell: f64) -> Web {
             belt_speed: ratio,
             filaments,
             fibres,
+            defects: Vec::new(),
             other_description: None,
         }],
         seed: 7,
@@ -220,7 +222,7 @@ proptest! {
         let filaments = Filaments::Rows(vec![Row::new(offset, pitch, filaments)]);
         let fibres = Fibres::Surrogate(Surrogate { sigma_md: sigma, sigma_cd: 0.7 * sigma, noise });
         let belt_speed = 50.0 * ratio;
-        let layer = Layer { linear_density: LINEAR_DENSITY, feed_speed: 50.0, belt_speed, filaments, fibres, other_description: None };
+        let layer = Layer { linear_density: LINEAR_DENSITY, feed_speed: 50.0, belt_speed, filaments, fibres, defects: Vec::new(), other_description: None };
         let web = Web { sheet: Sheet { edges, ..Sheet::new(width, length, cell) }, layers: vec![layer], seed };
         let laid = laid(&web);
         let whole = LINEAR_DENSITY * web.fibre_length();

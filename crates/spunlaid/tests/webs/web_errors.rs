@@ -27,6 +27,7 @@ fn web(filaments: Filaments, edges: Edges, [width, length]: [f64; 2]) -> Web {
             belt_speed: 10.0,
             filaments,
             fibres: Fibres::Surrogate(Surrogate { sigma_md: 18e-3, sigma_cd: 16e-3, noise: 12.0 }),
+            defects: Vec::new(),
             other_description: None,
         }],
         seed: 1,

@@ -1,5 +1,6 @@
 //! The results of several runs, or of several webs, side by side.
 
+mod fabric;
 mod found;
 mod maps;
 mod run;

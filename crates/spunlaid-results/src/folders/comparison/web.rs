@@ -23,6 +23,8 @@ pub(super) struct Web {
     pub(super) is_scan: bool,
     /// Side of a cell of its map, if it is known [m].
     pub(super) cell: Option<f64>,
+    /// What is told of its fabric; nothing in an older folder.
+    pub(super) fabric: Json,
     /// Its map, or why there is none.
     pub(super) map: Result<MapFile, String>,
 }
@@ -86,6 +88,7 @@ impl Web {
             clouds,
             is_scan: summary.get("scan").is_some(),
             cell: web["cell_m"].as_f64(),
+            fabric: summary["fabric"].clone(),
             map: MapFile::new(folder, web),
         })
     }
@@ -110,6 +113,16 @@ impl Web {
 }
 
 impl WebNumber {
+    /// A value with its standard error.
+    pub(super) const fn known(value: f64, standard_error: f64) -> Self {
+        Self { value, standard_error: Some(standard_error), ends: None, doubt: None }
+    }
+
+    /// A value that is not to be believed as it stands.
+    pub(super) const fn doubtful(value: f64, doubt: String) -> Self {
+        Self { value, standard_error: None, ends: None, doubt: Some(doubt) }
+    }
+
     /// With the error by all causes in place of that by chance alone, if it is known: what is not chance makes the interval
     /// wider on both sides.
     ///

@@ -1,6 +1,7 @@
 //! Webs side by side, laid or scanned: their CV over patches, their clouds, their pictures and spectra.
 
 use super::super::finished::read_summary;
+use super::fabric::{InCommon, in_common};
 use super::found::Found;
 use super::maps::maps;
 use super::web::{Patch, Web, WebNumber, are_alike, at};
@@ -92,6 +93,10 @@ fn compare_webs(first: &Web, other: &Web) -> Result<Comparison, Failure> {
             measures.push(measure(label.to_owned(), column.to_owned(), unit, [Ok(a), Ok(b)]));
         }
     }
+    measures.extend(in_common([first, other]).into_iter().map(|InCommon { label, column, unit, values }| {
+        let unit = unit.readable(values[0].value);
+        measure(label, column, (unit.shown, unit.per_si), values.map(Ok))
+    }));
     for measure in &mut measures {
         let doubt = match measure.column.as_str() {
             "cloudiness" => blur_objection([first, other]),

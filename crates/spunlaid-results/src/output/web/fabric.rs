@@ -5,7 +5,8 @@ use crate::output::in_order::OrderedObject;
 use serde::Serialize;
 use spunlaid::fabric::{Fabric, Known};
 use spunlaid::observe::{
-    Measure, Measured, OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES, OF_STRIPS, Value, measured,
+    Measure, Measured, OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES, OF_STREAKS, OF_STRIPS, OF_THINNEST, Value,
+    measured,
 };
 
 /// The fabric in `summary.json`.
@@ -14,10 +15,15 @@ pub(super) struct FabricSummary<'a> {
     #[serde(flatten)]
     numbers: OrderedObject<Value>,
     patches: Vec<OrderedObject<Value>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    thinnest: Vec<OrderedObject<Value>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     strips_md: Option<OrderedObject<Value>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     strips_cd: Option<OrderedObject<Value>>,
+    /// Of the defects of the line, in the order of the file.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    streaks: Vec<OrderedObject<Value>>,
     /// Windows in which fibres were drawn to count holes, and their area together.
     #[serde(skip_serializing_if = "Option::is_none")]
     windows: Option<usize>,
@@ -36,8 +42,10 @@ impl<'a> FabricSummary<'a> {
         Self {
             numbers: entries(OF_FABRICS, fabric),
             patches: fabric.patches.iter().map(|patch| entries(OF_FABRIC_PATCHES, patch)).collect(),
+            thinnest: fabric.marks.thinnest.iter().map(|place| entries(OF_THINNEST, place)).collect(),
             strips_md: strips_md.map(|strips| entries(OF_STRIPS, strips)),
             strips_cd: strips_cd.map(|strips| entries(OF_STRIPS, strips)),
+            streaks: fabric.streaks.iter().map(|streak| entries(OF_STREAKS, streak)).collect(),
             windows: holes.map(|holes| holes.windows),
             windows_m2: holes.map(|holes| holes.area),
             holes: holes.into_iter().flat_map(|holes| &holes.radii).map(|of| entries(OF_HOLES, of)).collect(),
@@ -57,9 +65,12 @@ const SHOWN: f64 = 5e-3;
 /// Radius of the holes of which the terminal tells [m].
 const SHOWN_HOLE: f64 = 100e-6;
 
+/// Most streaks of which the terminal tells.
+const MOST_STREAKS: usize = 5;
+
 /// What the terminal tells of a fabric: names and numbers.
 pub fn fabric_rows(fabric: &Fabric) -> Vec<[String; 2]> {
-    let is_near = |value: f64, shown: f64| (value / shown - 1.0).abs() < 1e-6;
+    let is_near = |value: f64, shown: f64| (value / shown - 1.0).abs() < 0.05;
     let mut all = rows("", OF_FABRICS, fabric);
     for patch in fabric.patches.iter().filter(|patch| is_near(patch.thin.patch, SHOWN)) {
         let before = format!("Patches of {} mm: ", number(patch.thin.patch * 1e3));
@@ -68,6 +79,11 @@ pub fn fabric_rows(fabric: &Fabric) -> Vec<[String; 2]> {
     for (strips, direction) in fabric.strips.iter().zip(["MD", "CD"]) {
         let before = format!("Strips along {direction}: ");
         all.extend(strips.iter().flat_map(|strips| rows(&before, &OF_STRIPS[2..3], strips)));
+    }
+    let (name, told) = (&OF_STREAKS[0], &OF_STREAKS[3..]);
+    for streak in fabric.streaks.iter().take(MOST_STREAKS) {
+        let place = known_text(&name.of(streak)).unwrap_or_default();
+        all.extend(rows(&format!("Streak at {place}: "), told, streak));
     }
     let holes = fabric.holes.iter().flat_map(|holes| &holes.radii);
     for of in holes.filter(|of| is_near(of.radius, SHOWN_HOLE)) {
@@ -94,7 +110,8 @@ fn lower(label: &str) -> String {
 
 /// The number of a row in words, with its unit; none if it has none.
 pub fn known_text<T>(row: &Measured<T>) -> Option<String> {
-    let (Some(Value::Told(known)), unit) = (&row.value, row.measure.unit) else { return None };
+    let Some(Value::Told(known)) = &row.value else { return None };
+    let unit = row.measure.unit.readable(known.value());
     let shown = match known.times(unit.per_si) {
         Known::Exact(value) => number(value),
         Known::Value(value, error) => plus_minus(value, error),

@@ -396,7 +396,7 @@ impl<'a> Summary<'a> {
     /// Of a scanned web, which was read from a file.
     pub fn from_scan(
         file: &'a str,
-        findings: &scan::Findings,
+        (findings, fabric): (&scan::Findings, &'a Fabric),
         performance: Performance,
         notes: &'a [String],
     ) -> Self {
@@ -423,7 +423,7 @@ impl<'a> Summary<'a> {
             spunlaid_version: env!("CARGO_PKG_VERSION"),
             layers: &[],
             web: WebSummary { basis_weight_kg_m2, ..web },
-            fabric: None,
+            fabric: Some(FabricSummary::new(fabric)),
             advice: None,
             guesses: None,
             neighbours: None,

@@ -7,8 +7,11 @@ use crate::error::{Fault, Place};
 use crate::layers::keys::{METHODS, WEB};
 use crate::layers::{LaydownSource, LayerSpec, SAME, WebKey, WebSpec, too_small};
 use crate::units::Dimension;
-use crate::web::{Edges, Filaments, Row, Sheet};
+use crate::web::{Defect, Edges, Filaments, Row, Sheet, holes};
 use std::path::Path;
+
+/// Most mass per length of a filament over that of the others.
+const MOST_TITRE: f64 = 2.0;
 
 impl Reading<'_> {
     /// Refuses two layers of one name.
@@ -85,6 +88,9 @@ impl Reading<'_> {
                 }
             }
         }
+        for (number, defect) in layer.defects.iter().enumerate() {
+            self.check_defect(&format!("{prefix}line.defects.{}.", number + 1), web, (number, defect));
+        }
         if let LaydownSource::Surrogate(surrogate) = &layer.source {
             for (key, side, what) in too_small(sheet, [surrogate.sigma_md, surrogate.sigma_cd]) {
                 self.refuse(key, Dimension::Length.pretty(side), what);
@@ -104,6 +110,28 @@ impl Reading<'_> {
             };
             let message = format!("is so {how} that a filament would lay an infinite length on the web");
             self.key_values.reject(&key, Fault::new(message, remedy));
+        }
+    }
+
+    /// Checks a defect together with the holes of its layer.
+    fn check_defect(&mut self, before: &str, web: &WebSpec, (number, defect): (usize, &Defect)) {
+        let Some(layer) = web.layers.first() else { return };
+        if defect.titre > MOST_TITRE {
+            let fault = Fault::new(
+                format!("is more than {MOST_TITRE} times the mass of the other filaments"),
+                format!("write 0 for blocked holes, and up to {MOST_TITRE} for others"),
+            );
+            self.key_values.reject(&format!("{before}titre"), fault);
+        }
+        let all = Defect { share: 1.0, ..*defect };
+        if holes((&web.sheet, web.seed), (0, &layer.filaments), (number, &all)).is_empty() {
+            let key = ["from", "to", "row"].map(|key| format!("{before}{key}"));
+            let key = key.into_iter().find(|key| self.is_written(key)).unwrap_or_default();
+            let fault = Fault::new(
+                "has no hole: none of this row lies between from and to",
+                "write places on the web with from below to, and a row that is there",
+            );
+            self.key_values.reject(&key, fault);
         }
     }
 

@@ -172,6 +172,7 @@ impl Reading<'_> {
         if !rows.is_empty() {
             spec.filaments = Filaments::Rows(rows);
         }
+        spec.defects = self.defects(&format!("{prefix}line."));
         spec.throughput = self.key_values.number(&format!("{prefix}{THROUGHPUT}"));
         if let (Way::Numbers, Some(throughput)) = (way, spec.throughput) {
             spec.feed_speed = throughput / spec.linear_density();

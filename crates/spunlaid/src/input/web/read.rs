@@ -9,7 +9,7 @@ use crate::error::{Fault, Finding};
 use crate::layers::full_names::{web_key, without_numbers};
 use crate::layers::keys::{NUMBERS, WEB, in_rows};
 use crate::layers::{LaydownSource, LayerSpec, Method, WebKey, WebSpec};
-use crate::web::{Filaments, Row};
+use crate::web::{Defect, Filaments, Row};
 use std::path::PathBuf;
 
 /// The keys of a file that has the case of a layer, of the throughput of a hole, and of the belt on which all layers lie.
@@ -176,6 +176,21 @@ impl Reading<'_> {
             }
         };
         (1..=count).filter_map(row).collect()
+    }
+
+    /// The defects of a layer.
+    ///
+    /// * `before` – what comes before the names of the table's keys: `line.`
+    pub(super) fn defects(&mut self, before: &str) -> Vec<Defect> {
+        let list = format!("{before}defects");
+        let count = self.key_values.number(&list).unwrap_or(0.0) as u64;
+        let defect = |number| {
+            let mut layer = LayerSpec::unknown(LaydownSource::UNKNOWN);
+            layer.defects = vec![Defect::USUAL];
+            as_web(&mut layer, |web| self.fill(web, "line.defects", &format!("{list}.{number}."), false));
+            layer.defects
+        };
+        (1..=count).flat_map(defect).collect()
     }
 
     /// Whether a layer gives the numbers of a surrogate.

@@ -6,7 +6,7 @@ use super::super::written_values::WrittenValues;
 use crate::case::keys::{self, Key};
 use crate::layers::keys::WEB;
 use crate::layers::{LaydownSource, LayerSpec, WebSpec};
-use crate::web::Filaments;
+use crate::web::{Defect, Filaments};
 
 /// Writes a web as TOML, with the cases that it flies: every key, in SI units. Reading the text gives the same web to the last bit.
 pub fn write_web(spec: &WebSpec) -> String {
@@ -68,6 +68,15 @@ fn write_with(spec: &WebSpec, lines_of_case: LinesOfCase<'_>) -> String {
             };
             let rows: Vec<String> = rows.iter().copied().map(row).collect();
             text += &format!("rows = [\n  {},\n]\n", rows.join(",\n  "));
+        }
+        let defect = |defect: &Defect| {
+            let mut with_defect = alone.clone();
+            with_defect.layers.iter_mut().for_each(|layer| layer.defects = vec![*defect]);
+            format!("{{ {} }}", lines_of_web(&with_defect, "line.defects").join(", "))
+        };
+        let defects: Vec<String> = layer.defects.iter().map(defect).collect();
+        if !defects.is_empty() {
+            text += &format!("defects = [\n  {},\n]\n", defects.join(",\n  "));
         }
     }
     for table in ["web", "fabric"] {

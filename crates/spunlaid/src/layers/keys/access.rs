@@ -4,7 +4,7 @@ use crate::case::keys::row::AccessTo;
 use crate::case::keys::{Key, Value};
 use crate::error::Fault;
 use crate::layers::{LayerSpec, WebSpec};
-use crate::web::{Filaments, Row};
+use crate::web::{Defect, Filaments, Row};
 use std::path::Path;
 
 /// A key of a web.
@@ -82,6 +82,16 @@ pub(super) fn first_row(web: &mut WebSpec) -> Result<&mut [Row], Fault> {
         Filaments::Rows(rows) => Ok(rows.get_mut(..1).unwrap_or_default()),
         Filaments::AtRandom { .. } | Filaments::Slot { .. } => Err(Fault::needs("line.rows", "leave it out")),
     }
+}
+
+/// The first defect of the first layer.
+pub(super) fn defect(web: &WebSpec) -> Option<&Defect> {
+    layer(web)?.defects.first()
+}
+
+pub(super) fn defect_mut(web: &mut WebSpec) -> Result<&mut Defect, Fault> {
+    let defect = layer_mut(web)?.defects.first_mut();
+    defect.ok_or_else(|| Fault::needs("line.defects", "write a list of defects"))
 }
 
 pub(super) fn written(path: &Path) -> Value {

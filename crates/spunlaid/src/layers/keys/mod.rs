@@ -33,6 +33,7 @@ pub static WEB: KeyTable<WebSpec> = KeyTable {
             wanted: WANTED_LAYERS,
         },
         ROWS,
+        DEFECTS,
     ],
     noun: "a web",
     file: "a web file",
@@ -63,6 +64,7 @@ const LISTS_OF_FILE: &[TableList] = &[
         wanted: WANTED_LAYERS,
     },
     ROWS,
+    DEFECTS,
 ];
 
 /// The tables of a filament, which all layers may have in common.
@@ -77,6 +79,13 @@ const ROWS: TableList = TableList {
     common: &[],
     entry: "a row of nozzles",
     wanted: "a list of rows, like [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }]",
+};
+const DEFECTS: TableList = TableList {
+    name: "line.defects",
+    tables: &[],
+    common: &[],
+    entry: "a defect",
+    wanted: "a list of defects, like [{ from = \"0.5 m\", to = \"0.51 m\", titre = 0 }]",
 };
 
 impl WebKey {

@@ -1,6 +1,7 @@
 //! The rows of the keys of a web, in the order of its file. A row says what its values are, where a web has it and what
 //! it has to do with other keys.
 
+mod defects;
 mod fabric;
 mod fibre;
 mod laydown;
@@ -33,7 +34,7 @@ const TABLES: [Table<WebSpec>; 6] = [
     ("layer", &[layer::KEYS]),
     ("fibre", &[fibre::KEYS]),
     ("laydown", &[laydown::KEYS]),
-    ("line", &[line::KEYS]),
+    ("line", &[line::KEYS, defects::KEYS]),
     ("web", &[web::KEYS]),
     ("fabric", &[fabric::KEYS]),
 ];

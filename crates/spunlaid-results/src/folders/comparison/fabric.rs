@@ -1,0 +1,78 @@
+//! What two fabrics have in common, laid or scanned.
+
+use super::web::{Web, WebNumber, are_alike};
+use crate::numbers::significant;
+use serde_json::Value as Json;
+use spunlaid::observe::{Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES, OF_STRIPS, Unit};
+
+/// Side of the patches that are compared in all words [m], and radius of the holes [m].
+const PATCH: f64 = 5e-3;
+const HOLE: f64 = 100e-6;
+
+/// A number that both have.
+pub(super) struct InCommon {
+    pub(super) label: String,
+    pub(super) column: String,
+    pub(super) unit: Unit,
+    pub(super) values: [WebNumber; 2],
+}
+
+/// Every number that is told of both fabrics with what is known of it: of the whole, of patches, strips and holes.
+pub(super) fn in_common(webs: [&Web; 2]) -> Vec<InCommon> {
+    let fabrics = webs.map(|web| (&web.fabric, web.name.as_str()));
+    let mut found = both(OF_FABRICS, ["", ""], fabrics);
+    let parts = |list: &str, key: &str, size: f64| {
+        fabrics.map(|(fabric, name)| (part(&fabric[list], key, size), name))
+    };
+    let sides = webs[0].fabric["patches"].as_array().into_iter().flatten();
+    for side in sides.filter_map(|patch| patch["patch_m"].as_f64()) {
+        let told = if are_alike(side, PATCH) { &OF_FABRIC_PATCHES[1..] } else { &OF_FABRIC_PATCHES[1..2] };
+        let size = significant(side * 1e3, 3);
+        let words = [&format!(", patches of {size} mm"), &format!("_{size}_mm")];
+        found.extend(both(told, words.map(String::as_str), parts("patches", "patch_m", side)));
+    }
+    for (direction, list) in [("MD", "strips_md"), ("CD", "strips_cd")] {
+        let words = [&format!(", strips along {direction}"), &format!("_{list}")];
+        let strips = fabrics.map(|(fabric, name)| (&fabric[list], name));
+        found.extend(both(OF_STRIPS, words.map(String::as_str), strips));
+    }
+    let size = significant(HOLE * 1e6, 3);
+    let words = [&format!(", radius of {size} µm or more"), &format!("_{size}_um")];
+    found.extend(both(OF_HOLES, words.map(String::as_str), parts("holes", "radius_m", HOLE)));
+    found
+}
+
+/// The part of nearly this size; nothing if there is none.
+fn part<'a>(list: &'a Json, key: &str, size: f64) -> &'a Json {
+    let is_like = |part: &&Json| part[key].as_f64().is_some_and(|other| are_alike(size, other));
+    list.as_array().into_iter().flatten().find(is_like).unwrap_or(&Json::Null)
+}
+
+/// * `words` – behind the label and behind the name of a measure
+fn both<T>(measures: &[Measure<T>], [of, ending]: [&str; 2], parts: [(&Json, &str); 2]) -> Vec<InCommon> {
+    let in_common = |measure: &Measure<T>| {
+        let [a, b] = parts.map(|(json, name)| number(&json[measure.entry()], name));
+        Some(InCommon {
+            label: format!("{}{of}", measure.label),
+            column: format!("{}{ending}", measure.entry()),
+            unit: measure.unit,
+            values: [a?, b?],
+        })
+    };
+    measures.iter().filter_map(in_common).collect()
+}
+
+/// A number with what is known of it. What is a bound or a range has no difference from another one.
+fn number(json: &Json, name: &str) -> Option<WebNumber> {
+    let entry = |key: &str| json.get(key).and_then(Json::as_f64);
+    let doubtful = |value: f64, kind: &str| WebNumber::doubtful(value, format!("{kind} ({name})"));
+    if let Some(value) = entry("value") {
+        return Some(match entry("standard_error") {
+            Some(error) => WebNumber::known(value, error),
+            None => doubtful(value, "no error is known"),
+        });
+    }
+    let bound = [("at_least", "a lower bound"), ("at_most", "an upper bound")];
+    let bound = bound.into_iter().find_map(|(key, kind)| Some(doubtful(entry(key)?, kind)));
+    bound.or_else(|| Some(doubtful(0.5 * (entry("low")? + entry("high")?), "the middle of a range")))
+}

@@ -1,0 +1,86 @@
+//! Places of the sheet that are worth a look: the thinnest ones, strips with their weakest section, holes.
+
+use super::holes::{Disc, WindowHoles};
+use super::marked::Marked;
+use super::patches::weights;
+use super::strips::{StripPlace, StripSize, places as strip_places};
+use crate::web::Map;
+
+/// Side of the patches that are marked [m], and the share of the mean below which they are thin.
+const PATCH: f64 = 5e-3;
+const THIN: f64 = 0.8;
+/// Most patches and strips that are marked, and the thinnest places that are told.
+const MOST: usize = 4000;
+const THINNEST: usize = 6;
+
+/// Places that are worth a look; all of them on the whole sheet.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Marks {
+    /// Side of the patches [m].
+    pub patch: f64,
+    /// Patches of the lattice that are lighter than 80 % of the mean, the lightest first, as many as can be shown.
+    pub thin: Vec<Marked>,
+    /// Number of all of them.
+    pub thin_of_all: usize,
+    /// The lightest patches that do not touch each other, the lightest first.
+    pub thinnest: Vec<Marked>,
+    /// The strips along MD and those along CD.
+    pub strips: [Vec<StripPlace>; 2],
+    /// Holes in the windows: the middle of the largest disc, and its radius [m].
+    pub holes: Vec<([f64; 2], f64)>,
+}
+
+impl Marks {
+    /// * `corner` – where the map begins across the sheet [m]
+    pub(super) fn new(map: &Map, corner: f64, size: StripSize) -> Self {
+        let side = ((PATCH / map.cell).round().max(1.0) as usize).min(map.columns.min(map.rows));
+        let patch = side as f64 * map.cell;
+        let mut patches = patches(map, corner, side);
+        patches.sort_by(|a, b| a.weight.total_cmp(&b.weight));
+        let mut thinnest: Vec<Marked> = Vec::new();
+        for marked in &patches {
+            // Patches side by side are one place.
+            let is_far = |other: &Marked| {
+                (0..2).any(|axis| (other.corner[axis] - marked.corner[axis]).abs() > 1.5 * patch)
+            };
+            if thinnest.len() < THINNEST && thinnest.iter().all(is_far) {
+                thinnest.push(*marked);
+            }
+        }
+        let thin_of_all = patches.partition_point(|marked| marked.weight < THIN);
+        patches.truncate(thin_of_all.min(MOST));
+        let mut strips = strip_places(map, size);
+        for place in strips.iter_mut().flatten() {
+            place.corner[0] += corner;
+            place.weakest.corner[0] += corner;
+        }
+        strips.iter_mut().for_each(|strips| strips.truncate(MOST));
+        Self { patch, thin: patches, thin_of_all, thinnest, strips, holes: Vec::new() }
+    }
+
+    /// The largest holes of windows, each with the place of its corner on the map.
+    pub(super) fn mark_holes(&mut self, windows: &[([f64; 2], WindowHoles)], corner: f64) {
+        let of_window = |([cd, md], window): &([f64; 2], WindowHoles)| {
+            let on_sheet = |disc: &Disc| ([corner + cd + disc.centre[0], md + disc.centre[1]], disc.radius);
+            window.holes.iter().map(on_sheet).collect::<Vec<_>>()
+        };
+        self.holes = windows.iter().flat_map(of_window).collect();
+        self.holes.sort_by(|a, b| b.1.total_cmp(&a.1));
+        self.holes.truncate(MOST);
+    }
+}
+
+/// Patches of the map side by side.
+fn patches(map: &Map, corner: f64, side: usize) -> Vec<Marked> {
+    let [columns, rows] = [map.columns / side, map.rows / side];
+    let size = side as f64 * map.cell;
+    weights(map, size)
+        .into_iter()
+        .enumerate()
+        .filter(|(number, _)| number / columns < rows)
+        .map(|(number, weight)| {
+            let at = [number % columns, number / columns].map(|place| place as f64 * size);
+            Marked { corner: [corner + at[0], at[1]], sides: [size; 2], weight }
+        })
+        .collect()
+}

@@ -1,0 +1,144 @@
+//! Holes that are blocked or feed less, on the web.
+
+use super::same_air::{read, unwatched};
+use spunlaid::input::parse_web;
+use spunlaid::lanes::Isa;
+use spunlaid::layers::{Flyer, WebSpec};
+use spunlaid::web::{Defect, LaidWeb, LayControl, Map, WindowLattice, lay_in_windows, strands};
+use std::sync::atomic::{AtomicBool, AtomicU64};
+
+const KNOWN: &str = "
+[fibre]
+diameter = \"18 µm\"
+density = \"910 kg/m³\"
+[laydown]
+sigma_md = \"9 mm\"
+sigma_cd = \"8 mm\"
+noise = \"15 m^-0.5\"
+[line]
+feed_speed = \"50 m/s\"
+belt_speed = \"5 m/s\"
+rows = [{ pitch = \"1 mm\", filaments = 200 }, { offset = \"0.5 mm\", pitch = \"1 mm\", filaments = 200 }]
+[web]
+width = \"0.2 m\"
+length = \"0.4 m\"
+cell = \"1 mm\"
+";
+
+const BLOCKED: Defect = Defect { from: Some(0.075), ..Defect::USUAL };
+
+fn with(spec: &WebSpec, defects: &[Defect]) -> WebSpec {
+    let mut spec = spec.clone();
+    spec.layers[0].defects = defects.to_vec();
+    spec
+}
+
+/// Mass over the map that is missing beside another one [kg], and its mean place across the sheet [m].
+fn missing(whole: &Map, other: &Map) -> (f64, f64) {
+    assert_eq!(whole.quantum, other.quantum);
+    let (mut sum, mut moment) = (0.0, 0.0);
+    for (i, (a, b)) in whole.cells.iter().zip(&other.cells).enumerate() {
+        assert!(a >= b, "a defect lays nothing");
+        let less = f64::from(a - b);
+        sum += less;
+        moment += less * ((i % whole.columns) as f64 + 0.5) * whole.cell;
+    }
+    (sum * whole.quantum, moment / sum)
+}
+
+/// What is laid with defects is what is laid without them, less the filaments that are missing.
+#[test]
+fn invariant_a_blocked_hole_takes_one_filament_from_a_web_of_independent_ones() {
+    let spec = parse_web(KNOWN, "known.toml", &[]).unwrap().spec;
+    let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
+    let by = |threads| LayControl { threads, isa: Isa::detect(), stop: &stop, laid: &laid };
+    let lay = |defects: &[Defect], threads: usize| {
+        let spec = with(&spec, defects);
+        let mut flyer = Flyer::new(threads, &stop, &unwatched);
+        let web = flyer.web(&spec).unwrap().web;
+        let lattice = WindowLattice::new(&spec.sheet, (3e-3, 0.3e-3), 25);
+        let kept = strands(&web, spec.window(), by(threads)).unwrap();
+        (lay_in_windows(&web, lattice, by(threads)).unwrap(), kept)
+    };
+    let (whole, kept) = lay(&[], 2);
+    let layer = &spec.layers[0];
+    let filament = layer.linear_density() * layer.feed_speed / layer.belt_speed * spec.sheet.length;
+    let (blocked, others) = lay(&[BLOCKED], 2);
+    let (mass, place) = missing(&whole.map, &blocked.map);
+    assert!((mass / filament - 1.0).abs() < 1e-6, "{mass} {filament}");
+    // Of one filament on 40 cm of web, whose places scatter by 8 mm.
+    assert!((place - 0.075).abs() < 4e-3, "{place}");
+    // The hole of the first row at 75 mm, with a window in the middle of its filament.
+    let all: Vec<_> = kept.iter().filter(|strand| strand.filament != 150).cloned().collect();
+    assert!(all == others);
+    assert!(blocked.pieces.len() < whole.pieces.len());
+    // A thread more or less changes nothing, and neither does a filament like the others.
+    for threads in [1, 7] {
+        let again = lay(&[BLOCKED], threads);
+        assert!(again.0.map == blocked.map && again.1 == others);
+    }
+    assert!(lay(&[Defect { titre: 1.0, ..BLOCKED }], 2).0.map == whole.map);
+    for (defect, share) in [
+        (Defect { titre: 0.25, ..BLOCKED }, 0.75),
+        // From the middle of the 80 ms that the sheet takes on, to within a block of pieces.
+        (Defect { after: 0.04, ..BLOCKED }, 0.5),
+        (Defect { from: None, row: Some(2), ..BLOCKED }, 200.0),
+        (Defect { to: Some(0.0949), ..BLOCKED }, 40.0),
+    ] {
+        let (mass, _) = missing(&whole.map, &lay(&[defect], 2).0.map);
+        assert!((mass / (share * filament) - 1.0).abs() < 0.02, "{defect:?}: {}", mass / filament);
+    }
+    let (mass, _) = missing(&whole.map, &lay(&[Defect { from: None, share: 0.1, ..BLOCKED }], 2).0.map);
+    // Binomial: 40 ± 6.
+    assert!((24.0..56.0).contains(&(mass / filament)), "{}", mass / filament);
+}
+
+/// In one air too, filled in from a few filaments and where all of them fly; the others lie as they did.
+#[test]
+fn invariant_a_blocked_hole_takes_one_filament_from_a_web_in_one_air() {
+    let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
+    let by = |threads| LayControl { threads, isa: Isa::detect(), stop: &stop, laid: &laid };
+    let small = read(&[("web.length", "0.1 m"), ("web.window", "20 mm")]).spec;
+    let blocked = Defect { from: Some(0.05), ..Defect::USUAL };
+    let check = |spec: &WebSpec, lay: &dyn Fn(&WebSpec, usize) -> LaidWeb| {
+        let layer = &spec.layers[0];
+        let filament = layer.linear_density() * layer.feed_speed / layer.belt_speed * spec.sheet.length;
+        let whole = lay(spec, 2);
+        let defect = with(spec, &[blocked]);
+        let one = lay(&defect, 2);
+        let (mass, place) = missing(&whole.map, &one.map);
+        // A curve leaves the ends of the sheet and comes back, on a web of a few spreads.
+        assert!((mass / filament - 1.0).abs() < 0.3, "{mass} {filament}");
+        assert!((place - 0.05).abs() < 0.03, "{place}");
+        assert!(lay(&defect, 1).map == one.map);
+        let half = lay(&with(spec, &[Defect { titre: 0.5, ..blocked }]), 2);
+        let (less, _) = missing(&whole.map, &half.map);
+        assert!((less / mass - 0.5).abs() < 1e-3, "{less} {mass}");
+    };
+    let flight = Flyer::new(2, &stop, &unwatched).flight(&small).unwrap();
+    check(&small, &|spec, threads| flight.curtains().lay(spec, 0..100, by(threads)).unwrap().laid);
+    let set = [("web.length", "0.1 m"), ("web.window", "20 mm"), ("web.flown", "all")];
+    let all = read(&[&set[..], &[("line.filaments_per_metre", "100")]].concat()).spec;
+    check(&all, &|spec, threads| {
+        Flyer::new(threads, &stop, &unwatched).web(spec).unwrap().measure(by(threads)).unwrap().laid
+    });
+}
+
+#[test]
+fn rejects_defects_without_a_hole_and_filaments_that_are_too_thick() {
+    let refused = |defects: &str| {
+        let text = KNOWN.replace("[web]", &format!("defects = [{defects}]\n[web]"));
+        parse_web(&text, "known.toml", &[]).unwrap_err().to_string()
+    };
+    for (defects, message) in [
+        ("{ titre = 3 }", "line.defects.1.titre = 3 is more than 2 times the mass of the other filaments"),
+        ("{ from = \"1 mm\" }, { from = \"80 mm\", to = \"70 mm\" }", "line.defects.2.from"),
+        ("{ row = 3 }", "line.defects.1.row = 3 has no hole: none of this row lies between from and to"),
+        ("{ form = \"1 mm\" }", "did you mean line.defects.1.from?"),
+        ("{ share = 2 }", "line.defects.1.share"),
+        ("5", "write a list of defects, like [{ from ="),
+    ] {
+        let found = refused(defects);
+        assert!(found.contains(message), "{found}");
+    }
+}
