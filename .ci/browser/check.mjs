@@ -183,6 +183,15 @@ async function checkTable(page, where, shot) {
   expect((await bareShare(page)) < 0.005, `${where}: dragging moves the web out of its frame`);
   await shot("corner", false);
   expect(await changes(page, () => page.keyboard.press("0")), `${where}: the key 0 does not show the whole web`);
+  // Every kind of mark that is offered is drawn, and the thinnest places are shown.
+  const boxes = page.locator("#marks label:visible input[type=checkbox]");
+  for (let i = 0; i < (await boxes.count()); i++) {
+    expect(await changes(page, () => boxes.nth(i).click()), `${where}: mark ${i + 1} of the light table does nothing`);
+    await boxes.nth(i).click();
+  }
+  expect((await page.locator("#thumbs button").count()) > 0, `${where}: the thinnest places are not shown`);
+  expect(await changes(page, () => page.locator("#thumbs button").first().click()), `${where}: a thinnest place is not shown`);
+  await shot("thinnest", false);
   expect((await page.locator("figure.view").innerText()) === words, `${where}: words of the light table change with the view`);
 }
 

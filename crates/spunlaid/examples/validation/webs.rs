@@ -27,6 +27,7 @@ fn web(filaments: Filaments, sizes: [f64; 2], edges: Edges) -> Web {
             belt_speed: 3.86,
             filaments,
             fibres: Fibres::Surrogate(spunbond),
+            defects: Vec::new(),
             other_description: None,
         }],
         seed: 0,

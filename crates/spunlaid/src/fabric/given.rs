@@ -9,6 +9,8 @@ pub struct FabricKeys {
     pub thickness: Option<f64>,
     /// Width in the middle of the web that is sold [m]; all of it between the edges if it is not given.
     pub saleable_width: Option<f64>,
+    /// How far the weight may be from that of the middle, as a share, to be sold.
+    pub tolerance: f64,
     /// Strips that are pulled, and the sections of which the lightest is looked for.
     pub strip: StripSize,
     /// Angle at which the edge of water meets the polymer [rad]; without it no hydrohead is told.
@@ -26,6 +28,7 @@ impl FabricKeys {
     pub const USUAL: Self = Self {
         thickness: None,
         saleable_width: None,
+        tolerance: 0.05,
         strip: StripSize { width: 50e-3, length: 200e-3, section: 5e-3 },
         contact_angle: None,
         pressure: 200.0,

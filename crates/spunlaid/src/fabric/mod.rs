@@ -27,6 +27,7 @@ mod strips;
 mod tell;
 #[cfg(test)]
 mod tests;
+mod usable;
 mod water;
 mod words;
 
@@ -47,5 +48,6 @@ pub use scanned::of_scan;
 pub use streaks::{Streak, StreakSource, streaks};
 pub use strips::{StripPlace, StripSize, Strips, WEAK, strips};
 pub use tell::{AirThrough, Fabric, FabricPatch, Laid, Opacity, tell};
+pub use usable::{Usable, usable};
 pub use water::hydrohead;
 pub use words::about;

@@ -11,6 +11,7 @@ use super::marks::Marks;
 use super::patches::{ThinPlaces, thin_places, weights};
 use super::streaks::{Streak, StreakSource, streaks};
 use super::strips::{Strips, strips};
+use super::usable::{Usable, usable};
 use super::water::hydrohead;
 use crate::statistics::Estimate;
 use crate::threads::each;
@@ -58,6 +59,8 @@ pub struct Fabric {
     pub width: f64,
     /// What is cut off of the web at both edges together [m]; None unless a saleable width is given.
     pub trim: Option<f64>,
+    /// The width whose weight is within the tolerance; None of a web that goes on at its edges, and of a scan.
+    pub usable: Option<Usable>,
     /// Patches of each side.
     pub patches: Vec<FabricPatch>,
     /// Strips along MD and along CD.
@@ -171,9 +174,18 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
         found
     });
     let air = air.flatten();
+    let usable = laid.reach.and_then(|reach| usable(laid.map, reach, keys.tolerance));
+    if usable.is_some() {
+        notes.push(
+            "the neck-in is not known: filaments at the edge are taken to come down as those in the middle, about the places at which \
+             they are fed"
+                .to_owned(),
+        );
+    }
     Fabric {
         width: map.columns as f64 * map.cell,
         trim: keys.saleable_width.zip(laid.reach).map(|(width, [from, to])| (to - from - width).max(0.0)),
+        usable,
         patches: patches.into_iter().flatten().collect(),
         strips: strips(map, keys.strip),
         marks,

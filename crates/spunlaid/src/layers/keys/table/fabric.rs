@@ -30,6 +30,15 @@ pub(super) const KEYS: &[WebKey] = &[
         .synonyms(&["trim", "slit width", "net width"])
         .label("Saleable width")
         .usual(1e-2, 30.0),
+    quantity("fabric.tolerance", Dimension::Ratio, Sign::Share)
+        .access(of_sheet!(fabric.tolerance))
+        .value("5 %")
+        .meaning(
+            "How far the weight may be from that of the middle half of the web to be sold, with \
+             `web.edges = \"cut\"`: the width that is within it is told, and its trim.",
+        )
+        .label("Tolerance of the weight")
+        .usual(1e-3, 0.5),
     positive("fabric.strip_width", Dimension::Length)
         .access(at!(fabric.strip.width))
         .value("50 mm")
