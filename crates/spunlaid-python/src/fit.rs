@@ -13,7 +13,7 @@ use spunlaid::input::{Overrides, read_fit};
 use spunlaid::layers::{Flights, Flyer};
 use spunlaid::study::Journal;
 use spunlaid::web::LayControl;
-use spunlaid_results::folders::fit::{FitFolder, FitInput};
+use spunlaid_results::folders::fit::{FitFolder, FitInput, FoundFit};
 use spunlaid_results::folders::read_measured_web;
 use spunlaid_results::output::fit::{fit_json, sentences};
 use std::collections::BTreeMap;
@@ -84,7 +84,8 @@ pub(crate) fn find_fit(
         if let Some(mut folder) = folder {
             folder.figures = figures;
             let values: Vec<f64> = found.keys.iter().map(|key| key.value).collect();
-            folder.write(&input, &found, &web(&values)?.spec)?;
+            let spec = web(&values)?.spec;
+            folder.write(&FoundFit { input, fit: &found, spec: &spec }, watch.making())?;
         }
         watch.done.store(webs, Ordering::Relaxed);
         Ok(found)

@@ -331,7 +331,7 @@ impl Study {
             *self.journal() = None;
             let (mut folder, mut journal, _) = StudyFolder::open(out, &self.file, false, None, &NEVER)?;
             folder.set_figures(&figures);
-            folder.write(&self.name, &self.file, &mut journal).map(drop)
+            folder.write(&self.name, &self.file, &mut journal, Watch::default().making()).map(drop)
         })
     }
 

@@ -5,6 +5,7 @@ pub(crate) mod analyse;
 pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod completions;
+mod delivery;
 mod finished_run;
 pub(crate) mod fit;
 mod flown;
@@ -20,19 +21,14 @@ pub(crate) mod spin;
 pub(crate) mod sweep;
 pub(crate) mod web;
 
-use crate::args::{Output, Threads, is_standard};
-use crate::failure::Failure;
+use crate::args::{Threads, is_standard};
 use crate::say;
 use interrupt::stop_on_ctrl_c;
 use serde::Serialize;
 use spunlaid::ensemble::RunControl;
 use spunlaid::lanes::Isa;
 use spunlaid::web::LayControl;
-use spunlaid_results::output::folder::Staging;
 use spunlaid_results::output::json_text;
-use spunlaid_results::output::origin::Origin;
-use spunlaid_results::output::pictures::FigureFiles;
-use std::ffi::OsStr;
 use std::path::Path;
 use std::sync::atomic::AtomicU64;
 
@@ -40,37 +36,9 @@ use std::sync::atomic::AtomicU64;
 const LISTED: usize = 24;
 
 /// The name of a file without its extension.
-fn stem<'a>(file: &'a Path, otherwise: &'a str) -> &'a OsStr {
-    file.file_stem().filter(|_| !is_standard(file)).unwrap_or(otherwise.as_ref())
-}
-
-/// Collects the results of a command. What the same command wrote before is replaced, and a note says so.
-fn staged(
-    (folder, entries): (&Path, &'static [&'static str]),
-    output: &Output,
-    origin: Option<Origin>,
-    figures: &FigureFiles,
-) -> Result<Staging<'static>, Failure> {
-    let mut staging = Staging::with_origin(folder, entries, output.force, origin, stop_on_ctrl_c())?;
-    staging.set_figures(figures);
-    if staging.replaces_own() {
-        say_replaced(folder, output.quiet);
-    }
-    Ok(staging)
-}
-
-/// Says that the earlier results of the same command are replaced.
-fn say_replaced(folder: &Path, quiet: bool) {
-    if !quiet {
-        let replaced =
-            format!("{}: holds earlier results of this command, which are replaced", folder.display());
-        say::remark(false, &replaced);
-    }
-}
-
-/// Says which report to open.
-fn say_report(folder: impl AsRef<Path>) {
-    say::line(&format!("open {}", folder.as_ref().join("report.html").display()));
+fn stem(file: &Path, otherwise: &str) -> String {
+    let stem = file.file_stem().filter(|_| !is_standard(file)).unwrap_or(otherwise.as_ref());
+    stem.to_string_lossy().into_owned()
 }
 
 /// How fibres are flown; Ctrl-C ends it.

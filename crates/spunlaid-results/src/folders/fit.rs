@@ -1,13 +1,13 @@
 //! The folder of a fit: its journal, and what is made from it.
 
+use super::contents::{Contents, Maker, Making, Page};
 use super::journalled::{JournalFolder, Work};
-use super::web::keep_web;
 use crate::Failure;
 use crate::failure::other_version;
 use crate::figures::fit_figures;
-use crate::output::copied_files::CASE_FILES;
 use crate::output::fit::{fit_json, trials_csv};
-use crate::output::folder::Staging;
+use crate::output::folder::{CASE_FILES, Staging};
+use crate::output::kept_input::Input;
 use crate::output::origin::Origin;
 use crate::output::pictures::FigureFiles;
 use crate::report::fit_report;
@@ -101,26 +101,47 @@ impl<'a> FitFolder<'a> {
         self.at.replaces()
     }
 
-    /// Writes the values, the figures, the report and the web with the values that were found.
-    ///
-    /// * `spec` – this web
+    /// Writes the values, the figures, the report and the web with the values that were found. Returns what a terminal shows.
     ///
     /// # Errors
     /// If a file cannot be written.
-    pub fn write(&mut self, input: &FitInput<'_>, fit: &Fit, spec: &WebSpec) -> Result<(), Failure> {
+    pub fn write(&mut self, found: &FoundFit<'_>, making: Making<'_>) -> Result<String, Failure> {
         let mut staging = Staging::new(&self.at.place, FILES, true, self.stop)?;
         staging.set_figures(&self.figures);
-        let toml = keep_web(&staging, spec)?;
-        let figures = fit_figures(fit);
-        staging.write_figures(&figures)?;
-        let FitInput { name, paths, target, notes, .. } = *input;
-        let report =
-            fit_report(fit, (paths[1], target), (spec, &toml), &figures).named(name).noting(notes).html();
-        staging.write("web.toml", toml)?;
-        staging.write("trials.csv", trials_csv(fit))?;
-        staging.write("report.html", report)?;
-        staging.write("fit.json", fit_json(fit, target, paths, notes))?;
+        let written = found.write(&staging, making)?;
         staging.publish()?;
-        self.at.finish()
+        self.at.finish()?;
+        Ok(written.text)
+    }
+}
+
+/// A fit, and what was found.
+#[derive(Clone, Copy, Debug)]
+pub struct FoundFit<'a> {
+    /// What was fitted to what.
+    pub input: FitInput<'a>,
+    /// The values.
+    pub fit: &'a Fit,
+    /// The web with these values.
+    pub spec: &'a WebSpec,
+}
+
+impl Contents for FoundFit<'_> {
+    const ENTRIES: &'static [&'static str] = FILES;
+    const SUMMARY: &'static str = "fit.json";
+
+    fn summary(&self) -> String {
+        let FitInput { target, paths, notes, .. } = self.input;
+        fit_json(self.fit, target, paths, notes)
+    }
+
+    fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
+        let FitInput { name, paths, target, notes, .. } = self.input;
+        let (input, figures) = (maker.keep(Input::Web(self.spec))?, fit_figures(self.fit));
+        let report = || {
+            let report = fit_report(self.fit, (paths[1], target), (self.spec, input), &figures);
+            Ok(report.named(name).noting(notes))
+        };
+        maker.finish(&figures, |staging| staging.write("trials.csv", trials_csv(self.fit)), report)
     }
 }

@@ -1,20 +1,23 @@
 //! The results folder of a study: checks its content, and writes the files.
 
+use super::contents::{Contents, Maker, Making, Page};
 use super::journalled::{JOURNAL, JournalFolder, Work, remove};
 use crate::Failure;
 use crate::failure::{other_study, other_version};
 use crate::figures::study_figures;
-use crate::output::copied_files::{self, CASE_FILES};
-use crate::output::folder::{self, MARKS, Staging};
+use crate::output::folder::{self, CASE_FILES, MARKS, Staging};
+use crate::output::kept_input::copy;
 use crate::output::origin::Origin;
 use crate::output::pictures::FigureFiles;
+use crate::output::study::write_json;
 use crate::output::{self};
 use crate::report::study_report;
 use spunlaid::case::MOST_REPLICATES;
 use spunlaid::error::Fault;
 use spunlaid::input::{StudyFile, StudyNote, differences};
-use spunlaid::study::{Experiment, Header, Journal, JournalState, PointResults, rankings};
+use spunlaid::study::{Experiment, Header, Journal, JournalState, PointResults, Rankings, rankings};
 use std::fs;
+use std::io::{self, Write};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
@@ -39,15 +42,6 @@ pub struct StudyFolder<'a> {
     /// If this is set, nothing more is written.
     stop: &'a AtomicBool,
     figures: FigureFiles,
-}
-
-/// What was made from the journal.
-#[derive(Debug)]
-pub struct StudyResults {
-    /// The results of each point.
-    pub results: Vec<PointResults>,
-    /// Why the keys are not ranked, if there are several.
-    pub refusal: Option<String>,
 }
 
 /// The content of the folder when it was opened.
@@ -134,40 +128,28 @@ impl<'a> StudyFolder<'a> {
         self.at.replaces()
     }
 
-    /// Collects the files that are made from the journal.
-    fn staging(&self) -> Result<Staging<'a>, Failure> {
-        let mut staging = Staging::new(&self.at.place, MADE, true, self.stop)?;
-        staging.set_figures(&self.figures);
-        Ok(staging)
-    }
-
-    /// Makes the tables, the figures and the report from the journal.
+    /// Makes the tables, the figures and the report from the journal. Returns what was found, and what a terminal shows.
     ///
     /// * `name` – what the study is called
     ///
     /// # Errors
     /// If a file cannot be written, or the journal cannot be read.
-    pub fn write(
+    pub fn write<'f>(
         &mut self,
         name: &str,
-        file: &StudyFile,
+        file: &'f StudyFile,
         journal: &mut Journal,
-    ) -> Result<StudyResults, Failure> {
-        let study = &file.study;
-        let staging = self.staging()?;
-        let results = output::study::write(&staging, study, journal)?;
-        let rankings = rankings(study, journal)?;
-        let figures = study_figures(study, &results, &rankings.of_measures);
-        output::study::write_json(&staging, study, &results, &rankings)?;
-        let refusal = rankings.refusal.filter(|_| study.factors.len() > 1).map(|refusal| refusal.to_string());
-        staging.write_figures(&figures)?;
-        let told = (&rankings.of_measures[..], refusal.as_deref());
-        let report = study_report(study, &results, told, &figures, [&file.text, &file.base_text]);
-        let report = report.named(name).noting(&StudyNote::notes_of_results(&file.notes));
-        staging.write("report.html", report.html())?;
+        making: Making<'_>,
+    ) -> Result<(FoundStudy<'f>, String), Failure> {
+        let mut staging = Staging::new(&self.at.place, MADE, true, self.stop)?;
+        staging.set_figures(&self.figures);
+        let results = output::study::write(&staging, &file.study, journal)?;
+        let rankings = rankings(&file.study, journal)?;
+        let found = FoundStudy { name: name.to_owned(), file, results, rankings };
+        let written = found.write(&staging, making)?;
         staging.publish()?;
         self.at.finish()?;
-        Ok(StudyResults { results, refusal })
+        Ok((found, written.text))
     }
 
     /// Removes the files of an earlier study, and describes this one.
@@ -196,6 +178,51 @@ impl<'a> StudyFolder<'a> {
     }
 }
 
+/// A study, and what was found. The tables are made from its journal.
+#[derive(Debug)]
+pub struct FoundStudy<'a> {
+    name: String,
+    file: &'a StudyFile,
+    /// The results of each point.
+    pub results: Vec<PointResults>,
+    rankings: Rankings,
+}
+
+impl FoundStudy<'_> {
+    /// Why the keys are not ranked, if there are several.
+    pub fn refusal(&self) -> Option<String> {
+        let refusal = self.rankings.refusal.as_ref().filter(|_| self.file.study.factors.len() > 1);
+        refusal.map(ToString::to_string)
+    }
+}
+
+impl Contents for FoundStudy<'_> {
+    const ENTRIES: &'static [&'static str] = MADE;
+    const SUMMARY: &'static str = "results.json";
+
+    fn summary(&self) -> String {
+        let mut text = Vec::new();
+        // Writing into memory cannot fail.
+        let _ = self.write_summary(&mut text);
+        String::from_utf8_lossy(&text).into_owned()
+    }
+
+    fn write_summary(&self, to: &mut dyn Write) -> io::Result<()> {
+        write_json(to, &self.file.study, &self.results, &self.rankings)
+    }
+
+    fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
+        let (StudyFile { study, text, base_text, notes, .. }, refusal) = (self.file, self.refusal());
+        let figures = study_figures(study, &self.results, &self.rankings.of_measures);
+        let told = (&self.rankings.of_measures[..], refusal.as_deref());
+        let report = || {
+            let report = study_report(study, &self.results, told, &figures, [text, base_text]);
+            Ok(report.named(&self.name).noting(&StudyNote::notes_of_results(notes)))
+        };
+        maker.finish(&figures, |_| Ok(()), report)
+    }
+}
+
 /// Copies the files that the case names, and returns the text of the case or web with the paths of the copies.
 fn keep_files(file: &StudyFile, staging: &Staging<'_>) -> Result<String, Failure> {
     let files = file.study.points.iter().flat_map(|point| match &point.experiment {
@@ -203,7 +230,7 @@ fn keep_files(file: &StudyFile, staging: &Staging<'_>) -> Result<String, Failure
         Experiment::Spinline(spec) => spec.files(),
         Experiment::Web(web) => web.files(),
     });
-    let copied = copied_files::copy(files, &staging.place(CASE_FILES).0)?;
+    let copied = copy(files, &staging.place(CASE_FILES).0)?;
     let folder = file.base_path.parent().unwrap_or(Path::new(""));
     Ok(copied.iter().fold(file.base_text.clone(), |text, (from, to)| {
         let quoted = |path: &Path| format!("{:?}", path.to_string_lossy());

@@ -3,7 +3,6 @@
 use super::document::{Report, Section};
 use super::methods::methods;
 use super::table::{Content, Layout, Row, Table};
-use super::text::text;
 use super::words::{count, time};
 use crate::numbers::{THIN, plus_minus, significant};
 use crate::output::analysis::{ResultRow, half_width, results};
@@ -40,17 +39,11 @@ pub fn analysis_report<'a>(
     Report::new("analyse", headline)
         .lead(summary + &remarks)
         .noting(&warnings)
-        .with(of_air.file("air-toml", air))
+        .with(of_air.file("air-toml", air).told())
         .with(Section::of_figures(figures))
-        .with(components)
+        .with(components.told())
         .with(computed)
         .with(methods)
-}
-
-/// The same for a terminal of so many columns.
-pub fn analysis_text(record: &Record, analysis: &Analysis, room: usize) -> String {
-    let sentences = format!("{} {}", headline(analysis), summary(record, analysis));
-    text(&sentences, numbers(analysis), room)
 }
 
 /// The numbers for the air of a case, then those of each component.

@@ -35,6 +35,11 @@ pub fn paper_report<'a>(
              to decide; more replicates would help.",
         ));
     }
+    let verdict = |claim: &Claim| {
+        let name = format!("{:<4} {:<13} {}", claim.figure, claim.verdict.name(), claim.claim);
+        (name, claim.evidence.clone())
+    };
+    report = report.with(Section::new("", "Claims").on_terminal().descriptions(claims.iter().map(verdict)));
     if !choices.is_empty() {
         let heads = [
             "Choice",

@@ -4,7 +4,6 @@ use super::document::{Report, Section};
 use super::light_table::{picture_note, sheet};
 use super::methods::methods;
 use super::table::{Row, Table};
-use super::text::text;
 use super::unevenness::{CV_OF_PATCHES, cost, headline, largest_clouds, per_cent, unevenness};
 use super::view::View;
 use super::words::{metres, millimetres};
@@ -54,16 +53,11 @@ pub fn scan_report<'a>(
     Ok(Report::new("analyse", headline)
         .lead(summary)
         .with(web)
-        .with(uneven(findings))
+        .with(uneven(findings).told())
         .with(Section::of_figures(figures))
         .with(methods)
         .with(read)
         .costing(cost(performance)))
-}
-
-/// The same for a terminal of so many columns.
-pub fn scan_text(findings: &Findings, room: usize) -> String {
-    text(&title(findings), [uneven(findings)], room)
 }
 
 fn title(findings: &Findings) -> String {

@@ -38,6 +38,7 @@ pub fn study_report<'a>(
     Report::new("sweep", title)
         .lead(format!("{asked}{}", summary(study, results)))
         .lead(phases(study))
+        .with(points_in_short(study, results))
         .with_all(ranking(study, rankings, refusal))
         .with(Section::of_figures(figures))
         .with(points(study, results))
@@ -49,7 +50,7 @@ pub fn study_report<'a>(
 fn ranking(study: &Study, rankings: &[Ranking], refusal: Option<&str>) -> Option<Section<'static>> {
     let section = Section::new("ranking", "What matters most");
     if let Some(refusal) = refusal {
-        return Some(section.paragraph(format!("The factors are not ranked: {refusal}.")));
+        return Some(section.paragraph(format!("The factors are not ranked: {refusal}.")).told());
     }
     // The rows have the order of the effects on the amplitude.
     let first = rankings.first().filter(|_| study.factors.len() > 1)?;
@@ -76,6 +77,45 @@ fn ranking(study: &Study, rankings: &[Ranking], refusal: Option<&str>) -> Option
          together, and the figures tell more than the ranking. {}",
         intervals(study)
     )))
+}
+
+/// Points and measures for a terminal.
+fn points_in_short(study: &Study, results: &[PointResults]) -> Section<'static> {
+    const POINTS: usize = 24;
+    const MEASURES: usize = 4;
+    let is_of_webs = study.noun() == "web";
+    let shown: Vec<usize> = shown::quantities(study);
+    let shown = || shown.iter().take(if is_of_webs { usize::MAX } else { MEASURES });
+    let head = |quantity: &usize| {
+        let quantity_shown = &study.quantities[*quantity];
+        match quantity_shown.figure.name {
+            "cv" => quantity_shown.series.clone(),
+            "cv_flown" => format!("flown {}", quantity_shown.series),
+            _ => shown::head(quantity_shown),
+        }
+    };
+    let row = |(index, point): (usize, &PointResults)| {
+        let values = study.points[index].values.iter().zip(study.inputs());
+        let inputs = values.map(|(value, input)| input.pretty(*value));
+        let results = shown().map(|quantity| shown::cell(study, point, *quantity));
+        Row::new((index + 1).to_string(), inputs.chain(results).chain([point.n.to_string()]))
+    };
+    let heads = ["Point".to_owned()].into_iter();
+    let heads =
+        heads.chain(study.inputs().map(|input| input.key.rsplit('.').next().unwrap_or(input.key).to_owned()));
+    let heads = heads.chain(shown().map(head)).chain(["n".to_owned()]);
+    let title = if is_of_webs {
+        "Unevenness, CV in % ± its error by all causes that are known, over patches of this side; flown: expected from the flown curves"
+    } else {
+        "Points"
+    };
+    let section = Section::new("", title)
+        .table(Table::of_numbers(heads).rows(results.iter().enumerate().take(POINTS).map(row)))
+        .on_terminal();
+    match results.len().saturating_sub(POINTS) {
+        0 => section,
+        more => section.paragraph(format!("and {more} more points in results.csv")),
+    }
 }
 
 /// The points with their results.

@@ -1,7 +1,7 @@
 //! The report of a web: the web on a light table, what makes it uneven, and the figures.
 
-use super::advice::{advice_table, advice_words, is_known};
-use super::document::{Report, Section};
+use super::advice::{advice_commands, advice_table, advice_words, is_known};
+use super::document::{Part, Report, Section};
 use super::fabric::fabric_section;
 use super::guesses::guess_words;
 use super::light_table::{Fibres, Strands, picture_note, sheet};
@@ -15,7 +15,7 @@ use super::view::View;
 use super::words::{count, metres, millimetres};
 use crate::Failure;
 use crate::numbers::{THIN, number, plus_minus, significant};
-use crate::output::web::{Layer, PatchTable, Performance, Reader};
+use crate::output::web::{Layer, PatchTable, Performance, Reader, fabric_rows};
 use spunlaid::advice::Advice;
 use spunlaid::fabric::Fabric;
 use spunlaid::layers::WebSpec;
@@ -69,7 +69,10 @@ pub fn web_report<'a>(
         .lead(spun)
         .with(table)
         .with(uneven(spec, findings, advice))
+        .with(uneven_in_short(findings))
         .with(fabric_section(fabric))
+        .with(fabric_in_short(fabric))
+        .with(commands(findings, advice))
         .with(Section::of_figures(figures))
         .with_all(sections_of_web(web, layers, spinlines))
         .with(methods("web", account, found))
@@ -98,6 +101,38 @@ fn uneven(spec: &WebSpec, findings: &Findings, advice: Option<&Advice>) -> Secti
          number would come from the surrogate, whose CV is more than 5 % from that of the flown curves there. A faster belt makes the web \
          lighter, more filaments make it heavier.",
     )
+}
+
+/// The unevenness for a terminal.
+fn uneven_in_short(findings: &Findings) -> Section<'static> {
+    let PatchTable { heads, rows } = PatchTable::new(findings, Reader::Terminal);
+    let is_flown = |patch: &PatchFindings| patch.independent.is_none() && patch.flown.is_some();
+    let whole = if findings.patches.iter().any(is_flown) {
+        "of this map ± its standard error by all causes (chance, few fibres flown, model: the surrogate against the flown curves)"
+    } else if findings.patches.iter().any(|patch| patch.few.is_some()) {
+        "of the web of all filaments, from the flown ones, ± its standard error by all causes (chance, few filaments flown)"
+    } else {
+        "of this map ± its standard error by chance alone"
+    };
+    Section::new("", format!("Unevenness, CV in %: {whole}, and as expected"))
+        .table(Table::of_numbers(heads).rows(rows.into_iter().map(Row::from)))
+        .on_terminal()
+}
+
+/// A few numbers of the fabric for a terminal.
+fn fabric_in_short(fabric: &Fabric) -> Section<'static> {
+    let facts = fabric_rows(fabric).into_iter().map(|[name, value]| (name, value));
+    Section::new("", "Fabric, of the map and of the curves of the fibres")
+        .table(Table::of_facts(facts))
+        .paragraphs(fabric.notes.iter().cloned())
+        .on_terminal()
+}
+
+/// The commands that lay the webs of the changes which are named, for a terminal.
+fn commands(findings: &Findings, advice: Option<&Advice>) -> Section<'static> {
+    let all = advice.map_or_else(Vec::new, |advice| advice_commands(findings, advice));
+    let section = Section::new("", "These webs are laid by").on_terminal();
+    if all.is_empty() { section } else { section.with(Part::List(all)) }
 }
 
 /// What the errors of the CV are made of.

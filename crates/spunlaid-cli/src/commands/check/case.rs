@@ -21,6 +21,7 @@ use spunlaid_results::output::in_order::OrderedObject;
 use spunlaid_results::output::paraview::thinned;
 use spunlaid_results::output::spinline::{self, SpinResults, SpinSummary};
 use spunlaid_results::output::summary::resolved;
+use spunlaid_results::report::spinline_text;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -63,7 +64,7 @@ pub(super) fn spinline_alone(check: &Check) -> Result<(), Failure> {
         say::text(&spinline::Summary::new(&results.rows, &results.influences, &notes).to_json());
         return Ok(());
     }
-    let comments: Vec<String> = spinline::text(&results.rows, &[]).lines().map(str::to_owned).collect();
+    let comments: Vec<String> = spinline_text(&results).lines().map(str::to_owned).collect();
     show("spinline", &write_spinline(&file.spec), &comments, "spin", &check.source);
     Ok(())
 }

@@ -1,11 +1,11 @@
 //! `spunlaid sweep`: flies a study and writes its results.
 
 mod progress;
-mod table;
 
+use super::delivery::{Asides, making, say_replaced, tell};
 use super::flown::flown_and_kept;
 use super::interrupt::stop_on_ctrl_c;
-use super::{plural, run_control, say_report, stem};
+use super::{plural, run_control, stem};
 use crate::args::{Invocation, Sweep, overrides};
 use crate::failure::Failure;
 use crate::say;
@@ -15,10 +15,9 @@ use spunlaid::input::{StudyChanges, StudyFile, Unread, read_changed_study, write
 use spunlaid::spinline::{self, SpinSpec};
 use spunlaid::study::{Journal, Progress, ReplicateOutcome, Study, run};
 use spunlaid::threads::{lock, unlock};
-use spunlaid_results::folders::study::{State, StudyFolder, StudyResults};
+use spunlaid_results::folders::study::{State, StudyFolder};
 use spunlaid_results::folders::tensions::StudyTensions;
 use spunlaid_results::numbers::lost_fibres_text;
-use std::fs;
 use std::sync::Mutex;
 use std::sync::atomic::AtomicU64;
 
@@ -36,11 +35,11 @@ pub(crate) fn sweep(sweep: &Sweep, invocation: &Invocation) -> Result<(), Failur
     let kept = || StudyTensions::open(&path, sweep.output.force);
     let file = flown_and_kept(read, sweep.threads, sweep.output.quiet, kept)?;
     file.notes.iter().for_each(say::study_note);
-    let origin = invocation.origin(&[&sweep.study], &path);
+    let origin = invocation.origin_of([&sweep.study])(&path);
     let (mut folder, journal, found) =
         StudyFolder::open(&path, &file, sweep.output.force, origin.as_ref(), stop_on_ctrl_c())?;
     if folder.replaces() {
-        super::say_replaced(&path, sweep.output.quiet);
+        say_replaced(&path, &sweep.output);
     }
     folder.set_figures(&sweep.figures.files());
     report_found(sweep, &file.study, &found);
@@ -137,27 +136,15 @@ fn write(
     before: u64,
 ) -> Result<(), Failure> {
     let study = &file.study;
-    let name = stem(&sweep.study, "study").to_string_lossy();
-    let StudyResults { results, refusal } = folder.write(&name, file, journal)?;
-    let fibres: u64 = results.iter().map(|point| point.n + point.lost).sum();
-    if sweep.json {
-        let path = folder.path().join("results.json");
-        say::text(&fs::read_to_string(&path).map_err(Error::unwritable(&path))?);
-    } else if !sweep.output.quiet {
-        say::table(&table::results(study, &results));
-        if let Some(refusal) = &refusal {
-            say::line(&format!("the keys are not ranked: {refusal}"));
-        }
-        if before == fibres {
-            let noun = study.noun();
-            let done = if noun == "web" { "laid" } else { "flown" };
-            say::line(&format!(
-                "the study was already complete: no {noun} was {done}, and the files were written again"
-            ));
-        }
-        say::line(&format!("{} at {}", plural(fibres, study.noun()), plural(results.len() as u64, "point")));
-        say_report(folder.path());
-    }
+    let name = stem(&sweep.study, "study");
+    let (found, text) = folder.write(&name, file, journal, making(sweep.threads))?;
+    let fibres: u64 = found.results.iter().map(|point| point.n + point.lost).sum();
+    let noun = study.noun();
+    let done = if noun == "web" { "laid" } else { "flown" };
+    let complete =
+        format!("the study was already complete: no {noun} was {done}, and the files were written again");
+    let lines = &Vec::from_iter((before == fibres).then_some(complete));
+    tell(&found, (Some(folder.path()), &text), &sweep.output, Asides { lines, ..Asides::default() });
     lost(study, journal, fibres)
 }
 
