@@ -45,7 +45,7 @@ pub(crate) fn page(py: Python<'_>, contents: &impl Contents) -> PyResult<String>
 pub(crate) fn figure_files((figures, width): Figures<'_>) -> PyResult<FigureFiles> {
     let usual = FigureFiles::default();
     let formats = match figures {
-        None => usual.formats,
+        None => usual.formats.clone(),
         Some(figures) => names(&figures)?
             .iter()
             .map(|name| Format::named(name))
@@ -62,7 +62,7 @@ pub(crate) fn figure_files((figures, width): Figures<'_>) -> PyResult<FigureFile
     });
     let width = width.transpose()?.map(|text| width_named(&text)).transpose();
     let width = width.map_err(|text| PyValueError::new_err(format!("figure_width: {text}")))?;
-    Ok(FigureFiles { formats, width })
+    Ok(FigureFiles { formats, width, ..usual })
 }
 
 /// Refuses figures that could not be written after a long flight.

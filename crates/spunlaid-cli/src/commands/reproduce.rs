@@ -30,7 +30,8 @@ use std::sync::atomic::AtomicU64;
 const FIGURES: [&str; 9] = ["2", "3", "8a", "8b", "9", "10", "11a", "11b", "11c"];
 
 pub(crate) fn reproduce(arguments: &Reproduce, invocation: &Invocation) -> Result<(), Failure> {
-    let formats: Vec<Format> = arguments.figures.iter().filter_map(|name| Format::named(name).ok()).collect();
+    let formats: Vec<&Format> =
+        arguments.figures.iter().filter_map(|name| Format::named(name).ok()).collect();
     let wanted = chosen(arguments.figures.iter().filter(|name| Format::named(name).is_err()).collect())?;
     let scheme = match arguments.scheme {
         SchemeName::SemiImplicitEuler => Scheme::SemiImplicitEuler,

@@ -5,11 +5,12 @@ use super::journalled::{JournalFolder, Work};
 use crate::Failure;
 use crate::failure::other_version;
 use crate::figures::fit_figures;
-use crate::output::fit::{fit_json, trials_csv};
+use crate::output::fit::{fit_json, write_trials};
 use crate::output::folder::{CASE_FILES, Staging};
 use crate::output::kept_input::Input;
 use crate::output::origin::Origin;
 use crate::output::pictures::FigureFiles;
+use crate::output::table::TABLES;
 use crate::report::fit_report;
 use spunlaid::error::Fault;
 use spunlaid::fit::{Fit, MOST_TRIALS, Target, identity, numbers_of_record};
@@ -19,7 +20,8 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 /// The files of a fit, with the cases of earlier versions; the last one marks it as complete.
-const FILES: &[&str] = &["web.toml", "cases", CASE_FILES, "trials.csv", "figures", "report.html", "fit.json"];
+const FILES: &[&str] =
+    &["web.toml", "cases", CASE_FILES, "trials.csv", TABLES, "figures", "report.html", "fit.json"];
 /// A results folder that this process has locked.
 #[derive(Debug)]
 pub struct FitFolder<'a> {
@@ -142,6 +144,6 @@ impl Contents for FoundFit<'_> {
             let report = fit_report(self.fit, (paths[1], target), (self.spec, input), &figures);
             Ok(report.named(name).noting(notes))
         };
-        maker.finish(&figures, |staging| staging.write("trials.csv", trials_csv(self.fit)), report)
+        maker.finish(&figures, |staging| write_trials(staging, self.fit), report)
     }
 }

@@ -3,7 +3,7 @@
 use super::contents::{Contents, Maker, Page};
 use crate::Failure;
 use crate::figures::record_figures;
-use crate::output::analysis::{air_block, analysis_json, autocorrelation_csv, spectrum_csv};
+use crate::output::analysis::{air_block, analysis_json, write_curves};
 use crate::output::folder::{ENTRIES, Staging};
 use crate::report::analysis_report;
 use spunlaid::record::{Analysis, Record};
@@ -33,8 +33,7 @@ impl Contents for RecordFolder<'_> {
         let Self { name, record, analysis, remarks } = *self;
         let (figures, air) = (record_figures(record, analysis), air_block(&record.file, analysis));
         let files = |staging: &Staging<'_>| {
-            staging.write("spectrum.csv", spectrum_csv(analysis))?;
-            staging.write("autocorrelation.csv", autocorrelation_csv(analysis))?;
+            write_curves(staging, analysis)?;
             staging.write("air.toml", &air)
         };
         let report = || Ok(analysis_report(record, analysis, &figures, remarks, &air).named(name));

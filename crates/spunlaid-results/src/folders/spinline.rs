@@ -7,6 +7,7 @@ use crate::output::folder::CASE_FILES;
 use crate::output::kept_input::Input;
 use crate::output::origin::ORIGIN;
 use crate::output::spinline::{STATIONS, SpinResults, Summary, write_stations};
+use crate::output::table::TABLES;
 use crate::report::spinline_report;
 use spunlaid::input::SpinFile;
 
@@ -25,7 +26,7 @@ pub struct SpinFolder<'a> {
 
 impl Contents for SpinFolder<'_> {
     const ENTRIES: &'static [&'static str] =
-        &[ORIGIN, "spinline.toml", CASE_FILES, STATIONS, "figures", "report.html", "summary.json"];
+        &[ORIGIN, "spinline.toml", CASE_FILES, STATIONS, TABLES, "figures", "report.html", "summary.json"];
 
     fn summary(&self) -> String {
         Summary::new(&self.results.rows, &self.results.influences, self.notes).to_json()

@@ -10,6 +10,7 @@ use crate::output::kept_input::copy;
 use crate::output::origin::Origin;
 use crate::output::pictures::FigureFiles;
 use crate::output::study::write_json;
+use crate::output::table::TABLES;
 use crate::output::{self};
 use crate::report::study_report;
 use spunlaid::case::MOST_REPLICATES;
@@ -29,8 +30,15 @@ pub(super) const TENSIONS: &str = "tensions";
 /// What a study may have left that was killed before its journal existed.
 const REMAINS: &[&str] = &[CASE_FILES, "case.toml", "web.toml", "spinline.toml", STUDY, TENSIONS];
 /// Files that are made from the journal; the last one marks them as complete.
-const MADE: &[&str] =
-    &["results.csv", "results.json", "results.parquet", "replicates.parquet", "figures", "report.html"];
+const MADE: &[&str] = &[
+    "results.csv",
+    "results.json",
+    "results.parquet",
+    "replicates.parquet",
+    TABLES,
+    "figures",
+    "report.html",
+];
 /// Files of other results, and the journal that studies of webs had before they were like all others.
 const OF_OTHERS: &[&str] =
     &["summary.json", "end_node.parquet", "energy.parquet", "analysis.json", "webs.jsonl"];

@@ -7,6 +7,7 @@ use crate::output::folder::{CASE_FILES, Staging};
 use crate::output::kept_input::Input;
 use crate::output::origin::ORIGIN;
 use crate::output::spinline::{STATIONS, SpinResults, SpinSummary, write_stations};
+use crate::output::table::TABLES;
 use crate::output::web::{self, Layer, Performance, Summary};
 use crate::report::{LayerSpinline, web_report};
 use spunlaid::advice::Advice;
@@ -58,6 +59,7 @@ impl Contents for WebFolder<'_> {
         "map.parquet",
         "fibres.vtp",
         STATIONS,
+        TABLES,
         "figures",
         "report.html",
         "summary.json",

@@ -1,6 +1,9 @@
 //! `fit.json`, `trials.csv` and the table of the terminal: which values make webs like the scan.
 
+use super::folder::Staging;
 use super::json_text;
+use super::table::{Table, Value, number, whole};
+use crate::Failure;
 use crate::numbers::significant;
 use serde_json::{Value as Json, json};
 use spunlaid::fit::{
@@ -75,16 +78,19 @@ pub fn fit_json(fit: &Fit, target: &Target, [web, scan]: [&str; 2], notes: &[Str
     }))
 }
 
-/// The text of `trials.csv`: a row for each trial.
-pub fn trials_csv(fit: &Fit) -> String {
-    let heads =
-        fit.keys.iter().map(|key| format!("{}{}", key.parameter.key, key.parameter.dimension.suffix()));
-    let mut text = format!("trial,{},misfit\n", heads.collect::<Vec<_>>().join(","));
-    for (number, trial) in (1..).zip(&fit.trials) {
-        let values: Vec<String> = trial.values.iter().map(f64::to_string).collect();
-        text.push_str(&format!("{number},{},{}\n", values.join(","), trial.misfit));
+/// Writes `trials.csv`: a row for each trial.
+///
+/// # Errors
+/// If it cannot be written.
+pub fn write_trials(staging: &Staging<'_>, fit: &Fit) -> Result<(), Failure> {
+    let key = |key: &FittedKey| number(key.parameter.key.clone() + &key.parameter.dimension.suffix());
+    let columns = [whole("trial")].into_iter().chain(fit.keys.iter().map(key)).chain([number("misfit")]);
+    let mut table = Table::create(staging, "trials", &["csv"], &columns.collect::<Vec<_>>())?;
+    for (trial, found) in (1..).zip(&fit.trials) {
+        let numbers = found.values.iter().chain([&found.misfit]).map(|value| Value::Number(*value));
+        table.add(&[Value::Whole(trial)].into_iter().chain(numbers).collect::<Vec<_>>())?;
     }
-    text
+    table.finish()
 }
 
 /// Why the value of a key is not to be trusted, in words.

@@ -3,6 +3,7 @@
 use super::leftovers::{self, Claim};
 use super::origin::{ORIGIN, Origin};
 use super::pictures::FigureFiles;
+use super::table::{TABLES, TableFormat};
 use crate::Failure;
 use crate::failure::{holds_files_of_others, holds_results, not_a_folder};
 use spunlaid_charts::Figure;
@@ -22,6 +23,7 @@ pub const ENTRIES: &[&str] = &[
     "laid.parquet",
     "laid.vtp",
     "spinline.parquet",
+    TABLES,
     "shape.pvd",
     "shape",
     "figures",
@@ -163,6 +165,19 @@ impl<'a> Staging<'a> {
         self.staging.join(SCRATCH)
     }
 
+    /// The present and the final path of a file, whose parent folders are there.
+    pub(super) fn begin(&self, name: &str) -> Result<(PathBuf, PathBuf), Failure> {
+        self.go_on()?;
+        let (now, later) = self.place(name);
+        now.parent().map_or(Ok(()), fs::create_dir_all).map_err(Failure::unwritable(&later))?;
+        Ok((now, later))
+    }
+
+    /// The formats in which tables are written besides the usual ones.
+    pub(super) fn tables(&self) -> &[&'static TableFormat] {
+        &self.figures.tables
+    }
+
     /// Writes a file and creates its parent folders.
     pub fn write(&self, name: &str, content: impl AsRef<[u8]>) -> Result<(), Failure> {
         self.write_with(name, |file| file.write_all(content.as_ref()))
@@ -174,11 +189,8 @@ impl<'a> Staging<'a> {
         name: &str,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Failure> {
-        self.go_on()?;
-        let (now, later) = self.place(name);
-        now.parent()
-            .map_or(Ok(()), fs::create_dir_all)
-            .and_then(|()| fs::File::create(&now))
+        let (now, later) = self.begin(name)?;
+        fs::File::create(&now)
             .map(BufWriter::new)
             .and_then(|mut file| write(&mut file).and_then(|()| file.flush()))
             .map_err(Failure::unwritable(&later))

@@ -15,12 +15,12 @@ pub mod measured;
 mod neighbours;
 pub mod origin;
 pub mod paraview;
-mod parquet;
 pub mod pictures;
 mod spill;
 pub mod spinline;
 pub mod study;
 pub mod summary;
+pub mod table;
 pub mod tables;
 pub mod web;
 

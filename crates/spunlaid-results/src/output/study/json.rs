@@ -1,7 +1,8 @@
 //! `results.json`: the points with their results, and the ranking.
 
 use super::super::in_order::OrderedObject;
-use super::columns::{Value, values};
+use super::super::table::Value;
+use super::columns::values;
 use serde::Serialize;
 use serde_json::Value as Json;
 use spunlaid::study::{Effect, PointResults, Ranking, Rankings, Study};
