@@ -1,9 +1,11 @@
 //! How a command delivers what it has found: into its folder, then as JSON or as lines of the terminal.
 
 use super::interrupt::stop_on_ctrl_c;
+use super::plural;
 use crate::args::{Output, Threads};
 use crate::failure::Failure;
 use crate::say;
+use spunlaid::study::JournalState;
 use spunlaid_results::folders::{Contents, Making, Written};
 use spunlaid_results::output::folder::{Published, Staging};
 use spunlaid_results::output::origin::Origin;
@@ -142,5 +144,21 @@ pub(super) fn say_replaced(folder: &Path, output: &Output) {
         let replaced =
             format!("{}: holds earlier results of this command, which are replaced", folder.display());
         say::remark(false, &replaced);
+    }
+}
+
+/// Says what has been done before of work that goes on.
+///
+/// * `done` – how much of it
+/// * `noun` – of which a record of the journal is
+pub(super) fn say_continued(found: &JournalState, done: &str, noun: &str, output: &Output) {
+    if !output.quiet {
+        say::aside(&format!("continuing: {done}"));
+    }
+    if found.damaged > 0 {
+        let records = plural(found.damaged, "record");
+        say::warning(&format!(
+            "the journal has damaged records ({records}); these {noun}s are made again, all others are kept"
+        ));
     }
 }

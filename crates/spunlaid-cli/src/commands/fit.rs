@@ -1,6 +1,6 @@
 //! `spunlaid fit`: which values of some keys make a web like a scan?
 
-use super::delivery::{Asides, making, say_replaced, tell};
+use super::delivery::{Asides, making, say_continued, say_replaced, tell};
 use super::flown::flown;
 use super::interrupt::stop_on_ctrl_c;
 use super::{lay_control, plural, stem};
@@ -12,7 +12,7 @@ use spunlaid::error::Error;
 use spunlaid::fit::{Fit, Question, Target, WebInProgress, fit as find};
 use spunlaid::input::{FitFile, read_fit};
 use spunlaid::layers::{Flights, Flyer};
-use spunlaid::study::{Journal, JournalState};
+use spunlaid::study::Journal;
 use spunlaid_results::folders::fit::{FitFolder, FitInput, FoundFit};
 use spunlaid_results::folders::read_measured_web;
 use spunlaid_results::output::fit::pretty;
@@ -44,7 +44,10 @@ pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), 
     if folder.replaces() {
         say_replaced(&path, &arguments.output);
     }
-    report_found(arguments, state);
+    if let Some(state) = state {
+        let done = format!("{} already laid", plural(state.fibres, "web"));
+        say_continued(&state, &done, "web", &arguments.output);
+    }
     let found = search(arguments, &file, &target, &mut journal).map_err(|error| match error {
         Error::Interrupted => Failure::Paused { done: journal.total(), what: "webs", total: None },
         other => other.into(),
@@ -59,17 +62,6 @@ pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), 
     let asides = Asides { lines, ..Asides::default() };
     tell(&contents, (Some(&path), &text), &arguments.output, asides);
     Ok(())
-}
-
-fn report_found(arguments: &args::Fit, state: Option<JournalState>) {
-    let Some(JournalState { fibres, damaged, .. }) = state else { return };
-    if !arguments.output.quiet {
-        say::aside(&format!("continuing: {} already laid", plural(fibres, "web")));
-    }
-    if damaged > 0 {
-        let records = plural(damaged, "record");
-        say::warning(&format!("the journal has damaged records ({records}); these webs are laid again"));
-    }
 }
 
 /// Columns of what stands before the words of the bar.

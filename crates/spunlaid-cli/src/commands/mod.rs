@@ -24,11 +24,9 @@ pub(crate) mod web;
 use crate::args::{Threads, is_standard};
 use crate::say;
 use interrupt::stop_on_ctrl_c;
-use serde::Serialize;
 use spunlaid::ensemble::RunControl;
 use spunlaid::lanes::Isa;
 use spunlaid::web::LayControl;
-use spunlaid_results::output::json_text;
 use std::path::Path;
 use std::sync::atomic::AtomicU64;
 
@@ -50,18 +48,6 @@ fn run_control(threads: Threads, fibre_steps: &AtomicU64) -> RunControl<'_> {
 /// How a web is laid; Ctrl-C ends it.
 fn lay_control(threads: Threads, laid: &AtomicU64) -> LayControl<'_> {
     LayControl { threads: threads.number(), isa: Isa::detect(), stop: stop_on_ctrl_c(), laid }
-}
-
-/// A text of JSON that says which version wrote it.
-fn versioned_json(content: &impl Serialize) -> String {
-    #[derive(Serialize)]
-    struct Versioned<'a, T> {
-        schema_version: u32,
-        spunlaid_version: &'static str,
-        #[serde(flatten)]
-        content: &'a T,
-    }
-    json_text(&Versioned { schema_version: 1, spunlaid_version: env!("CARGO_PKG_VERSION"), content })
 }
 
 /// `1 fibre`, `2 fibres`.

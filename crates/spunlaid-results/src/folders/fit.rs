@@ -3,7 +3,6 @@
 use super::contents::{Contents, Maker, Making, Page};
 use super::journalled::{JournalFolder, Work};
 use crate::Failure;
-use crate::failure::other_version;
 use crate::figures::fit_figures;
 use crate::output::fit::{fit_json, write_trials};
 use crate::output::folder::{CASE_FILES, Staging};
@@ -71,30 +70,16 @@ impl<'a> FitFolder<'a> {
         stop: &'a AtomicBool,
     ) -> Result<(Self, Journal, Option<JournalState>), Failure> {
         let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: input.identity() };
-        let (at, mut journal, header) = JournalFolder::open(
-            path,
-            &Work { header: &wanted, entries: &[FILES], description: &[], force, origin },
-        )?;
-        let path = at.place.as_path();
-        let numbers = numbers_of_record(input.target);
-        let state = match header {
-            None => {
-                at.sign(origin)?;
-                journal.begin(&wanted, MOST_TRIALS, numbers)?;
-                None
-            }
-            Some(found) if found.version != wanted.version => {
-                return Err(other_version(path, &found.version));
-            }
-            Some(found) if found != wanted => {
-                let fault = Fault::new(
-                    "holds a fit of another web, to another scan, of other keys or ranges, or with another number of webs",
-                    "name another folder, or start again",
-                );
-                return Err(Failure::folder(path, fault.option("--out, --force")));
-            }
-            Some(_) => Some(journal.go_on(MOST_TRIALS, input.webs, numbers)?),
+        let size = (MOST_TRIALS, input.webs, numbers_of_record(input.target));
+        let work = Work { header: &wanted, entries: &[FILES], description: &[], force, origin, size };
+        let other = |path: &Path| {
+            let fault = Fault::new(
+                "holds a fit of another web, to another scan, of other keys or ranges, or with another number of webs",
+                "name another folder, or start again",
+            );
+            Failure::folder(path, fault.option("--out, --force"))
         };
+        let (at, journal, state) = JournalFolder::open(path, &work, |_| Ok(()), other)?;
         Ok((Self { at, stop, figures: FigureFiles::default() }, journal, state))
     }
 

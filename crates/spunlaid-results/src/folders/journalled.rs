@@ -8,11 +8,11 @@
 //! ```
 
 use crate::Failure;
-use crate::failure::not_a_folder;
+use crate::failure::{not_a_folder, other_version};
 use crate::output::folder::{MARKS, refuse_others};
 use crate::output::leftovers;
 use crate::output::origin::{ORIGIN, Origin};
-use spunlaid::study::{Header, Journal};
+use spunlaid::study::{Header, Journal, JournalState};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
@@ -49,11 +49,43 @@ pub(super) struct Work<'a> {
     pub(super) force: bool,
     /// The command that does it, if it may replace what it made before.
     pub(super) origin: Option<&'a Origin>,
+    /// Most points, most replicates of a point, and numbers of a replicate.
+    pub(super) size: (usize, u64, usize),
 }
 
 impl JournalFolder {
+    /// Opens the folder and its journal to begin the work, or to go on with it. Returns what the journal holds, if it has begun.
+    ///
+    /// * `begin` – what is done in the folder before the journal begins
+    /// * `other` – the error if the folder holds other work
+    pub(super) fn open(
+        path: &Path,
+        work: &Work<'_>,
+        begin: impl FnOnce(&Path) -> Result<(), Failure>,
+        other: impl FnOnce(&Path) -> Failure,
+    ) -> Result<(Self, Journal, Option<JournalState>), Failure> {
+        let (at, mut journal, header) = Self::find(path, work)?;
+        let (points, replicates, numbers) = work.size;
+        let state = match header {
+            None => {
+                begin(&at.place)?;
+                at.sign(work.origin)?;
+                journal.begin(work.header, points, numbers)?;
+                // The new file must survive a power cut. Some systems cannot sync folders, so an error is ignored.
+                let _ = fs::File::open(&at.place).and_then(|folder| folder.sync_all());
+                None
+            }
+            Some(found) if found.version != work.header.version => {
+                return Err(other_version(&at.place, &found.version));
+            }
+            Some(found) if found != *work.header => return Err(other(&at.place)),
+            Some(_) => Some(journal.go_on(points, replicates, numbers)?),
+        };
+        Ok((at, journal, state))
+    }
+
     /// Opens the folder and its journal. Returns how the journal begins, if it has begun.
-    pub(super) fn open(path: &Path, work: &Work<'_>) -> Result<(Self, Journal, Option<Header>), Failure> {
+    fn find(path: &Path, work: &Work<'_>) -> Result<(Self, Journal, Option<Header>), Failure> {
         if path.exists() && !path.is_dir() {
             return Err(not_a_folder(path));
         }
@@ -86,7 +118,7 @@ impl JournalFolder {
     }
 
     /// Notes which command the results are of.
-    pub(super) fn sign(&self, origin: Option<&Origin>) -> Result<(), Failure> {
+    fn sign(&self, origin: Option<&Origin>) -> Result<(), Failure> {
         let file = self.place.join(ORIGIN);
         match origin {
             Some(origin) => fs::write(&file, origin.text()).map_err(Failure::unwritable(&file)),

@@ -3,16 +3,13 @@
 use super::contents::{Contents, Maker, Page};
 use crate::Failure;
 use crate::output::folder::ENTRIES;
-use crate::output::json_text;
 use crate::output::kept_input::Input;
+use crate::output::versioned_json;
 use crate::report::paper_report;
 use serde_json::json;
 use spunlaid::case::Case;
 use spunlaid::paper::Claim;
 use spunlaid_charts::Figure;
-
-/// Version of the layout of the summary. It increases when a field is renamed or removed or changes its meaning.
-const SCHEMA_VERSION: u32 = 1;
 
 /// Everything of the paper that goes into the files.
 #[derive(Clone, Copy, Debug)]
@@ -33,10 +30,7 @@ impl Contents for PaperFolder<'_> {
     const ENTRIES: &'static [&'static str] = ENTRIES;
 
     fn summary(&self) -> String {
-        let version = env!("CARGO_PKG_VERSION");
-        json_text(
-            &json!({"schema_version": SCHEMA_VERSION, "spunlaid_version": version, "claims": self.claims}),
-        )
+        versioned_json(1, &json!({"claims": self.claims}))
     }
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {

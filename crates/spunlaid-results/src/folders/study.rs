@@ -3,7 +3,7 @@
 use super::contents::{Contents, Maker, Making, Page};
 use super::journalled::{JOURNAL, JournalFolder, Work, remove};
 use crate::Failure;
-use crate::failure::{other_study, other_version};
+use crate::failure::other_study;
 use crate::figures::study_figures;
 use crate::output::folder::{self, CASE_FILES, MARKS, Staging};
 use crate::output::kept_input::copy;
@@ -52,17 +52,8 @@ pub struct StudyFolder<'a> {
     figures: FigureFiles,
 }
 
-/// The content of the folder when it was opened.
-#[derive(Debug)]
-pub enum State {
-    /// Nothing of this study.
-    New,
-    /// Its journal.
-    Begun(JournalState),
-}
-
 impl<'a> StudyFolder<'a> {
-    /// Opens the folder to begin a study, or to continue the same study.
+    /// Opens the folder to begin a study, or to continue the same study. Returns its journal, and what that holds if there was one.
     ///
     /// * `force` – what the folder holds is replaced
     /// * `origin` – the command that asks; a complete study that the same one made before is replaced too, when this one is complete
@@ -76,49 +67,30 @@ impl<'a> StudyFolder<'a> {
         force: bool,
         origin: Option<&Origin>,
         stop: &'a AtomicBool,
-    ) -> Result<(Self, Journal, State), Failure> {
+    ) -> Result<(Self, Journal, Option<JournalState>), Failure> {
         let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: file.study.identity() };
-        let (at, mut journal, header) = JournalFolder::open(
-            path,
-            &Work { header: &wanted, entries: &[DESCRIPTION, MADE], description: REMAINS, force, origin },
-        )?;
-        let folder = Self { at, stop, figures: FigureFiles::default() };
-        let path = folder.at.place.as_path();
-        let state = match header {
-            None => {
-                folder.begin(file)?;
-                folder.at.sign(origin)?;
-                journal.begin(&wanted, file.study.points.len(), file.study.quantities.len())?;
-                // The new file must survive a power cut. Some systems cannot sync folders, so an error is ignored.
-                let _ = fs::File::open(path).and_then(|folder| folder.sync_all());
-                State::New
+        let size = (file.study.points.len(), MOST_REPLICATES, file.study.quantities.len());
+        let entries = &[DESCRIPTION, MADE];
+        let work = Work { header: &wanted, entries, description: REMAINS, force, origin, size };
+        let begin = |place: &Path| begin(place, file, stop);
+        let (at, journal, found) = JournalFolder::open(path, &work, begin, |place| differs(place, file))?;
+        if found.is_some() {
+            let (stored, most) = (journal.most_held(), file.study.replicates.at_most);
+            if stored > most {
+                let fault = Fault::new(
+                    format!("holds {stored} replicates of a point, more than the {most} of this study"),
+                    format!("ask for {stored} or more, name another folder, or start again"),
+                );
+                let options = format!("--replicates {stored}, --out, --force");
+                return Err(Failure::folder(&at.place, fault.option(options)));
             }
-            Some(found) if found.version != wanted.version => {
-                return Err(other_version(path, &found.version));
+            // These files follow from the study, so they are restored if someone has removed them. They are renewed for more replicates.
+            let was = fs::read_to_string(at.place.join(STUDY)).unwrap_or_default();
+            if was != file.text || !at.place.join(file.base_name()).exists() {
+                describe(&at.place, file, stop)?;
             }
-            Some(found) if found != wanted => return Err(folder.other(file)),
-            Some(_) => {
-                let points = file.study.points.len();
-                let found = journal.go_on(points, MOST_REPLICATES, file.study.quantities.len())?;
-                let (stored, most) = (journal.most_held(), file.study.replicates.at_most);
-                if stored > most {
-                    let fault = Fault::new(
-                        format!("holds {stored} replicates of a point, more than the {most} of this study"),
-                        format!("ask for {stored} or more, name another folder, or start again"),
-                    );
-                    let options = format!("--replicates {stored}, --out, --force");
-                    return Err(Failure::folder(path, fault.option(options)));
-                }
-                // These files follow from the study, so they are restored if someone has removed them. They are
-                // renewed for more replicates.
-                let was = fs::read_to_string(path.join(STUDY)).unwrap_or_default();
-                if was != file.text || !path.join(file.base_name()).exists() {
-                    folder.describe(file)?;
-                }
-                State::Begun(found)
-            }
-        };
-        Ok((folder, journal, state))
+        }
+        Ok((Self { at, stop, figures: FigureFiles::default() }, journal, found))
     }
 
     /// From now on, figures are written like this.
@@ -159,31 +131,29 @@ impl<'a> StudyFolder<'a> {
         self.at.finish()?;
         Ok((found, written.text))
     }
+}
 
-    /// Removes the files of an earlier study, and describes this one.
-    fn begin(&self, file: &StudyFile) -> Result<(), Failure> {
-        for name in OF_OTHERS.iter().chain(MADE) {
-            remove(&self.at.place.join(name))?;
-        }
-        self.describe(file)
-    }
+/// Removes the files of an earlier study, and describes this one.
+fn begin(place: &Path, file: &StudyFile, stop: &AtomicBool) -> Result<(), Failure> {
+    OF_OTHERS.iter().chain(MADE).try_for_each(|name| remove(&place.join(name)))?;
+    describe(place, file, stop)
+}
 
-    fn describe(&self, file: &StudyFile) -> Result<(), Failure> {
-        let staging = Staging::new(&self.at.place, DESCRIPTION, true, self.stop)?;
-        staging.write(file.base_name(), keep_files(file, &staging)?)?;
-        staging.write(STUDY, &file.text)?;
-        staging.publish()
-    }
+fn describe(place: &Path, file: &StudyFile, stop: &AtomicBool) -> Result<(), Failure> {
+    let staging = Staging::new(place, DESCRIPTION, true, stop)?;
+    staging.write(file.base_name(), keep_files(file, &staging)?)?;
+    staging.write(STUDY, &file.text)?;
+    staging.publish()
+}
 
-    /// The error that lists how the study in this folder differs.
-    fn other(self, file: &StudyFile) -> Failure {
-        let mut all = Vec::new();
-        for (name, now) in [(STUDY, &file.text), (file.base_name(), &file.base_text)] {
-            let was = fs::read_to_string(self.at.place.join(name)).unwrap_or_default();
-            all.extend(differences(&was, now).into_iter().map(|line| format!("{name}: {line}")));
-        }
-        other_study(&self.at.place, all)
+/// The error that lists how the study in a folder differs.
+fn differs(place: &Path, file: &StudyFile) -> Failure {
+    let mut all = Vec::new();
+    for (name, now) in [(STUDY, &file.text), (file.base_name(), &file.base_text)] {
+        let was = fs::read_to_string(place.join(name)).unwrap_or_default();
+        all.extend(differences(&was, now).into_iter().map(|line| format!("{name}: {line}")));
     }
+    other_study(place, all)
 }
 
 /// A study, and what was found. The tables are made from its journal.

@@ -1,17 +1,14 @@
 //! `fit.json`, `trials.csv` and the table of the terminal: which values make webs like the scan.
 
 use super::folder::Staging;
-use super::json_text;
 use super::table::{Table, Value, number, whole};
+use super::versioned_json;
 use crate::Failure;
 use crate::numbers::significant;
 use serde_json::{Value as Json, json};
 use spunlaid::fit::{
     Fit, FittedKey, FittedNumber, IntervalEnd, KeyDoubt, Parameter, Target, Texture, USUAL_WEBS,
 };
-
-/// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
-const SCHEMA_VERSION: u32 = 1;
 
 /// The text of `fit.json`.
 ///
@@ -56,26 +53,27 @@ pub fn fit_json(fit: &Fit, target: &Target, [web, scan]: [&str; 2], notes: &[Str
     let refused = fit.refused.iter().map(|(values, reason)| json!({"values": values, "reason": reason}));
     let trials = fit.trials.iter().map(|trial| json!({"values": trial.values, "misfit": trial.misfit}));
     let [width, length] = target.sides();
-    json_text(&json!({
-        "schema_version": SCHEMA_VERSION,
-        "spunlaid_version": env!("CARGO_PKG_VERSION"),
-        "web": web,
-        "scan": scan,
-        "compared_width_m": width,
-        "compared_length_m": length,
-        "webs_per_trial": fit.webs,
-        "webs_with_larger_misfit": fit.worse,
-        "misfit_start": fit.misfit[0],
-        "misfit": fit.misfit[1],
-        "settled": fit.settled,
-        "keys": fit.keys.iter().map(key).collect::<Vec<_>>(),
-        "correlations": fit.correlations,
-        "alike": alike.collect::<Vec<_>>(),
-        "numbers": fit.numbers.iter().map(number).collect::<Vec<_>>(),
-        "trials": trials.collect::<Vec<_>>(),
-        "refused": refused.collect::<Vec<_>>(),
-        "notes": notes,
-    }))
+    versioned_json(
+        1,
+        &json!({
+            "web": web,
+            "scan": scan,
+            "compared_width_m": width,
+            "compared_length_m": length,
+            "webs_per_trial": fit.webs,
+            "webs_with_larger_misfit": fit.worse,
+            "misfit_start": fit.misfit[0],
+            "misfit": fit.misfit[1],
+            "settled": fit.settled,
+            "keys": fit.keys.iter().map(key).collect::<Vec<_>>(),
+            "correlations": fit.correlations,
+            "alike": alike.collect::<Vec<_>>(),
+            "numbers": fit.numbers.iter().map(number).collect::<Vec<_>>(),
+            "trials": trials.collect::<Vec<_>>(),
+            "refused": refused.collect::<Vec<_>>(),
+            "notes": notes,
+        }),
+    )
 }
 
 /// Writes `trials.csv`: a row for each trial.

@@ -26,6 +26,20 @@ pub mod web;
 
 use serde::Serialize;
 
+/// The text of a JSON file that says which version of the program wrote it.
+///
+/// * `layout` – version of the layout; it increases when a field is renamed or removed or changes its meaning
+pub fn versioned_json(layout: u32, content: &impl Serialize) -> String {
+    #[derive(Serialize)]
+    struct Versioned<'a, T> {
+        schema_version: u32,
+        spunlaid_version: &'static str,
+        #[serde(flatten)]
+        content: &'a T,
+    }
+    json_text(&Versioned { schema_version: layout, spunlaid_version: env!("CARGO_PKG_VERSION"), content })
+}
+
 /// The text of a JSON file.
 pub fn json_text(value: &impl Serialize) -> String {
     // Serialising plain numbers and strings into memory cannot fail.

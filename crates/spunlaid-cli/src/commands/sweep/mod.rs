@@ -2,7 +2,7 @@
 
 mod progress;
 
-use super::delivery::{Asides, making, say_replaced, tell};
+use super::delivery::{Asides, making, say_continued, say_replaced, tell};
 use super::flown::flown_and_kept;
 use super::interrupt::stop_on_ctrl_c;
 use super::{plural, run_control, stem};
@@ -13,9 +13,9 @@ use spunlaid::case::keys;
 use spunlaid::error::{Error, Fault};
 use spunlaid::input::{StudyChanges, StudyFile, Unread, read_changed_study, write_experiment};
 use spunlaid::spinline::{self, SpinSpec};
-use spunlaid::study::{Journal, Progress, ReplicateOutcome, Study, run};
+use spunlaid::study::{Journal, JournalState, Progress, ReplicateOutcome, Study, run};
 use spunlaid::threads::{lock, unlock};
-use spunlaid_results::folders::study::{State, StudyFolder};
+use spunlaid_results::folders::study::StudyFolder;
 use spunlaid_results::folders::tensions::StudyTensions;
 use spunlaid_results::numbers::lost_fibres_text;
 use std::sync::Mutex;
@@ -42,7 +42,7 @@ pub(crate) fn sweep(sweep: &Sweep, invocation: &Invocation) -> Result<(), Failur
         say_replaced(&path, &sweep.output);
     }
     folder.set_figures(&sweep.figures.files());
-    report_found(sweep, &file.study, &found);
+    report_found(sweep, &file.study, found);
 
     let journal = Mutex::new(journal);
     let before = lock(&journal).total();
@@ -75,38 +75,25 @@ fn print_point(study: &Study, number: u64) -> Result<(), Failure> {
     Ok(())
 }
 
-fn report_found(sweep: &Sweep, study: &Study, found: &State) {
-    match found {
-        State::New => {
-            let phases = match (study.noun(), study.common_phases) {
-                ("web" | "spinline", _) => "",
-                (_, true) => ", common phases",
-                (_, false) => ", independent phases",
-            };
+/// Says what will be done, or what of it has been done before.
+fn report_found(sweep: &Sweep, study: &Study, found: Option<JournalState>) {
+    let Some(found) = found else {
+        let phases = match (study.noun(), study.common_phases) {
+            ("web" | "spinline", _) => "",
+            (_, true) => ", common phases",
+            (_, false) => ", independent phases",
+        };
+        if !sweep.output.quiet {
             let points = plural(study.points.len() as u64, "point");
-            if !sweep.output.quiet {
-                say::aside(&format!("{points}, each with {}{phases}", times(study)));
-            }
+            say::aside(&format!("{points}, each with {}{phases}", times(study)));
         }
-        State::Begun(found) => {
-            let done = plural(found.fibres, study.noun());
-            if !sweep.output.quiet {
-                say::aside(&format!("continuing: {done} of {} already done", study.most_fibres()));
-            }
-            if found.damaged > 0 {
-                let records = plural(found.damaged, "record");
-                say::warning(&format!(
-                    "the journal has damaged records ({records}); these {}s are made again, all others are kept",
-                    study.noun()
-                ));
-            }
-            if found.torn {
-                let noun = study.noun();
-                say::aside(&format!(
-                    "the last record of the journal was incomplete; its {noun} is made again"
-                ));
-            }
-        }
+        return;
+    };
+    let noun = study.noun();
+    let done = format!("{} of {} already done", plural(found.fibres, noun), study.most_fibres());
+    say_continued(&found, &done, noun, &sweep.output);
+    if found.torn {
+        say::aside(&format!("the last record of the journal was incomplete; its {noun} is made again"));
     }
 }
 
