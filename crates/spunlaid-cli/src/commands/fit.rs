@@ -13,7 +13,7 @@ use spunlaid::fit::{Fit, Question, Target, WebInProgress, fit as find};
 use spunlaid::input::{FitFile, read_fit};
 use spunlaid::layers::{Flights, Flyer};
 use spunlaid::study::Journal;
-use spunlaid_results::folders::fit::{FitFolder, FitInput, FoundFit};
+use spunlaid_results::folders::fit::{self, FitInput, FoundFit};
 use spunlaid_results::folders::read_measured_web;
 use spunlaid_results::output::fit::pretty;
 use std::sync::atomic::AtomicU64;
@@ -40,7 +40,7 @@ pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), 
     let path = arguments.output.folder(format!("{name}_fit"));
     let origin = invocation.origin_of([&arguments.web])(&path);
     let (mut folder, mut journal, state) =
-        FitFolder::open(&path, &input, arguments.output.force, origin.as_ref(), stop_on_ctrl_c())?;
+        fit::open(&path, &input, arguments.output.force, origin.as_ref(), stop_on_ctrl_c())?;
     if folder.replaces() {
         say_replaced(&path, &arguments.output);
     }

@@ -1,14 +1,13 @@
 //! The folder of a fit: its journal, and what is made from it.
 
-use super::contents::{Contents, Maker, Making, Page};
+use super::contents::{Contents, Maker, Page};
 use super::journalled::{JournalFolder, Work};
 use crate::Failure;
 use crate::figures::fit_figures;
 use crate::output::fit::{fit_json, write_trials};
-use crate::output::folder::{CASE_FILES, Staging};
+use crate::output::folder::CASE_FILES;
 use crate::output::kept_input::Input;
 use crate::output::origin::Origin;
-use crate::output::pictures::FigureFiles;
 use crate::output::table::TABLES;
 use crate::report::fit_report;
 use spunlaid::error::Fault;
@@ -21,14 +20,6 @@ use std::sync::atomic::AtomicBool;
 /// The files of a fit, with the cases of earlier versions; the last one marks it as complete.
 const FILES: &[&str] =
     &["web.toml", "cases", CASE_FILES, "trials.csv", TABLES, "figures", "report.html", "fit.json"];
-/// A results folder that this process has locked.
-#[derive(Debug)]
-pub struct FitFolder<'a> {
-    at: JournalFolder,
-    stop: &'a AtomicBool,
-    /// How figures are written.
-    pub figures: FigureFiles,
-}
 
 /// What is fitted to what.
 #[derive(Clone, Copy, Debug)]
@@ -53,53 +44,32 @@ impl FitInput<'_> {
     }
 }
 
-impl<'a> FitFolder<'a> {
-    /// Opens the folder to begin a fit, or to continue the same one. Returns its journal, and what that holds if there was one.
-    ///
-    /// * `force` – what the folder holds is replaced
-    /// * `origin` – the command that asks; a complete fit that the same one made before is replaced too, when this one is complete
-    /// * `stop` – if this is set, nothing more is written
-    ///
-    /// # Errors
-    /// If it cannot be written, or holds something else.
-    pub fn open(
-        path: &Path,
-        input: &FitInput<'_>,
-        force: bool,
-        origin: Option<&Origin>,
-        stop: &'a AtomicBool,
-    ) -> Result<(Self, Journal, Option<JournalState>), Failure> {
-        let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: input.identity() };
-        let size = (MOST_TRIALS, input.webs, numbers_of_record(input.target));
-        let work = Work { header: &wanted, entries: &[FILES], description: &[], force, origin, size };
-        let other = |path: &Path| {
-            let fault = Fault::new(
-                "holds a fit of another web, to another scan, of other keys or ranges, or with another number of webs",
-                "name another folder, or start again",
-            );
-            Failure::folder(path, fault.option("--out, --force"))
-        };
-        let (at, journal, state) = JournalFolder::open(path, &work, |_| Ok(()), other)?;
-        Ok((Self { at, stop, figures: FigureFiles::default() }, journal, state))
-    }
-
-    /// Whether it holds a fit that this one will replace.
-    pub const fn replaces(&self) -> bool {
-        self.at.replaces()
-    }
-
-    /// Writes the values, the figures, the report and the web with the values that were found. Returns what a terminal shows.
-    ///
-    /// # Errors
-    /// If a file cannot be written.
-    pub fn write(&mut self, found: &FoundFit<'_>, making: Making<'_>) -> Result<String, Failure> {
-        let mut staging = Staging::new(&self.at.place, FILES, true, self.stop)?;
-        staging.set_figures(&self.figures);
-        let written = found.write(&staging, making)?;
-        staging.publish()?;
-        self.at.finish()?;
-        Ok(written.text)
-    }
+/// Opens the folder to begin a fit, or to continue the same one. Returns its journal, and what that holds if there was one.
+///
+/// * `force` – what the folder holds is replaced
+/// * `origin` – the command that asks; a complete fit that the same one made before is replaced too, when this one is complete
+/// * `stop` – if this is set, nothing more is written
+///
+/// # Errors
+/// If it cannot be written, or holds something else.
+pub fn open<'a>(
+    path: &Path,
+    input: &FitInput<'_>,
+    force: bool,
+    origin: Option<&Origin>,
+    stop: &'a AtomicBool,
+) -> Result<(JournalFolder<'a>, Journal, Option<JournalState>), Failure> {
+    let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: input.identity() };
+    let size = (MOST_TRIALS, input.webs, numbers_of_record(input.target));
+    let work = Work { header: &wanted, entries: &[FILES], description: &[], force, origin, size };
+    let other = |path: &Path| {
+        let fault = Fault::new(
+            "holds a fit of another web, to another scan, of other keys or ranges, or with another number of webs",
+            "name another folder, or start again",
+        );
+        Failure::folder(path, fault.option("--out, --force"))
+    };
+    JournalFolder::open(path, &work, stop, |_| Ok(()), other)
 }
 
 /// A fit, and what was found.

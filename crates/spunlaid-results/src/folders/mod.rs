@@ -41,4 +41,5 @@ pub mod web;
 
 pub use contents::{Contents, Maker, Making, Page, Written};
 pub use finished::{read_summary, read_summary_of_run};
+pub use journalled::JournalFolder;
 pub use measured_web::read_measured_web;

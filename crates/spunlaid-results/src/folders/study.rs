@@ -8,7 +8,6 @@ use crate::figures::study_figures;
 use crate::output::folder::{self, CASE_FILES, MARKS, Staging};
 use crate::output::kept_input::copy;
 use crate::output::origin::Origin;
-use crate::output::pictures::FigureFiles;
 use crate::output::study::write_json;
 use crate::output::table::TABLES;
 use crate::output::{self};
@@ -43,94 +42,65 @@ const MADE: &[&str] = &[
 const OF_OTHERS: &[&str] =
     &["summary.json", "end_node.parquet", "energy.parquet", "analysis.json", "webs.jsonl"];
 
-/// A results folder that this process has locked.
-#[derive(Debug)]
-pub struct StudyFolder<'a> {
-    at: JournalFolder,
-    /// If this is set, nothing more is written.
+/// Opens the folder to begin a study, or to continue the same study. Returns its journal, and what that holds if there was one.
+///
+/// * `force` – what the folder holds is replaced
+/// * `origin` – the command that asks; a complete study that the same one made before is replaced too, when this one is complete
+/// * `stop` – if this is set, nothing more is written
+///
+/// # Errors
+/// If it cannot be written, or holds something else.
+pub fn open<'a>(
+    path: &Path,
+    file: &StudyFile,
+    force: bool,
+    origin: Option<&Origin>,
     stop: &'a AtomicBool,
-    figures: FigureFiles,
+) -> Result<(JournalFolder<'a>, Journal, Option<JournalState>), Failure> {
+    let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: file.study.identity() };
+    let size = (file.study.points.len(), MOST_REPLICATES, file.study.quantities.len());
+    let entries = &[DESCRIPTION, MADE];
+    let work = Work { header: &wanted, entries, description: REMAINS, force, origin, size };
+    let begin = |place: &Path| begin(place, file, stop);
+    let (at, journal, found) = JournalFolder::open(path, &work, stop, begin, |place| differs(place, file))?;
+    if found.is_some() {
+        let (stored, most) = (journal.most_held(), file.study.replicates.at_most);
+        if stored > most {
+            let fault = Fault::new(
+                format!("holds {stored} replicates of a point, more than the {most} of this study"),
+                format!("ask for {stored} or more, name another folder, or start again"),
+            );
+            let options = format!("--replicates {stored}, --out, --force");
+            return Err(Failure::folder(at.place(), fault.option(options)));
+        }
+        // These files follow from the study, so they are restored if someone has removed them. They are renewed for more replicates.
+        let was = fs::read_to_string(at.place().join(STUDY)).unwrap_or_default();
+        if was != file.text || !at.place().join(file.base_name()).exists() {
+            describe(at.place(), file, stop)?;
+        }
+    }
+    Ok((at, journal, found))
 }
 
-impl<'a> StudyFolder<'a> {
-    /// Opens the folder to begin a study, or to continue the same study. Returns its journal, and what that holds if there was one.
-    ///
-    /// * `force` – what the folder holds is replaced
-    /// * `origin` – the command that asks; a complete study that the same one made before is replaced too, when this one is complete
-    /// * `stop` – if this is set, nothing more is written
-    ///
-    /// # Errors
-    /// If it cannot be written, or holds something else.
-    pub fn open(
-        path: &Path,
-        file: &StudyFile,
-        force: bool,
-        origin: Option<&Origin>,
-        stop: &'a AtomicBool,
-    ) -> Result<(Self, Journal, Option<JournalState>), Failure> {
-        let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: file.study.identity() };
-        let size = (file.study.points.len(), MOST_REPLICATES, file.study.quantities.len());
-        let entries = &[DESCRIPTION, MADE];
-        let work = Work { header: &wanted, entries, description: REMAINS, force, origin, size };
-        let begin = |place: &Path| begin(place, file, stop);
-        let (at, journal, found) = JournalFolder::open(path, &work, begin, |place| differs(place, file))?;
-        if found.is_some() {
-            let (stored, most) = (journal.most_held(), file.study.replicates.at_most);
-            if stored > most {
-                let fault = Fault::new(
-                    format!("holds {stored} replicates of a point, more than the {most} of this study"),
-                    format!("ask for {stored} or more, name another folder, or start again"),
-                );
-                let options = format!("--replicates {stored}, --out, --force");
-                return Err(Failure::folder(&at.place, fault.option(options)));
-            }
-            // These files follow from the study, so they are restored if someone has removed them. They are renewed for more replicates.
-            let was = fs::read_to_string(at.place.join(STUDY)).unwrap_or_default();
-            if was != file.text || !at.place.join(file.base_name()).exists() {
-                describe(&at.place, file, stop)?;
-            }
-        }
-        Ok((Self { at, stop, figures: FigureFiles::default() }, journal, found))
-    }
-
-    /// From now on, figures are written like this.
-    pub fn set_figures(&mut self, figures: &FigureFiles) {
-        self.figures = figures.clone();
-    }
-
-    /// Where it is.
-    pub fn path(&self) -> &Path {
-        &self.at.path
-    }
-
-    /// Whether it holds a study that this one will replace.
-    pub const fn replaces(&self) -> bool {
-        self.at.replaces()
-    }
-
-    /// Makes the tables, the figures and the report from the journal. Returns what was found, and what a terminal shows.
-    ///
-    /// * `name` – what the study is called
-    ///
-    /// # Errors
-    /// If a file cannot be written, or the journal cannot be read.
-    pub fn write<'f>(
-        &mut self,
-        name: &str,
-        file: &'f StudyFile,
-        journal: &mut Journal,
-        making: Making<'_>,
-    ) -> Result<(FoundStudy<'f>, String), Failure> {
-        let mut staging = Staging::new(&self.at.place, MADE, true, self.stop)?;
-        staging.set_figures(&self.figures);
-        let results = output::study::write(&staging, &file.study, journal)?;
-        let rankings = rankings(&file.study, journal)?;
-        let found = FoundStudy { name: name.to_owned(), file, results, rankings };
-        let written = found.write(&staging, making)?;
-        staging.publish()?;
-        self.at.finish()?;
-        Ok((found, written.text))
-    }
+/// Makes the tables, the figures and the report from the journal. Returns what was found, and what a terminal shows.
+///
+/// * `name` – what the study is called
+///
+/// # Errors
+/// If a file cannot be written, or the journal cannot be read.
+pub fn write<'f>(
+    folder: &mut JournalFolder<'_>,
+    name: &str,
+    file: &'f StudyFile,
+    journal: &mut Journal,
+    making: Making<'_>,
+) -> Result<(FoundStudy<'f>, String), Failure> {
+    let staging = folder.staging::<FoundStudy<'_>>()?;
+    let results = output::study::write(&staging, &file.study, journal)?;
+    let rankings = rankings(&file.study, journal)?;
+    let found = FoundStudy { name: name.to_owned(), file, results, rankings };
+    let text = folder.finish(staging, &found, making)?;
+    Ok((found, text))
 }
 
 /// Removes the files of an earlier study, and describes this one.

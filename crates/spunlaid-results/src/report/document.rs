@@ -184,8 +184,10 @@ impl<'a> Section<'a> {
         all.into_iter().fold(self, Self::paragraph)
     }
 
+    /// Nothing without words.
     pub(super) fn caption(self, words: impl Into<String>) -> Self {
-        self.with(Part::Caption(words.into()))
+        let words = words.into();
+        if words.is_empty() { self } else { self.with(Part::Caption(words)) }
     }
 
     /// Nothing if the table is empty.

@@ -82,11 +82,14 @@ fn motion(case: &Case, results: &Results) -> Result<Section<'static>, Failure> {
 
 /// The results, and those of each replicate.
 fn numbers(results: &Results) -> Section<'static> {
-    let caption = if results.replicates() > 1 {
-        "Mean ± one standard error of the mean over n replicates: fibres that differ in nothing but the random phases of the turbulence. About \
-         two times in three the true mean lies within one standard error."
+    let n = results.replicates() as u64;
+    let (about, caption) = if n > 1 {
+        let caption = "Replicates are fibres that differ in nothing but the random phases of the turbulence. About two times in three the true mean \
+                       lies within one standard error.";
+        (format!("Mean ± one standard error of the mean over {}.", count(n, "replicate")), caption)
     } else {
-        "From a single replicate, so without a standard error: run more to learn how sure these numbers are."
+        let about = "From a single replicate, so without a standard error: run more to learn how sure these numbers are.";
+        (about.to_owned(), "")
     };
     let (table, unlisted) = replicate_table(results);
     let mut of_each = vec![Part::Table(table)];
@@ -94,6 +97,7 @@ fn numbers(results: &Results) -> Section<'static> {
         of_each.push(Part::Caption(format!("{unlisted} more are in summary.json.")));
     }
     Section::new("results", "Results")
+        .paragraph(about)
         .table(result_table(results))
         .caption(caption)
         .table(neighbour_table(results))

@@ -15,8 +15,8 @@ use spunlaid::input::{StudyChanges, StudyFile, Unread, read_changed_study, write
 use spunlaid::spinline::{self, SpinSpec};
 use spunlaid::study::{Journal, JournalState, Progress, ReplicateOutcome, Study, run};
 use spunlaid::threads::{lock, unlock};
-use spunlaid_results::folders::study::StudyFolder;
 use spunlaid_results::folders::tensions::StudyTensions;
+use spunlaid_results::folders::{JournalFolder, study};
 use spunlaid_results::numbers::lost_fibres_text;
 use std::sync::Mutex;
 use std::sync::atomic::AtomicU64;
@@ -37,11 +37,11 @@ pub(crate) fn sweep(sweep: &Sweep, invocation: &Invocation) -> Result<(), Failur
     file.notes.iter().for_each(say::study_note);
     let origin = invocation.origin_of([&sweep.study])(&path);
     let (mut folder, journal, found) =
-        StudyFolder::open(&path, &file, sweep.output.force, origin.as_ref(), stop_on_ctrl_c())?;
+        study::open(&path, &file, sweep.output.force, origin.as_ref(), stop_on_ctrl_c())?;
     if folder.replaces() {
         say_replaced(&path, &sweep.output);
     }
-    folder.set_figures(&sweep.figures.files());
+    folder.figures = sweep.figures.files();
     report_found(sweep, &file.study, found);
 
     let journal = Mutex::new(journal);
@@ -118,21 +118,20 @@ fn fly(sweep: &Sweep, study: &Study, journal: &Mutex<Journal>) -> Result<(), Err
 fn write(
     sweep: &Sweep,
     file: &StudyFile,
-    folder: &mut StudyFolder<'_>,
+    folder: &mut JournalFolder<'_>,
     journal: &mut Journal,
     before: u64,
 ) -> Result<(), Failure> {
-    let study = &file.study;
     let name = stem(&sweep.study, "study");
-    let (found, text) = folder.write(&name, file, journal, making(sweep.threads))?;
+    let (found, text) = study::write(folder, &name, file, journal, making(sweep.threads))?;
     let fibres: u64 = found.results.iter().map(|point| point.n + point.lost).sum();
-    let noun = study.noun();
+    let noun = file.study.noun();
     let done = if noun == "web" { "laid" } else { "flown" };
     let complete =
         format!("the study was already complete: no {noun} was {done}, and the files were written again");
     let lines = &Vec::from_iter((before == fibres).then_some(complete));
     tell(&found, (Some(folder.path()), &text), &sweep.output, Asides { lines, ..Asides::default() });
-    lost(study, journal, fibres)
+    lost(&file.study, journal, fibres)
 }
 
 /// The error that lists the lost fibres, if any.
