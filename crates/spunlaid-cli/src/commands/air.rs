@@ -2,8 +2,7 @@
 
 use super::delivery::{Asides, Delivery};
 use super::flown::flown;
-use super::interrupt::stop_on_ctrl_c;
-use super::stem;
+use super::{stem, stop_on_ctrl_c};
 use crate::args::{Air, Invocation};
 use crate::failure::Failure;
 use crate::{progress, say};

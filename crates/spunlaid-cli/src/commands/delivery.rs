@@ -1,7 +1,6 @@
 //! How a command delivers what it has found: into its folder, then as JSON or as lines of the terminal.
 
-use super::interrupt::stop_on_ctrl_c;
-use super::plural;
+use super::{plural, stop_on_ctrl_c};
 use crate::args::{Output, Threads};
 use crate::failure::Failure;
 use crate::say;

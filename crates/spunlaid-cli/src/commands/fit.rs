@@ -2,8 +2,7 @@
 
 use super::delivery::{Asides, making, say_continued, say_replaced, tell};
 use super::flown::flown;
-use super::interrupt::stop_on_ctrl_c;
-use super::{lay_control, plural, stem};
+use super::{lay_control, plural, stem, stop_on_ctrl_c};
 use crate::args::{self, Invocation, overrides};
 use crate::failure::Failure;
 use crate::{progress, say};

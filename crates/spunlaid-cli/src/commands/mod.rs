@@ -9,7 +9,6 @@ mod delivery;
 mod finished_run;
 pub(crate) mod fit;
 mod flown;
-mod interrupt;
 pub(crate) mod keys;
 pub(crate) mod live;
 pub(crate) mod man;
@@ -23,12 +22,11 @@ pub(crate) mod web;
 
 use crate::args::{Threads, is_standard};
 use crate::say;
-use interrupt::stop_on_ctrl_c;
 use spunlaid::ensemble::RunControl;
 use spunlaid::lanes::Isa;
 use spunlaid::web::LayControl;
 use std::path::Path;
-use std::sync::atomic::AtomicU64;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// Largest number of points of a study that are listed.
 const LISTED: usize = 24;
@@ -37,6 +35,14 @@ const LISTED: usize = 24;
 fn stem(file: &Path, otherwise: &str) -> String {
     let stem = file.file_stem().filter(|_| !is_standard(file)).unwrap_or(otherwise.as_ref());
     stem.to_string_lossy().into_owned()
+}
+
+/// Installs a handler for Ctrl-C and returns the flag that it sets.
+fn stop_on_ctrl_c() -> &'static AtomicBool {
+    static STOP: AtomicBool = AtomicBool::new(false);
+    // Without the handler, Ctrl-C still ends the program but leaves its hidden folder behind.
+    let _ = ctrlc::set_handler(|| STOP.store(true, Ordering::Relaxed));
+    &STOP
 }
 
 /// How fibres are flown; Ctrl-C ends it.

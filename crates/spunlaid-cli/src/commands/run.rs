@@ -18,15 +18,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
-    let (mut case, mut notes) = match run.until {
-        Some(until) => continued(run, &overrides(run), until)?,
-        None => {
-            let read = run.source.read(&overrides(run));
-            let (case, notes) = flown(read, run.threads, run.output.quiet)?;
-            notes.iter().for_each(say::note);
-            (case, Note::notes_of_results(&notes))
-        }
-    };
+    let (mut case, mut notes) = read(run)?;
     let (name, is_own) = (name(run), run.until.is_some() && run.output.out.is_none());
     let output = Output { force: run.output.force || is_own, ..run.output.clone() };
     let folder = if is_own { Some(run.source.case.clone()) } else { output.optional_folder(&name) };
@@ -84,6 +76,16 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     }
     flown.forget_kept();
     lost.map_or(Ok(()), |lost| Err(Failure::FibresLost { lost }))
+}
+
+/// The case, and the notes about it, which are told.
+fn read(run: &Run) -> Result<(Case, Vec<String>), Failure> {
+    if let Some(until) = run.until {
+        return continued(run, &overrides(run), until);
+    }
+    let (case, notes) = flown(run.source.read(&overrides(run)), run.threads, run.output.quiet)?;
+    notes.iter().for_each(say::note);
+    Ok((case, Note::notes_of_results(&notes)))
 }
 
 /// Flies the fibres that have not been flown.

@@ -35,7 +35,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     let mut flown = Flyer::new(by.threads, by.stop, &follow).web(&file.spec)?;
     let label = format!("laying {} km of fibre", significant(flown.web.fibre_length() / 1e3, 3));
     let findings = progress::follow(&laid, flown.pieces()?, &label, output.quiet, || flown.find(by))?;
-    let laying = format!("\n{label} took {:.2} s", started.elapsed().as_secs_f64());
+    let laying = format!("{label} took {:.2} s", started.elapsed().as_secs_f64());
     let FlownWeb { web, layers, .. } = &flown;
     let fabric = file.spec.fabric(web, &findings, by.threads);
     let tried = trials.run(arguments, (&file, web, &findings), by)?;

@@ -73,10 +73,7 @@ impl Contents for AirFolder<'_> {
             let mut named = PLANES.iter().zip(&pictures);
             named.try_for_each(|(name, picture)| staging.write(&format!("{name}.gif"), &picture.moving))
         };
-        let report = || {
-            let report = air_report((self.case, input), self.slices, &pictures, self.headline());
-            Ok(report.named(self.name).noting(self.notes))
-        };
-        maker.finish(&figures, files, report)
+        let report = || Ok(air_report((self.case, input), self.slices, &pictures, self.headline()));
+        maker.finish((self.name, self.notes), &figures, files, report)
     }
 }

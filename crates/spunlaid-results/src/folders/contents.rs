@@ -110,16 +110,19 @@ impl Maker<'_> {
 
     /// Writes figures and the files that only such results have, while the report is made.
     ///
+    /// * `name`, `notes` – what the results are called, and warnings and remarks for the reader
+    ///
     /// # Errors
     /// If something cannot be drawn or written.
     pub fn finish<'r, F: Borrow<Figure> + Sync>(
         &self,
+        (name, notes): (&str, &[String]),
         figures: &[F],
         files: impl FnOnce(&Staging<'_>) -> Result<(), Failure> + Send,
         report: impl FnOnce() -> Result<Report<'r>, Failure>,
     ) -> Result<Page, Failure> {
         let page = || {
-            let report = report()?;
+            let report = report()?.named(name).noting(notes);
             Ok(Page { html: report.html(), text: report.text(self.making.room) })
         };
         let Some(staging) = self.staging else { return page() };

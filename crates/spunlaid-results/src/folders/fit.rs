@@ -95,10 +95,7 @@ impl Contents for FoundFit<'_> {
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
         let FitInput { name, paths, target, notes, .. } = self.input;
         let (input, figures) = (maker.keep(Input::Web(self.spec))?, fit_figures(self.fit));
-        let report = || {
-            let report = fit_report(self.fit, (paths[1], target), (self.spec, input), &figures);
-            Ok(report.named(name).noting(notes))
-        };
-        maker.finish(&figures, |staging| write_trials(staging, self.fit), report)
+        let report = || Ok(fit_report(self.fit, (paths[1], target), (self.spec, input), &figures));
+        maker.finish((name, notes), &figures, |staging| write_trials(staging, self.fit), report)
     }
 }

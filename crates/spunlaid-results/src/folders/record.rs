@@ -32,11 +32,12 @@ impl Contents for RecordFolder<'_> {
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
         let Self { name, record, analysis, remarks } = *self;
         let (figures, air) = (record_figures(record, analysis), air_block(&record.file, analysis));
+        let warnings: Vec<String> = analysis.warnings.iter().map(ToString::to_string).collect();
         let files = |staging: &Staging<'_>| {
             write_curves(staging, analysis)?;
             staging.write("air.toml", &air)
         };
-        let report = || Ok(analysis_report(record, analysis, &figures, remarks, &air).named(name));
-        maker.finish(&figures, files, report)
+        let report = || Ok(analysis_report(record, analysis, &figures, remarks, &air));
+        maker.finish((name, &warnings), &figures, files, report)
     }
 }

@@ -194,7 +194,7 @@ impl Contents for Run<'_> {
             let report = run_report((case, input), (results, self.checks), figures, drawn, self.performance)?;
             Ok(report.named(self.name).noting(&self.all_notes()))
         };
-        maker.finish(&all, files, report)
+        maker.finish((self.name, &self.all_notes()), &all, files, report)
     }
 }
 

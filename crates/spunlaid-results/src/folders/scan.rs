@@ -37,10 +37,12 @@ impl Contents for ScanFolder<'_> {
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
         let figures = scan_figures(self.findings);
-        let report = || {
-            let report = scan_report(self.file, self.findings, &figures, self.performance)?;
-            Ok(report.named(self.name).noting(self.notes))
-        };
-        maker.finish(&figures, |staging| write_scan(staging, &self.findings.map), report)
+        let report = || scan_report(self.file, self.findings, &figures, self.performance);
+        maker.finish(
+            (self.name, self.notes),
+            &figures,
+            |staging| write_scan(staging, &self.findings.map),
+            report,
+        )
     }
 }

@@ -36,10 +36,12 @@ impl Contents for SpinFolder<'_> {
         let SpinResults { rows, influences } = self.results;
         let input = maker.keep(Input::Spinline(&self.file.spec))?;
         let figures = spinline_figures(SPINLINE, rows, influences);
-        let report = || {
-            let report = spinline_report(&self.file.spec, self.results, &figures, input);
-            Ok(report.named(self.name).noting(self.notes))
-        };
-        maker.finish(&figures, |staging| write_stations(staging, &[(1, rows)]), report)
+        let report = || Ok(spinline_report(&self.file.spec, self.results, &figures, input));
+        maker.finish(
+            (self.name, self.notes),
+            &figures,
+            |staging| write_stations(staging, &[(1, rows)]),
+            report,
+        )
     }
 }

@@ -163,11 +163,8 @@ impl Contents for FoundStudy<'_> {
         let (StudyFile { study, text, base_text, notes, .. }, refusal) = (self.file, self.refusal());
         let figures = study_figures(study, &self.results, &self.rankings.of_measures);
         let told = (&self.rankings.of_measures[..], refusal.as_deref());
-        let report = || {
-            let report = study_report(study, &self.results, told, &figures, [text, base_text]);
-            Ok(report.named(&self.name).noting(&StudyNote::notes_of_results(notes)))
-        };
-        maker.finish(&figures, |_| Ok(()), report)
+        let report = || Ok(study_report(study, &self.results, told, &figures, [text, base_text]));
+        maker.finish((&self.name, &StudyNote::notes_of_results(notes)), &figures, |_| Ok(()), report)
     }
 }
 

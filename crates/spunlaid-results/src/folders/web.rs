@@ -94,7 +94,7 @@ impl Contents for WebFolder<'_> {
             web::write_map(staging, &findings.laid.map)
         };
         let report = || {
-            let report = web_report(
+            web_report(
                 (spec, input, web),
                 (findings, self.fabric),
                 (self.advice, self.guesses),
@@ -102,10 +102,9 @@ impl Contents for WebFolder<'_> {
                 &strands,
                 &figures,
                 self.performance,
-            )?;
-            Ok(report.named(self.name).noting(self.notes))
+            )
         };
-        maker.finish(&all, files, report)
+        maker.finish((self.name, self.notes), &all, files, report)
     }
 }
 

@@ -1,7 +1,7 @@
 //! `fit.json`, `trials.csv` and the table of the terminal: which values make webs like the scan.
 
 use super::folder::Staging;
-use super::table::{Table, Value, number, whole};
+use super::table::{Value, number, whole};
 use super::versioned_json;
 use crate::Failure;
 use crate::numbers::significant;
@@ -83,7 +83,7 @@ pub fn fit_json(fit: &Fit, target: &Target, [web, scan]: [&str; 2], notes: &[Str
 pub fn write_trials(staging: &Staging<'_>, fit: &Fit) -> Result<(), Failure> {
     let key = |key: &FittedKey| number(key.parameter.key.clone() + &key.parameter.dimension.suffix());
     let columns = [whole("trial")].into_iter().chain(fit.keys.iter().map(key)).chain([number("misfit")]);
-    let mut table = Table::create(staging, "trials", &["csv"], &columns.collect::<Vec<_>>())?;
+    let mut table = staging.table("trials", &["csv"], &columns.collect::<Vec<_>>())?;
     for (trial, found) in (1..).zip(&fit.trials) {
         let numbers = found.values.iter().chain([&found.misfit]).map(|value| Value::Number(*value));
         table.add(&[Value::Whole(trial)].into_iter().chain(numbers).collect::<Vec<_>>())?;

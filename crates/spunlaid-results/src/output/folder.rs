@@ -3,7 +3,7 @@
 use super::leftovers::{self, Claim};
 use super::origin::{ORIGIN, Origin};
 use super::pictures::FigureFiles;
-use super::table::{TABLES, TableFormat};
+use super::table::{Column, TABLES, Table};
 use crate::Failure;
 use crate::failure::{holds_files_of_others, holds_results, not_a_folder};
 use spunlaid_charts::Figure;
@@ -173,9 +173,15 @@ impl<'a> Staging<'a> {
         Ok((now, later))
     }
 
-    /// The formats in which tables are written besides the usual ones.
-    pub(super) fn tables(&self) -> &[&'static TableFormat] {
-        &self.figures.tables
+    /// Begins a table.
+    ///
+    /// * `name` – of its files, without the ending
+    /// * `usual` – the formats in which it is written besides those that are asked for
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn table(&self, name: &str, usual: &[&str], columns: &[Column]) -> Result<Table, Failure> {
+        Table::create(name, (usual, &self.figures.tables), columns, |file| self.begin(file))
     }
 
     /// Writes a file and creates its parent folders.

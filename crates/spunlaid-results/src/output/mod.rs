@@ -37,11 +37,7 @@ pub fn versioned_json(layout: u32, content: &impl Serialize) -> String {
         #[serde(flatten)]
         content: &'a T,
     }
-    json_text(&Versioned { schema_version: layout, spunlaid_version: env!("CARGO_PKG_VERSION"), content })
-}
-
-/// The text of a JSON file.
-pub fn json_text(value: &impl Serialize) -> String {
+    let text = Versioned { schema_version: layout, spunlaid_version: env!("CARGO_PKG_VERSION"), content };
     // Serialising plain numbers and strings into memory cannot fail.
-    serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
+    serde_json::to_string_pretty(&text).unwrap_or_default() + "\n"
 }

@@ -31,14 +31,12 @@ pub fn analysis_report<'a>(
     let found = format!("{}.", rows.iter().map(value).collect::<Vec<_>>().join(", "));
     let methods = methods("analyse", (texts.collect(), Vec::new()), [headline.clone(), found]);
     let remarks: String = remarks.iter().map(|remark| format!(" {remark}.")).collect();
-    let warnings: Vec<String> = analysis.warnings.iter().map(ToString::to_string).collect();
     let [of_air, components] = numbers(analysis);
     let computed = Section::new("methods", "How it was computed").descriptions(steps).caption(
         "The curves are in spectrum.csv and autocorrelation.csv, all numbers in analysis.json, beside this page.",
     );
     Report::new("analyse", headline)
         .lead(summary + &remarks)
-        .noting(&warnings)
         .with(of_air.file("air-toml", air).told())
         .with(Section::of_figures(figures))
         .with(components.told())

@@ -4,8 +4,7 @@ mod progress;
 
 use super::delivery::{Asides, making, say_continued, say_replaced, tell};
 use super::flown::flown_and_kept;
-use super::interrupt::stop_on_ctrl_c;
-use super::{plural, run_control, stem};
+use super::{plural, run_control, stem, stop_on_ctrl_c};
 use crate::args::{Invocation, Sweep, overrides};
 use crate::failure::Failure;
 use crate::say;

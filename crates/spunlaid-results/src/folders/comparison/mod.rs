@@ -101,7 +101,7 @@ impl Contents for ComparedFolders {
                 staging.write(&format!("figures/web_picture_{number}.png"), picture)
             })
         };
-        let report = || Ok(comparison_report(comparisons, figures, pictures.as_ref()).noting(notes));
-        maker.finish(figures, files, report)
+        let report = || Ok(comparison_report(comparisons, figures, pictures.as_ref()));
+        maker.finish(("", notes), figures, files, report)
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::Failure;
 use crate::output::folder::Staging;
-use crate::output::table::{Table, Value, number};
+use crate::output::table::{Value, number};
 use spunlaid::record::{Analysis, Component};
 
 /// Writes the spectral density of each component over frequency, and its autocorrelation coefficient over the lag.
@@ -28,7 +28,7 @@ fn write(
     let plain = |component: &Component| component.name.replace([',', ';', '"', '\n', ' '], "_");
     let columns = analysis.components.iter().map(|component| number(plain(component) + unit));
     let columns: Vec<_> = std::iter::once(number(head)).chain(columns).collect();
-    let mut table = Table::create(staging, name, &["csv"], &columns)?;
+    let mut table = staging.table(name, &["csv"], &columns)?;
     for i in 0..analysis.components.iter().map(|c| curve(c).len()).min().unwrap_or(0) {
         let values = analysis.components.iter().map(|component| curve(component)[i]);
         let row: Vec<Value> = std::iter::once(x(i)).chain(values).map(Value::Number).collect();

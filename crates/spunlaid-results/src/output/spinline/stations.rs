@@ -2,7 +2,7 @@
 
 use crate::Failure;
 use crate::output::folder::Staging;
-use crate::output::table::{Column, Table, Value, number, whole};
+use crate::output::table::{Column, Value, number, whole};
 use spunlaid::spinline::{Solution, Station, ZERO_CELSIUS};
 
 /// Name of the file.
@@ -35,7 +35,7 @@ pub fn write(staging: &Staging<'_>, spinlines: &[(usize, &[Solution])]) -> Resul
     let row = spinlines.iter().any(|(_, rows)| rows.len() > 1).then_some("row");
     let numbers = COLUMNS.iter().map(|(name, _)| number(*name));
     let columns: Vec<Column> = layer.into_iter().chain(row).map(whole).chain(numbers).collect();
-    let mut table = Table::create(staging, "spinline", &["parquet"], &columns)?;
+    let mut table = staging.table("spinline", &["parquet"], &columns)?;
     for (of_layer, rows) in spinlines {
         for (of_row, solution) in rows.iter().enumerate() {
             let apart = layer.map(|_| *of_layer).into_iter().chain(row.map(|_| of_row + 1));

@@ -7,7 +7,7 @@ pub mod shown;
 pub use json::write_json;
 
 use super::folder::Staging;
-use super::table::{Table, Value};
+use super::table::Value;
 use crate::Failure;
 use spunlaid::study::{Journal, PointResults, Record, ReplicateOutcome, Study, results_of_point};
 
@@ -20,9 +20,9 @@ pub fn write(
     journal: &mut Journal,
 ) -> Result<Vec<PointResults>, Failure> {
     let points = columns::columns_of_points(study);
-    let mut results = Table::create(staging, "results", &["csv", "parquet"], &points)?;
+    let mut results = staging.table("results", &["csv", "parquet"], &points)?;
     let columns = columns::columns_of_replicates(study);
-    let mut replicates = Table::create(staging, "replicates", &["parquet"], &columns)?;
+    let mut replicates = staging.table("replicates", &["parquet"], &columns)?;
     let mut all = Vec::with_capacity(study.points.len());
     for index in 0..study.points.len() {
         let point = results_of_point(study, journal, index)?;

@@ -4,7 +4,6 @@ mod csv;
 pub(super) mod parquet;
 mod tsv;
 
-use super::folder::Staging;
 use crate::Failure;
 use std::path::PathBuf;
 
@@ -83,20 +82,17 @@ impl Table {
     /// Begins a table, in the formats in which it is always written and in those that are asked for.
     ///
     /// * `name` – of its files, without the ending
-    ///
-    /// # Errors
-    /// If a file cannot be written.
-    pub fn create(
-        staging: &Staging<'_>,
+    /// * `begin` – begins a file: its present and its final path
+    pub(super) fn create(
         name: &str,
-        usual: &[&str],
+        (usual, asked): (&[&str], &[&'static TableFormat]),
         columns: &[Column],
+        begin: impl Fn(&str) -> Result<(PathBuf, PathBuf), Failure>,
     ) -> Result<Self, Failure> {
         let usual = FORMATS.iter().filter(|format| usual.contains(&format.name));
         let usual = usual.map(|format| (format, format!("{name}.{}", format.name)));
-        let asked =
-            staging.tables().iter().map(|format| (*format, format!("{TABLES}/{name}.{}", format.name)));
-        let create = |(format, file): (&TableFormat, String)| (format.create)(staging.begin(&file)?, columns);
+        let asked = asked.iter().map(|format| (*format, format!("{TABLES}/{name}.{}", format.name)));
+        let create = |(format, file): (&TableFormat, String)| (format.create)(begin(&file)?, columns);
         usual.chain(asked).map(create).collect::<Result<_, _>>().map(Self)
     }
 
