@@ -1,6 +1,6 @@
 //! Comma-separated values: a header, then a line for each row. Missing values are empty cells.
 
-use super::{Column, Rows, TableFormat, Value};
+use super::{Begun, Column, Rows, TableFormat, Value};
 use crate::Failure;
 use csv::{Writer, WriterBuilder};
 use spunlaid_charts::shortest;
@@ -16,11 +16,7 @@ struct Lines {
 }
 
 /// Begins a table with a sign between its cells.
-pub(super) fn separated(
-    sign: u8,
-    (now, path): (PathBuf, PathBuf),
-    columns: &[Column],
-) -> Result<Box<dyn Rows>, Failure> {
+pub(super) fn separated(sign: u8, (now, path): (PathBuf, PathBuf), columns: &[Column]) -> Begun {
     let file = File::create(now).map_err(Failure::unwritable(&path))?;
     let writer = WriterBuilder::new().delimiter(sign).from_writer(file);
     let mut lines = Lines { path, writer };

@@ -13,8 +13,11 @@ pub struct TableFormat {
     /// The ending of its files.
     pub name: &'static str,
     /// Begins a table at its present path, whose final path is told in messages.
-    create: fn((PathBuf, PathBuf), &[Column]) -> Result<Box<dyn Rows>, Failure>,
+    create: fn((PathBuf, PathBuf), &[Column]) -> Begun,
 }
+
+/// A table that has been begun.
+type Begun = Result<Box<dyn Rows>, Failure>;
 
 /// All formats.
 static FORMATS: [TableFormat; 3] = [csv::FORMAT, parquet::FORMAT, tsv::FORMAT];
