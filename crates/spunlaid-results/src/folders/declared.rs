@@ -8,7 +8,7 @@ use crate::output::analysis::analysis_json;
 use crate::output::folder::Staging;
 use crate::output::spinline::SpinResults;
 use crate::output::web::{Performance, Summary};
-use crate::report::{analysis_report, scan_report};
+use crate::report::{analysis_report, scan_report, spinline_text};
 use serde_json::Value as Json;
 use spunlaid::input::{parse_spinline, parse_web};
 use spunlaid::lanes::Isa;
@@ -187,12 +187,12 @@ fn every_declared_measure_of_a_spinline_is_in_summary_terminal_and_report() {
     let results = SpinResults::new(&file).unwrap();
     let folder = SpinFolder { name: "line", file: &file, results: &results, notes: &[] };
     let summary: Json = serde_json::from_str(&folder.summary()).unwrap();
-    let report = folder.html(MAKING).unwrap();
+    let (report, terminal) = (folder.html(MAKING).unwrap(), spinline_text(&results));
     for row in measured(OF_SPINLINES, &results.rows[0]) {
         let name = row.measure.entry();
         let json = summary.pointer(&format!("/spinline/{}", name.replace('.', "/")));
         assert_eq!(json.and_then(Json::as_f64), row.value.map(|value| value.number()), "{name}");
-        assert!(report.contains(row.measure.label), "{name}");
+        assert!(report.contains(row.measure.label) && terminal.contains(row.measure.label), "{name}");
     }
 }
 
