@@ -1,9 +1,10 @@
 //! `compare_folders`: the results of runs or of webs side by side, and `Compared`, what differs.
 
-use crate::save::{Figures, save};
+use crate::save::{Figures, page, save};
 use crate::watched::guarded;
 use pyo3::prelude::*;
-use spunlaid_results::folders::comparison::{ComparedFolders, FILES, Folders};
+use spunlaid_results::folders::Contents;
+use spunlaid_results::folders::comparison::{ComparedFolders, Folders};
 use std::path::PathBuf;
 
 /// What a comparison has found. spunlaid.Comparison shows it.
@@ -29,7 +30,7 @@ impl Compared {
     /// Text of comparison.json.
     #[getter]
     fn summary(&self) -> String {
-        self.found.json()
+        self.found.summary()
     }
 
     /// What is missing, and why.
@@ -39,12 +40,12 @@ impl Compared {
     }
 
     /// The report, one page of HTML that works offline.
-    fn report(&self, py: Python<'_>) -> String {
-        py.detach(|| self.found.report())
+    fn report(&self, py: Python<'_>) -> PyResult<String> {
+        page(py, &self.found)
     }
 
     /// Writes the folder that `spunlaid compare` writes.
     fn save(&self, py: Python<'_>, path: PathBuf, force: bool, figures: Figures<'_>) -> PyResult<()> {
-        save(py, (&path, force, figures), FILES, |staging, _| self.found.write(staging))
+        save(py, (&path, force, figures), &self.found, |_| Ok(()))
     }
 }

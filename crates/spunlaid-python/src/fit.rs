@@ -13,7 +13,7 @@ use spunlaid::input::{Overrides, read_fit};
 use spunlaid::layers::{Flights, Flyer};
 use spunlaid::study::Journal;
 use spunlaid::web::LayControl;
-use spunlaid_results::folders::fit::{FitFolder, FitInput};
+use spunlaid_results::folders::fit::{self as folder, FitInput, FoundFit};
 use spunlaid_results::folders::read_measured_web;
 use spunlaid_results::output::fit::{fit_json, sentences};
 use std::collections::BTreeMap;
@@ -64,9 +64,9 @@ pub(crate) fn find_fit(
     let watch = Watch::new(webs);
     let found = watched(py, &watch, progress.as_ref(), || {
         let opened =
-            out.as_ref().map(|out| FitFolder::open(out, &input, false, None, &watch.stop)).transpose()?;
-        let (folder, mut journal) = match opened {
-            Some((folder, journal, _)) => (Some(folder), journal),
+            out.as_ref().map(|out| folder::open(out, &input, false, None, &watch.stop)).transpose()?;
+        let (place, mut journal) = match opened {
+            Some((place, journal, _)) => (Some(place), journal),
             None => (None, Journal::in_memory(MOST_TRIALS)),
         };
         let flights = AtomicU64::new(0);
@@ -81,10 +81,11 @@ pub(crate) fn find_fit(
         let flyer = Flyer::new(laying.threads, laying.stop, &follow);
         let tell = |now: WebInProgress<'_>| watch.done.store(now.web - 1, Ordering::Relaxed);
         let found = fit(question, flyer, laying, &mut journal, &tell)?;
-        if let Some(mut folder) = folder {
-            folder.figures = figures;
+        if let Some(mut place) = place {
+            place.figures = figures;
             let values: Vec<f64> = found.keys.iter().map(|key| key.value).collect();
-            folder.write(&input, &found, &web(&values)?.spec)?;
+            let spec = web(&values)?.spec;
+            place.write(&FoundFit { input, fit: &found, spec: &spec }, watch.making())?;
         }
         watch.done.store(webs, Ordering::Relaxed);
         Ok(found)

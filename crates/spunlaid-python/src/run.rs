@@ -5,7 +5,7 @@ use crate::failure::raised;
 use crate::flight::laid_columns;
 use crate::results::RunResults;
 use crate::samples::{SampleCollector, locked};
-use crate::save::{Figures, save};
+use crate::save::{Figures, page, save};
 use crate::scale::scale;
 use crate::watched::{Watch, watched};
 use numpy::{PyArray1, PyArrayMethods};
@@ -23,11 +23,12 @@ use spunlaid::observe::{MEASURES, Measure};
 use spunlaid::threads::{lock, unlock};
 use spunlaid::units::udunits;
 use spunlaid_results::figures::Scale;
+use spunlaid_results::folders::Contents;
 use spunlaid_results::folders::run::{self as folder, POSITIONS};
 use spunlaid_results::output::doubt;
-use spunlaid_results::output::folder::ENTRIES;
 use spunlaid_results::output::tables::{TableRecorder, Tables, unit_of_column};
 use std::path::PathBuf;
+use std::sync::OnceLock;
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
@@ -120,6 +121,7 @@ impl RunResults {
             checks: &self.checks,
             notes: &self.notes,
             performance: self.performance,
+            drawn: OnceLock::new(),
         }
     }
 
@@ -228,8 +230,7 @@ impl RunResults {
 
     /// The report, a page of HTML.
     fn report(&self, py: Python<'_>) -> PyResult<String> {
-        let watch = Watch::default();
-        watched(py, &watch, None, || self.folder().report(watch.run_control(None)))
+        page(py, &self.folder())
     }
 
     /// Writes the folder that `spunlaid run` writes.
@@ -239,7 +240,7 @@ impl RunResults {
             return Err(crate::failure::raised_as(py, "FolderError", text.to_owned()));
         };
         let samples = samples.borrowed(py).all();
-        save(py, (&path, force, figures), ENTRIES, |staging, watch| {
+        save(py, (&path, force, figures), &self.folder(), |staging| {
             let recorder = TableRecorder::new(staging, self.case.line.is_some());
             let mut tables = Tables::create(staging, &recorder)?;
             for (replicate, samples) in (0..).zip(samples) {
@@ -253,8 +254,7 @@ impl RunResults {
                     .map_err(|ended| recorder.failure(ended))?;
                 tables.add(replicate)?;
             }
-            tables.finish()?;
-            self.folder().write(staging, watch.run_control(None)).map(drop)
+            tables.finish()
         })
     }
 

@@ -4,6 +4,7 @@ use crate::watched::{Watch, watched};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use spunlaid_results::Failure;
+use spunlaid_results::folders::Contents;
 use spunlaid_results::output::folder::Staging;
 use spunlaid_results::output::pictures::{FigureFiles, Format, width_named};
 use std::path::Path;
@@ -13,22 +14,28 @@ pub(crate) type Figures<'py> = (Option<Bound<'py, PyAny>>, Option<Bound<'py, PyA
 
 /// Saves results in the folder `path`, which replaces an old one with `force`.
 ///
-/// * `entries` – names of all that may be written into it
-/// * `write` – writes the files
-pub(crate) fn save(
+/// * `begin` – writes what is not among their contents
+pub(crate) fn save<C: Contents>(
     py: Python<'_>,
     (path, force, figures): (&Path, bool, Figures<'_>),
-    entries: &'static [&'static str],
-    write: impl FnOnce(&Staging<'_>, &Watch) -> Result<(), Failure> + Send,
+    contents: &C,
+    begin: impl FnOnce(&Staging<'_>) -> Result<(), Failure> + Send,
 ) -> PyResult<()> {
     let figures = figure_files(figures)?;
     let watch = Watch::default();
     watched(py, &watch, None, || {
-        let mut staging = Staging::new(path, entries, force, &watch.stop)?;
+        let mut staging = Staging::new(path, C::ENTRIES, force, &watch.stop)?;
         staging.set_figures(&figures);
-        write(&staging, &watch)?;
+        begin(&staging)?;
+        contents.write(&staging, watch.making())?;
         staging.publish()
     })
+}
+
+/// The report of results, one page of HTML that works offline.
+pub(crate) fn page(py: Python<'_>, contents: &impl Contents) -> PyResult<String> {
+    let watch = Watch::default();
+    watched(py, &watch, None, || contents.html(watch.making()))
 }
 
 /// Formats and width of figures.
@@ -38,7 +45,7 @@ pub(crate) fn save(
 pub(crate) fn figure_files((figures, width): Figures<'_>) -> PyResult<FigureFiles> {
     let usual = FigureFiles::default();
     let formats = match figures {
-        None => usual.formats,
+        None => usual.formats.clone(),
         Some(figures) => names(&figures)?
             .iter()
             .map(|name| Format::named(name))
@@ -55,7 +62,7 @@ pub(crate) fn figure_files((figures, width): Figures<'_>) -> PyResult<FigureFile
     });
     let width = width.transpose()?.map(|text| width_named(&text)).transpose();
     let width = width.map_err(|text| PyValueError::new_err(format!("figure_width: {text}")))?;
-    Ok(FigureFiles { formats, width })
+    Ok(FigureFiles { formats, width, ..usual })
 }
 
 /// Refuses figures that could not be written after a long flight.

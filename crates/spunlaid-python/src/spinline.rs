@@ -1,6 +1,6 @@
 //! `solve_spinline`: from the hole of the spinneret to the solid filament, and `SolvedSpinline`, its results.
 
-use crate::save::{Figures, save};
+use crate::save::{Figures, page, save};
 use crate::source::Source;
 use crate::value::overrides;
 use crate::watched::{guarded, read_file};
@@ -10,8 +10,9 @@ use pyo3::types::{PyDict, PyList};
 use spunlaid::case::Note;
 use spunlaid::error::FileKind;
 use spunlaid::input::{Overrides, SpinFile, parse_spinline, write_spinline};
+use spunlaid_results::folders::Contents;
 use spunlaid_results::folders::spinline::SpinFolder;
-use spunlaid_results::output::spinline::{COLUMNS, ENTRIES, SpinResults, remarks};
+use spunlaid_results::output::spinline::{COLUMNS, SpinResults, remarks};
 use std::path::PathBuf;
 
 /// A solved spinline. spunlaid.Spinline shows it.
@@ -79,12 +80,12 @@ impl SolvedSpinline {
     }
 
     /// The report, one page of HTML that works offline.
-    fn report(&self, py: Python<'_>) -> String {
-        py.detach(|| self.folder().report())
+    fn report(&self, py: Python<'_>) -> PyResult<String> {
+        page(py, &self.folder())
     }
 
     /// Writes the folder that `spunlaid spin` writes.
     fn save(&self, py: Python<'_>, path: PathBuf, force: bool, figures: Figures<'_>) -> PyResult<()> {
-        save(py, (&path, force, figures), ENTRIES, |staging, _| self.folder().write(staging))
+        save(py, (&path, force, figures), &self.folder(), |_| Ok(()))
     }
 }

@@ -24,7 +24,7 @@ use spunlaid::threads::{lock, look_while, unlock};
 use spunlaid::units::udunits;
 use spunlaid_results::Failure;
 use spunlaid_results::figures::Scale;
-use spunlaid_results::folders::study::StudyFolder;
+use spunlaid_results::folders::study as folder;
 use spunlaid_results::folders::tensions::StudyTensions;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -102,7 +102,7 @@ impl Study {
         };
         let number = file.study.points.len();
         let journal = guarded(py, || match &out {
-            Some(out) => Ok(StudyFolder::open(out, &file, force, None, &NEVER)?.1),
+            Some(out) => Ok(folder::open(out, &file, force, None, &NEVER)?.1),
             None => Ok(Journal::in_memory(number)),
         })?;
         let round = Mutex::new((Rounds::new(&file.study), None));
@@ -329,9 +329,10 @@ impl Study {
         guarded(py, || {
             // The folder is opened anew, which also sees whether it still holds this study.
             *self.journal() = None;
-            let (mut folder, mut journal, _) = StudyFolder::open(out, &self.file, false, None, &NEVER)?;
-            folder.set_figures(&figures);
-            folder.write(&self.name, &self.file, &mut journal).map(drop)
+            let (mut place, mut journal, _) = folder::open(out, &self.file, false, None, &NEVER)?;
+            place.figures = figures;
+            let watch = Watch::default();
+            folder::write(&mut place, &self.name, &self.file, &mut journal, watch.making()).map(drop)
         })
     }
 
@@ -395,7 +396,7 @@ impl Study {
         let mut kept_open = self.journal();
         match (kept_open.as_mut(), &self.out) {
             (Some(journal), _) => work(journal),
-            (None, Some(out)) => work(&mut StudyFolder::open(out, &self.file, false, None, &NEVER)?.1),
+            (None, Some(out)) => work(&mut folder::open(out, &self.file, false, None, &NEVER)?.1),
             (None, None) => work(&mut Journal::in_memory(self.file.study.points.len())),
         }
     }

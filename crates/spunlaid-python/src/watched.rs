@@ -8,6 +8,7 @@ use spunlaid::lanes::Isa;
 use spunlaid::threads::lock;
 use spunlaid::web::LayControl;
 use spunlaid_results::Failure;
+use spunlaid_results::folders::Making;
 use spunlaid_results::folders::tensions::StudyTensions;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -47,6 +48,11 @@ impl Watch {
             fibre_steps: &self.done,
             recorder: None,
         }
+    }
+
+    /// How files are made that are watched.
+    pub(crate) fn making(&self) -> Making<'_> {
+        Making { threads: self::threads(None), stop: &self.stop, room: usize::MAX }
     }
 
     /// How a web is laid that is watched, likewise.

@@ -18,8 +18,9 @@ use spunlaid::observe::{OF_PATCHES, with_errors};
 use spunlaid::threads::look_while;
 use spunlaid::web::{Findings, LayControl, Map, PatchFindings};
 use spunlaid_results::Failure;
+use spunlaid_results::folders::Contents;
 use spunlaid_results::folders::web::{WebFolder, notes};
-use spunlaid_results::output::web::{ENTRIES, Performance};
+use spunlaid_results::output::web::Performance;
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
@@ -205,8 +206,6 @@ impl LaidWeb {
 
     /// Writes the folder that `spunlaid web` writes.
     fn save(&self, py: Python<'_>, path: PathBuf, force: bool, figures: Figures<'_>) -> PyResult<()> {
-        save(py, (&path, force, figures), ENTRIES, |staging, watch| {
-            self.folder().write(staging, watch.lay_control(None))
-        })
+        save(py, (&path, force, figures), &self.folder(), |_| Ok(()))
     }
 }

@@ -19,9 +19,6 @@ pub(crate) struct Analyse {
     pub(crate) output: Output,
     #[command(flatten)]
     pub(crate) reading: RecordOptions,
-    /// Print analysis.json, or summary.json of a web, instead of the table
-    #[arg(long)]
-    pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) figures: Figures,
 }

@@ -1,17 +1,21 @@
-//! How a command writes its figures.
+//! How a command writes its figures and tables.
 
 use clap::Args;
 use spunlaid_results::output::pictures::{FigureFiles, Format, width_named};
+use spunlaid_results::output::table::TableFormat;
 
-/// Formats and width of the figures of a command.
+/// Formats and width of the figures of a command, and formats of its tables.
 #[derive(Clone, Debug, Args)]
-#[command(next_help_heading = "Figures")]
+#[command(next_help_heading = "Figures and tables")]
 pub(crate) struct Figures {
     /// Formats of the figures, as pdf,svg,png [default: svg,png]
     #[arg(long = "figures", value_name = "FORMATS", value_delimiter = ',', value_parser = Format::named)]
-    formats: Vec<Format>,
+    formats: Vec<&'static Format>,
     #[command(flatten)]
     width: FigureWidth,
+    /// Formats in which the folder tables/ holds the tables too: tsv, csv, parquet
+    #[arg(long, value_name = "FORMATS", value_delimiter = ',', value_parser = TableFormat::named)]
+    tables: Vec<&'static TableFormat>,
 }
 
 /// Width of the figures of a command.
@@ -26,13 +30,13 @@ pub(crate) struct FigureWidth {
 impl Figures {
     /// How the figures are written.
     pub(crate) fn files(&self) -> FigureFiles {
-        self.width.files(&self.formats)
+        FigureFiles { tables: self.tables.clone(), ..self.width.files(&self.formats) }
     }
 }
 
 impl FigureWidth {
     /// How the figures are written, in these formats if any are named.
-    pub(crate) fn files(&self, formats: &[Format]) -> FigureFiles {
+    pub(crate) fn files(&self, formats: &[&'static Format]) -> FigureFiles {
         let usual = FigureFiles { width: self.figure_width, ..FigureFiles::default() };
         if formats.is_empty() { usual } else { FigureFiles { formats: formats.to_vec(), ..usual } }
     }

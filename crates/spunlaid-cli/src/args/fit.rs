@@ -31,9 +31,6 @@ pub(crate) struct Fit {
     pub(crate) webs: u64,
     #[command(flatten)]
     pub(crate) threads: Threads,
-    /// Print fit.json instead of the table
-    #[arg(long)]
-    pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) figures: Figures,
 }

@@ -4,12 +4,12 @@ use super::{Arguments, is_standard};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, CommandFactory};
 use spunlaid_results::output::origin::Origin;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Options that do not decide what results are: they say where and how fast they are made, how they are shown, and what is made of
 /// them besides.
-const NOT_OF_RESULTS: [&str; 9] =
-    ["out", "threads", "quiet", "json", "force", "formats", "figure_width", "advice", "no_advice"];
+const NOT_OF_RESULTS: [&str; 10] =
+    ["out", "threads", "quiet", "json", "force", "formats", "figure_width", "tables", "advice", "no_advice"];
 /// With another number of replicates, a study goes on.
 const GOES_ON: (&str, &str) = ("sweep", "replicates");
 
@@ -50,14 +50,15 @@ impl Invocation {
         Some(format!("--{}", found.get_long()?))
     }
 
-    /// What its results are made from.
-    ///
-    /// * `files` – the files or folders that it reads
-    /// * `folder` – of the results
-    pub(crate) fn origin(&self, files: &[&Path], folder: &Path) -> Option<Origin> {
+    /// What its results in a folder are made from: the files or folders that it reads.
+    pub(crate) fn origin_of<'a>(
+        &'a self,
+        files: impl IntoIterator<Item = &'a PathBuf>,
+    ) -> impl FnOnce(&Path) -> Option<Origin> {
+        let files: Vec<&Path> = files.into_iter().map(PathBuf::as_path).collect();
         // Standard input may differ each time.
         let is_known = !files.iter().any(|file| is_standard(file));
-        is_known.then(|| Origin::new(&self.command, files, &self.options, folder))
+        move |folder| is_known.then(|| Origin::new(&self.command, &files, &self.options, folder))
     }
 }
 

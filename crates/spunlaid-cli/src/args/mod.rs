@@ -43,10 +43,10 @@ pub(crate) struct Arguments {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// Fly the fibres of a case and write table, data, figures and report
-    #[command(after_help = RUN_HELP)]
+    #[command(after_help = RUN_HELP, mut_arg("json", |json| json.help("Print summary.json instead of the table; without --out or --until, write no files")))]
     Run(Run),
     /// Fly a case with many values of its keys, and rank which keys matter
-    #[command(after_help = SWEEP_HELP, mut_arg("force", |force| force.help(FORCE_HELP)))]
+    #[command(after_help = SWEEP_HELP, mut_arg("force", |force| force.help(FORCE_HELP)), mut_arg("json", |json| json.help("Print results.json instead of the table")))]
     Sweep(Sweep),
     /// Solve a spinline, from the hole of the spinneret to the solid filament: diameter, speed, freezing point
     #[command(after_help = SPIN_HELP)]
@@ -55,7 +55,7 @@ pub(crate) enum Command {
     #[command(after_help = WEB_HELP)]
     Web(Web),
     /// Find the settings whose webs are as uneven as a scanned one, with their intervals
-    #[command(after_help = FIT_HELP, mut_arg("out", |out| out.help("Folder for the results [default: results/<name of the web>_fit]")), mut_arg("force", |force| force.help(FORCE_HELP)))]
+    #[command(after_help = FIT_HELP, mut_arg("out", |out| out.help("Folder for the results [default: results/<name of the web>_fit]")), mut_arg("force", |force| force.help(FORCE_HELP)), mut_arg("json", |json| json.help("Print fit.json instead of the table")))]
     Fit(Fit),
     /// Look at the turbulent air of a case: moving pictures of its gusts, slices for ParaView
     #[command(after_help = AIR_HELP, mut_arg("out", |out| out.help("Folder for the results [default: results/<name of the case>_air]")))]
@@ -67,10 +67,10 @@ pub(crate) enum Command {
     #[command(after_help = REPRODUCE_HELP, mut_arg("out", |out| out.help("Folder for the results [default: results/paper]")))]
     Reproduce(Reproduce),
     /// Make the air of a case from a velocity record, or say how even the web of a scan is
-    #[command(after_help = ANALYSE_HELP)]
+    #[command(after_help = ANALYSE_HELP, mut_arg("json", |json| json.help("Print analysis.json, or summary.json of a web, instead of the table")))]
     Analyse(Box<Analyse>),
     /// Compare the results of runs or of webs: differences, whether they are beyond chance, curves in one picture
-    #[command(after_help = COMPARE_HELP, mut_arg("out", |out| out.help("Folder for the report [default: results/<name>_against_<name>]")))]
+    #[command(after_help = COMPARE_HELP, mut_arg("out", |out| out.help("Folder for the report [default: results/<name>_against_<name>]")), mut_arg("json", |json| json.help("Print comparison.json instead of the table; without --out, write no files")))]
     Compare(Compare),
     /// Show a case, a web or a study with all defaults, and what it means, without flying it
     #[command(after_help = CHECK_HELP)]
@@ -112,9 +112,6 @@ pub(crate) struct Run {
     pub(crate) checks: Option<ChecksName>,
     #[command(flatten)]
     pub(crate) threads: Threads,
-    /// Print summary.json instead of the table; without --out or --until, write no files
-    #[arg(long)]
-    pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) figures: Figures,
 }
@@ -134,9 +131,6 @@ pub(crate) struct Sweep {
     /// Fibres or webs at each point, in place of the study's; with more than before, a finished study goes on
     #[arg(long, value_name = "N", value_parser = whole(1))]
     pub(crate) replicates: Option<u64>,
-    /// Print results.json instead of the table
-    #[arg(long)]
-    pub(crate) json: bool,
     /// Confirm the number of points; needed above 10000 points
     #[arg(long, value_name = "N", value_parser = whole(0))]
     pub(crate) points: Option<u64>,
@@ -157,9 +151,6 @@ pub(crate) struct Spin {
     /// Set a key of the spinline, as spinline.throughput="0.4 g/min"; can be repeated
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
     pub(crate) set: Vec<(String, String)>,
-    /// Print summary.json instead of the table; without --out, write no files
-    #[arg(long)]
-    pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) figures: Figures,
 }
@@ -197,9 +188,6 @@ pub(crate) struct Web {
     pub(crate) set: Vec<(String, String)>,
     #[command(flatten)]
     pub(crate) threads: Threads,
-    /// Print summary.json instead of the table; without --out, write no files
-    #[arg(long)]
-    pub(crate) json: bool,
     /// Try what makes it more even also where that takes long: where every filament of a web in one air is flown, or flights are long
     #[arg(long)]
     pub(crate) advice: bool,
@@ -301,9 +289,6 @@ pub(crate) struct Compare {
     pub(crate) runs: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) output: Output,
-    /// Print comparison.json instead of the table; without --out, write no files
-    #[arg(long)]
-    pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) figures: Figures,
 }

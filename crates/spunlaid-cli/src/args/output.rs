@@ -16,6 +16,9 @@ pub(crate) struct Output {
     /// Replace any results in the output folder; those of the same command are replaced without it
     #[arg(long)]
     pub(crate) force: bool,
+    /// Print summary.json instead of the table; without --out, write no files
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 impl Output {
@@ -24,9 +27,9 @@ impl Output {
         self.out.clone().unwrap_or_else(|| Path::new("results").join(name))
     }
 
-    /// The same; with `json`, results go to a folder only if one is requested.
-    pub(crate) fn optional_folder(&self, json: bool, name: impl AsRef<Path>) -> Option<PathBuf> {
-        (self.out.is_some() || !json).then(|| self.folder(name))
+    /// The same; with `--json`, results go to a folder only if one is requested.
+    pub(crate) fn optional_folder(&self, name: impl AsRef<Path>) -> Option<PathBuf> {
+        (self.out.is_some() || !self.json).then(|| self.folder(name))
     }
 }
 

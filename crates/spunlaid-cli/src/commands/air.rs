@@ -1,8 +1,8 @@
 //! `spunlaid air`: the turbulent air of a case, looked at while it passes.
 
+use super::delivery::{Asides, Delivery};
 use super::flown::flown;
-use super::interrupt::stop_on_ctrl_c;
-use super::{say_report, staged, stem};
+use super::{stem, stop_on_ctrl_c};
 use crate::args::{Air, Invocation};
 use crate::failure::Failure;
 use crate::{progress, say};
@@ -10,7 +10,7 @@ use spunlaid::air::Lateral;
 use spunlaid::case::Note;
 use spunlaid::input::{CaseWithNotes, Unread};
 use spunlaid_results::folders::air::AirFolder;
-use spunlaid_results::output::air::{AirViews, ENTRIES, Slices};
+use spunlaid_results::output::air::{AirViews, Slices};
 use std::sync::atomic::AtomicU64;
 
 /// What a reader is told of a case whose fibres have turbulence of their own.
@@ -35,24 +35,15 @@ pub(crate) fn air(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
         say::remark(false, &UNIFORM);
         remarks.push(UNIFORM.to_owned());
     }
-    let name = stem(&air.source.case, "case").to_string_lossy().into_owned();
-    let folder = air.output.folder(format!("{name}_air"));
-    let stop = stop_on_ctrl_c();
-    let origin = invocation.origin(&[&air.source.case], &folder);
-    let staging = staged((&folder, ENTRIES), &air.output, origin, &air.figures.files())?;
-    let replicate = air.replicate - 1;
-    let looks =
-        AirViews { replicate, frames: air.frames, duration: air.duration, threads: air.threads.number() };
+    let (name, origin) = (stem(&air.source.case, "case"), invocation.origin_of([&air.source.case]));
+    let folder = air.output.optional_folder(format!("{name}_air"));
+    let delivery = Delivery::open::<AirFolder<'_>>(folder, origin, &air.output, &air.figures.files())?;
+    let (replicate, threads) = (air.replicate - 1, air.threads.number());
+    let looks = AirViews { replicate, frames: air.frames, duration: air.duration, threads };
     let done = AtomicU64::new(0);
     let slices = progress::follow(&done, air.frames, "the air passes", air.output.quiet, || {
-        Slices::new(&case, &looks, &done, stop)
+        Slices::new(&case, &looks, &done, stop_on_ctrl_c())
     })?;
-    let results = AirFolder { name: &name, case: &case, slices: &slices, replicate, notes: &remarks };
-    results.write(&staging)?;
-    staging.publish()?;
-    if !air.output.quiet {
-        say::line(&results.headline());
-        say_report(&folder);
-    }
-    Ok(())
+    let contents = AirFolder { name: &name, case: &case, slices: &slices, replicate, notes: &remarks };
+    delivery.deliver(&contents, air.threads, Asides::default())
 }

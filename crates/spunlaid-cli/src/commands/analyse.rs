@@ -1,17 +1,15 @@
 //! `spunlaid analyse` makes the air of a case from a velocity record; a scan of a web goes to `scan`.
 
+use super::delivery::{Asides, Delivery};
 use super::scan::scan;
-use super::{say_report, staged, stem};
-use crate::args::{Analyse, Invocation, RecordOptions, Scan};
+use super::stem;
+use crate::args::{Analyse, Invocation, RecordOptions, Scan, Threads};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::error::{Fault, FileError, Problem};
-use spunlaid::record::{Analysis, Layout, Record, Settings, SpectrumSettings, read_record};
+use spunlaid::record::{Layout, Settings, SpectrumSettings, read_record};
 use spunlaid::scan::is_picture_file;
-use spunlaid_results::figures::record_figures;
-use spunlaid_results::output::analysis::{air_block, analysis_json, autocorrelation_csv, spectrum_csv};
-use spunlaid_results::output::folder::{ENTRIES, Staging};
-use spunlaid_results::report::{analysis_report, analysis_text};
+use spunlaid_results::folders::record::RecordFolder;
 
 pub(crate) fn analyse(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     let is_scan = analyse.scan.pixel.is_some() || is_picture_file(&analyse.record);
@@ -33,27 +31,18 @@ pub(crate) fn analyse(analyse: &Analyse, invocation: &Invocation) -> Result<(), 
 }
 
 fn record(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
-    let name = stem(&analyse.record, "record");
-    let folder = analyse.output.folder(name);
-    let origin = invocation.origin(&[&analyse.record], &folder);
-    let staging = staged((&folder, ENTRIES), &analyse.output, origin, &analyse.figures.files())?;
+    let (name, origin) = (stem(&analyse.record, "record"), invocation.origin_of([&analyse.record]));
+    let (folder, output) = (analyse.output.folder(&name), &analyse.output);
+    let air = format!("\nthe [air] of a case is in {}", folder.join("air.toml").display());
+    let figures = analyse.figures.files();
+    let delivery = Delivery::open::<RecordFolder<'_>>(Some(folder), origin, output, &figures)?;
     let record = read_record(&analyse.record, &layout(&analyse.reading))?;
     let analysis = spunlaid::record::analyse(&record, &settings(&analyse.reading))?;
     let remarks: Vec<String> = record.repairs().iter().map(ToString::to_string).collect();
     remarks.iter().for_each(|remark| say::remark(false, remark));
     analysis.warnings.iter().for_each(|warning| say::warning(&warning.to_string()));
-
-    let json = analysis_json(&record, &analysis);
-    write(&staging, &name.to_string_lossy(), &record, &analysis, &remarks, &json)?;
-    staging.publish()?;
-    if analyse.json {
-        say::text(&json);
-    } else if !analyse.output.quiet {
-        say::table(&analysis_text(&record, &analysis, say::room()));
-        say::line(&format!("\nthe [air] of a case is in {}", folder.join("air.toml").display()));
-        say_report(&folder);
-    }
-    Ok(())
+    let contents = RecordFolder { name: &name, record: &record, analysis: &analysis, remarks: &remarks };
+    delivery.deliver(&contents, Threads::default(), Asides { lines: &[air], ..Asides::default() })
 }
 
 fn layout(options: &RecordOptions) -> Layout {
@@ -79,23 +68,4 @@ fn settings(options: &RecordOptions) -> Settings {
         flat_until: options.flat_until,
         mean_velocity: options.mean_velocity,
     }
-}
-
-fn write(
-    staging: &Staging<'_>,
-    name: &str,
-    record: &Record,
-    analysis: &Analysis,
-    remarks: &[String],
-    json: &str,
-) -> Result<(), Failure> {
-    let figures = record_figures(record, analysis);
-    staging.write_figures(&figures)?;
-    let air = air_block(&record.file, analysis);
-    let report = analysis_report(record, analysis, &figures, remarks, &air).named(name);
-    staging.write("report.html", report.html())?;
-    staging.write("spectrum.csv", spectrum_csv(analysis))?;
-    staging.write("autocorrelation.csv", autocorrelation_csv(analysis))?;
-    staging.write("air.toml", air)?;
-    Ok(staging.write("analysis.json", json)?)
 }

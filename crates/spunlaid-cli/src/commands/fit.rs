@@ -1,8 +1,8 @@
 //! `spunlaid fit`: which values of some keys make a web like a scan?
 
+use super::delivery::{Asides, making, say_continued, say_replaced, tell};
 use super::flown::flown;
-use super::interrupt::stop_on_ctrl_c;
-use super::{lay_control, plural, say_report, stem};
+use super::{lay_control, plural, stem, stop_on_ctrl_c};
 use crate::args::{self, Invocation, overrides};
 use crate::failure::Failure;
 use crate::{progress, say};
@@ -11,11 +11,10 @@ use spunlaid::error::Error;
 use spunlaid::fit::{Fit, Question, Target, WebInProgress, fit as find};
 use spunlaid::input::{FitFile, read_fit};
 use spunlaid::layers::{Flights, Flyer};
-use spunlaid::study::{Journal, JournalState};
-use spunlaid_results::folders::fit::{FitFolder, FitInput};
+use spunlaid::study::Journal;
+use spunlaid_results::folders::fit::{self, FitInput, FoundFit};
 use spunlaid_results::folders::read_measured_web;
-use spunlaid_results::output::fit::{fit_json, pretty};
-use spunlaid_results::report::fit_text;
+use spunlaid_results::output::fit::pretty;
 use std::sync::atomic::AtomicU64;
 
 pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), Failure> {
@@ -27,7 +26,7 @@ pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), 
     let target = Target::new(&scan, &file.start.spec.sheet, arguments.spectrum)
         .map_err(|fault| Error::folder(&arguments.to, fault))?;
     let notes = Note::notes_of_results(&file.start.notes);
-    let name = stem(&arguments.web, "web").to_string_lossy().into_owned();
+    let name = stem(&arguments.web, "web");
     let paths = [arguments.web.display().to_string(), arguments.to.display().to_string()];
     let input = FitInput {
         name: &name,
@@ -38,13 +37,16 @@ pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), 
         notes: &notes,
     };
     let path = arguments.output.folder(format!("{name}_fit"));
-    let origin = invocation.origin(&[&arguments.web], &path);
+    let origin = invocation.origin_of([&arguments.web])(&path);
     let (mut folder, mut journal, state) =
-        FitFolder::open(&path, &input, arguments.output.force, origin.as_ref(), stop_on_ctrl_c())?;
+        fit::open(&path, &input, arguments.output.force, origin.as_ref(), stop_on_ctrl_c())?;
     if folder.replaces() {
-        super::say_replaced(&path, arguments.output.quiet);
+        say_replaced(&path, &arguments.output);
     }
-    report_found(arguments, state);
+    if let Some(state) = state {
+        let done = format!("{} already laid", plural(state.fibres, "web"));
+        say_continued(&state, &done, "web", &arguments.output);
+    }
     let found = search(arguments, &file, &target, &mut journal).map_err(|error| match error {
         Error::Interrupted => Failure::Paused { done: journal.total(), what: "webs", total: None },
         other => other.into(),
@@ -52,27 +54,13 @@ pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), 
     folder.figures = arguments.figures.files();
     let values: Vec<f64> = found.keys.iter().map(|key| key.value).collect();
     let web = flown(file.web(&values), arguments.threads, arguments.output.quiet)?;
-    folder.write(&input, &found, &web.spec)?;
-    if arguments.json {
-        say::text(&fit_json(&found, &target, input.paths, &notes));
-    } else if !arguments.output.quiet {
-        say::table(&fit_text(&found, say::room()));
-        let trials = plural(found.trials.len() as u64, "trial");
-        say::line(&format!("{trials} of {} each", plural(found.webs, "web")));
-        say_report(&path);
-    }
+    let trials = plural(found.trials.len() as u64, "trial");
+    let lines = &[format!("{trials} of {} each", plural(found.webs, "web"))];
+    let contents = FoundFit { input, fit: &found, spec: &web.spec };
+    let text = folder.write(&contents, making(arguments.threads))?;
+    let asides = Asides { lines, ..Asides::default() };
+    tell(&contents, (Some(&path), &text), &arguments.output, asides);
     Ok(())
-}
-
-fn report_found(arguments: &args::Fit, state: Option<JournalState>) {
-    let Some(JournalState { fibres, damaged, .. }) = state else { return };
-    if !arguments.output.quiet {
-        say::aside(&format!("continuing: {} already laid", plural(fibres, "web")));
-    }
-    if damaged > 0 {
-        let records = plural(damaged, "record");
-        say::warning(&format!("the journal has damaged records ({records}); these webs are laid again"));
-    }
 }
 
 /// Columns of what stands before the words of the bar.

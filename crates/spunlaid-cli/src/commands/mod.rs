@@ -5,10 +5,10 @@ pub(crate) mod analyse;
 pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod completions;
+mod delivery;
 mod finished_run;
 pub(crate) mod fit;
 mod flown;
-mod interrupt;
 pub(crate) mod keys;
 pub(crate) mod live;
 pub(crate) mod man;
@@ -20,59 +20,29 @@ pub(crate) mod spin;
 pub(crate) mod sweep;
 pub(crate) mod web;
 
-use crate::args::{Output, Threads, is_standard};
-use crate::failure::Failure;
+use crate::args::{Threads, is_standard};
 use crate::say;
-use interrupt::stop_on_ctrl_c;
-use serde::Serialize;
 use spunlaid::ensemble::RunControl;
-use spunlaid::fabric::Fabric;
 use spunlaid::lanes::Isa;
 use spunlaid::web::LayControl;
-use spunlaid_results::output::folder::Staging;
-use spunlaid_results::output::json_text;
-use spunlaid_results::output::origin::Origin;
-use spunlaid_results::output::pictures::FigureFiles;
-use spunlaid_results::output::web::fabric_rows;
-use std::ffi::OsStr;
 use std::path::Path;
-use std::sync::atomic::AtomicU64;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// Largest number of points of a study that are listed.
 const LISTED: usize = 24;
 
 /// The name of a file without its extension.
-fn stem<'a>(file: &'a Path, otherwise: &'a str) -> &'a OsStr {
-    file.file_stem().filter(|_| !is_standard(file)).unwrap_or(otherwise.as_ref())
+fn stem(file: &Path, otherwise: &str) -> String {
+    let stem = file.file_stem().filter(|_| !is_standard(file)).unwrap_or(otherwise.as_ref());
+    stem.to_string_lossy().into_owned()
 }
 
-/// Collects the results of a command. What the same command wrote before is replaced, and a note says so.
-fn staged(
-    (folder, entries): (&Path, &'static [&'static str]),
-    output: &Output,
-    origin: Option<Origin>,
-    figures: &FigureFiles,
-) -> Result<Staging<'static>, Failure> {
-    let mut staging = Staging::with_origin(folder, entries, output.force, origin, stop_on_ctrl_c())?;
-    staging.set_figures(figures);
-    if staging.replaces_own() {
-        say_replaced(folder, output.quiet);
-    }
-    Ok(staging)
-}
-
-/// Says that the earlier results of the same command are replaced.
-fn say_replaced(folder: &Path, quiet: bool) {
-    if !quiet {
-        let replaced =
-            format!("{}: holds earlier results of this command, which are replaced", folder.display());
-        say::remark(false, &replaced);
-    }
-}
-
-/// Says which report to open.
-fn say_report(folder: impl AsRef<Path>) {
-    say::line(&format!("open {}", folder.as_ref().join("report.html").display()));
+/// Installs a handler for Ctrl-C and returns the flag that it sets.
+fn stop_on_ctrl_c() -> &'static AtomicBool {
+    static STOP: AtomicBool = AtomicBool::new(false);
+    // Without the handler, Ctrl-C still ends the program but leaves its hidden folder behind.
+    let _ = ctrlc::set_handler(|| STOP.store(true, Ordering::Relaxed));
+    &STOP
 }
 
 /// How fibres are flown; Ctrl-C ends it.
@@ -86,29 +56,9 @@ fn lay_control(threads: Threads, laid: &AtomicU64) -> LayControl<'_> {
     LayControl { threads: threads.number(), isa: Isa::detect(), stop: stop_on_ctrl_c(), laid }
 }
 
-/// A text of JSON that says which version wrote it.
-fn versioned_json(content: &impl Serialize) -> String {
-    #[derive(Serialize)]
-    struct Versioned<'a, T> {
-        schema_version: u32,
-        spunlaid_version: &'static str,
-        #[serde(flatten)]
-        content: &'a T,
-    }
-    json_text(&Versioned { schema_version: 1, spunlaid_version: env!("CARGO_PKG_VERSION"), content })
-}
-
 /// `1 fibre`, `2 fibres`.
 fn plural(count: u64, noun: &str) -> String {
     if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
-}
-
-/// A few numbers of a fabric.
-fn fabric_table(fabric: &Fabric) -> String {
-    let rows = fabric_rows(fabric).into_iter().map(Vec::from);
-    let notes: String = fabric.notes.iter().map(|note| format!("\n{note}")).collect();
-    let of = if fabric.is_of_map_alone { "" } else { " and of the curves of the fibres" };
-    format!("\nfabric, of the map{of}\n{}{notes}", aligned(&rows.collect::<Vec<_>>()))
 }
 
 /// A table whose columns stand below their heads. Columns for which the terminal is too narrow follow below, beside the first column once more.

@@ -1,10 +1,10 @@
 //! `spunlaid reproduce`: draws the paper's figures again and tests its claims.
 
-use super::{plural, run_control, say_report, staged, versioned_json};
+use super::delivery::{Asides, Delivery};
+use super::{plural, run_control};
 use crate::args::{Invocation, Reproduce, SchemeName};
 use crate::failure::Failure;
-use crate::{progress, say};
-use serde::Serialize;
+use crate::progress;
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::ensemble::{
@@ -12,7 +12,6 @@ use spunlaid::ensemble::{
     velocity_record,
 };
 use spunlaid::error::Fault;
-use spunlaid::input::write_case;
 use spunlaid::paper::{
     Claim, Parameter, TrendPoint, choices as choices_of_the_paper, claims_of_step_errors, claims_of_trend,
     in_scheme, table1, time_steps,
@@ -21,10 +20,9 @@ use spunlaid::study::{Journal, PointResults, Progress, Replicates, Study, result
 use spunlaid::threads::unlock;
 use spunlaid_charts::Figure;
 use spunlaid_results::figures::paper as draw;
-use spunlaid_results::output::folder::ENTRIES;
+use spunlaid_results::folders::paper::PaperFolder;
 use spunlaid_results::output::pictures::Format;
 use spunlaid_results::output::study::shown;
-use spunlaid_results::report::paper_report;
 use std::sync::Mutex;
 use std::sync::atomic::AtomicU64;
 
@@ -32,7 +30,8 @@ use std::sync::atomic::AtomicU64;
 const FIGURES: [&str; 9] = ["2", "3", "8a", "8b", "9", "10", "11a", "11b", "11c"];
 
 pub(crate) fn reproduce(arguments: &Reproduce, invocation: &Invocation) -> Result<(), Failure> {
-    let formats: Vec<Format> = arguments.figures.iter().filter_map(|name| Format::named(name).ok()).collect();
+    let formats: Vec<&Format> =
+        arguments.figures.iter().filter_map(|name| Format::named(name).ok()).collect();
     let wanted = chosen(arguments.figures.iter().filter(|name| Format::named(name).is_err()).collect())?;
     let scheme = match arguments.scheme {
         SchemeName::SemiImplicitEuler => Scheme::SemiImplicitEuler,
@@ -41,9 +40,9 @@ pub(crate) fn reproduce(arguments: &Reproduce, invocation: &Invocation) -> Resul
     };
     let mut base = table1(scheme)?;
     base.run.replicates = arguments.replicates;
-    let folder = arguments.output.folder("paper");
-    let origin = invocation.origin(&[], &folder);
-    let staging = staged((&folder, ENTRIES), &arguments.output, origin, &arguments.width.files(&formats))?;
+    let (folder, output) = (arguments.output.optional_folder("paper"), &arguments.output);
+    let (origin, figures) = (invocation.origin_of([]), arguments.width.files(&formats));
+    let delivery = Delivery::open::<PaperFolder<'_>>(folder, origin, output, &figures)?;
     let flying = PaperFlights::new(&base, &wanted)?;
 
     let fibre_steps = AtomicU64::new(0);
@@ -53,11 +52,6 @@ pub(crate) fn reproduce(arguments: &Reproduce, invocation: &Invocation) -> Resul
         flying.fly(computing)
     })?;
 
-    let figures = flown.figures(&base);
-    let claims = flown.claims();
-    let choices = flown.choices();
-    staging.write_figures(&figures)?;
-    let case_toml = write_case(&base);
     let how = format!(
         "{} at each point, scheme {}, time step {} µs, the same random phases at all points of a figure. Figures 8a and 8b \
          always use the paper’s own scheme.",
@@ -65,19 +59,14 @@ pub(crate) fn reproduce(arguments: &Reproduce, invocation: &Invocation) -> Resul
         scheme.name(),
         base.run.time_step * 1e6
     );
-    let report = paper_report(&claims, &figures, &choices, &how, (&base, &case_toml));
-    staging.write("report.html", report.html())?;
-    staging.write("case.toml", case_toml)?;
-    staging.write("summary.json", summary(&claims))?;
-    staging.publish()?;
-    if !arguments.output.quiet {
-        for claim in &claims {
-            say::line(&format!("{:<4} {:<13} {}", claim.figure, claim.verdict.name(), claim.claim));
-            say::line(&format!("                   {}", claim.evidence));
-        }
-        say_report(&folder);
-    }
-    Ok(())
+    let contents = PaperFolder {
+        claims: &flown.claims(),
+        figures: &flown.figures(&base),
+        choices: &flown.choices(),
+        how: &how,
+        case: &base,
+    };
+    delivery.deliver(&contents, arguments.threads, Asides::default())
 }
 
 /// The requested figures, or all if none are named. `8`, `9` and `11` mean all their parts.
@@ -276,13 +265,4 @@ impl PaperResults {
         };
         self.flying.choices.iter().map(|&(name, point)| (name.to_owned(), cells(point))).collect()
     }
-}
-
-/// `summary.json`: the claims with their evidence and verdicts.
-fn summary(claims: &[Claim]) -> String {
-    #[derive(Serialize)]
-    struct Summary<'a> {
-        claims: &'a [Claim],
-    }
-    versioned_json(&Summary { claims })
 }

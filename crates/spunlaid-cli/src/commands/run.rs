@@ -1,60 +1,39 @@
 //! `spunlaid run`: flies a case and writes the results.
 
+use super::delivery::{Asides, Delivery};
 use super::finished_run::continued;
 use super::flown::flown;
-use super::{plural, run_control, say_report, staged, stem};
+use super::{plural, run_control, stem};
 use crate::args::{Invocation, Output, Run};
 use crate::failure::Failure;
 use crate::{progress, say};
-use spunlaid::case::Note;
-use spunlaid::ensemble::FinerPlans;
+use spunlaid::case::{Case, Note};
+use spunlaid::ensemble::{FinerChecks, FinerPlans, RunControl, RunPaths};
 use spunlaid_results::folders::read_summary_of_run;
 use spunlaid_results::folders::run as files;
-use spunlaid_results::output::folder::{ENTRIES, Staging};
-use spunlaid_results::output::{finer, table};
+
 use std::path::Path;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
-    let (mut case, mut notes) = match run.until {
-        Some(until) => continued(run, &overrides(run), until)?,
-        None => {
-            let read = run.source.read(&overrides(run));
-            let (case, notes) = flown(read, run.threads, run.output.quiet)?;
-            notes.iter().for_each(say::note);
-            (case, Note::notes_of_results(&notes))
-        }
-    };
-    let name = name(run);
-    let folder = match run.until {
-        Some(_) if run.output.out.is_none() => Some(run.source.case.clone()),
-        _ => run.output.optional_folder(run.json, &name),
-    };
-    let staging = folder.as_ref().map(|folder| staging(run, invocation, folder)).transpose()?;
+    let (mut case, mut notes) = read(run)?;
+    let (name, is_own) = (name(run), run.until.is_some() && run.output.out.is_none());
+    let output = Output { force: run.output.force || is_own, ..run.output.clone() };
+    let folder = if is_own { Some(run.source.case.clone()) } else { output.optional_folder(&name) };
+    // A continued run took longer, so that the run from which it began does not replace it.
+    let made_from = invocation.origin_of([&run.source.case]);
+    let origin = |folder: &Path| if run.until.is_some() { None } else { made_from(folder) };
+    let mut delivery = Delivery::open::<files::Run<'_>>(folder, origin, &output, &run.figures.files())?;
 
     let fibre_steps = AtomicU64::new(0);
     let computing = run_control(run.threads, &fibre_steps);
-    let started = Instant::now();
-    let plans = FinerPlans::for_case(&case);
-    let told = |left| {
-        if !run.output.quiet {
-            say::aside(&format!(
-                "going on: {left} of {} were flown before",
-                plural(case.run.replicates, "fibre")
-            ));
-        }
-    };
-    let mut flown = progress::follow(
-        &fibre_steps,
-        case.run.steps * case.fibres(),
-        &format!("flying {}", plural(case.fibres(), "fibre")),
-        run.output.quiet,
-        || files::fly(&case, &plans, computing, staging.as_ref(), told),
-    )?;
+    let (started, plans) = (Instant::now(), FinerPlans::for_case(&case));
+    let mut flown = fly(&case, &plans, computing, &delivery, output.quiet)?;
     let asked = case.run.replicates;
     let paused = || Failure::Paused { done: flown.replicates, total: Some(asked), what: "fibres" };
-    if flown.paths.is_none() && folder.as_ref().is_some_and(|folder| holds_more(folder, flown.replicates)) {
+    if flown.paths.is_none() && delivery.folder().is_some_and(|folder| holds_more(folder, flown.replicates)) {
         return Err(paused());
     }
     // The results of an interrupted run are those of the fibres that have landed.
@@ -62,56 +41,78 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     notes.extend(flown.paths.is_none().then(|| interrupted(flown.replicates, asked)));
     let results = &flown.results;
     let performance = files::performance(&case, results, computing, started.elapsed().as_secs_f64());
-
-    let lost = files::lost(&case, results);
-    notes.extend(lost.clone());
-    if let Some(outside) = files::outside(results) {
-        say::warning(&outside);
-        notes.push(outside);
-    }
-    let coarse = files::coarse_shapes(&case, results);
-    notes.extend(coarse.clone());
-    let before = match flown.paths {
-        Some(_) => plans.before_flight(),
-        None => plans.stopped(),
+    let [lost, outside, coarse] = files::found(&case, results);
+    outside.iter().for_each(|outside| say::warning(outside));
+    notes.extend([&lost, &outside, &coarse].into_iter().flatten().cloned());
+    let before = if flown.paths.is_some() { plans.before_flight() } else { plans.stopped() };
+    let first = files::Run {
+        name: &name,
+        case: &case,
+        results,
+        checks: &before,
+        notes: &notes,
+        performance,
+        drawn: OnceLock::new(),
     };
-    let first = files::Run { name: &name, case: &case, results, checks: &before, notes: &notes, performance };
-    let drawn = match staging.as_ref().map(|staging| first.write(staging, computing)).transpose() {
-        Ok(drawn) => drawn,
+    let mut delivered = match delivery.publish(&first, run.threads) {
+        Ok(delivered) => delivered,
         Err(failure) => {
             // What is kept goes first, since the folder above it is removed only if it is empty.
             drop(flown);
-            return Err(failure.into());
+            return Err(failure);
         }
     };
-    let published = staging
-        .zip(drawn)
-        .map(|(staging, drawn)| Ok::<_, spunlaid_results::Failure>((staging.publish_first()?, drawn)));
-    let published = published.transpose()?;
-    coarse.iter().filter(|_| published.is_some()).for_each(|coarse| say::remark(false, coarse));
+    coarse.iter().filter(|_| delivered.is_in_folder()).for_each(|coarse| say::remark(false, coarse));
 
     // The results are safe now, whatever becomes of the checks.
-    fibre_steps.store(0, Ordering::Relaxed);
-    let (total, label) = (plans.fibre_steps(), "checking time step and mesh");
-    let checked = flown.paths.as_ref().map(|paths| {
-        progress::follow(&fibre_steps, total, label, run.output.quiet, || plans.check(paths, computing))
-    });
+    let checked = flown.paths.as_ref().map(|paths| check(&plans, paths, computing, output.quiet));
     let written = files::Run { checks: checked.as_ref().unwrap_or(&before), ..first };
-    if let Some((folder, drawn)) = published.as_ref().filter(|_| total > 0 && checked.is_some()) {
-        written.write_checks(folder, drawn)?;
+    if plans.fibre_steps() > 0 && checked.is_some() {
+        delivered.rewrite(&written)?;
     }
-
-    if run.json {
-        say::text(&written.summary());
-    } else if !run.output.quiet {
-        show(&written);
-        folder.iter().for_each(say_report);
-    }
+    delivery.tell(&written, delivered, Asides::default());
     if checked.is_none() {
         return Err(paused());
     }
     flown.forget_kept();
     lost.map_or(Ok(()), |lost| Err(Failure::FibresLost { lost }))
+}
+
+/// The case, and the notes about it, which are told.
+fn read(run: &Run) -> Result<(Case, Vec<String>), Failure> {
+    if let Some(until) = run.until {
+        return continued(run, &overrides(run), until);
+    }
+    let (case, notes) = flown(run.source.read(&overrides(run)), run.threads, run.output.quiet)?;
+    notes.iter().for_each(say::note);
+    Ok((case, Note::notes_of_results(&notes)))
+}
+
+/// Flies the fibres that have not been flown.
+fn fly(
+    case: &Case,
+    plans: &FinerPlans,
+    computing: RunControl<'_>,
+    delivery: &Delivery<'_>,
+    quiet: bool,
+) -> Result<files::Flown, Failure> {
+    let told = |left| {
+        if !quiet {
+            let all = plural(case.run.replicates, "fibre");
+            say::aside(&format!("going on: {left} of {all} were flown before"));
+        }
+    };
+    let (steps, label) =
+        (case.run.steps * case.fibres(), format!("flying {}", plural(case.fibres(), "fibre")));
+    let work = || files::fly(case, plans, computing, delivery.staging(), told);
+    Ok(progress::follow(computing.fibre_steps, steps, &label, quiet, work)?)
+}
+
+/// Checks time step and mesh.
+fn check(plans: &FinerPlans, paths: &RunPaths, computing: RunControl<'_>, quiet: bool) -> FinerChecks {
+    computing.fibre_steps.store(0, Ordering::Relaxed);
+    let (total, label) = (plans.fibre_steps(), "checking time step and mesh");
+    progress::follow(computing.fibre_steps, total, label, quiet, || plans.check(paths, computing))
 }
 
 /// Whether a folder holds results of as many replicates, which those of a part of them do not replace.
@@ -124,35 +125,11 @@ fn interrupted(flown: u64, asked: u64) -> String {
     format!("{flown} of {asked} replicates: the run was interrupted, and the same command flies the others")
 }
 
-/// Prints the results.
-fn show(run: &files::Run<'_>) {
-    let files::Run { case, results, checks, performance, .. } = *run;
-    say::table(&table::results(results));
-    say::table(&finer::text(checks, case, results));
-    let seconds = performance.wall_s;
-    say::line(&format!(
-        "\n{} in {seconds:.2} s, {:.1} ns per element and step and thread ({}, {})",
-        plural(results.replicates() as u64, "fibre"),
-        performance.ns_per_element_step,
-        performance.instruction_set,
-        plural(performance.threads as u64, "thread")
-    ));
-}
-
-/// Collects the results. A continued run replaces its own ones. It took longer, so that the run from which it began does not replace
-/// it.
-fn staging(run: &Run, invocation: &Invocation, folder: &Path) -> Result<Staging<'static>, Failure> {
-    let is_continued = run.until.is_some();
-    let origin = (!is_continued).then(|| invocation.origin(&[&run.source.case], folder)).flatten();
-    let force = run.output.force || is_continued && run.output.out.is_none();
-    staged((folder, ENTRIES), &Output { force, ..run.output.clone() }, origin, &run.figures.files())
-}
-
 /// What the results are called: as the case file, or as the folder of a run that is continued.
 fn name(run: &Run) -> String {
     let case = &run.source.case;
     let folder = run.until.and_then(|_| Some(case.canonicalize().ok()?.file_name()?.to_owned()));
-    folder.as_deref().unwrap_or_else(|| stem(case, "case")).to_string_lossy().into_owned()
+    folder.map_or_else(|| stem(case, "case"), |folder| folder.to_string_lossy().into_owned())
 }
 
 /// The changes to the case on the command line.

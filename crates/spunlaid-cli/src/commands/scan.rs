@@ -1,39 +1,29 @@
 //! `spunlaid analyse` of a scan or a map of a web.
 
-use super::{fabric_table, say_report, staged, stem};
-use crate::args::{Analyse, Direction, Invocation, LightName};
+use super::delivery::{Asides, Delivery};
+use super::stem;
+use crate::args::{Analyse, Direction, Invocation, LightName, Threads};
 use crate::failure::Failure;
-use crate::say;
 use spunlaid::fabric;
 use spunlaid::lanes::Isa;
 use spunlaid::scan::{LightKind, ScanRequest};
 use spunlaid_results::folders::scan::{ScanFolder, notes};
-use spunlaid_results::output::web::{ENTRIES, Performance};
-use spunlaid_results::report::scan_text;
+use spunlaid_results::output::web::Performance;
 use std::time::Instant;
 
 pub(super) fn scan(arguments: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
-    let name = stem(&arguments.record, "scan").to_string_lossy().into_owned();
-    let folder = arguments.output.folder(&name);
-    let origin = invocation.origin(&[&arguments.record], &folder);
-    let staging = staged((&folder, ENTRIES), &arguments.output, origin, &arguments.figures.files())?;
+    let (name, origin) = (stem(&arguments.record, "scan"), invocation.origin_of([&arguments.record]));
+    let folder = Some(arguments.output.folder(&name));
+    let (output, figures) = (&arguments.output, arguments.figures.files());
+    let delivery = Delivery::open::<ScanFolder<'_>>(folder, origin, output, &figures)?;
     let started = Instant::now();
     let (picture, findings) = request(arguments).analyse_file(&arguments.record)?;
     let fabric = fabric::of_scan(&findings);
     let performance = Performance::measure(started, 1, Isa::detect());
-    let (file, notes) = (&picture.file, &notes(&findings));
-    let results = ScanFolder { name: &name, file, findings: &findings, fabric: &fabric, notes, performance };
-    results.write(&staging)?;
-    staging.publish()?;
-    if arguments.json {
-        say::text(&results.summary());
-    } else if !arguments.output.quiet {
-        say::table(&scan_text(&findings, say::room()));
-        say::table(&fabric_table(&fabric));
-        notes.iter().for_each(|note| say::remark(false, note));
-        say_report(&folder);
-    }
-    Ok(())
+    let (file, found) = (&picture.file, &notes(&findings));
+    let contents =
+        ScanFolder { name: &name, file, findings: &findings, fabric: &fabric, notes: found, performance };
+    delivery.deliver(&contents, Threads::default(), Asides { found, ..Asides::default() })
 }
 
 fn request(arguments: &Analyse) -> ScanRequest {

@@ -113,3 +113,21 @@ fn rejects_unknown_formats_and_widths_with_what_is_allowed() {
         "{width}"
     );
 }
+
+#[test]
+fn tables_have_the_formats_that_are_asked_for_besides_the_usual_one() {
+    let desk = Desk::new();
+    let spin = |options: &[&str]| {
+        success(desk.spunlaid("spin").arg(case("spinline.toml")).args(["--out", "r"]).args(options));
+    };
+    spin(&["--tables", "tsv,csv"]);
+    assert_eq!(desk.entries("r/tables"), names(&["spinline.tsv", "spinline.csv"]));
+    let text = |ending: &str| String::from_utf8(desk.read(&format!("r/tables/spinline.{ending}"))).unwrap();
+    assert!(text("csv").starts_with("z_m,speed_m_s,diameter_m,") && text("csv").lines().count() > 100);
+    assert_eq!(text("tsv").replace('\t', ","), text("csv"));
+    // They go with the results that are replaced.
+    spin(&[]);
+    assert!(!desk.path("r/tables").exists() && desk.path("r/spinline.parquet").exists());
+    let refused = refusal(desk.spunlaid("spin").arg(case("spinline.toml")).args(["--tables", "xlsx"]), 1);
+    assert!(refused.contains("write one of csv, parquet, tsv"), "{refused}");
+}

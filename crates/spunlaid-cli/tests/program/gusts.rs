@@ -28,6 +28,11 @@ fn slices_are_the_air_of_the_replicate() {
     let arguments = format!("air brief.toml --frames {FRAMES} --duration 40ms --replicate 3 --out a");
     let said = success(&mut desk.with(&arguments, &SMALL));
     assert!(said.contains("Gusts of") && said.contains("open a/report.html"), "{said}");
+    // The same numbers without a folder.
+    let json = success(&mut desk.with(&arguments.replace("--out a", "--json"), &SMALL));
+    assert!(
+        json == String::from_utf8(desk.read("a/summary.json")).unwrap() && !desk.path("results").exists()
+    );
     let all = "across.gif across.pvd along.gif along.pvd case.toml figures origin.toml report.html slices summary.json";
     assert_eq!(desk.entries("a"), names(&all.split(' ').collect::<Vec<_>>()));
     let set = SMALL.map(|change| change.split_once('=').map(|(a, b)| (a.to_owned(), b.to_owned())).unwrap());

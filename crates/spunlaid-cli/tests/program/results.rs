@@ -28,7 +28,7 @@ fn keys(value: &Value) -> Vec<&str> {
 fn a_run_leaves_what_help_promises_and_nothing_else() {
     let desk = Desk::new();
     let said = success(&mut desk.spunlaid("run brief.toml"));
-    assert!(said.contains("mean ± standard error over 3 replicates"), "{said}");
+    assert!(said.contains("Mean ± one standard error of the mean over 3 replicates."), "{said}");
     assert!(said.ends_with("open results/brief/report.html\n"), "{said}");
     assert_eq!(desk.entries(""), names(&["brief.toml", "results"]));
     assert_eq!(desk.entries("results"), names(&["brief"]));
@@ -259,7 +259,10 @@ fn options_and_keys_mean_the_same() {
 fn one_replicate_has_no_standard_error() {
     let desk = Desk::new();
     let said = success(&mut desk.spunlaid("run brief.toml --replicates 1 --out r"));
-    assert!(said.contains("over 1 replicate\n") && !said.contains("NaN"), "{said}");
+    assert!(
+        said.contains("From a single replicate, so without a standard error") && !said.contains("NaN"),
+        "{said}"
+    );
     for estimate in desk.summary("r")["end_node"].as_object().unwrap().values() {
         assert_eq!(estimate["standard_error"], Value::Null);
     }
@@ -456,7 +459,7 @@ fn neighbours_are_in_the_summary_the_figures_and_the_report() {
     let set = "--set air.lateral=von-karman --set air.lateral_cutoff=6";
     let beside = "--set neighbours.cd=['5mm','1mm'] --set neighbours.md=['2mm']";
     let said = success(&mut desk.spunlaid(&format!("run brief.toml {set} {beside} --out r")));
-    assert!(said.contains("correlation with neighbours in cross direction\n  y at 1 mm  "), "{said}");
+    assert!(said.contains("Correlation with neighbours in cross direction\n  y at 1 mm  "), "{said}");
     let summary = desk.summary("r");
     assert_eq!(summary["case"]["neighbours"], json!({"cd_m": [0.001, 0.005], "md_m": [0.002]}));
     let neighbours = &summary["neighbours"];

@@ -28,7 +28,7 @@ fn csv(place: &Place, out: &str) -> Vec<Vec<String>> {
 fn writes_what_it_says() {
     let place = place();
     let output = said(&place.swept("out", &[]));
-    assert!(output.contains("18 fibres at 6 points") && output.contains("open out"), "{output}");
+    assert!(output.contains("the study has 18 fibres in total") && output.contains("open out"), "{output}");
     let names: Vec<String> =
         results(&place.path("out")).keys().map(|path| path.to_string_lossy().into_owned()).collect();
     for name in [

@@ -1,13 +1,14 @@
 //! The folder of the air of a case.
 
+use super::contents::{Contents, Maker, Page};
 use crate::Failure;
 use crate::numbers::{THIN, significant};
-use crate::output::air::{PLANES, Picture, Slices, Summary, pictures, write_vtk};
-use crate::output::copied_files;
-use crate::output::folder::Staging;
+use crate::output::air::{PLANES, Slices, Summary, pictures, write_vtk};
+use crate::output::folder::{CASE_FILES, Staging};
+use crate::output::kept_input::Input;
+use crate::output::origin::ORIGIN;
 use crate::report::air_report;
 use spunlaid::case::Case;
-use spunlaid::input::write_case;
 use spunlaid_charts::Figure;
 
 /// Everything of a look at the air that goes into the files.
@@ -27,13 +28,13 @@ pub struct AirFolder<'a> {
 
 impl AirFolder<'_> {
     /// The numbers.
-    pub fn summary(&self) -> Summary {
+    fn numbers(&self) -> Summary {
         Summary::new(self.case, self.slices, self.replicate, self.notes)
     }
 
     /// How strong the gusts are, in a sentence.
-    pub fn headline(&self) -> String {
-        let summary = self.summary();
+    fn headline(&self) -> String {
+        let summary = self.numbers();
         let rms = summary.planes.0.first().map_or([0.0; 3], |(_, plane)| plane.rms_m_s);
         let expected = summary.planes.0.first().map_or(0.0, |(_, plane)| plane.expected_rms_m_s);
         let [x, y, z] = rms.map(|rms| significant(rms, 3));
@@ -42,23 +43,37 @@ impl AirFolder<'_> {
             significant(expected, 3)
         )
     }
+}
 
-    /// Writes the slices, the pictures, the report and the summary.
-    ///
-    /// # Errors
-    /// If a file cannot be written.
-    pub fn write(&self, staging: &Staging<'_>) -> Result<(), Failure> {
-        let copied = copied_files::copy(self.case.files(), &staging.place(copied_files::CASE_FILES).0)?;
-        staging.write("case.toml", write_case(&self.case.with_files_at(copied_files::place(&copied))))?;
-        write_vtk(staging, self.slices)?;
+impl Contents for AirFolder<'_> {
+    const ENTRIES: &'static [&'static str] = &[
+        ORIGIN,
+        CASE_FILES,
+        "case.toml",
+        "along.pvd",
+        "across.pvd",
+        "slices",
+        "along.gif",
+        "across.gif",
+        "figures",
+        "report.html",
+        "summary.json",
+    ];
+
+    fn summary(&self) -> String {
+        self.numbers().to_json()
+    }
+
+    fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
+        let input = maker.keep(Input::Case(self.case))?;
         let pictures = pictures(self.case, self.slices)?;
-        for (name, picture) in PLANES.iter().zip(&pictures) {
-            staging.write(&format!("{name}.gif"), &picture.moving)?;
-        }
-        let figures: Vec<&Figure> = pictures.iter().map(|Picture { figure, .. }| figure).collect();
-        staging.write_figures(&figures)?;
-        let report = air_report(self.case, self.slices, &pictures, self.headline());
-        staging.write("report.html", report.named(self.name).noting(self.notes).html())?;
-        staging.write("summary.json", self.summary().to_json())
+        let figures: Vec<&Figure> = pictures.iter().map(|picture| &picture.figure).collect();
+        let files = |staging: &Staging<'_>| {
+            write_vtk(staging, self.slices)?;
+            let mut named = PLANES.iter().zip(&pictures);
+            named.try_for_each(|(name, picture)| staging.write(&format!("{name}.gif"), &picture.moving))
+        };
+        let report = || Ok(air_report((self.case, input), self.slices, &pictures, self.headline()));
+        maker.finish((self.name, self.notes), &figures, files, report)
     }
 }

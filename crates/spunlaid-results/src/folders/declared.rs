@@ -1,13 +1,14 @@
 //! Whatever is declared of a web, a scan, a spinline or a record is in its files.
 
+use super::contents::{Contents, Making};
 use super::spinline::SpinFolder;
 use super::web::WebFolder;
 use crate::figures::{record_figures, record_sample};
 use crate::output::analysis::analysis_json;
 use crate::output::folder::Staging;
-use crate::output::spinline::{SpinResults, text};
-use crate::output::web::{ENTRIES, PatchTable, Performance, Reader, Summary};
-use crate::report::{analysis_report, analysis_text, scan_report};
+use crate::output::spinline::SpinResults;
+use crate::output::web::{Performance, Summary};
+use crate::report::{analysis_report, scan_report, spinline_text};
 use serde_json::Value as Json;
 use spunlaid::fabric::of_scan;
 use spunlaid::input::{parse_spinline, parse_web};
@@ -43,6 +44,9 @@ cell = "1 mm"
 patches = ["5 mm", "10 mm"]
 "#;
 
+static STOP: AtomicBool = AtomicBool::new(false);
+const MAKING: Making<'_> = Making { threads: 2, stop: &STOP, room: 200 };
+
 /// Webs that know different numbers of their patches: from the surrogate alone, from flown curves too, from neither, and of filaments in one
 /// air, all or a few of which were flown.
 fn kinds(found: &Findings) -> [Findings; 5] {
@@ -77,7 +81,6 @@ fn kinds(found: &Findings) -> [Findings; 5] {
 
 #[test]
 fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
-    static STOP: AtomicBool = AtomicBool::new(false);
     let file = parse_web(WEB, "web.toml", &[]).unwrap();
     let mut flown = Flyer::new(2, &STOP, &|_, work| work()).web(&file.spec).unwrap();
     let laid = AtomicU64::new(0);
@@ -88,7 +91,7 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
     for findings in &kinds(&found) {
         let desk = tempfile::tempdir().unwrap();
         let folder = desk.path().join("w");
-        let staging = Staging::new(&folder, ENTRIES, false, &STOP).unwrap();
+        let staging = Staging::new(&folder, WebFolder::ENTRIES, false, &STOP).unwrap();
         let written = WebFolder {
             name: "web",
             file: &file,
@@ -101,7 +104,7 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
             notes: &[],
             performance: Performance::default(),
         };
-        written.write(&staging, laying).unwrap();
+        let text = written.write(&staging, MAKING).unwrap().text;
         staging.publish().unwrap();
         let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
         let (summary, report): (Json, _) =
@@ -118,7 +121,6 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
             assert_eq!(summary["fabric"].get(declared.entry()), value.as_ref(), "{}", declared.entry());
             assert!(value.is_none() || report.contains(declared.label), "{}", declared.entry());
         }
-        let terminal = PatchTable::new(findings, Reader::Terminal).heads;
         for (patch, json) in findings.patches.iter().zip(summary["web"]["patches"].as_array().unwrap()) {
             for declared in with_errors(OF_PATCHES) {
                 let (name, number) = (declared.entry(), declared.value(patch).map(|value| value.number()));
@@ -127,7 +129,7 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
                 let [head, short] = [declared.label, declared.terse()];
                 if declared.short.is_some() && (declared.is_shown)(patch) {
                     assert!(report.contains(&format!(">{head}</th>")), "{name}");
-                    assert!(short.is_empty() || terminal.contains(&short), "{name}");
+                    assert!(short.is_empty() || text.contains(short), "{name}");
                     heads.insert(name);
                 }
             }
@@ -186,12 +188,12 @@ fn every_declared_measure_of_a_spinline_is_in_summary_terminal_and_report() {
     let results = SpinResults::new(&file).unwrap();
     let folder = SpinFolder { name: "line", file: &file, results: &results, notes: &[] };
     let summary: Json = serde_json::from_str(&folder.summary()).unwrap();
-    let (report, terminal) = (folder.report(), text(&results.rows, &results.influences));
+    let (report, terminal) = (folder.html(MAKING).unwrap(), spinline_text(&results));
     for row in measured(OF_SPINLINES, &results.rows[0]) {
         let name = row.measure.entry();
         let json = summary.pointer(&format!("/spinline/{}", name.replace('.', "/")));
         assert_eq!(json.and_then(Json::as_f64), row.value.map(|value| value.number()), "{name}");
-        assert!(report.contains(row.measure.label) && terminal.contains(row.measure.terse()), "{name}");
+        assert!(report.contains(row.measure.label) && terminal.contains(row.measure.label), "{name}");
     }
 }
 
@@ -201,7 +203,7 @@ fn every_declared_measure_of_a_record_is_in_summary_terminal_and_report() {
     let json: Json = serde_json::from_str(&analysis_json(&record, &analysis)).unwrap();
     let (figures, remarks) = (record_figures(&record, &analysis), []);
     let report = analysis_report(&record, &analysis, &figures, &remarks, "[air]\n");
-    let pages = [report.html(), analysis_text(&record, &analysis, 200)];
+    let pages = [report.html(), report.text(200)];
     fn check<T>(measures: &'static [Measure<T>], found: &T, json: &Json, pages: &[String; 2]) {
         for row in measured(measures, found) {
             let value = row.value.as_ref().map(|value: &Value| serde_json::to_value(value).unwrap());

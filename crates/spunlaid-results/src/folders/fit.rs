@@ -1,15 +1,14 @@
 //! The folder of a fit: its journal, and what is made from it.
 
+use super::contents::{Contents, Maker, Page};
 use super::journalled::{JournalFolder, Work};
-use super::web::keep_web;
 use crate::Failure;
-use crate::failure::other_version;
 use crate::figures::fit_figures;
-use crate::output::copied_files::CASE_FILES;
-use crate::output::fit::{fit_json, trials_csv};
-use crate::output::folder::Staging;
+use crate::output::fit::{fit_json, write_trials};
+use crate::output::folder::CASE_FILES;
+use crate::output::kept_input::Input;
 use crate::output::origin::Origin;
-use crate::output::pictures::FigureFiles;
+use crate::output::table::TABLES;
 use crate::report::fit_report;
 use spunlaid::error::Fault;
 use spunlaid::fit::{Fit, MOST_TRIALS, Target, identity, numbers_of_record};
@@ -19,15 +18,8 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 /// The files of a fit, with the cases of earlier versions; the last one marks it as complete.
-const FILES: &[&str] = &["web.toml", "cases", CASE_FILES, "trials.csv", "figures", "report.html", "fit.json"];
-/// A results folder that this process has locked.
-#[derive(Debug)]
-pub struct FitFolder<'a> {
-    at: JournalFolder,
-    stop: &'a AtomicBool,
-    /// How figures are written.
-    pub figures: FigureFiles,
-}
+const FILES: &[&str] =
+    &["web.toml", "cases", CASE_FILES, "trials.csv", TABLES, "figures", "report.html", "fit.json"];
 
 /// What is fitted to what.
 #[derive(Clone, Copy, Debug)]
@@ -52,75 +44,58 @@ impl FitInput<'_> {
     }
 }
 
-impl<'a> FitFolder<'a> {
-    /// Opens the folder to begin a fit, or to continue the same one. Returns its journal, and what that holds if there was one.
-    ///
-    /// * `force` – what the folder holds is replaced
-    /// * `origin` – the command that asks; a complete fit that the same one made before is replaced too, when this one is complete
-    /// * `stop` – if this is set, nothing more is written
-    ///
-    /// # Errors
-    /// If it cannot be written, or holds something else.
-    pub fn open(
-        path: &Path,
-        input: &FitInput<'_>,
-        force: bool,
-        origin: Option<&Origin>,
-        stop: &'a AtomicBool,
-    ) -> Result<(Self, Journal, Option<JournalState>), Failure> {
-        let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: input.identity() };
-        let (at, mut journal, header) = JournalFolder::open(
-            path,
-            &Work { header: &wanted, entries: &[FILES], description: &[], force, origin },
-        )?;
-        let path = at.place.as_path();
-        let numbers = numbers_of_record(input.target);
-        let state = match header {
-            None => {
-                at.sign(origin)?;
-                journal.begin(&wanted, MOST_TRIALS, numbers)?;
-                None
-            }
-            Some(found) if found.version != wanted.version => {
-                return Err(other_version(path, &found.version));
-            }
-            Some(found) if found != wanted => {
-                let fault = Fault::new(
-                    "holds a fit of another web, to another scan, of other keys or ranges, or with another number of webs",
-                    "name another folder, or start again",
-                );
-                return Err(Failure::folder(path, fault.option("--out, --force")));
-            }
-            Some(_) => Some(journal.go_on(MOST_TRIALS, input.webs, numbers)?),
-        };
-        Ok((Self { at, stop, figures: FigureFiles::default() }, journal, state))
+/// Opens the folder to begin a fit, or to continue the same one. Returns its journal, and what that holds if there was one.
+///
+/// * `force` – what the folder holds is replaced
+/// * `origin` – the command that asks; a complete fit that the same one made before is replaced too, when this one is complete
+/// * `stop` – if this is set, nothing more is written
+///
+/// # Errors
+/// If it cannot be written, or holds something else.
+pub fn open<'a>(
+    path: &Path,
+    input: &FitInput<'_>,
+    force: bool,
+    origin: Option<&Origin>,
+    stop: &'a AtomicBool,
+) -> Result<(JournalFolder<'a>, Journal, Option<JournalState>), Failure> {
+    let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: input.identity() };
+    let size = (MOST_TRIALS, input.webs, numbers_of_record(input.target));
+    let work = Work { header: &wanted, entries: &[FILES], description: &[], force, origin, size };
+    let other = |path: &Path| {
+        let fault = Fault::new(
+            "holds a fit of another web, to another scan, of other keys or ranges, or with another number of webs",
+            "name another folder, or start again",
+        );
+        Failure::folder(path, fault.option("--out, --force"))
+    };
+    JournalFolder::open(path, &work, stop, |_| Ok(()), other)
+}
+
+/// A fit, and what was found.
+#[derive(Clone, Copy, Debug)]
+pub struct FoundFit<'a> {
+    /// What was fitted to what.
+    pub input: FitInput<'a>,
+    /// The values.
+    pub fit: &'a Fit,
+    /// The web with these values.
+    pub spec: &'a WebSpec,
+}
+
+impl Contents for FoundFit<'_> {
+    const ENTRIES: &'static [&'static str] = FILES;
+    const SUMMARY: &'static str = "fit.json";
+
+    fn summary(&self) -> String {
+        let FitInput { target, paths, notes, .. } = self.input;
+        fit_json(self.fit, target, paths, notes)
     }
 
-    /// Whether it holds a fit that this one will replace.
-    pub const fn replaces(&self) -> bool {
-        self.at.replaces()
-    }
-
-    /// Writes the values, the figures, the report and the web with the values that were found.
-    ///
-    /// * `spec` – this web
-    ///
-    /// # Errors
-    /// If a file cannot be written.
-    pub fn write(&mut self, input: &FitInput<'_>, fit: &Fit, spec: &WebSpec) -> Result<(), Failure> {
-        let mut staging = Staging::new(&self.at.place, FILES, true, self.stop)?;
-        staging.set_figures(&self.figures);
-        let toml = keep_web(&staging, spec)?;
-        let figures = fit_figures(fit);
-        staging.write_figures(&figures)?;
-        let FitInput { name, paths, target, notes, .. } = *input;
-        let report =
-            fit_report(fit, (paths[1], target), (spec, &toml), &figures).named(name).noting(notes).html();
-        staging.write("web.toml", toml)?;
-        staging.write("trials.csv", trials_csv(fit))?;
-        staging.write("report.html", report)?;
-        staging.write("fit.json", fit_json(fit, target, paths, notes))?;
-        staging.publish()?;
-        self.at.finish()
+    fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
+        let FitInput { name, paths, target, notes, .. } = self.input;
+        let (input, figures) = (maker.keep(Input::Web(self.spec))?, fit_figures(self.fit));
+        let report = || Ok(fit_report(self.fit, (paths[1], target), (self.spec, input), &figures));
+        maker.finish((name, notes), &figures, |staging| write_trials(staging, self.fit), report)
     }
 }

@@ -7,14 +7,17 @@
 //!   when it is complete, they make room for it
 //! ```
 
+use super::contents::{Contents, Making};
 use crate::Failure;
-use crate::failure::not_a_folder;
-use crate::output::folder::{MARKS, refuse_others};
+use crate::failure::{not_a_folder, other_version};
+use crate::output::folder::{MARKS, Staging, refuse_others};
 use crate::output::leftovers;
 use crate::output::origin::{ORIGIN, Origin};
-use spunlaid::study::{Header, Journal};
+use crate::output::pictures::FigureFiles;
+use spunlaid::study::{Header, Journal, JournalState};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 use std::time::SystemTime;
 
 pub(super) const JOURNAL: &str = "journal";
@@ -23,14 +26,18 @@ const REPLACEMENT: &str = ".spunlaid-replacement";
 
 /// A folder whose journal this process has locked.
 #[derive(Debug)]
-pub(super) struct JournalFolder {
+pub struct JournalFolder<'a> {
     /// Where the results are when they are complete.
-    pub(super) path: PathBuf,
+    path: PathBuf,
     /// Where the work is done: the folder, or one in it.
-    pub(super) place: PathBuf,
+    place: PathBuf,
     entries: Entries,
     /// The journal of the results that will be replaced, which keeps other processes away.
     earlier: Option<Journal>,
+    /// If this is set, nothing more is written.
+    stop: &'a AtomicBool,
+    /// How figures and tables are written.
+    pub figures: FigureFiles,
 }
 
 /// The files and folders that results are, besides journal and origin, in the order in which they are moved. The last one marks them
@@ -49,11 +56,48 @@ pub(super) struct Work<'a> {
     pub(super) force: bool,
     /// The command that does it, if it may replace what it made before.
     pub(super) origin: Option<&'a Origin>,
+    /// Most points, most replicates of a point, and numbers of a replicate.
+    pub(super) size: (usize, u64, usize),
 }
 
-impl JournalFolder {
+impl<'a> JournalFolder<'a> {
+    /// Opens the folder and its journal to begin the work, or to go on with it. Returns what the journal holds, if it has begun.
+    ///
+    /// * `begin` – what is done in the folder before the journal begins
+    /// * `other` – the error if the folder holds other work
+    pub(super) fn open(
+        path: &Path,
+        work: &Work<'_>,
+        stop: &'a AtomicBool,
+        begin: impl FnOnce(&Path) -> Result<(), Failure>,
+        other: impl FnOnce(&Path) -> Failure,
+    ) -> Result<(Self, Journal, Option<JournalState>), Failure> {
+        let (at, mut journal, header) = Self::find(path, work, stop)?;
+        let (points, replicates, numbers) = work.size;
+        let state = match header {
+            None => {
+                begin(&at.place)?;
+                at.sign(work.origin)?;
+                journal.begin(work.header, points, numbers)?;
+                // The new file must survive a power cut. Some systems cannot sync folders, so an error is ignored.
+                let _ = fs::File::open(&at.place).and_then(|folder| folder.sync_all());
+                None
+            }
+            Some(found) if found.version != work.header.version => {
+                return Err(other_version(&at.place, &found.version));
+            }
+            Some(found) if found != *work.header => return Err(other(&at.place)),
+            Some(_) => Some(journal.go_on(points, replicates, numbers)?),
+        };
+        Ok((at, journal, state))
+    }
+
     /// Opens the folder and its journal. Returns how the journal begins, if it has begun.
-    pub(super) fn open(path: &Path, work: &Work<'_>) -> Result<(Self, Journal, Option<Header>), Failure> {
+    fn find(
+        path: &Path,
+        work: &Work<'_>,
+        stop: &'a AtomicBool,
+    ) -> Result<(Self, Journal, Option<Header>), Failure> {
         if path.exists() && !path.is_dir() {
             return Err(not_a_folder(path));
         }
@@ -76,17 +120,19 @@ impl JournalFolder {
         let has_changed =
             header.as_ref().is_some_and(|found| found.version == work.header.version && found != work.header);
         let is_own = work.origin.is_some_and(|origin| origin.is_of(&path));
+        let figures = FigureFiles::default();
         if !(has_changed && is_own && (is_begun || is_complete(&path, entries))) {
-            return Ok((Self { place: path.clone(), path, entries, earlier: None }, journal, header));
+            let place = path.clone();
+            return Ok((Self { path, place, entries, earlier: None, stop, figures }, journal, header));
         }
         fs::create_dir_all(&place).map_err(Failure::unwritable(&place))?;
         let (own, header) = Journal::open(&place.join(JOURNAL), false)?;
         leftovers::remove_unclaimed(&place);
-        Ok((Self { path, place, entries, earlier: Some(journal) }, own, header))
+        Ok((Self { path, place, entries, earlier: Some(journal), stop, figures }, own, header))
     }
 
     /// Notes which command the results are of.
-    pub(super) fn sign(&self, origin: Option<&Origin>) -> Result<(), Failure> {
+    fn sign(&self, origin: Option<&Origin>) -> Result<(), Failure> {
         let file = self.place.join(ORIGIN);
         match origin {
             Some(origin) => fs::write(&file, origin.text()).map_err(Failure::unwritable(&file)),
@@ -94,14 +140,53 @@ impl JournalFolder {
         }
     }
 
+    /// Where the results are when they are complete.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Where the work is done.
+    pub(super) fn place(&self) -> &Path {
+        &self.place
+    }
+
     /// Whether there are earlier results that these will replace.
-    pub(super) const fn replaces(&self) -> bool {
+    pub const fn replaces(&self) -> bool {
         self.earlier.is_some()
+    }
+
+    /// Writes results. Returns what a terminal shows.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn write<C: Contents>(&mut self, contents: &C, making: Making<'_>) -> Result<String, Failure> {
+        let staging = self.staging::<C>()?;
+        self.finish(staging, contents, making)
+    }
+
+    /// Collects the files of results.
+    pub(super) fn staging<C: Contents>(&self) -> Result<Staging<'a>, Failure> {
+        let mut staging = Staging::new(&self.place, C::ENTRIES, true, self.stop)?;
+        staging.set_figures(&self.figures);
+        Ok(staging)
+    }
+
+    /// Writes results beside what has been written of them.
+    pub(super) fn finish(
+        &mut self,
+        staging: Staging<'_>,
+        contents: &impl Contents,
+        making: Making<'_>,
+    ) -> Result<String, Failure> {
+        let written = contents.write(&staging, making)?;
+        staging.publish()?;
+        self.replace()?;
+        Ok(written.text)
     }
 
     /// Puts complete results in the place of the earlier ones. A process that is killed meanwhile leaves no mixture: the earlier
     /// results go first, then comes the journal, from which all else is made again.
-    pub(super) fn finish(&mut self) -> Result<(), Failure> {
+    fn replace(&mut self) -> Result<(), Failure> {
         if self.earlier.is_none() {
             return Ok(());
         }

@@ -2,9 +2,12 @@
 //!
 //! ```text
 //! air        slices of the turbulent air as VTK and moving pictures, report, summary
+//! contents   what every folder holds, and the one way in which it is written
 //! comparison the results of runs or webs side by side: figures, report, numbers
 //! finished   what the folder of a run or a web says
 //! scan       what is found of a scan: map, figures, report, summary
+//! record     what is found in a velocity record: curves, figures, report
+//! paper      the paper's claims and figures
 //! spinline   a solved spinline: the thread, figures, report, summary
 //! fit        the journal of a fit, and what is made from it
 //! kept       flights of a run that outlive the process that flies them
@@ -17,6 +20,7 @@
 
 pub mod air;
 pub mod comparison;
+mod contents;
 #[cfg(test)]
 mod declared;
 mod finished;
@@ -24,6 +28,8 @@ pub mod fit;
 mod journalled;
 mod kept;
 mod measured_web;
+pub mod paper;
+pub mod record;
 pub mod run;
 pub mod scan;
 pub mod spinline;
@@ -33,5 +39,7 @@ pub mod tensions;
 mod tests;
 pub mod web;
 
+pub use contents::{Contents, Maker, Making, Page, Written};
 pub use finished::{read_summary, read_summary_of_run};
+pub use journalled::JournalFolder;
 pub use measured_web::read_measured_web;

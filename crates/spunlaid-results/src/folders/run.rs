@@ -1,24 +1,27 @@
 //! The folder of a run: tables that grow while the fibres fly, and everything that is made of the results.
 
+use super::contents::{Contents, Maker, Making, Page};
 use super::kept::{Earlier, KeptFlights};
 use crate::Failure;
 use crate::figures::{SPINLINE, run_figures, spinline_figures};
 use crate::numbers::{lost_fibres_text, significant};
-use crate::output::folder::{Published, Staging};
+use crate::output::folder::{ENTRIES, Staging};
+use crate::output::kept_input::Input;
 use crate::output::spinline::{SpinResults, write_stations};
 use crate::output::summary::{Performance, Summary};
 use crate::output::tables::{TableRecorder, Tables};
-use crate::output::{copied_files, doubt, paraview};
+use crate::output::{doubt, paraview};
 use crate::report::run_report;
 use spunlaid::case::Case;
 use spunlaid::ensemble::{
     FinerChecks, FinerPlans, Keep, KeepShapes, Recorder, Results, RunControl, RunPaths, fly_for_checks,
     turbulence_spectrum,
 };
-use spunlaid::input::write_case;
-use spunlaid::lanes::WIDTH;
+use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid_charts::Figure;
-use std::sync::atomic::Ordering;
+
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Number of replicates whose shapes are kept for the report and ParaView.
 const KEPT: usize = WIDTH;
@@ -130,7 +133,7 @@ pub fn fly(
 }
 
 /// Everything of a run that goes into the files.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub struct Run<'a> {
     /// What the run is called: the name of the case file.
     pub name: &'a str,
@@ -144,95 +147,61 @@ pub struct Run<'a> {
     pub notes: &'a [String],
     /// What the run cost.
     pub performance: Performance,
-}
-
-/// What is drawn of a run once, whatever its checks find.
-#[derive(Debug)]
-pub struct Drawn {
-    case_toml: String,
-    figures: Vec<Figure>,
-    /// The spinline from which the fibre is fed, with its figures.
-    spinline: Option<(SpinResults, Vec<Figure>)>,
+    /// Its figures, once they are drawn: the checks change none.
+    pub drawn: OnceLock<Vec<Figure>>,
 }
 
 impl Run<'_> {
-    /// The text of `summary.json`.
-    pub fn summary(&self) -> String {
-        Summary::new(self.case, self.results, self.checks, self.performance, self.all_notes()).to_json()
-    }
-
     /// Warnings and remarks, with those of the checks.
     fn all_notes(&self) -> Vec<String> {
         let doubts =
             doubt::notes(self.checks, self.case).into_iter().filter(|doubt| !self.notes.contains(doubt));
         self.notes.iter().cloned().chain(doubts).collect()
     }
+}
 
-    /// Writes the figures, the shapes for ParaView, the report, the case and the summary. The tables are those of [`fly`].
-    ///
-    /// # Errors
-    /// If a file cannot be written, or the computation is interrupted.
-    pub fn write(&self, staging: &Staging<'_>, computing: RunControl<'_>) -> Result<Drawn, Failure> {
-        let copied = copied_files::copy(self.case.files(), &staging.place(copied_files::CASE_FILES).0)?;
-        let case_toml = write_case(&self.case.with_files_at(copied_files::place(&copied)));
-        let figures = self.figures(computing)?;
-        let spinline = self.spinline();
-        if let Some((results, _)) = &spinline {
-            write_stations(staging, &[(1, &results.rows)])?;
+/// The tables are those of [`fly`].
+impl Contents for Run<'_> {
+    const ENTRIES: &'static [&'static str] = ENTRIES;
+
+    fn summary(&self) -> String {
+        Summary::new(self.case, self.results, self.checks, self.performance, self.all_notes()).to_json()
+    }
+
+    /// A page of less than 6 MB.
+    fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
+        let Self { case, results, .. } = *self;
+        let input = maker.keep(Input::Case(case))?;
+        if self.drawn.get().is_none() {
+            let (Making { threads, stop, .. }, fibre_steps) = (maker.making, &AtomicU64::new(0));
+            let computing = RunControl { threads, isa: Isa::detect(), stop, fibre_steps, recorder: None };
+            let drawn = run_figures(case, results, &turbulence_spectrum(case, computing)?);
+            let _ = self.drawn.set(drawn);
         }
-        let all: Vec<&Figure> = spinline.iter().flat_map(|(_, figures)| figures).chain(&figures).collect();
-        // Writing a thousand small files waits for the disk, so the figures are drawn at the same time.
-        std::thread::scope(|scope| {
-            let (case, trajectories) = (self.case, &self.results.trajectories);
-            let shapes = scope.spawn(move || {
-                paraview::write(staging, case, trajectories)?;
-                paraview::write_laid(staging, trajectories)
-            });
-            staging.write_figures(&all)?;
-            shapes.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
-        })?;
-        let drawn = Drawn { case_toml, figures, spinline };
-        staging.write("case.toml", &drawn.case_toml)?;
-        staging.write("report.html", self.page(&drawn)?)?;
-        staging.write("summary.json", self.summary())?;
-        Ok(drawn)
+        let figures = self.drawn.get().map_or(&[][..], Vec::as_slice);
+        let spinline = SpinResults::from_case(case);
+        let drawn = spinline
+            .as_ref()
+            .map(|solved| (solved, spinline_figures(SPINLINE, &solved.rows, &solved.influences)));
+        let all: Vec<&Figure> = drawn.iter().flat_map(|(_, figures)| figures).chain(figures).collect();
+        let files = |staging: &Staging<'_>| {
+            spinline.iter().try_for_each(|solved| write_stations(staging, &[(1, &solved.rows)]))?;
+            paraview::write(staging, case, &results.trajectories)?;
+            paraview::write_laid(staging, &results.trajectories)
+        };
+        let report = || {
+            let drawn = drawn.as_ref().map(|(solved, figures)| (*solved, &figures[..]));
+            let report = run_report((case, input), (results, self.checks), figures, drawn, self.performance)?;
+            Ok(report.named(self.name).noting(&self.all_notes()))
+        };
+        maker.finish((self.name, &self.all_notes()), &all, files, report)
     }
+}
 
-    /// Writes report and summary again, when the checks have been flown.
-    ///
-    /// # Errors
-    /// If a file cannot be written.
-    pub fn write_checks(&self, folder: &Published<'_>, drawn: &Drawn) -> Result<(), Failure> {
-        folder.replace("report.html", self.page(drawn)?)?;
-        folder.replace("summary.json", self.summary())
-    }
-
-    /// The report as one HTML file of less than 6 MB.
-    ///
-    /// # Errors
-    /// If the computation is interrupted.
-    pub fn report(&self, computing: RunControl<'_>) -> Result<String, Failure> {
-        let (case_toml, figures) = (write_case(self.case), self.figures(computing)?);
-        self.page(&Drawn { case_toml, figures, spinline: self.spinline() })
-    }
-
-    fn figures(&self, computing: RunControl<'_>) -> Result<Vec<Figure>, Failure> {
-        Ok(run_figures(self.case, self.results, &turbulence_spectrum(self.case, computing)?))
-    }
-
-    /// The spinline from which the fibre is fed, with its figures.
-    fn spinline(&self) -> Option<(SpinResults, Vec<Figure>)> {
-        let results = SpinResults::from_case(self.case)?;
-        let figures = spinline_figures(SPINLINE, &results.rows, &results.influences);
-        Some((results, figures))
-    }
-
-    fn page(&self, Drawn { case_toml, figures, spinline }: &Drawn) -> Result<String, Failure> {
-        let spinline = spinline.as_ref().map(|(results, figures)| (results, &figures[..]));
-        let (case, results) = ((self.case, &case_toml[..]), (self.results, self.checks));
-        let report = run_report(case, results, figures, spinline, self.performance)?;
-        Ok(report.named(self.name).noting(&self.all_notes()).html())
-    }
+/// What must be said of results: that fibres were lost; that they leave the region where the flow is known; and that shapes are too far
+/// apart in time.
+pub fn found(case: &Case, results: &Results) -> [Option<String>; 3] {
+    [lost(case, results), outside(results), coarse_shapes(case, results)]
 }
 
 /// A warning about fibres that leave the region where the flow is known.

@@ -1,8 +1,9 @@
 //! The folder of a scan of a web.
 
+use super::contents::{Contents, Maker, Page};
+use super::web::WebFolder;
 use crate::Failure;
 use crate::figures::scan_figures;
-use crate::output::folder::Staging;
 use crate::output::web::{Performance, Summary, write_scan};
 use crate::report::scan_report;
 use spunlaid::fabric::Fabric;
@@ -30,23 +31,21 @@ pub fn notes(findings: &Findings) -> Vec<String> {
     findings.notes.iter().map(ToString::to_string).collect()
 }
 
-impl ScanFolder<'_> {
-    /// The text of `summary.json`.
-    pub fn summary(&self) -> String {
+impl Contents for ScanFolder<'_> {
+    const ENTRIES: &'static [&'static str] = WebFolder::ENTRIES;
+
+    fn summary(&self) -> String {
         Summary::from_scan(self.file, (self.findings, self.fabric), self.performance, self.notes).to_json()
     }
 
-    /// Writes the map, the figures, the report and the summary.
-    ///
-    /// # Errors
-    /// If a file cannot be written, or the computation is interrupted.
-    pub fn write(&self, staging: &Staging<'_>) -> Result<(), Failure> {
-        let Self { name, file, findings, fabric, notes, performance } = *self;
-        write_scan(staging, &findings.map)?;
-        let figures = scan_figures(findings);
-        staging.write_figures(&figures)?;
-        let report = scan_report(file, (findings, fabric), &figures, performance)?;
-        staging.write("report.html", report.named(name).noting(notes).html())?;
-        staging.write("summary.json", self.summary())
+    fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
+        let figures = scan_figures(self.findings);
+        let report = || scan_report(self.file, (self.findings, self.fabric), &figures, self.performance);
+        maker.finish(
+            (self.name, self.notes),
+            &figures,
+            |staging| write_scan(staging, &self.findings.map),
+            report,
+        )
     }
 }

@@ -1,13 +1,15 @@
 //! The folder of a spinline.
 
+use super::contents::{Contents, Maker, Page};
 use crate::Failure;
 use crate::figures::{SPINLINE, spinline_figures};
-use crate::output::copied_files;
-use crate::output::folder::Staging;
-use crate::output::spinline::{SpinResults, Summary, write_stations};
+use crate::output::folder::CASE_FILES;
+use crate::output::kept_input::Input;
+use crate::output::origin::ORIGIN;
+use crate::output::spinline::{STATIONS, SpinResults, Summary, write_stations};
+use crate::output::table::TABLES;
 use crate::report::spinline_report;
-use spunlaid::input::{SpinFile, write_spinline};
-use spunlaid_charts::Figure;
+use spunlaid::input::SpinFile;
 
 /// Everything of a spinline that goes into the files.
 #[derive(Clone, Copy, Debug)]
@@ -22,39 +24,24 @@ pub struct SpinFolder<'a> {
     pub notes: &'a [String],
 }
 
-impl SpinFolder<'_> {
-    /// The text of `summary.json`.
-    pub fn summary(&self) -> String {
+impl Contents for SpinFolder<'_> {
+    const ENTRIES: &'static [&'static str] =
+        &[ORIGIN, "spinline.toml", CASE_FILES, STATIONS, TABLES, "figures", "report.html", "summary.json"];
+
+    fn summary(&self) -> String {
         Summary::new(&self.results.rows, &self.results.influences, self.notes).to_json()
     }
 
-    /// Writes the thread, the figures, the report, the file and the summary.
-    ///
-    /// # Errors
-    /// If a file cannot be written.
-    pub fn write(&self, staging: &Staging<'_>) -> Result<(), Failure> {
-        let spec = &self.file.spec;
-        let copied = copied_files::copy(spec.files(), &staging.place(copied_files::CASE_FILES).0)?;
-        let toml = write_spinline(&spec.with_files_at(copied_files::place(&copied)));
-        write_stations(staging, &[(1, &self.results.rows)])?;
-        let figures = self.figures();
-        staging.write_figures(&figures)?;
-        staging.write("report.html", self.page(&toml, &figures))?;
-        staging.write("spinline.toml", toml)?;
-        staging.write("summary.json", self.summary())
-    }
-
-    /// The report as one HTML file.
-    pub fn report(&self) -> String {
-        self.page(&write_spinline(&self.file.spec), &self.figures())
-    }
-
-    fn figures(&self) -> Vec<Figure> {
-        spinline_figures(SPINLINE, &self.results.rows, &self.results.influences)
-    }
-
-    fn page(&self, toml: &str, figures: &[Figure]) -> String {
-        let report = spinline_report(&self.file.spec, self.results, figures, toml);
-        report.named(self.name).noting(self.notes).html()
+    fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
+        let SpinResults { rows, influences } = self.results;
+        let input = maker.keep(Input::Spinline(&self.file.spec))?;
+        let figures = spinline_figures(SPINLINE, rows, influences);
+        let report = || Ok(spinline_report(&self.file.spec, self.results, &figures, input));
+        maker.finish(
+            (self.name, self.notes),
+            &figures,
+            |staging| write_stations(staging, &[(1, rows)]),
+            report,
+        )
     }
 }

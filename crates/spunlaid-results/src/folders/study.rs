@@ -1,20 +1,23 @@
 //! The results folder of a study: checks its content, and writes the files.
 
+use super::contents::{Contents, Maker, Making, Page};
 use super::journalled::{JOURNAL, JournalFolder, Work, remove};
 use crate::Failure;
-use crate::failure::{other_study, other_version};
+use crate::failure::other_study;
 use crate::figures::study_figures;
-use crate::output::copied_files::{self, CASE_FILES};
-use crate::output::folder::{self, MARKS, Staging};
+use crate::output::folder::{self, CASE_FILES, MARKS, Staging};
+use crate::output::kept_input::copy;
 use crate::output::origin::Origin;
-use crate::output::pictures::FigureFiles;
+use crate::output::study::write_json;
+use crate::output::table::TABLES;
 use crate::output::{self};
 use crate::report::study_report;
 use spunlaid::case::MOST_REPLICATES;
 use spunlaid::error::Fault;
 use spunlaid::input::{StudyFile, StudyNote, differences};
-use spunlaid::study::{Experiment, Header, Journal, JournalState, PointResults, rankings};
+use spunlaid::study::{Experiment, Header, Journal, JournalState, PointResults, Rankings, rankings};
 use std::fs;
+use std::io::{self, Write};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
@@ -26,173 +29,142 @@ pub(super) const TENSIONS: &str = "tensions";
 /// What a study may have left that was killed before its journal existed.
 const REMAINS: &[&str] = &[CASE_FILES, "case.toml", "web.toml", "spinline.toml", STUDY, TENSIONS];
 /// Files that are made from the journal; the last one marks them as complete.
-const MADE: &[&str] =
-    &["results.csv", "results.json", "results.parquet", "replicates.parquet", "figures", "report.html"];
+const MADE: &[&str] = &[
+    "results.csv",
+    "results.json",
+    "results.parquet",
+    "replicates.parquet",
+    TABLES,
+    "figures",
+    "report.html",
+];
 /// Files of other results, and the journal that studies of webs had before they were like all others.
 const OF_OTHERS: &[&str] =
     &["summary.json", "end_node.parquet", "energy.parquet", "analysis.json", "webs.jsonl"];
 
-/// A results folder that this process has locked.
-#[derive(Debug)]
-pub struct StudyFolder<'a> {
-    at: JournalFolder,
-    /// If this is set, nothing more is written.
+/// Opens the folder to begin a study, or to continue the same study. Returns its journal, and what that holds if there was one.
+///
+/// * `force` – what the folder holds is replaced
+/// * `origin` – the command that asks; a complete study that the same one made before is replaced too, when this one is complete
+/// * `stop` – if this is set, nothing more is written
+///
+/// # Errors
+/// If it cannot be written, or holds something else.
+pub fn open<'a>(
+    path: &Path,
+    file: &StudyFile,
+    force: bool,
+    origin: Option<&Origin>,
     stop: &'a AtomicBool,
-    figures: FigureFiles,
+) -> Result<(JournalFolder<'a>, Journal, Option<JournalState>), Failure> {
+    let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: file.study.identity() };
+    let size = (file.study.points.len(), MOST_REPLICATES, file.study.quantities.len());
+    let entries = &[DESCRIPTION, MADE];
+    let work = Work { header: &wanted, entries, description: REMAINS, force, origin, size };
+    let begin = |place: &Path| begin(place, file, stop);
+    let (at, journal, found) = JournalFolder::open(path, &work, stop, begin, |place| differs(place, file))?;
+    if found.is_some() {
+        let (stored, most) = (journal.most_held(), file.study.replicates.at_most);
+        if stored > most {
+            let fault = Fault::new(
+                format!("holds {stored} replicates of a point, more than the {most} of this study"),
+                format!("ask for {stored} or more, name another folder, or start again"),
+            );
+            let options = format!("--replicates {stored}, --out, --force");
+            return Err(Failure::folder(at.place(), fault.option(options)));
+        }
+        // These files follow from the study, so they are restored if someone has removed them. They are renewed for more replicates.
+        let was = fs::read_to_string(at.place().join(STUDY)).unwrap_or_default();
+        if was != file.text || !at.place().join(file.base_name()).exists() {
+            describe(at.place(), file, stop)?;
+        }
+    }
+    Ok((at, journal, found))
 }
 
-/// What was made from the journal.
+/// Makes the tables, the figures and the report from the journal. Returns what was found, and what a terminal shows.
+///
+/// * `name` – what the study is called
+///
+/// # Errors
+/// If a file cannot be written, or the journal cannot be read.
+pub fn write<'f>(
+    folder: &mut JournalFolder<'_>,
+    name: &str,
+    file: &'f StudyFile,
+    journal: &mut Journal,
+    making: Making<'_>,
+) -> Result<(FoundStudy<'f>, String), Failure> {
+    let staging = folder.staging::<FoundStudy<'_>>()?;
+    let results = output::study::write(&staging, &file.study, journal)?;
+    let rankings = rankings(&file.study, journal)?;
+    let found = FoundStudy { name: name.to_owned(), file, results, rankings };
+    let text = folder.finish(staging, &found, making)?;
+    Ok((found, text))
+}
+
+/// Removes the files of an earlier study, and describes this one.
+fn begin(place: &Path, file: &StudyFile, stop: &AtomicBool) -> Result<(), Failure> {
+    OF_OTHERS.iter().chain(MADE).try_for_each(|name| remove(&place.join(name)))?;
+    describe(place, file, stop)
+}
+
+fn describe(place: &Path, file: &StudyFile, stop: &AtomicBool) -> Result<(), Failure> {
+    let staging = Staging::new(place, DESCRIPTION, true, stop)?;
+    staging.write(file.base_name(), keep_files(file, &staging)?)?;
+    staging.write(STUDY, &file.text)?;
+    staging.publish()
+}
+
+/// The error that lists how the study in a folder differs.
+fn differs(place: &Path, file: &StudyFile) -> Failure {
+    let mut all = Vec::new();
+    for (name, now) in [(STUDY, &file.text), (file.base_name(), &file.base_text)] {
+        let was = fs::read_to_string(place.join(name)).unwrap_or_default();
+        all.extend(differences(&was, now).into_iter().map(|line| format!("{name}: {line}")));
+    }
+    other_study(place, all)
+}
+
+/// A study, and what was found. The tables are made from its journal.
 #[derive(Debug)]
-pub struct StudyResults {
+pub struct FoundStudy<'a> {
+    name: String,
+    file: &'a StudyFile,
     /// The results of each point.
     pub results: Vec<PointResults>,
+    rankings: Rankings,
+}
+
+impl FoundStudy<'_> {
     /// Why the keys are not ranked, if there are several.
-    pub refusal: Option<String>,
+    pub fn refusal(&self) -> Option<String> {
+        let refusal = self.rankings.refusal.as_ref().filter(|_| self.file.study.factors.len() > 1);
+        refusal.map(ToString::to_string)
+    }
 }
 
-/// The content of the folder when it was opened.
-#[derive(Debug)]
-pub enum State {
-    /// Nothing of this study.
-    New,
-    /// Its journal.
-    Begun(JournalState),
-}
+impl Contents for FoundStudy<'_> {
+    const ENTRIES: &'static [&'static str] = MADE;
+    const SUMMARY: &'static str = "results.json";
 
-impl<'a> StudyFolder<'a> {
-    /// Opens the folder to begin a study, or to continue the same study.
-    ///
-    /// * `force` – what the folder holds is replaced
-    /// * `origin` – the command that asks; a complete study that the same one made before is replaced too, when this one is complete
-    /// * `stop` – if this is set, nothing more is written
-    ///
-    /// # Errors
-    /// If it cannot be written, or holds something else.
-    pub fn open(
-        path: &Path,
-        file: &StudyFile,
-        force: bool,
-        origin: Option<&Origin>,
-        stop: &'a AtomicBool,
-    ) -> Result<(Self, Journal, State), Failure> {
-        let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: file.study.identity() };
-        let (at, mut journal, header) = JournalFolder::open(
-            path,
-            &Work { header: &wanted, entries: &[DESCRIPTION, MADE], description: REMAINS, force, origin },
-        )?;
-        let folder = Self { at, stop, figures: FigureFiles::default() };
-        let path = folder.at.place.as_path();
-        let state = match header {
-            None => {
-                folder.begin(file)?;
-                folder.at.sign(origin)?;
-                journal.begin(&wanted, file.study.points.len(), file.study.quantities.len())?;
-                // The new file must survive a power cut. Some systems cannot sync folders, so an error is ignored.
-                let _ = fs::File::open(path).and_then(|folder| folder.sync_all());
-                State::New
-            }
-            Some(found) if found.version != wanted.version => {
-                return Err(other_version(path, &found.version));
-            }
-            Some(found) if found != wanted => return Err(folder.other(file)),
-            Some(_) => {
-                let points = file.study.points.len();
-                let found = journal.go_on(points, MOST_REPLICATES, file.study.quantities.len())?;
-                let (stored, most) = (journal.most_held(), file.study.replicates.at_most);
-                if stored > most {
-                    let fault = Fault::new(
-                        format!("holds {stored} replicates of a point, more than the {most} of this study"),
-                        format!("ask for {stored} or more, name another folder, or start again"),
-                    );
-                    let options = format!("--replicates {stored}, --out, --force");
-                    return Err(Failure::folder(path, fault.option(options)));
-                }
-                // These files follow from the study, so they are restored if someone has removed them. They are
-                // renewed for more replicates.
-                let was = fs::read_to_string(path.join(STUDY)).unwrap_or_default();
-                if was != file.text || !path.join(file.base_name()).exists() {
-                    folder.describe(file)?;
-                }
-                State::Begun(found)
-            }
-        };
-        Ok((folder, journal, state))
+    fn summary(&self) -> String {
+        let mut text = Vec::new();
+        // Writing into memory cannot fail.
+        let _ = self.write_summary(&mut text);
+        String::from_utf8_lossy(&text).into_owned()
     }
 
-    /// From now on, figures are written like this.
-    pub fn set_figures(&mut self, figures: &FigureFiles) {
-        self.figures = figures.clone();
+    fn write_summary(&self, to: &mut dyn Write) -> io::Result<()> {
+        write_json(to, &self.file.study, &self.results, &self.rankings)
     }
 
-    /// Where it is.
-    pub fn path(&self) -> &Path {
-        &self.at.path
-    }
-
-    /// Whether it holds a study that this one will replace.
-    pub const fn replaces(&self) -> bool {
-        self.at.replaces()
-    }
-
-    /// Collects the files that are made from the journal.
-    fn staging(&self) -> Result<Staging<'a>, Failure> {
-        let mut staging = Staging::new(&self.at.place, MADE, true, self.stop)?;
-        staging.set_figures(&self.figures);
-        Ok(staging)
-    }
-
-    /// Makes the tables, the figures and the report from the journal.
-    ///
-    /// * `name` – what the study is called
-    ///
-    /// # Errors
-    /// If a file cannot be written, or the journal cannot be read.
-    pub fn write(
-        &mut self,
-        name: &str,
-        file: &StudyFile,
-        journal: &mut Journal,
-    ) -> Result<StudyResults, Failure> {
-        let study = &file.study;
-        let staging = self.staging()?;
-        let results = output::study::write(&staging, study, journal)?;
-        let rankings = rankings(study, journal)?;
-        let figures = study_figures(study, &results, &rankings.of_measures);
-        output::study::write_json(&staging, study, &results, &rankings)?;
-        let refusal = rankings.refusal.filter(|_| study.factors.len() > 1).map(|refusal| refusal.to_string());
-        staging.write_figures(&figures)?;
-        let told = (&rankings.of_measures[..], refusal.as_deref());
-        let report = study_report(study, &results, told, &figures, [&file.text, &file.base_text]);
-        let report = report.named(name).noting(&StudyNote::notes_of_results(&file.notes));
-        staging.write("report.html", report.html())?;
-        staging.publish()?;
-        self.at.finish()?;
-        Ok(StudyResults { results, refusal })
-    }
-
-    /// Removes the files of an earlier study, and describes this one.
-    fn begin(&self, file: &StudyFile) -> Result<(), Failure> {
-        for name in OF_OTHERS.iter().chain(MADE) {
-            remove(&self.at.place.join(name))?;
-        }
-        self.describe(file)
-    }
-
-    fn describe(&self, file: &StudyFile) -> Result<(), Failure> {
-        let staging = Staging::new(&self.at.place, DESCRIPTION, true, self.stop)?;
-        staging.write(file.base_name(), keep_files(file, &staging)?)?;
-        staging.write(STUDY, &file.text)?;
-        staging.publish()
-    }
-
-    /// The error that lists how the study in this folder differs.
-    fn other(self, file: &StudyFile) -> Failure {
-        let mut all = Vec::new();
-        for (name, now) in [(STUDY, &file.text), (file.base_name(), &file.base_text)] {
-            let was = fs::read_to_string(self.at.place.join(name)).unwrap_or_default();
-            all.extend(differences(&was, now).into_iter().map(|line| format!("{name}: {line}")));
-        }
-        other_study(&self.at.place, all)
+    fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
+        let (StudyFile { study, text, base_text, notes, .. }, refusal) = (self.file, self.refusal());
+        let figures = study_figures(study, &self.results, &self.rankings.of_measures);
+        let told = (&self.rankings.of_measures[..], refusal.as_deref());
+        let report = || Ok(study_report(study, &self.results, told, &figures, [text, base_text]));
+        maker.finish((&self.name, &StudyNote::notes_of_results(notes)), &figures, |_| Ok(()), report)
     }
 }
 
@@ -203,7 +175,7 @@ fn keep_files(file: &StudyFile, staging: &Staging<'_>) -> Result<String, Failure
         Experiment::Spinline(spec) => spec.files(),
         Experiment::Web(web) => web.files(),
     });
-    let copied = copied_files::copy(files, &staging.place(CASE_FILES).0)?;
+    let copied = copy(files, &staging.place(CASE_FILES).0)?;
     let folder = file.base_path.parent().unwrap_or(Path::new(""));
     Ok(copied.iter().fold(file.base_text.clone(), |text, (from, to)| {
         let quoted = |path: &Path| format!("{:?}", path.to_string_lossy());

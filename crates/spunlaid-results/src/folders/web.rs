@@ -1,21 +1,26 @@
 //! The folder of a web.
 
+use super::contents::{Contents, Maker, Making, Page};
 use crate::Failure;
 use crate::figures::{SPINLINE, effects_figure, spinline_figures, web_figures};
-use crate::output::copied_files::{self, CASE_FILES};
-use crate::output::folder::Staging;
-use crate::output::spinline::{SpinResults, SpinSummary, write_stations};
+use crate::output::folder::{CASE_FILES, Staging};
+use crate::output::kept_input::Input;
+use crate::output::origin::ORIGIN;
+use crate::output::spinline::{STATIONS, SpinResults, SpinSummary, write_stations};
+use crate::output::table::TABLES;
 use crate::output::web::{self, Layer, Performance, Summary};
 use crate::report::{LayerSpinline, web_report};
 use spunlaid::advice::Advice;
 use spunlaid::case::Case;
 use spunlaid::fabric::Fabric;
-use spunlaid::input::{LayerSpec, WebFile, WebSpec, write_web};
+use spunlaid::input::{LayerSpec, WebFile, WebSpec};
+use spunlaid::lanes::Isa;
 use spunlaid::layers::{FlownWeb, LayerFibres};
 use spunlaid::spinline::Solution;
 use spunlaid::web::{Fibres, Findings, LayControl, Web, strands};
 use spunlaid_charts::Figure;
 use std::borrow::Cow;
+use std::sync::atomic::AtomicU64;
 
 /// Everything of a web that goes into the files.
 #[derive(Clone, Copy, Debug)]
@@ -42,75 +47,68 @@ pub struct WebFolder<'a> {
     pub performance: Performance,
 }
 
-impl WebFolder<'_> {
-    /// The text of `summary.json`.
-    pub fn summary(&self) -> String {
+impl Contents for WebFolder<'_> {
+    /// With the cases of earlier versions.
+    const ENTRIES: &'static [&'static str] = &[
+        ORIGIN,
+        "web.toml",
+        "cases",
+        CASE_FILES,
+        "map.npy",
+        "map.png",
+        "map.parquet",
+        "fibres.vtp",
+        STATIONS,
+        TABLES,
+        "figures",
+        "report.html",
+        "summary.json",
+    ];
+
+    fn summary(&self) -> String {
         let rows = rows(&self.file.spec, self.web, self.layers);
         let (found, tried) = ((self.findings, self.fabric), (self.advice, self.guesses));
         Summary::new(self.web, found, tried, &rows, self.performance, self.notes).to_json()
     }
 
-    /// Writes the map, the single fibres of a window, the figures, the report, the file of the web and the summary.
-    ///
-    /// # Errors
-    /// If a file cannot be written, or the computation is interrupted.
-    pub fn write(&self, staging: &Staging<'_>, laying: LayControl<'_>) -> Result<(), Failure> {
-        // The map is packed while everything else is made.
-        std::thread::scope(|scope| {
-            let map = scope.spawn(|| web::write_map(staging, &self.findings.laid.map));
-            let others = self.write_others(staging, laying);
-            map.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)).and(others)
-        })
-    }
-
-    /// Writes all files but those of the map.
-    fn write_others(&self, staging: &Staging<'_>, laying: LayControl<'_>) -> Result<(), Failure> {
-        let (window, toml) = (self.file.spec.window(), keep_web(staging, &self.file.spec)?);
-        let strands = match &self.findings.laid.shared_air {
+    fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
+        let Self { web, findings, .. } = *self;
+        let spec = &self.file.spec;
+        let (input, Making { threads, stop, .. }) = (maker.keep(Input::Web(spec))?, maker.making);
+        let by = LayControl { threads, isa: Isa::detect(), stop, laid: &AtomicU64::new(0) };
+        let strands = match &findings.laid.shared_air {
             Some(together) => Cow::Borrowed(&together.strands[..]),
-            None => Cow::Owned(strands(self.web, window, laying)?),
+            None => Cow::Owned(strands(web, spec.window(), by)?),
         };
         let tried = [self.advice, self.guesses].into_iter().flatten();
-        let effects = tried.filter_map(|tried| effects_figure(&self.file.spec, tried));
-        let figures: Vec<Figure> = web_figures(self.web, self.findings).into_iter().chain(effects).collect();
-        let spinlines = spinlines(&self.file.spec);
-        let threads: Vec<(usize, &[Solution])> = (spinlines.iter())
-            .map(|spinline| {
-                (spinline.layers.first().map_or(1, |layer| layer + 1), &spinline.results.rows[..])
-            })
-            .collect();
-        if !threads.is_empty() {
-            write_stations(staging, &threads)?;
-        }
-        let all: Vec<&Figure> =
-            figures.iter().chain(spinlines.iter().flat_map(|spinline| &spinline.figures)).collect();
-        let report = std::thread::scope(|scope| {
-            let others = scope.spawn(|| {
-                staging.write_figures(&all)?;
-                web::write_strands(staging, &strands)
-            });
-            let report = web_report(
-                (&self.file.spec, &toml, self.web),
-                (self.findings, self.fabric),
+        let effects = tried.filter_map(|tried| effects_figure(spec, tried));
+        let figures: Vec<Figure> = web_figures(web, findings).into_iter().chain(effects).collect();
+        let spinlines = spinlines(spec);
+        let of_spinlines = spinlines.iter().flat_map(|spinline| &spinline.figures);
+        let all: Vec<&Figure> = figures.iter().chain(of_spinlines).collect();
+        let files = |staging: &Staging<'_>| {
+            let first = |spinline: &LayerSpinline| spinline.layers.first().map_or(1, |layer| layer + 1);
+            let threads = spinlines.iter().map(|spinline| (first(spinline), &spinline.results.rows[..]));
+            let threads: Vec<(usize, &[Solution])> = threads.collect();
+            if !threads.is_empty() {
+                write_stations(staging, &threads)?;
+            }
+            web::write_strands(staging, &strands)?;
+            web::write_map(staging, &findings.laid.map)
+        };
+        let report = || {
+            web_report(
+                (spec, input, web),
+                (findings, self.fabric),
                 (self.advice, self.guesses),
-                (&rows(&self.file.spec, self.web, self.layers), &spinlines),
+                (&rows(spec, web, self.layers), &spinlines),
                 &strands,
                 &figures,
                 self.performance,
-            );
-            let report = report.map(|report| report.named(self.name).noting(self.notes).html());
-            others.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)).and(report)
-        })?;
-        staging.write("web.toml", &toml)?;
-        staging.write("report.html", report)?;
-        staging.write("summary.json", self.summary())
+            )
+        };
+        maker.finish((self.name, self.notes), &all, files, report)
     }
-}
-
-/// Copies the files that the cases of a web name. Returns the text of the web's file, which names the copies.
-pub(super) fn keep_web(staging: &Staging<'_>, spec: &WebSpec) -> Result<String, Failure> {
-    let copied = copied_files::copy(spec.files(), &staging.place(CASE_FILES).0)?;
-    Ok(write_web(&spec.with_files_at(copied_files::place(&copied))))
 }
 
 /// What layers were laid from, for the files.

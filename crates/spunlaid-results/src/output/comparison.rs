@@ -6,9 +6,6 @@ use crate::numbers::plus_minus;
 use serde::Serialize;
 use spunlaid::statistics::{Difference, Estimate};
 
-/// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
-const SCHEMA_VERSION: u32 = 1;
-
 /// Two runs, measure by measure.
 #[derive(Clone, Debug)]
 pub struct Comparison {
@@ -47,8 +44,6 @@ pub struct ComparedMeasure {
 
 #[derive(Serialize)]
 struct Document<'a> {
-    schema_version: u32,
-    spunlaid_version: &'static str,
     comparisons: Vec<PairSummary<'a>>,
     /// What is missing, and why.
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
@@ -120,13 +115,8 @@ pub fn json(comparisons: &[Comparison], notes: &[String]) -> String {
         reason: &comparison.reason,
         measures: one(comparison),
     });
-    let document = Document {
-        schema_version: SCHEMA_VERSION,
-        spunlaid_version: env!("CARGO_PKG_VERSION"),
-        comparisons: comparisons.collect(),
-        notes,
-    };
-    super::json_text(&document)
+    let document = Document { comparisons: comparisons.collect(), notes };
+    super::versioned_json(1, &document)
 }
 
 impl Comparison {

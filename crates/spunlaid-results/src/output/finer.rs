@@ -8,7 +8,6 @@ use spunlaid::case::Case;
 use spunlaid::ensemble::{Change, FinerCheck, FinerChecks, Refinement, Results};
 use spunlaid::statistics::Estimate;
 use spunlaid::units::Dimension;
-use std::fmt::Write;
 
 /// A check in words.
 #[derive(Debug)]
@@ -43,22 +42,6 @@ pub fn words(checks: &FinerChecks, case: &Case, results: &Results) -> [Result<Fi
             .map(|check| FinerWords::new(check, case, results))
             .map_err(|why| unchecked(refined, why))
     })
-}
-
-/// The same as lines for the terminal.
-pub fn text(checks: &FinerChecks, case: &Case, results: &Results) -> String {
-    let mut text = String::new();
-    for words in words(checks, case, results) {
-        let _ = match words {
-            Err(why) => writeln!(text, "{why}"),
-            Ok(FinerWords { what, with, differences, extent, advice, .. }) => {
-                let differences = differences.join("\n  ");
-                let heading = format!("{what}, compared with {with} in the same turbulence");
-                writeln!(text, "{heading}\n  {differences}\n  Compared: {extent}\n  {advice}")
-            }
-        };
-    }
-    text
 }
 
 impl FinerWords {

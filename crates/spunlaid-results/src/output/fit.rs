@@ -1,14 +1,14 @@
 //! `fit.json`, `trials.csv` and the table of the terminal: which values make webs like the scan.
 
-use super::json_text;
+use super::folder::Staging;
+use super::table::{Value, number, whole};
+use super::versioned_json;
+use crate::Failure;
 use crate::numbers::significant;
 use serde_json::{Value as Json, json};
 use spunlaid::fit::{
     Fit, FittedKey, FittedNumber, IntervalEnd, KeyDoubt, Parameter, Target, Texture, USUAL_WEBS,
 };
-
-/// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
-const SCHEMA_VERSION: u32 = 1;
 
 /// The text of `fit.json`.
 ///
@@ -53,38 +53,42 @@ pub fn fit_json(fit: &Fit, target: &Target, [web, scan]: [&str; 2], notes: &[Str
     let refused = fit.refused.iter().map(|(values, reason)| json!({"values": values, "reason": reason}));
     let trials = fit.trials.iter().map(|trial| json!({"values": trial.values, "misfit": trial.misfit}));
     let [width, length] = target.sides();
-    json_text(&json!({
-        "schema_version": SCHEMA_VERSION,
-        "spunlaid_version": env!("CARGO_PKG_VERSION"),
-        "web": web,
-        "scan": scan,
-        "compared_width_m": width,
-        "compared_length_m": length,
-        "webs_per_trial": fit.webs,
-        "webs_with_larger_misfit": fit.worse,
-        "misfit_start": fit.misfit[0],
-        "misfit": fit.misfit[1],
-        "settled": fit.settled,
-        "keys": fit.keys.iter().map(key).collect::<Vec<_>>(),
-        "correlations": fit.correlations,
-        "alike": alike.collect::<Vec<_>>(),
-        "numbers": fit.numbers.iter().map(number).collect::<Vec<_>>(),
-        "trials": trials.collect::<Vec<_>>(),
-        "refused": refused.collect::<Vec<_>>(),
-        "notes": notes,
-    }))
+    versioned_json(
+        1,
+        &json!({
+            "web": web,
+            "scan": scan,
+            "compared_width_m": width,
+            "compared_length_m": length,
+            "webs_per_trial": fit.webs,
+            "webs_with_larger_misfit": fit.worse,
+            "misfit_start": fit.misfit[0],
+            "misfit": fit.misfit[1],
+            "settled": fit.settled,
+            "keys": fit.keys.iter().map(key).collect::<Vec<_>>(),
+            "correlations": fit.correlations,
+            "alike": alike.collect::<Vec<_>>(),
+            "numbers": fit.numbers.iter().map(number).collect::<Vec<_>>(),
+            "trials": trials.collect::<Vec<_>>(),
+            "refused": refused.collect::<Vec<_>>(),
+            "notes": notes,
+        }),
+    )
 }
 
-/// The text of `trials.csv`: a row for each trial.
-pub fn trials_csv(fit: &Fit) -> String {
-    let heads =
-        fit.keys.iter().map(|key| format!("{}{}", key.parameter.key, key.parameter.dimension.suffix()));
-    let mut text = format!("trial,{},misfit\n", heads.collect::<Vec<_>>().join(","));
-    for (number, trial) in (1..).zip(&fit.trials) {
-        let values: Vec<String> = trial.values.iter().map(f64::to_string).collect();
-        text.push_str(&format!("{number},{},{}\n", values.join(","), trial.misfit));
+/// Writes `trials.csv`: a row for each trial.
+///
+/// # Errors
+/// If it cannot be written.
+pub fn write_trials(staging: &Staging<'_>, fit: &Fit) -> Result<(), Failure> {
+    let key = |key: &FittedKey| number(key.parameter.key.clone() + &key.parameter.dimension.suffix());
+    let columns = [whole("trial")].into_iter().chain(fit.keys.iter().map(key)).chain([number("misfit")]);
+    let mut table = staging.table("trials", &["csv"], &columns.collect::<Vec<_>>())?;
+    for (trial, found) in (1..).zip(&fit.trials) {
+        let numbers = found.values.iter().chain([&found.misfit]).map(|value| Value::Number(*value));
+        table.add(&[Value::Whole(trial)].into_iter().chain(numbers).collect::<Vec<_>>())?;
     }
-    text
+    table.finish()
 }
 
 /// Why the value of a key is not to be trusted, in words.

@@ -1,14 +1,15 @@
 //! A results folder that is written completely or not at all.
 
-use super::copied_files::CASE_FILES;
 use super::leftovers::{self, Claim};
 use super::origin::{ORIGIN, Origin};
 use super::pictures::FigureFiles;
+use super::table::{Column, TABLES, Table};
 use crate::Failure;
 use crate::failure::{holds_files_of_others, holds_results, not_a_folder};
 use spunlaid_charts::Figure;
 use std::borrow::Borrow;
 use std::fs;
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -22,6 +23,7 @@ pub const ENTRIES: &[&str] = &[
     "laid.parquet",
     "laid.vtp",
     "spinline.parquet",
+    TABLES,
     "shape.pvd",
     "shape",
     "figures",
@@ -33,6 +35,8 @@ pub const ENTRIES: &[&str] = &[
     COMPLETE,
 ];
 const COMPLETE: &str = "summary.json";
+/// The folder for files that an input names.
+pub const CASE_FILES: &str = "case_files";
 /// Files that mark the results of any command, and the journal that studies of webs had before they were like all others.
 pub(crate) const MARKS: &[&str] = &[
     COMPLETE,
@@ -161,13 +165,40 @@ impl<'a> Staging<'a> {
         self.staging.join(SCRATCH)
     }
 
-    /// Writes a file and creates its parent folders.
-    pub fn write(&self, name: &str, content: impl AsRef<[u8]>) -> Result<(), Failure> {
+    /// The present and the final path of a file, whose parent folders are there.
+    pub(super) fn begin(&self, name: &str) -> Result<(PathBuf, PathBuf), Failure> {
         self.go_on()?;
         let (now, later) = self.place(name);
-        now.parent()
-            .map_or(Ok(()), fs::create_dir_all)
-            .and_then(|()| fs::write(&now, content))
+        now.parent().map_or(Ok(()), fs::create_dir_all).map_err(Failure::unwritable(&later))?;
+        Ok((now, later))
+    }
+
+    /// Begins a table.
+    ///
+    /// * `name` – of its files, without the ending
+    /// * `usual` – the formats in which it is written besides those that are asked for
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn table(&self, name: &str, usual: &[&str], columns: &[Column]) -> Result<Table, Failure> {
+        Table::create(name, (usual, &self.figures.tables), columns, |file| self.begin(file))
+    }
+
+    /// Writes a file and creates its parent folders.
+    pub fn write(&self, name: &str, content: impl AsRef<[u8]>) -> Result<(), Failure> {
+        self.write_with(name, |file| file.write_all(content.as_ref()))
+    }
+
+    /// The same, part by part.
+    pub fn write_with(
+        &self,
+        name: &str,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        let (now, later) = self.begin(name)?;
+        fs::File::create(&now)
+            .map(BufWriter::new)
+            .and_then(|mut file| write(&mut file).and_then(|()| file.flush()))
             .map_err(Failure::unwritable(&later))
     }
 
@@ -200,7 +231,7 @@ impl<'a> Staging<'a> {
     }
 
     /// Replaces the old entries by the new ones. If this fails, the old entries are moved back.
-    fn swap(&self, new: &Path, folder: &Path) -> std::io::Result<()> {
+    fn swap(&self, new: &Path, folder: &Path) -> io::Result<()> {
         let old = self.staging.join(OLD);
         fs::create_dir(&old)?;
         let exists = |path: &Path| path.symlink_metadata().is_ok();
@@ -277,7 +308,7 @@ fn refuse_results(
 /// * `own` – names that may be there
 pub(crate) fn refuse_others(folder: &Path, results: &[&str], own: &[&str]) -> Result<(), Failure> {
     let named =
-        |entry: std::io::Result<fs::DirEntry>| Some(entry.ok()?.file_name().to_string_lossy().into_owned());
+        |entry: io::Result<fs::DirEntry>| Some(entry.ok()?.file_name().to_string_lossy().into_owned());
     // A folder that cannot be read is told of where it is written to.
     let mut found: Vec<String> = fs::read_dir(folder).into_iter().flatten().filter_map(named).collect();
     found.retain(|name| !name.starts_with('.') && !own.contains(&name.as_str()));

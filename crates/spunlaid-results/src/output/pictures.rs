@@ -1,60 +1,61 @@
 //! Writes figures in the formats and at the width that are asked for, with their numbers as CSV. They are drawn on all threads.
 
+use super::table::TableFormat;
 use crate::Failure;
 use crate::failure::undrawable;
 use spunlaid::threads::each;
 use spunlaid::units::Dimension;
-use spunlaid_charts::{Figure, PictureError, pdf, png, svg};
+use spunlaid_charts::{Figure, Picture, PictureError, pdf, png, svg};
 use std::borrow::Borrow;
 use std::thread::available_parallelism;
 
-/// A format of figures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// Lines and texts, for browsers and drawing programs.
-    Svg,
-    /// Pixels.
-    Png,
-    /// Lines and outlines of texts, a page of the figure's size.
-    Pdf,
+/// A format of figures; `spunlaid-charts` has a file for each, which says how a picture is written.
+#[derive(Debug)]
+pub struct Format {
+    /// The ending of its files.
+    pub name: &'static str,
+    write: fn(&Figure, &Picture, u32) -> Result<Vec<u8>, PictureError>,
 }
 
+/// All formats.
+static FORMATS: [Format; 3] = [
+    // Lines and texts, for browsers and drawing programs.
+    Format { name: "svg", write: |_, picture, _| Ok(svg(picture).into_bytes()) },
+    // Pixels.
+    Format {
+        name: "png",
+        write: |figure, picture, dpi| png(picture, dpi, &[("Title", &figure.title), ("Software", SOFTWARE)]),
+    },
+    // Lines and outlines of texts, a page of the figure's size.
+    Format { name: "pdf", write: |figure, picture, _| pdf(picture, &figure.title, SOFTWARE) },
+];
+
 impl Format {
-    /// All formats.
-    pub const ALL: [Self; 3] = [Self::Svg, Self::Png, Self::Pdf];
-
-    /// The ending of its files.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Svg => "svg",
-            Self::Png => "png",
-            Self::Pdf => "pdf",
-        }
-    }
-
     /// The format of this name.
     ///
     /// # Errors
     /// What to write, if there is none.
-    pub fn named(name: &str) -> Result<Self, String> {
-        let known = Self::ALL.into_iter().find(|format| format.name().eq_ignore_ascii_case(name.trim()));
+    pub fn named(name: &str) -> Result<&'static Self, String> {
+        let known = FORMATS.iter().find(|format| format.name.eq_ignore_ascii_case(name.trim()));
         known
             .ok_or_else(|| "write svg, png or pdf, or several of them with commas, as pdf,svg,png".to_owned())
     }
 }
 
-/// How figures are written.
-#[derive(Clone, Debug, PartialEq)]
+/// How figures and tables are written.
+#[derive(Clone, Debug)]
 pub struct FigureFiles {
     /// Their formats.
-    pub formats: Vec<Format>,
+    pub formats: Vec<&'static Format>,
     /// Width in print [m]; none: as on the screen.
     pub width: Option<f64>,
+    /// The formats in which tables are written besides the usual ones.
+    pub tables: Vec<&'static TableFormat>,
 }
 
 impl Default for FigureFiles {
     fn default() -> Self {
-        Self { formats: vec![Format::Svg, Format::Png], width: None }
+        Self { formats: FORMATS.iter().take(2).collect(), width: None, tables: Vec::new() }
     }
 }
 
@@ -110,7 +111,7 @@ impl FigureFiles {
             for (figure, files) in figures.iter().map(F::borrow).zip(drawn) {
                 write(format!("{}.csv", figure.name), figure.table().csv().as_bytes())?;
                 for (format, content) in self.formats.iter().zip(files?) {
-                    write(format!("{}.{}", figure.name, format.name()), &content)?;
+                    write(format!("{}.{}", figure.name, format.name), &content)?;
                 }
             }
         }
@@ -123,13 +124,8 @@ impl FigureFiles {
             Some(width) => (figure.in_print(width * 1e3), PRINT),
             None => (figure.picture(), SCREEN),
         };
-        let file = |format: &Format| match format {
-            Format::Svg => Ok(svg(&picture).into_bytes()),
-            Format::Png => png(&picture, dpi, &[("Title", &figure.title), ("Software", SOFTWARE)]),
-            Format::Pdf => pdf(&picture, &figure.title, SOFTWARE),
-        };
         let undrawable = |reason: PictureError| undrawable(&figure.name, &reason.to_string());
-        self.formats.iter().map(|format| file(format).map_err(undrawable)).collect()
+        self.formats.iter().map(|format| (format.write)(figure, &picture, dpi).map_err(undrawable)).collect()
     }
 }
 

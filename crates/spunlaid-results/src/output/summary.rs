@@ -14,14 +14,9 @@ use spunlaid::units::Dimension;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
-const SCHEMA_VERSION: u32 = 3;
-
 /// The content of `summary.json` of a run.
 #[derive(Debug, Serialize)]
 pub struct Summary<'a> {
-    schema_version: u32,
-    spunlaid_version: &'static str,
     case: OrderedObject<OrderedObject<Json>>,
     /// Of a case that is fed from a spinline.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -145,8 +140,6 @@ impl<'a> Summary<'a> {
             insert(&mut measures, number.measure.group.name, number);
         }
         Self {
-            schema_version: SCHEMA_VERSION,
-            spunlaid_version: env!("CARGO_PKG_VERSION"),
             case: resolved(case),
             spinline: SpinSummary::from_case(case),
             elements: case.fibre.elements,
@@ -165,7 +158,7 @@ impl<'a> Summary<'a> {
 
     /// The text of the file.
     pub fn to_json(&self) -> String {
-        super::json_text(self)
+        super::versioned_json(3, self)
     }
 }
 

@@ -3,9 +3,10 @@
 
 use super::folder::Staging;
 use super::paraview::SHAPE;
-use super::parquet::{self, ColumnValues, Parquet};
-pub(crate) use super::parquet::{PackedColumn, unpacked};
 use super::spill::Spill;
+use super::table::parquet::Parquet;
+pub(crate) use super::table::parquet::{PackedColumn, unpacked};
+use super::table::{number, whole};
 use crate::Failure;
 use spunlaid::ensemble::{Recorder, Sample, Shapes};
 use spunlaid::error::Error;
@@ -196,10 +197,8 @@ impl<'a> Tables<'a> {
             recorder.samples.iter().map(|(columns, _)| columns.iter().map(|(name, _)| *name).collect());
         let laid = recorder.laid.iter().map(|_| POINT.iter().map(|(name, _)| *name).collect());
         let create = |(columns, spill): (Vec<&str>, &Spill)| {
-            let replicate = parquet::Column { name: "replicate".to_owned(), holds: ColumnValues::Whole };
-            let number =
-                |name: &&str| parquet::Column { name: (*name).to_owned(), holds: ColumnValues::Number };
-            let all: Vec<_> = std::iter::once(replicate).chain(columns.iter().map(number)).collect();
+            let all: Vec<_> =
+                std::iter::once(whole("replicate")).chain(columns.into_iter().map(number)).collect();
             Parquet::create(staging.place(spill.name()), &all, ROWS)
         };
         let writers = samples.chain(laid).zip(recorder.spills()).map(create).collect::<Result<_, _>>()?;

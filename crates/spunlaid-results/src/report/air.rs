@@ -8,12 +8,17 @@ use super::words::length;
 use crate::numbers::{THIN, significant};
 use crate::output::air::{Picture, Slices};
 use spunlaid::case::Case;
-use spunlaid::input::write_case;
 
 /// The air of a case, in moving pictures.
 ///
+/// * `case` – and the same as a file
 /// * `headline` – how strong the gusts are
-pub fn air_report<'a>(case: &Case, slices: &Slices, pictures: &'a [Picture], headline: String) -> Report<'a> {
+pub fn air_report<'a>(
+    (case, toml): (&Case, &str),
+    slices: &Slices,
+    pictures: &'a [Picture],
+    headline: String,
+) -> Report<'a> {
     let summary = summary(case, slices);
     let moving = pictures.iter().map(|picture| {
         Section::new(&picture.figure.name, &picture.figure.title).view(View::Moving(Moving::new(picture)))
@@ -23,7 +28,7 @@ pub fn air_report<'a>(case: &Case, slices: &Slices, pictures: &'a [Picture], hea
          (air.lateral = \"von-karman\"). Fibres of this case that fly with the same seed and replicate meet this air, and so do the companions \
          of [neighbours]. Waves across the flow that are shorter than 2π length scales over air.lateral_cutoff are left out.",
     );
-    let file = Section::new("file", "The case").file("case-toml", write_case(case)).caption(
+    let file = Section::new("file", "The case").file("case-toml", toml).caption(
         "along.pvd and across.pvd open the velocities, all three components, in ParaView; along.gif and across.gif are the pictures of \
          this page; all numbers are in summary.json, beside this page.",
     );

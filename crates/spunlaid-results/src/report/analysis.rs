@@ -3,7 +3,6 @@
 use super::document::{Report, Section};
 use super::methods::methods;
 use super::table::{Content, Layout, Row, Table};
-use super::text::text;
 use super::words::{count, time};
 use crate::numbers::{THIN, plus_minus, significant};
 use crate::output::analysis::{ResultRow, half_width, results};
@@ -32,25 +31,17 @@ pub fn analysis_report<'a>(
     let found = format!("{}.", rows.iter().map(value).collect::<Vec<_>>().join(", "));
     let methods = methods("analyse", (texts.collect(), Vec::new()), [headline.clone(), found]);
     let remarks: String = remarks.iter().map(|remark| format!(" {remark}.")).collect();
-    let warnings: Vec<String> = analysis.warnings.iter().map(ToString::to_string).collect();
     let [of_air, components] = numbers(analysis);
     let computed = Section::new("methods", "How it was computed").descriptions(steps).caption(
         "The curves are in spectrum.csv and autocorrelation.csv, all numbers in analysis.json, beside this page.",
     );
     Report::new("analyse", headline)
         .lead(summary + &remarks)
-        .noting(&warnings)
-        .with(of_air.file("air-toml", air))
+        .with(of_air.file("air-toml", air).told())
         .with(Section::of_figures(figures))
-        .with(components)
+        .with(components.told())
         .with(computed)
         .with(methods)
-}
-
-/// The same for a terminal of so many columns.
-pub fn analysis_text(record: &Record, analysis: &Analysis, room: usize) -> String {
-    let sentences = format!("{} {}", headline(analysis), summary(record, analysis));
-    text(&sentences, numbers(analysis), room)
 }
 
 /// The numbers for the air of a case, then those of each component.

@@ -4,7 +4,6 @@ use super::document::{Report, Section};
 use super::methods::methods;
 use super::pictures::{Beside, ComparedPictures, caption};
 use super::table::{Cell, Row, Table, Tone};
-use super::text::text;
 use super::view::View;
 use crate::output::comparison::{ComparedMeasure, Comparison};
 use spunlaid::statistics::Difference;
@@ -28,14 +27,9 @@ pub fn comparison_report<'a>(
     let methods = methods("compare", (sentences, Vec::new()), found);
     Report::new("compare", title)
         .with_all(beside)
-        .with_all(pairs(comparisons))
+        .with_all(pairs(comparisons).map(Section::told))
         .with(Section::of_figures(figures))
         .with(methods)
-}
-
-/// The same for a terminal of so many columns.
-pub fn comparison_text(comparisons: &[Comparison], room: usize) -> String {
-    text("", pairs(comparisons), room)
 }
 
 fn pairs<'a>(comparisons: &[Comparison]) -> impl Iterator<Item = Section<'a>> {

@@ -19,14 +19,14 @@ pub struct Report<'a> {
     /// What the results are called; empty if they have no name of their own.
     name: String,
     /// The result, in a sentence.
-    headline: String,
+    pub(super) headline: String,
     /// Paragraphs below it.
-    lead: Vec<String>,
+    pub(super) lead: Vec<String>,
     /// Warnings and remarks for the reader.
     notes: Vec<String>,
-    sections: Vec<Section<'a>>,
+    pub(super) sections: Vec<Section<'a>>,
     /// What the computation took.
-    cost: String,
+    pub(super) cost: String,
 }
 
 impl<'a> Report<'a> {
@@ -75,10 +75,15 @@ impl<'a> Report<'a> {
         if self.name.is_empty() { &self.headline } else { &self.name }
     }
 
+    /// The sections of the page.
+    fn on_page(&self) -> impl Iterator<Item = &Section<'a>> {
+        self.sections.iter().filter(|section| section.seen != Seen::Terminal)
+    }
+
     /// The scripts that the views need, each once.
     fn scripts(&self) -> Vec<&'static str> {
         let mut scripts = vec![include_str!("../../assets/save.js")];
-        let parts = self.sections.iter().flat_map(|section| &section.parts);
+        let parts = self.on_page().flat_map(|section| &section.parts);
         for script in parts
             .filter_map(|part| if let Part::View(view) = part { Some(view) } else { None })
             .flat_map(View::scripts)
@@ -97,7 +102,16 @@ pub(super) struct Section<'a> {
     /// In its page.
     id: String,
     pub(super) heading: String,
+    pub(super) seen: Seen,
     pub(super) parts: Vec<Part<'a>>,
+}
+
+/// Where a section is seen.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(super) enum Seen {
+    Page,
+    Terminal,
+    Both,
 }
 
 /// A part of a section.
@@ -135,7 +149,17 @@ pub(super) enum Part<'a> {
 impl<'a> Section<'a> {
     /// * `id` – in its page
     pub(super) fn new(id: impl Into<String>, heading: impl Into<String>) -> Self {
-        Self { id: id.into(), heading: heading.into(), parts: Vec::new() }
+        Self { id: id.into(), heading: heading.into(), seen: Seen::Page, parts: Vec::new() }
+    }
+
+    /// Shown by a terminal too.
+    pub(super) fn told(self) -> Self {
+        Self { seen: Seen::Both, ..self }
+    }
+
+    /// Shown by a terminal in place of sections for which it has no room.
+    pub(super) fn on_terminal(self) -> Self {
+        Self { seen: Seen::Terminal, ..self }
     }
 
     /// Figures under this heading; nothing without figures.
@@ -160,8 +184,10 @@ impl<'a> Section<'a> {
         all.into_iter().fold(self, Self::paragraph)
     }
 
+    /// Nothing without words.
     pub(super) fn caption(self, words: impl Into<String>) -> Self {
-        self.with(Part::Caption(words.into()))
+        let words = words.into();
+        if words.is_empty() { self } else { self.with(Part::Caption(words)) }
     }
 
     /// Nothing if the table is empty.

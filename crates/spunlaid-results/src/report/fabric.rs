@@ -3,7 +3,7 @@
 use super::document::Section;
 use super::table::{Content, Layout, Row, Table};
 use super::words::millimetres;
-use crate::output::web::known_text;
+use crate::output::web::{fabric_rows, known_text};
 use spunlaid::fabric::Fabric;
 use spunlaid::observe::{
     Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES, OF_STREAKS, OF_STRIPS, OF_THINNEST, PERCENT, measured,
@@ -54,6 +54,16 @@ pub(super) fn fabric_section(fabric: &Fabric) -> Section<'static> {
     let radii = fabric.holes.iter().flat_map(|holes| &holes.radii);
     let radii: Vec<_> = radii.map(|of| (shown(radius, of), of)).collect();
     compare(section, ("Holes into which a disc fits", radius.label), holes, &radii)
+}
+
+/// A few numbers of the fabric for a terminal.
+pub(super) fn fabric_in_short(fabric: &Fabric) -> Section<'static> {
+    let facts = fabric_rows(fabric).into_iter().map(|[name, value]| (name, value));
+    let of = if fabric.is_of_map_alone { "" } else { " and of the curves of the fibres" };
+    Section::new("", format!("Fabric, of the map{of}"))
+        .table(Table::of_facts(facts))
+        .paragraphs(fabric.notes.iter().cloned())
+        .on_terminal()
 }
 
 /// A row for each of several parts of the fabric, a column for each measure; below it, what the measures mean.

@@ -3,7 +3,6 @@
 use super::document::{Report, Section};
 use super::methods::{Account, MOMENTS, methods, web_account};
 use super::table::{Row, Table};
-use super::text::text;
 use crate::numbers::significant;
 use crate::output::fit::{doubt, pretty, refused, sentences as sentences_of, value_and_interval};
 use spunlaid::fit::{Fit, FittedKey, FittedNumber, Target, Texture};
@@ -34,16 +33,11 @@ pub fn fit_report<'a>(
         .file("web-toml", toml);
     Report::new("fit", title)
         .lead(summary)
-        .with(values(fit))
+        .with(values(fit).told())
         .with(Section::of_figures(figures))
         .with(numbers(fit))
         .with(methods)
         .with(file)
-}
-
-/// The same for a terminal of so many columns.
-pub fn fit_text(fit: &Fit, room: usize) -> String {
-    text("", [values(fit)], room)
 }
 
 /// The values, and what they are worth.

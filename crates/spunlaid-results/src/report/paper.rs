@@ -25,8 +25,7 @@ pub fn paper_report<'a>(
         all => format!("{holds} of the paper’s {all} claims hold"),
     };
     let found = [how.to_owned(), format!("{headline}.")];
-    let mut report =
-        Report::new("reproduce", headline).named("Battocchio, Sutcliffe & Teschner 2015").lead(how);
+    let mut report = Report::new("reproduce", headline).lead(how);
     if !claims.is_empty() {
         report = report.with(Section::new("claims", "Claim by claim").table(claim_table(claims)).caption(
             "The program computes the verdicts from the data. A trend is almost linear if a straight line explains 97\u{202f}% of the variance. \
@@ -35,6 +34,11 @@ pub fn paper_report<'a>(
              to decide; more replicates would help.",
         ));
     }
+    let verdict = |claim: &Claim| {
+        let name = format!("{:<4} {:<13} {}", claim.figure, claim.verdict.name(), claim.claim);
+        (name, claim.evidence.clone())
+    };
+    report = report.with(Section::new("", "Claims").on_terminal().descriptions(claims.iter().map(verdict)));
     if !choices.is_empty() {
         let heads = [
             "Choice",

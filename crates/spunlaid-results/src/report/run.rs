@@ -3,7 +3,7 @@
 use super::document::{Part, Report, Section};
 use super::frames;
 use super::methods::{case_account, methods};
-use super::run_table::{capitalised, groups, replicate_table, result_table, sentence};
+use super::run_table::{capitalised, groups, neighbour_table, replicate_table, result_table, sentence};
 use super::spinline::section_of_fibre;
 use super::view::View;
 use super::words::{self, count};
@@ -51,10 +51,11 @@ pub fn run_report<'a>(
     Ok(Report::new("run", headline)
         .lead(words::case(case))
         .with(motion(case, results)?)
-        .with(numbers(results))
+        .with(numbers(results).told())
         .with_all(spinline.map(|(results, figures)| section_of_fibre(case, results, figures)))
         .with(under_headings(figures))
-        .with(trust(case, results, finer))
+        .with(trust(finer).told())
+        .with(energy(case, results))
         .with(methods)
         .with(file)
         .costing(cost))
@@ -81,11 +82,14 @@ fn motion(case: &Case, results: &Results) -> Result<Section<'static>, Failure> {
 
 /// The results, and those of each replicate.
 fn numbers(results: &Results) -> Section<'static> {
-    let caption = if results.replicates() > 1 {
-        "Mean ± one standard error of the mean over n replicates: fibres that differ in nothing but the random phases of the turbulence. About \
-         two times in three the true mean lies within one standard error."
+    let n = results.replicates() as u64;
+    let (about, caption) = if n > 1 {
+        let caption = "Replicates are fibres that differ in nothing but the random phases of the turbulence. About two times in three the true mean \
+                       lies within one standard error.";
+        (format!("Mean ± one standard error of the mean over {}.", count(n, "replicate")), caption)
     } else {
-        "From a single replicate, so without a standard error: run more to learn how sure these numbers are."
+        let about = "From a single replicate, so without a standard error: run more to learn how sure these numbers are.";
+        (about.to_owned(), "")
     };
     let (table, unlisted) = replicate_table(results);
     let mut of_each = vec![Part::Table(table)];
@@ -93,22 +97,32 @@ fn numbers(results: &Results) -> Section<'static> {
         of_each.push(Part::Caption(format!("{unlisted} more are in summary.json.")));
     }
     Section::new("results", "Results")
+        .paragraph(about)
         .table(result_table(results))
         .caption(caption)
+        .table(neighbour_table(results))
         .with(Part::Folded("Values of each replicate", of_each))
 }
 
-/// How far the computation can be trusted: what finer steps and elements change, and whether energy is kept.
-fn trust(case: &Case, results: &Results, checks: [Result<FinerWords, String>; 2]) -> Section<'static> {
-    let check = |check: Result<FinerWords, String>| match check {
-        Ok(FinerWords { what, with, differences, meaning, extent, advice }) => {
-            let differences: String =
-                differences.iter().map(|difference| format!("{difference}. ")).collect();
-            let name = format!("{}: compared with {with} in the same turbulence", capitalised(what));
-            (name, format!("{differences}{meaning} Compared: {extent}. {advice}."))
+/// How far the computation can be trusted: what finer steps and elements change.
+fn trust(checks: [Result<FinerWords, String>; 2]) -> Section<'static> {
+    checks.into_iter().fold(Section::new("trust", "Can the computation be trusted?"), |section, check| {
+        match check {
+            Ok(FinerWords { what, with, differences, meaning, extent, advice }) => {
+                let name = format!("{}, compared with {with} in the same turbulence", capitalised(what));
+                let meaning = Some(meaning).filter(|meaning| !meaning.is_empty());
+                let end = [format!("Compared: {extent}."), format!("{advice}.")];
+                let differences = differences.into_iter().map(|difference| format!("{difference}."));
+                let all = differences.chain(meaning).chain(end).collect();
+                section.heading(name).with(Part::List(all))
+            }
+            Err(why) => section.paragraph(format!("{}. The error is not known, then.", capitalised(&why))),
         }
-        Err(why) => (capitalised(&why), "The error is not known, then.".to_owned()),
-    };
+    })
+}
+
+/// Whether the mesh is as long as an eddy, and whether energy is kept.
+fn energy(case: &Case, results: &Results) -> Section<'static> {
     let work_error = results.number("work_error");
     let balance = number(results.number("balance_error").map_or(f64::NAN, Number::value));
     let carried = if case.line.is_some() {
@@ -131,8 +145,8 @@ fn trust(case: &Case, results: &Results, checks: [Result<FinerWords, String>; 2]
                        with the time step, and says nothing about the forces.";
         (name, meaning.to_owned())
     });
-    let all = checks.map(check).into_iter().chain([balance]).chain(words::mesh(case)).chain(work);
-    Section::new("trust", "Can the computation be trusted?").descriptions(all).caption(
+    let all = words::mesh(case).into_iter().chain([balance]).chain(work);
+    Section::new("energy", "Mesh and energy").descriptions(all).caption(
         "The energy errors are medians over time and replicates. All of this says how well the equations were solved, not how well they describe \
          a fibre.",
     )

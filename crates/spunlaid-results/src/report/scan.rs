@@ -1,11 +1,10 @@
 //! The report of a scanned web: the web on a light table, how uneven it is, and the figures.
 
 use super::document::{Report, Section};
-use super::fabric::fabric_section;
+use super::fabric::{fabric_in_short, fabric_section};
 use super::light_table::{MarkedPlaces, marks_note, picture_note, sheet};
 use super::methods::methods;
 use super::table::{Row, Table};
-use super::text::text;
 use super::unevenness::{CV_OF_PATCHES, cost, headline, largest_clouds, per_cent, unevenness};
 use super::view::View;
 use super::words::{metres, millimetres};
@@ -57,17 +56,13 @@ pub fn scan_report<'a>(
     Ok(Report::new("analyse", headline)
         .lead(summary)
         .with(web)
-        .with(uneven(findings))
+        .with(uneven(findings).told())
         .with(fabric_section(fabric))
+        .with(fabric_in_short(fabric))
         .with(Section::of_figures(figures))
         .with(methods)
         .with(read)
         .costing(cost(performance)))
-}
-
-/// The same for a terminal of so many columns.
-pub fn scan_text(findings: &Findings, room: usize) -> String {
-    text(&title(findings), [uneven(findings)], room)
 }
 
 fn title(findings: &Findings) -> String {

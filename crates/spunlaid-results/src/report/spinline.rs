@@ -49,10 +49,16 @@ pub fn spinline_report<'a>(
         );
     Report::new("spin", headline)
         .lead(summary(spec, rows))
-        .with(section(Section::new("results", "Results"), Vec::new(), results, figures))
+        .with(section(Section::new("results", "Results"), Vec::new(), results, figures).told())
         .with(computed)
         .with(methods("spin", account(spec, rows), found))
         .with(file)
+}
+
+/// What a terminal shows of a spinline.
+pub fn spinline_text(results: &SpinResults) -> String {
+    let results = SpinResults { influences: Vec::new(), ..results.clone() };
+    section(Section::new("results", "Results"), Vec::new(), &results, &[]).text(usize::MAX)
 }
 
 /// What is known of a spinline.
@@ -68,11 +74,12 @@ fn section<'a>(
         ("Result", Content::Words),
         ("Value", Content::Numbers),
         ("Unit", Content::Words),
-        ("Meaning", Content::Sentences),
+        ("Meaning", Content::Meanings),
     ];
     let row = |row: Measured<Solution>| {
         let value = text(&row).unwrap_or_default();
-        Row::new(row.measure.label, [&value, row.measure.unit.shown, row.meaning()])
+        let row_of = Row::new(row.measure.label, [&value, row.measure.unit.shown, row.measure.meaning]);
+        row_of.detail(row.remark.unwrap_or_default())
     };
     let first = rows.first();
     let results = first.into_iter().flat_map(|first| measured(OF_SPINLINES, first).map(row));
@@ -80,7 +87,7 @@ fn section<'a>(
     let section = section
         .paragraphs(sentences.into_iter().chain(curtain(rows)))
         .table(Table::of(columns).laid_out(Layout::Results).rows(results))
-        .caption(format!("{} {}", numerical_error(rows), model_error(is_low)));
+        .paragraph(format!("{} {}", numerical_error(rows), model_error(is_low)));
     let told: Vec<String> = influences.iter().take(TOLD).map(influence).collect();
     let section = match &told[..] {
         [] => section,

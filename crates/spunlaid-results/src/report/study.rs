@@ -41,6 +41,7 @@ pub fn study_report<'a>(
     Report::new("sweep", title)
         .lead(format!("{asked}{}", summary(study, results)))
         .lead(phases(study))
+        .with(points_in_short(study, results))
         .with_all(ranking(study, rankings, refusal))
         .with(Section::of_figures(figures))
         .with(points(study, results))
@@ -52,7 +53,7 @@ pub fn study_report<'a>(
 fn ranking(study: &Study, rankings: &[Ranking], refusal: Option<&str>) -> Option<Section<'static>> {
     let section = Section::new("ranking", "What matters most");
     if let Some(refusal) = refusal {
-        return Some(section.paragraph(format!("The factors are not ranked: {refusal}.")));
+        return Some(section.paragraph(format!("The factors are not ranked: {refusal}.")).told());
     }
     // The rows have the order of the effects on the amplitude.
     let first = rankings.first().filter(|_| study.factors.len() > 1)?;
@@ -79,19 +80,53 @@ fn ranking(study: &Study, rankings: &[Ranking], refusal: Option<&str>) -> Option
     )))
 }
 
-/// The points with their results.
-fn points(study: &Study, results: &[PointResults]) -> Section<'static> {
-    let row = |(index, point): (usize, &PointResults)| {
+/// Points and measures for a terminal.
+fn points_in_short(study: &Study, results: &[PointResults]) -> Section<'static> {
+    const POINTS: usize = 24;
+    const MEASURES: usize = 4;
+    let mut shown = shown::quantities(study);
+    let title = if study.noun() == "web" {
+        "Unevenness, CV in % ± its error by all causes that are known, over patches of this side; flown: expected from the flown curves"
+    } else {
+        shown.truncate(MEASURES);
+        "Points"
+    };
+    let heads = shown.iter().map(|quantity| {
+        let quantity = &study.quantities[*quantity];
+        match quantity.figure.name {
+            "cv" => quantity.series.clone(),
+            "cv_flown" => format!("flown {}", quantity.series),
+            _ => shown::head(quantity),
+        }
+    });
+    let inputs = study.inputs().map(|input| input.key.rsplit('.').next().unwrap_or(input.key).to_owned());
+    let heads = ["Point".to_owned()].into_iter().chain(inputs).chain(heads).chain(["n".to_owned()]);
+    let rows = point_rows(study, results, &shown).take(POINTS);
+    let section = Section::new("", title).table(Table::of_numbers(heads).rows(rows)).on_terminal();
+    match results.len().saturating_sub(POINTS) {
+        0 => section,
+        more => section.paragraph(format!("and {more} more points in results.csv")),
+    }
+}
+
+/// A row for each point: the values that vary, some of its results, and how many replicates it has.
+fn point_rows(study: &Study, results: &[PointResults], shown: &[usize]) -> impl Iterator<Item = Row> {
+    results.iter().enumerate().map(|(index, point)| {
         let values = study.points[index].values.iter().zip(study.inputs());
         let inputs = values.map(|(value, input)| input.pretty(*value));
-        let results = shown::quantities(study).into_iter().map(|i| shown::cell(study, point, i));
+        let results = shown.iter().map(|quantity| shown::cell(study, point, *quantity));
         Row::new((index + 1).to_string(), inputs.chain(results).chain([point.n.to_string()]))
-    };
+    })
+}
+
+/// The points with their results.
+fn points(study: &Study, results: &[PointResults]) -> Section<'static> {
+    let shown = shown::quantities(study);
     let heads = ["Point".to_owned()].into_iter().chain(study.inputs().map(|input| input.key.to_owned()));
-    let quantities = shown::quantities(study).into_iter().map(|i| shown::head(&study.quantities[i]));
+    let quantities = shown.iter().map(|quantity| shown::head(&study.quantities[*quantity]));
     let table = Table::new(heads.chain(quantities).chain(["n".to_owned()]))
         .laid_out(Layout::Scrolled("all points and columns"))
-        .rows(results.iter().enumerate().take(LISTED).map(row));
+        .rows(point_rows(study, results, &shown).take(LISTED));
     let more = match results.len().saturating_sub(LISTED) {
         0 => String::new(),
         more => format!(" {more} more points are in results.csv."),

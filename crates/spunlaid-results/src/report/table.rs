@@ -41,13 +41,15 @@ pub(super) enum Content {
     Asides,
     Words,
     Sentences,
+    /// Sentences for which only a page has room.
+    Meanings,
 }
 
 /// Rows that belong together.
 #[derive(Debug)]
 pub(super) struct Group {
     /// Empty if all rows are one group.
-    title: String,
+    pub(super) title: String,
     pub(super) rows: Vec<Row>,
 }
 
@@ -55,7 +57,7 @@ pub(super) struct Group {
 pub(super) struct Row {
     pub(super) name: String,
     /// Below the name.
-    detail: String,
+    pub(super) detail: String,
     pub(super) cells: Vec<Cell>,
     /// The command that makes what the row is about, below it.
     command: String,
@@ -83,6 +85,11 @@ impl Table {
     pub(super) fn new(heads: impl IntoIterator<Item: Into<String>>) -> Self {
         let contents = std::iter::once(Content::Words).chain(std::iter::repeat(Content::Numbers));
         Self::of(heads.into_iter().zip(contents))
+    }
+
+    /// A table of numbers, the names of its rows among them.
+    pub(super) fn of_numbers(heads: impl IntoIterator<Item: Into<String>>) -> Self {
+        Self::of(heads.into_iter().zip(std::iter::repeat(Content::Numbers)))
     }
 
     /// With columns of sentences at their right.
@@ -149,7 +156,7 @@ impl Table {
             // In other tables every cell is a number, unless it says something else.
             Some(Content::Numbers) if self.layout == Layout::Results => "value",
             Some(Content::Asides) => "value aside",
-            Some(Content::Sentences) => "sentence",
+            Some(Content::Sentences | Content::Meanings) => "sentence",
             _ => "",
         };
         let tone = match tone {

@@ -1,29 +1,34 @@
 //! Sections as text for a terminal: headings, sentences and tables. Captions, figures, views and files are for the page.
 
-use super::document::{Part, Section};
-use super::table::{Content, Table};
+use super::document::{Part, Report, Section, Seen};
+use super::table::{Content, Row, Table};
 use crate::numbers::{HARD, THIN};
+use std::collections::BTreeMap;
 
-/// A sentence, if there is one, and sections.
-///
-/// * `room` – columns of the terminal, for tables
-pub(super) fn text<'a>(
-    sentence: &str,
-    sections: impl IntoIterator<Item = Section<'a>>,
-    room: usize,
-) -> String {
-    let sentence = Some(format!("{sentence}\n")).filter(|_| !sentence.is_empty());
-    let sections = sections.into_iter().map(|section| section.text(room));
-    // Not every terminal knows these blanks.
-    sentence.into_iter().chain(sections).collect::<Vec<_>>().join("\n").replace([THIN, HARD], " ")
+impl Report<'_> {
+    /// What a terminal of so many columns shows: the result, what is said below it, the sections that are told there, and the cost.
+    pub(crate) fn text(&self, room: usize) -> String {
+        // A link leads to a part of the page.
+        let said = self.lead.iter().filter(|paragraph| !paragraph.contains("](#"));
+        let said = [&self.headline].into_iter().chain(said).map(|words| format!("{words}\n")).collect();
+        let told = self.sections.iter().filter(|section| section.seen != Seen::Page);
+        let told = told.map(|section| section.text(room));
+        let cost = Some(format!("{}\n", self.cost)).filter(|_| !self.cost.is_empty());
+        let text = [said].into_iter().chain(told).chain(cost).collect::<Vec<_>>().join("\n");
+        // Not every terminal knows these blanks.
+        text.replace([THIN, HARD], " ").replace('`', "")
+    }
 }
 
 impl Section<'_> {
-    fn text(&self, room: usize) -> String {
+    pub(super) fn text(&self, room: usize) -> String {
         let part = |part: &Part<'_>| match part {
             Part::Heading(words) | Part::Paragraph(words) => format!("{words}\n"),
             Part::Table(table) => table.text(room),
             Part::List(all) => all.iter().map(|words| format!("  {words}\n")).collect(),
+            Part::Descriptions(all) => {
+                all.iter().map(|(name, words)| format!("  {name}\n    {words}\n")).collect()
+            }
             _ => String::new(),
         };
         let parts: String = self.parts.iter().map(part).collect();
@@ -32,34 +37,56 @@ impl Section<'_> {
 }
 
 impl Table {
-    /// The rows in columns; sentences stand at their end, however long they are.
+    /// The rows in columns, below the title of their group. Sentences stand at the end of their row, however long they are, and details in
+    /// brackets behind it.
     fn text(&self, room: usize) -> String {
-        let is_sentence =
-            |i: usize| self.columns.get(i).is_some_and(|column| column.content == Content::Sentences);
-        let heads = self.columns.iter().map(|column| column.head.as_str()).collect();
-        let rows = self.groups.iter().flat_map(|group| &group.rows);
-        let texts = rows.map(|row| {
-            let cells = row.cells.iter().map(|cell| cell.text.as_str());
-            std::iter::once(row.name.as_str()).chain(cells).collect()
-        });
-        let all: Vec<Vec<&str>> = std::iter::once(heads).chain(texts).collect();
-        let apart = |row: &Vec<&str>, at_end: bool| {
-            let cells = row.iter().enumerate().filter(|(i, _)| is_sentence(*i) == at_end);
-            cells.map(|(_, cell)| (*cell).to_owned()).collect::<Vec<String>>()
+        let of = |wanted: fn(&Content) -> bool| {
+            let columns = self.columns.iter().enumerate();
+            columns.filter(move |(_, column)| wanted(&column.content)).map(|(i, _)| i).collect::<Vec<_>>()
         };
-        let columns: Vec<Vec<String>> = all.iter().map(|row| apart(row, false)).collect();
-        let contents = self.columns.iter().map(|column| column.content);
-        let is_left: Vec<bool> = contents
-            .filter(|content| *content != Content::Sentences)
-            .map(|content| content == Content::Words)
-            .collect();
-        let text = aligned(&columns, &is_left, room);
-        let mut sentences = all.iter().map(|row| apart(row, true).join("  ")).collect::<Vec<_>>();
-        // Of several blocks of columns, the last one has them.
-        let before = text.lines().count().saturating_sub(all.len());
-        sentences.splice(0..0, vec![String::new(); before]);
-        let lines = text.lines().zip(sentences);
-        lines.map(|(line, sentence)| format!("{}\n", format!("{line}  {sentence}").trim_end())).collect()
+        let columns = of(|content| !matches!(content, Content::Sentences | Content::Meanings));
+        let sentences = of(|content| *content == Content::Sentences);
+        let heads: Vec<&str> = self.columns.iter().map(|column| column.head.as_str()).collect();
+        let row = |row: &Row| -> (Vec<String>, String) {
+            let text = |i: &usize| match i.checked_sub(1) {
+                None => row.name.clone(),
+                Some(i) => row.cells.get(i).map_or_else(String::new, |cell| cell.text.clone()),
+            };
+            let detail = Some(format!("({})", row.detail)).filter(|_| !row.detail.is_empty());
+            let end = sentences.iter().map(text).chain(detail).collect::<Vec<_>>().join("  ");
+            (columns.iter().map(text).collect(), end)
+        };
+        let rows = || self.groups.iter().flat_map(|group| &group.rows);
+        let (mut cells, mut ends): (Vec<_>, Vec<_>) = rows().map(row).unzip();
+        let shown = |columns: &[usize]| columns.iter().map(|i| heads[*i].to_owned()).collect::<Vec<_>>();
+        if self.has_heads() {
+            cells.insert(0, shown(&columns));
+            ends.insert(0, shown(&sentences).join("  "));
+        }
+        let is_left: Vec<bool> = columns.iter().map(|i| self.columns[*i].content == Content::Words).collect();
+        let text = aligned(&cells, &is_left, room);
+        // Of several blocks of columns, the last one has the sentences.
+        let before = text.lines().count().saturating_sub(cells.len());
+        let ends = std::iter::repeat_n(String::new(), before).chain(ends);
+        let mut titles = self.titles(before);
+        let lines = text.lines().zip(ends).enumerate();
+        lines
+            .map(|(i, (line, end))| {
+                let title = titles.remove(&i).map_or_else(String::new, |title| format!("{title}\n"));
+                format!("{title}{}\n", format!("{line}  {end}").trim_end())
+            })
+            .collect()
+    }
+
+    /// The titles of groups, by the line above which they stand in the last block of lines.
+    fn titles(&self, before: usize) -> BTreeMap<usize, &str> {
+        let mut line = before + usize::from(self.has_heads());
+        let mut titles = BTreeMap::new();
+        for group in &self.groups {
+            titles.extend(Some((line, group.title.as_str())).filter(|(_, title)| !title.is_empty()));
+            line += group.rows.len();
+        }
+        titles
     }
 }
 
@@ -119,7 +146,9 @@ mod tests {
         let columns = [("Key", Content::Words), ("Value", Content::Numbers), ("How", Content::Sentences)];
         let rows = [Row::new("a", ["10\u{202f}mm", "as it was"]), Row::new("long", ["5", ""])];
         let section = Section::new("x", "Values").paragraph("All.").table(Table::of(columns).rows(rows));
-        let whole = "Values\nAll.\n  Key   Value  How\n  a     10 mm  as it was\n  long      5\n";
-        assert_eq!(text("", [section], 80), whole);
+        let page = Section::new("y", "Only on the page").paragraph("Much more.");
+        let report = Report::new("run", "Found.").lead("See [values](#x).").with(section.told()).with(page);
+        let whole = "Found.\n\nValues\nAll.\n  Key   Value  How\n  a     10 mm  as it was\n  long      5\n";
+        assert_eq!(report.text(80), whole);
     }
 }

@@ -1,8 +1,8 @@
 //! The report of a web: the web on a light table, what makes it uneven, and the figures.
 
-use super::document::{Report, Section};
-use super::effects::{advice_words, effect_cell, effects_table, guess_words, is_known};
-use super::fabric::fabric_section;
+use super::document::{Part, Report, Section};
+use super::effects::{advice_commands, advice_words, effect_cell, effects_table, guess_words, is_known};
+use super::fabric::{fabric_in_short, fabric_section};
 use super::light_table::{Fibres, MarkedPlaces, Strands, marks_note, picture_note, sheet};
 use super::methods::{methods, web_account};
 use super::spinline::{LayerSpinline, sections_of_web};
@@ -68,7 +68,10 @@ pub fn web_report<'a>(
         .lead(spun)
         .with(table)
         .with(uneven(spec, findings, (advice, guesses)))
+        .with(uneven_in_short(findings))
         .with(fabric_section(fabric))
+        .with(fabric_in_short(fabric))
+        .with(commands(findings, advice))
         .with(Section::of_figures(figures))
         .with_all(sections_of_web(web, layers, spinlines))
         .with(methods("web", account, found))
@@ -104,6 +107,29 @@ fn uneven(
          number would come from the surrogate, whose CV is more than 5 % from that of the flown curves there. A faster belt makes the web \
          lighter, more filaments make it heavier.",
     )
+}
+
+/// The unevenness for a terminal.
+fn uneven_in_short(findings: &Findings) -> Section<'static> {
+    let PatchTable { heads, rows } = PatchTable::new(findings, Reader::Terminal);
+    let is_flown = |patch: &PatchFindings| patch.independent.is_none() && patch.flown.is_some();
+    let whole = if findings.patches.iter().any(is_flown) {
+        "of this map ± its standard error by all causes (chance, few fibres flown, model: the surrogate against the flown curves)"
+    } else if findings.patches.iter().any(|patch| patch.few.is_some()) {
+        "of the web of all filaments, from the flown ones, ± its standard error by all causes (chance, few filaments flown)"
+    } else {
+        "of this map ± its standard error by chance alone"
+    };
+    Section::new("", format!("Unevenness, CV in %: {whole}, and as expected"))
+        .table(Table::of_numbers(heads).rows(rows.into_iter().map(Row::from)))
+        .on_terminal()
+}
+
+/// The commands that lay the webs of the changes which are named, for a terminal.
+fn commands(findings: &Findings, advice: Option<&Advice>) -> Section<'static> {
+    let all = advice.map_or_else(Vec::new, |advice| advice_commands(findings, advice));
+    let section = Section::new("", "These webs are laid by").on_terminal();
+    if all.is_empty() { section } else { section.with(Part::List(all)) }
 }
 
 /// What the errors of the CV are made of.

@@ -2,7 +2,7 @@
 
 use super::{looked_at, show};
 use crate::args::{Check, Threads, overrides};
-use crate::commands::{plural, versioned_json};
+use crate::commands::plural;
 use crate::failure::Failure;
 use crate::say;
 use serde::Serialize;
@@ -21,6 +21,8 @@ use spunlaid_results::output::in_order::OrderedObject;
 use spunlaid_results::output::paraview::thinned;
 use spunlaid_results::output::spinline::{self, SpinResults, SpinSummary};
 use spunlaid_results::output::summary::resolved;
+use spunlaid_results::output::versioned_json;
+use spunlaid_results::report::spinline_text;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -63,7 +65,7 @@ pub(super) fn spinline_alone(check: &Check) -> Result<(), Failure> {
         say::text(&spinline::Summary::new(&results.rows, &results.influences, &notes).to_json());
         return Ok(());
     }
-    let comments: Vec<String> = spinline::text(&results.rows, &[]).lines().map(str::to_owned).collect();
+    let comments: Vec<String> = spinline_text(&results).lines().map(str::to_owned).collect();
     show("spinline", &write_spinline(&file.spec), &comments, "spin", &check.source);
     Ok(())
 }
@@ -87,18 +89,21 @@ fn json(case: &Case, expected: Needs, notes: Vec<String>) -> String {
         expected: Needs,
         notes: Vec<String>,
     }
-    versioned_json(&Summary {
-        case: resolved(case),
-        throughput_kg_s: case.throughput(),
-        linear_density_kg_m: case.line.map(|_| case.linear_density()),
-        spinline: SpinSummary::from_case(case),
-        elements: case.fibre.elements,
-        eddies: case.stations().map_or_else(|| case.eddies().count(), |stations| stations.count),
-        steps: case.run.steps,
-        step_limits: case.stable_step_limits(),
-        expected,
-        notes,
-    })
+    versioned_json(
+        1,
+        &Summary {
+            case: resolved(case),
+            throughput_kg_s: case.throughput(),
+            linear_density_kg_m: case.line.map(|_| case.linear_density()),
+            spinline: SpinSummary::from_case(case),
+            elements: case.fibre.elements,
+            eddies: case.stations().map_or_else(|| case.eddies().count(), |stations| stations.count),
+            steps: case.run.steps,
+            step_limits: case.stable_step_limits(),
+            expected,
+            notes,
+        },
+    )
 }
 
 /// What was read from a CFD solution, and whether the fibre hangs along the air.

@@ -3,7 +3,7 @@
 use super::web::numbers;
 use super::{looked_at, show};
 use crate::args::{Check, overrides};
-use crate::commands::{LISTED, aligned, plural, versioned_json};
+use crate::commands::{LISTED, aligned, plural};
 use crate::failure::Failure;
 use crate::say;
 use serde::Serialize;
@@ -11,6 +11,7 @@ use serde_json::Value as Json;
 use spunlaid::input::{StudyChanges, StudyFile, StudyNote, read_changed_study};
 use spunlaid::study::{Point, Study};
 use spunlaid_results::output::in_order::OrderedObject;
+use spunlaid_results::output::versioned_json;
 
 /// Checks the file of a study.
 pub(super) fn study(check: &Check) -> Result<(), Failure> {
@@ -72,10 +73,13 @@ fn json(file: &StudyFile) -> String {
         };
         OrderedObject(values.map(value).collect())
     };
-    versioned_json(&Summary {
-        design: study.design.name(),
-        replicates: [study.replicates.at_least, study.replicates.at_most],
-        points: study.points.iter().map(point).collect(),
-        notes: file.notes.iter().map(StudyNote::to_string).collect(),
-    })
+    versioned_json(
+        1,
+        &Summary {
+            design: study.design.name(),
+            replicates: [study.replicates.at_least, study.replicates.at_most],
+            points: study.points.iter().map(point).collect(),
+            notes: file.notes.iter().map(StudyNote::to_string).collect(),
+        },
+    )
 }

@@ -2,7 +2,7 @@
 
 use super::{looked_at, show};
 use crate::args::{Check, overrides};
-use crate::commands::{plural, versioned_json};
+use crate::commands::plural;
 use crate::failure::Failure;
 use crate::say;
 use serde::Serialize;
@@ -14,6 +14,7 @@ use spunlaid::units::Dimension;
 use spunlaid::web::Filaments;
 use spunlaid_results::numbers::significant;
 use spunlaid_results::output::spinline::SpinSummary;
+use spunlaid_results::output::versioned_json;
 
 /// Checks the file of a web.
 pub(super) fn web(check: &Check) -> Result<(), Failure> {
@@ -21,7 +22,7 @@ pub(super) fn web(check: &Check) -> Result<(), Failure> {
     file.notes.iter().for_each(say::note);
     let notes: Vec<String> = file.notes.iter().map(Note::to_string).collect();
     if check.json {
-        say::text(&versioned_json(&Summary::new(&file.spec, notes)));
+        say::text(&versioned_json(1, &Summary::new(&file.spec, notes)));
         return Ok(());
     }
     let spec = &file.spec;

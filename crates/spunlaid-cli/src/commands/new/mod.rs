@@ -42,7 +42,7 @@ fn web(new: &New) -> Result<(), Failure> {
     let line = Line::new(&numbers);
     let path = &new.file;
     need_file(path, "a web is written with the table of its air beside it")?;
-    let name = super::stem(path, "line").to_string_lossy().into_owned();
+    let name = super::stem(path, "line");
     let air = format!("{name}_air.csv");
     let files = [(path.with_file_name(&air), line.air()), (path.clone(), line.file(&name, &air))];
     let mut written: Vec<&PathBuf> = Vec::new();

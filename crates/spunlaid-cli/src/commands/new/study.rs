@@ -10,7 +10,7 @@ use std::path::Path;
 /// Writes a study beside the file that it varies.
 pub(super) fn study(path: &Path, case: &str) -> Result<(), Failure> {
     need_file(path, "a study stands beside the file that it varies")?;
-    let study = path.with_file_name(format!("{}_study.toml", stem(path, "case").to_string_lossy()));
+    let study = path.with_file_name(format!("{}_study.toml", stem(path, "case")));
     let (base, shown) = (path.display(), study.display());
     let is_new = !path.exists();
     if is_new {

@@ -1,11 +1,10 @@
 //! `spunlaid sweep`: flies a study and writes its results.
 
 mod progress;
-mod table;
 
+use super::delivery::{Asides, making, say_continued, say_replaced, tell};
 use super::flown::flown_and_kept;
-use super::interrupt::stop_on_ctrl_c;
-use super::{plural, run_control, say_report, stem};
+use super::{plural, run_control, stem, stop_on_ctrl_c};
 use crate::args::{Invocation, Sweep, overrides};
 use crate::failure::Failure;
 use crate::say;
@@ -13,12 +12,11 @@ use spunlaid::case::keys;
 use spunlaid::error::{Error, Fault};
 use spunlaid::input::{StudyChanges, StudyFile, Unread, read_changed_study, write_experiment};
 use spunlaid::spinline::{self, SpinSpec};
-use spunlaid::study::{Journal, Progress, ReplicateOutcome, Study, run};
+use spunlaid::study::{Journal, JournalState, Progress, ReplicateOutcome, Study, run};
 use spunlaid::threads::{lock, unlock};
-use spunlaid_results::folders::study::{State, StudyFolder, StudyResults};
 use spunlaid_results::folders::tensions::StudyTensions;
+use spunlaid_results::folders::{JournalFolder, study};
 use spunlaid_results::numbers::lost_fibres_text;
-use std::fs;
 use std::sync::Mutex;
 use std::sync::atomic::AtomicU64;
 
@@ -36,14 +34,14 @@ pub(crate) fn sweep(sweep: &Sweep, invocation: &Invocation) -> Result<(), Failur
     let kept = || StudyTensions::open(&path, sweep.output.force);
     let file = flown_and_kept(read, sweep.threads, sweep.output.quiet, kept)?;
     file.notes.iter().for_each(say::study_note);
-    let origin = invocation.origin(&[&sweep.study], &path);
+    let origin = invocation.origin_of([&sweep.study])(&path);
     let (mut folder, journal, found) =
-        StudyFolder::open(&path, &file, sweep.output.force, origin.as_ref(), stop_on_ctrl_c())?;
+        study::open(&path, &file, sweep.output.force, origin.as_ref(), stop_on_ctrl_c())?;
     if folder.replaces() {
-        super::say_replaced(&path, sweep.output.quiet);
+        say_replaced(&path, &sweep.output);
     }
-    folder.set_figures(&sweep.figures.files());
-    report_found(sweep, &file.study, &found);
+    folder.figures = sweep.figures.files();
+    report_found(sweep, &file.study, found);
 
     let journal = Mutex::new(journal);
     let before = lock(&journal).total();
@@ -76,38 +74,25 @@ fn print_point(study: &Study, number: u64) -> Result<(), Failure> {
     Ok(())
 }
 
-fn report_found(sweep: &Sweep, study: &Study, found: &State) {
-    match found {
-        State::New => {
-            let phases = match (study.noun(), study.common_phases) {
-                ("web" | "spinline", _) => "",
-                (_, true) => ", common phases",
-                (_, false) => ", independent phases",
-            };
+/// Says what will be done, or what of it has been done before.
+fn report_found(sweep: &Sweep, study: &Study, found: Option<JournalState>) {
+    let Some(found) = found else {
+        let phases = match (study.noun(), study.common_phases) {
+            ("web" | "spinline", _) => "",
+            (_, true) => ", common phases",
+            (_, false) => ", independent phases",
+        };
+        if !sweep.output.quiet {
             let points = plural(study.points.len() as u64, "point");
-            if !sweep.output.quiet {
-                say::aside(&format!("{points}, each with {}{phases}", times(study)));
-            }
+            say::aside(&format!("{points}, each with {}{phases}", times(study)));
         }
-        State::Begun(found) => {
-            let done = plural(found.fibres, study.noun());
-            if !sweep.output.quiet {
-                say::aside(&format!("continuing: {done} of {} already done", study.most_fibres()));
-            }
-            if found.damaged > 0 {
-                let records = plural(found.damaged, "record");
-                say::warning(&format!(
-                    "the journal has damaged records ({records}); these {}s are made again, all others are kept",
-                    study.noun()
-                ));
-            }
-            if found.torn {
-                let noun = study.noun();
-                say::aside(&format!(
-                    "the last record of the journal was incomplete; its {noun} is made again"
-                ));
-            }
-        }
+        return;
+    };
+    let noun = study.noun();
+    let done = format!("{} of {} already done", plural(found.fibres, noun), study.most_fibres());
+    say_continued(&found, &done, noun, &sweep.output);
+    if found.torn {
+        say::aside(&format!("the last record of the journal was incomplete; its {noun} is made again"));
     }
 }
 
@@ -132,33 +117,20 @@ fn fly(sweep: &Sweep, study: &Study, journal: &Mutex<Journal>) -> Result<(), Err
 fn write(
     sweep: &Sweep,
     file: &StudyFile,
-    folder: &mut StudyFolder<'_>,
+    folder: &mut JournalFolder<'_>,
     journal: &mut Journal,
     before: u64,
 ) -> Result<(), Failure> {
-    let study = &file.study;
-    let name = stem(&sweep.study, "study").to_string_lossy();
-    let StudyResults { results, refusal } = folder.write(&name, file, journal)?;
-    let fibres: u64 = results.iter().map(|point| point.n + point.lost).sum();
-    if sweep.json {
-        let path = folder.path().join("results.json");
-        say::text(&fs::read_to_string(&path).map_err(Error::unwritable(&path))?);
-    } else if !sweep.output.quiet {
-        say::table(&table::results(study, &results));
-        if let Some(refusal) = &refusal {
-            say::line(&format!("the keys are not ranked: {refusal}"));
-        }
-        if before == fibres {
-            let noun = study.noun();
-            let done = if noun == "web" { "laid" } else { "flown" };
-            say::line(&format!(
-                "the study was already complete: no {noun} was {done}, and the files were written again"
-            ));
-        }
-        say::line(&format!("{} at {}", plural(fibres, study.noun()), plural(results.len() as u64, "point")));
-        say_report(folder.path());
-    }
-    lost(study, journal, fibres)
+    let name = stem(&sweep.study, "study");
+    let (found, text) = study::write(folder, &name, file, journal, making(sweep.threads))?;
+    let fibres: u64 = found.results.iter().map(|point| point.n + point.lost).sum();
+    let noun = file.study.noun();
+    let done = if noun == "web" { "laid" } else { "flown" };
+    let complete =
+        format!("the study was already complete: no {noun} was {done}, and the files were written again");
+    let lines = &Vec::from_iter((before == fibres).then_some(complete));
+    tell(&found, (Some(folder.path()), &text), &sweep.output, Asides { lines, ..Asides::default() });
+    lost(&file.study, journal, fibres)
 }
 
 /// The error that lists the lost fibres, if any.

@@ -8,18 +8,16 @@ mod runs;
 mod web;
 mod webs;
 
+use super::contents::{Contents, Maker, Page};
 use crate::Failure;
 use crate::figures::MOST_COMPARED;
-use crate::output::comparison::{self, Comparison};
+use crate::output::comparison;
 use crate::output::folder::Staging;
 use crate::output::origin::ORIGIN;
 use crate::report::comparison_report;
 use found::Found;
 use spunlaid::error::Fault;
 use std::path::{Path, PathBuf};
-
-/// The files of a comparison; the last one marks it as complete.
-pub const FILES: &[&str] = &[ORIGIN, "figures", "report.html", "comparison.json"];
 
 /// Folders that are to be compared.
 #[derive(Clone, Copy, Debug)]
@@ -82,38 +80,29 @@ pub struct ComparedFolders {
 }
 
 impl ComparedFolders {
-    /// Each of the others with the first.
-    pub fn comparisons(&self) -> &[Comparison] {
-        &self.found.comparisons
-    }
-
     /// What is missing, and why.
     pub fn notes(&self) -> &[String] {
         &self.found.notes
     }
+}
 
-    /// The text of `comparison.json`.
-    pub fn json(&self) -> String {
+impl Contents for ComparedFolders {
+    const ENTRIES: &'static [&'static str] = &[ORIGIN, "figures", "report.html", Self::SUMMARY];
+    const SUMMARY: &'static str = "comparison.json";
+
+    fn summary(&self) -> String {
         comparison::json(&self.found.comparisons, &self.found.notes)
     }
 
-    /// The report as one HTML file.
-    pub fn report(&self) -> String {
+    fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
         let Found { comparisons, figures, pictures, notes } = &self.found;
-        comparison_report(comparisons, figures, pictures.as_ref()).noting(notes).html()
-    }
-
-    /// Writes figures, pictures of webs, report and numbers.
-    ///
-    /// # Errors
-    /// If a file cannot be written, or the computation is interrupted.
-    pub fn write(&self, staging: &Staging<'_>) -> Result<(), Failure> {
-        staging.write_figures(&self.found.figures)?;
-        let drawn = self.found.pictures.iter().flat_map(|webs| &webs.pictures.files);
-        for (number, picture) in (1..).zip(drawn) {
-            staging.write(&format!("figures/web_picture_{number}.png"), picture)?;
-        }
-        staging.write("report.html", self.report())?;
-        staging.write("comparison.json", self.json())
+        let files = |staging: &Staging<'_>| {
+            let drawn = pictures.iter().flat_map(|webs| &webs.pictures.files);
+            (1..).zip(drawn).try_for_each(|(number, picture)| {
+                staging.write(&format!("figures/web_picture_{number}.png"), picture)
+            })
+        };
+        let report = || Ok(comparison_report(comparisons, figures, pictures.as_ref()));
+        maker.finish(("", notes), figures, files, report)
     }
 }

@@ -15,27 +15,11 @@ pub use moving::{PLANES, Picture, pictures};
 pub use summary::Summary;
 pub use vtk::write_vtk;
 
-use super::origin::ORIGIN;
 use crate::Failure;
 use spunlaid::air::AirAtPlaces;
 use spunlaid::case::Case;
 use spunlaid::vec3::Vec3;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-
-/// The contents of the folder. The last entry marks it as complete.
-pub const ENTRIES: &[&str] = &[
-    ORIGIN,
-    "case_files",
-    "case.toml",
-    "along.pvd",
-    "across.pvd",
-    "slices",
-    "along.gif",
-    "across.gif",
-    "figures",
-    "report.html",
-    "summary.json",
-];
 
 /// Points along the longer side of a plane.
 const POINTS: usize = 120;

@@ -2,8 +2,8 @@
 
 use super::{PLANES, Plane, Slices};
 use crate::output::in_order::OrderedObject;
-use crate::output::json_text;
 use crate::output::summary::resolved;
+use crate::output::versioned_json;
 use serde::Serialize;
 use serde_json::Value as Json;
 use spunlaid::case::Case;
@@ -61,7 +61,7 @@ impl Summary {
 
     /// The file's text.
     pub fn to_json(&self) -> String {
-        json_text(self)
+        versioned_json(1, self)
     }
 }
 

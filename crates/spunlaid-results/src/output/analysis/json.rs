@@ -1,19 +1,14 @@
 //! Writes `analysis.json` with every result of an analysis.
 
 use crate::output::in_order::OrderedObject;
-use crate::output::json_text;
 use crate::output::measured::values;
+use crate::output::versioned_json;
 use serde::Serialize;
 use spunlaid::observe::{OF_COMPONENTS, OF_RECORDS, Value};
 use spunlaid::record::{Analysis, Component, Record};
 
-/// Version of the layout; raised when a field is renamed, removed or changes its meaning.
-const SCHEMA_VERSION: u32 = 1;
-
 #[derive(Serialize)]
 struct Json<'a> {
-    schema_version: u32,
-    spunlaid_version: &'static str,
     record: RecordJson<'a>,
     method: Method,
     #[serde(flatten)]
@@ -69,8 +64,6 @@ struct Durations {
 pub fn analysis_json(record: &Record, analysis: &Analysis) -> String {
     let spectrum = analysis.components.first().map(|c| &c.spectrum);
     let json = Json {
-        schema_version: SCHEMA_VERSION,
-        spunlaid_version: env!("CARGO_PKG_VERSION"),
         record: RecordJson {
             file: &record.file,
             samples: analysis.samples,
@@ -103,7 +96,7 @@ pub fn analysis_json(record: &Record, analysis: &Analysis) -> String {
         },
         warnings: analysis.warnings.iter().map(ToString::to_string).collect(),
     };
-    json_text(&json)
+    versioned_json(1, &json)
 }
 
 fn component(component: &Component) -> ComponentJson<'_> {

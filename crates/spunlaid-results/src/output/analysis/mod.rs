@@ -6,7 +6,7 @@ mod json;
 mod table;
 
 pub use air::air_block;
-pub use curves::{autocorrelation_csv, spectrum_csv};
+pub use curves::write_curves;
 pub use json::analysis_json;
 pub use table::{ResultRow, results};
 

@@ -1,25 +1,17 @@
-//! What leaves a solved spinline: `summary.json`, `spinline.parquet` and the table of the terminal.
+//! What leaves a solved spinline: `summary.json` and `spinline.parquet`.
 
 mod stations;
 mod summary;
-mod table;
 mod words;
 
 pub use stations::{COLUMNS, STATIONS, write as write_stations};
 pub use summary::{SpinSummary, Summary};
-pub use table::text;
 pub use words::{filament, freezing, influence, model_error, numerical_error, remarks};
 
-use super::copied_files::CASE_FILES;
-use super::origin::ORIGIN;
 use spunlaid::case::Case;
 use spunlaid::error::Error;
 use spunlaid::input::{Influence, SpinFile};
 use spunlaid::spinline::Solution;
-
-/// The contents of the folder of `spin`. The last entry marks it as complete.
-pub const ENTRIES: &[&str] =
-    &[ORIGIN, "spinline.toml", CASE_FILES, STATIONS, "figures", "report.html", "summary.json"];
 
 /// A solved spinline, and what decides its diameter.
 #[derive(Clone, Debug)]

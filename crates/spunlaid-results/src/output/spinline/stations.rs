@@ -2,9 +2,8 @@
 
 use crate::Failure;
 use crate::output::folder::Staging;
-use crate::output::parquet::{Column, ColumnValues, Parquet};
+use crate::output::table::{Column, Value, number, whole};
 use spunlaid::spinline::{Solution, Station, ZERO_CELSIUS};
-use std::fs;
 
 /// Name of the file.
 pub const STATIONS: &str = "spinline.parquet";
@@ -32,29 +31,20 @@ pub const COLUMNS: &[StationColumn] = &[
 ///
 /// * `spinlines` – the number of the layer, from 1, and the solution of each row
 pub fn write(staging: &Staging<'_>, spinlines: &[(usize, &[Solution])]) -> Result<(), Failure> {
-    let place = staging.place(STATIONS);
-    let folder = place.0.parent().map_or(Ok(()), fs::create_dir_all);
-    folder.map_err(Failure::unwritable(&place.1))?;
     let layer = (spinlines.len() > 1).then_some("layer");
     let row = spinlines.iter().any(|(_, rows)| rows.len() > 1).then_some("row");
-    let whole = layer.into_iter().chain(row).map(|name| (name, ColumnValues::Whole));
-    let numbers = COLUMNS.iter().map(|(name, _)| (*name, ColumnValues::Number));
-    let column = |(name, holds): (&str, ColumnValues)| Column { name: name.to_owned(), holds };
-    let columns: Vec<Column> = whole.chain(numbers).map(column).collect();
-    let first = columns.len() - COLUMNS.len();
-    let threads = spinlines.iter().flat_map(|(layer, rows)| {
-        rows.iter().enumerate().map(move |(row, solution)| ([*layer, row + 1], &solution.stations))
-    });
-    let most = threads.clone().map(|(_, stations)| stations.len()).sum();
-    let mut table = Parquet::create(place, &columns, most)?;
-    for ([of_layer, of_row], stations) in threads {
-        let whole = layer.map(|_| of_layer).into_iter().chain(row.map(|_| of_row));
-        for (column, number) in whole.enumerate() {
-            table.extend_whole(column, stations.iter().map(|_| number as i64));
-        }
-        for (column, (_, value)) in COLUMNS.iter().enumerate() {
-            table.extend(first + column, stations.iter().map(value));
+    let numbers = COLUMNS.iter().map(|(name, _)| number(*name));
+    let columns: Vec<Column> = layer.into_iter().chain(row).map(whole).chain(numbers).collect();
+    let mut table = staging.table("spinline", &["parquet"], &columns)?;
+    for (of_layer, rows) in spinlines {
+        for (of_row, solution) in rows.iter().enumerate() {
+            let apart = layer.map(|_| *of_layer).into_iter().chain(row.map(|_| of_row + 1));
+            let apart: Vec<Value> = apart.map(|number| Value::Whole(number as i64)).collect();
+            for station in &solution.stations {
+                let numbers = COLUMNS.iter().map(|(_, value)| Value::Number(value(station)));
+                table.add(&apart.iter().copied().chain(numbers).collect::<Vec<_>>())?;
+            }
         }
     }
-    table.finish().map(drop)
+    table.finish()
 }

@@ -3,8 +3,8 @@
 use super::SpinResults;
 use super::words::model_error;
 use crate::output::in_order::OrderedObject;
-use crate::output::json_text;
 use crate::output::measured::{json as number, values};
+use crate::output::versioned_json;
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 use spunlaid::case::Case;
@@ -13,14 +13,9 @@ use spunlaid::observe::OF_SPINLINES;
 use spunlaid::spinline::Solution;
 use spunlaid_charts::label::plain;
 
-/// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
-const SCHEMA_VERSION: u32 = 1;
-
 /// The content of `summary.json` of a spinline.
 #[derive(Debug, Serialize)]
 pub struct Summary<'a> {
-    schema_version: u32,
-    spunlaid_version: &'static str,
     spinline: SpinSummary,
     notes: &'a [String],
 }
@@ -29,12 +24,12 @@ impl<'a> Summary<'a> {
     /// Gathers everything.
     pub fn new(rows: &[Solution], influences: &[Influence], notes: &'a [String]) -> Self {
         let spinline = SpinSummary::new(rows, influences);
-        Self { schema_version: SCHEMA_VERSION, spunlaid_version: env!("CARGO_PKG_VERSION"), spinline, notes }
+        Self { spinline, notes }
     }
 
     /// The text of the file.
     pub fn to_json(&self) -> String {
-        json_text(self)
+        versioned_json(1, self)
     }
 }
 

@@ -1,16 +1,7 @@
 //! Names and contents of the columns.
 
-use super::super::parquet::{Column, ColumnValues};
+use super::super::table::{Column, ColumnValues, Value, whole};
 use spunlaid::study::{Quantity, Study};
-
-/// A value in a row.
-#[derive(Clone, Copy, Debug)]
-pub enum Value {
-    Whole(i64),
-    /// NaN counts as missing.
-    Number(f64),
-    Word(&'static str),
-}
 
 /// The input columns: the key and its SI unit, `air.velocity_m_s`.
 fn inputs(study: &Study) -> impl Iterator<Item = Column> {
@@ -31,7 +22,7 @@ pub(super) fn columns_of_points(study: &Study) -> Vec<Column> {
     columns.extend(inputs(study));
     columns.extend([whole("n"), whole("lost")]);
     for quantity in &study.quantities {
-        columns.extend(quantity_columns(quantity).map(number));
+        columns.extend(quantity_columns(quantity).map(optional));
     }
     columns
 }
@@ -39,7 +30,7 @@ pub(super) fn columns_of_points(study: &Study) -> Vec<Column> {
 pub(super) fn columns_of_replicates(study: &Study) -> Vec<Column> {
     let mut columns = vec![whole("point"), whole("replicate"), whole("seed")];
     columns.extend(inputs(study));
-    columns.extend(study.quantities.iter().map(|quantity| number(&quantity.column)));
+    columns.extend(study.quantities.iter().map(|quantity| optional(&quantity.column)));
     columns
 }
 
@@ -51,10 +42,6 @@ fn quantity_columns(quantity: &Quantity) -> impl Iterator<Item = String> {
         .map(|end| format!("{}{end}", quantity.column))
 }
 
-fn whole(name: &str) -> Column {
-    Column { name: name.to_owned(), holds: ColumnValues::Whole }
-}
-
-fn number(name: impl Into<String>) -> Column {
+fn optional(name: impl Into<String>) -> Column {
     Column { name: name.into(), holds: ColumnValues::Optional }
 }

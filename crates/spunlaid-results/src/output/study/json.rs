@@ -1,15 +1,13 @@
 //! `results.json`: the points with their results, and the ranking.
 
-use super::super::folder::Staging;
 use super::super::in_order::OrderedObject;
-use super::columns::{Value, values};
-use crate::Failure;
+use super::super::table::Value;
+use super::columns::values;
 use serde::Serialize;
 use serde_json::Value as Json;
 use spunlaid::effects::Effect;
 use spunlaid::study::{Contrast, PointResults, Ranking, Rankings, Study};
-use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::Write;
 
 /// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
 const SCHEMA_VERSION: u32 = 1;
@@ -53,20 +51,7 @@ struct EffectEntry<'a> {
 /// Writes `results.json`, numbers in SI units, a line per point. It is written as it is made, so that memory does not
 /// grow with the number of points.
 pub fn write_json(
-    staging: &Staging<'_>,
-    study: &Study,
-    results: &[PointResults],
-    rankings: &Rankings,
-) -> Result<(), Failure> {
-    let (now, later) = staging.place("results.json");
-    let file = File::create(now).map_err(Failure::unwritable(&later))?;
-    let mut out = BufWriter::new(file);
-    let written = document(&mut out, study, results, rankings).and_then(|()| out.flush());
-    written.map_err(Failure::unwritable(&later))
-}
-
-fn document(
-    out: &mut impl Write,
+    out: &mut dyn Write,
     study: &Study,
     results: &[PointResults],
     rankings: &Rankings,

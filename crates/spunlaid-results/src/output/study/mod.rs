@@ -1,20 +1,15 @@
 //! Tables of a study: one with a row per point, one with a row per replicate.
 
 mod columns;
-mod csv;
 mod json;
 pub mod shown;
 
 pub use json::write_json;
 
-use self::columns::Value;
 use super::folder::Staging;
-use super::parquet::{Column, Parquet};
+use super::table::Value;
 use crate::Failure;
 use spunlaid::study::{Journal, PointResults, Record, ReplicateOutcome, Study, results_of_point};
-
-/// Number of values that are collected before they are written.
-const VALUES: usize = 1 << 18;
 
 /// Writes `results.csv`, `results.parquet` and `replicates.parquet`, and returns the statistics of the points.
 ///
@@ -24,28 +19,21 @@ pub fn write(
     study: &Study,
     journal: &mut Journal,
 ) -> Result<Vec<PointResults>, Failure> {
-    let create = |name: &str, columns: &[Column]| {
-        Parquet::create(staging.place(name), columns, VALUES.div_ceil(columns.len()))
-    };
     let points = columns::columns_of_points(study);
-    let mut csv = csv::Csv::create(staging.place("results.csv"), &points)?;
-    let mut results = create("results.parquet", &points)?;
-    let mut replicates = create("replicates.parquet", &columns::columns_of_replicates(study))?;
+    let mut results = staging.table("results", &["csv", "parquet"], &points)?;
+    let columns = columns::columns_of_replicates(study);
+    let mut replicates = staging.table("replicates", &["parquet"], &columns)?;
     let mut all = Vec::with_capacity(study.points.len());
     for index in 0..study.points.len() {
         let point = results_of_point(study, journal, index)?;
-        let row = point_row(study, index, &point);
-        csv.add(&row)?;
-        add(&mut results, &row)?;
+        results.add(&point_row(study, index, &point))?;
         for record in journal.records(index, u64::MAX)? {
-            add(&mut replicates, &replicate_row(study, index, &record))?;
+            replicates.add(&replicate_row(study, index, &record))?;
         }
         all.push(point);
     }
-    csv.finish()?;
-    for (table, name) in [(results, "results.parquet"), (replicates, "replicates.parquet")] {
-        table.finish()?.sync_all().map_err(Failure::unwritable(&staging.place(name).1))?;
-    }
+    results.finish()?;
+    replicates.finish()?;
     Ok(all)
 }
 
@@ -81,15 +69,4 @@ fn replicate_row(study: &Study, index: usize, record: &Record) -> Vec<Value> {
         }
     }
     row
-}
-
-fn add(table: &mut Parquet, row: &[Value]) -> Result<(), Failure> {
-    for (column, value) in row.iter().enumerate() {
-        match value {
-            Value::Whole(value) => table.extend_whole(column, [*value]),
-            Value::Number(value) => table.extend(column, [*value]),
-            Value::Word(word) => table.push_text(column, word),
-        }
-    }
-    table.flush_when_full()
 }

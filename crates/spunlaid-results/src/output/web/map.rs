@@ -4,7 +4,8 @@ use super::MOST_CELLS;
 use crate::Failure;
 use crate::failure::undrawable;
 use crate::output::folder::Staging;
-use crate::output::parquet::{Column, ColumnValues, Parquet};
+use crate::output::table::number;
+use crate::output::table::parquet::Parquet;
 use spunlaid::scan::{CELL, WEIGHT_OF_BLACK};
 use spunlaid::web::Map;
 use std::fs::File;
@@ -65,8 +66,7 @@ pub(super) fn array(map: &Map, mut to: impl Write) -> io::Result<()> {
 /// `map.parquet`: a row for each cell, with its middle.
 fn table(staging: &Staging<'_>, map: &Map) -> Result<(), Failure> {
     let names = ["md_m", "cd_m", "basis_weight_kg_m2"];
-    let columns = names.map(|name| Column { name: name.to_owned(), holds: ColumnValues::Number });
-    let mut writer = Parquet::create(staging.place("map.parquet"), &columns, ROWS)?;
+    let mut writer = Parquet::create(staging.begin("map.parquet")?, &names.map(number), ROWS)?;
     let middle = |i: usize| (i as f64 + 0.5) * map.cell;
     let weight = map.weight_of_quantum();
     // All columns of a group of rows have as many values, and the first says how many.

@@ -16,25 +16,5 @@ pub use pieces::{MapFile, Pictures};
 pub use strands::write as write_strands;
 pub use summary::{Layer, Performance, Summary};
 
-use super::copied_files::CASE_FILES;
-use super::origin::ORIGIN;
-use super::spinline::STATIONS;
-
-/// The contents of the folder, with the cases of earlier versions. The last entry marks it as complete.
-pub const ENTRIES: &[&str] = &[
-    ORIGIN,
-    "web.toml",
-    "cases",
-    CASE_FILES,
-    "map.npy",
-    "map.png",
-    "map.parquet",
-    "fibres.vtp",
-    STATIONS,
-    "figures",
-    "report.html",
-    "summary.json",
-];
-
 /// Most cells that are written as a table and as a picture; the array holds all.
 pub const MOST_CELLS: usize = 20_000_000;

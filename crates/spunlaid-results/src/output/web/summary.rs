@@ -17,14 +17,9 @@ use spunlaid::statistics::{Estimate, interval_of_deviation};
 use spunlaid::web::{Clouds, Edges, Findings, LayerFew, Map, NeighbourCorrelation, Web};
 use std::time::Instant;
 
-/// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
-const SCHEMA_VERSION: u32 = 2;
-
 /// The content of `summary.json` of a web.
 #[derive(Debug, Serialize)]
 pub struct Summary<'a> {
-    schema_version: u32,
-    spunlaid_version: &'static str,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     layers: &'a [Layer],
     web: WebSummary,
@@ -361,8 +356,6 @@ impl<'a> Summary<'a> {
             })
         });
         Self {
-            schema_version: SCHEMA_VERSION,
-            spunlaid_version: env!("CARGO_PKG_VERSION"),
             layers,
             web: WebSummary {
                 fibre_length_m: Some(findings.fibre_length),
@@ -419,8 +412,6 @@ impl<'a> Summary<'a> {
         let numbers = values(OF_SCANS, findings).0.into_iter();
         let scan = words.into_iter().chain(numbers.map(|(name, value)| (name, json(value))));
         Self {
-            schema_version: SCHEMA_VERSION,
-            spunlaid_version: env!("CARGO_PKG_VERSION"),
             layers: &[],
             web: WebSummary { basis_weight_kg_m2, ..web },
             fabric: Some(FabricSummary::new(fabric)),
@@ -435,6 +426,6 @@ impl<'a> Summary<'a> {
 
     /// The text of the file.
     pub fn to_json(&self) -> String {
-        crate::output::json_text(self)
+        crate::output::versioned_json(2, self)
     }
 }

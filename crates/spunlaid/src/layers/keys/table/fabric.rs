@@ -31,7 +31,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .label("Saleable width")
         .usual(1e-2, 30.0),
     quantity("fabric.tolerance", Dimension::Ratio, Sign::Share)
-        .access(of_sheet!(fabric.tolerance))
+        .access(at!(fabric.tolerance))
         .value("5 %")
         .meaning(
             "How far the weight may be from that of the middle half of the web to be sold, with \

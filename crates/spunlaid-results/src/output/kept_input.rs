@@ -1,12 +1,57 @@
-//! Copies the files that a case or a spinline names into its results folder, so that it can be run again from there.
+//! What results are computed from, as it is kept in their folder with the files that it names, so that it can be computed again from there.
 
+use super::folder::{CASE_FILES, Staging};
 use crate::Failure;
+use spunlaid::case::Case;
+use spunlaid::input::{WebSpec, write_case, write_spinline, write_web};
+use spunlaid::spinline::SpinSpec;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The folder for these files in a results folder.
-pub const CASE_FILES: &str = "case_files";
+/// What results are computed from.
+#[derive(Clone, Copy, Debug)]
+pub enum Input<'a> {
+    /// A case.
+    Case(&'a Case),
+    /// A web.
+    Web(&'a WebSpec),
+    /// A spinline.
+    Spinline(&'a SpinSpec),
+}
+
+impl Input<'_> {
+    /// As a file, with every default.
+    pub fn text(self) -> String {
+        self.text_with(Path::to_owned)
+    }
+
+    /// Writes it, and copies the files that it names. Returns its text, which names the copies.
+    ///
+    /// # Errors
+    /// If a file cannot be copied or written.
+    pub fn keep(self, staging: &Staging<'_>) -> Result<String, Failure> {
+        let (name, files) = match self {
+            Self::Case(case) => ("case.toml", case.files()),
+            Self::Web(web) => ("web.toml", web.files()),
+            Self::Spinline(spinline) => ("spinline.toml", spinline.files()),
+        };
+        let copied = copy(files, &staging.place(CASE_FILES).0)?;
+        let place = |file: &Path| copied.get(file).cloned().unwrap_or_else(|| file.to_owned());
+        let text = self.text_with(place);
+        staging.write(name, &text)?;
+        Ok(text)
+    }
+
+    /// * `place` – where the files are that it names
+    fn text_with(self, place: impl Fn(&Path) -> PathBuf) -> String {
+        match self {
+            Self::Case(case) => write_case(&case.with_files_at(place)),
+            Self::Web(web) => write_web(&web.with_files_at(place)),
+            Self::Spinline(spinline) => write_spinline(&spinline.with_files_at(place)),
+        }
+    }
+}
 
 /// A file with the files that it names, relative to its folder.
 type FileWithParts<'a> = (&'a Path, &'a [PathBuf]);
@@ -41,11 +86,6 @@ fn copy_file(from: &Path, to: &Path) -> Result<(), Failure> {
         fs::copy(from, to).map_err(Failure::unwritable(to))?;
     }
     Ok(())
-}
-
-/// Where a copied file lies; another one stays where it is.
-pub fn place(copied: &BTreeMap<PathBuf, PathBuf>) -> impl Fn(&Path) -> PathBuf {
-    |file| copied.get(file).cloned().unwrap_or_else(|| file.to_owned())
 }
 
 /// The path of the copy in its folder: the name of the file, with a number in front if another file has the same name. A

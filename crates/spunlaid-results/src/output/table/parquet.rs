@@ -1,5 +1,6 @@
 //! Writes Parquet tables in groups of rows.
 
+use super::{Column, ColumnValues, Rows, TableFormat, Value};
 use crate::{Failure, failure};
 use bytes::Bytes;
 use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as PhysicalType};
@@ -22,25 +23,33 @@ use std::thread::available_parallelism;
 /// Rows of a group that are packed faster than threads begin.
 const FEW: usize = 1 << 12;
 
-/// A column of a table.
-#[derive(Clone, Debug)]
-pub(super) struct Column {
-    /// Its name with the unit.
-    pub(super) name: String,
-    pub(super) holds: ColumnValues,
-}
+/// Number of values that are collected before they are written.
+const VALUES: usize = 1 << 18;
 
-/// The values of a column.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ColumnValues {
-    /// Whole numbers.
-    Whole,
-    /// Words.
-    Text,
-    /// Numbers, which may be NaN.
-    Number,
-    /// Finite numbers; other values are missing.
-    Optional,
+pub(super) const FORMAT: TableFormat = TableFormat {
+    name: "parquet",
+    create: |place, columns| {
+        let rows = VALUES.div_ceil(columns.len().max(1));
+        Parquet::create(place, columns, rows).map(|table| Box::new(table) as Box<dyn Rows>)
+    },
+};
+
+impl Rows for Parquet {
+    fn add(&mut self, row: &[Value]) -> Result<(), Failure> {
+        for (column, value) in row.iter().enumerate() {
+            match value {
+                Value::Whole(value) => self.extend_whole(column, [*value]),
+                Value::Number(value) => self.extend(column, [*value]),
+                Value::Word(word) => self.push_text(column, word),
+            }
+        }
+        self.flush_when_full()
+    }
+
+    fn finish(self: Box<Self>) -> Result<(), Failure> {
+        let path = self.path.clone();
+        Self::finish(*self)?.sync_all().map_err(Failure::unwritable(&path))
+    }
 }
 
 /// A table that is being written. All columns must have the same number of rows when
@@ -85,7 +94,7 @@ enum PendingValues {
 impl Parquet {
     /// * `now`, `later` – present and final path of the table
     /// * `group` – number of rows in a group
-    pub(super) fn create(
+    pub(crate) fn create(
         (now, later): (PathBuf, PathBuf),
         columns: &[Column],
         group: usize,
@@ -127,7 +136,7 @@ impl Parquet {
     }
 
     /// Number of rows that the group takes which is gathered now.
-    pub(super) const fn room(&self) -> usize {
+    pub(crate) const fn room(&self) -> usize {
         self.group.saturating_sub(self.rows)
     }
 
@@ -160,7 +169,7 @@ impl Parquet {
     }
 
     /// Adds values to a column of whole numbers.
-    pub(super) fn extend_whole(&mut self, column: usize, values: impl IntoIterator<Item = i64>) {
+    pub(crate) fn extend_whole(&mut self, column: usize, values: impl IntoIterator<Item = i64>) {
         if let Some(PendingValues::Whole(gathered)) = self.columns.get_mut(column) {
             gathered.extend(values);
             self.rows = gathered.len();
@@ -168,14 +177,14 @@ impl Parquet {
     }
 
     /// Adds a word to a column of words.
-    pub(super) fn push_text(&mut self, column: usize, word: &str) {
+    pub(crate) fn push_text(&mut self, column: usize, word: &str) {
         if let Some(PendingValues::Text(gathered)) = self.columns.get_mut(column) {
             gathered.push(word.into());
         }
     }
 
     /// Adds values to a column of numbers.
-    pub(super) fn extend(&mut self, column: usize, values: impl IntoIterator<Item = f64>) {
+    pub(crate) fn extend(&mut self, column: usize, values: impl IntoIterator<Item = f64>) {
         match self.columns.get_mut(column) {
             Some(PendingValues::Number(gathered)) => {
                 gathered.extend(values);
@@ -192,12 +201,12 @@ impl Parquet {
     }
 
     /// Writes the rows if they fill a group.
-    pub(super) fn flush_when_full(&mut self) -> Result<(), Failure> {
+    pub(crate) fn flush_when_full(&mut self) -> Result<(), Failure> {
         if self.rows >= self.group { self.flush() } else { Ok(()) }
     }
 
     /// Writes the remaining rows and returns the file.
-    pub(super) fn finish(mut self) -> Result<File, Failure> {
+    pub(crate) fn finish(mut self) -> Result<File, Failure> {
         self.flush()?;
         let Self { path, writer, .. } = self;
         let file = writer.into_inner().map_err(|error| failure::table(&path, error))?;
