@@ -30,7 +30,7 @@ pub(crate) struct WebFlight {
 /// begins on the belt; places of the filaments, filaments × 2; deviations, filaments × 2 × points.
 type PackedCurtain<'py, Places, Curves> = (usize, (Option<f64>, f64, f64), ([f64; 2], f64), Places, Curves);
 /// What lies on a stretch: its first row; cells, rows × columns; their side, the quantum, whether the sheet goes on at the other edge, and the mass beyond it; the strands
-/// of the window; pieces in the windows in which holes are counted, each with its window, layer and ends; what the few do not tell.
+/// of the window; pieces in the windows in which holes are counted, each with its window, layer, ends and titre; what the few do not tell.
 type PackedStretch<Cells, Points> =
     (usize, Cells, (f64, f64, bool, f64), Vec<(usize, usize, Points)>, Points, Vec<[f64; 2]>);
 
@@ -177,12 +177,12 @@ fn flown_curtain(
     Ok(FlownCurtain { layer: *layer, curves, sheet: *sheet, back: *back })
 }
 
-/// Numbers of a piece in a window: the window, the layer, and its ends.
-const NUMBERS: usize = 6;
+/// Numbers of a piece in a window: the window, the layer, its ends, and its titre.
+const NUMBERS: usize = 7;
 
 /// Whole numbers below 2⁵³ are exact.
-fn numbers(PieceInWindow { window, layer, ends: [from, to] }: &PieceInWindow) -> [f64; NUMBERS] {
-    [*window as f64, *layer as f64, from[0], from[1], to[0], to[1]]
+fn numbers(PieceInWindow { window, layer, ends: [from, to], titre }: &PieceInWindow) -> [f64; NUMBERS] {
+    [*window as f64, *layer as f64, from[0], from[1], to[0], to[1], *titre]
 }
 
 fn laid_stretch(
@@ -201,6 +201,7 @@ fn laid_stretch(
         window: row[0] as usize,
         layer: row[1] as usize,
         ends: [[row[2], row[3]], [row[4], row[5]]],
+        titre: row[6],
     };
     let map = Map {
         columns,
