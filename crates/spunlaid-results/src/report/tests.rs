@@ -40,7 +40,7 @@ fn check_well_formed(html: &str) {
         let tag = &rest[start + 1..end];
         rest = &rest[end + 1..];
         let name = tag.trim_start_matches('/').split([' ', '\n', '/']).next().unwrap_or_default().to_owned();
-        let void = matches!(name.as_str(), "meta" | "input" | "rect" | "path" | "circle");
+        let void = matches!(name.as_str(), "br" | "meta" | "input" | "rect" | "path" | "circle");
         if tag.starts_with('/') {
             assert_eq!(open.pop().as_deref(), Some(name.as_str()), "before {:.80}", rest);
         } else if name == "script" || name == "style" {
