@@ -57,7 +57,8 @@ fn a_web_says_which_settings_of_the_line_would_make_it_more_even() {
     // Judged by other patches, the numbers are the same.
     let said = desk::success(&mut desk.spunlaid("web beams.toml --out other --for 20mm"));
     let sentence = said.lines().find(|line| line.starts_with("At the same ")).unwrap();
-    assert!(sentence.contains("over patches of 20\u{202f}mm"), "{sentence}");
+    let sentence = sentence.replace(['\u{a0}', '\u{202f}'], " ");
+    assert!(sentence.contains("over patches of 20 mm"), "{sentence}");
     let other = desk.summary("other")["advice"].clone();
     assert_eq!((&other["judged_by_patch_m"], &advice["judged_by_patch_m"]), (&0.02.into(), &0.005.into()));
     assert_eq!(other["changes"], advice["changes"]);
