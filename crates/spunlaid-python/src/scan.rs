@@ -4,15 +4,14 @@ use crate::save::{Figures, save};
 use crate::source::stem;
 use crate::value::positive;
 use crate::watched::{Watch, watched};
-use crate::web::weights;
-use numpy::PyArray1;
+use crate::web::{patch_columns, weights};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use spunlaid::error::Error;
 use spunlaid::fabric::{self, Fabric};
 use spunlaid::lanes::Isa;
-use spunlaid::observe::{OF_SCANNED_PATCHES, with_errors};
+use spunlaid::observe::OF_SCANNED_PATCHES;
 use spunlaid::scan::{Findings, LightKind, PatchFindings, ScanRequest, is_picture_file, parse};
 use spunlaid::units::Dimension;
 use spunlaid_results::folders::Contents;
@@ -153,18 +152,8 @@ impl AnalysedScan {
     /// number of them. What is not known is NaN.
     #[getter]
     fn patches<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let all = PyDict::new(py);
-        let put = |name: &str, number: &dyn Fn(&PatchFindings) -> Option<f64>| {
-            let column = self.findings.patches.iter().map(|patch| number(patch).unwrap_or(f64::NAN));
-            all.set_item(name, PyArray1::from_vec(py, column.collect()))
-        };
-        put("patch_m", &|patch| Some(patch.unevenness.patch))?;
-        for measure in with_errors(OF_SCANNED_PATCHES) {
-            put(measure.entry(), &|patch| Some(measure.number(patch)))?;
-        }
-        put("cv_low", &|patch| patch.interval.ok().map(|ends| ends[0]))?;
-        put("cv_high", &|patch| patch.interval.ok().map(|ends| ends[1]))?;
-        Ok(all)
+        let about = |patch: &PatchFindings| (patch.unevenness.patch, patch.interval.ok());
+        patch_columns(py, &self.findings.patches, OF_SCANNED_PATCHES, about)
     }
 
     /// Writes the folder that `spunlaid analyse` writes.

@@ -14,9 +14,9 @@ use spunlaid::error::{Error, FileKind};
 use spunlaid::fabric::Fabric;
 use spunlaid::input::{Changes, Overrides, WebFile, parse_changes, parse_web};
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
-use spunlaid::observe::{OF_PATCHES, with_errors};
+use spunlaid::observe::{Measure, OF_PATCHES, with_errors};
 use spunlaid::threads::look_while;
-use spunlaid::web::{Findings, LayControl, Map, PatchFindings};
+use spunlaid::web::{Findings, LayControl, Map};
 use spunlaid_results::Failure;
 use spunlaid_results::folders::Contents;
 use spunlaid_results::folders::web::{WebFolder, notes};
@@ -146,6 +146,32 @@ pub(crate) fn weights<'py>(py: Python<'py>, map: &Map) -> PyResult<Bound<'py, Py
     locked(array.as_any())
 }
 
+/// The numbers over patches by name: side of the patch [m], every declared number, and the ends of the 95 % interval of the CV by chance. What
+/// is not known is NaN.
+///
+/// * `about` – side and interval of a patch
+pub(crate) fn patch_columns<'py, P: 'static>(
+    py: Python<'py>,
+    patches: &[P],
+    measures: &'static [Measure<P>],
+    about: fn(&P) -> (f64, Option<[f64; 2]>),
+) -> PyResult<Bound<'py, PyDict>> {
+    let all = PyDict::new(py);
+    let put = |name: &str, number: &dyn Fn(&P) -> f64| {
+        all.set_item(name, PyArray1::from_vec(py, patches.iter().map(number).collect()))
+    };
+    put("patch_m", &|patch| about(patch).0)?;
+    for measure in with_errors(measures) {
+        // The older name of these.
+        let name = measure.entry().replace("one_fibre", "single_fibres");
+        put(&name, &|patch| measure.number(patch))?;
+    }
+    for (end, name) in ["cv_low", "cv_high"].into_iter().enumerate() {
+        put(name, &|patch| about(patch).1.map_or(f64::NAN, |ends| ends[end]))?;
+    }
+    Ok(all)
+}
+
 impl LaidWeb {
     fn folder(&self) -> WebFolder<'_> {
         WebFolder {
@@ -187,21 +213,7 @@ impl LaidWeb {
     /// What is not known is NaN.
     #[getter]
     fn patches<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let patches = &self.findings.patches;
-        let all = PyDict::new(py);
-        let put = |name: &str, number: &dyn Fn(&PatchFindings) -> Option<f64>| {
-            let column = patches.iter().map(|patch| number(patch).unwrap_or(f64::NAN)).collect();
-            all.set_item(name, PyArray1::from_vec(py, column))
-        };
-        put("patch_m", &|patch| Some(patch.map.patch))?;
-        for measure in with_errors(OF_PATCHES) {
-            // The older name of these.
-            let name = measure.entry().replace("one_fibre", "single_fibres");
-            put(&name, &|patch| Some(measure.number(patch)))?;
-        }
-        put("cv_low", &|patch| Some(patch.interval()?[0]))?;
-        put("cv_high", &|patch| Some(patch.interval()?[1]))?;
-        Ok(all)
+        patch_columns(py, &self.findings.patches, OF_PATCHES, |patch| (patch.map.patch, patch.interval()))
     }
 
     /// Writes the folder that `spunlaid web` writes.

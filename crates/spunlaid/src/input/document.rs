@@ -1,4 +1,5 @@
-//! Reads the file of a case, or of a web with the case of its filament, into its values. Each remembers where it was written.
+//! Reads the file of a case, of a web with the case of its filament, or of a study into its values, by a table of keys. Each value
+//! remembers where it was written.
 //!
 //! A value has the full name of its key, `line.belt_speed`. In a list of tables the number of the entry stands in it,
 //! `layer.2.line.rows.1.pitch`, and the list itself, `layer.2.line.rows`, has its length as value.
