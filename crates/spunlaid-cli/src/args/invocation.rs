@@ -8,8 +8,8 @@ use std::path::Path;
 
 /// Options that do not decide what results are: they say where and how fast they are made, how they are shown, and what is made of
 /// them besides.
-const NOT_OF_RESULTS: [&str; 9] =
-    ["out", "threads", "quiet", "json", "force", "formats", "figure_width", "advice", "no_advice"];
+const NOT_OF_RESULTS: [&str; 10] =
+    ["out", "threads", "quiet", "json", "force", "formats", "figure_width", "advice", "no_advice", "sheet"];
 /// With another number of replicates, a study goes on.
 const GOES_ON: (&str, &str) = ("sweep", "replicates");
 

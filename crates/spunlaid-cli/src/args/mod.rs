@@ -206,6 +206,9 @@ pub(crate) struct Web {
     /// Do not try what makes it more even, which takes two flights for each setting
     #[arg(long, conflicts_with = "advice")]
     pub(crate) no_advice: bool,
+    /// Write a specification sheet of one page (PDF): every number with its error
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) sheet: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) figures: Figures,
 }

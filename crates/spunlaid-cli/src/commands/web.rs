@@ -7,15 +7,16 @@ use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::advice::{Advice, Change, advise, are_tried, steps};
 use spunlaid::case::Note;
-use spunlaid::error::Error;
+use spunlaid::error::{Error, Fault};
 use spunlaid::input::{Method, Unflown, Unread, WebFile, WebSpec, read_changes, read_guesses, read_web};
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
 use spunlaid::web::{Findings, LayControl, PatchFindings, Web};
 use spunlaid_results::folders;
 use spunlaid_results::folders::web::WebFolder;
 use spunlaid_results::numbers::significant;
-use spunlaid_results::output::web::{ENTRIES, PatchTable, Performance, Reader};
+use spunlaid_results::output::web::{ENTRIES, PatchTable, Performance, Reader, specification_sheet};
 use spunlaid_results::report::{advice_commands, advice_words, guess_words};
+use std::fs;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
@@ -32,6 +33,11 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
         staged((folder, ENTRIES), &arguments.output, origin, &arguments.figures.files())
     };
     let staging = folder.as_ref().map(staged).transpose()?;
+    if let Some(sheet) = arguments.sheet.as_ref().filter(|sheet| sheet.exists() && !arguments.output.force) {
+        let fault =
+            Fault::new("is there already", "name another file, or replace it").option("--sheet, --force");
+        return Err(Error::folder(sheet, fault).into());
+    }
     // Before anything is flown, because the file may change meanwhile.
     let read = |read| match read {
         // What is too long to be tried is not flown for either.
@@ -100,6 +106,10 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     if let Some(staging) = staging {
         written.write(&staging, by)?;
         staging.publish()?;
+    }
+    if let Some(sheet) = &arguments.sheet {
+        let page = specification_sheet(&name, (&findings, &fabric), &notes)?;
+        fs::write(sheet, page).map_err(|error| Error::unwritable(sheet)(error))?;
     }
     if arguments.json {
         say::text(&written.summary());
