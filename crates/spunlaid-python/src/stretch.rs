@@ -177,12 +177,12 @@ fn flown_curtain(
     Ok(FlownCurtain { layer: *layer, curves, sheet: *sheet, back: *back })
 }
 
-/// Numbers of a piece in a window: the window, the layer, and its ends.
-const NUMBERS: usize = 6;
+/// Numbers of a piece in a window: the window, the layer, its ends, and its mass per length over that of the others.
+const NUMBERS: usize = 7;
 
 /// Whole numbers below 2⁵³ are exact.
-fn numbers(PieceInWindow { window, layer, ends: [from, to] }: &PieceInWindow) -> [f64; NUMBERS] {
-    [*window as f64, *layer as f64, from[0], from[1], to[0], to[1]]
+fn numbers(PieceInWindow { window, layer, ends: [from, to], titre }: &PieceInWindow) -> [f64; NUMBERS] {
+    [*window as f64, *layer as f64, from[0], from[1], to[0], to[1], *titre]
 }
 
 fn laid_stretch(
@@ -201,6 +201,7 @@ fn laid_stretch(
         window: row[0] as usize,
         layer: row[1] as usize,
         ends: [[row[2], row[3]], [row[4], row[5]]],
+        titre: row[6],
     };
     let map = Map {
         columns,
