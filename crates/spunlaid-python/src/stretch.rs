@@ -177,7 +177,7 @@ fn flown_curtain(
     Ok(FlownCurtain { layer: *layer, curves, sheet: *sheet, back: *back })
 }
 
-/// Numbers of a piece in a window: the window, the layer, its ends, and its titre.
+/// Numbers of a piece in a window: the window, the layer, its ends, and its mass per length over that of the others.
 const NUMBERS: usize = 7;
 
 /// Whole numbers below 2⁵³ are exact.

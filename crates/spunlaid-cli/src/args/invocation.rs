@@ -8,8 +8,19 @@ use std::path::{Path, PathBuf};
 
 /// Options that do not decide what results are: they say where and how fast they are made, how they are shown, and what is made of
 /// them besides.
-const NOT_OF_RESULTS: [&str; 10] =
-    ["out", "threads", "quiet", "json", "force", "formats", "figure_width", "tables", "advice", "no_advice"];
+const NOT_OF_RESULTS: [&str; 11] = [
+    "out",
+    "threads",
+    "quiet",
+    "json",
+    "force",
+    "formats",
+    "figure_width",
+    "tables",
+    "advice",
+    "no_advice",
+    "sheet",
+];
 /// With another number of replicates, a study goes on.
 const GOES_ON: (&str, &str) = ("sweep", "replicates");
 

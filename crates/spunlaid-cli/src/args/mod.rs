@@ -197,6 +197,9 @@ pub(crate) struct Web {
     /// Judge settings and guesses by the CV over patches of this side, as 10mm, one of web.patches [default: the size that the eye judges first]
     #[arg(long = "for", value_name = "PATCH", value_parser = quantity(Dimension::Length))]
     pub(crate) judged_by: Option<f64>,
+    /// Write a specification sheet of one page (PDF): every number with its error
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) sheet: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) figures: Figures,
 }

@@ -8,14 +8,16 @@ use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::advice::{Advice, Change, advise, are_tried, check_patch, most_steps, steps};
 use spunlaid::case::Note;
-use spunlaid::error::Error;
+use spunlaid::error::{Error, Fault};
 use spunlaid::input::{Changes, Unflown, Unread, WebFile, WebSpec, read_changes, read_web};
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
 use spunlaid::web::{Findings, LayControl, Web};
 use spunlaid_results::folders;
 use spunlaid_results::folders::web::WebFolder;
 use spunlaid_results::numbers::significant;
-use spunlaid_results::output::web::Performance;
+use spunlaid_results::output::web::{Performance, specification_sheet};
+use std::fs;
+use std::path::Path;
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
@@ -27,6 +29,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     let (name, origin) = (stem(&arguments.file, "web"), invocation.origin_of([&arguments.file]));
     let (folder, figures) = (output.optional_folder(&name), arguments.figures.files());
     let delivery = Delivery::open::<WebFolder<'_>>(folder, origin, output, &figures)?;
+    arguments.sheet.as_deref().map_or(Ok(()), |sheet| check_sheet(sheet, output.force))?;
     // Before anything is flown, because the file may change meanwhile.
     let trials = Trials::read(arguments, &file.spec)?;
 
@@ -57,7 +60,21 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
         notes,
         performance,
     };
-    delivery.deliver(&contents, threads, Asides { lines, found })
+    delivery.deliver(&contents, threads, Asides { lines, found })?;
+    if let Some(sheet) = &arguments.sheet {
+        let page = specification_sheet(&name, (&findings, &fabric), notes)?;
+        fs::write(sheet, page).map_err(|error| Error::unwritable(sheet)(error))?;
+    }
+    Ok(())
+}
+
+/// A specification sheet that is there already is replaced with `--force` only.
+fn check_sheet(sheet: &Path, force: bool) -> Result<(), Error> {
+    if force || !sheet.exists() {
+        return Ok(());
+    }
+    let fault = Fault::new("is there already", "name another file, or replace it").option("--sheet, --force");
+    Err(Error::folder(sheet, fault))
 }
 
 /// Changes that are tried once a web has been laid.

@@ -89,7 +89,18 @@ fn a_web_is_written_whole_and_laid_again_to_the_same_bits() {
         "web.toml",
     ];
     assert_eq!(desk.entries("w"), desk::names(&files));
-    desk::success(&mut desk.spunlaid("web w/web.toml --out again --threads 1 --quiet"));
+    desk::success(&mut desk.spunlaid("web w/web.toml --out again --threads 1 --quiet --sheet sheet.pdf"));
+    // The sheet is one page, and is not written over; it is no part of the folder.
+    let sheet = desk.read("sheet.pdf");
+    let holds = |part: &[u8]| sheet.windows(part.len()).any(|window| window == part);
+    assert!(sheet.starts_with(b"%PDF") && holds(b"/Count 1"));
+    assert_eq!(desk.entries("again"), desk::names(&files));
+    let said = refusal(&mut desk.spunlaid("web beams.toml --out third --sheet sheet.pdf"), 1);
+    assert!(
+        said.contains("sheet.pdf: is there already; name another file, or replace it (--sheet, --force)"),
+        "{said}"
+    );
+    assert_eq!(desk.read("sheet.pdf"), sheet);
     for file in ["map.npy", "map.png", "map.parquet", "fibres.vtp", "web.toml", "figures/web_cv.csv"] {
         let [one, other] = ["w", "again"].map(|folder| desk.read(&format!("{folder}/{file}")));
         assert!(one == other, "{file}");

@@ -69,7 +69,7 @@ const PRINT: u32 = 300;
 /// Pixels per inch of a PNG as on the screen: two for each pixel of the picture.
 const SCREEN: u32 = 192;
 /// What files say about the program.
-const SOFTWARE: &str = concat!("spunlaid ", env!("CARGO_PKG_VERSION"));
+pub(super) const SOFTWARE: &str = concat!("spunlaid ", env!("CARGO_PKG_VERSION"));
 
 /// The width of figures in print [m] that is named, `one-column`, or given as a length.
 ///

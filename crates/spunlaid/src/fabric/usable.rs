@@ -15,7 +15,8 @@ pub struct Usable {
     pub trim: f64,
 }
 
-/// From the middle of the web outwards, as far as the profile across stays within the tolerance. None of a web that goes on at its edges.
+/// From the edges inwards, to where the profile across is within the tolerance; streaks between count for nothing here. None of a web that
+/// goes on at its edges.
 ///
 /// * `reach` – where the web begins and ends across the sheet [m]
 /// * `tolerance` – share of the mean weight of the middle half
@@ -36,10 +37,8 @@ pub fn usable(map: &Map, [from, to]: [f64; 2], tolerance: f64) -> Option<Usable>
     let inner = column(middle - half)..column(middle + half).max(column(middle - half) + 1).min(map.columns);
     let wanted = mean(inner.clone());
     let is_good = |first: usize| (mean(first..first + over) / wanted - 1.0).abs() <= tolerance;
-    // Windows that begin farther and farther out on either side.
-    let start = (column(middle) - over / 2).clamp(first, end - over);
-    let low = (first..=start).rev().take_while(|first| is_good(*first)).last();
-    let high = (start..=end - over).take_while(|first| is_good(*first)).last();
+    let low = (first..=end - over).find(|first| is_good(*first));
+    let high = (first..=end - over).rev().find(|first| is_good(*first));
     let width = low.zip(high).map_or(0.0, |(low, high)| (high + over - low) as f64 * map.cell);
     let whole = (end - first) as f64 * map.cell;
     Some(Usable { width, trim: (1.0 - width / whole).max(0.0) })

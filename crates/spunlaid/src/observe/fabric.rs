@@ -14,7 +14,7 @@ pub const OF_FABRICS: &[Measure<Fabric>] = &[
     Measure::new("trim_m", "Trim", MILLIMETRES, Told(|fabric: &Fabric| fabric.trim.map(Exact)))
         .meaning("what is cut off of the web at both edges together"),
     Measure::new("usable_width_m", "Width within the tolerance of the weight", MILLIMETRES, Told(|fabric: &Fabric| Some(Exact(fabric.usable?.width))))
-        .meaning("width about the middle over which the profile across, averaged over 20 mm, stays within the tolerance of the mean of the middle half, in this map"),
+        .meaning("width from where, from each edge inwards, the profile across, averaged over 20 mm, is within the tolerance of the mean of the middle half, in this map"),
     Measure::new("usable_trim", "Trim to that width", PERCENT, Told(|fabric: &Fabric| Some(Exact(fabric.usable?.trim))))
         .meaning("what is cut off at both edges for it, as a share of the web"),
     Measure::new("stiffness_ratio", "Stiffness MD/CD, of the directions alone", RATIO, Told(|fabric: &Fabric| fabric.stiffness_ratio))

@@ -5,6 +5,7 @@ mod fabric;
 mod map;
 mod patches;
 mod pieces;
+mod sheet;
 mod strands;
 mod summary;
 
@@ -13,6 +14,7 @@ pub use fabric::{fabric_rows, known_text};
 pub use map::{light_table, write as write_map, write_array as write_scan};
 pub use patches::{PatchTable, Reader};
 pub use pieces::{MapFile, Pictures};
+pub use sheet::specification_sheet;
 pub use strands::write as write_strands;
 pub use summary::{Layer, Performance, Summary};
 
