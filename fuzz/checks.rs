@@ -112,8 +112,8 @@ pub fn field(data: &[u8]) -> bool {
 /// Pixels of a picture that is analysed, at most: larger ones take long and show nothing new.
 const PIXELS: usize = 1 << 14;
 
-/// A scan or a map of a web is read or refused, with the size of its pixels or without; what is read can be analysed or is
-/// refused for a reason. Gives whether it was read.
+/// A scan or a map of a web is read or refused, with the size of its pixels or without; what is read can be
+/// analysed or is refused for a reason. Gives whether it was read.
 pub fn scan(data: &[u8]) -> bool {
     let mut any = false;
     for pixel in [None, Some(1e-4)] {
@@ -143,7 +143,8 @@ pub fn scan(data: &[u8]) -> bool {
     any
 }
 
-/// The file of a web is read or refused; what is read writes and reads back to the same bits. Gives whether it was read.
+/// The file of a web is read or refused; what is read writes and reads back to the same bits. Gives whether
+/// it was read.
 pub fn web(data: &[u8]) -> bool {
     match parse_web(&String::from_utf8_lossy(data), "fuzz.toml", &[]) {
         Ok(web) => {
@@ -167,8 +168,8 @@ pub fn web(data: &[u8]) -> bool {
 /// Rows of a curtain that is solved, at most: more of them take long and show nothing new.
 const ROWS: u64 = 8;
 
-/// The file of a spinline is read or refused; what is read writes and reads back to the same bits, and is solved or refused for a
-/// reason. Gives whether it was read.
+/// The file of a spinline is read or refused; what is read writes and reads back to the same bits, and is
+/// solved or refused for a reason. Gives whether it was read.
 ///
 /// What stands after a line `--air` is the table of the air along the line.
 pub fn spinline(data: &[u8]) -> bool {

@@ -9,8 +9,8 @@ use crate::table::{Table, column};
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// A figure of a report. It keeps its numbers once: pictures and table are made from them when they are asked for, because those of many
-/// points are larger than the points.
+/// A figure of a report. It keeps its numbers once: pictures and table are made from them when they are asked
+/// for, because those of many points are larger than the points.
 #[derive(Clone, Debug)]
 pub struct Figure {
     /// File name without ending.

@@ -1,4 +1,5 @@
-//! The embedded font: the widths of texts, and texts as outlines, so that a picture needs no other font and no text layout.
+//! The embedded font: the widths of texts, and texts as outlines, so that a picture needs no other font and
+//! no text layout.
 
 use std::sync::LazyLock;
 use tiny_skia::{Path, PathBuilder};

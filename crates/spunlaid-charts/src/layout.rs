@@ -29,8 +29,8 @@ pub(crate) struct Plot {
 }
 
 impl Plot {
-    /// Lays out a chart of another size than its own: text keeps its size, and the rectangle its proportions, as long as it is as
-    /// high as the words beside it.
+    /// Lays out a chart of another size than its own: text keeps its size, and the rectangle its proportions,
+    /// as long as it is as high as the words beside it.
     ///
     /// * `share` – of its own width
     pub(crate) fn new(chart: &Chart, share: f64) -> Self {

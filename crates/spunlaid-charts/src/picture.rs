@@ -159,7 +159,8 @@ impl Picture {
         }
     }
 
-    /// Opens a group that is drawn inside a rectangle only, up to where it is closed; `id` must be the document's only one.
+    /// Opens a group that is drawn inside a rectangle only, up to where it is closed; `id` must be the
+    /// document's only one.
     pub fn open_clip(&mut self, id: &str, x: f64, y: f64, width: f64, height: f64) {
         let (corner, size) = (point((x, y)), point((width, height)));
         self.shapes.push(Shape::Clip { id: id.to_owned(), corner, size });

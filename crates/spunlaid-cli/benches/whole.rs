@@ -1,11 +1,11 @@
-//! What a whole run costs, as a multiple of its kernel: the program from its start to its end, with its records, tables,
-//! figures and report.
+//! What a whole run costs, as a multiple of its kernel: the program from its start to its end, with its
+//! records, tables, figures and report.
 //!
 //!     cargo bench -p spunlaid-cli                   # two minutes
 //!
-//! Table 1 with implicit tension and steps of 500 µs on one thread: of all usual runs the one whose flights cost least beside
-//! what is recorded. Processor time, the least of some runs taken in turn; ratios hold on a busy machine. What was found is in
-//! `docs/performance.md`.
+//! Table 1 with implicit tension and steps of 500 µs on one thread: of all usual runs the one whose flights
+//! cost least beside what is recorded. Processor time, the least of some runs taken in turn; ratios hold on a
+//! busy machine. What was found is in `docs/performance.md`.
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 

@@ -28,8 +28,8 @@ pub(crate) fn follow<T>(
 /// Columns of what stands before the words of [`follow`].
 const BEFORE: usize = 44;
 
-/// As much of the words behind a bar as the terminal has room for now: a line that is wrapped cannot be cleared once the terminal has
-/// another width.
+/// As much of the words behind a bar as the terminal has room for now: a line that is wrapped cannot be
+/// cleared once the terminal has another width.
 ///
 /// * `before` – columns of what stands before them
 pub(crate) fn fitting(words: &str, before: usize) -> String {
@@ -48,7 +48,8 @@ pub(crate) fn bar(total: u64, template: &str, quiet: bool) -> ProgressBar {
     bar
 }
 
-/// Runs `work` while another thread shows how far it is, again and again. Then the bar is cleared, also if the work panics.
+/// Runs `work` while another thread shows how far it is, again and again. Then the bar is cleared, also if
+/// the work panics.
 pub(crate) fn show_while<T>(
     bar: &ProgressBar,
     interval: Duration,

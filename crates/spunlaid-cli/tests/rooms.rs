@@ -1,5 +1,5 @@
-//! The rooms of the program, of results and of charts import one another one way only; and texts of all crates name only
-//! what exists.
+//! The rooms of the program, of results and of charts import one another one way only; and texts of all
+//! crates name only what exists.
 #![allow(clippy::unwrap_used)]
 
 #[path = "../../spunlaid/tests/rooms_of/mod.rs"]
@@ -46,8 +46,8 @@ fn rooms_import_only_from_their_left_and_files_not_from_one_another() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// The texts in the sources of every crate that a message can be made of, with the file. What comes after the tests of a file
-/// begin is left out.
+/// The texts in the sources of every crate that a message can be made of, with the file. What comes after the
+/// tests of a file begin is left out.
 fn texts() -> Vec<(String, String)> {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut all = Vec::new();
@@ -69,8 +69,8 @@ fn every_key_that_a_text_names_exists() {
     let names: BTreeSet<&str> =
         keys::all().iter().map(|key| key.name).chain(WEB_KEYS.iter().map(|key| key.name)).collect();
     let tables: BTreeSet<&str> = keys::TABLES.into_iter().chain(WEB_TABLES).collect();
-    // What else is written with the name of a table and a dot: the tables of a layer, endings of files, a group of measures, and a
-    // field of a case that a program fills in.
+    // What else is written with the name of a table and a dot: the tables of a layer, endings of files, a
+    // group of measures, and a field of a case that a program fills in.
     let exists = |name: &str| {
         let (table, rest) = name.split_once('.').unwrap();
         names.contains(name)

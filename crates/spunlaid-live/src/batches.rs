@@ -135,9 +135,10 @@ fn mean_of(values: &[[f64; WIDTH]]) -> f64 {
     values.iter().flatten().sum::<f64>() / (values.len() * WIDTH) as f64
 }
 
-/// The standard error of the mean of batches that may be correlated in time: neighbours are joined again and again until
-/// only a few are left, and the largest error of all levels is taken. Batches that are long enough are independent, and joining
-/// them changes nothing; shorter ones would promise too much. With fewer batches, only the spread over the fibres is left.
+/// The standard error of the mean of batches that may be correlated in time: neighbours are joined again and
+/// again until only a few are left, and the largest error of all levels is taken. Batches that are long
+/// enough are independent, and joining them changes nothing; shorter ones would promise too much. With fewer
+/// batches, only the spread over the fibres is left.
 ///
 /// Source: H. Flyvbjerg, H. G. Petersen, Journal of Chemical Physics 91 (1989) 461–466.
 fn standard_error(mut values: Vec<[f64; WIDTH]>) -> Option<f64> {
@@ -196,7 +197,8 @@ mod tests {
         motion
     }
 
-    /// Batches of eight first-order autoregressive signals of unit variance, and the amplitude of each over all the time.
+    /// Batches of eight first-order autoregressive signals of unit variance, and the amplitude of each over
+    /// all the time.
     fn batches(chance: &mut Chance, memory: f64, pieces: usize, length: usize) -> (Batches, [f64; WIDTH]) {
         let mut signals: [Vec<f64>; WIDTH] = Default::default();
         for signal in &mut signals {
@@ -242,9 +244,9 @@ mod tests {
 
     #[test]
     fn stat_errors_cover_the_truth_although_batches_are_correlated() {
-        // The signals have unit variance and remember 20 samples; a batch of 10 samples is half of that. An honest ± covers
-        // the truth in 68 % of all cases, ±2 in 95 %; of 400 cases the share is known to 2.3 %, and the largest error of
-        // several levels is rather too large than too small.
+        // The signals have unit variance and remember 20 samples; a batch of 10 samples is half of that. An
+        // honest ± covers the truth in 68 % of all cases, ±2 in 95 %; of 400 cases the share is known to 2.3
+        // %, and the largest error of several levels is rather too large than too small.
         let mut chance = Chance(5);
         let (mut once, mut twice, cases) = (0, 0, 400);
         for _ in 0..cases {

@@ -1,5 +1,5 @@
-//! The board between the flight and its pages: what all pages see, of which each gets the latest only, and answers to one of them.
-//! The flight never waits for a page.
+//! The board between the flight and its pages: what all pages see, of which each gets the latest only, and
+//! answers to one of them. The flight never waits for a page.
 
 use super::frame::Frame;
 use spunlaid::threads::lock;

@@ -131,8 +131,8 @@ impl Document {
         Ok(self.with_text(document.to_string()))
     }
 
-    /// The document with the tension at the end of the spinline that flights have found in place of `flown`, so that a change
-    /// of a key need not wait for flights; `None` if it says nothing of flights.
+    /// The document with the tension at the end of the spinline that flights have found in place of `flown`,
+    /// so that a change of a key need not wait for flights; `None` if it says nothing of flights.
     ///
     /// * `case` – as it was read from this document
     pub(super) fn with_tension_of_flights(&self, case: &Case) -> Option<Self> {
@@ -259,7 +259,8 @@ mod tests {
 
     const CASE: &str = "# a case\n[fibre]\nlength = \"1 m\"\ndiameter = \"50 µm\" # fine\n\
         density = \"950 kg/m³\"\nyoungs_modulus = \"2 GPa\"\n\n[air]\nvelocity = \"10 m/s\"\n\
-        turbulence_intensity = 0.1\nlength_scale = \"50 mm\"\ncutoff_frequency = \"100 Hz\"\n\n[run]\nduration = \"1 s\"\n";
+        turbulence_intensity = 0.1\nlength_scale = \"50 mm\"\ncutoff_frequency = \"100 Hz\"\n\n[run]\n\
+        duration = \"1 s\"\n";
 
     fn document() -> Document {
         Document::new(CASE.to_owned(), Some(PathBuf::from("some where/a.toml")))
@@ -298,7 +299,8 @@ mod tests {
 
     #[test]
     fn keys_of_a_table_within_a_table_are_changed_and_named_in_the_command() {
-        const LINE: &str = "[spinline]\npolymer = \"pp\"\nprofile = \"air.csv\"\n[spinline.material]\nviscosity = \"200 Pa s\" # mine\n";
+        const LINE: &str = "[spinline]\npolymer = \"pp\"\nprofile = \"air.csv\"\n[spinline.material]\n\
+            viscosity = \"200 Pa s\" # mine\n";
         let document = Document::new(LINE.to_owned(), Some(PathBuf::from("cases/x.toml")));
         let new = document.with(key("spinline.material.viscosity"), Some("180 Pa s".into())).unwrap();
         let new = new.with(key("spinline.material.mobility"), Some(0.3.into())).unwrap();

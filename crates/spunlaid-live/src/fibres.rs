@@ -125,8 +125,8 @@ impl Fibres {
     }
 }
 
-/// Positions and velocities of the nodes of another case at which fibres of fixed length go on. Their directions stay, along
-/// the share of the length; strain stays as well.
+/// Positions and velocities of the nodes of another case at which fibres of fixed length go on. Their
+/// directions stay, along the share of the length; strain stays as well.
 fn transferred_state(old: &Case, snapshot: &Snapshot, new: &Case) -> Option<[Vec<Vec3<Lanes>>; 2]> {
     let same_hold = (old.fibre.root, old.fibre.direction) == (new.fibre.root, new.fibre.direction);
     if old.line.is_some() || new.line.is_some() || !same_hold {

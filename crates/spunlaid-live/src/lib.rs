@@ -52,8 +52,9 @@ use std::thread;
 
 /// Messages that wait for the flight; then pages wait.
 const WAITING: usize = 64;
-/// Error of the free end's path over its amplitude that a page may cause by its time step, if the case does not say: four
-/// times that of a run. At Table 1 the amplitude is then 0.2 to 1 % low, which a page shows after a minute or so.
+/// Error of the free end's path over its amplitude that a page may cause by its time step, if the case does
+/// not say: four times that of a run. At Table 1 the amplitude is then 0.2 to 1 % low, which a page shows
+/// after a minute or so.
 const ERROR_TOLERANCE: f64 = 0.012;
 
 /// A case to be flown.
@@ -119,8 +120,8 @@ fn adapt_to_clock(document: Document) -> Result<(Document, Option<String>), Vec<
     let step = read.case.run.time_step;
     let [asked_step, step] = [run.time_step, step].map(|step| Dimension::Time.pretty_to(step, 3));
     let note = format!(
-        "the case asks for run.scheme = \"{}\" and steps of {asked_step}; to keep up with the clock, the fibres fly with \
-         \"{}\" and {step}",
+        "the case asks for run.scheme = \"{}\" and steps of {asked_step}; to keep up with the clock, the \
+        fibres fly with \"{}\" and {step}",
         run.scheme.name(),
         Scheme::ImplicitTension.name()
     );

@@ -259,8 +259,8 @@ mod tests {
         assert!((message.duration - 2.0).abs() < 1e-9 && message.settling == 0.0);
         for number in &message.numbers {
             let run = results.estimate(number.name).mean * measure(number.name).unwrap().unit.per_si;
-            // The batches begin and end within a step of the run's; a crossing at their seams may be missed, at most one of
-            // 70 in each.
+            // The batches begin and end within a step of the run's; a crossing at their seams may be missed,
+            // at most one of 70 in each.
             let tolerance = if number.name.starts_with("amplitude") { 1e-3 } else { 0.03 };
             assert!((number.value.unwrap() / run - 1.0).abs() < tolerance, "{number:?}: {run}");
             assert!(number.error.is_some_and(|e| e > 0.0 && e < 0.3 * run), "{number:?}");

@@ -23,8 +23,9 @@ pub(super) fn plain_name(given: &str) -> Result<String, String> {
         || !name.chars().all(plain)
     {
         return Err(format!(
-            "\"{}\" cannot be the name of the file: the case is saved into the folder where the program was started, so a name has no / or \\ \
-             and does not begin with a full stop. Write letters, digits, spaces, - and _, at most {LONGEST} in all, as my_case",
+            "\"{}\" cannot be the name of the file: the case is saved into the folder where the program was \
+            started, so a name has no / or \\ and does not begin with a full stop. Write letters, digits, \
+            spaces, - and _, at most {LONGEST} in all, as my_case",
             given.chars().take(LONGEST).map(|c| if c.is_control() { '?' } else { c }).collect::<String>()
         ));
     }

@@ -1,5 +1,5 @@
-//! The server: hands out the page, and carries messages and frames between pages and the flight. Each connection has a thread of
-//! its own, so that one that is slow or silent keeps nobody waiting.
+//! The server: hands out the page, and carries messages and frames between pages and the flight. Each
+//! connection has a thread of its own, so that one that is slow or silent keeps nobody waiting.
 
 use super::board::{Board, Bookmark, News, PageId};
 use super::guard::Guard;
@@ -71,8 +71,8 @@ impl Server {
 
     /// Answers the request of a connection, or talks with the page that it is of.
     fn connect(&self, stream: &mut TcpStream) {
-        // A small message leaves at once; otherwise it waits until the page has confirmed the last one, 40 ms and more. Where this
-        // cannot be had, it only comes later.
+        // A small message leaves at once; otherwise it waits until the page has confirmed the last one, 40 ms
+        // and more. Where this cannot be had, it only comes later.
         let _ = stream.set_nodelay(true);
         let request = match Request::read(stream) {
             Ok(request) => request,
@@ -119,7 +119,8 @@ impl Server {
     /// Talks with a page until one of both has had enough: this thread reads, another one writes.
     fn talk(&self, stream: &mut TcpStream, rest: Vec<u8>, page: PageId, key: &str) -> io::Result<()> {
         let head = format!(
-            "HTTP/1.1 101 Switching Protocols\r\nconnection: Upgrade\r\nupgrade: websocket\r\nsec-websocket-accept: {key}\r\n"
+            "HTTP/1.1 101 Switching Protocols\r\nconnection: Upgrade\r\nupgrade: websocket\r\n\
+            sec-websocket-accept: {key}\r\n"
         );
         let headers: String = page::HEADERS.map(|(name, value)| format!("{name}: {value}\r\n")).concat();
         http::send(stream, format!("{head}{headers}\r\n").as_bytes())?;
@@ -174,8 +175,8 @@ impl Server {
     }
 }
 
-/// The stream of a page as its reader has it. What the protocol answers by itself, a ping and the end, is written between the messages
-/// of the writer.
+/// The stream of a page as its reader has it. What the protocol answers by itself, a ping and the end, is
+/// written between the messages of the writer.
 struct PageStream<'a> {
     stream: &'a TcpStream,
     page: PageId,

@@ -18,12 +18,12 @@ use std::path::PathBuf;
 
 /// What is computed, as any machine reads it: what it is, the text of its file, and a checksum over all of it.
 pub(crate) type Packed = (String, String, u32);
-/// A point of a bundle: its index in the study, what it is, the text of its file, a checksum over all of it, and the replicates to
-/// make, from the first to before the last.
+/// A point of a bundle: its index in the study, what it is, the text of its file, a checksum over all of it,
+/// and the replicates to make, from the first to before the last.
 pub(crate) type BundlePart = (u64, String, String, u32, u64, u64);
 
-/// Columns of the records before the numbers: point, replicate, whether the fibre was lost. Of a lost fibre the numbers are the
-/// node and the time.
+/// Columns of the records before the numbers: point, replicate, whether the fibre was lost. Of a lost fibre
+/// the numbers are the node and the time.
 const HEAD: usize = 3;
 
 /// What a machine needs to make batches of points.

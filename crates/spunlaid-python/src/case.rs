@@ -22,8 +22,8 @@ const NAME: &str = "Case";
 /// A fibre, the air around it and how its flight is computed: a case file, read and checked, that can be run.
 ///
 /// Make one with Case.read(path), Case.from_dict({...}), Case.from_text(text) or Case.starter(). It does not change;
-/// with_() returns another one. case["air.velocity"] is the value of a key in SI units, and a case is a Mapping of its keys:
-/// dict(case) has them all, and Case.from_dict(dict(case)) is the same case.
+/// with_() returns another one. case["air.velocity"] is the value of a key in SI units, and a case is a
+/// Mapping of its keys: dict(case) has them all, and Case.from_dict(dict(case)) is the same case.
 #[pyclass(frozen, mapping, module = "spunlaid", name = "Case")]
 #[derive(Debug)]
 pub(crate) struct Case {

@@ -23,8 +23,8 @@ pub(crate) fn raised(py: Python<'_>, error: impl Into<Error>) -> PyErr {
     made.unwrap_or_else(|error| error)
 }
 
-/// What was read of texts that this package has made of dicts, under these names. The user did not write their lines, so no error
-/// and no note tells one.
+/// What was read of texts that this package has made of dicts, under these names. The user did not write
+/// their lines, so no error and no note tells one.
 pub(crate) fn without_lines(read: Result<StudyFile, Error>, made: &[&str]) -> Result<StudyFile, Error> {
     let clear = |place: &mut Place| {
         if let Place::File { file, position, .. } = place

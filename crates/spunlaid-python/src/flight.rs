@@ -67,7 +67,8 @@ impl Flight {
         self.fly_to(py, now + duration)
     }
 
-    /// Advances all fibres to a time, "10 ms" or in seconds, to the nearest whole step. Ctrl-C stops them at a step in between.
+    /// Advances all fibres to a time, "10 ms" or in seconds, to the nearest whole step. Ctrl-C stops them at
+    /// a step in between.
     fn step_to(&self, py: Python<'_>, time: &Bound<'_, PyAny>) -> PyResult<()> {
         self.fly_to(py, seconds(time)?)
     }

@@ -71,7 +71,10 @@ fn source(record: &Bound<'_, PyAny>, rate: Option<f64>, columns: Vec<String>) ->
         return Ok(Source::File(path, Layout { rate, columns, ..Layout::default() }));
     }
     let array = record.py().import("numpy")?.call_method1("asarray", (record, "float64")).map_err(|_| {
-        PyTypeError::new_err("a record is the path of a file, or an array of velocities [m/s]: samples, or samples x components")
+        PyTypeError::new_err(
+            "a record is the path of a file, or an array of velocities [m/s]: samples, or \
+            samples x components",
+        )
     })?;
     let array: PyReadonlyArrayDyn<'_, f64> = array.extract()?;
     let array = array.as_array();

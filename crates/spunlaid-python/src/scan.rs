@@ -148,8 +148,8 @@ impl AnalysedScan {
         weights(py, &self.findings.map)
     }
 
-    /// The unevenness over patches: side of the patch [m], the CV with its error by chance and the ends of its 95 % interval, and every declared
-    /// number of them. What is not known is NaN.
+    /// The unevenness over patches: side of the patch [m], the CV with its error by chance and the ends of
+    /// its 95 % interval, and every declared number of them. What is not known is NaN.
     #[getter]
     fn patches<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let about = |patch: &PatchFindings| (patch.unevenness.patch, patch.interval.ok());

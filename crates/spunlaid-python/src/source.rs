@@ -16,7 +16,8 @@ pub(crate) struct Source {
 }
 
 impl Source {
-    /// Reads a file; without one the text is empty, because all keys are given as changes, and it is called `otherwise`.
+    /// Reads a file; without one the text is empty, because all keys are given as changes, and it is called
+    /// `otherwise`.
     pub(crate) fn read(
         py: Python<'_>,
         path: Option<PathBuf>,

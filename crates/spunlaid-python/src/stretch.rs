@@ -1,4 +1,5 @@
-//! `WebFlight`: a web in one air whose filaments have been flown, and stretches of its sheet as plain values of Python, which any machine lays.
+//! `WebFlight`: a web in one air whose filaments have been flown, and stretches of its sheet as plain values
+//! of Python, which any machine lays.
 
 use crate::bundle::{Packed, another, packed, unpacked};
 use crate::failure::raised;
@@ -26,11 +27,13 @@ pub(crate) struct WebFlight {
     began: Instant,
 }
 
-/// What a few filaments of a layer have laid: the number of the layer; width of the curtain, length from point to point and belt ratio; the sheet and where it
-/// begins on the belt; places of the filaments, filaments × 2; deviations, filaments × 2 × points.
+/// What a few filaments of a layer have laid: the number of the layer; width of the curtain, length from
+/// point to point and belt ratio; the sheet and where it begins on the belt; places of the filaments,
+/// filaments × 2; deviations, filaments × 2 × points.
 type PackedCurtain<'py, Places, Curves> = (usize, (Option<f64>, f64, f64), ([f64; 2], f64), Places, Curves);
-/// What lies on a stretch: its first row; cells, rows × columns; their side, the quantum, whether the sheet goes on at the other edge, and the mass beyond it; the strands
-/// of the window; pieces in the windows in which holes are counted, each with its window, layer, ends and titre; what the few do not tell.
+/// What lies on a stretch: its first row; cells, rows × columns; their side, the quantum, whether the sheet
+/// goes on at the other edge, and the mass beyond it; the strands of the window; pieces in the windows in
+/// which holes are counted, each with its window, layer, ends and titre; what the few do not tell.
 type PackedStretch<Cells, Points> =
     (usize, Cells, (f64, f64, bool, f64), Vec<(usize, usize, Points)>, Points, Vec<[f64; 2]>);
 

@@ -52,8 +52,8 @@ pub(crate) struct Study {
 
 #[pymethods]
 impl Study {
-    /// * study: the path of a study file, or its text with the case (text, name, changes), or with the path of the web or
-    ///   the spinline that it varies
+    /// * study: the path of a study file, or its text with the case (text, name, changes), or with the path
+    ///   of the web or the spinline that it varies
     /// * threads: for the flights that find the tensions at the ends of spinlines, if the points have some
     /// * out: the folder of the journal and the results; without one they stay in memory
     #[new]
@@ -157,8 +157,8 @@ impl Study {
         })
     }
 
-    /// Adds the records of a bundle to the journal and puts them on the disk. Fibres that it holds already are left as they
-    /// are. Returns the number of fibres added.
+    /// Adds the records of a bundle to the journal and puts them on the disk. Fibres that it holds already
+    /// are left as they are. Returns the number of fibres added.
     fn add(&self, py: Python<'_>, rows: PyReadonlyArray2<'_, f64>) -> PyResult<usize> {
         let records = records(&rows, self.file.study.quantities.len())?;
         let (points, most) = (self.file.study.points.len() as u64, self.file.study.replicates.at_most);
@@ -201,8 +201,8 @@ impl Study {
         self.file.study.points.len()
     }
 
-    /// Work of one flight of the dearest point: steps times elements. Infinite for webs, of which those of a point make a
-    /// bundle.
+    /// Work of one flight of the dearest point: steps times elements. Infinite for webs, of which those of a
+    /// point make a bundle.
     #[getter]
     fn work(&self) -> f64 {
         let cost = |experiment: &Experiment| match experiment {
@@ -213,15 +213,16 @@ impl Study {
         self.file.study.points.iter().map(|point| cost(&point.experiment)).fold(0.0, f64::max)
     }
 
-    /// Whether every bundle of webs is one web, whose filaments all fly in one air: it takes minutes and much memory, and uses all
-    /// threads of a machine.
+    /// Whether every bundle of webs is one web, whose filaments all fly in one air: it takes minutes and much
+    /// memory, and uses all threads of a machine.
     #[getter]
     fn one_web_a_machine(&self) -> bool {
         let shares_air = |web: &WebSpec| web.method == Method::SharedAir;
         self.file.study.points.iter().any(|point| point.experiment.web().is_some_and(shares_air))
     }
 
-    /// The keys that differ between points: name, SI unit, whether a factor, the scale of its axis, its values at the points.
+    /// The keys that differ between points: name, SI unit, whether a factor, the scale of its axis, its
+    /// values at the points.
     #[getter]
     fn inputs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         let (all, study) = (PyList::empty(py), &self.file.study);
@@ -246,8 +247,8 @@ impl Study {
         Ok(all)
     }
 
-    /// Mean and standard error of every measure at every point: points x measures, the numbers of fibres measured and lost,
-    /// and the seeds.
+    /// Mean and standard error of every measure at every point: points x measures, the numbers of fibres
+    /// measured and lost, and the seeds.
     fn results<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let points = &self.file.study.points;
         let results = guarded(py, || {
@@ -274,7 +275,8 @@ impl Study {
         Ok(all)
     }
 
-    /// Every fibre: point, replicate, whether it was lost, and its measures (NaN if lost): an array of fibres x columns.
+    /// Every fibre: point, replicate, whether it was lost, and its measures (NaN if lost): an array of fibres
+    /// x columns.
     fn replicates<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let numbers = self.file.study.quantities.len();
         let (columns, lost) = (3 + numbers, vec![f64::NAN; numbers]);
@@ -296,8 +298,8 @@ impl Study {
         Ok(PyArray1::from_vec(py, rows).reshape([fibres, columns])?.into_any())
     }
 
-    /// How much each factor changes each measure: lists of measure, factor, from, to, change and half the width of its 95 %
-    /// interval; and why there is no ranking, if so.
+    /// How much each factor changes each measure: lists of measure, factor, from, to, change and half the
+    /// width of its 95 % interval; and why there is no ranking, if so.
     fn effects<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyList>, Option<String>)> {
         let study = &self.file.study;
         let found = guarded(py, || self.with_journal(|journal| rankings(study, journal)))?;

@@ -13,8 +13,8 @@ use spunlaid::vec3::Vec3;
 use std::path::PathBuf;
 
 /// Keys and values as overrides of the file of a case or of a web, in their order: `{"air.velocity": "20 m/s"}`, or
-/// `{"air": {"velocity": 20.0}}`; of a layer of a web with its number, `layer.2.line.belt_speed`. Numbers are in SI units;
-/// `None` takes a key out.
+/// `{"air": {"velocity": 20.0}}`; of a layer of a web with its number, `layer.2.line.belt_speed`. Numbers are
+/// in SI units; `None` takes a key out.
 pub(crate) fn overrides(values: &Bound<'_, PyAny>) -> PyResult<Vec<(String, String)>> {
     let values = values.cast::<PyMapping>().map_err(|_| {
         let found = type_name(values);

@@ -130,7 +130,8 @@ pub(crate) fn guarded<T: Send>(
     }
 }
 
-/// What is read of a file. If flights have to find tensions at ends of spinlines first, they fly on so many threads; Ctrl-C stops them.
+/// What is read of a file. If flights have to find tensions at ends of spinlines first, they fly on so many
+/// threads; Ctrl-C stops them.
 pub(crate) fn read_file<T: Send>(
     py: Python<'_>,
     threads: Option<usize>,

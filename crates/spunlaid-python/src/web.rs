@@ -146,8 +146,8 @@ pub(crate) fn weights<'py>(py: Python<'py>, map: &Map) -> PyResult<Bound<'py, Py
     locked(array.as_any())
 }
 
-/// The numbers over patches by name: side of the patch [m], every declared number, and the ends of the 95 % interval of the CV by chance. What
-/// is not known is NaN.
+/// The numbers over patches by name: side of the patch [m], every declared number, and the ends of the 95 %
+/// interval of the CV by chance. What is not known is NaN.
 ///
 /// * `about` – side and interval of a patch
 pub(crate) fn patch_columns<'py, P: 'static>(
@@ -209,8 +209,8 @@ impl LaidWeb {
         weights(py, &self.findings.laid.map)
     }
 
-    /// The unevenness over patches: side of the patch [m], every declared number of them, and the ends of the 95 % interval of the CV by chance.
-    /// What is not known is NaN.
+    /// The unevenness over patches: side of the patch [m], every declared number of them, and the ends of the
+    /// 95 % interval of the CV by chance. What is not known is NaN.
     #[getter]
     fn patches<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         patch_columns(py, &self.findings.patches, OF_PATCHES, |patch| (patch.map.patch, patch.interval()))

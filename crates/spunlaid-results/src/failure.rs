@@ -60,8 +60,8 @@ pub(crate) fn other_version(folder: &Path, version: &str) -> Failure {
     let this = env!("CARGO_PKG_VERSION");
     let fault = Fault::new(
         format!(
-            "holds a study of spunlaid {version}, and this is {this}; their numbers may differ in the last bits and are not \
-             mixed. The results there can still be read"
+            "holds a study of spunlaid {version}, and this is {this}; their numbers may differ in the last \
+            bits and are not mixed. The results there can still be read"
         ),
         format!("continue with spunlaid {version}, name another folder, or start again"),
     );

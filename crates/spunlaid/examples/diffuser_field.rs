@@ -1,5 +1,5 @@
-//! Writes the air of plane diffusers, by formulas: `cases/fields/diffuser.vtu` and, coarser, `cases/fields/diffuser.csv`, and
-//! `cases/fields/spunbond.vtu`, which ends at a belt.
+//! Writes the air of plane diffusers, by formulas: `cases/fields/diffuser.vtu` and, coarser,
+//! `cases/fields/diffuser.csv`, and `cases/fields/spunbond.vtu`, which ends at a belt.
 //!
 //!     cargo run --release -p spunlaid --example diffuser_field
 //!
@@ -14,8 +14,9 @@
 //! * `ε = 0.09^(3/4) ((0.8 + 2.5 s) u_τ²)^(3/2) / ℓ` with Nikuradse's mixing length
 //!   `ℓ = b (0.14 − 0.08 η² − 0.06 η⁴)`, 0.01 b at the least
 //!
-//! The air of the spunbond line is faster and opens wider: 60 m/s in the middle of a slit of 30 mm, 10 m/s half a metre below it.
-//! Its turbulence was made in the drawing unit: rms 10 % of the velocity in the middle, eddies `0.43 k^(3/2)/ε` of 16 mm.
+//! The air of the spunbond line is faster and opens wider: 60 m/s in the middle of a slit of 30 mm, 10 m/s
+//! half a metre below it. Its turbulence was made in the drawing unit: rms 10 % of the velocity in the
+//! middle, eddies `0.43 k^(3/2)/ε` of 16 mm.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 

@@ -1,4 +1,5 @@
-//! Flies fibres with settings drawn at random, and counts those that the guard finds lost and those that it should have found.
+//! Flies fibres with settings drawn at random, and counts those that the guard finds lost and those that it
+//! should have found.
 //!
 //!     cargo run --release --example endurance            # a thousand fibre-seconds, slack fed fibres
 //!     cargo run --release --example endurance -- wide    # fed and hanging fibres, settings from wider ranges
@@ -68,7 +69,8 @@ fn main() {
     }
     std::fs::remove_dir_all(&folder).unwrap();
     println!(
-        "{cases} cases, {refused} refused; {flown:.0} fibre-seconds flown; {lost} flights with a lost fibre, {fast} with a fast one"
+        "{cases} cases, {refused} refused; {flown:.0} fibre-seconds flown; {lost} flights with a lost fibre, \
+        {fast} with a fast one"
     );
 }
 
@@ -97,8 +99,8 @@ impl Random {
         let density = if wide { self.between(800.0, 2600.0) } else { 910.0 };
         let root = self.of(&["clamped", "pinned"]);
         format!(
-            "version = 1\n[fibre]\ndiameter = \"{diameter} um\"\ndensity = \"{density} kg/m3\"\nyoungs_modulus = \"{modulus} GPa\"\n\
-             element_length = \"{element} mm\"\nroot = \"{root}\"\n"
+            "version = 1\n[fibre]\ndiameter = \"{diameter} um\"\ndensity = \"{density} kg/m3\"\n\
+            youngs_modulus = \"{modulus} GPa\"\nelement_length = \"{element} mm\"\nroot = \"{root}\"\n"
         )
     }
 

@@ -154,7 +154,8 @@ fn measure() {
         let row = |fibres: usize| {
             let share = 1.0 / fibres as f64;
             println!(
-                "{{\"program\": \"spunlaid, {}\", \"fibres\": {fibres}, \"step_s\": {:e}, \"ns\": {:.4}, \"second_s\": {:.6e}, \"path_error\": {path:.3e}, \"amplitude_error\": {amplitude:.3e}}}",
+                "{{\"program\": \"spunlaid, {}\", \"fibres\": {fibres}, \"step_s\": {:e}, \"ns\": {:.4}, \
+                \"second_s\": {:.6e}, \"path_error\": {path:.3e}, \"amplitude_error\": {amplitude:.3e}}}",
                 case.run.scheme.name(),
                 case.run.time_step,
                 times[0].each() * share * 1e9,

@@ -5,9 +5,9 @@
 //!                   → PerLane entries (one for each lane)          ┴→ chain, wind, stations, surroundings
 //! ```
 //!
-//! A part of a flight is made from these two alone. There is no way to take one fibre's entry for all lanes, so what all
-//! lanes read has been compared, and a fibre has the same bits whatever flies beside it. Studies group their points by the
-//! same values.
+//! A part of a flight is made from these two alone. There is no way to take one fibre's entry for all lanes,
+//! so what all lanes read has been compared, and a fibre has the same bits whatever flies beside it. Studies
+//! group their points by the same values.
 
 use crate::error::Error;
 use crate::lanes::{Lanes, WIDTH};
@@ -121,8 +121,8 @@ impl From<f64> for Bits {
     }
 }
 
-/// Declares a struct of shared values: `field: type = "words for it in a message"`, or without words where the field is such
-/// a struct itself.
+/// Declares a struct of shared values: `field: type = "words for it in a message"`, or without words where
+/// the field is such a struct itself.
 macro_rules! shared {
     ($(#[$about:meta])* $visible:vis struct $name:ident {
         $($(#[$attribute:meta])* $field:ident: $type:ty $(= $words:literal)?,)*

@@ -1,11 +1,13 @@
-//! What matters? A base, changes of it, the base and what each change makes of it measured in pairs, and the differences with their errors.
+//! What matters? A base, changes of it, the base and what each change makes of it measured in pairs, and the
+//! differences with their errors.
 //!
 //! ```text
 //! keys of the table → changes (a key from one value to another) → both measured in the same chance → effects → the best ones once more
 //! ```
 //!
-//! How a pair is measured is up to whoever asks: webs fly in the same air or lie on the paths of the same fibres (`advice`), single fibres are laid with
-//! another number (`web::sensitivities`), a spinline is solved again (`input`), and a study fits lines to the replicates of its points.
+//! How a pair is measured is up to whoever asks: webs fly in the same air or lie on the paths of the same
+//! fibres (`advice`), single fibres are laid with another number (`web::sensitivities`), a spinline is solved
+//! again (`input`), and a study fits lines to the replicates of its points.
 
 use crate::error::Error;
 use crate::sort::sort_by_key;
@@ -50,7 +52,8 @@ impl ChangedKey {
 pub struct Change<E> {
     /// What is changed.
     pub setting: Setting,
-    /// Numbers of the layers in which it is changed, from 1: of one, or of equal ones together; none where it is changed in all.
+    /// Numbers of the layers in which it is changed, from 1: of one, or of equal ones together; none where it
+    /// is changed in all.
     pub layers: Vec<usize>,
     /// The keys that differ.
     pub keys: Vec<ChangedKey>,
@@ -67,11 +70,12 @@ pub struct Effect<M> {
     pub of: M,
     /// What becomes of the measure: the difference, or that of its logarithm.
     pub difference: Difference,
-    /// The part of the change of a CV that filaments make each for itself, to first order; the rest is that of the clouds which they make together. None where
-    /// it is not known.
+    /// The part of the change of a CV that filaments make each for itself, to first order; the rest is that
+    /// of the clouds which they make together. None where it is not known.
     pub own: Option<f64>,
-    /// Correlation of the unevenness of the blocks of the two webs, if they hang in the same air: one where they have the same clouds, zero where they
-    /// have other ones and the error is that of two webs by themselves.
+    /// Correlation of the unevenness of the blocks of the two webs, if they hang in the same air: one where
+    /// they have the same clouds, zero where they have other ones and the error is that of two webs by
+    /// themselves.
     pub in_common: Option<f64>,
 }
 
@@ -81,7 +85,8 @@ impl<M> Effect<M> {
         Self { of, difference, own: None, in_common: None }
     }
 
-    /// Whether the change is one of the clouds, and not of what each filament does for itself; None where that is not known.
+    /// Whether the change is one of the clouds, and not of what each filament does for itself; None where
+    /// that is not known.
     pub fn is_of_clouds(&self) -> Option<bool> {
         self.own.map(|own| (self.difference.value - own).abs() >= own.abs())
     }
@@ -152,8 +157,9 @@ impl<E: Clone, M: Copy + PartialEq> Trials<E, M> {
         Ok(trials)
     }
 
-    /// Tries the best changes once more, and takes what they do there. They were chosen for what they did in the first chance, which was
-    /// kinder to them than to the others.                                                            theory.md, "Two webs in the same air"
+    /// Tries the best changes once more, and takes what they do there. They were chosen for what they did in
+    /// the first chance, which was kinder to them than to the others.
+    ///                                                                  theory.md, "Two webs in the same air"
     ///
     /// # Errors
     /// Those of measuring.
@@ -177,7 +183,8 @@ impl<E: Clone, M: Copy + PartialEq> Trials<E, M> {
         Ok(())
     }
 
-    /// The changes that lower a measure by at least one per cent of it and beyond chance: the best of each setting, and of these the best first.
+    /// The changes that lower a measure by at least one per cent of it and beyond chance: the best of each
+    /// setting, and of these the best first.
     pub fn improvements(&self, measure: M) -> Vec<(&Tried<E, M>, &Effect<M>)> {
         let lowers = |tried| {
             let effect: &Effect<M> = Tried::on(tried, measure)?;
@@ -197,7 +204,8 @@ impl<E: Clone, M: Copy + PartialEq> Trials<E, M> {
         improvements
     }
 
-    /// The least and the greatest value of a measure among all that were tried and the base, over that of the base. What is within chance does not count.
+    /// The least and the greatest value of a measure among all that were tried and the base, over that of the
+    /// base. What is within chance does not count.
     pub fn range(&self, measure: M) -> [f64; 2] {
         let differences = self.tried.iter().filter_map(|tried| Some(tried.on(measure)?.difference));
         differences.filter(Difference::is_beyond_chance).fold([1.0, 1.0], |[least, most], difference| {

@@ -129,8 +129,8 @@ impl Error {
         }
     }
 
-    /// Node, counted from 1 at the root, and time [s] at which a fibre was lost; `None` for other errors. Such a replicate is
-    /// counted as lost, and no mean contains it.
+    /// Node, counted from 1 at the root, and time [s] at which a fibre was lost; `None` for other errors.
+    /// Such a replicate is counted as lost, and no mean contains it.
     pub const fn lost_fibre(&self) -> Option<(usize, f64)> {
         match self {
             Self::Diverged { node, time, .. } => Some((*node, *time)),

@@ -30,8 +30,8 @@ impl Root {
     }
 }
 
-/// Where the root of a fibre is, across the flow. The fibre's own coordinates begin there; the air is looked up at the sum of
-/// the two. The mean flow is the same for all `z`, the turbulence is not.
+/// Where the root of a fibre is, across the flow. The fibre's own coordinates begin there; the air is looked
+/// up at the sum of the two. The mean flow is the same for all `z`, the turbulence is not.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Place {
     /// Distance from the middle of the slot along the machine direction [m].
@@ -40,7 +40,8 @@ pub struct Place {
     pub z: f64,
 }
 
-/// The filaments of each row across, at equal places in machine direction. Those in a slot, at places of their own, count as one.
+/// The filaments of each row across, at equal places in machine direction. Those in a slot, at places of
+/// their own, count as one.
 pub(crate) fn rows(places: &[Place]) -> Vec<Vec<usize>> {
     let mut rows: BTreeMap<u64, Vec<usize>> = BTreeMap::new();
     for (filament, place) in places.iter().enumerate() {

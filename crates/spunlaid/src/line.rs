@@ -43,14 +43,14 @@ impl Line {
         steps_per_element: 1,
     };
 
-    /// Speed of the belt over the speed of the feed: the length of belt that passes while a length of fibre is fed, over that
-    /// length [-].
+    /// Speed of the belt over the speed of the feed: the length of belt that passes while a length of fibre
+    /// is fed, over that length [-].
     pub fn belt_ratio(&self) -> f64 {
         self.belt_speed / self.feed_speed
     }
 
-    /// The fewest time steps in which an element can be fed: one, or eight if the fibre slides. Flights with sliding fibres
-    /// were seen to fail with four.
+    /// The fewest time steps in which an element can be fed: one, or eight if the fibre slides. Flights with
+    /// sliding fibres were seen to fail with four.
     pub const fn fewest_steps(&self) -> u64 {
         match self.contact {
             Contact::Stick => 1,

@@ -1,5 +1,5 @@
-//! Sorts things by a number of each. The standard library compiles its sort again for every type of thing and every closure,
-//! which is some 2,000 lines each time; this one is compiled once.
+//! Sorts things by a number of each. The standard library compiles its sort again for every type of thing and
+//! every closure, which is some 2,000 lines each time; this one is compiled once.
 
 use std::cmp::Reverse;
 

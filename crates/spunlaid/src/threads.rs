@@ -43,7 +43,8 @@ fn share<T: Send, E: Send>(
     results.into_iter().map_while(unlock).collect()
 }
 
-/// Does pieces of work on some threads, each of which ends when a piece returns false. As it knows no type of a result, it is compiled once.
+/// Does pieces of work on some threads, each of which ends when a piece returns false. As it knows no type of
+/// a result, it is compiled once.
 fn distribute(threads: usize, pieces: usize, work: &(dyn Fn(usize) -> bool + Sync)) {
     let next = AtomicUsize::new(0);
     let some = || {
@@ -63,7 +64,8 @@ fn distribute(threads: usize, pieces: usize, work: &(dyn Fn(usize) -> bool + Syn
     });
 }
 
-/// What a mutex holds, also if a thread panicked while it held the lock. For what such a thread cannot leave half changed.
+/// What a mutex holds, also if a thread panicked while it held the lock. For what such a thread cannot leave
+/// half changed.
 pub fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -73,8 +75,8 @@ pub fn unlock<T>(mutex: Mutex<T>) -> T {
     mutex.into_inner().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Does `work` while another thread looks at it: at once, after each `interval`, and once more when the work has ended, also
-/// if it panics.
+/// Does `work` while another thread looks at it: at once, after each `interval`, and once more when the work
+/// has ended, also if it panics.
 pub fn look_while<T>(interval: Duration, mut look: impl FnMut() + Send, work: impl FnOnce() -> T) -> T {
     let finished = AtomicBool::new(false);
     std::thread::scope(|scope| {

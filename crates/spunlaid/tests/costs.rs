@@ -348,10 +348,11 @@ fn a_file_that_unpacks_to_more_than_is_read_is_refused_before_it_is_unpacked() {
     let points = 24 * BLOCK / 24;
     let extent = format!("0 {} 0 0 0 0", points - 1);
     let mut file = format!(
-        "<VTKFile type=\"ImageData\" byte_order=\"LittleEndian\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n\
-         <ImageData WholeExtent=\"{extent}\">\n<Piece Extent=\"{extent}\">\n<PointData>\n\
-         <DataArray type=\"Float64\" Name=\"U\" NumberOfComponents=\"3\" format=\"appended\" offset=\"0\"/>\n\
-         </PointData>\n</Piece>\n</ImageData>\n<AppendedData encoding=\"raw\">_"
+        "<VTKFile type=\"ImageData\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
+        compressor=\"vtkZLibDataCompressor\">\n<ImageData WholeExtent=\"{extent}\">\n\
+        <Piece Extent=\"{extent}\">\n<PointData>\n\
+        <DataArray type=\"Float64\" Name=\"U\" NumberOfComponents=\"3\" format=\"appended\" offset=\"0\"/>\n\
+        </PointData>\n</Piece>\n</ImageData>\n<AppendedData encoding=\"raw\">_"
     )
     .into_bytes();
     let header = [24, BLOCK as u64, 0].into_iter().chain([packed.len() as u64; 24]);

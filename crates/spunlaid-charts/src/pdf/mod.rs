@@ -1,4 +1,5 @@
-//! From a picture to PDF: one page of its size. It has its font in it, so that it looks alike everywhere and its texts can be searched.
+//! From a picture to PDF: one page of its size. It has its font in it, so that it looks alike everywhere and
+//! its texts can be searched.
 
 mod text;
 

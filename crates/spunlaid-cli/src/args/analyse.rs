@@ -83,7 +83,8 @@ pub(crate) struct Scan {
     /// Picture of the lamp without web, at the same exposure; it takes out any shading
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) lamp: Option<PathBuf>,
-    /// Grey level of the lamp without web, or in reflected light of a web too thick to see through [default: the largest that the file can hold]
+    /// Grey level of the lamp without web, or in reflected light of a web too thick to see through [default:
+    /// the largest that the file can hold]
     #[arg(long, value_name = "LEVEL", conflicts_with = "lamp", value_parser = above_zero)]
     pub(crate) white: Option<f64>,
     /// Take the lamp as even; without --lamp, its shading is else taken out as a polynomial

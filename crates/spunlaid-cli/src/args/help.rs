@@ -304,7 +304,8 @@ Examples:
     --basis-weight \"15 g/m²\" --holes 22500 --width \"4.5 m\" --beams 2 --air-speed \"70 m/s\"";
 
 /// Of commands that go on where they were left.
-pub(super) const FORCE_HELP: &str = "Start again; deletes what is in the output folder. A complete one of the same command is replaced without it";
+pub(super) const FORCE_HELP: &str = "Start again; deletes what is in the output folder. A complete one of \
+    the same command is replaced without it";
 
 #[cfg(test)]
 mod tests {

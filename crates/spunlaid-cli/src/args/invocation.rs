@@ -6,8 +6,8 @@ use clap::{ArgMatches, CommandFactory};
 use spunlaid_results::output::origin::Origin;
 use std::path::{Path, PathBuf};
 
-/// Options that do not decide what results are: they say where and how fast they are made, how they are shown, and what is made of
-/// them besides.
+/// Options that do not decide what results are: they say where and how fast they are made, how they are
+/// shown, and what is made of them besides.
 const NOT_OF_RESULTS: [&str; 11] = [
     "out",
     "threads",

@@ -43,7 +43,8 @@ pub(crate) struct Arguments {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// Fly the fibres of a case and write table, data, figures and report
-    #[command(after_help = RUN_HELP, mut_arg("json", |json| json.help("Print summary.json instead of the table; without --out or --until, write no files")))]
+    #[command(after_help = RUN_HELP, mut_arg("json", |json| json.help("Print summary.json instead of the \
+        table; without --out or --until, write no files")))]
     Run(Run),
     /// Fly a case with many values of its keys, and rank which keys matter
     #[command(after_help = SWEEP_HELP, mut_arg("force", |force| force.help(FORCE_HELP)), mut_arg("json", |json| json.help("Print results.json instead of the table")))]
@@ -55,22 +56,28 @@ pub(crate) enum Command {
     #[command(after_help = WEB_HELP)]
     Web(Web),
     /// Find the settings whose webs are as uneven as a scanned one, with their intervals
-    #[command(after_help = FIT_HELP, mut_arg("out", |out| out.help("Folder for the results [default: results/<name of the web>_fit]")), mut_arg("force", |force| force.help(FORCE_HELP)), mut_arg("json", |json| json.help("Print fit.json instead of the table")))]
+    #[command(after_help = FIT_HELP, mut_arg("out", |out| out.help("Folder for the results [default: \
+        results/<name of the web>_fit]")), mut_arg("force", |force| force.help(FORCE_HELP)), mut_arg("json", |json| json.help("Print fit.json instead of the table")))]
     Fit(Fit),
     /// Look at the turbulent air of a case: moving pictures of its gusts, slices for ParaView
-    #[command(after_help = AIR_HELP, mut_arg("out", |out| out.help("Folder for the results [default: results/<name of the case>_air]")))]
+    #[command(after_help = AIR_HELP, mut_arg("out", |out| out.help("Folder for the results [default: \
+        results/<name of the case>_air]")))]
     Air(Air),
     /// Open a page on which eight fibres fly, and change while you look: real or slowed time
     #[command(after_help = LIVE_HELP)]
     Live(Live),
     /// Reproduce every result figure of the paper and test its claims
-    #[command(after_help = REPRODUCE_HELP, mut_arg("out", |out| out.help("Folder for the results [default: results/paper]")))]
+    #[command(after_help = REPRODUCE_HELP, mut_arg("out", |out| out.help("Folder for the results [default: \
+        results/paper]")))]
     Reproduce(Reproduce),
     /// Make the air of a case from a velocity record, or say how even the web of a scan is
-    #[command(after_help = ANALYSE_HELP, mut_arg("json", |json| json.help("Print analysis.json, or summary.json of a web, instead of the table")))]
+    #[command(after_help = ANALYSE_HELP, mut_arg("json", |json| json.help("Print analysis.json, or \
+        summary.json of a web, instead of the table")))]
     Analyse(Box<Analyse>),
     /// Compare the results of runs or of webs: differences, whether they are beyond chance, curves in one picture
-    #[command(after_help = COMPARE_HELP, mut_arg("out", |out| out.help("Folder for the report [default: results/<name>_against_<name>]")), mut_arg("json", |json| json.help("Print comparison.json instead of the table; without --out, write no files")))]
+    #[command(after_help = COMPARE_HELP, mut_arg("out", |out| out.help("Folder for the report [default: \
+        results/<name>_against_<name>]")), mut_arg("json", |json| json.help("Print comparison.json instead \
+        of the table; without --out, write no files")))]
     Compare(Compare),
     /// Show a case, a web or a study with all defaults, and what it means, without flying it
     #[command(after_help = CHECK_HELP)]
@@ -183,18 +190,21 @@ pub(crate) struct Web {
     pub(crate) file: PathBuf,
     #[command(flatten)]
     pub(crate) output: Output,
-    /// Set a key of the web, as line.belt_speed="6 m/s", or of the case that it flies, as belt.distance="0.4 m"; can be repeated
+    /// Set a key of the web, as line.belt_speed="6 m/s", or of the case that it flies, as belt.distance="0.4
+    /// m"; can be repeated
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
     pub(crate) set: Vec<(String, String)>,
     #[command(flatten)]
     pub(crate) threads: Threads,
-    /// Try what makes it more even also where that takes long: where every filament of a web in one air is flown, or flights are long
+    /// Try what makes it more even also where that takes long: where every filament of a web in one air is
+    /// flown, or flights are long
     #[arg(long)]
     pub(crate) advice: bool,
     /// Do not try what makes it more even, which takes two flights for each setting
     #[arg(long, conflicts_with = "advice")]
     pub(crate) no_advice: bool,
-    /// Judge settings and guesses by the CV over patches of this side, as 10mm, one of web.patches [default: the size that the eye judges first]
+    /// Judge settings and guesses by the CV over patches of this side, as 10mm, one of web.patches [default:
+    /// the size that the eye judges first]
     #[arg(long = "for", value_name = "PATCH", value_parser = quantity(Dimension::Length))]
     pub(crate) judged_by: Option<f64>,
     /// Write a specification sheet of one page (PDF): every number with its error

@@ -21,7 +21,8 @@ pub(crate) struct New {
     /// The file of a web, with the case of its filament and a table of the air beside it
     #[arg(long)]
     pub(crate) web: bool,
-    /// Write FILE_study.toml beside FILE, a study of this case, web or spinline; a case that does not exist yet is written too
+    /// Write FILE_study.toml beside FILE, a study of this case, web or spinline; a case that does not exist
+    /// yet is written too
     #[arg(long, conflicts_with = "web")]
     pub(crate) study: bool,
     #[command(flatten)]
@@ -125,8 +126,9 @@ pub(crate) fn polymer(text: &str) -> Result<Given<Polymer>, String> {
     // `PA 6` is two words.
     let among = || (1..=2).rev().flat_map(|count| words.windows(count)).find_map(named);
     let value = among().ok_or_else(|| format!("write one of {all} before the melt flow rate"))?;
-    let remark = "the melt flow rate is not used, because these filaments begin at the slot with their titre; it is \
-                  spinline.melt_flow_rate of a line that begins at the die: a table [spinline] in the file of the filament";
+    let remark = "the melt flow rate is not used, because these filaments begin at the slot with their \
+        titre; it is spinline.melt_flow_rate of a line that begins at the die: a table [spinline] in the \
+        file of the filament";
     Ok(Given { value, remark: Some(remark.to_owned()) })
 }
 

@@ -14,8 +14,9 @@ use spunlaid_results::output::air::{AirViews, Slices};
 use std::sync::atomic::AtomicU64;
 
 /// What a reader is told of a case whose fibres have turbulence of their own.
-const UNIFORM: &str = "the case has air.lateral = \"uniform\": each of its fibres flies in turbulence of its own, which is the same \
-                       across. What is shown is its air with air.lateral = \"von-karman\", as neighbours share it";
+const UNIFORM: &str = "the case has air.lateral = \"uniform\": each of its fibres flies in turbulence of its \
+    own, which is the same across. What is shown is its air with air.lateral = \"von-karman\", as neighbours \
+    share it";
 
 pub(crate) fn air(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
     let mut read = air.source.read(&[]);

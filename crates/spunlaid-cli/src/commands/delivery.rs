@@ -36,7 +36,8 @@ pub(super) struct Asides<'a> {
 }
 
 impl<'a> Delivery<'a> {
-    /// Opens the folder for results of a kind, if there shall be one. What the same command wrote before is replaced, and a note says so.
+    /// Opens the folder for results of a kind, if there shall be one. What the same command wrote before is
+    /// replaced, and a note says so.
     ///
     /// * `origin` – of results in a folder
     pub(super) fn open<C: Contents>(

@@ -61,7 +61,8 @@ fn plural(count: u64, noun: &str) -> String {
     if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
 }
 
-/// A table whose columns stand below their heads. Columns for which the terminal is too narrow follow below, beside the first column once more.
+/// A table whose columns stand below their heads. Columns for which the terminal is too narrow follow below,
+/// beside the first column once more.
 fn aligned(rows: &[Vec<String>]) -> String {
     spunlaid_results::report::aligned(rows, &[], say::room())
 }

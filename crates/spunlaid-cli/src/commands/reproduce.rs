@@ -53,8 +53,8 @@ pub(crate) fn reproduce(arguments: &Reproduce, invocation: &Invocation) -> Resul
     })?;
 
     let how = format!(
-        "{} at each point, scheme {}, time step {} µs, the same random phases at all points of a figure. Figures 8a and 8b \
-         always use the paper’s own scheme.",
+        "{} at each point, scheme {}, time step {} µs, the same random phases at all points of a figure. \
+        Figures 8a and 8b always use the paper’s own scheme.",
         plural(base.run.replicates, "replicate"),
         scheme.name(),
         base.run.time_step * 1e6

@@ -3,7 +3,8 @@
 /// Least room for what goes on under the last column.
 const LEAST: usize = 24;
 
-/// The text in lines that are no wider, as far as its words allow it. A command stays in one line, so that it can be pasted.
+/// The text in lines that are no wider, as far as its words allow it. A command stays in one line, so that it
+/// can be pasted.
 pub(super) fn wrapped(text: &str, width: usize) -> String {
     text.split_inclusive('\n')
         .map(
@@ -81,7 +82,8 @@ mod tests {
     #[test]
     fn long_lines_go_on_under_their_last_column() {
         let table = "  Mean      9.97  m/s  mean of u\n  Length    28.8  mm   integral time times the mean velocity\n";
-        let wanted = "  Mean      9.97  m/s  mean of u\n  Length    28.8  mm   integral time times the\n                       mean velocity\n";
+        let wanted = "  Mean      9.97  m/s  mean of u\n  Length    28.8  mm   integral time times \
+            the\n                       mean velocity\n";
         assert_eq!(wrapped(table, 47), wanted);
         // Where there is no room, a little further in than the line begins.
         let narrow = wrapped(table, 40);

@@ -113,8 +113,8 @@ fn whatever_comes_through_the_socket_the_program_goes_on() {
     let case = live.page().message("state")["text"].as_str().unwrap().to_owned();
     let mut sent = 0;
     while sent < messages {
-        // Frames and answers are read by a thread, so that the program can send them. The answer to the last message comes
-        // when the program has read all others.
+        // Frames and answers are read by a thread, so that the program can send them. The answer to the last
+        // message comes when the program has read all others.
         let Page(socket) = live.page();
         let stream = socket.get_ref().try_clone().unwrap();
         let last = format!("last-{sent}");

@@ -9,7 +9,8 @@ mod desk;
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// One test at a time: a program that waits for the disk of another one holds more, and a look that comes late misses the moment.
+/// One test at a time: a program that waits for the disk of another one holds more, and a look that comes
+/// late misses the moment.
 fn alone() -> MutexGuard<'static, ()> {
     static ALONE: Mutex<()> = Mutex::new(());
     ALONE.lock().unwrap_or_else(PoisonError::into_inner)

@@ -64,8 +64,8 @@ fn check_tells_what_was_read_of_a_field_and_the_axis_of_its_air() {
     let corner = |i: usize| format!("{},{},{},0,-8,{},1,100\n", i % 2, i / 2 % 2, i / 4, i % 2);
     std::fs::write(desk.path("duct.csv"), rows.to_owned() + &(0..8).map(corner).collect::<String>()).unwrap();
     let case = "version = 1\n[fibre]\nlength = \"0.5 m\"\ndiameter = \"20 um\"\ndensity = \"950 kg/m3\"\n\
-                youngs_modulus = \"2 GPa\"\nelement_length = \"10 mm\"\n[air]\nfield = \"duct.csv\"\nfield_axis = \"-y\"\n\
-                [run]\nduration = \"10 ms\"\n";
+        youngs_modulus = \"2 GPa\"\nelement_length = \"10 mm\"\n[air]\nfield = \"duct.csv\"\n\
+        field_axis = \"-y\"\n[run]\nduration = \"10 ms\"\n";
     std::fs::write(desk.path("duct.toml"), case).unwrap();
     let said = success(&mut desk.spunlaid("check duct.toml"));
     for part in [
@@ -85,9 +85,10 @@ fn check_tells_what_was_read_of_a_field_and_the_axis_of_its_air() {
     let line = "#   a plane flow: the air is the same everywhere along z of the field\n";
     assert!(flat.contains(line) && !said.contains("a plane flow"), "{flat}");
     // A mesh of faces, too.
-    let mesh = "# vtk DataFile Version 3.0\na\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0 1 0 0 1 1 0 0 1 0\n\
-                CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n9\nPOINT_DATA 4\nVECTORS U double\n0 -8 0 0 -8 0 0 -8 0 0 -8 0\n\
-                SCALARS k double 1\nLOOKUP_TABLE default\n1 1 1 1\nSCALARS epsilon double 1\nLOOKUP_TABLE default\n9 9 9 9\n";
+    let mesh = "# vtk DataFile Version 3.0\na\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n\
+        0 0 0 1 0 0 1 1 0 0 1 0\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n9\nPOINT_DATA 4\nVECTORS U double\n\
+        0 -8 0 0 -8 0 0 -8 0 0 -8 0\nSCALARS k double 1\nLOOKUP_TABLE default\n1 1 1 1\n\
+        SCALARS epsilon double 1\nLOOKUP_TABLE default\n9 9 9 9\n";
     std::fs::write(desk.path("flat.vtk"), mesh).unwrap();
     std::fs::write(desk.path("mesh.toml"), case.replace("duct.csv", "flat.vtk")).unwrap();
     let flat = success(&mut desk.spunlaid("check mesh.toml"));
@@ -103,7 +104,8 @@ fn check_remarks_on_rounded_elements_and_extrapolated_drag_once() {
     let output = command.arg("--set").arg("run.time_step=1 us").output().unwrap();
     assert!(output.status.success());
     let said = String::from_utf8(output.stderr).unwrap();
-    let note = "note: --set fibre.element_length = \"33 mm\" does not divide fibre.length into whole elements: 6 of 33.33 mm are used";
+    let note = "note: --set fibre.element_length = \"33 mm\" does not divide fibre.length into whole \
+        elements: 6 of 33.33 mm are used";
     assert_eq!(said.matches(note).count(), 1, "{said}");
     assert_eq!(
         said.matches("warning: --set fibre.diameter = \"5 um\" is outside 13 µm to 390 µm").count(),
@@ -116,16 +118,17 @@ fn check_remarks_on_rounded_elements_and_extrapolated_drag_once() {
 #[test]
 fn analytic_check_tells_the_numbers_of_a_web() {
     let desk = Desk::new();
-    let web = "[fibre]\nlinear_density = \"2 dtex\"\ndensity = \"910 kg/m³\"\n[laydown]\nsigma_md = \"18 mm\"\nsigma_cd = \"18 mm\"\n\
-               noise = \"12 m^-0.5\"\n[line]\nthroughput = \"0.5 g/min\"\nbasis_weight = \"20 g/m²\"\nfilaments_per_metre = 5000\n\
-               [web]\nwidth = \"0.5 m\"\nlength = \"0.5 m\"\n";
+    let web = "[fibre]\nlinear_density = \"2 dtex\"\ndensity = \"910 kg/m³\"\n[laydown]\n\
+        sigma_md = \"18 mm\"\nsigma_cd = \"18 mm\"\nnoise = \"12 m^-0.5\"\n[line]\n\
+        throughput = \"0.5 g/min\"\nbasis_weight = \"20 g/m²\"\nfilaments_per_metre = 5000\n[web]\n\
+        width = \"0.5 m\"\nlength = \"0.5 m\"\n";
     std::fs::write(desk.path("web.toml"), web).unwrap();
     let said = success(&mut desk.spunlaid("check web.toml"));
     for part in [
         // 5000 × 0.5 g/min; 2500 g/min over 20 g/m²; 0.5 g/min over 2 dtex.
         "#   20 g/m² on a belt of 2.083 m/s: 150 kg/h from each metre of width\n",
-        "#   5000 holes per metre of width, each with 0.5 g/min: filaments of 2 dtex, 16.73 µm, fed at 41.67 m/s; 20 m of filament on \
-         each metre of belt\n",
+        "#   5000 holes per metre of width, each with 0.5 g/min: filaments of 2 dtex, 16.73 µm, fed at 41.67 \
+        m/s; 20 m of filament on each metre of belt\n",
         "#   500 mm wide and 500 mm long, 1000 × 1000 cells of 500 µm; 2500 filaments cross it\n",
         "#   nothing is flown: the spread and the noise are given\n",
         "#   the filaments are independent of each other, which gives a lower bound of the unevenness\n",
@@ -155,7 +158,8 @@ fn analytic_check_tells_the_numbers_of_a_web() {
     }
 
     // Each point of a study has numbers of its own.
-    let study = "web = 'web.toml'\ndesign = 'grid'\nreplicates = 2\n[vary]\n'line.basis_weight' = ['10 g/m²', '20 g/m²']\n";
+    let study = "web = 'web.toml'\ndesign = 'grid'\nreplicates = 2\n[vary]\n\
+        'line.basis_weight' = ['10 g/m²', '20 g/m²']\n";
     std::fs::write(desk.path("study.toml"), study).unwrap();
     let said = success(&mut desk.spunlaid("check study.toml"));
     assert!(said.contains("# 2 points of web.toml, each with 2 webs\n"), "{said}");
@@ -177,13 +181,15 @@ fn analytic_check_tells_the_numbers_of_a_web() {
 #[test]
 fn check_tells_in_which_air_the_filaments_of_a_web_hang() {
     let desk = Desk::with_case(FED);
-    let web = "[laydown]\ncase = \"brief.toml\"\n[line]\nfilaments_per_metre = 1000\n[web]\nwidth = \"0.5 m\"\nlength = \"0.5 m\"\n";
+    let web = "[laydown]\ncase = \"brief.toml\"\n[line]\nfilaments_per_metre = 1000\n[web]\n\
+        width = \"0.5 m\"\nlength = \"0.5 m\"\n";
     std::fs::write(desk.path("web.toml"), web).unwrap();
     let said = success(&mut desk.spunlaid("check web.toml"));
     for part in [
         "#   brief.toml: its eddies are given a place in space (air.lateral = \"von-karman\")\n",
         // Eight in the length scale of the case, 16 mm.
-        "#   250 filaments fly in one field of eddies, on a sheet of 500 mm × 500 mm; the web of 500 follows from them (web.flown)\n",
+        "#   250 filaments fly in one field of eddies, on a sheet of 500 mm × 500 mm; the web of 500 follows \
+        from them (web.flown)\n",
         "#   the field takes ",
         "--set line.depth=\"20 mm\"\n",
         "fed at 50 m/s; 16.7 m of filament on each metre of belt",
@@ -201,7 +207,10 @@ fn check_tells_in_which_air_the_filaments_of_a_web_hang() {
     let narrow = ["web.width=0.1 m", "line.filaments_per_metre=5000"];
     let said = success(&mut desk.with("check web.toml", &narrow));
     assert!(
-        said.contains("#   80 filaments fly in one field of eddies, on a sheet of 160 mm × 500 mm; the web of 500 follows"),
+        said.contains(
+            "#   80 filaments fly in one field of eddies, on a sheet of 160 mm × 500 mm; the web \
+            of 500 follows"
+        ),
         "{said}"
     );
     let together = desk.with("check web.toml", &["web.method=shared-air", "web.flown=all"]).output().unwrap();

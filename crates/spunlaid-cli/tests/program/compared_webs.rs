@@ -1,4 +1,5 @@
-//! `spunlaid compare` of webs: their pictures, curves and spectra beside each other, and what stands where a verdict is missing.
+//! `spunlaid compare` of webs: their pictures, curves and spectra beside each other, and what stands where a
+//! verdict is missing.
 
 use crate::desk::{Desk, names, success};
 use crate::scan::{desk, map, number, scan};

@@ -1,4 +1,5 @@
-//! `spunlaid fit`: finds the values with which a web was laid, goes on after it was killed, and refuses what it cannot do.
+//! `spunlaid fit`: finds the values with which a web was laid, goes on after it was killed, and refuses what
+//! it cannot do.
 
 use crate::desk::{Desk, names, refusal, success};
 use serde_json::Value;
@@ -47,8 +48,8 @@ fn the_number_of_filaments_is_found_and_the_web_that_was_found_can_be_laid() {
     let key = &found["keys"][0];
     let [low, high] = [0, 1].map(|end| key["interval"][end].as_f64().unwrap());
     assert!(low < 900.0 && 900.0 < high, "{key}");
-    // CV² falls as one over the number, so a single CV that scatters by s tells its logarithm to 2 s, and Student's t of ten webs is 2.26.
-    // All together tell it better, but a blurred scan worse.
+    // CV² falls as one over the number, so a single CV that scatters by s tells its logarithm to 2 s, and
+    // Student's t of ten webs is 2.26. All together tell it better, but a blurred scan worse.
     let scatters =
         found["numbers"].as_array().unwrap().iter().map(|number| number["scatter"].as_f64().unwrap());
     let of_best = 2.26 * 2.0 * scatters.fold(f64::INFINITY, f64::min);

@@ -22,7 +22,8 @@ fn the_page_of_keys_is_up_to_date() {
     let of_studies = success(&mut Desk::new().spunlaid("keys --study --markdown"));
     assert!(
         of_studies == std::fs::read_to_string(path).unwrap_or_default(),
-        "docs/study_keys.md is out of date; renew it: cargo run --release -- keys --study --markdown > docs/study_keys.md"
+        "docs/study_keys.md is out of date; renew it: cargo run --release -- keys --study --markdown > \
+        docs/study_keys.md"
     );
     assert!(
         of_webs

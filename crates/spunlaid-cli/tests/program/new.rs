@@ -203,8 +203,8 @@ fn new_writes_beams_from_a_diameter_and_all_holes() {
     }
 }
 
-/// A number alone has the unit that its option names, and a polymer may come with the melt flow rate of its grade: the files are
-/// the same, and each is said once.
+/// A number alone has the unit that its option names, and a polymer may come with the melt flow rate of its
+/// grade: the files are the same, and each is said once.
 #[test]
 fn identical_new_reads_the_numbers_of_a_line_however_they_are_written() {
     let written = |polymer: &str, throughput: &str, dtex: &str, weight: &str, speed: &str| {
@@ -243,8 +243,9 @@ fn rejects_a_line_that_is_not_whole_or_cannot_run() {
     let desk = Desk::new();
     assert_eq!(
         refusal(&mut desk.spunlaid("new --web line.toml --polymer pp --dtex 2 --holes-per-metre 5000"), 1),
-        "error: the numbers of the line are incomplete: --throughput, --basis-weight and --air-speed are missing; give them, or \
-         call the command in a terminal, where it asks; `spunlaid new --help` has examples\n"
+        "error: the numbers of the line are incomplete: --throughput, --basis-weight and --air-speed are \
+        missing; give them, or call the command in a terminal, where it asks; `spunlaid new --help` has \
+        examples\n"
     );
     let other = |more: &[&str]| refusal(desk.spunlaid("new --web line.toml").args(&LINE[..6]).args(more), 1);
     let said = other(&["--basis-weight", "0.01 g/m²", "--holes-per-metre", "1000", "--air-speed", "60 m/s"]);

@@ -228,7 +228,8 @@ fn rejects_folders_with_files_of_others_without_force() {
         fs::create_dir_all(to.parent().unwrap()).unwrap();
         fs::copy(cases.join(file), to).unwrap();
     }
-    let study = "version = 1\ncase = \"brief.toml\"\ndesign = \"grid\"\nreplicates = 1\n[vary]\n\"air.velocity\" = [\"9 m/s\", \"10 m/s\"]\n";
+    let study = "version = 1\ncase = \"brief.toml\"\ndesign = \"grid\"\nreplicates = 1\n\
+        [vary]\n\"air.velocity\" = [\"9 m/s\", \"10 m/s\"]\n";
     fs::write(desk.path("study.toml"), study).unwrap();
     let web = "web_known.toml --set web.width=250mm --set web.length=250mm";
     success(&mut desk.spunlaid(&format!("web {web} --out laid --quiet --no-advice")));
@@ -248,8 +249,8 @@ fn rejects_folders_with_files_of_others_without_force() {
         fs::create_dir_all(desk.path("theirs/notes")).unwrap();
         fs::write(desk.path("theirs/thesis.tex"), "mine").unwrap();
         let said = refusal(&mut desk.spunlaid(&command), 1);
-        let wanted = "error: theirs: holds other files already (notes and 1 more), and results are not mixed with them; name another folder, \
-                      or write beside them (--out, --force)\n";
+        let wanted = "error: theirs: holds other files already (notes and 1 more), and results are not mixed \
+            with them; name another folder, or write beside them (--out, --force)\n";
         assert!(said.ends_with(wanted), "{command}: {said}");
         assert_eq!(desk.entries("theirs"), names(&["thesis.tex", "notes"]), "{command}");
         if !command.starts_with("fit ") {

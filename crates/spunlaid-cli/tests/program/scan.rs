@@ -241,7 +241,8 @@ fn rejects_scans_with_the_option_that_helps() {
     for (arguments, message) in [
         (
             "analyse scan.png",
-            "error: scan.png: does not say how large its pixels are; give the side of a pixel, as \"0.1 mm\" (--pixel)\n",
+            "error: scan.png: does not say how large its pixels are; give the side of a pixel, as \"0.1 mm\" \
+            (--pixel)\n",
         ),
         (
             "analyse photo.png --pixel 1mm",
@@ -261,7 +262,8 @@ fn rejects_scans_with_the_option_that_helps() {
         ("analyse scan.png --pixel 1mm --white x", "write a number above zero, like 240"),
         (
             "analyse scan.png --pixel 1mm --patches 2mm,50mm",
-            "has no patches of 50 mm; they can have sides from a pixel, 1 mm, to the shorter side of the picture, 40 mm (--patches)\n",
+            "has no patches of 50 mm; they can have sides from a pixel, 1 mm, to the shorter side of the \
+            picture, 40 mm (--patches)\n",
         ),
         (
             "analyse scan.png --pixel 1mm --noise 60000",
@@ -303,7 +305,8 @@ fn rejects_webs_that_cannot_be_compared() {
         ("compare run laid", "laid: does not hold the results of a run: summary.json is not that of a run"),
         (
             "compare laid other",
-            "error: other: cannot be compared: it has no patches of the same size as laid, which has 2, 4, 10 mm; this one has 3 mm; give both the same sizes",
+            "error: other: cannot be compared: it has no patches of the same size as laid, which has 2, 4, \
+            10 mm; this one has 3 mm; give both the same sizes",
         ),
     ] {
         let said = refusal(&mut desk.spunlaid(arguments), 1);

@@ -275,9 +275,9 @@ fn a_fed_fibre_that_is_killed_or_cannot_be_written_leaves_nothing() {
     assert_eq!(desk.entries(""), names(&["brief.toml", "r"]));
 }
 
-const WEB: &str = "[fibre]\ndiameter = '18 µm'\ndensity = '910 kg/m³'\n[laydown]\nsigma_md = '18 mm'\nsigma_cd = '18 mm'\nnoise = '12 m^-0.5'\n\
-                   [line]\nfeed_speed = '50 m/s'\nbelt_speed = '5 m/s'\nfilaments_per_metre = 100\n\
-                   [web]\nwidth = '0.5 m'\nlength = '0.5 m'\ncell = '1 mm'\n";
+const WEB: &str = "[fibre]\ndiameter = '18 µm'\ndensity = '910 kg/m³'\n[laydown]\nsigma_md = '18 mm'\n\
+    sigma_cd = '18 mm'\nnoise = '12 m^-0.5'\n[line]\nfeed_speed = '50 m/s'\nbelt_speed = '5 m/s'\n\
+    filaments_per_metre = 100\n[web]\nwidth = '0.5 m'\nlength = '0.5 m'\ncell = '1 mm'\n";
 
 #[test]
 fn a_web_that_is_killed_or_cannot_be_written_leaves_nothing() {
@@ -319,7 +319,8 @@ fn a_web_that_is_killed_or_cannot_be_written_leaves_nothing() {
 #[test]
 fn a_web_in_one_air_that_is_interrupted_leaves_nothing() {
     let desk = Desk::with_case(FED);
-    let web = "[laydown]\ncase = 'brief.toml'\n[line]\nfilaments_per_metre = 2000\n[web]\nwidth = '0.6 m'\nlength = '0.5 m'\n";
+    let web = "[laydown]\ncase = 'brief.toml'\n[line]\nfilaments_per_metre = 2000\n[web]\nwidth = '0.6 m'\n\
+        length = '0.5 m'\n";
     fs::write(desk.path("web.toml"), web).unwrap();
     let mut command = desk.with("web web.toml --out w", &["run.time_step=0.1 us"]);
     let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();

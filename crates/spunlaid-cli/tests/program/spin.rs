@@ -254,8 +254,8 @@ fn a_run_that_begins_at_the_die_shows_its_spinline() {
 #[test]
 fn a_web_that_begins_at_the_die_shows_the_whole_way() {
     let desk = Desk::with_case(&fed());
-    let web = "[laydown]\ncase = \"brief.toml\"\n[line]\nfilaments_per_metre = 500\n[web]\nwidth = \"0.5 m\"\nlength = \"0.5 m\"\n\
-               method = \"dynamics\"\n";
+    let web = "[laydown]\ncase = \"brief.toml\"\n[line]\nfilaments_per_metre = 500\n[web]\n\
+        width = \"0.5 m\"\nlength = \"0.5 m\"\nmethod = \"dynamics\"\n";
     fs::write(desk.path("web.toml"), web).unwrap();
     success(&mut desk.spunlaid("web web.toml --out w --quiet"));
     let layer = &desk.summary("w")["layers"][0];
@@ -273,8 +273,9 @@ fn a_web_that_begins_at_the_die_shows_the_whole_way() {
 #[test]
 fn a_study_of_a_spinline_continues_and_runs_again_to_the_same_bits() {
     let desk = desk();
-    let study = "spinline = \"line.toml\"\ndesign = \"grid\"\n[vary]\n\"spinline.throughput\" = [\"0.3 g/min\", \"0.5 g/min\"]\n\
-                 \"spinline.die_temperature\" = [\"220 °C\", \"240 °C\"]\n";
+    let study = "spinline = \"line.toml\"\ndesign = \"grid\"\n\
+        [vary]\n\"spinline.throughput\" = [\"0.3 g/min\", \"0.5 g/min\"]\n\"spinline.die_temperature\" = \
+        [\"220 °C\", \"240 °C\"]\n";
     fs::write(desk.path("study.toml"), study).unwrap();
     let said = success(&mut desk.spunlaid("sweep study.toml --out a"));
     for part in ["Diameter, cold (µm)", "0.3 g/min", "220 °C", "the study has 4 spinlines in total"] {

@@ -62,8 +62,8 @@ fn writes_what_it_says() {
         ]
     );
     assert_eq!(rows[4][..6], ["4", "1", "10", "5e-5", "3", "0"]);
-    // Empty where a measure does not apply: there is no flow to leave, an explicit scheme takes nothing out, and nothing is
-    // laid.
+    // Empty where a measure does not apply: there is no flow to leave, an explicit scheme takes nothing out,
+    // and nothing is laid.
     let of_laid = MEASURES.iter().filter(|measure| [LAYDOWN, SURROGATE].contains(&measure.group));
     let others =
         ["share_outside", "tension_dissipation"].into_iter().chain(of_laid.map(|measure| measure.column));
@@ -476,11 +476,12 @@ fn json_holds_what_the_table_holds() {
 
 #[test]
 fn points_of_a_belt_at_several_speeds_are_those_of_runs_alone() {
-    let case = "[fibre]\ndiameter = '18 µm'\ndensity = '910 kg/m³'\nyoungs_modulus = '2 GPa'\nelement_length = '4 mm'\n\
-                [feed]\nspeed = '50 m/s'\n[belt]\ndistance = '0.1 m'\nspeed = '3 m/s'\n\
-                [air]\nvelocity = '45 m/s'\nturbulence_intensity = 0.1\nlength_scale = '16 mm'\ncutoff_frequency = '700 Hz'\n\
-                [drag]\nacross = 'marheineke-wegener'\n[run]\nduration = '40 ms'\n";
-    let study = "case = 'case.toml'\ndesign = 'grid'\nreplicates = 2\n[vary]\n'belt.speed' = ['1 m/s', '3 m/s', '8 m/s']\n";
+    let case = "[fibre]\ndiameter = '18 µm'\ndensity = '910 kg/m³'\nyoungs_modulus = '2 GPa'\n\
+        element_length = '4 mm'\n[feed]\nspeed = '50 m/s'\n[belt]\ndistance = '0.1 m'\nspeed = '3 m/s'\n\
+        [air]\nvelocity = '45 m/s'\nturbulence_intensity = 0.1\nlength_scale = '16 mm'\n\
+        cutoff_frequency = '700 Hz'\n[drag]\nacross = 'marheineke-wegener'\n[run]\nduration = '40 ms'\n";
+    let study = "case = 'case.toml'\ndesign = 'grid'\nreplicates = 2\n[vary]\n\
+        'belt.speed' = ['1 m/s', '3 m/s', '8 m/s']\n";
     let place = Place::new(case, study);
     let output = said(&place.swept("out", &[]));
     assert!(output.contains("Spread in machine direction (mm)") && !output.contains("Amplitude"), "{output}");

@@ -4,7 +4,8 @@ use crate::desk;
 use crate::desk::{Desk, FED, refusal, success};
 use std::fs;
 
-pub(super) const WEB: &str = "[laydown]\ncase = \"brief.toml\"\n[line]\nfilaments_per_metre = 500\n[web]\nwidth = \"1 m\"\nlength = \"1 m\"\n";
+pub(super) const WEB: &str = "[laydown]\ncase = \"brief.toml\"\n[line]\nfilaments_per_metre = 500\n[web]\n\
+    width = \"1 m\"\nlength = \"1 m\"\n";
 
 pub(super) fn desk() -> Desk {
     // So long elements show too little of the autocorrelation to see a surrogate in it.
@@ -23,12 +24,13 @@ fn rejects_bad_webs_with_the_command_that_helps() {
         ),
         (
             "web brief.toml",
-            "error: brief.toml:5: [fibre] belongs to a case, and the file says nothing of a web; add [line] and [web], or read it \
-             as a case (`spunlaid run`)\n",
+            "error: brief.toml:5: [fibre] belongs to a case, and the file says nothing of a web; add [line] \
+            and [web], or read it as a case (`spunlaid run`)\n",
         ),
         (
             "web web.toml --set line.belt_speed=60m/s",
-            "error: --set line.belt_speed = \"60m/s\" is more than line.feed_speed = 50 m/s, which would tear the fibre",
+            "error: --set line.belt_speed = \"60m/s\" is more than line.feed_speed = 50 m/s, which would \
+            tear the fibre",
         ),
         ("web web.toml --set web.width", "write a key and a value"),
         ("web web.toml --threads 0", "--threads"),
@@ -44,7 +46,8 @@ fn rejects_bad_webs_with_the_command_that_helps() {
 fn rejects_a_flight_in_which_no_surrogate_is_found() {
     let desk = desk();
     let said = refusal(&mut desk.spunlaid("web web.toml --set web.method=surrogate --out w"), 1);
-    let error = "\nerror: brief.toml: no surrogate was identified in what its fibres lay: the autocorrelation of the position";
+    let error = "\nerror: brief.toml: no surrogate was identified in what its fibres lay: the \
+        autocorrelation of the position";
     assert!(said.contains(error), "{said}");
     assert_eq!(desk.entries("."), desk::names(&["brief.toml", "web.toml"]));
 }
@@ -137,7 +140,8 @@ fn a_web_is_written_whole_and_laid_again_to_the_same_bits() {
         array[start..].chunks_exact(4).map(|bytes| f64::from(f32::from_le_bytes(bytes.try_into().unwrap())));
     assert!((numbers.sum::<f64>() / 6e4 / weight - 1.0).abs() < 1e-4);
 
-    // Results of another command are not replaced unless this is asked for, and asking for the summary alone writes nothing.
+    // Results of another command are not replaced unless this is asked for, and asking for the summary alone
+    // writes nothing.
     let said = refusal(&mut desk.spunlaid("web beams.toml --out w --set web.seed=9"), 1);
     assert!(said.contains("--force"), "{said}");
     let json = desk::success(&mut desk.spunlaid("web beams.toml --json --quiet"));
@@ -191,7 +195,8 @@ fn a_web_of_a_flight_tells_its_error_by_causes_and_the_cv_of_the_flown_curves() 
     let curves = String::from_utf8(desk.read("s/figures/web_cv.csv")).unwrap();
     assert!(curves.contains("from the flown curves"), "{curves}");
 
-    // Compared, each web has its whole error, and the flown curves stand beside it; a folder of an older version has neither.
+    // Compared, each web has its whole error, and the flown curves stand beside it; a folder of an older
+    // version has neither.
     let mut old = s.clone();
     for patch in old["web"]["patches"].as_array_mut().unwrap() {
         patch
@@ -234,10 +239,11 @@ fn the_page_tells_how_wide_the_web_is_and_where_it_ends() {
         ("periodic", "1.2 mm", "edge of the sheet", [0.0, 1200.0]),
     ] {
         let web = format!(
-            "[fibre]\ndiameter = \"18 µm\"\ndensity = \"910 kg/m³\"\n[laydown]\nsigma_md = \"9 mm\"\nsigma_cd = \"8 mm\"\n\
-             noise = \"15 m^-0.5\"\n[line]\nfeed_speed = \"50 m/s\"\nbelt_speed = \"5 m/s\"\n\
-             rows = [{{ offset = \"100 mm\", pitch = \"{pitch}\", filaments = 1000 }}]\n[web]\nwidth = \"1.2 m\"\n\
-             length = \"300 mm\"\ncell = \"2 mm\"\npatches = [\"10 mm\"]\nedges = \"{edges}\"\n"
+            "[fibre]\ndiameter = \"18 µm\"\ndensity = \"910 kg/m³\"\n[laydown]\nsigma_md = \"9 mm\"\n\
+            sigma_cd = \"8 mm\"\nnoise = \"15 m^-0.5\"\n[line]\nfeed_speed = \"50 m/s\"\n\
+            belt_speed = \"5 m/s\"\nrows = [{{ offset = \"100 mm\", pitch = \"{pitch}\", filaments = 1000 \
+            }}]\n[web]\nwidth = \"1.2 m\"\nlength = \"300 mm\"\ncell = \"2 mm\"\npatches = [\"10 mm\"]\n\
+            edges = \"{edges}\"\n"
         );
         fs::write(desk.path("wide.toml"), web).unwrap();
         success(&mut desk.spunlaid("web wide.toml --out w --force --quiet"));

@@ -23,7 +23,8 @@ fn a_web_says_which_settings_of_the_line_would_make_it_more_even() {
         change["patches"].as_array().unwrap().iter().find(|patch| patch["patch_m"] == 0.005).unwrap().clone()
     };
     let number = |of: &serde_json::Value| of.as_f64().unwrap();
-    // 5 mm is nearest to what the eye judges first: the first setting of the sentence is the one that lowers this CV most.
+    // 5 mm is nearest to what the eye judges first: the first setting of the sentence is the one that lowers
+    // this CV most.
     let lowers = |change: &&serde_json::Value| place(change)["beyond_chance"] == true;
     let by = |change: &&serde_json::Value| number(&place(change)["cv_change"]);
     let best = changes.iter().filter(lowers).min_by(|a, b| by(a).total_cmp(&by(b))).unwrap();
@@ -71,8 +72,9 @@ fn a_web_says_which_settings_of_the_line_would_make_it_more_even() {
     assert!(said.contains("1 mm, 5 mm, 20 mm, and not of 7 mm; name one of these"), "{said}");
 }
 
-/// The keys of the case that a web flies are set by the same names as in a study; the folder holds the case as it was flown, so that the web can
-/// be laid again from there, to the same map. Each piece of advice is a command that the program takes.
+/// The keys of the case that a web flies are set by the same names as in a study; the folder holds the case
+/// as it was flown, so that the web can be laid again from there, to the same map. Each piece of advice is a
+/// command that the program takes.
 #[test]
 fn keys_of_the_flown_case_are_set_and_advice_can_be_pasted() {
     let desk = desk();
@@ -107,8 +109,9 @@ fn keys_of_the_flown_case_are_set_and_advice_can_be_pasted() {
         let flow = 3600.0 * checked["mass_flow_kg_s_m"].as_f64().unwrap();
         assert!((flow / change["throughput_kg_h_m"].as_f64().unwrap() - 1.0).abs() < 1e-9, "{command}");
     }
-    let known = "[fibre]\ndiameter = \"18 µm\"\ndensity = \"910 kg/m³\"\n[laydown]\nsigma_md = \"10 mm\"\nsigma_cd = \"10 mm\"\n\
-                 noise = \"12 m^-0.5\"\n[line]\nfeed_speed = \"50 m/s\"\nbelt_speed = \"3 m/s\"\nfilaments_per_metre = 500\n";
+    let known = "[fibre]\ndiameter = \"18 µm\"\ndensity = \"910 kg/m³\"\n[laydown]\nsigma_md = \"10 mm\"\n\
+        sigma_cd = \"10 mm\"\nnoise = \"12 m^-0.5\"\n[line]\nfeed_speed = \"50 m/s\"\n\
+        belt_speed = \"3 m/s\"\nfilaments_per_metre = 500\n";
     fs::write(desk.path("known.toml"), known).unwrap();
     let said = refusal(&mut desk.spunlaid("check known.toml --set belt.distance=0.4m"), 1);
     assert!(

@@ -10,7 +10,8 @@ fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
         Desk::with_case(&FED.replace("duration = \"40 ms\"", "duration = \"120 ms\"\nspin_up = \"10 ms\""));
     let web = WEB.replace(
         "filaments_per_metre = 500\n[web]\nwidth = \"1 m\"\nlength = \"1 m\"",
-        "filaments_per_metre = 500\ndepth = \"10 mm\"\n[web]\nwidth = \"0.1 m\"\nlength = \"40 mm\"\npatches = [\"5 mm\", \"10 mm\"]",
+        "filaments_per_metre = 500\ndepth = \"10 mm\"\n[web]\nwidth = \"0.1 m\"\nlength = \"40 mm\"\n\
+        patches = [\"5 mm\", \"10 mm\"]",
     );
     fs::write(desk.path("web.toml"), format!("{web}method = \"shared-air\"\n")).unwrap();
     let table = desk::success(&mut desk.spunlaid("web web.toml --out w"));
@@ -83,7 +84,8 @@ fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
     assert!(independent.get("neighbours").is_none());
 }
 
-/// A web of twelve hundred filaments, larger than the sheet that a few of them lay: that sheet is cut into pieces, which make the web.
+/// A web of twelve hundred filaments, larger than the sheet that a few of them lay: that sheet is cut into
+/// pieces, which make the web.
 #[test]
 fn a_few_filaments_in_one_air_lay_a_web_of_any_size() {
     let case = FED

@@ -85,8 +85,8 @@ fn invariant_uneven_where_less_is_laid() {
     success(&mut desk.spunlaid("sweep study.toml --out r --quiet"));
     let study = results(&desk, "r");
     let cv = |point: usize| study["points"][point]["results"]["cv_1_mm_one_fibre"]["mean"].as_f64().unwrap();
-    // With half the mass CV would be √2 times as large if the curves were the same; the faster belt carries the loops apart, so
-    // that a fibre meets itself less often.
+    // With half the mass CV would be √2 times as large if the curves were the same; the faster belt carries
+    // the loops apart, so that a fibre meets itself less often.
     for point in [0, 1] {
         let ratio = cv(point + 2) / cv(point);
         assert!(ratio > 1.1 && ratio < 2.0_f64.sqrt(), "{} {}", cv(point + 2), cv(point));
@@ -135,9 +135,9 @@ fn identical_after_a_kill_and_with_more_webs() {
 #[test]
 fn keys_follow_from_others_and_webs_are_added_until_they_suffice() {
     let desk = desk();
-    let study = "web = 'web.toml'\ndesign = 'grid'\n[replicates]\nat_least = 2\nat_most = 5\nuntil = { cv_1_mm = '0.0001 %' }\n\
-                 [vary]\n'line.belt_speed' = ['4 m/s', '8 m/s']\n\
-                 [link]\n'line.feed_speed' = '10 * line.belt_speed'\n";
+    let study = "web = 'web.toml'\ndesign = 'grid'\n[replicates]\nat_least = 2\nat_most = 5\n\
+        until = { cv_1_mm = '0.0001 %' }\n[vary]\n'line.belt_speed' = ['4 m/s', '8 m/s']\n[link]\n\
+        'line.feed_speed' = '10 * line.belt_speed'\n";
     fs::write(desk.path("study.toml"), study).unwrap();
     success(&mut desk.spunlaid("sweep study.toml --out r --quiet"));
     let found = results(&desk, "r");

@@ -1,4 +1,5 @@
-//! The tension at the end of the spinline, which flights find in a thread of their own while the fibres of the page fly on.
+//! The tension at the end of the spinline, which flights find in a thread of their own while the fibres of
+//! the page fly on.
 
 use super::Session;
 use crate::document::complaints;

@@ -1,4 +1,5 @@
-//! Figures of a fit: the unevenness of the scan beside that of the simulated webs, the spectrum, and how sure the values are.
+//! Figures of a fit: the unevenness of the scan beside that of the simulated webs, the spectrum, and how sure
+//! the values are.
 
 use crate::numbers::significant;
 use spunlaid::fit::{Fit, FittedKey, FittedNumber, Texture};
@@ -58,9 +59,10 @@ fn unevenness(fit: &Fit) -> Figure {
     );
     Figure::new(
         &curves(chart, &patches),
-        "Standard deviation of the basis weight of square patches over its mean, in pieces of web as large as the part of the scan that is \
-         compared. In the band lie 95 of 100 single simulated webs with the values that were found: a scan of such a web \
-         lies there too. It is about the piece itself, so it is lower for large patches than that of the whole web.",
+        "Standard deviation of the basis weight of square patches over its mean, in pieces of web as large \
+        as the part of the scan that is compared. In the band lie 95 of 100 single simulated webs with the \
+        values that were found: a scan of such a web lies there too. It is about the piece itself, so it is \
+        lower for large patches than that of the whole web.",
     )
 }
 
@@ -84,8 +86,9 @@ fn spectrum(fit: &Fit, direction: usize) -> Figure {
     Figure::new(
         &curves(chart, &bands),
         format!(
-            "Variance of the relative basis weight by its wavelength in {words} direction, of the scan and of the simulated webs. In the \
-             band lie 95 of 100 single simulated webs with the values that were found."
+            "Variance of the relative basis weight by its wavelength in {words} direction, of the scan and \
+            of the simulated webs. In the band lie 95 of 100 single simulated webs with the values that were \
+            found."
         ),
     )
 }
@@ -127,8 +130,9 @@ fn residuals(fit: &Fit) -> Figure {
     }
     Figure::new(
         &chart,
-        "The logarithm of the scan’s number over that of the fit, in standard deviations of that number from one simulated web to another. \
-         Neighbouring sizes go together, so several points on one side say little more than one.",
+        "The logarithm of the scan’s number over that of the fit, in standard deviations of that number from \
+        one simulated web to another. Neighbouring sizes go together, so several points on one side say \
+        little more than one.",
     )
 }
 
@@ -168,8 +172,9 @@ fn profile(key: &FittedKey) -> Figure {
     Figure::new(
         &chart,
         format!(
-            "The smallest misfit for other values of {} than the fitted one, {}. Webs were laid with each of these values, and with the values of the other keys \
-             that suit it best. A flat curve means that the scan does not determine this key.",
+            "The smallest misfit for other values of {} than the fitted one, {}. Webs were laid with each of \
+            these values, and with the values of the other keys that suit it best. A flat curve means that \
+            the scan does not determine this key.",
             key.parameter.key,
             significant(key.value * factor, 4)
         ),

@@ -24,8 +24,8 @@ pub struct Making<'a> {
 
 /// Results as they go into their folder.
 pub trait Contents: Sync {
-    /// The files and folders that such results may have, in the order in which they are moved to their folder. The last one marks them
-    /// as complete.
+    /// The files and folders that such results may have, in the order in which they are moved to their
+    /// folder. The last one marks them as complete.
     const ENTRIES: &'static [&'static str];
     /// The file of the summary.
     const SUMMARY: &'static str = "summary.json";

@@ -47,8 +47,8 @@ patches = ["5 mm", "10 mm"]
 static STOP: AtomicBool = AtomicBool::new(false);
 const MAKING: Making<'_> = Making { threads: 2, stop: &STOP, room: 200 };
 
-/// Webs that know different numbers of their patches: from the surrogate alone, from flown curves too, from neither, and of filaments in one
-/// air, all or a few of which were flown.
+/// Webs that know different numbers of their patches: from the surrogate alone, from flown curves too, from
+/// neither, and of filaments in one air, all or a few of which were flown.
 fn kinds(found: &Findings) -> [Findings; 5] {
     let with = |change: &dyn Fn(&mut PatchFindings)| {
         let mut kind = found.clone();

@@ -44,10 +44,12 @@ impl FitInput<'_> {
     }
 }
 
-/// Opens the folder to begin a fit, or to continue the same one. Returns its journal, and what that holds if there was one.
+/// Opens the folder to begin a fit, or to continue the same one. Returns its journal, and what that holds if
+/// there was one.
 ///
 /// * `force` – what the folder holds is replaced
-/// * `origin` – the command that asks; a complete fit that the same one made before is replaced too, when this one is complete
+/// * `origin` – the command that asks; a complete fit that the same one made before is replaced too, when
+///   this one is complete
 /// * `stop` – if this is set, nothing more is written
 ///
 /// # Errors

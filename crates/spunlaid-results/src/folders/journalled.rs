@@ -1,4 +1,5 @@
-//! A folder with a journal: work in it goes on where it was left, and complete results of the same command make room for new ones.
+//! A folder with a journal: work in it goes on where it was left, and complete results of the same command
+//! make room for new ones.
 //!
 //! ```text
 //! new folder → journal begun
@@ -21,7 +22,8 @@ use std::sync::atomic::AtomicBool;
 use std::time::SystemTime;
 
 pub(super) const JOURNAL: &str = "journal";
-/// The folder in which new work is done while the results that it will replace are still there. Nobody else uses its name.
+/// The folder in which new work is done while the results that it will replace are still there. Nobody else
+/// uses its name.
 const REPLACEMENT: &str = ".spunlaid-replacement";
 
 /// A folder whose journal this process has locked.
@@ -40,8 +42,8 @@ pub struct JournalFolder<'a> {
     pub figures: FigureFiles,
 }
 
-/// The files and folders that results are, besides journal and origin, in the order in which they are moved. The last one marks them
-/// as complete.
+/// The files and folders that results are, besides journal and origin, in the order in which they are moved.
+/// The last one marks them as complete.
 pub(super) type Entries = &'static [&'static [&'static str]];
 
 /// What is to be done in a folder.
@@ -61,7 +63,8 @@ pub(super) struct Work<'a> {
 }
 
 impl<'a> JournalFolder<'a> {
-    /// Opens the folder and its journal to begin the work, or to go on with it. Returns what the journal holds, if it has begun.
+    /// Opens the folder and its journal to begin the work, or to go on with it. Returns what the journal
+    /// holds, if it has begun.
     ///
     /// * `begin` – what is done in the folder before the journal begins
     /// * `other` – the error if the folder holds other work
@@ -184,8 +187,8 @@ impl<'a> JournalFolder<'a> {
         Ok(written.text)
     }
 
-    /// Puts complete results in the place of the earlier ones. A process that is killed meanwhile leaves no mixture: the earlier
-    /// results go first, then comes the journal, from which all else is made again.
+    /// Puts complete results in the place of the earlier ones. A process that is killed meanwhile leaves no
+    /// mixture: the earlier results go first, then comes the journal, from which all else is made again.
     fn replace(&mut self) -> Result<(), Failure> {
         if self.earlier.is_none() {
             return Ok(());

@@ -52,8 +52,9 @@ impl Flown {
     }
 }
 
-/// Flies all replicates. If there is a results folder, the tables are written during the flights, and flights are kept for a
-/// process that goes on where this one is interrupted. A fibre that is lost is in [`Results::lost`], and in no table.
+/// Flies all replicates. If there is a results folder, the tables are written during the flights, and flights
+/// are kept for a process that goes on where this one is interrupted. A fibre that is lost is in
+/// [`Results::lost`], and in no table.
 ///
 /// With a results folder, an interruption ends the flights and is no error if a fibre has landed.
 ///
@@ -198,8 +199,8 @@ impl Contents for Run<'_> {
     }
 }
 
-/// What must be said of results: that fibres were lost; that they leave the region where the flow is known; and that shapes are too far
-/// apart in time.
+/// What must be said of results: that fibres were lost; that they leave the region where the flow is known;
+/// and that shapes are too far apart in time.
 pub fn found(case: &Case, results: &Results) -> [Option<String>; 3] {
     [lost(case, results), outside(results), coarse_shapes(case, results)]
 }
@@ -212,9 +213,9 @@ pub fn outside(results: &Results) -> Option<String> {
             .map(|number| number.estimate.mean)
             .filter(|share| *share > 0.0)?;
     Some(format!(
-        "the fibres’ elements are outside the region where the flow is known for {} % of the time, beyond its walls or \
-         its ends; there, the air at the nearest known point acts on them. Check the position of the root and the length \
-         of the fibre",
+        "the fibres’ elements are outside the region where the flow is known for {} % of the time, beyond \
+        its walls or its ends; there, the air at the nearest known point acts on them. Check the position of \
+        the root and the length of the fibre",
         significant(share, 2)
     ))
 }
@@ -248,8 +249,8 @@ pub fn coarse_shapes(case: &Case, results: &Results) -> Option<String> {
             String::new()
         };
         format!(
-            "the shapes for ParaView are {} ms apart, {} in a period of the free end ({} Hz): too few to follow it; write \
-             run.shapes = {count}{finer}",
+            "the shapes for ParaView are {} ms apart, {} in a period of the free end ({} Hz): too few to \
+            follow it; write run.shapes = {count}{finer}",
             significant(interval * 1e3, 3),
             significant(each, 2),
             significant(frequency, 3)

@@ -42,10 +42,12 @@ const MADE: &[&str] = &[
 const OF_OTHERS: &[&str] =
     &["summary.json", "end_node.parquet", "energy.parquet", "analysis.json", "webs.jsonl"];
 
-/// Opens the folder to begin a study, or to continue the same study. Returns its journal, and what that holds if there was one.
+/// Opens the folder to begin a study, or to continue the same study. Returns its journal, and what that holds
+/// if there was one.
 ///
 /// * `force` – what the folder holds is replaced
-/// * `origin` – the command that asks; a complete study that the same one made before is replaced too, when this one is complete
+/// * `origin` – the command that asks; a complete study that the same one made before is replaced too, when
+///   this one is complete
 /// * `stop` – if this is set, nothing more is written
 ///
 /// # Errors
@@ -73,7 +75,8 @@ pub fn open<'a>(
             let options = format!("--replicates {stored}, --out, --force");
             return Err(Failure::folder(at.place(), fault.option(options)));
         }
-        // These files follow from the study, so they are restored if someone has removed them. They are renewed for more replicates.
+        // These files follow from the study, so they are restored if someone has removed them. They are
+        // renewed for more replicates.
         let was = fs::read_to_string(at.place().join(STUDY)).unwrap_or_default();
         if was != file.text || !at.place().join(file.base_name()).exists() {
             describe(at.place(), file, stop)?;

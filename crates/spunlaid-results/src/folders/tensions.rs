@@ -1,5 +1,5 @@
-//! The tensions at the ends of spinlines that flights have found for a study. They are kept in its folder from before there is a journal,
-//! so that an interrupted study goes on with them.
+//! The tensions at the ends of spinlines that flights have found for a study. They are kept in its folder
+//! from before there is a journal, so that an interrupted study goes on with them.
 //!
 //! ```text
 //! tensions    a line for each: identity of the case, tension [N], change of the speed [-], version of the program, checksum

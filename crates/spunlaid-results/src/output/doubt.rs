@@ -1,4 +1,5 @@
-//! What the checks of a run say against its numbers: in its notes, in its headline, and in the errors that the headline states.
+//! What the checks of a run say against its numbers: in its notes, in its headline, and in the errors that
+//! the headline states.
 
 use super::compared::{compared_with, percent};
 use spunlaid::case::{Case, Checks};
@@ -54,8 +55,8 @@ pub fn notes(checks: &FinerChecks, case: &Case) -> Vec<String> {
             .collect();
         (!changes.is_empty()).then(|| {
             format!(
-                "the check of the {} is beyond its limit of {} %: {}{} from {}; the standard errors over the replicates do \
-                 not contain this",
+                "the check of the {} is beyond its limit of {} %: {}{} from {}; the standard errors over the \
+                replicates do not contain this",
                 name(check.refined),
                 100.0 * FINE_ENOUGH,
                 part(check, case),
@@ -78,8 +79,8 @@ pub(super) fn unchecked(refined: Refinement, why: &Unchecked) -> String {
     format!("{}: not checked: {why}", name(refined))
 }
 
-/// A number of the headline with the errors that the checks found beyond their limit. Those over a part of the run are told
-/// in words alone.
+/// A number of the headline with the errors that the checks found beyond their limit. Those over a part of
+/// the run are told in words alone.
 pub fn with_error_of_checks(
     estimate: Estimate,
     measure: &str,

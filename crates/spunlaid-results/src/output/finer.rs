@@ -91,7 +91,8 @@ impl FinerWords {
                 format!("The error of the step is at most about {factor} times as large.")
             }
             Some(_) => {
-                "The error of elements well below an eddy falls with the square of their length, so it is about 4/3 of the difference."
+                "The error of elements well below an eddy falls with the square of their length, so it is \
+                about 4/3 of the difference."
                     .to_owned()
             }
             None => String::new(),

@@ -136,7 +136,8 @@ pub fn sentences(fit: &Fit) -> Vec<String> {
     let (worse, webs) = (fit.worse, fit.webs);
     all.push(if worse > 0 {
         format!(
-            "Webs of these values can look like the scan: {worse} of {webs} simulated webs differ more from the others than the scan does."
+            "Webs of these values can look like the scan: {worse} of {webs} simulated webs differ more from \
+            the others than the scan does."
         )
     } else {
         let chance = significant(100.0 / (webs as f64 + 1.0), 2);
@@ -146,8 +147,9 @@ pub fn sentences(fit: &Fit) -> Vec<String> {
             "Seek other keys, or look at the figure of what the fit leaves.".to_owned()
         };
         format!(
-            "No value of these keys makes webs like the scan: it differs more from the {webs} simulated webs than any of them from the others. By \
-             chance alone this happens with {chance} % of such scans. {others}"
+            "No value of these keys makes webs like the scan: it differs more from the {webs} simulated webs \
+            than any of them from the others. By chance alone this happens with {chance} % of such scans. \
+            {others}"
         )
     });
     for key in &fit.keys {
@@ -167,11 +169,12 @@ pub fn sentences(fit: &Fit) -> Vec<String> {
             let value = pretty(&key.parameter, *value);
             match end {
                 IntervalEnd::OfRange if key.doubt.is_none() => all.push(format!(
-                    "{name}: {value} is the end of its range, not that of its interval. Values beyond it may look like the scan as well; give it \
-                     a wider range if they make sense."
+                    "{name}: {value} is the end of its range, not that of its interval. Values beyond it may \
+                    look like the scan as well; give it a wider range if they make sense."
                 )),
                 IntervalEnd::Straight => all.push(format!(
-                    "{name}: the end {value} of its interval is an estimate by straight lines, because few or no webs could be laid there."
+                    "{name}: the end {value} of its interval is an estimate by straight lines, because few \
+                    or no webs could be laid there."
                 )),
                 _ => {}
             }
@@ -190,7 +193,8 @@ pub fn sentences(fit: &Fit) -> Vec<String> {
             "a change of the first with one of the second".to_owned()
         };
         all.push(format!(
-            "The scan cannot tell {} and {} apart (correlation {}): {how} leaves it almost as it is. Measure one of them in another way, write its value in the file, and do not seek it.",
+            "The scan cannot tell {} and {} apart (correlation {}): {how} leaves it almost as it is. Measure \
+            one of them in another way, write its value in the file, and do not seek it.",
             one.key,
             other.key,
             significant(pair.correlation, 2)

@@ -37,7 +37,8 @@ pub const ENTRIES: &[&str] = &[
 const COMPLETE: &str = "summary.json";
 /// The folder for files that an input names.
 pub const CASE_FILES: &str = "case_files";
-/// Files that mark the results of any command, and the journal that studies of webs had before they were like all others.
+/// Files that mark the results of any command, and the journal that studies of webs had before they were like
+/// all others.
 pub(crate) const MARKS: &[&str] = &[
     COMPLETE,
     "analysis.json",
@@ -90,7 +91,8 @@ impl<'a> Staging<'a> {
         Self::prepare(folder, entries, replace, None, stop)
     }
 
-    /// [`Staging::new`]. Results of the same origin, if there is one, are replaced in any case; `entries` have [`ORIGIN`].
+    /// [`Staging::new`]. Results of the same origin, if there is one, are replaced in any case; `entries`
+    /// have [`ORIGIN`].
     pub fn with_origin(
         folder: &Path,
         entries: &'static [&'static str],
@@ -302,7 +304,8 @@ fn refuse_results(
     refuse_others(folder, entries, &[])
 }
 
-/// Rejects a folder that holds results, or files of others, with which results would be mixed. Hidden files are no reason.
+/// Rejects a folder that holds results, or files of others, with which results would be mixed. Hidden files
+/// are no reason.
 ///
 /// * `results` – names of results, besides those that mark any results
 /// * `own` – names that may be there

@@ -1,4 +1,5 @@
-//! What results are computed from, as it is kept in their folder with the files that it names, so that it can be computed again from there.
+//! What results are computed from, as it is kept in their folder with the files that it names, so that it can
+//! be computed again from there.
 
 use super::folder::{CASE_FILES, Staging};
 use crate::Failure;
@@ -88,8 +89,8 @@ fn copy_file(from: &Path, to: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The path of the copy in its folder: the name of the file, with a number in front if another file has the same name. A
-/// list gets a folder of its own, so that its parts meet no other files.
+/// The path of the copy in its folder: the name of the file, with a number in front if another file has the
+/// same name. A list gets a folder of its own, so that its parts meet no other files.
 fn unused(file: &Path, is_list: bool, copied: &BTreeMap<PathBuf, PathBuf>) -> PathBuf {
     let whole = file.file_name().unwrap_or_default();
     let name = if is_list { file.file_stem().unwrap_or(whole) } else { whole }.to_string_lossy().into_owned();

@@ -16,7 +16,8 @@ pub fn json(value: impl Serialize) -> Json {
     serde_json::to_value(value).unwrap_or_default()
 }
 
-/// The value of a measure and its errors, by their names, as far as they are known; a standard error that is not known is null.
+/// The value of a measure and its errors, by their names, as far as they are known; a standard error that is
+/// not known is null.
 pub fn with_errors<T>(measure: &'static Measure<T>, found: &T) -> Vec<(String, Json)> {
     let Some(value) = measure.of(found).value else { return Vec::new() };
     let error = |error: &'static Measure<T>| {

@@ -21,8 +21,9 @@ impl Origin {
         let folder = whole(folder);
         let files = files.iter().map(|file| relative(&folder, &whole(file)).to_string_lossy().into_owned());
         let text = format!(
-            "# `spunlaid {command}` of these files, seen from this folder, replaces these results when it runs again with the same options.\n\
-             command = \"{command}\"\nfiles = {:?}\noptions = {options:?}\n",
+            "# `spunlaid {command}` of these files, seen from this folder, replaces these results when it \
+            runs again with the same options.\ncommand = \"{command}\"\nfiles = {:?}\n\
+            options = {options:?}\n",
             files.collect::<Vec<_>>()
         );
         Self { text }

@@ -25,7 +25,8 @@ pub fn write(staging: &Staging<'_>, case: &Case, trajectories: &[Trajectory]) ->
     let trajectories: Vec<&Trajectory> = trajectories.iter().filter(|t| !t.shapes.is_empty()).collect();
     let Some(first) = trajectories.first() else { return Ok(()) };
     let mut collection = String::from(
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n",
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" \
+        byte_order=\"LittleEndian\">\n<Collection>\n",
     );
     let every = thinned(case, first.shapes.len());
     let digits = first.shapes.len().div_ceil(every).to_string().len();
@@ -107,18 +108,15 @@ pub(super) fn poly_data(numbered: &str, names: &[&str], lines: &[Line]) -> Strin
     };
     let data: String = names.iter().zip(&data).map(array).collect();
     format!(
-        "<?xml version=\"1.0\"?>\n\
-         <VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n<PolyData>\n\
-         <Piece NumberOfPoints=\"{count}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n\
-         <PointData Scalars=\"{numbered}\">\n\
-         <DataArray type=\"Int32\" Name=\"{numbered}\" format=\"ascii\">\n{number}\n</DataArray>\n\
-         {data}\
-         </PointData>\n\
-         <Points>\n<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n{points}</DataArray>\n</Points>\n\
-         <Lines>\n\
-         <DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n{connectivity}\n</DataArray>\n\
-         <DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n{offsets}\n</DataArray>\n\
-         </Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n",
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n\
+        <PolyData>\n<Piece NumberOfPoints=\"{count}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" \
+        NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<PointData Scalars=\"{numbered}\">\n\
+        <DataArray type=\"Int32\" Name=\"{numbered}\" format=\"ascii\">\n{number}\n</DataArray>\n\
+        {data}</PointData>\n<Points>\n<DataArray type=\"Float64\" NumberOfComponents=\"3\" \
+        format=\"ascii\">\n{points}</DataArray>\n</Points>\n<Lines>\n\
+        <DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n{connectivity}\n</DataArray>\n\
+        <DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n{offsets}\n</DataArray>\n</Lines>\n\
+        </Piece>\n</PolyData>\n</VTKFile>\n",
         lines.len()
     )
 }

@@ -1,4 +1,5 @@
-//! Writes figures in the formats and at the width that are asked for, with their numbers as CSV. They are drawn on all threads.
+//! Writes figures in the formats and at the width that are asked for, with their numbers as CSV. They are
+//! drawn on all threads.
 
 use super::table::TableFormat;
 use crate::Failure;
@@ -59,8 +60,8 @@ impl Default for FigureFiles {
     }
 }
 
-/// Width of a figure in one column and in two columns of a page [m]: Springer's journals, which are the narrowest of the large
-/// publishers; Elsevier's have 90 and 190 mm.
+/// Width of a figure in one column and in two columns of a page [m]: Springer's journals, which are the
+/// narrowest of the large publishers; Elsevier's have 90 and 190 mm.
 pub const COLUMNS: [f64; 2] = [84e-3, 174e-3];
 /// The narrowest figure in print in which the words still have room, and the widest [m].
 pub const WIDTHS: [f64; 2] = [60e-3, 400e-3];

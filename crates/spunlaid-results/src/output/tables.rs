@@ -1,5 +1,5 @@
-//! The Parquet tables of a run: what is recorded of the fibres in flight goes to files, and from there to the tables, fibre
-//! by fibre in the order of the replicates.
+//! The Parquet tables of a run: what is recorded of the fibres in flight goes to files, and from there to the
+//! tables, fibre by fibre in the order of the replicates.
 
 use super::folder::Staging;
 use super::paraview::SHAPE;
@@ -180,8 +180,8 @@ impl Recorder for TableRecorder {
     }
 }
 
-/// The tables of a run. Each has a row for each replicate and recorded instant, or laid point: `replicate` (counted from 1),
-/// then its columns.
+/// The tables of a run. Each has a row for each replicate and recorded instant, or laid point: `replicate`
+/// (counted from 1), then its columns.
 pub struct Tables<'a> {
     recorder: &'a TableRecorder,
     writers: Vec<Parquet>,
@@ -266,7 +266,8 @@ mod tests {
         Sample { time, kinetic: (time + replicate as f64).sin(), gravity_work: time, ..Sample::default() }
     }
 
-    /// The tables of fibres that land one after the other, or that all fly at once, so that few of their rows stay in memory.
+    /// The tables of fibres that land one after the other, or that all fly at once, so that few of their rows
+    /// stay in memory.
     #[test]
     fn identical_tables_whatever_stays_in_memory() {
         const FIBRES: u64 = 400;

@@ -24,13 +24,14 @@ pub fn air_report<'a>(
         Section::new(&picture.figure.name, &picture.figure.title).view(View::Moving(Moving::new(picture)))
     });
     let computed = Section::new("methods", "How it was computed").paragraph(
-        "The air is a field of eddies in space with the lateral structure of von Kármán’s isotropic turbulence, carried by the mean flow \
-         (air.lateral = \"von-karman\"). Fibres of this case that fly with the same seed and replicate meet this air, and so do the companions \
-         of [neighbours]. Waves across the flow that are shorter than 2π length scales over air.lateral_cutoff are left out.",
+        "The air is a field of eddies in space with the lateral structure of von Kármán’s isotropic \
+        turbulence, carried by the mean flow (air.lateral = \"von-karman\"). Fibres of this case that fly \
+        with the same seed and replicate meet this air, and so do the companions of [neighbours]. Waves \
+        across the flow that are shorter than 2π length scales over air.lateral_cutoff are left out.",
     );
     let file = Section::new("file", "The case").file("case-toml", toml).caption(
-        "along.pvd and across.pvd open the velocities, all three components, in ParaView; along.gif and across.gif are the pictures of \
-         this page; all numbers are in summary.json, beside this page.",
+        "along.pvd and across.pvd open the velocities, all three components, in ParaView; along.gif and \
+        across.gif are the pictures of this page; all numbers are in summary.json, beside this page.",
     );
     let found = [summary.clone(), headline.clone()];
     Report::new("air", headline)
@@ -47,8 +48,8 @@ fn summary(case: &Case, slices: &Slices) -> String {
     let duration = slices.times.last().copied().unwrap_or_default();
     let frames = slices.times.len();
     format!(
-        "{} of air on a way of {}, in {frames} pictures that are seen slowed down. Its turbulence repeats itself after {} in machine \
-         direction and {} across.",
+        "{} of air on a way of {}, in {frames} pictures that are seen slowed down. Its turbulence repeats \
+        itself after {} in machine direction and {} across.",
         format_args!("{}{THIN}ms", significant(duration * 1e3, 3)),
         length(case.way_of_air()),
         length(extent.y),

@@ -98,8 +98,9 @@ fn summary(record: &Record, analysis: &Analysis) -> String {
 fn durations(analysis: &Analysis) -> String {
     let long = |interval: &Interval| time(analysis.duration_for(interval, 0.05));
     format!(
-        "Intervals shrink with the square root of the length of the record. An interval of ±{THIN}5{THIN}% needs a record of \
-         {} for the turbulence intensity, {} for the integral time and the length scale, and {} for the cut-off.",
+        "Intervals shrink with the square root of the length of the record. An interval of ±{THIN}5{THIN}% \
+        needs a record of {} for the turbulence intensity, {} for the integral time and the length scale, \
+        and {} for the cut-off.",
         long(&analysis.turbulence_intensity),
         long(&analysis.integral_time),
         long(&analysis.cutoff_frequency),
@@ -115,25 +116,26 @@ fn steps(analysis: &Analysis) -> Vec<(&'static str, String)> {
         (
             "Intervals",
             format!(
-                "The record is cut into {} blocks, each many integral times long, and every result is computed again with \
-                 each block left out; the scatter of these gives the interval, by Student’s distribution (block jackknife). \
-                 For plateau and cut-off the number of independent values averaged, here {}, gives it.",
+                "The record is cut into {} blocks, each many integral times long, and every result is \
+                computed again with each block left out; the scatter of these gives the interval, by \
+                Student’s distribution (block jackknife). For plateau and cut-off the number of independent \
+                values averaged, here {}, gives it.",
                 analysis.blocks,
                 flat.independent.round()
             ),
         ),
         (
             "Autocorrelation",
-            "The mean product of two fluctuations one lag apart, over the variance. The sum is divided by the number of pairs \
-             at that lag (the unbiased estimate)."
+            "The mean product of two fluctuations one lag apart, over the variance. The sum is divided by \
+            the number of pairs at that lag (the unbiased estimate)."
                 .to_owned(),
         ),
         (
             "Integral time",
             format!(
-                "The autocorrelation of {} is integrated by the trapezoidal rule {}, here a lag of {}. The option --integral \
-                 chooses the first zero, 1/e or a fixed lag. An integral to the first zero leaves out negative values \
-                 after it: for a flat spectrum it is 18{THIN}% too long.",
+                "The autocorrelation of {} is integrated by the trapezoidal rule {}, here a lag of {}. The \
+                option --integral chooses the first zero, 1/e or a fixed lag. An integral to the first zero \
+                leaves out negative values after it: for a flat spectrum it is 18{THIN}% too long.",
                 along.name,
                 analysis.integral.words(),
                 time(along.autocorrelation.limit)
@@ -142,8 +144,8 @@ fn steps(analysis: &Analysis) -> Vec<(&'static str, String)> {
         (
             "Spectrum",
             format!(
-                "Welch’s method: {} of {}, {} window, overlapping by {}{THIN}%, about the mean of the whole record; one-sided, \
-                 so that its integral over frequency is the variance.",
+                "Welch’s method: {} of {}, {} window, overlapping by {}{THIN}%, about the mean of the whole \
+                record; one-sided, so that its integral over frequency is the variance.",
                 count(spectrum.segments as u64, "segment"),
                 count(spectrum.segment as u64, "sample"),
                 spectrum.window.name(),
@@ -153,8 +155,8 @@ fn steps(analysis: &Analysis) -> Vec<(&'static str, String)> {
         (
             "Plateau and cut-off",
             format!(
-                "The mean density up to {}. The cut-off is the variance over this plateau: a flat spectrum that ends at \
-                 the cut-off has the same variance and the same plateau. {}",
+                "The mean density up to {}. The cut-off is the variance over this plateau: a flat spectrum \
+                that ends at the cut-off has the same variance and the same plateau. {}",
                 hertz(flat.until),
                 if flat.from < spectrum.step {
                     "The record is too short for segments, so that the mean is that of the Fourier components of the \

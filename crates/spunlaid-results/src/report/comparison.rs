@@ -1,4 +1,5 @@
-//! The report of a comparison: a table for each pair of results, their curves in one picture each, and webs beside each other.
+//! The report of a comparison: a table for each pair of results, their curves in one picture each, and webs
+//! beside each other.
 
 use super::document::{Report, Section};
 use super::methods::methods;
@@ -43,8 +44,8 @@ fn pair<'a>(number: usize, comparison: &Comparison) -> Section<'a> {
     let table = Table::new(["Measure", against, run, "Difference"]).sentences(["Verdict"]);
     Section::new(format!("pair-{number}"), format!("{run} against {against}"))
         .paragraph(format!(
-            "Compared {reason}. {beyond} of {all} measures differ beyond chance (the 95\u{202f}% interval of the difference leaves out zero); of \
-             twenty without any difference, one would by chance."
+            "Compared {reason}. {beyond} of {all} measures differ beyond chance (the 95\u{202f}% interval of \
+            the difference leaves out zero); of twenty without any difference, one would by chance."
         ))
         .table(table.rows(measures.iter().map(row)))
         .caption(format!("{errors} The difference has its standard error."))
@@ -83,7 +84,8 @@ fn title(comparisons: &[Comparison]) -> String {
 fn method(comparison: &Comparison) -> String {
     let Comparison { run, against, reason, errors, .. } = comparison;
     format!(
-        "The results {run} and {against} were compared {reason}. {errors} A difference is beyond chance if its 95\u{a0}% interval leaves out zero."
+        "The results {run} and {against} were compared {reason}. {errors} A difference is beyond chance if \
+        its 95\u{a0}% interval leaves out zero."
     )
 }
 

@@ -1,4 +1,5 @@
-//! What is said of results, whatever they are of. Each product is a function that makes a [`Report`]; one template shows all of them.
+//! What is said of results, whatever they are of. Each product is a function that makes a [`Report`]; one
+//! template shows all of them.
 
 use super::table::Table;
 use super::view::View;
@@ -10,7 +11,8 @@ pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// A page: what was found first, then sections of sentences, tables, figures and views.
 ///
-/// In paragraphs, captions and descriptions, `` `word` `` stands for code and `[words](#id)` for a link within the page. Everything is escaped.
+/// In paragraphs, captions and descriptions, `` `word` `` stands for code and `[words](#id)` for a link
+/// within the page. Everything is escaped.
 #[derive(Debug, Default, Template)]
 #[template(path = "page.html")]
 pub struct Report<'a> {

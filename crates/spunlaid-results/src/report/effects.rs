@@ -1,5 +1,5 @@
-//! What changes do to a web, for people: what would make it more even and how much guesses matter, in sentences under the headline, and a table of all
-//! changes that were tried.
+//! What changes do to a web, for people: what would make it more even and how much guesses matter, in
+//! sentences under the headline, and a table of all changes that were tried.
 
 use super::table::{Cell, Row, Table, Tone};
 use super::unevenness::{grams, headline_patch};
@@ -25,12 +25,14 @@ fn judged_by(findings: &Findings, advice: &Advice) -> Option<f64> {
 /// * `advice` – None if no change was tried
 pub fn advice_words(spec: &WebSpec, findings: &Findings, advice: Option<&Advice>) -> String {
     let Some(advice) = advice else {
-        return "What would make it more even was not tried: spunlaid web with --advice flies it anew for each setting of the line.".to_owned();
+        return "What would make it more even was not tried: spunlaid web with --advice flies it anew for \
+            each setting of the line."
+            .to_owned();
     };
     let Some(patch) = judged_by(findings, advice) else { return String::new() };
     if advice.tried.is_empty() {
-        return "What would make it more even cannot be tried: its fibres have been flown above this belt, or no setting of its line can be changed. Name a \
-                case to fly (laydown.case)."
+        return "What would make it more even cannot be tried: its fibres have been flown above this belt, or \
+            no setting of its line can be changed. Name a case to fly (laydown.case)."
             .to_owned();
     }
     let improvements = advice.improvements(patch);
@@ -41,7 +43,8 @@ pub fn advice_words(spec: &WebSpec, findings: &Findings, advice: Option<&Advice>
     let also = elsewhere.map_or_else(String::new, |found| elsewhere_words(found, spec, patch));
     if improvements.is_empty() {
         return format!(
-            "At the same {weight}, none of the {} changes of the line that were tried lowers the {what} {place} by more than 1{THIN}% and beyond chance.{}{also}",
+            "At the same {weight}, none of the {} changes of the line that were tried lowers the {what} \
+            {place} by more than 1{THIN}% and beyond chance.{}{also}",
             advice.tried.len(),
             unconfirmed(spec, advice, patch)
         );
@@ -66,7 +69,8 @@ pub fn advice_words(spec: &WebSpec, findings: &Findings, advice: Option<&Advice>
         );
     }
     if advice.is_confirmed {
-        words += " These numbers come from a second flight in another air, because the best of many changes is overrated.";
+        words += " These numbers come from a second flight in another air, because the best of many changes \
+            is overrated.";
     }
     words += &unconfirmed(spec, advice, patch);
     words += &also;
@@ -83,14 +87,15 @@ pub fn advice_commands(findings: &Findings, advice: &Advice) -> Vec<String> {
     named.map(|(tried, _)| web_command(&tried.change)).collect()
 }
 
-/// Least change of a CV over patches of another size that is named beside those of the headline, as a share of it: of many sizes and settings
-/// some changes seem to be beyond chance.
+/// Least change of a CV over patches of another size that is named beside those of the headline, as a share
+/// of it: of many sizes and settings some changes seem to be beyond chance.
 const LARGE: f64 = 0.05;
 
 /// A change with what it does over patches of one size.
 type Found<'a> = (&'a Tried, &'a Effect<f64>);
 
-/// The change that lowers the CV most over patches of another size than the one by which they are judged, and is none of those that lower it there.
+/// The change that lowers the CV most over patches of another size than the one by which they are judged, and
+/// is none of those that lower it there.
 fn elsewhere<'a>(findings: &Findings, advice: &'a Advice, patch: f64) -> Option<Found<'a>> {
     let named = advice.improvements(patch);
     let is_new = |tried: &Tried| !named.iter().any(|(other, _)| std::ptr::eq(*other, tried));
@@ -143,7 +148,8 @@ fn clouds_apart(spec: &WebSpec, advice: &Advice, patch: f64) -> String {
         return String::new();
     }
     format!(
-        " With these the filaments come down in other clouds, although the air is the same, so that only a large effect is seen: {}.",
+        " With these the filaments come down in other clouds, although the air is the same, so that only a \
+        large effect is seen: {}.",
         names.join("; ")
     )
 }
@@ -209,10 +215,11 @@ pub(super) fn effects_table(spec: &WebSpec, findings: &Findings, advice: &Advice
     } else if findings.laid.shared_air.is_some() {
         "which counts both maps as independent"
     } else if is_known(spec) {
-        "from paths with the same random numbers before and after; the lay-down itself (σ MD, σ CD, A) is taken as it is, because no fibre was flown"
+        "from paths with the same random numbers before and after; the lay-down itself (σ MD, σ CD, A) is \
+        taken as it is, because no fibre was flown"
     } else if spec.layers.iter().any(|layer| layer.source.case().is_none()) {
-        "from paths with the same random numbers before and after the change, which leaves out the chance of the few flown fibres and takes the lay-down of the \
-             other layers as exact"
+        "from paths with the same random numbers before and after the change, which leaves out the chance of \
+        the few flown fibres and takes the lay-down of the other layers as exact"
     } else {
         "over the flown fibres, each compared with itself in the same gusts before the change"
     }
@@ -229,12 +236,13 @@ pub(super) fn effects_table(spec: &WebSpec, findings: &Findings, advice: &Advice
         );
         (
             what,
-            "All other settings stay as they are; with another titre the throughput of a hole stays and the filament is fed slower or faster",
+            "All other settings stay as they are; with another titre the throughput of a hole stays and the \
+            filament is fed slower or faster",
         )
     };
     let mut caption = format!(
-        "Change of the CV as a share of it {what}: over patches of each size, ± one standard error, {error}. Grey values may be by chance. {held}. The command \
-             below each change lays that web."
+        "Change of the CV as a share of it {what}: over patches of each size, ± one standard error, {error}. \
+        Grey values may be by chance. {held}. The command below each change lays that web."
     );
     if let Some(patch) = judged_by(findings, advice).filter(|_| !are_guesses) {
         caption += &clouds_apart(spec, advice, patch);
@@ -245,8 +253,8 @@ pub(super) fn effects_table(spec: &WebSpec, findings: &Findings, advice: &Advice
     Some((Table::new(heads).rows(advice.tried.iter().map(row)), caption))
 }
 
-/// What the CV of a web is with half and twice of each number that its file calls a guess, because the error of the CV knows nothing of them. Empty
-/// without such numbers.
+/// What the CV of a web is with half and twice of each number that its file calls a guess, because the error
+/// of the CV knows nothing of them. Empty without such numbers.
 ///
 /// * `guesses` – None if nothing was tried
 pub fn guess_words(spec: &WebSpec, findings: &Findings, guesses: Option<&Advice>) -> String {

@@ -13,7 +13,11 @@ use spunlaid::observe::{
 pub(super) fn fabric_section(fabric: &Fabric) -> Section<'static> {
     let windows = fabric.holes.as_ref().map_or_else(String::new, |holes| {
         let area = (holes.area * 1e6).round();
-        format!(" Holes were counted in {} windows, {area} mm² together, in which fibres were drawn with their width.", holes.windows)
+        format!(
+            " Holes were counted in {} windows, {area} mm² together, in which fibres were drawn with \
+            their width.",
+            holes.windows
+        )
     });
     let columns = [("Number", Content::Words), ("Value", Content::Numbers), ("Meaning", Content::Sentences)];
     let rows = measured(OF_FABRICS, fabric).filter_map(|row| {

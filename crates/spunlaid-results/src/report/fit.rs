@@ -23,7 +23,8 @@ pub fn fit_report<'a>(
     let title = title(fit);
     let [width, length] = target.sides().map(|side| Dimension::Length.pretty(side));
     let summary = format!(
-        "Fitted to {scan}: a piece of {width} across and {length} along the web, beside {} simulated webs of each trial.",
+        "Fitted to {scan}: a piece of {width} across and {length} along the web, beside {} simulated webs of \
+        each trial.",
         fit.webs
     );
     let found = std::iter::once(format!("Values with 95 % intervals: {title}.")).chain(sentences_of(fit));
@@ -52,10 +53,11 @@ fn values(fit: &Fit) -> Section<'static> {
         .table(table.rows(fit.keys.iter().map(row)))
         .paragraphs(sentences_of(fit).into_iter().chain(refused(fit)))
         .caption(
-            "The interval is that of a scan of this size: each simulated web took the place of the scan, and the values that would be found \
-             for it scatter as those for a real scan do. The noise and the blur of the camera, the few flown fibres and the surrogate are in \
-             it, as far as they are known. That the model of the line is right is not: other settings of keys that were not sought give other \
-             values.",
+            "The interval is that of a scan of this size: each simulated web took the place of the scan, and \
+            the values that would be found for it scatter as those for a real scan do. The noise and the \
+            blur of the camera, the few flown fibres and the surrogate are in it, as far as they are known. \
+            That the model of the line is right is not: other settings of keys that were not sought give \
+            other values.",
         )
         .table(Table::new(heads).rows(rows))
 }
@@ -64,8 +66,9 @@ fn values(fit: &Fit) -> Section<'static> {
 fn numbers(fit: &Fit) -> Section<'static> {
     let heads = ["Number", "Scan", "Start", "Fit ± scatter of a web", "Residual"];
     let caption = format!(
-        "The same part of every web is measured in the same way as the scan. The residual is the logarithm of scan over fit, in standard \
-         deviations of a single web. {} trials of {} webs were laid, all with the same random numbers; trials.csv has them, fit.json all numbers.",
+        "The same part of every web is measured in the same way as the scan. The residual is the logarithm \
+        of scan over fit, in standard deviations of a single web. {} trials of {} webs were laid, all with \
+        the same random numbers; trials.csv has them, fit.json all numbers.",
         fit.trials.len(),
         fit.webs
     );
@@ -79,9 +82,11 @@ fn account(fit: &Fit, target: &Target, spec: &WebSpec) -> Account {
     let (mut sentences, mut cited) = web_account(spec, None);
     let [width, length] = target.sides().map(|side| Dimension::Length.pretty(side));
     sentences.push(format!(
-        "These values were found by a simulated method of moments ({}): the logarithms of {} numbers (CV over square patches{}) of a piece of {width} × {length} \
-         were compared with the mean of {} simulated webs, weighted by the inverse of their covariance from web to web. A 95 % interval holds the values with \
-         which simulated webs, each in the place of the scan, differ from the others as much as the scan does.",
+        "These values were found by a simulated method of moments ({}): the logarithms of {} numbers (CV \
+        over square patches{}) of a piece of {width} × {length} were compared with the mean of {} simulated \
+        webs, weighted by the inverse of their covariance from web to web. A 95 % interval holds the values \
+        with which simulated webs, each in the place of the scan, differ from the others as much as the scan \
+        does.",
         MOMENTS.short,
         fit.numbers.len(),
         if fit.numbers.iter().any(|number| matches!(number.texture, Texture::Band { .. })) {

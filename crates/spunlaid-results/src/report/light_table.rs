@@ -32,7 +32,8 @@ pub(super) struct Sheet {
     pub(super) has_fibres: bool,
     /// Whether there are places to be marked.
     pub(super) has_marks: bool,
-    /// What the script of the light table gets. Numbers and base64 only: nothing in it can end the script element it stands in.
+    /// What the script of the light table gets. Numbers and base64 only: nothing in it can end the script
+    /// element it stands in.
     pub(super) data: String,
 }
 
@@ -225,9 +226,9 @@ fn thousands(number: f64) -> String {
 /// * `pixel` – side of a pixel of the picture [m]
 pub(super) fn picture_note(pixel: f64) -> String {
     format!(
-        "Lighter where there is less fibre; black and white are three standard deviations apart from the mean. The machine \
-         direction runs downwards. A pixel is {} wide. Drag to move the web, zoom with the wheel, two fingers, the buttons or the keys \
-         + and −; the key 0 shows the whole web.",
+        "Lighter where there is less fibre; black and white are three standard deviations apart from the \
+        mean. The machine direction runs downwards. A pixel is {} wide. Drag to move the web, zoom with the \
+        wheel, two fingers, the buttons or the keys + and −; the key 0 shows the whole web.",
         millimetres(pixel)
     )
 }

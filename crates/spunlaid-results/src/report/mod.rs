@@ -4,8 +4,8 @@
 //! results → a function for each product (run, web, study, …) → Report: headline, notes, sections of parts → one template (assets/page.html)
 //! ```
 //!
-//! `document` has the parts, `table` tables, `view` what is looked at. `words`, `unevenness`, `methods` and `spinline` say what several reports
-//! say.
+//! `document` has the parts, `table` tables, `view` what is looked at. `words`, `unevenness`, `methods` and
+//! `spinline` say what several reports say.
 
 mod air;
 mod analysis;

@@ -28,10 +28,11 @@ pub fn paper_report<'a>(
     let mut report = Report::new("reproduce", headline).lead(how);
     if !claims.is_empty() {
         report = report.with(Section::new("claims", "Claim by claim").table(claim_table(claims)).caption(
-            "The program computes the verdicts from the data. A trend is almost linear if a straight line explains 97\u{202f}% of the variance. \
-             A difference is real if it is larger than three standard errors. A step in the wrong direction counts against a trend if it is \
-             larger than 2.5 standard errors. “Nearly constant” means a change of at most 10\u{202f}%. “Open” means that the errors are too large \
-             to decide; more replicates would help.",
+            "The program computes the verdicts from the data. A trend is almost linear if a straight line \
+            explains 97\u{202f}% of the variance. A difference is real if it is larger than three standard \
+            errors. A step in the wrong direction counts against a trend if it is larger than 2.5 standard \
+            errors. “Nearly constant” means a change of at most 10\u{202f}%. “Open” means that the errors \
+            are too large to decide; more replicates would help.",
         ));
     }
     let verdict = |claim: &Claim| {

@@ -46,7 +46,10 @@ pub fn run_report<'a>(
         words::quantity(performance.ns_per_element_step, "ns"),
     );
     let file = Section::new("case", "The case")
-        .paragraph("With every default filled in. Save it as a case file and run it again: the same numbers come out, to the last digit.")
+        .paragraph(
+            "With every default filled in. Save it as a case file and run it again: the same numbers \
+            come out, to the last digit.",
+        )
         .file("case-toml", toml);
     Ok(Report::new("run", headline)
         .lead(words::case(case))
@@ -74,8 +77,8 @@ fn motion(case: &Case, results: &Results) -> Result<Section<'static>, Failure> {
     };
     let remarks: String = frames.remarks.iter().map(|remark| format!(" {remark}")).collect();
     let caption = format!(
-        "{axes}; all axes in millimetres. So that the motion can be seen, the sideways scale (y and z) may be stretched against the length; \
-         the picture says by how much.{remarks}"
+        "{axes}; all axes in millimetres. So that the motion can be seen, the sideways scale (y and z) may \
+        be stretched against the length; the picture says by how much.{remarks}"
     );
     Ok(section.view(View::Fibre(frames)).caption(caption))
 }
@@ -84,11 +87,12 @@ fn motion(case: &Case, results: &Results) -> Result<Section<'static>, Failure> {
 fn numbers(results: &Results) -> Section<'static> {
     let n = results.replicates() as u64;
     let (about, caption) = if n > 1 {
-        let caption = "Replicates are fibres that differ in nothing but the random phases of the turbulence. About two times in three the true mean \
-                       lies within one standard error.";
+        let caption = "Replicates are fibres that differ in nothing but the random phases of the turbulence. \
+            About two times in three the true mean lies within one standard error.";
         (format!("Mean ± one standard error of the mean over {}.", count(n, "replicate")), caption)
     } else {
-        let about = "From a single replicate, so without a standard error: run more to learn how sure these numbers are.";
+        let about = "From a single replicate, so without a standard error: run more to learn how sure these \
+            numbers are.";
         (about.to_owned(), "")
     };
     let (table, unlisted) = replicate_table(results);
@@ -134,21 +138,22 @@ fn energy(case: &Case, results: &Results) -> Section<'static> {
     let balance = (
         format!("Energy balance: {balance}{THIN}%"),
         format!(
-            "Kinetic and elastic energy must equal the work of gravity and air,{carried} minus what damping{scheme} took out. This is the \
-             difference, relative to the work of the air. It also finds errors in the forces. If it is above one per cent, halve `run.time_step` \
-             and see whether the results move."
+            "Kinetic and elastic energy must equal the work of gravity and air,{carried} minus what \
+            damping{scheme} took out. This is the difference, relative to the work of the air. It also finds \
+            errors in the forces. If it is above one per cent, halve `run.time_step` and see whether the \
+            results move."
         ),
     );
     let work = work_error.map(|error| {
         let name = format!("Work check: {}{THIN}%", number(error.value()));
-        let meaning = "The work of all forces must equal the kinetic energy. This is the difference, relative to the kinetic energy. It grows \
-                       with the time step, and says nothing about the forces.";
+        let meaning = "The work of all forces must equal the kinetic energy. This is the difference, \
+            relative to the kinetic energy. It grows with the time step, and says nothing about the forces.";
         (name, meaning.to_owned())
     });
     let all = words::mesh(case).into_iter().chain([balance]).chain(work);
     Section::new("energy", "Mesh and energy").descriptions(all).caption(
-        "The energy errors are medians over time and replicates. All of this says how well the equations were solved, not how well they describe \
-         a fibre.",
+        "The energy errors are medians over time and replicates. All of this says how well the equations \
+        were solved, not how well they describe a fibre.",
     )
 }
 

@@ -49,8 +49,8 @@ pub fn scan_report<'a>(
     let spots = if findings.aside.spots.is_empty() { "" } else { " Black spots were left out." };
     let caption = picture_note(sheet.pixel) + spots + &marks_note(fabric);
     let read = Section::new("file", "The scan").table(Table::of_facts(facts)).caption(
-        "The map is in map.npy (kg/m², or parts of the mean where that is not known; a row of the web after the other), all numbers in \
-         summary.json, beside this page.",
+        "The map is in map.npy (kg/m², or parts of the mean where that is not known; a row of the web after \
+        the other), all numbers in summary.json, beside this page.",
     );
     let web = Section::new("web", "The web on a light table").view(View::LightTable(sheet)).caption(caption);
     Ok(Report::new("analyse", headline)
@@ -79,9 +79,9 @@ fn uneven(findings: &Findings) -> Section<'static> {
         .paragraphs(verdict(findings))
         .table(Table::new(heads).rows(findings.patches.iter().map(row)))
         .caption(format!(
-            "{CV_OF_PATCHES} The interval is that of the web, of which the scan is one piece. The noise of the camera is as it was given, and \
-             then taken out of the CV, or the most that it can be. Where one more pixel of blur changes little, the camera’s own blur has \
-             changed little as well."
+            "{CV_OF_PATCHES} The interval is that of the web, of which the scan is one piece. The noise of \
+            the camera is as it was given, and then taken out of the CV, or the most that it can be. Where \
+            one more pixel of blur changes little, the camera’s own blur has changed little as well."
         ))
 }
 
@@ -129,7 +129,8 @@ fn verdict(findings: &Findings) -> Vec<String> {
         per_cent(index, error.filter(|_| findings.guess.is_none()))
     ));
     sentences.push(format!(
-        "Texture along the machine direction: {}; ½ is no direction, 1 is all fine streaks along the machine direction, 0 all across.",
+        "Texture along the machine direction: {}; ½ is no direction, 1 is all fine streaks along the machine \
+        direction, 0 all across.",
         plus_minus(texture.mean, texture.standard_error)
     ));
     sentences

@@ -39,13 +39,14 @@ pub fn spinline_report<'a>(
     let computed = Section::new("methods", "How it was computed").descriptions(model(spec));
     let file = Section::new("file", "The spinline")
         .paragraph(
-            "With every default filled in. `spunlaid spin spinline.toml` in the folder of this page gives the same numbers, to the last \
-             digit. In a case, the same table takes the place of `feed.speed` and `fibre.diameter`.",
+            "With every default filled in. `spunlaid spin spinline.toml` in the folder of this page gives \
+            the same numbers, to the last digit. In a case, the same table takes the place of `feed.speed` \
+            and `fibre.diameter`.",
         )
         .file("spinline-toml", toml)
         .caption(
-            "The thread from the die to the end is in spinline.parquet, all numbers are in summary.json, and the numbers of each figure in \
-             figures/, beside this page.",
+            "The thread from the die to the end is in spinline.parquet, all numbers are in summary.json, and \
+            the numbers of each figure in figures/, beside this page.",
         );
     Report::new("spin", headline)
         .lead(summary(spec, rows))
@@ -198,8 +199,9 @@ fn way(layer: &Layer, holes: f64, spinline: &LayerSpinline, is_named: bool) -> S
         format!("{}{THIN}% apart", significant(100.0 * apart, 2))
     };
     format!(
-        "Die → diffuser → belt → web{}: {} holes per metre with {}{THIN}g/min each; filaments of {}{THIN}µm that enter at {}{THIN}m/s; a belt of \
-         {}{THIN}m/s. Holes × throughput / belt speed is {}, and the web has {}: {verdict}.",
+        "Die → diffuser → belt → web{}: {} holes per metre with {}{THIN}g/min each; filaments of {}{THIN}µm \
+        that enter at {}{THIN}m/s; a belt of {}{THIN}m/s. Holes × throughput / belt speed is {}, and the web \
+        has {}: {verdict}.",
         if is_named { format!(", layer {}", layer.name) } else { String::new() },
         significant(holes, 4),
         significant(spinline.throughput * 6e4, 3),
@@ -216,8 +218,8 @@ fn curtain(rows: &[Solution]) -> Option<String> {
     let [first, .., last] = rows else { return None };
     let micrometres = |row: &Solution| format!("{}{THIN}µm", number_to(row.final_diameter * 1e6, 4));
     Some(format!(
-        "The filaments of the first of {} rows, on the side of the quench, have {}, those of the last row {}. The table is that of the \
-         first row.",
+        "The filaments of the first of {} rows, on the side of the quench, have {}, those of the last row \
+        {}. The table is that of the first row.",
         rows.len(),
         micrometres(first),
         micrometres(last)
@@ -245,7 +247,8 @@ fn model(spec: &SpinSpec) -> Vec<(&'static str, String)> {
         }
     };
     let crystals = if spinline.crystallisation {
-        " Crystals form by Nakamura’s law, faster in an oriented melt; how much faster was chosen, and docs/spinline.md says why."
+        " Crystals form by Nakamura’s law, faster in an oriented melt; how much faster was chosen, and \
+        docs/spinline.md says why."
     } else {
         ""
     };
@@ -263,8 +266,8 @@ fn model(spec: &SpinSpec) -> Vec<(&'static str, String)> {
                 .to_owned()
         }
         Surroundings::Field { temperature, .. } => format!(
-            "Its velocity is that of the CFD field of the case, upstream of the inlet. Its temperature is {} everywhere \
-             (spinline.temperature), because none is read from the field.",
+            "Its velocity is that of the CFD field of the case, upstream of the inlet. Its temperature is {} \
+            everywhere (spinline.temperature), because none is read from the field.",
             celsius(*temperature)
         ),
         Surroundings::Behind(_) => String::new(),
@@ -273,15 +276,15 @@ fn model(spec: &SpinSpec) -> Vec<(&'static str, String)> {
         (
             "The thread",
             format!(
-                "One filament in steady state, with values averaged over its cross-section: {melt}. It is solid from the temperature at \
-                 which the polymer freezes.{crystals}"
+                "One filament in steady state, with values averaged over its cross-section: {melt}. It is \
+                solid from the temperature at which the polymer freezes.{crystals}"
             ),
         ),
         (
             "The air",
             format!(
-                "{air} It drags the thread by the friction law of the case (drag.along = {}), and cools it by the law of Kase and Matsuo for air \
-                 along and across it.",
+                "{air} It drags the thread by the friction law of the case (drag.along = {}), and cools it \
+                by the law of Kase and Matsuo for air along and across it.",
                 spec.drag.along.name()
             ),
         ),
@@ -289,8 +292,8 @@ fn model(spec: &SpinSpec) -> Vec<(&'static str, String)> {
         (
             "What is not verified",
             format!(
-                "{} The constants of the polymers are the usual ones of the literature, and most were not checked against their \
-                 source; docs/spinline.md lists them.",
+                "{} The constants of the polymers are the usual ones of the literature, and most were not \
+                checked against their source; docs/spinline.md lists them.",
                 model_error(spinline.has_low_birefringence())
             ),
         ),

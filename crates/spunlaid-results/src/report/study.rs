@@ -72,10 +72,11 @@ fn ranking(study: &Study, rankings: &[Ranking], refusal: Option<&str>) -> Option
         .rows(first.effects.iter().map(row))
         .foot(Row::new("explained", explained(study, rankings)));
     Some(section.table(table).caption(format!(
-        "Change of the mean from the least to the greatest value of a factor, on the straight line that fits the points best, or from one word \
-         to another, ± half a 95\u{202f}% confidence interval. Grey values have an interval that contains zero. “Explained” is the fraction of \
-         the variation between points that straight lines explain (adjusted R²). If it is low, the response is curved or the factors act \
-         together, and the figures tell more than the ranking. {}",
+        "Change of the mean from the least to the greatest value of a factor, on the straight line that fits \
+        the points best, or from one word to another, ± half a 95\u{202f}% confidence interval. Grey values \
+        have an interval that contains zero. “Explained” is the fraction of the variation between points \
+        that straight lines explain (adjusted R²). If it is low, the response is curved or the factors act \
+        together, and the figures tell more than the ranking. {}",
         intervals(study)
     )))
 }
@@ -86,7 +87,8 @@ fn points_in_short(study: &Study, results: &[PointResults]) -> Section<'static> 
     const MEASURES: usize = 4;
     let mut shown = shown::quantities(study);
     let title = if study.noun() == "web" {
-        "Unevenness, CV in % ± its error by all causes that are known, over patches of this side; flown: expected from the flown curves"
+        "Unevenness, CV in % ± its error by all causes that are known, over patches of this side; flown: \
+        expected from the flown curves"
     } else {
         shown.truncate(MEASURES);
         "Points"
@@ -132,8 +134,8 @@ fn points(study: &Study, results: &[PointResults]) -> Section<'static> {
         more => format!(" {more} more points are in results.csv."),
     };
     Section::new("points", "Points").table(table).caption(format!(
-        "Mean ± one standard error of the mean over n replicates.{more} The files results.parquet and replicates.parquet hold all digits and \
-         every replicate."
+        "Mean ± one standard error of the mean over n replicates.{more} The files results.parquet and \
+        replicates.parquet hold all digits and every replicate."
     ))
 }
 
@@ -146,9 +148,9 @@ fn files(study: &Study, [text, base_text]: [&str; 2]) -> Section<'static> {
     };
     Section::new("study", "The study")
         .paragraph(format!(
-            "The study with every default, and below it the {base} that it varies. Both files are in the folder of this page. `spunlaid sweep \
-             study.toml` gives exactly the same numbers again. `spunlaid sweep study.toml --print-point K` prints the {base} of point K for \
-             `spunlaid {command}`."
+            "The study with every default, and below it the {base} that it varies. Both files are in the \
+            folder of this page. `spunlaid sweep study.toml` gives exactly the same numbers again. `spunlaid \
+            sweep study.toml --print-point K` prints the {base} of point K for `spunlaid {command}`."
         ))
         .file("study-toml", text)
         .file("base-toml", base_text)
@@ -222,8 +224,8 @@ fn question(study: &Study) -> String {
     }
 }
 
-/// What matters most for the first quantity of the tables, and by how much; that nothing does beyond chance; or none if the study does
-/// not tell.
+/// What matters most for the first quantity of the tables, and by how much; that nothing does beyond chance;
+/// or none if the study does not tell.
 fn answer(study: &Study, rankings: &[Ranking]) -> Option<String> {
     let quantity = shown::quantities(study).into_iter().find(|i| ranking_of(rankings, *i).is_some())?;
     let effects = &ranking_of(rankings, quantity)?.effects;
@@ -273,7 +275,8 @@ fn summary(study: &Study, results: &[PointResults]) -> String {
         Design::OneAtATime => "the base case, and points in which one factor differs from it",
         Design::Paired => "the first values of all lists, then the second values, and so on",
         Design::LatinHypercube(_) => {
-            "a Latin hypercube, in which the range of each factor has as many slices as there are points, and each slice holds one point"
+            "a Latin hypercube, in which the range of each factor has as many slices as there are points, \
+            and each slice holds one point"
         }
         Design::Sobol(_) => "the first points of Sobol’s sequence, which fills all ranges evenly",
     };
@@ -310,8 +313,8 @@ fn summary(study: &Study, results: &[PointResults]) -> String {
     text
 }
 
-/// The most even and the least even web, over patches of one size; by the flown curves, where all points have them. None for
-/// fibres, and where all points are alike.
+/// The most even and the least even web, over patches of one size; by the flown curves, where all points have
+/// them. None for fibres, and where all points are alike.
 fn most_even(study: &Study, results: &[PointResults]) -> Option<String> {
     let of_figure = |figure: &str| -> Vec<usize> {
         let all = study.quantities.iter().enumerate();
@@ -348,27 +351,27 @@ fn most_even(study: &Study, results: &[PointResults]) -> Option<String> {
 /// Where the confidence intervals of the effects come from.
 fn intervals(study: &Study) -> &'static str {
     if study.noun() == "spinline" {
-        "The intervals come from the scatter of the points about the straight lines. A spinline has no chance in it: they tell how far \
-         straight lines are from the curves."
+        "The intervals come from the scatter of the points about the straight lines. A spinline has no \
+        chance in it: they tell how far straight lines are from the curves."
     } else {
-        "The intervals come from the differences between replicates; with common phases, each replicate of all points is \
-         compared with the same replicate."
+        "The intervals come from the differences between replicates; with common phases, each replicate of \
+        all points is compared with the same replicate."
     }
 }
 
 fn phases(study: &Study) -> &'static str {
     if study.noun() == "spinline" {
-        "A spinline has no random part, so the numbers have no error bars. How far the model is from a real line is not known: \
-         no diameter that it gives has been compared with a measured one."
+        "A spinline has no random part, so the numbers have no error bars. How far the model is from a real \
+        line is not known: no diameter that it gives has been compared with a measured one."
     } else if study.noun() == "web" {
         "Replicate 1 of every point has the same random numbers, and likewise replicate 2 and so on, as far as the \
          keys allow. Errors are those of the scatter of the webs of a point, or of the parts of a single web; \
          where fibres were flown, with the errors by these few fibres and by the surrogate. The flown CV is the \
          one expected from the flown curves."
     } else if study.common_phases {
-        "Common phases: replicate 1 of every point has the same random phases of the turbulence, and likewise replicate 2 \
-         and so on. Differences between points are therefore more certain than their error bars suggest, while the \
-         errors of all points have a common part."
+        "Common phases: replicate 1 of every point has the same random phases of the turbulence, and \
+        likewise replicate 2 and so on. Differences between points are therefore more certain than their \
+        error bars suggest, while the errors of all points have a common part."
     } else {
         "Every point has its own random phases, so the points are independent."
     }

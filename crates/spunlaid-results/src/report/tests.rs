@@ -287,8 +287,9 @@ fn the_page_of_any_spinline_is_well_formed_and_says_what_is_not_known() {
 #[test]
 fn the_report_of_a_run_shows_its_spinline() {
     let file = parse_spinline(
-        "[spinline]\npolymer = \"pet\"\ndie_temperature = \"290 °C\"\nhole_diameter = \"0.3 mm\"\nthroughput = \"1.5 g/min\"\n\
-         length = \"2 m\"\ncross_velocity = \"0.3 m/s\"\nend = \"take-up\"\ntake_up_speed = \"50 m/s\"\n",
+        "[spinline]\npolymer = \"pet\"\ndie_temperature = \"290 °C\"\nhole_diameter = \"0.3 mm\"\n\
+        throughput = \"1.5 g/min\"\nlength = \"2 m\"\ncross_velocity = \"0.3 m/s\"\nend = \"take-up\"\n\
+        take_up_speed = \"50 m/s\"\n",
         "line.toml",
         &[],
     )

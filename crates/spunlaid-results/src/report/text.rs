@@ -1,4 +1,5 @@
-//! Sections as text for a terminal: headings, sentences and tables. Captions, figures, views and files are for the page.
+//! Sections as text for a terminal: headings, sentences and tables. Captions, figures, views and files are
+//! for the page.
 
 use super::document::{Part, Report, Section, Seen};
 use super::table::{Content, Row, Table};
@@ -6,7 +7,8 @@ use crate::numbers::{HARD, THIN};
 use std::collections::BTreeMap;
 
 impl Report<'_> {
-    /// What a terminal of so many columns shows: the result, what is said below it, the sections that are told there, and the cost.
+    /// What a terminal of so many columns shows: the result, what is said below it, the sections that are
+    /// told there, and the cost.
     pub(crate) fn text(&self, room: usize) -> String {
         // A link leads to a part of the page.
         let said = self.lead.iter().filter(|paragraph| !paragraph.contains("](#"));
@@ -37,8 +39,8 @@ impl Section<'_> {
 }
 
 impl Table {
-    /// The rows in columns, below the title of their group. Sentences stand at the end of their row, however long they are, and details in
-    /// brackets behind it.
+    /// The rows in columns, below the title of their group. Sentences stand at the end of their row, however
+    /// long they are, and details in brackets behind it.
     fn text(&self, room: usize) -> String {
         let of = |wanted: fn(&Content) -> bool| {
             let columns = self.columns.iter().enumerate();

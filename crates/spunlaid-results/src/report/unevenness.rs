@@ -9,8 +9,9 @@ use spunlaid::web::{Clouds, Findings, nearest_to_seen};
 pub(super) const PER_CENT: f64 = 100.0;
 
 /// What is said below every table of CVs.
-pub(super) const CV_OF_PATCHES: &str = "Coefficient of variation of the basis weight over square patches, ± one standard error, which is a share \
-    of the CV; the interval holds the CV of all such webs in 95 % of the cases.";
+pub(super) const CV_OF_PATCHES: &str = "Coefficient of variation of the basis weight over square patches, ± \
+    one standard error, which is a share of the CV; the interval holds the CV of all such webs in 95 % of \
+    the cases.";
 
 /// A basis weight in grams per square metre.
 pub(super) fn grams(weight: f64) -> String {

@@ -1,4 +1,5 @@
-//! What is looked at and not read: the moving fibre, the web on its light table, webs beside each other, moving pictures of the air.
+//! What is looked at and not read: the moving fibre, the web on its light table, webs beside each other,
+//! moving pictures of the air.
 
 use super::frames::Frames;
 use super::light_table::Sheet;

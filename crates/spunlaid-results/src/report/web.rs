@@ -101,12 +101,15 @@ fn uneven(
     }
     let sizes = findings.patches.iter().map(|patch| millimetres(patch.map.patch));
     let heads = ["One per cent more of".to_owned()].into_iter().chain(sizes);
-    section.table(Table::new(heads).rows(findings.sensitivities.iter().map(|of| levers(of, findings)))).caption(
-        "What explains it: change of the expected CV in per cent, while the other numbers stay, ± one standard error, for patches of each \
-         size. The speed of the belt moves the flown curves on the belt and leaves the flight as it was (docs/web.md). “Not known”: the \
-         number would come from the surrogate, whose CV is more than 5 % from that of the flown curves there. A faster belt makes the web \
-         lighter, more filaments make it heavier.",
-    )
+    section
+        .table(Table::new(heads).rows(findings.sensitivities.iter().map(|of| levers(of, findings))))
+        .caption(
+            "What explains it: change of the expected CV in per cent, while the other numbers stay, ± one \
+        standard error, for patches of each size. The speed of the belt moves the flown curves on the belt \
+        and leaves the flight as it was (docs/web.md). “Not known”: the number would come from the \
+        surrogate, whose CV is more than 5 % from that of the flown curves there. A faster belt makes the \
+        web lighter, more filaments make it heavier.",
+        )
 }
 
 /// The unevenness for a terminal.
@@ -114,9 +117,11 @@ fn uneven_in_short(findings: &Findings) -> Section<'static> {
     let PatchTable { heads, rows } = PatchTable::new(findings, Reader::Terminal);
     let is_flown = |patch: &PatchFindings| patch.independent.is_none() && patch.flown.is_some();
     let whole = if findings.patches.iter().any(is_flown) {
-        "of this map ± its standard error by all causes (chance, few fibres flown, model: the surrogate against the flown curves)"
+        "of this map ± its standard error by all causes (chance, few fibres flown, model: the surrogate \
+        against the flown curves)"
     } else if findings.patches.iter().any(|patch| patch.few.is_some()) {
-        "of the web of all filaments, from the flown ones, ± its standard error by all causes (chance, few filaments flown)"
+        "of the web of all filaments, from the flown ones, ± its standard error by all causes (chance, few \
+        filaments flown)"
     } else {
         "of this map ± its standard error by chance alone"
     };
@@ -136,13 +141,15 @@ fn commands(findings: &Findings, advice: Option<&Advice>) -> Section<'static> {
 fn about_errors(findings: &Findings) -> &'static str {
     let is_shared = findings.laid.shared_air.is_some();
     if is_shared && findings.patches.iter().any(|patch| patch.few.is_some()) {
-        "Filaments were flown in one air, a few for all others. The error is by chance (another piece of the same web, in other gusts, has another CV) \
-         and by the few filaments."
+        "Filaments were flown in one air, a few for all others. The error is by chance (another piece of the \
+        same web, in other gusts, has another CV) and by the few filaments."
     } else if is_shared {
-        "All filaments were flown in one air. The error is by chance: another piece of the same web, in other gusts, has another CV."
+        "All filaments were flown in one air. The error is by chance: another piece of the same web, in \
+        other gusts, has another CV."
     } else if findings.patches.iter().any(|patch| patch.flown.is_some()) {
-        "The error of the map is that of all its causes together: chance (another piece of the same web), the few fibres that were flown, and \
-         the model (the CV of the surrogate against that of the flown curves). It does not include what the flight itself leaves out."
+        "The error of the map is that of all its causes together: chance (another piece of the same web), \
+        the few fibres that were flown, and the model (the CV of the surrogate against that of the flown \
+        curves). It does not include what the flight itself leaves out."
     } else {
         "The error is by chance only: no fibre was flown, so it is not known how far the surrogate is from real fibres."
     }
@@ -156,8 +163,9 @@ fn file(layers: &[Layer], toml: &str) -> Section<'static> {
         .table(Table::new(heads).rows(layers.iter().map(layer)))
         .file("web-toml", toml)
         .caption(
-            "The map is in map.npy (kg/m², a row of the web after the other), map.png (16 bit) and map.parquet, the fibres of the window in \
-             fibres.vtp, all numbers in summary.json, beside this page.",
+            "The map is in map.npy (kg/m², a row of the web after the other), map.png (16 bit) and \
+            map.parquet, the fibres of the window in fibres.vtp, all numbers in summary.json, beside this \
+            page.",
         )
 }
 
@@ -183,23 +191,24 @@ fn whole(patch: &PatchFindings) -> Unevenness {
     Unevenness { standard_error: patch.whole_error().whole().or(patch.map.standard_error), ..patch.map }
 }
 
-/// What the filaments of a web without independent filaments have in common, and what those with airs of their own leave out, in
-/// a sentence or two.
+/// What the filaments of a web without independent filaments have in common, and what those with airs of
+/// their own leave out, in a sentence or two.
 fn air_sentence(spec: &WebSpec, findings: &Findings) -> String {
     let patch = headline_patch(findings).map(|i| &findings.patches[i]);
     match (&findings.laid.shared_air, patch.and_then(|patch| Some((patch, patch.independent?.cv)))) {
         (Some(_), Some((patch, independent))) => format!(
-            "In airs of their own the same filaments would give {}, {} times less: here neighbours hang in the same gusts, which carry them \
-             aside together and lay them in ropes and clouds.",
+            "In airs of their own the same filaments would give {}, {} times less: here neighbours hang in \
+            the same gusts, which carry them aside together and lay them in ropes and clouds.",
             per_cent(independent, None),
             significant(patch.map.cv / independent, 2)
         ),
         (Some(_), None) => "All filaments were flown in one air.".to_owned(),
-        (None, _) if is_known(spec) => "This is a lower bound: in a line neighbours hang in the same gusts and come down together, and σ and A of one filament do \
-                      not say how. Name a case whose filament lies as this one (laydown.case) in place of the numbers to fly them in one air."
+        (None, _) if is_known(spec) => "This is a lower bound: in a line neighbours hang in the same gusts \
+            and come down together, and σ and A of one filament do not say how. Name a case whose filament \
+            lies as this one (laydown.case) in place of the numbers to fly them in one air."
             .to_owned(),
-        (None, _) => "This is a lower bound: in a line neighbours hang in the same gusts and come down together. Name a case (laydown.case) and leave \
-                      web.method out to fly them in one air."
+        (None, _) => "This is a lower bound: in a line neighbours hang in the same gusts and come down \
+            together. Name a case (laydown.case) and leave web.method out to fly them in one air."
             .to_owned(),
     }
 }
@@ -221,8 +230,9 @@ fn error_sentences(findings: &Findings) -> String {
         let mut sheets: Vec<String> = sheets.collect();
         sheets.dedup();
         return format!(
-            "{} of all were flown, evenly across, on a sheet of {}; the others follow from them. Chance contributes {} to the error, because the \
-             clouds on that sheet are few, and the small number of flown filaments {}.",
+            "{} of all were flown, evenly across, on a sheet of {}; the others follow from them. Chance \
+            contributes {} to the error, because the clouds on that sheet are few, and the small number of \
+            flown filaments {}.",
             count(filaments, "filament"),
             sheets.join(" and of "),
             part(error.chance),
@@ -230,7 +240,9 @@ fn error_sentences(findings: &Findings) -> String {
         );
     }
     let Some((flown, of_flown)) = patch.flown else {
-        return "The error is by chance only; that of the surrogate is not known, because no fibre was flown.".to_owned();
+        return "The error is by chance only; that of the surrogate is not known, because no fibre was \
+            flown."
+            .to_owned();
     };
     format!(
         "Chance contributes {} to the error, the small number of flown fibres {}, and the model {}. The CV \

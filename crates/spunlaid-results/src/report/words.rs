@@ -138,20 +138,22 @@ pub(super) fn mesh(case: &Case) -> Option<(String, String)> {
     let (fold, each) = (length(significant_of(scale)), length(element));
     let texture = if FINE * element <= scale {
         format!(
-            "The elements of {each} are fine enough for such folds, so the texture on the belt (chord over arc in the table, and \
-             the finest bends in the pictures) is a result as well. Halve fibre.element_length to see how well it stands."
+            "The elements of {each} are fine enough for such folds, so the texture on the belt (chord over \
+            arc in the table, and the finest bends in the pictures) is a result as well. Halve \
+            fibre.element_length to see how well it stands."
         )
     } else {
         format!(
-            "Elements of {each} cannot show such folds. So the texture below 10{THIN}mm (chord over arc in the table, and the \
-             finest bends in the pictures) is that of the mesh and no result: with finer elements the fibre lies more \
-             closely folded."
+            "Elements of {each} cannot show such folds. So the texture below 10{THIN}mm (chord over arc in \
+            the table, and the finest bends in the pictures) is that of the mesh and no result: with finer \
+            elements the fibre lies more closely folded."
         )
     };
     Some((
         format!("Mesh: elements of {each}; the fibre itself folds at a scale of {fold}"),
         format!(
-            "A fibre that meets the belt folds at a scale of d√(E/\u{2060}ρ)/\u{2060}(4v), which is {fold} in this case. {texture}"
+            "A fibre that meets the belt folds at a scale of d√(E/\u{2060}ρ)/\u{2060}(4v), which is {fold} \
+            in this case. {texture}"
         ),
     ))
 }
@@ -212,8 +214,8 @@ pub(super) fn case(case: &Case) -> String {
     if let Some(line) = case.line {
         let support = if fibre.root == Root::Clamped { "" } else { ", free to turn at the inlet," };
         return format!(
-            "A fibre of {} diameter is fed at {}{support} and comes down {medium}, on a belt {} below the inlet that moves at {}. \
-             {computed} The fibre is divided into elements of {}.",
+            "A fibre of {} diameter is fed at {}{support} and comes down {medium}, on a belt {} below the \
+            inlet that moves at {}. {computed} The fibre is divided into elements of {}.",
             length(fibre.diameter),
             quantity(line.feed_speed, "m/s"),
             length(line.distance),

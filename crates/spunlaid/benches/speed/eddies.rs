@@ -15,7 +15,8 @@ const BESIDE: usize = 64;
 const INSTANTS: usize = 8;
 const APART: f64 = 160e-6;
 
-/// Nanoseconds of a look: places along filaments of `cases/spunbond_slot.toml` that hang 0.2 mm beside each other, as those of a web do.
+/// Nanoseconds of a look: places along filaments of `cases/spunbond_slot.toml` that hang 0.2 mm beside each
+/// other, as those of a web do.
 pub fn looks() {
     title("a look at the field of eddies of spunbond_slot.toml, at places along 64 neighbours [ns]");
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/spunbond_slot.toml");

@@ -142,7 +142,8 @@ type Change = fn(&mut Case, f64);
 
 pub fn trends() {
     title(
-        "one number of Table 1 changed at a time, leapfrog, 40 replicates: amplitude [mm], frequency [Hz], mean of y and z",
+        "one number of Table 1 changed at a time, leapfrog, 40 replicates: amplitude [mm], frequency [Hz], \
+        mean of y and z",
     );
     let changes: [(&str, Change, &[f64]); 6] = [
         ("velocity [m/s]", |c, x| c.air.velocity = x, &[5.0, 10.0, 15.0, 20.0]),

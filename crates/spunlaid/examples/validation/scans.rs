@@ -53,7 +53,8 @@ pub(crate) fn intervals() {
                 spunlaid::statistics::median(&of().map(|ends| 100.0 * ends[end]).collect::<Vec<_>>())
             });
             println!(
-                "  {} {:>2} mm: true {:.2} %, found {:.2} %, usual interval {:.2} to {:.2} %, {} of {} hold it, {below} are below, {above} above",
+                "  {} {:>2} mm: true {:.2} %, found {:.2} %, usual interval {:.2} to {:.2} %, {} of {} hold \
+                it, {below} are below, {above} above",
                 if in_rows { "rows" } else { "random places" },
                 side as f64 * PIXEL * 1e3,
                 100.0 * truth,

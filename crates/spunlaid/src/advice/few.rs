@@ -29,8 +29,9 @@ impl WebOfFew {
         Self { layers: few.into_iter().map(|few| (share(&few), few)).collect() }
     }
 
-    /// The changes of the CV from this web to another one in the same air, over the patches that both have. What both have by chance, because they
-    /// have the same clouds, does not count.                         theory.md, "Two webs in the same air"
+    /// The changes of the CV from this web to another one in the same air, over the patches that both have.
+    /// What both have by chance, because they have the same clouds, does not count.
+    ///                                                                  theory.md, "Two webs in the same air"
     pub(super) fn changes_to(&self, other: &Self) -> Vec<Effect<f64>> {
         let Some((_, first)) = self.layers.first() else { return Vec::new() };
         let change = |patch: f64| {
@@ -92,7 +93,8 @@ impl WebOfFew {
 const ALONG: usize = 3;
 const ACROSS: usize = 2;
 
-/// Variance of the mean of some blocks, and its degrees of freedom. A cloud may reach into the blocks beside its own, so what these have in common counts too.
+/// Variance of the mean of some blocks, and its degrees of freedom. A cloud may reach into the blocks beside
+/// its own, so what these have in common counts too.
 ///
 /// * `parts` – deviations from their mean, block after block across
 /// * `across` – number of blocks across; the web goes on at its edges
@@ -127,7 +129,8 @@ mod tests {
     use rand_xoshiro::SplitMix64;
     use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
-    /// Blocks that know nothing of each other, and blocks of which each has a half of its clouds in common with the next one along.
+    /// Blocks that know nothing of each other, and blocks of which each has a half of its clouds in common
+    /// with the next one along.
     #[test]
     fn stat_the_variance_of_the_mean_of_blocks_counts_what_they_have_in_common() {
         const ACROSS: usize = 4;

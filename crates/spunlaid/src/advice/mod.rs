@@ -24,7 +24,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A change of a web.
 pub type Change = effects::Change<ChangedWeb>;
-/// A change of a web with what it does to the CV over patches of each size, as a share of it: negative for a more even web.
+/// A change of a web with what it does to the CV over patches of each size, as a share of it: negative for a
+/// more even web.
 pub type Tried = effects::Tried<ChangedWeb, f64>;
 /// What changes of settings do to the CV of a web.
 pub type Advice = Trials<ChangedWeb, f64>;
@@ -58,8 +59,8 @@ fn steps_of_web(spec: &WebSpec) -> u64 {
     cases.iter().map(|(_, case)| case.run.steps * case.run.replicates).sum()
 }
 
-/// Most steps of all fibres that are flown for advice or for guesses without being asked: a minute or two of a processor, of filaments in one air too, whose
-/// steps are shorter.
+/// Most steps of all fibres that are flown for advice or for guesses without being asked: a minute or two of
+/// a processor, of filaments in one air too, whose steps are shorter.
 pub const fn most_steps(method: Method) -> u64 {
     match method {
         Method::Surrogate | Method::Dynamics => 4_000_000,
@@ -67,8 +68,9 @@ pub const fn most_steps(method: Method) -> u64 {
     }
 }
 
-/// Whether changes of a web are tried without being asked: there are some, their flights are short, and a few filaments tell the web. Where all filaments in
-/// one air are flown, two maps are compared, and only large effects are seen. Guesses must also fit into the memory beside each other.
+/// Whether changes of a web are tried without being asked: there are some, their flights are short, and a few
+/// filaments tell the web. Where all filaments in one air are flown, two maps are compared, and only large
+/// effects are seen. Guesses must also fit into the memory beside each other.
 pub fn are_tried(spec: &WebSpec, findings: &Findings, changes: &[Change]) -> bool {
     let few = findings.laid.shared_air.as_ref().map(|together| together.few.len());
     let says_enough = few.is_none_or(|layers| layers == spec.layers.len());
@@ -103,7 +105,8 @@ fn is_guess(change: &Change) -> bool {
 /// Tries changes of a web.
 ///
 /// * `web`, `findings` – the web as it is, and what was found of it
-/// * `judged_by` – side of the patches by whose CV changes are judged [m], see [`check_patch`]; if None, that of the patches which the eye judges first
+/// * `judged_by` – side of the patches by whose CV changes are judged [m], see [`check_patch`]; if None, that
+///   of the patches which the eye judges first
 /// * `by` – its counter grows by the [`steps`] of the changes that are done
 ///
 /// # Errors
@@ -160,7 +163,8 @@ fn few_of_changes(spec: &WebSpec, changes: &[Change], by: LayControl<'_>) -> Res
         of_few.map(|of_few| base.changes_to(&of_few)).map_err(|why| why.to_string())
     };
     let mut tried: Outcomes = told.map(change).collect();
-    // Where eddies are far longer or shorter than those of others, too little of a web may be laid while the same air passes for all.
+    // Where eddies are far longer or shorter than those of others, too little of a web may be laid while the
+    // same air passes for all.
     for number in 0..changes.len() {
         if changes.len() > 1 && is_guess(&changes[number]) && tried[number].is_err() {
             let alone = few_of_changes(spec, &changes[number..=number], by)?;
@@ -183,7 +187,8 @@ fn try_alone(
         true => of_maps(&findings.patches),
         false => expected_cv(web, LayControl { laid: &aside, ..by })?,
     };
-    // A flight of eight fibres takes one thread, and many changes are tried side by side. All filaments in one air take all threads.
+    // A flight of eight fibres takes one thread, and many changes are tried side by side. All filaments in
+    // one air take all threads.
     let (abreast, threads) = if is_shared { (1, by.threads) } else { (by.threads, 1) };
     try_each(abreast, changes.len(), |i| {
         let changed = &changes[i..=i];
@@ -206,7 +211,8 @@ fn of_maps(patches: &[PatchFindings]) -> Vec<ExpectedCv> {
     patches.iter().map(|found| ExpectedCv::of_map(&found.map)).collect()
 }
 
-/// How uneven a web is over patches of each size: on the map of filaments in one air, or as it is expected of independent ones.
+/// How uneven a web is over patches of each size: on the map of filaments in one air, or as it is expected of
+/// independent ones.
 fn cvs(spec: &WebSpec, by: LayControl<'_>) -> Result<Vec<ExpectedCv>, Error> {
     let is_flown = |layer: &LayerSpec| matches!(layer.source, LaydownSource::Case { .. });
     // The flown curves are compared, whether a surrogate is found in them or not.

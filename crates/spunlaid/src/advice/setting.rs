@@ -8,11 +8,13 @@ impl Setting {
         Self { name, words }
     }
 
-    /// Mass that each hole gives per time. Of known filaments the titre stays, and those of a spinline become coarser with it.
+    /// Mass that each hole gives per time. Of known filaments the titre stays, and those of a spinline become
+    /// coarser with it.
     pub const THROUGHPUT: Self = Self::new("throughput", "throughput of a hole");
     /// Number of holes.
     pub const HOLES: Self = Self::new("holes", "holes");
-    /// Mass per length of the filaments. The throughput of a hole stays, so the filaments come slower if they are coarser.
+    /// Mass per length of the filaments. The throughput of a hole stays, so the filaments come slower if they
+    /// are coarser.
     pub const TITRE: Self = Self::new("titre", "titre");
     /// Way from the inlet to the belt.
     pub const DISTANCE: Self = Self::new("distance", "distance to the belt");

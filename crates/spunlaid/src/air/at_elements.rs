@@ -62,7 +62,8 @@ impl AirAtElements {
         step.is_multiple_of(self.every)
     }
 
-    /// Factor from the change since the last look to that in a step. The first look has none before it to extrapolate from.
+    /// Factor from the change since the last look to that in a step. The first look has none before it to
+    /// extrapolate from.
     #[inline(always)]
     pub(super) fn per_step<S: Register>(&self) -> Wide<S> {
         Wide::splat(if self.looked { 1.0 / self.every as f64 } else { 0.0 })

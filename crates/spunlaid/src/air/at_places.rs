@@ -12,8 +12,8 @@ const LATEST: f64 = 1e6;
 
 /// Air whose turbulence is a field of eddies in space, to be looked at wherever and whenever one likes.
 ///
-/// The same seed and replicate give the air that a fibre of the case flies in, but for the interpolation of the mean flow along
-/// the way, which is linear there and exact here.
+/// The same seed and replicate give the air that a fibre of the case flies in, but for the interpolation of
+/// the mean flow along the way, which is linear there and exact here.
 #[derive(Clone, Debug)]
 pub struct AirAtPlaces {
     air: Air,
@@ -64,8 +64,8 @@ impl AirAtPlaces {
     /// Looks at times that rise are fast; one at an earlier time makes the field anew.
     ///
     /// * `time` – from the start of a run [s]
-    /// * `places` – the origin is the inlet or the root, and x points along gravity [m]. The turbulence before the inlet is that at
-    ///   the inlet, and beyond the end of the way that at the end
+    /// * `places` – the origin is the inlet or the root, and x points along gravity [m]. The turbulence
+    ///   before the inlet is that at the inlet, and beyond the end of the way that at the end
     ///
     /// # Errors
     /// A time that is negative or above 10⁶ s, or a place that is not finite.

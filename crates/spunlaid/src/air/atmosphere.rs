@@ -5,9 +5,10 @@
 //! run    once a block of elements: a task that asks for the velocity at each
 //! ```
 //!
-//! The kernel asks for velocities and knows no kind of air. A kind is a variant of both types here, and what it looks at is its
-//! own: it may belong to one flight, or be a handle to what many flights read. Velocities that are all written into a buffer
-//! beforehand cost up to a seventh of a step: the signals of many eddies do not fit into the first-level cache.
+//! The kernel asks for velocities and knows no kind of air. A kind is a variant of both types here, and what
+//! it looks at is its own: it may belong to one flight, or be a handle to what many flights read. Velocities
+//! that are all written into a buffer beforehand cost up to a seventh of a step: the signals of many eddies
+//! do not fit into the first-level cache.
 
 use super::at_elements::InstantStations;
 use super::eddy_wind::{InstantEddies, LastEddy};
@@ -54,7 +55,8 @@ pub(crate) trait VelocityTask<S: Register> {
 }
 
 impl<S: Register> Velocities<'_, S> {
-    /// Does a task, compiled for each kind of air. A kernel that asks for the kind at each element is slower by a twentieth.
+    /// Does a task, compiled for each kind of air. A kernel that asks for the kind at each element is slower
+    /// by a twentieth.
     #[inline(always)]
     pub(crate) fn run(&self, task: impl VelocityTask<S>) {
         match self {
@@ -206,7 +208,8 @@ impl Atmosphere {
         }
     }
 
-    /// Share of the time that the elements of the fibre in a lane have spent outside the given flow. `None` in uniform air.
+    /// Share of the time that the elements of the fibre in a lane have spent outside the given flow. `None`
+    /// in uniform air.
     pub(crate) fn outside(&self, lane: usize) -> Option<f64> {
         match self {
             Self::Uniform(_) => None,

@@ -160,7 +160,8 @@ impl Air {
         }
     }
 
-    /// In a profile the air changes along x only, apart from the velocity with which it widens. The gradient is that between two points near by.
+    /// In a profile the air changes along x only, apart from the velocity with which it widens. The gradient
+    /// is that between two points near by.
     fn around_in_profile(&self, at: Vec3<f64>, hint: &mut Hint) -> AirAround {
         let mut value = |x: f64| {
             let LocalAir { velocity, rms, inside, .. } = self.local(Vec3::new(x, at.y, at.z), hint);
@@ -269,8 +270,8 @@ impl Air {
         }
     }
 
-    /// How fast air that slows moves away from the middle of the slot, per distance from it: `−dU/dx` [1/s]. None if the mean
-    /// flow does not widen.                                                                          theory.md (49a)
+    /// How fast air that slows moves away from the middle of the slot, per distance from it: `−dU/dx` [1/s].
+    /// None if the mean flow does not widen.                                                  theory.md (49a)
     fn widening_rate(&self, profile: &Profile, x: f64) -> Option<f64> {
         self.widens().then(|| -self.speed_factor * profile.velocity_gradient(x))
     }
@@ -347,8 +348,9 @@ impl Air {
         places.map(|at| self.local(at, &mut hint)).collect()
     }
 
-    /// Where along a fibre the turbulence changes fastest, as a share of its length, if the flow tells its cut-off frequency. This
-    /// place sets [`Air::cutoff_frequency`], and so the time step where the case gives none.
+    /// Where along a fibre the turbulence changes fastest, as a share of its length, if the flow tells its
+    /// cut-off frequency. This place sets [`Air::cutoff_frequency`], and so the time step where the case
+    /// gives none.
     ///
     /// * `along` – from the root to the end of the straight fibre [m]
     pub fn place_of_cutoff(&self, along: Vec3<f64>) -> Option<f64> {

@@ -26,7 +26,8 @@ impl<T> FileContent<T> {
         Self { file: Arc::new(File { path, checksum, parts: Vec::new() }), content }
     }
 
-    /// The same content with the files that the file names, relative to its folder. The checksum is that of all of them.
+    /// The same content with the files that the file names, relative to its folder. The checksum is that of
+    /// all of them.
     #[must_use]
     pub fn with_parts(mut self, parts: Vec<PathBuf>) -> Self {
         Arc::make_mut(&mut self.file).parts = parts;

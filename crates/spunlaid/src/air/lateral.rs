@@ -66,8 +66,8 @@ impl Air {
         self.widening == Some(Widening::MachineDirection)
     }
 
-    /// `k_max L_T` of the field of eddies in space [-]. None if the turbulence is the same across the flow, and in still air,
-    /// which has no turbulence.
+    /// `k_max L_T` of the field of eddies in space [-]. None if the turbulence is the same across the flow,
+    /// and in still air, which has no turbulence.
     pub fn field_cutoff(&self) -> Option<f64> {
         self.lateral.cutoff().filter(|_| self.velocity != 0.0)
     }

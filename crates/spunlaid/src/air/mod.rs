@@ -203,8 +203,8 @@ impl Air {
         self.harmonics_lasting(duration, 1024.0)
     }
 
-    /// As [`Air::default_harmonics`], for the many stations along the way of a fed fibre: at most 256 harmonics, or as many
-    /// as make a window last for 256 integral times.
+    /// As [`Air::default_harmonics`], for the many stations along the way of a fed fibre: at most 256
+    /// harmonics, or as many as make a window last for 256 integral times.
     pub fn default_harmonics_at_stations(&self, duration: f64) -> usize {
         self.harmonics_lasting(duration, 256.0)
     }

@@ -139,7 +139,8 @@ impl PlacedField {
         (Vec3::new(x0, y0, z0), Vec3::new(x1, y1, z1))
     }
 
-    /// The direction of the field along which most of the air flows, and the share of the mean velocity that goes there.
+    /// The direction of the field along which most of the air flows, and the share of the mean velocity that
+    /// goes there.
     pub fn main_direction(&self) -> (Axis, f64) {
         let mean = self.field.overview().velocity;
         let along = |axis: Axis| axis.to_fibre(mean).x / mean.norm();

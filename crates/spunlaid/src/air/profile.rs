@@ -46,8 +46,8 @@ impl Profile {
         (first - rounding..=last + rounding).contains(&x)
     }
 
-    /// How fast the velocity rises at `x` [m], `dU/dx` [1/s]: at a row, from there to the next one, and at the last row from
-    /// the one before. Outside of the rows it is zero, as the velocity is constant there.
+    /// How fast the velocity rises at `x` [m], `dU/dx` [1/s]: at a row, from there to the next one, and at
+    /// the last row from the one before. Outside of the rows it is zero, as the velocity is constant there.
     pub(super) fn velocity_gradient(&self, x: f64) -> f64 {
         if self.x.len() < 2 || !self.contains(x) {
             return 0.0;

@@ -47,8 +47,8 @@ impl StationGrid {
 impl Air {
     /// The stations between an inlet and a belt at a distance [m] from it.
     ///
-    /// Independent eddies have one in each length scale. A carried pattern has four in each length scale and eight in the
-    /// shortest wave.
+    /// Independent eddies have one in each length scale. A carried pattern has four in each length scale and
+    /// eight in the shortest wave.
     pub fn stations(&self, distance: f64) -> StationGrid {
         const PLACES: usize = 64;
         let mut hint = Hint::default();
@@ -410,8 +410,8 @@ mod tests {
                 count += ((felt.grid.count - 1) * 3 * WIDTH) as f64;
             }
             let whole = 0.01 * SPEED * SPEED;
-            // 400 instants, 24 signals and three or more eddies along the way: a standard error of less than 0.85 %. Neighbours
-            // of carried eddies know of each other, so that their ratio is more certain.
+            // 400 instants, 24 signals and three or more eddies along the way: a standard error of less than
+            // 0.85 %. Neighbours of carried eddies know of each other, so that their ratio is more certain.
             for sum in sums {
                 assert!(
                     (sum / count / whole - 1.0).abs() < 0.035,
@@ -448,7 +448,8 @@ mod tests {
         }
     }
 
-    /// Without turbulence, elements at any distance from the middle feel the velocity of the profile and of its widening.
+    /// Without turbulence, elements at any distance from the middle feel the velocity of the profile and of
+    /// its widening.
     #[test]
     fn analytic_fed_fibres_feel_the_widening_of_a_profile() {
         let rows = Profile { x: vec![0.0, 0.5], velocity: vec![60.0, 10.0], ..Profile::default() };

@@ -205,7 +205,8 @@ pub(crate) struct InstantFlow<'a, S: Register> {
 }
 
 impl<S: Register> InstantFlow<'_, S> {
-    /// Velocity of the air at element `j` [m/s], where the flow carries an eddy with this signal of mean zero and rms one.
+    /// Velocity of the air at element `j` [m/s], where the flow carries an eddy with this signal of mean zero
+    /// and rms one.
     #[inline(always)]
     pub(super) fn carried(&self, j: usize, signal: Vec3<Wide<S>>) -> Vec3<Wide<S>> {
         let Place { value, rise } = &self.places[j];

@@ -16,8 +16,8 @@ use crate::web::{Sheet, Window};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Largest lateral wave number of the air, times its length scale. Smaller eddies change no CV from patches of 10 mm on, and hardly any change of it, but
-/// take as much time again.
+/// Largest lateral wave number of the air, times its length scale. Smaller eddies change no CV from patches
+/// of 10 mm on, and hardly any change of it, but take as much time again.
 const HIGHEST: f64 = 10.0;
 
 /// A beam that has flown beside others.
@@ -37,8 +37,8 @@ struct BeamField {
     pace: f64,
 }
 
-/// Flies beams on a sheet, or on the belt that passes for them in the same time. All are flown for as long as the first ones take; a beam may lay a little
-/// less than the sheet.
+/// Flies beams on a sheet, or on the belt that passes for them in the same time. All are flown for as long as
+/// the first ones take; a beam may lay a little less than the sheet.
 ///
 /// # Errors
 /// For each beam as of [`Beam::fly`]; and if it is stopped.
@@ -204,7 +204,8 @@ impl Group<'_> {
         self.beams[beam].case.run.time_step * self.fields[beam].pace
     }
 
-    /// The times of the field at which the belt has passed on which the filaments of all beams lie; None while some lay the fibre of their start.
+    /// The times of the field at which the belt has passed on which the filaments of all beams lie; None
+    /// while some lay the fibre of their start.
     fn laid_by_all(&self, flying: &[(usize, Flying<'_>)]) -> Option<Range<f64>> {
         let mut all = f64::NEG_INFINITY..f64::INFINITY;
         for (beam, of_beam) in flying {

@@ -8,8 +8,8 @@ use crate::web::{Edges, Sheet};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Distance in which the filaments of a slot without depth come down, in ways from inlet to belt: eight standard deviations of
-/// a usual filament. One that goes farther meets the eddies of the other side again.
+/// Distance in which the filaments of a slot without depth come down, in ways from inlet to belt: eight
+/// standard deviations of a usual filament. One that goes farther meets the eddies of the other side again.
 const REACH: f64 = 0.36;
 /// Steps for which the field is made before and after those that are flown.
 const MARGIN: f64 = 1.0;
@@ -35,7 +35,8 @@ impl SharedField {
         self.field.block()
     }
 
-    /// The field for some steps, and for those next to them: a flight that found its time outside would make a field for itself.
+    /// The field for some steps, and for those next to them: a flight that found its time outside would make
+    /// a field for itself.
     pub(super) fn during(&mut self, steps: Range<u64>) -> Arc<EddyField> {
         let [start, end] = [steps.start as f64 - MARGIN, steps.end as f64 + MARGIN];
         self.field.make(start * self.time_step..end * self.time_step, self.threads);
@@ -55,8 +56,8 @@ impl Beam<'_> {
         }
     }
 
-    /// After what distances the air repeats itself. Across a web that is wide everywhere it is the width; otherwise no filament meets the air of another
-    /// one again.
+    /// After what distances the air repeats itself. Across a web that is wide everywhere it is the width;
+    /// otherwise no filament meets the air of another one again.
     fn extent_of_air(&self, sheet: &Sheet) -> Extent {
         let (air, distance) = (&self.case.air, self.case.way_of_air());
         let least = self.case.extent_of_air().y;
@@ -83,7 +84,8 @@ fn range(numbers: impl Iterator<Item = f64> + Clone) -> f64 {
     (largest - smallest).max(0.0)
 }
 
-/// How many times as wide the mean flow is at the belt as at the inlet. What comes down in the middle of the way has been moved aside by less.
+/// How many times as wide the mean flow is at the belt as at the inlet. What comes down in the middle of the
+/// way has been moved aside by less.
 fn widening(air: &Air, distance: f64) -> f64 {
     if matches!(air.flow, Flow::Uniform) || (matches!(air.flow, Flow::Profile(_)) && !air.widens()) {
         return 1.0;

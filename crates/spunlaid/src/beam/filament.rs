@@ -36,7 +36,8 @@ impl Reach {
     }
 }
 
-/// The stretch of belt that becomes the sheet. Places on the belt are `y − v_b t`: what is laid later lies farther back.
+/// The stretch of belt that becomes the sheet. Places on the belt are `y − v_b t`: what is laid later lies
+/// farther back.
 #[derive(Clone, Debug)]
 pub(super) struct Stretch {
     belt_ratio: f64,
@@ -69,7 +70,8 @@ impl Stretch {
         self.back
     }
 
-    /// Whether nothing will come down on the sheet any more. A filament is never reckoned farther ahead than any has been so far.
+    /// Whether nothing will come down on the sheet any more. A filament is never reckoned farther ahead than
+    /// any has been so far.
     pub(super) fn is_laid(&self, reach: &Reach) -> bool {
         self.back.is_some_and(|back| reach.ahead - self.belt_ratio * reach.fed < back)
     }
@@ -88,8 +90,8 @@ pub(super) struct Filament {
     pub(super) place: Place,
     /// The last point that was drawn, and those after it.
     waiting: Vec<LaidPoint>,
-    /// Deviations of the points after the start from the straight trace of a filament that comes down at one place, in machine and
-    /// in cross direction [m].
+    /// Deviations of the points after the start from the straight trace of a filament that comes down at one
+    /// place, in machine and in cross direction [m].
     pub(super) deviations: Vec<[f64; 2]>,
     /// All points, if they are kept.
     pub(super) kept: Option<Vec<LaidPoint>>,

@@ -106,7 +106,8 @@ impl<'a> Flying<'a> {
         self.reach.lost as f64 > MOST_LOST * self.beam.places.len() as f64
     }
 
-    /// The times at which the belt has passed on which all filaments lie as after their start, as far as they have been flown [s].
+    /// The times at which the belt has passed on which all filaments lie as after their start, as far as they
+    /// have been flown [s].
     pub(super) fn laid_during(&self) -> Option<Range<f64>> {
         self.stretch.back()?;
         let Reach { ahead, start, fed, .. } = self.reach;

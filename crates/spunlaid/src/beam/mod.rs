@@ -5,8 +5,9 @@
 //!        → laid points → the canvas, at once; the curves of a few filaments are kept
 //! ```
 //!
-//! A sheet is not closed to a ring in machine direction, because the air at its two ends is not the same. Instead the filaments lay more
-//! belt than the sheet is long, and the sheet is the part on which every filament lies as it does after its start:
+//! A sheet is not closed to a ring in machine direction, because the air at its two ends is not the same.
+//! Instead the filaments lay more belt than the sheet is long, and the sheet is the part on which every
+//! filament lies as it does after its start:
 //!
 //! ```text
 //! belt   |  laid by the start  |······ sheet ······|  some filaments are still to come  |      → the belt moves
@@ -47,7 +48,8 @@ use std::time::{Duration, Instant};
 const KEPT: usize = 64;
 /// Time by which all flights advance before the next block, unless the air has one [s].
 const BLOCK: f64 = 4e-3;
-/// How far from its place a filament is reckoned to land before it is known, in ways from inlet to belt. Only the display of progress needs it.
+/// How far from its place a filament is reckoned to land before it is known, in ways from inlet to belt. Only
+/// the display of progress needs it.
 const SPREAD: f64 = 0.2;
 
 /// Whose air a filament flies in.
@@ -68,8 +70,8 @@ pub struct Beam<'a> {
     pub places: &'a [Place],
     /// Whose air they fly in.
     pub airs: Airs,
-    /// Size in machine direction of the slot in which the places lie [m]. All filaments of a slot fly in the same air, however many of
-    /// them there are and wherever in its depth they hang.
+    /// Size in machine direction of the slot in which the places lie [m]. All filaments of a slot fly in the
+    /// same air, however many of them there are and wherever in its depth they hang.
     pub depth: f64,
 }
 
@@ -95,7 +97,8 @@ pub struct BeamFindings {
     pub(crate) in_windows: KeptFibres,
     /// How filaments come down together, over their distance.
     pub neighbours: Vec<NeighbourCorrelation>,
-    /// The part of CV² that neighbours make together, over patches of each side of the sheet; empty if pairs do not tell it.
+    /// The part of CV² that neighbours make together, over patches of each side of the sheet; empty if pairs
+    /// do not tell it.
     pub pairs: Vec<SharedVariance>,
     /// The filaments that were lost, by their numbers across the web, each with the reason.
     pub lost: Vec<(usize, Error)>,
@@ -131,8 +134,8 @@ impl Beam<'_> {
     /// * `window` – of the sheet, whose single fibres are kept
     ///
     /// # Errors
-    /// A filament that is not fed, one whose flight cannot be made, too many lost ones, an interruption, and a cell that would hold
-    /// more fibre than can be counted.
+    /// A filament that is not fed, one whose flight cannot be made, too many lost ones, an interruption, and
+    /// a cell that would hold more fibre than can be counted.
     pub fn lay(
         &self,
         sheet: &Sheet,
@@ -165,7 +168,8 @@ impl Beam<'_> {
     /// * `on` – what draws an element of fibre; None to keep the curves of all filaments in place of it
     ///
     /// # Errors
-    /// If the case cannot be flown or its fibre is not laid on a moving belt, if more than 2 % of the filaments are lost, or if it is stopped.
+    /// If the case cannot be flown or its fibre is not laid on a moving belt, if more than 2 % of the
+    /// filaments are lost, or if it is stopped.
     pub(crate) fn fly(
         &self,
         (sheet, windows): (&Sheet, Windows),

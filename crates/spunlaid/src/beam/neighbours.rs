@@ -12,9 +12,11 @@ use super::pairs::Pairs;
 use crate::fibre::{Place, rows};
 use crate::web::{Correlation, Edges, NeighbourCorrelation, SharedVariance, Sheet};
 
-/// Farthest neighbours, in parts of the distance after which the air repeats itself at least, which is ten length scales.
+/// Farthest neighbours, in parts of the distance after which the air repeats itself at least, which is ten
+/// length scales.
 const FARTHEST: f64 = 0.5;
-/// Least length of a stretch, in ways from inlet to belt: eddies that were near the belt at its start are forgotten at its end.
+/// Least length of a stretch, in ways from inlet to belt: eddies that were near the belt at its start are
+/// forgotten at its end.
 const STRETCH: f64 = 2.0;
 /// Most stretches, about.
 const STRETCHES: f64 = 32.0;
@@ -189,8 +191,8 @@ impl Neighbours {
         (0..self.waiting.len()).map(mean).collect()
     }
 
-    /// Over all pairs at a distance. Its error is that by the jackknife over the stretches, and what the places of the pairs add, which stay as
-    /// they are in all stretches.                                                            theory.md (83b)
+    /// Over all pairs at a distance. Its error is that by the jackknife over the stretches, and what the
+    /// places of the pairs add, which stay as they are in all stretches.                      theory.md (83b)
     fn correlation(
         &self,
         distance: usize,
@@ -248,8 +250,8 @@ impl Neighbours {
         }
     }
 
-    /// What the places of the filaments add to the variance of a sum over pairs: what pairs with a filament in common have in common in
-    /// different stretches.
+    /// What the places of the filaments add to the variance of a sum over pairs: what pairs with a filament
+    /// in common have in common in different stretches.
     fn variance_by_places(&self, pairs: &[(usize, [usize; 2])], parts: &[Vec<f64>]) -> f64 {
         let apart = |parts: &[f64]| {
             let (sum, squares) =

@@ -139,8 +139,8 @@ impl Pairs {
         }
     }
 
-    /// The part of CV² that neighbours make together, over patches of each side of the sheet; empty if the filaments lie too far apart
-    /// to tell it.
+    /// The part of CV² that neighbours make together, over patches of each side of the sheet; empty if the
+    /// filaments lie too far apart to tell it.
     ///
     /// * `means` – deviation of each filament, in machine and in cross direction [m]
     pub(super) fn variances(
@@ -240,8 +240,8 @@ struct BeltPair {
 }
 
 impl BeltPair {
-    /// `∫ dv [T(v + y, 2σ₁²(1 − C₁)) T(z, 2σ₂²(1 − C₂)) − T(v + y, 2σ₁²) T(z, 2σ₂²)]` over the belt v that passes between the two, with
-    /// [`overlap`] T.
+    /// `∫ dv [T(v + y, 2σ₁²(1 − C₁)) T(z, 2σ₂²(1 − C₂)) − T(v + y, 2σ₁²) T(z, 2σ₂²)]` over the belt v that
+    /// passes between the two, with [`overlap`] T.
     fn overlap(&self, side: f64) -> f64 {
         let [z, y] = self.offset;
         let both =

@@ -194,7 +194,8 @@ impl Check<'_> {
         let (needed, allowed) = (error::memory(bytes), error::memory(most));
         let fault = |what: &str, remedy: &'static str| {
             let message = format!(
-                "needs {needed} of memory for eight fibres side by side, most of it for {what}; at most {allowed} is allowed"
+                "needs {needed} of memory for eight fibres side by side, most of it for {what}; at most \
+                {allowed} is allowed"
             );
             Fault::new(message, remedy)
         };
@@ -361,8 +362,9 @@ impl Check<'_> {
     fn shared_record(&mut self) {
         let lateral = self.case.air.lateral;
         if lateral != Lateral::Uniform && !self.case.air.records.is_empty() {
-            let remedy = "a record is measured at one point and does not tell how the air differs across the flow; write \
-                          air.lateral = \"uniform\", or take the numbers and the spectrum of the record (spunlaid analyse) instead of it";
+            let remedy = "a record is measured at one point and does not tell how the air differs across the \
+                flow; write air.lateral = \"uniform\", or take the numbers and the spectrum of the record \
+                (spunlaid analyse) instead of it";
             let fault = Fault::excludes("air.record", remedy);
             self.blame_key("air.lateral", format!("\"{}\"", lateral.name()), fault);
         }

@@ -10,8 +10,8 @@ pub const FLIGHT_MEMORY_LIMIT: f64 = 8.0 * (1u64 << 30) as f64;
 const VECTORS_PER_NODE: f64 = 12.0;
 /// Bytes of such a vector.
 const VECTOR: f64 = 192.0;
-/// Bytes that observers of eight fibres keep of a recorded instant, and of how many instants at most: what quantiles are
-/// found in, and what waits to be transformed into spectra.
+/// Bytes that observers of eight fibres keep of a recorded instant, and of how many instants at most: what
+/// quantiles are found in, and what waits to be transformed into spectra.
 const QUANTILES: (f64, f64) = (400.0, (1 << 14) as f64);
 const SPECTRA: (f64, f64) = (200.0, (17 << 11) as f64);
 /// Bytes of the air around an element of eight fibres in a flow that is not uniform.
@@ -70,8 +70,8 @@ impl Case {
         FlightMemory { chain, turbulence, synthesis, field, instants }
     }
 
-    /// Number of eddies, or stations of the air, for which a flight makes turbulence; at most one for each element where their
-    /// size varies along the fibre.
+    /// Number of eddies, or stations of the air, for which a flight makes turbulence; at most one for each
+    /// element where their size varies along the fibre.
     fn number_of_eddies(&self) -> f64 {
         let elements = self.fibre.elements as f64;
         match self.air.eddies {
@@ -82,9 +82,10 @@ impl Case {
         }
     }
 
-    /// Computing time that a flight takes to make its turbulence from harmonics until a time [s], in steps of elements with the
-    /// explicit schemes. Each window is made whole, and the first one however short the flight is. Zero where the
-    /// turbulence comes from records or from a field of eddies in space, which takes its time in other ways.
+    /// Computing time that a flight takes to make its turbulence from harmonics until a time [s], in steps of
+    /// elements with the explicit schemes. Each window is made whole, and the first one however short the
+    /// flight is. Zero where the turbulence comes from records or from a field of eddies in space, which
+    /// takes its time in other ways.
     pub(crate) fn cost_of_air(&self, time: f64) -> f64 {
         match self.air.field_cutoff() {
             None => Wind::cost(&self.air, time) * self.number_of_eddies(),

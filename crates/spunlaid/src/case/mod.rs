@@ -162,14 +162,14 @@ impl Case {
         self.line.map(|line| self.air.stations(line.distance))
     }
 
-    /// Length of the way along which the air is described, from the root to the belt or a little beyond the end of a fibre of
-    /// fixed length [m].
+    /// Length of the way along which the air is described, from the root to the belt or a little beyond the
+    /// end of a fibre of fixed length [m].
     pub fn way_of_air(&self) -> f64 {
         self.line.map_or(1.1 * self.fibre.length, |line| line.distance)
     }
 
-    /// After what distances a field of eddies in space repeats itself: ten times the largest length scale on the way, and four
-    /// times the largest distance of a companion.
+    /// After what distances a field of eddies in space repeats itself: ten times the largest length scale on
+    /// the way, and four times the largest distance of a companion.
     pub fn extent_of_air(&self) -> Extent {
         let side = 10.0 * self.length_scales().fold(0.0, f64::max);
         let farthest = |distances: &[f64]| distances.last().map_or(0.0, |distance| 4.0 * distance);
@@ -256,9 +256,9 @@ impl Case {
         self.run.duration() + self.run.time_step
     }
 
-    /// The speed that mean flow, turbulence, feed, belt, gravity and a fold that springs open together can give to a fibre
-    /// [m/s]; six standard deviations of the turbulence are counted. A fold with the radius of an element springs open with
-    /// `√(EI/ρA)/l = d √(E/ρ)/(4l)`.
+    /// The speed that mean flow, turbulence, feed, belt, gravity and a fold that springs open together can
+    /// give to a fibre [m/s]; six standard deviations of the turbulence are counted. A fold with the radius
+    /// of an element springs open with `√(EI/ρA)/l = d √(E/ρ)/(4l)`.
     pub fn driving_speed(&self) -> f64 {
         let line = self.line.map_or(0.0, |line| line.feed_speed.abs() + line.belt_speed.abs());
         let fall = (2.0 * self.run.gravity.abs() * self.fibre.length).sqrt();
@@ -301,9 +301,9 @@ impl Case {
         let stretched = self.line.filter(|line| line.belt_speed > line.feed_speed);
         let cause = match (stretched, limits.min_by(|a, b| a.limit.total_cmp(&b.limit))) {
             (Some(line), _) => format!(
-                "the belt is faster than the feed ({} and {}) and stretches the fibre that it holds; lower belt.speed, or let the \
-                 fibre slide on all of its length (belt.contact = \"friction\", with a belt.kept_length as long as what is fed) and \
-                 lower run.time_step",
+                "the belt is faster than the feed ({} and {}) and stretches the fibre that it holds; lower \
+                belt.speed, or let the fibre slide on all of its length (belt.contact = \"friction\", with a \
+                belt.kept_length as long as what is fed) and lower run.time_step",
                 Dimension::Velocity.pretty(line.belt_speed),
                 Dimension::Velocity.pretty(line.feed_speed)
             ),

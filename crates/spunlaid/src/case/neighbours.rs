@@ -28,8 +28,8 @@ impl Neighbours {
 }
 
 impl Case {
-    /// Number of fibres that fly in a run: the replicates, and their companions. Where the companions of a replicate take
-    /// several flights, it flies in each.
+    /// Number of fibres that fly in a run: the replicates, and their companions. Where the companions of a
+    /// replicate take several flights, it flies in each.
     pub fn fibres(&self) -> u64 {
         let companions = self.neighbours.places().count();
         self.run.replicates * (companions + companions.div_ceil(WIDTH - 1).max(1)) as u64
@@ -51,7 +51,7 @@ impl Case {
 
 /// The fault of companions in air that they would not share.
 pub(super) fn without_shared_air() -> Fault {
-    let remedy = "each fibre has turbulence of its own then, so that neighbours have nothing in common; leave it out, or let the \
-                  turbulence differ across the flow";
+    let remedy = "each fibre has turbulence of its own then, so that neighbours have nothing in common; \
+        leave it out, or let the turbulence differ across the flow";
     Fault::needs("air.lateral = \"von-karman\"", remedy)
 }

@@ -59,7 +59,8 @@ pub enum Remark {
     },
     /// The tension at the end of a spinline was found by flights.
     #[error(
-        "was found by flights: the mean tension at the root, {}, with a feed speed of {} that changed by {} in the last round",
+        "was found by flights: the mean tension at the root, {}, with a feed speed of {} that changed by {} \
+        in the last round",
         Dimension::Force.pretty(*tension), Dimension::Velocity.pretty(*speed), Dimension::Ratio.pretty_to(*change, 2)
     )]
     TensionFlown {
@@ -77,7 +78,8 @@ pub enum Remark {
     TensionUnflown,
     /// The air of a spinline comes from a CFD field, which gives no temperature.
     #[error(
-        "takes the velocity of the air along the spinline from the field, and its temperature, {} everywhere, from spinline.temperature",
+        "takes the velocity of the air along the spinline from the field, and its temperature, {} \
+        everywhere, from spinline.temperature",
         Dimension::Temperature.pretty(*temperature)
     )]
     AirOfField {
@@ -86,8 +88,8 @@ pub enum Remark {
     },
     /// A standard error is judged from few replicates.
     #[error(
-        "is too few to trust a standard error, so the study often stops before its results are as exact as asked; write 6 \
-         or more"
+        "is too few to trust a standard error, so the study often stops before its results are as exact as \
+        asked; write 6 or more"
     )]
     FewReplicates,
     /// A key of a study's case that has no meaning at some of its points.
@@ -151,8 +153,9 @@ pub enum Remark {
     },
     /// Reynolds numbers at which a drag law is far below the measured drag.
     #[error(
-        "has Reynolds numbers of about {} across the fibre. There drag.across = \"{law}\" gives only {} times the drag that was \
-         measured on fine fibres and cylinders; \"{instead}\" agrees with these measurements",
+        "has Reynolds numbers of about {} across the fibre. There drag.across = \"{law}\" gives only {} \
+        times the drag that was measured on fine fibres and cylinders; \"{instead}\" agrees with these \
+        measurements",
         Dimension::Ratio.pretty_to(*reynolds, 2), Dimension::Ratio.pretty_to(*share, 2)
     )]
     DragTooLow {
@@ -167,8 +170,8 @@ pub enum Remark {
     },
     /// Elements longer than eddies.
     #[error(
-        "is shorter than the elements ({}): each element only feels the eddy at its centre. Shorten fibre.element_length so \
-         that every eddy acts on the fibre",
+        "is shorter than the elements ({}): each element only feels the eddy at its centre. Shorten \
+        fibre.element_length so that every eddy acts on the fibre",
         Dimension::Length.pretty(*element_length)
     )]
     EddiesSkipped {
@@ -193,7 +196,8 @@ pub enum Remark {
     },
     /// A value that comes from a file and is most likely a slip.
     #[error(
-        "gives {key} = {value} along the fibre, which is outside the usual range, {least} to {greatest}; check the units in the file"
+        "gives {key} = {value} along the fibre, which is outside the usual range, {least} to {greatest}; \
+        check the units in the file"
     )]
     UnusualInFile {
         /// What it gives.
@@ -207,7 +211,8 @@ pub enum Remark {
     },
     /// Air that is too fast for a model with air of constant density.
     #[error(
-        "makes the air as fast as {}, which is Mach {}: the model's air has a constant density, as air has up to about Mach {SLOW}{}",
+        "makes the air as fast as {}, which is Mach {}: the model's air has a constant density, as air has \
+        up to about Mach {SLOW}{}",
         Dimension::Velocity.pretty_to(*speed, 3), Dimension::Ratio.pretty_to(*mach, 2), advice
     )]
     Fast {
@@ -242,8 +247,8 @@ pub enum Remark {
     },
     /// Places where a field has turbulence that does not decay.
     #[error(
-        "has k above zero and ε = 0 at {places} of {sampled} places along the fibre; the eddies there are taken to be as large as the \
-         field. Write ε or ω for every point"
+        "has k above zero and ε = 0 at {places} of {sampled} places along the fibre; the eddies there are \
+        taken to be as large as the field. Write ε or ω for every point"
     )]
     NoDissipation {
         /// How many places.
@@ -253,7 +258,8 @@ pub enum Remark {
     },
     /// A field with `k` and `ε` but no turbulence along the fibre.
     #[error(
-        "has k = 0 everywhere along the fibre, so the air there is not turbulent; check that the file has the k of the solution"
+        "has k = 0 everywhere along the fibre, so the air there is not turbulent; check that the file has \
+        the k of the solution"
     )]
     NoTurbulence,
     /// A turbulence intensity above one.
@@ -291,9 +297,9 @@ pub enum Remark {
     LeavesFlow,
     /// A web in air that slows and does not widen.
     #[error(
-        "lays filaments that have flown in air that slows from {} to {} and does not widen. A channel in which air slows widens, \
-         and carries the filaments apart along the machine direction, so that the web is more even; write widening = \"md\" in \
-         [air] of the case, or \"none\" if it is meant",
+        "lays filaments that have flown in air that slows from {} to {} and does not widen. A channel in \
+        which air slows widens, and carries the filaments apart along the machine direction, so that the web \
+        is more even; write widening = \"md\" in [air] of the case, or \"none\" if it is meant",
         Dimension::Velocity.pretty_to(*from, 3), Dimension::Velocity.pretty_to(*to, 3)
     )]
     SlowsOnly {
@@ -304,7 +310,8 @@ pub enum Remark {
     },
     /// A root outside of the field.
     #[error(
-        "is outside of the box around the field, {low} to {high}; the air at the nearest point of the field is used there"
+        "is outside of the box around the field, {low} to {high}; the air at the nearest point of the field \
+        is used there"
     )]
     RootOutside {
         /// Lowest coordinates of the box.
@@ -314,7 +321,8 @@ pub enum Remark {
     },
     /// Air that hardly flows along the fibre, or against it.
     #[error(
-        "lets the air flow along the fibre with {} on average, although its speed is {}: {}; choose the direction in which the air leaves the spinneret",
+        "lets the air flow along the fibre with {} on average, although its speed is {}: {}; choose the \
+        direction in which the air leaves the spinneret",
         Dimension::Velocity.pretty_to(*along, 3), Dimension::Velocity.pretty_to(*speed, 3),
         if *along < 0.0 { "it blows from the end to the root" } else { "it blows across" }
     )]
@@ -337,8 +345,8 @@ pub enum Remark {
     },
     /// A web in one air flies a case whose turbulence is the same across the flow.
     #[error(
-        "flies the filaments of {case} with air.lateral = \"von-karman\" and the usual air.lateral_cutoff: with its own air.lateral = \"uniform\" \
-         all of them would lie alike"
+        "flies the filaments of {case} with air.lateral = \"von-karman\" and the usual air.lateral_cutoff: \
+        with its own air.lateral = \"uniform\" all of them would lie alike"
     )]
     EddiesInSpace {
         /// Path of the case.

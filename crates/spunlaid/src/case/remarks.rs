@@ -98,7 +98,8 @@ impl Case {
         (felt && is_written && air.turbulence_intensity > 1.0).then_some(air.turbulence_intensity)
     }
 
-    /// What is said of a web of such filaments, if the mean flow slows on their way and the case does not say whether it widens.
+    /// What is said of a web of such filaments, if the mean flow slows on their way and the case does not say
+    /// whether it widens.
     pub(crate) fn slows_only(&self) -> Option<Remark> {
         if !matches!(self.air.flow, Flow::Profile(_)) || self.air.widening.is_some() {
             return None;

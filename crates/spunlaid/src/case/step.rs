@@ -31,22 +31,25 @@ impl StepLimit {
     pub fn reason(&self) -> &'static str {
         match self.cause {
             AXIAL => {
-                "sound crosses an element in this time, all along the fibre; run.scheme = \"implicit-tension\" knows no such limit, and longer \
-                 elements (fibre.element_length) lengthen it"
+                "sound crosses an element in this time, all along the fibre; run.scheme = \
+                \"implicit-tension\" knows no such limit, and longer elements (fibre.element_length) \
+                lengthen it"
             }
             BENDING => {
-                "the shortest bending wave swings once in this time, at the root first; longer elements (fibre.element_length) or a thinner or \
-                 softer fibre lengthen it"
+                "the shortest bending wave swings once in this time, at the root first; longer elements \
+                (fibre.element_length) or a thinner or softer fibre lengthen it"
             }
             STRING => {
-                "a wave of the taut fibre crosses an element in this time at the root, where the tension is largest; longer elements \
-                 (fibre.element_length) or less drag lengthen it"
+                "a wave of the taut fibre crosses an element in this time at the root, where the tension is \
+                largest; longer elements (fibre.element_length) or less drag lengthen it"
             }
             FEEDING => {
-                "an element is fed at the inlet in whole steps; longer elements (fibre.element_length) or a lower feed.speed lengthen it"
+                "an element is fed at the inlet in whole steps; longer elements (fibre.element_length) or a \
+                lower feed.speed lengthen it"
             }
             GUSTS => {
-                "gusts may turn an element only a little in a step; longer elements (fibre.element_length) or weaker turbulence lengthen it"
+                "gusts may turn an element only a little in a step; longer elements (fibre.element_length) \
+                or weaker turbulence lengthen it"
             }
             _ => "",
         }
@@ -81,8 +84,8 @@ impl StepChoice {
     }
 }
 
-/// Part of the limits of the tensions up to which the suggested step of a fed fibre may go [-]. Hundreds of flights were
-/// sound at the limits themselves.
+/// Part of the limits of the tensions up to which the suggested step of a fed fibre may go [-]. Hundreds of
+/// flights were sound at the limits themselves.
 const PART_OF_LIMIT: f64 = 0.85;
 
 impl Case {
@@ -160,8 +163,8 @@ impl Case {
         self.step_limits().into_iter().map(tightened).collect()
     }
 
-    /// Changes the time step [s]; that of a fed fibre becomes a little shorter if an element is not fed in whole steps. All
-    /// times of the run stay the same if they are whole steps; their numbers of steps
+    /// Changes the time step [s]; that of a fed fibre becomes a little shorter if an element is not fed in
+    /// whole steps. All times of the run stay the same if they are whole steps; their numbers of steps
     /// change.
     pub fn set_time_step(&mut self, time_step: f64) {
         let length = self.fibre.rest_length();

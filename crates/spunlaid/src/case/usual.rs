@@ -119,8 +119,8 @@ impl Case {
                 ". If its velocities are in mm/s, write this unit at the end of the column's name: velocity_mm_s",
             )),
             (Flow::Field(_), _) => remark(advice(
-                ". If its velocities are in mm/s, write this unit at the end of the name of their array or columns, like U_mm_s; \
-                 k and ε likewise, k_mm2_s2 and epsilon_mm2_s3",
+                ". If its velocities are in mm/s, write this unit at the end of the name of their array or \
+                columns, like U_mm_s; k and ε likewise, k_mm2_s2 and epsilon_mm2_s3",
             )),
         };
         self.note_of_file(note)

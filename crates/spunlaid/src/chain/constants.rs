@@ -1,7 +1,7 @@
 //! The constants of eight fibres that a step needs.
 //!
-//! What belongs to an element or to a node is held along the chain, so that mass, length, diameter and stiffness may vary along
-//! a fibre. Fibres whose elements are all alike hold it once.
+//! What belongs to an element or to a node is held along the chain, so that mass, length, diameter and
+//! stiffness may vary along a fibre. Fibres whose elements are all alike hold it once.
 
 use super::friction::Friction;
 use super::node::Node;

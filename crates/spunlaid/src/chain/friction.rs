@@ -40,8 +40,8 @@ impl Friction {
         self.coefficient.0[lane] * (self.press.0[lane] + pull).max(0.0)
     }
 
-    /// The belt's force on a node that slides [N]; zero in the lanes where it does not. Friction slows the node down, at
-    /// most to the belt's velocity within the step.
+    /// The belt's force on a node that slides [N]; zero in the lanes where it does not. Friction slows the
+    /// node down, at most to the belt's velocity within the step.
     ///
     /// * `v`, `belt_speed` – velocities of the node and of the belt [m/s]
     /// * `pull` – force of the chain and of gravity on to the belt [N]

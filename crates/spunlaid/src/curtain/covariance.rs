@@ -17,8 +17,8 @@ const LONGEST: [f64; 2] = [0.5, 2.0];
 const CLASS: f64 = 1.25;
 /// Shortest distance along the machine direction that is told from zero, in parts of the depth.
 const NEAREST: f64 = 1.0 / 32.0;
-/// Accuracy that is asked for of a covariance, in parts of the variance, beside the same part of what is missing to the variance: this is
-/// what the error of a filling rests on.
+/// Accuracy that is asked for of a covariance, in parts of the variance, beside the same part of what is
+/// missing to the variance: this is what the error of a filling rests on.
 const ACCURACY: f64 = 0.02;
 /// Fits, each weighted by the one before.
 const FITS: usize = 3;
@@ -27,7 +27,8 @@ const SMALLEST: f64 = 1e-6;
 /// Scales above this part of the turn are felt all the way round.
 const ROUND: f64 = 1.0 / 12.0;
 
-/// Covariance of the deviations in a direction: a sum of normal curves with parts that are not negative, and so a covariance whatever the parts are.                theory.md (83g)
+/// Covariance of the deviations in a direction: a sum of normal curves with parts that are not negative, and
+/// so a covariance whatever the parts are.                                                    theory.md (83g)
 #[derive(Clone, Debug)]
 pub struct Covariance {
     /// [m²]
@@ -101,8 +102,9 @@ struct Class {
 impl Covariance {
     /// In machine and in cross direction, fitted to the differences of all pairs of flown filaments.
     ///
-    /// * `shortest` – scale, in mean distances of filaments, and at most, in the scale that nearest neighbours alone would tell. Between neighbours the flight does not tell
-    ///   the covariance: what shorter scales explain passes for what each filament does for itself
+    /// * `shortest` – scale, in mean distances of filaments, and at most, in the scale that nearest
+    ///   neighbours alone would tell. Between neighbours the flight does not tell the covariance: what
+    ///   shorter scales explain passes for what each filament does for itself
     pub fn fit(flown: &FlownCurves, shortest: [f64; 2], threads: usize) -> [Self; 2] {
         let places = flown.places();
         let deviations = samples(flown);
@@ -207,8 +209,8 @@ impl Covariance {
     }
 }
 
-/// The parts of all terms in a variance. What is fitted are the differences of filaments, which are told more surely than their products, with weights by what the
-/// fit before says they are.
+/// The parts of all terms in a variance. What is fitted are the differences of filaments, which are told more
+/// surely than their products, with weights by what the fit before says they are.
 ///
 /// * `most` – pairs that count: those of the same filaments tell the same
 fn parts(direction: usize, classes: &[Class], variance: f64, most: f64) -> Vec<f64> {
@@ -269,7 +271,8 @@ fn samples(flown: &FlownCurves) -> Vec<[Vec<f64>; 2]> {
     flown.places().iter().map(|place| place.y).enumerate().map(of).collect()
 }
 
-/// The numbers x that are not negative with the least `|A x − b|²`, by the way of Lawson and Hanson on the normal equations.
+/// The numbers x that are not negative with the least `|A x − b|²`, by the way of Lawson and Hanson on the
+/// normal equations.
 fn not_negative(rows: &[Vec<f64>], wanted: &[f64]) -> Vec<f64> {
     let size = rows.first().map_or(0, Vec::len);
     let product = |i: usize, j: usize| rows.iter().map(|row| row[i] * row[j]).sum::<f64>();

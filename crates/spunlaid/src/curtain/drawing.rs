@@ -15,8 +15,9 @@ const BLOCK: usize = 512;
 const MOST_TOGETHER: usize = 96;
 const GROUPS: usize = 8;
 
-/// The stretch of belt that becomes the sheet, as in a [beam](crate::beam): places on the belt are counted from where a filament in the middle of the slot
-/// is fed when its first point is fed, and what is laid later lies farther back.
+/// The stretch of belt that becomes the sheet, as in a [beam](crate::beam): places on the belt are counted
+/// from where a filament in the middle of the slot is fed when its first point is fed, and what is laid later
+/// lies farther back.
 #[derive(Clone, Copy, Debug)]
 pub struct Belt<'a> {
     /// The sheet.
@@ -54,7 +55,8 @@ impl<'a> Belt<'a> {
     }
 }
 
-/// Draws all filaments of a curtain on the rows of a canvas. The parts of them in the windows that begin on these rows are returned.
+/// Draws all filaments of a curtain on the rows of a canvas. The parts of them in the windows that begin on
+/// these rows are returned.
 ///
 /// * `brush` – draws a piece from point to point
 ///
@@ -79,7 +81,8 @@ pub(crate) fn draw(
     Ok(kept)
 }
 
-/// The points whose pieces may touch a stretch of the sheet, and the windows that begin there, which are then a part of the stretch.
+/// The points whose pieces may touch a stretch of the sheet, and the windows that begin there, which are then
+/// a part of the stretch.
 ///
 /// * `ends` – of the stretch [m]
 fn points_on(

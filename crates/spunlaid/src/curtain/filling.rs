@@ -9,11 +9,13 @@ use crate::threads::each;
 
 /// Flown filaments from which a curve follows.
 const NEAREST: usize = 16;
-/// Variance that a flown filament has for itself, in parts of its variance: keeps the equations solvable where filaments are flown at nearly one place.
+/// Variance that a flown filament has for itself, in parts of its variance: keeps the equations solvable
+/// where filaments are flown at nearly one place.
 const OWN: f64 = 0.002;
 
-/// Shortest scales of the covariance by which the curves are filled in, and of that which tells what they miss. A filling with the smoother one misses no more, is nearer to
-/// the web as it would be flown, and knows less of what it misses.
+/// Shortest scales of the covariance by which the curves are filled in, and of that which tells what they
+/// miss. A filling with the smoother one misses no more, is nearer to the web as it would be flown, and knows
+/// less of what it misses.
 const SMOOTH: [f64; 2] = [1.0, 0.5];
 const ROUGH: [f64; 2] = [0.4, 1.0 / 3.0];
 /// Filaments, evenly spread, that tell what is missing.
@@ -36,7 +38,8 @@ impl Covariances {
     }
 }
 
-/// Filaments at any places, each the best linear estimate from the flown ones near it (simple kriging).                       theory.md (83f)
+/// Filaments at any places, each the best linear estimate from the flown ones near it (simple kriging).
+///                                                                                            theory.md (83f)
 #[derive(Clone, Debug)]
 pub struct Filling<'a> {
     flown: &'a FlownCurves,
@@ -120,7 +123,8 @@ impl FlownCurves {
 }
 
 impl Filling<'_> {
-    /// The part of the variance that the flown filaments do not tell, in machine and in cross direction: mean over the filaments.
+    /// The part of the variance that the flown filaments do not tell, in machine and in cross direction: mean
+    /// over the filaments.
     pub fn missing(&self) -> [f64; 2] {
         self.missing
     }
@@ -226,7 +230,7 @@ mod tests {
         [(row_of(3e-3), row(turn, 40)), (row_of(4e-3), row(turn, 40)), (in_slot, slot(turn, 128, 20e-3))]
     }
 
-    /// The error of the best linear estimate is known: `1 − k·K⁻¹k`.                                     theory.md (83f)
+    /// The error of the best linear estimate is known: `1 − k·K⁻¹k`.                          theory.md (83f)
     #[test]
     fn analytic_the_error_of_a_normal_field_of_known_covariance() {
         for (field, places) in fields() {

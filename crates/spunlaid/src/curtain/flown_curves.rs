@@ -17,8 +17,8 @@ pub struct FlownCurves {
     mean: Mean,
 }
 
-/// Mean deviation in machine and in cross direction, linear in the place along the machine direction: where a flow widens, filaments of different depths come
-/// down farther apart than they are fed.
+/// Mean deviation in machine and in cross direction, linear in the place along the machine direction: where a
+/// flow widens, filaments of different depths come down farther apart than they are fed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Mean {
     middle: f64,
@@ -45,8 +45,9 @@ impl FlownCurves {
     /// * `turn` – width after which the curtain repeats itself, of periodic edges [m]
     /// * `spacing` – length of fibre from point to point [m]
     /// * `belt_ratio` – speed of the belt over speed of the feed
-    /// * `curves` – deviations of each filament from the straight trace, in machine and in cross direction [m]. Points of equal number were fed
-    ///   at the same time; what some curves have beyond the shortest one is left out
+    /// * `curves` – deviations of each filament from the straight trace, in machine and in cross direction
+    ///   [m]. Points of equal number were fed at the same time; what some curves have beyond the shortest one
+    ///   is left out
     ///
     /// # Errors
     /// Without filaments or without points, if places and curves differ in number, or with a number that is not finite.
@@ -74,7 +75,8 @@ impl FlownCurves {
         if points == 0 || curves.len() != places.len() {
             let (places, curves) = (places.len(), curves.len());
             return Err(Fault::plain(format!(
-                "{curves} flown curves, the shortest of {points} points, for {places} places tell nothing of the filaments between them"
+                "{curves} flown curves, the shortest of {points} points, for {places} places tell nothing of \
+                the filaments between them"
             )));
         }
         let finite = curves.iter().flatten().flatten().all(|value| value.is_finite());

@@ -85,7 +85,8 @@ impl Levels {
 
 impl Library {
     /// # Errors
-    /// If the edges of the flown curtain are not periodic, or if it is too narrow or too short for pieces that know nothing of each other.
+    /// If the edges of the flown curtain are not periodic, or if it is too narrow or too short for pieces
+    /// that know nothing of each other.
     pub fn new(flown: &FlownCurves, threads: usize) -> Result<Self, Fault> {
         let Some(turn) = flown.turn() else {
             return Err(Fault::new(
@@ -99,7 +100,8 @@ impl Library {
             let spacing = flown.spacing();
             return Err(Fault::new(
                 format!(
-                    "the flown curves are {:.2} m long and forget half of what they do in {:.3} m; pieces of them would know each other",
+                    "the flown curves are {:.2} m long and forget half of what they do in {:.3} m; pieces of \
+                    them would know each other",
                     points as f64 * spacing,
                     half_lag * spacing
                 ),
@@ -112,7 +114,8 @@ impl Library {
         if turn < NARROWEST * fade_across {
             return Err(Fault::new(
                 format!(
-                    "the flown curtain is {:.0} mm wide, and filaments know each other half over {:.0} mm; tiles of it would know each other",
+                    "the flown curtain is {:.0} mm wide, and filaments know each other half over {:.0} mm; \
+                    tiles of it would know each other",
                     turn * 1e3,
                     half[0].max(half[1]) * 1e3
                 ),
@@ -182,7 +185,8 @@ impl Library {
     }
 }
 
-/// Largest sum of the sizes of the weights of a cubic: between its inner two values, where filaments across lie, and between any two, where those of a slot do.
+/// Largest sum of the sizes of the weights of a cubic: between its inner two values, where filaments across
+/// lie, and between any two, where those of a slot do.
 const MOST_WITHIN: f64 = 1.25;
 const MOST: f64 = 1.64;
 
@@ -192,7 +196,8 @@ fn cubic(at: f64) -> [f64; 4] {
     [-at * next * last / 6.0, before * next * last / 2.0, -before * at * last / 2.0, before * at * next / 6.0]
 }
 
-/// Points after which half of the correlation along the curves is left, in the direction that remembers longer; at most as many as the curves have.
+/// Points after which half of the correlation along the curves is left, in the direction that remembers
+/// longer; at most as many as the curves have.
 fn half_lag(flown: &FlownCurves) -> f64 {
     let [md, cd] = [0, 1].map(|d| {
         let product = |lag: usize| {

@@ -5,8 +5,8 @@
 //!                                                             └ library on a lattice → tiles: a sheet of any size ┘
 //! ```
 //!
-//! Neighbours in one air come down almost alike, so the curve between them is known. Curves are deviations from the straight trace of a
-//! filament that comes down at one place, at equal fed lengths.
+//! Neighbours in one air come down almost alike, so the curve between them is known. Curves are deviations
+//! from the straight trace of a filament that comes down at one place, at equal fed lengths.
 
 mod covariance;
 pub(crate) mod drawing;

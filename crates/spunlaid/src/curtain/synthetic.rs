@@ -6,8 +6,9 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::f64::consts::TAU;
 
-/// A normal field that repeats itself across, of normal covariance across and along the machine direction, `σ² exp(−Δz²/2ℓ² − Δy²/2m²)`. Along the
-/// fibre it is a Markov process of the correlation `memory` from point to point.
+/// A normal field that repeats itself across, of normal covariance across and along the machine direction,
+/// `σ² exp(−Δz²/2ℓ² − Δy²/2m²)`. Along the fibre it is a Markov process of the correlation `memory` from
+/// point to point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Field {
     pub(super) turn: f64,

@@ -12,7 +12,7 @@ use std::f64::consts::FRAC_PI_2;
 /// Relative difference up to which two widths are the same.
 const SAME: f64 = 1e-9;
 
-/// The filaments of a sheet, made of pieces of a library along the fibre and across.                                       theory.md (83h)
+/// The filaments of a sheet, made of pieces of a library along the fibre and across.          theory.md (83h)
 ///
 /// ```text
 /// along the fibre  |‹fade›—— piece ——‹fade›|          each is drawn at random, shifted across and mirrored at random;
@@ -186,7 +186,8 @@ impl Curtain for Tiles<'_> {
 
     fn farthest(&self) -> f64 {
         let mean = |around: &Vec<(usize, f64)>| self.source.levels.mean(around)[0].abs();
-        // Two pieces fade into each other along the fibre and two across: the sum of sine and cosine is √2 at most, of each pair.
+        // Two pieces fade into each other along the fibre and two across: the sum of sine and cosine is √2 at
+        // most, of each pair.
         self.levels.iter().map(mean).fold(0.0, f64::max) + 2.0 * self.source.farthest()
     }
 }
@@ -240,7 +241,8 @@ mod tests {
         pairs.map(|(a, b)| f64::from(*a) * f64::from(*b)).sum::<f64>() / (a.len() - lag) as f64
     }
 
-    /// A sheet three times as wide as the library and six times as long has the variance, the distribution and the correlations of the field.
+    /// A sheet three times as wide as the library and six times as long has the variance, the distribution
+    /// and the correlations of the field.
     #[test]
     fn stat_a_sheet_of_tiles_has_the_moments_of_its_library() {
         let field = field();
@@ -300,7 +302,8 @@ mod tests {
         assert!((within / between - 1.0).abs() < 0.06, "{within} {between}");
     }
 
-    /// What is true of a curtain and of its mirror image is true of its tiles: here, the deviation across is the slope of that along the machine.
+    /// What is true of a curtain and of its mirror image is true of its tiles: here, the deviation across is
+    /// the slope of that along the machine.
     #[test]
     fn invariant_what_holds_in_a_curtain_and_in_its_mirror_image_holds_in_tiles() {
         let field = field();

@@ -58,7 +58,8 @@ impl FrictionLaw {
                 name: "matsui",
                 source: Source {
                     short: "Matsui 1976",
-                    full: "M. Matsui: Air drag on a continuous filament in melt spinning. Transactions of the Society of Rheology 20(3), 465–473, 1976.",
+                    full: "M. Matsui: Air drag on a continuous filament in melt spinning. Transactions of \
+                        the Society of Rheology 20(3), 465–473, 1976.",
                 },
                 input: Some(factor),
                 form: Form::Power { exponent: MATSUI, factor },
@@ -67,7 +68,8 @@ impl FrictionLaw {
                 name: "majumdar-shambaugh",
                 source: Source {
                     short: "Majumdar and Shambaugh 1990",
-                    full: "B. Majumdar, R. L. Shambaugh: Air drag on filaments in the melt blowing process. Journal of Rheology 34(4), 591–601, 1990.",
+                    full: "B. Majumdar, R. L. Shambaugh: Air drag on filaments in the melt blowing process. \
+                        Journal of Rheology 34(4), 591–601, 1990.",
                 },
                 input: None,
                 form: Form::Power { exponent: MATSUI, factor: 0.78 },
@@ -76,8 +78,9 @@ impl FrictionLaw {
                 name: "sakiadis",
                 source: Source {
                     short: "Sakiadis 1961",
-                    full: "B. C. Sakiadis: Boundary-layer behavior on continuous solid surfaces: III. The boundary layer on a continuous cylindrical \
-                           surface. AIChE Journal 7(3), 467–472, 1961.",
+                    full: "B. C. Sakiadis: Boundary-layer behavior on continuous solid surfaces: III. The \
+                        boundary layer on a continuous cylindrical surface. AIChE Journal 7(3), 467–472, \
+                        1961.",
                 },
                 input: None,
                 form: Form::Layer(BoundaryLayer::Moving, Curve::Moving),
@@ -86,8 +89,8 @@ impl FrictionLaw {
                 name: "glauert-lighthill",
                 source: Source {
                     short: "Glauert and Lighthill 1955",
-                    full: "M. B. Glauert, M. J. Lighthill: The axisymmetric boundary layer on a long thin cylinder. Proceedings of the Royal \
-                           Society A 230, 188–203, 1955.",
+                    full: "M. B. Glauert, M. J. Lighthill: The axisymmetric boundary layer on a long thin \
+                        cylinder. Proceedings of the Royal Society A 230, 188–203, 1955.",
                 },
                 input: None,
                 form: Form::Layer(BoundaryLayer::Held, Curve::Held),

@@ -7,8 +7,8 @@ use crate::fibre::Place;
 use crate::lanes::WIDTH;
 use crate::observe::{Kind, Value};
 
-/// Flies a replicate and its companions, as many beside it as a flight takes. In each further flight the replicate flies again,
-/// with the same bits, and is compared with the others. It is lost if one of them is.
+/// Flies a replicate and its companions, as many beside it as a flight takes. In each further flight the
+/// replicate flies again, with the same bits, and is compared with the others. It is lost if one of them is.
 ///
 /// # Errors
 /// As of [`fly_each`].

@@ -66,16 +66,16 @@ pub fn fly<E: From<Error>>(
     )
 }
 
-/// [`fly`], where a fibre that is lost does not stop the others; `take` receives it in its turn. Returns what the checks of the
-/// run compare: [`FinerPlans::check`] flies them.
+/// [`fly`], where a fibre that is lost does not stop the others; `take` receives it in its turn. Returns what
+/// the checks of the run compare: [`FinerPlans::check`] flies them.
 ///
 /// * `plans` – those of the case
-/// * `recall` – the trajectories of replicates that fly together, if they have been flown before; it passes on what was recorded
-///   of them. [`nothing_kept`] recalls none
+/// * `recall` – the trajectories of replicates that fly together, if they have been flown before; it passes
+///   on what was recorded of them. [`nothing_kept`] recalls none
 ///
 /// # Errors
-/// Another thread stops the ensemble, `recall` or `take` returns an error; and with the reason of the first lost fibre, if so many
-/// are lost that fewer than two are left, or none of a single one.
+/// Another thread stops the ensemble, `recall` or `take` returns an error; and with the reason of the first
+/// lost fibre, if so many are lost that fewer than two are left, or none of a single one.
 pub fn fly_for_checks<E: From<Error>>(
     case: &Case,
     plans: &FinerPlans,

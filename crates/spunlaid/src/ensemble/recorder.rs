@@ -12,8 +12,8 @@ use std::sync::{Mutex, MutexGuard};
 ///
 /// Flights on several threads call it at the same time; the calls for one fibre come in the order of time.
 pub trait Recorder: std::fmt::Debug + Sync {
-    /// A fibre begins to fly. What was recorded of it before has to be forgotten: it flew beside a fibre that was lost, and
-    /// flies again without it.
+    /// A fibre begins to fly. What was recorded of it before has to be forgotten: it flew beside a fibre that
+    /// was lost, and flies again without it.
     fn begin(&self, replicate: u64);
 
     /// Receives the next recorded instants of a fibre, the start included.

@@ -5,7 +5,8 @@ use crate::error::Error;
 use crate::observe::{Aggregate, Measure, Value};
 use crate::statistics::{Estimate, median};
 
-/// Results of an ensemble. They are collected trajectory by trajectory, so that memory does not grow with the replicates.
+/// Results of an ensemble. They are collected trajectory by trajectory, so that memory does not grow with the
+/// replicates.
 #[derive(Clone, Debug)]
 pub struct Results {
     /// The measures that are numbers, in the order of their declarations.

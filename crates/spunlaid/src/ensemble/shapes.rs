@@ -22,8 +22,8 @@ pub struct Shape {
     pub position: Vec<Vec3<f64>>,
 }
 
-/// Shapes of a fibre in the order of time: in memory, or in a file so that a long flight takes no more memory than a short
-/// one.
+/// Shapes of a fibre in the order of time: in memory, or in a file so that a long flight takes no more memory
+/// than a short one.
 #[derive(Clone, Debug, Default)]
 pub struct Shapes {
     spans: Vec<Span>,
@@ -33,7 +33,8 @@ pub struct Shapes {
     file: Option<ShapeFile>,
     /// Number of the numbers that are in the file.
     filed: usize,
-    /// The numbers after those in the file. A shape is its time and the coordinates of its nodes; the last one is always here.
+    /// The numbers after those in the file. A shape is its time and the coordinates of its nodes; the last
+    /// one is always here.
     numbers: Vec<f64>,
 }
 

@@ -115,8 +115,8 @@ fn first_counted(case: &Case) -> f64 {
     case.line.map_or(0.0, |line| line.feed_speed * case.run.spin_up())
 }
 
-/// [`fly_together`], where a fibre that is lost does not stop the others: for each job, its trajectory or the reason why its
-/// fibre is lost.
+/// [`fly_together`], where a fibre that is lost does not stop the others: for each job, its trajectory or the
+/// reason why its fibre is lost.
 ///
 /// # Errors
 /// The jobs cannot fly together ([`Flight::new`]), or another thread stops the flight.

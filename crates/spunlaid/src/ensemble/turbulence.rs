@@ -27,8 +27,8 @@ const STATIONS: usize = 12;
 
 /// One-sided spectrum of the velocity fluctuation along the first replicates, up to four times the cut-off.
 ///
-/// Averaged over components, eddies and up to eight replicates (Welch); of a fed fibre, over some stations from the inlet to
-/// the belt. Empty without turbulence.
+/// Averaged over components, eddies and up to eight replicates (Welch); of a fed fibre, over some stations
+/// from the inlet to the belt. Empty without turbulence.
 ///
 /// # Errors
 /// The wind of the case cannot be made, see [`Wind::along`].

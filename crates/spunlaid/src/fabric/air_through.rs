@@ -41,8 +41,9 @@ pub fn jackson_james(diameter: f64, solid: f64) -> f64 {
     0.15 * (0.5 * diameter).powi(2) / solid * (-libm::log(solid) - 0.931)
 }
 
-/// Speed of the air that a pressure drives through a fabric [m/s]: the positive root of `Δp/t = ηv/K + βϱv²`, with Ergun's inertial term
-/// `β = 1.75 α/((1 − α)³ D)` of spheres with the surface of the fibres, `D = 1.5 d`. Layers lie one behind the other.     theory.md (108)
+/// Speed of the air that a pressure drives through a fabric [m/s]: the positive root of `Δp/t = ηv/K + βϱv²`,
+/// with Ergun's inertial term `β = 1.75 α/((1 − α)³ D)` of spheres with the surface of the fibres,
+/// `D = 1.5 d`. Layers lie one behind the other.                                              theory.md (108)
 ///
 /// Source: S. Ergun, Chem. Eng. Prog. 48 (1952) 89–94.
 pub fn air_speed(
@@ -111,7 +112,8 @@ mod tests {
         }
     }
 
-    /// At the same solid fraction the permeability is the same, and twice the weight lets half the air through at small speeds.
+    /// At the same solid fraction the permeability is the same, and twice the weight lets half the air
+    /// through at small speeds.
     #[test]
     fn analytic_twice_the_weight_at_the_same_solid_fraction() {
         let twice = Filaments { basis_weight: 2.0 * OF_EXAMPLE.basis_weight, ..OF_EXAMPLE };

@@ -4,8 +4,9 @@ use super::Known;
 use crate::web::Orientation;
 use std::f64::consts::PI;
 
-/// Stiffness along MD over that along CD of straight fibres that follow the strain of the sheet, `⟨cos⁴⟩/⟨sin⁴⟩`. Its error is that of the directions
-/// alone; curl and bonds are not in it.                                             theory.md (105)
+/// Stiffness along MD over that along CD of straight fibres that follow the strain of the sheet,
+/// `⟨cos⁴⟩/⟨sin⁴⟩`. Its error is that of the directions alone; curl and bonds are not in it.
+///                                                                                            theory.md (105)
 ///
 /// Source: H. L. Cox, Br. J. Appl. Phys. 3 (1952) 72–79.
 pub fn stiffness_ratio(orientation: &Orientation) -> Known {

@@ -17,7 +17,8 @@ pub struct FabricKeys {
     pub contact_angle: Option<f64>,
     /// Pressure that drives air through the fabric [Pa].
     pub pressure: f64,
-    /// Opacity that was measured of a fabric of the same filaments, and its basis weight if that was another one [kg/m²].
+    /// Opacity that was measured of a fabric of the same filaments, and its basis weight if that was another
+    /// one [kg/m²].
     pub measured_opacity: Option<f64>,
     /// See `measured_opacity`.
     pub opacity_weight: Option<f64>,

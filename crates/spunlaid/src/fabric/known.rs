@@ -3,8 +3,8 @@
 use crate::statistics::Estimate;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// A number of a fabric, with what is known of it. There is none that stands alone as if it were exact, but for counts and for what follows from given
-/// numbers.
+/// A number of a fabric, with what is known of it. There is none that stands alone as if it were exact, but
+/// for counts and for what follows from given numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Known {
     /// It is just this.

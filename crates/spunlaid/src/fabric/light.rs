@@ -42,7 +42,8 @@ mod tests {
         assert!(opacity(0.0).abs() < 1e-15);
     }
 
-    /// Over a black and over a white ground: with the light that goes forth and back between sheet and ground summed bounce by bounce.
+    /// Over a black and over a white ground: with the light that goes forth and back between sheet and ground
+    /// summed bounce by bounce.
     #[test]
     fn analytic_opacity_from_the_bounces_of_the_light() {
         for scattering in [0.1, 1.0, 5.0] {

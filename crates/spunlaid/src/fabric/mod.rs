@@ -1,7 +1,8 @@
-//! The fabric in the words of those who buy it: how even it looks, where it is thin, where it has holes, what it lets through.
+//! The fabric in the words of those who buy it: how even it looks, where it is thin, where it has holes, what
+//! it lets through.
 //!
-//! Everything follows from the map of the basis weight, from the curves of the fibres in windows of the sheet, and from a few given
-//! numbers. Bonds and finishes of the fabric are not known here.
+//! Everything follows from the map of the basis weight, from the curves of the fibres in windows of the
+//! sheet, and from a few given numbers. Bonds and finishes of the fabric are not known here.
 //!
 //! ```text
 //! map ─────────────→ formation, thin places, strips ┐

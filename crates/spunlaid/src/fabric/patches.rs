@@ -16,7 +16,8 @@ const CLASSES_PER_MEAN: f64 = 100.0;
 const CLASSES: usize = 600;
 /// Classes to either side over which the density at a quantile is found.
 const NEAR: f64 = 2.0;
-/// Most blocks of the sheet each way, whose scatter gives the errors, the fewest that give one, and the shortest block in patches.
+/// Most blocks of the sheet each way, whose scatter gives the errors, the fewest that give one, and the
+/// shortest block in patches.
 const MOST_BLOCKS: usize = 8;
 const FEWEST_BLOCKS: usize = 9;
 const BLOCK: usize = 2;
@@ -36,7 +37,8 @@ pub struct ThinPlaces {
     pub quantiles: [Known; QUANTILES.len()],
 }
 
-/// The weights of all patches of one side, at every place of the patch on the lattice of cells.                    theory.md (103)
+/// The weights of all patches of one side, at every place of the patch on the lattice of cells.
+///                                                                                            theory.md (103)
 ///
 /// * `side` – of a patch [cells]; None unless two fit on the map each way, and without any fibre
 pub fn thin_places(map: &Map, side: usize) -> Option<ThinPlaces> {
@@ -88,7 +90,8 @@ pub(super) fn weights(map: &Map, patch: f64) -> Vec<f64> {
     sums.into_iter().map(|sum| sum as f64 / mean).collect()
 }
 
-/// Sums of the classes of each block up to the edge before a class, as shares of the patches of the block, and those of all patches.
+/// Sums of the classes of each block up to the edge before a class, as shares of the patches of the block,
+/// and those of all patches.
 struct Weights {
     blocks: Vec<Vec<f64>>,
     all: Vec<f64>,
@@ -136,7 +139,8 @@ impl Weights {
         Known::Value(1.0 - Self::at(&self.all, edge), self.error(edge))
     }
 
-    /// The weight over the mean of which a share is lighter. Its error is that of the share over the density of the weights there.
+    /// The weight over the mean of which a share is lighter. Its error is that of the share over the density
+    /// of the weights there.
     fn quantile(&self, share: f64) -> Known {
         let number = self.all.partition_point(|below| *below < share).clamp(1, CLASSES) - 1;
         let [low, high] = [self.all[number], self.all[number + 1]];

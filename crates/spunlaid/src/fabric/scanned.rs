@@ -9,7 +9,8 @@ use std::f64::consts::PI;
 /// Any density, of which only the length of fibre is made, which depends on the titre alone.
 const DENSITY: f64 = 1000.0;
 
-/// What a scan tells of the fabric: thin places, weights and strips, and the formation number where basis weight and titre are known.
+/// What a scan tells of the fabric: thin places, weights and strips, and the formation number where basis
+/// weight and titre are known.
 pub fn of_scan(findings: &Findings) -> Fabric {
     let titre = findings.titre.filter(|_| findings.mean_known);
     let filaments = titre.map(|titre| Filaments {
@@ -31,12 +32,14 @@ pub fn of_scan(findings: &Findings) -> Fabric {
     let formation = match titre {
         Some(_) => "",
         None => {
-            ", and the formation number: that needs the mean basis weight and the titre of the filaments (weight, titre)"
+            ", and the formation number: that needs the mean basis weight and the titre of the filaments \
+            (weight, titre)"
         }
     };
     // What else is not told needs the fibres, and that is said once.
     fabric.notes = vec![format!(
-        "a scan does not tell what needs its fibres: stiffness, bare area, holes, hydrohead, air permeability{formation}"
+        "a scan does not tell what needs its fibres: stiffness, bare area, holes, hydrohead, air \
+        permeability{formation}"
     )];
     // What makes a CV doubtful does so to its patches: a guess of the lamp, blur, a small sheet.
     for patch in &mut fabric.patches {

@@ -5,8 +5,8 @@ use crate::statistics::NORMAL_95;
 use crate::web::Map;
 use std::f64::consts::SQRT_2;
 
-/// Width of the band over which a streak is looked for, in standard deviations of the places at which a filament comes down: of a
-/// streak of a normal profile it has the largest dip over its standard error.
+/// Width of the band over which a streak is looked for, in standard deviations of the places at which a
+/// filament comes down: of a streak of a normal profile it has the largest dip over its standard error.
 const BAND: f64 = 2.8;
 /// Blocks of the sheet along MD whose scatter tells the chance.
 const BLOCKS: usize = 8;
@@ -37,11 +37,13 @@ pub struct Streak {
     pub band: f64,
     /// The place along the sheet up to which it is so [m].
     pub until: f64,
-    /// Share by which the band is lighter than the web beside it, from the filaments that are missing; below zero where it is heavier.
+    /// Share by which the band is lighter than the web beside it, from the filaments that are missing; below
+    /// zero where it is heavier.
     pub dip: f64,
     /// The same in the map; None if there is too little web beside it.
     pub found: Option<Known>,
-    /// Length of web over which the dip is as large as the 95 % bound of chance [m]; None where it never is, or is not known.
+    /// Length of web over which the dip is as large as the 95 % bound of chance [m]; None where it never is,
+    /// or is not known.
     pub length: Option<Known>,
 }
 
@@ -175,7 +177,7 @@ fn streak(bands: &Bands<'_>, corner: f64, source: &StreakSource, all: &[StreakSo
     })
 }
 
-/// Mass per length of web that is missing between two places across the sheet [kg/m].                     theory.md (114)
+/// Mass per length of web that is missing between two places across the sheet [kg/m].         theory.md (114)
 fn missing_between(source: &StreakSource, ends: [f64; 2], map: &Map) -> f64 {
     let round = map.columns as f64 * map.cell;
     let turns: &[f64] = if map.closed[0] { &[-1.0, 0.0, 1.0] } else { &[0.0] };

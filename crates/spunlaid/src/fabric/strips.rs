@@ -1,4 +1,5 @@
-//! The weakest section of a strip, where a strip that is pulled would tear if its strength were that of its lightest section.
+//! The weakest section of a strip, where a strip that is pulled would tear if its strength were that of its
+//! lightest section.
 
 use super::Known;
 use super::marked::Marked;
@@ -37,7 +38,8 @@ pub struct Strips {
     pub sections: Known,
 }
 
-/// All strips of the sheet along MD and along CD, side by side without overlap; none where no strip of two sections fits.   theory.md (104)
+/// All strips of the sheet along MD and along CD, side by side without overlap; none where no strip of two
+/// sections fits.                                                                             theory.md (104)
 pub fn strips(map: &Map, size: StripSize) -> [Option<Strips>; 2] {
     [true, false].map(|is_along_md| along(map, size, is_along_md))
 }

@@ -22,7 +22,8 @@ use std::f64::consts::PI;
 
 /// Sides of the patches of which thin places are told [m].
 const PATCHES: [f64; 5] = [1e-3, 2e-3, 5e-3, 10e-3, 20e-3];
-/// Area of a test of the hydrohead (ISO 9073-16) and of the air permeability (ISO 9073-15) [m²], and side of the patches over which the opacity varies [m].
+/// Area of a test of the hydrohead (ISO 9073-16) and of the air permeability (ISO 9073-15) [m²], and side of
+/// the patches over which the opacity varies [m].
 const WATER_AREA: f64 = 100e-4;
 const AIR_AREA: f64 = 20e-4;
 const OPACITY_PATCH: f64 = 2e-3;
@@ -164,8 +165,8 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
                 None => "the air permeability is not told: it needs the thickness of the fabric (fabric.thickness)"
                     .to_owned(),
                 Some(thickness) => format!(
-                    "the air permeability is not told: at fabric.thickness = {} µm fibre would fill {} % of the fabric, \
-                     and the formulas hold up to 30 %",
+                    "the air permeability is not told: at fabric.thickness = {} µm fibre would fill {} % of \
+                    the fabric, and the formulas hold up to 30 %",
                     (thickness * 1e6).round(),
                     (100.0 * solid_fraction(&filaments, thickness)).round()
                 ),
@@ -177,8 +178,8 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
     let usable = laid.reach.and_then(|reach| usable(laid.map, reach, keys.tolerance));
     if usable.is_some() {
         notes.push(
-            "the neck-in is not known: filaments at the edge are taken to come down as those in the middle, about the places at which \
-             they are fed"
+            "the neck-in is not known: filaments at the edge are taken to come down as those in the middle, \
+            about the places at which they are fed"
                 .to_owned(),
         );
     }

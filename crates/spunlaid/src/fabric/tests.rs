@@ -238,7 +238,8 @@ fn stat_holes_carried_from_windows_to_the_sheet() {
 #[test]
 fn analytic_the_holes_of_a_lattice() {
     let (half, pitch, side) = (0.5 * DIAMETER, 0.2e-3, 1e-3);
-    // Not along the rows of pixels: both families of fibres meet each side of the window in the same way as the one across from it.
+    // Not along the rows of pixels: both families of fibres meet each side of the window in the same way as
+    // the one across from it.
     let directions = [[0.8, 0.6], [-0.6, 0.8]];
     let fibre = |i: i32, normal: [f64; 2], along: [f64; 2]| {
         let at = (f64::from(i) + 0.37) * pitch;
@@ -305,7 +306,8 @@ fn analytic_the_dip_of_a_blocked_hole() {
     assert!((found.found.unwrap().value() / found.dip - 1.0).abs() < 0.01, "{found:?}");
 }
 
-/// Even webs are beyond the bounds of 95 % once in twenty, and the length that is told makes a dip as large as its bound.
+/// Even webs are beyond the bounds of 95 % once in twenty, and the length that is told makes a dip as large
+/// as its bound.
 #[test]
 fn stat_streaks_of_even_webs_and_of_a_defect() {
     let mut random = Random::new(9);

@@ -2,7 +2,8 @@
 
 use crate::web::Map;
 
-/// Width over which the profile across is averaged [m], and the part of the web in the middle whose weight is the one that is asked for.
+/// Width over which the profile across is averaged [m], and the part of the web in the middle whose weight is
+/// the one that is asked for.
 const OVER: f64 = 20e-3;
 const MIDDLE: f64 = 0.5;
 
@@ -15,8 +16,8 @@ pub struct Usable {
     pub trim: f64,
 }
 
-/// From the edges inwards, to where the profile across is within the tolerance; streaks between count for nothing here. None of a web that
-/// goes on at its edges.
+/// From the edges inwards, to where the profile across is within the tolerance; streaks between count for
+/// nothing here. None of a web that goes on at its edges.
 ///
 /// * `reach` – where the web begins and ends across the sheet [m]
 /// * `tolerance` – share of the mean weight of the middle half

@@ -5,8 +5,9 @@ use super::Known;
 /// Surface tension of water at 20 °C [N/m].
 const TENSION: f64 = 0.0728;
 
-/// Pressure at which water comes through the largest hole [Pa], `p = 2γ|cos θ|/r`: a lower bound, because water that finds that hole still has to pass
-/// between all the fibres around it. None of a polymer that water wets.                theory.md (113)
+/// Pressure at which water comes through the largest hole [Pa], `p = 2γ|cos θ|/r`: a lower bound, because
+/// water that finds that hole still has to pass between all the fibres around it. None of a polymer that
+/// water wets.                                                                                theory.md (113)
 ///
 /// * `largest` – radius of the largest hole in the area of the test [m]
 /// * `angle` – contact angle [rad]

@@ -4,30 +4,33 @@
 const WORDS: &[(&[&str], &str)] = &[
     (
         &["formation", "cloudiness", "evenness", "uniformity"],
-        "Formation and cloudiness are results, not keys: `spunlaid web` tells the CV over patches, the cloudiness and the formation number, 1 for straight \
-         fibres at random (docs/fabric.md).",
+        "Formation and cloudiness are results, not keys: `spunlaid web` tells the CV over patches, the \
+        cloudiness and the formation number, 1 for straight fibres at random (docs/fabric.md).",
     ),
     (
         &["pinhole", "pin hole", "hole", "pore", "bare"],
-        "Holes are results, not keys: `spunlaid web` counts them by radius and tells the bare area and the largest hole (docs/fabric.md). Bonds are not in it.",
+        "Holes are results, not keys: `spunlaid web` counts them by radius and tells the bare area and the \
+        largest hole (docs/fabric.md). Bonds are not in it.",
     ),
     (
         &["thin spot", "thin place", "thick place", "thick spot"],
-        "Thin and thick places are results, not keys: `spunlaid web` tells patches per square metre that are lighter than 50, 70 and 80 % or heavier than 130 % of \
-         the mean (docs/fabric.md).",
+        "Thin and thick places are results, not keys: `spunlaid web` tells patches per square metre that are \
+        lighter than 50, 70 and 80 % or heavier than 130 % of the mean (docs/fabric.md).",
     ),
     (
         &["strength", "tensile", "tenacity", "elongation", "tear"],
-        "The strength of the fabric is not known here: it is made by the bonds. `spunlaid web` tells the weakest section of strips and the MD/CD ratio of stiffness of \
-         the directions alone (docs/fabric.md).",
+        "The strength of the fabric is not known here: it is made by the bonds. `spunlaid web` tells the \
+        weakest section of strips and the MD/CD ratio of stiffness of the directions alone (docs/fabric.md).",
     ),
     (
         &["permeability", "porosity", "breathability"],
-        "The air permeability is a range that needs the thickness of the fabric (fabric.thickness); trust the ratio of two webs, not the number (docs/fabric.md).",
+        "The air permeability is a range that needs the thickness of the fabric (fabric.thickness); trust \
+        the ratio of two webs, not the number (docs/fabric.md).",
     ),
     (
         &["softness", "drape", "handle", "hand feel", "linting", "abrasion", "shrinkage"],
-        "There is nothing for this: in a fabric it depends on bonds, finish and polymer, of which the program knows nothing.",
+        "There is nothing for this: in a fabric it depends on bonds, finish and polymer, of which the \
+        program knows nothing.",
     ),
 ];
 

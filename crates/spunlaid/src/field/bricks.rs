@@ -24,8 +24,8 @@ const DEEPEST: u32 = 6;
 const ERROR: f64 = 1e-4;
 /// Points between those of the lattice where the error is measured.
 const PROBES: usize = 24;
-/// How far a brick may be continued over its faces, as a share of its side. An element that swings about a face would be
-/// looked up at almost every step without it.
+/// How far a brick may be continued over its faces, as a share of its side. An element that swings about a
+/// face would be looked up at almost every step without it.
 const MARGIN: f64 = 0.125 / CELLS as f64;
 /// Most memory that bricks take [bytes]. Bricks beyond it are made again at every look.
 const MOST_MEMORY: usize = 1 << 30;

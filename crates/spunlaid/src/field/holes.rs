@@ -29,7 +29,8 @@ impl Holes {
 }
 
 impl Field {
-    /// Why there is no air at a place [m]: its file has no numbers there. None if there is, and beyond the file’s points.
+    /// Why there is no air at a place [m]: its file has no numbers there. None if there is, and beyond the
+    /// file’s points.
     pub fn why_no_air(&self, at: Vec3<f64>) -> Option<Fault> {
         let holes = self.holes.as_ref()?;
         if self.sample(at, &mut Hint::default()).inside {

@@ -49,7 +49,8 @@ impl Lattice {
         Some(Self { axes: axes.map(Axis::new), values })
     }
 
-    /// The lattice of a plane flow with one layer of points, if it has two that are alike and more along the other axes.
+    /// The lattice of a plane flow with one layer of points, if it has two that are alike and more along the
+    /// other axes.
     pub(super) fn thinned(mut self) -> Self {
         const FEWEST: usize = 3;
         let size = self.points();
@@ -127,8 +128,8 @@ impl Lattice {
     }
 }
 
-/// The axes of the lattice that some points form, and the place of each point in its list of values. `None` unless they are all
-/// combinations of three rows of coordinates, each of them once.
+/// The axes of the lattice that some points form, and the place of each point in its list of values. `None`
+/// unless they are all combinations of three rows of coordinates, each of them once.
 pub(super) fn order(points: &[[f64; 3]]) -> Option<([Vec<f64>; 3], Vec<usize>)> {
     let axes = [0, 1, 2].map(|axis| levels(points.iter().map(|at| at[axis]).collect()));
     let size = axes.each_ref().map(Vec::len);

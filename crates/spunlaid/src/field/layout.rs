@@ -1,6 +1,7 @@
 //! Which arrays of a file are the velocity and the turbulence.
 
-/// Which arrays of a file are the velocity and the turbulence. A quantity without a name here is found by its usual names.
+/// Which arrays of a file are the velocity and the turbulence. A quantity without a name here is found by its
+/// usual names.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FieldLayout {
     /// Velocity: one array of three components, or two or three arrays of one, with commas between them.

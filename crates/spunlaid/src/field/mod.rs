@@ -114,8 +114,8 @@ impl Support {
         }
     }
 
-    /// The place itself, or the one on the side of the box that it lies beyond by rounding: a plane of places at the end of
-    /// the field is in it.
+    /// The place itself, or the one on the side of the box that it lies beyond by rounding: a plane of places
+    /// at the end of the field is in it.
     fn rounded(&self, at: [f64; 3]) -> [f64; 3] {
         let (low, high) = self.bounds();
         [0, 1, 2].map(|i| {
@@ -270,13 +270,14 @@ impl Field {
         self.turbulence
     }
 
-    /// What a file lacks for `k` and `ε`, the arrays that it has, and what to do; none if they are there. The text continues
-    /// after `the field`.
+    /// What a file lacks for `k` and `ε`, the arrays that it has, and what to do; none if they are there. The
+    /// text continues after `the field`.
     pub fn why_no_turbulence(&self) -> Option<&Fault> {
         self.lacks.as_ref().filter(|_| !self.turbulence)
     }
 
-    /// What was read from a file, and the names of its arrays: `("velocity", "Ux, Uy, Uz")`. Empty for a field from numbers.
+    /// What was read from a file, and the names of its arrays: `("velocity", "Ux, Uy, Uz")`. Empty for a
+    /// field from numbers.
     pub fn sources(&self) -> &[(&'static str, String)] {
         &self.sources
     }
@@ -349,7 +350,8 @@ impl Field {
         self.bricks.around(self.support.rounded(at), hint, &self.support)
     }
 
-    /// The direction along which the air is the same in a plane flow: 0, 1, 2 for x, y, z. None if the flow is in space.
+    /// The direction along which the air is the same in a plane flow: 0, 1, 2 for x, y, z. None if the flow
+    /// is in space.
     pub fn plane_axis(&self) -> Option<usize> {
         match &self.support {
             Support::Lattice(lattice) => lattice.plane_axis(),

@@ -39,7 +39,8 @@ impl Spread {
 }
 
 impl Field {
-    /// The numbers over all points. In a mesh a point counts as often as it is looked at, so that small cells count more.
+    /// The numbers over all points. In a mesh a point counts as often as it is looked at, so that small cells
+    /// count more.
     pub fn overview(&self) -> Overview {
         let (low, high) = self.support.bounds();
         let mut count = 0.0;

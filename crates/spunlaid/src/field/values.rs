@@ -61,7 +61,8 @@ impl Values {
                         "is zero at all {} points at which k is above zero, so the eddies would be infinitely long",
                         decay.count()
                     ),
-                    "write the ε or ω of the solution, or leave out k, and give turbulence_intensity, length_scale and cutoff_frequency in the case",
+                    "write the ε or ω of the solution, or leave out k, and give turbulence_intensity, \
+                    length_scale and cutoff_frequency in the case",
                 );
                 return Err(FileError::from(fault).array("epsilon"));
             }

@@ -1,4 +1,5 @@
-//! The ends of the intervals: values of which a scan like this one would be found that far away by chance, once in forty times.
+//! The ends of the intervals: values of which a scan like this one would be found that far away by chance,
+//! once in forty times.
 
 use super::polynomials::Polynomials;
 use super::search::{Place, residuals_of, weights_at};
@@ -41,8 +42,8 @@ pub(super) struct Ends {
 
 /// The ends of the interval of each key that changes something.
 ///
-/// A value belongs to the interval if the scan may well be one of its webs: these are laid, each takes the place of the scan, and the value found for the
-/// scan is no further away than t standard errors of theirs.
+/// A value belongs to the interval if the scan may well be one of its webs: these are laid, each takes the
+/// place of the scan, and the value found for the scan is no further away than t standard errors of theirs.
 ///
 /// # Errors
 /// As [`Webs::trial`].
@@ -92,7 +93,8 @@ impl Search<'_> {
         // Where the end would be, and where it is if the range ends before.
         let mut wanted = values.coordinates[key] + side * t * error;
         let mut kind = IntervalEnd::Straight;
-        // The trials nearest to the end on either side: where they are, and how much further away the scan's value is found than it may be.
+        // The trials nearest to the end on either side: where they are, and how much further away the scan's
+        // value is found than it may be.
         let mut beside: [Option<(f64, f64)>; 2] = [None; 2];
         for _ in 0..MOST {
             let end = wanted.clamp(low, high);

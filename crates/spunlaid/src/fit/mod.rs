@@ -1,4 +1,5 @@
-//! From a scanned web back to the settings of the line: which values of some keys make webs that are as uneven as the scan?
+//! From a scanned web back to the settings of the line: which values of some keys make webs that are as
+//! uneven as the scan?
 //!
 //! ```text
 //! scan ─ map, patches ────→ Target: logarithms of CV over patches, and of the spectrum
@@ -6,18 +7,20 @@
 //!   → misfit, weighted by how the numbers scatter from web to web → steps of Gauss and Newton → Fit
 //! ```
 //!
-//! **The misfit** (theory.md (100)) is `rᵀ C⁻¹ r`, with the differences r between the logarithms of the scan and the mean of those of n simulated webs, and the
-//! covariance C of these logarithms from web to web, of which a tenth is taken away beside the diagonal.
+//! **The misfit** (theory.md (100)) is `rᵀ C⁻¹ r`, with the differences r between the logarithms of the scan
+//! and the mean of those of n simulated webs, and the covariance C of these logarithms from web to web, of
+//! which a tenth is taken away beside the diagonal.
 //!
 //! **The values** come from polynomials of second order through all trials within a standard error of the best one.
 //!
-//! **The intervals** come from the webs themselves: each simulated web takes the place of the scan, and the values that would be found for it scatter as those
-//! for a real scan do (simulated method of moments: D. McFadden, Econometrica 57 (1989) 995–1026; C. Gouriéroux, A. Monfort, E. Renault, Journal of
-//! Applied Econometrics 8 (1993) S85–S118). An interval holds the values of which the scan may well be a web, by webs that are laid at its ends. Errors of the
-//! camera, of the few flown fibres and of the surrogate are added.
+//! **The intervals** come from the webs themselves: each simulated web takes the place of the scan, and the
+//! values that would be found for it scatter as those for a real scan do (simulated method of moments: D.
+//! McFadden, Econometrica 57 (1989) 995–1026; C. Gouriéroux, A. Monfort, E. Renault, Journal of Applied
+//! Econometrics 8 (1993) S85–S118). An interval holds the values of which the scan may well be a web, by webs
+//! that are laid at its ends. Errors of the camera, of the few flown fibres and of the surrogate are added.
 //!
-//! **Whether such webs can look like the scan** is said by the misfit itself: that of the scan stands among those that the simulated webs
-//! have when each is taken as the scan.
+//! **Whether such webs can look like the scan** is said by the misfit itself: that of the scan stands among
+//! those that the simulated webs have when each is taken as the scan.
 
 mod interval;
 mod parameter;
@@ -53,7 +56,8 @@ use webs::Webs;
 pub const MOST_KEYS: usize = 4;
 /// Fewest simulated webs of a trial.
 pub const FEWEST_WEBS: u64 = 8;
-/// Usual number of simulated webs of a trial: so many as are needed to say with 95 % confidence that no such web looks like the scan.
+/// Usual number of simulated webs of a trial: so many as are needed to say with 95 % confidence that no such
+/// web looks like the scan.
 pub const USUAL_WEBS: u64 = 20;
 
 /// Most searches after the first one.
@@ -110,7 +114,8 @@ pub fn identity(start: &WebSpec, parameters: &[Parameter], target: &Target, webs
 /// * `watch` – is told of every web that is laid
 ///
 /// # Errors
-/// If there are too many keys, too few webs or too few numbers; if the webs of the start cannot be laid; if it is stopped.
+/// If there are too many keys, too few webs or too few numbers; if the webs of the start cannot be laid; if
+/// it is stopped.
 pub fn fit<'a>(
     question: Question<'a>,
     flyer: Flyer<'a>,
@@ -125,8 +130,9 @@ pub fn fit<'a>(
     find(&mut Webs::new((parameters, target), (&mut simulator, count), journal, watch))
 }
 
-/// How far the numbers of simulated webs are off at the start by causes other than chance: standard errors of their logarithms by each cause, common to
-/// all numbers. These causes are the few filaments that are flown for all, and the surrogate.
+/// How far the numbers of simulated webs are off at the start by causes other than chance: standard errors of
+/// their logarithms by each cause, common to all numbers. These causes are the few filaments that are flown
+/// for all, and the surrogate.
 ///
 /// # Errors
 /// If the webs of the start cannot be laid; if it is stopped.

@@ -4,8 +4,8 @@ use crate::units::Dimension;
 
 /// A key whose value is sought, with the range in which it may lie.
 ///
-/// The search moves in a coordinate in which steps are of like size everywhere: the logarithm of a value that is above zero in all of its
-/// range, otherwise the value over half of its range.
+/// The search moves in a coordinate in which steps are of like size everywhere: the logarithm of a value that
+/// is above zero in all of its range, otherwise the value over half of its range.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
     /// Full name of the key, `layer.1.line.depth`.

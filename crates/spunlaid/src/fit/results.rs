@@ -1,4 +1,5 @@
-//! What a fit has found: the values with their intervals, the profile of the misfit, and whether such webs can look like the scan at all.
+//! What a fit has found: the values with their intervals, the profile of the misfit, and whether such webs
+//! can look like the scan at all.
 
 use super::interval::{Ends, IntervalEnd};
 use super::parameter::Parameter;
@@ -17,7 +18,8 @@ pub struct Fit {
     pub keys: Vec<FittedKey>,
     /// Correlations of the errors of the values, key by key.
     pub correlations: Vec<Vec<f64>>,
-    /// Keys that the data cannot tell apart: their indices, and what a rise of the first by a tenth is made up for with.
+    /// Keys that the data cannot tell apart: their indices, and what a rise of the first by a tenth is made
+    /// up for with.
     pub alike: Vec<InseparableKeys>,
     /// What was compared.
     pub numbers: Vec<FittedNumber>,
@@ -79,8 +81,8 @@ pub struct InseparableKeys {
     pub keys: [usize; 2],
     /// Correlation of their errors.
     pub correlation: f64,
-    /// When the coordinate of the first key grows by one, that of the second changes by this number. For logarithmic coordinates it is the ratio of the relative
-    /// changes of the two keys.
+    /// When the coordinate of the first key grows by one, that of the second changes by this number. For
+    /// logarithmic coordinates it is the ratio of the relative changes of the two keys.
     pub per_first: f64,
 }
 
@@ -95,7 +97,8 @@ pub struct FittedNumber {
     pub start: f64,
     /// Mean of the simulated webs with the values that were found.
     pub found: f64,
-    /// Standard deviation of its logarithm from one simulated web to another: a scan of such a web is as far off by chance.
+    /// Standard deviation of its logarithm from one simulated web to another: a scan of such a web is as far
+    /// off by chance.
     pub scatter: f64,
     /// Standard error of its logarithm by the few filaments that are flown for all and by the surrogate.
     pub model_error: f64,

@@ -5,8 +5,9 @@ use super::weights::{Matrix, gain, information, misfit, weights};
 use crate::error::{Error, Fault};
 use crate::statistics::linear::{dot, inverse};
 
-/// Step of a slope, as a coordinate: at the beginning, and then a standard error between these ends. The mean of the webs jumps a little
-/// between trials, because a key may change which random numbers a filament takes; steps must be long beside that.
+/// Step of a slope, as a coordinate: at the beginning, and then a standard error between these ends. The mean
+/// of the webs jumps a little between trials, because a key may change which random numbers a filament takes;
+/// steps must be long beside that.
 const STEP: f64 = 0.25;
 const STEPS: [f64; 2] = [0.05, 0.5];
 /// Longest step of the search, as a coordinate: twice the value, or half of it.
@@ -113,7 +114,8 @@ pub(super) fn residuals_of(webs: &Webs<'_>, trial: usize) -> Vec<f64> {
     webs.target.logarithms.iter().zip(&webs.trials[trial].mean).map(|(scan, web)| scan - web).collect()
 }
 
-/// Slopes that are right for the step from one trial to the next, and otherwise as they were: C. G. Broyden, Mathematics of Computation 19 (1965) 577–593.
+/// Slopes that are right for the step from one trial to the next, and otherwise as they were: C. G. Broyden,
+/// Mathematics of Computation 19 (1965) 577–593.
 fn update_slopes(slopes: &Matrix, from: &Trial, to: &Trial) -> Matrix {
     let step: Vec<f64> = to.coordinates.iter().zip(&from.coordinates).map(|(to, from)| to - from).collect();
     let squared = dot(&step, &step);
@@ -187,7 +189,8 @@ fn no_other_value(key: &str) -> Error {
     Error::flight(format!("{key} has no second value in its range"), "give it a wider range")
 }
 
-/// Standard errors of the coordinates, by the scatter of the scan and of the simulated webs; without bound for a key that changes nothing.
+/// Standard errors of the coordinates, by the scatter of the scan and of the simulated webs; without bound
+/// for a key that changes nothing.
 fn standard_errors(weights: &Matrix, slopes: &Matrix, count: u64) -> Vec<f64> {
     let scatter = 1.0 + 1.0 / count as f64;
     let mut known: Vec<usize> = (0..slopes.len()).collect();

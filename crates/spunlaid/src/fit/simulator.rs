@@ -19,8 +19,8 @@ pub(super) trait Simulator {
     /// If there are none.
     fn set(&mut self, values: &[f64]) -> Result<(), Error>;
 
-    /// The logarithms of the numbers of a web. Webs of the same replicate have the same random numbers, as far as the keys allow: what
-    /// differs is then less by chance.
+    /// The logarithms of the numbers of a web. Webs of the same replicate have the same random numbers, as
+    /// far as the keys allow: what differs is then less by chance.
     ///
     /// # Errors
     /// If it cannot be laid.
@@ -74,7 +74,8 @@ impl Simulator for WebSimulator<'_> {
     /// The errors of the logarithms by the few flown fibres, and by the model that lays the webs in their place.
     fn errors_of_model(&mut self) -> Result<Matrix, Error> {
         let mut spec = self.spec.clone();
-        // Where all filaments in one air have been flown nothing is left out, and known numbers say nothing of real fibres.
+        // Where all filaments in one air have been flown nothing is left out, and known numbers say nothing
+        // of real fibres.
         let is_shared = spec.method == Method::SharedAir;
         let all_fly = is_shared && spec.flown == Flown::All;
         if all_fly || spec.layers.iter().all(|layer| layer.source.case().is_none()) {
@@ -134,8 +135,8 @@ impl WebSimulator<'_> {
         })
     }
 
-    /// How far the logarithms of webs of a few filaments are from those of all filaments in the same air: the root of the mean square. None if all of
-    /// them cannot be flown.
+    /// How far the logarithms of webs of a few filaments are from those of all filaments in the same air: the
+    /// root of the mean square. None if all of them cannot be flown.
     ///
     /// # Errors
     /// As [`Simulator::web`].
@@ -160,8 +161,9 @@ impl WebSimulator<'_> {
     }
 }
 
-/// The error of the logarithm of a CV, which is that of the map that is compared. Where a few filaments tell so little of all that the CV which follows from them is zero, it has no
-/// error of its own, and the map is off by all of its CV.
+/// The error of the logarithm of a CV, which is that of the map that is compared. Where a few filaments tell
+/// so little of all that the CV which follows from them is zero, it has no error of its own, and the map is
+/// off by all of its CV.
 fn of_logarithm(error: Option<f64>, compared: f64) -> f64 {
     let part = error.map_or(0.0, |error| error / compared);
     if part.is_finite() { part } else { 0.0 }
@@ -176,7 +178,8 @@ fn seed(spec: &WebSpec, replicate: u64) -> u64 {
 mod tests {
     use super::*;
 
-    /// A few filaments that tell nothing of all made an error of an unknown part of zero, and intervals of unknown ends.
+    /// A few filaments that tell nothing of all made an error of an unknown part of zero, and intervals of
+    /// unknown ends.
     #[test]
     fn analytic_errors_are_parts_of_the_cv_that_is_compared() {
         assert_eq!(of_logarithm(Some(0.25), 0.5), 0.5);

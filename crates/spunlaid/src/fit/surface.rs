@@ -17,7 +17,8 @@ impl Errors {
     /// Covariance of the errors of two coordinates.
     pub(super) fn covariance(&self, i: usize, j: usize) -> f64 {
         let n = self.by_chance.len() as f64;
-        // A web differs from the mean of the others by n/(n − 1) of its variance, the scan from the mean of all by (n + 1)/n.
+        // A web differs from the mean of the others by n/(n − 1) of its variance, the scan from the mean of
+        // all by (n + 1)/n.
         let scale = (n - 1.0) * (n + 1.0) / (n * n);
         let chance = self.by_chance.iter().map(|web| web[i] * web[j]).sum::<f64>() / n * scale;
         chance + self.others.iter().map(|cause| cause[i] * cause[j]).sum::<f64>()
@@ -89,7 +90,8 @@ impl Surface {
     }
 }
 
-/// A web of a trial as if it were the scan and the others were all that were laid: the weights by these, and how far it is from them.
+/// A web of a trial as if it were the scan and the others were all that were laid: the weights by these, and
+/// how far it is from them.
 ///
 /// * `errors` – standard errors of the logarithms by further causes
 pub(super) fn in_place_of_the_scan(

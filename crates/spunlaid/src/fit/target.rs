@@ -13,7 +13,8 @@ pub struct MeasuredWeb {
     pub map: Map,
     /// The patches whose CV is known.
     pub patches: Vec<MeasuredPatch>,
-    /// Whether the noise of the patches is known exactly, so that its variance is taken out; otherwise it is an upper bound.
+    /// Whether the noise of the patches is known exactly, so that its variance is taken out; otherwise it is
+    /// an upper bound.
     pub knows_noise: bool,
     /// Whether the shading of the lamp was taken out as a polynomial.
     pub flat: bool,
@@ -53,7 +54,8 @@ pub struct MeasuredPatch {
 /// What the simulated webs are compared with.
 #[derive(Clone, Debug)]
 pub struct Target {
-    /// The part of the measured web that is compared, in the cells of the simulation or in its own, whichever are larger.
+    /// The part of the measured web that is compared, in the cells of the simulation or in its own, whichever
+    /// are larger.
     map: Map,
     pub(super) textures: Textures,
     /// Logarithms of its numbers.
@@ -102,8 +104,9 @@ impl Target {
             };
             return Err(Fault::new(
                 format!(
-                    "has {known}, and none of them is sharp (a pixel of blur would lower its CV by less than 10 %), a whole number of \
-                     cells of {}, and at most a quarter of the {} that the scan and the simulated sheet have in common",
+                    "has {known}, and none of them is sharp (a pixel of blur would lower its CV by less than \
+                    10 %), a whole number of cells of {}, and at most a quarter of the {} that the scan and \
+                    the simulated sheet have in common",
                     Dimension::Length.pretty(cell),
                     Dimension::Length.pretty(shorter)
                 ),
@@ -232,8 +235,9 @@ impl Camera<'_> {
         }
     }
 
-    /// Errors of the logarithms by the noise, unless it is known, and by the blur. What is in a number that the web has not is at most the noise,
-    /// and what is missing is about what one more pixel of blur would take away.
+    /// Errors of the logarithms by the noise, unless it is known, and by the blur. What is in a number that
+    /// the web has not is at most the noise, and what is missing is about what one more pixel of blur would
+    /// take away.
     fn errors(&self, all: &[Texture], logarithms: &[f64]) -> Vec<Vec<f64>> {
         /// The noise may be most of a number, but not all of it.
         const MOST: f64 = 2.3;

@@ -1,4 +1,5 @@
-//! Closed loops with numbers that are drawn, not measured of laid webs: so many that it shows how often the intervals hold the truth.
+//! Closed loops with numbers that are drawn, not measured of laid webs: so many that it shows how often the
+//! intervals hold the truth.
 
 use super::parameter::Parameter;
 use super::simulator::Simulator;
@@ -18,11 +19,12 @@ const WEB: f64 = 200.0;
 const LENGTH: f64 = 190.0;
 /// Correlation of neighbouring patches falls to 1/e over so many octaves of their sides.
 const OCTAVES: f64 = 1.4;
-/// Share of the variance that a trial does not have in common with the others, because a key may change which random numbers a filament takes.
+/// Share of the variance that a trial does not have in common with the others, because a key may change which
+/// random numbers a filament takes.
 const FRESH: f64 = 0.1;
 
-/// Webs of two keys that make up for each other in part: more noise and more filaments both make the web even. Logarithms are normal, and scatter as
-/// those of so many patches as the web has.
+/// Webs of two keys that make up for each other in part: more noise and more filaments both make the web
+/// even. Logarithms are normal, and scatter as those of so many patches as the web has.
 struct Drawn {
     values: Vec<f64>,
     seed: u64,
@@ -239,7 +241,8 @@ impl Simulator for Fragile {
     }
 }
 
-/// Webs of a trial that was given up halfway do not stand for those of another one: what is found in the journal is what is found without it.
+/// Webs of a trial that was given up halfway do not stand for those of another one: what is found in the
+/// journal is what is found without it.
 #[test]
 fn identical_after_trials_that_were_refused() {
     let parameters = [parameter("filaments", 250.0, [50.0, 1250.0])];

@@ -23,7 +23,8 @@ pub enum Texture {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Textures {
     pub(super) all: Vec<Texture>,
-    /// Whether a polynomial of second order is taken out of each map, as it was taken out of the scan with the shading of its lamp.
+    /// Whether a polynomial of second order is taken out of each map, as it was taken out of the scan with
+    /// the shading of its lamp.
     pub(super) flat: bool,
 }
 

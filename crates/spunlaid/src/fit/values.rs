@@ -1,4 +1,5 @@
-//! The values that are most like the scan: by polynomials through all trials near the place at which a search has ended.
+//! The values that are most like the scan: by polynomials through all trials near the place at which a search
+//! has ended.
 
 use super::polynomials::Polynomials;
 use super::search::{Place, residuals_of};
@@ -110,7 +111,8 @@ fn profile(
     Ok((profile, if reach > 0.0 { 1.05 * reach } else { 1.0 }))
 }
 
-/// The misfit of a trial if all keys but one took their best values. Little is left for them to do, and straight lines serve.
+/// The misfit of a trial if all keys but one took their best values. Little is left for them to do, and
+/// straight lines serve.
 pub(super) fn least_misfit(
     webs: &Webs<'_>,
     place: &Place,

@@ -1,4 +1,5 @@
-//! How much each number counts: the inverse of their covariance from web to web, and what follows from it for the sought values.
+//! How much each number counts: the inverse of their covariance from web to web, and what follows from it for
+//! the sought values.
 
 use crate::statistics::linear::{dot, inverse};
 
@@ -15,7 +16,8 @@ pub(super) fn mean_of<'a>(rows: impl Iterator<Item = &'a Vec<f64>> + Clone) -> V
     (0..length).map(|i| rows.clone().map(|row| row[i]).sum::<f64>() / count).collect()
 }
 
-/// The weights of numbers that scatter like those of some webs, and of which the scan knows each with further errors: the inverse of their covariance.
+/// The weights of numbers that scatter like those of some webs, and of which the scan knows each with further
+/// errors: the inverse of their covariance.
 ///
 /// * `errors` – standard errors by each further cause, common to all numbers
 ///
@@ -48,7 +50,8 @@ pub(super) fn information(weights: &Matrix, slopes: &Matrix) -> Matrix {
     slopes.iter().map(|slope| weighted.iter().map(|other| dot(slope, other)).collect()).collect()
 }
 
-/// What numbers that are off by one each do to the sought values, theory.md (101): `(Jᵀ W J)⁻¹ Jᵀ W` [by key, then by number].
+/// What numbers that are off by one each do to the sought values, theory.md (101): `(Jᵀ W J)⁻¹ Jᵀ W` [by key,
+/// then by number].
 ///
 /// # Errors
 /// The key whose slopes follow from those of the keys before it, or are zero.

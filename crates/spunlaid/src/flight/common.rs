@@ -31,8 +31,8 @@ impl Clock {
 }
 
 shared! {
-    /// What the fibres of one flight have in common. All else may differ from lane to lane: a flight is made from this value
-    /// and from entries of each lane, and nothing else.
+    /// What the fibres of one flight have in common. All else may differ from lane to lane: a flight is made
+    /// from this value and from entries of each lane, and nothing else.
     pub(crate) struct Common {
         chain: chain::Common,
         clock: Clock,
@@ -42,8 +42,10 @@ shared! {
         wind: Sampling,
         /// Of turbulence that differs across the flow, `k_max L_T`.
         lateral_cutoff: Option<Bits> = "how the turbulence differs across the flow (air.lateral, air.lateral_cutoff)",
-        /// Steps from one look at the flow around a fibre of fixed length to the next; none if the air is the same everywhere.
-        every: Option<u64> = "how often the flow around the fibre is looked up (air.length_scale, air.velocity, or a flow that is not uniform)",
+        /// Steps from one look at the flow around a fibre of fixed length to the next; none if the air is the
+        /// same everywhere.
+        every: Option<u64> = "how often the flow around the fibre is looked up (air.length_scale, \
+            air.velocity, or a flow that is not uniform)",
     }
 }
 

@@ -8,12 +8,14 @@ use crate::lanes::{Lanes, Register, Task, WIDTH, Wide};
 use crate::units::Dimension;
 use crate::vec3::Vec3;
 
-/// By how much an element may be off from the length that belongs to its tension, in parts of its rest length [-]. Where
-/// the tensions are found it is a hundredth at most, after a landing in a single step some hundredths.
+/// By how much an element may be off from the length that belongs to its tension, in parts of its rest length
+/// [-]. Where the tensions are found it is a hundredth at most, after a landing in a single step some
+/// hundredths.
 const MOST_OFF: f64 = 0.1;
 /// Largest strain, either way [-].
 const MOST_STRAIN: f64 = 1.0;
-/// How many times faster than all that drives it a node may be [-]. The end of a fibre that whips is several times faster.
+/// How many times faster than all that drives it a node may be [-]. The end of a fibre that whips is several
+/// times faster.
 const MOST_SPEED: f64 = 20.0;
 /// Length of fibre in the air, in distances to the belt, above which it does not reach the belt.
 const MOST_IN_AIR: f64 = 10.0;
@@ -37,8 +39,8 @@ impl Flight {
         (0..self.fibres()).filter_map(move |lane| Some((lane, lost(lane)?)))
     }
 
-    /// The fibres that may have diverged. All are looked at together, since this is done at every recorded instant and hardly
-    /// ever finds one.
+    /// The fibres that may have diverged. All are looked at together, since this is done at every recorded
+    /// instant and hardly ever finds one.
     fn doubtful(&self) -> [bool; WIDTH] {
         // A lane without a case has no limit.
         let most_speed = Lanes::from_fn(|lane| {
@@ -48,8 +50,8 @@ impl Flight {
         std::array::from_fn(|lane| found.0[lane] > 0.0 || self.chain.tensions.worst[lane].0 > MOST_OFF)
     }
 
-    /// Whether the computation of the fibre in a lane has diverged. A lane is judged by itself, so a fibre is lost in any
-    /// company or in none.
+    /// Whether the computation of the fibre in a lane has diverged. A lane is judged by itself, so a fibre is
+    /// lost in any company or in none.
     fn diverged(&self, lane: usize) -> Option<Error> {
         let (node, sign) = self.sign_of_divergence(lane)?;
         let entry = self.entries.get(lane);
@@ -135,7 +137,8 @@ impl Flight {
     }
 }
 
-/// Looks for what [`Flight::sign_of_divergence`] would find, in all lanes at once: 1 where it may find something, otherwise 0.
+/// Looks for what [`Flight::sign_of_divergence`] would find, in all lanes at once: 1 where it may find
+/// something, otherwise 0.
 struct Doubts<'a> {
     chain: &'a Chain,
     /// Of a node, that needs no closer look [m/s].
@@ -150,7 +153,8 @@ impl Task for Doubts<'_> {
         let (chain, c) = (self.chain, &self.chain.constants);
         let (nodes, zero) = (chain.position.len(), Wide::<S>::zero());
         let (most_off, most_strain) = (Wide::splat(DOUBTFUL * MOST_OFF), Wide::splat(DOUBTFUL * MOST_STRAIN));
-        // What is NaN or infinite makes the sum of the squares so. In the others a NaN is passed over, as it is in the closer look.
+        // What is NaN or infinite makes the sum of the squares so. In the others a NaN is passed over, as it
+        // is in the closer look.
         let (mut squares, mut fastest, mut doubts) = (zero, zero, zero);
         for (position, velocity) in chain.position.iter().zip(chain.velocity.iter()) {
             let (position, velocity) = (Vec3::load(position), Vec3::load(velocity));

@@ -66,8 +66,8 @@ impl<'a> Job<'a> {
         Self { case, replicate, place: Place::default() }
     }
 
-    /// How its fibre is fed and laid; `None` for a fibre of fixed length. The first ends of successive replicates are off
-    /// the axis in directions that spread evenly.
+    /// How its fibre is fed and laid; `None` for a fibre of fixed length. The first ends of successive
+    /// replicates are off the axis in directions that spread evenly.
     pub(crate) fn fed(&self) -> Option<Feed> {
         const RATIOS: [f64; 2] = [0.618_033_988_749_894_9, 0.754_877_666_246_692_7];
         let (seed, fibre) = ((self.case.run.seed % 1_000_003) as f64, self.case.fibre);

@@ -149,8 +149,8 @@ impl Flight {
     }
 }
 
-/// Steps of a flight with one scheme, of fibres that are fed or not. Each is compiled by itself: compilers take far longer
-/// for one large function than for many small ones.
+/// Steps of a flight with one scheme, of fibres that are fed or not. Each is compiled by itself: compilers
+/// take far longer for one large function than for many small ones.
 struct Advance<'a, const SCHEME: u8, const FED: bool> {
     flight: &'a mut Flight,
     steps: u64,

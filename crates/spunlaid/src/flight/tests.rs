@@ -130,8 +130,9 @@ fn analytic_drag_of_each_element() {
     }
 }
 
-/// The forces are minus the gradient of the energies: without air, the sum of the energies is off to second order in the step.
-/// With the properties of another element in one of the two it would be off by a part of itself.
+/// The forces are minus the gradient of the energies: without air, the sum of the energies is off to second
+/// order in the step. With the properties of another element in one of the two it would be off by a part of
+/// itself.
 #[test]
 fn order_the_energy_of_a_varied_fibre_in_vacuum() {
     let imbalance = |scheme: Scheme, h: f64| {

@@ -1,5 +1,5 @@
-//! Divides what an open case leaves to be counted: the fibre into elements, the time into steps and instants. The case is
-//! checked then.
+//! Divides what an open case leaves to be counted: the fibre into elements, the time into steps and instants.
+//! The case is checked then.
 
 use super::open::OpenCase;
 use super::written_values::{WrittenValues, sorted};
@@ -11,8 +11,8 @@ use crate::fibre::Fibre;
 
 /// How many times longer a suitable step must be than the written one to be mentioned.
 const MUCH_LONGER: f64 = 50.0;
-/// Length of fibre that still moves on the belt, over the distance from inlet to belt. Of a usual filament 2 % still hang in
-/// arches when it leaves the chain; with a quarter of this length it is a third.
+/// Length of fibre that still moves on the belt, over the distance from inlet to belt. Of a usual filament 2
+/// % still hang in arches when it leaves the chain; with a quarter of this length it is a third.
 const KEPT: f64 = 0.25;
 
 impl OpenCase {
@@ -185,8 +185,8 @@ fn divide(fibre: &mut Fibre, written_length: Option<f64>, length_scale: f64) -> 
     (!whole).then_some(element_length)
 }
 
-/// Sets what follows from the distance to the belt: the elements, the length that still moves on the belt, and the decay
-/// time of the eddies.
+/// Sets what follows from the distance to the belt: the elements, the length that still moves on the belt,
+/// and the decay time of the eddies.
 fn feed(case: &mut Case, key_values: &WrittenValues, written_length: Option<f64>) {
     let Some(line) = &mut case.line else { return };
     case.fibre.span(line.distance, written_length.unwrap_or(line.distance / 125.0));

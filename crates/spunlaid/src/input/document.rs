@@ -1,5 +1,5 @@
-//! Reads the file of a case, of a web with the case of its filament, or of a study into its values, by a table of keys. Each value
-//! remembers where it was written.
+//! Reads the file of a case, of a web with the case of its filament, or of a study into its values, by a
+//! table of keys. Each value remembers where it was written.
 //!
 //! A value has the full name of its key, `line.belt_speed`. In a list of tables the number of the entry stands in it,
 //! `layer.2.line.rows.1.pitch`, and the list itself, `layer.2.line.rows`, has its length as value.
@@ -193,8 +193,8 @@ impl<'a, T> Document<'a, T> {
         }
     }
 
-    /// Takes a value with the name of a key of another file, or what stands in a table of that file: `air.velocity = …` and
-    /// `"air.velocity" = …` are equal.
+    /// Takes a value with the name of a key of another file, or what stands in a table of that file:
+    /// `air.velocity = …` and `"air.velocity" = …` are equal.
     fn take_named(&mut self, row: &'static Key<T>, before: &str, name: &str, entry: Entry<'a>) {
         let name = format!("{before}{name}");
         match entry.value {

@@ -1,5 +1,5 @@
-//! The tension at the end of a spinline from flights of the fibre below it: fly, feed the mean tension at the root back, solve the
-//! spinline again, until the speed stands.
+//! The tension at the end of a spinline from flights of the fibre below it: fly, feed the mean tension at the
+//! root back, solve the spinline again, until the speed stands.
 
 use super::open::OpenCase;
 use crate::case::keys;
@@ -33,7 +33,8 @@ impl OpenCase {
         matches!(self.end(), End::Flown(_))
     }
 
-    /// Flies fibres until the speed of the spinline stands; none if it never does. The bits of the tension depend on the case alone.
+    /// Flies fibres until the speed of the spinline stands; none if it never does. The bits of the tension
+    /// depend on the case alone.
     ///
     /// # Errors
     /// Every reason why the case cannot be run, a fibre that is lost, and a stop.
@@ -58,7 +59,8 @@ impl OpenCase {
         Ok(None)
     }
 
-    /// The checked case whose spinline ends at the mean tension of its own fibres. From then on the tension is a number.
+    /// The checked case whose spinline ends at the mean tension of its own fibres. From then on the tension
+    /// is a number.
     ///
     /// * `found` – none if the speed does not settle
     ///
@@ -84,7 +86,8 @@ impl OpenCase {
     /// The checked case with a tension of zero, which is not that of flights, and a note that says so.
     ///
     /// # Errors
-    /// Every reason why the case cannot be run. None of them would go away with the tension of flights, which begin with this case.
+    /// Every reason why the case cannot be run. None of them would go away with the tension of flights, which
+    /// begin with this case.
     pub(super) fn resolve_without(&self) -> Result<(Case, Vec<Note>), Error> {
         let (case, mut notes) = self.clone().resolve_at_once()?;
         notes.push(self.note_of_end(Remark::TensionUnflown));

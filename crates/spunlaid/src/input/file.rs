@@ -32,8 +32,8 @@ pub(super) fn text(bytes: Vec<u8>) -> Result<String, FileError> {
         let fault = match latin(bytes, byte) {
             Some(sign) => Fault::new(
                 format!(
-                    "is not UTF-8 text: byte {byte:#04x} in this line would be {sign} in Latin-1 (Windows-1252), as older \
-                     editors save it"
+                    "is not UTF-8 text: byte {byte:#04x} in this line would be {sign} in Latin-1 \
+                    (Windows-1252), as older editors save it"
                 ),
                 "save the file as UTF-8, or write um for µm",
             ),

@@ -16,8 +16,8 @@ const KELVIN: f64 = 2.0;
 /// Influences below this are left out.
 const LEAST: f64 = 5e-4;
 
-/// What a change of a number does to the cold filament: `d ln d/d ln x` [-] of its diameter d, or the relative change [-] for 10 K, and the same of its
-/// speed. They are computed and have no error of chance.
+/// What a change of a number does to the cold filament: `d ln d/d ln x` [-] of its diameter d, or the
+/// relative change [-] for 10 K, and the same of its speed. They are computed and have no error of chance.
 pub type Influence = Tried<(), OfFilament>;
 
 /// What an [`Influence`] is on.
@@ -30,8 +30,8 @@ pub enum OfFilament {
 }
 
 impl SpinFile {
-    /// What decides the diameter: the influence of each number on the filament of the first row, the largest first. The factor
-    /// of the friction law is among them. Numbers without influence are left out.
+    /// What decides the diameter: the influence of each number on the filament of the first row, the largest
+    /// first. The factor of the friction law is among them. Numbers without influence are left out.
     ///
     /// A number whose change leaves no steady state is left out too.
     ///
@@ -51,7 +51,8 @@ fn is_physical(key: &Key) -> bool {
     !["spinline.break_stress", "spinline.filaments_per_metre_and_row"].contains(&key.name)
 }
 
-/// The influence of a number, from the filaments with a smaller and with a larger one; None if it has none, or hardly any.
+/// The influence of a number, from the filaments with a smaller and with a larger one; None if it has none,
+/// or hardly any.
 fn influence(key: &'static Key, carrier: &Case, near: &Solution) -> Option<Influence> {
     let Some(Value::Number(number)) = key.get(carrier) else { return None };
     let by_kelvin = is_by_kelvin(&key.kind);

@@ -6,8 +6,8 @@ use crate::error::FileKind;
 use std::path::Path;
 use toml::de::DeTable;
 
-/// What a file describes by its keys and tables: a study, a web, a spinline alone, or else a case. A file that cannot be read
-/// counts as a case.
+/// What a file describes by its keys and tables: a study, a web, a spinline alone, or else a case. A file
+/// that cannot be read counts as a case.
 pub fn kind_of(path: &Path) -> FileKind {
     let Ok(text) = file::read(path, FileKind::Case) else { return FileKind::Case };
     let Ok(root) = DeTable::parse(&text) else { return FileKind::Case };

@@ -10,7 +10,8 @@ use crate::study::Experiment;
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 
-/// Data files and tensions, and the tensions that are still to be found. The same reading goes on with them when they are.
+/// Data files and tensions, and the tensions that are still to be found. The same reading goes on with them
+/// when they are.
 #[derive(Default)]
 pub(super) struct Lookup {
     pub(super) files: DataFiles,
@@ -31,7 +32,8 @@ pub(super) struct WantedTension {
 }
 
 impl Lookup {
-    /// The checked case. If its tension is still to be found, it is noted as wanted, and the case is one with a tension of zero.
+    /// The checked case. If its tension is still to be found, it is noted as wanted, and the case is one with
+    /// a tension of zero.
     ///
     /// # Errors
     /// Every reason why the case cannot be run.
@@ -84,8 +86,8 @@ impl Lookup {
     }
 }
 
-/// A checksum over all on which the tension of a case depends: every number of it, and which of them are written, because the others
-/// may follow from the speed.
+/// A checksum over all on which the tension of a case depends: every number of it, and which of them are
+/// written, because the others may follow from the speed.
 ///
 /// * `case` – with a tension of zero
 fn identity(open: &OpenCase, case: &Case) -> u64 {

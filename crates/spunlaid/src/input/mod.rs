@@ -94,8 +94,8 @@ impl<'a> From<&'a Vec<(String, String)>> for Overrides<'a> {
 /// Returns the case, with notes and warnings about it.
 ///
 /// # Errors
-/// If the file cannot be read, or if the case cannot be run; then with every problem found. And what has to be flown first, if the
-/// tension at the end of its spinline is that of flights.
+/// If the file cannot be read, or if the case cannot be run; then with every problem found. And what has to
+/// be flown first, if the tension at the end of its spinline is that of flights.
 pub fn read_case<'a>(
     path: &Path,
     overrides: impl Into<Overrides<'a>>,

@@ -62,7 +62,8 @@ pub(super) fn slip(line: &str) -> Option<Fault> {
         return None;
     }
     if written == format!("\"{bare}\"") && bare.contains('\\') {
-        let what = "has a backslash between double quotes, where it begins a sign such as \\n; between single quotes it is itself";
+        let what = "has a backslash between double quotes, where it begins a sign such as \\n; between \
+            single quotes it is itself";
         return offer(what, &format!("{key} = '{bare}'"));
     }
     let is_number = |text: &str| text.parse::<f64>().is_ok_and(f64::is_finite);

@@ -40,8 +40,8 @@ impl<'a> Source<'a> {
         fit(self.text.get(span).unwrap_or_default())
     }
 
-    /// What is wrong with the text, by the faults that the parser found: one problem for a line, and none behind a list or a text
-    /// that has no end.
+    /// What is wrong with the text, by the faults that the parser found: one problem for a line, and none
+    /// behind a list or a text that has no end.
     pub(super) fn syntax(&self, faults: &[toml::de::Error]) -> Vec<Problem> {
         let alone = self.text.contains('\r') && !self.text.contains('\n');
         if alone {

@@ -1,5 +1,5 @@
-//! Reads and writes a spinline: the tables `[spinline]`, `[spinline.material]` and `[drag]` of a file, which may be a whole case.
-//! A spinline that a case has gives it diameter, density and feed speed.
+//! Reads and writes a spinline: the tables `[spinline]`, `[spinline.material]` and `[drag]` of a file, which
+//! may be a whole case. A spinline that a case has gives it diameter, density and feed speed.
 
 use super::data::DataFiles;
 use super::lookup::Lookup;
@@ -35,8 +35,8 @@ pub struct SpinFile {
 /// Reads a spinline.
 ///
 /// # Errors
-/// If the file cannot be read, or with every problem found in these tables. And what has to be flown first, if the tension at the end
-/// is that of flights.
+/// If the file cannot be read, or with every problem found in these tables. And what has to be flown first,
+/// if the tension at the end is that of flights.
 pub fn read_spinline<'a>(
     path: &Path,
     overrides: impl Into<Overrides<'a>>,
@@ -199,7 +199,8 @@ impl OpenCase {
             );
         }
         if spinline.crystallisation && !spinline.material.crystals.is_known() {
-            let remedy = "leave it out, or give the constants from avrami_exponent to heat_of_fusion in [spinline.material]";
+            let remedy = "leave it out, or give the constants from avrami_exponent to heat_of_fusion in \
+                [spinline.material]";
             key_values.reject(
                 "spinline.crystallisation",
                 Fault::new("needs constants of crystallisation, which are not known of this polymer", remedy),

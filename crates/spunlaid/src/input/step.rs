@@ -9,7 +9,8 @@ use crate::units::Dimension;
 pub(super) struct Step {
     /// Its value is multiplied by this.
     pub(super) factor: f64,
-    /// What is added in place of that to a temperature, and to a difference of temperatures that may be zero, which have no share of their value [K].
+    /// What is added in place of that to a temperature, and to a difference of temperatures that may be zero,
+    /// which have no share of their value [K].
     pub(super) kelvin: f64,
 }
 

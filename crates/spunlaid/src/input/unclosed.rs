@@ -1,5 +1,5 @@
-//! Finds the list, table or text of a TOML file that begins and has no end. The parser sees it where the file ends, or in the
-//! lines between, which are right.
+//! Finds the list, table or text of a TOML file that begins and has no end. The parser sees it where the file
+//! ends, or in the lines between, which are right.
 
 use super::slip::slip;
 use crate::error::Fault;
@@ -112,7 +112,8 @@ mod tests {
     /// Right lines around a broken one: the head of a case, and what follows.
     fn told(broken: &str) -> String {
         let text = format!(
-            "version = 1 # a [bracket and a \" in a comment\n[fibre]\n{broken}\n\n[air]\nvelocity = \"10 m/s\"\n[run]\nseed = 1\n"
+            "version = 1 # a [bracket and a \" in a comment\n[fibre]\n{broken}\n\n[air]\n\
+            velocity = \"10 m/s\"\n[run]\nseed = 1\n"
         );
         parse_case(&text, "a.toml", &[]).unwrap_err().to_string()
     }
@@ -124,18 +125,49 @@ mod tests {
         let text = "the text that begins with \"\"\" in this line has no end";
         for (broken, wanted) in [
             ("direction = [1.0, 0.0, 0.0", format!("a.toml:3:13: {list}; write direction = [1.0, 0.0, 0.0]")),
-            ("direction = [1.0, 0.0, 0.0, # along x", format!("a.toml:3:13: {list}; write direction = [1.0, 0.0, 0.0]")),
+            (
+                "direction = [1.0, 0.0, 0.0, # along x",
+                format!(
+                    "a.toml:3:13: {list}; write direction = [1.0, \
+                0.0, 0.0]"
+                ),
+            ),
             ("direction = [\n  1.0, # ]\n  0.0,\n", format!("a.toml:3:13: {list}; close it with ]")),
             ("a = [[1, 2], [3, 4]", format!("a.toml:3:5: {list}; write a = [[1, 2], [3, 4]]")),
-            ("a = { b = 1, c = \"}\"", "a.toml:3:5: the table that begins with { in this line has no end; write a = { b = 1, c = \"}\" }".to_owned()),
+            (
+                "a = { b = 1, c = \"}\"",
+                "a.toml:3:5: the table that begins with \
+                { in this line has no end; write a = { b = 1, c = \"}\" }"
+                    .to_owned(),
+            ),
             ("note = \"\"\"\nof Monday", format!("a.toml:3:8: {text}; close it with \"\"\"")),
-            ("density = \"\"\"950 kg/m³", "a.toml:3:11: the line has a quote at one end only; write density = \"950 kg/m³\"".to_owned()),
-            ("density = '''950 kg/m³", "a.toml:3:11: the line has a quote at one end only; write density = \"950 kg/m³\"".to_owned()),
+            (
+                "density = \"\"\"950 kg/m³",
+                "a.toml:3:11: the line has a quote at one end only; write density \
+                = \"950 kg/m³\""
+                    .to_owned(),
+            ),
+            (
+                "density = '''950 kg/m³",
+                "a.toml:3:11: the line has a quote at one end only; write density = \
+                \"950 kg/m³\""
+                    .to_owned(),
+            ),
             ("a = [\"\"\"x\n\"]", format!("a.toml:3:6: {text}; close it with \"\"\"")),
             // What is wrong before it is told too, and the rest of the file is not.
-            ("length = 1,5 m\na = [1", format!("a.toml:3:11: the line has a decimal comma; write length = \"1.5 m\"\na.toml:4:5: {list}; write a = [1]")),
+            (
+                "length = 1,5 m\na = [1",
+                format!(
+                    "a.toml:3:11: the line has a decimal comma; write length = \
+                \"1.5 m\"\na.toml:4:5: {list}; write a = [1]"
+                ),
+            ),
             // Closed ones are no matter, whatever they hold.
-            ("a = [\"[\", '[', \"\"\"[ \\\"\"\" [\"\"\"\"]\nb = 1,5 m", "a.toml:4:6: the line has a decimal comma; write b = \"1.5 m\"".to_owned()),
+            (
+                "a = [\"[\", '[', \"\"\"[ \\\"\"\" [\"\"\"\"]\n\
+                b = 1,5 m",
+                "a.toml:4:6: the line has a decimal comma; write b = \"1.5 m\"".to_owned(),
+            ),
             ("b = \"x[", "a.toml:3:8: the line has a quote at one end only; write b = \"x[\"".to_owned()),
         ] {
             assert_eq!(told(broken), wanted, "{broken}");

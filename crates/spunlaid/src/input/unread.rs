@@ -1,5 +1,5 @@
-//! What is handed back of a file that cannot be read to its end without flights. No reader flies fibres: whoever reads the file does,
-//! with threads, progress and a stop of its own.
+//! What is handed back of a file that cannot be read to its end without flights. No reader flies fibres:
+//! whoever reads the file does, with threads, progress and a stop of its own.
 
 use super::fed_back_tension::FlownTension;
 use super::lookup::Lookup;
@@ -9,7 +9,8 @@ use crate::threads::try_each;
 use std::fmt;
 use std::sync::atomic::Ordering;
 
-/// Why a file is not read to its end. It is deliberately no [`Error`] of its own accord, so that nobody forgets the second reason.
+/// Why a file is not read to its end. It is deliberately no [`Error`] of its own accord, so that nobody
+/// forgets the second reason.
 pub enum Unread<T> {
     /// The file is wrong, or cannot be read.
     Faulty(Error),
@@ -72,8 +73,8 @@ impl<T> Unflown<T> {
         self.lookup.wanted()
     }
 
-    /// Steps of all fibres that fly for them at most, which [`RunControl::fibre_steps`] counts; those that are not needed count as
-    /// flown.
+    /// Steps of all fibres that fly for them at most, which [`RunControl::fibre_steps`] counts; those that
+    /// are not needed count as flown.
     pub fn most_steps(&self) -> u64 {
         self.lookup.most_steps()
     }

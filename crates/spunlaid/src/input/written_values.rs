@@ -54,7 +54,8 @@ impl WrittenValues {
         self.values.insert(key.into(), written_value);
     }
 
-    /// The values whose full names begin like this, by the rest of their names, with what is excused of them. Problems stay here.
+    /// The values whose full names begin like this, by the rest of their names, with what is excused of them.
+    /// Problems stay here.
     pub(super) fn part(&self, before: &str, is_wanted: impl Fn(&str) -> bool) -> Self {
         let rest = |name: &str| name.strip_prefix(before).map(ToOwned::to_owned);
         let mut part = Self::new(self.file.clone());

@@ -139,8 +139,8 @@ pub(crate) fn power<S: Simd>(x: Wide<S>, exponent: Wide<S>) -> Wide<S> {
 /// `θ/sin θ` for two unit vectors at the angle `θ`, from the square of their difference,
 /// `δ² = 4 sin²(θ/2)`, to 2e-13 relative.
 ///
-/// Up to 29° it uses a short polynomial, up to 60° a longer one, and beyond the longer one at a quarter of the angle. The
-/// value of a lane does not depend on its neighbours.
+/// Up to 29° it uses a short polynomial, up to 60° a longer one, and beyond the longer one at a quarter of
+/// the angle. The value of a lane does not depend on its neighbours.
 #[inline(always)]
 pub(crate) fn bend_ratio<S: Register>(turn_squared: Wide<S>) -> Wide<S> {
     const NARROW: f64 = 0.25;

@@ -7,8 +7,8 @@ pub enum Isa {
     Avx512,
     /// x86-64 with AVX2, FMA and F16C: eight lanes in two registers.
     Avx2,
-    /// The instructions that every machine of the target has, in one plain kernel. On x86-64 it is compiled for size, and
-    /// fused multiply-add is computed in software, exactly but slowly.
+    /// The instructions that every machine of the target has, in one plain kernel. On x86-64 it is compiled
+    /// for size, and fused multiply-add is computed in software, exactly but slowly.
     Baseline,
 }
 

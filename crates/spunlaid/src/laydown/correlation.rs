@@ -2,8 +2,8 @@
 
 /// Sums of lagged products of a series, about a reference near its mean.
 ///
-/// Lags are multiples of `stride` samples. Samples that lie a multiple of `stride` apart form one of `stride` interleaved
-/// series; each keeps its last `lags` samples.
+/// Lags are multiples of `stride` samples. Samples that lie a multiple of `stride` apart form one of `stride`
+/// interleaved series; each keeps its last `lags` samples.
 #[derive(Clone, Debug)]
 pub(super) struct LaggedProducts {
     stride: usize,
@@ -92,7 +92,8 @@ impl LaggedProducts {
         self.reference + self.sum / self.count as f64
     }
 
-    /// `⟨(x_i − x̄)(x_{i+k} − x̄)⟩` for each lag that has a pair, divided by the number of pairs; x̄ is the mean of all samples.
+    /// `⟨(x_i − x̄)(x_{i+k} − x̄)⟩` for each lag that has a pair, divided by the number of pairs; x̄ is the
+    /// mean of all samples.
     pub(super) fn covariances(&self) -> Vec<f64> {
         let n = self.count as f64;
         let mean = self.sum / n;
@@ -112,7 +113,8 @@ impl LaggedProducts {
     }
 }
 
-/// The lag at which an autocorrelation first falls to ½, by linear interpolation, in steps of the lag; NaN if it does not.
+/// The lag at which an autocorrelation first falls to ½, by linear interpolation, in steps of the lag; NaN if
+/// it does not.
 pub(super) fn half_lag(coefficients: &[f64]) -> f64 {
     let at = coefficients.windows(2).position(|pair| pair[1] <= 0.5);
     at.map_or(f64::NAN, |at| {

@@ -29,8 +29,8 @@ pub struct TraceSettings {
 
 /// The statistics of one laid curve, collected point by point with a memory that does not grow.
 ///
-/// The points come in the order of feed, evenly spaced in the fed length s. Position is looked at relative to the straight
-/// trace that a fibre leaves which comes down at one place: `ξ₁ = md + (v_b/v_f) s`, `ξ₂ = cd`.
+/// The points come in the order of feed, evenly spaced in the fed length s. Position is looked at relative to
+/// the straight trace that a fibre leaves which comes down at one place: `ξ₁ = md + (v_b/v_f) s`, `ξ₂ = cd`.
 #[derive(Clone, Debug)]
 pub struct Trace {
     tracing: TraceSettings,
@@ -90,8 +90,8 @@ pub struct LaidCurve {
     /// Mean length of a chord on the belt over its fed length. NaN if the points are farther apart than a chord, which
     /// then says nothing of how the curve folds.
     pub chord_over_arc: f64,
-    /// Chords by direction on the belt, in the sense of feed: entry i counts angles to the machine direction from 10i to
-    /// 10(i+1) degrees, positive towards the cross direction.
+    /// Chords by direction on the belt, in the sense of feed: entry i counts angles to the machine direction
+    /// from 10i to 10(i+1) degrees, positive towards the cross direction.
     pub directions: [u64; Self::DIRECTIONS],
     /// Where (ξ₁, ξ₂) was.
     pub footprint: Footprint,
@@ -316,7 +316,8 @@ mod tests {
 
     #[test]
     fn analytic_circle_of_a_coiling_thread() {
-        // One coil of radius R in 2000 points, laid on a belt that stands: ⟨ξ²⟩ = R²/2, ρ = cos(s/R), chord 2R sin(5 mm/R).
+        // One coil of radius R in 2000 points, laid on a belt that stands: ⟨ξ²⟩ = R²/2, ρ = cos(s/R), chord
+        // 2R sin(5 mm/R).
         let (radius, points) = (0.05, 2000_u32);
         let spacing = 2.0 * PI * radius / f64::from(points);
         let circle: Vec<[f64; 2]> = (0..40 * points)

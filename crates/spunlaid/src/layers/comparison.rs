@@ -18,7 +18,8 @@ use crate::web::{Arrangement, LayerFew, Sheet, blocks_on};
 use std::ops::Range;
 use std::sync::atomic::AtomicU64;
 
-/// Shortest sheet that is compared, in parts of the one that was to be laid: eddies of half the length pass twice as fast, so half of it tells as much.
+/// Shortest sheet that is compared, in parts of the one that was to be laid: eddies of half the length pass
+/// twice as fast, so half of it tells as much.
 const LEAST: f64 = 0.25;
 /// Fastest belt, over the speed of the feed, that does not pull at the filament in the air.
 const SLOW: f64 = 0.1;
@@ -27,7 +28,8 @@ const SLOW: f64 = 0.1;
 pub type FewOfWeb = Result<Vec<LayerFew>, Error>;
 
 impl Flyer<'_> {
-    /// What a few filaments say about webs in the same air, without laying them; None if some of the first one are not flown as a few for all.
+    /// What a few filaments say about webs in the same air, without laying them; None if some of the first
+    /// one are not flown as a few for all.
     ///
     /// * `specs` – the web as it is, and changed ones
     /// * `steps` – grows by the steps of all filaments
@@ -95,7 +97,8 @@ fn again(error: &Error) -> Error {
     Error::Flight(Fault::plain(error.to_string()))
 }
 
-/// About how many steps all filaments take for webs in the same air; where all filaments are flown, those of all webs but the first.
+/// About how many steps all filaments take for webs in the same air; where all filaments are flown, those of
+/// all webs but the first.
 pub(crate) fn steps_in_same_air(specs: &[&WebSpec]) -> u64 {
     let Some(layers) = comparisons(specs).ok().flatten() else {
         let layers = |spec: &&'_ WebSpec| -> u64 {
@@ -168,7 +171,8 @@ impl<'a> Comparison<'a> {
         }
         let memory = |size: f64| Dimension::Memory.pretty_to(size, 3);
         let message = format!(
-            "the field of eddies in which the changed webs fly beside each other takes {}, more than web.memory_limit = {}",
+            "the field of eddies in which the changed webs fly beside each other takes {}, more than \
+            web.memory_limit = {}",
             memory(needed),
             memory(self.memory_limit)
         );
@@ -188,7 +192,8 @@ impl<'a> Comparison<'a> {
     }
 }
 
-/// Whether filaments fly as others do: they differ in nothing but the speed of a belt that is too slow to pull at them.    theory.md (75)
+/// Whether filaments fly as others do: they differ in nothing but the speed of a belt that is too slow to
+/// pull at them.                                                                               theory.md (75)
 fn flies_as(of_beam: &LayerBeam<'_>, other: &LayerBeam<'_>) -> bool {
     let [own, other] = [of_beam, other].map(|of_beam| of_beam.beam());
     let is_slow = |line: Line| line.belt_ratio() <= SLOW && line.contact == Contact::Stick;
@@ -204,14 +209,16 @@ struct Laid<'a> {
     flight: &'a FlownAbreast,
     /// How much faster the belt is above which they have flown than that of the web [m/s].
     faster: f64,
-    /// The times at which the belt has passed on which all filaments lie as after their start, counted in what passes of the pattern of the air [s].
+    /// The times at which the belt has passed on which all filaments lie as after their start, counted in
+    /// what passes of the pattern of the air [s].
     during: Range<f64>,
     /// How far the belt moves in such a time [m/s].
     belt_speed: f64,
 }
 
 impl<'a> Laid<'a> {
-    /// * `beams` – the one that was flown, and the one of the web, which fly alike: every point comes down at the same time and place above both belts
+    /// * `beams` – the one that was flown, and the one of the web, which fly alike: every point comes down at
+    ///   the same time and place above both belts
     fn new(beams: [&Beam<'_>; 2], flight: &'a FlownAbreast) -> Result<Self, Error> {
         let [above, line] = beams.map(|beam| beam.case.line);
         let (above, line) = above.zip(line).ok_or_else(Error::no_fibre)?;
@@ -234,7 +241,8 @@ impl<'a> Laid<'a> {
         Ok(Self { flight, faster, during: from..to, belt_speed })
     }
 
-    /// The stretch of belt that passes during some time, and what comes down on it; the filaments lie on it from then on.
+    /// The stretch of belt that passes during some time, and what comes down on it; the filaments lie on it
+    /// from then on.
     ///
     /// # Errors
     /// If hardly anything was laid during it.

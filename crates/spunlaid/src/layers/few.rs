@@ -19,7 +19,8 @@ const LEAST_SAVING: f64 = 1.5;
 const AREA: f64 = 0.2;
 /// Area on which webs in the same air are compared [m²].
 const AREA_OF_COMPARISON: f64 = 0.15;
-/// Distance of the filaments of webs that are compared, in that of those which tell the CV: what a larger pitch does to one web it does to the other.
+/// Distance of the filaments of webs that are compared, in that of those which tell the CV: what a larger
+/// pitch does to one web it does to the other.
 const PITCH_OF_COMPARISON: f64 = 1.5;
 /// Width of the sheet that is flown, in ways from inlet to belt at least: eight spreads of a usual filament.
 const WIDTH: f64 = 0.4;
@@ -123,8 +124,9 @@ impl WebSpec {
         (0..self.layers.len()).all(|layer| self.flown_sheet(layer, false).is_some_and(is_whole))
     }
 
-    /// The sheet that the filaments of a case lay: that of the web unless a smaller one says as much. Long and narrow ones take the least time, because
-    /// filaments are flown for a while before they lay the sheet. None of a layer that flies no case.
+    /// The sheet that the filaments of a case lay: that of the web unless a smaller one says as much. Long
+    /// and narrow ones take the least time, because filaments are flown for a while before they lay the
+    /// sheet. None of a layer that flies no case.
     ///
     /// * `compared` – whether the web is compared with others in the same air
     pub(super) fn flown_sheet(&self, layer: usize, compared: bool) -> Option<FlownSheet> {
@@ -195,7 +197,8 @@ impl FewPlan {
         Ok(LayerFew { correlation: correlation[0].min(correlation[1]), ..told })
     }
 
-    /// Maps of rows in which the filaments between the flown ones have been filled in, from all of them and from every second one; None of a slot.
+    /// Maps of rows in which the filaments between the flown ones have been filled in, from all of them and
+    /// from every second one; None of a slot.
     ///
     /// * `back` – where the sheet begins on the belt [m]
     ///

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 impl WebSpec {
-    /// The files from which the cases that it flies were read, each with the parts that it names, relative to its folder.
+    /// The files from which the cases that it flies were read, each with the parts that it names, relative to
+    /// its folder.
     pub fn files(&self) -> Vec<(&Path, &[PathBuf])> {
         let flown = self.layers.iter().filter_map(|layer| match &layer.source {
             LaydownSource::Case { case, .. } => Some(case),

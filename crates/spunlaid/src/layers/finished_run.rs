@@ -9,7 +9,8 @@ use std::path::Path;
 
 /// The table of laid points in the folder of a run.
 pub const LAID: &str = "laid.parquet";
-/// The columns that are read: number of the replicate; length fed before a point, time of its touch-down, and place on the belt.
+/// The columns that are read: number of the replicate; length fed before a point, time of its touch-down, and
+/// place on the belt.
 const COLUMNS: [&str; 5] = ["replicate", "s_m", "time_s", "md_m", "cd_m"];
 
 /// The points of each replicate, in the order of feed.

@@ -82,8 +82,9 @@ impl FlownCurtains {
 }
 
 impl FlownCurtain {
-    /// Draws all filaments: those between the flown ones on the sheet that these have laid, and pieces of it on any other sheet.
-    /// Returns their parts in the windows, and the part of the variance that the few do not tell.
+    /// Draws all filaments: those between the flown ones on the sheet that these have laid, and pieces of it
+    /// on any other sheet. Returns their parts in the windows, and the part of the variance that the few do
+    /// not tell.
     fn draw(
         &self,
         spec: &WebSpec,

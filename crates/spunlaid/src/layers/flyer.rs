@@ -1,4 +1,5 @@
-//! The fibres of each layer: flown, read back from the results of a run, or paths of a surrogate whose numbers are known.
+//! The fibres of each layer: flown, read back from the results of a run, or paths of a surrogate whose
+//! numbers are known.
 //!
 //! ```text
 //! case → flights ┐
@@ -132,8 +133,8 @@ impl<'a> Flyer<'a> {
     /// The fibres of a layer.
     ///
     /// # Errors
-    /// If the fibres cannot be flown or read, have laid nothing, or spread too far for the sheet; and if no surrogate is
-    /// found where one is to be laid.
+    /// If the fibres cannot be flown or read, have laid nothing, or spread too far for the sheet; and if no
+    /// surrogate is found where one is to be laid.
     pub fn fibres(&mut self, spec: &WebSpec, layer: &LayerSpec) -> Result<LayerFibres, Error> {
         let (path, case) = match &layer.source {
             LaydownSource::Surrogate(surrogate) => {

@@ -44,7 +44,8 @@ use std::sync::Arc;
 /// Fewest standard deviations of a filament's place that a closed side of the web is long.
 const LEAST_SPREADS: f64 = 8.0;
 
-/// Windows in which holes are counted, their side at most [m], in diameters of the thinnest fibre, and the margin about them in their side.
+/// Windows in which holes are counted, their side at most [m], in diameters of the thinnest fibre, and the
+/// margin about them in their side.
 const COUNTED_WINDOWS: usize = 25;
 const COUNTED: f64 = 3e-3;
 const COUNTED_DIAMETERS: f64 = 180.0;
@@ -301,8 +302,8 @@ impl WebSpec {
         Window { corner, sides: [self.window; 2] }
     }
 
-    /// The windows of the sheet whose fibres are kept: the one that is shown, and those in which holes are counted, some twenty-five that are as large as
-    /// fibres of this diameter allow.
+    /// The windows of the sheet whose fibres are kept: the one that is shown, and those in which holes are
+    /// counted, some twenty-five that are as large as fibres of this diameter allow.
     pub(crate) fn windows(&self) -> Windows {
         let thinnest = self.layers.iter().map(|layer| layer.diameter).fold(f64::INFINITY, f64::min);
         let side = COUNTED.min(COUNTED_DIAMETERS * thinnest);
@@ -316,8 +317,8 @@ impl WebSpec {
         Web { sheet: self.sheet.clone(), layers, seed: self.seed }
     }
 
-    /// Says whether the sheet is large enough for filaments that spread so far. One that leaves it at one end comes in at
-    /// the other, and must not meet itself there.
+    /// Says whether the sheet is large enough for filaments that spread so far. One that leaves it at one end
+    /// comes in at the other, and must not meet itself there.
     ///
     /// * `spreads` – standard deviations of a filament's place in machine and in cross direction [m]
     ///
@@ -348,8 +349,8 @@ pub(crate) fn too_small(
         let fault = || {
             Fault::new(
                 format!(
-                    "is shorter than {LEAST_SPREADS} times {sigma} = {spread}, and a filament that leaves the web at one end \
-                     comes in at the other and would meet itself"
+                    "is shorter than {LEAST_SPREADS} times {sigma} = {spread}, and a filament that leaves \
+                    the web at one end comes in at the other and would meet itself"
                 ),
                 format!("write {least} or more"),
             )

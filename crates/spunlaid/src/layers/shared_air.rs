@@ -34,8 +34,8 @@ const MESH_OF_COMPARISON: f64 = 2.0;
 /// Longest element that still follows the eddies, in their smallest length scale.
 const LONGEST_ELEMENT: f64 = 0.5;
 
-/// Width of filaments beside each other of which those beside them hardly know, in parts of the distance after which the air repeats itself at
-/// least, which is ten length scales.
+/// Width of filaments beside each other of which those beside them hardly know, in parts of the distance
+/// after which the air repeats itself at least, which is ten length scales.
 const APART: f64 = 0.5;
 /// Length of fed fibre after which gusts are forgotten, in ways from inlet to belt.
 const MEMORY: f64 = 2.0;
@@ -60,8 +60,8 @@ impl LayerBeam<'_> {
         Beam { case: &self.case, places: &self.places, airs: Airs::Shared, depth: self.depth }
     }
 
-    /// The same filaments in elements twice as long, and in steps twice as long, as far as these still follow the eddies: what a coarse mesh does to one web
-    /// it does to another one with which it is compared.
+    /// The same filaments in elements twice as long, and in steps twice as long, as far as these still follow
+    /// the eddies: what a coarse mesh does to one web it does to another one with which it is compared.
     pub(super) fn with_coarser_mesh(mut self) -> Self {
         let mut coarse = self.case.clone();
         let element = MESH_OF_COMPARISON * self.case.fibre.rest_length();
@@ -112,8 +112,8 @@ impl Flyer<'_> {
         (self.threads, self.stop)
     }
 
-    /// Flies all filaments of each layer, or a few for all of them, in an air of its own, and lays them. A few curves of each layer are kept, which say
-    /// what independent filaments would give.
+    /// Flies all filaments of each layer, or a few for all of them, in an air of its own, and lays them. A
+    /// few curves of each layer are kept, which say what independent filaments would give.
     pub(super) fn fly_together(&self, spec: &WebSpec) -> Result<(Vec<LayerFibres>, LaidWeb), Error> {
         let beams = beams(spec)?;
         let canvas = canvas(spec, 0..spec.sheet.cells()[1])?;
@@ -133,7 +133,8 @@ impl Flyer<'_> {
         if let Some(layer) = beams.iter().position(|layer| layer.few.is_none()) {
             return Err(Fault::new(
                 format!(
-                    "all filaments of layer {} fly, and they lay the whole sheet while they do; stretches of it are laid from a few of them",
+                    "all filaments of layer {} fly, and they lay the whole sheet while they do; stretches of \
+                    it are laid from a few of them",
                     layer + 1
                 ),
                 "lay it at once, or let fewer filaments fly (web.flown)",
@@ -183,7 +184,8 @@ impl Flyer<'_> {
         Ok(all)
     }
 
-    /// Flies a layer. Unless the file says how many filaments are flown, more of them fly where a few do not tell what all do.
+    /// Flies a layer. Unless the file says how many filaments are flown, more of them fly where a few do not
+    /// tell what all do.
     fn fly_until_told<'a>(
         &self,
         spec: &'a WebSpec,
@@ -237,7 +239,8 @@ impl Flyer<'_> {
 }
 
 impl WebSpec {
-    /// Largest lateral wave number of the air that all filaments of a layer share, times its length scale; None of filaments in airs of their own.
+    /// Largest lateral wave number of the air that all filaments of a layer share, times its length scale;
+    /// None of filaments in airs of their own.
     pub fn lateral_cutoff(&self, layer: usize) -> Option<f64> {
         let case = self.layers.get(layer)?.source.case().filter(|_| self.method == Method::SharedAir)?;
         Some(case.air.lateral.cutoff().unwrap_or(Lateral::USUAL_CUTOFF))
@@ -266,7 +269,8 @@ impl WebSpec {
             ),
             match cutoff >= FEWEST_WAVES {
                 true => format!(
-                    "write {} or more if the machine has it; a web.width of about {}, or air.lateral_cutoff = {} in the case, would fit",
+                    "write {} or more if the machine has it; a web.width of about {}, or air.lateral_cutoff \
+                    = {} in the case, would fit",
                     memory(1.05 * needed),
                     Dimension::Length.pretty_to(width, 2),
                     Dimension::Ratio.pretty_to(cutoff, 2)
@@ -302,8 +306,9 @@ pub(super) fn canvas(spec: &WebSpec, rows: Range<usize>) -> Result<Canvas, Error
     Ok(Canvas::of_rows(&spec.sheet, rows, &elements, weight)?)
 }
 
-/// The filaments of a layer at their places. Air that a case leaves the same across the flow becomes a field in space. The seed of the web and the number of the layer are in the key of the air, so that layers and webs have
-/// airs of their own.
+/// The filaments of a layer at their places. Air that a case leaves the same across the flow becomes a field
+/// in space. The seed of the web and the number of the layer are in the key of the air, so that layers and
+/// webs have airs of their own.
 ///
 /// * `sheet` – that a few of them lay; None for the one whose clouds tell the CV
 pub(super) fn beam_on<'a>(
@@ -336,7 +341,8 @@ pub(super) fn beam_on<'a>(
     })
 }
 
-/// A seed from those of the case and of the web and the number of a layer, each of which changes about half of its bits.
+/// A seed from those of the case and of the web and the number of a layer, each of which changes about half
+/// of its bits.
 fn key(case: u64, web: u64, layer: u64) -> u64 {
     [case, web, layer]
         .into_iter()

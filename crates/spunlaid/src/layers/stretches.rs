@@ -36,7 +36,8 @@ impl Flyer<'_> {
     pub fn flight(&self, spec: &WebSpec) -> Result<WebFlight, Error> {
         if spec.method != Method::SharedAir {
             return Err(Fault::new(
-                "the filaments of this web are independent, and each of them lies along the whole sheet; stretches are laid of a web in one air",
+                "the filaments of this web are independent, and each of them lies along the whole sheet; \
+                stretches are laid of a web in one air",
                 "lay it at once, or write web.method = \"shared-air\"",
             )
             .into());

@@ -26,8 +26,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
                 words: "velocity towards the belt",
                 logarithmic: false,
                 from_zero: false,
-                caption: "Mean velocity of the fibre towards the belt. It is below the feed speed where the fibre swings and \
-                          folds.",
+                caption: "Mean velocity of the fibre towards the belt. It is below the feed speed where the \
+                    fibre swings and folds.",
             },
             ..Measure::NUMBER
         },
@@ -35,8 +35,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
             name: "tension_along_way",
             column: "tension_along_way_n",
             label: "Tension on the way",
-            meaning: "mean of the fibre’s tension at each distance from the inlet, at the recorded instants; negative in \
-                      compression",
+            meaning: "mean of the fibre’s tension at each distance from the inlet, at the recorded instants; \
+                negative in compression",
             unit: MILLINEWTONS,
             kind: Kind::Way,
             group: FIBRE,

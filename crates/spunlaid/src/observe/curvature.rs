@@ -13,8 +13,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
         name: "curvature",
         column: "curvature_per_m",
         label: "Curvature along the fibre",
-        meaning: "root mean square over time of the curvature 2 sin(θ/2)/l at each node, with the angle θ between its two \
-                  elements",
+        meaning: "root mean square over time of the curvature 2 sin(θ/2)/l at each node, with the angle θ \
+            between its two elements",
         unit: PER_METRE,
         kind: Kind::Profile,
         group: FIBRE,
@@ -24,8 +24,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
             words: "curvature along the fibre",
             logarithmic: false,
             from_zero: true,
-            caption: "Curvature at each node: the root mean square over time of one over the bending radius. Bends that are shorter \
-                      than an element are not resolved.",
+            caption: "Curvature at each node: the root mean square over time of one over the bending radius. \
+                Bends that are shorter than an element are not resolved.",
         },
         series: "rms",
         ..Measure::NUMBER

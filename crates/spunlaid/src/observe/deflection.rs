@@ -11,7 +11,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
             name: "deflection_99",
             column: "deflection_99_m",
             label: "Deflection, 99 % of the time",
-            meaning: "distance from the axis through the root that the free end does not exceed at 99 % of the recorded instants",
+            meaning: "distance from the axis through the root that the free end does not exceed at 99 % of \
+                the recorded instants",
             series: "99 %",
             ..DEFLECTION
         },
@@ -19,8 +20,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
             name: "largest_deflection",
             column: "largest_deflection_m",
             label: "Largest deflection",
-            meaning: "largest distance of the free end from the axis through the root at the recorded instants; it grows with the \
-                      duration",
+            meaning: "largest distance of the free end from the axis through the root at the recorded \
+                instants; it grows with the duration",
             series: "largest",
             ..DEFLECTION
         },

@@ -60,7 +60,8 @@ const MEAN_X: Measure = Measure {
     is_main: true,
     column: "mean_x_m",
     label: "Mean position along the flow",
-    meaning: "mean over time of the free end’s x; the smaller it is against the fibre’s length, the more the fibre is bent",
+    meaning: "mean over time of the free end’s x; the smaller it is against the fibre’s length, the more the \
+        fibre is bent",
     unit: MILLIMETRES,
     figure: &Figure { from_zero: false, ..figure("mean_x", "Mean position along the flow", "mean position") },
     series: "*x*",

@@ -17,8 +17,9 @@ pub(super) const WORK: Declaration = Declaration {
             name: "work_error",
             column: "work_error_percent",
             label: "Work check, typical",
-            meaning: "the paper’s work check: difference between the work of all forces and the kinetic energy; median over \
-                      time, the spin-up included. It shows only whether the steps are short against the motion",
+            meaning: "the paper’s work check: difference between the work of all forces and the kinetic \
+                energy; median over time, the spin-up included. It shows only whether the steps are short \
+                against the motion",
             series: "work check",
             ..TYPICAL
         },

@@ -13,30 +13,97 @@ pub const OF_FABRICS: &[Measure<Fabric>] = &[
         .meaning("width of the part of the web of which all else is told"),
     Measure::new("trim_m", "Trim", MILLIMETRES, Told(|fabric: &Fabric| fabric.trim.map(Exact)))
         .meaning("what is cut off of the web at both edges together"),
-    Measure::new("usable_width_m", "Width within the tolerance of the weight", MILLIMETRES, Told(|fabric: &Fabric| Some(Exact(fabric.usable?.width))))
-        .meaning("width from where, from each edge inwards, the profile across, averaged over 20 mm, is within the tolerance of the mean of the middle half, in this map"),
-    Measure::new("usable_trim", "Trim to that width", PERCENT, Told(|fabric: &Fabric| Some(Exact(fabric.usable?.trim))))
-        .meaning("what is cut off at both edges for it, as a share of the web"),
-    Measure::new("stiffness_ratio", "Stiffness MD/CD, of the directions alone", RATIO, Told(|fabric: &Fabric| fabric.stiffness_ratio))
-        .meaning("stiffness along MD over that along CD of straight fibres in these directions, within 20 %: curl and \
-            bonds are not in it"),
-    Measure::new("bare_area", "Bare area", PERCENT, Told(|fabric: &Fabric| Some(fabric.holes.as_ref()?.bare)))
-        .meaning("share of the area that no fibre covers"),
-    Measure::new("largest_hole_m", "Radius of the largest hole in 100 cm²", MICROMETRES, Told(|fabric: &Fabric| Some(fabric.holes.as_ref()?.largest)))
-        .meaning("radius of the largest disc that fits into a hole of 100 cm², the area of the test of the hydrohead: half of all such areas have a larger one"),
-    Measure::new("hydrohead_pa", "Hydrohead", Unit { shown: "Pa", per_si: 1.0 }, Told(|fabric: &Fabric| fabric.hydrohead))
-        .meaning("pressure at which water comes through the largest hole"),
-    Measure::new("solid_fraction", "Share of the volume that is fibre", PERCENT, Told(|fabric: &Fabric| Some(Exact(fabric.air?.solid))))
-        .meaning("volume of the fibre over that of the fabric"),
-    Measure::new("air_permeability_m_s", "Air permeability", Unit { shown: "m/s", per_si: 1.0 }, Told(|fabric: &Fabric| Some(fabric.air?.permeability)))
-        .meaning("speed of the air at the pressure of the test, between the formulas of Davies and of Jackson and James, both with an \
-            inertial term; trust the ratio of two webs, not the number"),
-    Measure::new("air_permeability_cv", "Spread of the air permeability over 20 cm²", PERCENT, Told(|fabric: &Fabric| fabric.air?.spread))
-        .meaning("coefficient of variation of the speed of the air over areas of 20 cm² by the basis weight"),
+    Measure::new(
+        "usable_width_m",
+        "Width within the tolerance of the \
+        weight",
+        MILLIMETRES,
+        Told(|fabric: &Fabric| Some(Exact(fabric.usable?.width))),
+    )
+    .meaning(
+        "width from where, from each edge inwards, the profile across, averaged over 20 mm, is \
+            within the tolerance of the mean of the middle half, in this map",
+    ),
+    Measure::new(
+        "usable_trim",
+        "Trim to that width",
+        PERCENT,
+        Told(|fabric: &Fabric| Some(Exact(fabric.usable?.trim))),
+    )
+    .meaning("what is cut off at both edges for it, as a share of the web"),
+    Measure::new(
+        "stiffness_ratio",
+        "Stiffness MD/CD, of the directions \
+        alone",
+        RATIO,
+        Told(|fabric: &Fabric| fabric.stiffness_ratio),
+    )
+    .meaning(
+        "stiffness along MD over that along CD of straight fibres in these directions, within 20 %: curl and \
+            bonds are not in it",
+    ),
+    Measure::new(
+        "bare_area",
+        "Bare area",
+        PERCENT,
+        Told(|fabric: &Fabric| Some(fabric.holes.as_ref()?.bare)),
+    )
+    .meaning("share of the area that no fibre covers"),
+    Measure::new(
+        "largest_hole_m",
+        "Radius of the largest hole in 100 \
+        cm²",
+        MICROMETRES,
+        Told(|fabric: &Fabric| Some(fabric.holes.as_ref()?.largest)),
+    )
+    .meaning(
+        "radius of the largest disc that fits into a hole of 100 cm², the area of the test of the \
+            hydrohead: half of all such areas have a larger one",
+    ),
+    Measure::new(
+        "hydrohead_pa",
+        "Hydrohead",
+        Unit { shown: "Pa", per_si: 1.0 },
+        Told(|fabric: &Fabric| fabric.hydrohead),
+    )
+    .meaning("pressure at which water comes through the largest hole"),
+    Measure::new(
+        "solid_fraction",
+        "Share of the volume that is \
+        fibre",
+        PERCENT,
+        Told(|fabric: &Fabric| Some(Exact(fabric.air?.solid))),
+    )
+    .meaning("volume of the fibre over that of the fabric"),
+    Measure::new(
+        "air_permeability_m_s",
+        "Air \
+        permeability",
+        Unit { shown: "m/s", per_si: 1.0 },
+        Told(|fabric: &Fabric| Some(fabric.air?.permeability)),
+    )
+    .meaning(
+        "speed of the air at the pressure of the test, between the formulas of Davies and of \
+            Jackson and James, both with an inertial term; trust the ratio of two webs, not the number",
+    ),
+    Measure::new(
+        "air_permeability_cv",
+        "Spread of the air permeability over 20 \
+        cm²",
+        PERCENT,
+        Told(|fabric: &Fabric| fabric.air?.spread),
+    )
+    .meaning("coefficient of variation of the speed of the air over areas of 20 cm² by the basis weight"),
     Measure::new("opacity", "Opacity", PERCENT, Told(|fabric: &Fabric| Some(fabric.opacity?.mean)))
         .meaning("opacity, from that which was measured: the mean of patches of 2 mm"),
-    Measure::new("opacity_spread", "Spread of the opacity over 2 mm", PERCENT, Told(|fabric: &Fabric| Some(fabric.opacity?.spread)))
-        .meaning("standard deviation of the opacity over patches of 2 mm by the basis weight"),
+    Measure::new(
+        "opacity_spread",
+        "Spread of the opacity over 2 \
+        mm",
+        PERCENT,
+        Told(|fabric: &Fabric| Some(fabric.opacity?.spread)),
+    )
+    .meaning("standard deviation of the opacity over patches of 2 mm by the basis weight"),
 ];
 
 /// The numbers of the patches of one size.
@@ -152,8 +219,10 @@ pub const OF_THINNEST: &[Measure<Marked>] = &[
         .meaning("middle of the patch across the sheet"),
     Measure::new("along_m", "Along", MILLIMETRES, Told(|place: &Marked| Some(Exact(place.middle()[1]))))
         .meaning("middle of the patch along the sheet"),
-    Measure::new("weight", "Weight", PERCENT, Told(|place: &Marked| Some(Exact(place.weight))))
-        .meaning("weight of the patch over the mean; the patches stand side by side on the sheet and do not touch each other"),
+    Measure::new("weight", "Weight", PERCENT, Told(|place: &Marked| Some(Exact(place.weight)))).meaning(
+        "weight of the patch over the mean; the patches stand side by side on the sheet and do not \
+            touch each other",
+    ),
 ];
 
 /// The numbers of the streak that a defect of the line leaves.
@@ -164,22 +233,40 @@ pub const OF_STREAKS: &[Measure<Streak>] = &[
         .meaning("holes that make it"),
     Measure::new("band_m", "Band", MILLIMETRES, Told(|streak: &Streak| Some(Exact(streak.band))))
         .meaning("width over which it is looked for"),
-    Measure::new("dip", "Dip", PERCENT, Told(|streak: &Streak| Some(Exact(streak.dip))))
-        .meaning("share by which the band is lighter than the web beside it, from the filaments that are missing; below zero where it is heavier"),
+    Measure::new("dip", "Dip", PERCENT, Told(|streak: &Streak| Some(Exact(streak.dip)))).meaning(
+        "share by which the band is lighter than the web beside it, from the filaments that are \
+            missing; below zero where it is heavier",
+    ),
     Measure::new("dip_of_map", "Dip in this map", PERCENT, Told(|streak: &Streak| streak.found))
         .meaning("the same in this map, with the error by chance: it shows from two errors on"),
     Measure::new("length_m", "Shows from a length of", METRES, Told(|streak: &Streak| streak.length))
-        .meaning("length of a scan over which the dip is as large as the 95 % bound of the chance at this place; none where the web has streaks of its own that are as large, or is too small to tell"),
+        .meaning(
+            "length of a scan over which the dip is as large as the 95 % bound of the chance at this \
+            place; none where the web has streaks of its own that are as large, or is too small to tell",
+        ),
 ];
 
 /// The numbers of the holes of one radius.
 pub const OF_HOLES: &[Measure<HolesOfRadius>] = &[
     Measure::new("radius_m", "Radius", MICROMETRES, Told(|holes: &HolesOfRadius| Some(Exact(holes.radius))))
         .meaning("radius of a disc"),
-    Measure::new("counted", "Counted", RATIO, Told(|holes: &HolesOfRadius| Some(Exact(holes.counted as f64))))
-        .meaning("holes in the windows into which such a disc fits"),
+    Measure::new(
+        "counted",
+        "Counted",
+        RATIO,
+        Told(|holes: &HolesOfRadius| Some(Exact(holes.counted as f64))),
+    )
+    .meaning("holes in the windows into which such a disc fits"),
     Measure::new("per_m2", "Holes", PER_SQUARE_METRE, Told(|holes: &HolesOfRadius| Some(holes.per_area)))
-        .meaning("holes per area into which such a disc fits: carried from the windows over the sheet, and where few were counted also from smaller radii"),
-    Measure::new("over_straight", "Over straight fibres", RATIO, Told(|holes: &HolesOfRadius| holes.over_straight))
-        .meaning("holes over those of straight fibres at random with the local basis weight"),
+        .meaning(
+            "holes per area into which such a disc fits: carried from the windows over the sheet, and \
+            where few were counted also from smaller radii",
+        ),
+    Measure::new(
+        "over_straight",
+        "Over straight fibres",
+        RATIO,
+        Told(|holes: &HolesOfRadius| holes.over_straight),
+    )
+    .meaning("holes over those of straight fibres at random with the local basis weight"),
 ];

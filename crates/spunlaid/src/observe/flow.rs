@@ -9,8 +9,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
         name: "share_outside_flow",
         column: "share_outside_flow",
         label: "Time outside the flow",
-        meaning: "share of the time that the elements spend outside the profile or the field, the spin-up included; the simulation uses the air at the \
-                  nearest point there",
+        meaning: "share of the time that the elements spend outside the profile or the field, the spin-up \
+            included; the simulation uses the air at the nearest point there",
         unit: PERCENT,
         group: FIBRE,
         figure: &figure("share_outside_flow", "Time outside the flow", "time outside the flow"),

@@ -40,7 +40,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
             name: "half_correlation_length_md",
             column: "half_correlation_length_md_m",
             label: "Half correlation length in machine direction",
-            meaning: "length of fibre over which the autocorrelation of its place in machine direction falls to one half",
+            meaning: "length of fibre over which the autocorrelation of its place in machine direction falls \
+                to one half",
             series: "machine direction",
             ..HALF_LENGTH
         },
@@ -66,8 +67,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
             is_main: true,
             column: "orientation_md",
             label: "Orientation in machine direction",
-            meaning: "mean of cos² of the angle between chords of 10 mm of fibre and the machine direction: 0.5 without \
-                      orientation, 1 if all lie in machine direction",
+            meaning: "mean of cos² of the angle between chords of 10 mm of fibre and the machine direction: \
+                0.5 without orientation, 1 if all lie in machine direction",
             figure: &figure("orientation", "Mean cos² to the machine direction", "orientation"),
             ..RATIO_OF
         },
@@ -75,9 +76,9 @@ pub(super) const DECLARATION: Declaration = Declaration {
             name: "chord_over_arc",
             column: "chord_over_arc",
             label: "Chord over arc at 10 mm",
-            meaning: "mean length on the belt of 10 mm of fibre, divided by 10 mm: the texture of the laid fibre, with straight \
-                      elements. It gets smaller with a finer mesh, because a thin fibre folds more closely than elements can \
-                      show; with elements longer than 10 mm it is not defined",
+            meaning: "mean length on the belt of 10 mm of fibre, divided by 10 mm: the texture of the laid \
+                fibre, with straight elements. It gets smaller with a finer mesh, because a thin fibre folds \
+                more closely than elements can show; with elements longer than 10 mm it is not defined",
             figure: &figure("chord_over_arc", "Chord over arc at 10 mm", "chord over arc"),
             ..RATIO_OF
         },
@@ -204,12 +205,14 @@ const HALF_LENGTH: Measure = Measure {
 const RATIO_OF: Measure = Measure { unit: RATIO, group: LAYDOWN, ..Measure::NUMBER };
 
 const CORRELATION: Measure = Measure {
-    meaning: "autocorrelation of the laid fibre’s place about its straight trace, over the length of fibre between two points",
+    meaning: "autocorrelation of the laid fibre’s place about its straight trace, over the length of fibre \
+        between two points",
     kind: Kind::Lag,
     group: LAYDOWN,
     figure: &Figure {
         from_zero: false,
-        caption: "Autocorrelation of the laid fibre’s place about its straight trace, and that of the surrogate fitted to it.",
+        caption: "Autocorrelation of the laid fibre’s place about its straight trace, and that of the \
+            surrogate fitted to it.",
         ..figure("correlation", "Autocorrelation of the place", "autocorrelation")
     },
     ..Measure::NUMBER

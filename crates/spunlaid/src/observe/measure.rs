@@ -10,17 +10,19 @@ use crate::record::Interval;
 use crate::units::{si_unit_of, udunits};
 use std::fmt;
 
-/// Something measured of a `T`: of a web, of its patches of one size, of a scan, of a velocity record or a component of it, of a spinline;
-/// of the fibres of a flight, which observers look at.
+/// Something measured of a `T`: of a web, of its patches of one size, of a scan, of a velocity record or a
+/// component of it, of a spinline; of the fibres of a flight, which observers look at.
 pub struct Measure<T: 'static = Flight> {
-    /// Name in a study file, `amplitude_y`; empty if studies leave it out. Of patches, `#` stands for their side in millimetres.
+    /// Name in a study file, `amplitude_y`; empty if studies leave it out. Of patches, `#` stands for their
+    /// side in millimetres.
     pub name: &'static str,
     /// Name in the tables of runs and studies, with its SI unit: `amplitude_y_m`.
     pub column: &'static str,
-    /// Name in `summary.json` or `analysis.json` where it is another; a point separates the name of a group: `freezing.distance_m`. Empty if
-    /// it is written elsewhere there.
+    /// Name in `summary.json` or `analysis.json` where it is another; a point separates the name of a group:
+    /// `freezing.distance_m`. Empty if it is written elsewhere there.
     pub entry: Option<&'static str>,
-    /// Its label in a table: `Amplitude in y`; empty if tables leave it out. A study adds the side of patches at the end, or in place of `#`.
+    /// Its label in a table: `Amplitude in y`; empty if tables leave it out. A study adds the side of patches
+    /// at the end, or in place of `#`.
     pub label: &'static str,
     /// Its label on the terminal where that is shorter; empty if the terminal leaves it out.
     pub short: Option<&'static str>,

@@ -4,11 +4,13 @@
 //! Flight → recorded instants → observers (one file each) → values of each fibre → statistics over replicates
 //! ```
 //!
-//! A new measure of fibres is a file of this folder with a [`Declaration`], and a line in [`DECLARED`]. The summary, the
-//! tables, the report with its figures and CSV files, and the studies loop over the declarations.
+//! A new measure of fibres is a file of this folder with a [`Declaration`], and a line in [`DECLARED`]. The
+//! summary, the tables, the report with its figures and CSV files, and the studies loop over the
+//! declarations.
 //!
-//! A measure of anything else is a [`Measure`] with its [`Formula`] in a list: [`OF_WEBS`] and [`OF_PATCHES`], [`OF_SCANS`] and
-//! [`OF_SCANNED_PATCHES`], [`OF_FABRICS`] and others beside it, [`OF_RECORDS`] and [`OF_COMPONENTS`], [`OF_SPINLINES`].
+//! A measure of anything else is a [`Measure`] with its [`Formula`] in a list: [`OF_WEBS`] and
+//! [`OF_PATCHES`], [`OF_SCANS`] and [`OF_SCANNED_PATCHES`], [`OF_FABRICS`] and others beside it,
+//! [`OF_RECORDS`] and [`OF_COMPONENTS`], [`OF_SPINLINES`].
 
 mod along_fibre;
 mod along_way;

@@ -77,14 +77,16 @@ pub(super) const FIXED_MD: Declaration = Declaration {
 
 const IN_MD_OF_CD: Measure = Measure {
     label: "Correlation with neighbours, machine direction",
-    meaning: "correlation of the places in machine direction at which a fibre and its neighbour come down, at equal fed length",
+    meaning: "correlation of the places in machine direction at which a fibre and its neighbour come down, \
+        at equal fed length",
     series: "machine direction",
     ..NEIGHBOURS
 };
 
 const IN_CD_OF_CD: Measure = Measure {
     label: "Correlation with neighbours, cross direction",
-    meaning: "correlation of the places in cross direction at which a fibre and its neighbour come down, at equal fed length",
+    meaning: "correlation of the places in cross direction at which a fibre and its neighbour come down, at \
+        equal fed length",
     series: "cross direction",
     ..NEIGHBOURS
 };
@@ -111,8 +113,9 @@ const IN_CD: Figure = Figure {
     words: "correlation with neighbours",
     logarithmic: false,
     from_zero: false,
-    caption: "Correlation of a fibre with one that hangs beside it in the same air, at a distance in cross direction: of the \
-              places where both come down at equal fed length, or of their free ends at equal times.",
+    caption: "Correlation of a fibre with one that hangs beside it in the same air, at a distance in cross \
+        direction: of the places where both come down at equal fed length, or of their free ends at equal \
+        times.",
 };
 
 const IN_MD: Figure = Figure {
@@ -130,7 +133,8 @@ fn in_md(case: &Case) -> Vec<(f64, Place)> {
     case.neighbours.md.iter().map(|y| (*y, Place { y: *y, z: 0.0 })).collect()
 }
 
-/// Correlations of the fibres of a flight with their companions in it. The distances of companions in other flights have NaN.
+/// Correlations of the fibres of a flight with their companions in it. The distances of companions in other
+/// flights have NaN.
 #[derive(Debug)]
 struct Companions {
     /// The distances of each fibre's companions [m].
@@ -173,8 +177,8 @@ impl Track {
         Self { fed: case.line.is_some(), laid: 0, skip, belt_per_point }
     }
 
-    /// The next places after the spin-up [m]: y and z of the free end, or the deviations of laid points from the straight trace
-    /// of a fibre that comes down at one place.
+    /// The next places after the spin-up [m]: y and z of the free end, or the deviations of laid points from
+    /// the straight trace of a fibre that comes down at one place.
     fn next(&mut self, observation: &Observation<'_>, lane: usize) -> Vec<[f64; 2]> {
         if !self.fed {
             let end = observation.snapshot.position.last().filter(|_| observation.settled);

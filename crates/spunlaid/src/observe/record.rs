@@ -7,19 +7,29 @@ use Formula::{Interval, Number};
 
 /// The measures of a record, in the order of the tables: what the `[air]` of a case needs.
 pub const OF_RECORDS: &[Measure<Analysis>] = &[
-    Measure::<Analysis>::new("mean_velocity_m_s", "Mean velocity", METRES_PER_SECOND, Interval(|record| record.mean_velocity)).meaning("mean of the component along the flow")
+    Measure::<Analysis>::new("mean_velocity_m_s", "Mean \
+        velocity", METRES_PER_SECOND, Interval(|record| record.mean_velocity)).meaning("mean of the \
+        component along the flow")
     .remark(|record| Some(format!("mean of {}", along(record)))),
-    Measure::<Analysis>::new("turbulence_intensity", "Turbulence intensity", PERCENT, Interval(|record| record.turbulence_intensity)).meaning("square root of the mean of the components’ variances, over the mean velocity")
+    Measure::<Analysis>::new("turbulence_intensity", "Turbulence \
+        intensity", PERCENT, Interval(|record| record.turbulence_intensity)).meaning("square root of the \
+        mean of the components’ variances, over the mean velocity")
     .remark(|record| {
         let is_single = record.components.len() < 2;
         is_single.then(|| "rms of the fluctuation over the mean velocity".to_owned())
     }),
-    Measure::<Analysis>::new("integral_time_s", "Integral time", MILLISECONDS, Interval(|record| record.integral_time)).meaning("integral of the autocorrelation of the component along the flow")
+    Measure::<Analysis>::new("integral_time_s", "Integral \
+        time", MILLISECONDS, Interval(|record| record.integral_time)).meaning("integral of the \
+        autocorrelation of the component along the flow")
     .remark(|record| {
         Some(format!("autocorrelation of {}, integrated {}", along(record), record.integral.words()))
     }),
-    Measure::<Analysis>::new("length_scale_m", "Length scale", MILLIMETRES, Interval(|record| record.length_scale)).meaning("integral time × mean velocity: Taylor’s hypothesis"),
-    Measure::<Analysis>::new("cutoff_frequency_hz", "Cut-off frequency", HERTZ, Interval(|record| record.cutoff_frequency)).meaning("variance of the component along the flow over the plateau of its spectrum: where a flat spectrum would end")
+    Measure::<Analysis>::new("length_scale_m", "Length \
+        scale", MILLIMETRES, Interval(|record| record.length_scale)).meaning("integral time × mean velocity: \
+        Taylor’s hypothesis"),
+    Measure::<Analysis>::new("cutoff_frequency_hz", "Cut-off \
+        frequency", HERTZ, Interval(|record| record.cutoff_frequency)).meaning("variance of the component \
+        along the flow over the plateau of its spectrum: where a flat spectrum would end")
     .remark(|record| {
         Some(format!(
             "variance of {} over the plateau of its spectrum: here a flat spectrum with this variance and this \
@@ -29,7 +39,8 @@ pub const OF_RECORDS: &[Measure<Analysis>] = &[
     }),
 ];
 
-/// The measures of each component of a record, in the order of the tables; what has no label stands in `analysis.json` alone.
+/// The measures of each component of a record, in the order of the tables; what has no label stands in
+/// `analysis.json` alone.
 pub const OF_COMPONENTS: &[Measure<Component>] = &[
     Measure::<Component>::new("mean_m_s", "Mean", METRES_PER_SECOND, Interval(|found| found.mean))
         .meaning("mean over the record"),

@@ -10,8 +10,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
         name: "residence_radius",
         column: "residence_radius_m",
         label: "Circle of 90 % of the time",
-        meaning: "radius of the circle around the free end’s mean position, seen along the flow, in which the free end is at \
-                  90 % of the recorded instants",
+        meaning: "radius of the circle around the free end’s mean position, seen along the flow, in which \
+            the free end is at 90 % of the recorded instants",
         unit: MILLIMETRES,
         figure: &figure("residence", "Circle of 90 % of the time", "circle of 90 % of the time"),
         series: "radius",

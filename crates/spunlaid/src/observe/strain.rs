@@ -67,13 +67,15 @@ const fn measure(
 
 const FIGURE: Figure = figure("strain", "Strain", "strain");
 
-/// Strain at the root, averaged over some intervals that end at the recorded instants after the spin-up.       theory.md (57)
+/// Strain at the root, averaged over some intervals that end at the recorded instants after the spin-up.
+///                                                                                             theory.md (57)
 #[derive(Debug)]
 struct AveragedStrain {
     /// Number of intervals over which is averaged, of each fibre.
     intervals: [usize; WIDTH],
-    /// Times of the first and the last recorded instants [s], and the integral of the strain over time [s]: as many of the
-    /// last as the longest average needs. The period of an axial wave is a few times as many stable steps as there are elements.
+    /// Times of the first and the last recorded instants [s], and the integral of the strain over time [s]:
+    /// as many of the last as the longest average needs. The period of an axial wave is a few times as many
+    /// stable steps as there are elements.
     first: Option<(f64, Lanes)>,
     last: VecDeque<(f64, Lanes)>,
     means: [EvenSample<f64>; WIDTH],

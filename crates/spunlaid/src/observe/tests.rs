@@ -28,7 +28,8 @@ fn check_names(names: impl Iterator<Item = &'static str>) {
     assert_eq!(names.iter().collect::<BTreeSet<_>>().len(), names.len(), "{names:?}");
 }
 
-/// Fails unless measures have names of their own, which end with the unit, and a meaning; those that studies keep a label too.
+/// Fails unless measures have names of their own, which end with the unit, and a meaning; those that studies
+/// keep a label too.
 fn check<T: 'static>(measures: impl Iterator<Item = &'static Measure<T>>) {
     let all: Vec<&Measure<T>> = measures.collect();
     check_names(all.iter().map(|measure| measure.name));
@@ -43,7 +44,8 @@ fn check<T: 'static>(measures: impl Iterator<Item = &'static Measure<T>>) {
     }
 }
 
-/// Fails unless this holds for measures with formulas and for their errors. Studies keep an error only beside its measure.
+/// Fails unless this holds for measures with formulas and for their errors. Studies keep an error only beside
+/// its measure.
 fn check_list<T>(measures: &'static [Measure<T>]) {
     check(with_errors(measures));
     check_names(measures.iter().map(|measure| measure.label));
@@ -94,9 +96,9 @@ fn table<T: 'static>(text: &mut String, title: &str, measures: impl Iterator<Ite
 #[test]
 fn every_measure_stands_in_the_docs() {
     let mut text = "# All measures\n\nThis page is written from the declarations of the measures \
-        (`crates/spunlaid/src/observe/`). Names are those of `summary.json`, of a velocity record those of `analysis.json`. Studies keep \
-        some of them, under the same name or under that of the second column, which is here of patches of 10 mm. \
-        [results.md](results.md) says where they stand.\n"
+        (`crates/spunlaid/src/observe/`). Names are those of `summary.json`, of a velocity record those of \
+        `analysis.json`. Studies keep some of them, under the same name or under that of the second column, \
+        which is here of patches of 10 mm. [results.md](results.md) says where they stand.\n"
         .to_owned();
     let mut groups: Vec<Group> = Vec::new();
     let observed = || DECLARED.iter().flat_map(|declaration| declaration.measures);

@@ -1,12 +1,13 @@
-//! What is measured of a web. `summary.json`, the tables of the terminal and of the report, Python and the studies follow from it.
+//! What is measured of a web. `summary.json`, the tables of the terminal and of the report, Python and the
+//! studies follow from it.
 
 use super::{ErrorRole, Formula, MILLIMETRES, Measure, PERCENT, RATIO, Unit, figure};
 use crate::web::{Findings, PatchFindings};
 use ErrorRole::{Always, Further, OfOne};
 use Formula::{Known, Mean, Number};
 
-/// The measures of the patches of each size, in the order of `summary.json`, where the interval follows the first, of the tables and of
-/// studies.
+/// The measures of the patches of each size, in the order of `summary.json`, where the interval follows the
+/// first, of the tables and of studies.
 pub const OF_PATCHES: &[Measure<PatchFindings>] = &[
     share("cv", "CV over patches of # mm", |patch| Some(patch.map.cv))
         .meaning("coefficient of variation of the basis weight of the map over square patches")

@@ -148,7 +148,8 @@ fn find_time(
     if found.is_none() && layout.rate.is_none() {
         return Err(Fault::new(
             format!("has no column of time (it has {})", listed(&shown(heads))),
-            "name it like time_s, write time stamps in it, say which column it is (air.record_time in a case), or give the sampling rate",
+            "name it like time_s, write time stamps in it, say which column it is (air.record_time in a \
+            case), or give the sampling rate",
         )
         .option("--time-column, --rate")
         .into());

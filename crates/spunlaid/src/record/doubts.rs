@@ -307,7 +307,8 @@ fn clipped(values: &[f64], sign: f64) -> Option<(usize, f64)> {
 fn tone(density: &[f64]) -> Option<(usize, f64)> {
     let peak = (0..density.len()).max_by(|a, b| density[*a].total_cmp(&density[*b]))?;
     let near = |from: usize, to: usize| density.iter().skip(from).take(to.saturating_sub(from));
-    // Both sides count: at its lowest frequencies the spectrum of any turbulence is far above the frequencies after them.
+    // Both sides count: at its lowest frequencies the spectrum of any turbulence is far above the frequencies
+    // after them.
     let below: Vec<f64> = near(peak.saturating_sub(10), peak.saturating_sub(2)).copied().collect();
     let above: Vec<f64> = near(peak + 4, peak + 11).copied().collect();
     let mean = |side: &[f64]| side.iter().sum::<f64>() / side.len() as f64;

@@ -1,8 +1,8 @@
 //! Times that are rounded to a grid, such as whole milliseconds, which is not much finer than the step between samples.
 //!
-//! The times of an even clock, rounded to a grid of size `g`, lie within a strip of height `g` above a straight line over
-//! the number of the sample. Its slope is the interval. A missing sample lifts all later times by an interval, out of the
-//! strip.
+//! The times of an even clock, rounded to a grid of size `g`, lie within a strip of height `g` above a
+//! straight line over the number of the sample. Its slope is the interval. A missing sample lifts all later
+//! times by an interval, out of the strip.
 
 use crate::error::Fault;
 use crate::units::Dimension;
@@ -74,8 +74,8 @@ impl Grid {
         })
     }
 
-    /// Whether the grid is the interval itself: nearly all steps are one grid, and writing did not round the times to it, or the
-    /// others do not come as regularly as rounding would have it.
+    /// Whether the grid is the interval itself: nearly all steps are one grid, and writing did not round the
+    /// times to it, or the others do not come as regularly as rounding would have it.
     fn is_interval(self, known: &[(usize, f64)]) -> bool {
         let rows: Vec<f64> = self.skips(known).map(|(row, ..)| row as f64).collect();
         if (rows.len() as f64) > ((1.0 - PLAIN) * (known.len() - 1) as f64).max(2.0) {
@@ -151,8 +151,8 @@ impl Grid {
         (height <= self.tallest(interval) + margin).then_some(lost)
     }
 
-    /// The doubt about rounded times of which every so many-th steps over a point of the grid: so do those of an even clock, and those
-    /// of a faster one that lacks rows as regularly.
+    /// The doubt about rounded times of which every so many-th steps over a point of the grid: so do those of
+    /// an even clock, and those of a faster one that lacks rows as regularly.
     ///
     /// * `interval` – as it was found [s]
     pub(super) fn regular(self, known: &[(usize, f64)], interval: f64) -> Option<Fault> {
@@ -174,8 +174,8 @@ impl Grid {
         let (points, grid) = (every + 1, Dimension::Time.pretty_to(self.size, 3));
         Some(Fault::new(
             format!(
-                "the times are rounded to {grid}, and about one in {points} points of this grid has no row: this is an even clock of {}, \
-                 as it is taken for, or one of {} that lacks rows as regularly",
+                "the times are rounded to {grid}, and about one in {points} points of this grid has no row: \
+                this is an even clock of {}, as it is taken for, or one of {} that lacks rows as regularly",
                 rate(interval),
                 rate(self.size)
             ),
@@ -196,7 +196,8 @@ impl Grid {
     }
 }
 
-/// The slope and the height of the lowest strip around points, whose slope is about that between the first and the last.
+/// The slope and the height of the lowest strip around points, whose slope is about that between the first
+/// and the last.
 ///
 /// * `grid` – height that is to be expected
 fn strip(points: &[(usize, f64)], grid: f64) -> (f64, f64) {

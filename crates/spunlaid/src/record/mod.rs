@@ -2,22 +2,23 @@
 //!
 //! file (CSV, Parquet) → [`Record`] (evenly sampled, SI) → [`analyse`] → [`Analysis`]
 //!
-//! **The input** is the velocity at a point over time: a row for each sample, a column of time, and one to three columns
-//! of velocity. The header gives the units: `time_ms`, `u [m/s]`; times may also be stamps, ISO or German. A [`Layout`] gives what the file does not: sampling
-//! rate, units, columns to use.
+//! **The input** is the velocity at a point over time: a row for each sample, a column of time, and one to
+//! three columns of velocity. The header gives the units: `time_ms`, `u [m/s]`; times may also be stamps, ISO
+//! or German. A [`Layout`] gives what the file does not: sampling rate, units, columns to use.
 //!
 //! | format | what is read |
 //! |---|---|
 //! | text | as [`crate::table`] describes; without a column of time an empty line is a missing sample |
 //! | Parquet | columns of numbers or times by their logical types, with nulls; uncompressed or Snappy |
 //!
-//! **The results**, with 95 % confidence intervals, are mean velocity [m/s], turbulence intensity [-], integral time [s],
-//! length scale [m] and cut-off frequency [Hz]; for each component also rms, skewness, flatness, spectrum
-//! [(m/s)²/Hz] and autocorrelation; and warnings, each with what to do about it. The formulas are in
-//! `docs/analyse.md` of the repository.
+//! **The results**, with 95 % confidence intervals, are mean velocity [m/s], turbulence intensity [-],
+//! integral time [s], length scale [m] and cut-off frequency [Hz]; for each component also rms, skewness,
+//! flatness, spectrum [(m/s)²/Hz] and autocorrelation; and warnings, each with what to do about it. The
+//! formulas are in `docs/analyse.md` of the repository.
 //!
 //! **Limits.** Samples are evenly spaced to within 1 %; up to [`LONGEST_GAP`] missing samples in a row are
-//! interpolated linearly. A record has at least 64 samples and at most [`MOST_NUMBERS`] numbers of 8 bytes. Text is read line by line, Parquet as a whole.
+//! interpolated linearly. A record has at least 64 samples and at most [`MOST_NUMBERS`] numbers of 8 bytes.
+//! Text is read line by line, Parquet as a whole.
 //!
 //! ```
 //! use spunlaid::record::{Layout, Settings, analyse, parse_csv};

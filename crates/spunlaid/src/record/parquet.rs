@@ -49,7 +49,8 @@ fn read(source: Bytes, layout: &Layout) -> Result<Record, FileError> {
         let mut columns = Vec::new();
         for column in &used {
             let refused = |found: String| {
-                let remedy = "a plain column of floating-point, whole or decimal numbers is needed, or of times where it gives the time";
+                let remedy = "a plain column of floating-point, whole or decimal numbers is needed, or of \
+                    times where it gives the time";
                 FileError::from(Fault::new(format!("holds {found}"), remedy)).column(&column.header)
             };
             let meaning = meaning_of(column).map_err(refused)?;

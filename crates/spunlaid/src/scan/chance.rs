@@ -4,7 +4,8 @@ use crate::statistics::{Estimate, NORMAL_95, student_t_95};
 use crate::web::Map;
 use std::f64::consts::PI;
 
-/// The variance of the basis weight over patches of one size, relative to the squared mean, and how well a piece of web knows it.
+/// The variance of the basis weight over patches of one size, relative to the squared mean, and how well a
+/// piece of web knows it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Scatter {
     /// About the mean of the web, of which this is a piece.
@@ -23,23 +24,25 @@ const FEWEST: usize = 4;
 const LONGEST: usize = 3;
 /// So many neighbours either way tell the expected strength of a wave.
 const NEAR: usize = 2;
-/// A sum of waves of unequal strength, which is known from the waves of one piece only, is known as well as from this share of its
-/// degrees: found on simulated webs, docs/validation.md.
+/// A sum of waves of unequal strength, which is known from the waves of one piece only, is known as well as
+/// from this share of its degrees: found on simulated webs, docs/validation.md.
 const UNEQUAL: f64 = 0.7;
 /// A patch counts if at least this share of its cells is web.
 const WEB: f64 = 0.9;
 
 /// The scatter over the patches of one side, at every place on the lattice of cells.          theory.md (76), (77)
 ///
-/// The variance is a sum over waves. Those across the web, which stand for streaks, are few; so are those along it; all others are many.
-/// Each kind is known as well as its number of waves allows, and the interval of the sum is made of theirs.
+/// The variance is a sum over waves. Those across the web, which stand for streaks, are few; so are those
+/// along it; all others are many. Each kind is known as well as its number of waves allows, and the interval
+/// of the sum is made of theirs.
 ///
 /// * `masked` – cells that are not web; empty if all are
 /// * `side` – of a patch [cells]
 ///
 /// None if the map is too small for such patches, or hardly any of them is web.
 ///
-/// Source: Graybill and Wang, Journal of the American Statistical Association 75 (1980) 869–873, for the interval of a sum of variances.
+/// Source: Graybill and Wang, Journal of the American Statistical Association 75 (1980) 869–873, for the
+/// interval of a sum of variances.
 pub(super) fn scatter(map: &Map, masked: &[bool], side: usize) -> Option<Scatter> {
     let blocks = Blocks::new(map, masked, side)?;
     if blocks.sides.iter().any(|side| *side < FEWEST) {
@@ -54,8 +57,9 @@ pub(super) fn scatter(map: &Map, masked: &[bool], side: usize) -> Option<Scatter
     let [across, along] = blocks.sides;
     let mut streaks: Vec<f64> = (1..across).map(|i| waves[i]).collect();
     let mut bars: Vec<f64> = (1..along).map(|j| waves[j * across]).collect();
-    // The infinitely long wave is missing: the mean of the piece is not that of the web. It is as strong as the next ones,
-    // along that direction in which they are stronger, because streaks reach through the whole piece.
+    // The infinitely long wave is missing: the mean of the piece is not that of the web. It is as strong as
+    // the next ones, along that direction in which they are stronger, because streaks reach through the whole
+    // piece.
     let mean_beside =
         |wave: &dyn Fn(usize) -> usize| (1..=LONGEST).map(|k| waves[wave(k)]).sum::<f64>() / LONGEST as f64;
     let beside_streaks: Vec<f64> = (1..across).map(|i| mean_beside(&|k| k * across + i)).collect();
@@ -87,8 +91,9 @@ pub(super) fn scatter(map: &Map, masked: &[bool], side: usize) -> Option<Scatter
     Some(Scatter { variance, error: sum(&|degrees| (2.0 / degrees).sqrt()), ends })
 }
 
-/// Degrees of freedom of the sum of waves that stand in a line: `(Σλ)²/Σλ²` of their expected strengths, each the mean of its
-/// neighbours above the floor that all waves share. Shares of few waves are unequal by chance, which counts two degrees too many.
+/// Degrees of freedom of the sum of waves that stand in a line: `(Σλ)²/Σλ²` of their expected strengths, each
+/// the mean of its neighbours above the floor that all waves share. Shares of few waves are unequal by
+/// chance, which counts two degrees too many.
 ///
 /// * `floor` – strength of the waves beside each, which are not of this line
 fn degrees(waves: &[f64], floor: &[f64]) -> f64 {
@@ -183,8 +188,8 @@ impl Blocks {
         })
     }
 
-    /// The share of the variance in each wave, orthogonal cosines of half a wave and more over the piece: `Σ` over all but the first is the
-    /// variance of the means of the blocks.
+    /// The share of the variance in each wave, orthogonal cosines of half a wave and more over the piece: `Σ`
+    /// over all but the first is the variance of the means of the blocks.
     fn waves(&self) -> Vec<f64> {
         let [across, along] = self.sides;
         let cosines = |side: usize| -> Vec<f64> {
@@ -212,8 +217,8 @@ impl Blocks {
     }
 }
 
-/// Squared error of the mean of values on a lattice: from the scatter of all, of the columns and of the rows, the largest of them. An error
-/// that comes from few columns is enlarged by Student's t.
+/// Squared error of the mean of values on a lattice: from the scatter of all, of the columns and of the rows,
+/// the largest of them. An error that comes from few columns is enlarged by Student's t.
 fn error_of_mean(values: &[Option<f64>], columns: usize) -> f64 {
     let mean = |parts: &mut dyn Iterator<Item = &Option<f64>>| {
         let values: Vec<f64> = parts.flatten().copied().collect();
@@ -264,8 +269,8 @@ fn patches(map: &Map, masked: &[bool], side: usize, mut take: impl FnMut(usize, 
 
 /// The quantile of the chi-squared distribution.
 ///
-/// Source: the series of the incomplete gamma function, Abramowitz & Stegun 6.5.29; from 100 degrees on, Wilson and Hilferty, Proceedings of the National Academy of Sciences 17 (1931) 684–688,
-/// accurate to 1e-4.
+/// Source: the series of the incomplete gamma function, Abramowitz & Stegun 6.5.29; from 100 degrees on,
+/// Wilson and Hilferty, Proceedings of the National Academy of Sciences 17 (1931) 684–688, accurate to 1e-4.
 ///
 /// * `share` – 0.025 or 0.975
 /// * `degrees` – one or more; they need not be whole

@@ -15,12 +15,13 @@ pub struct Settings {
     pub light: Light,
     /// Whether that is only what is usual: then the notes say so.
     pub light_is_assumed: bool,
-    /// A picture of the lamp without web, at the same exposure and of the same size: it takes the place of the level of the lamp and of
-    /// the polynomial for its shading.
+    /// A picture of the lamp without web, at the same exposure and of the same size: it takes the place of
+    /// the level of the lamp and of the polynomial for its shading.
     pub lamp: Option<Picture>,
     /// Whether the lamp is taken as even. Maps of basis weight are never corrected.
     pub keep_shading: bool,
-    /// Whether all of a picture in transmitted light is web. Otherwise the bare lamp beside it, dust and blots are left out.
+    /// Whether all of a picture in transmitted light is web. Otherwise the bare lamp beside it, dust and
+    /// blots are left out.
     pub keep_spots: bool,
     /// Standard deviation of the noise of a single pixel, if it is known: its variance is taken out [levels].
     pub noise: Option<f64>,
@@ -73,7 +74,8 @@ pub struct Findings {
     pub patches: Vec<PatchFindings>,
     /// Sizes of the clouds.
     pub clouds: Option<Clouds>,
-    /// Autocorrelation coefficients of the basis weight in cross and in machine direction, pixel by pixel from lag zero.
+    /// Autocorrelation coefficients of the basis weight in cross and in machine direction, pixel by pixel
+    /// from lag zero.
     pub autocorrelation: [Vec<f64>; 2],
     /// What was assumed, corrected or left out, and what to do about it.
     pub notes: Vec<Fault>,
@@ -82,7 +84,8 @@ pub struct Findings {
 /// The unevenness over patches of one size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchFindings {
-    /// The unevenness, without the noise of the camera if that is known. It has no standard error where [`interval`](Self::interval) has none.
+    /// The unevenness, without the noise of the camera if that is known. It has no standard error where
+    /// [`interval`](Self::interval) has none.
     pub unevenness: Unevenness,
     /// The 95 % confidence interval of the CV of the web, of which this is a piece, or why none can be given.
     pub interval: Result<[f64; 2], Doubt>,

@@ -19,7 +19,8 @@ pub(super) fn above_zero(name: &'static str, value: Option<f64>) -> Result<(), F
     }
 }
 
-/// The logarithm of the light that comes through, over that of the lamp if there is a picture of it; NaN where there is none.
+/// The logarithm of the light that comes through, over that of the lamp if there is a picture of it; NaN
+/// where there is none.
 pub(super) fn logs(picture: &Picture, lamp: Option<&Picture>) -> Result<Vec<f64>, Fault> {
     let log = |level: &f64| if level.is_finite() && *level > 0.0 { libm::log(*level) } else { f64::NAN };
     let mut logs: Vec<f64> = picture.values.iter().map(log).collect();
@@ -70,8 +71,8 @@ fn largest_level(picture: &Picture) -> Result<f64, Fault> {
     let advice =
         "give the level of the lamp without web, in reflected light of a web too thick to see through";
     let Some(largest) = picture.full_scale else {
-        let message = "holds numbers without a largest grey level, so the level of the lamp is not known, and with a guess every CV would be \
-                       wrong by the same factor";
+        let message = "holds numbers without a largest grey level, so the level of the lamp is not known, \
+            and with a guess every CV would be wrong by the same factor";
         return Err(
             Fault::new(message, format!("{advice}, or a picture of the lamp")).option("--white, --lamp")
         );
@@ -80,16 +81,17 @@ fn largest_level(picture: &Picture) -> Result<f64, Fault> {
     let possible = (1u32 << bits) - 1;
     Err(Fault::new(
         format!(
-            "has no level above {possible}, though the file has 16 bits, so it is not known whether a camera of {bits} bits made it or the \
-             picture is dark, and with a wrong level of the lamp every CV would be wrong by the same factor"
+            "has no level above {possible}, though the file has 16 bits, so it is not known whether a camera \
+            of {bits} bits made it or the picture is dark, and with a wrong level of the lamp every CV would \
+            be wrong by the same factor"
         ),
         format!("{advice}: {possible} if the camera has {bits} bits, else {largest}"),
     )
     .option("--white"))
 }
 
-/// Largest shading that is believed to be that of a lamp and a lens, brightest over darkest place. By the law of the fourth power of the
-/// cosine a lens that sees 54° darkens so much towards its corners.
+/// Largest shading that is believed to be that of a lamp and a lens, brightest over darkest place. By the law
+/// of the fourth power of the cosine a lens that sees 54° darkens so much towards its corners.
 const MOST_SHADING: f64 = 1.6;
 
 /// The shading that is to be taken out, if any.
@@ -107,8 +109,9 @@ pub(super) fn believed_shading(
             [libm::expm1(shading.range()), MOST_SHADING - 1.0].map(|share| (100.0 * share).round());
         return Err(Fault::new(
             format!(
-                "becomes brighter by {found} % from its darkest to its brightest part, and a lamp and a lens make {most} % at most: \
-                 the bare lamp may be visible beside the web, or the web itself changes, and the picture cannot tell which"
+                "becomes brighter by {found} % from its darkest to its brightest part, and a lamp and a lens \
+                make {most} % at most: the bare lamp may be visible beside the web, or the web itself \
+                changes, and the picture cannot tell which"
             ),
             "give a picture of the lamp without web, or cut out the web, or say that the lamp is even",
         )

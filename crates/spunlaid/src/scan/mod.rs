@@ -1,9 +1,10 @@
 //! Webs as they are made: how even is a fabric of which there is a scan or a map of basis weight?
 //!
-//! file (PNG, TIFF, NumPy, CSV) → [`Picture`] → [`analyse`] → [`Findings`], with a [`Map`](crate::web::Map) as that of a simulated web
+//! file (PNG, TIFF, NumPy, CSV) → [`Picture`] → [`analyse`] → [`Findings`], with a [`Map`](crate::web::Map)
+//! as that of a simulated web
 //!
-//! **The input** is a picture in transmitted light, whose grey levels are proportional to the light that comes through, or a map
-//! of the basis weight itself.
+//! **The input** is a picture in transmitted light, whose grey levels are proportional to the light that
+//! comes through, or a map of the basis weight itself.
 //!
 //! | format | what is read |
 //! |---|---|
@@ -12,24 +13,30 @@
 //! | NumPy | an array of two dimensions in C order, of numbers of 1 to 8 bytes, but no half floats |
 //! | CSV | a line for each row of the map, as [`crate::table`] describes; an empty cell is a missing pixel; numbers of the rows and columns beside the map are left out |
 //!
-//! PNG and TIFF are turned as their orientation tells (Exif, TIFF tag 274). They tell the side of a pixel by their resolution, unless it is given. A PNG that tells the basis weight of black in a text,
+//! PNG and TIFF are turned as their orientation tells (Exif, TIFF tag 274). They tell the side of a pixel by
+//! their resolution, unless it is given. A PNG that tells the basis weight of black in a text,
 //! [`WEIGHT_OF_BLACK`], is a map of basis weight; `spunlaid web` writes such maps.
 //!
-//! **From light to basis weight**, by the law of Beer and Lambert: the optical density `ln(white/level)` is proportional to the
-//! mass that the light has passed. Only ratios of densities count, so the absorption of the polymer need not be known, and a
-//! camera that raises all levels to a power does no harm. A lamp that is brighter in the middle is taken out with a picture of the lamp without web.
-//! Without one, a polynomial of second order is fitted to the logarithm of the level and taken out: that is right for the fall of light towards the corners of a lens,
-//! but a web of little density shows every rest of a lamp of another form, enlarged by the inverse of the density.
+//! **From light to basis weight**, by the law of Beer and Lambert: the optical density `ln(white/level)` is
+//! proportional to the mass that the light has passed. Only ratios of densities count, so the absorption of
+//! the polymer need not be known, and a camera that raises all levels to a power does no harm. A lamp that is
+//! brighter in the middle is taken out with a picture of the lamp without web. Without one, a polynomial of
+//! second order is fitted to the logarithm of the level and taken out: that is right for the fall of light
+//! towards the corners of a lens, but a web of little density shows every rest of a lamp of another form,
+//! enlarged by the inverse of the density.
 //!
-//! **Light that is thrown back** by light fibres on a black ground is another picture: heavy places are light. By Kubelka's law for fibres that scatter
-//! and do not absorb, `R/(1 − R)` is proportional to the mass, with the reflectance R over that of a web so thick that the ground is not visible. A picture does not
-//! tell which of the two it is, so it is taken as transmitted light unless the reader says otherwise, and the notes say so.
+//! **Light that is thrown back** by light fibres on a black ground is another picture: heavy places are
+//! light. By Kubelka's law for fibres that scatter and do not absorb, `R/(1 − R)` is proportional to the
+//! mass, with the reflectance R over that of a web so thick that the ground is not visible. A picture does
+//! not tell which of the two it is, so it is taken as transmitted light unless the reader says otherwise, and
+//! the notes say so.
 //!
-//! **The results** are those of a simulated map: CV over patches with standard errors, clouds, autocorrelation. For each patch they also tell how much
-//! the noise of the camera and the blur of its optics count there.
+//! **The results** are those of a simulated map: CV over patches with standard errors, clouds,
+//! autocorrelation. For each patch they also tell how much the noise of the camera and the blur of its optics
+//! count there.
 //!
-//! **Limits.** At most [`MOST_PIXELS`] pixels and at least [`LEAST_SIDE`] either way. Up to one pixel in a hundred may say nothing;
-//! it is filled in from its row.
+//! **Limits.** At most [`MOST_PIXELS`] pixels and at least [`LEAST_SIDE`] either way. Up to one pixel in a
+//! hundred may say nothing; it is filled in from its row.
 //!
 //! ```
 //! use spunlaid::scan::{Light, Settings, analyse, parse};

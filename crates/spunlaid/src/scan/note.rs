@@ -37,8 +37,8 @@ pub(super) fn notes(
         notes.extend(bits(picture, settings.lamp.as_ref()));
     }
     if settings.light_is_assumed && matches!(settings.light, Light::Transmitted { .. }) {
-        let message = "the picture is taken as light that has come through the web, so that heavy places are dark; if light fibres lie on a \
-                       dark ground, heavy places are light, and every CV is wrong";
+        let message = "the picture is taken as light that has come through the web, so that heavy places are \
+            dark; if light fibres lie on a dark ground, heavy places are light, and every CV is wrong";
         notes.push(Fault::new(message, "say which light it is").option("--light reflected"));
     }
     match (settings.light, weighed.white) {
@@ -52,8 +52,9 @@ pub(super) fn notes(
     }
     if matches!(settings.light, Light::Reflected { .. }) {
         notes.push(Fault::plain(
-            "the basis weight follows from the light that is thrown back by Kubelka’s law, for fibres that scatter light and absorb none on a \
-             black ground; colour, gloss and a grey ground make it wrong, and the picture cannot show that",
+            "the basis weight follows from the light that is thrown back by Kubelka’s law, for fibres that \
+            scatter light and absorb none on a black ground; colour, gloss and a grey ground make it wrong, \
+            and the picture cannot show that",
         ));
     }
     if !weighed.mean_known {
@@ -70,9 +71,9 @@ pub(super) fn notes(
     if let Some(shading) = &weighed.shading {
         notes.push(Fault::new(
             format!(
-                "the lamp is brighter by {} at its brightest place than at its darkest. A polynomial of second order was \
-                 taken out. It also took out what the web itself varies as smoothly over the whole picture, and it left \
-                 what a polynomial cannot follow, so no interval is given",
+                "the lamp is brighter by {} at its brightest place than at its darkest. A polynomial of \
+                second order was taken out. It also took out what the web itself varies as smoothly over the \
+                whole picture, and it left what a polynomial cannot follow, so no interval is given",
                 per_cent(libm::expm1(shading.range()))
             ),
             "take a picture of the lamp without web, or say that the lamp is even",
@@ -84,8 +85,8 @@ pub(super) fn notes(
     if patches.first().is_some_and(|patch| !patch.is_sharp()) {
         let sharp = patches.iter().find(|patch| patch.is_sharp());
         notes.push(Fault::new(
-            "one more pixel of blur would lower the CV of small patches by more than 1 %, so the blur of the camera has \
-             lowered it too, and no interval is given there",
+            "one more pixel of blur would lower the CV of small patches by more than 1 %, so the blur of the \
+            camera has lowered it too, and no interval is given there",
             match sharp.map(|patch| Dimension::Length.pretty(patch.unevenness.patch)) {
                 Some(side) => format!("from patches of {side} on this does not matter"),
                 None => "it matters at all sizes of patch here, so scan with smaller pixels".to_owned(),
@@ -135,15 +136,16 @@ fn numbers(numbered: [bool; 2]) -> Option<Fault> {
     Some(Fault::plain(format!("{left_out} left out of the map")))
 }
 
-/// The doubt that a file of 16 bits holds the levels of a camera with fewer, where the picture of the lamp has another depth.
+/// The doubt that a file of 16 bits holds the levels of a camera with fewer, where the picture of the lamp
+/// has another depth.
 fn bits(picture: &Picture, lamp: Option<&Picture>) -> Option<Fault> {
     let lamp = lamp.filter(|lamp| lamp.full_scale != picture.full_scale)?;
     let bits = picture.fewer_bits.or(lamp.fewer_bits)?;
     let largest = (1u32 << bits) - 1;
     Some(Fault::new(
         format!(
-            "no level lies above {largest}, though the file has 16 bits; if the camera has {bits} bits and its largest level is \
-             {largest}, every CV is wrong by the same factor"
+            "no level lies above {largest}, though the file has 16 bits; if the camera has {bits} bits and \
+            its largest level is {largest}, every CV is wrong by the same factor"
         ),
         "take a picture of the lamp with the same bits",
     ))
@@ -152,8 +154,9 @@ fn bits(picture: &Picture, lamp: Option<&Picture>) -> Option<Fault> {
 fn assumed_lamp(white: f64) -> Fault {
     Fault::new(
         format!(
-            "the lamp without web is assumed to have the grey level {}, the largest that the file can hold. If that is wrong, \
-             every CV is wrong by the same factor, and the picture cannot show it, so no interval is given",
+            "the lamp without web is assumed to have the grey level {}, the largest that the file can hold. \
+            If that is wrong, every CV is wrong by the same factor, and the picture cannot show it, so no \
+            interval is given",
             shortest(white)
         ),
         "take a picture of the lamp at the same exposure",
@@ -163,8 +166,8 @@ fn assumed_lamp(white: f64) -> Fault {
 fn assumed_thickest(white: f64) -> Fault {
     Fault::new(
         format!(
-            "a web so thick that the ground is not visible is assumed to have the grey level {}, the largest that the file can hold. If that is \
-             wrong, every CV is wrong, so no interval is given",
+            "a web so thick that the ground is not visible is assumed to have the grey level {}, the largest \
+            that the file can hold. If that is wrong, every CV is wrong, so no interval is given",
             shortest(white)
         ),
         "take a picture of a thick stack of the web at the same exposure, and give its grey level",
@@ -199,8 +202,8 @@ fn dark_spots(aside: &ForeignParts) -> Option<Fault> {
     let largest = aside.spots.first()?;
     let [right, down] = largest.place.map(|place| Dimension::Length.pretty_to(place, 3));
     Some(Fault::plain(format!(
-        "dark spots such as dust or blots were left out: {}, {} in all; the largest, {}, is {right} from the left and {down} \
-         from the upper edge of the picture. If they belong to the web, say so",
+        "dark spots such as dust or blots were left out: {}, {} in all; the largest, {}, is {right} from the \
+        left and {down} from the upper edge of the picture. If they belong to the web, say so",
         aside.spots.len(),
         square(aside.masked),
         square(largest.area)

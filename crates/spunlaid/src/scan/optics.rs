@@ -4,10 +4,11 @@ use super::findings::SHARP;
 use crate::web::Map;
 use std::f64::consts::TAU;
 
-/// The largest standard deviation that noise from pixel to pixel can have, relative to the mean: that of what neighbouring pixels do not share.
-/// The finest structure of the web is in it, so the noise may be less.
+/// The largest standard deviation that noise from pixel to pixel can have, relative to the mean: that of what
+/// neighbouring pixels do not share. The finest structure of the web is in it, so the noise may be less.
 ///
-/// Source: Immerkær, Fast noise variance estimation, Computer Vision and Image Understanding 64 (1996), with the mean square.
+/// Source: Immerkær, Fast noise variance estimation, Computer Vision and Image Understanding 64 (1996), with
+/// the mean square.
 pub(super) fn noise_at_most(map: &Map) -> f64 {
     let mean = map.total() as f64 / map.cells.len() as f64;
     let (mut squares, mut count) = (0.0, 0u64);
@@ -24,7 +25,8 @@ pub(super) fn noise_at_most(map: &Map) -> f64 {
     (squares / (36.0 * count as f64)).sqrt() / mean
 }
 
-/// The map behind a blur of one more pixel: twice the binomial ¼, ½, ¼ in both directions, whose standard deviation is one pixel.
+/// The map behind a blur of one more pixel: twice the binomial ¼, ½, ¼ in both directions, whose standard
+/// deviation is one pixel.
 pub(super) fn blurred(map: &Map) -> Map {
     let mut cells = map.cells.clone();
     for _ in 0..2 {
@@ -57,8 +59,9 @@ fn binomial(before: u32, middle: u32, after: u32) -> u32 {
     ((sum + 2) / 4) as u32
 }
 
-/// The shortest wave that a picture shows sharply [m]: one more pixel of blur lowers its amplitude by one per cent, as it does for the
-/// smallest patches that have an interval. A Gaussian blur of σ takes `exp(−(2πσ/λ)²/2)` of a wave.
+/// The shortest wave that a picture shows sharply [m]: one more pixel of blur lowers its amplitude by one per
+/// cent, as it does for the smallest patches that have an interval. A Gaussian blur of σ takes
+/// `exp(−(2πσ/λ)²/2)` of a wave.
 ///
 /// * `pixel` – side of a pixel [m]
 pub fn shortest_sharp_wave(pixel: f64) -> f64 {

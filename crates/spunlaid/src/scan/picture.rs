@@ -17,13 +17,13 @@ pub struct Picture {
     pub pixel: f64,
     /// Side of a pixel as the file states it, if it does [m].
     pub pixel_of_file: Option<f64>,
-    /// The largest grey level that the file can hold, 255 or 65535, or less if it tells that the camera has fewer bits; none for other
-    /// numbers.
+    /// The largest grey level that the file can hold, 255 or 65535, or less if it tells that the camera has
+    /// fewer bits; none for other numbers.
     pub full_scale: Option<f64>,
     /// Bits of the levels, if the camera may have fewer of them than the file: no level lies above what they can hold.
     pub fewer_bits: Option<u32>,
-    /// Basis weight of a black pixel, if the file is a map of basis weight in shades of grey, as [`crate::web`] has it drawn: the largest
-    /// grey level is no weight at all [kg/m²].
+    /// Basis weight of a black pixel, if the file is a map of basis weight in shades of grey, as
+    /// [`crate::web`] has it drawn: the largest grey level is no weight at all [kg/m²].
     pub weight_of_black: Option<f64>,
     /// Whether the file has colours, of which only the luminance was kept.
     pub colour: bool,
@@ -59,8 +59,8 @@ impl Picture {
         other.full_scale.zip(self.full_scale).map_or(1.0, |(other, own)| other / own)
     }
 
-    /// Whether its values are grey levels of the light that came through, as far as the file states it; otherwise they are basis
-    /// weights.
+    /// Whether its values are grey levels of the light that came through, as far as the file states it;
+    /// otherwise they are basis weights.
     pub const fn holds_light(&self) -> bool {
         matches!(self.format, Format::Png | Format::Tiff) && self.weight_of_black.is_none()
     }

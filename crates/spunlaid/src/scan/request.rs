@@ -115,7 +115,8 @@ impl ScanRequest {
     }
 }
 
-/// Whether a file is the scan of a web, by its name or by how it begins. A file that cannot be opened is told of where it is read.
+/// Whether a file is the scan of a web, by its name or by how it begins. A file that cannot be opened is told
+/// of where it is read.
 pub fn is_picture_file(file: &Path) -> bool {
     let extension = file.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     // Pictures that cannot be used are refused with the reason.

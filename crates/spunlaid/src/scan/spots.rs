@@ -27,7 +27,8 @@ impl Spots {
 const STEP: usize = 3;
 /// Fewest blocks either way in which something is looked for.
 const FEWEST: usize = 12;
-/// So many standard deviations above or below the median, a block is no web; its neighbours are not from half as many on.
+/// So many standard deviations above or below the median, a block is no web; its neighbours are not from half
+/// as many on.
 const FAR: f64 = 7.0;
 /// A block at the edge with less of the web's density is bare.
 const BARE: f64 = 0.1;
@@ -50,10 +51,12 @@ struct Level {
     block: usize,
 }
 
-/// Looks for what is no web, at blocks of one, three, nine … pixels: blocks far from the median, compared with the scatter of the web.
+/// Looks for what is no web, at blocks of one, three, nine … pixels: blocks far from the median, compared
+/// with the scatter of the web.
 ///
-/// The scatter is that of the upper quarter above the median, so a third of the picture may be bare lamp and some tenths dark spots.
-/// Light blocks are bare lamp if they reach to the edge of the picture. Thin places and holes within the web are web.
+/// The scatter is that of the upper quarter above the median, so a third of the picture may be bare lamp and
+/// some tenths dark spots. Light blocks are bare lamp if they reach to the edge of the picture. Thin places
+/// and holes within the web are web.
 ///
 /// * `density` – optical density of each pixel, but for a constant if the lamp is not known; NaN where there is none
 /// * `is_absolute` – whether no density is that of the lamp
@@ -73,7 +76,8 @@ pub(super) fn spots(density: &[f64], columns: usize, is_absolute: bool) -> Resul
             sample.retain(|x| *x > least);
         }
         let [median, upper, high] = [0.5, 0.75, 0.9].map(|share| quantile(&sample, share));
-        // A quarter of a normal distribution is farther than 0.6745 standard deviations above its median, a tenth 1.2816.
+        // A quarter of a normal distribution is farther than 0.6745 standard deviations above its median, a
+        // tenth 1.2816.
         let scatter = (upper - median) / 0.6745;
         // Few fibres cross in a single pixel, so thick ones are more frequent there.
         let scatter = if level.block == 1 { scatter.max((high - median) / 1.2816) } else { scatter };
@@ -98,7 +102,16 @@ pub(super) fn spots(density: &[f64], columns: usize, is_absolute: bool) -> Resul
     let covered = bare.iter().filter(|is| !**is).count();
     if (web.sides[0] * web.sides[1]) as f64 <= KEPT * covered as f64 {
         let share = 1.0 - covered as f64 / density.len() as f64;
-        return Err(Fault::new(format!("shows the bare lamp on {:.0} % of its area, and no large rectangle without it can be cut out", 100.0 * share), "turn the scan straight, and cut the picture so that it holds web only").option("--keep-spots"));
+        return Err(Fault::new(
+            format!(
+                "shows the bare lamp on {:.0} % of its area, and no large rectangle \
+            without it can be cut out",
+                100.0 * share
+            ),
+            "turn the scan straight, and cut the picture so that \
+            it holds web only",
+        )
+        .option("--keep-spots"));
     }
     if !found {
         bare = Vec::new();
@@ -108,7 +121,17 @@ pub(super) fn spots(density: &[f64], columns: usize, is_absolute: bool) -> Resul
     widen(&mut dark, web.sides[0], wide);
     let masked = dark.iter().filter(|is| **is).count();
     if masked as f64 > MOST * dark.len() as f64 {
-        return Err(Fault::new(format!("has spots that are far darker than the rest of the web on {:.1} % of its area, more than dust and blots may cover", 100.0 * (masked as f64 / dark.len() as f64)), "clean the glass, cut the picture so that it holds web only, or keep the spots if they are web").option("--keep-spots"));
+        return Err(Fault::new(
+            format!(
+                "has spots that are far darker than the rest of the web on {:.1} % of \
+            its area, more than dust and blots may \
+            cover",
+                100.0 * (masked as f64 / dark.len() as f64)
+            ),
+            "clean the glass, cut the picture so that \
+            it holds web only, or keep the spots if they are web",
+        )
+        .option("--keep-spots"));
     }
     if masked == 0 {
         dark = Vec::new();
@@ -136,8 +159,8 @@ impl Level {
         Self { values, columns, block: self.block * STEP }
     }
 
-    /// Marks the pixels of all blocks that are as wanted, and those that are nearly so and hang together with them. They and their
-    /// neighbours are taken out, so that larger blocks show only what is still hidden.
+    /// Marks the pixels of all blocks that are as wanted, and those that are nearly so and hang together with
+    /// them. They and their neighbours are taken out, so that larger blocks show only what is still hidden.
     fn paint(
         &mut self,
         pixels: &mut [bool],

@@ -23,7 +23,8 @@ pub enum Light {
     Reflected {
         /// Mean basis weight of the sheet, if it is known [kg/m²].
         mean: Option<f64>,
-        /// Grey level of such fibres where they lie so thick that no ground is seen; by default the largest level that the file can hold.
+        /// Grey level of such fibres where they lie so thick that no ground is seen; by default the largest
+        /// level that the file can hold.
         white: Option<f64>,
     },
     /// Basis weights.
@@ -165,7 +166,18 @@ fn transmitted(
     let density = libm::log(white) - mean_log;
     // What is left of rounding is no web.
     if density.is_nan() || density <= 1e-9 {
-        return Err(Fault::new(format!("is no darker than the lamp without web: its mean grey level is {}, and that of the lamp {}", shortest(libm::exp(mean_log)), shortest(white)), "give the level of the lamp without web at the same exposure, or say that the values are basis weights").option("--white, --lamp, --light weight"));
+        return Err(Fault::new(
+            format!(
+                "is no darker than the lamp without web: its mean grey level is {}, \
+            and that of the lamp {}",
+                shortest(libm::exp(mean_log)),
+                shortest(white)
+            ),
+            "give the level of \
+            the lamp without web at the same exposure, or say that the values are basis \
+            weights",
+        )
+        .option("--white, --lamp, --light weight"));
     }
     let web = || picture.values.iter().zip(&logs).filter(|(_, log)| !log.is_nan()).map(|(level, _)| level);
     let inverse = web().map(|level| level.powi(-2)).sum::<f64>();
@@ -191,10 +203,11 @@ fn transmitted(
     })
 }
 
-/// From the light that a web on a black ground throws back. Fibres that scatter light and absorb none give, in a layer of weight `m`,
-/// the reflectance `R = S m/(1 + S m)`, so `m` is proportional to `R/(1 − R)`.
+/// From the light that a web on a black ground throws back. Fibres that scatter light and absorb none give,
+/// in a layer of weight `m`, the reflectance `R = S m/(1 + S m)`, so `m` is proportional to `R/(1 − R)`.
 ///
-/// Source: P. Kubelka, New contributions to the optics of intensely light-scattering materials, J. Opt. Soc. Am. 38 (1948) 448–457.
+/// Source: P. Kubelka, New contributions to the optics of intensely light-scattering materials, J. Opt. Soc.
+/// Am. 38 (1948) 448–457.
 fn reflected(
     picture: &Picture,
     mean: Option<f64>,
@@ -279,7 +292,8 @@ fn map(picture: &Picture, mut weights: Vec<f64>, mean: f64) -> Result<(Map, usiz
     Ok((map, lighter))
 }
 
-/// Fills in the missing values of a row, on a straight line between their neighbours; a row without any is of the mean weight.
+/// Fills in the missing values of a row, on a straight line between their neighbours; a row without any is of
+/// the mean weight.
 fn fill(row: &mut [f64]) {
     let mut before = None;
     let mut at = 0;

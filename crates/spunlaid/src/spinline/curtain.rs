@@ -22,8 +22,9 @@ pub(super) fn solve(line: &Spinline, friction: FrictionLaw) -> Result<Vec<Soluti
 
 /// The air behind a row of filaments.                                                               theory.md (99)
 ///
-/// The air goes towards the temperature and the speed of the filaments, and it never goes beyond them, however slowly it crosses
-/// the row. Where no air crosses it stays as it is. Radiation does not warm the air.
+/// The air goes towards the temperature and the speed of the filaments, and it never goes beyond them,
+/// however slowly it crosses the row. Where no air crosses it stays as it is. Radiation does not warm the
+/// air.
 fn behind(row: &Solution, curtain: Curtain) -> AirTable {
     let mut air = AirTable::default();
     for station in &row.stations {

@@ -2,8 +2,9 @@
 
 use super::{Crystals, Material};
 
-/// Two polymers are equal if the same constants are known of both, with the same values. A constant that is not known is NaN,
-/// which is not equal to itself. So their texts are compared: that of NaN is always the same, and different numbers have different texts.
+/// Two polymers are equal if the same constants are known of both, with the same values. A constant that is
+/// not known is NaN, which is not equal to itself. So their texts are compared: that of NaN is always the
+/// same, and different numbers have different texts.
 impl PartialEq for Material {
     fn eq(&self, other: &Self) -> bool {
         format!("{self:?}") == format!("{other:?}")

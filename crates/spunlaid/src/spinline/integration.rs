@@ -23,7 +23,8 @@ const WEIGHTS: [[f64; 6]; 7] = [
 /// The result of order 5 less that of order 4.
 const ERROR: [f64; 7] =
     [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339_200.0, 22.0 / 525.0, -1.0 / 40.0];
-/// For values between the ends of a step. E. Hairer, S. P. Nørsett, G. Wanner: Solving Ordinary Differential Equations I.
+/// For values between the ends of a step. E. Hairer, S. P. Nørsett, G. Wanner: Solving Ordinary Differential
+/// Equations I.
 const DENSE: [f64; 7] = [
     -12_715_105_075.0 / 11_282_082_432.0,
     0.0,

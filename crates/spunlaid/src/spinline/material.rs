@@ -1,7 +1,7 @@
 //! The constants of a polymer.
 //!
-//! Every number of [`Polymer`] has its source beside it. "Memory" means that the constant is the usual one of the literature
-//! and was not checked against its source; docs/spinline.md lists them.
+//! Every number of [`Polymer`] has its source beside it. "Memory" means that the constant is the usual one of
+//! the literature and was not checked against its source; docs/spinline.md lists them.
 
 /// The constants of a polymer. Every one of them is a key of a case.
 #[derive(Clone, Copy, Debug)]
@@ -34,8 +34,8 @@ pub struct Material {
     pub extensibility: f64,
     /// Stress-optical coefficient `C_op` of the melt [1/Pa].
     pub stress_optical_coefficient: f64,
-    /// Temperature at which it holds [K], if it is proportional to `1/T` as that of a network of chains; NaN if it is the same at
-    /// every temperature.
+    /// Temperature at which it holds [K], if it is proportional to `1/T` as that of a network of chains; NaN
+    /// if it is the same at every temperature.
     pub stress_optical_temperature: f64,
     /// Birefringence `Δn_∞` of the fully oriented polymer [-].
     pub full_birefringence: f64,
@@ -133,15 +133,16 @@ impl Polymer {
 
     /// Its constants.
     ///
-    /// * `crystallises` – whether crystallisation is computed. Polypropylene freezes where crystallisation lets it, so that without
-    ///   it the freezing temperature stands for the crystals.
+    /// * `crystallises` – whether crystallisation is computed. Polypropylene freezes where crystallisation
+    ///   lets it, so that without it the freezing temperature stands for the crystals.
     pub const fn material(self, crystallises: bool) -> Material {
         match self {
             Self::Pp => Material {
                 // Memory; 739 kg/m³ at 230 °C.
                 specific_volume: 1.145e-3,
                 specific_volume_slope: 0.903e-6,
-                // Memory. Amorphous polypropylene has 2093 J/(kg K) at 25 °C (NIST WebBook after Grebowicz et al. 1984), here 2184.
+                // Memory. Amorphous polypropylene has 2093 J/(kg K) at 25 °C (NIST WebBook after Grebowicz et
+                // al. 1984), here 2184.
                 heat_capacity: 2100.0,
                 heat_capacity_slope: 3.35,
                 // The melt flow rate of the grade gives it.
@@ -160,8 +161,8 @@ impl Polymer {
                 stress_optical_coefficient: 0.9e-9,
                 stress_optical_temperature: f64::NAN,
                 full_birefringence: 0.06,
-                // Memory. As-spun polypropylene stays below 47 g/den = 3.8 GPa ("High speed melt spinning of isotactic polypropylene
-                // fibers", abstract).
+                // Memory. As-spun polypropylene stays below 47 g/den = 3.8 GPa ("High speed melt spinning of
+                // isotactic polypropylene fibers", abstract).
                 unoriented_modulus: 1.3e9,
                 oriented_modulus: 8e9,
                 // Memory, Ziabicki's.
@@ -195,14 +196,16 @@ impl Polymer {
                 modulus: 100e3,
                 mobility: 0.2,
                 extensibility: 0.1,
-                // 1.7e-6 K/Pa over the temperature: measured on the running line up to 0.017 (Kikutani et al. 1999, abstract).
+                // 1.7e-6 K/Pa over the temperature: measured on the running line up to 0.017 (Kikutani et al.
+                // 1999, abstract).
                 stress_optical_coefficient: 4.25e-9,
                 stress_optical_temperature: 400.0,
                 // Memory.
                 full_birefringence: 0.24,
                 unoriented_modulus: 2.3e9,
                 oriented_modulus: 15e9,
-                // Memory, Ziabicki's. The enhancement is fitted: with 700 to 1500 the neck begins where it was measured (docs/validation.md).
+                // Memory, Ziabicki's. The enhancement is fitted: with 700 to 1500 the neck begins where it
+                // was measured (docs/validation.md).
                 crystals: Crystals {
                     avrami_exponent: 1.0,
                     rate: 0.016,
@@ -320,7 +323,8 @@ impl Material {
         self.heat_capacity + self.heat_capacity_slope * (temperature - ZERO_CELSIUS)
     }
 
-    /// Birefringence of the melt, `Δn = C_op N_1`, with `C_op` proportional to `1/T` where this is known [-].  theory.md (98)
+    /// Birefringence of the melt, `Δn = C_op N_1`, with `C_op` proportional to `1/T` where this is known [-].
+    /// theory.md (98)
     ///
     /// * `stress` – `N_1` [Pa]
     /// * `temperature` – [K]
@@ -337,8 +341,8 @@ impl Material {
         self.unoriented_modulus + (self.oriented_modulus - self.unoriented_modulus) * orientation
     }
 
-    /// Viscosity [Pa s] of a melt flow rate, by Poiseuille's law in the die of the standard test (ISO 1133, load 2.16 kg): the
-    /// apparent one at a wall stress of 19 kPa, good to some 20 %.                                 theory.md (91)
+    /// Viscosity [Pa s] of a melt flow rate, by Poiseuille's law in the die of the standard test (ISO 1133,
+    /// load 2.16 kg): the apparent one at a wall stress of 19 kPa, good to some 20 %.          theory.md (91)
     ///
     /// * `melt_flow_rate` – [g/10 min], measured at the temperature `viscosity_temperature`
     pub fn viscosity_of_flow_rate(&self, melt_flow_rate: f64) -> f64 {

@@ -1,7 +1,8 @@
 //! The spinline: from the hole of the spinneret to the solid filament.
 //!
-//! What a process engineer knows, [`Spinline`], gives what a fibre in flight has to know: its diameter, its speed and roughly its
-//! modulus. One filament in steady state, with values averaged over its cross-section.               theory.md (84) to (99)
+//! What a process engineer knows, [`Spinline`], gives what a fibre in flight has to know: its diameter, its
+//! speed and roughly its modulus. One filament in steady state, with values averaged over its cross-section.
+//!                                                                                     theory.md (84) to (99)
 //!
 //! ```text
 //! Spinline (what is known) → Thread (balances at a place) → shot (one tension at the die) → shooting (the tension that meets the
@@ -200,8 +201,8 @@ impl Spinline {
         steady::solve(self, friction, &self.air)
     }
 
-    /// The steady state of a line that differs a little from one whose state is known: that state is followed, and sought only where
-    /// it is lost. Whether there is a second one is not looked for again.
+    /// The steady state of a line that differs a little from one whose state is known: that state is
+    /// followed, and sought only where it is lost. Whether there is a second one is not looked for again.
     ///
     /// * `near` – the steady state of the other line
     ///
@@ -219,8 +220,8 @@ impl Spinline {
         steady::final_speed_near(self, friction, &self.air, near)
     }
 
-    /// Whether the stress-optical law gives a birefringence that is too small: the crystals of polypropylene orient more than the
-    /// stress of the melt does. Measured filaments have 3 to 5 times as much.
+    /// Whether the stress-optical law gives a birefringence that is too small: the crystals of polypropylene
+    /// orient more than the stress of the melt does. Measured filaments have 3 to 5 times as much.
     pub fn has_low_birefringence(&self) -> bool {
         self.polymer == PolymerSource::Known(Polymer::Pp)
     }
@@ -232,8 +233,8 @@ impl Spinline {
         2.0 * libm::sqrt(self.throughput / speed / (std::f64::consts::PI * self.material.solid_density))
     }
 
-    /// The steady state of each row of the curtain, the quenched side first: each in the air that the row before has warmed and
-    /// dragged. One row, if there is no curtain.
+    /// The steady state of each row of the curtain, the quenched side first: each in the air that the row
+    /// before has warmed and dragged. One row, if there is no curtain.
     ///
     /// # Errors
     /// As [`Spinline::solve`].

@@ -6,7 +6,8 @@ use super::thread::{LN_SPEED, TEMPERATURE, TENSION, Thread};
 
 /// The tensions between which the one at the die is sought [N].
 const TENSIONS: [f64; 2] = [1e-8, 1e2];
-/// From one tension to the next, `ln F_0` rises by this. With crystallisation there may be several steady states close together.
+/// From one tension to the next, `ln F_0` rises by this. With crystallisation there may be several steady
+/// states close together.
 const STRIDE: f64 = 0.4;
 const SHORT_STRIDE: f64 = 0.05;
 /// Up to this tension a second steady state is sought [N].
@@ -86,8 +87,8 @@ impl Shooting<'_, '_> {
         Err(last)
     }
 
-    /// The change of sign next to a place: a state that is a little more or less pulled than before. Like the one of a search it has a
-    /// thread that should be pulled more below it. None if the state is lost.
+    /// The change of sign next to a place: a state that is a little more or less pulled than before. Like the
+    /// one of a search it has a thread that should be pulled more below it. None if the state is lost.
     fn bracket_near(&self, from: f64) -> Option<[(f64, f64); 2]> {
         let mut before = (from, self.miss(from).0);
         let up = before.1 < 0.0;
@@ -157,8 +158,8 @@ pub(super) fn find(thread: &Thread<'_>, looks_on: bool) -> Result<Hit, Miss> {
     Ok(Hit { tension: libm::exp(x), shot, has_second })
 }
 
-/// Follows the state of a line that differs a little: the tension at the die that meets the end, close to the one that did. None if
-/// the state is lost, and has to be sought.
+/// Follows the state of a line that differs a little: the tension at the die that meets the end, close to the
+/// one that did. None if the state is lost, and has to be sought.
 ///
 /// * `known` – the tension at the die of the other line [N], and whether that has a second state
 pub(super) fn follow(thread: &Thread<'_>, (tension, has_second): (f64, bool)) -> Option<Hit> {
@@ -167,7 +168,8 @@ pub(super) fn follow(thread: &Thread<'_>, (tension, has_second): (f64, bool)) ->
     Some(Hit { tension: libm::exp(x), shot, has_second })
 }
 
-/// The root between two places with misses of different signs. R. P. Brent: Algorithms for Minimization without Derivatives, 1973.
+/// The root between two places with misses of different signs. R. P. Brent: Algorithms for Minimization
+/// without Derivatives, 1973.
 fn brent(
     mut miss: impl FnMut(f64) -> f64,
     [(mut a, mut at_a), (mut b, mut at_b)]: [(f64, f64); 2],

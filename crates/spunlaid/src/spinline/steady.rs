@@ -25,7 +25,8 @@ pub(super) fn solve(line: &Spinline, friction: FrictionLaw, air: &Surroundings) 
     describe(&thread, &seek(&thread)?)
 }
 
-/// The steady state of a filament in this air, next to the state of a line that differs a little. If it is lost it is sought.
+/// The steady state of a filament in this air, next to the state of a line that differs a little. If it is
+/// lost it is sought.
 pub(super) fn solve_near(
     line: &Spinline,
     friction: FrictionLaw,
@@ -238,7 +239,8 @@ fn describe(thread: &Thread<'_>, hit: &Hit) -> Result<Solution, Failure> {
     })
 }
 
-/// The thread at places evenly spaced in the root of the distance, at the rows of the air's table and where it becomes solid.
+/// The thread at places evenly spaced in the root of the distance, at the rows of the air's table and where
+/// it becomes solid.
 fn stations(thread: &Thread<'_>, shot: &Shot, frozen: f64) -> Vec<Station> {
     let length = thread.line.length;
     let even = (0..=PARTS).map(|i| {
@@ -264,8 +266,8 @@ fn stations(thread: &Thread<'_>, shot: &Shot, frozen: f64) -> Vec<Station> {
     distances.into_iter().filter_map(at).collect()
 }
 
-/// The largest strain rate [1/s] and its distance from the die [m]: of many places in each step, and then by thirds between the
-/// neighbours of the best.
+/// The largest strain rate [1/s] and its distance from the die [m]: of many places in each step, and then by
+/// thirds between the neighbours of the best.
 fn largest_strain_rate(thread: &Thread<'_>, shot: &Shot) -> (f64, f64) {
     let mut hint = 0;
     let mut rate = |step: &super::integration::Step, s: f64| {
@@ -295,7 +297,7 @@ fn largest_strain_rate(thread: &Thread<'_>, shot: &Shot) -> (f64, f64) {
     best
 }
 
-/// By how much the balances of momentum and of energy over the whole line fail [-].                 theory.md (96), (97)
+/// By how much the balances of momentum and of energy over the whole line fail [-].      theory.md (96), (97)
 fn residuals(thread: &Thread<'_>, hit: &Hit, stations: &[Station]) -> (f64, f64) {
     let (line, end, material) = (thread.line, &hit.shot.end, &thread.line.material);
     let mass_flow = line.throughput;

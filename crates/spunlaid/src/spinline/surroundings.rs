@@ -56,8 +56,8 @@ impl AirChange {
     }
 }
 
-/// The air as a function of the distance from the die. It is linear between the rows; outside of them it is that of the nearest
-/// row.
+/// The air as a function of the distance from the die. It is linear between the rows; outside of them it is
+/// that of the nearest row.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AirTable {
     /// Distances from the die `z`, rising [m].

@@ -1,4 +1,5 @@
-//! Exact solutions of threads. The forces that an exact solution leaves out are made too small to be seen, by a small density.
+//! Exact solutions of threads. The forces that an exact solution leaves out are made too small to be seen, by
+//! a small density.
 
 use super::shooting::find;
 use super::shot::{Outcome, Shot, shoot};
@@ -124,7 +125,8 @@ fn analytic_viscoelastic_threads() {
 
 #[test]
 fn analytic_small_relaxation_times() {
-    // d ln D/dDe at De → 0 is α x (e^x − 1) for Giesekus and zero for the others; x = 2. The next term is of the order of De.
+    // d ln D/dDe at De → 0 is α x (e^x − 1) for Giesekus and zero for the others; x = 2. The next term is of
+    // the order of De.
     let newtonian = 2.0;
     let slope = |law, set: fn(&mut Material)| (drawn(law, 2e-4, set).ln() - newtonian) / 2e-4;
     let giesekus = slope(Law::Giesekus, |m| m.mobility = 0.3);

@@ -165,7 +165,8 @@ impl<'a> Thread<'a> {
         self.crystals().map_or(0.0, |crystals| -libm::expm1(-libm::pow(progress, crystals.avrami_exponent)))
     }
 
-    /// How far the state is from being solid: zero or less where it is. A share of the temperature or of the crystallinity [-].
+    /// How far the state is from being solid: zero or less where it is. A share of the temperature or of the
+    /// crystallinity [-].
     pub(super) fn until_solid(&self, state: &State) -> f64 {
         let cooling = state[TEMPERATURE] / self.material().freezing_temperature - 1.0;
         match self.crystals() {
@@ -179,7 +180,8 @@ impl<'a> Thread<'a> {
         state[TEMPERATURE] <= self.material().freezing_temperature * (1.0 + 1e-12)
     }
 
-    /// Orientation `f = min(1, C_op N_1/Δn_∞)` [-], by the stress alone: the enhancement was chosen for this form.  theory.md (95)
+    /// Orientation `f = min(1, C_op N_1/Δn_∞)` [-], by the stress alone: the enhancement was chosen for this
+    /// form.  theory.md (95)
     pub(super) fn orientation(&self, stress: f64) -> f64 {
         let material = self.material();
         (material.stress_optical_coefficient * stress / material.full_birefringence).clamp(0.0, 1.0)
@@ -208,7 +210,7 @@ impl<'a> Thread<'a> {
         0.5 * PI * diameter * density * coefficient * faster.abs() * faster
     }
 
-    /// Heat that the air takes from the thread, by convection and by radiation [W/m].               theory.md (88), (89)
+    /// Heat that the air takes from the thread, by convection and by radiation [W/m].    theory.md (88), (89)
     fn heat(
         &self,
         diameter: f64,

@@ -67,8 +67,9 @@ impl Difference {
 /// The difference of two independent standard deviations, each with its standard error.
 ///
 /// Each error is a share of its deviation, so the logarithms are compared: that of a deviation with
-/// ν degrees of freedom has the variance `½(1/ν + 1/ν²)`, to the second order, and `ν = ½ (deviation/standard error)²`. The error of the
-/// difference itself is made of that of the logarithms so that it says the same.
+/// ν degrees of freedom has the variance `½(1/ν + 1/ν²)`, to the second order, and
+/// `ν = ½ (deviation/standard error)²`. The error of the difference itself is made of that of the logarithms
+/// so that it says the same.
 ///
 /// Source: R. A. Fisher, Proceedings of the International Congress of Mathematics, Toronto 2 (1924) 805–813.
 pub fn difference_of_deviations(deviations: [(f64, f64); 2]) -> Difference {

@@ -1,7 +1,7 @@
 //! A series of any length, of which a limited number of values is kept.
 
-/// Evenly spaced values of a series that is not kept: every value, until they are too many; then every second, every fourth
-/// and so on. Quantiles of a long series are found in them.
+/// Evenly spaced values of a series that is not kept: every value, until they are too many; then every
+/// second, every fourth and so on. Quantiles of a long series are found in them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EvenSample<T> {
     values: Vec<T>,
@@ -16,7 +16,8 @@ impl<T> Default for EvenSample<T> {
 }
 
 impl<T> EvenSample<T> {
-    /// Most values that are kept. A series that is not longer is kept whole; of a longer one, half as many at least are kept.
+    /// Most values that are kept. A series that is not longer is kept whole; of a longer one, half as many at
+    /// least are kept.
     pub const MOST: usize = 1 << 14;
 
     /// Takes the next value of the series.

@@ -38,8 +38,8 @@ pub(crate) fn inverse(mut matrix: Vec<Vec<f64>>) -> Result<Vec<Vec<f64>>, usize>
     Ok(inverse)
 }
 
-/// The solution of equations with a symmetric positive definite matrix, by Cholesky; None if it is not definite. Only the diagonal and what lies below it is
-/// looked at.
+/// The solution of equations with a symmetric positive definite matrix, by Cholesky; None if it is not
+/// definite. Only the diagonal and what lies below it is looked at.
 pub(crate) fn solve_positive(mut matrix: Vec<Vec<f64>>, mut sides: Vec<f64>) -> Option<Vec<f64>> {
     let size = sides.len();
     for i in 0..size {

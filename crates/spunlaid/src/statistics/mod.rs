@@ -35,17 +35,18 @@ impl Estimate {
 
 /// The 95 % confidence interval of a standard deviation that has been found with a standard error.
 ///
-/// The square of a deviation with `ν = ½ (deviation/standard error)²` degrees of freedom is distributed as χ²/ν, so the interval reaches further up than
-/// down, and it is as wide beside the deviation whether this has come out high or low.
+/// The square of a deviation with `ν = ½ (deviation/standard error)²` degrees of freedom is distributed as
+/// χ²/ν, so the interval reaches further up than down, and it is as wide beside the deviation whether this
+/// has come out high or low.
 ///
-/// Source: E. B. Wilson, M. M. Hilferty, PNAS 17 (1931) 684–688, for the quantiles of χ²; F. E. Satterthwaite, Biometrics 2 (1946) 110–114, for
-/// the degrees of freedom of a sum.
+/// Source: E. B. Wilson, M. M. Hilferty, PNAS 17 (1931) 684–688, for the quantiles of χ²; F. E.
+/// Satterthwaite, Biometrics 2 (1946) 110–114, for the degrees of freedom of a sum.
 pub fn interval_of_deviation(deviation: f64, standard_error: f64) -> [f64; 2] {
     interval_of_deviation_by(NORMAL_95, deviation, standard_error)
 }
 
-/// [`interval_of_deviation`] with another half width of the central 95 % than the normal one, as that of Student's t where the standard error
-/// is itself uncertain.
+/// [`interval_of_deviation`] with another half width of the central 95 % than the normal one, as that of
+/// Student's t where the standard error is itself uncertain.
 pub(crate) fn interval_of_deviation_by(half: f64, deviation: f64, standard_error: f64) -> [f64; 2] {
     let degrees = 0.5 * (deviation / standard_error).powi(2);
     let part = 2.0 / (9.0 * degrees);

@@ -97,8 +97,8 @@ impl Experiment {
     }
 }
 
-/// Enters the name and the value of every key of a case but those on which no fibre depends. A case that is written and read again
-/// has the same values, to the last bit; of files, the contents count.
+/// Enters the name and the value of every key of a case but those on which no fibre depends. A case that is
+/// written and read again has the same values, to the last bit; of files, the contents count.
 fn enter_keys(sum: &mut crc32fast::Hasher, case: &Case) {
     for key in keys::all().iter().filter(|key| !["run.replicates", "run.checks"].contains(&key.name)) {
         if let Some(value) = key.get(case) {

@@ -1,4 +1,5 @@
-//! The keys of a study file: a row for each. A key named `*` stands for any name in its table: of keys of what varies, or of results.
+//! The keys of a study file: a row for each. A key named `*` stands for any name in its table: of keys of
+//! what varies, or of results.
 
 use super::{Design, Spacing, Study};
 use crate::case::keys::row::{choose, key};
@@ -28,7 +29,10 @@ const KEYS: &[Key<Study>] = &[
     key("case", Kind::Text("table1.toml"))
         .told(|study: &Study| base(study, "case.toml"))
         .required("\"table1.toml\"")
-        .meaning("The file of the case to vary, named from where the study lies. Every key that is not varied or linked is as it says."),
+        .meaning(
+            "The file of the case to vary, named from where the study lies. Every key that is not \
+            varied or linked is as it says.",
+        ),
     key("web", Kind::Text("web.toml"))
         .told(|study: &Study| base(study, "web.toml"))
         .alternative_to(&["case"], ONE_BASE)
@@ -43,8 +47,11 @@ const KEYS: &[Key<Study>] = &[
         .told(|study: &Study| Some(study.design.name().into()))
         .fixed()
         .required("\"grid\"")
-        .meaning("How the values are combined to points: every combination; around the base one key at a time; the first values of all lists, then the second ones; \
-                  or a number of points drawn at random in slices of the ranges, or from Sobol's sequence."),
+        .meaning(
+            "How the values are combined to points: every combination; around the base one key at a \
+            time; the first values of all lists, then the second ones; or a number of points drawn at random \
+            in slices of the ranges, or from Sobol's sequence.",
+        ),
     key("points", Kind::Whole(1, MOST_POINTS))
         .told(|study: &Study| match study.design {
             Design::LatinHypercube(points) | Design::Sobol(points) => Some(points.into()),
@@ -67,11 +74,16 @@ const KEYS: &[Key<Study>] = &[
     key("set.*", Kind::Other("a value of that key, or \"auto\""))
         .told(|_: &Study| None)
         .follows("every key is as the case or web says")
-        .meaning("A key that is the same at all points, with a value in place of that of the case or web. `auto` takes the key out."),
+        .meaning(
+            "A key that is the same at all points, with a value in place of that of the case or web. \
+            `auto` takes the key out.",
+        ),
     key("vary.*", Kind::Other("a list of values, or { from, to, steps }; a formula belongs in [link]"))
         .told(|_: &Study| None)
         .required("\"air.velocity\" = [\"5 m/s\", \"10 m/s\"]")
-        .meaning("A key that varies. The keys of cases and webs that may vary are marked *study* in their pages."),
+        .meaning(
+            "A key that varies. The keys of cases and webs that may vary are marked *study* in their pages.",
+        ),
     key("link.*", Kind::Text("air.velocity / (4 * air.length_scale)"))
         .told(|_: &Study| None)
         .follows("none is linked")
@@ -87,7 +99,10 @@ const KEYS: &[Key<Study>] = &[
     key("replicates.until.*", Kind::Quantity(Dimension::Ratio, Sign::Positive))
         .told(|_: &Study| None)
         .follows("required beside `at_least` and `at_most`, like `amplitude_y = \"5 %\"`")
-        .meaning("A result, as its column is called, and the standard error below which a point gets no more replicates, as a fraction of its mean."),
+        .meaning(
+            "A result, as its column is called, and the standard error below which a point gets no more \
+            replicates, as a fraction of its mean.",
+        ),
     key("range.from", Kind::Other("a value of the key"))
         .told(|_: &Study| None)
         .required("\"5 m/s\"")

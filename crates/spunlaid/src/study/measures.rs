@@ -9,8 +9,8 @@ use crate::spinline::Solution;
 use crate::units::shortest;
 use crate::web::Findings;
 
-/// A number that a study keeps, as its measure is declared in [`observe`](crate::observe). That of patches has their side in its
-/// name.
+/// A number that a study keeps, as its measure is declared in [`observe`](crate::observe). That of patches
+/// has their side in its name.
 #[derive(Clone, Debug)]
 pub struct Quantity {
     /// Name in a study file, `amplitude_y`, `cv_10_mm`.
@@ -132,8 +132,8 @@ pub(super) fn measured_of_web(sides: &[f64], found: &Findings) -> Measurements {
     sides.iter().flat_map(of_side).chain(numbers(OF_WEBS, Some(found))).collect()
 }
 
-/// The numbers measured on one replicate, in the order of the study's quantities, in SI units and percent. NaN means that a
-/// measure does not apply.
+/// The numbers measured on one replicate, in the order of the study's quantities, in SI units and percent.
+/// NaN means that a measure does not apply.
 pub type Measurements = Box<[f64]>;
 
 /// The outcome of one replicate of one point.

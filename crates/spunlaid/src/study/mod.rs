@@ -1,5 +1,6 @@
-//! Studies: many experiments that differ in a few keys, each repeated several times, and the statistics of the results. An
-//! experiment is a case whose fibres are flown, a web that is laid, or a spinline that is solved.
+//! Studies: many experiments that differ in a few keys, each repeated several times, and the statistics of
+//! the results. An experiment is a case whose fibres are flown, a web that is laid, or a spinline that is
+//! solved.
 //!
 //! ```text
 //! factors → design (rows of values) → points (a whole experiment each) → jobs (one replicate of one point)
@@ -128,8 +129,8 @@ pub struct Replicates {
     pub at_least: u64,
     /// Largest number.
     pub at_most: u64,
-    /// Pairs of a result, as index into [`Study::quantities`], and a fraction of its mean. More replicates are flown until
-    /// the standard error of each result is below this fraction.
+    /// Pairs of a result, as index into [`Study::quantities`], and a fraction of its mean. More replicates
+    /// are flown until the standard error of each result is below this fraction.
     pub until: Vec<(usize, f64)>,
 }
 
@@ -218,8 +219,9 @@ fn stream(seed: u64, purpose: RandomUse, index: u64) -> ChaCha8Rng {
 }
 
 impl Study {
-    /// A checksum over all that the records of a study depend on: the keys of every point's experiment, and the rule for more
-    /// replicates. How many are flown at most is left out, so that a finished study can be given more.
+    /// A checksum over all that the records of a study depend on: the keys of every point's experiment, and
+    /// the rule for more replicates. How many are flown at most is left out, so that a finished study can be
+    /// given more.
     pub fn identity(&self) -> u32 {
         let mut sum = crc32fast::Hasher::new();
         if !self.replicates.until.is_empty() {

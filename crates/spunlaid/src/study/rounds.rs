@@ -34,8 +34,8 @@ impl PointResults {
         Some(self.errors[quantity]).filter(|error| !error.is_nan())
     }
 
-    /// The error of the mean of a quantity by all its causes; None if one of them is not known, or if it has no other than
-    /// the standard error.
+    /// The error of the mean of a quantity by all its causes; None if one of them is not known, or if it has
+    /// no other than the standard error.
     pub fn whole_error(&self, quantities: &[Quantity], quantity: usize) -> Option<f64> {
         let further = || quantities[quantity].further_errors();
         let whole = further().map(|error| self.mean[error]).fold(self.errors[quantity], f64::hypot);

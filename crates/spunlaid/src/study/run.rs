@@ -24,7 +24,8 @@ pub struct Progress {
     pub fibres_done: AtomicU64,
     /// Points with all replicates planned so far.
     pub points_done: AtomicU64,
-    /// Total steps of the fibres to fly, and pieces of the webs to lay; [`RunControl::fibre_steps`] counts up to this number.
+    /// Total steps of the fibres to fly, and pieces of the webs to lay; [`RunControl::fibre_steps`] counts up
+    /// to this number.
     pub steps: AtomicU64,
 }
 

@@ -9,7 +9,8 @@ use crate::layers::{Flights, Flyer, WebSpec};
 use crate::web::LayControl;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Lays the webs of some batches. The fibres of a point are flown once for all its webs, unless all filaments of a web fly in one air.
+/// Lays the webs of some batches. The fibres of a point are flown once for all its webs, unless all filaments
+/// of a web fly in one air.
 ///
 /// * `sides` – of the patches of the study [m]
 /// * `steps` – the number of steps and pieces to do becomes larger by those of each case and each web
@@ -44,8 +45,8 @@ pub(super) fn lay(
     Ok(())
 }
 
-/// The seed of a web of a point. The same webs lie at each point, as far as the keys allow: what differs is then less by
-/// chance.
+/// The seed of a web of a point. The same webs lie at each point, as far as the keys allow: what differs is
+/// then less by chance.
 fn seed(spec: &WebSpec, replicate: u64) -> u64 {
     if replicate == 0 { spec.seed } else { seed_of_point(spec.seed, replicate) }
 }

@@ -1,14 +1,16 @@
 //! The autocorrelation of the surrogate from its generator, without simulation.
 //!
-//! In lengths of σ₁ and with `x_i = ξ_i/σ_i`, the mean of a function f of the state changes along the fibre by `L f = H f + D f`,
+//! In lengths of σ₁ and with `x_i = ξ_i/σ_i`, the mean of a function f of the state changes along the fibre
+//! by `L f = H f + D f`,
 //!
 //! ```text
 //! H = cos α ∂₁ + r sin α ∂₂ + (x₁ sin α − r x₂ cos α) ∂_α,   r = σ₁/σ₂,      D = ½A²σ₁ ∂_α²
 //! ```
 //!
-//! and the autocorrelation of ξ₁ is `C(s) = ⟨x₁, e^{Ls} x₁⟩` in the stationary state. In Hermite functions of x₁ and x₂ of the
-//! degrees m and n and cosines (n even) or sines (n odd) of kα, H is antisymmetric, changes k and one of m and n by
-//! one, and D is `−½A²σ₁k²`. Reflection in both axes leaves those functions of which m+n+k is odd.
+//! and the autocorrelation of ξ₁ is `C(s) = ⟨x₁, e^{Ls} x₁⟩` in the stationary state. In Hermite functions of
+//! x₁ and x₂ of the degrees m and n and cosines (n even) or sines (n odd) of kα, H is antisymmetric, changes
+//! k and one of m and n by one, and D is `−½A²σ₁k²`. Reflection in both axes leaves those functions of which
+//! m+n+k is odd.
 //!
 //! Turning α by half a turn changes the sign of H only. Therefore, with e and o the parts of `e^{Ls/2} x₁` with k even
 //! and odd, `C(s) = |e|² − |o|²`: it is enough to follow x₁ along half the lag.

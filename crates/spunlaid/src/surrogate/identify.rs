@@ -18,10 +18,11 @@ pub struct Identification {
 /// How far the autocorrelations of laid fibres are from those of a surrogate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Residual {
-    /// Rms difference between the mean autocorrelations of the fibres and those of the surrogate, over the lags of the fit.
+    /// Rms difference between the mean autocorrelations of the fibres and those of the surrogate, over the
+    /// lags of the fit.
     pub rms: f64,
-    /// Rms standard error of the mean autocorrelations over these lags: the residual that chance alone would leave. None for
-    /// a single fibre.
+    /// Rms standard error of the mean autocorrelations over these lags: the residual that chance alone would
+    /// leave. None for a single fibre.
     pub by_chance: Option<f64>,
 }
 
@@ -43,8 +44,8 @@ pub enum IdentificationFailure {
     },
     /// The autocorrelation does not reach far enough, or is not finite there.
     #[error(
-        "the autocorrelation of the position is not known at lags from 0.5 to 3 standard deviations at least; lay a longer \
-         fibre, with points closer together"
+        "the autocorrelation of the position is not known at lags from 0.5 to 3 standard deviations at \
+        least; lay a longer fibre, with points closer together"
     )]
     TooShort,
     /// The autocorrelation stays high, or swings without end.
@@ -126,14 +127,16 @@ pub fn identify(
 }
 
 impl Surrogate {
-    /// How far the autocorrelations of laid fibres are from those of this surrogate, over the lags from which [`identify`] finds it. The
-    /// mean over the fibres is taken first: a single one has too much chance in its autocorrelation.
+    /// How far the autocorrelations of laid fibres are from those of this surrogate, over the lags from which
+    /// [`identify`] finds it. The mean over the fibres is taken first: a single one has too much chance in
+    /// its autocorrelation.
     ///
-    /// None if the surrogate has [no autocorrelation](Surrogate::autocorrelation) that can be computed, or the lags of the fibres do
-    /// not reach far enough.
+    /// None if the surrogate has [no autocorrelation](Surrogate::autocorrelation) that can be computed, or
+    /// the lags of the fibres do not reach far enough.
     ///
     /// * `step` – step of the lag [m]
-    /// * `fibres` – of each the autocorrelation coefficients of ξ₁ and ξ₂ from lag zero; those that are not finite are left out
+    /// * `fibres` – of each the autocorrelation coefficients of ξ₁ and ξ₂ from lag zero; those that are not
+    ///   finite are left out
     pub fn residual(&self, step: f64, fibres: &[[&[f64]; 2]]) -> Option<Residual> {
         let lags = fibres.iter().flatten().map(|correlation| correlation.len()).min()?;
         let own = self.autocorrelation(step, lags)?;
@@ -230,8 +233,8 @@ fn products(
     products
 }
 
-/// The mean square of the residuals as a function of the logarithm of the relative noise within a range: the residuals are
-/// interpolated by the polynomial through eight Chebyshev points.
+/// The mean square of the residuals as a function of the logarithm of the relative noise within a range: the
+/// residuals are interpolated by the polynomial through eight Chebyshev points.
 struct Fit {
     low: f64,
     high: f64,

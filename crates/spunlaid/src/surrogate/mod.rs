@@ -1,16 +1,16 @@
 //! The surrogate: a stochastic model that lays a fibre without flying it.
 //!
-//! On the belt a fibre goes on in the direction α at the rate at which it is fed, wanders, and is drawn back to the place
-//! under its root. With `τ = (cos α, sin α)`, `τ^⊥ = (−sin α, cos α)` and s the length of fibre,
+//! On the belt a fibre goes on in the direction α at the rate at which it is fed, wanders, and is drawn back
+//! to the place under its root. With `τ = (cos α, sin α)`, `τ^⊥ = (−sin α, cos α)` and s the length of fibre,
 //!
 //! ```text
 //! dξ = τ(α) ds
 //! dα = −(ξ₁/σ₁², ξ₂/σ₂²)·τ^⊥(α) ds + A dW
 //! ```
 //!
-//! ξ is the position relative to the straight trace that a fibre without lateral motion leaves on the moving belt: ξ₁ in
-//! machine direction, ξ₂ in cross direction. In the stationary state ξ₁ and ξ₂ are independent and normal with the
-//! standard deviations σ₁ and σ₂, and α is uniform.
+//! ξ is the position relative to the straight trace that a fibre without lateral motion leaves on the moving
+//! belt: ξ₁ in machine direction, ξ₂ in cross direction. In the stationary state ξ₁ and ξ₂ are independent
+//! and normal with the standard deviations σ₁ and σ₂, and α is uniform.
 //!
 //! Source: T. Götz, A. Klar, N. Marheineke, R. Wegener, SIAM Journal on Applied Mathematics 67 (2007) 1704–1717;
 //! A. Klar, N. Marheineke, R. Wegener, ZAMM 89 (2009) 941–961.
@@ -39,9 +39,9 @@ pub struct Surrogate {
 /// Largest ratio of the two standard deviations for which autocorrelations are computed.
 const LARGEST_RATIO: f64 = 5.0;
 
-/// Smallest and largest `A²√(σ₁σ₂)` for which autocorrelations are computed. A curve with less noise remembers where it was
-/// for many turns, and more and more functions would be needed; one with more changes its place so slowly
-/// that lags of 12σ say little about A.
+/// Smallest and largest `A²√(σ₁σ₂)` for which autocorrelations are computed. A curve with less noise
+/// remembers where it was for many turns, and more and more functions would be needed; one with more changes
+/// its place so slowly that lags of 12σ say little about A.
 const NOISES: [f64; 2] = [0.25, 60.0];
 
 impl Surrogate {

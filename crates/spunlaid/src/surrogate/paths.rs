@@ -18,8 +18,8 @@ pub struct PathKey {
 }
 
 impl PathKey {
-    /// ChaCha makes the streams of neighbouring keys independent; xoshiro256++ (Blackman & Vigna 2021) goes on from there,
-    /// which is faster.
+    /// ChaCha makes the streams of neighbouring keys independent; xoshiro256++ (Blackman & Vigna 2021) goes
+    /// on from there, which is faster.
     fn stream(self) -> Xoshiro256PlusPlus {
         // No wind has streams with this last word.
         const SURROGATE: u64 = 3;
@@ -36,9 +36,10 @@ pub(crate) const BLOCK: usize = 64;
 
 /// Up to eight paths of a surrogate, which go on for as long as they are asked for.
 ///
-/// A path is a chain of straight pieces of one length, so the length of fibre is exact. At each corner the direction turns by
-/// half the drift at that place, the noise, and the other half of the drift, each solved exactly. The scheme is
-/// symmetric, of weak order two: corners spread wider than the surrogate by `h²/24σ²` of σ, 0.04 % at a step h of 0.1σ.
+/// A path is a chain of straight pieces of one length, so the length of fibre is exact. At each corner the
+/// direction turns by half the drift at that place, the noise, and the other half of the drift, each solved
+/// exactly. The scheme is symmetric, of weak order two: corners spread wider than the surrogate by `h²/24σ²`
+/// of σ, 0.04 % at a step h of 0.1σ.
 #[derive(Clone, Debug)]
 pub struct Paths {
     isa: Isa,
@@ -63,8 +64,9 @@ pub struct Paths {
 impl Paths {
     /// Paths in the stationary state: ξ normal, direction uniform. Lanes left over repeat the first.
     ///
-    /// None without a key or with more than eight, and if the step is not positive, is above a quarter of a standard deviation, or if the noise turns
-    /// the direction by more than about one and a half radians in a step, A²h > 2.
+    /// None without a key or with more than eight, and if the step is not positive, is above a quarter of a
+    /// standard deviation, or if the noise turns the direction by more than about one and a half radians in a
+    /// step, A²h > 2.
     ///
     /// * `step` – length of fibre from one point to the next [m]
     pub fn new(isa: Isa, surrogate: Surrogate, step: f64, keys: &[PathKey]) -> Option<Self> {
@@ -189,8 +191,8 @@ fn turns<S: Register>(noise: f64, bits: &Lanes, into: &mut [[Lanes; 2]]) {
     }
 }
 
-/// Makes the next block of points of several sets of paths. A step waits for the one before; meanwhile the processor works on
-/// the other sets.
+/// Makes the next block of points of several sets of paths. A step waits for the one before; meanwhile the
+/// processor works on the other sets.
 struct Next<'a, const SETS: usize>([&'a mut Paths; SETS]);
 
 impl<const SETS: usize> Task for Next<'_, SETS> {
@@ -259,8 +261,9 @@ impl<S: Register> Corner<S> {
     /// Turns the direction and goes on to the next corner.
     ///
     /// A drift `F = −(ξ₁/σ₁², ξ₂/σ₂²)` that stands still turns τ within the length h/2 to
-    /// `τ' = (τ(1 − p²) + 2p(1 + p·τ))/(1 + p² + 2p·τ)`, `p = F/|F| tanh(h|F|/4)`: a unit vector for any p. Numerator and
-    /// denominator of the first half go through the noise to the second half, which saves a division.
+    /// `τ' = (τ(1 − p²) + 2p(1 + p·τ))/(1 + p² + 2p·τ)`, `p = F/|F| tanh(h|F|/4)`: a unit vector for any p.
+    /// Numerator and denominator of the first half go through the noise to the second half, which saves a
+    /// division.
     #[inline(always)]
     fn pass(
         &self,

@@ -129,8 +129,8 @@ fn big_endian(bytes: &[u8]) -> Option<i128> {
     Some(i128::from_be_bytes(all))
 }
 
-/// Units of the durations in an Arrow schema [s], by the name of the column; the schema is the text that Parquet files of
-/// Arrow carry in their metadata.
+/// Units of the durations in an Arrow schema [s], by the name of the column; the schema is the text that
+/// Parquet files of Arrow carry in their metadata.
 pub(super) fn durations(schema: &str) -> Vec<(String, f64)> {
     use base64::Engine;
     let engine = base64::engine::general_purpose::STANDARD_NO_PAD;

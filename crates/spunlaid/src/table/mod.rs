@@ -9,7 +9,8 @@
 //! * **Comments** begin with `#`, `%` or `//`. A comment just above the numbers may be the header.
 //! * **Thousands** have no sign: `1.234.567` is refused, and so is a column in which `998` stands beside `1.002`.
 //! * **Columns of text** are allowed; only reading a number from one is an error. One may hold time stamps.
-//! * **Lines** end with a line feed, with a carriage return, or with both. Tabs at their end part cells like any others.
+//! * **Lines** end with a line feed, with a carriage return, or with both. Tabs at their end part cells like
+//!   any others.
 //! * **Encoding** is UTF-8; a line that is not valid UTF-8 is read as Latin-1.
 //!
 //! Memory is bounded: a line has at most [`LONGEST_LINE`] bytes, and the header is looked for in the first

@@ -234,7 +234,8 @@ impl ChunkReader for PageGuard {
         let (uncompressed, compressed) = page_sizes(&head).ok_or_else(|| missing("a page’s header"))?;
         if uncompressed > compressed.saturating_mul(EXPANSION).saturating_add(64) {
             return Err(ParquetError::General(format!(
-                "a page of {compressed} bytes states that it holds {uncompressed}, which is more than Snappy can compress into it"
+                "a page of {compressed} bytes states that it holds {uncompressed}, which is more than Snappy \
+                can compress into it"
             )));
         }
         Ok(std::io::Cursor::new(head).chain(source))

@@ -3,8 +3,8 @@
 /// A moment. Only differences of moments have a meaning.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Stamp {
-    /// Days since a fixed day, with the month before the day and behind it where a date can be read both ways; none of a
-    /// time alone.
+    /// Days since a fixed day, with the month before the day and behind it where a date can be read both
+    /// ways; none of a time alone.
     days: Option<[i64; 2]>,
     /// Time of day [s], as UTC where the stamp says its zone.
     second: f64,
@@ -15,8 +15,8 @@ pub(crate) struct Stamp {
 }
 
 /// How stamps may be written, for messages.
-pub(crate) const FORMS: &str = "2024-03-05 12:00:00.125, 05.03.2024 12:00:00,125, 03/05/2024 12:00:00.125 PM, 12:00:00.125 or, in minutes and \
-     seconds, 00:00.125";
+pub(crate) const FORMS: &str = "2024-03-05 12:00:00.125, 05.03.2024 12:00:00,125, 03/05/2024 12:00:00.125 \
+    PM, 12:00:00.125 or, in minutes and seconds, 00:00.125";
 
 const DAY: f64 = 86_400.0;
 const HOUR: f64 = 3600.0;
@@ -65,8 +65,8 @@ impl Stamp {
         })
     }
 
-    /// Time from another stamp to this one [s]. Stamps without a day that go back by more than half of their period have
-    /// begun anew: a day, or an hour of minutes and seconds.
+    /// Time from another stamp to this one [s]. Stamps without a day that go back by more than half of their
+    /// period have begun anew: a day, or an hour of minutes and seconds.
     pub(crate) fn since(self, other: Self) -> f64 {
         let seconds = self.second - other.second;
         match (self.days, other.days) {
@@ -93,8 +93,8 @@ fn half_of_day(text: &str) -> (&str, Option<bool>) {
         .unwrap_or((text, None))
 }
 
-/// The number of a date, with the month before the day and behind it: `2024-03-05`, `2024/03/05`, `05.03.2024`, `5.3.24`,
-/// `3/5/2024`, `05-03-2024` or `05-Mar-2024`.
+/// The number of a date, with the month before the day and behind it: `2024-03-05`, `2024/03/05`,
+/// `05.03.2024`, `5.3.24`, `3/5/2024`, `05-03-2024` or `05-Mar-2024`.
 fn days_of(date: &str) -> Option<[i64; 2]> {
     let sign = ['-', '/', '.'].into_iter().find(|sign| date.contains(*sign))?;
     let mut parts = date.splitn(3, sign);

@@ -74,8 +74,8 @@ impl Digits {
         }
     }
 
-    /// The fault of a column in which `998` stands beside `1.002` and no number has other decimals, with its place. Beside
-    /// `5` the same number has decimals: it is nearer to five as one than as a thousand.
+    /// The fault of a column in which `998` stands beside `1.002` and no number has other decimals, with its
+    /// place. Beside `5` the same number has decimals: it is nearer to five as one than as a thousand.
     pub(super) fn doubt(&self) -> Option<(Fault, Position)> {
         let (value, parted, place) = self.parted.as_ref()?;
         let (largest, small) = self.small.as_ref()?;
@@ -85,8 +85,8 @@ impl Digits {
         let whole = parted.replace(['.', ','], "");
         let fault = Fault::new(
             format!(
-                "\"{parted}\" stands in a column with \"{small}\", and every sign in this column is followed by three digits: it \
-                 looks like a sign between thousands"
+                "\"{parted}\" stands in a column with \"{small}\", and every sign in this column is followed \
+                by three digits: it looks like a sign between thousands"
             ),
             format!("write {whole} without a sign if that is meant, or all numbers with the same decimals"),
         );

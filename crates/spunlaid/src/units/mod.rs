@@ -265,8 +265,8 @@ impl Dimension {
         self.pretty_to(value, 4)
     }
 
-    /// The value for people who write it in a file: as [`Dimension::pretty`], with as many digits as it takes to be read back within a
-    /// rounding, `1.6 dtex`.
+    /// The value for people who write it in a file: as [`Dimension::pretty`], with as many digits as it takes
+    /// to be read back within a rounding, `1.6 dtex`.
     pub fn written(self, value: f64) -> String {
         /// Of the value: what two roundings make.
         const ROUNDING: f64 = 4.0 * f64::EPSILON;

@@ -23,7 +23,8 @@ pub fn si_unit_of(multiple: &str) -> String {
     multiple.split('/').map(part).collect::<Vec<_>>().join("/")
 }
 
-/// A unit in the spelling of UDUNITS, which the CF conventions ask for and programs read: `m2/Hz`, `degC`; `1` of a plain number.
+/// A unit in the spelling of UDUNITS, which the CF conventions ask for and programs read: `m2/Hz`, `degC`;
+/// `1` of a plain number.
 pub fn udunits(unit: &str) -> String {
     match unit {
         "" => "1".to_owned(),

@@ -3,8 +3,9 @@
 /// A symbol, as `m`, and its power.
 type Factor = (String, f64);
 
-/// Brings the signs of a unit to one spelling in plain characters: `kg/m³`, `kg/m^3` and `kg/m3` become `kg/m3`; `µ` (micro)
-/// and `μ` (mu) become `u`; the signs for minus, times and divided by become `-`, `·` and `/`.
+/// Brings the signs of a unit to one spelling in plain characters: `kg/m³`, `kg/m^3` and `kg/m3` become
+/// `kg/m3`; `µ` (micro) and `μ` (mu) become `u`; the signs for minus, times and divided by become `-`, `·`
+/// and `/`.
 pub(crate) fn plain_spelling(unit: &str) -> String {
     let plain = unit.replace("**", "");
     let plain = plain.chars().filter(|c| *c != '^').map(|c| match c {
@@ -33,8 +34,8 @@ pub(super) fn is_same(factors_of_other: Option<&[Factor]>, plain: &str) -> bool 
     factors_of_other.is_some_and(|other| factors(plain).is_some_and(|own| own == other))
 }
 
-/// The factors of a unit in plain spelling, sorted by their symbols, each of them once. None if it is not written as symbols
-/// with powers.
+/// The factors of a unit in plain spelling, sorted by their symbols, each of them once. None if it is not
+/// written as symbols with powers.
 ///
 /// A slash divides by the next factor only, or by a parenthesis: `J/(kg K)`, `J/kg/K`.
 pub(super) fn factors(plain: &str) -> Option<Vec<Factor>> {

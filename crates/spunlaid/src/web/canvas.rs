@@ -8,7 +8,8 @@ use crate::error::Fault;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 
-/// Basis weight of the thickest ropes that are reckoned with, over the mean: filaments that hang in the same air come down together.
+/// Basis weight of the thickest ropes that are reckoned with, over the mean: filaments that hang in the same
+/// air come down together.
 const ROPE: f64 = 64.0;
 /// Most quanta of a piece.
 const MOST: f64 = 1_048_576.0;
@@ -18,9 +19,9 @@ const FEWEST: f64 = 16.0;
 /// Most cells of a part on which a thread draws alone: four megabytes.
 const MOST_NEAR: i64 = 1 << 20;
 
-/// The cells of a sheet while straight pieces are drawn on it. The masses are whole numbers of a quantum, so the map does not
-/// depend on the order of the pieces. In machine direction the sheet is a stretch of the belt: what lies before and behind it is not
-/// counted.
+/// The cells of a sheet while straight pieces are drawn on it. The masses are whole numbers of a quantum, so
+/// the map does not depend on the order of the pieces. In machine direction the sheet is a stretch of the
+/// belt: what lies before and behind it is not counted.
 #[derive(Debug)]
 pub(crate) struct Canvas {
     columns: i64,
@@ -157,8 +158,8 @@ impl Canvas {
     }
 }
 
-/// Passes each cell that a straight piece crosses to `add`. Each gets what lies in it, as the difference of two rounded sums, so that none
-/// of the piece is lost.
+/// Passes each cell that a straight piece crosses to `add`. Each gets what lies in it, as the difference of
+/// two rounded sums, so that none of the piece is lost.
 #[inline(always)]
 fn cross(side: f64, ends: [[f64; 2]; 2], quanta: u32, mut add: impl FnMut([i64; 2], u32)) {
     let [from, to] = ends.map(|end| end.map(|at| at / side));
@@ -193,8 +194,8 @@ fn cross(side: f64, ends: [[f64; 2]; 2], quanta: u32, mut add: impl FnMut([i64; 
     }
 }
 
-/// A part of a canvas on which one thread draws for a while, near to itself and without waiting for others. What it has drawn goes to the canvas when
-/// it moves to another part, and at the end.
+/// A part of a canvas on which one thread draws for a while, near to itself and without waiting for others.
+/// What it has drawn goes to the canvas when it moves to another part, and at the end.
 #[derive(Debug)]
 pub(crate) struct CanvasPart<'a> {
     canvas: &'a Canvas,
@@ -305,7 +306,8 @@ mod tests {
         }
     }
 
-    /// Stretches of a sheet that follow each other hold what all of it holds, also where a piece leaves one and enters the next.
+    /// Stretches of a sheet that follow each other hold what all of it holds, also where a piece leaves one
+    /// and enters the next.
     #[test]
     fn identical_a_sheet_and_its_stretches() {
         let sheet = Sheet { edges: Edges::Cut, ..Sheet::new(10e-3, 20e-3, CELL) };

@@ -10,9 +10,10 @@ use std::sync::Arc;
 
 /// The power spectrum of the basis weight over its mean.
 ///
-/// The variance of the relative basis weight is a sum over waves. The size of a cloud is the length of its wave; in two dimensions, the
-/// length across the crests. Long waves are those of the whole sheet, so that streaks, which are longer still, do not pass for
-/// clouds; where the sheet is not closed, a Hann window stands over it. Short waves are those of square tiles with a Hann window.
+/// The variance of the relative basis weight is a sum over waves. The size of a cloud is the length of its
+/// wave; in two dimensions, the length across the crests. Long waves are those of the whole sheet, so that
+/// streaks, which are longer still, do not pass for clouds; where the sheet is not closed, a Hann window
+/// stands over it. Short waves are those of square tiles with a Hann window.
 #[derive(Clone, Debug)]
 pub struct Clouds {
     /// Side of a tile [cells], a power of two.
@@ -83,7 +84,8 @@ const ACROSS: usize = 1024;
 const PARTS: usize = 1 << 21;
 /// Rows of cells whose parts are summed up at once, so that they take little memory.
 const AT_ONCE: usize = 512;
-/// Shortest long wave [parts]: where parts cut across cells, 0.1 % of the power of such a wave comes from other waves of the lattice, and more of shorter ones.
+/// Shortest long wave [parts]: where parts cut across cells, 0.1 % of the power of such a wave comes from
+/// other waves of the lattice, and more of shorter ones.
 const SHORT: f64 = 6.0;
 /// The longest wave over the shorter side of the sheet.
 const LONG: f64 = 0.25;
@@ -167,8 +169,9 @@ impl Clouds {
         2.0 * self.cell
     }
 
-    /// Variance of the relative basis weight in waves from one length to another, with its standard error over webs of the kind. There is no
-    /// error where the sheet is too small to say. Waves longer than a side of the sheet have no part.
+    /// Variance of the relative basis weight in waves from one length to another, with its standard error
+    /// over webs of the kind. There is no error where the sheet is too small to say. Waves longer than a side
+    /// of the sheet have no part.
     pub fn variance(&self, shortest: f64, longest: f64) -> Estimate {
         let within = |r: usize| {
             let wave = self.side as f64 * self.cell / (r as f64 + 0.5);
@@ -185,7 +188,8 @@ impl Clouds {
         Estimate { mean, standard_error: known.then(|| variance.sqrt()), values: Vec::new() }
     }
 
-    /// The variance in octaves of wavelength from the shortest wave to the longest: shortest and longest wave [m], and the variance.
+    /// The variance in octaves of wavelength from the shortest wave to the longest: shortest and longest wave
+    /// [m], and the variance.
     pub fn octaves(&self) -> Vec<([f64; 2], Estimate)> {
         let mut octaves = Vec::new();
         let mut from = self.shortest();
@@ -196,8 +200,8 @@ impl Clouds {
         octaves
     }
 
-    /// The cloudiness index: the standard deviation of the relative basis weight in waves from one length to another, with its
-    /// standard error. No error where the sheet is too small to say.
+    /// The cloudiness index: the standard deviation of the relative basis weight in waves from one length to
+    /// another, with its standard error. No error where the sheet is too small to say.
     ///
     /// Source: An unambiguous cloudiness index for nonwovens, Journal of Mathematics in Industry 12 (2022),
     /// doi 10.1186/s13362-022-00124-z: the power spectrum of the relative basis weight, integrated over a band.
@@ -207,16 +211,16 @@ impl Clouds {
         (index, variance.standard_error.map(|error| error / (2.0 * index)))
     }
 
-    /// One-sided density of the relative variance by wave number along the cross (0) or the machine direction (1): wavelength [m]
-    /// and density [m], from long waves to short.
+    /// One-sided density of the relative variance by wave number along the cross (0) or the machine direction
+    /// (1): wavelength [m] and density [m], from long waves to short.
     pub fn spectrum(&self, direction: usize) -> Vec<(f64, f64)> {
         let length = self.side as f64 * self.cell;
         let parts = self.directions[direction].iter().enumerate().skip(1);
         parts.map(|(k, part)| (length / k as f64, part * length)).collect()
     }
 
-    /// Share of the texture that lies along the machine direction: `⟨cos²⟩` of the crests of waves of four to sixteen cells, ½
-    /// without orientation.
+    /// Share of the texture that lies along the machine direction: `⟨cos²⟩` of the crests of waves of four to
+    /// sixteen cells, ½ without orientation.
     pub fn texture_md(&self) -> Estimate {
         Estimate::new(self.along.clone())
     }

@@ -14,7 +14,8 @@ pub struct Curves {
     belt_ratio: f64,
     /// Of each curve the points (ξ₁, ξ₂) [m].
     curves: Vec<Vec<[f64; 2]>>,
-    /// Of each point the length of fibre that is fed while it flies, less the mean of its curve [m]; empty if it is not known.
+    /// Of each point the length of fibre that is fed while it flies, less the mean of its curve [m]; empty if
+    /// it is not known.
     delays: Vec<Vec<f64>>,
     /// How far they hang together, if they were flown in one air.
     one_air: Option<OneAir>,
@@ -91,9 +92,10 @@ impl Curves {
         self.one_air.as_ref()
     }
 
-    /// The curves that the same flights leave on a belt of another speed: each point comes down at the same time and place, and the
-    /// belt has gone farther or less far since it was fed. What the belt does to the fibre in the air is taken as it was.
-    /// None if the times of the touch-downs are not known.                                            theory.md (75)
+    /// The curves that the same flights leave on a belt of another speed: each point comes down at the same
+    /// time and place, and the belt has gone farther or less far since it was fed. What the belt does to the
+    /// fibre in the air is taken as it was. None if the times of the touch-downs are not known.
+    ///                                                                                         theory.md (75)
     ///
     /// * `belt_ratio` – speed of the belt over speed of the feed
     pub fn on_belt(&self, belt_ratio: f64) -> Option<Self> {
@@ -152,7 +154,8 @@ impl Curves {
         (re * re + im * im) / (points * points)
     }
 
-    /// Farthest distance from the straight trace in cross direction, and longest piece on a belt that stands, in either direction [m].
+    /// Farthest distance from the straight trace in cross direction, and longest piece on a belt that stands,
+    /// in either direction [m].
     pub(super) fn reach(&self) -> [f64; 2] {
         let far = self.curves.iter().flatten().map(|p| p[1].abs());
         let pieces = self.curves.iter().flat_map(|curve| curve.windows(2));
@@ -231,7 +234,8 @@ pub(super) fn no_curves() -> Fault {
 mod tests {
     use super::*;
 
-    /// Where and when a fibre comes down, whatever the belt does: place along the machine direction [m], and length fed by then [m].
+    /// Where and when a fibre comes down, whatever the belt does: place along the machine direction [m], and
+    /// length fed by then [m].
     fn landing(fed: f64) -> (f64, f64) {
         (0.02 * (31.0 * fed).sin() + 0.01 * (77.0 * fed).cos(), fed + 0.4 + 0.03 * (19.0 * fed).sin())
     }

@@ -47,7 +47,8 @@ pub enum Doubt {
         /// Whether the map was laid of the surrogate.
         is_laid: bool,
     },
-    /// Over patches that are smaller than an element, surrogate and flown curves differ by more than 5 %, and neither is accurate.
+    /// Over patches that are smaller than an element, surrogate and flown curves differ by more than 5 %, and
+    /// neither is accurate.
     CoarseFlight {
         /// Sides of the patches [m].
         sides: Vec<f64>,
@@ -97,33 +98,37 @@ impl Display for Doubt {
         match self {
             Self::Lost { filaments, of } => write!(
                 f,
-                "{filaments} of {of} filaments {} lost in flight, and each is missing from then on: the web is lighter by that, and a little more uneven",
+                "{filaments} of {of} filaments {} lost in flight, and each is missing from then on: the web \
+                is lighter by that, and a little more uneven",
                 if *filaments == 1 { "was" } else { "were" }
             ),
             Self::FewFilaments { sides, why, pitch } => write!(
                 f,
-                "the CV over patches of {} has no error, because {}: too few filaments were flown to tell what all do. Fly twice as many, web.flown = \
-                 {}, or \"all\"; \"auto\" flies as many as are needed, up to four times its first number",
+                "the CV over patches of {} has no error, because {}: too few filaments were flown to tell \
+                what all do. Fly twice as many, web.flown = {}, or \"all\"; \"auto\" flies as many as are \
+                needed, up to four times its first number",
                 millimetres(sides),
                 reason(*why, *pitch),
                 (2.0 / pitch).round()
             ),
             Self::FilledIn { missing } => write!(
                 f,
-                "filaments between the flown ones are known but for {} % of their variance, so the map is too uneven over patches below 10 mm; the \
-                 CV that is told is not. Fly more filaments for the map (web.flown)",
+                "filaments between the flown ones are known but for {} % of their variance, so the map is \
+                too uneven over patches below 10 mm; the CV that is told is not. Fly more filaments for the \
+                map (web.flown)",
                 per_cent(*missing, 2)
             ),
             Self::SmallSheet { sides } => write!(
                 f,
-                "the sheet that was flown is too small for patches of {}: their CV is that of the map, which is made of pieces of that sheet, and it \
-                 has no error",
+                "the sheet that was flown is too small for patches of {}: their CV is that of the map, which \
+                is made of pieces of that sheet, and it has no error",
                 millimetres(sides)
             ),
             Self::FarSurrogate { sides, farthest, cv: [surrogate, flown], apart, is_laid } => write!(
                 f,
-                "the surrogate’s CV is more than 5 % from that of the flown curves over patches of {}: {} for {} %, {} % {}, over patches of {}. \
-                 Rely on the flown curves there: the flight has laid them, and the surrogate has only their spread and their autocorrelation. {}",
+                "the surrogate’s CV is more than 5 % from that of the flown curves over patches of {}: {} \
+                for {} %, {} % {}, over patches of {}. Rely on the flown curves there: the flight has laid \
+                them, and the surrogate has only their spread and their autocorrelation. {}",
                 listed(sides),
                 per_cent(*surrogate, 3),
                 per_cent(*flown, 3),
@@ -138,8 +143,9 @@ impl Display for Doubt {
             ),
             Self::CoarseFlight { sides, element } => write!(
                 f,
-                "over patches of {} the surrogate and the flown curves also differ by more than 5 %, and neither is accurate to 5 % there, because \
-                 these patches are smaller than an element of the flight, {} mm (fibre.element_length)",
+                "over patches of {} the surrogate and the flown curves also differ by more than 5 %, and \
+                neither is accurate to 5 % there, because these patches are smaller than an element of the \
+                flight, {} mm (fibre.element_length)",
                 listed(sides),
                 digits(element * 1e3, 3)
             ),
@@ -157,19 +163,21 @@ impl Display for Doubt {
             }
             Self::NothingFlown => write!(
                 f,
-                "no fibre was flown for every layer of this web, so the errors are by chance only, and it is not known how far a surrogate with these \
-                 numbers is from real fibres. Compared with flown curves, its CV was up to 20 % wrong (docs/web.md)"
+                "no fibre was flown for every layer of this web, so the errors are by chance only, and it is \
+                not known how far a surrogate with these numbers is from real fibres. Compared with flown \
+                curves, its CV was up to 20 % wrong (docs/web.md)"
             ),
             Self::PullingBelt { ratio } => write!(
                 f,
-                "the effect of a faster belt is not given, because this belt runs at {} of the feed speed and pulls at the fibre in the air, so the \
-                 flight changes with it; fly webs at other speeds (a study over belt.speed, docs/web.md)",
+                "the effect of a faster belt is not given, because this belt runs at {} of the feed speed \
+                and pulls at the fibre in the air, so the flight changes with it; fly webs at other speeds \
+                (a study over belt.speed, docs/web.md)",
                 digits(*ratio, 2)
             ),
             Self::PoorSurrogate { basis_weight, residual: Residual { rms, by_chance } } => write!(
                 f,
-                "no surrogate describes the laid fibre of the layer of {} g/m² well: its autocorrelation differs by {} (rms) from that of the best \
-                 one, and chance would explain {}",
+                "no surrogate describes the laid fibre of the layer of {} g/m² well: its autocorrelation \
+                differs by {} (rms) from that of the best one, and chance would explain {}",
                 digits(basis_weight * 1e3, 3),
                 digits(*rms, 2),
                 by_chance.map_or_else(|| "an unknown part".to_owned(), |by_chance| digits(by_chance, 2))
@@ -183,14 +191,15 @@ impl Display for Doubt {
                 let [first, last] = margins.map(|margin| digits(1e3 * margin, 3));
                 write!(
                     f,
-                    "the first {first} mm and the last {last} mm across the web are left out of CV, clouds and autocorrelation, because the web is \
-                     thinner at its edges, which reach 3 σ_CD inwards from the outermost filament (web.edges = \"cut\")"
+                    "the first {first} mm and the last {last} mm across the web are left out of CV, clouds \
+                    and autocorrelation, because the web is thinner at its edges, which reach 3 σ_CD inwards \
+                    from the outermost filament (web.edges = \"cut\")"
                 )
             }
             Self::NoError { sides } => write!(
                 f,
-                "the CV over patches of {} has no error: the sheet holds too few independent clouds or streaks for one; make it larger, or lay several \
-                 webs with other seeds",
+                "the CV over patches of {} has no error: the sheet holds too few independent clouds or \
+                streaks for one; make it larger, or lay several webs with other seeds",
                 millimetres(sides)
             ),
         }
@@ -207,7 +216,8 @@ fn reason(why: FewDoubt, pitch: f64) -> String {
             if off > 0.0 { "higher" } else { "lower" }
         ),
         FewDoubt::Neighbours(correlation) => format!(
-            "the flown filaments are {} mm apart, and the places where such neighbours come down have a correlation of {}",
+            "the flown filaments are {} mm apart, and the places where such neighbours come down have a \
+            correlation of {}",
             digits(1e3 * pitch, 3),
             digits(correlation, 2)
         ),
@@ -251,8 +261,8 @@ mod tests {
         let far =
             Doubt::FarSurrogate { sides, farthest: 0.005, cv: [0.0812, 0.1], apart: -0.188, is_laid: true };
         let said = far.to_string();
-        let begin = "the surrogate’s CV is more than 5 % from that of the flown curves over patches of 2, 5 and 12.5 mm: 8.12 for 10 %, 19 % too low, \
-                     over patches of 5 mm. ";
+        let begin = "the surrogate’s CV is more than 5 % from that of the flown curves over patches of 2, 5 \
+            and 12.5 mm: 8.12 for 10 %, 19 % too low, over patches of 5 mm. ";
         assert!(
             said.starts_with(begin) && said.ends_with("web.method = \"dynamics\" lays the map from them"),
             "{said}"

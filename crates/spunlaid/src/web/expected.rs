@@ -11,7 +11,8 @@ use crate::statistics::{Difference, Estimate};
 use crate::threads::try_each;
 use std::ops::Range;
 
-/// Spreads σ_CD of a filament beyond its place that count as the edge of a web: less than 0.14 % of its fibre lies further out.
+/// Spreads σ_CD of a filament beyond its place that count as the edge of a web: less than 0.14 % of its fibre
+/// lies further out.
 const EDGE: f64 = 3.0;
 
 /// The columns of the sheet that are not edges, where filaments are missing beyond the outermost place.
@@ -89,7 +90,8 @@ impl ExpectedCv {
 
     /// The change from this CV to the one over the same patches among others, as a share of it.
     ///
-    /// The fibres of both are compared one by one where there are as many, because they fly in the same gusts; else the two are taken as independent.
+    /// The fibres of both are compared one by one where there are as many, because they fly in the same
+    /// gusts; else the two are taken as independent.
     pub fn effect_to(&self, others: &[Self]) -> Option<Effect<f64>> {
         let other = others.iter().find(|other| other.patch == self.patch)?;
         let ratio = other.cv / self.cv;
@@ -112,8 +114,8 @@ impl ExpectedCv {
 /// Fibres that are laid alone.
 pub(super) const ALONE: u64 = 16;
 
-/// The CV that is expected of a web of independent filaments over patches of each size that fits between its edges: of the curves that were flown where all layers
-/// have them, and else of the paths of the surrogate.
+/// The CV that is expected of a web of independent filaments over patches of each size that fits between its
+/// edges: of the curves that were flown where all layers have them, and else of the paths of the surrogate.
 ///
 /// # Errors
 /// If the filaments cannot be laid, if their curves are shorter than a patch, or if it is stopped.

@@ -7,7 +7,8 @@ pub struct FewFilamentsCv {
     pub patch: f64,
     /// CV of the web of all filaments.
     pub cv: f64,
-    /// Its standard error by chance: the clouds on the sheet that was flown are few. None if the sheet is too small to say.
+    /// Its standard error by chance: the clouds on the sheet that was flown are few. None if the sheet is too
+    /// small to say.
     pub by_chance: Option<f64>,
     /// Its standard error because few filaments were flown: from what every second one of them says.
     pub by_pitch: f64,
@@ -19,16 +20,19 @@ pub struct FewFilamentsCv {
     pub few: f64,
 }
 
-/// Patches that the few filaments of a web in one air must tell well [m], and how far every second one may be off if that matters beside chance.
+/// Patches that the few filaments of a web in one air must tell well [m], and how far every second one may be
+/// off if that matters beside chance.
 const TOLD_WELL: f64 = 0.01;
 const FAR_OFF: f64 = 0.05;
-/// Correlation of the places where neighbours come down, at the pitch of the few, below which those between them are not told.
+/// Correlation of the places where neighbours come down, at the pitch of the few, below which those between
+/// them are not told.
 const TOGETHER: f64 = 0.7;
 
 /// Why a few filaments do not tell the CV of all.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FewDoubt {
-    /// Every second one of them would tell another CV over patches of 10 mm or more: side of the patch [m], and how far it is off as a share of the CV.
+    /// Every second one of them would tell another CV over patches of 10 mm or more: side of the patch [m],
+    /// and how far it is off as a share of the CV.
     Halves(f64, f64),
     /// Neighbours have too little in common: correlation of the places where they come down.
     Neighbours(f64),
@@ -47,15 +51,16 @@ pub struct LayerFew {
     pub sheet: [f64; 2],
     /// Distance of neighbours in a row [m].
     pub pitch: f64,
-    /// Correlation of the places where filaments at this distance and equal depth come down, in the direction in which it is smaller; not a number
-    /// where it was not looked for.
+    /// Correlation of the places where filaments at this distance and equal depth come down, in the direction
+    /// in which it is smaller; not a number where it was not looked for.
     pub correlation: f64,
     /// Part of the variance of a filament between them that they do not tell, in machine and in cross direction.
     pub missing: [f64; 2],
     /// CV over patches of each size.
     pub cvs: Vec<FewFilamentsCv>,
-    /// For each of these sizes, how much the blocks of the sheet vary: the mean square of the deviations of the patches of the few filaments in each
-    /// block from the mean of all, over that mean. Two webs in the same air are compared block by block.
+    /// For each of these sizes, how much the blocks of the sheet vary: the mean square of the deviations of
+    /// the patches of the few filaments in each block from the mean of all, over that mean. Two webs in the
+    /// same air are compared block by block.
     pub blocks: Vec<Vec<f64>>,
     /// Number of blocks across; those beside each other across come one after the other.
     pub blocks_across: usize,

@@ -26,10 +26,12 @@ use std::sync::atomic::AtomicU64;
 pub struct Findings {
     /// The map of the basis weight, and what was cut off at the edges.
     pub laid: LaidWeb,
-    /// Widths of the strips at the two edges in cross direction [m]. The web is thinner there, and the fields below leave these strips out. They reach 3 σ_CD inwards of the outermost place of a filament; a web with periodic edges has none.
+    /// Widths of the strips at the two edges in cross direction [m]. The web is thinner there, and the fields
+    /// below leave these strips out. They reach 3 σ_CD inwards of the outermost place of a filament; a web
+    /// with periodic edges has none.
     pub margins: [f64; 2],
-    /// Where the web begins and ends across the sheet: where the reach of the outermost filaments ends, or at the edges of the sheet, which cut it or where it goes
-    /// on [m].
+    /// Where the web begins and ends across the sheet: where the reach of the outermost filaments ends, or at
+    /// the edges of the sheet, which cut it or where it goes on [m].
     pub reach: [f64; 2],
     /// How uneven it is, patch by patch.
     pub patches: Vec<PatchFindings>,
@@ -61,23 +63,28 @@ impl Findings {
 pub struct PatchFindings {
     /// On the map; of filaments in one air of which a few were flown, as these tell it ([`PatchFindings::few`]).
     pub map: Unevenness,
-    /// The expected one of independent filaments at the places of the layers, from single fibres, with its standard error.
+    /// The expected one of independent filaments at the places of the layers, from single fibres, with its
+    /// standard error.
     pub single_fibres: (f64, f64),
-    /// The expected one of the curves that were flown, with its standard error, NaN for a single curve; None unless all layers have them.
+    /// The expected one of the curves that were flown, with its standard error, NaN for a single curve; None
+    /// unless all layers have them.
     pub flown: Option<(f64, f64)>,
     /// The expected one of paths of the surrogate, with its standard error; None unless all layers have them.
     pub surrogate: Option<(f64, f64)>,
     /// Of straight fibres in all directions of the same mass.
     pub straight_fibres: f64,
-    /// What the same filaments would give in airs of their own, with its standard error: [`PatchFindings::single_fibres`] where they were flown in one air; None if they
-    /// are independent as they are.
+    /// What the same filaments would give in airs of their own, with its standard error:
+    /// [`PatchFindings::single_fibres`] where they were flown in one air; None if they are independent as
+    /// they are.
     pub independent: Option<IndependentCv>,
-    /// What is expected of filaments in one air from those in airs of their own and from the correlations of pairs; it checks the map. None if the
-    /// filaments are independent or if pairs do not tell it.
+    /// What is expected of filaments in one air from those in airs of their own and from the correlations of
+    /// pairs; it checks the map. None if the filaments are independent or if pairs do not tell it.
     pub pairs: Option<f64>,
-    /// What a few filaments in one air say of all; None if all were flown, or if the patch is too large for the sheet that they laid.
+    /// What a few filaments in one air say of all; None if all were flown, or if the patch is too large for
+    /// the sheet that they laid.
     pub few: Option<FewFilamentsCv>,
-    /// CV of the map itself, in which filaments between the flown ones are filled in; None if all were flown or nothing.
+    /// CV of the map itself, in which filaments between the flown ones are filled in; None if all were flown
+    /// or nothing.
     pub filled: Option<f64>,
 }
 
@@ -93,7 +100,8 @@ pub struct IndependentCv {
 }
 
 impl IndependentCv {
-    /// The 95 % confidence interval by Student's t, of the logarithm, because the error is a share of the CV; none if the error is not known.
+    /// The 95 % confidence interval by Student's t, of the logarithm, because the error is a share of the CV;
+    /// none if the error is not known.
     pub fn interval(&self) -> Option<[f64; 2]> {
         let half = student_t_95_at(self.degrees) * self.standard_error / self.cv;
         half.is_finite().then(|| [-half, half].map(|log| self.cv * libm::exp(log)))
@@ -101,8 +109,8 @@ impl IndependentCv {
 }
 
 impl PatchFindings {
-    /// The 95 % confidence interval of the CV of all such webs; none if the sheet is too small to say, or if a few filaments do not tell it. Which filaments were
-    /// flown for all is chance too.
+    /// The 95 % confidence interval of the CV of all such webs; none if the sheet is too small to say, or if
+    /// a few filaments do not tell it. Which filaments were flown for all is chance too.
     pub fn interval(&self) -> Option<[f64; 2]> {
         if self.independent.is_none() {
             return self.map.interval();
@@ -173,8 +181,8 @@ pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Res
         let [left, right, width, smallest] =
             [margins[0], margins[1], sheet.width, smallest].map(|size| Dimension::Length.pretty(size));
         let message = format!(
-            "the edges of the web, where it is thin, take {left} and {right} of its width of {width} (3 σ_CD inwards of the \
-             outermost filament), and no two patches of {smallest} fit between them"
+            "the edges of the web, where it is thin, take {left} and {right} of its width of {width} (3 σ_CD \
+            inwards of the outermost filament), and no two patches of {smallest} fit between them"
         );
         return Err(Fault::new(message, "write web.edges = \"periodic\", or a larger web.width").into());
     }
@@ -265,7 +273,8 @@ pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Res
     })
 }
 
-/// What the few filaments of all layers say together: their airs are independent of each other, so the variances add up.
+/// What the few filaments of all layers say together: their airs are independent of each other, so the
+/// variances add up.
 fn of_all_layers(web: &Web, together: &SharedAirFindings, map: Unevenness) -> Option<FewFilamentsCv> {
     let weights: Vec<f64> = web.layers.iter().map(|layer| layer.basis_weight(&web.sheet)).collect();
     let whole = weights.iter().sum::<f64>();

@@ -19,7 +19,8 @@ pub struct LaidWeb {
     pub cut: f64,
     /// The pieces of fibres in the windows in which holes are counted, if they were asked for.
     pub pieces: Vec<PieceInWindow>,
-    /// What is known of filaments that were flown together and laid as they came down; None of a web of independent filaments.
+    /// What is known of filaments that were flown together and laid as they came down; None of a web of
+    /// independent filaments.
     pub shared_air: Option<SharedAirFindings>,
 }
 
@@ -30,7 +31,8 @@ pub struct SharedAirFindings {
     pub strands: Vec<Strand>,
     /// How filaments of each layer come down together, over their distance.
     pub neighbours: Vec<NeighbourCorrelation>,
-    /// The part of CV² that neighbours make together, of each layer over patches of each side; empty if it is not known.
+    /// The part of CV² that neighbours make together, of each layer over patches of each side; empty if it is
+    /// not known.
     pub pairs: Vec<SharedVariance>,
     /// What a few filaments say about the web of all, of each layer of which only a few were flown.
     pub few: Vec<LayerFew>,

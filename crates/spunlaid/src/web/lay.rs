@@ -25,9 +25,9 @@ pub fn pieces(web: &Web) -> Result<u64, Error> {
 
 /// Lays all filaments of a web.
 ///
-/// Each filament lays as much fibre as the belt takes along on its way through the sheet, so the basis weight is on average exactly line
-/// density × filaments × feed speed / belt speed / width. Several layers share a quantum of mass, which rounds the
-/// mass of a layer by less than 1e-5.
+/// Each filament lays as much fibre as the belt takes along on its way through the sheet, so the basis weight
+/// is on average exactly line density × filaments × feed speed / belt speed / width. Several layers share a
+/// quantum of mass, which rounds the mass of a layer by less than 1e-5.
 ///
 /// # Errors
 /// If the web cannot be laid, or if it is stopped.

@@ -5,8 +5,9 @@ use std::ops::Range;
 
 /// Mass in the square cells of a sheet.
 ///
-/// Cells lie row by row: a row goes across the web, and the rows follow each other in machine direction. Their masses are whole
-/// numbers of a small quantum, so sums do not depend on the order in which the fibres were laid.
+/// Cells lie row by row: a row goes across the web, and the rows follow each other in machine direction.
+/// Their masses are whole numbers of a small quantum, so sums do not depend on the order in which the fibres
+/// were laid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
     /// Number of cells in cross direction.
@@ -66,8 +67,9 @@ impl Map {
         Self { columns: sides[0], rows: sides[1], closed: [false; 2], cells, ..*self }
     }
 
-    /// The same web in larger cells, whose edges are open. Each gets of the old cells what lies in it, so that patches of whole new cells have
-    /// the same mass. What is less than a cell at the far edges is left out.
+    /// The same web in larger cells, whose edges are open. Each gets of the old cells what lies in it, so
+    /// that patches of whole new cells have the same mass. What is less than a cell at the far edges is left
+    /// out.
     pub fn in_cells(&self, cell: f64) -> Self {
         let ratio = cell / self.cell;
         let [columns, rows] =

@@ -1,8 +1,8 @@
 //! The web: how much fibre lies where on the belt when many filaments are laid side by side.
 //!
-//! A [`Web`] is a sheet of cells on which layers of filaments are laid, each a curve of the [surrogate](crate::surrogate) or
-//! one that was flown. [`lay`] gives the [`Map`] of the basis weight, the mass of fibre in each cell. Of such a map, simulated or
-//! measured, [`uniformity`] says how uneven it is.
+//! A [`Web`] is a sheet of cells on which layers of filaments are laid, each a curve of the
+//! [surrogate](crate::surrogate) or one that was flown. [`lay`] gives the [`Map`] of the basis weight, the
+//! mass of fibre in each cell. Of such a map, simulated or measured, [`uniformity`] says how uneven it is.
 //!
 //! md is the machine direction, in which the belt moves the web; cd is the cross direction.
 
@@ -93,8 +93,8 @@ pub struct Sheet {
     pub edges: Edges,
 }
 
-/// What becomes of fibre beyond the edges of the sheet in cross direction. In machine direction the sheet is a stretch of an endless web, closed to
-/// a ring: what goes out at one end comes in at the other.
+/// What becomes of fibre beyond the edges of the sheet in cross direction. In machine direction the sheet is
+/// a stretch of an endless web, closed to a ring: what goes out at one end comes in at the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Edges {
     /// It comes in at the other edge: the sheet is a part of a web that is wide everywhere.

@@ -32,7 +32,8 @@ const ABREAST: usize = 8;
 pub struct SingleFibres {
     /// `CV²·τ` of filaments at random places [1/m]: the value of each fibre, and their mean.
     pub at_random: Estimate,
-    /// The same of filaments at fixed places, without what the places themselves do, the unevenness of [`SingleFibres::profile`].
+    /// The same of filaments at fixed places, without what the places themselves do, the unevenness of
+    /// [`SingleFibres::profile`].
     pub at_places: Estimate,
     /// Mean length of a filament in a patch [m], by the first column of the patch; the trace lies in the middle of the
     /// column `trace`.
@@ -45,10 +46,11 @@ pub struct SingleFibres {
 
 /// `CV²·τ` of a web of independent filaments, over patches of some sides.
 ///
-/// A patch of side x holds of one filament the length m. Over all patches, `CV² τ = Σ m²/(L x²)` with the filament's length L and the
-/// length of all filaments per area, τ = basis weight/line density. The patches are taken at every place on the lattice of
-/// cells. A fibre is laid on a ring of belt; what its ends leave out is less than a part in a hundred.
-/// If the places are fixed, the mean of m at each distance from the trace is known, and only `m² − ⟨m⟩²` is left to chance.
+/// A patch of side x holds of one filament the length m. Over all patches, `CV² τ = Σ m²/(L x²)` with the
+/// filament's length L and the length of all filaments per area, τ = basis weight/line density. The patches
+/// are taken at every place on the lattice of cells. A fibre is laid on a ring of belt; what its ends leave
+/// out is less than a part in a hundred. If the places are fixed, the mean of m at each distance from the
+/// trace is known, and only `m² − ⟨m⟩²` is left to chance.
 ///
 /// * `sides` – of the patches [cells]
 ///
@@ -113,8 +115,8 @@ pub fn one_fibre(
 
 /// Lays several fibres at once, `apart` columns from each other on a ring of rows, and adds the sums that they give.
 ///
-/// * `memory` – of fibres in one air the belt after which it is forgotten [m], and the rows of the shortest fibre: their sums are kept by
-///   stretches
+/// * `memory` – of fibres in one air the belt after which it is forgotten [m], and the rows of the shortest
+///   fibre: their sums are kept by stretches
 fn add(
     layer: &Layer,
     sides: &[usize],
@@ -185,8 +187,9 @@ impl SingleFibres {
         self.in_one_air.map_or(alone, |of_both| of_both[number])
     }
 
-    /// The mean mass in patches across a sheet, by the first column of the patch, for filaments at fixed places, divided by the
-    /// mean mass that the same filaments would give if they were spread evenly over the sheet.
+    /// The mean mass in patches across a sheet, by the first column of the patch, for filaments at fixed
+    /// places, divided by the mean mass that the same filaments would give if they were spread evenly over
+    /// the sheet.
     ///
     /// * `places` – of the filaments [columns]
     /// * `columns` – of the sheet, and whether it is closed
@@ -256,7 +259,8 @@ impl Sums {
         });
         let at_places = Estimate::new(at_places.collect());
         let in_one_air = groups.map(|groups| {
-            // What a stretch adds to the mean, to the first order: at fixed places it also changes the mean of which the square is taken.
+            // What a stretch adds to the mean, to the first order: at fixed places it also changes the mean
+            // of which the square is taken.
             let parts = |weight: f64| -> Vec<Vec<Part>> {
                 let fibre = |((stretches, own), rows): ((&Vec<Stretch>, &Vec<f64>), &f64)| {
                     let part = |stretch: &Stretch| {
@@ -302,7 +306,8 @@ impl Fibres {
         }
     }
 
-    /// Squared mean of `e^{ikξ₂}` over the fibre: the power of a streak in a wave across the web, over that of a streak without width.
+    /// Squared mean of `e^{ikξ₂}` over the fibre: the power of a streak in a wave across the web, over that
+    /// of a streak without width.
     ///
     /// * `wave` – k [1/m]
     pub(super) fn power_across(&self, wave: f64) -> f64 {

@@ -12,8 +12,8 @@ use crate::statistics::Estimate;
 pub struct Orientation {
     /// `⟨cos²⟩` of the angle to the machine direction of each filament: ½ without orientation.
     pub cos_squared: Estimate,
-    /// Share of the mass by direction: entry i holds angles to the machine direction from 10i to 10(i+1) degrees, positive
-    /// towards the cross direction, in the sense in which the fibre was fed.
+    /// Share of the mass by direction: entry i holds angles to the machine direction from 10i to 10(i+1)
+    /// degrees, positive towards the cross direction, in the sense in which the fibre was fed.
     pub directions: [f64; Self::DIRECTIONS],
 }
 

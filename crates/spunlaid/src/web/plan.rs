@@ -16,7 +16,8 @@ use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
-/// Longest piece of a path: of the smaller standard deviation, and of the length 1/A² in which the direction is forgotten.
+/// Longest piece of a path: of the smaller standard deviation, and of the length 1/A² in which the direction
+/// is forgotten.
 const LONGEST_PIECE: [f64; 2] = [0.06, 0.2];
 /// Points that are drawn at once.
 pub(super) const BLOCK: usize = PATH_POINTS + 1;
@@ -155,8 +156,8 @@ impl<'a> Plan<'a> {
                     let Surrogate { sigma_md, sigma_cd, noise } = surrogate;
                     Fault::new(
                         format!(
-                            "no path can be made with the standard deviations {sigma_md:e} m and {sigma_cd:e} m and the \
-                             noise {noise:e} m^-0.5"
+                            "no path can be made with the standard deviations {sigma_md:e} m and \
+                            {sigma_cd:e} m and the noise {noise:e} m^-0.5"
                         ),
                         "all must be above zero",
                     )
@@ -170,7 +171,8 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// Mass per length of a filament over that of the others where its straight trace is at a place [m], the same for a block of pieces.
+    /// Mass per length of a filament over that of the others where its straight trace is at a place [m], the
+    /// same for a block of pieces.
     pub(super) fn titre_at(&self, filament: usize, along: f64, web: &Web) -> f64 {
         self.titres.of(filament).map_or(1.0, |titre| titre.at(along.rem_euclid(web.sheet.length)))
     }
@@ -273,7 +275,8 @@ impl<'a> Plan<'a> {
         ]
     }
 
-    /// Passes on the points (ξ₁, ξ₂) of up to eight filaments, block by block. The first point of a block is where its first piece begins.
+    /// Passes on the points (ξ₁, ξ₂) of up to eight filaments, block by block. The first point of a block is
+    /// where its first piece begins.
     pub(super) fn walk(
         &self,
         web: &Web,

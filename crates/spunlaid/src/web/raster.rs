@@ -8,8 +8,8 @@ const TWO_52: f64 = 4_503_599_627_370_496.0;
 
 /// Up to eight curves that are drawn side by side. A curve is a chain of straight pieces of equal mass.
 ///
-/// What a cell gets of a piece is the part of the piece within it, in whole quanta: the parts of a piece are differences
-/// of one rounded running sum, so none is lost and none is made.
+/// What a cell gets of a piece is the part of the piece within it, in whole quanta: the parts of a piece are
+/// differences of one rounded running sum, so none is lost and none is made.
 #[derive(Debug)]
 pub(super) struct Pens {
     /// Number of curves.
@@ -101,8 +101,8 @@ impl<S: Register> Crossing<S> {
 /// Entries of the list of an [`Ink`], a power of two.
 const LIST: usize = 256;
 
-/// What eight curves leave in the cells. Each gathers what it leaves in its cell until it goes on to the next; these sums go to
-/// a list first, because adding to memory at once would wait for the sum before.
+/// What eight curves leave in the cells. Each gathers what it leaves in its cell until it goes on to the
+/// next; these sums go to a list first, because adding to memory at once would wait for the sum before.
 struct Ink<S: Register> {
     stride: Wide<S>,
     middle: Wide<S>,

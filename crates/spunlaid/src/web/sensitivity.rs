@@ -53,8 +53,8 @@ impl Lever {
         Some(turned)
     }
 
-    /// The layer with the number divided and multiplied by the same factor, and what they rest on: flown curves where these let the number
-    /// change and reach over the largest patch, and else the surrogate.
+    /// The layer with the number divided and multiplied by the same factor, and what they rest on: flown
+    /// curves where these let the number change and reach over the largest patch, and else the surrogate.
     ///
     /// * `largest` – side of the largest patch [m]
     fn both(self, layer: &Layer, factor: f64, largest: f64) -> Option<(Source, [Layer; 2])> {
@@ -84,7 +84,8 @@ impl Lever {
 /// What a sensitivity rests on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
-    /// The curves that were flown, each with the number before and after. For the speed of the belt see [`Curves::on_belt`].
+    /// The curves that were flown, each with the number before and after. For the speed of the belt see
+    /// [`Curves::on_belt`].
     FlownFibres,
     /// Paths of the surrogate.
     Surrogate,
@@ -103,19 +104,21 @@ impl Source {
     }
 }
 
-/// By how many per cent the unevenness over patches changes when a number of the first layer's line changes by one per cent: `d ln CV / d ln number` over
-/// the fibres, for each side of a patch [m]. It has no effect where it would come from a surrogate whose CV is
-/// [far](super::PatchFindings::surrogate_is_far) from that of the flown curves, and none of the speed of a belt that
-/// [changes the flight](Layer::belt_changes_flight).
+/// By how many per cent the unevenness over patches changes when a number of the first layer's line changes
+/// by one per cent: `d ln CV / d ln number` over the fibres, for each side of a patch [m]. It has no effect
+/// where it would come from a surrogate whose CV is [far](super::PatchFindings::surrogate_is_far) from that
+/// of the flown curves, and none of the speed of a belt that [changes the
+/// flight](Layer::belt_changes_flight).
 pub type Sensitivity = Tried<Source, f64>;
 
-/// Belt speed over feed speed above which the sensitivity to it is not told. docs/validation.md has what was measured: up to here the
-/// moved curves have that of curves that are flown anew.
+/// Belt speed over feed speed above which the sensitivity to it is not told. docs/validation.md has what was
+/// measured: up to here the moved curves have that of curves that are flown anew.
 const SLOW: f64 = 0.1;
 
 impl Layer {
-    /// Whether the belt is so fast that the flight changes with its speed: it pulls at the fibre in the air, and neither
-    /// [moved curves](Curves::on_belt) nor a surrogate that stays as it is say what a faster one would do.
+    /// Whether the belt is so fast that the flight changes with its speed: it pulls at the fibre in the air,
+    /// and neither [moved curves](Curves::on_belt) nor a surrogate that stays as it is say what a faster one
+    /// would do.
     pub fn belt_changes_flight(&self) -> bool {
         self.belt_ratio() > SLOW
     }
@@ -124,8 +127,8 @@ impl Layer {
 /// Relative change of a number.
 const STEP: f64 = 0.1;
 
-/// Sensitivities of the unevenness of a web of one layer, from single fibres with the same random numbers before and after, or from
-/// flown curves where there are some and they let the number change.
+/// Sensitivities of the unevenness of a web of one layer, from single fibres with the same random numbers
+/// before and after, or from flown curves where there are some and they let the number change.
 ///
 /// They say what a number does while the others stay. Basis weight is not held: with more filaments it rises, with a
 /// faster belt it falls.
@@ -152,7 +155,8 @@ pub fn sensitivities(
         Some((lever, change, layers))
     };
     let turned: Vec<(Lever, Change<Source>, [Layer; 2])> = Lever::ALL.into_iter().filter_map(both).collect();
-    // The effect of the number of filaments follows from a known law. A fast belt changes the flight, so its effect is not given.
+    // The effect of the number of filaments follows from a known law. A fast belt changes the flight, so its
+    // effect is not given.
     let is_laid = |lever: Lever| {
         !(lever == Lever::Filaments || lever == Lever::BeltSpeed && layer.belt_changes_flight())
     };

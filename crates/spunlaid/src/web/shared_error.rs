@@ -29,9 +29,10 @@ const FOUND: f64 = 2.0;
 impl SharedError {
     /// The error of the mean over filaments of the sums over their stretches.
     ///
-    /// A cell with more fibre has a larger sum, but all cells together have a fixed length. So the sums are compared with a line over the
-    /// length, and what is left scatters as independent numbers. What stays with a filament in all stretches, as its place in the slot does,
-    /// is not in the scatter of the stretches: it is told by the products of different stretches of the same filament.
+    /// A cell with more fibre has a larger sum, but all cells together have a fixed length. So the sums are
+    /// compared with a line over the length, and what is left scatters as independent numbers. What stays
+    /// with a filament in all stretches, as its place in the slot does, is not in the scatter of the
+    /// stretches: it is told by the products of different stretches of the same filament.
     ///
     /// * `parts` – of each filament, in order across the web; all have as many stretches
     /// * `groups` – of each filament the number of its group of neighbours, from 0
@@ -86,8 +87,8 @@ mod tests {
     const GUST: usize = 10;
     const SEEDS: u64 = 600;
 
-    /// Parts whose mean is zero over all seeds: gusts that move neighbours together, what the place of each filament adds, and more of it
-    /// where more fibre lies.
+    /// Parts whose mean is zero over all seeds: gusts that move neighbours together, what the place of each
+    /// filament adds, and more of it where more fibre lies.
     fn parts(seed: u64, of_place: f64) -> Vec<Vec<Part>> {
         let mut random = SplitMix64::seed_from_u64(seed);
         // Nearly normal, of variance one.
@@ -115,8 +116,8 @@ mod tests {
         parts
     }
 
-    /// How many of the seeds have an interval that holds the truth: by this error, and as if filaments were independent; and the mean square of the
-    /// error over that of the deviations.
+    /// How many of the seeds have an interval that holds the truth: by this error, and as if filaments were
+    /// independent; and the mean square of the error over that of the deviations.
     fn covered(of_place: f64) -> ([f64; 2], f64) {
         let groups: Vec<usize> = (0..FILAMENTS).map(|filament| filament * 3 / FILAMENTS).collect();
         let (mut held, mut squares) = ([0.0; 2], [0.0; 2]);
@@ -135,8 +136,8 @@ mod tests {
         (held, squares[0] / squares[1])
     }
 
-    /// 95 % intervals hold the known mean of filaments in common gusts, with places that stay as they are or without; as if filaments were independent they
-    /// hold it in two of three seeds.
+    /// 95 % intervals hold the known mean of filaments in common gusts, with places that stay as they are or
+    /// without; as if filaments were independent they hold it in two of three seeds.
     #[test]
     fn stat_the_error_of_filaments_in_one_air_covers() {
         for of_place in [0.0, 0.3, 1.0] {

@@ -2,10 +2,12 @@
 
 use super::map::Map;
 
-/// Columns and rows outside on each side. A wrapped coordinate may be off by a rounding error, and its piece a cell further.
+/// Columns and rows outside on each side. A wrapped coordinate may be off by a rounding error, and its piece
+/// a cell further.
 pub(super) const OUTSIDE: [usize; 2] = [1, 2];
 
-/// Columns of a map that a thread has to itself. Columns are counted as if the sheet went on for ever in cross direction.
+/// Columns of a map that a thread has to itself. Columns are counted as if the sheet went on for ever in
+/// cross direction.
 #[derive(Debug)]
 pub(super) struct Strip {
     /// Column of the map that its first one stands for, not counting those outside.

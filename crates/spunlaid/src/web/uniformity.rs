@@ -11,7 +11,8 @@ pub struct Unevenness {
     pub patch: f64,
     /// Standard deviation of the basis weight of patches over its mean.
     pub cv: f64,
-    /// Standard error of `cv`; none if the sheet is too small to say. It is a share of `cv` that depends on the size of the sheet and of its clouds.
+    /// Standard error of `cv`; none if the sheet is too small to say. It is a share of `cv` that depends on
+    /// the size of the sheet and of its clouds.
     pub standard_error: Option<f64>,
 }
 
@@ -21,20 +22,23 @@ impl Unevenness {
         Some(interval_of_deviation(self.cv, self.standard_error?))
     }
 
-    /// [`Unevenness::interval`] where the waves that make the CV are few, so that their own powers say only roughly how much they scatter, as in a web whose
-    /// filaments share one air: by Student's t with the degrees of freedom of the CV.
+    /// [`Unevenness::interval`] where the waves that make the CV are few, so that their own powers say only
+    /// roughly how much they scatter, as in a web whose filaments share one air: by Student's t with the
+    /// degrees of freedom of the CV.
     pub fn interval_of_few(&self) -> Option<[f64; 2]> {
         let quantile = student_t_95_at(self.degrees()?);
         Some(interval_of_deviation_by(quantile, self.cv, self.standard_error?))
     }
 
-    /// Degrees of freedom of the CV: so many independent patches would tell as much. None if the sheet is too small to say.
+    /// Degrees of freedom of the CV: so many independent patches would tell as much. None if the sheet is too
+    /// small to say.
     pub fn degrees(&self) -> Option<f64> {
         Some(0.5 * (self.cv / self.standard_error?).powi(2))
     }
 }
 
-/// A variance is given with an error only if it has at least this many degrees of freedom: the number of independent values that would tell as much.
+/// A variance is given with an error only if it has at least this many degrees of freedom: the number of
+/// independent values that would tell as much.
 pub(super) const DEGREES: f64 = 5.0;
 /// Most places of a patch each way whose waves are looked at.
 const WAVES: usize = 512;
@@ -56,8 +60,8 @@ pub fn unevenness(map: &Map, side: usize) -> Option<Unevenness> {
 ///
 /// The variance is a sum over waves. For many independent filaments the basis weight is a normal field, whose waves are
 /// independent, each with a power that scatters by as much as its mean; so the powers themselves say how much their sum
-/// scatters between webs. (theory.md, "Chance in a map".) On a sheet that is not closed, the mean is known from the sheet only; the variance is
-/// larger by that of the mean.
+/// scatters between webs. (theory.md, "Chance in a map".) On a sheet that is not closed, the mean is known
+/// from the sheet only; the variance is larger by that of the mean.
 ///
 /// * `side` – of a patch [cells], at least one and within the sheet; None otherwise, and without any fibre
 /// * `places` – what is known of the places of the filaments
@@ -105,8 +109,8 @@ pub fn unevenness_at(map: &Map, side: usize, places_of_filaments: &Places) -> Op
     })
 }
 
-/// The coefficient of variation over the patches of this very map, at every place within its edges. That of the web is larger, by what the
-/// mean of a piece varies.
+/// The coefficient of variation over the patches of this very map, at every place within its edges. That of
+/// the web is larger, by what the mean of a piece varies.
 ///
 /// * `side` – of a patch [cells]; None unless it is within the map, and without any fibre
 pub fn cv_of_piece(map: &Map, side: usize) -> Option<f64> {

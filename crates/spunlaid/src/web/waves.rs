@@ -6,11 +6,13 @@ use crate::threads::each;
 
 /// What is known of the places at which the filaments of a sheet come down.
 ///
-/// A filament that stays at its place leaves a streak along the whole sheet. Are the streaks of another web of this kind others, or the same?
+/// A filament that stays at its place leaves a streak along the whole sheet. Are the streaks of another web
+/// of this kind others, or the same?
 #[derive(Clone, Debug, PartialEq)]
 pub enum Places {
-    /// Nothing is known, as of a scan: streaks are chance, and the map itself says of how much. On a sheet that is closed in cross direction the mean is the same for all; otherwise the
-    /// variance of the mean is found from the longest waves.
+    /// Nothing is known, as of a scan: streaks are chance, and the map itself says of how much. On a sheet
+    /// that is closed in cross direction the mean is the same for all; otherwise the variance of the mean is
+    /// found from the longest waves.
     Unknown,
     /// Some filaments are at random places: streaks are chance, and so is the number of filaments.
     AtRandom(Streaks),
@@ -23,8 +25,8 @@ pub enum Places {
 pub struct Streaks {
     /// Variance of the mean basis weight of sheets like this one.
     pub variance_of_mean: f64,
-    /// Mean power of the wave with so many periods across the sheet and none along it, from one period on. All waves have twice that, since each counts
-    /// in both senses.
+    /// Mean power of the wave with so many periods across the sheet and none along it, from one period on.
+    /// All waves have twice that, since each counts in both senses.
     pub powers: Vec<f64>,
 }
 
@@ -153,7 +155,8 @@ impl Powers {
         }
     }
 
-    /// Variance of the mean of a sheet that is cut out of a larger one: the power of its longest waves, which the mean continues.
+    /// Variance of the mean of a sheet that is cut out of a larger one: the power of its longest waves, which
+    /// the mean continues.
     ///
     /// * `closed` – directions in which the sheet is closed, so that the mean is known
     pub(super) fn variance_of_mean(&self, closed: [bool; 2]) -> f64 {
@@ -198,8 +201,9 @@ impl Sums {
         self.squares += power * power;
     }
 
-    /// Variance of the sum of the powers. For a normal field each has the standard deviation of its mean, and waves of opposite sign are one, so it is twice
-    /// the sum of squared means, or the sum of squares. That of few waves is too small beside the square of their sum: for equal waves by just the denominator.
+    /// Variance of the sum of the powers. For a normal field each has the standard deviation of its mean, and
+    /// waves of opposite sign are one, so it is twice the sum of squared means, or the sum of squares. That
+    /// of few waves is too small beside the square of their sum: for equal waves by just the denominator.
     fn variance(self) -> f64 {
         if self.powers > 0.0 {
             let share = self.squares / (self.powers * self.powers);
@@ -216,8 +220,8 @@ impl Parts {
         self.streak_power + self.other_waves.powers
     }
 
-    /// The variance of that variance over webs of the kind, over its square. Where it is known how strong streaks are on average, it does not depend on how strong
-    /// they have come out.
+    /// The variance of that variance over webs of the kind, over its square. Where it is known how strong
+    /// streaks are on average, it does not depend on how strong they have come out.
     ///
     /// * `open` – directions, cross and machine, in which a Hann window makes one wave of two
     pub(super) fn share(&self, open: [bool; 2]) -> f64 {

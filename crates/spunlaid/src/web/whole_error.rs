@@ -1,4 +1,5 @@
-//! How far the unevenness of a map may be from that of the fibres that were flown: by chance, by the few fibres, by the model.
+//! How far the unevenness of a map may be from that of the fibres that were flown: by chance, by the few
+//! fibres, by the model.
 
 use super::{Fibres, PatchFindings, Web};
 
@@ -11,16 +12,17 @@ pub struct WholeError {
     pub chance: Option<f64>,
     /// By the fibres that were flown, which are few. None if the web was not laid from flights, or from a single curve.
     pub flight: Option<f64>,
-    /// By the model that laid the map: how far its expected CV is from that of the flown curves. Zero for the flown curves themselves;
-    /// None for a surrogate whose numbers were given, because nothing was flown beside it.
+    /// By the model that laid the map: how far its expected CV is from that of the flown curves. Zero for the
+    /// flown curves themselves; None for a surrogate whose numbers were given, because nothing was flown
+    /// beside it.
     pub model: Option<f64>,
 }
 
 impl WholeError {
     /// All causes together; None if one of them is not known.
     ///
-    /// The square of a difference and the square of its standard error together are what the square of the true difference is
-    /// on average, so the squares add up.
+    /// The square of a difference and the square of its standard error together are what the square of the
+    /// true difference is on average, so the squares add up.
     pub fn whole(&self) -> Option<f64> {
         Some(self.chance?.hypot(self.flight?).hypot(self.model?))
     }
@@ -47,8 +49,8 @@ impl PatchFindings {
         WholeError { chance: self.map.standard_error, flight, model }
     }
 
-    /// The CV that the surrogate lets expect over that of the flown curves, less one, with its standard error; None unless both are
-    /// known.
+    /// The CV that the surrogate lets expect over that of the flown curves, less one, with its standard
+    /// error; None unless both are known.
     pub fn surrogate_over_flown(&self) -> Option<(f64, f64)> {
         let ((surrogate, own), (flown, error)) = (self.surrogate?, self.flown?);
         let ratio = surrogate / flown;
@@ -63,8 +65,9 @@ impl PatchFindings {
 }
 
 impl Web {
-    /// Longest distance from point to point along the flown curves of the layers [m]: over smaller patches the flight, which
-    /// has straight pieces of this length, says little more than the surrogate. None if nothing was flown.
+    /// Longest distance from point to point along the flown curves of the layers [m]: over smaller patches
+    /// the flight, which has straight pieces of this length, says little more than the surrogate. None if
+    /// nothing was flown.
     pub fn longest_element(&self) -> Option<f64> {
         let fibres =
             self.layers.iter().flat_map(|layer| [Some(&layer.fibres), layer.other_description.as_ref()]);

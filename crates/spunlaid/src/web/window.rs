@@ -40,7 +40,8 @@ impl Window {
     }
 }
 
-/// Windows of the sheet, whose fibres are kept while it is laid: the one that is shown, and those in which holes are counted.
+/// Windows of the sheet, whose fibres are kept while it is laid: the one that is shown, and those in which
+/// holes are counted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Windows {
     /// The window whose fibres are shown.
@@ -155,7 +156,8 @@ impl WindowLattice {
 pub(crate) struct WindowOnSheet {
     /// The window that is shown; None if it is on another stretch.
     window: Option<Window>,
-    /// The windows in which holes are counted, and which of their rows are on this stretch: from the first to before the last.
+    /// The windows in which holes are counted, and which of their rows are on this stretch: from the first to
+    /// before the last.
     counted: Option<(WindowLattice, [usize; 2])>,
     /// Width after which the sheet goes on at its edges [m].
     turn: Option<f64>,

@@ -48,7 +48,8 @@ pub fn laid(file: &FitFile, values: &[f64], seed: u64) -> Map {
     Flyer::new(1, &STOP, &follow).web(&spec).unwrap().map(by).unwrap()
 }
 
-/// A map as a scanner of 16 bits sees it, with a lamp whose level is known. So thin a web lets light through even where fibres cross.
+/// A map as a scanner of 16 bits sees it, with a lamp whose level is known. So thin a web lets light through
+/// even where fibres cross.
 pub fn scanned(map: &Map) -> MeasuredWeb {
     let mean = map.total() as f64 / map.cells.len() as f64;
     let level = |cell: &u32| (50_000.0 * (-0.1 * f64::from(*cell) / mean).exp()).round();

@@ -100,7 +100,8 @@ impl File {
             Squeeze::Lz4 => " compressor=\"vtkLZ4DataCompressor\"",
         };
         let head = format!(
-            "<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"{order}\" header_type=\"{header}\"{compressor}>\n"
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"{order}\" \
+            header_type=\"{header}\"{compressor}>\n"
         );
         Self { style, head, appended: Vec::new() }
     }

@@ -5,7 +5,8 @@ use spunlaid::field::{Description, Field, Hint};
 use spunlaid::vec3::Vec3;
 use std::path::Path;
 
-/// 8 m/s at x = −0.2 m and 14 m/s at 1.2 m if the air of the files is whole: their formula, with the mean over y of 11 m/s.
+/// 8 m/s at x = −0.2 m and 14 m/s at 1.2 m if the air of the files is whole: their formula, with the mean
+/// over y of 11 m/s.
 ///
 /// The hidden points and cells hold 0 or 999 m/s, the cells that another piece has too hold 0.
 #[test]
@@ -84,7 +85,8 @@ fn analytic_rows_that_are_hidden_or_lack_a_number_end_the_air() {
     }
 }
 
-/// Bits by `vtkDataSetAttributes.h` of VTK 9: 2 hides a point, and says of a cell that it has many neighbours; 8 and 32 hide a cell.
+/// Bits by `vtkDataSetAttributes.h` of VTK 9: 2 hides a point, and says of a cell that it has many
+/// neighbours; 8 and 32 hide a cell.
 #[test]
 fn published_ghost_bits_of_a_table_of_centres_are_those_of_cells() {
     let of_marks = |marks: &dyn Fn(usize) -> u32| {
@@ -142,7 +144,8 @@ fn analytic_meshes_of_faces_in_a_plane_are_plane_flows() {
         let (count, entries) = (cells.len(), cells.len() * if triangles { 4 } else { 5 });
         let (kind, list) = if surface { ("POLYDATA", "POLYGONS") } else { ("UNSTRUCTURED_GRID", "CELLS") };
         let mut text = format!(
-            "# vtk DataFile Version 3.0\na\nASCII\nDATASET {kind}\nPOINTS 30 double\n{points}{list} {count} {entries}\n{}\n",
+            "# vtk DataFile Version 3.0\na\nASCII\nDATASET {kind}\nPOINTS 30 double\n\
+            {points}{list} {count} {entries}\n{}\n",
             cells.join("\n")
         );
         if !surface {
@@ -170,8 +173,8 @@ fn analytic_meshes_of_faces_in_a_plane_are_plane_flows() {
     }
 }
 
-/// 5 × 3 × 2 points with u = 10 + x, in legacy files of each kind of grid. The last column of cells is hidden, by its cells or by its
-/// points, which hold 999 m/s.
+/// 5 × 3 × 2 points with u = 10 + x, in legacy files of each kind of grid. The last column of cells is
+/// hidden, by its cells or by its points, which hold 999 m/s.
 #[test]
 fn analytic_hidden_columns_of_legacy_grids_are_no_air() {
     let places: Vec<[usize; 3]> = (0..30).map(|i| [i % 5, i / 5 % 3, i / 15]).collect();
@@ -204,7 +207,8 @@ fn analytic_hidden_columns_of_legacy_grids_are_no_air() {
             ),
         ] {
             let text = format!(
-                "# vtk DataFile Version 3.0\na\nASCII\nDATASET {kind}\nDIMENSIONS 5 3 2\n{shape}POINT_DATA 30\nVECTORS U double\n{velocities}{marks}"
+                "# vtk DataFile Version 3.0\na\nASCII\nDATASET {kind}\nDIMENSIONS 5 3 2\n\
+                {shape}POINT_DATA 30\nVECTORS U double\n{velocities}{marks}"
             );
             let (field, warnings) = Field::parse(text.as_bytes(), "a.vtk").unwrap();
             assert!(
@@ -219,8 +223,8 @@ fn analytic_hidden_columns_of_legacy_grids_are_no_air() {
     }
 }
 
-/// A piece of a grid of 5 × 3 × 2 points with u = 10 + x at points or in cells, from one place along x to another. The cells from
-/// `own` on are those of the next piece; what they alone have is wrong.
+/// A piece of a grid of 5 × 3 × 2 points with u = 10 + x at points or in cells, from one place along x to
+/// another. The cells from `own` on are those of the next piece; what they alone have is wrong.
 fn piece(is_image: bool, in_cells: bool, [from, to, own]: [usize; 3]) -> String {
     let extent = format!("{from} {to} 0 2 0 1");
     let cells = to - from;
@@ -257,12 +261,14 @@ fn piece(is_image: bool, in_cells: bool, [from, to, own]: [usize; 3]) -> String 
         }
     };
     format!(
-        "<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\">\n<{kind} WholeExtent=\"{extent}\"{shape}>\n\
-         <Piece Extent=\"{extent}\">\n<PointData>\n{point_data}</PointData>\n<CellData>\n{cell_data}</CellData>\n{axes}</Piece>\n</{kind}>\n</VTKFile>\n"
+        "<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\">\n\
+        <{kind} WholeExtent=\"{extent}\"{shape}>\n<Piece Extent=\"{extent}\">\n<PointData>\n\
+        {point_data}</PointData>\n<CellData>\n{cell_data}</CellData>\n{axes}</Piece>\n</{kind}>\n</VTKFile>\n"
     )
 }
 
-/// Pieces of parallel grids overlap by a layer of cells, which counts once: the air is that of the piece whose own it is.
+/// Pieces of parallel grids overlap by a layer of cells, which counts once: the air is that of the piece
+/// whose own it is.
 #[test]
 fn analytic_cells_that_another_piece_of_a_grid_has_too_count_once() {
     for (is_image, in_cells) in [(true, false), (true, true), (false, false), (false, true)] {
@@ -275,7 +281,8 @@ fn analytic_cells_that_another_piece_of_a_grid_has_too_count_once() {
             let sources: String =
                 parts.iter().map(|part| format!("<Piece Source=\"{part}.{end}\"/>\n")).collect();
             let list = format!(
-                "<VTKFile type=\"P{kind}\" version=\"1.0\">\n<P{kind} GhostLevel=\"1\">\n{sources}</P{kind}>\n</VTKFile>\n"
+                "<VTKFile type=\"P{kind}\" version=\"1.0\">\n<P{kind} GhostLevel=\"1\">\n\
+                {sources}</P{kind}>\n</VTKFile>\n"
             );
             write(&format!("list.p{end}"), list);
             let (field, warnings) = Field::read(&folder.path().join(format!("list.p{end}"))).unwrap();

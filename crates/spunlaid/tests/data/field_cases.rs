@@ -62,7 +62,8 @@ fn warns_of_air_that_blows_up_the_fibre_or_across() {
     for (axis, how) in [
         (
             "-x",
-            "flow along the fibre with -10 m/s on average, although its speed is 10 m/s: it blows from the end to the root",
+            "flow along the fibre with -10 m/s on average, although its speed is 10 m/s: it blows from the \
+            end to the root",
         ),
         ("z", "flow along the fibre with 0 m/s on average, although its speed is 10 m/s: it blows across"),
     ] {

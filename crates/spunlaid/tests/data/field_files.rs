@@ -310,7 +310,8 @@ fn tables_of_many_programs_are_read() {
             rows("1;2;3;4;5", ",")
         ),
         format!(
-            "nodenumber,    x-coordinate,    y-coordinate,    z-coordinate,      x-velocity,      y-velocity,      z-velocity, turb-kinetic-energy,  turb-diss-rate\n{}",
+            "nodenumber,    x-coordinate,    y-coordinate,    z-coordinate,      x-velocity,      \
+            y-velocity,      z-velocity, turb-kinetic-energy,  turb-diss-rate\n{}",
             numbered(rows("1;2;3;4;5", ", "))
         ),
         format!(
@@ -318,24 +319,35 @@ fn tables_of_many_programs_are_read() {
             rows("1;2;3;4;5", ",")
         ),
         format!(
-            "[Name]\nPlane 1\n\n[Data]\nX [ m ], Y [ m ], Z [ m ], Velocity u [ m s^-1 ], Velocity v [ m s^-1 ], Velocity w [ m s^-1 ], Turbulence Kinetic Energy [ m^2 s^-2 ], Turbulence Eddy Dissipation [ m^2 s^-3 ]\n{}",
+            "[Name]\nPlane 1\n\n[Data]\nX [ m ], Y [ m ], Z [ m ], Velocity u [ m s^-1 ], Velocity v [ m \
+            s^-1 ], Velocity w [ m s^-1 ], Turbulence Kinetic Energy [ m^2 s^-2 ], Turbulence Eddy \
+            Dissipation [ m^2 s^-3 ]\n{}",
             rows("1;2;3;4;5", ", ")
         ),
         format!(
-            "X (m),Y (m),Z (m),Velocity[i] (m/s),Velocity[j] (m/s),Velocity[k] (m/s),Turbulent Kinetic Energy (J/kg),Turbulent Dissipation Rate (m^2/s^3)\n{}",
+            "X (m),Y (m),Z (m),Velocity[i] (m/s),Velocity[j] (m/s),Velocity[k] (m/s),Turbulent Kinetic \
+            Energy (J/kg),Turbulent Dissipation Rate (m^2/s^3)\n{}",
             rows("1;2;3;4;5", ",")
         ),
         format!("% x y z u v w k ep\n{}", rows("1;2;3;4;5", "   ")),
         format!(
-            "% Model:              channel.mph\n% Version:            COMSOL 6.1.0.252\n% Date:               May 2 2024, 10:11\n% Dimension:          3\n% Nodes:              8\n% Expressions:        5\n% Description:        Velocity field, x-component, Velocity field, y-component, Velocity field, z-component, Turbulent kinetic energy, Turbulent dissipation rate\n% Length unit:        m\n% x                       y                        z                        u (m/s)                  v (m/s)                  w (m/s)                  k (m^2/s^2)              ep (m^2/s^3)\n{}",
+            "% Model:              channel.mph\n% Version:            COMSOL 6.1.0.252\n\
+            % Date:               May 2 2024, 10:11\n% Dimension:          3\n% Nodes:              8\n\
+            % Expressions:        5\n% Description:        Velocity field, x-component, Velocity field, \
+            y-component, Velocity field, z-component, Turbulent kinetic energy, Turbulent dissipation rate\n\
+            % Length unit:        m\n% x                       y                        \
+            z                        u (m/s)                  v (m/s)                  w \
+            (m/s)                  k (m^2/s^2)              ep (m^2/s^3)\n{}",
             rows("1;2;3;4;5", "                       ")
         ),
         format!(
-            "TITLE = \"channel, 2 by 2\"\nVARIABLES = \"X\", \"Y\", \"Z\", \"U [m/s]\", \"V [m/s]\", \"W [m/s]\", \"k\", \"epsilon\"\nZONE T=\"F=BLOCK\", I=2, J=2, K=2, DATAPACKING=POINT\n{}",
+            "TITLE = \"channel, 2 by 2\"\nVARIABLES = \"X\", \"Y\", \"Z\", \"U [m/s]\", \"V [m/s]\", \"W \
+            [m/s]\", \"k\", \"epsilon\"\nZONE T=\"F=BLOCK\", I=2, J=2, K=2, DATAPACKING=POINT\n{}",
             rows("1;2;3;4;5", " ")
         ),
         format!(
-            "# made by a solver\nvariables = \"x-coordinate\"\n\"y-coordinate\"\n\"z-coordinate\"\n\"x-velocity\"\n\"y-velocity\"\n\"z-velocity\"\n\"turb-kinetic-energy\"\n\"turb-diss-rate\"\nzone t=\"fluid\"\n n=8, e=1, f=fepoint, et=brick\n{}1 2 4 3 5 6 8 7\n",
+            "# made by a solver\nvariables = \
+            \"x-coordinate\"\n\"y-coordinate\"\n\"z-coordinate\"\n\"x-velocity\"\n\"y-velocity\"\n\"z-velocity\"\n\"turb-kinetic-energy\"\n\"turb-diss-rate\"\nzone t=\"fluid\"\n n=8, e=1, f=fepoint, et=brick\n{}1 2 4 3 5 6 8 7\n",
             rows("1;2;3;4;5", "\t")
         ),
         format!(

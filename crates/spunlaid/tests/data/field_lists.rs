@@ -1,4 +1,5 @@
-//! Lists of files are the field that their parts are together, and a list that cannot be read says which part is to blame.
+//! Lists of files are the field that their parts are together, and a list that cannot be read says which part
+//! is to blame.
 
 use crate::air::{mesh, samples, values};
 use crate::meshes::{Made, noise};
@@ -29,7 +30,8 @@ fn folder(files: &[(&str, &[u8])]) -> TempDir {
 fn pieces(kind: &str, parts: &[&str]) -> String {
     let parts: String = parts.iter().map(|part| format!("<Piece Source=\"{part}\"/>\n")).collect();
     format!(
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"P{kind}\" version=\"0.1\">\n<P{kind} GhostLevel=\"0\">\n{parts}</P{kind}>\n</VTKFile>\n"
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"P{kind}\" version=\"0.1\">\n<P{kind} GhostLevel=\"0\">\n\
+        {parts}</P{kind}>\n</VTKFile>\n"
     )
 }
 
@@ -40,7 +42,8 @@ fn blocks(parts: &[&str]) -> String {
     let others: String = others.iter().map(block).collect();
     let kind = "vtkMultiBlockDataSet";
     format!(
-        "<VTKFile type=\"{kind}\" version=\"1.0\">\n<{kind}>\n<Block index=\"0\">\n{}</Block>\n<DataSet index=\"9\"/>\n{others}</{kind}>\n</VTKFile>\n",
+        "<VTKFile type=\"{kind}\" version=\"1.0\">\n<{kind}>\n<Block index=\"0\">\n{}</Block>\n\
+        <DataSet index=\"9\"/>\n{others}</{kind}>\n</VTKFile>\n",
         block(first)
     )
 }

@@ -73,7 +73,8 @@ fn identical_with_german_names_in_every_format() {
     of_cells.cell_data = values(&mesh.points[..mesh.cells.len()]);
     let list = |part: &str| {
         format!(
-            "<VTKFile type=\"PUnstructuredGrid\"><PUnstructuredGrid><Piece Source=\"{part}\"/></PUnstructuredGrid></VTKFile>"
+            "<VTKFile type=\"PUnstructuredGrid\"><PUnstructuredGrid><Piece \
+            Source=\"{part}\"/></PUnstructuredGrid></VTKFile>"
         )
     };
     let data = values(&(0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(f64::from)).collect::<Vec<_>>());
@@ -144,12 +145,14 @@ fn identical_with_german_names_in_every_table() {
             GERMAN,
         ),
         (
-            "VARIABLES = \"X\" \"Y\" \"Z\" \"Geschw. längs\" \"Geschw. quer\" \"Geschw. hoch\" \"Turbulenzenergie\" \"Dissipation\"\nZONE I=2, J=2, K=2, DATAPACKING=POINT",
+            "VARIABLES = \"X\" \"Y\" \"Z\" \"Geschw. längs\" \"Geschw. quer\" \"Geschw. hoch\" \
+            \"Turbulenzenergie\" \"Dissipation\"\nZONE I=2, J=2, K=2, DATAPACKING=POINT",
             " ",
             components("Geschw. längs, geschw. quer, Geschw. hoch"),
         ),
         (
-            "% Length unit: m\n% x  y  z  längs (m/s)  quer (m/s)  hoch (m/s)  Turbulenzenergie (m^2/s^2)  Dissipation (m^2/s^3)",
+            "% Length unit: m\n% x  y  z  längs (m/s)  quer (m/s)  hoch (m/s)  Turbulenzenergie (m^2/s^2)  \
+            Dissipation (m^2/s^3)",
             "   ",
             components("längs, quer, hoch (m/s)"),
         ),
@@ -232,53 +235,66 @@ fn messages_offer_the_keys_with_arrays_of_the_file() {
         (
             &german,
             &[][..],
-            "none of the arrays is a velocity (Druck, Geschwindigkeit, Turbulenzenergie and Dissipation); write air.field_velocity = \"Geschwindigkeit\" if this is it",
+            "none of the arrays is a velocity (Druck, Geschwindigkeit, Turbulenzenergie and Dissipation); \
+            write air.field_velocity = \"Geschwindigkeit\" if this is it",
         ),
         (
             &table,
             &[],
-            "none of the arrays is a velocity (x, y, z, p, Gx, Gy and Gz); write air.field_velocity = \"Gx, Gy, Gz\" if this is it",
+            "none of the arrays is a velocity (x, y, z, p, Gx, Gy and Gz); write air.field_velocity = \"Gx, \
+            Gy, Gz\" if this is it",
         ),
         (
             &german,
             &[("air.field_velocity", "Geschwindigkiet")],
-            "a.vti: has no array \"Geschwindigkiet\", which air.field_velocity names; did you mean \"Geschwindigkeit\"? The arrays are Druck, Geschwindigkeit, Turbulenzenergie and Dissipation",
+            "a.vti: has no array \"Geschwindigkiet\", which air.field_velocity names; did you mean \
+            \"Geschwindigkeit\"? The arrays are Druck, Geschwindigkeit, Turbulenzenergie and Dissipation",
         ),
         (
             &german,
             &[("air.field_velocity", "qqq")],
-            "a.vti: has no array \"qqq\", which air.field_velocity names; the arrays are Druck, Geschwindigkeit, Turbulenzenergie and Dissipation",
+            "a.vti: has no array \"qqq\", which air.field_velocity names; the arrays are Druck, \
+            Geschwindigkeit, Turbulenzenergie and Dissipation",
         ),
         (
             &german,
             &[("air.field_velocity", "Druck")],
-            "air.field_velocity names \"Druck\" of 1 component, and it takes one array of three components, or two or three arrays of one with commas between them, all at points or all in cells; the arrays are",
+            "air.field_velocity names \"Druck\" of 1 component, and it takes one array of three components, \
+            or two or three arrays of one with commas between them, all at points or all in cells; the \
+            arrays are",
         ),
         (
             &german,
             &[("air.field_velocity", "Geschwindigkeit"), ("air.field_k", "Geschwindigkeit")],
-            "air.field_k names \"Geschwindigkeit\" of 3 components, and it takes an array of one component; the arrays are",
+            "air.field_k names \"Geschwindigkeit\" of 3 components, and it takes an array of one component; \
+            the arrays are",
         ),
         (
             &table,
             &[("air.field_velocity", "Gx, Gx, Gz")],
-            "air.field_velocity names \"Gx\" of 1 component and \"Gx\" of 1 component and \"Gz\" of 1 component, and it takes",
+            "air.field_velocity names \"Gx\" of 1 component and \"Gx\" of 1 component and \"Gz\" of 1 \
+            component, and it takes",
         ),
         (&table, &[("air.field_velocity", "Gx, Gy, Gz, p")], "and \"p\" of 1 component, and it takes"),
         (
             &half,
             &[],
-            "air.length_scale is missing, and the field does not contain it: it has k but neither ε nor ω among Druck, U, k and Dissipation; write these arrays too, or name those that have other names, like air.field_epsilon = \"Dissipation\", or add length_scale",
+            "air.length_scale is missing, and the field does not contain it: it has k but neither ε nor ω \
+            among Druck, U, k and Dissipation; write these arrays too, or name those that have other names, \
+            like air.field_epsilon = \"Dissipation\", or add length_scale",
         ),
         (
             &german,
             &[("air.field_velocity", "Geschwindigkeit")],
-            "it has neither k nor ε nor ω among Druck, Geschwindigkeit, Turbulenzenergie and Dissipation; write these arrays too, or name those that have other names, like air.field_k = ",
+            "it has neither k nor ε nor ω among Druck, Geschwindigkeit, Turbulenzenergie and Dissipation; \
+            write these arrays too, or name those that have other names, like air.field_k = ",
         ),
         (
             &german,
             &[("air.field_velocity", "Geschwindigkeit"), ("air.field_k", "Turbulenzenergie")],
-            "air.field_k has no effect, because the field has k but neither ε nor ω among Druck, Geschwindigkeit, Turbulenzenergie and Dissipation; write these arrays too, or name those that have other names, like air.field_epsilon = \"Dissipation\", or leave air.field_k out",
+            "air.field_k has no effect, because the field has k but neither ε nor ω among Druck, \
+            Geschwindigkeit, Turbulenzenergie and Dissipation; write these arrays too, or name those that \
+            have other names, like air.field_epsilon = \"Dissipation\", or leave air.field_k out",
         ),
     ] {
         let name = if std::ptr::eq(bytes, &table) { "a.csv" } else { "a.vti" };

@@ -39,7 +39,8 @@ fn rejects_meshes_with_place_and_way_out() {
         (
             types,
             &types.replace("12", "43"),
-            "a.vtu: cell 1: is of VTK type 43, which is not supported; write tetrahedra, voxels, hexahedra, wedges, pyramids or polyhedra",
+            "a.vtu: cell 1: is of VTK type 43, which is not supported; write tetrahedra, voxels, hexahedra, \
+            wedges, pyramids or polyhedra",
         ),
         (
             types,
@@ -56,13 +57,15 @@ fn rejects_meshes_with_place_and_way_out() {
         (
             "0 1 4 3",
             "0 1 4 x",
-            "a.vtu:27: connectivity: \"x\" was found instead of a number; is the file complete, and is it the right one?",
+            "a.vtu:27: connectivity: \"x\" was found instead of a number; is the file complete, and is it \
+            the right one?",
         ),
         ("<Points>", "<Spots>", "a.vtu:25: is not valid XML: expected 'Spots' tag, not 'Points' at 25:1"),
         (
             "Float64\" Name=\"Points",
             "Float16\" Name=\"Points",
-            "a.vtu:22: Points: \"Float16\" was found instead of a type of number; is the file complete, and is it the right one?",
+            "a.vtu:22: Points: \"Float16\" was found instead of a type of number; is the file complete, and \
+            is it the right one?",
         ),
         (
             "NumberOfPoints=\"27\"",
@@ -77,7 +80,8 @@ fn rejects_meshes_with_place_and_way_out() {
         (
             "NumberOfCells=\"8\"",
             "NumberOfCells=\"-8\"",
-            "a.vtu:4: NumberOfCells: \"-8\" was found instead of a whole number; is the file complete, and is it the right one?",
+            "a.vtu:4: NumberOfCells: \"-8\" was found instead of a whole number; is the file complete, and \
+            is it the right one?",
         ),
         (
             "type=\"UnstructuredGrid\"",
@@ -87,7 +91,8 @@ fn rejects_meshes_with_place_and_way_out() {
         (
             "header_type",
             "compressor=\"vtkLZMADataCompressor\" header_type",
-            "a.vtu: is written with the compressor vtkLZMADataCompressor, which is not supported; write it with zlib, LZ4 or none",
+            "a.vtu: is written with the compressor vtkLZMADataCompressor, which is not supported; write it \
+            with zlib, LZ4 or none",
         ),
     ] {
         assert_eq!(changed(&plain, from, to), said);
@@ -96,7 +101,8 @@ fn rejects_meshes_with_place_and_way_out() {
     flat.cells.iter_mut().for_each(|cell| *cell = (9, cell.1[..4].to_vec(), vec![]));
     assert_eq!(
         refused(&vtu(&[flat], ASCII)),
-        "a.vtu: has no cells with a volume, only 8 faces, and they do not lie in one plane across x, y or z; write the interior of the flow; a plane flow may be a mesh of faces in the plane of two coordinates"
+        "a.vtu: has no cells with a volume, only 8 faces, and they do not lie in one plane across x, y or z; \
+        write the interior of the flow; a plane flow may be a mesh of faces in the plane of two coordinates"
     );
 }
 
@@ -117,7 +123,8 @@ fn rejects_grids_with_place_and_way_out() {
         ),
         (
             "0 1 0 1",
-            "a.vtu:4: WholeExtent: \"0 1 0 1\" was found instead of numbers separated by blanks; is the file complete, and is it the right one?",
+            "a.vtu:4: WholeExtent: \"0 1 0 1\" was found instead of numbers separated by blanks; is the file \
+            complete, and is it the right one?",
         ),
     ] {
         assert_eq!(refused(image.replace("0 1 0 1 0 1", extent).as_bytes()), said);
@@ -199,7 +206,8 @@ fn rejects_legacy_files_with_place_and_way_out() {
         (
             "ASCII",
             "DATASET POLYGONS",
-            "a.vtu:4: \"POLYGONS\" was found instead of STRUCTURED_POINTS, RECTILINEAR_GRID, STRUCTURED_GRID, UNSTRUCTURED_GRID or POLYDATA; is the file complete, and is it the right one?",
+            "a.vtu:4: \"POLYGONS\" was found instead of STRUCTURED_POINTS, RECTILINEAR_GRID, \
+            STRUCTURED_GRID, UNSTRUCTURED_GRID or POLYDATA; is the file complete, and is it the right one?",
         ),
         (
             "TEXT",
@@ -214,7 +222,8 @@ fn rejects_legacy_files_with_place_and_way_out() {
         ),
         (
             "ASCII",
-            "DATASET STRUCTURED_POINTS\nDIMENSIONS 1000000 1000000 1000000\nPOINT_DATA 1000000000000000000\nVECTORS U float\n1 2 3",
+            "DATASET STRUCTURED_POINTS\nDIMENSIONS 1000000 1000000 1000000\nPOINT_DATA 1000000000000000000\n\
+            VECTORS U float\n1 2 3",
             "a.vtu:7: U: ends where more numbers should follow; is the file cut off?",
         ),
     ] {
@@ -238,7 +247,8 @@ fn rejects_tables_with_place_and_way_out() {
         ),
         (
             "x,y,z,p,T\n1,2,3,4,5\n",
-            "a.vtu: none of the arrays is a velocity (x, y, z, p and T); name it U or velocity, with three components, or write u, v and w, or name its arrays with air.field_velocity",
+            "a.vtu: none of the arrays is a velocity (x, y, z, p and T); name it U or velocity, with three \
+            components, or write u, v and w, or name its arrays with air.field_velocity",
         ),
         (
             "x [inch],y,z,u,v,w\n1,2,3,4,5,6\n",
@@ -266,11 +276,13 @@ fn rejects_tables_with_place_and_way_out() {
         ),
         (
             "TITLE=\"a\"\nVARIABLES=\"X\",\"Y\",\"U\",\"V\"\nZONE I=2, F=BLOCK\n1 2\n3 4\n1 1\n0 0\n",
-            "a.vtu:3: is a Tecplot file in blocks; write it with one row for each point, and DATAPACKING=POINT in the line ZONE",
+            "a.vtu:3: is a Tecplot file in blocks; write it with one row for each point, and \
+            DATAPACKING=POINT in the line ZONE",
         ),
         (
             "VARIABLES=X,Y,U,V\nZONE I=2\n1 2 3 4\n3 4 5 6\n",
-            "a.vtu:2: is a Tecplot file that does not say whether its values are in points or in blocks; write it with one row for each point, and DATAPACKING=POINT in the line ZONE",
+            "a.vtu:2: is a Tecplot file that does not say whether its values are in points or in blocks; \
+            write it with one row for each point, and DATAPACKING=POINT in the line ZONE",
         ),
         (
             "VARIABLES=X,Y,U,V\nZONE I=2, J=2, F=POINT\n1 2 3 4\n3 4 5 6\n",
@@ -291,7 +303,8 @@ fn rejects_tables_with_place_and_way_out() {
         ),
         (
             "\u{89}HDF\r\n\0\0",
-            "a.vtu:2: is not text; a field of air is VTK (.vtu, .vti, .vts, .vtr, .vtk), a list of its files (.vtm, .pvtu) or a table (.csv)",
+            "a.vtu:2: is not text; a field of air is VTK (.vtu, .vti, .vts, .vtr, .vtk), a list of its files \
+            (.vtm, .pvtu) or a table (.csv)",
         ),
     ] {
         assert_eq!(refused(text.as_bytes()), said);
@@ -300,7 +313,8 @@ fn rejects_tables_with_place_and_way_out() {
 
 #[test]
 fn rejects_entities_and_depth() {
-    let bomb = "<?xml version=\"1.0\"?><!DOCTYPE a [<!ENTITY b \"bb\"><!ENTITY c \"&b;&b;\">]><VTKFile type=\"ImageData\">&c;</VTKFile>";
+    let bomb = "<?xml version=\"1.0\"?><!DOCTYPE a [<!ENTITY b \"bb\"><!ENTITY c \"&b;&b;\">]><VTKFile \
+        type=\"ImageData\">&c;</VTKFile>";
     assert_eq!(refused(bomb.as_bytes()), "a.vtu:1: is not valid XML: XML with DTD detected");
     for start in ["", "<VTKFile type=\"ImageData\"><ImageData>"] {
         let deep = format!("{start}{}", "<a>".repeat(100_000));
@@ -316,13 +330,15 @@ fn rejects_what_is_no_file() {
     let said = |path: &Path| Field::read(path).expect_err("this is no field").to_string();
     assert_eq!(
         said(Path::new("no/a.vtu")),
-        "no/a.vtu: there is no such file; name a field of air, VTK (.vtu, .vti, .vts, .vtr, .vtk), a list of its files (.vtm, .pvtu) or a table (.csv)"
+        "no/a.vtu: there is no such file; name a field of air, VTK (.vtu, .vti, .vts, .vtr, .vtk), a list of \
+        its files (.vtm, .pvtu) or a table (.csv)"
     );
     assert_eq!(said(Path::new("src")), "src: is a folder; name the field of air in it");
     let lzma = Path::new("tests/field_fixtures/lzma.refused");
     assert_eq!(
         said(lzma),
-        "tests/field_fixtures/lzma.refused: is written with the compressor vtkLZMADataCompressor, which is not supported; write it with zlib, LZ4 or none"
+        "tests/field_fixtures/lzma.refused: is written with the compressor vtkLZMADataCompressor, which is \
+        not supported; write it with zlib, LZ4 or none"
     );
 }
 
@@ -375,8 +391,8 @@ fn rejects_zones_of_several_times() {
         format!("VARIABLES = \"x\" \"y\" \"u\" \"v\"\n{}{}", zone(times[0], 5), zone(times[1], 7))
     };
     let said = Field::parse(file(["0.5", "1e0"]).as_bytes(), "a.dat").unwrap_err().to_string();
-    let wanted = "a.dat:12: has SOLUTIONTIME 1, and a zone before it has 0.5; the mean flow of a field is that of one time; write the \
-                  zones of one time only, or the mean over time";
+    let wanted = "a.dat:12: has SOLUTIONTIME 1, and a zone before it has 0.5; the mean flow of a field is \
+        that of one time; write the zones of one time only, or the mean over time";
     assert_eq!(said, wanted);
     assert!(Field::parse(file(["0.5", "0.50"]).as_bytes(), "a.dat").is_ok());
 }

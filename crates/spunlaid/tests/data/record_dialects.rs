@@ -39,7 +39,8 @@ fn gaps_are_told_from_rounding() {
     assert!(said.contains("give the sampling rate"), "{said}");
 }
 
-/// A clock of 900 Hz cut to whole milliseconds, and one of 1 kHz without every tenth row, have the same times, digit for digit.
+/// A clock of 900 Hz cut to whole milliseconds, and one of 1 kHz without every tenth row, have the same
+/// times, digit for digit.
 #[test]
 fn a_regular_gap_that_could_be_rounding_is_doubted() {
     let even = rounded(900.0, 3000, |_| false);

@@ -146,7 +146,8 @@ fn time_stamps_of_loggers_tell_the_spacing() {
         ),
         (
             "noon,3\n",
-            "a.csv:4: column time: \"noon\" is not a time stamp as in the rows above; write it as 2024-03-05 12:00:00.125,",
+            "a.csv:4: column time: \"noon\" is not a time stamp as in the rows above; write it as 2024-03-05 \
+            12:00:00.125,",
         ),
         ("12:00:02.4,3\n", "a.csv:4: column time: the time step changes from 1 s to 1.4 s"),
     ] {
@@ -199,11 +200,13 @@ fn rejects_with_line_column_and_way_out() {
         ("time_s,u_m_s\n0,1\n", "a.csv: has 1 sample; at least 64 are needed for statistics of turbulence"),
         (
             "time_s,p_Pa\n0,1\n",
-            "a.csv: none of the columns is a velocity (time_s and p_Pa); name them like u_m_s, or say which columns are velocities, and in which unit",
+            "a.csv: none of the columns is a velocity (time_s and p_Pa); name them like u_m_s, or say which \
+            columns are velocities, and in which unit",
         ),
         (
             "u_m_s\n1\n2\n",
-            "a.csv: has no column of time (it has u_m_s); name it like time_s, write time stamps in it, say which column it is (air.record_time in a case), or give the sampling rate",
+            "a.csv: has no column of time (it has u_m_s); name it like time_s, write time stamps in it, say \
+            which column it is (air.record_time in a case), or give the sampling rate",
         ),
         (
             "time,u_m_s\n0,1\n",
@@ -215,7 +218,8 @@ fn rejects_with_line_column_and_way_out() {
         ),
         (
             "time_s,u [Hz]\n0,1\n",
-            "a.csv: column u [Hz]: has the unit \"Hz\"; a velocity with its unit: m/s, cm/s, mm/s, km/h or m/min is needed",
+            "a.csv: column u [Hz]: has the unit \"Hz\"; a velocity with its unit: m/s, cm/s, mm/s, km/h or \
+            m/min is needed",
         ),
         (
             "time_s,u_m_s,v_m_s,w_m_s,u2_m_s\n0,1,1,1,1\n",
@@ -223,7 +227,8 @@ fn rejects_with_line_column_and_way_out() {
         ),
         (
             &format!("{head}3,x7\n"),
-            "a.csv:5: column u_m_s: \"x7\" is not a number; write one, or leave the cell empty where a value is missing",
+            "a.csv:5: column u_m_s: \"x7\" is not a number; write one, or leave the cell empty where a value \
+            is missing",
         ),
         (
             &format!("{head}3,inf\n"),
@@ -236,31 +241,42 @@ fn rejects_with_line_column_and_way_out() {
         ),
         (
             &format!("{head}2,4\n"),
-            "a.csv:5: column time_s: time goes from 2 s to 2 s; rows must be in order of time. If the times are only written with too few digits, give the sampling rate",
+            "a.csv:5: column time_s: time goes from 2 s to 2 s; rows must be in order of time. If the times \
+            are only written with too few digits, give the sampling rate",
         ),
         (
             &format!("{head}1,4\n"),
-            "a.csv:5: column time_s: time goes from 2 s to 1 s; rows must be in order of time. If the times are only written with too few digits, give the sampling rate",
+            "a.csv:5: column time_s: time goes from 2 s to 1 s; rows must be in order of time. If the times \
+            are only written with too few digits, give the sampling rate",
         ),
         (
             &format!("{head}3.5,4\n"),
-            "a.csv:5: column time_s: the time step changes from 1 s to 1.5 s; samples must be evenly spaced to within 1 %. Resample the record, or give the sampling rate if you know that the clock was even",
+            "a.csv:5: column time_s: the time step changes from 1 s to 1.5 s; samples must be evenly spaced \
+            to within 1 %. Resample the record, or give the sampling rate if you know that the clock was \
+            even",
         ),
         (
             &format!("{head}1e12,4\n"),
-            "a.csv:5: column time_s: 999999999997 samples in a row are missing up to here, more than the 10 that are filled in; cut the record here, fill in the missing samples, or allow longer gaps (air.record_max_gap in a case)",
+            "a.csv:5: column time_s: 999999999997 samples in a row are missing up to here, more than the 10 \
+            that are filled in; cut the record here, fill in the missing samples, or allow longer gaps \
+            (air.record_max_gap in a case)",
         ),
         (
             &format!("{head}{}20,5\n", (3..20).map(|i| format!("{i},\n")).collect::<String>()),
-            "a.csv:22: column u_m_s: 17 samples in a row are missing up to here, more than the 10 that are filled in; cut the record here, fill in the missing samples, or allow longer gaps (air.record_max_gap in a case)",
+            "a.csv:22: column u_m_s: 17 samples in a row are missing up to here, more than the 10 that are \
+            filled in; cut the record here, fill in the missing samples, or allow longer gaps \
+            (air.record_max_gap in a case)",
         ),
         (
             "time_s;u_m_s\n0,1;1,5\n0,2;1.5\n",
-            "a.csv:3: column u_m_s: \"1.5\" has another decimal sign than the rows above; write all numbers with a point, or all with a comma",
+            "a.csv:3: column u_m_s: \"1.5\" has another decimal sign than the rows above; write all numbers \
+            with a point, or all with a comma",
         ),
         (
             "time_s,u_m_s\nbaz,1\n",
-            "a.csv: column time_s: \"baz\" is neither a number nor a time stamp; stamps are written as 2024-03-05 12:00:00.125, 05.03.2024 12:00:00,125, 03/05/2024 12:00:00.125 PM, 12:00:00.125 or, in minutes and seconds, 00:00.125; or give the sampling rate",
+            "a.csv: column time_s: \"baz\" is neither a number nor a time stamp; stamps are written as \
+            2024-03-05 12:00:00.125, 05.03.2024 12:00:00,125, 03/05/2024 12:00:00.125 PM, 12:00:00.125 or, \
+            in minutes and seconds, 00:00.125; or give the sampling rate",
         ),
         (
             "PK\u{3}\u{4}\0\0\n",
@@ -278,11 +294,13 @@ fn rejects_with_line_column_and_way_out() {
     for (layout, said) in [
         (
             layout(|l| l.velocity_unit = Some("cm/s".into())),
-            "a.csv: column u_m_s: has the unit m_s in its header, but cm/s was given; give no unit, or correct the header",
+            "a.csv: column u_m_s: has the unit m_s in its header, but cm/s was given; give no unit, or \
+            correct the header",
         ),
         (
             layout(|l| l.velocity_unit = Some("furlong".into())),
-            "a.csv: column u_m_s: has the unit \"furlong\"; a velocity with its unit: m/s, cm/s, mm/s, km/h or m/min is needed",
+            "a.csv: column u_m_s: has the unit \"furlong\"; a velocity with its unit: m/s, cm/s, mm/s, km/h \
+            or m/min is needed",
         ),
         (layout(|l| l.columns = vec!["q".into()]), "a.csv: has no column q; there are time_s and u_m_s"),
         (layout(|l| l.columns = vec!["3".into()]), "a.csv: has no column 3; there are time_s and u_m_s"),
@@ -426,7 +444,8 @@ fn rejects_parquet_that_holds_no_record() {
     );
     assert_eq!(
         said(text),
-        "a.parquet: column u_m_s: holds text or bytes; a plain column of floating-point, whole or decimal numbers is needed, or of times where it gives the time"
+        "a.parquet: column u_m_s: holds text or bytes; a plain column of floating-point, whole or decimal \
+        numbers is needed, or of times where it gives the time"
     );
     let columns: [Column<'_>; 2] = [("time_s", Physical::DOUBLE, PLAIN), ("u_m_s", Physical::DOUBLE, PLAIN)];
     let write = |values: &'static [f64]| {

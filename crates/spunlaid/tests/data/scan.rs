@@ -34,8 +34,8 @@ fn scanned(file: &[u8], settings: &Settings) -> Findings {
 /// Sides of the patches [pixels].
 const SIDES: [usize; 5] = [4, 6, 10, 20, 40];
 
-/// Renders webs as scans under a lamp, reads them back, and checks every CV against the true one. A sharp patch must have it
-/// within its interval and to the last tolerance; of others, no more than told is lost.
+/// Renders webs as scans under a lamp, reads them back, and checks every CV against the true one. A sharp
+/// patch must have it within its interval and to the last tolerance; of others, no more than told is lost.
 ///
 /// * `pictured` – whether there is a picture of the lamp, or else only its level
 /// * `truth` – the true CVs of a web
@@ -200,11 +200,13 @@ fn stat_the_intervals_of_scanned_pieces_hold_the_cv_of_their_web() {
                 }
             }
         }
-        // Of 40 independent intervals of 95 %, 38 hold the truth, with a standard deviation of 1.38: fewer than 34 is beyond three of them.
+        // Of 40 independent intervals of 95 %, 38 hold the truth, with a standard deviation of 1.38: fewer
+        // than 34 is beyond three of them.
         assert_eq!(pieces, 40);
         assert!(inside.iter().all(|inside| *inside >= 34), "{inside:?} of {pieces}, in rows: {in_rows}");
-        // They say something all the same. Pieces of 150 mm have usual ends of 0.87 and 1.84 of the CV in rows, 0.66 and 2.95 at random
-        // places: a factor of 2.1 and 4.5 (docs/validation.md), and a third more is allowed here.
+        // They say something all the same. Pieces of 150 mm have usual ends of 0.87 and 1.84 of the CV in
+        // rows, 0.66 and 2.95 at random places: a factor of 2.1 and 4.5 (docs/validation.md), and a third
+        // more is allowed here.
         let most = if in_rows { 2.8 } else { 6.0 };
         let middle = widths.map(|widths| spunlaid::statistics::median(&widths));
         assert!(middle.iter().all(|width| *width < most), "{middle:?}, in rows: {in_rows}");
@@ -277,7 +279,8 @@ fn bare_lamp_blots_and_dust_are_found_and_left_out() {
         }
         let told: Vec<String> = cleaned.notes.iter().map(ToString::to_string).collect();
         if kind == "edges" {
-            // A rectangle cannot follow a skewed edge: the wedges are cut off with the lamp, and a margin of two blocks of nine pixels at each side.
+            // A rectangle cannot follow a skewed edge: the wedges are cut off with the lamp, and a margin of
+            // two blocks of nine pixels at each side.
             let found = cleaned.aside.cut_off;
             let most = (2.0 * 0.026 * 800.0 + 4.0 + 26.0 + 36.0) * 800.0 * PIXEL * PIXEL;
             assert!((area..most).contains(&found) && cleaned.aside.spots.is_empty(), "{found} of {area}");

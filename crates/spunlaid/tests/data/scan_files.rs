@@ -122,7 +122,8 @@ fn rejects_what_is_no_scan() {
     let nowhere = read(Path::new("nowhere.png"), 1e-3).unwrap_err().to_string();
     assert_eq!(
         nowhere,
-        "nowhere.png: there is no such file; name a scan of a web, a picture (PNG or TIFF), a NumPy array (.npy) or a table (.csv)"
+        "nowhere.png: there is no such file; name a scan of a web, a picture (PNG or TIFF), a NumPy array \
+        (.npy) or a table (.csv)"
     );
     let pixel = parse(&png8(SIDE, &levels(|x| x)), "a", 0.0).unwrap_err().to_string();
     assert_eq!(pixel, "a: cannot have pixels of 0 m; give the side of a pixel, a length above zero");
@@ -150,7 +151,8 @@ fn rejects_pictures_of_no_web_and_settings_that_do_not_fit() {
         ),
         (
             refused(&png8(SIDE, &levels(|x| if x % 9 == 0 { 0 } else { x })), |_| {}),
-            "pixels of 768 that are black or without a value; at most one in a hundred can be filled from its neighbours; let more light",
+            "pixels of 768 that are black or without a value; at most one in a hundred can be filled from \
+            its neighbours; let more light",
         ),
         (refused(&scan, white(100.0)), "is no darker than the lamp without web: its mean grey level is "),
         (
@@ -165,7 +167,8 @@ fn rejects_pictures_of_no_web_and_settings_that_do_not_fit() {
         ),
         (
             refused(&scan, |settings| settings.patches = vec![2e-3, 0.5]),
-            "has no patches of 500 mm; they can have sides from a pixel, 1 mm, to the shorter side of the picture, 24 mm",
+            "has no patches of 500 mm; they can have sides from a pixel, 1 mm, to the shorter side of the \
+            picture, 24 mm",
         ),
         (refused(&scan, |settings| settings.patches = vec![0.2e-3]), "has no patches of 200 µm"),
         (refused(&scan, |settings| settings.patches = vec![f64::NAN]), "has no patches of NaN m"),

@@ -93,7 +93,8 @@ fn a_map_keeps_its_first_row_and_column() {
     assert_eq!(parse(short.as_bytes(), "a", 2e-3).unwrap().rows, 16);
 }
 
-/// The names of the columns have none for those of the rows before them: `DataFrame.to_string` of pandas 2, and `write.table` of R 4.
+/// The names of the columns have none for those of the rows before them: `DataFrame.to_string` of pandas 2,
+/// and `write.table` of R 4.
 #[test]
 fn a_line_of_heads_that_lacks_its_corner_is_read() {
     let wanted = found(MAP).0;

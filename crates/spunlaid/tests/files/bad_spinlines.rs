@@ -1,6 +1,6 @@
-//! Bad files of spinlines and their messages: each file `bad_spinlines/NAME.toml` is rejected, when it is read or when it is
-//! solved, with the message in `bad_spinlines/NAME.txt`. With `BLESS=1` in the environment the test writes the messages, to be
-//! reviewed.
+//! Bad files of spinlines and their messages: each file `bad_spinlines/NAME.toml` is rejected, when it is
+//! read or when it is solved, with the message in `bad_spinlines/NAME.txt`. With `BLESS=1` in the environment
+//! the test writes the messages, to be reviewed.
 
 use crate::messages;
 use spunlaid::input::{Unread, read_spinline};

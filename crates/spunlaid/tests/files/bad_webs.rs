@@ -44,8 +44,8 @@ fn rejects_overrides_by_their_name() {
         (
             "line.belt_speed",
             "60 m/s",
-            "override line.belt_speed = \"60 m/s\" is more than line.feed_speed = 50 m/s, which would tear the fibre; slow \
-             the belt, or feed faster",
+            "override line.belt_speed = \"60 m/s\" is more than line.feed_speed = 50 m/s, which would tear \
+            the fibre; slow the belt, or feed faster",
         ),
         (
             "line.belt_speed",
@@ -66,8 +66,8 @@ fn rejects_overrides_by_their_name() {
         (
             "layer.2.line.belt_speed",
             "3 m/s",
-            "override layer.2.line.belt_speed = \"3 m/s\" is of a layer that the file does not have; it has no [[layer]], so \
-             write the key without layer",
+            "override layer.2.line.belt_speed = \"3 m/s\" is of a layer that the file does not have; it has \
+            no [[layer]], so write the key without layer",
         ),
         (
             "line.rows.1.pitch",
@@ -78,7 +78,8 @@ fn rejects_overrides_by_their_name() {
     ] {
         assert_eq!(refusal(&known, key, value), message);
     }
-    let layers = "[web]\nwidth = \"1 m\"\nlength = \"1 m\"\n[[layer]]\nname = \"S 1.2\"\n[layer.line]\nbelt_speed = \"3 m/s\"\n";
+    let layers = "[web]\nwidth = \"1 m\"\nlength = \"1 m\"\n[[layer]]\nname = \"S 1.2\"\n[layer.line]\n\
+        belt_speed = \"3 m/s\"\n";
     let refusals =
         |key: &str| refusal(layers, key, "-1 m/s").lines().map(ToOwned::to_owned).collect::<Vec<_>>();
     let told = |said: &[String], part: &str| said.iter().any(|line| line.contains(part));

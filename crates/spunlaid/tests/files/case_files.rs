@@ -39,8 +39,8 @@ fn identical_starter_table_1_and_the_starter_with_its_defaults_spelt_out() {
     let (starter, notes) = parse_case(starter_case(), "starter.toml", &[]).unwrap();
     assert!(notes.iter().all(|note| matches!(note.what, Remark::StepChosen { .. })), "{notes:?}");
     let (table1, _) = read_case(Path::new("../../cases/table1.toml"), &[]).unwrap();
-    // The starter has the law across that measurements support, and elements and a scheme that resolve the motion; Table 1
-    // those of the paper.
+    // The starter has the law across that measurements support, and elements and a scheme that resolve the
+    // motion; Table 1 those of the paper.
     assert_eq!(starter.drag.across, NormalLaw::MarheinekeWegener);
     let set = [("drag.across".to_owned(), "ju-shambaugh".to_owned())];
     let (papers, _) = parse_case(cases::papers_starter(), "starter.toml", &set).unwrap();
@@ -152,7 +152,8 @@ fn what_is_set_replaces_what_a_case_says_in_other_words() {
     assert_eq!(air(warm, &both), [1.0, 2e-5]);
     // The density says nothing of the viscosity, which is that of no temperature then.
     let said = read(warm, &both[..1]).unwrap_err().to_string();
-    let refused = "air.temperature = '60 °C' cannot be combined with air.density; the temperature gives density and viscosity";
+    let refused = "air.temperature = '60 °C' cannot be combined with air.density; the temperature gives \
+        density and viscosity";
     assert!(said.contains(refused), "{said}");
     let field = [("air.field".to_owned(), "../../cases/fields/diffuser_core.csv".to_owned())];
     let (case, _) = read_case("../../cases/profile.toml".as_ref(), &field).unwrap();
@@ -235,7 +236,8 @@ fn a_case_says_how_long_a_gap_of_its_record_may_be() {
         let refused = parse_case(starter_case(), "starter.toml", &set(gap)).unwrap_err().to_string();
         let most = gap.unwrap_or("10");
         let wanted = format!(
-            "gap.csv:501: column time_s: 12 samples in a row are missing up to here, more than the {most} that are filled in"
+            "gap.csv:501: column time_s: 12 samples in a row are missing up to here, more than the {most} \
+            that are filled in"
         );
         assert!(refused.contains(&wanted) && refused.contains("air.record_max_gap"), "{refused}");
     }

@@ -18,17 +18,20 @@ fn what_was_rounded_is_said() {
     for (line, said) in [
         (
             "element_length = \"30 mm\"",
-            "case.toml:7: fibre.element_length = \"30 mm\" does not divide fibre.length into whole elements: 33 of 30.3 mm are used",
+            "case.toml:7: fibre.element_length = \"30 mm\" does not divide fibre.length into whole elements: \
+            33 of 30.3 mm are used",
         ),
         (
             "element_length = \"3 m\"",
-            "case.toml:7: fibre.element_length = \"3 m\" does not divide fibre.length into whole elements: 1 of 1 m is used\n\
-             case.toml:20: air.length_scale = \"50 mm\" is shorter than the elements (1 m): each element only feels the eddy \
-             at its centre. Shorten fibre.element_length so that every eddy acts on the fibre",
+            "case.toml:7: fibre.element_length = \"3 m\" does not divide fibre.length into whole elements: 1 \
+            of 1 m is used\ncase.toml:20: air.length_scale = \"50 mm\" is shorter than the elements (1 m): \
+            each element only feels the eddy at its centre. Shorten fibre.element_length so that every eddy \
+            acts on the fibre",
         ),
         (
             "time_step = \"3 µs\"",
-            "case.toml:36: run.time_step = \"3 µs\" does not divide run.duration into whole steps: 333334 of 2.999994 µs are used",
+            "case.toml:36: run.time_step = \"3 µs\" does not divide run.duration into whole steps: 333334 of \
+            2.999994 µs are used",
         ),
         (
             "spin_up = \"1.4 µs\"",
@@ -52,20 +55,17 @@ fn a_drag_law_says_once_where_it_ends() {
     assert_eq!(set(&[fitted]), [""; 0]);
     assert_eq!(
         set(&[fitted, ("fibre.diameter", "500 µm")]),
-        [
-            "override fibre.diameter = \"500 µm\" is outside 13 µm to 390 µm, the range of diameters that drag.across = \"ju-shambaugh\" \
-             was fitted to; the drag across the fibre is extrapolated. \"marheineke-wegener\" is valid for any diameter"
-        ]
+        ["override fibre.diameter = \"500 µm\" is outside 13 µm to 390 µm, the range of diameters that \
+            drag.across = \"ju-shambaugh\" was fitted to; the drag across the fibre is extrapolated. \
+            \"marheineke-wegener\" is valid for any diameter"]
     );
     // 10 % of 10 m/s over 18 µm; in still air and in air without turbulence nothing is known of the velocity across.
     let fine = [fitted, ("fibre.diameter", "18 µm")];
     assert_eq!(
         set(&fine),
-        [
-            "override fibre.diameter = \"18 µm\" has Reynolds numbers of about 1.2 across the fibre. There drag.across = \"ju-shambaugh\" \
-             gives only 0.37 times the drag that was measured on fine fibres and cylinders; \"marheineke-wegener\" agrees with these \
-             measurements"
-        ]
+        ["override fibre.diameter = \"18 µm\" has Reynolds numbers of about 1.2 across the fibre. There \
+            drag.across = \"ju-shambaugh\" gives only 0.37 times the drag that was measured on fine fibres \
+            and cylinders; \"marheineke-wegener\" agrees with these measurements"]
     );
     assert_eq!(set(&[fine[0], fine[1], ("air.turbulence_intensity", "0")]), [""; 0]);
     assert_eq!(set(&[law, fine[1]]), [""; 0]);
@@ -76,8 +76,9 @@ fn a_drag_law_says_once_where_it_ends() {
     assert_eq!(
         fast,
         [
-            "override run.time_step = \"0.1 µs\" is 100 times shorter than the step that run.scheme = \"semi-implicit-euler\" \
-          needs (10 µs), so the run takes that much longer; leave the key out, or override it with the value auto",
+            "override run.time_step = \"0.1 µs\" is 100 times shorter than the step that run.scheme = \
+            \"semi-implicit-euler\" needs (10 µs), so the run takes that much longer; leave the key out, or \
+            override it with the value auto",
             "override fibre.diameter = \"6 mm\" gives Reynolds numbers across the fibre up to 11900, and \
           drag.across = \"marheineke-wegener\" is valid up to 1e4; the drag across the fibre is extrapolated. No other \
           law covers so thick a fibre in so fast air",
@@ -97,9 +98,9 @@ fn a_fed_case_is_warned_of_low_drag_and_of_elements_shorter_than_the_fibre_is_th
         warnings.map(|note| format!("{} {}", note.key, note.what)).collect::<Vec<_>>()
     };
     // 10 % of 35.0 m/s, the mean of the table on the way to the belt, over 18 µm.
-    let low = "fibre.diameter has Reynolds numbers of about 4.2 across the fibre. There drag.across = \"ju-shambaugh\" gives only \
-               0.46 times the drag that was measured on fine fibres and cylinders; \"marheineke-wegener\" agrees with these \
-               measurements";
+    let low = "fibre.diameter has Reynolds numbers of about 4.2 across the fibre. There drag.across = \
+        \"ju-shambaugh\" gives only 0.46 times the drag that was measured on fine fibres and cylinders; \
+        \"marheineke-wegener\" agrees with these measurements";
     let law = ("drag.across", "ju-shambaugh");
     assert_eq!(warnings(&[law]), [low]);
     assert_eq!(warnings(&[law, ("air.density", "0 kg/m³")]), [""; 0]);

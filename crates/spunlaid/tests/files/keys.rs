@@ -155,8 +155,8 @@ fn rejects_values_with_the_way_out() {
         (
             "air.profile",
             "air.csv".into(),
-            "air.profile = \"air.csv\" is read from a file together with the case; write it in the case file and read the \
-             case again",
+            "air.profile = \"air.csv\" is read from a file together with the case; write it in the case file \
+            and read the case again",
         ),
         (
             "air.speed_factor",
@@ -178,8 +178,8 @@ fn identical_default_of_the_tolerance() {
     assert_eq!("0.003".parse(), Ok(ERROR_TOLERANCE));
 }
 
-/// docs/spinline.md has a row for each constant of a polymer, and its cells, read as a case file is read, are the constants of the
-/// code to the bit.
+/// docs/spinline.md has a row for each constant of a polymer, and its cells, read as a case file is read, are
+/// the constants of the code to the bit.
 #[test]
 fn identical_constants_of_polymers_on_their_page() {
     const TABLE: &str = "spinline.material";

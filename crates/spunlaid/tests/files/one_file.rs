@@ -161,13 +161,14 @@ fn layers_have_in_common_what_stands_above_them() {
 
 #[test]
 fn what_a_web_says_takes_the_place_of_what_its_case_says() {
-    let text = "[laydown]\ncase = \"spunbond.toml\"\n[line]\nfilaments_per_metre = 5000\n[fibre]\nlinear_density = \"1 dtex\"\n\
-                [air]\nlength_factor = 2\n[web]\nwidth = \"1 m\"\nlength = \"1 m\"\n";
+    let text = "[laydown]\ncase = \"spunbond.toml\"\n[line]\nfilaments_per_metre = 5000\n[fibre]\n\
+        linear_density = \"1 dtex\"\n[air]\nlength_factor = 2\n[web]\nwidth = \"1 m\"\nlength = \"1 m\"\n";
     let file = read(text, &[]);
     let values = [("fibre.linear_density", "1 dtex"), ("air.length_factor", "2")];
     assert_eq!(case(&file, 0), &read_case("../../cases/spunbond.toml".as_ref(), &set(&values)).unwrap().0);
     let said: Vec<String> = file.notes.iter().map(ToString::to_string).collect();
-    let note = "line.toml:6: fibre.linear_density = \"1 dtex\" is laid with fibre.diameter = 11.83 µm in place of the 18 µm of ";
+    let note = "line.toml:6: fibre.linear_density = \"1 dtex\" is laid with fibre.diameter = 11.83 µm in \
+        place of the 18 µm of ";
     assert!(said.iter().any(|said| said.contains(note)), "{said:?}");
 }
 

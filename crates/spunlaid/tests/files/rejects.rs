@@ -138,8 +138,8 @@ fn rejects_no_more_than_people_read() {
     assert!(error.to_string().ends_with("\nand 989 more like these"), "{error}");
 }
 
-/// It is refused by the memory that it would need, before anything is made for each eddy: their list alone would need more than a
-/// machine has.
+/// It is refused by the memory that it would need, before anything is made for each eddy: their list alone
+/// would need more than a machine has.
 #[test]
 fn rejects_far_too_many_eddies_of_a_record() {
     let case = Path::new("../../cases/record.toml");

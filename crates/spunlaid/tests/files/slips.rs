@@ -65,8 +65,8 @@ const CASES: [(&str, Set<'static>); 14] = [
     ),
 ];
 
-/// Each quantity, a thousand times above what is usual and a thousand times below, is refused or warned of in every kind of
-/// case that takes the key.
+/// Each quantity, a thousand times above what is usual and a thousand times below, is refused or warned of in
+/// every kind of case that takes the key.
 #[test]
 fn every_key_speaks_up_far_outside_of_what_is_usual() {
     let mut silent = Vec::new();
@@ -143,38 +143,44 @@ fn a_slip_of_a_unit_is_named() {
         (
             "starter",
             ("fibre.youngs_modulus", "2 MPa"),
-            "override fibre.youngs_modulus = \"2 MPa\" is outside the usual range, 10 MPa to 900 GPa; did you mean 2 GPa?",
+            "override fibre.youngs_modulus = \"2 MPa\" is outside the usual range, 10 MPa to 900 GPa; did \
+            you mean 2 GPa?",
         ),
         (
             "starter",
             ("fibre.density", "0.95 kg/m³"),
-            "override fibre.density = \"0.95 kg/m³\" is outside the usual range, 100 kg/m³ to 25000 kg/m³; did you mean 0.95 g/cm³?",
+            "override fibre.density = \"0.95 kg/m³\" is outside the usual range, 100 kg/m³ to 25000 kg/m³; \
+            did you mean 0.95 g/cm³?",
         ),
         (
             "starter",
             ("fibre.length", "500 m"),
-            "override fibre.length = \"500 m\" is outside the usual range, 1 mm to 30 m; did you mean 500 cm or 500 mm?",
+            "override fibre.length = \"500 m\" is outside the usual range, 1 mm to 30 m; did you mean 500 cm \
+            or 500 mm?",
         ),
         (
             "fed",
             ("feed.speed", "7500 m/s"),
-            "override feed.speed = \"7500 m/s\" is outside the usual range, 1e-3 m/s to 200 m/s; did you mean 7500 cm/s or 7500 mm/s?",
+            "override feed.speed = \"7500 m/s\" is outside the usual range, 1e-3 m/s to 200 m/s; did you \
+            mean 7500 cm/s or 7500 mm/s?",
         ),
         (
             "starter",
             ("run.gravity", "9810 m/s²"),
-            "override run.gravity = \"9810 m/s²\" is outside the usual range, 0.01 m/s² to 300 m/s²; check the value and its unit",
+            "override run.gravity = \"9810 m/s²\" is outside the usual range, 0.01 m/s² to 300 m/s²; check \
+            the value and its unit",
         ),
         (
             "starter",
             ("air.velocity", "150 m/s"),
-            "override air.velocity = \"150 m/s\" makes the air as fast as 150 m/s, which is Mach 0.44: the model's air has a constant \
-             density, as air has up to about Mach 0.3",
+            "override air.velocity = \"150 m/s\" makes the air as fast as 150 m/s, which is Mach 0.44: the \
+            model's air has a constant density, as air has up to about Mach 0.3",
         ),
         (
             "starter",
             ("air.velocity", "10000 m/s"),
-            "which is Mach 29: the model's air has a constant density, as air has up to about Mach 0.3. Did you mean mm/s?",
+            "which is Mach 29: the model's air has a constant density, as air has up to about Mach 0.3. Did \
+            you mean mm/s?",
         ),
     ] {
         let said = all_of(said(path, &[set]));
@@ -197,7 +203,8 @@ fn a_slip_is_told_beside_what_it_breaks() {
     );
 }
 
-/// A duct of 1 m × 0.2 m × 0.2 m as a table of points, with 10 m/s, k = 1.5 m²/s² and ε = 30 m²/s³, each changed by a function.
+/// A duct of 1 m × 0.2 m × 0.2 m as a table of points, with 10 m/s, k = 1.5 m²/s² and ε = 30 m²/s³, each
+/// changed by a function.
 fn duct(heads: &str, change: impl Fn(usize, [f64; 3]) -> [f64; 3]) -> String {
     let mut text = format!("x_m,y_m,z_m,{heads}\n");
     let places = (0..=4).flat_map(|x| (0..=2).flat_map(move |y| (0..=2).map(move |z| [x, y, z])));

@@ -1,5 +1,5 @@
-//! Files of webs: what is read is what was written, and nothing that is written makes the reader fail in another way than by
-//! saying what is wrong.
+//! Files of webs: what is read is what was written, and nothing that is written makes the reader fail in
+//! another way than by saying what is wrong.
 
 use proptest::prelude::*;
 use spunlaid::case::keys::Value;
@@ -139,7 +139,8 @@ fn rows_and_layers_are_read_in_their_order() {
     assert_eq!((spec.sheet.patches, spec.sheet.edges), (vec![1e-3, 5e-3], Edges::Cut));
 }
 
-/// The air of a web in one air differs across the flow whether its case says so or not, so that the cut-off alone can be set.
+/// The air of a web in one air differs across the flow whether its case says so or not, so that the cut-off
+/// alone can be set.
 #[test]
 fn identical_the_cutoff_of_one_air_is_set_with_or_without_its_turbulence_across() {
     let read = |values: &[(&str, &str)]| {
@@ -206,7 +207,8 @@ fn a_web_that_says_nothing_of_its_method_hangs_in_one_air_where_it_can() {
     let read = |text: &str, values: &[(String, String)]| parse_web(text, "web.toml", values).unwrap();
     let case = |name: &str| {
         format!(
-            "[laydown]\ncase = \"{name}\"\n[line]\nfilaments_per_metre = 5000\n[web]\nwidth = \"0.5 m\"\nlength = \"0.5 m\"\n"
+            "[laydown]\ncase = \"{name}\"\n[line]\nfilaments_per_metre = 5000\n[web]\nwidth = \"0.5 m\"\n\
+            length = \"0.5 m\"\n"
         )
     };
     let [flown, recorded] = ["tests/bad_webs/short.case", "tests/bad_webs/recorded.case"].map(case);

@@ -112,8 +112,9 @@ fn an_override_replaces_the_other_key() {
 fn analytic_several_layers_make_up_the_basis_weight() {
     let second = |line: &str| {
         format!(
-            "[[layer]]\n[layer.fibre]\nlinear_density = \"1 dtex\"\ndensity = \"910 kg/m³\"\n[layer.laydown]\nsigma_md = \"20 mm\"\n\
-             sigma_cd = \"20 mm\"\nnoise = \"10 m^-0.5\"\n[layer.line]\nfilaments_per_metre = 3000\nfeed_speed = \"40 m/s\"\n{line}"
+            "[[layer]]\n[layer.fibre]\nlinear_density = \"1 dtex\"\ndensity = \"910 kg/m³\"\n\
+            [layer.laydown]\nsigma_md = \"20 mm\"\nsigma_cd = \"20 mm\"\nnoise = \"10 m^-0.5\"\n\
+            [layer.line]\nfilaments_per_metre = 3000\nfeed_speed = \"40 m/s\"\n{line}"
         )
     };
     let first = LINE
@@ -144,7 +145,8 @@ fn analytic_several_layers_make_up_the_basis_weight() {
 fn a_case_is_flown_with_the_throughput_and_the_belt_of_its_web() {
     let read = |case: &str, values: &[(&str, &str)]| {
         let text = format!(
-            "[laydown]\ncase = \"{case}.toml\"\n[line]\nfilaments_per_metre = 5000\n[web]\nwidth = \"1 m\"\nlength = \"1 m\"\n"
+            "[laydown]\ncase = \"{case}.toml\"\n[line]\nfilaments_per_metre = 5000\n[web]\nwidth = \"1 m\"\n\
+            length = \"1 m\"\n"
         );
         let values: Vec<_> = values.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
         parse_web(&text, "../../cases/line.toml", &values).unwrap_or_else(|error| panic!("{error}"))

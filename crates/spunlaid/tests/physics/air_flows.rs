@@ -260,7 +260,8 @@ fn analytic_turbulence_from_k_and_epsilon() {
     near(longer.cutoff_frequency, 0.25 * (8.0 / (2.0 * length) + epsilon / (0.3 * k) / 4.0));
 }
 
-/// Where a profile gives the turbulence, factors on its eddies and its intensity keep their places, and the cut-off follows by Taylor's hypothesis.
+/// Where a profile gives the turbulence, factors on its eddies and its intensity keep their places, and the
+/// cut-off follows by Taylor's hypothesis.
 #[test]
 fn analytic_longer_eddies_of_a_profile_pass_more_slowly() {
     let table = Profile {

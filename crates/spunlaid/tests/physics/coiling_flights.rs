@@ -34,8 +34,8 @@ fn analytic_radius_of_a_coil() {
         (153.0, 0.04, 3e-3),
     ] {
         let excess = excess(&Thread { element, viscosity, ..Thread::new(g) });
-        // Found: −0.55, −0.29, 0.64, −0.28, 0.19 and 0.20 %. Half a per cent is what the radius goes up and down by with
-        // the place of the nodes at the touch-down.
+        // Found: −0.55, −0.29, 0.64, −0.28, 0.19 and 0.20 %. Half a per cent is what the radius goes up and
+        // down by with the place of the nodes at the touch-down.
         assert!(excess.abs() < 0.01, "G = {g}: {:+.2} %", 100.0 * excess);
     }
 }
@@ -80,7 +80,8 @@ fn patterns_come_in_their_order_as_the_belt_slows_down() {
     let jobs: Vec<Job> = cases.iter().map(|case| Job::new(case, 0)).collect();
     let mut flight = Flight::new(&jobs, Isa::detect()).unwrap();
     flight.step_to(time).unwrap();
-    // Turns that are to one side, and all turns, to a height's length of thread; how far the thread turns back and forth.
+    // Turns that are to one side, and all turns, to a height's length of thread; how far the thread turns
+    // back and forth.
     let [straight, meander, wider, loops, closer, coils, slower, slowest] = std::array::from_fn(|lane| {
         let laid = flight.take_laid(lane);
         let turns = turning(&laid[laid.len() * 4 / 10..]);

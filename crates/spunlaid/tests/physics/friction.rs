@@ -8,7 +8,8 @@ use spunlaid::line::Contact;
 /// So much stays on the chain that nothing is held by the belt but by friction.
 const ALL: (&str, &str) = ("belt.kept_length", "50 m");
 
-/// A fibre that is fed at 50 m/s in vacuum and laid on a faster belt. It lies straight, and what is still in the air pulls at it.
+/// A fibre that is fed at 50 m/s in vacuum and laid on a faster belt. It lies straight, and what is still in
+/// the air pulls at it.
 fn pulled(belt_speed: &str) -> (Case, Flight) {
     let case = spunbond(&[
         ("belt.speed", belt_speed),
@@ -37,8 +38,8 @@ fn velocity(seen: &Snapshot, from_end: usize) -> f64 {
     seen.velocity[seen.nodes[0] - 1 - from_end].lane(0).y
 }
 
-/// What the tension falls by from node to node towards the first end, per length, of all nodes on the belt but the last on
-/// both sides [N/m].
+/// What the tension falls by from node to node towards the first end, per length, of all nodes on the belt
+/// but the last on both sides [N/m].
 fn falls(case: &Case, seen: &Snapshot) -> Vec<f64> {
     let landed = seen.nodes[0] - seen.in_air[0];
     let tension = |from_end: usize| seen.tension[seen.nodes[0] - 1 - from_end].0[0];
@@ -74,8 +75,9 @@ fn analytic_friction_pulls_what_slides() {
     assert!((held / lies - 1.0).abs() < 0.015, "{held} and {lies}");
 }
 
-/// A fibre that goes round a bend at the speed of the belt `v` needs the tension `ρA v²`, whatever the bend. Friction can hold
-/// it where more than `ρA v²/μN` lies on the belt: then nothing slides, and the belt nowhere pulls with more than `μN`.
+/// A fibre that goes round a bend at the speed of the belt `v` needs the tension `ρA v²`, whatever the bend.
+/// Friction can hold it where more than `ρA v²/μN` lies on the belt: then nothing slides, and the belt
+/// nowhere pulls with more than `μN`.
 #[test]
 fn analytic_friction_holds_what_it_can() {
     for (speed, time) in [("54 m/s", 0.06), ("52 m/s", 0.08)] {
@@ -97,7 +99,8 @@ fn analytic_friction_holds_what_it_can() {
     }
 }
 
-/// On a belt that is faster than the feed, what sticks is stretched towards the ratio of the speeds, and what slides hardly.
+/// On a belt that is faster than the feed, what sticks is stretched towards the ratio of the speeds, and what
+/// slides hardly.
 #[test]
 fn what_slides_on_a_fast_belt_is_not_stretched() {
     let strains = |contact, time_step| {
@@ -125,7 +128,8 @@ fn what_slides_on_a_fast_belt_is_not_stretched() {
             .collect::<Vec<_>>()
     };
     let (slides, sticks) = (strains("friction", "10 µs"), strains("stick", "10 µs"));
-    // Found: up to 4e-5, and 5.8 to 7.3 % on the way to 20 %; the same to a fiftieth with steps of 5 µs, and of 20 µs what sticks.
+    // Found: up to 4e-5, and 5.8 to 7.3 % on the way to 20 %; the same to a fiftieth with steps of 5 µs, and
+    // of 20 µs what sticks.
     assert!(slides.iter().all(|strain| strain.abs() < 1e-4), "{slides:?}");
     assert!(sticks.iter().all(|strain| (0.05..0.2).contains(strain)), "{sticks:?}");
 }

@@ -36,8 +36,8 @@ fn invariant_what_was_born_is_on_the_chain_or_laid() {
             fastest = seen.velocity[..seen.in_air[lane]].iter().map(over_belt).fold(fastest, f64::max);
         }
     }
-    // A node stops on the belt at once. The change of its velocity, Δv, runs along the fibre as an axial wave, which strains it
-    // by Δv over the speed of sound.
+    // A node stops on the belt at once. The change of its velocity, Δv, runs along the fibre as an axial
+    // wave, which strains it by Δv over the speed of sound.
     let strain = fastest / (case.fibre.youngs_modulus / case.fibre.density).sqrt();
     assert!(strain < 0.06, "{fastest} m/s");
     for laid in &laid {
@@ -70,9 +70,10 @@ fn invariant_the_laid_fibre_follows_the_belt() {
     }
 }
 
-/// A thread that hangs from the feed, far above the plane: all of it moves at the feed speed `v`, so the tension at a place is the
-/// weight below it, less the damping `c v` per mass, and the end is at `L + w L²/2EA` after a length `L`. It does not fall
-/// freely, which would need it to stretch. What is left out is of the order of the strain, 0.5 %, of the damping.
+/// A thread that hangs from the feed, far above the plane: all of it moves at the feed speed `v`, so the
+/// tension at a place is the weight below it, less the damping `c v` per mass, and the end is at
+/// `L + w L²/2EA` after a length `L`. It does not fall freely, which would need it to stretch. What is left
+/// out is of the order of the strain, 0.5 %, of the damping.
 #[test]
 fn analytic_a_fed_fibre_hangs_by_its_weight() {
     for scheme in [Scheme::SemiImplicitEuler, Scheme::Leapfrog, Scheme::ImplicitTension] {
@@ -215,8 +216,8 @@ fn order_of_the_path_is_one() {
                 seen.position[seen.nodes[0] - 1].lane(0)
             });
             let d: Vec<f64> = ends.windows(2).map(|pair| (pair[1] - pair[0]).norm()).collect();
-            // Found: orders of 0.95 or more over two halvings without viscosity. With it, the last steps change the path
-            // by 1.5 µm at most, 1.5e-5 of the height.
+            // Found: orders of 0.95 or more over two halvings without viscosity. With it, the last steps
+            // change the path by 1.5 µm at most, 1.5e-5 of the height.
             assert!(d[2] < 1e-4 * 0.1, "{scheme:?}, {viscosity}: {d:?}");
             assert!(viscosity > 0.0 || d[0] > 3.0 * d[2], "{scheme:?}: {d:?}");
         }
@@ -278,7 +279,8 @@ fn analytic_bending_viscosity_damps_a_mode() {
         let found = 2.0 * std::f64::consts::PI * turns / (last.0 - first.0);
         let rate = (first.1 / last.1).ln() / (last.0 - first.0);
         let expected = 0.5 * found * found * case.fibre.bending_viscosity_time;
-        // Ten elements make it 0.9 % slower than the continuous beam. Of the rate, 0.15 to 0.18 % are the terms in (ωτ)².
+        // Ten elements make it 0.9 % slower than the continuous beam. Of the rate, 0.15 to 0.18 % are the
+        // terms in (ωτ)².
         assert!((found / omega - 1.0).abs() < 0.015, "{scheme:?}: {}", found / omega);
         assert!((rate / expected - 1.0).abs() < 0.005, "{scheme:?}: {}", rate / expected);
     }

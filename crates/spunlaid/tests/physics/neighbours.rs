@@ -110,8 +110,8 @@ fn flown(case: &Case, threads: usize) -> (Results, Vec<(u64, u64)>, u64) {
     (collector.finish(), all, steps.into_inner())
 }
 
-/// Coherence of a lateral component of von Kármán's turbulence, cut off at `k_max`, at a distance `r` [m]: the cross-spectrum over
-/// the spectrum, by the sum over the lateral wave numbers.                                       theory.md (79)
+/// Coherence of a lateral component of von Kármán's turbulence, cut off at `k_max`, at a distance `r` [m]:
+/// the cross-spectrum over the spectrum, by the sum over the lateral wave numbers.             theory.md (79)
 ///
 /// * `along` – whether the component is that along the line between the two places
 fn coherence(frequency: f64, r: f64, along: bool) -> f64 {
@@ -136,8 +136,9 @@ fn coherence(frequency: f64, r: f64, along: bool) -> f64 {
     cross / own
 }
 
-/// Two equal fibres that swing little move as the air does that they feel: at each frequency as coherent as the turbulence at
-/// their distance. Their correlation is `Σ P(ω) γ(ω, r)/Σ P(ω)` with the tip's own spectrum `P`.
+/// Two equal fibres that swing little move as the air does that they feel: at each frequency as coherent as
+/// the turbulence at their distance. Their correlation is `Σ P(ω) γ(ω, r)/Σ P(ω)` with the tip's own spectrum
+/// `P`.
 #[test]
 fn analytic_tips_of_hanging_fibres_are_as_coherent_as_the_turbulence() {
     let (results, ..) = flown(&case(HANGING, &[]), 2);
@@ -154,8 +155,8 @@ fn analytic_tips_of_hanging_fibres_are_as_coherent_as_the_turbulence() {
                 let expected = spectrum.iter().map(|at| at.mean * of(at.at)).sum::<f64>() / power;
                 let error = place.standard_error.unwrap();
                 let what = format!("{direction} {component} {place:?} for {expected}");
-                // With twice the time, where errors are a third smaller, all are within 0.04 and most within 0.015, below more
-                // often than above: the mean over the run is taken off.
+                // With twice the time, where errors are a third smaller, all are within 0.04 and most within
+                // 0.015, below more often than above: the mean over the run is taken off.
                 assert!(error < 0.04, "{what}");
                 assert!((place.mean - expected).abs() < 0.02 + 3.0 * error, "{what}");
             }
@@ -163,7 +164,8 @@ fn analytic_tips_of_hanging_fibres_are_as_coherent_as_the_turbulence() {
     }
 }
 
-/// A companion at a thousandth of a millimetre comes down at the same places, one at a distance of many eddies at others.
+/// A companion at a thousandth of a millimetre comes down at the same places, one at a distance of many
+/// eddies at others.
 #[test]
 fn analytic_companions_very_near_and_far_away() {
     let near_and_far =
@@ -179,8 +181,8 @@ fn analytic_companions_very_near_and_far_away() {
     }
 }
 
-/// A replicate has the same bits without companions and with so many that it flies in two flights, on one thread and on two; and
-/// nothing is recorded of the companions.
+/// A replicate has the same bits without companions and with so many that it flies in two flights, on one
+/// thread and on two; and nothing is recorded of the companions.
 #[test]
 fn identical_with_and_without_companions() {
     for text in [FED, HANGING] {

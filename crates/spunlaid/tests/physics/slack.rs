@@ -1,5 +1,5 @@
-//! Slack fed fibres: in air about as fast as the feed a fibre folds and whips in flight. And the guard, which finds the fibres
-//! whose computation has diverged.
+//! Slack fed fibres: in air about as fast as the feed a fibre folds and whips in flight. And the guard, which
+//! finds the fibres whose computation has diverged.
 
 use crate::common::laying::{flight, spunbond};
 use spunlaid::case::Case;
@@ -9,7 +9,8 @@ use spunlaid::lanes::Lanes;
 use spunlaid::line::Contact;
 use spunlaid::vec3::Vec3;
 
-/// The line of `spunbond.toml` in air whose velocity changes evenly on the way [m/s], with this intensity [-] and other values.
+/// The line of `spunbond.toml` in air whose velocity changes evenly on the way [m/s], with this intensity [-]
+/// and other values.
 fn in_air(velocities: [f64; 2], intensity: f64, set: &[(&str, &str)]) -> Case {
     let folder = tempfile::tempdir().unwrap();
     let rows = [0.0, 500.0].into_iter().zip(velocities).map(|(x, v)| {
@@ -25,9 +26,9 @@ fn in_air(velocities: [f64; 2], intensity: f64, set: &[(&str, &str)]) -> Case {
     read_case(&file, &set).unwrap().0
 }
 
-/// No more than air, feed and a fold that opens can give: a fold of a fibre that comes with `v` and is held on one side throws
-/// its other side with `2v`. The scheme once threw nodes with kilometres a second in one of eight replicates, and called it a
-/// mean.
+/// No more than air, feed and a fold that opens can give: a fold of a fibre that comes with `v` and is held
+/// on one side throws its other side with `2v`. The scheme once threw nodes with kilometres a second in one
+/// of eight replicates, and called it a mean.
 #[test]
 fn invariant_a_slack_fibre_is_no_faster_than_what_drives_it() {
     for (velocities, intensity, seed) in [

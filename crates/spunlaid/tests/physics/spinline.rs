@@ -35,8 +35,8 @@ fn close(what: &str, found: f64, expected: f64, tolerance: f64) {
     assert!((found / expected - 1.0).abs() < tolerance, "{what}: {found} for {expected}");
 }
 
-/// The two stations around a distance, and where it lies between them. None of the two is beyond the freezing point, where the
-/// thread has a kink.
+/// The two stations around a distance, and where it lies between them. None of the two is beyond the freezing
+/// point, where the thread has a kink.
 fn around(solution: &Solution, distance: f64) -> ([Station; 2], f64) {
     let above = solution.stations.partition_point(|station| station.distance < distance).max(1);
     let [low, high] = [above - 1, above].map(|i| solution.stations[i]);
@@ -60,8 +60,8 @@ fn speed_at(solution: &Solution, distance: f64) -> f64 {
     cubic(ends.map(|end| end.speed.ln()), ends.map(slope), gap, share).exp()
 }
 
-/// The temperature at a distance from the die [K], by the cubic through the four stations around it, in the root of the distance.
-/// It does not reach over the freezing point.
+/// The temperature at a distance from the die [K], by the cubic through the four stations around it, in the
+/// root of the distance. It does not reach over the freezing point.
 fn temperature_at(solution: &Solution, distance: f64) -> f64 {
     let frozen = solution.freezing.distance;
     let is_of_phase = |station: &&Station| {
@@ -159,7 +159,8 @@ fn identical_after_writing_and_reading() {
     }
 }
 
-/// Factors on a table of the air do what a table with such numbers does, and the rows behind the first meet that air once only.
+/// Factors on a table of the air do what a table with such numbers does, and the rows behind the first meet
+/// that air once only.
 #[test]
 fn consistent_factors_of_the_air() {
     let [mut factors, mut numbers] = ["pp_slot", "pp_slot"].map(read);
@@ -208,8 +209,8 @@ fn consistent_air_of_a_field_and_of_a_table_with_its_numbers() {
     let file = read(&[]);
     assert_eq!(
         file.notes[0].to_string(),
-        "field.toml:11: spinline.field = true takes the velocity of the air along the spinline from the field, and its temperature, \
-         25 °C everywhere, from spinline.temperature"
+        "field.toml:11: spinline.field = true takes the velocity of the air along the spinline from the \
+        field, and its temperature, 25 °C everywhere, from spinline.temperature"
     );
     let air = file.spec.spinline.air.table().unwrap().clone();
     // The field slows down from 60 to 10 m/s on half a metre.
@@ -231,7 +232,8 @@ fn consistent_air_of_a_field_and_of_a_table_with_its_numbers() {
 
 #[test]
 fn published_rows_of_another_program() {
-    // The other program holds the air of the rows on other heights, 5 mm apart: it finds 0.03 % of difference between grids.
+    // The other program holds the air of the rows on other heights, 5 mm apart: it finds 0.03 % of difference
+    // between grids.
     for (name, row) in table("curtain/expected_rows.csv") {
         let found = read(&format!("curtain/{name}")).solve().unwrap_or_else(|error| panic!("{error}"));
         let number = row["row"].parse::<usize>().unwrap();

@@ -1,4 +1,5 @@
-//! Which way a spinline goes when something is changed, where measurements say which way. Their numbers are not compared.
+//! Which way a spinline goes when something is changed, where measurements say which way. Their numbers are
+//! not compared.
 
 use spunlaid::input::read_spinline;
 use spunlaid::spinline::{FreezingCause, Solution};
@@ -12,9 +13,9 @@ fn solve(file: &str, set: &[(&str, &str)]) -> Solution {
     line.solve().unwrap_or_else(|error| panic!("{error}")).remove(0)
 }
 
-/// Polypropylene crystallises nearer to the die, and hotter, with a faster take-up, a colder die and a lower melt flow rate: F.-M. Lu and
-/// J. E. Spruiell, The influence of resin characteristics on the high speed melt spinning of isotactic polypropylene, part II; the
-/// abstract, with melt flow rates of 12, 35 and 300.
+/// Polypropylene crystallises nearer to the die, and hotter, with a faster take-up, a colder die and a lower
+/// melt flow rate: F.-M. Lu and J. E. Spruiell, The influence of resin characteristics on the high speed melt
+/// spinning of isotactic polypropylene, part II; the abstract, with melt flow rates of 12, 35 and 300.
 #[test]
 fn published_trends_of_crystallisation_on_the_line() {
     let onset = |set: &[(&str, &str)]| {
@@ -36,8 +37,9 @@ fn published_trends_of_crystallisation_on_the_line() {
     }
 }
 
-/// A spunbond filament of polypropylene is finer with less throughput, a hotter melt, hotter air and a faster suction: B. Zhao,
-/// Investigation of fiber diameter in spunbonding process via mathematical modeling; the abstract.
+/// A spunbond filament of polypropylene is finer with less throughput, a hotter melt, hotter air and a faster
+/// suction: B. Zhao, Investigation of fiber diameter in spunbonding process via mathematical modeling; the
+/// abstract.
 #[test]
 fn published_trends_of_the_diameter_in_a_spunbond_line() {
     let uniform = [("spinline.profile", "auto"), ("spinline.cross_velocity", "0.2 m/s")];
@@ -62,8 +64,9 @@ fn polyester(speed: u32, more: &[(&str, &str)]) -> Solution {
     solve("../../cases/melt_spinning.toml", &[&set[..], more].concat())
 }
 
-/// The neck of round fibres of polyester begins at 5 km/min: W. Takarada and others, Journal of Applied Polymer Science 80, 1582, 2001, the
-/// abstract. It is stretched by up to about 1000 1/s there: T. Kikutani and others, Polymer Engineering & Science, 1999, the abstract.
+/// The neck of round fibres of polyester begins at 5 km/min: W. Takarada and others, Journal of Applied
+/// Polymer Science 80, 1582, 2001, the abstract. It is stretched by up to about 1000 1/s there: T. Kikutani
+/// and others, Polymer Engineering & Science, 1999, the abstract.
 #[test]
 fn published_neck_of_polyester() {
     let necks = |found: &Solution| found.freezing.by == FreezingCause::Crystallisation;

@@ -85,10 +85,10 @@ fn analytic_the_widening_flow_has_no_divergence() {
     }
 }
 
-/// A fibre that the air hardly pulls lies along the streamline of its root, `y U(x) = y₀ U(0)`. The tension `T` of the friction
-/// along it pulls it a little straight: with the drag `c` per length and velocity across it, its slope differs by about
-/// `T y″/(c U)`, which makes up to 8 % of `y` in the first
-/// 0.3 m here. Without the widening `y` would be off by half there.
+/// A fibre that the air hardly pulls lies along the streamline of its root, `y U(x) = y₀ U(0)`. The tension
+/// `T` of the friction along it pulls it a little straight: with the drag `c` per length and velocity across
+/// it, its slope differs by about `T y″/(c U)`, which makes up to 8 % of `y` in the first 0.3 m here. Without
+/// the widening `y` would be off by half there.
 #[test]
 fn analytic_a_hanging_fibre_lies_along_a_streamline_of_a_diffuser() {
     let at = flown(&case(Widening::MachineDirection));
@@ -108,8 +108,8 @@ fn analytic_a_hanging_fibre_lies_along_a_streamline_of_a_diffuser() {
     }
 }
 
-/// The plane at the end of a profile, where the belt is: the air widens there as in the last interval, from 15 to 10 m/s over 50 mm,
-/// `v = −y dU/dx`.
+/// The plane at the end of a profile, where the belt is: the air widens there as in the last interval, from
+/// 15 to 10 m/s over 50 mm, `v = −y dU/dx`.
 #[test]
 fn analytic_the_air_widens_at_the_last_row_of_its_profile() {
     let mut case = case(Widening::MachineDirection);

@@ -211,15 +211,17 @@ impl Files {
         }
     }
 
-    /// The files that a file imports from, those that hold it left out: a file may use what the module around it defines.
+    /// The files that a file imports from, those that hold it left out: a file may use what the module around
+    /// it defines.
     fn imports(&self, module: &Module) -> BTreeSet<Module> {
         let named = self.0[module].iter().filter_map(|path| self.absolute(module, &path.names));
         named.filter_map(|path| self.file(&path, 8)).filter(|file| !module.starts_with(file)).collect()
     }
 }
 
-/// Imports between the modules below `root` that lead back to where they start, a line each. A folder counts as a whole for what
-/// stands beside it: its files may use each other's through its `mod.rs`, so a circle may go through any of them.
+/// Imports between the modules below `root` that lead back to where they start, a line each. A folder counts
+/// as a whole for what stands beside it: its files may use each other's through its `mod.rs`, so a circle may
+/// go through any of them.
 pub fn circles(root: &Path) -> Vec<String> {
     let files = Files::read(root);
     let mut imports = BTreeMap::<_, BTreeSet<_>>::new();

@@ -38,8 +38,9 @@ const CLOSE: usize = 0;
 /// Others; words have further numbers.
 const FAR: usize = 1;
 
-/// Pairs of values of a key, as they are written in a study: [`CLOSE`] or [`FAR`]. Of several of a kind, the first that can be
-/// run will do. They follow from the row of the table: its value in the case, its slider, its words.
+/// Pairs of values of a key, as they are written in a study: [`CLOSE`] or [`FAR`]. Of several of a kind, the
+/// first that can be run will do. They follow from the row of the table: its value in the case, its slider,
+/// its words.
 fn pairs(key: &Key, case: &Case) -> Vec<(usize, [String; 2])> {
     let written = |value: f64| match key.kind {
         Kind::Quantity(dimension, _) => format!("'{}'", dimension.exact(value)),
@@ -250,7 +251,8 @@ fn rejects_keys_that_a_study_cannot_vary_with_the_way_out() {
     }
 }
 
-/// A flow that varies from place to place, and the same air everywhere: all else is equal, so that they would share a flight.
+/// A flow that varies from place to place, and the same air everywhere: all else is equal, so that they would
+/// share a flight.
 #[test]
 fn identical_alone_and_in_company_of_another_kind_of_flow() {
     let cases = CASES.iter().map(|(name, text)| (name, read(&with_files(text))));

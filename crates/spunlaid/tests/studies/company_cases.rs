@@ -303,8 +303,8 @@ law = 'ptt'
 crystallisation = true
 BELOW";
 
-/// A few points of a flow that widens along x, with its turbulence, and the beginning of a record: small, because every study
-/// reads them anew.
+/// A few points of a flow that widens along x, with its turbulence, and the beginning of a record: small,
+/// because every study reads them anew.
 fn files() -> &'static Path {
     static FILES: OnceLock<TempDir> = OnceLock::new();
     let folder = FILES.get_or_init(|| {

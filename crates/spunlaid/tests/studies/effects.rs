@@ -194,7 +194,8 @@ fn saturated_and_collinear_designs_are_refused_with_the_reason() {
     assert!(said.contains("vary together"), "{said}");
     let said = refusal(&format!("{paired}air.turbulence_intensity = [0.1, 0.1, 0.1, 0.1]"));
     assert!(said.contains("air.turbulence_intensity has the same value at all points"), "{said}");
-    let third = "fibre.diameter = ['20 µm', '60 µm', '30 µm', '70 µm']\nfibre.length = ['1.1 m', '2.1 m', '2 m', '3 m']";
+    let third = "fibre.diameter = ['20 µm', '60 µm', '30 µm', '70 µm']\n\
+        fibre.length = ['1.1 m', '2.1 m', '2 m', '3 m']";
     let said = refusal(&format!("{paired}{third}"));
     assert!(said.contains("cannot"), "{said}");
 }

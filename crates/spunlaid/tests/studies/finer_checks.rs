@@ -75,7 +75,8 @@ fn off(own: &[Trajectory], fine: &[Trajectory], measures: [&str; 2]) -> f64 {
     sum(own) / sum(fine) - 1.0
 }
 
-/// Rms distance of two fibres' ends across the flow, as a share of the amplitude of the second; the mean over the fibres.
+/// Rms distance of two fibres' ends across the flow, as a share of the amplitude of the second; the mean over
+/// the fibres.
 fn apart(fibres: &[Trajectory], exact: &[Trajectory], instants: std::ops::RangeInclusive<usize>) -> f64 {
     let path = |fibre: &Trajectory| -> Vec<V> {
         fibre.samples[instants.clone()].iter().map(|sample| V { x: 0.0, ..sample.end }).collect()
@@ -97,17 +98,17 @@ fn checked_at(scheme: Scheme, step: f64, damping: f64) -> (Vec<Trajectory>, Fine
     (flown, check.expect("500 instants"))
 }
 
-/// The fibre starts without tension, and the axial waves of the start run on for long. Implicit tension damps them at a rate
-/// that hardly depends on the step, so that half the step shows little of what they do to the path: 3 parts in 10 000
-/// of the amplitude were found.
+/// The fibre starts without tension, and the axial waves of the start run on for long. Implicit tension damps
+/// them at a rate that hardly depends on the step, so that half the step shows little of what they do to the
+/// path: 3 parts in 10 000 of the amplitude were found.
 const START: f64 = 4e-4;
 
-/// Half of a long step of implicit tension says nothing about its limit: axial waves are damped at both. The check flies
-/// leapfrog, with steps that resolve these waves, and tells the whole difference.
+/// Half of a long step of implicit tension says nothing about its limit: axial waves are damped at both. The
+/// check flies leapfrog, with steps that resolve these waves, and tells the whole difference.
 #[test]
 fn invariant_the_step_check_of_a_fed_fibre_compares_it_with_resolved_axial_waves() {
-    // As long as the check, so that its flights are those below: a way of 10 ms takes twice that to come down. What is kept
-    // on the belt is short, so that most of what comes down is compared.
+    // As long as the check, so that its flights are those below: a way of 10 ms takes twice that to come
+    // down. What is kept on the belt is short, so that most of what comes down is compared.
     let mut case = common::laying::spunbond(&[
         ("run.duration", "40 ms"),
         ("run.spin_up", "20 ms"),
@@ -167,8 +168,8 @@ fn order_of_the_error_of_the_mesh_is_what_half_the_elements_show() {
     }
 }
 
-/// In turbulence of its own for each mesh, eight fibres would differ by 6 % in a quarter of a second. Carried eddies are
-/// tied to elements; the two meshes feel the same.
+/// In turbulence of its own for each mesh, eight fibres would differ by 6 % in a quarter of a second. Carried
+/// eddies are tied to elements; the two meshes feel the same.
 #[test]
 fn identical_air_on_both_meshes_of_a_check() {
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
@@ -205,8 +206,8 @@ fn invariant_the_step_check_tells_the_error_of_the_step() {
     }
 }
 
-/// The error of a scheme of order `p` is `C hᵖ`, so half the step changes the path by `1 − 2⁻ᵖ` of it: by a half or three
-/// quarters. Damped, and seen after 0.4 s, the fibres have forgotten the waves of the start.
+/// The error of a scheme of order `p` is `C hᵖ`, so half the step changes the path by `1 − 2⁻ᵖ` of it: by a
+/// half or three quarters. Damped, and seen after 0.4 s, the fibres have forgotten the waves of the start.
 #[test]
 fn order_of_the_error_is_what_half_the_step_shows() {
     let flown = |scheme, step| checked_at(scheme, step, 20.0).0;
@@ -328,7 +329,8 @@ fn step_checks_take_a_tenth_of_long_runs_and_leave_out_what_is_too_short_or_stil
     }
 }
 
-/// A run of many harmonics makes its turbulence for most of its time, and so does each flight of its checks. Longer runs pay for it.
+/// A run of many harmonics makes its turbulence for most of its time, and so does each flight of its checks.
+/// Longer runs pay for it.
 #[test]
 fn checks_count_the_turbulence_that_they_make() {
     let of = |duration, harmonics| {

@@ -1,4 +1,5 @@
-//! The tension at the end of a spinline that flights find: the reader says what has to be flown, and whoever reads the file flies it.
+//! The tension at the end of a spinline that flights find: the reader says what has to be flown, and whoever
+//! reads the file flies it.
 
 use spunlaid::case::{Case, Note, keys};
 use spunlaid::ensemble::{Keep, RunControl, fly};

@@ -240,11 +240,14 @@ fn a_study_written_out_is_the_same_study() {
     for text in [
         MIXED.to_owned(),
         format!("common_phases = false\n{MIXED}"),
-        "case = 'case.toml'\ndesign = 'latin-hypercube'\npoints = 9\nseed = 12345678901234567890\n[replicates]\nat_most = 50\nuntil = { frequency_z = '7 %' }\n\
-         [vary]\nair.velocity = { from = '5 m/s', to = '7 m/s', spacing = 'log' }\nair.harmonics = [128, 256]\n[link]\n'air.cutoff_frequency' = 'taylor'\n"
+        "case = 'case.toml'\ndesign = 'latin-hypercube'\npoints = 9\nseed = 12345678901234567890\n\
+        [replicates]\nat_most = 50\nuntil = { frequency_z = '7 %' }\n[vary]\n\
+        air.velocity = { from = '5 m/s', to = '7 m/s', spacing = 'log' }\nair.harmonics = [128, 256]\n\
+        [link]\n'air.cutoff_frequency' = 'taylor'\n"
             .to_owned(),
-        "case = 'case.toml'\ndesign = 'one-at-a-time'\n[vary]\n'fibre.diameter' = { from = '20 um', to = '60 um', steps = 5 }\n[link]\n\
-         'fibre.density' = '= 950 kg/m^3 * (50 µm / fibre.diameter) ^ 0.5'\nrun.spin_up = 'run.duration / 4'\n"
+        "case = 'case.toml'\ndesign = 'one-at-a-time'\n[vary]\n\
+        'fibre.diameter' = { from = '20 um', to = '60 um', steps = 5 }\n[link]\n\
+        'fibre.density' = '= 950 kg/m^3 * (50 µm / fibre.diameter) ^ 0.5'\nrun.spin_up = 'run.duration / 4'\n"
             .to_owned(),
     ] {
         let (first, again) = (study(&text), study(&study(&text).text));
@@ -434,8 +437,7 @@ fn keys_of_another_word_are_left_out_where_they_mean_nothing() {
     let notes: Vec<String> = file.notes.iter().map(ToString::to_string).collect();
     assert_eq!(
         notes,
-        [
-            "study.toml: point 2 (drag.along = \"sakiadis\"): drag.friction_coefficient = 0.5 is left out, because it needs drag.along = \"matsui\""
-        ]
+        ["study.toml: point 2 (drag.along = \"sakiadis\"): drag.friction_coefficient = 0.5 is left out, \
+            because it needs drag.along = \"matsui\""]
     );
 }

@@ -13,8 +13,8 @@ use spunlaid::web::PatchFindings;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
-/// Webs that together have every key. Their cells are small: single fibres, which say what CV to expect, are laid on as many cells
-/// in any web, and so on the shorter belt.
+/// Webs that together have every key. Their cells are small: single fibres, which say what CV to expect, are
+/// laid on as many cells in any web, and so on the shorter belt.
 const WEBS: [(&str, &str); 3] = [
     (
         "rows",

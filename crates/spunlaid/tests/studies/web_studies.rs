@@ -119,8 +119,8 @@ fn keys_of_the_case_that_is_flown_vary_too() {
     assert_eq!(belts, [3.0, 2.0, 4.0]);
 }
 
-/// A study goes on from its own folder, where the web is written with every default, to the same points: what follows from what
-/// varies must not be written as a number of its own.
+/// A study goes on from its own folder, where the web is written with every default, to the same points: what
+/// follows from what varies must not be written as a number of its own.
 #[test]
 fn identical_points_again_where_numbers_follow_from_others() {
     let known = WEB
@@ -260,7 +260,8 @@ fn rejects_what_cannot_vary() {
         (vary("'air.velocity' = ['4 m/s']"), "it is a key of a filament that flies, and this web flies none"),
         (
             vary("'line.belt_speed' = ['4 m/s']\n[set]\nrun.replicates = 4"),
-            "study.toml: [set] run.replicates = 4 is a key of a filament that flies, and this web flies none; leave it out",
+            "study.toml: [set] run.replicates = 4 is a key of a filament that flies, and this web flies \
+            none; leave it out",
         ),
         (vary("layer.2.line.belt_speed = ['4 m/s']"), "there is no such layer or row; the web has 1 layer"),
         (vary("line.rows.pitch = ['4 mm']"), "write the number of the row, as in line.rows.1.pitch"),

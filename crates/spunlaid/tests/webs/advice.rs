@@ -183,7 +183,8 @@ width = \"250 mm\"
 length = \"250 mm\"
 ";
 
-/// Every kind of advice can be pasted: what it says to set makes the changed web of the file, also beside what was set before.
+/// Every kind of advice can be pasted: what it says to set makes the changed web of the file, also beside
+/// what was set before.
 #[test]
 fn invariant_what_advice_says_to_set_makes_the_changed_web() {
     let file = |name: &str| std::fs::read_to_string(Path::new(&cases()).with_file_name(name)).unwrap();
@@ -307,8 +308,8 @@ fn a_change_of_one_beam_leaves_the_other_one_as_it_is() {
     );
 }
 
-/// CV² of straight independent filaments goes with their mass per length at the same weight, theory.md (72). The number of holes, on a faster belt, and the
-/// throughput do not change it.
+/// CV² of straight independent filaments goes with their mass per length at the same weight, theory.md (72).
+/// The number of holes, on a faster belt, and the throughput do not change it.
 #[test]
 fn analytic_titre_of_straight_filaments() {
     let advice = advice(STRAIGHT, 2, &AtomicBool::new(false)).unwrap();

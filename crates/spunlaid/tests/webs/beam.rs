@@ -84,8 +84,8 @@ fn limit_filaments_in_a_field_without_waves_across_lay_the_same_curve() {
     let set = set.map(|(key, value)| (key.to_owned(), value.to_owned()));
     let (mut case, _) = read_case(Path::new("../../cases/spunbond.toml"), &set).unwrap();
     case.air.lateral = Lateral::VonKarman { cutoff: 1e-3 };
-    // The field is interpolated in single precision. On the way of half a metre this moves a filament by less than a micrometre; on a
-    // short one, where fast air lays it, the folds make more of it.
+    // The field is interpolated in single precision. On the way of half a metre this moves a filament by less
+    // than a micrometre; on a short one, where fast air lays it, the folds make more of it.
     rows_lay_bars(&case, 0.02);
 }
 
@@ -122,7 +122,8 @@ fn analytic_filaments_at_one_place_have_the_unevenness_of_one() {
     }
 }
 
-/// `CV² = [Σ var(m_k) + Σ cov(m_k, m_l)]/(Σ⟨m⟩)²`: without covariances it is what the curves, each by itself, let expect.
+/// `CV² = [Σ var(m_k) + Σ cov(m_k, m_l)]/(Σ⟨m⟩)²`: without covariances it is what the curves, each by itself,
+/// let expect.
 #[test]
 fn stat_filaments_in_airs_of_their_own_are_independent() {
     let mut sheet = sheet(32, 2000);
@@ -139,7 +140,8 @@ fn stat_filaments_in_airs_of_their_own_are_independent() {
     }
 }
 
-/// Sixteen filaments in the same air, at the same place, are as uneven as one; independent ones have a sixteenth of its variance.
+/// Sixteen filaments in the same air, at the same place, are as uneven as one; independent ones have a
+/// sixteenth of its variance.
 #[test]
 fn analytic_the_variance_of_filaments_together_over_that_of_independent_ones() {
     let mut sheet = sheet(32, 2000);
@@ -147,7 +149,8 @@ fn analytic_the_variance_of_filaments_together_over_that_of_independent_ones() {
     let (laid, flown) = lay(&sheet, &[Place { y: 0.0, z: 16e-3 }; 16], Airs::Shared);
     let anywhere = Filaments::AtRandom { per_metre: 16.0 / sheet.width };
     let patch = found(&sheet, laid, &flown, anywhere).patches[0];
-    // Of lengths m in patches, the map has ⟨m²⟩/⟨m⟩² − 1, and independent filaments anywhere have ⟨m²⟩/⟨m⟩² over their number.
+    // Of lengths m in patches, the map has ⟨m²⟩/⟨m⟩² − 1, and independent filaments anywhere have ⟨m²⟩/⟨m⟩²
+    // over their number.
     let ratio = (patch.map.cv.powi(2) + 1.0) / patch.independent.unwrap().cv.powi(2);
     assert!((ratio / 16.0 - 1.0).abs() < 0.05, "{ratio}");
 }
@@ -229,8 +232,8 @@ fn identical_a_filament_whatever_flies_beside_it() {
     }
 }
 
-/// Neighbours in one field come down together: N of them at one place are one curve N times, at places far apart they are
-/// independent, and between the two the web is in between.
+/// Neighbours in one field come down together: N of them at one place are one curve N times, at places far
+/// apart they are independent, and between the two the web is in between.
 #[test]
 fn stat_a_row_in_one_field_lies_between_one_curve_and_independent_ones() {
     let mut sheet = sheet(64, 400);

@@ -49,8 +49,8 @@ fn told(flown: &str) -> LayerFew {
     findings.laid.shared_air.unwrap().few.remove(0)
 }
 
-/// Eight filaments in a length scale of 16 mm do not tell what those between them do, so that twice and then four times as many are flown, as a number would
-/// say; a number is flown as it is.
+/// Eight filaments in a length scale of 16 mm do not tell what those between them do, so that twice and then
+/// four times as many are flown, as a number would say; a number is flown as it is.
 #[test]
 fn identical_the_usual_web_flies_four_times_as_many_where_the_first_do_not_tell() {
     let [usual, fine, first] = ["\"auto\"", "2000", "500"].map(told);

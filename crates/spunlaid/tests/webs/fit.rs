@@ -9,8 +9,8 @@ use spunlaid::input::{Overrides, parse_fit};
 use spunlaid::statistics::student_t_95;
 use spunlaid::study::Journal;
 
-/// How often intervals hold the truth is measured with a thousand loops of drawn numbers, beside the code; here, that laid and scanned webs give what
-/// their fit needs.
+/// How often intervals hold the truth is measured with a thousand loops of drawn numbers, beside the code;
+/// here, that laid and scanned webs give what their fit needs.
 #[test]
 fn stat_the_number_of_filaments_of_a_scanned_web_lies_in_the_intervals() {
     let truth = [350.0];
@@ -26,8 +26,9 @@ fn stat_the_number_of_filaments_of_a_scanned_web_lies_in_the_intervals() {
     let standard_error = halves.sum::<f64>() / 10.0 / student_t_95(9) / 10f64.sqrt();
     let bias = fits.iter().map(|fit| (fit.keys[0].value / truth[0]).ln()).sum::<f64>() / 10.0;
     assert!(bias.abs() < 3.0 * standard_error, "{bias} ± {standard_error}");
-    // CV² falls as one over the number, and CV over so many independent patches scatters by 1/√(2n): no web tells more than its smallest patches,
-    // and filaments that are 18 mm wide make no more than (200/18)² of them.
+    // CV² falls as one over the number, and CV over so many independent patches scatters by 1/√(2n): no web
+    // tells more than its smallest patches, and filaments that are 18 mm wide make no more than (200/18)² of
+    // them.
     let least = 2.0 / (2.0 * (200.0f64 / 18.0).powi(2)).sqrt() / 10f64.sqrt();
     assert!((0.3..3.0).contains(&(standard_error / least)), "{standard_error}, {least}");
 }
@@ -89,8 +90,8 @@ fn what_cannot_be_compared_is_refused() {
     assert_eq!(found.keys[0].interval, Err("the level of the lamp is a guess".to_owned()));
 }
 
-/// A tenth of the filaments of a small line lay maps nearly like those of all in the same air; that is the error that counts, and not the far
-/// larger one by which every second of them would be off.
+/// A tenth of the filaments of a small line lay maps nearly like those of all in the same air; that is the
+/// error that counts, and not the far larger one by which every second of them would be off.
 #[test]
 fn few_filaments_of_a_trial_are_held_against_all_in_the_same_air() {
     const LINE: &str = "

@@ -63,7 +63,8 @@ fn analytic_rows_have_neighbours_of_their_own() {
     assert!(self::flown("uniform", &sheet, &places[..1], Airs::Shared, 2).neighbours.is_empty());
 }
 
-/// The filaments of a web are correlated as the companions of a case, whose correlation is computed for pairs that fly by themselves.
+/// The filaments of a web are correlated as the companions of a case, whose correlation is computed for pairs
+/// that fly by themselves.
 #[test]
 fn stat_the_neighbours_of_a_web_are_the_companions_of_a_case() {
     let mut case = case_in("von-karman");

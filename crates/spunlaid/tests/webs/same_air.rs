@@ -61,8 +61,8 @@ fn identical_a_web_beside_itself_has_not_changed() {
     assert!(one[0].2[0] > 0.1 && one[0].1 != one[1].1, "{one:?}");
 }
 
-/// theory.md (75): every point comes down at the same time and place above a slow belt. A web on another belt is told by the same flight, as if it had been
-/// flown anew.
+/// theory.md (75): every point comes down at the same time and place above a slow belt. A web on another belt
+/// is told by the same flight, as if it had been flown anew.
 #[test]
 fn analytic_a_web_on_another_slow_belt_needs_no_flight() {
     let set: &[(&str, &str)] = &[("belt.speed", "4 m/s"), ("web.length", "0.16 m")];

@@ -10,7 +10,8 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 /// As little as can be flown.
 const LENGTH: (&str, &str) = ("web.length", "0.1 m");
 
-/// A sheet that is filled in between the flown filaments, and one of tiles, whose curves are computed for each stretch alone.
+/// A sheet that is filled in between the flown filaments, and one of tiles, whose curves are computed for
+/// each stretch alone.
 #[test]
 fn identical_a_sheet_and_its_stretches() {
     let set = [LENGTH, ("web.window", "20 mm"), ("web.edges", "cut")];

@@ -1,4 +1,5 @@
-//! The surrogate: its autocorrelation against series and simulation, its paths, and the way back from a laid curve to it.
+//! The surrogate: its autocorrelation against series and simulation, its paths, and the way back from a laid
+//! curve to it.
 
 use spunlaid::lanes::{Isa, Lanes};
 use spunlaid::laydown::{LaidCurve, Trace, TraceSettings};

@@ -10,7 +10,8 @@ use spunlaid::web::Sheet;
 /// Lags along the filament, in elements.
 const LAGS: usize = 60;
 
-/// Mean of `max(0, 1 − |d|/side)/side` over normal distances d: twice the density of the point that is common to two squares.
+/// Mean of `max(0, 1 − |d|/side)/side` over normal distances d: twice the density of the point that is common
+/// to two squares.
 ///
 /// * `apart` – mean of the distances [m]
 /// * `variance` – of the distances [m²]
@@ -25,9 +26,9 @@ fn overlap(apart: f64, variance: f64, side: f64) -> f64 {
     (above(apart + side) - 2.0 * above(apart) + above(apart - side)) / (side * side)
 }
 
-/// Filaments whose places are jointly normal: with their correlations C of either direction at a distance across and a fed length,
-/// `CV² = p Σ ∫ dv [T(v, 2σ₁²(1 − C₁)) T(z, 2σ₂²(1 − C₂)) − T(v, 2σ₁²) T(z, 2σ₂²)]` over all neighbours at z and the belt v that
-/// passes meanwhile, with the pitch p and [`overlap`] T.
+/// Filaments whose places are jointly normal: with their correlations C of either direction at a distance
+/// across and a fed length, `CV² = p Σ ∫ dv [T(v, 2σ₁²(1 − C₁)) T(z, 2σ₂²(1 − C₂)) − T(v, 2σ₁²) T(z, 2σ₂²)]`
+/// over all neighbours at z and the belt v that passes meanwhile, with the pitch p and [`overlap`] T.
 #[test]
 fn stat_two_filaments_say_how_uneven_a_web_in_one_air_is() {
     const COUNT: usize = 64;

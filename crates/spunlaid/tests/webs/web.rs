@@ -232,8 +232,9 @@ proptest! {
     }
 }
 
-/// By mass, directions on a moving belt are evenly spread about the machine direction: for a direction α uniform in length of
-/// fibre, the mean of cos² of the direction of (cos α − r, sin α) is ½ for any belt ratio r below one.
+/// By mass, directions on a moving belt are evenly spread about the machine direction: for a direction α
+/// uniform in length of fibre, the mean of cos² of the direction of (cos α − r, sin α) is ½ for any belt
+/// ratio r below one.
 #[test]
 fn half_of_the_mass_lies_along_the_machine_direction() {
     for belt_speed in [3.0, 25.0] {
@@ -279,8 +280,8 @@ fn rosettes() -> (Surrogate, Curves) {
     (Surrogate { sigma_md: sigma, sigma_cd: sigma, noise: 9.0 }, curves)
 }
 
-/// A surrogate that does not lay as the flown curves do: the error of its map holds what they would give, and what it says of
-/// their levers is not told.
+/// A surrogate that does not lay as the flown curves do: the error of its map holds what they would give, and
+/// what it says of their levers is not told.
 #[test]
 fn the_error_of_a_surrogates_map_reaches_to_the_flown_curves() {
     let (surrogate, curves) = rosettes();

@@ -43,7 +43,8 @@ fn with<T>(run: impl FnOnce(LayControl<'_>) -> T) -> T {
     run(LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &laid })
 }
 
-/// Deviations of independent webs, each with its standard error: intervals cover the truth, errors are those of the scatter, and equal webs do not differ.
+/// Deviations of independent webs, each with its standard error: intervals cover the truth, errors are those
+/// of the scatter, and equal webs do not differ.
 fn hold(what: &str, found: &[(f64, f64)]) {
     let count = found.len() as f64;
     let truth = (found.iter().map(|of| of.0 * of.0).sum::<f64>() / count).sqrt();
@@ -56,7 +57,8 @@ fn hold(what: &str, found: &[(f64, f64)]) {
     // 95 % of them, within four standard deviations of a binomial number.
     let least = 0.95 * count - 4.0 * (0.95 * 0.05 * count).sqrt();
     assert!(held >= least, "{what}: {held} of {count} intervals hold");
-    // Errors too wide are found by the scatter: that of a standard deviation from so many values is 1/√(2n), and four of them are allowed.
+    // Errors too wide are found by the scatter: that of a standard deviation from so many values is 1/√(2n),
+    // and four of them are allowed.
     let mean = found.iter().map(|of| of.0).sum::<f64>() / count;
     let scatter = (found.iter().map(|of| (of.0 - mean).powi(2)).sum::<f64>() / (count - 1.0)).sqrt();
     let error = (found.iter().map(|of| of.1 * of.1).sum::<f64>() / count).sqrt();

@@ -262,8 +262,8 @@ fn limits(case: &Case) -> Vec<String> {
     }
     if let Some(share) = case.air.place_of_cutoff(case.along()).filter(|_| case.line.is_none()) {
         lines.push(format!(
-            "  the turbulence changes fastest {} from the root, where its cut-off frequency is {}; a step that keeps run.error_tolerance \
-             follows it",
+            "  the turbulence changes fastest {} from the root, where its cut-off frequency is {}; a step \
+            that keeps run.error_tolerance follows it",
             Dimension::Length.pretty_to(share * case.fibre.length, 3),
             Dimension::Frequency.pretty_to(case.air.cutoff_frequency, 3)
         ));
@@ -314,7 +314,8 @@ impl Needs {
     }
 }
 
-/// Largest memory of a run on so many threads [bytes]: while its files are read, while it flies, or while figures are drawn.
+/// Largest memory of a run on so many threads [bytes]: while its files are read, while it flies, or while
+/// figures are drawn.
 fn memory(case: &Case, threads: u64) -> f64 {
     /// The program itself, and the figures that it draws when the flights are over.
     const PROGRAM: f64 = 15.0 * (1u64 << 20) as f64;
@@ -322,8 +323,8 @@ fn memory(case: &Case, threads: u64) -> f64 {
     /// Most positions that are read back from the file of the shapes, and bytes of one of them there and in the report.
     const MOST_POSITIONS: f64 = 375_000.0;
     const POSITION: f64 = 2.0 * 24.0;
-    /// Rows of the tables that wait to be written, of 18 numbers, in lists that may be half empty; and those of each fibre that
-    /// wait to go to its file.
+    /// Rows of the tables that wait to be written, of 18 numbers, in lists that may be half empty; and those
+    /// of each fibre that wait to go to its file.
     const ROWS: f64 = (2 << 15) as f64;
     const ROW: f64 = 18.0 * 8.0;
     const FIBRE: f64 = (2 << 15) as f64;

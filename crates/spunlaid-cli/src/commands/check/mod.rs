@@ -1,4 +1,5 @@
-//! `spunlaid check`: shows a case, a spinline, a web or a study with all defaults, and what it means, without computing it.
+//! `spunlaid check`: shows a case, a spinline, a web or a study with all defaults, and what it means, without
+//! computing it.
 
 mod case;
 mod study;
@@ -20,8 +21,9 @@ pub(crate) fn check(check: &Check) -> Result<(), Failure> {
     }
 }
 
-/// What is read of a file, without flights: a check is quick, and a tension at the end of a spinline changes little of what it says. A note
-/// names each tension that a flight will find. Fibres fly only where there are problems that may go away with it.
+/// What is read of a file, without flights: a check is quick, and a tension at the end of a spinline changes
+/// little of what it says. A note names each tension that a flight will find. Fibres fly only where there are
+/// problems that may go away with it.
 fn looked_at<T>(read: Result<T, Unread<T>>) -> Result<T, Failure> {
     match read {
         Err(Unread::Unflown(unflown)) if unflown.without_flights().is_err() => {
@@ -31,7 +33,8 @@ fn looked_at<T>(read: Result<T, Unread<T>>) -> Result<T, Failure> {
     }
 }
 
-/// Shows a file with every default, and in comments what it means and which command takes it, so that the output is such a file.
+/// Shows a file with every default, and in comments what it means and which command takes it, so that the
+/// output is such a file.
 fn show(kind: &str, text: &str, comments: &[String], command: &str, source: &CaseSource) {
     say::line(&format!("# the {kind} with every default"));
     say::text(text);

@@ -110,8 +110,8 @@ fn line(spec: &WebSpec) -> Vec<String> {
         let filaments = layer.filaments.count(&spec.sheet);
         let alone = spec.alone(number).mass_flow() / layer.belt_speed;
         format!(
-            "  {}{} holes per metre of width, each with {} g/min: filaments of {} dtex, {}, fed at {}; {} of filament on each metre of \
-             belt{}",
+            "  {}{} holes per metre of width, each with {} g/min: filaments of {} dtex, {}, fed at {}; {} of \
+            filament on each metre of belt{}",
             if several { format!("layer {name}: ") } else { String::new() },
             significant(filaments as f64 / spec.sheet.width, 4),
             significant(layer.linear_density() * layer.feed_speed * 6e4, 4),
@@ -190,8 +190,8 @@ fn in_one_air(spec: &WebSpec) -> Vec<String> {
         let of = if spec.layers.len() > 1 { format!(" of layer {}", number + 1) } else { String::new() };
         match flight.is_few {
             true => format!(
-                "  {}{of} fly in one field of eddies, on a sheet of {width} × {length}; the web of {all} follows from them \
-                 (web.flown)",
+                "  {}{of} fly in one field of eddies, on a sheet of {width} × {length}; the web of {all} \
+                follows from them (web.flown)",
                 plural(flight.filaments, "filament")
             ),
             false => format!(
@@ -205,7 +205,11 @@ fn in_one_air(spec: &WebSpec) -> Vec<String> {
     let memory = flights.iter().map(|flight| flight.memory).fold(0.0, f64::max);
     lines.push(format!("  the field takes {} of memory", Dimension::Memory.pretty_to(memory, 2)));
     if is_at_random(spec) {
-        lines.push("  they come in one row, at random places of it; the slot of a line has a depth: --set line.depth=\"20 mm\"".to_owned());
+        lines.push(
+            "  they come in one row, at random places of it; the slot of a line has a depth: --set \
+            line.depth=\"20 mm\""
+                .to_owned(),
+        );
     }
     lines
 }
@@ -229,9 +233,11 @@ fn independent(spec: &WebSpec) -> Vec<String> {
     let way_out = if !spec.layers.iter().all(is_case) {
         "to fly them in one air, as in a line: name a case in laydown.case"
     } else if spec.layers.iter().any(has_record) {
-        "a record says nothing of the air beside it: to fly them in one air, as in a line, write numbers or a profile in the case"
+        "a record says nothing of the air beside it: to fly them in one air, as in a line, write numbers or \
+        a profile in the case"
     } else if is_at_random(spec) {
-        "to fly them in one air, as in a line: --set web.method=shared-air --set line.depth=\"20 mm\" (the depth of the slot)"
+        "to fly them in one air, as in a line: --set web.method=shared-air --set line.depth=\"20 mm\" (the \
+        depth of the slot)"
     } else {
         "to fly them in one air, as in a line: --set web.method=shared-air"
     };

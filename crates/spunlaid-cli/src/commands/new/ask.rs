@@ -6,8 +6,8 @@ use crate::say;
 use spunlaid::error::Fault;
 use std::io::BufRead;
 
-/// The numbers with those that were missing, from a person's answers; without one to ask, those that cannot be missing are
-/// refused.
+/// The numbers with those that were missing, from a person's answers; without one to ask, those that cannot
+/// be missing are refused.
 ///
 /// * `answers` – lines that a person types
 pub(super) fn complete(
@@ -62,7 +62,8 @@ fn is_or_are(options: &[&str]) -> String {
     }
 }
 
-/// Asks for a value that is not there, again and again until the answer can be read. An empty answer is the usual value.
+/// Asks for a value that is not there, again and again until the answer can be read. An empty answer is the
+/// usual value.
 fn ask<T>(
     answers: &mut impl BufRead,
     value: &mut Option<T>,
@@ -100,8 +101,8 @@ mod tests {
             diameter: Some(16e-6.into()),
             ..LineNumbers::default()
         };
-        // Polymer, basis weight with two answers that cannot be read, width, holes with one, beams, air, distance. A number without
-        // a unit has that of the question.
+        // Polymer, basis weight with two answers that cannot be read, width, holes with one, beams, air,
+        // distance. A number without a unit has that of the question.
         let mut answers = "PET\ntwenty\n15 dtex\n15\n4.5\n0\n\n2\n70\n500 mm\n".as_bytes();
         let numbers = complete(given, Some(&mut answers)).unwrap_or_default();
         let value = |given: &Option<Given<f64>>| given.as_ref().map(|given| given.value);

@@ -10,8 +10,8 @@ use std::f64::consts::PI;
 const WIDTH: f64 = 1.0;
 /// Distance to the belt [m], if the user gives none.
 const DISTANCE: f64 = 0.5;
-/// Turbulence of the air between slot and belt, of the usual size: intensity, length of an eddy [m], and the velocity at the belt
-/// over that at the slot.
+/// Turbulence of the air between slot and belt, of the usual size: intensity, length of an eddy [m], and the
+/// velocity at the belt over that at the slot.
 const INTENSITY: f64 = 0.1;
 const EDDY: f64 = 16e-3;
 const SLOWED: f64 = 1.0 / 6.0;
@@ -99,7 +99,8 @@ impl Line {
     pub(super) fn warnings(&self) -> Vec<String> {
         let [air, feed] = [self.air_speed, self.feed_speed()].map(speed);
         let slow = format!(
-            "the air of {air} is not faster than the filament, {feed}, and cannot draw it: check air speed, throughput and titre"
+            "the air of {air} is not faster than the filament, {feed}, and cannot draw it: check air speed, \
+            throughput and titre"
         );
         (self.air_speed <= self.feed_speed()).then_some(slow).into_iter().collect()
     }
@@ -139,7 +140,8 @@ impl Line {
             };
             text += &header;
             let weight = format!(
-                "basis_weight = \"{}\"   # of the whole web: {times_beams}{holes_per_metre} holes/m × {} / {} = a belt of {}\n",
+                "basis_weight = \"{}\"   # of the whole web: {times_beams}{holes_per_metre} holes/m × {} / \
+                {} = a belt of {}\n",
                 exact_text(Dimension::BasisWeight, basis_weight),
                 flow_of_hole(throughput),
                 Dimension::BasisWeight.pretty(basis_weight),
@@ -156,7 +158,8 @@ impl Line {
                 significant(flow / beams as f64 * 3600.0, 4),
                 significant(flow / beams as f64 * width * 3600.0, 4),
             );
-            text += "depth = \"20 mm\"   # of the slot, a guess: the filaments come at an even pitch, each at a random depth\n";
+            text += "depth = \"20 mm\"   # of the slot, a guess: the filaments come at an even pitch, each \
+                at a random depth\n";
         }
         text
     }
@@ -165,9 +168,10 @@ impl Line {
     fn sheet(&self) -> String {
         format!(
             "\n[web]\nwidth = \"{}\"\nlength = \"1 m\"   # of the stretch that is looked at\n\
-             # method = \"dynamics\"   # filaments that are independent of each other, a lower bound; left out, they hang in one air\n\
-             # edges = \"cut\"   # if the edges of the web are to be seen; without, it is a part of a wide web\n\
-             guessed = \"{GUESSED}\"   # made up: the CV is also told for half and twice of each; take out what you have measured\n",
+            # method = \"dynamics\"   # filaments that are independent of each other, a lower bound; left \
+            out, they hang in one air\n# edges = \"cut\"   # if the edges of the web are to be seen; \
+            without, it is a part of a wide web\nguessed = \"{GUESSED}\"   # made up: the CV is also told \
+            for half and twice of each; take out what you have measured\n",
             exact_text(Dimension::Length, self.width)
         )
     }
@@ -190,15 +194,15 @@ impl Line {
         // A filament as spun is oriented somewhat.
         let modulus = 1.5 * self.polymer.material(false).unoriented_modulus;
         format!(
-            "\n# The filament, from the end of the slot to the belt.\n\
-             [fibre]\n{size}\ndensity = \"{}\"   # of solid {}\n\
-             youngs_modulus = \"{}\"   # half as much again as without orientation, a guess: the lay-down hardly depends on it\n\
-             root = \"clamped\"   # the filament leaves the slot straight down\n\n\
-             [belt]\ndistance = \"{}\"   # from the slot to the belt\n\n\
-             [air]\nprofile = \"{air}\"   # made up, of the usual shape: replace it by measured or computed air (docs/air.md)\n\
-             widening = \"md\"   # the air slows down because it widens along the belt\n\n\
-             [drag]\nacross = \"marheineke-wegener\"   # agrees with measurements\n\n\
-             [run]\nduration = \"1 s\"   # longer, or with more replicates: smaller errors\nreplicates = 8\n",
+            "\n# The filament, from the end of the slot to the belt.\n[fibre]\n{size}\n\
+            density = \"{}\"   # of solid {}\nyoungs_modulus = \"{}\"   # half as much again as without \
+            orientation, a guess: the lay-down hardly depends on it\n\
+            root = \"clamped\"   # the filament leaves the slot straight down\n\n[belt]\n\
+            distance = \"{}\"   # from the slot to the belt\n\n[air]\n\
+            profile = \"{air}\"   # made up, of the usual shape: replace it by measured or computed air \
+            (docs/air.md)\nwidening = \"md\"   # the air slows down because it widens along the belt\n\n\
+            [drag]\nacross = \"marheineke-wegener\"   # agrees with measurements\n\n[run]\n\
+            duration = \"1 s\"   # longer, or with more replicates: smaller errors\nreplicates = 8\n",
             Dimension::Density.pretty(density),
             self.polymer.name(),
             Dimension::Pressure.pretty_to(modulus, 2),
@@ -214,8 +218,9 @@ impl Line {
         };
         let rows = [[0.0, self.air_speed], [self.distance, SLOWED * self.air_speed]].map(row);
         format!(
-            "# Air between the slot and the belt: made up, of the usual shape and size (cut-off = velocity / 4 / length scale).\n\
-             x_mm,velocity_m_s,turbulence_intensity,length_scale_mm,cutoff_frequency_hz\n{}",
+            "# Air between the slot and the belt: made up, of the usual shape and size (cut-off = velocity / \
+            4 / length scale).\nx_mm,velocity_m_s,turbulence_intensity,length_scale_mm,cutoff_frequency_hz\n\
+            {}",
             rows.concat()
         )
     }

@@ -48,10 +48,10 @@ pub(super) fn density(analysis: &Analysis) -> Figure {
     let model = [(flat.from, level), (cutoff, level), (cutoff, bottom)];
     let chart = chart.path(Series::new("flat, same plateau and variance", INK).dashed(&[6.0, 4.0]), &model);
     let caption = format!(
-        "Power spectral density by Welch’s method with {} segments of {} samples, {} window, {} % overlap; the shaded \
-         band is its 95 % interval. The plateau is the mean over the orange range. The dashed line is the flat spectrum \
-         with the same variance and the same plateau, which the simulation uses; it ends at the cut-off of {} Hz, where \
-         the measured spectrum has already fallen.",
+        "Power spectral density by Welch’s method with {} segments of {} samples, {} window, {} % overlap; \
+        the shaded band is its 95 % interval. The plateau is the mean over the orange range. The dashed line \
+        is the flat spectrum with the same variance and the same plateau, which the simulation uses; it ends \
+        at the cut-off of {} Hz, where the measured spectrum has already fallen.",
         spectrum.segments,
         spectrum.segment,
         spectrum.window.name(),

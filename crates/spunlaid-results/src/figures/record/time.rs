@@ -45,8 +45,8 @@ pub(super) fn history(record: &Record, analysis: &Analysis) -> Figure {
         (first + close) as f64 * analysis.interval,
     );
     let caption = format!(
-        "The upper panel shows the lowest and the highest sample along the whole record, the lower one {} s from its middle \
-         ({} integral times). The upper panel of a steady flow looks the same everywhere.",
+        "The upper panel shows the lowest and the highest sample along the whole record, the lower one {} s \
+        from its middle ({} integral times). The upper panel of a steady flow looks the same everywhere.",
         significant(close as f64 * analysis.interval, 2),
         significant(close as f64 * analysis.interval / analysis.integral_time.value, 2),
     );
@@ -117,9 +117,9 @@ pub(super) fn histogram(record: &Record, analysis: &Analysis) -> Figure {
         }
     }
     let chart = chart.line(Series::reference("Gaussian of the same mean and rms"), &gaussian);
-    let caption = "Probability density of the velocity in steps of an eighth of the rms. The dashed line is the Gaussian with \
-                   the same mean and rms, which the simulated turbulence has. A peak at either end means that the \
-                   instrument clips."
+    let caption = "Probability density of the velocity in steps of an eighth of the rms. The dashed line is \
+        the Gaussian with the same mean and rms, which the simulated turbulence has. A peak at either end \
+        means that the instrument clips."
         .to_owned();
     Figure::new(&chart, caption)
 }

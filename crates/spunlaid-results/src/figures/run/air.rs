@@ -126,8 +126,8 @@ pub(super) fn slices(case: &Case, results: &Results) -> Option<Figure> {
     });
     let charts: Vec<Chart> = charts.collect();
     let caption = format!(
-        "Speed of the mean flow in two planes through the root, of {}, and up to {} fibres as they were at the end. Grey: \
-         outside the field.",
+        "Speed of the mean flow in two planes through the root, of {}, and up to {} fibres as they were at \
+        the end. Grey: outside the field.",
         placed.field.describe(),
         results.trajectories.len(),
     );

@@ -47,9 +47,9 @@ fn trace(results: &Results) -> Figure {
     table.add("fibre", window.points.iter().map(|p| [p.md * MM, p.cd * MM, p.fed]));
     let fed = window.points.last().map_or(0.0, |p| p.fed) - window.points[0].fed;
     let caption = format!(
-        "The first replicate on {} mm of the belt, in true proportions: {} m of fibre. The belt runs to the right, so the fibre \
-         grows to the left. It is drawn much thicker than it is. Its bends are those of the elements: see below what the mesh \
-         resolves.",
+        "The first replicate on {} mm of the belt, in true proportions: {} m of fibre. The belt runs to the \
+        right, so the fibre grows to the left. It is drawn much thicker than it is. Its bends are those of \
+        the elements: see below what the mesh resolves.",
         significant(window.length * MM, 2),
         significant(fed, 3)
     );

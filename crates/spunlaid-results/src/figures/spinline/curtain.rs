@@ -29,7 +29,7 @@ pub(super) fn figure(prefix: &str, rows: &[Solution]) -> Figure {
         &format!("{prefix}_rows"),
         title,
         &[&diameter.sized(640.0, 300.0), &freezing.sized(640.0, 300.0)],
-        "Each row meets the air that the rows before it have warmed and dragged along. The air does not mix between the rows in \
-         this model.",
+        "Each row meets the air that the rows before it have warmed and dragged along. The air does not mix \
+        between the rows in this model.",
     )
 }

@@ -25,9 +25,9 @@ pub(super) fn figure(prefix: &str, influences: &[Influence]) -> Figure {
     let left_out = influences.len() - panels.iter().map(|panel| panel.rows.len()).sum::<usize>();
     let others = if left_out > 0 { " Weaker ones are in the numbers of the figure." } else { "" };
     let caption = format!(
-        "Relative change of the diameter of the cold filament when one number changes and all others stay, by small changes of the \
-         model: d ln d / d ln x, and the change for 10 K. Blue is finer, orange is thicker.{others} These are slopes: they hold for \
-         small changes."
+        "Relative change of the diameter of the cold filament when one number changes and all others stay, \
+        by small changes of the model: d ln d / d ln x, and the change for 10 K. Blue is finer, orange is \
+        thicker.{others} These are slopes: they hold for small changes."
     );
     let (name, title) = (format!("{prefix}_influences"), "What decides the diameter".to_owned());
     EffectsFigure { name, title, panels }.figure(table(influences), caption)

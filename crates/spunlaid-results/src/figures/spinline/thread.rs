@@ -7,7 +7,8 @@ use spunlaid_charts::{
     palette::{BLUE, Colour, GREEN, VERMILION},
 };
 
-/// The strain rate is shown to this multiple of the distance at which the thread freezes, because it is zero from there on.
+/// The strain rate is shown to this multiple of the distance at which the thread freezes, because it is zero
+/// from there on.
 const BEYOND_FREEZING: f64 = 1.25;
 
 /// A quantity of the thread, in the unit of its axis.
@@ -139,8 +140,8 @@ fn tension(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
     let stress = chart(prefix, "stress", title, Axis::linear("Stress *N*_{1} (MPa)").zero_based());
     let stress = with_rows(stress, rows, |station| station.stress * 1e-6, false);
     let caption = format!(
-        "Above, the force in the thread; below, the stress in its cross-section. The stress at the freezing point orients the \
-         polymer, and so decides birefringence and modulus. {}",
+        "Above, the force in the thread; below, the stress in its cross-section. The stress at the freezing \
+        point orients the polymer, and so decides birefringence and modulus. {}",
         about_freezing(rows)
     );
     Figure::stacked(
@@ -176,7 +177,8 @@ fn transformed(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
     let chart = chart(prefix, "transformed", title, up);
     let chart = with_rows(chart, rows, |station| station.transformed, true);
     let caption = format!(
-        "The share of the crystals that could form which has formed; 1 is the crystallinity that the polymer reaches. {}",
+        "The share of the crystals that could form which has formed; 1 is the crystallinity that the polymer \
+        reaches. {}",
         about_freezing(rows)
     );
     Figure::new(&chart, caption)

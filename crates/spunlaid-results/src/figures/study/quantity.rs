@@ -59,14 +59,15 @@ impl Group {
         }
     }
 
-    /// Whether it is drawn where there is a figure for each key: the motion across the flow, the unevenness of a web, or what a
-    /// spinline gives.
+    /// Whether it is drawn where there is a figure for each key: the motion across the flow, the unevenness
+    /// of a web, or what a spinline gives.
     pub(super) fn is_main(&self) -> bool {
         let series: Vec<&str> = self.members.iter().map(|(_, series)| &**series).collect();
         series == ["*y*", "*z*"] || ["cv", "final_diameter", "final_speed"].contains(&self.figure.name)
     }
 
-    /// Leaves out results that apply to no point, as the work check does with implicit tension. None if no result is left.
+    /// Leaves out results that apply to no point, as the work check does with implicit tension. None if no
+    /// result is left.
     pub(super) fn applying(mut self, results: &[PointResults]) -> Option<Self> {
         self.members.retain(|(measure, _)| results.iter().any(|point| point.mean[*measure].is_finite()));
         if self.members.is_empty() { None } else { Some(self) }

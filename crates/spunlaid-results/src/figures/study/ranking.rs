@@ -57,7 +57,8 @@ pub(super) fn figure(study: &Study, rankings: &[Ranking], group: &Group) -> Figu
         String::new()
     } else {
         format!(
-            " Straight lines explain {} of the variation between points; if that is little, look at the curves instead.",
+            " Straight lines explain {} of the variation between points; if that is little, look at the \
+            curves instead.",
             explained.join(" and ")
         )
     };
@@ -67,9 +68,9 @@ pub(super) fn figure(study: &Study, rankings: &[Ranking], group: &Group) -> Figu
         ""
     };
     let caption = format!(
-        "Change of the {} from the least to the greatest value of each factor, on the straight line that fits the points \
-         best while the other factors stay constant.{of_words} The bars are 95 % confidence intervals; if a bar crosses zero, there \
-         may be no effect.{explained}",
+        "Change of the {} from the least to the greatest value of each factor, on the straight line that \
+        fits the points best while the other factors stay constant.{of_words} The bars are 95 % confidence \
+        intervals; if a bar crosses zero, there may be no effect.{explained}",
         group.figure.words,
     );
     let change = Axis::linear(&with_unit("Change", group.unit.shown));

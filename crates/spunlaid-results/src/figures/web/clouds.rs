@@ -42,10 +42,10 @@ fn octaves(clouds: &Clouds, cell: f64) -> Figure {
     .scatter(Series::spots("octaves", BLUE).unlabelled(), &points);
     let (index, error) = clouds.cloudiness(SEEN[0], SEEN[1]);
     let caption = format!(
-        "The variance of the basis weight over its mean, split by the wavelength of the clouds: each point holds wavelengths from \
-         0.7 to 1.4 times its own, with one standard error. Waves below two cells ({} mm) and \
-         above {} mm are not resolved. Cloudiness index, the standard deviation of the relative basis weight in wavelengths from {} to {} mm \
-         (doi 10.1186/s13362-022-00124-z): {} %.",
+        "The variance of the basis weight over its mean, split by the wavelength of the clouds: each point \
+        holds wavelengths from 0.7 to 1.4 times its own, with one standard error. Waves below two cells ({} \
+        mm) and above {} mm are not resolved. Cloudiness index, the standard deviation of the relative basis \
+        weight in wavelengths from {} to {} mm (doi 10.1186/s13362-022-00124-z): {} %.",
         significant(2.0 * cell * MM, 2),
         significant(clouds.longest() * MM, 3),
         significant(SEEN[0] * MM, 2),
@@ -78,9 +78,9 @@ fn spectrum(clouds: &Clouds) -> Figure {
         .line(Series::new("cross direction", VERMILION).width(1.5), &density(clouds, 0));
     Figure::new(
         &chart,
-        "One-sided power spectral density of the basis weight over its mean, by wave number along each direction and \
-         averaged over the other; its integral over wave number (one over the wavelength) is CV² of the cells. Mean over \
-         square tiles of the sheet with a Hann window.",
+        "One-sided power spectral density of the basis weight over its mean, by wave number along each \
+        direction and averaged over the other; its integral over wave number (one over the wavelength) is \
+        CV² of the cells. Mean over square tiles of the sheet with a Hann window.",
     )
 }
 
@@ -99,7 +99,7 @@ fn autocorrelation(coefficients: &[Vec<f64>; 2], cell: f64) -> Figure {
     .line(Series::new("cross direction", VERMILION).width(1.5), &points(0));
     Figure::new(
         &chart,
-        "How alike the basis weights of two cells are that lie some distance apart. What stays in machine direction at large \
-         distances are streaks.",
+        "How alike the basis weights of two cells are that lie some distance apart. What stays in machine \
+        direction at large distances are streaks.",
     )
 }

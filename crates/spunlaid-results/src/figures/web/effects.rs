@@ -10,7 +10,8 @@ use spunlaid::statistics::Difference;
 use spunlaid::units::Dimension;
 use spunlaid_charts::{Figure, Table};
 
-/// What changes of a web do to its CV over the patches by which they are judged, the largest effect at the top. None if none is known.
+/// What changes of a web do to its CV over the patches by which they are judged, the largest effect at the
+/// top. None if none is known.
 pub fn effects_figure(spec: &WebSpec, advice: &Advice) -> Option<Figure> {
     let (patch, first) = (advice.judged_by?, advice.tried.first()?);
     let are_guesses = first.change.setting == Setting::GUESS;
@@ -48,7 +49,8 @@ pub fn effects_figure(spec: &WebSpec, advice: &Advice) -> Option<Figure> {
         ),
     };
     let caption = format!(
-        "Change of the CV over patches of {side}, as a share of it, {what}. The bars are 95 % confidence intervals; if a bar crosses zero, there may be no effect."
+        "Change of the CV over patches of {side}, as a share of it, {what}. The bars are 95 % confidence \
+        intervals; if a bar crosses zero, there may be no effect."
     );
     let figure = EffectsFigure { name: name.to_owned(), title: title.to_owned(), panels: vec![panel] };
     Some(figure.figure(table, caption))

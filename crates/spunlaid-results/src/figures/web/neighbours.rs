@@ -18,8 +18,8 @@ const DIRECTIONS: [Direction; 2] = [
     ("cross direction", |neighbour| neighbour.cd, Series::triangles),
 ];
 
-/// The correlation of the places where two filaments come down, over the distance of their inlets; none of filaments that have no
-/// neighbours.
+/// The correlation of the places where two filaments come down, over the distance of their inlets; none of
+/// filaments that have no neighbours.
 pub(super) fn figure(neighbours: &[NeighbourCorrelation]) -> Option<Figure> {
     let last = neighbours.last()?.layer;
     let mut chart = Chart::new(
@@ -46,9 +46,10 @@ pub(super) fn figure(neighbours: &[NeighbourCorrelation]) -> Option<Figure> {
     }
     Some(Figure::new(
         &chart,
-        "Correlation of the places where two filaments of the web come down at equal fed length, over the distance of their inlets in \
-         cross direction: one if they come down beside each other all the time, zero if they know nothing of each other. Filaments of one \
-         row are compared with those of the same row, those in a slot wherever they hang in its depth. Bars are one standard error, from \
-         the scatter between stretches of the fibre and from the places of the filaments.",
+        "Correlation of the places where two filaments of the web come down at equal fed length, over the \
+        distance of their inlets in cross direction: one if they come down beside each other all the time, \
+        zero if they know nothing of each other. Filaments of one row are compared with those of the same \
+        row, those in a slot wherever they hang in its depth. Bars are one standard error, from the scatter \
+        between stretches of the fibre and from the places of the filaments.",
     ))
 }

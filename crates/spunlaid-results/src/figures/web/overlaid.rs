@@ -67,9 +67,10 @@ pub fn overlaid_webs(webs: &[(String, Vec<ComparedPatch>)]) -> Figure {
     }
     Figure::new(
         &chart,
-        "Standard deviation of the basis weight of square patches over its mean, for each web. Bars and bands are 95 % intervals: \
-         they hold the CV of all such webs, with the error of the model where fibres were flown. An open circle has no interval, so \
-         nothing is said about its difference; the table tells why.",
+        "Standard deviation of the basis weight of square patches over its mean, for each web. Bars and \
+        bands are 95 % intervals: they hold the CV of all such webs, with the error of the model where \
+        fibres were flown. An open circle has no interval, so nothing is said about its difference; the \
+        table tells why.",
     )
 }
 
@@ -94,15 +95,17 @@ pub fn overlaid_spectra(webs: &[ComparedSpectrum], cell: f64) -> Option<Figure> 
     }
     let about_blur = blurred.map_or_else(String::new, |(web, wave)| {
         format!(
-            " Waves shorter than {} mm, in the grey part, are below the blur of {}: one more pixel of blur would take more than one per cent \
-             of their amplitude, so the web itself is stronger there than its picture. The noise of a camera is in its spectrum, too.",
+            " Waves shorter than {} mm, in the grey part, are below the blur of {}: one more pixel of blur \
+            would take more than one per cent of their amplitude, so the web itself is stronger there than \
+            its picture. The noise of a camera is in its spectrum, too.",
             significant(wave * MM, 2),
             web.name
         )
     });
     let caption = format!(
-        "One-sided power spectral density of the basis weight over its mean, by wave number along each direction and averaged over the \
-         other. All maps were brought to cells of {} mm first, the largest of them, because finer cells hold more variance.{about_blur}",
+        "One-sided power spectral density of the basis weight over its mean, by wave number along each \
+        direction and averaged over the other. All maps were brought to cells of {} mm first, the largest of \
+        them, because finer cells hold more variance.{about_blur}",
         significant(cell * MM, 3)
     );
     (!webs.is_empty()).then(|| Figure::new(&chart, caption))

@@ -30,13 +30,16 @@ pub(super) fn laid(web: &Web, findings: &Findings) -> Figure {
     let (label, words) = match web.sheet.edges {
         Edges::Periodic => (
             "edge of the sheet",
-            "The dashed lines are the edges of the sheet; the web goes on beyond them (web.edges = \"periodic\").".to_owned(),
+            "The dashed lines are the edges of the sheet; the web goes on beyond them (web.edges = \
+            \"periodic\")."
+                .to_owned(),
         ),
         Edges::Cut => (
             "edge of the web",
             format!(
-                "The dashed lines are the edges of the web at {} and {} mm, 3 σ_CD beyond the outermost filaments or where the sheet cuts it. \
-                 It is thinner in the grey strips beside them, {} and {} mm wide: these show here only, and no other number holds them.",
+                "The dashed lines are the edges of the web at {} and {} mm, 3 σ_CD beyond the outermost \
+                filaments or where the sheet cuts it. It is thinner in the grey strips beside them, {} and \
+                {} mm wide: these show here only, and no other number holds them.",
                 millimetres(edges[0]),
                 millimetres(edges[1]),
                 millimetres(margins[0] - edges[0]),
@@ -44,8 +47,8 @@ pub(super) fn laid(web: &Web, findings: &Findings) -> Figure {
             ),
         ),
     };
-    let streaks = "These are streaks, which filaments at fixed places leave in the web; they are weaker where nozzles stand at an even \
-                   pitch (line.rows).";
+    let streaks = "These are streaks, which filaments at fixed places leave in the web; they are weaker \
+        where nozzles stand at an even pitch (line.rows).";
     profiles(&findings.laid.map, GRAMS, streaks, &SheetPosition { edges, margins, label, words })
 }
 
@@ -93,9 +96,9 @@ fn profiles(map: &Map, weights: Weights, streaks: &str, across: &SheetPosition) 
         significant(PER_CENT * (squares / points.len() as f64).sqrt(), 2)
     };
     let caption = format!(
-        "Above: the basis weight at a place across the web, averaged over the whole length of the sheet; it varies by {} %. \
-         {streaks} {} Below: the basis weight at a place along the web, \
-         averaged over the whole width; it varies by {} %. The grey lines are the mean.",
+        "Above: the basis weight at a place across the web, averaged over the whole length of the sheet; it \
+        varies by {} %. {streaks} {} Below: the basis weight at a place along the web, averaged over the \
+        whole width; it varies by {} %. The grey lines are the mean.",
         cv(&inner),
         across.words,
         cv(&profile)

@@ -104,11 +104,12 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
     let tau = web.basis_weight() / web.layers.first().map_or(f64::NAN, |layer| layer.linear_density);
     let tenth = straight_fibres(tau, 0.01) * PER_CENT;
     let caption = format!(
-        "Standard deviation of the basis weight of square patches over its mean; the sheet is {cut}. Bars are one standard error of \
-         the map: by chance, from its waves, and, where fibres were flown, also by their small number and by the surrogate. The expected curve is that of independent filaments {places}, from the \
-         lengths that one fibre leaves in each patch. Straight fibres of the same mass in all directions would give \
-         CV² = 0.946 line density/(basis weight · side), {} % at 10 mm for the first layer’s fibre: the distance to them is what the loops of the lay-down \
-         cost.",
+        "Standard deviation of the basis weight of square patches over its mean; the sheet is {cut}. Bars \
+        are one standard error of the map: by chance, from its waves, and, where fibres were flown, also by \
+        their small number and by the surrogate. The expected curve is that of independent filaments \
+        {places}, from the lengths that one fibre leaves in each patch. Straight fibres of the same mass in \
+        all directions would give CV² = 0.946 line density/(basis weight · side), {} % at 10 mm for the \
+        first layer’s fibre: the distance to them is what the loops of the lay-down cost.",
         significant(tenth, 2)
     );
     Figure::new(&chart, caption)
@@ -125,16 +126,17 @@ fn shared_air(places: &str, of_few: bool, by_pairs: bool) -> String {
     };
     let dashed = match by_pairs {
         true => {
-            " The dashed one adds what neighbours do together, from the correlations of pairs of them alone: it checks the map, and holds to \
-             about 10 % over patches larger than a loop."
+            " The dashed one adds what neighbours do together, from the correlations of pairs of them alone: \
+            it checks the map, and holds to about 10 % over patches larger than a loop."
         }
         false => "",
     };
     format!(
-        "Standard deviation of the basis weight of square patches over its mean, on a stretch of belt on which every filament lies as it \
-         does after its start. Bars are one standard error {bars}. The curve below is what the same filaments {places} would \
-         give if each had an air of its own: the sum of their own variances, without what neighbours do together.{dashed} Straight fibres \
-         are those of the same mass in all directions at random."
+        "Standard deviation of the basis weight of square patches over its mean, on a stretch of belt on \
+        which every filament lies as it does after its start. Bars are one standard error {bars}. The curve \
+        below is what the same filaments {places} would give if each had an air of its own: the sum of their \
+        own variances, without what neighbours do together.{dashed} Straight fibres are those of the same \
+        mass in all directions at random."
     )
 }
 

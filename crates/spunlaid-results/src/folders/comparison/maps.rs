@@ -1,4 +1,5 @@
-//! What the maps of webs show beside each other: pictures at one scale and in the same shades, and spectra in cells of one size.
+//! What the maps of webs show beside each other: pictures at one scale and in the same shades, and spectra in
+//! cells of one size.
 
 use super::web::Web;
 use crate::figures::{ComparedSpectrum, overlaid_spectra};

@@ -123,8 +123,8 @@ impl WebNumber {
         Self { value, standard_error: None, ends: None, doubt: Some(doubt) }
     }
 
-    /// With the error by all causes in place of that by chance alone, if it is known: what is not chance makes the interval
-    /// wider on both sides.
+    /// With the error by all causes in place of that by chance alone, if it is known: what is not chance
+    /// makes the interval wider on both sides.
     ///
     /// * `is_of_map` – whether the number is that of the map, which has this error
     fn with_all_causes(self, whole: &Json, is_of_map: bool) -> Self {

@@ -138,7 +138,8 @@ fn blur_objection(webs: [&Web; 2]) -> Option<String> {
         .then(|| format!("waves of {wave} mm are below the blur of the scan ({})", names.join(", ")))
 }
 
-/// Why the texture of two webs cannot be compared: it is that of waves of four to sixteen cells, and says nothing about other waves.
+/// Why the texture of two webs cannot be compared: it is that of waves of four to sixteen cells, and says
+/// nothing about other waves.
 fn wave_mismatch(first: &Web, other: &Web) -> Option<String> {
     let (a, b) = (first.cell?, other.cell?);
     let shown = |cell: f64| significant(cell * 1e3, 3);
@@ -161,8 +162,9 @@ fn measure(
         })
         .collect();
     let doubt = (!doubts.is_empty()).then(|| doubts.join("; "));
-    // The ends of both intervals that face each other make that of the difference: Zou and Donner, Statistics in Medicine 27 (2008)
-    // 1693–1702. A standard error is from many parts of a web, and a normal distribution serves.
+    // The ends of both intervals that face each other make that of the difference: Zou and Donner, Statistics
+    // in Medicine 27 (2008) 1693–1702. A standard error is from many parts of a web, and a normal
+    // distribution serves.
     let difference = |a: &WebNumber, b: &WebNumber| {
         let ups = if b.value > a.value { [true, false] } else { [false, true] };
         let standard_error = a.error_towards(ups[0])?.hypot(b.error_towards(ups[1])?);

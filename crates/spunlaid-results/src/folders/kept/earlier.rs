@@ -134,7 +134,8 @@ impl Earlier {
         self.place == place
     }
 
-    /// The trajectories of replicates that fly together, if all of them are kept; what was recorded of them is passed on.
+    /// The trajectories of replicates that fly together, if all of them are kept; what was recorded of them
+    /// is passed on.
     ///
     /// # Errors
     /// Those of the recorder.

@@ -11,8 +11,9 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-/// So often at most, what has landed is written, with the rows that are in no group of their table yet; on a slow disk so many
-/// times more seldom than it takes, and when so many bytes have gathered. Then few rows are written twice.
+/// So often at most, what has landed is written, with the rows that are in no group of their table yet; on a
+/// slow disk so many times more seldom than it takes, and when so many bytes have gathered. Then few rows are
+/// written twice.
 const PAUSE: Duration = Duration::from_millis(500);
 const TIMES: u32 = 50;
 const GATHERED: usize = 1 << 22;

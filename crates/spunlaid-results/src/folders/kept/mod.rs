@@ -1,4 +1,5 @@
-//! Flights that outlive the process that flies them: what a run has flown is kept beside its folder until the run is complete.
+//! Flights that outlive the process that flies them: what a run has flown is kept beside its folder until the
+//! run is complete.
 //!
 //! ```text
 //! .<folder>.flown/header        version of the program, identity of the case, what is kept of a fibre
@@ -11,8 +12,8 @@
 //! earlier    reads what an earlier process has left
 //! ```
 //!
-//! Rows are many, so they are not written twice: a group of rows of a table is kept as soon as it is in the table. Only the rows
-//! after the last group are written to `landed` too, now and then.
+//! Rows are many, so they are not written twice: a group of rows of a table is kept as soon as it is in the
+//! table. Only the rows after the last group are written to `landed` too, now and then.
 //!
 //! Nothing here ends a run: what cannot be kept or read is flown again.
 
@@ -36,8 +37,8 @@ use std::fs::{self, File};
 use std::io;
 use std::path::PathBuf;
 
-/// A run that fails leaves nothing if it has flown fewer steps of elements: flying them again takes seconds. They are counted, since
-/// the time would be another one on a busy machine.
+/// A run that fails leaves nothing if it has flown fewer steps of elements: flying them again takes seconds.
+/// They are counted, since the time would be another one on a busy machine.
 const FEW: f64 = 1e9;
 const HEADER: &str = "header";
 const LOCK: &str = "lock";

@@ -1,4 +1,5 @@
-//! Records of a file that grows: kind, count, numbers, checksum, all little-endian. A record that is torn off ends the file.
+//! Records of a file that grows: kind, count, numbers, checksum, all little-endian. A record that is torn off
+//! ends the file.
 
 use std::io::Read;
 
@@ -8,9 +9,9 @@ const BYTES: usize = size_of::<f64>();
 /// What a record holds. Rows and columns are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// A replicate, its first row and number of rows in each table, and its measures. Of each its index, and then: 0 and the value
-    /// of a number; or one more than the number of places of a curve, the places and the values; or the negative of this and the
-    /// values, where the places are those of a record of places.
+    /// A replicate, its first row and number of rows in each table, and its measures. Of each its index, and
+    /// then: 0 and the value of a number; or one more than the number of places of a curve, the places and
+    /// the values; or the negative of this and the values, where the places are those of a record of places.
     Landed = 1,
     /// A replicate, time and positions of one of its shapes.
     Shape,

@@ -55,8 +55,8 @@ replicates = 3
 
 static STOP: AtomicBool = AtomicBool::new(false);
 
-/// Some process that writes the tables of a case to `r`: its trajectories, the bytes of its tables, and how many fibres it has
-/// found.
+/// Some process that writes the tables of a case to `r`: its trajectories, the bytes of its tables, and how
+/// many fibres it has found.
 struct Process {
     trajectories: Vec<Trajectory>,
     tables: BTreeMap<&'static str, Vec<u8>>,

@@ -86,16 +86,17 @@ fn figure(case: &Case, slices: &Slices, (i, frame): (usize, usize), range: f64) 
         0 => (
             "Gusts on the way",
             if case.line.is_some() { "*x* from the inlet (mm)" } else { "*x* from the root (mm)" },
-            "Velocity of the air in machine direction in the plane of the way and the machine direction through the middle. The mean \
-             flow goes to the right; filaments that come down here are swung by what they meet."
+            "Velocity of the air in machine direction in the plane of the way and the machine direction \
+            through the middle. The mean flow goes to the right; filaments that come down here are swung by \
+            what they meet."
                 .to_owned(),
         ),
         _ => (
             "Gusts across the end of the way",
             "*z*, cross direction (mm)",
             format!(
-                "The same {way} mm from the start of the way, seen along it. Filaments beside each other that lie in one patch of \
-                 colour are swung together."
+                "The same {way} mm from the start of the way, seen along it. Filaments beside each other \
+                that lie in one patch of colour are swung together."
             ),
         ),
     };

@@ -12,7 +12,8 @@ pub fn write_vtk(staging: &Staging<'_>, slices: &Slices) -> Result<(), Failure> 
     for ((name, plane), velocities) in ["along", "across"].iter().zip(&slices.planes).zip(&slices.velocities)
     {
         let mut collection = String::from(
-            "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n",
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" \
+            byte_order=\"LittleEndian\">\n<Collection>\n",
         );
         for (number, (time, velocities)) in slices.times.iter().zip(velocities).enumerate() {
             let file = format!("slices/{name}_{number:0digits$}.vts");
@@ -34,14 +35,14 @@ fn structured_grid(plane: &Plane, velocities: &[Vec3<f64>]) -> Vec<u8> {
     let (velocities, points) = (vectors(velocities), vectors(&places));
     let [columns, rows] = plane.points.map(|points| points - 1);
     let mut file = format!(
-        "<?xml version=\"1.0\"?>\n\
-         <VTKFile type=\"StructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
-         <StructuredGrid WholeExtent=\"0 {columns} 0 {rows} 0 0\">\n<Piece Extent=\"0 {columns} 0 {rows} 0 0\">\n\
-         <PointData Vectors=\"velocity_m_s\">\n\
-         <DataArray type=\"Float32\" Name=\"velocity_m_s\" NumberOfComponents=\"3\" format=\"appended\" offset=\"0\"/>\n\
-         </PointData>\n<Points>\n\
-         <DataArray type=\"Float32\" Name=\"Points\" NumberOfComponents=\"3\" format=\"appended\" offset=\"{}\"/>\n\
-         </Points>\n</Piece>\n</StructuredGrid>\n<AppendedData encoding=\"raw\">\n_",
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"StructuredGrid\" version=\"1.0\" \
+        byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
+        <StructuredGrid WholeExtent=\"0 {columns} 0 {rows} 0 0\">\n\
+        <Piece Extent=\"0 {columns} 0 {rows} 0 0\">\n<PointData Vectors=\"velocity_m_s\">\n\
+        <DataArray type=\"Float32\" Name=\"velocity_m_s\" NumberOfComponents=\"3\" format=\"appended\" \
+        offset=\"0\"/>\n</PointData>\n<Points>\n<DataArray type=\"Float32\" Name=\"Points\" \
+        NumberOfComponents=\"3\" format=\"appended\" offset=\"{}\"/>\n</Points>\n</Piece>\n\
+        </StructuredGrid>\n<AppendedData encoding=\"raw\">\n_",
         size_of::<u64>() + velocities.len()
     )
     .into_bytes();

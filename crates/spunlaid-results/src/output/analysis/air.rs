@@ -42,8 +42,8 @@ pub fn air_block(file: &str, analysis: &Analysis) -> String {
             &analysis.cutoff_frequency,
             Dimension::Frequency,
             format!(
-                "variance of {along} over the plateau of its spectrum: here a flat spectrum with this variance and this \
-                 plateau would end"
+                "variance of {along} over the plateau of its spectrum: here a flat spectrum with this \
+                variance and this plateau would end"
             ),
         ),
     ];

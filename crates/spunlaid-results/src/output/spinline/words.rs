@@ -12,13 +12,15 @@ use spunlaid_charts::label::plain;
 /// * `has_low_birefringence` – as of the solution
 pub fn model_error(has_low_birefringence: bool) -> String {
     let of_modulus = if has_low_birefringence {
-        "The birefringence of polypropylene is 3 to 5 times too low, because crystals orient more than the stress of the melt does; so the modulus \
-         that follows from it is too low, and neither is an estimate of a real filament."
+        "The birefringence of polypropylene is 3 to 5 times too low, because crystals orient more than the \
+        stress of the melt does; so the modulus that follows from it is too low, and neither is an estimate \
+        of a real filament."
     } else {
         "The modulus can be wrong by a factor of two."
     };
     format!(
-        "How far the model is from a real line is not known: no diameter that it gives has been compared with a measured one. {of_modulus}"
+        "How far the model is from a real line is not known: no diameter that it gives has been compared \
+        with a measured one. {of_modulus}"
     )
 }
 
@@ -28,14 +30,15 @@ pub fn numerical_error(rows: &[Solution]) -> String {
         number_to(rows.iter().map(|row| residual(row).abs()).fold(0.0, f64::max), 1)
     };
     format!(
-        "The equations are solved such that over the whole line the balance of momentum holds to {} of the largest tension and that \
-         of energy to {} of the heat that the air takes.",
+        "The equations are solved such that over the whole line the balance of momentum holds to {} of the \
+        largest tension and that of energy to {} of the heat that the air takes.",
         largest(|row| row.momentum_residual),
         largest(|row| row.energy_residual)
     )
 }
 
-/// What a fed case says of its filament, in sentences: size, speed and throughput, and where it comes from if it has a spinline.
+/// What a fed case says of its filament, in sentences: size, speed and throughput, and where it comes from if
+/// it has a spinline.
 pub fn filament(case: &Case) -> Vec<String> {
     let (Some(line), Some(throughput)) = (case.line, case.throughput()) else { return Vec::new() };
     let fed = format!(
@@ -54,7 +57,8 @@ pub fn filament(case: &Case) -> Vec<String> {
 pub fn freezing(solution: &Solution) -> String {
     let point = solution.freezing;
     format!(
-        "The thread is drawn {}-fold and freezes {} below the die, at {}, {}, under a stress of {} MPa and while it cools at {} K/s.",
+        "The thread is drawn {}-fold and freezes {} below the die, at {}, {}, under a stress of {} MPa and \
+        while it cools at {} K/s.",
         significant(solution.draw_ratio(), 3),
         Dimension::Length.pretty_to(point.distance, 3),
         Dimension::Temperature.pretty_to(point.temperature, 4),

@@ -66,7 +66,8 @@ pub enum Value {
     Word(&'static str),
 }
 
-/// A table that is being written, in each of its formats. Rows are written as they come, so that memory does not grow with their number.
+/// A table that is being written, in each of its formats. Rows are written as they come, so that memory does
+/// not grow with their number.
 pub struct Table(Vec<Box<dyn Rows>>);
 
 impl TableFormat {

@@ -1,4 +1,5 @@
-//! What changes do to the CV of a web, in `summary.json`: those of the line at the same basis weight, and other values of guesses.
+//! What changes do to the CV of a web, in `summary.json`: those of the line at the same basis weight, and
+//! other values of guesses.
 
 use crate::command::web_command;
 use serde::Serialize;

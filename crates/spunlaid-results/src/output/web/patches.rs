@@ -48,8 +48,8 @@ impl PatchTable {
     }
 }
 
-/// The declared columns that a reader sees of a web, in their order: after that of the CV its further errors, then the other measures. The
-/// standard error of a measure stands with it.
+/// The declared columns that a reader sees of a web, in their order: after that of the CV its further errors,
+/// then the other measures. The standard error of a measure stands with it.
 fn columns(findings: &Findings, reader: Reader) -> Vec<&'static Measure<PatchFindings>> {
     let of_measure = |measure: &'static Measure<PatchFindings>| {
         let further = measure.errors.iter().filter(|error| error.role == ErrorRole::Further);
@@ -78,8 +78,8 @@ impl Reader {
         }
     }
 
-    /// Side of the patches, CV with its error by all causes, or by chance alone if the others are not known, error by chance,
-    /// and interval.
+    /// Side of the patches, CV with its error by all causes, or by chance alone if the others are not known,
+    /// error by chance, and interval.
     fn cells_of_map(self, patch: &PatchFindings) -> [String; 4] {
         let (cv, error) = (patch.map.cv, patch.whole_error());
         let whole = error.whole().or(error.chance);

@@ -57,8 +57,8 @@ impl MapFile {
         [width - self.margins[0] - self.margins[1], length]
     }
 
-    /// The middle of the web in square pixels that are no smaller than its cells. What lies in a pixel in part counts in part. The mass is
-    /// relative to the mean of the piece.
+    /// The middle of the web in square pixels that are no smaller than its cells. What lies in a pixel in
+    /// part counts in part. The mass is relative to the mean of the piece.
     ///
     /// * `sides` – of the piece, in cross and in machine direction, no larger than [`sides`](Self::sides) [m]
     /// * `pixel` – side of a pixel [m]

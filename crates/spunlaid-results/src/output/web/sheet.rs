@@ -26,8 +26,9 @@ const NOTES: f64 = 250.0;
 const LINE: f64 = 13.0;
 
 /// What the numbers are, below them.
-const MEANING: &str = "Simulated, not measured. A number stands with its standard error, as a bound, or as a range; one without an error is counted, \
-     given, or exactly that of the simulated sheet. Bonds, finish and the thickness that a calender makes are not in any of them. What each number is: docs/fabric.md.";
+const MEANING: &str = "Simulated, not measured. A number stands with its standard error, as a bound, or as a \
+    range; one without an error is counted, given, or exactly that of the simulated sheet. Bonds, finish and \
+    the thickness that a calender makes are not in any of them. What each number is: docs/fabric.md.";
 
 /// The page, as PDF.
 ///

@@ -6,7 +6,8 @@ use crate::output::paraview::{Line, poly_data};
 use spunlaid::vec3::Vec3;
 use spunlaid::web::Strand;
 
-/// Writes `fibres.vtp`: a line for each piece of fibre, in machine direction (x) and cross direction (y) from the window's corner [m].
+/// Writes `fibres.vtp`: a line for each piece of fibre, in machine direction (x) and cross direction (y) from
+/// the window's corner [m].
 pub fn write(staging: &Staging<'_>, strands: &[Strand]) -> Result<(), Failure> {
     let line = |strand: &Strand| Line {
         number: strand.layer as u64 + 1,

@@ -62,7 +62,8 @@ pub struct Layer {
     pub fit_residual: Option<f64>,
     /// What chance alone would leave of it.
     pub fit_residual_by_chance: Option<f64>,
-    /// Largest lateral wave number of the air that all filaments share, times its length scale; none of filaments in airs of their own.
+    /// Largest lateral wave number of the air that all filaments share, times its length scale; none of
+    /// filaments in airs of their own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lateral_cutoff: Option<f64>,
     /// The spinline from which its filaments come, if its case has one.
@@ -141,7 +142,8 @@ struct WebSummary {
 #[derive(Debug, Serialize)]
 struct FlownSummary {
     filaments: u64,
-    /// Distance of neighbours in a row, and the correlation of the places where two filaments at this distance and equal depth come down.
+    /// Distance of neighbours in a row, and the correlation of the places where two filaments at this
+    /// distance and equal depth come down.
     pitch_m: f64,
     neighbour_correlation: f64,
     /// The sheet that they laid.
@@ -190,7 +192,8 @@ struct Cloudiness {
     to_m: f64,
     index: f64,
     standard_error: Option<f64>,
-    /// 95 % confidence interval for all such webs; null if the map is too small to say, or if too few filaments were flown.
+    /// 95 % confidence interval for all such webs; null if the map is too small to say, or if too few
+    /// filaments were flown.
     interval: Option<[f64; 2]>,
     /// Why the true index cannot be known.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -212,7 +215,8 @@ struct NeighboursSummary<'a> {
     cd: Vec<NeighbourSummary<'a>>,
 }
 
-/// The correlations of the places where two filaments at a distance come down, under the names that they have for the companions of a case.
+/// The correlations of the places where two filaments at a distance come down, under the names that they have
+/// for the companions of a case.
 #[derive(Debug, Serialize)]
 struct NeighbourSummary<'a> {
     /// Name of the layer.
@@ -312,7 +316,8 @@ fn numbers_of_patch<T>(
     OrderedObject(all)
 }
 
-/// The declared measures of a whole web that do not stand elsewhere in the file: with the map, or with each layer. Those that it does not have are left out.
+/// The declared measures of a whole web that do not stand elsewhere in the file: with the map, or with each
+/// layer. Those that it does not have are left out.
 fn declared_of_web(findings: &Findings) -> OrderedObject<Json> {
     let here = OF_WEBS.iter().filter(|measure| !measure.entry().is_empty());
     OrderedObject(here.flat_map(|measure| with_errors(measure, findings)).collect())

@@ -19,7 +19,8 @@ pub(in crate::report) fn case_account(case: &Case) -> Account {
         case.drag.along.factor().map_or(String::new(), |factor| format!(" with β = {}", number(factor)));
     let mut sentences = vec![
         format!(
-            "The fibre is a chain of beads joined by elastic elements, under tension, bending, gravity and the drag of the air ({}).",
+            "The fibre is a chain of beads joined by elastic elements, under tension, bending, gravity and \
+            the drag of the air ({}).",
             CHAIN.short
         ),
         words::case(case),
@@ -32,7 +33,8 @@ pub(in crate::report) fn case_account(case: &Case) -> Account {
     let mut references = vec![CHAIN];
     if air.density > 0.0 {
         sentences.push(format!(
-            "Its drag follows {}{factor} along the fibre and {} across it, in air of {} and a kinematic viscosity of {}.",
+            "Its drag follows {}{factor} along the fibre and {} across it, in air of {} and a kinematic \
+            viscosity of {}.",
             along.short,
             across.short,
             format_args!("{}{THIN}kg/m³", number_to(air.density, 4)),
@@ -85,7 +87,8 @@ fn turbulence(case: &Case) -> String {
         _ => ", and it differs across the flow as isotropic turbulence does",
     };
     format!(
-        "The turbulence has {shape} up to {}, a length scale of {}, and {} of random phase for each of its three components, {eddies}{lateral}.",
+        "The turbulence has {shape} up to {}, a length scale of {}, and {} of random phase for each of its \
+        three components, {eddies}{lateral}.",
         quantity(air.cutoff_frequency, "Hz"),
         length(air.length_scale),
         count(air.harmonics as u64, "harmonic")
@@ -138,7 +141,8 @@ fn in_one_air(spec: &WebSpec, flown: Option<&[LayerFew]>) -> String {
         None => few.iter().map(|flight| flight.filaments).sum(),
     };
     format!(
-        "the curves of {}, which fly in one air on a sheet of {} by {}, {}and of the filaments between them, which follow by simple kriging{}",
+        "the curves of {}, which fly in one air on a sheet of {} by {}, {}and of the filaments between them, \
+        which follow by simple kriging{}",
         count(filaments, "filament"),
         length(first.sheet[0]),
         length(first.sheet[1]),

@@ -16,22 +16,24 @@ pub(in crate::report) const PROGRAM: Reference = Reference {
 /// The chain of beads in turbulent air.
 pub(in crate::report) const CHAIN: Reference = Reference {
     short: "Battocchio, Sutcliffe and Teschner 2015",
-    full: "F. Battocchio, M. P. F. Sutcliffe, F. Teschner: Fibre behaviour in the spunbonding process. Part II: Modelling fibre dynamics in turbulent \
-           flows. Proc. IMechE Part C: J. Mechanical Engineering Science, 2015.",
+    full: "F. Battocchio, M. P. F. Sutcliffe, F. Teschner: Fibre behaviour in the spunbonding process. Part \
+        II: Modelling fibre dynamics in turbulent flows. Proc. IMechE Part C: J. Mechanical Engineering \
+        Science, 2015.",
 };
 
 /// The stochastic model of a laid fibre.
 pub(in crate::report) const SURROGATE: Reference = Reference {
     short: "Götz et al. 2007",
-    full: "T. Götz, A. Klar, N. Marheineke, R. Wegener: A stochastic model and associated Fokker–Planck equation for the fiber lay-down process in \
-           nonwoven production processes. SIAM Journal on Applied Mathematics 67(6), 1704–1717, 2007.",
+    full: "T. Götz, A. Klar, N. Marheineke, R. Wegener: A stochastic model and associated Fokker–Planck \
+        equation for the fiber lay-down process in nonwoven production processes. SIAM Journal on Applied \
+        Mathematics 67(6), 1704–1717, 2007.",
 };
 
 /// The way in which a fit finds values and intervals.
 pub(in crate::report) const MOMENTS: Reference = Reference {
     short: "McFadden 1989",
-    full: "D. McFadden: A method of simulated moments for estimation of discrete response models without numerical integration. Econometrica 57(5), \
-           995–1026, 1989.",
+    full: "D. McFadden: A method of simulated moments for estimation of discrete response models without \
+        numerical integration. Econometrica 57(5), 995–1026, 1989.",
 };
 
 #[cfg(test)]

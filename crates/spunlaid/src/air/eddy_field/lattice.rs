@@ -39,8 +39,8 @@ impl Lattice {
         self.most_waves() == [0, 0]
     }
 
-    /// The numbers of waves along z that go with a number of waves along y, from `-n` to `n`; none if the latter alone is too
-    /// large.
+    /// The numbers of waves along z that go with a number of waves along y, from `-n` to `n`; none if the
+    /// latter alone is too large.
     pub(super) fn waves_beside(&self, waves_y: i64) -> Option<i64> {
         let [y, z] = self.wave_number_units();
         let left = self.largest * self.largest - (waves_y as f64 * y).powi(2);

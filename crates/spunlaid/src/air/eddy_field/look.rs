@@ -1,8 +1,8 @@
 //! Looks at fields: cubic B-splines in label, y and z, and between two generations.
 //!
-//! Eight places are looked at together: where they lie and all weights are computed side by side, and then the points around
-//! each are summed up. Everything here is loops over arrays, because a closure is not compiled for the instruction set of the
-//! kernel that calls it.
+//! Eight places are looked at together: where they lie and all weights are computed side by side, and then
+//! the points around each are summed up. Everything here is loops over arrays, because a closure is not
+//! compiled for the instruction set of the kernel that calls it.
 
 use super::EddyField;
 use super::brick::{BEFORE, NEEDED, READ};
@@ -76,7 +76,8 @@ impl<'a> EddyFields<'a> {
 
         let across_y = self.y.around::<S>(&at.y);
         let across_z = self.z.around::<S>(&at.z);
-        // Where all samples are is found first, so that they are on their way from memory while the first ones are summed up.
+        // Where all samples are is found first, so that they are on their way from memory while the first
+        // ones are summed up.
         let mut rows = [[[Rows::NONE; NEEDED]; WIDTH]; 2];
         // Of a line and a sample.
         let mut weights = [[[[0.0_f32; WIDTH]; NEEDED]; NEEDED]; 2];

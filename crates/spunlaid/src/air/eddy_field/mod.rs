@@ -1,8 +1,8 @@
 //! A field of eddies in space, in which neighbouring fibres feel the same gusts.
 //!
-//! `u'(x, y, z, t) = u · G(c, y, z; a)`: air has the label `c`, the time at which it passed the inlet, and the age `a`, the
-//! decay times that have gone by since. `G` is a sum of waves in `c`, `y` and `z` with von Kármán's structure across; its
-//! phases walk as the age grows.                                                        theory.md (78) to (83)
+//! `u'(x, y, z, t) = u · G(c, y, z; a)`: air has the label `c`, the time at which it passed the inlet, and
+//! the age `a`, the decay times that have gone by since. `G` is a sum of waves in `c`, `y` and `z` with von
+//! Kármán's structure across; its phases walk as the age grows.                        theory.md (78) to (83)
 //!
 //! ```text
 //! way        travel time and age along the way; where the generations are
@@ -47,7 +47,8 @@ const LOOKS_IN_PERIOD: f64 = 8.0;
 
 /// A field of eddies with the mean zero and the rms one, as far as it has been made. Clones share what has been made.
 ///
-/// Equal airs, extents and keys give equal fields, bit for bit, in whatever order and with however many threads they are made.
+/// Equal airs, extents and keys give equal fields, bit for bit, in whatever order and with however many
+/// threads they are made.
 #[derive(Clone)]
 pub struct EddyField {
     plan: Arc<Plan>,
@@ -65,8 +66,8 @@ impl std::fmt::Debug for EddyField {
     }
 }
 
-/// A room in which airs that differ in their speed or their turbulence have the same pattern as far as they can: it is as long and as wide as the largest
-/// of their ways needs, and has as many generations.
+/// A room in which airs that differ in their speed or their turbulence have the same pattern as far as they
+/// can: it is as long and as wide as the largest of their ways needs, and has as many generations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Room {
     pub(crate) extent: Extent,
@@ -94,8 +95,8 @@ impl Room {
 impl EddyField {
     /// * `distance` – from the inlet, or the root, to the end of the way [m]
     /// * `extent` – after which the field repeats itself across
-    /// * `cutoff` – largest wave number across, times the smallest length scale [-]; zero for the same fluctuation everywhere
-    ///   across
+    /// * `cutoff` – largest wave number across, times the smallest length scale [-]; zero for the same
+    ///   fluctuation everywhere across
     pub fn new(air: &Air, distance: f64, extent: Extent, cutoff: f64, key: StreamKey) -> Self {
         Self::on_way(air, EddyPath::new(air, distance), extent, (cutoff, key))
     }
@@ -119,8 +120,8 @@ impl EddyField {
         }
     }
 
-    /// The field of another air in the same room, if that has the pattern of this one and lets it pass faster or slower, with its pace: how many times as
-    /// fast it passes. What has been made is shared.
+    /// The field of another air in the same room, if that has the pattern of this one and lets it pass faster
+    /// or slower, with its pace: how many times as fast it passes. What has been made is shared.
     ///
     /// * `airs` – the one of this field, and the other one
     pub(crate) fn at_pace_of(&self, airs: [&Air; 2], room: &Room) -> Option<(Self, f64)> {
@@ -161,8 +162,8 @@ impl EddyField {
         Self { key, tapes, made: 0.0..0.0, ..self.clone() }
     }
 
-    /// The most memory that so many fields take [bytes], if one after the other is made in blocks of time of [`EddyField::block`].
-    /// What clones look at lives as long as they do.
+    /// The most memory that so many fields take [bytes], if one after the other is made in blocks of time of
+    /// [`EddyField::block`]. What clones look at lives as long as they do.
     ///
     /// * as of [`EddyField::new`]
     pub fn memory(fields: u64, air: &Air, distance: f64, extent: Extent, cutoff: f64) -> f64 {
@@ -174,9 +175,10 @@ impl EddyField {
         memory::memory(1, &room.way(air), room.extent, cutoff)
     }
 
-    /// Longest time between two looks at the air around a fibre that is fed [s]: an eighth of the shortest period that it feels, and no
-    /// longer than fibre and air take to pass a length scale. With seven looks in that period the fibres of a web spread 0.3 % more than
-    /// with twenty, with ten 0.1 %; CV stays the same.
+    /// Longest time between two looks at the air around a fibre that is fed [s]: an eighth of the shortest
+    /// period that it feels, and no longer than fibre and air take to pass a length scale. With seven looks
+    /// in that period the fibres of a web spread 0.3 % more than with twenty, with ten 0.1 %; CV stays the
+    /// same.
     ///
     /// * `distance` – as of [`EddyField::new`]
     /// * `feed_speed` – [m/s]

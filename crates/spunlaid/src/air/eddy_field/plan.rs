@@ -47,8 +47,8 @@ pub(super) struct Harmonic {
     pub(super) wave_number: f64,
     /// Factor of each component.
     pub(super) scale: [f32; 3],
-    /// Amplitudes `|k| (k² + k_e²)^(−17/12)` of modes by their numbers of waves along y and z, zero and above, with what
-    /// the interpolation takes away added. `[waves along y][waves along z]`
+    /// Amplitudes `|k| (k² + k_e²)^(−17/12)` of modes by their numbers of waves along y and z, zero and
+    /// above, with what the interpolation takes away added. `[waves along y][waves along z]`
     pub(super) amplitudes: Vec<f32>,
 }
 
@@ -222,8 +222,8 @@ impl Mode {
 
 /// `δ_im − k_i k_m/k²`, which leaves nothing along the wave vector: the air keeps its volume.
 ///
-/// * `is_alone` – whether the field is the same everywhere across. Then nothing is taken away, because nothing would be left of
-///   the component along the flow.
+/// * `is_alone` – whether the field is the same everywhere across. Then nothing is taken away, because
+///   nothing would be left of the component along the flow.
 #[inline(always)]
 pub(super) fn projection(k: [f64; 3], is_alone: bool) -> [[f64; 3]; 3] {
     let square = k[0] * k[0] + k[1] * k[1] + k[2] * k[2];

@@ -4,7 +4,8 @@
 //! random phases of the modes, turned by their age → shape of the generation → transform along y, z → along the label
 //! ```
 //!
-//! The real and the imaginary part of one complex transform are two independent fields: two windows, one after the other.
+//! The real and the imaginary part of one complex transform are two independent fields: two windows, one
+//! after the other.
 
 use super::lattice::Lattice;
 use super::plan::{Harmonic, Plan, projection};
@@ -124,8 +125,8 @@ impl Synthesis {
         })
     }
 
-    /// The random modes of a harmonic, of each component `[waves along z][waves along y]`: along z as the transform wants them,
-    /// along y from the most negative number of waves to the largest.                               theory.md (79)
+    /// The random modes of a harmonic, of each component `[waves along z][waves along y]`: along z as the
+    /// transform wants them, along y from the most negative number of waves to the largest.    theory.md (79)
     fn modes(&self, lattice: &Lattice, harmonic: &Harmonic, random: &mut Random) -> [Complexes; 3] {
         let points_z = lattice.points[1];
         let [unit_y, unit_z] = lattice.wave_number_units();
@@ -171,7 +172,8 @@ impl LineMaker<'_> {
         self.line[1]
     }
 
-    /// The samples of [`ABREAST`] points, those of the first window as real parts and those of the second one as imaginary parts.
+    /// The samples of [`ABREAST`] points, those of the first window as real parts and those of the second one
+    /// as imaginary parts.
     ///
     /// * `first` – number of the first point
     pub(super) fn windows(&mut self, first: usize) -> &[Vec<Numbers>; 3] {
@@ -193,8 +195,8 @@ impl LineMaker<'_> {
     }
 }
 
-/// Memory that two windows with so many harmonics take while they are made [bytes]: the points of each harmonic, complex and of three
-/// components.
+/// Memory that two windows with so many harmonics take while they are made [bytes]: the points of each
+/// harmonic, complex and of three components.
 pub(super) fn memory(lattice: &Lattice, harmonics: f64) -> f64 {
     let [y, z] = lattice.points.map(|points| points as f64);
     harmonics * y * z * (3 * size_of::<[f32; 2]>()) as f64

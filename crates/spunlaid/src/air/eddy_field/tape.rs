@@ -73,7 +73,8 @@ pub(super) struct Tape {
 pub(super) fn memory(lattice: &Lattice, period: usize, looked_at: f64) -> f64 {
     let windows = Windows::new(period);
     let block = windows.block(0).len() as f64;
-    // A pair of windows is made when less than what is looked at is left of the one before: that and the rest of its block.
+    // A pair of windows is made when less than what is looked at is left of the one before: that and the rest
+    // of its block.
     let left = looked_at + 2.0 * NEEDED as f64 + block;
     let repeated = ((1.0 + left / block).ceil() + BLOCKS as f64) * REPEATED as f64;
     let samples = windows.total() as f64 + left + repeated;

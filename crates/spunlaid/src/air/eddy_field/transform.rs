@@ -125,7 +125,8 @@ struct Pass<'a> {
     scratch: &'a mut Vec<Numbers>,
 }
 
-/// The pass for a factor. A macro, because what is passed as a function is not always compiled for the instruction set of the kernel.
+/// The pass for a factor. A macro, because what is passed as a function is not always compiled for the
+/// instruction set of the kernel.
 macro_rules! stage {
     ($factor:literal, $small:ident, $roots:expr, $stride:expr, $from:expr, $into:expr) => {{
         let (roots, stride, from, into) = ($roots, $stride, &$from[..], &mut $into[..]);

@@ -34,8 +34,9 @@ pub(super) struct Stage {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct EddyPath {
     pieces_per_length: f64,
-    /// At the ends of the pieces: the number of the generation before it and, as its fraction, the way to the next; and the time that the air
-    /// has travelled since the inlet [s]. The label of air is the time less this.
+    /// At the ends of the pieces: the number of the generation before it and, as its fraction, the way to the
+    /// next; and the time that the air has travelled since the inlet [s]. The label of air is the time less
+    /// this.
     passages: Vec<[f64; 2]>,
     pub(super) stages: Vec<Stage>,
     /// Age from one generation to the next, in decay times; zero for a frozen pattern, infinite for independent eddies.
@@ -98,7 +99,8 @@ impl EddyPath {
         }
     }
 
-    /// How many times as fast as on another way the same pattern passes on this one; None if the two have other patterns.
+    /// How many times as fast as on another way the same pattern passes on this one; None if the two have
+    /// other patterns.
     pub(super) fn pace_of(&self, other: &Self) -> Option<f64> {
         let (first, of_other) = (self.stages.first()?, other.stages.first()?);
         let pace = first.cutoff_frequency / of_other.cutoff_frequency;
@@ -118,7 +120,8 @@ impl EddyPath {
         self.ageing.is_finite()
     }
 
-    /// The highest frequency that is felt by a fibre which moves along the way at a speed [m/s], in places more slowly [Hz].
+    /// The highest frequency that is felt by a fibre which moves along the way at a speed [m/s], in places
+    /// more slowly [Hz].
     pub(super) fn highest_frequency_at(&self, speed: f64) -> f64 {
         let felt = |stage: &Stage| stage.cutoff_frequency * (1.0 - speed / stage.speed).abs().max(0.5);
         self.stages.iter().map(felt).fold(0.0, f64::max)
@@ -145,8 +148,8 @@ impl EddyPath {
         self.pieces_per_length
     }
 
-    /// Generation and travel time [s] of the air at the start and at the end of a piece of the way, and the share of the piece that lies
-    /// before a place.
+    /// Generation and travel time [s] of the air at the start and at the end of a piece of the way, and the
+    /// share of the piece that lies before a place.
     ///
     /// * `place` – distance from the inlet in pieces, zero or above
     #[inline(always)]

@@ -43,10 +43,11 @@ pub(super) struct Rest {
 }
 
 impl Windows {
-    /// Both windows come from one transform, as its real and its imaginary part. At equal times these have nothing in common, but at
-    /// unequal ones they do. So the second window begins where the fade of the first one does, and the two are joined at equal times: the
-    /// variance is one in the joint too. Where it has come to the end of the period it goes on from the start, with the other sign,
-    /// because its frequencies are half-odd.
+    /// Both windows come from one transform, as its real and its imaginary part. At equal times these have
+    /// nothing in common, but at unequal ones they do. So the second window begins where the fade of the
+    /// first one does, and the two are joined at equal times: the variance is one in the joint too. Where it
+    /// has come to the end of the period it goes on from the start, with the other sign, because its
+    /// frequencies are half-odd.
     ///
     /// * `period` – time in which a window repeats
     pub(super) fn new(period: usize) -> Self {
@@ -85,7 +86,8 @@ impl Windows {
         (number * each).min(self.total())..((number + 1) * each).min(self.total())
     }
 
-    /// Joins two windows to what the ones before have left, along one line: the samples of each block in bricks, and what is left.
+    /// Joins two windows to what the ones before have left, along one line: the samples of each block in
+    /// bricks, and what is left.
     pub(super) fn join(&self, isa: Isa, mut line: LineMaker<'_>, rest: &Rest) -> (Vec<Box<[f16]>>, Rest) {
         let points = line.points();
         let mut blocks: Vec<Box<[f16]>> = (0..BLOCKS)

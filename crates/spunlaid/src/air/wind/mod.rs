@@ -167,8 +167,8 @@ impl Wind {
         if air.records.is_empty() { Windows::memory(air, eddies, horizon) } else { Stretches::memory(eddies) }
     }
 
-    /// Computing time to make the samples of an eddy until a time [s], in steps of elements of the explicit schemes; zero for
-    /// measured air.
+    /// Computing time to make the samples of an eddy until a time [s], in steps of elements of the explicit
+    /// schemes; zero for measured air.
     pub(crate) fn cost(air: &Air, time: f64) -> f64 {
         if air.records.is_empty() { Windows::cost(air, time) } else { 0.0 }
     }
@@ -199,8 +199,8 @@ impl Wind {
         EddyVelocities { cubic: &self.cubic, s: Wide::splat(cells - cell as f64) }
     }
 
-    /// The wind at time `t` [s] of the run straight from the samples, for times of which hardly two lie in a cell: there are
-    /// cubics of the weights, and none of each eddy. `None` if the wind is measured.
+    /// The wind at time `t` [s] of the run straight from the samples, for times of which hardly two lie in a
+    /// cell: there are cubics of the weights, and none of each eddy. `None` if the wind is measured.
     #[inline(always)]
     pub(crate) fn among_samples<S: Register>(&mut self, t: f64) -> Option<InstantWind<'_, S>> {
         let Signal::Synthesised(windows) = &mut self.signal else { return None };

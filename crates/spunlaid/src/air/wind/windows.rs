@@ -11,8 +11,8 @@
 //!
 //! Both are independent, so `cos² θ + sin² θ = 1` keeps the variance at every instant.   theory.md (50)
 //!
-//! A block of samples ends where a window begins. What fades out behind its end is kept for the block that follows, so that
-//! each window is made only once.
+//! A block of samples ends where a window begins. What fades out behind its end is kept for the block that
+//! follows, so that each window is made only once.
 
 use super::super::Air;
 use super::grid::{Grid, Share};
@@ -28,8 +28,9 @@ use std::sync::Arc;
 /// Samples before time zero that the interpolation needs there.
 const BEFORE: i64 = SPREAD as i64 / 2 - 1;
 
-/// Computing time for each harmonic and each of the `log2` of the samples in a window, in steps of elements of the explicit
-/// schemes. 0.25 to 0.31 were measured up to this many harmonics, whose transform fits into a cache, and 0.5 to 1 beyond.
+/// Computing time for each harmonic and each of the `log2` of the samples in a window, in steps of elements
+/// of the explicit schemes. 0.25 to 0.31 were measured up to this many harmonics, whose transform fits into a
+/// cache, and 0.5 to 1 beyond.
 const IN_CACHE: f64 = 0.3;
 const BEYOND_CACHE: f64 = 0.6;
 const FITTING: usize = 1 << 15;
@@ -131,8 +132,8 @@ impl Windows {
         (self.block, self.samples) = (Arc::new(block), samples);
     }
 
-    /// Computing time to make the samples of an eddy until a time [s], in steps of elements of the explicit schemes: of the
-    /// transforms of three components, for each window.
+    /// Computing time to make the samples of an eddy until a time [s], in steps of elements of the explicit
+    /// schemes: of the transforms of three components, for each window.
     pub(super) fn cost(air: &Air, time: f64) -> f64 {
         let grid = Grid::new(&Sampling::new(air, 1), false);
         let windows = 1.0 + (time / (grid.hop() as f64 * grid.spacing)).floor();

@@ -49,7 +49,8 @@ pub(crate) const fn keys<T, const COUNT: usize>(tables: &[Table<T>]) -> [Key<T>;
     all
 }
 
-/// What a key says of its values and of other keys, without access to an input: for a file that describes several inputs.
+/// What a key says of its values and of other keys, without access to an input: for a file that describes
+/// several inputs.
 pub(crate) fn described<T>(key: &Key<T>) -> Key<()> {
     let of = &key.relations;
     let relations = Relations {

@@ -52,8 +52,8 @@ impl<T> KeyTable<T> {
         }
     }
 
-    /// The keys of flown cases whose values these keys give, and the keys that give a value of these in other words: all of them are
-    /// replaced where these are set.
+    /// The keys of flown cases whose values these keys give, and the keys that give a value of these in other
+    /// words: all of them are replaced where these are set.
     pub(crate) fn replaced_between(&self, names: &[&str]) -> Vec<&'static str> {
         let giving = || self.rows.iter().filter(|key| !key.relations.gives_case.is_empty());
         let given = giving().filter(|key| names.contains(&key.name)).flat_map(|key| key.relations.gives_case);

@@ -7,10 +7,10 @@ use crate::vec3::Vec3;
 /// From the free end to the root: replaces the accelerations by the predicted velocities, and eliminates the
 /// rows `(λ+δ)/k_a = ℓ_{k+1} − l`.
 ///
-/// Let `d` be the predicted edge, `d̂` its direction and `w = h²k_a/m` of a node, with the `k_a` of the row. The correction acts
-/// along `d̂`, so row `j` is
-/// `−w_j d̂_j·d̂_{j−1} δ_{j−1} + (1 + w_j + w_{j+1}) δ_j − w_{j+1} d̂_j·d̂_{j+1} δ_{j+1} = k_a (|d| − l) − λ`. Divided by `k_a`,
-/// the matrix is symmetric and positive definite.
+/// Let `d` be the predicted edge, `d̂` its direction and `w = h²k_a/m` of a node, with the `k_a` of the row.
+/// The correction acts along `d̂`, so row `j` is
+/// `−w_j d̂_j·d̂_{j−1} δ_{j−1} + (1 + w_j + w_{j+1}) δ_j − w_{j+1} d̂_j·d̂_{j+1} δ_{j+1} = k_a (|d| − l) − λ`.
+/// Divided by `k_a`, the matrix is symmetric and positive definite.
 #[inline(always)]
 pub(super) fn predict_and_eliminate<S: Register, const FED: bool>(chain: &mut Chain, h: f64) {
     let Chain { position, velocity, constants: c, tensions: t, laying, .. } = chain;
@@ -23,8 +23,8 @@ pub(super) fn predict_and_eliminate<S: Register, const FED: bool>(chain: &mut Ch
     let constants = c.elements.view();
     let one = Wide::splat(1.0);
     let mut acceleration = Vec3::zero();
-    // The node below: where it is predicted, and its mobility. Then the element below: the weights of its nodes, its direction,
-    // and what it lacks.
+    // The node below: where it is predicted, and its mobility. Then the element below: the weights of its
+    // nodes, its direction, and what it lacks.
     let mut lower = (Vec3::zero(), Vec3::zero());
     let none = Weight { x: Wide::zero(), across: Wide::zero() };
     let (mut mobility_below, mut weights) = (none, (none, none));

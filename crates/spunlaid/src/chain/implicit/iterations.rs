@@ -1,8 +1,9 @@
 //! Further iterations of Newton's method, for the rare steps in which one does not find the tensions.
 //!
 //! One iteration takes the lengths of the elements as linear in the corrections. Where a fibre folds on to the belt, or
-//! where a strong gust turns an element far in one step, they are not, and elements would be left too long or too short.
-//! Each lane is computed by itself in plain numbers, so what it does not need does not touch it.      theory.md (53)
+//! where a strong gust turns an element far in one step, they are not, and elements would be left too long or
+//! too short. Each lane is computed by itself in plain numbers, so what it does not need does not touch it.
+//!                                                                                             theory.md (53)
 
 use crate::chain::Chain;
 use crate::chain::work::WorkDone;
@@ -12,8 +13,8 @@ use crate::vec3::Vec3;
 /// By how much the squared length of an element may be off from the one that belongs to its tension without more
 /// iterations, in parts of it [-].
 const TOO_FAR: f64 = 0.05;
-/// Iterations that make the whole correction. A fibre that a fold pulls taut moves to and fro across its direction with them;
-/// later ones make a part of the correction, which ends this.
+/// Iterations that make the whole correction. A fibre that a fold pulls taut moves to and fro across its
+/// direction with them; later ones make a part of the correction, which ends this.
 const WHOLE: usize = 4;
 const PART: f64 = 0.7;
 /// Most iterations in a step.
@@ -89,9 +90,9 @@ impl Chain {
         true
     }
 
-    /// The element of a lane whose length is furthest off from the one that belongs to its tension, and by how much, in parts
-    /// of its rest length [-]: now, or after a step in which the iterations did not find the tensions. Elements that lie on
-    /// the belt are left out: nothing can correct them.
+    /// The element of a lane whose length is furthest off from the one that belongs to its tension, and by
+    /// how much, in parts of its rest length [-]: now, or after a step in which the iterations did not find
+    /// the tensions. Elements that lie on the belt are left out: nothing can correct them.
     pub(crate) fn furthest_off(&self, lane: usize) -> (f64, usize) {
         let c = &self.constants;
         let nodes = self.nodes()[lane];
@@ -111,8 +112,9 @@ impl Chain {
         all.fold(self.tensions.worst[lane], |worst, one| if one.0 > worst.0 { one } else { worst })
     }
 
-    /// The directions of a lane's elements and the corrections of their tensions [N]: the rows of theory.md (53) at the end of
-    /// the step. None if no element is too far from the length that belongs to its tension.
+    /// The directions of a lane's elements and the corrections of their tensions [N]: the rows of theory.md
+    /// (53) at the end of the step. None if no element is too far from the length that belongs to its
+    /// tension.
     fn corrections(&self, lane: usize, h: f64) -> Option<(Vec<Vec3<f64>>, Vec<f64>)> {
         let c = &self.constants;
         let nodes = self.position.len();

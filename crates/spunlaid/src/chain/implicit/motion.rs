@@ -8,8 +8,9 @@ use crate::chain::work::{Kick, Supports, WorkRegisters};
 use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
 
-/// From the root to the free end: corrects the tensions and moves the nodes. Returns by how much the squared length of an
-/// element of a fed fibre is off at most from the one that belongs to its tension, in parts of it.
+/// From the root to the free end: corrects the tensions and moves the nodes. Returns by how much the squared
+/// length of an element of a fed fibre is off at most from the one that belongs to its tension, in parts of
+/// it.
 #[inline(always)]
 pub(super) fn correct_and_move<S: Register, const FED: bool>(
     chain: &mut Chain,
@@ -78,7 +79,8 @@ struct Motion<'a, S: Register, const FED: bool> {
     /// The time step [s], and its inverse.
     h: Wide<S>,
     rate: Wide<S>,
-    /// Correction of the tension of the element above the next node [N], and the length that belongs to the tension [m].
+    /// Correction of the tension of the element above the next node [N], and the length that belongs to the
+    /// tension [m].
     correction: Wide<S>,
     natural: Wide<S>,
     /// The node above: where it is now, and whether it moves.
@@ -165,8 +167,8 @@ impl<S: Register, const FED: bool> Motion<'_, S, FED> {
         here
     }
 
-    /// Compares the element above a node with the length that belongs to its tension, unless it lies on the belt, where nothing
-    /// can correct it.
+    /// Compares the element above a node with the length that belongs to its tension, unless it lies on the
+    /// belt, where nothing can correct it.
     #[inline(always)]
     fn measure(&mut self, i: usize, here: Vec3<Wide<S>>, natural: Wide<S>) {
         let moves = Wide::load(&self.c.node(i, self.position.len()).inverse_mass);
@@ -179,7 +181,8 @@ impl<S: Register, const FED: bool> Motion<'_, S, FED> {
         self.above = (here, moves);
     }
 
-    /// By how much a squared length is off at most, in parts of that of an element of a fed fibre, all of which are equal.
+    /// By how much a squared length is off at most, in parts of that of an element of a fed fibre, all of
+    /// which are equal.
     #[inline(always)]
     fn length_error(&self) -> Wide<S> {
         let rest_length = Wide::load(&self.c.elements.at(0).rest_length);

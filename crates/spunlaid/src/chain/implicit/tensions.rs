@@ -14,13 +14,13 @@ pub(crate) struct Tensions {
     /// For each node on the belt, if there is friction: the belt's force on it [N].
     pub(crate) belt_force: Vec<Vec3<Lanes>>,
     rubs: bool,
-    /// The largest error of an element's length after all iterations of a step, in parts of its rest length [-], and the
-    /// element; so far, of each lane.
+    /// The largest error of an element's length after all iterations of a step, in parts of its rest length
+    /// [-], and the element; so far, of each lane.
     pub(crate) worst: [(f64, usize); WIDTH],
 }
 
-/// What a step knows of a node and of the element below it. It lies together, because each pass along the chain needs most
-/// of it.
+/// What a step knows of a node and of the element below it. It lies together, because each pass along the
+/// chain needs most of it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Link {
     /// The element's direction at the start of the step, and its predicted direction at the end.

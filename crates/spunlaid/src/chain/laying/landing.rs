@@ -17,8 +17,9 @@ impl LayingState {
         (vx.mul_add(h, x) - Wide::load(&self.height)).any_above(0.0)
     }
 
-    /// Lets a node land: changes its velocity of this step so that it ends on the belt, and returns 0 in the lanes where
-    /// it does, 1 in the others. It keeps its own velocity until it touches down, then it has that of the belt.
+    /// Lets a node land: changes its velocity of this step so that it ends on the belt, and returns 0 in the
+    /// lanes where it does, 1 in the others. It keeps its own velocity until it touches down, then it has
+    /// that of the belt.
     #[cold]
     #[inline(never)]
     pub(crate) fn land(&mut self, node: usize, position: &Vec3<Lanes>, v: &mut Vec3<Lanes>, h: f64) -> Lanes {
@@ -124,8 +125,8 @@ impl Chain {
         c.tail[from_end].hold(lane);
     }
 
-    /// Nodes far behind the newest touch-down leave the chain. Those that hang in the air as an arch stay where they are
-    /// from now on.
+    /// Nodes far behind the newest touch-down leave the chain. Those that hang in the air as an arch stay
+    /// where they are from now on.
     fn leave(&mut self, lane: usize, time: f64) {
         loop {
             let Some(laying) = &self.laying else { return };

@@ -71,7 +71,8 @@ pub(crate) struct LayingState {
     left: [u64; WIDTH],
     /// Times of the touch-downs of the nodes in the tail [s].
     landed_at: Vec<Lanes>,
-    /// Nodes that land in this step, with the share of the step that they still fly; NaN in lanes where they do not land.
+    /// Nodes that land in this step, with the share of the step that they still fly; NaN in lanes where they
+    /// do not land.
     landing: Vec<(usize, Lanes)>,
     /// Where the nodes were born [m].
     pub(crate) origin: Nodes<Vec3<Lanes>>,

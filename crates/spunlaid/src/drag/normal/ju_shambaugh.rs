@@ -11,8 +11,8 @@ pub(super) const LAW: Law = Law {
     name: "ju-shambaugh",
     source: Source {
         short: "Ju and Shambaugh 1994",
-        full: "Y. D. Ju, R. L. Shambaugh: Air drag on fine filaments at oblique and normal angles to the air stream. Polymer Engineering and \
-               Science 34(12), 958–964, 1994.",
+        full: "Y. D. Ju, R. L. Shambaugh: Air drag on fine filaments at oblique and normal angles to the air \
+            stream. Polymer Engineering and Science 34(12), 958–964, 1994.",
     },
     fitted_diameters: Some(13e-6..=390e-6),
     fitted_reynolds: None,

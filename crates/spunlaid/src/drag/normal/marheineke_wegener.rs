@@ -12,8 +12,8 @@ pub(super) const LAW: Law = Law {
     name: "marheineke-wegener",
     source: Source {
         short: "Marheineke and Wegener 2011",
-        full: "N. Marheineke, R. Wegener: Modeling and application of a stochastic drag for fibers in turbulent flows. International Journal of \
-               Multiphase Flow 37(2), 136–148, 2011.",
+        full: "N. Marheineke, R. Wegener: Modeling and application of a stochastic drag for fibers in \
+            turbulent flows. International Journal of Multiphase Flow 37(2), 136–148, 2011.",
     },
     fitted_diameters: None,
     fitted_reynolds: Some(0.0..=1e4),

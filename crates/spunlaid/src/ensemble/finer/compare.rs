@@ -80,8 +80,9 @@ impl FinerPlan {
     }
 }
 
-/// Ratio of the means minus one, from pairs of the same turbulence. Its standard error is that of the ratio estimator: of
-/// the mean of `aᵢ − R bᵢ`, over the mean of `b`. The values are `R − 1 + (aᵢ − R bᵢ)/b̄`.           theory.md (58)
+/// Ratio of the means minus one, from pairs of the same turbulence. Its standard error is that of the ratio
+/// estimator: of the mean of `aᵢ − R bᵢ`, over the mean of `b`. The values are `R − 1 + (aᵢ − R bᵢ)/b̄`.
+///                                                                                             theory.md (58)
 fn ratio(pairs: &[[f64; 2]]) -> Option<Estimate> {
     let sum = |which: usize| pairs.iter().map(|pair| pair[which]).sum::<f64>();
     let ratio = sum(0) / sum(1);

@@ -26,7 +26,8 @@ pub(super) struct Flight {
 pub struct RunPaths(pub(in crate::ensemble) Vec<Option<Path>>);
 
 impl FinerPlans {
-    /// Flies the checks of a run that has been flown. A check that is stopped, or whose own fibres are lost, says so in its place.
+    /// Flies the checks of a run that has been flown. A check that is stopped, or whose own fibres are lost,
+    /// says so in its place.
     pub fn check(&self, paths: &RunPaths, computing: RunControl<'_>) -> FinerChecks {
         let flights: Vec<_> =
             self.all().flat_map(|plan| plan.flights().map(move |case| (plan, case))).collect();

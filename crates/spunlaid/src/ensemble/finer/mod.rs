@@ -1,7 +1,8 @@
 //! How far a run is from one with a finer time step or with finer elements.
 //!
-//! Some fibres fly twice in the same turbulence: as the run does, and with a finer discretisation. What differs comes from
-//! the discretisation alone. Paths of single fibres are compared where they stay together, statistics everywhere.
+//! Some fibres fly twice in the same turbulence: as the run does, and with a finer discretisation. What
+//! differs comes from the discretisation alone. Paths of single fibres are compared where they stay together,
+//! statistics everywhere.
 //!
 //! ```text
 //! plan     what is flown again, and how much of it
@@ -78,8 +79,8 @@ impl Statistic {
 pub struct Change {
     /// Which statistic.
     pub statistic: &'static Statistic,
-    /// The ratio of the means over the replicates, minus one, with the standard error of the paired ratio; the values are
-    /// those of each replicate [-].
+    /// The ratio of the means over the replicates, minus one, with the standard error of the paired ratio;
+    /// the values are those of each replicate [-].
     pub estimate: Estimate,
 }
 
@@ -143,8 +144,8 @@ impl<T> Refinements<T> {
 }
 
 impl FinerCheck {
-    /// Whether it is over a part of a fed fibre's run. Such a fibre wanders more slowly than it folds, so that a part of its
-    /// lay-down may differ by another share than all of it.
+    /// Whether it is over a part of a fed fibre's run. Such a fibre wanders more slowly than it folds, so
+    /// that a part of its lay-down may differ by another share than all of it.
     pub fn is_of_a_part(&self, run: &Run) -> bool {
         self.is_fed && self.duration < 0.99 * run.duration()
     }
@@ -158,10 +159,10 @@ impl FinerCheck {
 
     /// The error of a statistic over the change that was found [-]; `None` where the order of convergence is not known.
     ///
-    /// Half the elements leave a quarter of the error, so the change is three quarters of it: second order was found for
-    /// fibres of fixed length. A laid fibre folds more finely than its elements, and has no order. The error of the step was
-    /// at most 2.5 times what half of it changes. Leapfrog that resolves the axial waves stands for the limit itself.
-    /// validation.md has what was found.
+    /// Half the elements leave a quarter of the error, so the change is three quarters of it: second order
+    /// was found for fibres of fixed length. A laid fibre folds more finely than its elements, and has no
+    /// order. The error of the step was at most 2.5 times what half of it changes. Leapfrog that resolves the
+    /// axial waves stands for the limit itself. validation.md has what was found.
     pub fn error_over_change(&self) -> Option<f64> {
         match self.refined {
             Refinement::TimeStep if self.is_resolved => Some(1.0),

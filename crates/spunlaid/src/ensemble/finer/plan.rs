@@ -7,9 +7,9 @@ use crate::chain::schemes::Scheme;
 use crate::lanes::WIDTH;
 use crate::line::{Contact, Line};
 
-/// Largest share of the computing time of a run that all its checks take together, and the share that each takes if that is
-/// enough for it. They are counted in steps of elements, so that they do not depend on the machine; the turbulence that each flight
-/// makes anew is counted as steps too.
+/// Largest share of the computing time of a run that all its checks take together, and the share that each
+/// takes if that is enough for it. They are counted in steps of elements, so that they do not depend on the
+/// machine; the turbulence that each flight makes anew is counted as steps too.
 const SHARE_OF_ALL: f64 = 0.2;
 const SHARE: f64 = 0.1;
 /// Computing time of a step with implicit tension, in steps of the explicit schemes: 1.75 to 1.95 were measured.
@@ -62,7 +62,8 @@ impl FinerPlans {
         Self { step, mesh }
     }
 
-    /// Number of fibre steps of all checks, as in [`RunControl::fibre_steps`](crate::ensemble::RunControl::fibre_steps).
+    /// Number of fibre steps of all checks, as in
+    /// [`RunControl::fibre_steps`](crate::ensemble::RunControl::fibre_steps).
     pub fn fibre_steps(&self) -> u64 {
         self.all().map(FinerPlan::fibre_steps).sum()
     }
@@ -111,8 +112,8 @@ impl Budget {
     }
 }
 
-/// The largest part that takes no more than its share. Halving finds it, because the air is made window by window, so that the
-/// time that a part takes has jumps.
+/// The largest part that takes no more than its share. Halving finds it, because the air is made window by
+/// window, so that the time that a part takes has jumps.
 fn largest(takes: impl Fn(f64) -> f64, least: f64) -> f64 {
     let (mut enough, mut more) = (least, 1.0);
     for _ in 0..60 {
@@ -170,9 +171,10 @@ fn step_of_a_path(case: &Case, budget: Budget) -> Result<FinerPlan, Unchecked> {
     })
 }
 
-/// Compares what is laid with what leapfrog lays, with steps in which the axial waves are resolved. That is another scheme,
-/// and close to its limit for short steps: its error falls with the square of the step. Half of a long step would say
-/// little, because implicit tension damps axial waves by as much at half the step.         theory.md (58)
+/// Compares what is laid with what leapfrog lays, with steps in which the axial waves are resolved. That is
+/// another scheme, and close to its limit for short steps: its error falls with the square of the step. Half
+/// of a long step would say little, because implicit tension damps axial waves by as much at half the step.
+///                                                                                             theory.md (58)
 fn step_of_the_laid(case: &Case, budget: Budget) -> Result<FinerPlan, Unchecked> {
     let mut fine = case.clone();
     let slides = case.line.is_some_and(|line| line.contact != Contact::Stick);
@@ -266,8 +268,8 @@ fn statistics(
     Ok(FinerPlan { refined, coarse: Some(coarse), fine, stride: 1, horizon, replicates, share_of_run })
 }
 
-/// The case whose air a flight of a check has: a carried pattern has a signal for each element, and both flights feel the one of the
-/// finer elements.
+/// The case whose air a flight of a check has: a carried pattern has a signal for each element, and both
+/// flights feel the one of the finer elements.
 pub(super) fn case_of_air<'a>(own: &'a Case, fine: &'a Case) -> &'a Case {
     let carried = own.line.is_none() && matches!(own.air.eddies, EddyModel::Convected { .. });
     if carried { fine } else { own }

@@ -43,7 +43,8 @@ impl Display for Unchecked {
                 let digits = usize::from(*times < 10.0);
                 write!(
                     f,
-                    "it would take {times:.digits$} times the computing time of the run; write run.checks = \"full\" for it"
+                    "it would take {times:.digits$} times the computing time of the run; write run.checks = \
+                    \"full\" for it"
                 )
             }
             Self::TooShort => write!(f, "the run is too short for it"),

@@ -11,7 +11,8 @@ use std::f64::consts::PI;
 pub const RADII: [f64; 7] = [20e-6, 30e-6, 50e-6, 70e-6, 100e-6, 150e-6, 200e-6];
 /// Side of the patches over which the length of fibre is local [m].
 const LOCAL: f64 = 1.5e-3;
-/// Fewest holes in all windows from which others are told, and fewest that are as large as the largest ones that are told from counts alone.
+/// Fewest holes in all windows from which others are told, and fewest that are as large as the largest ones
+/// that are told from counts alone.
 const FEWEST: usize = 100;
 const FEWEST_LARGE: usize = 25;
 /// Standard errors to either side of a range.
@@ -23,8 +24,9 @@ const CLASSES: usize = 2000;
 const LARGEST: f64 = 5e-3;
 const HALVINGS: usize = 60;
 
-/// Holes per area into which a disc fits, of straight fibres at random [1/m²]: the in-radius of a cell between random lines has an exponential
-/// distribution, and there are `τ²/π` cells per area.                             theory.md (110)
+/// Holes per area into which a disc fits, of straight fibres at random [1/m²]: the in-radius of a cell
+/// between random lines has an exponential distribution, and there are `τ²/π` cells per area.
+///                                                                                            theory.md (110)
 ///
 /// * `length` – of fibre per area [1/m]
 /// * `diameter` – of the fibres [m]
@@ -49,9 +51,10 @@ pub struct LocalLength {
 }
 
 impl LocalLength {
-    /// Over patches of one to two millimetres, or of a cell where that is larger. Straight fibres at random have as many in one patch as in another but
-    /// for chance, which the count of holes already knows; so the deviations from the mean are lowered until they vary by
-    /// as much as the web varies more than straight fibres do.                         theory.md (111)
+    /// Over patches of one to two millimetres, or of a cell where that is larger. Straight fibres at random
+    /// have as many in one patch as in another but for chance, which the count of holes already knows; so the
+    /// deviations from the mean are lowered until they vary by as much as the web varies more than straight
+    /// fibres do.                                                                             theory.md (111)
     ///
     /// * `mean` – length of fibre per area of the sheet [1/m]
     pub fn new(map: &Map, mean: f64) -> Self {
@@ -175,7 +178,8 @@ impl Ratio {
         libm::log(counted / expected)
     }
 
-    /// `ln κ` and its standard error, by leaving out one window after another; beyond the counts both with κ as it is at their end, and as it goes on.
+    /// `ln κ` and its standard error, by leaving out one window after another; beyond the counts both with κ
+    /// as it is at their end, and as it goes on.
     fn at(&self, radius: f64) -> Option<[(f64, f64); 2]> {
         let largest = self.largest?;
         let spread = |values: Vec<f64>, least: f64| {
@@ -207,8 +211,9 @@ impl Ratio {
     }
 }
 
-/// Carries what was counted in windows over to the whole sheet, and to radii that no window shows: their ratio κ to the holes of straight fibres with
-/// the local length of fibre is found in the windows and holds for the sheet.               theory.md (112)
+/// Carries what was counted in windows over to the whole sheet, and to radii that no window shows: their
+/// ratio κ to the holes of straight fibres with the local length of fibre is found in the windows and holds
+/// for the sheet.                                                                             theory.md (112)
 ///
 /// * `windows` – each with the place of its corner on the map [m]
 /// * `diameter` – of the fibres, the mean over their length [m]
@@ -254,7 +259,8 @@ pub fn carry(
     })
 }
 
-/// The bare share of the sheet: that of the windows, over what straight fibres with their local length leave bare, times what these leave bare on the sheet.
+/// The bare share of the sheet: that of the windows, over what straight fibres with their local length leave
+/// bare, times what these leave bare on the sheet.
 fn bare(windows: &[Counted], local: &LocalLength, diameter: f64) -> Known {
     let straight = |length: f64| libm::exp(-length * diameter);
     let expected = |window: &Counted| {
@@ -269,7 +275,8 @@ fn bare(windows: &[Counted], local: &LocalLength, diameter: f64) -> Known {
     Known::Value(ratio * sheet, error.map(|error| error * sheet / mean))
 }
 
-/// The radius above which half of all areas have a hole. Without enough counts it is that of straight fibres, whose holes are smaller.
+/// The radius above which half of all areas have a hole. Without enough counts it is that of straight fibres,
+/// whose holes are smaller.
 fn largest(ratio: &Ratio, straight: impl Fn(f64) -> f64, area: f64) -> Known {
     let wanted = std::f64::consts::LN_2 / area;
     let radius = |end: Option<usize>| {

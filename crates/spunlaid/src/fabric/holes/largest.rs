@@ -28,7 +28,8 @@ struct Square {
     side: f64,
     /// The largest disc of which the centre may lie in it has at most this radius.
     bound: f64,
-    /// Pieces of fibre among which are all that may be nearest to a place in it; None where they have not been looked for.
+    /// Pieces of fibre among which are all that may be nearest to a place in it; None where they have not
+    /// been looked for.
     near: Option<Rc<[Piece]>>,
 }
 
@@ -55,10 +56,11 @@ impl Ord for Square {
 
 /// The largest disc in each hole into which a disc of a radius fits.
 ///
-/// The room about a place changes by no more than the place is moved, so a square needs to be looked at only if the room about its centre is
-/// large enough for its size; it is divided until the largest room is known.
+/// The room about a place changes by no more than the place is moved, so a square needs to be looked at only
+/// if the room about its centre is large enough for its size; it is divided until the largest room is known.
 ///
-/// * `coarse` – fibres drawn wider by `least` less half the diagonal of its pixels: where it is covered, there is no room
+/// * `coarse` – fibres drawn wider by `least` less half the diagonal of its pixels: where it is covered,
+///   there is no room
 /// * `least` – the radius, at least twice the side of a pixel of `coarse` [m]
 pub(super) fn largest_discs(
     (fine, coarse): (&Bitmap, &Bitmap),

@@ -88,12 +88,13 @@ pub struct WindowHoles {
     pub area: f64,
     /// Share of it that no fibre covers.
     pub bare: f64,
-    /// The largest disc of each hole in which it has its place within the window; only of holes into which a disc of [`LEAST_RADIUS`] fits.
+    /// The largest disc of each hole in which it has its place within the window; only of holes into which a
+    /// disc of [`LEAST_RADIUS`] fits.
     pub holes: Vec<Disc>,
 }
 
-/// Counts the holes of a window. A hole is a connected bare part, and its place is that of the largest disc that fits into it: it counts if that
-/// lies in the window, so that none is counted in parts and none twice.
+/// Counts the holes of a window. A hole is a connected bare part, and its place is that of the largest disc
+/// that fits into it: it counts if that lies in the window, so that none is counted in parts and none twice.
 ///
 /// * `side` – of the window [m]
 /// * `margin` – about it, in which fibres are drawn too [m]

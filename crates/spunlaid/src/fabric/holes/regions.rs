@@ -2,8 +2,8 @@
 
 use super::bitmap::Bitmap;
 
-/// Connected bare parts, told by the runs of their pixels in each row. Pixels that touch at a corner are connected: a fibre is
-/// wider than that.
+/// Connected bare parts, told by the runs of their pixels in each row. Pixels that touch at a corner are
+/// connected: a fibre is wider than that.
 #[derive(Debug)]
 pub(super) struct Regions {
     /// First and last pixel of each run, and one run of the same region that stands for it.

@@ -1,4 +1,5 @@
-//! Plane flows: meshes of faces in a plane, and meshes that are one cell thick. The air is the same along the third direction.
+//! Plane flows: meshes of faces in a plane, and meshes that are one cell thick. The air is the same along the
+//! third direction.
 
 use super::Mesh;
 use super::cells::{Cells, Shape};

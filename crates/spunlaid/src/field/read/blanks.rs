@@ -6,11 +6,11 @@
 //! | `vtkGhostLevels` | above 0: another piece has it too | the same |
 //! | `vtkValidPointMask` | 0: outside of the data that were resampled | |
 //!
-//! A table of the centres of cells has the marks of cells at its points: any bit that points do not have tells so, and then 2, which
-//! says of a cell that it has many neighbours, hides nothing.
+//! A table of the centres of cells has the marks of cells at its points: any bit that points do not have
+//! tells so, and then 2, which says of a cell that it has many neighbours, hides nothing.
 //!
-//! Other bits of `vtkGhostType` say something about the mesh and hide nothing. A point that another piece has too holds air
-//! unless it is hidden; a cell that another piece has too would count twice.
+//! Other bits of `vtkGhostType` say something about the mesh and hide nothing. A point that another piece has
+//! too holds air unless it is hidden; a cell that another piece has too would count twice.
 
 use super::array::Array;
 use super::encoding::Budget;
@@ -132,8 +132,8 @@ impl Blanks {
         !self.cells.is_empty() || !self.copied_cells.is_empty()
     }
 
-    /// The points that a piece gives to the field: those that hold air, and of pieces with cells those of a cell that does. None
-    /// if it gives all.
+    /// The points that a piece gives to the field: those that hold air, and of pieces with cells those of a
+    /// cell that does. None if it gives all.
     pub(super) fn kept_points(&self, grid: &Grid) -> Result<Option<Vec<bool>>, FileError> {
         if self.points.is_empty() && !self.has_closed_cells() {
             return Ok(None);

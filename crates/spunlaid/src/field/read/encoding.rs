@@ -123,7 +123,8 @@ fn expand(
             let decoder = flate2::bufread::ZlibDecoder::new(compressed);
             decoder.take(wanted as u64).read_to_end(bytes).map_err(|error| error.to_string())
         }
-        // The header may promise more than the block can hold, so memory is taken only for what the block can expand to.
+        // The header may promise more than the block can hold, so memory is taken only for what the block can
+        // expand to.
         Compressor::Lz4 if wanted / LZ4_EXPANSION > compressed.len() => Ok(0),
         Compressor::Lz4 => {
             bytes.resize(before + wanted, 0);

@@ -24,8 +24,8 @@ pub(super) struct Gaps {
 }
 
 impl Gaps {
-    /// Marks the points or cells of an array at which a number is missing, and puts zero there and at those that are left out
-    /// already.
+    /// Marks the points or cells of an array at which a number is missing, and puts zero there and at those
+    /// that are left out already.
     ///
     /// * `lines` – those of the points in a table
     pub(super) fn look_for(

@@ -236,8 +236,8 @@ impl Collection {
     }
 }
 
-/// How far the holes around points and cells without air go: the longest diagonal of a cell that is left out or, without
-/// cells, twice the usual distance of points [m].
+/// How far the holes around points and cells without air go: the longest diagonal of a cell that is left out
+/// or, without cells, twice the usual distance of points [m].
 fn reach(parts: &[Part]) -> f64 {
     let mut longest = 0.0_f64;
     for Part { grid, blanks, .. } in parts.iter().filter(|part| part.blanks.has_holes()) {

@@ -1,7 +1,8 @@
-//! Lists of VTK files that are one field together: `.vtm`, and the `.pvtu`, `.pvti`, `.pvtr` and `.pvts` of parallel programs.
+//! Lists of VTK files that are one field together: `.vtm`, and the `.pvtu`, `.pvti`, `.pvtr` and `.pvts` of
+//! parallel programs.
 //!
-//! A list names its parts by their paths from its own folder. They are read one after the other, so that only one file is
-//! in memory at a time.
+//! A list names its parts by their paths from its own folder. They are read one after the other, so that only
+//! one file is in memory at a time.
 
 use super::assembly::Assembly;
 use super::{ReadField, xml};
@@ -158,7 +159,8 @@ impl Reading<'_> {
 }
 
 const MISSING: &str = "which is not there; copy it to that place beside the list, or write the list again";
-const OUTSIDE: &str = "which is outside of the list’s own folder; put it into that folder or one below, and write its path from there";
+const OUTSIDE: &str = "which is outside of the list’s own folder; put it into that folder or one below, and \
+    write its path from there";
 const ITSELF: &str = "which is this list itself or a list that names it; name files with grids";
 const TWICE: &str = "which it has named before; name it once";
 

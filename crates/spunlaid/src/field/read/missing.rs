@@ -26,8 +26,8 @@ pub(super) fn velocity(arrays: &Arrays<'_>) -> Fault {
     Fault::new(format!("none of the arrays is a velocity ({})", arrays.listed()), remedy)
 }
 
-/// The arrays that may be the velocity, as the key takes them: those of three components, or else three with the endings of
-/// components.
+/// The arrays that may be the velocity, as the key takes them: those of three components, or else three with
+/// the endings of components.
 fn likely_velocities(arrays: &Arrays<'_>) -> Vec<String> {
     let short = |name: &str| name.len() <= LONGEST && !name.contains(',');
     let named = |i: usize| arrays.names[i].written.trim();
@@ -76,7 +76,8 @@ pub(super) fn array(arrays: &Arrays<'_>, request: &str, measure: Measure) -> Fau
         .collect();
     let needed = match measure {
         Measure::Velocity => {
-            "one array of three components, or two or three arrays of one with commas between them, all at points or all in cells"
+            "one array of three components, or two or three arrays of one with commas between them, all at \
+            points or all in cells"
         }
         _ => "an array of one component",
     };

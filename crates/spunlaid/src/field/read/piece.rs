@@ -92,8 +92,8 @@ impl Reader<'_, '_> {
         Err(missing::velocity(&self.piece.arrays(self.layout)).into())
     }
 
-    /// A quantity of one component. Negative values become zero, with a warning; `Assembly::finish` refuses those that are
-    /// more than rounding.
+    /// A quantity of one component. Negative values become zero, with a warning; `Assembly::finish` refuses
+    /// those that are more than rounding.
     fn scalar(&mut self, measure: Measure) -> Result<Option<Vec<f64>>, FileError> {
         for of_cells in [false, true] {
             let arrays = self.list(of_cells);
@@ -152,7 +152,8 @@ impl Reader<'_, '_> {
             let holds = |cell| self.blanks.holds(true, cell);
             numbers = self.piece.grid.to_points(&numbers, array.components, points, holds);
             let warning = Fault::new(
-                "the values are given at cells; each point gets the mean of the cells around it, so the air does not come to rest at walls",
+                "the values are given at cells; each point gets the mean of the cells around it, so the air \
+                does not come to rest at walls",
                 "write values at points if you can",
             );
             // Once for all arrays and pieces.

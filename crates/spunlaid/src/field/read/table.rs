@@ -92,8 +92,8 @@ fn coordinates(names: &[Name]) -> Result<[Option<ScaledColumn>; 3], FileError> {
     }
 }
 
-/// The value in metres of the unit of length that COMSOL writes above its tables, in a line `% Length unit: mm`. None if it
-/// is not told.
+/// The value in metres of the unit of length that COMSOL writes above its tables, in a line
+/// `% Length unit: mm`. None if it is not told.
 fn length_unit(bytes: &[u8]) -> Result<Option<f64>, FileError> {
     let above = bytes.split(|byte| *byte == b'\n').take_while(|line| line.starts_with(b"%")).zip(1..);
     for (line, number) in above {

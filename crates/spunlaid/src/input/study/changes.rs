@@ -21,7 +21,8 @@ pub enum Changes {
 /// Reads the file of a web and makes changed webs of it.
 ///
 /// # Errors
-/// If the web cannot be read. And what has to be flown first, if a case has a spinline whose tension is that of flights.
+/// If the web cannot be read. And what has to be flown first, if a case has a spinline whose tension is that
+/// of flights.
 pub fn read_changes(
     path: &Path,
     set: Overrides<'_>,

@@ -34,8 +34,8 @@ impl std::fmt::Debug for FitFile {
 /// * `word` – what messages call them, `--vary`
 ///
 /// # Errors
-/// If the web cannot be laid, or if a key cannot be sought. And what has to be flown first, if a case has a spinline whose tension is
-/// that of flights.
+/// If the web cannot be laid, or if a key cannot be sought. And what has to be flown first, if a case has a
+/// spinline whose tension is that of flights.
 pub fn read_fit(
     path: &Path,
     set: Overrides<'_>,

@@ -1,4 +1,5 @@
-//! The webs that say what guesses matter: the same web with half and with twice of a number that its file calls a guess.
+//! The webs that say what guesses matter: the same web with half and with twice of a number that its file
+//! calls a guess.
 
 use super::super::web::Guess;
 use super::open_web::OpenWeb;
@@ -10,8 +11,8 @@ use crate::effects::{ChangedKey, Setting};
 const FACTORS: [f64; 2] = [0.5, 2.0];
 /// Largest lateral wave number times the length of the eddies.
 const CUTOFF: &str = "air.lateral_cutoff";
-/// Guesses at the length of the eddies. Half as long ones keep the smallest waves across, because a field of half as long waves would take four times the
-/// memory.
+/// Guesses at the length of the eddies. Half as long ones keep the smallest waves across, because a field of
+/// half as long waves would take four times the memory.
 const OF_EDDIES: [&str; 3] = ["air.length_factor", "air.length_scale", "air.length_constant"];
 
 pub(super) fn changes(web: &OpenWeb<'_>) -> Vec<Change> {

@@ -118,7 +118,8 @@ impl Line<'_> {
         settings.map(|(setting, keys)| (setting, keys.iter().map(alone).collect())).to_vec()
     }
 
-    /// Whether one number tells how turbulent the air of the cases is. A flow whose turbulence differs from place to place would become another flow.
+    /// Whether one number tells how turbulent the air of the cases is. A flow whose turbulence differs from
+    /// place to place would become another flow.
     fn is_evenly_turbulent(&self) -> bool {
         let is_even = |air: &Air| match &air.flow {
             Flow::Profile(profile) => profile.turbulence_intensity.windows(2).all(|pair| pair[0] == pair[1]),
@@ -178,7 +179,8 @@ impl Line<'_> {
         web_key(name)?.value_in(&self.spec().alone(layer.checked_sub(1)?))?.number()
     }
 
-    /// The webs with less and with more of a setting, in the first of some ways in which both can be made; none if there is no such way.
+    /// The webs with less and with more of a setting, in the first of some ways in which both can be made;
+    /// none if there is no such way.
     fn change(&self, setting: Setting, layers: &[usize], ways: &[KeyPowers]) -> Vec<Change> {
         let of_way = |way: &KeyPowers| -> Option<Vec<Change>> {
             let known: Vec<(VariedKey, f64, f64)> = (way.iter())

@@ -49,7 +49,8 @@ pub struct StudyFile {
     pub study: Study,
     /// Remarks on its points.
     pub notes: Vec<StudyNote>,
-    /// The text of what the points vary: of a case, unchanged; of a web, with every default, and with what is written of its filaments.
+    /// The text of what the points vary: of a case, unchanged; of a web, with every default, and with what is
+    /// written of its filaments.
     pub base_text: String,
     /// Path of the base case or web, or its name if it is not a file.
     pub base_path: PathBuf,
@@ -58,7 +59,8 @@ pub struct StudyFile {
 }
 
 impl StudyFile {
-    /// The name of the file of what the points vary, in the folder of the study: `case.toml`, `web.toml` or `spinline.toml`.
+    /// The name of the file of what the points vary, in the folder of the study: `case.toml`, `web.toml` or
+    /// `spinline.toml`.
     pub fn base_name(&self) -> &'static str {
         self.study.base_file()
     }
@@ -91,8 +93,8 @@ impl StudyChanges<'_> {
 /// * `points` – the number of points requested; required above [`MOST_POINTS_UNASKED`]
 ///
 /// # Errors
-/// When a file cannot be read, and when the study or any of its points is wrong; the error lists all problems. And what has to be flown
-/// first, if points have spinlines whose tension is that of flights.
+/// When a file cannot be read, and when the study or any of its points is wrong; the error lists all
+/// problems. And what has to be flown first, if points have spinlines whose tension is that of flights.
 pub fn read_study(path: &Path, points: Option<u64>) -> Result<StudyFile, Unread<StudyFile>> {
     read_changed_study(path, &StudyChanges::points(points))
 }
@@ -246,7 +248,8 @@ trait Base {
         lookup: &Lookup,
     ) -> ExperimentWithNotes;
 
-    /// What of the keys that are the same at all points has to stand in the study, because [`Base::text`] does not have it.
+    /// What of the keys that are the same at all points has to stand in the study, because [`Base::text`]
+    /// does not have it.
     fn keys_to_write(&self, set: Vec<(String, String)>) -> Vec<(String, String)>;
 
     /// The file of what is varied.

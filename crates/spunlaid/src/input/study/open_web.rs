@@ -39,7 +39,8 @@ impl OpenWeb<'_> {
 
     /// A change that makes a web of this one.
     ///
-    /// * `new` – keys and values that have to be set in the file for it; what was set before stays, unless it is replaced
+    /// * `new` – keys and values that have to be set in the file for it; what was set before stays, unless it
+    ///   is replaced
     /// * `made` – the web, or why there is none
     pub(super) fn change(
         &self,

@@ -42,8 +42,8 @@ const FACTORS: usize = 2;
 /// The values of each, over that of the file.
 const LEVELS: [f64; 3] = [0.8, 1.0, 1.25];
 
-/// A commented study of a case, a web or a spinline. It stands in the same folder and varies two keys around their values; all its points
-/// can be flown.
+/// A commented study of a case, a web or a spinline. It stands in the same folder and varies two keys around
+/// their values; all its points can be flown.
 ///
 /// # Errors
 /// If the file cannot be read, is wrong, or has no key to begin with.
@@ -110,14 +110,13 @@ fn text_of(word: &str, file: &str, replicates: (u64, &str), vary: &[String]) -> 
     let quoted = quoted(file);
     format!(
         "# How the results of {file} change with some of its keys: {points} points.\n\
-         # Run it: spunlaid sweep FILE      Look at its first point: spunlaid sweep FILE --print-point 1\n\
-         # Lines that begin with # are optional. All designs, ranges and links: docs/studies.md of the project.\n\
-         {word} = {quoted}\n\
-         design = \"grid\"                      # every combination; or \"one-at-a-time\", \"latin-hypercube\" and others\n\
-         {replicates}\n\
-         [vary]                               # a list of values, or a range: {{ from = \"5 m/s\", to = \"30 m/s\", steps = 6 }}\n\
-         {}\n\n\
-         # [set]                              # keys that are the same at all points, in place of those of the {word}\n",
+        # Run it: spunlaid sweep FILE      Look at its first point: spunlaid sweep FILE --print-point 1\n\
+        # Lines that begin with # are optional. All designs, ranges and links: docs/studies.md of the \
+        project.\n{word} = {quoted}\ndesign = \"grid\"                      # every combination; or \
+        \"one-at-a-time\", \"latin-hypercube\" and others\n{replicates}\n\
+        [vary]                               # a list of values, or a range: {{ from = \"5 m/s\", to = \"30 \
+        m/s\", steps = 6 }}\n{}\n\n# [set]                              # keys that are the same at all \
+        points, in place of those of the {word}\n",
         vary.join("\n")
     )
 }

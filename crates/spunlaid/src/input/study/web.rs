@@ -19,7 +19,8 @@ pub(super) struct WebBase {
     text: String,
     /// The path of its file.
     path: String,
-    /// What is the same at all points, each with the word for where it is set: of the study file, and asked for from outside.
+    /// What is the same at all points, each with the word for where it is set: of the study file, and asked
+    /// for from outside.
     set: Vec<(Vec<(String, String)>, String)>,
     /// Whether it flies a case.
     flies: bool,

@@ -41,8 +41,9 @@ impl Reading<'_> {
                 }
                 LaydownSource::Case { path, .. } => Fault::new(
                     format!(
-                        "flies all filaments in one air, and that of {} follows a recorded wind (air.record), which says nothing of how \
-                         the air differs from place to place across the flow",
+                        "flies all filaments in one air, and that of {} follows a recorded wind \
+                        (air.record), which says nothing of how the air differs from place to place across \
+                        the flow",
                         path.display()
                     ),
                     "give the case the spectrum of the record (air.spectrum) in place of the record",
@@ -145,12 +146,12 @@ impl Reading<'_> {
             let beam = Dimension::Length.pretty_to(beam, 12);
             let fault = Fault::new(
                 format!(
-                    "at a pitch of {pitch} make a row of {shown}, and with web.edges = \"periodic\" a row must be as wide as \
-                     the web, {width}"
+                    "at a pitch of {pitch} make a row of {shown}, and with web.edges = \"periodic\" a row \
+                    must be as wide as the web, {width}"
                 ),
                 format!(
-                    "write web.width = \"{beam}\"; or write web.edges = \"cut\", and the edges, where the web is thin, are \
-                     left out of the CV"
+                    "write web.width = \"{beam}\"; or write web.edges = \"cut\", and the edges, where the \
+                    web is thin, are left out of the CV"
                 ),
             );
             self.key_values.reject(&format!("{before}filaments"), fault);

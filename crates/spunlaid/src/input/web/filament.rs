@@ -1,5 +1,6 @@
-//! The filament of a layer that is to be flown: the values of its case. They stand in the file of the web, in that of a case which
-//! the layer names, or in both; what the file of the web says takes the place of what the other one says.
+//! The filament of a layer that is to be flown: the values of its case. They stand in the file of the web, in
+//! that of a case which the layer names, or in both; what the file of the web says takes the place of what
+//! the other one says.
 
 use super::super::open::OpenCase;
 use super::super::written_values::{WrittenValue, WrittenValues};
@@ -14,7 +15,8 @@ use crate::units::Dimension;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Relative difference up to which two numbers agree if one is rounded to three digits and the other follows from such numbers.
+/// Relative difference up to which two numbers agree if one is rounded to three digits and the other follows
+/// from such numbers.
 const ROUNDED: f64 = 5e-3;
 
 /// The filament of a layer, as it is written.
@@ -84,8 +86,8 @@ impl Filament {
         self.values.has_table("spinline")
     }
 
-    /// Tells a layer the size of its filament and the speed, as far as they are known before it is spun. Returns the throughput of a
-    /// hole of a die, if it comes from one.
+    /// Tells a layer the size of its filament and the speed, as far as they are known before it is spun.
+    /// Returns the throughput of a hole of a die, if it comes from one.
     pub(super) fn tell_flow(&self, layer: &mut LayerSpec) -> Option<f64> {
         let fibre = self.sized().fibre;
         (layer.diameter, layer.density) = (fibre.diameter, fibre.density);

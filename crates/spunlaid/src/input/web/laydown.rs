@@ -54,8 +54,9 @@ impl Reading<'_> {
             [] => {
                 let fault = Fault::new(
                     "says nothing of how the fibres lie",
-                    "write [feed], [belt], [air] and [run] for a filament to fly, or in [laydown] case = \"spunbond.toml\" (it stands in \
-                     that file), results = \"results/spunbond\" (a finished run), or sigma_md, sigma_cd and noise",
+                    "write [feed], [belt], [air] and [run] for a filament to fly, or in [laydown] case = \
+                    \"spunbond.toml\" (it stands in that file), results = \"results/spunbond\" (a finished \
+                    run), or sigma_md, sigma_cd and noise",
                 );
                 self.key_values.reject(&format!("{prefix}laydown"), fault);
                 return Way::Unknown;

@@ -46,18 +46,19 @@ pub struct WebFile {
 /// Reads and checks the file of a web, and the cases that it names.
 ///
 /// * `overrides` – keys and values that replace values of the file or add to them, `("line.belt_speed", "6 m/s")`; of a
-///   file with `[[layer]]`, `layer.2.line.belt_speed` or the layer's name in place of its number. Keys of a filament without a layer,
-///   `("belt.distance", "0.4 m")`, are those of all layers
+///   file with `[[layer]]`, `layer.2.line.belt_speed` or the layer's name in place of its number. Keys of a
+///   filament without a layer, `("belt.distance", "0.4 m")`, are those of all layers
 ///
 /// # Errors
-/// If the file cannot be read, or if the web cannot be laid; then with every problem found. And what has to be flown first, if a case
-/// has a spinline whose tension is that of flights.
+/// If the file cannot be read, or if the web cannot be laid; then with every problem found. And what has to
+/// be flown first, if a case has a spinline whose tension is that of flights.
 pub fn read_web<'a>(path: &Path, overrides: impl Into<Overrides<'a>>) -> Result<WebFile, Unread<WebFile>> {
     let text = file::read(path, FileKind::Web).map_err(Unread::Faulty)?;
     parse_web(&text, &path.display().to_string(), overrides)
 }
 
-/// Reads and checks the text of the file of a web. Messages call the file `name`; files that it names are looked for in its folder.
+/// Reads and checks the text of the file of a web. Messages call the file `name`; files that it names are
+/// looked for in its folder.
 ///
 /// # Errors
 /// As [`read_web`].
@@ -73,8 +74,8 @@ pub fn parse_web<'a>(
     })
 }
 
-/// [`parse_web`] with what is set from several places, each of which replaces those before it; and what is written of the filament of
-/// each layer.
+/// [`parse_web`] with what is set from several places, each of which replaces those before it; and what is
+/// written of the filament of each layer.
 pub(super) fn parse_set(
     text: &str,
     name: &str,

@@ -1,4 +1,5 @@
-//! Makes the web of its file: layers, sheet and belt from what is written, then each filament, and all of it checked together.
+//! Makes the web of its file: layers, sheet and belt from what is written, then each filament, and all of it
+//! checked together.
 
 use super::super::Overrides;
 use super::super::lookup::Lookup;

@@ -12,7 +12,8 @@ use crate::layers::{LaydownSource, LayerSpec, Method, WebKey, WebSpec};
 use crate::web::{Defect, Filaments, Row};
 use std::path::PathBuf;
 
-/// The keys of a file that has the case of a layer, of the throughput of a hole, and of the belt on which all layers lie.
+/// The keys of a file that has the case of a layer, of the throughput of a hole, and of the belt on which all
+/// layers lie.
 pub(super) const CASE: &str = "laydown.case";
 pub(super) const THROUGHPUT: &str = "line.throughput";
 pub(super) const BELT_SPEED: &str = "line.belt_speed";

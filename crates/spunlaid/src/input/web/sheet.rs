@@ -75,8 +75,8 @@ impl Reading<'_> {
                 let [shown, exact] = [4, 12].map(|digits| Dimension::Length.pretty_to(cell, digits));
                 let fault = Fault::new(
                     format!(
-                        "is missing, and none of the usual patches, 1, 2, 5, 10, 20 and 50 mm, is a whole number of cells of \
-                         {shown} and at most half as large as the web"
+                        "is missing, and none of the usual patches, 1, 2, 5, 10, 20 and 50 mm, is a whole \
+                        number of cells of {shown} and at most half as large as the web"
                     ),
                     format!("add patches = [\"{exact}\"] to [web], or change web.cell"),
                 );
@@ -103,8 +103,8 @@ impl Reading<'_> {
                 let [patch, side] = [patch, side].map(|size| Dimension::Length.pretty(size));
                 let fault = Fault::new(
                     format!(
-                        "has {patch}, which is more than half of the web's smaller side, {side}, so that there is nothing to \
-                         compare"
+                        "has {patch}, which is more than half of the web's smaller side, {side}, so that \
+                        there is nothing to compare"
                     ),
                     "leave it out, or make the web larger",
                 );

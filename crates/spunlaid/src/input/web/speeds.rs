@@ -12,7 +12,8 @@ use crate::units::Dimension;
 const BASIS_WEIGHT: &str = "line.basis_weight";
 
 impl Reading<'_> {
-    /// Gives the layers the belt on which they have the basis weight that is written, if one is. The cases are flown above it.
+    /// Gives the layers the belt on which they have the basis weight that is written, if one is. The cases
+    /// are flown above it.
     pub(super) fn lay_weight(&mut self, web: &mut WebSpec, layers: &mut [Layer]) {
         let Some((key, weight)) = self.basis_weight() else { return };
         self.basis_weight_key.clone_from(&key);

@@ -8,7 +8,8 @@ use crate::layers::keys::WEB;
 use crate::layers::{LaydownSource, LayerSpec, WebSpec};
 use crate::web::{Defect, Filaments};
 
-/// Writes a web as TOML, with the cases that it flies: every key, in SI units. Reading the text gives the same web to the last bit.
+/// Writes a web as TOML, with the cases that it flies: every key, in SI units. Reading the text gives the
+/// same web to the last bit.
 pub fn write_web(spec: &WebSpec) -> String {
     let lines = |layer: &LayerSpec, _, table: &str| match &layer.source {
         LaydownSource::Case { case, .. } => lines_of_case(case, table),
@@ -17,7 +18,8 @@ pub fn write_web(spec: &WebSpec) -> String {
     write_with(spec, &lines)
 }
 
-/// [`write_web`] with nothing of the filaments but what is written: what follows from it follows anew where a key varies.
+/// [`write_web`] with nothing of the filaments but what is written: what follows from it follows anew where a
+/// key varies.
 ///
 /// * `filaments` – what is written of that of each layer
 pub(in super::super) fn write_web_to_vary(spec: &WebSpec, filaments: &[Option<WrittenValues>]) -> String {
@@ -102,7 +104,8 @@ fn written(tables: &Tables, before: &str) -> String {
         .collect()
 }
 
-/// The lines of `[line]` of a layer. All layers lie on one belt, whose speed is that of a flown case or is written once.
+/// The lines of `[line]` of a layer. All layers lie on one belt, whose speed is that of a flown case or is
+/// written once.
 fn line(spec: &WebSpec, number: usize) -> Vec<String> {
     let mut lines = lines_of_web(&spec.alone(number), "line");
     let no_belt = number > 0 || spec.layers.iter().any(|layer| layer.source.case().is_some());

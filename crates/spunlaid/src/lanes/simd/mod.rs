@@ -73,8 +73,8 @@ pub(crate) trait Singles: Copy {
 
 /// [`Simd`] of exactly the eight lanes of a flight.
 pub(crate) trait Register: Simd {
-    /// The instruction set. Work that is seldom done leaves the kernel with it, as a task of its own: what is inlined is
-    /// compiled once for every kernel.
+    /// The instruction set. Work that is seldom done leaves the kernel with it, as a task of its own: what is
+    /// inlined is compiled once for every kernel.
     const ISA: Isa;
     /// Its registers of single precision.
     type Singles: Singles;
@@ -95,8 +95,8 @@ pub(crate) trait Register: Simd {
         [Self::load(a), Self::load(b), Self::load(c), Self::load(d)]
     }
 
-    /// Writes the bits of the lanes in which `a < b` to the start of `into`, one after the other, and returns their number.
-    /// What follows them there is left undefined.
+    /// Writes the bits of the lanes in which `a < b` to the start of `into`, one after the other, and returns
+    /// their number. What follows them there is left undefined.
     #[inline(always)]
     fn store_less(self, a: Self, b: Self, into: &mut [u64; WIDTH]) -> usize {
         let [bits, a, b] = [self, a, b].map(Self::store);

@@ -1,7 +1,8 @@
 //! Plain Rust, for any machine.
 //!
-//! On x86-64 few machines need it, those without AVX2, so its operations are calls there: inlined, they would be a third of the
-//! library's compile time and half of the kernel's code. Elsewhere it is the only one and is inlined.
+//! On x86-64 few machines need it, those without AVX2, so its operations are calls there: inlined, they would
+//! be a third of the library's compile time and half of the kernel's code. Elsewhere it is the only one and
+//! is inlined.
 
 use super::{Register, Simd, Singles};
 use crate::lanes::{Isa, Lanes, WIDTH};

@@ -126,8 +126,8 @@ mod x86 {
     #[derive(Clone, Copy)]
     pub(crate) struct OfAvx512(__m512);
 
-    /// Which of two registers' numbers come where in three registers of neighbouring triples: first of the first and the second
-    /// component, and then of those and the third one, which are 16 and above.
+    /// Which of two registers' numbers come where in three registers of neighbouring triples: first of the
+    /// first and the second component, and then of those and the third one, which are 16 and above.
     const TRIPLES: [[[i32; 16]; 2]; 3] = {
         let mut order = [[[0; 16]; 2]; 3];
         let mut at = 0;

@@ -39,8 +39,9 @@ pub static WEB: KeyTable<WebSpec> = KeyTable {
     file: "a web file",
 };
 
-/// The keys of the file of a web: those of the web, and those of the case of its filament. They say how a file is read, and have no
-/// access to either. A key or a table that both have stands here once, as that of the filament.
+/// The keys of the file of a web: those of the web, and those of the case of its filament. They say how a
+/// file is read, and have no access to either. A key or a table that both have stands here once, as that of
+/// the filament.
 pub(crate) static WEB_FILE: LazyLock<KeyTable<()>> = LazyLock::new(|| {
     let own_keys = WEB.rows.iter().filter(|key| CASE.find(key.name).is_none());
     let rows: Vec<Key<()>> = CASE.rows.iter().map(described).chain(own_keys.map(described)).collect();

@@ -173,7 +173,8 @@ fn format(bytes: &[u8]) -> Result<Format, Fault> {
     }
 }
 
-/// Whether a file begins as a picture or an array of NumPy, of a format that is read or of one that is refused by its name.
+/// Whether a file begins as a picture or an array of NumPy, of a format that is read or of one that is
+/// refused by its name.
 pub fn is_picture(head: &[u8]) -> bool {
     format_read(head).is_some() || picture_refused(head).is_some()
 }
@@ -213,7 +214,8 @@ fn picture_refused(bytes: &[u8]) -> Option<&'static str> {
     found.or_else(|| later.iter().find(|(is, _)| *is).map(|(_, found)| *found))
 }
 
-/// Whether a file is a picture of Netpbm: `P5`, then a comment or its width and height. A record may have a column of that name.
+/// Whether a file is a picture of Netpbm: `P5`, then a comment or its width and height. A record may have a
+/// column of that name.
 fn is_netpbm(bytes: &[u8]) -> bool {
     let [b'P', b'1'..=b'6', b'\n', rest @ ..] = bytes else { return false };
     let line = rest.split(|byte| *byte == b'\n').next().unwrap_or_default();
@@ -249,7 +251,8 @@ fn within_limits(columns: u64, rows: u64) -> Result<[usize; 2], Fault> {
     }
 }
 
-/// The luminance of pixels of some channels: one is grey, two are grey and transparency, three and four colours without and with it.
+/// The luminance of pixels of some channels: one is grey, two are grey and transparency, three and four
+/// colours without and with it.
 ///
 /// Source: Recommendation ITU-R BT.709, 3.2.
 fn luminance(values: impl Iterator<Item = f64>, channels: usize) -> Vec<f64> {

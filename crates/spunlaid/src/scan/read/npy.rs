@@ -67,7 +67,8 @@ fn number(kind: &str) -> Result<(Read, usize, Option<f64>), Fault> {
                 $($little => (|bytes| <$type>::from_le_bytes(array(bytes)) as f64, size_of::<$type>()),
                 $big => (|bytes| <$type>::from_be_bytes(array(bytes)) as f64, size_of::<$type>()),)+
                 _ => {
-                    return Err(unsupported(&format!("numbers of the kind {}", excerpt(kind, 40)), "save map.astype(\"float32\")"));
+                    return Err(unsupported(&format!("numbers of the kind {}", excerpt(kind, 40)), "save \
+                        map.astype(\"float32\")"));
                 }
             }
         };

@@ -74,8 +74,8 @@ fn failed(error: DecodingError) -> Fault {
     })
 }
 
-/// The largest level of a camera of some bits in a file of 16 bits. The standard wants the levels raised to 16 bits; some programs leave
-/// them as they are.
+/// The largest level of a camera of some bits in a file of 16 bits. The standard wants the levels raised to
+/// 16 bits; some programs leave them as they are.
 ///
 /// Source: PNG specification, third edition, 11.3.2.4 (sBIT) and 13.12.
 fn scale_of_bits(values: &[f64], bits: u8) -> f64 {

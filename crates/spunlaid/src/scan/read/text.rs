@@ -23,7 +23,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, FileError> {
 /// Lines that are compared with the first one.
 const COMPARED: usize = 100;
 
-/// The head of the first column, where the first line lacks it: programs write the names of columns without one for those of rows.
+/// The head of the first column, where the first line lacks it: programs write the names of columns without
+/// one for those of rows.
 fn corner(bytes: &[u8]) -> Option<String> {
     let lines = bytes.split(|byte| *byte == b'\n').filter(|line| !line.trim_ascii().is_empty());
     let lines: Vec<_> = lines.take(COMPARED).map(String::from_utf8_lossy).collect();
@@ -37,7 +38,8 @@ fn corner(bytes: &[u8]) -> Option<String> {
     rows.iter().all(|row| by(sign, row) == cells).then(|| format!("row{sign}"))
 }
 
-/// The map without the numbers of its rows and columns, which programs for tables write beside it. Measured weights never lie so evenly.
+/// The map without the numbers of its rows and columns, which programs for tables write beside it. Measured
+/// weights never lie so evenly.
 fn without_numbers(raw: RawPicture) -> RawPicture {
     let (columns, rows) = (raw.columns, raw.rows);
     if columns < 2 || rows < 2 {

@@ -25,8 +25,8 @@ pub enum Refusal {
     },
     /// Two factors vary together.
     #[error(
-        "{first} and {second} vary together (correlation {correlation:.2}), so their effects cannot be told apart; vary \
-         them independently, for example with design = \"grid\""
+        "{first} and {second} vary together (correlation {correlation:.2}), so their effects cannot be told \
+        apart; vary them independently, for example with design = \"grid\""
     )]
     Together {
         /// Key of the one.

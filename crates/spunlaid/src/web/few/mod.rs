@@ -5,8 +5,9 @@
 //!                       → patches of single ones and of their neighbours → what a filament makes alone, and together with others
 //! ```
 //!
-//! Neighbours that hang a few millimetres apart come down almost alike, so the CV of a row hardly depends on its pitch. In a slot a filament is nearer to
-//! itself than to any other one at the same place across, and this own part falls with the number of filaments.        theory.md (83d)
+//! Neighbours that hang a few millimetres apart come down almost alike, so the CV of a row hardly depends on
+//! its pitch. In a slot a filament is nearer to itself than to any other one at the same place across, and
+//! this own part falls with the number of filaments.                                          theory.md (83d)
 
 use super::canvas::Canvas;
 use super::few_findings::{FewFilamentsCv, LayerFew};
@@ -34,7 +35,8 @@ pub(crate) struct FewFilaments<'a> {
     pub(crate) sheet: &'a Sheet,
     /// Number of blocks of the sheet that are told apart, across and along.
     pub(crate) blocks: [usize; 2],
-    /// Of each row of filaments the curves in order across, as places on the sheet in cross and in machine direction [m]; None of one that was lost.
+    /// Of each row of filaments the curves in order across, as places on the sheet in cross and in machine
+    /// direction [m]; None of one that was lost.
     pub(crate) rows: Vec<Vec<Option<Vec<[f64; 2]>>>>,
     /// Mass of a piece of a curve [kg].
     pub(crate) piece: f64,
@@ -52,7 +54,8 @@ const REFERENCES: usize = 64;
 const NEIGHBOURS: [usize; 4] = [0, 1, 2, 4];
 /// Smallest patch of a row whose CV does not know the pitch, in pitches.
 const PITCHES: f64 = 2.5;
-/// How far smaller patches are off, as a share of the CV, whatever halves say: 0.3 to 2.4 % in four lines of which all filaments were flown.
+/// How far smaller patches are off, as a share of the CV, whatever halves say: 0.3 to 2.4 % in four lines of
+/// which all filaments were flown.
 const SMALL: f64 = 0.02;
 /// Side of a block, which is larger than a cloud, so that one hardly knows of the next [m].
 const BLOCK: f64 = 0.05;
@@ -61,7 +64,8 @@ impl FewFilaments<'_> {
     /// What they say of all filaments.
     ///
     /// * `layer` – its index
-    /// * `filled` – maps of rows in which the filaments between them have been filled in, from all of them and from every second one
+    /// * `filled` – maps of rows in which the filaments between them have been filled in, from all of them
+    ///   and from every second one
     ///
     /// # Errors
     /// If a cell would hold more fibre than can be counted.
@@ -125,7 +129,8 @@ impl FewFilaments<'_> {
                 patch: *patch,
                 cv,
                 by_chance: all.standard_error.map(|error| error * all.cv / cv),
-                // The error falls faster than the pitch, and one of the halves differs from the other as the depths of its filaments do.
+                // The error falls faster than the pitch, and one of the halves differs from the other as the
+                // depths of its filaments do.
                 by_pitch: (0.5 * off).hypot(0.5 * (halves[0] - halves[1])).hypot(small),
                 of_halves: off / cv,
                 own: whole[1],
@@ -135,7 +140,8 @@ impl FewFilaments<'_> {
         Ok(told)
     }
 
-    /// The CV over patches that are so small that they know the pitch of a row, with the filaments filled in; None for larger ones.
+    /// The CV over patches that are so small that they know the pitch of a row, with the filaments filled in;
+    /// None for larger ones.
     ///
     /// * `few` – CV of the flown ones alone
     /// * `at_random` – what filaments at random places have more, of a CV²
@@ -159,7 +165,8 @@ impl FewFilaments<'_> {
             patch,
             cv,
             by_chance: filled.standard_error.map(|error| error * filled.cv / cv),
-            // Filled-in filaments lie more alike than they do, and lack what is missing. The two errors may cancel in the halves, which then say too little.
+            // Filled-in filaments lie more alike than they do, and lack what is missing. The two errors may
+            // cancel in the halves, which then say too little.
             by_pitch: (0.5 * (half - cv)).hypot(SMALL * cv),
             of_halves: half / cv - 1.0,
             own: own(filled.cv),
@@ -202,8 +209,8 @@ impl FewFilaments<'_> {
         Ok(Canvas::new(sheet, &[self.piece], weight)?)
     }
 
-    /// The mean product of the patches of a filament and of a neighbour over the squared mean patch of a filament, for each side and each of
-    /// [`NEIGHBOURS`].
+    /// The mean product of the patches of a filament and of a neighbour over the squared mean patch of a
+    /// filament, for each side and each of [`NEIGHBOURS`].
     ///
     /// * `map` – of all
     fn products(
@@ -230,7 +237,8 @@ impl FewFilaments<'_> {
         Ok(sides.iter().enumerate().map(of_side).collect())
     }
 
-    /// Sums over all patches of the products of one filament and its neighbours [quanta²]; None where one of them is lost.
+    /// Sums over all patches of the products of one filament and its neighbours [quanta²]; None where one of
+    /// them is lost.
     fn products_of(
         &self,
         row: &[Option<Vec<[f64; 2]>>],

@@ -90,8 +90,8 @@ fn on_map(sheet: &Sheet, curves: impl Iterator<Item = Option<Vec<[f64; 2]>>>) ->
     sheet.patches.iter().map(|patch| unevenness(&map, all.side(*patch)).unwrap().cv).collect()
 }
 
-/// Where all filaments of a row lay the same curve, a quarter of them has the CV of all over patches of whole pitches: a sum of equal curves at an even
-/// pitch is the same in each such patch.
+/// Where all filaments of a row lay the same curve, a quarter of them has the CV of all over patches of whole
+/// pitches: a sum of equal curves at an even pitch is the same in each such patch.
 #[test]
 fn limit_a_row_of_equal_curves_does_not_know_its_pitch() {
     let (sheet, field) = (sheet(&[8.0, 16.0]), Field::new(1));
@@ -137,14 +137,15 @@ fn limit_independent_filaments_have_an_own_part_only() {
     }
 }
 
-/// Filaments that share four fifths of their variance with their neighbours and have the rest for themselves, as in a slot: every tenth one says what all do,
-/// and how far it is off.
+/// Filaments that share four fifths of their variance with their neighbours and have the rest for themselves,
+/// as in a slot: every tenth one says what all do, and how far it is off.
 #[test]
 fn stat_every_tenth_filament_of_a_slot_tells_the_cv_of_all() {
     const SHARED: f64 = 0.8;
     const FIELDS: u64 = 6;
     let sheet = sheet(&[2.0, 5.0, 10.0]);
-    // Of each size of patches: mean of what is found over what is right, of the few alone over it, and of the squares of the deviation and of the told error.
+    // Of each size of patches: mean of what is found over what is right, of the few alone over it, and of the
+    // squares of the deviation and of the told error.
     let mut sums = [[0.0; 4]; 3];
     for seed in 0..FIELDS {
         let field = Field::new(3 + seed);
@@ -199,7 +200,8 @@ fn stat_an_even_row_tells_the_cv_of_random_places() {
     }
 }
 
-/// Over patches as small as the pitch, the row that is flown is a comb; with the filaments between them filled in, it tells what random places do.
+/// Over patches as small as the pitch, the row that is flown is a comb; with the filaments between them
+/// filled in, it tells what random places do.
 #[test]
 fn stat_small_patches_of_random_places_are_told_by_the_filled_row() {
     const WEBS: u64 = 6;

@@ -19,7 +19,8 @@ fn matern(order: f64, s: f64) -> f64 {
     }
 }
 
-/// Coherence at a frequency [Hz] and a lateral distance [m]: of x, of the component along the distance, and of the other.
+/// Coherence at a frequency [Hz] and a lateral distance [m]: of x, of the component along the distance, and
+/// of the other.
 pub(super) fn coherence(frequency: f64, r: f64) -> [f64; 3] {
     let (k1, ke) = (TAU * frequency / SPEED, 0.746_834 / LENGTH);
     let square = k1 * k1 + ke * ke;
@@ -34,8 +35,8 @@ pub(super) fn coherence(frequency: f64, r: f64) -> [f64; 3] {
     ]
 }
 
-/// Cross-spectra of the components at places that lie `apart` [m], over their spectra: the sum of (79) over the waves across up to
-/// the cut-off, in polar coordinates.
+/// Cross-spectra of the components at places that lie `apart` [m], over their spectra: the sum of (79) over
+/// the waves across up to the cut-off, in polar coordinates.
 pub(super) fn cross_spectra(frequency: f64, apart: [f64; 3]) -> [[f64; 3]; 3] {
     const RINGS: usize = 120;
     const ANGLES: usize = 96;
@@ -94,8 +95,9 @@ pub(super) fn over_spectra(highest: f64, count: u32, common: impl Fn(f64) -> [[f
     [0, 1, 2].map(|i| [0, 1, 2].map(|j| products[i][j] / (squares[i] * squares[j]).sqrt()))
 }
 
-/// Correlation of what is looked up between generations, `walk` from one to the next: at the share `from` of the way to the next
-/// generation and at the share `to` of that from the generation `later`.                                    theory.md (82)
+/// Correlation of what is looked up between generations, `walk` from one to the next: at the share `from` of
+/// the way to the next generation and at the share `to` of that from the generation `later`.
+///                                                                                             theory.md (82)
 pub(super) fn between_generations(walk: f64, [from, to]: [f64; 2], later: i32) -> f64 {
     let square = |share: f64| (1.0 - share).powi(2) + share * share + 2.0 * share * (1.0 - share) * walk;
     let at = |steps: i32| walk.powi(steps.abs());

@@ -92,8 +92,8 @@ fn correlations(
     pairs.map(correlation).collect()
 }
 
-/// Air keeps its volume: `∂u/∂x + ∂v/∂y + ∂w/∂z = 0`. A pattern that is carried has `∂/∂x = −(1/U) ∂/∂t`. With the sign of one
-/// wave number wrong, the sum would be larger than its parts.
+/// Air keeps its volume: `∂u/∂x + ∂v/∂y + ∂w/∂z = 0`. A pattern that is carried has `∂/∂x = −(1/U) ∂/∂t`.
+/// With the sign of one wave number wrong, the sum would be larger than its parts.
 #[test]
 fn invariant_isotropic_turbulence_is_free_of_divergence() {
     let mut field = frozen(SpectrumShape::VonKarman, SPEED / LENGTH);
@@ -149,8 +149,9 @@ fn invariant_the_variance_is_one_at_every_phase_of_the_interpolation() {
     }
 }
 
-/// The windows of time join without a seam: the two windows of a transform, and those of two transforms. In a spectrum like von
-/// Kármán's the real and the imaginary part of a transform have much in common at unequal times.
+/// The windows of time join without a seam: the two windows of a transform, and those of two transforms. In a
+/// spectrum like von Kármán's the real and the imaginary part of a transform have much in common at unequal
+/// times.
 #[test]
 fn invariant_the_variance_is_the_same_in_the_joints_of_the_windows() {
     for (spectrum, cutoff) in [(SpectrumShape::Flat, CUTOFF), (SpectrumShape::VonKarman, SPEED / LENGTH)] {
@@ -252,7 +253,8 @@ fn invariant_a_field_repeats_itself_after_its_extent() {
     }
 }
 
-/// What passes 1.25 times as fast is there as much earlier: the field that shares its samples, and the one that is made for the fast air alone.
+/// What passes 1.25 times as fast is there as much earlier: the field that shares its samples, and the one
+/// that is made for the fast air alone.
 #[test]
 fn analytic_faster_air_of_one_pattern_is_the_same_field_earlier() {
     let (pace, decay_time) = (1.25, 20e-3);

@@ -6,7 +6,8 @@ use crate::air::SpectrumShape;
 use crate::air::eddy_field::EddyField;
 use std::f64::consts::TAU;
 
-/// With a flat spectrum each frequency counts as much. The cut-off across makes the correlations higher by what is given here.
+/// With a flat spectrum each frequency counts as much. The cut-off across makes the correlations higher by
+/// what is given here.
 #[test]
 fn analytic_the_correlation_across_is_von_karmans_frequency_by_frequency() {
     let distances = [
@@ -53,8 +54,8 @@ fn analytic_the_coherence_of_all_frequencies_is_von_karmans_correlation() {
     }
 }
 
-/// All components with all others: beside each other, one behind the other, and askew. The cut-offs leave the shortest waves out;
-/// the sum over what is left is near to von Kármán's.
+/// All components with all others: beside each other, one behind the other, and askew. The cut-offs leave the
+/// shortest waves out; the sum over what is left is near to von Kármán's.
 #[test]
 fn analytic_with_von_karmans_spectra_the_field_is_isotropic_turbulence() {
     const HIGHEST: f64 = 3.0 * SPEED / LENGTH;

@@ -40,8 +40,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .access(at!(defect, defect_mut, titre))
         .value("0")
         .meaning(
-            "Mass per length of the filaments from these holes over that of the others, up to 2; 0 of blocked holes. The \
-             filaments are taken to lie as the others do.",
+            "Mass per length of the filaments from these holes over that of the others, up to 2; 0 of \
+            blocked holes. The filaments are taken to lie as the others do.",
         )
         .label("Titre of filaments with a defect")
         .usual(0.05, 2.0),

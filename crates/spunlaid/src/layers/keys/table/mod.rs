@@ -39,7 +39,8 @@ const TABLES: [Table<WebSpec>; 6] = [
     ("fabric", &[fabric::KEYS]),
 ];
 
-/// The tables of the file of a web, in order. A file with several layers has the first ones, up to `line`, in each `[[layer]]`.
+/// The tables of the file of a web, in order. A file with several layers has the first ones, up to `line`, in
+/// each `[[layer]]`.
 pub const WEB_TABLES: [&str; TABLES.len()] = joined::names(&TABLES);
 
 /// Every key of the file of a web, in its order.

@@ -111,8 +111,8 @@ fn channels(decoder: &mut Decoder<Cursor<&[u8]>>) -> Result<usize, Fault> {
     Err(unsupported(&found, GREY))
 }
 
-/// The largest level of a camera with fewer bits than the numbers of the file, if the file tells it. Other values of the tag are the
-/// largest level that was found, which says nothing of the camera.
+/// The largest level of a camera with fewer bits than the numbers of the file, if the file tells it. Other
+/// values of the tag are the largest level that was found, which says nothing of the camera.
 ///
 /// * `is_negative` – whether the decoder has subtracted the levels from `full`
 ///
