@@ -238,7 +238,10 @@ fn rejects_what_cannot_vary_of_a_layer() {
             "line.filaments_per_metre = [100]",
             "write layer.1.line.filaments_per_metre, or the layer's name in place of 1",
         ),
-        ("layer.3.line.filaments_per_metre = [100]", "there is no such layer or row; the web has 2 layers"),
+        (
+            "layer.3.line.filaments_per_metre = [100]",
+            "is of a layer that the file does not have; it has layer.1 to layer.2",
+        ),
         ("layer.M.line.filament_per_metre = [100]", "did you mean line.filaments_per_metre?"),
         ("run.replicates = [4]", "the flights of all points have the same; write it under [set]"),
     ] {
@@ -263,7 +266,10 @@ fn rejects_what_cannot_vary() {
             "study.toml: [set] run.replicates = 4 is a key of a filament that flies, and this web flies \
             none; leave it out",
         ),
-        (vary("layer.2.line.belt_speed = ['4 m/s']"), "there is no such layer or row; the web has 1 layer"),
+        (
+            vary("layer.2.line.belt_speed = ['4 m/s']"),
+            "is of a layer that the file does not have; it has no [[layer]], so write the key without layer",
+        ),
         (vary("line.rows.pitch = ['4 mm']"), "write the number of the row, as in line.rows.1.pitch"),
         (
             vary("'line.belt_speed' = ['4 m/s', '60 m/s']"),

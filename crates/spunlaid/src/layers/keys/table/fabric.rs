@@ -33,6 +33,7 @@ pub(super) const KEYS: &[WebKey] = &[
     quantity("fabric.tolerance", Dimension::Ratio, Sign::Share)
         .access(at!(fabric.tolerance))
         .value("5 %")
+        .fixed()
         .meaning(
             "How far the weight may be from that of the middle half of the web to be sold, with \
              `web.edges = \"cut\"`: the width that is within it is told, and its trim.",
