@@ -30,6 +30,7 @@ noise = "15 m^-0.5"
 feed_speed = "50 m/s"
 belt_speed = "5 m/s"
 rows = [{ offset = "10 mm", pitch = "5 mm", filaments = 30 }, { offset = "20 mm", pitch = "5 mm", filaments = 34 }]
+defects = [{ from = "20 mm", to = "60 mm", row = 1, share = 0.5, titre = 0.5, after = "1 ms" }]
 [web]
 width = "200 mm"
 length = "200 mm"
@@ -90,14 +91,17 @@ patches = ["20 mm"]
     ),
 ];
 
-/// The full name of a key in the last layer and the last row of a web.
+/// The full name of a key in the last layer, the last row and the only defect of a web.
 fn full_name(web: &WebSpec, key: &WebKey) -> String {
     let layer = match web.layers.len() {
         last if last > 1 && key.table() != "web" => format!("layer.{last}."),
         _ => String::new(),
     };
-    let name =
-        if key.table() == "line.rows" { key.name.replace("rows.", "rows.2.") } else { key.name.to_owned() };
+    let name = match key.table() {
+        "line.rows" => key.name.replace("rows.", "rows.2."),
+        "line.defects" => key.name.replace("defects.", "defects.1."),
+        _ => key.name.to_owned(),
+    };
     format!("{layer}{name}")
 }
 
