@@ -68,12 +68,20 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     Ok(())
 }
 
-/// A specification sheet that is there already is replaced with `--force` only.
+/// Whether a specification sheet can be written there, before anything is flown for it. One that is there already
+/// is replaced with `--force` only.
 fn check_sheet(sheet: &Path, force: bool) -> Result<(), Error> {
-    if force || !sheet.exists() {
+    let folder = sheet.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let fault = if folder.is_some_and(|folder| !folder.is_dir()) {
+        Fault::new("lies in a folder that is not there", "name another file, or make the folder")
+            .option("--sheet")
+    } else if sheet.is_dir() {
+        Fault::new("is a folder", "name a file").option("--sheet")
+    } else if sheet.exists() && !force {
+        Fault::new("is there already", "name another file, or replace it").option("--sheet, --force")
+    } else {
         return Ok(());
-    }
-    let fault = Fault::new("is there already", "name another file, or replace it").option("--sheet, --force");
+    };
     Err(Error::folder(sheet, fault))
 }
 

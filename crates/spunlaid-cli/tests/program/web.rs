@@ -104,6 +104,12 @@ fn a_web_is_written_whole_and_laid_again_to_the_same_bits() {
         "{said}"
     );
     assert_eq!(desk.read("sheet.pdf"), sheet);
+    let said = refusal(&mut desk.spunlaid("web beams.toml --out third --sheet nowhere/sheet.pdf"), 1);
+    assert!(
+        said.contains("nowhere/sheet.pdf: lies in a folder that is not there; name another file"),
+        "{said}"
+    );
+    assert!(!desk.path("third").exists());
     for file in ["map.npy", "map.png", "map.parquet", "fibres.vtp", "web.toml", "figures/web_cv.csv"] {
         let [one, other] = ["w", "again"].map(|folder| desk.read(&format!("{folder}/{file}")));
         assert!(one == other, "{file}");

@@ -124,16 +124,34 @@ impl Reading<'_> {
             );
             self.key_values.reject(&format!("{before}titre"), fault);
         }
-        let all = Defect { share: 1.0, ..*defect };
-        if holes((&web.sheet, web.seed), (0, &layer.filaments), (number, &all)).is_empty() {
-            let key = ["from", "to", "row"].map(|key| format!("{before}{key}"));
-            let key = key.into_iter().find(|key| self.is_written(key)).unwrap_or_default();
-            let fault = Fault::new(
+        let of =
+            |defect: &Defect| holes((&web.sheet, web.seed), (0, &layer.filaments), (number, defect)).len();
+        let (width, count) = (web.sheet.width, of(&Defect { share: 1.0, ..*defect }));
+        let fault = if defect.from.is_some_and(|from| from > width) {
+            let width = Dimension::Length.pretty(width);
+            Fault::new(
+                format!("lies beside the web, which goes from 0 mm to {width}"),
+                "write a place on the web",
+            )
+        } else if count == 0 {
+            Fault::new(
                 "has no hole: none of this row lies between from and to",
                 "write places on the web with from below to, and a row that is there",
-            );
-            self.key_values.reject(&key, fault);
-        }
+            )
+        } else if count == of(&Defect::USUAL)
+            && *defect == (Defect { from: defect.from, to: defect.to, row: defect.row, ..Defect::USUAL })
+        {
+            Fault::new(
+                "blocks every hole, so that nothing is laid",
+                "say which holes: from, to, row or share; or how they differ: titre or after",
+            )
+        } else {
+            return;
+        };
+        let keys = ["from", "to", "row"].map(|key| format!("{before}{key}"));
+        let key = keys.into_iter().find(|key| self.is_written(key));
+        let list = before.trim_end_matches(|c: char| c == '.' || c.is_ascii_digit());
+        self.key_values.reject(key.as_deref().unwrap_or(list), fault);
     }
 
     /// Checks a row of nozzles together with the sheet.
