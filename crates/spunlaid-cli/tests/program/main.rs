@@ -29,6 +29,7 @@ mod shell;
 mod signals;
 mod spin;
 mod sweep;
+mod sweep_again;
 mod sweep_killed;
 mod web;
 mod web_advice;
