@@ -5,7 +5,7 @@ use super::texture::Texture;
 use super::weights::Matrix;
 use crate::error::{Error, Fault};
 use crate::layers::{Flown, Flyer, Method, WebSpec};
-use crate::study::seed_of_point;
+use crate::study::seed_of_web;
 use crate::web::{LayControl, PatchFindings, inner_columns};
 
 /// Webs of a few filaments that are compared with those of all in the same air.
@@ -123,7 +123,7 @@ impl WebSimulator<'_> {
     /// # Errors
     /// If it cannot be laid.
     fn web_of(&mut self, spec: &WebSpec, replicate: u64) -> Result<Vec<f64>, Error> {
-        let spec = WebSpec { seed: seed(spec, replicate), ..spec.clone() };
+        let spec = WebSpec { seed: seed_of_web(spec, replicate), ..spec.clone() };
         let mut flown = self.flyer.web(&spec)?;
         let inner = inner_columns(&flown.web);
         let map = flown.map(self.by)?;
@@ -167,11 +167,6 @@ impl WebSimulator<'_> {
 fn of_logarithm(error: Option<f64>, compared: f64) -> f64 {
     let part = error.map_or(0.0, |error| error / compared);
     if part.is_finite() { part } else { 0.0 }
-}
-
-/// The seed of a web of a trial.
-fn seed(spec: &WebSpec, replicate: u64) -> u64 {
-    if replicate == 0 { spec.seed } else { seed_of_point(spec.seed, replicate) }
 }
 
 #[cfg(test)]

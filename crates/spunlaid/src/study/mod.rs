@@ -35,6 +35,7 @@ pub use measures::{Measurements, Quantity, Record, ReplicateOutcome, measured};
 pub use pack::{Batch, Bundles, fly_batches};
 pub use rounds::{PointResults, Rounds, results_of_point};
 pub use run::{Progress, fly_bundle, run};
+pub(crate) use webs::seed_of_web;
 
 use crate::case::Case;
 use crate::layers::WebSpec;

@@ -35,7 +35,7 @@ pub(super) fn lay(
     for Batch { point, replicates } in batches {
         let Some(spec) = points[*point].experiment.web() else { continue };
         for replicate in replicates.clone() {
-            let mut flown = flyer.web(&WebSpec { seed: seed(spec, replicate), ..spec.clone() })?;
+            let mut flown = flyer.web(&WebSpec { seed: seed_of_web(spec, replicate), ..spec.clone() })?;
             steps.fetch_add(flown.pieces()?, Ordering::Relaxed);
             let found = flown.measure(LayControl { threads, isa, stop, laid: fibre_steps })?;
             let outcome = ReplicateOutcome::Measured(measured_of_web(sides, &found));
@@ -45,8 +45,8 @@ pub(super) fn lay(
     Ok(())
 }
 
-/// The seed of a web of a point. The same webs lie at each point, as far as the keys allow: what differs is
+/// The seed of a web of a point, or of a trial. The same webs lie at each, as far as the keys allow: what differs is
 /// then less by chance.
-fn seed(spec: &WebSpec, replicate: u64) -> u64 {
+pub(crate) fn seed_of_web(spec: &WebSpec, replicate: u64) -> u64 {
     if replicate == 0 { spec.seed } else { seed_of_point(spec.seed, replicate) }
 }
