@@ -1,7 +1,7 @@
 //! `spunlaid sweep`: what it writes, and what it refuses before anything is flown. What it does with a folder in
 //! which a study is already stands in `sweep_again.rs`.
 
-use crate::common::{Place, assert_same, case, contents, results, said};
+use crate::common::{Place, assert_same, case, results, said};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::RowAccessor;
 use spunlaid::observe::{LAYDOWN, MEASURES, SURROGATE};

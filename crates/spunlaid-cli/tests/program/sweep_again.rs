@@ -1,7 +1,7 @@
 //! `spunlaid sweep` with a folder that holds a study already: what it goes on with, replaces, makes good or refuses.
 //! What becomes of a study that is killed stands in `sweep_killed.rs`.
 
-use crate::common::{Place, assert_same, case, contents, results, said};
+use crate::common::{assert_same, case, contents, results, said};
 use crate::sweep::{STUDY, place};
 use std::fs;
 use std::time::Duration;
