@@ -48,6 +48,7 @@ pub use patches::{HEAVIER, LIGHTER, QUANTILES, ThinPlaces, thin_places};
 pub use scanned::of_scan;
 pub use streaks::{Streak, StreakSource, streaks};
 pub use strips::{StripPlace, StripSize, Strips, WEAK, strips};
+pub(crate) use tell::{ABOUT, PATCHES};
 pub use tell::{AirThrough, Fabric, FabricPatch, Laid, Opacity, tell};
 pub use usable::{Usable, usable};
 pub use water::hydrohead;

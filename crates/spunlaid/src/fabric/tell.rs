@@ -21,14 +21,14 @@ use std::borrow::Cow;
 use std::f64::consts::PI;
 
 /// Sides of the patches of which thin places are told [m].
-const PATCHES: [f64; 5] = [1e-3, 2e-3, 5e-3, 10e-3, 20e-3];
+pub(crate) const PATCHES: [f64; 5] = [1e-3, 2e-3, 5e-3, 10e-3, 20e-3];
 /// Area of a test of the hydrohead (ISO 9073-16) and of the air permeability (ISO 9073-15) [m²], and side of
 /// the patches over which the opacity varies [m].
 const WATER_AREA: f64 = 100e-4;
 const AIR_AREA: f64 = 20e-4;
 const OPACITY_PATCH: f64 = 2e-3;
 /// A patch may be so much larger or smaller than it is called, to be one of whole cells.
-const ABOUT: f64 = 0.05;
+pub(crate) const ABOUT: f64 = 0.05;
 /// Fewest areas whose spread is told.
 const FEWEST: usize = 12;
 

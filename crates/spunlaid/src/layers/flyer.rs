@@ -297,7 +297,8 @@ impl FlownWeb {
     /// # Errors
     /// As [`FlownWeb::find`].
     pub fn measure(&mut self, by: LayControl<'_>) -> Result<Findings, Error> {
-        measure_laid(&self.web, self.laid.take(), by)
+        let laid = self.laid.take().map_or_else(|| lay_in_windows(&self.web, self.windows, by), Ok)?;
+        measure_laid(&self.web, Some(laid), by)
     }
 }
 

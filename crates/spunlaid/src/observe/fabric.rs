@@ -1,8 +1,15 @@
 //! What is told of a fabric, of its patches, strips and holes.
 
-use super::{Formula::Told, MILLIMETRES, Measure, PER_SQUARE_METRE, PERCENT, RATIO, Unit};
+use super::{Figure, Formula::Told, MILLIMETRES, Measure, PER_SQUARE_METRE, PERCENT, RATIO, Unit, figure};
 use crate::fabric::Known::Exact;
 use crate::fabric::{Fabric, FabricPatch, HolesOfRadius, Marked, Streak, Strips};
+
+const THIN_PLACES: Figure =
+    figure("thin_places", "Patches lighter than 80 % of the mean", "number of thin places");
+const WEAKEST: Figure =
+    Figure { from_zero: false, ..figure("weakest_section", "Weakest section of a strip", "weakest section") };
+const HOLES: Figure =
+    Figure { logarithmic: true, ..figure("holes", "Holes in which a disc has room", "number of holes") };
 
 const METRES: Unit = Unit { shown: "m", per_si: 1.0 };
 const MICROMETRES: Unit = Unit { shown: "µm", per_si: 1e6 };
@@ -15,15 +22,15 @@ pub const OF_FABRICS: &[Measure<Fabric>] = &[
         .meaning("what is cut off of the web at both edges together"),
     Measure::new(
         "usable_width_m",
-        "Width within the tolerance of the \
-        weight",
+        "Width within the tolerance of the weight",
         MILLIMETRES,
         Told(|fabric: &Fabric| Some(Exact(fabric.usable?.width))),
     )
     .meaning(
         "width from where, from each edge inwards, the profile across, averaged over 20 mm, is \
             within the tolerance of the mean of the middle half, in this map",
-    ),
+    )
+    .named("usable_width"),
     Measure::new(
         "usable_trim",
         "Trim to that width",
@@ -33,77 +40,82 @@ pub const OF_FABRICS: &[Measure<Fabric>] = &[
     .meaning("what is cut off at both edges for it, as a share of the web"),
     Measure::new(
         "stiffness_ratio",
-        "Stiffness MD/CD, of the directions \
-        alone",
+        "Stiffness MD/CD, of the directions alone",
         RATIO,
         Told(|fabric: &Fabric| fabric.stiffness_ratio),
     )
     .meaning(
         "stiffness along MD over that along CD of straight fibres in these directions, within 20 %: curl and \
             bonds are not in it",
-    ),
+    )
+    .named("stiffness_ratio"),
     Measure::new(
         "bare_area",
         "Bare area",
         PERCENT,
         Told(|fabric: &Fabric| Some(fabric.holes.as_ref()?.bare)),
     )
-    .meaning("share of the area that no fibre covers"),
+    .meaning("share of the area that no fibre covers")
+    .named("bare_area")
+    .main()
+    .figure(&figure("bare_area", "Bare area", "bare area")),
     Measure::new(
         "largest_hole_m",
-        "Radius of the largest hole in 100 \
-        cm²",
+        "Radius of the largest hole in 100 cm²",
         MICROMETRES,
         Told(|fabric: &Fabric| Some(fabric.holes.as_ref()?.largest)),
     )
     .meaning(
         "radius of the largest disc that fits into a hole of 100 cm², the area of the test of the \
             hydrohead: half of all such areas have a larger one",
-    ),
+    )
+    .named("largest_hole"),
     Measure::new(
         "hydrohead_pa",
         "Hydrohead",
         Unit { shown: "Pa", per_si: 1.0 },
         Told(|fabric: &Fabric| fabric.hydrohead),
     )
-    .meaning("pressure at which water comes through the largest hole"),
+    .meaning("pressure at which water comes through the largest hole")
+    .named("hydrohead"),
     Measure::new(
         "solid_fraction",
-        "Share of the volume that is \
-        fibre",
+        "Share of the volume that is fibre",
         PERCENT,
         Told(|fabric: &Fabric| Some(Exact(fabric.air?.solid))),
     )
     .meaning("volume of the fibre over that of the fabric"),
     Measure::new(
         "air_permeability_m_s",
-        "Air \
-        permeability",
+        "Air permeability",
         Unit { shown: "m/s", per_si: 1.0 },
         Told(|fabric: &Fabric| Some(fabric.air?.permeability)),
     )
     .meaning(
         "speed of the air at the pressure of the test, between the formulas of Davies and of \
             Jackson and James, both with an inertial term; trust the ratio of two webs, not the number",
-    ),
+    )
+    .named("air_permeability")
+    .figure(&figure("air_permeability", "Air permeability", "air permeability")),
     Measure::new(
         "air_permeability_cv",
-        "Spread of the air permeability over 20 \
-        cm²",
+        "Spread of the air permeability over 20 cm²",
         PERCENT,
         Told(|fabric: &Fabric| fabric.air?.spread),
     )
-    .meaning("coefficient of variation of the speed of the air over areas of 20 cm² by the basis weight"),
+    .meaning("coefficient of variation of the speed of the air over areas of 20 cm² by the basis weight")
+    .named("air_permeability_cv"),
     Measure::new("opacity", "Opacity", PERCENT, Told(|fabric: &Fabric| Some(fabric.opacity?.mean)))
-        .meaning("opacity, from that which was measured: the mean of patches of 2 mm"),
+        .meaning("opacity, from that which was measured: the mean of patches of 2 mm")
+        .named("opacity"),
     Measure::new(
         "opacity_spread",
-        "Spread of the opacity over 2 \
-        mm",
+        "Spread of the opacity over 2 mm",
         PERCENT,
         Told(|fabric: &Fabric| Some(fabric.opacity?.spread)),
     )
-    .meaning("standard deviation of the opacity over patches of 2 mm by the basis weight"),
+    .meaning("standard deviation of the opacity over patches of 2 mm by the basis weight")
+    .named("opacity_spread"),
 ];
 
 /// The numbers of the patches of one size.
@@ -111,42 +123,51 @@ pub const OF_FABRIC_PATCHES: &[Measure<FabricPatch>] = &[
     Measure::new("patch_m", "Patch", MILLIMETRES, Told(|patch: &FabricPatch| Some(Exact(patch.thin.patch))))
         .meaning("side of the square patches"),
     Measure::new("formation", "Formation number", RATIO, Told(|patch: &FabricPatch| patch.formation))
-        .meaning("CV² over that of straight fibres at random, which have 1; a cloudy web has more"),
+        .meaning("CV² over that of straight fibres at random, which have 1; a cloudy web has more")
+        .kept("formation_#_mm", "formation_#_mm"),
     Measure::new(
         "lighter_than_50_percent_per_m2",
         "Lighter than 50 %",
         PER_SQUARE_METRE,
         Told(|patch: &FabricPatch| Some(patch.thin.lighter[0])),
     )
-    .meaning("patches per area that are lighter than this share of the mean"),
+    .meaning("patches per area that are lighter than this share of the mean")
+    .kept("lighter_than_50_percent_#_mm", "lighter_than_50_percent_#_mm_per_m2"),
     Measure::new(
         "lighter_than_70_percent_per_m2",
         "Lighter than 70 %",
         PER_SQUARE_METRE,
         Told(|patch: &FabricPatch| Some(patch.thin.lighter[1])),
     )
-    .meaning("patches per area that are lighter than this share of the mean"),
+    .meaning("patches per area that are lighter than this share of the mean")
+    .kept("lighter_than_70_percent_#_mm", "lighter_than_70_percent_#_mm_per_m2"),
     Measure::new(
         "lighter_than_80_percent_per_m2",
         "Lighter than 80 %",
         PER_SQUARE_METRE,
         Told(|patch: &FabricPatch| Some(patch.thin.lighter[2])),
     )
-    .meaning("patches per area that are lighter than this share of the mean"),
+    .meaning("patches per area that are lighter than this share of the mean")
+    .kept("lighter_than_80_percent_#_mm", "lighter_than_80_percent_#_mm_per_m2")
+    .main()
+    .figure(&THIN_PLACES)
+    .series("# mm"),
     Measure::new(
         "heavier_than_130_percent_per_m2",
         "Heavier than 130 %",
         PER_SQUARE_METRE,
         Told(|patch: &FabricPatch| Some(patch.thin.heavier)),
     )
-    .meaning("patches per area that are heavier than this share of the mean"),
+    .meaning("patches per area that are heavier than this share of the mean")
+    .kept("heavier_than_130_percent_#_mm", "heavier_than_130_percent_#_mm_per_m2"),
     Measure::new(
         "weight_of_1_percent",
         "Lightest 1 %",
         PERCENT,
         Told(|patch: &FabricPatch| Some(patch.thin.quantiles[0])),
     )
-    .meaning("weight over the mean that this share of the patches goes below, or above"),
+    .meaning("weight over the mean that this share of the patches goes below, or above")
+    .kept("weight_of_1_percent_#_mm", "weight_of_1_percent_#_mm"),
     Measure::new(
         "weight_of_5_percent",
         "Lightest 5 %",
@@ -189,7 +210,11 @@ pub const OF_STRIPS: &[Measure<Strips>] = &[
     )
     .meaning("length of a section of a strip, in whole cells"),
     Measure::new("weakest_section", "Weakest section", PERCENT, Told(|strips: &Strips| Some(strips.weakest)))
-        .meaning("weight of the lightest section of a strip over the mean of the strip, over all strips"),
+        .meaning("weight of the lightest section of a strip over the mean of the strip, over all strips")
+        .kept("weakest_section_#", "weakest_section_#")
+        .main()
+        .figure(&WEAKEST)
+        .series("#"),
     Measure::new(
         "weakest_section_cv",
         "Scatter of the weakest section",
@@ -210,7 +235,8 @@ pub const OF_STRIPS: &[Measure<Strips>] = &[
         PERCENT,
         Told(|strips: &Strips| Some(strips.sections)),
     )
-    .meaning("standard deviation of a section about the mean of its strip, over that mean"),
+    .meaning("standard deviation of a section about the mean of its strip, over that mean")
+    .kept("sections_cv_#", "sections_cv_#"),
 ];
 
 /// The numbers of one of the thinnest places.
@@ -261,7 +287,11 @@ pub const OF_HOLES: &[Measure<HolesOfRadius>] = &[
         .meaning(
             "holes per area into which such a disc fits: carried from the windows over the sheet, and \
             where few were counted also from smaller radii",
-        ),
+        )
+        .kept("holes_#_um", "holes_#_um_per_m2")
+        .main()
+        .figure(&HOLES)
+        .series("# µm"),
     Measure::new(
         "over_straight",
         "Over straight fibres",

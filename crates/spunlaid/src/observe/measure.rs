@@ -125,6 +125,16 @@ impl Value {
             Self::Curve(..) => f64::NAN,
         }
     }
+
+    /// Its standard error, if it comes with one.
+    pub const fn standard_error(&self) -> Option<f64> {
+        match self {
+            Self::Mean { standard_error, .. } | Self::Told(Known::Value(_, standard_error)) => {
+                *standard_error
+            }
+            _ => None,
+        }
+    }
 }
 
 /// A row of a table: a measure and its value.
@@ -169,7 +179,7 @@ impl<T> fmt::Debug for Measure<T> {
 
 impl<T> Measure<T> {
     /// The mean over the replicates of a number that has no name yet.
-    pub(super) const NUMBER: Self = Self {
+    pub(crate) const NUMBER: Self = Self {
         name: "",
         column: "",
         entry: None,
@@ -265,6 +275,11 @@ impl<T> Measure<T> {
     /// Puts it into a figure of studies.
     pub(super) const fn figure(self, figure: &'static Figure) -> Self {
         Self { figure, ..self }
+    }
+
+    /// Sets its label in its figure.
+    pub(super) const fn series(self, series: &'static str) -> Self {
+        Self { series, ..self }
     }
 
     /// Its name in `summary.json` or `analysis.json`.

@@ -76,11 +76,13 @@ fn every_measure_has_names_a_label_a_meaning_and_a_unit() {
 
 /// A table of measures for `docs/measures.md`.
 fn table<T: 'static>(text: &mut String, title: &str, measures: impl Iterator<Item = &'static Measure<T>>) {
+    let part = [("Strips", "md"), ("Holes", "50")].into_iter().find(|(of, _)| title.starts_with(of));
+    let part = part.map_or("10", |(_, part)| part);
     let _ = write!(text, "\n## {title}\n\n| name | in studies | unit | meaning |\n|---|---|---|---|\n");
     for measure in measures {
         let name = if measure.entry().is_empty() { measure.column } else { measure.entry() };
         let is_kept = !measure.name.is_empty() && measure.kind == Kind::Number;
-        let kept = match measure.column.replace('#', "10") {
+        let kept = match measure.column.replace('#', part) {
             column if is_kept && column != name => format!("`{column}`"),
             _ => (if is_kept { "yes" } else { "" }).to_owned(),
         };
@@ -98,7 +100,7 @@ fn every_measure_stands_in_the_docs() {
     let mut text = "# All measures\n\nThis page is written from the declarations of the measures \
         (`crates/spunlaid/src/observe/`). Names are those of `summary.json`, of a velocity record those of \
         `analysis.json`. Studies keep some of them, under the same name or under that of the second column, \
-        which is here of patches of 10 mm. [results.md](results.md) says where they stand.\n"
+        which is here of patches of 10 mm, of strips along MD, and of holes for a disc of a radius of 50 µm. [results.md](results.md) says where they stand.\n"
         .to_owned();
     let mut groups: Vec<Group> = Vec::new();
     let observed = || DECLARED.iter().flat_map(|declaration| declaration.measures);

@@ -1,9 +1,11 @@
 //! The numbers that a study keeps of each replicate: of a fibre, of a web, or of a spinline.
 
 use crate::ensemble::Trajectory;
+use crate::fabric::{ABOUT, Fabric, FabricPatch, PATCHES as FABRIC_PATCHES, RADII};
 use crate::layers::WebSpec;
 use crate::observe::{
-    ErrorRole, Figure, KELVIN, MEASURES, Measure, OF_PATCHES, OF_SPINLINES, OF_WEBS, Unit, with_errors,
+    ErrorRole, Figure, Formula, KELVIN, MEASURES, Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES,
+    OF_PATCHES, OF_SPINLINES, OF_STRIPS, OF_WEBS, Unit, Value, with_errors,
 };
 use crate::spinline::Solution;
 use crate::units::shortest;
@@ -34,11 +36,11 @@ pub struct Quantity {
 }
 
 impl Quantity {
-    /// A declared measure, with the side of the patches in place of `#`.
-    fn new<T>(measure: &'static Measure<T>, side: &str) -> Self {
-        let named = |text: &str| text.replace('#', side);
+    /// A declared measure, of one part of what is measured.
+    fn new<T>(measure: &'static Measure<T>, part: &Part) -> Self {
+        let named = |text: &str| text.replace('#', &part.name);
         let label = match measure.name.contains('#') && !measure.label.contains('#') {
-            true => format!("{}, {side} mm", measure.label),
+            true => format!("{}, {}", measure.label, part.words),
             false => named(measure.label),
         };
         Self {
@@ -55,11 +57,70 @@ impl Quantity {
         }
     }
 
+    /// The standard error that a number of a fabric has by itself.
+    fn error_of(known: &Self) -> Self {
+        let (name, unit) = (known.name.as_str(), known.column.strip_prefix(&known.name).unwrap_or_default());
+        Self {
+            name: format!("{name}_error"),
+            column: format!("{name}_error{unit}"),
+            label: format!("Error of: {}", known.label),
+            meaning: "standard error by chance, from the places of one web",
+            is_main: false,
+            figure: NONE,
+            series: String::new(),
+            errors: Vec::new(),
+            ..known.clone()
+        }
+    }
+
     /// The quantities that are its further errors, which more replicates do not lower, by their indices.
     pub fn further_errors(&self) -> impl Iterator<Item = usize> {
         self.errors.iter().filter(|(role, _)| *role == ErrorRole::Further).map(|(_, index)| *index)
     }
 }
+
+/// The figure of what no figure shows.
+const NONE: &Figure = Measure::<Fabric>::NUMBER.figure;
+
+/// A part of what is measured: the patches of one size, the strips in one direction, the holes of one radius.
+struct Part {
+    /// What stands in names in place of `#`: `10`.
+    name: String,
+    /// The same in labels: `10 mm`.
+    words: String,
+}
+
+impl Part {
+    /// Patches of a side [m].
+    fn patches(side: f64) -> Self {
+        // In millimetres, without the rounding of the file.
+        let name = shortest((side * 1e9).round() / 1e6);
+        Self { words: format!("{name} mm"), name }
+    }
+
+    /// Holes into which a disc of a radius [m] fits.
+    fn holes(radius: f64) -> Self {
+        let name = shortest((radius * 1e9).round() / 1e3);
+        Self { words: format!("{name} µm"), name }
+    }
+
+    /// Strips along MD, or along CD.
+    fn strips(direction: &str) -> Self {
+        Self { name: direction.to_lowercase(), words: direction.to_owned() }
+    }
+
+    /// All that is measured.
+    const fn whole() -> Self {
+        Self { name: String::new(), words: String::new() }
+    }
+}
+
+/// Directions of the strips, in the order of [`Fabric::strips`].
+const DIRECTIONS: [&str; 2] = ["MD", "CD"];
+/// Side of the patches of a fabric that tables show [m]: the clouds that the eye sees first.
+const SHOWN_PATCH: f64 = 10e-3;
+/// Radius of the holes that tables show [m].
+const SHOWN_HOLE: f64 = 50e-6;
 
 /// Whether studies keep a measure.
 fn is_kept<T>(measure: &Measure<T>) -> bool {
@@ -67,37 +128,55 @@ fn is_kept<T>(measure: &Measure<T>) -> bool {
 }
 
 /// Adds the quantities of some measures, each before its errors.
-fn add<T>(all: &mut Vec<Quantity>, measures: &'static [Measure<T>], side: &str) {
+fn add<T>(all: &mut Vec<Quantity>, measures: &'static [Measure<T>], part: &Part) {
     for measure in measures.iter().filter(|measure| is_kept(measure)) {
         let kept = || measure.errors.iter().filter(|error| is_kept(error));
         let first = all.len() + 1;
-        let errors = kept().enumerate().map(|(i, error)| (error.role, first + i)).collect();
-        all.push(Quantity { errors, ..Quantity::new(measure, side) });
-        all.extend(kept().map(|error| Quantity::new(error, side)));
+        let mut known = Quantity::new(measure, part);
+        known.errors = kept().enumerate().map(|(i, error)| (error.role, first + i)).collect();
+        if tells_its_error(measure) {
+            known.errors.push((ErrorRole::OfOne, first));
+            all.extend([known.clone(), Quantity::error_of(&known)]);
+        } else {
+            all.push(known);
+            all.extend(kept().map(|error| Quantity::new(error, part)));
+        }
     }
 }
 
-/// The numbers of some measures, in the order of their quantities; NaN where there is nothing.
-fn numbers<T>(measures: &'static [Measure<T>], found: Option<&T>) -> impl Iterator<Item = f64> {
-    let kept = with_errors(measures).filter(|measure| is_kept(measure));
-    kept.map(move |measure| found.map_or(f64::NAN, |found| measure.number(found)))
+/// Whether the value of a measure comes with its error.
+const fn tells_its_error<T>(measure: &Measure<T>) -> bool {
+    matches!(measure.formula, Formula::Told(_))
+}
+
+/// Adds the numbers of some measures, in the order of their quantities; NaN where there is nothing.
+fn enter<T>(all: &mut Vec<f64>, measures: &'static [Measure<T>], found: Option<&T>) {
+    for measure in with_errors(measures).filter(|measure| is_kept(measure)) {
+        let value = found.and_then(|found| measure.value(found));
+        all.push(value.as_ref().map_or(f64::NAN, Value::number));
+        if tells_its_error(measure) {
+            all.push(value.and_then(|value| value.standard_error()).unwrap_or(f64::NAN));
+        }
+    }
 }
 
 /// The quantities of a fibre.
 pub(super) fn quantities_of_fibres() -> Vec<Quantity> {
-    MEASURES.iter().map(|measure| Quantity::new(measure, "")).collect()
+    MEASURES.iter().map(|measure| Quantity::new(measure, &Part::whole())).collect()
 }
 
 /// The quantities of a spinline.
 pub(super) fn quantities_of_spinlines() -> Vec<Quantity> {
     let mut all = Vec::new();
-    add(&mut all, OF_SPINLINES, "");
+    add(&mut all, OF_SPINLINES, &Part::whole());
     all
 }
 
 /// The numbers of a spinline, in the order of [`quantities_of_spinlines`].
 pub(super) fn measured_of_spinline(found: &Solution) -> Measurements {
-    numbers(OF_SPINLINES, Some(found)).collect()
+    let mut all = Vec::new();
+    enter(&mut all, OF_SPINLINES, Some(found));
+    all.into()
 }
 
 /// The sides of the patches of some webs, each once, the smallest first [m].
@@ -112,24 +191,54 @@ fn is_same(a: f64, b: f64) -> bool {
     (a - b).abs() < 1e-9 * b
 }
 
-/// The quantities of some webs.
+/// The quantities of some webs and of their fabrics.
 pub(super) fn quantities_of_webs<'a>(webs: impl Iterator<Item = &'a WebSpec>) -> Vec<Quantity> {
     let mut all = Vec::new();
     for side in sides(webs) {
-        // In millimetres, without the rounding of the file.
-        add(&mut all, OF_PATCHES, &shortest((side * 1e9).round() / 1e6));
+        add(&mut all, OF_PATCHES, &Part::patches(side));
     }
-    add(&mut all, OF_WEBS, "");
+    add(&mut all, OF_WEBS, &Part::whole());
+    add(&mut all, OF_FABRICS, &Part::whole());
+    let mut add_part = |is_shown: bool, add: &dyn Fn(&mut Vec<Quantity>)| {
+        let first = all.len();
+        add(&mut all);
+        all[first..].iter_mut().for_each(|quantity| quantity.is_main &= is_shown);
+    };
+    for side in FABRIC_PATCHES {
+        add_part(is_same(side, SHOWN_PATCH), &|all| add(all, OF_FABRIC_PATCHES, &Part::patches(side)));
+    }
+    for direction in DIRECTIONS {
+        add_part(true, &|all| add(all, OF_STRIPS, &Part::strips(direction)));
+    }
+    for radius in RADII {
+        add_part(is_same(radius, SHOWN_HOLE), &|all| add(all, OF_HOLES, &Part::holes(radius)));
+    }
     all
 }
 
-/// The numbers of a web, in the order of [`quantities_of_webs`].
+/// The numbers of a web and of its fabric, in the order of [`quantities_of_webs`].
 ///
 /// * `sides` – of the patches of the study [m]
-pub(super) fn measured_of_web(sides: &[f64], found: &Findings) -> Measurements {
-    let of_side =
-        |&side: &f64| numbers(OF_PATCHES, found.patches.iter().find(|patch| is_same(patch.map.patch, side)));
-    sides.iter().flat_map(of_side).chain(numbers(OF_WEBS, Some(found))).collect()
+pub(super) fn measured_of_web(sides: &[f64], found: &Findings, fabric: &Fabric) -> Measurements {
+    let mut all = Vec::new();
+    for &side in sides {
+        enter(&mut all, OF_PATCHES, found.patches.iter().find(|patch| is_same(patch.map.patch, side)));
+    }
+    enter(&mut all, OF_WEBS, Some(found));
+    enter(&mut all, OF_FABRICS, Some(fabric));
+    for side in FABRIC_PATCHES {
+        // Patches of a fabric are of whole cells.
+        let is_it = |patch: &&FabricPatch| (patch.thin.patch / side - 1.0).abs() < ABOUT;
+        enter(&mut all, OF_FABRIC_PATCHES, fabric.patches.iter().find(is_it));
+    }
+    for strips in &fabric.strips {
+        enter(&mut all, OF_STRIPS, strips.as_ref());
+    }
+    for radius in RADII {
+        let holes = fabric.holes.iter().flat_map(|holes| &holes.radii);
+        enter(&mut all, OF_HOLES, holes.into_iter().find(|holes| is_same(holes.radius, radius)));
+    }
+    all.into()
 }
 
 /// The numbers measured on one replicate, in the order of the study's quantities, in SI units and percent.
@@ -198,8 +307,8 @@ mod tests {
     #[test]
     fn the_errors_of_a_cv_follow_it_and_are_known_to_it() {
         let mut all = Vec::new();
-        add(&mut all, OF_SPINLINES, "");
-        add(&mut all, OF_PATCHES, "2.5");
+        add(&mut all, OF_SPINLINES, &Part::whole());
+        add(&mut all, OF_PATCHES, &Part::patches(2.5e-3));
         let errors_of = |name: &str| -> Vec<(ErrorRole, &str)> {
             let quantity = all.iter().find(|quantity| quantity.name == name);
             let errors = quantity.into_iter().flat_map(|quantity| &quantity.errors);

@@ -35,10 +35,12 @@ pub(super) fn lay(
     for Batch { point, replicates } in batches {
         let Some(spec) = points[*point].experiment.web() else { continue };
         for replicate in replicates.clone() {
-            let mut flown = flyer.web(&WebSpec { seed: seed_of_web(spec, replicate), ..spec.clone() })?;
+            let spec = WebSpec { seed: seed_of_web(spec, replicate), ..spec.clone() };
+            let mut flown = flyer.web(&spec)?;
             steps.fetch_add(flown.pieces()?, Ordering::Relaxed);
             let found = flown.measure(LayControl { threads, isa, stop, laid: fibre_steps })?;
-            let outcome = ReplicateOutcome::Measured(measured_of_web(sides, &found));
+            let fabric = spec.fabric(&flown.web, &found, threads);
+            let outcome = ReplicateOutcome::Measured(measured_of_web(sides, &found, &fabric));
             take(Record { point: *point as u64, replicate, outcome })?;
         }
     }

@@ -2,10 +2,13 @@
 
 use crate::web_studies::{study_beside_cases, web_beside_cases};
 use spunlaid::ensemble::RunControl;
+use spunlaid::fabric::{Known, RADII};
 use spunlaid::input::{LaydownSource, WEB_KEYS, WebFile, WebKey, WebSpec};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, Flyer, web_key};
-use spunlaid::observe::{Measure, OF_PATCHES, OF_WEBS, with_errors};
+use spunlaid::observe::{
+    Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES, OF_PATCHES, OF_STRIPS, OF_WEBS, Value, with_errors,
+};
 use spunlaid::study::{Batch, fly_bundle};
 use spunlaid::units::Dimension;
 use spunlaid::web::LayControl;
@@ -38,6 +41,15 @@ cell = "2 mm"
 patches = ["20 mm"]
 edges = "cut"
 seed = 3
+[fabric]
+thickness = "0.3 mm"
+saleable_width = "60 mm"
+strip_width = "20 mm"
+strip_length = "50 mm"
+section = "4 mm"
+contact_angle = "80°"
+measured_opacity = 0.3
+opacity_weight = "15 g/m²"
 "#,
     ),
     (
@@ -120,7 +132,8 @@ fn pair(key: &WebKey, web: &WebSpec) -> [String; 2] {
         _ => 2.0,
     });
     let written = |value: f64| match key.dimension() {
-        Some(Dimension::Ratio) | None => format!("{value:.0}"),
+        Some(Dimension::Ratio) => format!("{value}"),
+        None => format!("{value:.0}"),
         Some(dimension) => format!("'{}'", dimension.exact(value)),
     };
     [there, 2.0 * there].map(written)
@@ -148,7 +161,30 @@ fn measured(spec: &WebSpec) -> Vec<u64> {
         patch_columns().map(move |of| patch.map_or(f64::NAN, |patch| of.number(patch)))
     });
     let of_web = OF_WEBS.iter().map(|of| of.number(&found));
-    patches.chain(of_web).map(f64::to_bits).collect()
+    let fabric = spec.fabric(&flown.web, &found, 1);
+    let mut all: Vec<f64> = patches.chain(of_web).collect();
+    all.extend(told(OF_FABRICS, Some(&fabric)));
+    for side in [1e-3, 2e-3, 5e-3, 10e-3, 20e-3] {
+        let patch = fabric.patches.iter().find(|patch| (patch.thin.patch / side - 1.0).abs() < 0.05);
+        all.extend(told(OF_FABRIC_PATCHES, patch));
+    }
+    all.extend(fabric.strips.iter().flat_map(|strips| told(OF_STRIPS, strips.as_ref())));
+    for radius in RADII {
+        let holes = fabric.holes.as_ref().map(|holes| &holes.radii[..]).unwrap_or_default();
+        all.extend(told(OF_HOLES, holes.iter().find(|holes| holes.radius == radius)));
+    }
+    all.into_iter().map(f64::to_bits).collect()
+}
+
+/// What studies keep of a part of a fabric: each number and its error.
+fn told<T>(measures: &'static [Measure<T>], found: Option<&T>) -> Vec<f64> {
+    let kept = measures.iter().filter(|of| !of.name.is_empty());
+    let number = |of: &Measure<T>| match found.and_then(|found| of.value(found)) {
+        Some(Value::Told(Known::Value(value, error))) => [value, error.unwrap_or(f64::NAN)],
+        Some(value) => [value.number(), f64::NAN],
+        None => [f64::NAN; 2],
+    };
+    kept.flat_map(number).collect()
 }
 
 /// The measures of patches that studies keep, in the order of their columns.

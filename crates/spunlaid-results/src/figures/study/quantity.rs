@@ -59,11 +59,13 @@ impl Group {
         }
     }
 
-    /// Whether it is drawn where there is a figure for each key: the motion across the flow, the unevenness
-    /// of a web, or what a spinline gives.
+    /// Whether it is drawn where there is a figure for each key: the motion across the flow, the unevenness of
+    /// a web and what a buyer sees of it, or what a spinline gives.
     pub(super) fn is_main(&self) -> bool {
         let series: Vec<&str> = self.members.iter().map(|(_, series)| &**series).collect();
-        series == ["*y*", "*z*"] || ["cv", "final_diameter", "final_speed"].contains(&self.figure.name)
+        series == ["*y*", "*z*"]
+            || ["cv", "thin_places", "weakest_section", "holes", "final_diameter", "final_speed"]
+                .contains(&self.figure.name)
     }
 
     /// Leaves out results that apply to no point, as the work check does with implicit tension. None if no

@@ -10,7 +10,6 @@ use crate::units::Dimension;
 pub(super) const KEYS: &[WebKey] = &[
     positive("fabric.thickness", Dimension::Length)
         .access(at!(fabric.thickness))
-        .fixed()
         .follows("no air permeability is told")
         .meaning(
             "Thickness of the finished fabric, between its bonds. The program does not know it: it follows \
@@ -21,7 +20,6 @@ pub(super) const KEYS: &[WebKey] = &[
         .usual(1e-5, 0.1),
     positive("fabric.saleable_width", Dimension::Length)
         .access(at!(fabric.saleable_width))
-        .fixed()
         .follows("all of the web between its edges")
         .meaning(
             "Width in the middle of the web that is sold; what lies beside it is trimmed. What is told of \
@@ -33,7 +31,6 @@ pub(super) const KEYS: &[WebKey] = &[
     quantity("fabric.tolerance", Dimension::Ratio, Sign::Share)
         .access(at!(fabric.tolerance))
         .value("5 %")
-        .fixed()
         .meaning(
             "How far the weight may be from that of the middle half of the web to be sold, with \
              `web.edges = \"cut\"`: the width that is within it is told, and its trim.",
@@ -43,7 +40,6 @@ pub(super) const KEYS: &[WebKey] = &[
     positive("fabric.strip_width", Dimension::Length)
         .access(at!(fabric.strip.width))
         .value("50 mm")
-        .fixed()
         .meaning("Width of a strip of the tensile test, as in ISO 9073-3.")
         .synonyms(&["tensile", "specimen"])
         .label("Width of a strip")
@@ -51,7 +47,6 @@ pub(super) const KEYS: &[WebKey] = &[
     positive("fabric.strip_length", Dimension::Length)
         .access(at!(fabric.strip.length))
         .value("200 mm")
-        .fixed()
         .meaning("Length of a strip between the jaws of the tensile test, as in ISO 9073-3.")
         .synonyms(&["tensile", "gauge length"])
         .label("Length of a strip")
@@ -59,7 +54,6 @@ pub(super) const KEYS: &[WebKey] = &[
     positive("fabric.section", Dimension::Length)
         .access(at!(fabric.strip.section))
         .value("5 mm")
-        .fixed()
         .meaning(
             "Length of a section of a strip. Of each strip the lightest section is looked for, where it \
              would tear if its strength were that of its fibres.",
@@ -69,7 +63,6 @@ pub(super) const KEYS: &[WebKey] = &[
         .usual(1e-4, 0.1),
     positive("fabric.contact_angle", Dimension::Angle)
         .access(at!(fabric.contact_angle))
-        .fixed()
         .follows("no hydrohead is told")
         .meaning(
             "Angle at which the edge of water meets the polymer, above 90°; that of clean polypropylene is \
@@ -81,14 +74,12 @@ pub(super) const KEYS: &[WebKey] = &[
     positive("fabric.pressure", Dimension::Pressure)
         .access(at!(fabric.pressure))
         .value("200 Pa")
-        .fixed()
         .meaning("Pressure that drives air through the fabric in the test, as in ISO 9073-15.")
         .synonyms(&["air permeability", "porosity"])
         .label("Pressure of the air")
         .usual(1.0, 1e4),
     quantity("fabric.measured_opacity", Dimension::Ratio, Sign::Share)
         .access(at!(fabric.measured_opacity))
-        .fixed()
         .follows("no opacity is told")
         .meaning(
             "Opacity (ISO 2471) that was measured of a fabric of the same filaments. Pigment and titre are \
@@ -99,7 +90,6 @@ pub(super) const KEYS: &[WebKey] = &[
         .usual(0.01, 0.99),
     positive("fabric.opacity_weight", Dimension::BasisWeight)
         .access(at!(fabric.opacity_weight))
-        .fixed()
         .follows("that of this web")
         .meaning("Basis weight of the fabric whose opacity was measured.")
         .label("Basis weight of the measured opacity")
