@@ -7,7 +7,7 @@ use crate::value::overrides;
 use crate::watched::{LOOK, Watch, read_file, watched};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyBytes, PyDict};
 use spunlaid::advice::{Advice, Change, advise, are_tried, steps};
 use spunlaid::case::Note;
 use spunlaid::error::{Error, FileKind};
@@ -20,7 +20,7 @@ use spunlaid::web::{Findings, LayControl, Map};
 use spunlaid_results::Failure;
 use spunlaid_results::folders::Contents;
 use spunlaid_results::folders::web::{WebFolder, notes};
-use spunlaid_results::output::web::Performance;
+use spunlaid_results::output::web::{Performance, specification_sheet};
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
@@ -214,6 +214,15 @@ impl LaidWeb {
     #[getter]
     fn patches<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         patch_columns(py, &self.findings.patches, OF_PATCHES, |patch| (patch.map.patch, patch.interval()))
+    }
+
+    /// The specification sheet, as PDF.
+    fn specification<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let watch = Watch::default();
+        let page = watched(py, &watch, None, || {
+            specification_sheet(&self.name, (&self.findings, &self.fabric), &self.notes)
+        })?;
+        Ok(PyBytes::new(py, &page))
     }
 
     /// Writes the folder that `spunlaid web` writes.

@@ -86,6 +86,7 @@ pub mod energy;
 
 pub mod statistics;
 
+pub mod claim;
 pub mod effects;
 
 pub mod laydown;

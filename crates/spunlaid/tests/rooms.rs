@@ -24,7 +24,7 @@ const ROOMS: &[&[&str]] = &[
     &["chain"],
     &["energy"],
     &["statistics"],
-    &["effects"],
+    &["claim", "effects"],
     &["laydown", "surrogate"],
     &["record", "web"],
     &["curtain", "scan"],

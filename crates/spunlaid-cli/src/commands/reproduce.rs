@@ -7,13 +7,14 @@ use crate::failure::Failure;
 use crate::progress;
 use spunlaid::case::Case;
 use spunlaid::chain::schemes::Scheme;
+use spunlaid::claim::Claim;
 use spunlaid::ensemble::{
     Keep, KeepShapes, Number, Place, Results, RunControl, SpectrumPoint, fly, turbulence_spectrum,
     velocity_record,
 };
 use spunlaid::error::Fault;
 use spunlaid::paper::{
-    Claim, Parameter, TrendPoint, choices as choices_of_the_paper, claims_of_step_errors, claims_of_trend,
+    Parameter, TrendPoint, choices as choices_of_the_paper, claims_of_step_errors, claims_of_trend,
     in_scheme, table1, time_steps,
 };
 use spunlaid::study::{Journal, PointResults, Progress, Replicates, Study, results_of_point, run};

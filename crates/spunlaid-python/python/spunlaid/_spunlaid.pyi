@@ -235,6 +235,7 @@ class LaidWeb(_Results):
     cell: Final[float]
     map: Final[_Floats]
     patches: Final[dict[str, _Floats]]
+    def specification(self) -> bytes: ...
 
 @final
 class WebFlight:

@@ -47,6 +47,13 @@ class Web(Sheet):
         names = ["distance_m", "correlation_md", "correlation_md_se", "correlation_cd", "correlation_cd_se"]
         return {name: np.array([entry[name] for entry in entries], dtype=float) for name in names}
 
+    def specification(self) -> bytes:
+        """The specification sheet, one page of PDF: every number of the web and of its fabric with its error, as `spunlaid web --sheet`
+        writes it."""
+        if isinstance(self._computed, Kept):
+            raise ValueError("a web that has been pickled has no specification sheet; ask for it where it was laid")
+        return self._computed.specification()
+
 
 def web(
     web: str | os.PathLike[str] | Mapping[str, Any],

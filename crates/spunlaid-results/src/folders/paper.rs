@@ -8,7 +8,7 @@ use crate::output::versioned_json;
 use crate::report::paper_report;
 use serde_json::json;
 use spunlaid::case::Case;
-use spunlaid::paper::Claim;
+use spunlaid::claim::Claim;
 use spunlaid_charts::Figure;
 
 /// Everything of the paper that goes into the files.

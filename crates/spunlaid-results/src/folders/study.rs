@@ -13,9 +13,10 @@ use crate::output::table::TABLES;
 use crate::output::{self};
 use crate::report::study_report;
 use spunlaid::case::MOST_REPLICATES;
+use spunlaid::claim::Claim;
 use spunlaid::error::Fault;
 use spunlaid::input::{StudyFile, StudyNote, differences};
-use spunlaid::study::{Experiment, Header, Journal, JournalState, PointResults, Rankings, rankings};
+use spunlaid::study::{Experiment, Header, Journal, JournalState, PointResults, Rankings, judge, rankings};
 use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
@@ -101,7 +102,8 @@ pub fn write<'f>(
     let staging = folder.staging::<FoundStudy<'_>>()?;
     let results = output::study::write(&staging, &file.study, journal)?;
     let rankings = rankings(&file.study, journal)?;
-    let found = FoundStudy { name: name.to_owned(), file, results, rankings };
+    let claims = judge(&file.study, &results, &rankings.of_measures, journal)?;
+    let found = FoundStudy { name: name.to_owned(), file, results, rankings, claims };
     let text = folder.finish(staging, &found, making)?;
     Ok((found, text))
 }
@@ -137,6 +139,7 @@ pub struct FoundStudy<'a> {
     /// The results of each point.
     pub results: Vec<PointResults>,
     rankings: Rankings,
+    claims: Vec<Claim>,
 }
 
 impl FoundStudy<'_> {
@@ -159,13 +162,13 @@ impl Contents for FoundStudy<'_> {
     }
 
     fn write_summary(&self, to: &mut dyn Write) -> io::Result<()> {
-        write_json(to, &self.file.study, &self.results, &self.rankings)
+        write_json(to, &self.file.study, &self.results, (&self.rankings, &self.claims))
     }
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
         let (StudyFile { study, text, base_text, notes, .. }, refusal) = (self.file, self.refusal());
         let figures = study_figures(study, &self.results, &self.rankings.of_measures);
-        let told = (&self.rankings.of_measures[..], refusal.as_deref());
+        let told = (&self.rankings.of_measures[..], refusal.as_deref(), &self.claims[..]);
         let report = || Ok(study_report(study, &self.results, told, &figures, [text, base_text]));
         maker.finish((&self.name, &StudyNote::notes_of_results(notes)), &figures, |_| Ok(()), report)
     }

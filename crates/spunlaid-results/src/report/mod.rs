@@ -9,6 +9,7 @@
 
 mod air;
 mod analysis;
+mod claims;
 mod comparison;
 mod document;
 mod effects;

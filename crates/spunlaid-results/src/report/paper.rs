@@ -1,10 +1,11 @@
 //! The report of `spunlaid reproduce`: the paper's claims with evidence and verdict, its figures, its choices.
 
+use super::claims::{claim_table, claims_in_short};
 use super::document::{Report, Section};
 use super::methods::{case_account, methods};
-use super::table::{Cell, Row, Table, Tone};
+use super::table::{Row, Table};
 use spunlaid::case::Case;
-use spunlaid::paper::{Claim, Verdict};
+use spunlaid::claim::{Claim, Verdict};
 use spunlaid_charts::Figure;
 
 /// What the paper claims, and what was found.
@@ -27,7 +28,8 @@ pub fn paper_report<'a>(
     let found = [how.to_owned(), format!("{headline}.")];
     let mut report = Report::new("reproduce", headline).lead(how);
     if !claims.is_empty() {
-        report = report.with(Section::new("claims", "Claim by claim").table(claim_table(claims)).caption(
+        let table = claim_table(claims, "What the paper says");
+        report = report.with(Section::new("claims", "Claim by claim").table(table).caption(
             "The program computes the verdicts from the data. A trend is almost linear if a straight line \
             explains 97\u{202f}% of the variance. A difference is real if it is larger than three standard \
             errors. A step in the wrong direction counts against a trend if it is larger than 2.5 standard \
@@ -35,11 +37,7 @@ pub fn paper_report<'a>(
             are too large to decide; more replicates would help.",
         ));
     }
-    let verdict = |claim: &Claim| {
-        let name = format!("{:<4} {:<13} {}", claim.figure, claim.verdict.name(), claim.claim);
-        (name, claim.evidence.clone())
-    };
-    report = report.with(Section::new("", "Claims").on_terminal().descriptions(claims.iter().map(verdict)));
+    report = report.with(claims_in_short(claims));
     if !choices.is_empty() {
         let heads = [
             "Choice",
@@ -58,18 +56,4 @@ pub fn paper_report<'a>(
         .paragraph("Table 1 of the paper with every default filled in.")
         .file("case-toml", toml);
     report.with(Section::of_figures(figures)).with(methods("reproduce", case_account(case), found)).with(file)
-}
-
-fn claim_table(claims: &[Claim]) -> Table {
-    let row = |claim: &Claim| {
-        let tone = match claim.verdict {
-            Verdict::Holds => Tone::Good,
-            Verdict::Fails => Tone::Bad,
-            Verdict::Open => Tone::Open,
-        };
-        let said = [claim.claim, &claim.evidence].map(Cell::from);
-        let verdict = Cell::new(claim.verdict.name(), tone);
-        Row::new(format!("Figure {}", claim.figure), said.into_iter().chain([verdict]))
-    };
-    Table::new([""]).sentences(["What the paper says", "Evidence", "Verdict"]).rows(claims.iter().map(row))
 }

@@ -1,5 +1,6 @@
 //! The report of a study: question, ranking, figures and points. It does not depend on the time of computation.
 
+use super::claims::{claim_table, claims_in_short};
 use super::document::{Report, Section};
 use super::effects::effect_cell;
 use super::methods::{Account, case_account, methods, web_account};
@@ -9,6 +10,7 @@ use super::words::count;
 use crate::figures::name_of_key;
 use crate::numbers::{THIN, number};
 use crate::output::study::shown;
+use spunlaid::claim::Claim;
 use spunlaid::effects::Effect;
 use spunlaid::statistics::Difference;
 use spunlaid::study::{Contrast, Design, Experiment, PointResults, Quantity, Ranking, Study};
@@ -22,12 +24,12 @@ const MOST_VALUES: usize = 12;
 /// A study.
 ///
 /// * `results` – of every point
-/// * `rankings` – main effects; empty if the study cannot tell them, and why
+/// * `rankings`, `claims` – main effects; empty if the study cannot tell them, and why; and claims, judged
 /// * `texts` – the study as a file, and the case or web that it varies
 pub fn study_report<'a>(
     study: &Study,
     results: &[PointResults],
-    (rankings, refusal): (&[Ranking], Option<&str>),
+    (rankings, refusal, claims): (&[Ranking], Option<&str>, &[Claim]),
     figures: &'a [Figure],
     texts: [&str; 2],
 ) -> Report<'a> {
@@ -38,10 +40,21 @@ pub fn study_report<'a>(
         None => (question, String::new()),
     };
     let effects = effects(study, rankings);
+    let judged = (!claims.is_empty()).then(|| {
+        let section = Section::new("claims", "Claim by claim").table(claim_table(claims, "What is claimed"));
+        section.caption(
+            "The program judges the claims of the study file by the results. A factor matters more, and ends \
+            differ, by more than three standard errors. A step in the wrong direction counts against a rise or a \
+            fall if it is larger than 2.5. “Open” means that the errors are too large to decide; more \
+            replicates would help.",
+        )
+    });
     Report::new("sweep", title)
         .lead(format!("{asked}{}", summary(study, results)))
         .lead(phases(study))
         .with(points_in_short(study, results))
+        .with_all((!claims.is_empty()).then(|| claims_in_short(claims)))
+        .with_all(judged)
         .with_all(ranking(study, rankings, refusal))
         .with(Section::of_figures(figures))
         .with(points(study, results))

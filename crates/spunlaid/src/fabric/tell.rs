@@ -121,6 +121,9 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
     let map = map.as_ref();
     let corner = first as f64 * map.cell;
     let mut notes = Vec::new();
+    if keys.holes == Some(false) {
+        notes.push("holes are not counted: fabric.holes = false".to_owned());
+    }
     let filaments = of_this_weight(&laid.filaments, map.basis_weight());
     let (length, diameter) = lengths(&filaments);
     let whole = |patch: f64| {

@@ -308,7 +308,9 @@ impl WebSpec {
         let thinnest = self.layers.iter().map(|layer| layer.diameter).fold(f64::INFINITY, f64::min);
         let side = COUNTED.min(COUNTED_DIAMETERS * thinnest);
         let size = (side, COUNTED_MARGIN * side);
-        Windows { shown: self.window(), counted: WindowLattice::new(&self.sheet, size, COUNTED_WINDOWS) }
+        let is_counted = self.fabric.holes != Some(false);
+        let lattice = || WindowLattice::new(&self.sheet, size, COUNTED_WINDOWS);
+        Windows { shown: self.window(), counted: if is_counted { lattice() } else { None } }
     }
 
     /// The web, once the fibres of each layer are known, in their order.

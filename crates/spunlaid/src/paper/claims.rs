@@ -2,70 +2,13 @@
 
 use super::fits::{Spot, line, significance, slopes, worst_step_back};
 use super::{LateralEstimates, Parameter, TrendPoint};
+use crate::claim::{CHANCE, Claim, REAL, Verdict};
+use std::borrow::Cow;
 
 /// Share of the variance that a straight line must explain for a trend to count as almost linear.
 const ALMOST_LINEAR: f64 = 0.97;
-/// Number of standard errors from which a difference counts as significant.
-const REAL: f64 = 3.0;
-/// Number of standard errors up to which a step in the wrong direction counts as chance.
-const CHANCE: f64 = 2.5;
 /// Largest relative change that counts as "nearly constant".
 const NEARLY: f64 = 0.1;
-
-/// Whether a claim holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
-    /// The data support it.
-    Holds,
-    /// The data contradict it.
-    Fails,
-    /// The errors are too large to decide. More replicates would help.
-    Open,
-}
-
-impl Verdict {
-    /// The verdict in words.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Holds => "holds",
-            Self::Fails => "does not hold",
-            Self::Open => "open",
-        }
-    }
-
-    fn new(holds: bool) -> Self {
-        if holds { Self::Holds } else { Self::Fails }
-    }
-
-    /// Of a difference in standard errors, which the claim says is above zero.
-    fn of_difference(difference: f64) -> Self {
-        match difference {
-            _ if difference > REAL => Self::Holds,
-            _ if difference < -REAL => Self::Fails,
-            _ => Self::Open,
-        }
-    }
-}
-
-/// Written as its name.
-impl serde::Serialize for Verdict {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.name())
-    }
-}
-
-/// A claim of the paper about a figure.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
-pub struct Claim {
-    /// The figure.
-    pub figure: &'static str,
-    /// The claim.
-    pub claim: &'static str,
-    /// The numbers for or against it.
-    pub evidence: String,
-    /// The verdict.
-    pub verdict: Verdict,
-}
 
 /// How amplitude [mm] and frequency [Hz] depend on a parameter.
 struct Trend {
@@ -116,7 +59,7 @@ pub fn claims_of_trend(parameter: Parameter, points: &[TrendPoint]) -> Vec<Claim
     let (figure, trend) = (parameter.figure(), Trend { amplitude, frequency });
     let judge = |(claim, judge): &Judged| {
         let (evidence, verdict) = judge(&trend);
-        Claim { figure, claim, evidence, verdict }
+        Claim { figure, claim: Cow::Borrowed(claim), evidence, verdict }
     };
     parameter.claims().iter().map(judge).collect()
 }
@@ -135,15 +78,15 @@ pub fn claims_of_step_errors(errors: &[(f64, f64, f64)]) -> Vec<Claim> {
     vec![
         Claim {
             figure: "8b",
-            claim: "A time step of 1 µs gives an error of less than 1 %.",
+            claim: Cow::Borrowed("A time step of 1 µs gives an error of less than 1 %."),
             evidence: format!("{last:.4} % at the end, {median:.4} % in the median over time"),
-            verdict: Verdict::new(last < 1.0 && median < 1.0),
+            verdict: Verdict::of(last < 1.0 && median < 1.0),
         },
         Claim {
             figure: "8b",
-            claim: "The error falls with the time step, in proportion.",
+            claim: Cow::Borrowed("The error falls with the time step, in proportion."),
             evidence: format!("median error ∝ h^{order:.2} over {} steps", errors.len()),
-            verdict: Verdict::new((order - 1.0).abs() < 0.2),
+            verdict: Verdict::of((order - 1.0).abs() < 0.2),
         },
     ]
 }

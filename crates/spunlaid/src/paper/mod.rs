@@ -7,7 +7,7 @@
 mod claims;
 mod fits;
 
-pub use claims::{Claim, Verdict, claims_of_step_errors, claims_of_trend};
+pub use claims::{claims_of_step_errors, claims_of_trend};
 
 use crate::case::{Case, ERROR_TOLERANCE};
 use crate::chain::schemes::Scheme;

@@ -16,7 +16,7 @@ pub(crate) const RANGE: &str = "range";
 /// The keys of a study.
 pub static STUDY: KeyTable<Study> = KeyTable {
     rows: KEYS,
-    tables: &["set", "vary", "link", "replicates", "replicates.until"],
+    tables: &["set", "vary", "link", "replicates", "replicates.until", "claims"],
     lists: &[],
     noun: "a study",
     file: "a study file",
@@ -88,6 +88,12 @@ const KEYS: &[Key<Study>] = &[
         .told(|_: &Study| None)
         .follows("none is linked")
         .meaning("A key that follows from others by a formula."),
+    key("claims.*", Kind::Text("amplitude_y: air.velocity > 5 * fibre.density"))
+        .told(|_: &Study| None)
+        .follows("nothing is judged")
+        .meaning(
+            "A claim in a sentence, and how it is judged: `RESULT: KEY > 5 * OTHER KEY` that a key moves the             result by more than five times what the other one does, over their ranges; `RESULT: KEY rises`,             `falls` or `turns` how the result follows a key, the others as at the first point.",
+        ),
     key("replicates.at_least", Kind::Whole(2, MOST_REPLICATES))
         .told(|study: &Study| (!study.replicates.until.is_empty()).then(|| study.replicates.at_least.into()))
         .follows("8, or `at_most` if that is less")

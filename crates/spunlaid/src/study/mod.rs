@@ -12,6 +12,7 @@
 //! [`run`] makes the replicates that the journal does not hold yet. The record of a replicate has the same bits for any
 //! number of threads, any packing and any interruption, and equals the result of `ensemble::fly` or `web::measure`.
 
+mod claims;
 mod design;
 mod effects;
 mod experiment;
@@ -25,6 +26,7 @@ mod sobol;
 mod spinlines;
 mod webs;
 
+pub use claims::{Statement, StudyClaim, Way, judge};
 pub use design::{Design, Factor, Levels, Spacing};
 pub use effects::{Contrast, Ranking, Rankings, Refusal, Term, rankings};
 pub use experiment::Experiment;
@@ -62,6 +64,8 @@ pub struct Study {
     pub points: Vec<Point>,
     /// The numbers that are kept of each replicate.
     pub quantities: Vec<Quantity>,
+    /// What is claimed of its results.
+    pub claims: Vec<StudyClaim>,
 }
 
 /// A key that follows from other keys by a formula.
@@ -159,6 +163,7 @@ impl Study {
             replicates,
             points: cases.into_iter().map(point).collect(),
             quantities: measures::quantities_of_fibres(),
+            claims: Vec::new(),
         }
     }
 

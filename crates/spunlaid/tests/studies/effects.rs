@@ -3,8 +3,11 @@
 use crate::short;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
+use spunlaid::claim::Verdict::{self, Fails, Holds, Open};
 use spunlaid::observe::MEASURES;
-use spunlaid::study::{Journal, Record, ReplicateOutcome, Study, rankings};
+use spunlaid::study::{
+    Journal, PointResults, Record, ReplicateOutcome, Study, judge, rankings, results_of_point,
+};
 
 /// The case is never flown; its intensity is in the middle of the range that the studies vary.
 fn study(text: &str) -> Study {
@@ -321,4 +324,86 @@ fn words_that_vary_with_another_key_are_refused_with_the_reason() {
         "{paired}drag.across = ['ju-shambaugh', 'ju-shambaugh', 'marheineke-wegener', 'marheineke-wegener']"
     ));
     assert!(said.contains("drag.along and drag.across vary together"), "{said}");
+}
+
+/// Verdicts on claims about a result that follows a model of velocity, diameter and intensity, with noise that
+/// all points share and a little of their own.
+fn verdicts(model: Model, own: f64, claims: &[&str]) -> Vec<Verdict> {
+    let text: Vec<String> =
+        (0..).zip(claims).map(|(i, claim)| format!("'{i}' = 'amplitude_y: {claim}'\n")).collect();
+    let text = format!(
+        "case = 'case.toml'\ndesign = 'one-at-a-time'\nreplicates = 20\n[vary]\n\
+         'air.velocity' = {{ from = '5 m/s', to = '15 m/s', steps = 5 }}\n\
+         'fibre.diameter' = {{ from = '25 µm', to = '100 µm', spacing = 'log', steps = 5 }}\n\
+         'air.turbulence_intensity' = {{ from = 0.05, to = 0.25, steps = 5 }}\n[claims]\n{}",
+        text.concat()
+    );
+    let study = study(&text);
+    assert_eq!(study.claims.len(), claims.len());
+    let noise = Noise { fibre: own, replicate: 5.0, slopes: 0.0 };
+    let mut journal = flown(&study, 20, model, noise, 7);
+    let results: Vec<PointResults> =
+        (0..study.points.len()).map(|point| results_of_point(&study, &mut journal, point).unwrap()).collect();
+    let rankings = rankings(&study, &mut journal).unwrap().of_measures;
+    let judged = judge(&study, &results, &rankings, &mut journal).unwrap();
+    judged.iter().map(|claim| claim.verdict).collect()
+}
+
+/// Noise that all points share is many times larger than the steps, and does not hide them.
+#[test]
+fn analytic_verdicts_on_claims_about_known_results() {
+    const OF_EFFECTS: [&str; 4] = [
+        "air.velocity > fibre.diameter",
+        "air.velocity > 2.5 * fibre.diameter",
+        "air.velocity > 3.5 * fibre.diameter",
+        "fibre.diameter > air.turbulence_intensity",
+    ];
+    assert_eq!(verdicts(STRAIGHT, 0.05, &OF_EFFECTS), [Holds, Holds, Fails, Holds]);
+    assert_eq!(verdicts(STRAIGHT, 50.0, &OF_EFFECTS)[1], Open);
+    const OF_WAYS: [&str; 4] =
+        ["air.velocity rises", "fibre.diameter falls", "fibre.diameter rises", "air.velocity turns"];
+    assert_eq!(verdicts(STRAIGHT, 0.05, &OF_WAYS), [Holds, Holds, Fails, Fails]);
+    // 3 x + 2 x² has its least value at −3/4, between the first two points; −x − 3 x² its greatest at −1/6.
+    assert_eq!(
+        verdicts(
+            |x| 3.0 * x[0] + 6.0 * x[0] * x[0] - x[1] - 3.0 * x[1] * x[1],
+            0.05,
+            &[
+                "air.velocity turns",
+                "fibre.diameter turns",
+                "fibre.diameter falls",
+                "air.turbulence_intensity turns",
+            ]
+        ),
+        [Holds, Holds, Fails, Open]
+    );
+    assert_eq!(verdicts(STRAIGHT, 50.0, &["fibre.diameter falls"]), [Open]);
+}
+
+#[test]
+fn rejects_claims_that_cannot_be_judged() {
+    let refused = |claim: &str| {
+        let text = format!(
+            "case = 'case.toml'\ndesign = 'grid'\nreplicates = 2\n[vary]\n'air.velocity' = ['5 m/s', '6 m/s']\n\
+             [claims]\n'It grows.' = '{claim}'\n"
+        );
+        let base = |_: &str, _| Ok((short::SHORT.to_owned(), "case.toml".to_owned()));
+        spunlaid::input::parse_study(&text, "study.toml", None, base).unwrap_err().to_string()
+    };
+    for (claim, said) in [
+        ("grows", "names no result"),
+        ("amplitude_u: air.velocity rises", "did you mean amplitude_y"),
+        (
+            "amplitude_y: air.velocity grows",
+            "says nothing that can be judged; write `RESULT: KEY > 5 * OTHER KEY`",
+        ),
+        (
+            "amplitude_y: fibre.diameter rises",
+            "names a key that does not vary here; the keys are air.velocity",
+        ),
+        ("amplitude_y: air.velocity > x * air.velocity", "has no number above zero before `*`"),
+    ] {
+        let message = refused(claim);
+        assert!(message.contains(said) && message.contains("It grows."), "{message}");
+    }
 }

@@ -2,7 +2,7 @@
 
 use crate::web_studies::{study_beside_cases, web_beside_cases};
 use spunlaid::ensemble::RunControl;
-use spunlaid::fabric::{Known, RADII};
+use spunlaid::fabric::{FabricKeys, Known, RADII};
 use spunlaid::input::{LaydownSource, WEB_KEYS, WebFile, WebKey, WebSpec};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, Flyer, web_key};
@@ -42,6 +42,7 @@ patches = ["20 mm"]
 edges = "cut"
 seed = 3
 [fabric]
+holes = false
 thickness = "0.3 mm"
 saleable_width = "60 mm"
 strip_width = "20 mm"
@@ -99,6 +100,8 @@ width = "300 mm"
 length = "300 mm"
 cell = "2 mm"
 patches = ["20 mm"]
+[fabric]
+holes = true
 "#,
     ),
 ];
@@ -161,7 +164,9 @@ fn measured(spec: &WebSpec) -> Vec<u64> {
         patch_columns().map(move |of| patch.map_or(f64::NAN, |patch| of.number(patch)))
     });
     let of_web = OF_WEBS.iter().map(|of| of.number(&found));
-    let fabric = spec.fabric(&flown.web, &found, 1);
+    let holes = Some(spec.fabric.holes.unwrap_or(false));
+    let fabric = WebSpec { fabric: FabricKeys { holes, ..spec.fabric }, ..spec.clone() };
+    let fabric = fabric.fabric(&flown.web, &found, 1);
     let mut all: Vec<f64> = patches.chain(of_web).collect();
     all.extend(told(OF_FABRICS, Some(&fabric)));
     for side in [1e-3, 2e-3, 5e-3, 10e-3, 20e-3] {

@@ -5,6 +5,7 @@ use super::super::table::Value;
 use super::columns::values;
 use serde::Serialize;
 use serde_json::Value as Json;
+use spunlaid::claim::Claim;
 use spunlaid::effects::Effect;
 use spunlaid::study::{Contrast, PointResults, Ranking, Rankings, Study};
 use std::io::Write;
@@ -54,7 +55,7 @@ pub fn write_json(
     out: &mut dyn Write,
     study: &Study,
     results: &[PointResults],
-    rankings: &Rankings,
+    (rankings, claims): (&Rankings, &[Claim]),
 ) -> std::io::Result<()> {
     let ranking = |ranking: &Ranking| {
         let explained = Some(ranking.explained).filter(|share| share.is_finite());
@@ -75,6 +76,10 @@ pub fn write_json(
     serde_json::to_writer(&mut *out, &ranking)?;
     out.write_all(b",\n\"refusal\": ")?;
     serde_json::to_writer(&mut *out, &refusal)?;
+    if !claims.is_empty() {
+        out.write_all(b",\n\"claims\": ")?;
+        serde_json::to_writer(&mut *out, claims)?;
+    }
     out.write_all(b"\n}\n")
 }
 

@@ -2,6 +2,7 @@
 
 mod base;
 mod changes;
+mod claims;
 mod design;
 mod differences;
 mod fit;

@@ -10,7 +10,7 @@ use super::{Base, StudyChanges, links};
 use crate::case::keys::{self, Kind};
 use crate::error::{Fault, FileKind, Finding};
 use crate::layers::full_names::{are_alternatives, is_replaced};
-use crate::study::{Design, Factor, Link, MOST_REPLICATES, Point, Quantity, Replicates, Study};
+use crate::study::{Design, Factor, Link, MOST_REPLICATES, Point, Quantity, Replicates, Study, StudyClaim};
 use toml::de::DeValue;
 
 /// A study before its points are made.
@@ -25,19 +25,20 @@ pub(super) struct Plan {
     /// Their results are indices into the quantities.
     pub(super) replicates: Replicates,
     pub(super) quantities: Vec<Quantity>,
+    pub(super) claims: Vec<StudyClaim>,
 }
 
 impl Plan {
     pub(super) fn study(self, points: Vec<Point>) -> Study {
-        let Self { factors, links, design, seed, common_phases, mut replicates, quantities: before, .. } =
-            self;
+        let Self { factors, links, design, seed, common_phases, mut replicates, claims, .. } = self;
+        let before = self.quantities;
         let quantities = Study::quantities_of(&points);
         // Points may have patches that the web before them has not.
         for (index, _) in &mut replicates.until {
             let is_same = |quantity: &Quantity| quantity.name == before[*index].name;
             *index = quantities.iter().position(is_same).unwrap_or(*index);
         }
-        Study { factors, links, design, seed, common_phases, replicates, points, quantities }
+        Study { factors, links, design, seed, common_phases, replicates, points, quantities, claims }
     }
 }
 
@@ -122,6 +123,7 @@ impl Reader<'_> {
         }
         let factors = self.factors(design, base);
         let links = self.links(&factors, base);
+        let claims = self.claims(&factors, &base.quantities());
         self.check_once(base, set, &factors, &links);
         if self.problems() > 0 {
             return None;
@@ -141,6 +143,7 @@ impl Reader<'_> {
             common_phases,
             replicates,
             quantities: base.quantities(),
+            claims,
         })
     }
 }

@@ -1,7 +1,7 @@
 //! Writes a study as a file, with every default.
 
 use super::super::FORMAT_VERSION;
-use super::super::write::{in_lines, lines};
+use super::super::write::{in_lines, lines, quoted};
 use crate::study::{Factor, Levels, Replicates, STUDY, Study};
 use crate::units::shortest;
 use std::fmt::Write;
@@ -27,6 +27,12 @@ pub(super) fn write_study(study: &Study, set: &[(String, String)]) -> String {
         text.push_str("\n[link]\n");
         for link in &study.links {
             let _ = writeln!(text, "\"{}\" = \"{}\"", link.key, link.expression.text());
+        }
+    }
+    if !study.claims.is_empty() {
+        text.push_str("\n[claims]\n");
+        for claim in &study.claims {
+            let _ = writeln!(text, "{} = {}", quoted(&claim.sentence), quoted(&claim.text));
         }
     }
     text

@@ -2,8 +2,8 @@
 
 use super::super::access::{Access, WebKey};
 use super::positive;
-use crate::case::keys::Sign;
-use crate::case::keys::row::{at, quantity};
+use crate::case::keys::row::{at, key, quantity};
+use crate::case::keys::{Kind, Sign};
 use crate::units::Dimension;
 
 /// In the order of the file.
@@ -37,6 +37,17 @@ pub(super) const KEYS: &[WebKey] = &[
         )
         .label("Tolerance of the weight")
         .usual(1e-3, 0.5),
+    key("fabric.holes", Kind::Switch)
+        .access(at!(fabric.holes))
+        .fixed()
+        .follows("they are counted, but not in the webs of a study")
+        .meaning(
+            "Whether holes are counted, in windows in which each fibre is drawn with its true width: they take \
+             some two seconds of a processor. Without them there is no bare area, no largest hole and no \
+             hydrohead.",
+        )
+        .synonyms(&["pinhole", "pore", "porosity"])
+        .label("Count of holes"),
     positive("fabric.strip_width", Dimension::Length)
         .access(at!(fabric.strip.width))
         .value("50 mm")
