@@ -392,7 +392,7 @@ fn rejects_claims_that_cannot_be_judged() {
     };
     for (claim, said) in [
         ("grows", "names no result"),
-        ("amplitude_u: air.velocity rises", "did you mean amplitude_y"),
+        ("amplitud_y: air.velocity rises", "did you mean amplitude_y"),
         (
             "amplitude_y: air.velocity grows",
             "says nothing that can be judged; write `RESULT: KEY > 5 * OTHER KEY`",

@@ -123,7 +123,9 @@ impl Reader<'_> {
         }
         let factors = self.factors(design, base);
         let links = self.links(&factors, base);
-        let claims = self.claims(&factors, &base.quantities());
+        // A key that is wrong where it varies would be told once more by each claim.
+        let is_sound = self.problems() == 0;
+        let claims = if is_sound { self.claims(&factors, &base.quantities()) } else { Vec::new() };
         self.check_once(base, set, &factors, &links);
         if self.problems() > 0 {
             return None;
