@@ -4,7 +4,7 @@ use crate::normal::normal;
 use spunlaid::record::{Analysis, Record, Samples, Settings, analyse};
 
 /// Records of each kind and length: the share of them that holds a value scatters by 0.6 to 0.9 %.
-const SEEDS: u64 = 1200;
+const SEEDS: u64 = 800;
 /// Integral time [s].
 const TAU: f64 = 5e-3;
 /// Samples in an integral time.

@@ -100,8 +100,6 @@ width = "300 mm"
 length = "300 mm"
 cell = "2 mm"
 patches = ["20 mm"]
-[fabric]
-holes = true
 "#,
     ),
 ];
@@ -204,7 +202,12 @@ fn patch_columns() -> impl Iterator<Item = &'static Measure<PatchFindings>> {
 fn together(text: &str, key: &str, values: &[String; 2]) -> Result<[Vec<u64>; 2], String> {
     let [a, b] = values;
     let study = format!("web = 'web.toml'\ndesign = 'grid'\n[vary]\n{key} = [{a}, {b}]\n");
-    let study = study_beside_cases(text, &study, &[]).map_err(|error| error.to_string())?.study;
+    of_study(text, &study, key)
+}
+
+/// What the two points of a study give, or why it is refused.
+fn of_study(text: &str, study: &str, key: &str) -> Result<[Vec<u64>; 2], String> {
+    let study = study_beside_cases(text, study, &[]).map_err(|error| error.to_string())?.study;
     assert_ne!(study.points[0].experiment, study.points[1].experiment, "{key} is not set");
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing =
@@ -258,6 +261,25 @@ fn identical_alone_and_in_a_study_for_every_key_of_a_web() {
         assert!(varied.contains(full), "{full}: {varied:?}");
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Without being asked a study counts none; a dense web has few large ones, which are found soonest.
+#[test]
+fn holes_are_counted_in_a_study_that_asks_for_them() {
+    let text = WEBS[0].1.split("rows = [").next().unwrap().to_owned()
+        + "filaments_per_metre = 4000\n[web]\nwidth = '100 mm'\nlength = '100 mm'\ncell = '1 mm'\n\
+           patches = ['10 mm']\n";
+    let (key, values) = ("laydown.sigma_md", ["'9 mm'", "'10 mm'"].map(ToOwned::to_owned));
+    let study = format!(
+        "web = 'web.toml'\ndesign = 'grid'\n[set]\nfabric.holes = true\n[vary]\n{key} = [{}]\n",
+        values.join(", ")
+    );
+    let (counted, not) = (of_study(&text, &study, key).unwrap(), together(&text, key, &values).unwrap());
+    let asked = [("fabric.holes".to_owned(), "true".to_owned()), (key.to_owned(), "9 mm".to_owned())];
+    assert_eq!(counted[0], measured(&web_beside_cases(&text, &asked).unwrap().spec));
+    let known = |numbers: &[u64]| numbers.iter().filter(|bits| f64::from_bits(**bits).is_finite()).count();
+    // Bare area, largest hole, and holes of some radii with their errors.
+    assert!(known(&counted[0]) > known(&not[0]) + 6, "{} {}", known(&counted[0]), known(&not[0]));
 }
 
 /// What is set in the flown case is set in a study of its web, and the belt is that of the case.
