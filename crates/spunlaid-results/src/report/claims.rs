@@ -4,22 +4,31 @@ use super::document::Section;
 use super::table::{Cell, Row, Table, Tone};
 use spunlaid::claim::{Claim, Verdict};
 
-/// A row for each claim.
+/// A row for each claim, with its figure if it is about one.
 ///
 /// * `head` – of the column of what is claimed
 pub(super) fn claim_table(claims: &[Claim], head: &'static str) -> Table {
+    let has_figures = claims.iter().any(|claim| !claim.figure.is_empty());
     let row = |claim: &Claim| {
         let tone = match claim.verdict {
             Verdict::Holds => Tone::Good,
             Verdict::Fails => Tone::Bad,
             Verdict::Open => Tone::Open,
         };
-        let said = [&*claim.claim, &claim.evidence].map(Cell::from);
-        let verdict = Cell::new(claim.verdict.name(), tone);
-        let figure = if claim.figure.is_empty() { String::new() } else { format!("Figure {}", claim.figure) };
-        Row::new(figure, said.into_iter().chain([verdict]))
+        let rest = [Cell::from(&*claim.evidence), Cell::new(claim.verdict.name(), tone)];
+        match has_figures {
+            true => {
+                let said = [Cell::from(&*claim.claim)].into_iter().chain(rest);
+                Row::new(format!("Figure {}", claim.figure), said)
+            }
+            false => Row::new(&*claim.claim, rest),
+        }
     };
-    Table::new([""]).sentences([head, "Evidence", "Verdict"]).rows(claims.iter().map(row))
+    let rows = claims.iter().map(row);
+    match has_figures {
+        true => Table::new([""]).sentences([head, "Evidence", "Verdict"]).rows(rows),
+        false => Table::new([head]).sentences(["Evidence", "Verdict"]).rows(rows),
+    }
 }
 
 /// The claims for a terminal.

@@ -18,6 +18,8 @@ use spunlaid_charts::Figure;
 
 /// Largest number of points that are listed.
 const LISTED: usize = 500;
+/// Figures whose quantities a terminal shows of webs.
+const IN_SHORT: [&str; 5] = ["cv", "cv_flown", "basis_weight", "md_cd_ratio", "thin_places"];
 /// Most values of a factor that the methods list.
 const MOST_VALUES: usize = 12;
 
@@ -70,7 +72,8 @@ fn ranking(study: &Study, rankings: &[Ranking], refusal: Option<&str>) -> Option
     }
     // The rows have the order of the effects on the amplitude.
     let first = rankings.first().filter(|_| study.factors.len() > 1)?;
-    let quantities = shown::quantities(study);
+    let mut quantities = shown::quantities(study);
+    quantities.retain(|quantity| ranking_of(rankings, *quantity).is_some());
     let row = |effect: &Effect<Contrast>| {
         let cells = quantities.iter().map(|quantity| cell((study, rankings), *quantity, effect.of));
         let [from, to] = ends(study, effect.of);
@@ -83,7 +86,7 @@ fn ranking(study: &Study, rankings: &[Ranking], refusal: Option<&str>) -> Option
     let heads = quantities.iter().map(|quantity| shown::head(&study.quantities[*quantity]));
     let table = Table::new(["Factor".to_owned()].into_iter().chain(heads))
         .rows(first.effects.iter().map(row))
-        .foot(Row::new("explained", explained(study, rankings)));
+        .foot(Row::new("explained", explained(rankings, &quantities)));
     Some(section.table(table).caption(format!(
         "Change of the mean from the least to the greatest value of a factor, on the straight line that fits \
         the points best, or from one word to another, ± half a 95\u{202f}% confidence interval. Grey values \
@@ -94,12 +97,21 @@ fn ranking(study: &Study, rankings: &[Ranking], refusal: Option<&str>) -> Option
     )))
 }
 
+/// The quantities that tables show and that some point has.
+fn quantities_with_values(study: &Study, results: &[PointResults]) -> Vec<usize> {
+    let mut shown = shown::quantities(study);
+    shown.retain(|quantity| results.iter().any(|point| point.mean[*quantity].is_finite()));
+    shown
+}
+
 /// Points and measures for a terminal.
 fn points_in_short(study: &Study, results: &[PointResults]) -> Section<'static> {
     const POINTS: usize = 24;
     const MEASURES: usize = 4;
-    let mut shown = shown::quantities(study);
+    let mut shown = quantities_with_values(study, results);
     let title = if study.noun() == "web" {
+        let is_of_web = |i: &usize| IN_SHORT.contains(&study.quantities[*i].figure.name);
+        shown.retain(is_of_web);
         "Unevenness, CV in % ± its error by all causes that are known, over patches of this side; flown: \
         expected from the flown curves"
     } else {
@@ -136,7 +148,7 @@ fn point_rows(study: &Study, results: &[PointResults], shown: &[usize]) -> impl 
 
 /// The points with their results.
 fn points(study: &Study, results: &[PointResults]) -> Section<'static> {
-    let shown = shown::quantities(study);
+    let shown = quantities_with_values(study, results);
     let heads = ["Point".to_owned()].into_iter().chain(study.inputs().map(|input| input.key.to_owned()));
     let quantities = shown.iter().map(|quantity| shown::head(&study.quantities[*quantity]));
     let table = Table::new(heads.chain(quantities).chain(["n".to_owned()]))
@@ -400,12 +412,12 @@ fn cell((study, rankings): (&Study, &[Ranking]), quantity: usize, of: Contrast) 
     effect_cell(difference, "–", |difference| change(&study.quantities[quantity], difference))
 }
 
-fn explained(study: &Study, rankings: &[Ranking]) -> Vec<String> {
+fn explained(rankings: &[Ranking], quantities: &[usize]) -> Vec<String> {
     let explained = |quantity: &usize| {
         ranking_of(rankings, *quantity).filter(|ranking| ranking.explained.is_finite()).map_or_else(
             || "–".to_owned(),
             |ranking| format!("{}{THIN}%", number((ranking.explained * 100.0).round())),
         )
     };
-    shown::quantities(study).iter().map(explained).collect()
+    quantities.iter().map(explained).collect()
 }

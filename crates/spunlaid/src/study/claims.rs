@@ -134,7 +134,7 @@ fn in_words(quantity: &Quantity, difference: Difference) -> String {
     let digits = if error > 0.0 { (1.0 - error.log10().floor()).clamp(0.0, 6.0) as usize } else { 3 };
     let unit = quantity.unit.shown;
     let space = if unit.is_empty() { "" } else { " " };
-    format!("{value:+.digits$} ± {error:.digits$}{space}{unit}")
+    format!("{value:+.digits$} ± {error:.digits$}{space}{unit}").replace('-', "−")
 }
 
 /// The points that differ from the first one in a factor alone, and the first one, by the values of the factor.

@@ -63,9 +63,14 @@ fn results_of(
     let estimates: Vec<Estimate> = (0..quantities.len()).map(estimate).collect();
     let scatter = |i: usize| estimates[i].standard_error.unwrap_or(f64::NAN);
     let error = |i: usize| {
-        let tells = |role| role == ErrorRole::Always || role == ErrorRole::OfOne && measured.len() == 1;
-        let told = quantities[i].errors.iter().find(|(role, _)| tells(*role));
-        told.map_or_else(|| scatter(i), |(_, other)| estimates[*other].mean)
+        let count = measured.len() as f64;
+        // Webs whose counts are equal by chance have an error all the same.
+        let is_one = count == 1.0 || scatter(i) == 0.0;
+        let of = |wanted| quantities[i].errors.iter().find(|(role, _)| *role == wanted);
+        let own = |of: Option<&(ErrorRole, usize)>| of.map(|(_, other)| estimates[*other].mean);
+        let of_one = own(of(ErrorRole::OfOne).filter(|_| is_one)).filter(|error| error.is_finite());
+        let of_one = of_one.map(|error| error / count.sqrt());
+        own(of(ErrorRole::Always)).or(of_one).unwrap_or_else(|| scatter(i))
     };
     Ok(PointResults {
         n: measured.len() as u64,
