@@ -20,6 +20,7 @@ mod end_node;
 mod energy;
 mod fabric;
 mod flow;
+mod force_on_air;
 mod laydown;
 mod measure;
 mod neighbours;
@@ -34,6 +35,8 @@ mod strain;
 mod web;
 
 pub use fabric::{OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES, OF_STREAKS, OF_STRIPS, OF_THINNEST};
+pub use force_on_air::{FIBRE_ON_WAY, FORCE_ON_AIR};
+pub(crate) use force_on_air::{MomentumBalance, Nodes};
 pub use laydown::{LAYDOWN, SURROGATE};
 pub use measure::{
     Aggregate, END_NODE, ENERGY, ErrorRole, FIBRE, Figure, Formula, Group, HERTZ, KELVIN, Kind,
@@ -61,6 +64,7 @@ pub const DECLARED: &[&Declaration] = &[
     &spectrum::DECLARATION,
     &laydown::DECLARATION,
     &along_way::DECLARATION,
+    &force_on_air::DECLARATION,
     &neighbours::FED_CD,
     &neighbours::FED_MD,
     &neighbours::FIXED_CD,
