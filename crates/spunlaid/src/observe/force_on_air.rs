@@ -7,6 +7,8 @@ use crate::case::Case;
 use crate::chain::schemes::Scheme;
 use crate::flight::Flight;
 use crate::lanes::{Lanes, WIDTH};
+use crate::load::WayPlace;
+use crate::statistics::Estimate;
 use crate::vec3::Vec3;
 
 /// Classes of distance from the inlet.
@@ -14,6 +16,9 @@ const CLASSES: usize = 50;
 
 /// Length of each of the stretches from which the change of the force at the inlet is found, of the way.
 const THIRD: f64 = 0.06;
+
+/// Length of a stretch of time that is independent of the next, in times from the inlet to the belt.
+const WAYS_OF_STRETCH: f64 = 2.0;
 
 /// Name of the measure.
 pub const FORCE_ON_AIR: &str = "force_on_air";
@@ -99,7 +104,7 @@ impl<'a> Nodes<'a> {
 /// passes a plane is `m v_x²/(b − a)` of each node in the class. Sums over a class are therefore the means of those
 /// over the classes that it is divided into.                                              theory.md (116)
 #[derive(Clone, Debug)]
-pub(crate) struct MomentumBalance {
+struct MomentumBalance {
     distance: f64,
     /// Rest length [m], mass [kg], weight [N] and axial stiffness `EA` [N] of an element.
     element: f64,
@@ -119,7 +124,7 @@ pub(crate) struct MomentumBalance {
 
 impl MomentumBalance {
     /// * `classes` – number of classes, from the inlet to the belt
-    pub(crate) fn new(case: &Case, classes: usize) -> Self {
+    fn new(case: &Case, classes: usize) -> Self {
         let fibre = &case.fibre;
         let (distance, feed_speed) =
             case.line.map_or((f64::NAN, f64::NAN), |line| (line.distance, line.feed_speed));
@@ -140,7 +145,7 @@ impl MomentumBalance {
     }
 
     /// Adds an instant.
-    pub(crate) fn see(&mut self, nodes: &Nodes<'_>, lane: usize) {
+    fn see(&mut self, nodes: &Nodes<'_>, lane: usize) {
         let count = nodes.count[lane].min(nodes.position.len()).min(nodes.tension.len() + 1);
         let speed = |i: usize| nodes.velocity[i].x.0[lane];
         let place = |i: usize, lag: f64| nodes.position[i].x.0[lane] - lag * speed(i);
@@ -169,6 +174,15 @@ impl MomentumBalance {
             }
         }
         self.instants += 1.0;
+    }
+
+    /// Adds the instants of another balance of the same case.
+    fn add(&mut self, other: &Self) {
+        self.instants += other.instants;
+        self.root_tension += other.root_tension;
+        for (sums, others) in self.classes.iter_mut().zip(&other.classes) {
+            sums.iter_mut().zip(others).for_each(|(sum, other)| *sum += other);
+        }
     }
 
     /// Enters a force on a node.
@@ -200,13 +214,13 @@ impl MomentumBalance {
     }
 
     /// The middles of the classes [m].
-    pub(crate) fn places(&self) -> Vec<f64> {
+    fn places(&self) -> Vec<f64> {
         let classes = self.classes.len() as f64;
         (0..self.classes.len()).map(|i| (i as f64 + 0.5) / classes * self.distance).collect()
     }
 
     /// The force on the air between the inlet and each class [N]; NaN without an instant.
-    pub(crate) fn forces(&self) -> Vec<f64> {
+    fn forces(&self) -> Vec<f64> {
         let n = self.instants;
         let strain = self.root_tension / n / self.stiffness;
         let fed = self.mass_flow * self.feed_speed * (1.0 + strain) * self.along;
@@ -227,7 +241,7 @@ impl MomentumBalance {
     }
 
     /// Length of fibre per length of the way in each class [-]; NaN without an instant.
-    pub(crate) fn lengths(&self) -> Vec<f64> {
+    fn lengths(&self) -> Vec<f64> {
         self.classes.iter().map(|[.., length]| length / self.instants).collect()
     }
 
@@ -239,6 +253,66 @@ impl MomentumBalance {
         let [first, second, last] = [0, 1, 2].map(mean);
         let length = third as f64 * self.distance / forces.len() as f64;
         (3.0 * second - 2.0 * first - last) / length
+    }
+}
+
+/// Balances of one or more fibres of a case in stretches of time, one after the other.
+///
+/// Fibres that fly in one air are not independent of each other, but their stretches are, if these are long enough.
+#[derive(Clone, Debug)]
+pub(crate) struct StretchedBalance {
+    stretch: f64,
+    empty: MomentumBalance,
+    stretches: Vec<MomentumBalance>,
+}
+
+impl StretchedBalance {
+    pub(crate) fn new(case: &Case) -> Self {
+        let way = case.line.map_or(f64::NAN, |line| line.distance / line.feed_speed);
+        let empty = MomentumBalance::new(case, CLASSES);
+        Self { stretch: WAYS_OF_STRETCH * way, empty, stretches: Vec::new() }
+    }
+
+    /// Adds an instant of a fibre.
+    ///
+    /// * `time` – since the end of the spin-up [s]; nothing is added before
+    pub(crate) fn see(&mut self, nodes: &Nodes<'_>, lane: usize, time: f64) {
+        if time < 0.0 {
+            return;
+        }
+        let stretch = (time / self.stretch) as usize;
+        self.reach(stretch + 1);
+        if let Some(balance) = self.stretches.get_mut(stretch) {
+            balance.see(nodes, lane);
+        }
+    }
+
+    /// Adds what other fibres have done during the same time.
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.reach(other.stretches.len());
+        self.stretches.iter_mut().zip(&other.stretches).for_each(|(all, other)| all.add(other));
+    }
+
+    fn reach(&mut self, stretches: usize) {
+        if self.stretches.len() < stretches {
+            self.stretches.resize(stretches, self.empty.clone());
+        }
+    }
+
+    /// Means and standard errors over the stretches; empty without one. The last one is left out if it is not
+    /// whole.
+    pub(crate) fn way(&self) -> Vec<WayPlace> {
+        let fullest = self.stretches.iter().map(|balance| balance.instants).fold(0.0, f64::max);
+        let whole = || self.stretches.iter().filter(|balance| balance.instants > 0.9 * fullest);
+        let all: Vec<[Vec<f64>; 2]> = whole().map(|balance| [balance.forces(), balance.lengths()]).collect();
+        let at = |(class, distance): (usize, f64)| {
+            let values =
+                |which: usize| all.iter().filter_map(move |of| of[which].get(class).copied()).collect();
+            let [force, fibre] = [0, 1].map(|which| Estimate::new(values(which)));
+            WayPlace { distance, force: force.mean, standard_error: force.standard_error, fibre: fibre.mean }
+        };
+        let places = whole().next().map(MomentumBalance::places).unwrap_or_default();
+        places.into_iter().enumerate().map(at).collect()
     }
 }
 
