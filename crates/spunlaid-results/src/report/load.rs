@@ -61,10 +61,15 @@ pub fn load_words(load: &Load) -> String {
             per_cent(momentum)
         )
     });
-    let missing = load.air.is_none().then(|| {
-        "How much this is of the momentum of the air cannot be told without the size of the slot; a web has it in \
+    let missing = load.air.is_none().then(|| match load.places.is_empty() {
+        true => {
+            "What the filaments do to their air can be told with the size of the slot: line.depth, beside \
+            line.filaments_per_metre."
+                .to_owned()
+        }
+        false => "How much this is of the momentum of the air cannot be told without the size of the slot; a web has it in \
         line.depth, beside line.filaments_per_metre."
-            .to_owned()
+            .to_owned(),
     });
     let on_way = load.at_belt().map(on_way);
     at_inlet.into_iter().chain(on_way).chain(missing).collect::<Vec<_>>().join(" ")

@@ -121,11 +121,10 @@ impl Pack {
             }
             let time = self.flight.time() - self.spin_up;
             let tension = self.flight.chain().tension();
-            let nodes = Nodes::between_steps(&self.flight, &tension);
-            for (lane, _) in self.filaments.iter().enumerate().filter(|(_, filament)| filament.lost.is_none())
-            {
-                self.balance.see(&nodes, lane, time);
-            }
+            let flies =
+                |lane: usize| self.filaments.get(lane).is_some_and(|filament| filament.lost.is_none());
+            let nodes = Nodes::between_steps(&self.flight, &tension, flies);
+            self.balance.see(&nodes, time);
         }
     }
 

@@ -83,14 +83,20 @@ pub(crate) struct Nodes<'a> {
 
 impl<'a> Nodes<'a> {
     /// Those of a flight between two steps, as its scheme keeps them.
-    pub(crate) fn between_steps(flight: &'a Flight, tension: &'a [Lanes]) -> Self {
-        let chain = flight.chain();
+    ///
+    /// * `is_wanted` – whether to look at the fibre in a lane
+    pub(crate) fn between_steps(
+        flight: &'a Flight,
+        tension: &'a [Lanes],
+        is_wanted: impl Fn(usize) -> bool,
+    ) -> Self {
+        let (chain, count) = (flight.chain(), flight.chain().nodes());
         let lag = |lags: bool, steps: f64| if lags { steps * flight.time_step() } else { 0.0 };
         Self {
             position: &chain.position,
             velocity: &chain.velocity,
             tension,
-            count: chain.nodes(),
+            count: std::array::from_fn(|lane| if is_wanted(lane) { count[lane] } else { 0 }),
             velocity_lag: lag(flight.scheme().is_staggered(), 0.5),
             tension_lag: lag(flight.scheme() == Scheme::ImplicitTension, 1.0),
         }
@@ -106,6 +112,8 @@ impl<'a> Nodes<'a> {
 #[derive(Clone, Debug)]
 struct MomentumBalance {
     distance: f64,
+    /// Number of classes per distance [1/m].
+    per_length: f64,
     /// Rest length [m], mass [kg], weight [N] and axial stiffness `EA` [N] of an element.
     element: f64,
     mass: f64,
@@ -131,6 +139,7 @@ impl MomentumBalance {
         let mass = fibre.element_mass();
         Self {
             distance,
+            per_length: classes as f64 / distance,
             element: fibre.rest_length(),
             mass,
             weight: mass * case.run.gravity,
@@ -145,35 +154,42 @@ impl MomentumBalance {
     }
 
     /// Adds an instant.
-    fn see(&mut self, nodes: &Nodes<'_>, lane: usize) {
-        let count = nodes.count[lane].min(nodes.position.len()).min(nodes.tension.len() + 1);
-        let speed = |i: usize| nodes.velocity[i].x.0[lane];
-        let place = |i: usize, lag: f64| nodes.position[i].x.0[lane] - lag * speed(i);
-        let mut from_above = 0.0;
-        for i in 0..count {
-            let mut force = -from_above;
-            if i + 1 < count {
-                let edge = nodes.position[i + 1].lane(lane) - nodes.position[i].lane(lane);
-                let tension = nodes.tension[i].0[lane];
-                from_above = tension * edge.x / edge.norm();
+    ///
+    /// * `balances` – one for each lane, or one for all of them
+    fn see(balances: &mut [Self], nodes: &Nodes<'_>) {
+        let most = nodes.position.len().min(nodes.tension.len() + 1);
+        let count = nodes.count.map(|count| count.min(most));
+        let Some(last) = balances.len().checked_sub(1) else { return };
+        let mut from_above = [0.0; WIDTH];
+        // Node after node, because the lanes of a node lie together.
+        for (i, (position, velocity)) in nodes.position.iter().zip(nodes.velocity).enumerate() {
+            for lane in (0..WIDTH).filter(|lane| i < count[*lane]) {
+                let balance = &mut balances[lane.min(last)];
+                let (x, v) = (position.x.0[lane], velocity.x.0[lane]);
+                let at = (x - nodes.velocity_lag * v, v);
+                let mut force = balance.weight - from_above[lane];
+                if i + 1 < count[lane] {
+                    let below = nodes.position[i + 1].lane(lane);
+                    let edge = below - position.lane(lane);
+                    let v_below = nodes.velocity[i + 1].x.0[lane];
+                    let tension = nodes.tension[i].0[lane];
+                    from_above[lane] = tension * edge.x / edge.norm();
+                    force += from_above[lane];
+                    if i == 0 {
+                        balance.root_tension += tension;
+                    }
+                    balance.pass([at, (below.x - nodes.velocity_lag * v_below, v_below)]);
+                }
                 // What holds the root bears the forces on it.
                 if i > 0 {
-                    force += from_above;
+                    balance.push(x - nodes.tension_lag * v, force);
                 } else {
-                    self.root_tension += tension;
+                    // The fibre between the inlet and the root.
+                    balance.pass([(at.0 - balance.element * balance.along, v), at]);
+                    balance.instants += 1.0;
                 }
-                let ends = [i, i + 1].map(|i| (place(i, nodes.velocity_lag), speed(i)));
-                self.pass(ends);
-            }
-            if i > 0 {
-                self.push(place(i, nodes.tension_lag), force + self.weight);
-            } else {
-                // The fibre between the inlet and the root.
-                let root = place(0, nodes.velocity_lag);
-                self.pass([(root - self.element * self.along, speed(0)), (root, speed(0))]);
             }
         }
-        self.instants += 1.0;
     }
 
     /// Adds the instants of another balance of the same case.
@@ -187,7 +203,7 @@ impl MomentumBalance {
 
     /// Enters a force on a node.
     fn push(&mut self, x: f64, force: f64) {
-        let place = (x / self.distance * self.classes.len() as f64).max(0.0);
+        let place = (x * self.per_length).max(0.0);
         let (class, inside) = (place as usize, place.fract());
         if let Some(sums) = self.classes.get_mut(class) {
             sums[0] += force * (1.0 - inside);
@@ -200,7 +216,7 @@ impl MomentumBalance {
     /// Enters an element: its length, and the momentum that it carries past planes. Its mass lies evenly between its ends, of which the
     /// places and velocities along x are given, and each half has the momentum of its end.
     fn pass(&mut self, [(x, v), (x_below, v_below)]: [(f64, f64); 2]) {
-        let per_length = self.classes.len() as f64 / self.distance;
+        let per_length = self.per_length;
         let (from, to) = (x.min(x_below) * per_length, x.max(x_below) * per_length);
         let flux = self.mass * (0.375 * (v * v + v_below * v_below) + 0.25 * v * v_below) * per_length;
         let classes = from.max(0.0) as usize..(to.max(0.0) as usize + 1).min(self.classes.len());
@@ -273,18 +289,16 @@ impl StretchedBalance {
         Self { stretch: WAYS_OF_STRETCH * way, empty, stretches: Vec::new() }
     }
 
-    /// Adds an instant of a fibre.
+    /// Adds an instant of all lanes.
     ///
     /// * `time` – since the end of the spin-up [s]; nothing is added before
-    pub(crate) fn see(&mut self, nodes: &Nodes<'_>, lane: usize, time: f64) {
+    pub(crate) fn see(&mut self, nodes: &Nodes<'_>, time: f64) {
         if time < 0.0 {
             return;
         }
         let stretch = (time / self.stretch) as usize;
         self.reach(stretch + 1);
-        if let Some(balance) = self.stretches.get_mut(stretch) {
-            balance.see(nodes, lane);
-        }
+        MomentumBalance::see(&mut self.stretches[stretch..=stretch], nodes);
     }
 
     /// Adds what other fibres have done during the same time.
@@ -343,11 +357,14 @@ impl Observer for Balances {
             position: &snapshot.position,
             velocity: &snapshot.velocity,
             tension: &snapshot.tension,
-            count: snapshot.nodes,
+            // The lanes after the last fibre repeat the first one.
+            count: std::array::from_fn(
+                |lane| if lane < self.of_lanes.len() { snapshot.nodes[lane] } else { 0 },
+            ),
             velocity_lag: 0.0,
             tension_lag: self.tension_lag,
         };
-        self.of_lanes.iter_mut().enumerate().for_each(|(lane, balance)| balance.see(&nodes, lane));
+        MomentumBalance::see(&mut self.of_lanes, &nodes);
     }
 
     fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
@@ -385,12 +402,14 @@ mod tests {
                 position: &snapshot.position,
                 velocity: &snapshot.velocity,
                 tension: &snapshot.tension,
-                count: snapshot.nodes,
+                count: std::array::from_fn(|lane| if lane == 0 { snapshot.nodes[0] } else { 0 }),
                 velocity_lag: 0.0,
                 tension_lag: flight.time_step(),
             };
             if step < STEPS {
-                balances.iter_mut().for_each(|balance| balance.see(&nodes, 0));
+                balances
+                    .iter_mut()
+                    .for_each(|balance| MomentumBalance::see(std::slice::from_mut(balance), &nodes));
             }
             let momentum = match step {
                 0 => 1.0,
@@ -428,6 +447,7 @@ mod tests {
     fn analytic_a_thread_without_drag_drives_no_air() {
         let mut balance = MomentumBalance {
             distance: 1.0,
+            per_length: 50.0,
             element: 0.01,
             mass: 1e-6,
             weight: 9.81e-6,
@@ -460,7 +480,7 @@ mod tests {
                 velocity_lag: 0.0,
                 tension_lag: 0.0,
             };
-            balance.see(&nodes, 0);
+            MomentumBalance::see(std::slice::from_mut(&mut balance), &nodes);
         }
         let passing = 1e-4 * (1.0 + 2.0 * 9.81_f64).sqrt();
         let off = balance.forces().into_iter().fold(0.0, |most: f64, force| most.max(force.abs()));
