@@ -376,20 +376,47 @@ impl Observer for Balances {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::air::Air;
+    use crate::fibre::{Fibre, Root};
     use crate::flight::Job;
-    use crate::input::{Unread, read_case};
     use crate::lanes::Isa;
-    use std::path::Path;
+    use crate::line::Line;
 
-    /// A spunbond line whose air is faster than the fibre and then slower, in turbulence.
-    const LINE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/spunbond.toml");
+    const STEP: f64 = 4e-5;
+
+    /// The line of `cases/spunbond.toml` in air that is as fast everywhere [m/s].
+    fn line(air: f64) -> Case {
+        let mut case = Case::unset();
+        case.fibre = Fibre {
+            diameter: 18e-6,
+            density: 910.0,
+            youngs_modulus: 2e9,
+            root: Root::Clamped,
+            ..Fibre::UNKNOWN
+        };
+        case.fibre.span(0.5, 4e-3);
+        let [feed_speed, distance, belt_speed, kept_length] = [50.0, 0.5, 3.0, 0.03];
+        case.line = Some(Line {
+            feed_speed,
+            distance,
+            belt_speed,
+            kept_length,
+            steps_per_element: 2,
+            ..Line::UNKNOWN
+        });
+        case.air = Air::uniform(air, 0.1, 0.016, 500.0);
+        case.run.time_step = STEP;
+        (case.run.steps, case.run.output_steps) = (5000, 25);
+        (case.run.scheme, case.run.gravity, case.run.damping) = (Scheme::ImplicitTension, 9.81, 0.0);
+        case
+    }
 
     /// The drag of each node is that with which the flight has moved it. What a plane counts of a node falls from one
     /// to zero across a class, as in the balance.
     #[test]
     fn invariant_the_force_on_the_air_is_the_sum_of_the_drag() {
         const STEPS: u64 = 3000;
-        let (case, _) = read_case(Path::new(LINE), &[]).map_err(Unread::refuse).unwrap();
+        let case = line(40.0);
         let mut flight = Flight::new(&[Job::new(&case, 0)], Isa::detect()).unwrap();
         flight.advance(1000);
         let mut balances = [25, 50, 100].map(|classes| MomentumBalance::new(&case, classes));
@@ -428,11 +455,15 @@ mod tests {
         }
         let [coarse, usual, fine] = balances.map(|balance| balance.forces());
         let largest = usual.iter().fold(0.0, |largest: f64, force| largest.max(force.abs()));
-        assert!(largest > 2e-4 && usual.iter().any(|force| *force < -3e-5), "{usual:?}");
+        assert!(largest > 1.5e-4 && usual[0] > 0.0, "{usual:?}");
         let off = |class: usize| (usual[class] + lost[class] + drag[class]) / largest;
-        // The last class continues the others.
-        assert!((0..49).all(|class| off(class).abs() < 3e-3), "{:?}", (0..49).map(off).collect::<Vec<_>>());
-        assert!((0..49).map(off).sum::<f64>().abs() / 49.0 < 1e-3);
+        // The last class continues the others; in the one before, arches leave the chain that are taken as laid.
+        assert!(
+            (0..48).all(|class| off(class).abs() < 2e-3) && off(48).abs() < 1e-2,
+            "{:?}",
+            (0..49).map(off).collect::<Vec<_>>()
+        );
+        assert!((0..48).map(off).sum::<f64>().abs() / 48.0 < 1e-3);
         for (class, force) in usual.iter().enumerate().take(48) {
             assert!((0.5 * (fine[2 * class] + fine[2 * class + 1]) - force).abs() < 1e-12 * largest);
         }
