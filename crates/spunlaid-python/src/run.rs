@@ -75,7 +75,7 @@ pub(crate) fn fly(
             }
             Ok::<(), Error>(())
         };
-        let keep = Keep { curves: true, samples, shapes };
+        let keep = Keep { samples, shapes, ..Keep::CURVES };
         let paths = fly_for_checks(&description, &plans, keep, computing, nothing_kept, take)?;
         Ok((collector.finish(), paths, collected))
     })?;

@@ -102,6 +102,8 @@ pub mod scan;
 
 pub mod case;
 
+pub mod load;
+
 pub mod flight;
 
 pub mod observe;

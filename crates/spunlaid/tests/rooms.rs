@@ -30,7 +30,7 @@ const ROOMS: &[&[&str]] = &[
     &["curtain", "scan"],
     &["fabric"],
     &["case"],
-    &["flight"],
+    &["flight", "load"],
     &["observe"],
     &["ensemble"],
     &["beam"],

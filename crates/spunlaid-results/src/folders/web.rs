@@ -5,6 +5,7 @@ use crate::Failure;
 use crate::figures::{SPINLINE, effects_figure, spinline_figures, web_figures};
 use crate::output::folder::{CASE_FILES, Staging};
 use crate::output::kept_input::Input;
+use crate::output::load::LoadSummary;
 use crate::output::origin::ORIGIN;
 use crate::output::spinline::{STATIONS, SpinResults, SpinSummary, write_stations};
 use crate::output::table::TABLES;
@@ -135,10 +136,18 @@ fn rows(spec: &WebSpec, web: &Web, layers: &[LayerFibres]) -> Vec<Layer> {
             fit_residual: fit.map(|fit| fit.rms),
             fit_residual_by_chance: fit.and_then(|fit| fit.by_chance),
             lateral_cutoff: spec.lateral_cutoff(i),
+            curtain: curtain(layer, drawn.count(&web.sheet) as f64 / web.sheet.width, layers.get(i)),
             spinline: layer.source.case().and_then(SpinSummary::from_case),
         }
     };
     spec.layers.iter().zip(&web.layers).enumerate().map(row).collect()
+}
+
+/// What the filaments of a layer do to their air.
+fn curtain(layer: &LayerSpec, filaments_per_metre: f64, fibres: Option<&LayerFibres>) -> Option<LoadSummary> {
+    let flown = fibres.and_then(|fibres| fibres.flown.as_ref());
+    let way = flown.map_or(&[][..], |flown| &flown.way);
+    LoadSummary::new(layer.source.case()?, filaments_per_metre, layer.filaments.slot(), way)
 }
 
 /// The spinlines from which the filaments of the layers come, each with all of its layers.

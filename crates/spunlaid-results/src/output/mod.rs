@@ -11,6 +11,7 @@ pub mod folder;
 pub mod in_order;
 pub mod kept_input;
 pub mod leftovers;
+pub mod load;
 pub mod measured;
 mod neighbours;
 pub mod origin;

@@ -1,6 +1,7 @@
 //! `summary.json`: all results of a run.
 
 use super::in_order::OrderedObject;
+use super::load::LoadSummary;
 use super::neighbours::NeighboursSummary;
 use super::spinline::SpinSummary;
 use serde::Serialize;
@@ -21,6 +22,9 @@ pub struct Summary<'a> {
     /// Of a case that is fed from a spinline.
     #[serde(skip_serializing_if = "Option::is_none")]
     spinline: Option<SpinSummary>,
+    /// What the filaments do to their air, where the spinline has a curtain of them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    curtain: Option<LoadSummary>,
     elements: usize,
     steps: u64,
     replicates: u64,
@@ -142,6 +146,7 @@ impl<'a> Summary<'a> {
         Self {
             case: resolved(case),
             spinline: SpinSummary::from_case(case),
+            curtain: LoadSummary::of_spinline(case, &results.way()),
             elements: case.fibre.elements,
             steps: case.run.steps,
             replicates: case.run.replicates,

@@ -2,6 +2,7 @@
 
 use super::document::{Part, Report, Section};
 use super::frames;
+use super::load::{loads_in_short, section_of_loads};
 use super::methods::{case_account, methods};
 use super::run_table::{capitalised, groups, neighbour_table, replicate_table, result_table, sentence};
 use super::spinline::section_of_fibre;
@@ -10,6 +11,7 @@ use super::words::{self, count};
 use crate::Failure;
 use crate::numbers::{THIN, number};
 use crate::output::finer::{self, FinerWords};
+use crate::output::load::LoadSummary;
 use crate::output::spinline::SpinResults;
 use crate::output::summary::Performance;
 use spunlaid::case::Case;
@@ -45,6 +47,8 @@ pub fn run_report<'a>(
         performance.instruction_set,
         words::quantity(performance.ns_per_element_step, "ns"),
     );
+    let load = LoadSummary::of_spinline(case, &results.way());
+    let loads: Vec<_> = load.iter().map(|load| (None, load)).collect();
     let file = Section::new("case", "The case")
         .paragraph(
             "With every default filled in. Save it as a case file and run it again: the same numbers \
@@ -56,6 +60,8 @@ pub fn run_report<'a>(
         .with(motion(case, results)?)
         .with(numbers(results).told())
         .with_all(spinline.map(|(results, figures)| section_of_fibre(case, results, figures)))
+        .with_all(section_of_loads(&loads))
+        .with(loads_in_short(&loads))
         .with(under_headings(figures))
         .with(trust(finer).told())
         .with(energy(case, results))

@@ -4,6 +4,7 @@ use super::document::{Part, Report, Section};
 use super::effects::{advice_commands, advice_words, effect_cell, effects_table, guess_words, is_known};
 use super::fabric::{fabric_in_short, fabric_section};
 use super::light_table::{Fibres, MarkedPlaces, Strands, marks_note, picture_note, sheet};
+use super::load::{loads_in_short, section_of_loads};
 use super::methods::{methods, web_account};
 use super::spinline::{LayerSpinline, sections_of_web};
 use super::table::{Row, Table};
@@ -15,6 +16,7 @@ use super::words::{count, metres, millimetres};
 use crate::Failure;
 use crate::effects::{PER_CENT, difference_text};
 use crate::numbers::{THIN, number, plus_minus, significant};
+use crate::output::load::LoadSummary;
 use crate::output::web::{Layer, PatchTable, Performance, Reader};
 use spunlaid::advice::Advice;
 use spunlaid::fabric::Fabric;
@@ -58,6 +60,7 @@ pub fn web_report<'a>(
     let cvs = findings.patches.iter().map(whole).collect::<Vec<_>>();
     let found = [headline.clone(), unevenness(&cvs), errors.clone()];
     let account = web_account(spec, together.map(|together| &together.few[..]));
+    let loads = named_loads(layers);
     let spun = spinlines
         .first()
         .map_or("", |_| "Its filaments begin at the die: [from the melt to the web](#spinline).");
@@ -71,6 +74,8 @@ pub fn web_report<'a>(
         .with(uneven_in_short(findings))
         .with(fabric_section(fabric))
         .with(fabric_in_short(fabric))
+        .with_all(section_of_loads(&loads))
+        .with(loads_in_short(&loads))
         .with(commands(findings, advice))
         .with(Section::of_figures(figures))
         .with_all(sections_of_web(web, layers, spinlines))
@@ -153,6 +158,16 @@ fn about_errors(findings: &Findings) -> &'static str {
     } else {
         "The error is by chance only: no fibre was flown, so it is not known how far the surrogate is from real fibres."
     }
+}
+
+/// The loads of the layers on their air, with the names of these where there are several.
+fn named_loads(layers: &[Layer]) -> Vec<(Option<&str>, &LoadSummary)> {
+    layers
+        .iter()
+        .filter_map(|layer| {
+            Some((Some(&layer.name[..]).filter(|_| layers.len() > 1), layer.curtain.as_ref()?))
+        })
+        .collect()
 }
 
 /// What the web was made from.

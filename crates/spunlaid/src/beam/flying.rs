@@ -7,6 +7,7 @@ use super::{Beam, BeamControl, BeamFindings};
 use crate::air::EddyField;
 use crate::error::{Error, Fault};
 use crate::line::Line;
+use crate::observe::StretchedBalance;
 use crate::threads::{lock, unlock};
 use crate::web::{Brush, Sheet, Windows};
 use std::ops::Range;
@@ -123,9 +124,11 @@ impl<'a> Flying<'a> {
         let has_lost_too_many = self.has_lost_too_many();
         flown.back = self.stretch.back().unwrap_or(f64::NAN);
         flown.time = self.done as f64 * self.beam.case.run.time_step;
+        let mut balance = StretchedBalance::new(self.beam.case);
         for pack in self.packs {
-            unlock(pack).into_iter().for_each(|pack| pack.finish(&mut flown));
+            unlock(pack).into_iter().for_each(|pack| pack.finish(&mut flown, &mut balance));
         }
+        flown.way = balance.way();
         flown.sort();
         if has_lost_too_many { Err(too_many_lost(flown, self.beam.places.len())) } else { Ok(flown) }
     }

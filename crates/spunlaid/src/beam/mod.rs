@@ -28,6 +28,7 @@ use crate::error::Error;
 use crate::fibre::Place;
 use crate::flight::LaidPoint;
 use crate::lanes::Isa;
+use crate::load::WayPlace;
 use crate::sort::sort_by_key;
 use crate::threads::try_each;
 use crate::web::{
@@ -102,6 +103,8 @@ pub struct BeamFindings {
     pub pairs: Vec<SharedVariance>,
     /// The filaments that were lost, by their numbers across the web, each with the reason.
     pub lost: Vec<(usize, Error)>,
+    /// What a filament does to its air on its way, in the mean.
+    pub way: Vec<WayPlace>,
     /// Where the sheet begins on the belt, at its back [m].
     pub back: f64,
     /// Time that was flown [s].

@@ -8,6 +8,7 @@ use crate::error::Error;
 use crate::fibre::Place;
 use crate::flight::{Flight, Job, SurroundingRun};
 use crate::lanes::{Isa, WIDTH};
+use crate::observe::{Nodes, StretchedBalance};
 use crate::sort::sort_by_key;
 use crate::web::Brush;
 use std::sync::Arc;
@@ -16,6 +17,8 @@ use std::sync::Arc;
 const AREA: usize = 8 * WIDTH;
 /// Number of steps between two checks that no fibre is lost.
 const STEPS_UNSEEN: u64 = 256;
+/// Fewest steps between two looks at the momentum of the filaments, each of which takes about as long as a step.
+const LEAST_BETWEEN: u64 = 16;
 
 /// The filaments of each pack: neighbours read the same part of the air.
 pub(super) fn neighbours(places: &[Place]) -> Vec<Vec<usize>> {
@@ -31,6 +34,10 @@ pub(super) fn neighbours(places: &[Place]) -> Vec<Vec<usize>> {
 pub(super) struct Pack {
     flight: Flight,
     filaments: Vec<Filament>,
+    balance: StretchedBalance,
+    spin_up: f64,
+    /// Number of steps from one look at the momentum of the filaments to the next.
+    steps_between: u64,
 }
 
 impl Pack {
@@ -51,7 +58,15 @@ impl Pack {
         let filament =
             |number: &usize| Filament::new(*number, beam.places[*number], keeps_all || beam.keeps(*number));
         let flight = Flight::in_air(&jobs, isa, SurroundingRun { field, ..SurroundingRun::run(beam.case) })?;
-        Ok(Self { flight, filaments: numbers.iter().map(filament).collect() })
+        // With no common divisor, births are seen at all of their phases.
+        let to_birth = beam.case.line.map_or(1, |line| line.steps_per_element.max(1));
+        Ok(Self {
+            flight,
+            filaments: numbers.iter().map(filament).collect(),
+            balance: StretchedBalance::new(beam.case),
+            spin_up: beam.case.run.spin_up(),
+            steps_between: LEAST_BETWEEN.div_ceil(to_birth) * to_birth + 1,
+        })
     }
 
     pub(super) fn filaments(&self) -> &[Filament] {
@@ -72,7 +87,7 @@ impl Pack {
         let mut left = steps;
         while left > 0 && self.filaments.iter().any(|filament| filament.lost.is_none()) {
             let now = left.min(STEPS_UNSEEN);
-            self.flight.advance(now);
+            self.advance_and_look(now);
             left -= now;
             for (lane, reason) in self.flight.losses() {
                 self.filaments[lane].lost.get_or_insert(reason);
@@ -94,6 +109,25 @@ impl Pack {
         reach
     }
 
+    /// Advances all filaments, and looks at their momentum in between.
+    fn advance_and_look(&mut self, steps: u64) {
+        let mut left = steps;
+        while left > 0 {
+            let now = left.min(self.steps_between);
+            self.flight.advance(now);
+            left -= now;
+            if now < self.steps_between {
+                continue;
+            }
+            let time = self.flight.time() - self.spin_up;
+            let tension = self.flight.chain().tension();
+            let flies =
+                |lane: usize| self.filaments.get(lane).is_some_and(|filament| filament.lost.is_none());
+            let nodes = Nodes::between_steps(&self.flight, &tension, flies);
+            self.balance.see(&nodes, time);
+        }
+    }
+
     /// Hands over where its filaments have come down since the last time.
     pub(super) fn compare(&mut self, neighbours: &mut Neighbours) {
         for filament in &mut self.filaments {
@@ -105,7 +139,10 @@ impl Pack {
     }
 
     /// Hands over what its filaments have done.
-    pub(super) fn finish(self, flown: &mut BeamFindings) {
+    ///
+    /// * `balance` – to which it adds its own
+    pub(super) fn finish(self, flown: &mut BeamFindings, balance: &mut StretchedBalance) {
+        balance.add(&self.balance);
         for filament in self.filaments {
             let Filament { number, kept, strands, lost, .. } = filament;
             flown.in_windows.add(strands.into_parts());

@@ -2,7 +2,8 @@
 
 use super::Trajectory;
 use crate::error::Error;
-use crate::observe::{Aggregate, Measure, Value};
+use crate::load::WayPlace;
+use crate::observe::{Aggregate, FIBRE_ON_WAY, FORCE_ON_AIR, Measure, Value};
 use crate::statistics::{Estimate, median};
 
 /// Results of an ensemble. They are collected trajectory by trajectory, so that memory does not grow with the
@@ -149,6 +150,18 @@ impl Results {
     pub fn estimate(&self, name: &str) -> Estimate {
         let nothing = || Estimate { mean: f64::NAN, standard_error: None, values: Vec::new() };
         self.number(name).map_or_else(nothing, |number| number.estimate.clone())
+    }
+
+    /// What a fed fibre does on its way, for the load on its air; empty if that was not measured.
+    pub fn way(&self) -> Vec<WayPlace> {
+        let places = self.curve(FORCE_ON_AIR).iter().zip(self.curve(FIBRE_ON_WAY));
+        let place = |(force, fibre): (&Place, &Place)| WayPlace {
+            distance: force.at,
+            force: force.mean,
+            standard_error: force.standard_error,
+            fibre: fibre.mean,
+        };
+        places.map(place).collect()
     }
 
     /// A curve by its measure's name; empty if there is none.

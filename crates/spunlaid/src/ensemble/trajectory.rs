@@ -48,6 +48,8 @@ impl Trajectory {
 pub struct Keep {
     /// Whether curves are measured too: profiles, series, spectra, and the path of a free end.
     pub curves: bool,
+    /// Whether what a fed fibre does to its air is measured, without the other curves.
+    pub way: bool,
     /// Whether the recorded instants are kept in memory. A [`Recorder`](super::Recorder) receives them without.
     pub samples: bool,
     /// The whole shapes that are stored.
@@ -56,9 +58,11 @@ pub struct Keep {
 
 impl Keep {
     /// Numbers only.
-    pub const NUMBERS: Self = Self { curves: false, samples: false, shapes: KeepShapes::NONE };
+    pub const NUMBERS: Self = Self { curves: false, way: false, samples: false, shapes: KeepShapes::NONE };
     /// Numbers and the recorded instants.
     pub const SAMPLES: Self = Self { samples: true, ..Self::NUMBERS };
+    /// Numbers and what a fed fibre does to its air.
+    pub const WAY: Self = Self { way: true, ..Self::NUMBERS };
     /// Curves, but no recorded instants and no shapes.
     pub const CURVES: Self = Self { curves: true, ..Self::NUMBERS };
 }
@@ -194,7 +198,7 @@ fn fly_until_lost(
         .map(|lane| jobs[..lane].iter().any(|before| before.replicate == jobs[lane].replicate))
         .collect();
     let clock = flight.clock().clone();
-    let mut observers = Observers::new(&flight, keep.curves);
+    let mut observers = Observers::new(&flight, keep.curves, keep.way);
     // The shapes of companions are not kept.
     let keeps_shapes = |lane: usize| jobs[lane].replicate < keep.shapes.replicates && !is_companion[lane];
     let begin = |(lane, job): (usize, &Job<'_>)| {

@@ -236,6 +236,11 @@ impl Flight {
         &self.clock
     }
 
+    /// How it advances in time.
+    pub(crate) const fn scheme(&self) -> Scheme {
+        self.scheme
+    }
+
     /// The instruction set that it is computed with.
     pub(crate) const fn isa(&self) -> Isa {
         self.isa

@@ -9,11 +9,12 @@
 
 use super::{LaydownSource, LayerSpec, Method, WebSpec, finished_run};
 use crate::case::Case;
-use crate::ensemble::{Keep, LaidCurves, RunControl, fly};
+use crate::ensemble::{Keep, LaidCurves, Results, RunControl, fly};
 use crate::error::{Error, Fault};
 use crate::flight::LaidPoint;
 use crate::lanes::Isa;
 use crate::laydown::{Trace, TraceSettings};
+use crate::load::WayPlace;
 use crate::statistics::Estimate;
 use crate::surrogate::{IdentificationFailure, Residual, Surrogate, identify};
 use crate::web::{
@@ -49,6 +50,8 @@ pub struct FlownFibres {
     pub numbers: [Estimate; 3],
     /// How well the surrogate with the mean numbers fits; None without one.
     pub residual: Option<Residual>,
+    /// What a filament does to its air on its way, in the mean; empty of a run that was read.
+    pub way: Vec<WayPlace>,
     /// Why the first replicate without a surrogate has none.
     pub identification_failure: Option<IdentificationFailure>,
 }
@@ -149,11 +152,11 @@ impl<'a> Flyer<'a> {
         let flown = match known {
             Some((.., flown)) => Arc::clone(flown),
             None => {
-                let curves = match &layer.source {
-                    LaydownSource::Results { folder, .. } => finished_run::read(folder)?,
+                let (curves, way) = match &layer.source {
+                    LaydownSource::Results { folder, .. } => (finished_run::read(folder)?, Vec::new()),
                     _ => self.fly(path, case)?,
                 };
-                let flown = Arc::new(FlownFibres::gather(path, case, curves)?);
+                let flown = Arc::new(FlownFibres { way, ..FlownFibres::gather(path, case, curves)? });
                 if self.flown.len() == KEPT {
                     self.flown.remove(0);
                 }
@@ -170,8 +173,8 @@ impl<'a> Flyer<'a> {
         Ok(LayerFibres { fibres, flown: Some(flown) })
     }
 
-    /// Flies a case; the points that each replicate has laid.
-    fn fly(&self, path: &Path, case: &Case) -> Result<Vec<Vec<LaidPoint>>, Error> {
+    /// Flies a case; the points that each replicate has laid, and what the fibres do to their air.
+    fn fly(&self, path: &Path, case: &Case) -> Result<(Vec<Vec<LaidPoint>>, Vec<WayPlace>), Error> {
         let (fibre_steps, laid) = (AtomicU64::new(0), LaidCurves::default());
         let computing = RunControl {
             threads: self.threads,
@@ -185,12 +188,17 @@ impl<'a> Flyer<'a> {
         let steps = case.run.steps * replicates;
         let time_step = case.run.time_step;
         let flights = Flights { path, fibres: replicates, done: &fibre_steps, steps, time_step };
+        let mut results = Results::collector(0);
         (self.follow)(flights, &mut || {
-            flown = fly::<Error>(case, Keep::NUMBERS, computing, |_| Ok(()));
+            flown = fly::<Error>(case, Keep::WAY, computing, |trajectory| {
+                results.take(trajectory);
+                Ok(())
+            });
         });
         flown?;
         // A replicate that has laid nothing is missed by its number.
-        Ok((0..replicates).map(|replicate| laid.take(replicate)).collect())
+        let curves = (0..replicates).map(|replicate| laid.take(replicate)).collect();
+        Ok((curves, results.finish().way()))
     }
 }
 
@@ -237,7 +245,8 @@ impl FlownFibres {
             .collect();
         let step = traces.first().map_or(f64::NAN, |statistics| statistics.lag_step);
         let residual = Self::known(&numbers).and_then(|surrogate| surrogate.residual(step, &correlations));
-        Ok(Self { curves: Arc::new(curves), numbers, residual, identification_failure })
+        let way = Vec::new();
+        Ok(Self { curves: Arc::new(curves), numbers, residual, way, identification_failure })
     }
 
     /// The surrogate of these numbers, if A is known.

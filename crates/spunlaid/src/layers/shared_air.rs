@@ -89,10 +89,10 @@ impl LayerBeam<'_> {
     fn gather(&self, mut flown: BeamFindings) -> Result<FlownFibres, Error> {
         flown.kept.retain(|(filament, _)| self.beam().keeps(*filament));
         let one_air = self.one_air(flown.kept.iter().map(|(filament, _)| *filament));
-        let curves = flown.kept.into_iter().map(|(_, points)| points).collect();
+        let (way, curves) = (flown.way, flown.kept.into_iter().map(|(_, points)| points).collect());
         let gathered = FlownFibres::gather(self.path, &self.case, curves)?;
         let curves = Curves::clone(&gathered.curves).in_one_air(one_air);
-        Ok(FlownFibres { curves: Arc::new(curves), ..gathered })
+        Ok(FlownFibres { curves: Arc::new(curves), way, ..gathered })
     }
 
     /// How far some of its filaments hang together.

@@ -10,7 +10,7 @@
 //!
 //! A measure of anything else is a [`Measure`] with its [`Formula`] in a list: [`OF_WEBS`] and
 //! [`OF_PATCHES`], [`OF_SCANS`] and [`OF_SCANNED_PATCHES`], [`OF_FABRICS`] and others beside it,
-//! [`OF_RECORDS`] and [`OF_COMPONENTS`], [`OF_SPINLINES`].
+//! [`OF_RECORDS`] and [`OF_COMPONENTS`], [`OF_SPINLINES`], [`OF_LOADS`] and [`OF_LOAD_PLACES`].
 
 mod along_fibre;
 mod along_way;
@@ -20,7 +20,9 @@ mod end_node;
 mod energy;
 mod fabric;
 mod flow;
+mod force_on_air;
 mod laydown;
+mod load;
 mod measure;
 mod neighbours;
 mod record;
@@ -34,7 +36,10 @@ mod strain;
 mod web;
 
 pub use fabric::{OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES, OF_STREAKS, OF_STRIPS, OF_THINNEST};
+pub use force_on_air::{FIBRE_ON_WAY, FORCE_ON_AIR};
+pub(crate) use force_on_air::{Nodes, StretchedBalance};
 pub use laydown::{LAYDOWN, SURROGATE};
+pub use load::{OF_LOAD_PLACES, OF_LOADS};
 pub use measure::{
     Aggregate, END_NODE, ENERGY, ErrorRole, FIBRE, Figure, Formula, Group, HERTZ, KELVIN, Kind,
     METRES_PER_SECOND, MILLIMETRES, MILLINEWTONS, Measure, Measured, OF_PERCENT, PER_METRE, PER_SQUARE_METRE,
@@ -61,6 +66,7 @@ pub const DECLARED: &[&Declaration] = &[
     &spectrum::DECLARATION,
     &laydown::DECLARATION,
     &along_way::DECLARATION,
+    &force_on_air::DECLARATION,
     &neighbours::FED_CD,
     &neighbours::FED_MD,
     &neighbours::FIXED_CD,
@@ -117,8 +123,12 @@ impl Observers {
     ///
     /// * `curves` – whether to measure curves too. A study does without; observers of curves alone are then left
     ///   out.
-    pub fn new(flight: &Flight, curves: bool) -> Self {
-        let wanted = |d: &&Declaration| curves || d.measures.iter().any(|m| m.kind == Kind::Number);
+    /// * `way` – whether to measure what fed fibres do to their air, even without the other curves
+    pub fn new(flight: &Flight, curves: bool, way: bool) -> Self {
+        let has = |d: &Declaration, wanted: fn(&Measure) -> bool| d.measures.iter().any(wanted);
+        let wanted = |d: &&Declaration| {
+            curves || has(d, |m| m.kind == Kind::Number) || way && has(d, |m| m.name == FORCE_ON_AIR)
+        };
         let any = |d: &&Declaration| (0..WIDTH).any(|lane| applies(d, flight, lane));
         let declared = DECLARED.iter().copied().filter(wanted).filter(any);
         Self(declared.map(|declared| (declared, (declared.observer)(flight))).collect())

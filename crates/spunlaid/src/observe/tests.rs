@@ -15,6 +15,9 @@ fn check_unit(column: &str, unit: Unit) {
         "m-0.5" => "per_sqrt_m".to_owned(),
         "1/m" => "per_m".to_owned(),
         "1/m2" => "per_m2".to_owned(),
+        // Not a moment.
+        "N/m" => "n_per_m".to_owned(),
+        "W/m" => "w_per_m".to_owned(),
         "1/s" => "per_s".to_owned(),
         "(m/s)2/Hz" => "m2_s2_per_hz".to_owned(),
         unit => unit.to_lowercase().replace('/', "_"),
@@ -68,6 +71,8 @@ fn every_measure_has_names_a_label_a_meaning_and_a_unit() {
     check_list(OF_RECORDS);
     check_list(OF_COMPONENTS);
     check_list(OF_SPINLINES);
+    check_list(OF_LOADS);
+    check_list(OF_LOAD_PLACES);
     check_list(OF_FABRICS);
     check_list(OF_FABRIC_PATCHES);
     check_list(OF_STRIPS);
@@ -125,6 +130,8 @@ fn every_measure_stands_in_the_docs() {
     table(&mut text, "A velocity record", with_errors(OF_RECORDS));
     table(&mut text, "A component of a velocity record", with_errors(OF_COMPONENTS));
     table(&mut text, "A spinline", with_errors(OF_SPINLINES));
+    table(&mut text, "The load of the filaments on their air", with_errors(OF_LOADS));
+    table(&mut text, "The load between the inlet and a place", with_errors(OF_LOAD_PLACES));
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/measures.md");
     if std::env::var_os("SPUNLAID_RENEW").is_some() {
         std::fs::write(&path, &text).unwrap();

@@ -10,6 +10,10 @@ pub fn si_unit_of(multiple: &str) -> String {
     // Kilometres are shown, though no key takes them.
     let of_thousands = |symbol: &str| symbol.strip_prefix('k').and_then(known);
     let si = |symbol: &str| {
+        // No key takes watts.
+        if symbol == "kW" {
+            return "W".to_owned();
+        }
         let dimension = known(symbol).or_else(|| of_thousands(symbol));
         dimension.map_or_else(|| symbol.to_owned(), |d| d.si_unit().to_owned())
     };

@@ -152,6 +152,14 @@ impl Filaments {
         }
     }
 
+    /// Size in machine direction of the slot through which they come with their air [m]; None if it is not known.
+    pub fn slot(&self) -> Option<f64> {
+        match self {
+            Self::Slot { depth, .. } if *depth > 0.0 => Some(*depth),
+            _ => None,
+        }
+    }
+
     /// How far they are spread in machine direction where they are fed [m].
     pub fn depth(&self) -> f64 {
         match self {

@@ -19,6 +19,7 @@ mod forces;
 mod friction;
 mod laydown;
 mod laydown_statistics;
+mod load;
 mod neighbours;
 mod schemes;
 mod slack;

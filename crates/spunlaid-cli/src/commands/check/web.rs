@@ -13,8 +13,10 @@ use spunlaid::layers::PlannedFlight;
 use spunlaid::units::Dimension;
 use spunlaid::web::Filaments;
 use spunlaid_results::numbers::significant;
+use spunlaid_results::output::load::LoadSummary;
 use spunlaid_results::output::spinline::SpinSummary;
 use spunlaid_results::output::versioned_json;
+use spunlaid_results::report::load_words;
 
 /// Checks the file of a web.
 pub(super) fn web(check: &Check) -> Result<(), Failure> {
@@ -26,7 +28,7 @@ pub(super) fn web(check: &Check) -> Result<(), Failure> {
         return Ok(());
     }
     let spec = &file.spec;
-    let comments = [line(spec), sheet(spec).to_vec(), air(spec), guesses(spec)].concat();
+    let comments = [line(spec), sheet(spec).to_vec(), air(spec), load(spec), guesses(spec)].concat();
     show("web", &file.text, &comments, "web", &check.source);
     Ok(())
 }
@@ -52,6 +54,9 @@ struct CheckedLayer {
     throughput_kg_s: f64,
     filaments: u64,
     filaments_per_m: f64,
+    /// What is known of their load on the air before a flight.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    curtain: Option<LoadSummary>,
     #[serde(skip_serializing_if = "Option::is_none")]
     spinline: Option<SpinSummary>,
 }
@@ -68,6 +73,7 @@ impl Summary {
                 throughput_kg_s: layer.linear_density() * layer.feed_speed,
                 filaments,
                 filaments_per_m: filaments as f64 / spec.sheet.width,
+                curtain: curtain(spec, layer),
                 spinline: layer.source.case().and_then(SpinSummary::from_case),
             }
         };
@@ -212,6 +218,27 @@ fn in_one_air(spec: &WebSpec) -> Vec<String> {
         );
     }
     lines
+}
+
+/// What is known of the load of the filaments of a layer on their air before a flight.
+fn curtain(spec: &WebSpec, layer: &LayerSpec) -> Option<LoadSummary> {
+    let filaments_per_metre = layer.filaments.count(&spec.sheet) as f64 / spec.sheet.width;
+    LoadSummary::new(layer.source.case()?, filaments_per_metre, layer.filaments.slot(), &[])
+}
+
+/// The load of the filaments on their air, as far as no flight is needed.
+fn load(spec: &WebSpec) -> Vec<String> {
+    let words = |layer: &LayerSpec| Some(load_words(&curtain(spec, layer)?.0));
+    let mut lines = vec!["load on the air".to_owned()];
+    for (number, words) in
+        spec.layers.iter().enumerate().filter_map(|(i, layer)| Some((i + 1, words(layer)?)))
+    {
+        lines.push(match spec.layers.len() {
+            1 => format!("  {words}"),
+            _ => format!("  layer {number}: {words}"),
+        });
+    }
+    if lines.len() > 1 { lines } else { Vec::new() }
 }
 
 /// Which numbers are guesses, and what is done about them.

@@ -4,6 +4,7 @@ use super::effects::EffectsSummary;
 use super::fabric::FabricSummary;
 use crate::figures::SEEN;
 use crate::output::in_order::OrderedObject;
+use crate::output::load::LoadSummary;
 use crate::output::measured::{json, values, with_errors};
 use crate::output::spinline::SpinSummary;
 use serde::Serialize;
@@ -66,6 +67,9 @@ pub struct Layer {
     /// filaments in airs of their own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lateral_cutoff: Option<f64>,
+    /// What its filaments do to their air, where a case says how they fly.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub curtain: Option<LoadSummary>,
     /// The spinline from which its filaments come, if its case has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spinline: Option<SpinSummary>,

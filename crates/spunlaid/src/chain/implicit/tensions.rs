@@ -57,6 +57,12 @@ impl Tensions {
         tensions
     }
 
+    /// Drag on a node at the start of the last step [N].
+    #[cfg(test)]
+    pub(crate) fn drag(&self, node: usize) -> Vec3<Lanes> {
+        self.links[node].drag
+    }
+
     /// Keeps the belt's force on each node.
     pub(crate) fn rub(&mut self) {
         self.rubs = true;

@@ -147,7 +147,8 @@ pub(super) const KEYS: &[WebKey] = &[
             "Size in machine direction of the slot through which the filaments come, with \
              `filaments_per_metre`: they are at an even pitch across the web, each at a random place of \
              the depth. It changes a web in one air (`web.method = \"shared-air\"`), for filaments that \
-             are deeper in the slot hang in other eddies; elsewhere only the even pitch counts.",
+             are deeper in the slot hang in other eddies; elsewhere only the even pitch counts. The air \
+             comes through the same slot, and what filaments do to it is told by its size.",
         )
         .label("Depth of the slot")
         .usual(1e-4, 1.0),

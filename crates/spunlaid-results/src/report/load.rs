@@ -1,0 +1,140 @@
+//! What filaments do to their air: the section of the reports of webs and of runs, and its sentences.
+
+use super::document::Section;
+use super::table::{Content, Layout, Row, Table};
+use crate::numbers::{THIN, plus_minus, significant};
+use crate::output::load::LoadSummary;
+use crate::output::measured::text;
+use spunlaid::load::{Load, LoadPlace};
+use spunlaid::observe::{Measured, OF_LOAD_PLACES, OF_LOADS, measured};
+
+const TITLE: &str = "What the filaments do to their air";
+
+/// Share of the momentum of the air from which on the given air is far from that of the line.
+const LARGE: f64 = 0.2;
+
+/// The section for a page; none where nothing is known.
+///
+/// * `loads` – of each layer, with its name where there are several
+pub(super) fn section_of_loads(loads: &[(Option<&str>, &LoadSummary)]) -> Option<Section<'static>> {
+    if loads.is_empty() {
+        return None;
+    }
+    let mut section = Section::new("curtain", TITLE);
+    for (name, LoadSummary(load)) in loads {
+        if let Some(name) = name {
+            section = section.heading(format!("Layer {name}"));
+        }
+        section = section.paragraph(load_words(load)).table(numbers(load));
+        if !load.places.is_empty() {
+            section = section.table(along_way(load));
+        }
+    }
+    let heat = match loads.iter().all(|(_, LoadSummary(load))| load.heat.is_none()) {
+        true => " What heat they bring is not known, because they come from no spinline.",
+        false => "",
+    };
+    Some(section.caption(format!(
+        "The force is that of the balance of the momentum of the flown filaments, ± one standard error, times the \
+        filaments per metre; docs/theory.md has the equations. The air of the slot is taken to keep its mass flow.{heat}"
+    )))
+}
+
+/// The same in sentences, for a terminal.
+pub(super) fn loads_in_short(loads: &[(Option<&str>, &LoadSummary)]) -> Section<'static> {
+    let words = |(name, LoadSummary(load)): &(Option<&str>, &LoadSummary)| match name {
+        Some(name) => format!("Layer {name}: {}", load_words(load)),
+        None => load_words(load),
+    };
+    match loads {
+        [] => Section::new("", ""),
+        _ => Section::new("", TITLE).paragraphs(loads.iter().map(words)).on_terminal(),
+    }
+}
+
+/// What filaments do to their air, in a few sentences.
+pub fn load_words(load: &Load) -> String {
+    let at_inlet = load.mass_loading().zip(load.momentum_loading()).map(|(mass, momentum)| {
+        format!(
+            "At the inlet the filaments have {} of the mass flow of the air and {} of its momentum flux.",
+            per_cent(mass),
+            per_cent(momentum)
+        )
+    });
+    let missing = load.air.is_none().then(|| match load.places.is_empty() {
+        true => {
+            "What the filaments do to their air can be told with the size of the slot: line.depth, beside \
+            line.filaments_per_metre."
+                .to_owned()
+        }
+        false => "How much this is of the momentum of the air cannot be told without the size of the slot; a web has it in \
+        line.depth, beside line.filaments_per_metre."
+            .to_owned(),
+    });
+    let on_way = load.at_belt().map(on_way);
+    at_inlet.into_iter().chain(on_way).chain(missing).collect::<Vec<_>>().join(" ")
+}
+
+/// The force on the air down to the belt, and what it does to it.
+fn on_way(belt: &LoadPlace) -> String {
+    let force = format!(
+        "Down to the belt they drive it with {}{THIN}N per metre of width",
+        plus_minus(belt.force, belt.standard_error)
+    );
+    let Some(share) = belt.share_of_momentum() else { return format!("{force}.") };
+    let effect = match belt.change_of_velocity() {
+        Some(change) => format!("a free stream of the same width would be {} there", faster(change)),
+        None => "they would stop a free stream of the same width".to_owned(),
+    };
+    let pressure = belt.pressure.map_or_else(String::new, |rise| {
+        format!(", and between walls its pressure would rise by {}{THIN}Pa", significant(rise, 2))
+    });
+    let verdict = if share.abs() > LARGE {
+        "That is so much that the given air can hardly be that of this line, unless it was measured or computed with \
+        its filaments."
+    } else {
+        "The flights are in the air as it is given."
+    };
+    format!("{force}, {} of its momentum flux: {effect}{pressure}. {verdict}", per_cent(share))
+}
+
+fn per_cent(share: f64) -> String {
+    format!("{}{THIN}%", significant(100.0 * share, 2))
+}
+
+fn faster(change: f64) -> String {
+    format!("{} {}", per_cent(change.abs()), if change < 0.0 { "slower" } else { "faster" })
+}
+
+/// The numbers of a load that are known.
+fn numbers(load: &Load) -> Table {
+    let columns = [
+        ("Result", Content::Words),
+        ("Value", Content::Numbers),
+        ("Unit", Content::Words),
+        ("Meaning", Content::Meanings),
+    ];
+    let row = |row: Measured<Load>| {
+        let value = text(&row)?;
+        let named = Row::new(row.measure.label, [&value, row.measure.unit.shown, row.measure.meaning]);
+        Some(named.detail(row.remark.unwrap_or_default()))
+    };
+    Table::of(columns).laid_out(Layout::Results).rows(measured(OF_LOADS, load).filter_map(row))
+}
+
+/// The load at places on the way, as far as it is known.
+fn along_way(load: &Load) -> Table {
+    let is_known = |row: &Measured<LoadPlace>| row.value.is_some();
+    let rows: Vec<Vec<Measured<LoadPlace>>> =
+        load.places.iter().map(|place| measured(OF_LOAD_PLACES, place).filter(is_known).collect()).collect();
+    let head = |row: &Measured<LoadPlace>| match row.measure.unit.shown {
+        "" => row.measure.label.to_owned(),
+        unit => format!("{}, {unit}", row.measure.label),
+    };
+    let heads: Vec<String> = rows.last().into_iter().flatten().map(head).collect();
+    let cells = |row: Vec<Measured<LoadPlace>>| {
+        let mut cells = row.iter().map(|cell| text(cell).unwrap_or_default());
+        Row::new(cells.next().unwrap_or_default(), cells.collect::<Vec<_>>())
+    };
+    Table::of_numbers(heads).rows(rows.into_iter().map(cells))
+}
