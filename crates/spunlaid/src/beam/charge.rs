@@ -3,6 +3,7 @@
 use super::Beam;
 use crate::charge::{Charge, ChargedNode, Curtain, SheetField, Sheets};
 use crate::flight::Flight;
+use crate::web::ChargedCurtain;
 use std::sync::Arc;
 
 /// Blocks in the time over which the charge is averaged. The field is that of the block before.
@@ -39,6 +40,7 @@ impl BeamField {
         let curtain = Curtain {
             per_metre: *per_metre,
             node_mass: beam.element_mass(),
+            element: beam.case.fibre.rest_length(),
             distance: beam.case.line?.distance,
             weights: weights.iter().sum(),
         };
@@ -73,9 +75,9 @@ impl BeamField {
         self.field = Arc::new(self.sheets.field());
     }
 
-    /// The strongest field beside the filaments [V/m].
-    pub(super) fn edge(&self) -> f64 {
-        self.field.edge()
+    /// What the filaments have been like of late.
+    pub(super) fn curtain(&self) -> ChargedCurtain {
+        ChargedCurtain { layer: 0, edge_field: self.field.edge(), heights: self.sheets.heights() }
     }
 }
 

@@ -132,7 +132,7 @@ impl<'a> Flying<'a> {
     /// If more than 2 % of them are lost.
     pub(super) fn finish(self, mut flown: BeamFindings) -> Result<BeamFindings, Error> {
         let has_lost_too_many = self.has_lost_too_many();
-        flown.edge_field = self.field.as_ref().map(BeamField::edge);
+        flown.charged = self.field.as_ref().map(BeamField::curtain);
         flown.back = self.stretch.back().unwrap_or(f64::NAN);
         flown.time = self.done as f64 * self.beam.case.run.time_step;
         for pack in self.packs {

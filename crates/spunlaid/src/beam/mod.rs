@@ -32,7 +32,7 @@ use crate::lanes::Isa;
 use crate::sort::sort_by_key;
 use crate::threads::try_each;
 use crate::web::{
-    Brush, Canvas, KeptFibres, LaidWeb, NeighbourCorrelation, SharedAirFindings, SharedVariance, Sheet,
+    Brush, Canvas, ChargedCurtain, KeptFibres, LaidWeb, NeighbourCorrelation, SharedAirFindings, SharedVariance, Sheet,
     TimeSpent, Titres, Window, Windows,
 };
 pub(crate) use abreast::{FlownAbreast, fly_abreast, memory_abreast};
@@ -112,8 +112,8 @@ pub struct BeamFindings {
     pub time: f64,
     /// What it took.
     pub spent: TimeSpent,
-    /// The strongest electric field beside the filaments, at any height, if they are charged [V/m].
-    pub edge_field: Option<f64>,
+    /// What charge has made of them, if they are charged.
+    pub charged: Option<ChargedCurtain>,
 }
 
 impl<'a> Beam<'a> {
@@ -239,12 +239,13 @@ impl Beam<'_> {
 impl BeamFindings {
     /// The findings on the web in one air. The strands of single fibres are moved out of `self`.
     pub(crate) fn take_shared_air(&mut self) -> SharedAirFindings {
-        let Self { in_windows, neighbours, pairs, lost, time, spent, .. } = self;
+        let Self { in_windows, neighbours, pairs, lost, time, spent, charged, .. } = self;
         SharedAirFindings {
             strands: std::mem::take(&mut in_windows.strands),
             neighbours: neighbours.clone(),
             pairs: pairs.clone(),
             few: Vec::new(),
+            charged: charged.take().into_iter().collect(),
             lost: lost.len() as u64,
             time: *time,
             spent: *spent,

@@ -12,6 +12,7 @@ mod field;
 mod sheets;
 
 pub(crate) use field::SheetField;
+pub use sheets::SheetHeight;
 pub(crate) use sheets::{ChargedNode, Curtain, Sheets};
 
 /// Permittivity of the vacuum `ε₀` [F/m], which is that of air within a thousandth.

@@ -29,6 +29,20 @@ pub(crate) struct ChargedNode {
     pub(crate) weight: u64,
 }
 
+/// Shares of charge that are told of each height, from the back of the belt to its front.
+const SHARES: [f64; 5] = [0.025, 0.25, 0.5, 0.75, 0.975];
+
+/// The charge at one height of a curtain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SheetHeight {
+    /// Distance from the inlet [m].
+    pub x: f64,
+    /// Places in machine direction behind which 2.5, 25, 50, 75 and 97.5 % of the filament hangs [m].
+    pub places: [f64; 5],
+    /// Length of filament for each length of height [-].
+    pub length: f64,
+}
+
 /// The filaments of a curtain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Curtain {
@@ -36,6 +50,8 @@ pub(crate) struct Curtain {
     pub(crate) per_metre: f64,
     /// Mass of an element, which is that of a node [kg].
     pub(crate) node_mass: f64,
+    /// Length of an element [m].
+    pub(crate) element: f64,
     /// Distance from inlet to belt [m].
     pub(crate) distance: f64,
     /// The sum of the weights of all filaments.
@@ -49,6 +65,8 @@ pub(crate) struct Sheets {
     walls: f64,
     /// Field at the edge of what one quantum is in the length of a step of height [V/m].
     strength: f64,
+    /// Length for each height that one quantum is there [-].
+    length: f64,
     per_length: f64,
     /// Quanta now, and their mean, at the points of all heights.
     now: Vec<f64>,
@@ -58,7 +76,7 @@ pub(crate) struct Sheets {
 impl Sheets {
     /// A curtain of which nothing has come down yet.
     pub(crate) fn new(charge: &Charge, curtain: &Curtain) -> Self {
-        let Curtain { per_metre, node_mass, distance, weights } = *curtain;
+        let Curtain { per_metre, node_mass, element, distance, weights } = *curtain;
         let step = distance / HEIGHTS as f64;
         // The charge of a node for each metre of width, over the length of a step and a unit of weight.
         let sheet = per_metre * charge.per_mass * node_mass / (weights as f64 * step);
@@ -67,6 +85,7 @@ impl Sheets {
             distance,
             walls: charge.walls.unwrap_or(f64::INFINITY),
             strength: 0.5 * sheet / PERMITTIVITY / (QUANTA * QUANTA),
+            length: element / (weights as f64 * step * QUANTA * QUANTA),
             per_length: per_metre / FINEST,
             now: vec![0.0; points],
             mean: vec![0.0; points],
@@ -119,16 +138,51 @@ impl Sheets {
         }
     }
 
+    /// Heights with their charge, and whether the height is the first or the last: half a step belongs to these.
+    fn rows(&self) -> impl Iterator<Item = (f64, &[f64])> {
+        let rows = self.mean.chunks_exact(CELLS + 1).enumerate();
+        rows.map(|(height, charges)| (if height % HEIGHTS == 0 { 2.0 } else { 1.0 }, charges))
+    }
+
+    /// Place of a point of the grid [m].
+    fn place(&self, point: f64) -> f64 {
+        (point - MIDDLE as f64) / self.per_length
+    }
+
+    /// Where the charge of the mean is, at all heights at which there is some.
+    pub(crate) fn heights(&self) -> Vec<SheetHeight> {
+        let height = |(height, (parts, charges)): (usize, (f64, &[f64]))| {
+            let whole: f64 = charges.iter().sum();
+            let place = |share: f64| {
+                let mut before = 0.0;
+                let found = charges.iter().position(|charge| {
+                    before += charge;
+                    before >= share * whole
+                });
+                let point = found.unwrap_or(MIDDLE);
+                // The charge of a point reaches half a cell to both sides of it.
+                let beyond = (before - share * whole) / charges[point];
+                self.place(point as f64 + 0.5 - beyond)
+            };
+            let x = self.distance * height as f64 / HEIGHTS as f64;
+            (whole > 0.0).then(|| SheetHeight {
+                x,
+                places: SHARES.map(place),
+                length: parts * self.length * whole,
+            })
+        };
+        self.rows().enumerate().filter_map(height).collect()
+    }
+
     /// The field of the mean.                                                      theory.md (83i), (83j)
     pub(crate) fn field(&self) -> SheetField {
         let mut values = Vec::with_capacity(self.mean.len());
-        for (height, charges) in self.mean.chunks_exact(CELLS + 1).enumerate() {
-            // Half a step belongs to the first and to the last height.
-            let strength = if height % HEIGHTS == 0 { 2.0 * self.strength } else { self.strength };
+        for (parts, charges) in self.rows() {
+            let strength = parts * self.strength;
             let whole: f64 = charges.iter().sum();
             // What plates add pulls all charge at a height to the side on which more of it is.
-            let place = |point: usize| (point as f64 - MIDDLE as f64) / self.per_length;
-            let moment: f64 = charges.iter().enumerate().map(|(point, charge)| charge * place(point)).sum();
+            let moments = charges.iter().enumerate().map(|(point, charge)| charge * self.place(point as f64));
+            let moment: f64 = moments.sum();
             let mut before = 0.0;
             values.extend(charges.iter().map(|charge| {
                 let (own, other) = (2.0 * before + charge, whole - moment / self.walls);
@@ -144,7 +198,8 @@ impl Sheets {
 mod tests {
     use super::*;
 
-    const CURTAIN: Curtain = Curtain { per_metre: 5000.0, node_mass: 1e-9, distance: 0.5, weights: 100 };
+    const CURTAIN: Curtain =
+        Curtain { per_metre: 5000.0, node_mass: 1e-9, element: 2e-3, distance: 0.5, weights: 100 };
     const PLAIN: Charge = Charge { per_mass: 1e-3, walls: None };
 
     /// A hundred straight filaments with a node every 2 mm, at places in machine direction.
@@ -209,6 +264,20 @@ mod tests {
     }
 
     #[test]
+    fn analytic_heights_tell_the_places_of_straight_filaments() {
+        let mut sheets = Sheets::new(&PLAIN, &CURTAIN);
+        sheets.renew(&nodes(|i| (i as f64 - 49.5) * 1e-3), 1.0);
+        let heights = sheets.heights();
+        assert_eq!(heights.len(), HEIGHTS + 1);
+        for SheetHeight { x, places, length } in heights {
+            assert!((length - 1.0).abs() < 0.03, "{x}: {length}");
+            for (place, exact) in places.into_iter().zip([-47.5e-3, -25e-3, 0.0, 25e-3, 47.5e-3]) {
+                assert!((place - exact).abs() < 1e-3, "{x}: {place} for {exact}");
+            }
+        }
+    }
+
+    #[test]
     fn identical_in_any_order_of_the_nodes() {
         let mut nodes = nodes(|i| (i as f64).sin() * 0.3);
         let first = field(PLAIN, &nodes);
@@ -224,8 +293,8 @@ mod tests {
         sheets.renew(&nodes(|i| 5e-3 + i as f64 * 1e-5), 1.0);
         let sums = |sheets: &Sheets| {
             let row = &sheets.mean[16 * (CELLS + 1)..][..CELLS + 1];
-            let place = |point: usize| (point as f64 - MIDDLE as f64) / sheets.per_length;
-            let moment: f64 = row.iter().enumerate().map(|(point, charge)| charge * place(point)).sum();
+            let moments = row.iter().enumerate().map(|(point, charge)| charge * sheets.place(point as f64));
+            let moment: f64 = moments.sum();
             (row.iter().sum::<f64>(), moment)
         };
         let before = sums(&sheets);

@@ -61,7 +61,8 @@ mod tests {
 
     fn sheets(weights: u64) -> Sheets {
         let node_mass = FIBRE.element_mass();
-        let curtain = Curtain { per_metre: PER_METRE, node_mass, distance: HEIGHT, weights };
+        let curtain =
+            Curtain { per_metre: PER_METRE, node_mass, element: SPACING, distance: HEIGHT, weights };
         Sheets::new(&Charge { per_mass: PER_MASS, walls: None }, &curtain)
     }
 

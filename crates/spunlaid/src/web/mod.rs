@@ -7,6 +7,7 @@
 //! md is the machine direction, in which the belt moves the web; cd is the cross direction.
 
 mod canvas;
+mod charged;
 mod clouds;
 mod curves;
 mod defects;
@@ -52,6 +53,7 @@ pub use laid_web::{LaidWeb, SharedAirFindings};
 pub use lay::{lay, lay_in_windows, pieces};
 pub use laying::{LayControl, TimeSpent};
 pub use map::Map;
+pub use charged::ChargedCurtain;
 pub use neighbours::{Correlation, NeighbourCorrelation, SharedVariance};
 pub(crate) use nozzles::inlets;
 pub use one_fibre::{OneFibre, SingleFibres, one_fibre, straight_fibres};
