@@ -1,6 +1,9 @@
 //! The field of charged sheets, over the height and the machine direction.
 
-use super::sheets::{CELLS, HEIGHTS};
+/// Steps from inlet to belt.
+pub(super) const HEIGHTS: usize = 32;
+/// Cells in machine direction, half of them on either side of the middle.
+pub(super) const CELLS: usize = 512;
 
 /// The field along the machine direction, `E_y` [V/m], at places between inlet and belt.
 #[derive(Clone, Debug, Default)]
@@ -38,6 +41,8 @@ impl SheetField {
     /// The strongest field beside the curtain, at any height [V/m].
     pub(crate) fn edge(&self) -> f64 {
         let heights = self.values.chunks_exact(CELLS + 1);
-        heights.flat_map(|values| [values[0], values[CELLS]]).fold(0.0, |most: f64, edge| most.max(edge.abs()))
+        heights
+            .flat_map(|values| [values[0], values[CELLS]])
+            .fold(0.0, |most: f64, edge| most.max(edge.abs()))
     }
 }

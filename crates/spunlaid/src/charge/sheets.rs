@@ -4,12 +4,9 @@
 //! same way. So filaments at one place make no field there, whatever the cells are, and what they do to each
 //! other is equal and opposite. The parts are whole numbers of quanta, whose sum does not depend on the order.
 
-use super::{Charge, PERMITTIVITY, SheetField};
+use super::field::{CELLS, HEIGHTS, SheetField};
+use super::{Charge, PERMITTIVITY};
 
-/// Steps from inlet to belt.
-pub(super) const HEIGHTS: usize = 32;
-/// Cells in machine direction, half of them on either side of the middle.
-pub(super) const CELLS: usize = 512;
 const MIDDLE: usize = CELLS / 2;
 /// Width of a cell at first, in mean distances of neighbours: between these the charge is no sheet.
 const FINEST: f64 = 0.5;
@@ -233,7 +230,11 @@ mod tests {
             }
         }
         assert!((even.edge() / edge() - 1.0).abs() < 0.03, "{} {}", even.edge(), edge());
-        assert_eq!([even.at(-1e-3, 0.1), even.at(0.5, 0.1)], [0.0; 2], "none above the inlet and on the belt");
+        assert_eq!(
+            [even.at(-1e-3, 0.1), even.at(0.5, 0.1)],
+            [0.0; 2],
+            "none above the inlet and on the belt"
+        );
     }
 
     /// Filaments at one place, and the sum of all that filaments do to each other.
@@ -318,7 +319,11 @@ mod tests {
             assert!((found.edge_field / exact - 1.0).abs() < 1e-12);
             // Those numbers have one digit or two, and were found with another length per height.
             assert!((found.edge_field / edge_field - 1.0).abs() < 0.12, "{} {edge_field}", found.edge_field);
-            assert!((found.over_weight / over_weight - 1.0).abs() < 0.12, "{} {over_weight}", found.over_weight);
+            assert!(
+                (found.over_weight / over_weight - 1.0).abs() < 0.12,
+                "{} {over_weight}",
+                found.over_weight
+            );
         }
     }
 }

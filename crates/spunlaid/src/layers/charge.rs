@@ -48,7 +48,11 @@ impl WebSpec {
     /// The charge of the filaments of a layer that fly.
     ///
     /// * `flown` – where they are fed, and for which filaments they stand if they are a few
-    pub(super) fn beam_charge(&self, layer: usize, flown: (&[Place], Option<&FewPlan>)) -> Option<BeamCharge> {
+    pub(super) fn beam_charge(
+        &self,
+        layer: usize,
+        flown: (&[Place], Option<&FewPlan>),
+    ) -> Option<BeamCharge> {
         let (places, few) = flown;
         let spec = self.layers.get(layer)?;
         let charge = spec.charged()?;

@@ -98,9 +98,13 @@ impl Powers {
 impl fmt::Display for Powers {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut parts = Vec::new();
-        for (unit, power) in
-            [("kg", self.kilogram), ("m", self.metre), ("s", self.second), ("K", self.kelvin), ("A", self.ampere)]
-        {
+        for (unit, power) in [
+            ("kg", self.kilogram),
+            ("m", self.metre),
+            ("s", self.second),
+            ("K", self.kelvin),
+            ("A", self.ampere),
+        ] {
             if power == 1.0 {
                 parts.push(unit.to_owned());
             } else if power != 0.0 {

@@ -19,7 +19,9 @@ impl Findings {
     /// * `residuals` – of each layer, how well a surrogate fits what its fibres have laid; None where nothing was flown
     pub fn doubts(&self, web: &Web, residuals: &[Option<Residual>]) -> Vec<Doubt> {
         let mut doubts = match &self.laid.shared_air {
-            Some(together) => [lost(web, together), few_filaments(self, together), charged(together)].concat(),
+            Some(together) => {
+                [lost(web, together), few_filaments(self, together), charged(together)].concat()
+            }
             None => models(web, self, residuals),
         };
         let map = &self.laid.map;

@@ -39,6 +39,7 @@ mod whole_error;
 mod window;
 
 pub(crate) use canvas::{Canvas, CanvasPart};
+pub use charged::ChargedCurtain;
 pub use clouds::{Clouds, autocorrelation};
 pub use curves::Curves;
 pub(crate) use curves::OneAir;
@@ -53,7 +54,6 @@ pub use laid_web::{LaidWeb, SharedAirFindings};
 pub use lay::{lay, lay_in_windows, pieces};
 pub use laying::{LayControl, TimeSpent};
 pub use map::Map;
-pub use charged::ChargedCurtain;
 pub use neighbours::{Correlation, NeighbourCorrelation, SharedVariance};
 pub(crate) use nozzles::inlets;
 pub use one_fibre::{OneFibre, SingleFibres, one_fibre, straight_fibres};

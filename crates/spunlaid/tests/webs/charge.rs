@@ -87,8 +87,8 @@ fn analytic_the_curtain_opens_with_the_square_of_the_charge() {
         flown.kept.iter().map(of_filament).sum::<f64>() / flown.kept.len() as f64
     };
     let none = opened(0.0, 32);
-    let [once, twice, minus, few] =
-        [(6e-3, 32), (12e-3, 32), (-6e-3, 32), (12e-3, 16)].map(|(charge, count)| opened(charge, count) - none);
+    let [once, twice, minus, few] = [(6e-3, 32), (12e-3, 32), (-6e-3, 32), (12e-3, 16)]
+        .map(|(charge, count)| opened(charge, count) - none);
     assert!(once > 1e-3, "{none} {once} {twice}");
     assert!((twice / once / 4.0 - 1.0).abs() < 0.1, "{none} {once} {twice}");
     assert_eq!(once, minus);

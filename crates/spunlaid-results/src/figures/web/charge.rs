@@ -20,7 +20,8 @@ pub(super) fn figure(charged: &[ChargedCurtain]) -> Option<Figure> {
         Axis::linear("Place in machine direction (mm)").in_column("md_mm"),
     );
     for (curtain, colour) in charged.iter().zip(COLOURS.into_iter().cycle()) {
-        let heights = || curtain.heights.iter().map(|height| (height.x * MM, height.places.map(|at| at * MM)));
+        let heights =
+            || curtain.heights.iter().map(|height| (height.x * MM, height.places.map(|at| at * MM)));
         let between = |low: usize, high: usize| -> Vec<_> {
             heights().map(|(x, places)| (x, places[low], places[high])).collect()
         };
