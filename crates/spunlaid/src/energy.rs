@@ -25,6 +25,8 @@ pub struct Energy {
     pub drag_work: Lanes,
     /// Work of damping and bending viscosity, negative.
     pub damping_work: Lanes,
+    /// Work of the electric field of charged fibres.
+    pub field_work: Lanes,
     /// Work of what drives the root of a fed fibre.
     pub feed_work: Lanes,
     /// Work of the belt, negative: it stops what lands.
@@ -68,6 +70,7 @@ impl Energy {
         self.work = after.total.work(&before.total, h);
         self.drag_work = after.drag.work(&before.drag, h);
         self.damping_work = after.damping.work(&before.damping, h) - before.viscous;
+        self.field_work = after.field.work(&before.field, h);
         self.initial = initial.kinetic + initial.axial + initial.bending;
         self.gravity_work = self.gravity_work + carried.gravity_work;
         self.feed_work = after.feed.work(&before.feed, h);
@@ -81,12 +84,12 @@ impl Energy {
     }
 
     /// Potential and kinetic energy plus the dissipation of the implicit tension, minus the work of gravity,
-    /// drag, damping, feed and belt and the energy carried in with the fibre [J]. It differs from zero by the
+    /// drag, damping, electric field, feed and belt and the energy carried in with the fibre [J]. It differs from zero by the
     /// error of the time integration only. theory.md (36)
     pub fn imbalance(&self) -> Lanes {
         let stored = self.kinetic + self.axial + self.bending + self.tension_dissipation;
         let supplied = self.initial + self.carried + self.feed_work + self.belt_work;
-        stored - supplied - self.gravity_work - self.drag_work - self.damping_work
+        stored - supplied - self.gravity_work - self.drag_work - self.damping_work - self.field_work
     }
 }
 

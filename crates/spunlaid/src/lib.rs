@@ -80,6 +80,8 @@ pub mod drag;
 
 pub mod spinline;
 
+pub mod charge;
+
 pub mod chain;
 
 pub mod energy;

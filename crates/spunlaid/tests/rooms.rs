@@ -20,7 +20,7 @@ const ROOMS: &[&[&str]] = &[
     &["fibre", "line"],
     &["field"],
     &["air", "drag"],
-    &["spinline"],
+    &["spinline", "charge"],
     &["chain"],
     &["energy"],
     &["statistics"],

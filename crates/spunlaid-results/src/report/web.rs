@@ -19,10 +19,12 @@ use crate::numbers::{THIN, number, plus_minus, significant};
 use crate::output::load::LoadSummary;
 use crate::output::web::{Layer, PatchTable, Performance, Reader};
 use spunlaid::advice::Advice;
+use spunlaid::charge::BREAKDOWN;
 use spunlaid::fabric::Fabric;
 use spunlaid::layers::WebSpec;
+use spunlaid::units::Dimension;
 use spunlaid::web::uniformity::Unevenness;
-use spunlaid::web::{Findings, PatchFindings, Sensitivity, Source, Strand, Web};
+use spunlaid::web::{ChargedCurtain, Findings, PatchFindings, Sensitivity, Source, Strand, Web};
 use spunlaid_charts::Figure;
 
 /// A web.
@@ -68,6 +70,7 @@ pub fn web_report<'a>(
         .lead(guess_words(spec, findings, guesses))
         .lead(advice_words(spec, findings, advice))
         .lead([summary(web), air_sentence(spec, findings), errors].join(" "))
+        .lead(charge_sentence(spec, findings))
         .lead(spun)
         .with(table)
         .with(uneven(spec, findings, (advice, guesses)))
@@ -226,6 +229,27 @@ fn air_sentence(spec: &WebSpec, findings: &Findings) -> String {
             together. Name a case (laydown.case) and leave web.method out to fly them in one air."
             .to_owned(),
     }
+}
+
+/// What the charge of the filaments does; nothing of filaments without charge.
+fn charge_sentence(spec: &WebSpec, findings: &Findings) -> String {
+    let told = |charged: &ChargedCurtain| {
+        let charge = spec.layers.get(charged.layer)?.charge?;
+        let last = charged.heights.last()?;
+        let [behind, .., before] = last.places;
+        Some(format!(
+            "Charged with {}, the filaments{} drive each other apart: 95 % of them hang within {} along the \
+            machine direction just above the belt. The field beside them is {} at most, and air breaks \
+            down at {}.",
+            Dimension::SpecificCharge.pretty(charge),
+            if spec.layers.len() > 1 { format!(" of layer {}", charged.layer + 1) } else { String::new() },
+            Dimension::Length.pretty_to(before - behind, 3),
+            Dimension::ElectricField.pretty_to(charged.edge_field, 2),
+            Dimension::ElectricField.pretty(BREAKDOWN),
+        ))
+    };
+    let together = findings.laid.shared_air.iter().flat_map(|together| &together.charged);
+    together.filter_map(told).collect::<Vec<_>>().join(" ")
 }
 
 /// What the error in the headline is made of, and what the flown curves say, in sentences.

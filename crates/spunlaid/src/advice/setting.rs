@@ -30,6 +30,8 @@ impl Setting {
     pub const DEPTH: Self = Self::new("depth", "depth of the slot");
     /// Places of the rows in machine direction.
     pub const ROW_PLACES: Self = Self::new("row_places", "distance of the rows");
+    /// Charge per mass that the filaments carry.
+    pub const CHARGE: Self = Self::new("charge", "charge of the filaments");
     /// None of the machine: a number that is a guess, and may be another one than is written.
     pub const GUESS: Self = Self::new("guess", "guessed number");
 }

@@ -137,7 +137,9 @@ impl Group<'_> {
         let belt = self.beams[self.maker].case.line.map_or(f64::NAN, |line| line.belt_speed);
         let enough = |laid: &Range<f64>| laid.end - laid.start >= sheet.length / belt;
         let mut making = self.fields[self.maker].field.clone();
-        let (block, mut time) = (making.block(), 0.0);
+        let own = |beam: &usize| self.beams[*beam].longest_block() * self.fields[*beam].pace;
+        let block = self.members.iter().map(own).fold(making.block(), f64::min);
+        let mut time = 0.0;
         while !flying.is_empty() {
             let from = time;
             time += block;

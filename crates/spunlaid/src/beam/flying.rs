@@ -1,5 +1,6 @@
 //! The filaments of a beam while they fly.
 
+use super::charge::BeamField;
 use super::filament::{Reach, Stretch};
 use super::neighbours::Neighbours;
 use super::pack::{self, Pack};
@@ -25,6 +26,8 @@ pub(super) struct Flying<'a> {
     packs: Vec<Mutex<Option<Pack>>>,
     stretch: Stretch,
     reach: Reach,
+    /// The electric field around them, if they are charged.
+    field: Option<BeamField>,
     /// Steps that have been done.
     pub(super) done: u64,
 }
@@ -40,7 +43,8 @@ impl<'a> Flying<'a> {
         let numbers = pack::neighbours(beam.places);
         let packs = numbers.iter().map(|_| Mutex::new(None)).collect();
         let stretch = Stretch::before(&line, line.feed_speed * beam.case.run.spin_up(), windows, sheet);
-        Ok(Self { beam, line, numbers, packs, stretch, reach: Reach::default(), done: 0 })
+        let field = BeamField::new(&beam);
+        Ok(Self { beam, line, numbers, packs, stretch, reach: Reach::default(), field, done: 0 })
     }
 
     /// Number of packs.
@@ -78,6 +82,9 @@ impl<'a> Flying<'a> {
         }
         let mut pack = lock(&self.packs[pack]);
         let Some(pack) = pack.as_mut() else { return Ok(self.reach) };
+        if let Some(field) = &self.field {
+            pack.charge(field);
+        }
         let reach = pack.advance(steps, field, &self.stretch, on);
         by.steps.fetch_add(steps * pack.filaments().len() as u64, Ordering::Relaxed);
         Ok(reach)
@@ -88,6 +95,10 @@ impl<'a> Flying<'a> {
         let before = Reach { fed: f64::INFINITY, lost: 0, ..self.reach };
         self.reach = packs.into_iter().fold(before, Reach::with);
         self.done += steps;
+        if let Some(field) = &mut self.field {
+            self.packs.iter().for_each(|pack| lock(pack).iter().for_each(|pack| pack.see_charge(field)));
+            field.renew(steps as f64 * self.beam.case.run.time_step);
+        }
         if !self.has_lost_too_many() {
             self.stretch.settle(&self.reach);
         }
@@ -122,6 +133,7 @@ impl<'a> Flying<'a> {
     /// If more than 2 % of them are lost.
     pub(super) fn finish(self, mut flown: BeamFindings) -> Result<BeamFindings, Error> {
         let has_lost_too_many = self.has_lost_too_many();
+        flown.charged = self.field.as_ref().map(BeamField::curtain);
         flown.back = self.stretch.back().unwrap_or(f64::NAN);
         flown.time = self.done as f64 * self.beam.case.run.time_step;
         let mut balance = StretchedBalance::new(self.beam.case);

@@ -16,6 +16,7 @@
 
 mod abreast;
 mod air;
+mod charge;
 mod filament;
 mod flying;
 mod neighbours;
@@ -32,11 +33,12 @@ use crate::load::WayPlace;
 use crate::sort::sort_by_key;
 use crate::threads::try_each;
 use crate::web::{
-    Brush, Canvas, KeptFibres, LaidWeb, NeighbourCorrelation, SharedAirFindings, SharedVariance, Sheet,
-    TimeSpent, Titres, Window, Windows,
+    Brush, Canvas, ChargedCurtain, KeptFibres, LaidWeb, NeighbourCorrelation, SharedAirFindings,
+    SharedVariance, Sheet, TimeSpent, Titres, Window, Windows,
 };
 pub(crate) use abreast::{FlownAbreast, fly_abreast, memory_abreast};
 use air::SharedField;
+pub use charge::BeamCharge;
 use filament::Reach;
 use flying::Flying;
 use neighbours::Neighbours;
@@ -74,6 +76,8 @@ pub struct Beam<'a> {
     /// Size in machine direction of the slot in which the places lie [m]. All filaments of a slot fly in the
     /// same air, however many of them there are and wherever in its depth they hang.
     pub depth: f64,
+    /// The charge that they carry; None without one.
+    pub charge: Option<&'a BeamCharge>,
 }
 
 /// Threads and instruction set of the computation, its progress and its stop flag.
@@ -111,14 +115,16 @@ pub struct BeamFindings {
     pub time: f64,
     /// What it took.
     pub spent: TimeSpent,
+    /// What charge has made of them, if they are charged.
+    pub charged: Option<ChargedCurtain>,
 }
 
 impl<'a> Beam<'a> {
-    /// Filaments at these places, in a slot that is as deep as they need.
+    /// Filaments without charge at these places, in a slot that is as deep as they need.
     pub fn new(case: &'a Case, places: &'a [Place], airs: Airs) -> Self {
         let y = || places.iter().map(|place| place.y);
         let depth = y().fold(f64::NEG_INFINITY, f64::max) - y().fold(f64::INFINITY, f64::min);
-        Self { case, places, airs, depth: depth.max(0.0) }
+        Self { case, places, airs, depth: depth.max(0.0), charge: None }
     }
 }
 
@@ -183,7 +189,7 @@ impl Beam<'_> {
         let mut flying = Flying::new(*self, (sheet, windows))?;
         let (mut spent, mut making) = (TimeSpent::default(), Duration::ZERO);
         let mut shared = SharedField::new(self, sheet, by.threads);
-        let block = shared.as_ref().map_or(BLOCK, SharedField::block);
+        let block = shared.as_ref().map_or(BLOCK, SharedField::block).min(self.longest_block());
         let steps = (block / self.case.run.time_step).ceil().max(1.0) as u64;
         let mut in_parallel = |pieces: usize, work: &(dyn Fn(usize) -> Result<Reach, Error> + Sync)| {
             let begun = Instant::now();
@@ -236,12 +242,13 @@ impl Beam<'_> {
 impl BeamFindings {
     /// The findings on the web in one air. The strands of single fibres are moved out of `self`.
     pub(crate) fn take_shared_air(&mut self) -> SharedAirFindings {
-        let Self { in_windows, neighbours, pairs, lost, time, spent, .. } = self;
+        let Self { in_windows, neighbours, pairs, lost, time, spent, charged, .. } = self;
         SharedAirFindings {
             strands: std::mem::take(&mut in_windows.strands),
             neighbours: neighbours.clone(),
             pairs: pairs.clone(),
             few: Vec::new(),
+            charged: charged.take().into_iter().collect(),
             lost: lost.len() as u64,
             time: *time,
             spent: *spent,

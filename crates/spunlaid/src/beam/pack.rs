@@ -1,5 +1,6 @@
 //! Eight neighbours of a beam, in one flight.
 
+use super::charge::BeamField;
 use super::filament::{Filament, Reach, Stretch};
 use super::neighbours::Neighbours;
 use super::{Beam, BeamFindings};
@@ -125,6 +126,18 @@ impl Pack {
                 |lane: usize| self.filaments.get(lane).is_some_and(|filament| filament.lost.is_none());
             let nodes = Nodes::between_steps(&self.flight, &tension, flies);
             self.balance.see(&nodes, time);
+        }
+    }
+
+    /// Gives its filaments their charge and the field around them.
+    pub(super) fn charge(&mut self, field: &BeamField) {
+        field.charge(&mut self.flight);
+    }
+
+    /// Hands over where the charge of its filaments is.
+    pub(super) fn see_charge(&self, field: &mut BeamField) {
+        for (lane, filament) in self.filaments.iter().enumerate().filter(|(_, one)| one.lost.is_none()) {
+            field.see(&self.flight, lane, filament.number);
         }
     }
 

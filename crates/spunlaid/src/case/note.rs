@@ -1,6 +1,7 @@
 //! Notes and warnings about a case that can be run.
 
 use super::StepChoice;
+use crate::charge::BREAKDOWN;
 use crate::error::{Fault, Finding, Problem};
 use crate::units::Dimension;
 
@@ -351,6 +352,16 @@ pub enum Remark {
     EddiesInSpace {
         /// Path of the case.
         case: String,
+    },
+    /// The field of charged filaments is near to that in which air breaks down.
+    #[error(
+        "gives a field of some {} at the edge of the curtain: air breaks down at {}, and at edges of metal long \
+         before, which takes the charge away",
+        Dimension::ElectricField.pretty_to(*field, 2), Dimension::ElectricField.pretty(BREAKDOWN)
+    )]
+    StrongField {
+        /// The field [V/m].
+        field: f64,
     },
     /// A key of a web in place of a number of its case, which has another.
     #[error("is laid with {of_case} = {used} in place of the {own} of {case}")]

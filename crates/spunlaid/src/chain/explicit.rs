@@ -31,9 +31,10 @@ pub(crate) fn step<S: Register, const LEAPFROG: bool, const FED: bool>(
     block: &mut ElementBlock<S>,
 ) {
     let elements = chain.elements();
-    let Chain { position, velocity, earlier, constants: c, laying, .. } = chain;
+    let Chain { position, velocity, earlier, constants: c, laying, charged, .. } = chain;
     let mut integrator = ExplicitIntegrator::<S, LEAPFROG, FED> {
         damped,
+        field: Chain::forces_of_field(charged),
         laying: if FED { laying.as_mut() } else { None },
         step: drift,
         supports: Supports::start(work),
@@ -56,6 +57,8 @@ pub(crate) fn step<S: Register, const LEAPFROG: bool, const FED: bool>(
 /// The nodes on their way through the step.
 struct ExplicitIntegrator<'a, S: Register, const LEAPFROG: bool, const FED: bool> {
     damped: bool,
+    /// Forces of an electric field along y [N].
+    field: Option<&'a [Lanes]>,
     laying: Option<&'a mut LayingState>,
     /// The length of the drift [s].
     step: f64,
@@ -119,6 +122,9 @@ impl<S: Register, const LEAPFROG: bool, const FED: bool> ExplicitIntegrator<'_, 
         let before = Vec3::load(&self.velocity[i]);
         let mut force = force;
         force.x += Wide::load(&node.weight);
+        if let Some(field) = self.field {
+            force.y += Wide::load(&field[i]);
+        }
         let mut damping = None;
         if self.damped {
             let slowing = self.drag_velocity(i) * -(Wide::load(&node.mass) * Wide::load(&self.c.damping));

@@ -1,5 +1,6 @@
 //! The fibre as a chain of beads: state, forces, time integration.
 
+pub(crate) mod charged;
 pub(crate) mod constants;
 pub(crate) mod explicit;
 pub(crate) mod force_pass;
@@ -11,6 +12,7 @@ pub(crate) mod node;
 pub mod schemes;
 pub mod work;
 
+use self::charged::Charged;
 use self::constants::{Constants, ElementProperties};
 use self::laying::LayingState;
 use self::schemes::Scheme;
@@ -101,6 +103,8 @@ pub struct Chain {
     pub(crate) tensions: implicit::Tensions,
     /// How it is fed and laid down; none for a fibre of fixed length.
     pub(crate) laying: Option<LayingState>,
+    /// Their charge, and the field around them; none of fibres without charge.
+    pub(crate) charged: Option<Charged>,
 }
 
 impl Chain {
@@ -119,6 +123,7 @@ impl Chain {
             earlier: vec![Vec3::ZERO; elements + 1].into(),
             tensions: implicit::Tensions::new(if scheme == Scheme::ImplicitTension { elements } else { 0 }),
             laying: None,
+            charged: None,
             constants,
         }
     }
@@ -158,6 +163,12 @@ impl Chain {
                 element.axial_stiffness.0[i] * (length - element.rest_length.0[i])
             })
         })
+    }
+
+    /// Forces of the field on the nodes along the machine direction [N]; none of fibres without charge.
+    #[inline(always)]
+    fn forces_of_field(charged: &Option<Charged>) -> Option<&[Lanes]> {
+        charged.as_ref().map(|charged| &charged.force[..])
     }
 
     /// Number of elements that have been fed so far.

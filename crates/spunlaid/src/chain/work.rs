@@ -32,6 +32,8 @@ pub struct WorkDone {
     pub drag: WorkSum,
     /// The mass-proportional damping.
     pub damping: WorkSum,
+    /// The electric field of charged fibres.
+    pub field: WorkSum,
     /// The tension; used by implicit tension only.
     pub tension: WorkSum,
     /// Energy that the bending viscosity has dissipated [J].
@@ -118,6 +120,7 @@ impl WorkDone {
             &mut self.total,
             &mut self.drag,
             &mut self.damping,
+            &mut self.field,
             &mut self.tension,
             &mut self.feed,
             &mut self.belt,

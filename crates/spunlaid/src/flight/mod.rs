@@ -17,6 +17,7 @@
 //! ```
 //!
 //! ```text
+//! charge   the electric field of charged fibres, and where their charge is
 //! guard    which fibres are lost
 //! common   what fibres of one flight must have in common
 //! start    flights at their start, straight and at rest
@@ -24,6 +25,7 @@
 //! set      keys of the case that change in flight
 //! ```
 
+mod charge;
 mod common;
 mod end_node;
 mod guard;

@@ -168,12 +168,18 @@ impl<const SCHEME: u8, const FED: bool> Task for Advance<'_, SCHEME, FED> {
             let now = Instant { step: flight.steps_done, time: flight.time() };
             let Flight { chain, air, work, .. } = flight;
             let air = air.look::<S>(now, &chain.position);
+            if chain.charged.is_some() {
+                chain.feel_field(work);
+            }
             if SCHEME == Scheme::ImplicitTension as u8 {
                 implicit::step::<S, FED>(chain, &air, stride, work, &mut block);
             } else if SCHEME == Scheme::Leapfrog as u8 {
                 explicit::step::<S, true, FED>(chain, &air, stride, work, &mut block);
             } else {
                 explicit::step::<S, false, FED>(chain, &air, stride, work, &mut block);
+            }
+            if chain.charged.is_some() {
+                chain.enter_field(work);
             }
             flight.count_step::<S>();
             // The half kick of a start moves nothing.

@@ -200,7 +200,10 @@ fn flies_as(of_beam: &LayerBeam<'_>, other: &LayerBeam<'_>) -> bool {
     let (Some(line), Some(of_other)) = (own.case.line, other.case.line) else { return false };
     let mut case = own.case.clone();
     case.line = Some(Line { belt_speed: of_other.belt_speed, ..line });
-    let is_same = case == *other.case && own.places == other.places && own.depth == other.depth;
+    let is_same = case == *other.case
+        && own.places == other.places
+        && own.depth == other.depth
+        && own.charge == other.charge;
     is_same && (line.belt_speed == of_other.belt_speed || (is_slow(line) && is_slow(of_other)))
 }
 

@@ -5,6 +5,7 @@
 //!                                     └ WebFlight: a few filaments in one air → stretches of the sheet, laid one by one ┘
 //! ```
 
+mod charge;
 mod comparison;
 mod fabric;
 mod few;
@@ -136,6 +137,10 @@ pub struct LayerSpec {
     pub filaments: Filaments,
     /// Holes that feed more or less than the others.
     pub defects: Vec<Defect>,
+    /// Charge per mass of the filaments, if they are charged [C/kg].
+    pub charge: Option<f64>,
+    /// Distance of grounded plates from the middle of the slot, if there are any [m].
+    pub walls: Option<f64>,
 }
 
 /// What tells how a filament lies.
@@ -189,6 +194,7 @@ impl LayerSpec {
         let filaments = Filaments::AtRandom { per_metre: nan };
         let (name, titre, throughput) = (None, None, None);
         let defects = Vec::new();
+        let (charge, walls) = (None, None);
         Self {
             name,
             diameter,
@@ -200,6 +206,8 @@ impl LayerSpec {
             belt_speed,
             filaments,
             defects,
+            charge,
+            walls,
         }
     }
 

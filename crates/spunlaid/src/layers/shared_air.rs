@@ -5,7 +5,7 @@ use super::flown_curtain::{FlownCurtain, FlownLayers};
 use super::flyer::Flights;
 use super::{Flown, FlownFibres, Flyer, LaydownSource, LayerFibres, Method, WebSpec};
 use crate::air::Lateral;
-use crate::beam::{Airs, Beam, BeamControl, BeamFindings};
+use crate::beam::{Airs, Beam, BeamCharge, BeamControl, BeamFindings};
 use crate::case::Case;
 use crate::curtain::FlownCurves;
 use crate::error::{Error, Fault, Place as ErrorPlace, Problem};
@@ -50,6 +50,8 @@ pub(super) struct LayerBeam<'a> {
     pub(super) places: Vec<Place>,
     /// Size of the slot in machine direction [m].
     depth: f64,
+    /// What they carry.
+    pub(super) charge: Option<BeamCharge>,
 }
 
 /// The flight of a layer, with the curves of a few filaments and what they say of all.
@@ -57,7 +59,8 @@ type ToldFlight<'a> = (LayerBeam<'a>, BeamFindings, Option<(FlownCurves, LayerFe
 
 impl LayerBeam<'_> {
     pub(super) fn beam(&self) -> Beam<'_> {
-        Beam { case: &self.case, places: &self.places, airs: Airs::Shared, depth: self.depth }
+        let Self { case, places, depth, charge, .. } = self;
+        Beam { case, places, airs: Airs::Shared, depth: *depth, charge: charge.as_ref() }
     }
 
     /// The same filaments in elements twice as long, and in steps twice as long, as far as these still follow
@@ -330,13 +333,15 @@ pub(super) fn beam_on<'a>(
     let flown_sheet = sheet.cloned().or_else(|| spec.flown_sheet(number, false));
     Ok(match flown_sheet.and_then(|sheet| spec.few(number, &sheet)) {
         Some(FewFlight { sheet, places, few }) => {
-            LayerBeam { path, case, sheet, few: Some(few), places, depth }
+            let charge = spec.beam_charge(number, (&places, Some(&few)));
+            LayerBeam { path, case, sheet, few: Some(few), places, depth, charge }
         }
         None => {
             let place = |[z, y]: [f64; 2]| Place { y, z };
             let inlets = inlets(&spec.sheet, spec.seed, number, &layer.filaments);
-            let places = inlets.into_iter().map(place).collect();
-            LayerBeam { path, case, sheet: spec.sheet.clone(), few: None, places, depth }
+            let places: Vec<Place> = inlets.into_iter().map(place).collect();
+            let charge = spec.beam_charge(number, (&places, None));
+            LayerBeam { path, case, sheet: spec.sheet.clone(), few: None, places, depth, charge }
         }
     })
 }

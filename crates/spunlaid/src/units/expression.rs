@@ -15,7 +15,7 @@ const LONGEST: usize = 1000;
 /// Deepest nesting of parentheses and signs.
 const DEEPEST: usize = 50;
 
-/// The unit of a quantity as powers of metre, kilogram, second and kelvin.
+/// The unit of a quantity as powers of metre, kilogram, second, kelvin and ampere.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Powers {
     /// Power of the metre.
@@ -26,11 +26,13 @@ pub struct Powers {
     pub second: f64,
     /// Power of the kelvin.
     pub kelvin: f64,
+    /// Power of the ampere.
+    pub ampere: f64,
 }
 
 impl Powers {
     const fn new(metre: f64, kilogram: f64, second: f64) -> Self {
-        Self { metre, kilogram, second, kelvin: 0.0 }
+        Self { metre, kilogram, second, kelvin: 0.0, ampere: 0.0 }
     }
 
     /// The powers of a dimension.
@@ -60,6 +62,8 @@ impl Powers {
             Dimension::MolarEnergy => Self::new(2.0, 1.0, -2.0),
             Dimension::TemperatureDifference => Self { kelvin: 1.0, ..Self::new(0.0, 0.0, 0.0) },
             Dimension::Noise => Self::new(-0.5, 0.0, 0.0),
+            Dimension::SpecificCharge => Self { ampere: 1.0, ..Self::new(0.0, -1.0, 1.0) },
+            Dimension::ElectricField => Self { ampere: -1.0, ..Self::new(1.0, 1.0, -3.0) },
             Dimension::Memory | Dimension::Angle | Dimension::Ratio => Self::new(0.0, 0.0, 0.0),
         }
     }
@@ -67,7 +71,7 @@ impl Powers {
     /// Whether the two are equal apart from rounding.
     pub fn agree(self, other: Self) -> bool {
         let off = self.plus(other, -1.0);
-        [off.metre, off.kilogram, off.second, off.kelvin].iter().all(|power| power.abs() < 1e-9)
+        [off.metre, off.kilogram, off.second, off.kelvin, off.ampere].iter().all(|power| power.abs() < 1e-9)
     }
 
     fn plus(self, other: Self, sign: f64) -> Self {
@@ -76,6 +80,7 @@ impl Powers {
             kilogram: self.kilogram + sign * other.kilogram,
             second: self.second + sign * other.second,
             kelvin: self.kelvin + sign * other.kelvin,
+            ampere: self.ampere + sign * other.ampere,
         }
     }
 
@@ -85,6 +90,7 @@ impl Powers {
             kilogram: self.kilogram * factor,
             second: self.second * factor,
             kelvin: self.kelvin * factor,
+            ampere: self.ampere * factor,
         }
     }
 }
@@ -92,9 +98,13 @@ impl Powers {
 impl fmt::Display for Powers {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut parts = Vec::new();
-        for (unit, power) in
-            [("kg", self.kilogram), ("m", self.metre), ("s", self.second), ("K", self.kelvin)]
-        {
+        for (unit, power) in [
+            ("kg", self.kilogram),
+            ("m", self.metre),
+            ("s", self.second),
+            ("K", self.kelvin),
+            ("A", self.ampere),
+        ] {
             if power == 1.0 {
                 parts.push(unit.to_owned());
             } else if power != 0.0 {

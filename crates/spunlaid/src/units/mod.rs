@@ -72,6 +72,10 @@ pub enum Dimension {
     TemperatureDifference,
     /// [m^-½]
     Noise,
+    /// [C/kg]
+    SpecificCharge,
+    /// [V/m]
+    ElectricField,
     /// [B]
     Memory,
     /// [rad]
@@ -81,7 +85,7 @@ pub enum Dimension {
 }
 
 /// Every dimension.
-const ALL: [Dimension; 28] = [
+const ALL: [Dimension; 30] = [
     Dimension::Length,
     Dimension::Velocity,
     Dimension::Time,
@@ -107,6 +111,8 @@ const ALL: [Dimension; 28] = [
     Dimension::MolarEnergy,
     Dimension::TemperatureDifference,
     Dimension::Noise,
+    Dimension::SpecificCharge,
+    Dimension::ElectricField,
     Dimension::Memory,
     Dimension::Angle,
     Dimension::Ratio,
@@ -164,6 +170,8 @@ impl Dimension {
             Self::MolarEnergy => "an energy per mole",
             Self::TemperatureDifference => "a temperature difference",
             Self::Noise => "a noise",
+            Self::SpecificCharge => "a charge per mass",
+            Self::ElectricField => "an electric field",
             Self::Memory => "a size of memory",
             Self::Angle => "an angle",
             Self::Ratio => "a ratio",

@@ -115,6 +115,15 @@ const HEAT_CAPACITY_SLOPE: &[Unit] =
 const MOLAR_ENERGY: &[Unit] = &[unit("J/mol", "J/mol", Ten(0)), unit("kJ/mol", "kJ/mol", Ten(3))];
 const TEMPERATURE_DIFFERENCE: &[Unit] = &[unit("K", "K", Ten(0))];
 const NOISE: &[Unit] = &[unit("m^-0.5", "m-0.5", Ten(0)), also("1/√m", "1/√m", Ten(0))];
+const SPECIFIC_CHARGE: &[Unit] = &[
+    also("C/kg", "C/kg", Ten(0)),
+    also("mC/kg", "mC/kg", Ten(-3)),
+    unit("µC/g", "uC/g", Ten(-3)),
+    unit("nC/g", "nC/g", Ten(-6)),
+    also("µC/kg", "uC/kg", Ten(-6)),
+];
+const ELECTRIC_FIELD: &[Unit] =
+    &[unit("V/m", "V/m", Ten(0)), unit("kV/m", "kV/m", Ten(3)), unit("MV/m", "MV/m", Ten(6))];
 const MEMORY: &[Unit] = &[
     unit("B", "B", Ten(0)),
     unit("kB", "kB", Ten(3)),
@@ -160,6 +169,8 @@ impl Dimension {
             Self::MolarEnergy => MOLAR_ENERGY,
             Self::TemperatureDifference => TEMPERATURE_DIFFERENCE,
             Self::Noise => NOISE,
+            Self::SpecificCharge => SPECIFIC_CHARGE,
+            Self::ElectricField => ELECTRIC_FIELD,
             Self::Memory => MEMORY,
             Self::Angle => ANGLE,
             Self::Ratio => RATIO,

@@ -1,7 +1,9 @@
 //! What must be known of the numbers of a web before they are believed, and how it is said.
 
 use super::few_findings::FewDoubt;
+use crate::charge::BREAKDOWN;
 use crate::surrogate::Residual;
+use crate::units::Dimension;
 use std::fmt::{Display, Formatter, Result};
 
 /// A reason to doubt numbers of a web, or to read them with care. It is shown as a sentence without a full stop.
@@ -23,6 +25,11 @@ pub enum Doubt {
         why: FewDoubt,
         /// Distance of the flown ones [m].
         pitch: f64,
+    },
+    /// The field of charged filaments is near to that in which air breaks down.
+    StrongField {
+        /// The strongest field [V/m].
+        field: f64,
     },
     /// The map is too uneven over small patches, because filaments between the flown ones are not known well.
     FilledIn {
@@ -110,6 +117,13 @@ impl Display for Doubt {
                 millimetres(sides),
                 reason(*why, *pitch),
                 (2.0 / pitch).round()
+            ),
+            Self::StrongField { field } => write!(
+                f,
+                "the charge of the filaments gives a field of {} at the edge of the curtain, and air breaks down at {}, at edges \
+                of metal long before: a line would lose a part of this charge (line.charge)",
+                Dimension::ElectricField.pretty_to(*field, 2),
+                Dimension::ElectricField.pretty(BREAKDOWN)
             ),
             Self::FilledIn { missing } => write!(
                 f,

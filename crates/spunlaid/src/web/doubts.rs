@@ -3,6 +3,7 @@
 use super::doubt::Doubt;
 use super::laid_web::SharedAirFindings;
 use super::{Fibres, Findings, Layer, PatchFindings, Web};
+use crate::charge::STRONG;
 use crate::surrogate::Residual;
 
 /// Part of the variance that filled-in filaments may miss where small patches of the map are to be believed.
@@ -18,7 +19,9 @@ impl Findings {
     /// * `residuals` – of each layer, how well a surrogate fits what its fibres have laid; None where nothing was flown
     pub fn doubts(&self, web: &Web, residuals: &[Option<Residual>]) -> Vec<Doubt> {
         let mut doubts = match &self.laid.shared_air {
-            Some(together) => [lost(web, together), few_filaments(self, together)].concat(),
+            Some(together) => {
+                [lost(web, together), few_filaments(self, together), charged(together)].concat()
+            }
             None => models(web, self, residuals),
         };
         let map = &self.laid.map;
@@ -53,6 +56,12 @@ fn lost(web: &Web, together: &SharedAirFindings) -> Vec<Doubt> {
     let of = web.layers.iter().enumerate().map(count).sum();
     let lost = Some(together.lost).filter(|lost| *lost > 0);
     lost.map(|filaments| Doubt::Lost { filaments, of }).into_iter().collect()
+}
+
+/// Whether charged filaments would keep their charge.
+fn charged(together: &SharedAirFindings) -> Vec<Doubt> {
+    let field = together.charged.iter().map(|charged| charged.edge_field).fold(0.0, f64::max);
+    (field > STRONG).then_some(Doubt::StrongField { field }).into_iter().collect()
 }
 
 /// Whether the few filaments that were flown are enough for what is told of all.

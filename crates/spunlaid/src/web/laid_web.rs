@@ -1,5 +1,6 @@
 //! What has been laid.
 
+use super::charged::ChargedCurtain;
 use super::few_findings::LayerFew;
 use super::laying::TimeSpent;
 use super::map::Map;
@@ -36,6 +37,8 @@ pub struct SharedAirFindings {
     pub pairs: Vec<SharedVariance>,
     /// What a few filaments say about the web of all, of each layer of which only a few were flown.
     pub few: Vec<LayerFew>,
+    /// What charge has made of the filaments of each layer that carry some.
+    pub charged: Vec<ChargedCurtain>,
     /// Filaments that were lost: they are missing on the web from then on.
     pub lost: u64,
     /// Length of time that was flown, of the layer that took the longest [s].
@@ -75,6 +78,7 @@ impl SharedAirFindings {
         self.neighbours.extend(neighbours.map(|neighbour| NeighbourCorrelation { layer, ..neighbour }));
         self.few.extend(other.few.into_iter().map(|few| LayerFew { layer, ..few }));
         self.pairs.extend(other.pairs.into_iter().map(|pair| SharedVariance { layer, ..pair }));
+        self.charged.extend(other.charged.into_iter().map(|charged| ChargedCurtain { layer, ..charged }));
         self.lost += other.lost;
         self.time = self.time.max(other.time);
         self.spent.whole += other.spent.whole;

@@ -7,6 +7,7 @@
 //! md is the machine direction, in which the belt moves the web; cd is the cross direction.
 
 mod canvas;
+mod charged;
 mod clouds;
 mod curves;
 mod defects;
@@ -38,6 +39,7 @@ mod whole_error;
 mod window;
 
 pub(crate) use canvas::{Canvas, CanvasPart};
+pub use charged::ChargedCurtain;
 pub use clouds::{Clouds, autocorrelation};
 pub use curves::Curves;
 pub(crate) use curves::OneAir;

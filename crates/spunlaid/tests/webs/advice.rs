@@ -347,3 +347,19 @@ fn advice_ends_when_it_is_stopped() {
     let stopped = advice(STRAIGHT, 2, &AtomicBool::new(true));
     assert!(matches!(stopped, Err(Error::Interrupted)), "{stopped:?}");
 }
+
+/// The charge of a line is a setting of it, where there is one.
+#[test]
+fn a_charge_is_changed_where_it_is_given() {
+    let web = "[laydown]\ncase = \"spunbond_slot.toml\"\n[line]\nfilaments_per_metre = 5000\n\
+        depth = \"20 mm\"\n[web]\nwidth = \"0.5 m\"\nlength = \"0.5 m\"\n";
+    let of_charge = |set: &[(&str, &str)]| -> Vec<(f64, f64)> {
+        let (_, changes) = read(web, set);
+        assert!(changes.iter().any(|change| change.setting == Setting::DEPTH));
+        let changes = changes.iter().filter(|change| change.setting == Setting::CHARGE);
+        changes.map(|change| (change.keys[0].to, change.experiment.spec.layers[0].charge.unwrap())).collect()
+    };
+    assert!(of_charge(&[]).is_empty() && of_charge(&[("line.charge", "0 µC/g")]).is_empty());
+    let changed = of_charge(&[("line.charge", "2 µC/g")]);
+    assert_eq!(changed, [(1.6e-3, 1.6e-3), (2.4e-3, 2.4e-3)]);
+}

@@ -3,6 +3,7 @@
 
 mod advice;
 mod beam;
+mod charge;
 mod curtain;
 mod defects;
 mod few;

@@ -8,6 +8,7 @@ use crate::say;
 use serde::Serialize;
 use spunlaid::air::Lateral;
 use spunlaid::case::Note;
+use spunlaid::charge::{BREAKDOWN, ChargeEstimate};
 use spunlaid::input::{LaydownSource, LayerSpec, Method, WebSpec, read_web};
 use spunlaid::layers::PlannedFlight;
 use spunlaid::units::Dimension;
@@ -59,6 +60,22 @@ struct CheckedLayer {
     curtain: Option<LoadSummary>,
     #[serde(skip_serializing_if = "Option::is_none")]
     spinline: Option<SpinSummary>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    charge: Option<EstimatedCharge>,
+}
+
+/// What charge does at the edge of the curtain, before it is flown.
+#[derive(Serialize)]
+struct EstimatedCharge {
+    edge_field_v_m: f64,
+    /// Force on a filament there over its weight.
+    force_over_weight: f64,
+}
+
+impl From<ChargeEstimate> for EstimatedCharge {
+    fn from(estimate: ChargeEstimate) -> Self {
+        Self { edge_field_v_m: estimate.edge_field, force_over_weight: estimate.over_weight }
+    }
 }
 
 impl Summary {
@@ -75,6 +92,7 @@ impl Summary {
                 filaments_per_m: filaments as f64 / spec.sheet.width,
                 curtain: curtain(spec, layer),
                 spinline: layer.source.case().and_then(SpinSummary::from_case),
+                charge: layer.charge_estimate(&spec.sheet).map(EstimatedCharge::from),
             }
         };
         Self {
@@ -128,7 +146,22 @@ fn line(spec: &WebSpec) -> Vec<String> {
             if several { format!("; {} g/m²", significant(alone * 1e3, 4)) } else { String::new() },
         )
     };
-    ["line".to_owned(), whole].into_iter().chain(spec.layers.iter().enumerate().map(layer)).collect()
+    let layers = spec.layers.iter().enumerate();
+    let layers = layers.flat_map(|(number, of)| [layer((number, of))].into_iter().chain(charge(spec, of)));
+    ["line".to_owned(), whole].into_iter().chain(layers).collect()
+}
+
+/// What the charge of a layer does; None of filaments without charge.
+fn charge(spec: &WebSpec, layer: &LayerSpec) -> Option<String> {
+    let ChargeEstimate { edge_field, over_weight } = layer.charge_estimate(&spec.sheet)?;
+    Some(format!(
+        "  charged with {}: about {} at the edge of the curtain, which pulls at a filament with {} times its \
+        weight; air breaks down at {}",
+        Dimension::SpecificCharge.pretty(layer.charge?),
+        Dimension::ElectricField.pretty_to(edge_field, 2),
+        significant(over_weight, 2),
+        Dimension::ElectricField.pretty(BREAKDOWN),
+    ))
 }
 
 fn sheet(spec: &WebSpec) -> [String; 2] {

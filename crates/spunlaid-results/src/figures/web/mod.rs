@@ -1,5 +1,6 @@
 //! The figures of a web's report.
 
+mod charge;
 mod clouds;
 mod effects;
 mod neighbours;
@@ -43,6 +44,7 @@ pub fn web_figures(web: &Web, findings: &Findings) -> Vec<Figure> {
     ];
     let together = findings.laid.shared_air.as_ref();
     figures.extend(together.and_then(|together| neighbours::figure(&together.neighbours)));
+    figures.extend(together.and_then(|together| charge::figure(&together.charged)));
     figures.extend(clouds::figures(findings.clouds.as_ref(), &findings.autocorrelation, map.cell));
     figures.push(directions(findings));
     figures

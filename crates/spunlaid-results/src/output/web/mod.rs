@@ -1,5 +1,6 @@
 //! The files of a web's results folder.
 
+mod charge;
 mod effects;
 mod fabric;
 mod map;

@@ -1,5 +1,6 @@
 //! `summary.json`: all results of a web.
 
+use super::charge::ChargeSummary;
 use super::effects::EffectsSummary;
 use super::fabric::FabricSummary;
 use crate::figures::SEEN;
@@ -32,6 +33,8 @@ pub struct Summary<'a> {
     guesses: Option<EffectsSummary<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     neighbours: Option<NeighboursSummary<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    charge: Vec<ChargeSummary<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     scan: Option<OrderedObject<Json>>,
     performance: Performance,
@@ -389,6 +392,9 @@ impl<'a> Summary<'a> {
             advice: advice.map(|advice| EffectsSummary::of_line(advice, findings)),
             guesses: guesses.map(|guesses| EffectsSummary::of_guesses(guesses, findings)),
             neighbours: NeighboursSummary::from_findings(findings, layers),
+            charge: ChargeSummary::from_findings(findings, |layer| {
+                layers.get(layer).map_or("", |layer| layer.name.as_str())
+            }),
             scan: None,
             performance,
             notes,
@@ -427,6 +433,7 @@ impl<'a> Summary<'a> {
             advice: None,
             guesses: None,
             neighbours: None,
+            charge: Vec::new(),
             scan: Some(OrderedObject(scan.collect())),
             performance,
             notes,

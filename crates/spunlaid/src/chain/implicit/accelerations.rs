@@ -26,6 +26,8 @@ pub(super) fn most_kept<S: Register, const FED: bool>(h: f64) -> Wide<S> {
 /// free end. `K'` is the share of the string's stiffness that the averaging adds to the mass.
 pub(super) struct Predictor<'a, S: Register> {
     pub(super) damped: bool,
+    /// Forces of an electric field along y [N].
+    pub(super) field: Option<&'a [Lanes]>,
     pub(super) position: &'a [Vec3<Lanes>],
     pub(super) velocity: &'a [Vec3<Lanes>],
     pub(super) earlier: &'a [Vec3<Lanes>],
@@ -83,6 +85,9 @@ impl<S: Register> Integrator<S> for Predictor<'_, S> {
         let node = self.c.node(i, nodes);
         let mut force = force;
         force.x += Wide::load(&node.weight);
+        if let Some(field) = self.field {
+            force.y += Wide::load(&field[i]);
+        }
         if self.damped {
             let damping = Wide::load(&node.mass) * Wide::load(&self.c.damping);
             force = self.drag_velocity(i).neg_mul_add(damping, force);

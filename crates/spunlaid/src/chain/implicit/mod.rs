@@ -44,6 +44,7 @@ pub(crate) fn step<S: Register, const FED: bool>(
     let c = &chain.constants;
     let mut predictor = Predictor::<S> {
         damped,
+        field: Chain::forces_of_field(&chain.charged),
         position: &chain.position,
         velocity: &chain.velocity,
         earlier: &chain.earlier,

@@ -82,6 +82,7 @@ impl Line<'_> {
             let every: Vec<usize> = (1..=self.spec().layers.len()).collect();
             settings.push((Setting::DEPTH, &all, of_each(&every, &|layer| self.depth(layer))));
             settings.push((Setting::ROW_PLACES, &all, of_each(&every, &|layer| self.row_places(layer))));
+            settings.push((Setting::CHARGE, &all, of_each(&every, &|layer| self.charge(layer))));
         }
         settings.iter().flat_map(|(setting, layers, ways)| self.change(*setting, layers, ways)).collect()
     }
@@ -144,6 +145,12 @@ impl Line<'_> {
         let Filaments::Rows(rows) = &self.spec().layers[layer - 1].filaments else { return Vec::new() };
         let rows = (1..).zip(rows).filter(|(_, row)| row.md != 0.0);
         rows.map(|(row, _)| (format!("layer.{layer}.line.rows.{row}.md"), 1.0)).collect()
+    }
+
+    /// The charge of a layer, if it has one.
+    fn charge(&self, layer: usize) -> KeyPowers {
+        let charge = self.spec().layers[layer - 1].charge.filter(|charge| *charge != 0.0);
+        charge.map(|_| (format!("layer.{layer}.line.charge"), 1.0)).into_iter().collect()
     }
 
     /// The keys of the holes of a layer.

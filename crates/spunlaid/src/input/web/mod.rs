@@ -6,6 +6,7 @@
 //!                                                                                                 └ a case: `spunlaid run`, `spin`, `air`
 //! ```
 
+mod charge;
 mod check;
 mod filament;
 mod guessed;

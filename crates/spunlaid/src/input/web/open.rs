@@ -95,6 +95,7 @@ impl OpenWeb<'_> {
         reading.complete_sheet(&mut web);
         reading.check_method(&prefixes, &web);
         reading.check_guessed(&web);
+        reading.check_charge(&prefixes, &web);
         reading.settle_belt(&mut web, &ways);
         for (number, prefix) in prefixes.iter().enumerate() {
             reading.check_layer(prefix, &web.alone(number));

@@ -63,6 +63,11 @@ pub(crate) fn in_rows() -> Fault {
     )
 }
 
+/// The fault of plates beside filaments without charge.
+pub(super) fn uncharged() -> Fault {
+    Fault::needs("line.charge", "write the charge of the filaments, or leave it out")
+}
+
 /// Whether the case of flown fibres gives the value.
 pub(super) fn is_flown(web: &WebSpec) -> bool {
     layer(web).is_some_and(|layer| layer.source.case().is_some())

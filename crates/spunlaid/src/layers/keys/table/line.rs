@@ -1,6 +1,8 @@
 //! The keys of the table `[line]`.
 
-use super::super::access::{Access, WebKey, first_row, in_rows, is_flown, layer, layer_mut, of_row};
+use super::super::access::{
+    Access, WebKey, first_row, in_rows, is_flown, layer, layer_mut, of_row, uncharged,
+};
 use super::{EITHER, MOST_FILAMENTS, positive};
 use crate::case::keys::row::{key, number, quantity, whole};
 use crate::case::keys::{EVEN, Kind, Sign, Value};
@@ -152,6 +154,45 @@ pub(super) const KEYS: &[WebKey] = &[
         )
         .label("Depth of the slot")
         .usual(1e-4, 1.0),
+    quantity("line.charge", Dimension::SpecificCharge, Sign::Any)
+        .access(Access {
+            get: |web| layer(web)?.charge.map(Value::Number),
+            set: |web, value| {
+                layer_mut(web)?.charge = Some(number(value)?);
+                Ok(())
+            },
+        })
+        .follows("none")
+        .usual(1e-5, 1e-2)
+        .meaning(
+            "Charge per mass of the filaments, as a charging bar leaves it on them: they drive each other \
+             apart along the machine direction while they come down. Only in one air (`web.method = \
+             \"shared-air\"`). The sign does not matter. No measured charge of a spunbond line is known to \
+             us.",
+        )
+        .synonyms(&["charging", "electrostatic", "corona", "electret"])
+        .label("Charge of the filaments"),
+    positive("line.walls", Dimension::Length)
+        .access(Access {
+            get: |web| layer(web)?.walls.map(Value::Number),
+            set: |web, value| {
+                let layer = layer_mut(web)?;
+                if layer.charge.is_none() {
+                    return Err(uncharged());
+                }
+                layer.walls = Some(number(value)?);
+                Ok(())
+            },
+        })
+        .follows("no plates")
+        .usual(1e-3, 1.0)
+        .meaning(
+            "With `line.charge`: distance of two earthed plates from the middle of the slot, one on each \
+             side along the machine direction, from inlet to belt. A curtain in the middle does not feel \
+             them; one that is off it is pulled to the nearer plate. They stop no filament.",
+        )
+        .synonyms(&["plates", "images"])
+        .label("Distance of earthed plates"),
     quantity("line.rows.offset", Dimension::Length, Sign::Any)
         .access(of_row!(offset))
         .value("0 mm")

@@ -1,0 +1,96 @@
+//! Charged filaments of a web in one air: nothing without charge, and the square of the charge with it.
+
+use super::beam::{case_in, sheet};
+use spunlaid::beam::{Airs, Beam, BeamCharge, BeamControl, BeamFindings};
+use spunlaid::case::Case;
+use spunlaid::charge::Charge;
+use spunlaid::fibre::Place;
+use spunlaid::input::read_case;
+use spunlaid::lanes::Isa;
+use spunlaid::web::{LaidWeb, Window};
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, AtomicU64};
+
+const COLUMNS: usize = 24;
+
+/// Filaments in a slot 20 mm deep, half of them behind its middle and as many before it.
+fn slot(count: usize) -> Vec<Place> {
+    let place = |i: usize| {
+        let turn = (i / 2) as f64 * 0.618_033_988_749_894_9;
+        let side = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
+        Place { y: side * 10e-3 * turn.fract(), z: (i as f64 + 0.5) * 1e-3 * COLUMNS as f64 / count as f64 }
+    };
+    (0..count).map(place).collect()
+}
+
+fn charge(per_mass: f64, places: &[Place]) -> BeamCharge {
+    let charge = Charge { per_mass, walls: None };
+    BeamCharge { charge, per_metre: 5000.0, weights: vec![1; places.len()] }
+}
+
+fn lay(
+    case: &Case,
+    (places, charge): (&[Place], Option<&BeamCharge>),
+    (isa, threads): (Isa, usize),
+) -> (LaidWeb, BeamFindings) {
+    let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
+    let window = Window { corner: [5e-3, 5e-3], sides: [10e-3; 2] };
+    let beam = Beam { charge, ..Beam::new(case, places, Airs::Shared) };
+    beam.lay(&sheet(COLUMNS, 32), window, BeamControl { threads, isa, stop: &stop, steps: &steps }).unwrap()
+}
+
+#[test]
+fn identical_without_charge_and_with_none_of_it() {
+    let (case, places) = (case_in("von-karman"), slot(12));
+    let by = (Isa::detect(), 2);
+    let (plain, of_plain) = lay(&case, (&places, None), by);
+    let (none, of_none) = lay(&case, (&places, Some(&charge(0.0, &places))), by);
+    assert_eq!(plain.map.cells, none.map.cells);
+    assert_eq!(of_plain.kept, of_none.kept);
+    assert!(plain.shared_air.unwrap().charged.is_empty() && none.shared_air.unwrap().charged.is_empty());
+    let (charged, of_charged) = lay(&case, (&places, Some(&charge(2e-3, &places))), by);
+    assert_ne!(plain.map.cells, charged.map.cells);
+    assert_ne!(of_plain.kept, of_charged.kept);
+}
+
+#[test]
+fn identical_charged_webs_for_any_number_of_threads_and_any_registers() {
+    let (case, places) = (case_in("von-karman"), slot(12));
+    let charge = charge(3e-3, &places);
+    let (one, of_one) = lay(&case, (&places, Some(&charge)), (Isa::detect(), 1));
+    for (isa, threads) in Isa::available().into_iter().map(|isa| (isa, 2)) {
+        let (other, of_other) = lay(&case, (&places, Some(&charge)), (isa, threads));
+        assert_eq!(one.map.cells, other.map.cells, "{isa:?}");
+        assert_eq!(of_one.kept, of_other.kept, "{isa:?}");
+        assert_eq!(one.shared_air.as_ref().unwrap().charged, other.shared_air.unwrap().charged, "{isa:?}");
+    }
+}
+
+/// The sign of the charge does not matter, and by what it moves filaments aside goes with its square. A few
+/// filaments that stand for many do the same to each other as these.
+#[test]
+fn analytic_the_curtain_opens_with_the_square_of_the_charge() {
+    let set = [("belt.distance", "0.1 m"), ("run.duration", "0.1 s"), ("run.spin_up", "10 ms")];
+    let set = set.iter().chain(&[("air.intensity_factor", "0")]);
+    let set: Vec<_> = set.map(|(key, value)| (key.to_string(), value.to_string())).collect();
+    let (case, _) = read_case(Path::new("../../cases/spunbond.toml"), &set).unwrap();
+    let opened = |per_mass: f64, count: usize| {
+        let places = slot(count);
+        let charge = charge(per_mass, &places);
+        let (_, flown) = lay(&case, (&places, Some(&charge)), (Isa::detect(), 2));
+        let belt = case.line.unwrap().belt_speed;
+        let of_filament = |(filament, points): &(usize, Vec<spunlaid::flight::LaidPoint>)| {
+            let points: Vec<f64> = points.iter().map(|point| point.md + belt * point.time).collect();
+            let mean = points.iter().sum::<f64>() / points.len() as f64;
+            mean * places[*filament].y.signum()
+        };
+        flown.kept.iter().map(of_filament).sum::<f64>() / flown.kept.len() as f64
+    };
+    let none = opened(0.0, 32);
+    let [once, twice, minus, few] = [(6e-3, 32), (12e-3, 32), (-6e-3, 32), (12e-3, 16)]
+        .map(|(charge, count)| opened(charge, count) - none);
+    assert!(once > 1e-3, "{none} {once} {twice}");
+    assert!((twice / once / 4.0 - 1.0).abs() < 0.1, "{none} {once} {twice}");
+    assert_eq!(once, minus);
+    assert!((few / twice - 1.0).abs() < 0.1, "{few} {twice}");
+}
