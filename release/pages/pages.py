@@ -11,8 +11,8 @@ pages lead to copies of them, and a mention of an equation of the theory leads t
 
 from __future__ import annotations
 
+import ast
 import json
-import os
 import re
 import shutil
 import subprocess
@@ -131,6 +131,17 @@ def draw(texts: dict[str, str], npm: Path) -> dict[str, str]:
     return {name: EQUATION.sub(html, text) for name, text in texts.items()}
 
 
+def public() -> list[str]:
+    """What the Python package offers; functions first."""
+    source = (ROOT / "crates/spunlaid-python/python/spunlaid/__init__.py").read_text("utf-8")
+    names = next(
+        ast.literal_eval(node.value)
+        for node in ast.parse(source).body
+        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "__all__"
+    )
+    return sorted((name for name in names if not name.startswith("_")), key=lambda name: (name[0].isupper(), name))
+
+
 def main() -> None:
     npm, work = (Path(word).resolve() for word in sys.argv[1:])
     pages = work / "pages"
@@ -191,7 +202,7 @@ def main() -> None:
 
     config = {"INHERIT": str(HERE / "mkdocs.yml"), "docs_dir": str(pages), "nav": nav}
     (work / "mkdocs.yml").write_text(json.dumps(config, indent=1), "utf-8")
-    (pages / "api.md").write_text(API, "utf-8")
+    (pages / "api.md").write_text(API + "\n".join(f"::: spunlaid.{name}\n" for name in public()), "utf-8")
 
 
 if __name__ == "__main__":
