@@ -27,7 +27,7 @@ REPORTS = (
     ("A web in one air, with advice", None, "line", "web_cv"),
     ("A web of known numbers", "spunlaid web cases/web_known.toml", "web_known", "web_cv"),
     ("A scan", None, "scan", "web_cv"),
-    ("A fit to a scan", None, "fit", None),
+    ("A fit to a scan", None, "fit", "fit_cv"),
     ("A record of a hot wire", "spunlaid analyse cases/records/probe.csv --out results/record", "record", None),
     ("The air of a case", "spunlaid air cases/spunbond_slot.toml --frames 6 --out results/air", "air", None),
     ("A study", "spunlaid sweep cases/studies/web_evenness.toml --replicates 1 --set web.width=0.3m --set web.length=0.3m", "web_evenness", None),
@@ -40,10 +40,12 @@ def main() -> None:
     gallery.mkdir()
     page = (ROOT / "docs/first_hour.md").read_text("utf-8")
     blocks = re.findall(r"^```sh\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
+    (file,) = re.findall(r"file `(\w+\.toml)`:\n\n```toml\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
     commands = [line for block in blocks for line in block.splitlines()] + [more for _, more, _, _ in REPORTS if more]
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         (folder / "cases").symlink_to(ROOT / "cases")
+        (folder / file[0]).write_text(file[1], "utf-8")
         environment = {**os.environ, "PATH": f"{program.parent}{os.pathsep}{os.environ['PATH']}"}
         by_folder: dict[str, str] = {}
         for command in commands:
