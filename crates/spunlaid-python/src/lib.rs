@@ -5,6 +5,7 @@
 //! failure   errors as exceptions        value     values of Python as those of keys
 //! watched   work without the lock of the interpreter, with Ctrl-C and progress
 //! save      results in a folder         source    the file that a user names
+//! program   the program `spunlaid`, which comes with the package
 //! case, run, flight, air, spinline, study, web, stretch, scan, record, compare, keys     the classes and functions
 //! ```
 
@@ -21,6 +22,7 @@ mod watched;
 mod case;
 mod keys;
 mod merged;
+mod program;
 mod record;
 
 mod fit;
@@ -55,6 +57,7 @@ mod _spunlaid {
         fit::find_fit,
         flight::Flight,
         keys::keys,
+        program::program,
         record::analyse,
         results::RunResults,
         run::{column_unit, fly, measures},

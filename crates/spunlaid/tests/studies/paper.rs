@@ -3,6 +3,31 @@
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::fibre::Root;
 use spunlaid::paper::{Parameter, choices, table1, time_steps};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The files in a folder and in those that it holds.
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    entries.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
+}
+
+/// With `SPUNLAID_RENEW=1` it writes the copies.
+#[test]
+fn identical_to_the_files_of_the_repository() {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let (copies, originals) = (crates.join("src/paper/cases"), crates.join("../../cases"));
+    let copied = files(&copies);
+    assert!(copied.len() >= 9, "{copied:?}");
+    for copy in copied {
+        let original = fs::read_to_string(originals.join(copy.strip_prefix(&copies).unwrap())).unwrap();
+        if std::env::var_os("SPUNLAID_RENEW").is_some() {
+            fs::write(&copy, &original).unwrap();
+        }
+        let same = fs::read_to_string(&copy).unwrap() == original;
+        assert!(same, "{} is not up to date: the test writes it with SPUNLAID_RENEW=1", copy.display());
+    }
+}
 
 #[test]
 fn every_study_holds_table_1_and_varies_one_thing() {

@@ -1,0 +1,74 @@
+//! The program `spunlaid`: arguments, progress, files, figures, report. It is a library so that a wheel for Python,
+//! which holds one compiled file only, has the program too; `main.rs` is the program itself.
+
+mod args;
+mod commands;
+mod failure;
+mod progress;
+mod say;
+
+use args::{Arguments, Command, Invocation};
+use clap::{CommandFactory, FromArgMatches};
+use failure::Failure;
+use spunlaid::error::{Error, Fault};
+use std::ffi::OsString;
+use std::io::Write as _;
+use std::path::Path;
+
+/// Does what a command line asks for, and says on standard output and standard error what the program says.
+///
+/// * `words` – the command line; the first word is the name of the program
+///
+/// Returns the exit code: 0, 1 if the input is wrong, 130 if interrupted, 2 otherwise.
+pub fn main(words: impl IntoIterator<Item = OsString>) -> u8 {
+    let code = obey(words);
+    // A program does this as it ends, but whoever calls this function may go on. What could not be written is told.
+    let _ = std::io::stdout().flush();
+    code
+}
+
+fn obey(words: impl IntoIterator<Item = OsString>) -> u8 {
+    let parsed = Arguments::command()
+        .try_get_matches_from(words)
+        .and_then(|matches| Ok((Invocation::new(&matches), Arguments::from_arg_matches(&matches)?)));
+    let (invocation, arguments) = match parsed {
+        Ok(parsed) => parsed,
+        Err(error) => {
+            // Help and version are not errors; everything else is wrong input.
+            let code = u8::from(error.use_stderr());
+            let _ = error.print();
+            return code;
+        }
+    };
+    let done = Failure::catch_panic(|| match arguments.command {
+        Command::Run(run) => commands::run::run(&run, &invocation),
+        Command::Sweep(sweep) => commands::sweep::sweep(&sweep, &invocation),
+        Command::Spin(spin) => commands::spin::spin(&spin, &invocation),
+        Command::Web(web) => commands::web::web(&web, &invocation),
+        Command::Fit(fit) => commands::fit::fit(&fit, &invocation),
+        Command::Air(air) => commands::air::air(&air, &invocation),
+        Command::Live(live) => commands::live::live(&live),
+        Command::Reproduce(arguments) => commands::reproduce::reproduce(&arguments, &invocation),
+        Command::Analyse(analyse) => commands::analyse::analyse(&analyse, &invocation),
+        Command::Compare(compare) => commands::compare::compare(&compare, &invocation),
+        Command::Check(check) => commands::check::check(&check),
+        Command::Keys(keys) => commands::keys::keys(&keys),
+        Command::New(new) => commands::new::new(&new),
+        Command::Completions(completions) => commands::completions::completions(&completions),
+        Command::Man(man) => commands::man::man(&man),
+    });
+    let done = done.and_then(|()| say::lost().map_or(Ok(()), |why| Err(output_failure(why))));
+    match done {
+        Ok(()) => 0,
+        Err(failure) => {
+            say::error(&failure);
+            failure.exit_code()
+        }
+    }
+}
+
+/// Standard output cannot be written.
+fn output_failure(why: &std::io::Error) -> Failure {
+    let fault = Fault::new(format!("cannot be written: {why}"), "everything else is done");
+    Error::system(Path::new("standard output"), fault).into()
+}
