@@ -44,6 +44,7 @@ pub use known::Known;
 pub use light::{opacity, scattering};
 pub use marked::Marked;
 pub use marks::Marks;
+pub(crate) use patches::NONE_FOUND;
 pub use patches::{HEAVIER, LIGHTER, QUANTILES, ThinPlaces, thin_places};
 pub use scanned::of_scan;
 pub use streaks::{Streak, StreakSource, streaks};

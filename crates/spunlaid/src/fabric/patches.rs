@@ -22,7 +22,7 @@ const MOST_BLOCKS: usize = 8;
 const FEWEST_BLOCKS: usize = 9;
 const BLOCK: usize = 2;
 /// Upper 95 % bound of the mean of a Poisson number that has come out zero.
-const NONE_FOUND: f64 = 3.0;
+pub(crate) const NONE_FOUND: f64 = 3.0;
 
 /// The weights of the patches of one size.
 #[derive(Clone, Debug, PartialEq)]

@@ -76,8 +76,7 @@ pub const OF_FABRICS: &[Measure<Fabric>] = &[
         Unit { shown: "Pa", per_si: 1.0 },
         Told(|fabric: &Fabric| fabric.hydrohead),
     )
-    .meaning("pressure at which water comes through the largest hole")
-    .named("hydrohead"),
+    .meaning("pressure at which water comes through the largest hole"),
     Measure::new(
         "solid_fraction",
         "Share of the volume that is fibre",

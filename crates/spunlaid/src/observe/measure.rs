@@ -125,16 +125,6 @@ impl Value {
             Self::Curve(..) => f64::NAN,
         }
     }
-
-    /// Its standard error, if it comes with one.
-    pub const fn standard_error(&self) -> Option<f64> {
-        match self {
-            Self::Mean { standard_error, .. } | Self::Told(Known::Value(_, standard_error)) => {
-                *standard_error
-            }
-            _ => None,
-        }
-    }
 }
 
 /// A row of a table: a measure and its value.

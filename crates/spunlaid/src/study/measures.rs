@@ -1,11 +1,11 @@
 //! The numbers that a study keeps of each replicate: of a fibre, of a web, or of a spinline.
 
 use crate::ensemble::Trajectory;
-use crate::fabric::{ABOUT, Fabric, FabricPatch, PATCHES as FABRIC_PATCHES, RADII};
+use crate::fabric::{ABOUT, Fabric, FabricPatch, Known, NONE_FOUND, PATCHES as FABRIC_PATCHES, RADII};
 use crate::layers::WebSpec;
 use crate::observe::{
     ErrorRole, Figure, Formula, KELVIN, MEASURES, Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES,
-    OF_PATCHES, OF_SPINLINES, OF_STRIPS, OF_WEBS, Unit, Value, with_errors,
+    OF_PATCHES, OF_SPINLINES, OF_STRIPS, OF_WEBS, PER_SQUARE_METRE, Unit, Value, with_errors,
 };
 use crate::spinline::Solution;
 use crate::units::shortest;
@@ -152,11 +152,24 @@ const fn tells_its_error<T>(measure: &Measure<T>) -> bool {
 /// Adds the numbers of some measures, in the order of their quantities; NaN where there is nothing.
 fn enter<T>(all: &mut Vec<f64>, measures: &'static [Measure<T>], found: Option<&T>) {
     for measure in with_errors(measures).filter(|measure| is_kept(measure)) {
-        let value = found.and_then(|found| measure.value(found));
-        all.push(value.as_ref().map_or(f64::NAN, Value::number));
-        if tells_its_error(measure) {
-            all.push(value.and_then(|value| value.standard_error()).unwrap_or(f64::NAN));
+        match found.and_then(|found| measure.value(found)) {
+            Some(Value::Told(known)) => all.extend(of_one_web(known, measure.unit)),
+            value if tells_its_error(measure) => {
+                all.extend([value.map_or(f64::NAN, |value| value.number()); 2])
+            }
+            value => all.push(value.map_or(f64::NAN, |value| value.number())),
         }
+    }
+}
+
+/// What one of several webs tells of a number, and its error. A bound says nothing of a mean, but where none
+/// were found on a sheet there are zero, as likely as one.
+fn of_one_web(known: Known, unit: Unit) -> [f64; 2] {
+    match known {
+        Known::Value(value, error) => [value, error.unwrap_or(f64::NAN)],
+        Known::AtMost(bound) if unit == PER_SQUARE_METRE => [0.0, bound / NONE_FOUND],
+        Known::Exact(_) | Known::Between(_) => [known.value(), f64::NAN],
+        Known::AtMost(_) | Known::AtLeast(_) => [f64::NAN; 2],
     }
 }
 
