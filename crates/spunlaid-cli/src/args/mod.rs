@@ -203,10 +203,11 @@ pub(crate) struct Web {
     /// Do not try what makes it more even, which takes two flights for each setting
     #[arg(long, conflicts_with = "advice")]
     pub(crate) no_advice: bool,
-    /// Judge settings and guesses by the CV over patches of this side, as 10mm, one of web.patches [default:
-    /// the size that the eye judges first]
-    #[arg(long = "for", value_name = "PATCH", value_parser = quantity(Dimension::Length))]
-    pub(crate) judged_by: Option<f64>,
+    /// Judge settings and guesses by the CV over patches of this side, as 10mm, one of web.patches; or for
+    /// thin-places, strips or holes by the patches that these follow [default: the size that the eye judges
+    /// first]
+    #[arg(long = "for", value_name = "PATCH")]
+    pub(crate) judged_by: Option<String>,
     /// Write a specification sheet of one page (PDF): every number with its error
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) sheet: Option<PathBuf>,

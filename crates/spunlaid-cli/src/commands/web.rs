@@ -6,7 +6,7 @@ use super::{lay_control, plural, stem};
 use crate::args::{self, Invocation, overrides};
 use crate::failure::Failure;
 use crate::{progress, say};
-use spunlaid::advice::{Advice, Change, advise, are_tried, check_patch, most_steps, steps};
+use spunlaid::advice::{Advice, Change, advise, are_tried, judged_by, most_steps, steps};
 use spunlaid::case::Note;
 use spunlaid::error::{Error, Fault};
 use spunlaid::input::{Changes, Unflown, Unread, WebFile, WebSpec, read_changes, read_web};
@@ -25,13 +25,13 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     let (threads, output) = (arguments.threads, &arguments.output);
     let file = flown(read_web(&arguments.file, overrides(&arguments.set)), threads, output.quiet)?;
     file.notes.iter().for_each(say::note);
-    arguments.judged_by.map_or(Ok(()), |patch| check_patch(&file.spec, patch))?;
+    let judged_by = arguments.judged_by.as_deref().map(|text| judged_by(&file.spec, text)).transpose()?;
     let (name, origin) = (stem(&arguments.file, "web"), invocation.origin_of([&arguments.file]));
     let (folder, figures) = (output.optional_folder(&name), arguments.figures.files());
     let delivery = Delivery::open::<WebFolder<'_>>(folder, origin, output, &figures)?;
     arguments.sheet.as_deref().map_or(Ok(()), |sheet| check_sheet(sheet, output.force))?;
     // Before anything is flown, because the file may change meanwhile.
-    let trials = Trials::read(arguments, &file.spec)?;
+    let trials = Trials { judged_by, ..Trials::read(arguments, &file.spec)? };
 
     let started = Instant::now();
     let (laid, follow) = (AtomicU64::new(0), flying(output.quiet));
@@ -91,6 +91,8 @@ struct Trials {
     guesses: Option<Vec<Change>>,
     /// Changes of the line.
     changes: Option<Vec<Change>>,
+    /// Side of the patches by whose CV they are judged, if it was asked for [m].
+    judged_by: Option<f64>,
 }
 
 /// What was tried.
@@ -115,7 +117,7 @@ impl Trials {
             true => None,
             false => read(read_changes(file, set, Changes::OfLine))?,
         };
-        Ok(Self { guesses, changes })
+        Ok(Self { guesses, changes, judged_by: None })
     }
 
     /// Tries what says enough and does not take too long, or is asked for.
@@ -132,7 +134,7 @@ impl Trials {
             let Some(changes) = changes else { return Ok(None) };
             let (label, begun) =
                 (format!("trying {} of {of}", plural(changes.len() as u64, noun)), Instant::now());
-            let (judged_by, quiet) = (arguments.judged_by, arguments.output.quiet);
+            let (judged_by, quiet) = (self.judged_by, arguments.output.quiet);
             match compare_with(changes, (file, web, findings), judged_by, by, (&label, quiet)) {
                 Err(Failure::Error(error)) if !matches!(error, Error::Interrupted) => {
                     let name = stem(&arguments.file, "web");

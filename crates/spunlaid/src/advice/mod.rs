@@ -6,9 +6,11 @@
 //!   → in one air the best ones flown once more in another air → Advice
 //! ```
 
+mod aim;
 mod few;
 mod setting;
 
+pub use aim::{AIMS, Aim, judged_by};
 pub use setting::ChangedWeb;
 
 use self::few::WebOfFew;
@@ -79,21 +81,6 @@ pub fn are_tried(spec: &WebSpec, findings: &Findings, changes: &[Change]) -> boo
     says_enough && steps(spec, changes) <= most_steps(spec.method) && fits()
 }
 
-/// Checks that the CV of a web is known over patches of a side [m], so that changes can be judged by it.
-///
-/// # Errors
-/// If the web is not looked at over such patches.
-pub fn check_patch(spec: &WebSpec, side: f64) -> Result<(), Error> {
-    if spec.sheet.patches.iter().any(|patch| is_same(*patch, side)) {
-        return Ok(());
-    }
-    let pretty = |patch: &f64| Dimension::Length.pretty_to(*patch, 3);
-    let known: Vec<String> = spec.sheet.patches.iter().map(pretty).collect();
-    let what =
-        format!("the web is looked at over patches of {}, and not of {}", known.join(", "), pretty(&side));
-    Err(Fault::new(what, "name one of these, or write the size to web.patches").into())
-}
-
 fn is_same(patch: f64, side: f64) -> bool {
     (patch / side - 1.0).abs() < 1e-6
 }
@@ -105,7 +92,7 @@ fn is_guess(change: &Change) -> bool {
 /// Tries changes of a web.
 ///
 /// * `web`, `findings` – the web as it is, and what was found of it
-/// * `judged_by` – side of the patches by whose CV changes are judged [m], see [`check_patch`]; if None, that
+/// * `judged_by` – side of the patches by whose CV changes are judged [m], see [`judged_by`]; if None, that
 ///   of the patches which the eye judges first
 /// * `by` – its counter grows by the [`steps`] of the changes that are done
 ///

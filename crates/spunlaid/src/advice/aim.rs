@@ -1,0 +1,86 @@
+//! What settings of a web are judged by: the CV over patches of some size, which is that of what a buyer sees.
+
+use crate::error::{Error, Fault};
+use crate::layers::WebSpec;
+use crate::units::Dimension;
+
+/// Something that follows the CV over patches of its size.
+#[derive(Debug)]
+pub struct Aim {
+    /// As it is asked for.
+    pub name: &'static str,
+    /// Side of its patches [m].
+    side: fn(&WebSpec) -> f64,
+}
+
+/// All of them. How many thin places there are follows from the CV over patches of their size; the weakest
+/// section of a strip from that over patches of the area of a section; and holes from the length of fibre
+/// over 1 to 2 mm.                                                            theory.md (103), (104), (111)
+pub const AIMS: [Aim; 3] = [
+    Aim { name: "thin-places", side: |_| 10e-3 },
+    Aim { name: "strips", side: |web| (web.fabric.strip.width * web.fabric.strip.section).sqrt() },
+    Aim { name: "holes", side: |_| 1.5e-3 },
+];
+
+/// The side of the patches by whose CV a web is judged [m].
+///
+/// * `text` – a length, or the name of one of [`AIMS`], for which the nearest of the patches of the web is taken
+///
+/// # Errors
+/// If it is neither, or if the web is not looked at over such patches.
+pub fn judged_by(spec: &WebSpec, text: &str) -> Result<f64, Error> {
+    let patches = &spec.sheet.patches;
+    if let Some(aim) = AIMS.iter().find(|aim| aim.name == text) {
+        let distance = |patch: &f64| (patch / (aim.side)(spec)).ln().abs();
+        let nearest = patches.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        return nearest.ok_or_else(|| {
+            Fault::new("the web is looked at over no patches", "name some in web.patches").into()
+        });
+    }
+    let names = || AIMS.map(|aim| aim.name).join(", ");
+    let side = Dimension::Length.parse(text).ok().filter(|side| *side > 0.0).ok_or_else(|| {
+        let remedy = format!("write the side of patches, like 10mm, or one of {}", names());
+        Fault::new(format!("{text} is not what a web can be judged by"), remedy)
+    })?;
+    check_patch(spec, side)?;
+    Ok(side)
+}
+
+/// Checks that the CV of a web is known over patches of a side [m], so that changes can be judged by it.
+fn check_patch(spec: &WebSpec, side: f64) -> Result<(), Error> {
+    if spec.sheet.patches.iter().any(|patch| super::is_same(*patch, side)) {
+        return Ok(());
+    }
+    let pretty = |patch: &f64| Dimension::Length.pretty_to(*patch, 3);
+    let known: Vec<String> = spec.sheet.patches.iter().map(pretty).collect();
+    let what =
+        format!("the web is looked at over patches of {}, and not of {}", known.join(", "), pretty(&side));
+    Err(Fault::new(what, "name one of these, or write the size to web.patches").into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_web_is_judged_by_the_patches_of_what_is_asked_for() {
+        let mut spec = crate::input::parse_web(
+            "[fibre]\ndiameter = '18 µm'\ndensity = '910 kg/m³'\n[laydown]\nsigma_md = '9 mm'\n\
+             sigma_cd = '8 mm'\nnoise = '15 m^-0.5'\n[line]\nfeed_speed = '50 m/s'\nbelt_speed = '5 m/s'\n\
+             filaments_per_metre = 100\n[web]\nwidth = '1 m'\nlength = '1 m'\n",
+            "web.toml",
+            &[],
+        )
+        .unwrap()
+        .spec;
+        spec.sheet.patches = vec![1e-3, 2e-3, 5e-3, 10e-3, 20e-3, 50e-3];
+        // A section of a strip is 50 × 5 mm, as large as a patch of 15.8 mm.
+        for (text, side) in [("thin-places", 10e-3), ("strips", 20e-3), ("holes", 2e-3), ("5mm", 5e-3)] {
+            assert_eq!(judged_by(&spec, text).unwrap(), side, "{text}");
+        }
+        for (text, said) in [("strength", "one of thin-places, strips, holes"), ("7mm", "and not of 7 mm")] {
+            let message = judged_by(&spec, text).unwrap_err().to_string();
+            assert!(message.contains(said), "{message}");
+        }
+    }
+}
