@@ -80,7 +80,7 @@ fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
         page.contains("lower bound") && page.contains("leave web.method out to fly them in one air");
     assert!(way_out, "nothing of a lower bound");
     let independent = desk.summary("d");
-    // Alone or together, filaments that are slower than the feed in the mean drive this air as hard. The slot of
+    // Alone or together, filaments do the same to their air, within three standard errors of 0.02 N/m. The slot of
     // 10 mm has 0.54 kg/s of air.
     let curtains =
         [&summary, &desk.summary("again"), &independent].map(|of| of["layers"][0]["curtain"].clone());
@@ -94,7 +94,7 @@ fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
         assert!((number("share_of_momentum") / (force / (0.5418 * 45.0)) - 1.0).abs() < 1e-3, "{belt}");
         force
     });
-    assert!(belts[0] > 0.0 && (belts[0] / belts[1] - 1.0).abs() < 0.2, "{belts:?}");
+    assert!((belts[0] - belts[1]).abs() < 0.06, "{belts:?}");
     assert!(table.contains("Down to the belt they drive it with"), "{table}");
     assert!(independent["web"]["patches"][0].get("cv_independent").is_none());
     assert!(independent.get("neighbours").is_none());

@@ -149,6 +149,8 @@ fn draws_every_figure_of_a_fed_fibre() {
         "directions",
         "speed_along_way",
         "tension_along_way",
+        "force_on_air",
+        "fibre_on_way",
         "energy_errors",
         "turbulence_spectrum",
     ];

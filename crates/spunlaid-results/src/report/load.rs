@@ -87,7 +87,7 @@ fn on_way(belt: &LoadPlace) -> String {
         None => "they would stop a free stream of the same width".to_owned(),
     };
     let pressure = belt.pressure.map_or_else(String::new, |rise| {
-        format!(", and between walls its pressure would rise by {}{THIN}Pa", significant(rise, 2))
+        format!(", and between walls its pressure would change by {}{THIN}Pa", significant(rise, 2))
     });
     let verdict = if share.abs() > LARGE {
         "That is so much that the given air can hardly be that of this line, unless it was measured or computed with \

@@ -13,7 +13,7 @@ use spunlaid::input::{LaydownSource, LayerSpec, Method, WebSpec, read_web};
 use spunlaid::layers::PlannedFlight;
 use spunlaid::units::Dimension;
 use spunlaid::web::Filaments;
-use spunlaid_results::numbers::significant;
+use spunlaid_results::numbers::{THIN, significant};
 use spunlaid_results::output::load::LoadSummary;
 use spunlaid_results::output::spinline::SpinSummary;
 use spunlaid_results::output::versioned_json;
@@ -261,7 +261,7 @@ fn curtain(spec: &WebSpec, layer: &LayerSpec) -> Option<LoadSummary> {
 
 /// The load of the filaments on their air, as far as no flight is needed.
 fn load(spec: &WebSpec) -> Vec<String> {
-    let words = |layer: &LayerSpec| Some(load_words(&curtain(spec, layer)?.0));
+    let words = |layer: &LayerSpec| Some(load_words(&curtain(spec, layer)?.0).replace(THIN, " "));
     let mut lines = vec!["load on the air".to_owned()];
     for (number, words) in
         spec.layers.iter().enumerate().filter_map(|(i, layer)| Some((i + 1, words(layer)?)))
