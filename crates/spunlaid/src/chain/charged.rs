@@ -3,7 +3,8 @@
 use super::Chain;
 use super::work::WorkDone;
 use crate::charge::SheetField;
-use crate::lanes::{Lanes, WIDTH};
+use crate::lanes::Lanes;
+use crate::vec3::Vec3;
 use std::sync::Arc;
 
 /// The charge of eight fibres in a field along the machine direction.
@@ -57,16 +58,9 @@ impl Chain {
         let Self { velocity, constants: c, charged: Some(Charged { force, .. }), .. } = self else {
             return Lanes::ZERO;
         };
-        let power = |lane: usize| {
-            let of_node = |(force, v): (&Lanes, &crate::vec3::Vec3<Lanes>)| {
-                force.0[lane] * (v.y.0[lane] - c.frame.0[lane])
-            };
-            force.iter().zip(velocity.iter()).map(of_node).sum()
-        };
-        let mut sum = Lanes::ZERO;
-        for lane in 0..WIDTH {
-            sum.0[lane] = power(lane);
-        }
-        sum
+        Lanes::from_fn(|lane| {
+            let speed = |v: &Vec3<Lanes>| v.y.0[lane] - c.frame.0[lane];
+            force.iter().zip(velocity.iter()).map(|(force, v)| force.0[lane] * speed(v)).sum()
+        })
     }
 }
