@@ -40,7 +40,7 @@ impl<'a> Flying<'a> {
     pub(super) fn new(beam: Beam<'a>, (sheet, windows): (&Sheet, Windows)) -> Result<Self, Error> {
         let line = beam.case.line.filter(|line| line.belt_speed > 0.0);
         let line = line.ok_or_else(|| Fault::plain("the fibre of the case is not laid on a moving belt"))?;
-        let numbers = pack::neighbours(beam.places);
+        let numbers = pack::side_by_side(beam.places);
         let packs = numbers.iter().map(|_| Mutex::new(None)).collect();
         let stretch = Stretch::before(&line, line.feed_speed * beam.case.run.spin_up(), windows, sheet);
         let field = BeamField::new(&beam);

@@ -22,7 +22,7 @@ const STEPS_UNSEEN: u64 = 256;
 const LEAST_BETWEEN: u64 = 16;
 
 /// The filaments of each pack: neighbours read the same part of the air.
-pub(super) fn neighbours(places: &[Place]) -> Vec<Vec<usize>> {
+pub(super) fn side_by_side(places: &[Place]) -> Vec<Vec<usize>> {
     let mut order: Vec<usize> = (0..places.len()).collect();
     for area in order.chunks_mut(AREA) {
         sort_by_key(area, |filament| places[*filament].y);

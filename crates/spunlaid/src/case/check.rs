@@ -1,10 +1,10 @@
 //! The conditions that a case must meet before it can be run.
 
 use super::Case;
+use super::companions::without_shared_air;
 use super::keys::{self, FLOWN, finding};
 use super::limits::{MOST_INSTANTS, MOST_STEPS};
 use super::memory::FLIGHT_MEMORY_LIMIT;
-use super::neighbours::without_shared_air;
 use super::note::Note;
 use super::step::{FEEDING, StepLimit};
 use crate::air::{FileContent, Flow, Lateral, Measured};

@@ -2,11 +2,11 @@
 
 mod check;
 mod checks;
+mod companions;
 mod files;
 pub mod keys;
 mod limits;
 mod memory;
-mod neighbours;
 mod note;
 mod remarks;
 mod step;
@@ -15,10 +15,10 @@ mod usual;
 
 pub(crate) use check::too_many_steps;
 pub use checks::Checks;
+pub use companions::Companions;
 pub(crate) use limits::whole_parts;
 pub use limits::{INSTANT_ON_DISK, MOST_INSTANTS, MOST_REPLICATES, MOST_SHAPES, MOST_STEPS};
 pub use memory::{FLIGHT_MEMORY_LIMIT, FlightMemory};
-pub use neighbours::Neighbours;
 pub use note::{Note, Remark};
 use step::FEEDING;
 pub use step::{ERROR_TOLERANCE, StepChoice, StepLimit};
@@ -53,7 +53,7 @@ pub struct Case {
     /// The spinline that gives diameter, density and feed speed; `None` where the case gives them itself.
     pub spinline: Option<Box<Spinline>>,
     /// Fibres that fly beside each replicate in the same air.
-    pub neighbours: Neighbours,
+    pub companions: Companions,
     /// Time, integration and ensemble.
     pub run: Run,
 }
@@ -173,7 +173,7 @@ impl Case {
     pub fn extent_of_air(&self) -> Extent {
         let side = 10.0 * self.length_scales().fold(0.0, f64::max);
         let farthest = |distances: &[f64]| distances.last().map_or(0.0, |distance| 4.0 * distance);
-        let Neighbours { cd, md } = &self.neighbours;
+        let Companions { cd, md } = &self.companions;
         Extent { y: side.max(farthest(md)), z: side.max(farthest(cd)) }
     }
 

@@ -1,6 +1,6 @@
 //! A case of which nothing is known yet.
 
-use super::{Case, Neighbours, Run};
+use super::{Case, Companions, Run};
 use crate::air::Air;
 use crate::drag::{Drag, FrictionLaw, NormalLaw};
 use crate::fibre::Fibre;
@@ -25,7 +25,7 @@ impl Case {
             drag: Drag { along: FrictionLaw::ALL[0], across: NormalLaw::ALL[0] },
             line: None,
             spinline: None,
-            neighbours: Neighbours::default(),
+            companions: Companions::default(),
             run: Run::UNKNOWN,
         }
     }

@@ -18,7 +18,7 @@ pub(super) fn fly_beside(
     keep: Keep,
     computing: RunControl<'_>,
 ) -> Result<Result<Trajectory, Error>, Error> {
-    let places: Vec<Place> = case.neighbours.places().collect();
+    let places: Vec<Place> = case.companions.places().collect();
     let mut whole: Option<Trajectory> = None;
     for some in places.chunks(WIDTH - 1) {
         let first = Job::new(case, replicate);

@@ -151,7 +151,7 @@ fn pieces(case: &Case, keep: Keep) -> usize {
 
 /// Whether companions fly beside the replicates. What is measured of them are curves.
 fn has_companions(case: &Case, keep: Keep) -> bool {
-    keep.curves && !case.neighbours.is_empty()
+    keep.curves && !case.companions.is_empty()
 }
 
 /// Computes one piece of work of a case: for each replicate its trajectory, or the reason why its fibre is lost.

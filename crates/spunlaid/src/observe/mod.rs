@@ -14,6 +14,7 @@
 
 mod along_fibre;
 mod along_way;
+mod companions;
 mod curvature;
 mod deflection;
 mod end_node;
@@ -24,7 +25,6 @@ mod force_on_air;
 mod laydown;
 mod load;
 mod measure;
-mod neighbours;
 mod record;
 mod residence;
 mod root_tension;
@@ -67,10 +67,10 @@ pub const DECLARED: &[&Declaration] = &[
     &laydown::DECLARATION,
     &along_way::DECLARATION,
     &force_on_air::DECLARATION,
-    &neighbours::FED_CD,
-    &neighbours::FED_MD,
-    &neighbours::FIXED_CD,
-    &neighbours::FIXED_MD,
+    &companions::FED_CD,
+    &companions::FED_MD,
+    &companions::FIXED_CD,
+    &companions::FIXED_MD,
     &root_tension::DECLARATION,
     &strain::USUAL,
     &strain::LARGEST,

@@ -129,7 +129,7 @@ prop_compose! {
         case.air.harmonics = cycles as usize + more_harmonics;
         // A field of many generations takes more memory than is allowed.
         if case.flight_memory().total() > FLIGHT_MEMORY_LIMIT {
-            (case.air.lateral, case.neighbours) = (Lateral::Uniform, Neighbours::default());
+            (case.air.lateral, case.companions) = (Lateral::Uniform, Neighbours::default());
         }
         case
     }

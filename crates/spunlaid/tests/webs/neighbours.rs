@@ -68,7 +68,7 @@ fn analytic_rows_have_neighbours_of_their_own() {
 #[test]
 fn stat_the_neighbours_of_a_web_are_the_companions_of_a_case() {
     let mut case = case_in("von-karman");
-    case.neighbours.cd = vec![2e-3, 4e-3, 10e-3];
+    case.companions.cd = vec![2e-3, 4e-3, 10e-3];
     (case.run.replicates, case.run.seed) = (16, 5);
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing =
@@ -85,7 +85,7 @@ fn stat_the_neighbours_of_a_web_are_the_companions_of_a_case() {
 
     let sheet = Sheet { edges: Edges::Cut, ..sheet(40, 1200) };
     let web = flown("von-karman", &sheet, &row(&sheet, 20), Airs::Shared, 2).neighbours;
-    for (number, distance) in case.neighbours.cd.iter().enumerate() {
+    for (number, distance) in case.companions.cd.iter().enumerate() {
         let neighbour = web.iter().find(|found| (found.distance - distance).abs() < 1e-9).unwrap();
         for (found, companions) in both(neighbour).iter().zip(&companions) {
             let wanted = &companions[number];

@@ -165,19 +165,19 @@ macro_rules! of_record {
     };
 }
 
-/// Access to the distances of companions: `of_neighbours!(cd)`.
-macro_rules! of_neighbours {
+/// Access to the distances of companions: `of_companions!(cd)`.
+macro_rules! of_companions {
     ($field:ident) => {
         Access {
             get: |case| {
-                let distances = &case.neighbours.$field;
+                let distances = &case.companions.$field;
                 (!distances.is_empty()).then(|| Value::Numbers(distances.clone()))
             },
             set: |case, value| {
                 if case.air.lateral == Lateral::Uniform {
                     return Err(without_shared_air());
                 }
-                case.neighbours.$field = distances(value)?;
+                case.companions.$field = distances(value)?;
                 Ok(())
             },
         }

@@ -113,7 +113,7 @@ impl Mesh {
     fn from_tetrahedra(nodes: Vec<Node>, cut: Cut, points: usize, plane: Option<Plane>) -> Self {
         let surface = surface(&cut.triangles, &nodes, plane);
         let cells = boxes(&cut, &nodes);
-        let tetrahedra = neighbours(&cut.tetrahedra, nodes.len());
+        let tetrahedra = with_adjacent(&cut.tetrahedra, nodes.len());
         let corners =
             tetrahedra.iter().flat_map(|tetrahedron| tetrahedron.nodes).map(|node| nodes[node as usize].at);
         let bounds = bounding_box(corners);
@@ -282,7 +282,7 @@ fn boxes(cut: &Cut, nodes: &[Node]) -> RTree<CellBox> {
 }
 
 /// Tetrahedra with their neighbours.
-fn neighbours(tetrahedra: &[[u32; 4]], nodes: usize) -> Vec<Tetrahedron> {
+fn with_adjacent(tetrahedra: &[[u32; 4]], nodes: usize) -> Vec<Tetrahedron> {
     let across = |[a, b, c, d]: [u32; 4]| [[b, c, d], [a, c, d], [a, b, d], [a, b, c]];
     let faces = tetrahedra.iter().flat_map(|nodes| across(*nodes));
     let alone = |nodes: &[u32; 4]| Tetrahedron { nodes: *nodes, beyond: [NOTHING; 4] };

@@ -2,10 +2,10 @@
 
 mod air;
 mod belt;
+mod companions;
 mod drag;
 mod feed;
 mod fibre;
-mod neighbours;
 mod run;
 mod spinline;
 
@@ -22,7 +22,7 @@ const TABLES: [Table<Case>; 9] = [
     ("belt", &[belt::KEYS]),
     ("air", air::KEYS),
     ("drag", &[drag::KEYS]),
-    ("neighbours", &[neighbours::KEYS]),
+    ("neighbours", &[companions::KEYS]),
     ("run", &[run::KEYS]),
 ];
 

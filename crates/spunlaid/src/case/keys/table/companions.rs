@@ -4,20 +4,20 @@ use super::super::Key;
 use super::super::row::{Access, key};
 use super::super::value::{Kind, Value};
 use crate::air::Lateral;
-use crate::case::neighbours::without_shared_air;
+use crate::case::companions::without_shared_air;
 use crate::error::Fault;
 
 /// Most companions in a direction.
 const MOST: usize = 64;
 
 pub(super) const KEYS: &[Key] = &[
-    key("neighbours.cd", Kind::Lengths).access(of_neighbours!(cd)).follows("no companions").meaning(
+    key("neighbours.cd", Kind::Lengths).access(of_companions!(cd)).follows("no companions").meaning(
         "Distances in cross direction at which companions fly beside each replicate, in the same air. The \
          results say how their motion, or the place where they come down, is correlated with that of the \
          replicate.",
     ),
     key("neighbours.md", Kind::Lengths)
-        .access(of_neighbours!(md))
+        .access(of_companions!(md))
         .follows("no companions")
         .meaning("The same in machine direction."),
 ];

@@ -24,7 +24,7 @@ pub(super) const FED_CD: Declaration = Declaration {
             ..IN_CD_OF_CD
         },
     ],
-    applies: |case| fed(case) && !case.neighbours.cd.is_empty(),
+    applies: |case| fed(case) && !case.companions.cd.is_empty(),
     observer: |flight| Box::new(Companions::new(flight, in_cd)),
 };
 
@@ -43,7 +43,7 @@ pub(super) const FED_MD: Declaration = Declaration {
             ..IN_CD_OF_CD
         },
     ],
-    applies: |case| fed(case) && !case.neighbours.md.is_empty(),
+    applies: |case| fed(case) && !case.companions.md.is_empty(),
     observer: |flight| Box::new(Companions::new(flight, in_md)),
 };
 
@@ -52,7 +52,7 @@ pub(super) const FIXED_CD: Declaration = Declaration {
         Measure { name: "neighbours_cd_correlation_y", column: "neighbours_cd_correlation_y", ..IN_Y_OF_CD },
         Measure { name: "neighbours_cd_correlation_z", column: "neighbours_cd_correlation_z", ..IN_Z_OF_CD },
     ],
-    applies: |case| fixed(case) && !case.neighbours.cd.is_empty(),
+    applies: |case| fixed(case) && !case.companions.cd.is_empty(),
     observer: |flight| Box::new(Companions::new(flight, in_cd)),
 };
 
@@ -71,7 +71,7 @@ pub(super) const FIXED_MD: Declaration = Declaration {
             ..IN_Z_OF_CD
         },
     ],
-    applies: |case| fixed(case) && !case.neighbours.md.is_empty(),
+    applies: |case| fixed(case) && !case.companions.md.is_empty(),
     observer: |flight| Box::new(Companions::new(flight, in_md)),
 };
 
@@ -126,11 +126,11 @@ const IN_MD: Figure = Figure {
 };
 
 fn in_cd(case: &Case) -> Vec<(f64, Place)> {
-    case.neighbours.cd.iter().map(|z| (*z, Place { y: 0.0, z: *z })).collect()
+    case.companions.cd.iter().map(|z| (*z, Place { y: 0.0, z: *z })).collect()
 }
 
 fn in_md(case: &Case) -> Vec<(f64, Place)> {
-    case.neighbours.md.iter().map(|y| (*y, Place { y: *y, z: 0.0 })).collect()
+    case.companions.md.iter().map(|y| (*y, Place { y: *y, z: 0.0 })).collect()
 }
 
 /// Correlations of the fibres of a flight with their companions in it. The distances of companions in other
