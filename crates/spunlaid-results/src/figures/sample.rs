@@ -1,7 +1,7 @@
 //! Made-up results for the tests.
 
 use spunlaid::air::Air;
-use spunlaid::case::{Case, Neighbours, Run};
+use spunlaid::case::{Case, Companions, Run};
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::{Drag, FrictionLaw, NormalLaw};
 use spunlaid::ensemble::{Results, Sample, Shape, SpectrumPoint, Trajectory};
@@ -28,7 +28,7 @@ pub fn case(elements: usize, instants: usize, replicates: u64) -> Case {
         drag: Drag { along: FrictionLaw::Matsui { factor: 0.9 }, across: NormalLaw::JuShambaugh },
         line: None,
         spinline: None,
-        neighbours: Neighbours::default(),
+        companions: Companions::default(),
         run: Run {
             time_step: 1e-3,
             steps: instants as u64 - 1,

@@ -2,7 +2,7 @@
 #![allow(dead_code, clippy::unwrap_used)]
 
 use spunlaid::air::Air;
-use spunlaid::case::{Case, Neighbours, Run};
+use spunlaid::case::{Case, Companions, Run};
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::fibre::{Fibre, Root};
 use spunlaid::flight::{Flight, Job, LaidPoint};
@@ -124,7 +124,7 @@ impl Thread {
             drag: super::paper_drag(),
             line: Some(line),
             spinline: None,
-            neighbours: Neighbours::default(),
+            companions: Companions::default(),
             run,
         };
         let limits = case.stable_step_limits();

@@ -8,7 +8,7 @@ pub mod modes;
 pub mod reference;
 
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
-use spunlaid::case::{Case, Neighbours, Run};
+use spunlaid::case::{Case, Companions, Run};
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::{Drag, ElementDrag, FrictionLaw, Growth, NormalLaw, Share};
@@ -70,7 +70,7 @@ pub fn table1(scheme: Scheme, time_step: f64, duration: f64, replicates: u64) ->
         drag: paper_drag(),
         line: None,
         spinline: None,
-        neighbours: Neighbours::default(),
+        companions: Companions::default(),
         run,
     }
 }
