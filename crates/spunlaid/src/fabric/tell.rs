@@ -121,9 +121,9 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
     let map = map.as_ref();
     let corner = first as f64 * map.cell;
     let mut notes = Vec::new();
-    if keys.holes == Some(false) {
-        notes.push("holes are not counted: fabric.holes = false".to_owned());
-    }
+    notes.extend(
+        (keys.holes == Some(false)).then(|| "holes are not counted: fabric.holes = false".to_owned()),
+    );
     let filaments = of_this_weight(&laid.filaments, map.basis_weight());
     let (length, diameter) = lengths(&filaments);
     let whole = |patch: f64| {
@@ -152,40 +152,17 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
     });
     let hydrohead = holes.as_ref().zip(keys.contact_angle).and_then(|(holes, angle)| {
         let found = hydrohead(holes.largest, angle);
-        if found.is_none() {
-            notes.push(
-                "the hydrohead is not told: it needs a contact angle above 90° (fabric.contact_angle) and holes of \
-                 20 µm or more in the windows"
-                    .to_owned(),
-            );
-        }
+        notes.extend(found.is_none().then(no_hydrohead));
         found
     });
     let air = (!laid.filaments.is_empty()).then(|| {
         let found = keys.thickness.and_then(|thickness| air(map, &filaments, thickness, keys.pressure));
-        if found.is_none() {
-            notes.push(match keys.thickness {
-                None => "the air permeability is not told: it needs the thickness of the fabric (fabric.thickness)"
-                    .to_owned(),
-                Some(thickness) => format!(
-                    "the air permeability is not told: at fabric.thickness = {} µm fibre would fill {} % of \
-                    the fabric, and the formulas hold up to 30 %",
-                    (thickness * 1e6).round(),
-                    (100.0 * solid_fraction(&filaments, thickness)).round()
-                ),
-            });
-        }
+        notes.extend(found.is_none().then(|| no_permeability(&filaments, keys.thickness)));
         found
     });
     let air = air.flatten();
     let usable = laid.reach.and_then(|reach| usable(laid.map, reach, keys.tolerance));
-    if usable.is_some() {
-        notes.push(
-            "the neck-in is not known: filaments at the edge are taken to come down as those in the middle, \
-            about the places at which they are fed"
-                .to_owned(),
-        );
-    }
+    notes.extend(usable.is_some().then(unknown_neck_in));
     Fabric {
         width: map.columns as f64 * map.cell,
         trim: keys.saleable_width.zip(laid.reach).map(|(width, [from, to])| (to - from - width).max(0.0)),
@@ -206,6 +183,33 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
         is_of_map_alone: laid.orientation.is_none() && laid.windows.is_none(),
         notes,
     }
+}
+
+/// Why no hydrohead is told.
+fn no_hydrohead() -> String {
+    "the hydrohead is not told: it needs a contact angle above 90° (fabric.contact_angle) and holes of 20 µm or \
+    more in the windows"
+        .to_owned()
+}
+
+/// Why no air permeability is told.
+fn no_permeability(filaments: &[Filaments], thickness: Option<f64>) -> String {
+    match thickness {
+        None => "the air permeability is not told: it needs the thickness of the fabric (fabric.thickness)"
+            .to_owned(),
+        Some(thickness) => format!(
+            "the air permeability is not told: at fabric.thickness = {} µm fibre would fill {} % of the \
+            fabric, and the formulas hold up to 30 %",
+            (thickness * 1e6).round(),
+            (100.0 * solid_fraction(filaments, thickness)).round()
+        ),
+    }
+}
+
+fn unknown_neck_in() -> String {
+    "the neck-in is not known: filaments at the edge are taken to come down as those in the middle, about the \
+    places at which they are fed"
+        .to_owned()
 }
 
 /// The part of the map that is told of, and its first column: what is sold, or all but the edges.

@@ -1,6 +1,6 @@
 //! What is told of a fabric, for `summary.json`, the terminal and the report.
 
-use crate::numbers::{THIN, number, plus_minus, range};
+use crate::numbers::{HARD, THIN, number, plus_minus, range};
 use crate::output::in_order::OrderedObject;
 use serde::Serialize;
 use spunlaid::fabric::{Fabric, Known};
@@ -121,5 +121,9 @@ pub fn known_text<T>(row: &Measured<T>) -> Option<String> {
         Known::Between([low, high]) if low < 1e-3 => format!("at most {}", number(high)),
         Known::Between([low, high]) => range(low, high),
     };
-    Some(if unit.shown.is_empty() { shown } else { format!("{shown}{THIN}{}", unit.shown) })
+    Some(match unit.shown.strip_prefix("1/") {
+        Some(area) => format!("{shown} per{HARD}{area}"),
+        None if unit.shown.is_empty() => shown,
+        None => format!("{shown}{THIN}{}", unit.shown),
+    })
 }

@@ -74,6 +74,14 @@ fn rows(findings: &Findings, fabric: &Fabric) -> Vec<[String; 2]> {
     rows
 }
 
+/// A note as a sentence.
+fn sentence(note: &str) -> String {
+    let mut letters = note.chars();
+    let begun: String =
+        letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect());
+    if begun.ends_with('.') { begun } else { begun + "." }
+}
+
 fn page(title: &str, rows: &[[String; 2]], notes: &[String]) -> Picture {
     let [width, height] = PAGE;
     let mut page = Picture::new(width, height, title);
@@ -96,7 +104,7 @@ fn page(title: &str, rows: &[[String; 2]], notes: &[String]) -> Picture {
     }
     at += 1.5 * LINE;
     for note in std::iter::once(MEANING).chain(notes.iter().map(String::as_str)) {
-        for line in lines(&plain(note), SMALL, width - 2.0 * MARGIN) {
+        for line in lines(&sentence(&plain(note)), SMALL, width - 2.0 * MARGIN) {
             // What does not fit on the page is in the report.
             if at > height - MARGIN {
                 return page;
