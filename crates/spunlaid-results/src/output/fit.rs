@@ -130,11 +130,20 @@ pub fn value_and_interval(key: &FittedKey) -> [String; 2] {
     [pretty(key.value), interval]
 }
 
+/// A scan is unusual if only one of so many webs differs more from the others.
+const RARE: u64 = 10;
+
 /// What the fit says, sentence by sentence: whether such webs can look like the scan, and what the scan does not know.
 pub fn sentences(fit: &Fit) -> Vec<String> {
     let mut all = Vec::new();
     let (worse, webs) = (fit.worse, fit.webs);
-    all.push(if worse > 0 {
+    all.push(if worse > 0 && RARE * worse <= webs {
+        format!(
+            "Webs of these values can look like the scan, but it is an unusual piece: only {worse} of {webs} \
+            simulated webs differ more from the others than it does. A narrow interval may miss then; scan \
+            another piece before you believe it."
+        )
+    } else if worse > 0 {
         format!(
             "Webs of these values can look like the scan: {worse} of {webs} simulated webs differ more from \
             the others than the scan does."
