@@ -57,30 +57,3 @@ fn check_patch(spec: &WebSpec, side: f64) -> Result<(), Error> {
         format!("the web is looked at over patches of {}, and not of {}", known.join(", "), pretty(&side));
     Err(Fault::new(what, "name one of these, or write the size to web.patches").into())
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_web_is_judged_by_the_patches_of_what_is_asked_for() {
-        let mut spec = crate::input::parse_web(
-            "[fibre]\ndiameter = '18 µm'\ndensity = '910 kg/m³'\n[laydown]\nsigma_md = '9 mm'\n\
-             sigma_cd = '8 mm'\nnoise = '15 m^-0.5'\n[line]\nfeed_speed = '50 m/s'\nbelt_speed = '5 m/s'\n\
-             filaments_per_metre = 100\n[web]\nwidth = '1 m'\nlength = '1 m'\n",
-            "web.toml",
-            &[],
-        )
-        .unwrap()
-        .spec;
-        spec.sheet.patches = vec![1e-3, 2e-3, 5e-3, 10e-3, 20e-3, 50e-3];
-        // A section of a strip is 50 × 5 mm, as large as a patch of 15.8 mm.
-        for (text, side) in [("thin-places", 10e-3), ("strips", 20e-3), ("holes", 2e-3), ("5mm", 5e-3)] {
-            assert_eq!(judged_by(&spec, text).unwrap(), side, "{text}");
-        }
-        for (text, said) in [("strength", "one of thin-places, strips, holes"), ("7mm", "and not of 7 mm")] {
-            let message = judged_by(&spec, text).unwrap_err().to_string();
-            assert!(message.contains(said), "{message}");
-        }
-    }
-}

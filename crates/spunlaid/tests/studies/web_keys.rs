@@ -95,6 +95,8 @@ filaments_per_metre = 300
 case = "short.case"
 [line]
 filaments_per_metre = 40
+charge = "1 µC/g"
+walls = "0.1 m"
 [web]
 width = "300 mm"
 length = "300 mm"

@@ -1,6 +1,6 @@
 //! Advice: what settings of a line do to the CV of its web at the same basis weight.
 
-use spunlaid::advice::{Advice, Change, Tried, advise};
+use spunlaid::advice::{Advice, Change, Tried, advise, judged_by};
 use spunlaid::effects::Setting;
 use spunlaid::error::Error;
 use spunlaid::input::{Changes, LaydownSource, Overrides, WebFile, WebSpec, parse_changes, parse_web};
@@ -362,4 +362,18 @@ fn a_charge_is_changed_where_it_is_given() {
     assert!(of_charge(&[]).is_empty() && of_charge(&[("line.charge", "0 µC/g")]).is_empty());
     let changed = of_charge(&[("line.charge", "2 µC/g")]);
     assert_eq!(changed, [(1.6e-3, 1.6e-3), (2.4e-3, 2.4e-3)]);
+}
+
+#[test]
+fn a_web_is_judged_by_the_patches_of_what_is_asked_for() {
+    let mut spec = parse_web(STRAIGHT, "web.toml", &[]).unwrap().spec;
+    spec.sheet.patches = vec![1e-3, 2e-3, 5e-3, 10e-3, 20e-3, 50e-3];
+    // A section of a strip is 50 × 5 mm, as large as a patch of 15.8 mm.
+    for (text, side) in [("thin-places", 10e-3), ("strips", 20e-3), ("holes", 2e-3), ("5mm", 5e-3)] {
+        assert_eq!(judged_by(&spec, text).unwrap(), side, "{text}");
+    }
+    for (text, said) in [("strength", "one of thin-places, strips, holes"), ("7mm", "and not of 7 mm")] {
+        let message = judged_by(&spec, text).unwrap_err().to_string();
+        assert!(message.contains(said), "{message}");
+    }
 }
