@@ -145,6 +145,7 @@ fn pair(key: &WebKey, web: &WebSpec) -> [String; 2] {
         "fibre.diameter" => 2e-5,
         "fibre.linear_density" => 2e-7,
         "line.throughput" => 5e-6,
+        "line.charge" => 1e-3,
         "line.basis_weight" => 5e-4,
         _ => 2.0,
     });
