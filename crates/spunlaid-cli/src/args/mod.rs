@@ -168,6 +168,9 @@ pub(crate) struct Air {
     pub(crate) source: CaseSource,
     #[command(flatten)]
     pub(crate) output: Output,
+    /// Fly the filaments of a line in its CFD field, and write what they do to the air of each cell, for the CFD program
+    #[arg(long, conflicts_with_all = ["replicate", "frames", "duration"])]
+    pub(crate) sources: bool,
     /// The replicate whose air it is, as they are numbered in a run
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=u64::from(u32::MAX)))]
     pub(crate) replicate: u64,

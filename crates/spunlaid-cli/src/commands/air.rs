@@ -2,6 +2,7 @@
 
 use super::delivery::{Asides, Delivery};
 use super::flown::flown;
+use super::sources::sources;
 use super::{stem, stop_on_ctrl_c};
 use crate::args::{Air, Invocation};
 use crate::failure::Failure;
@@ -19,6 +20,9 @@ const UNIFORM: &str = "the case has air.lateral = \"uniform\": each of its fibre
     share it";
 
 pub(crate) fn air(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
+    if air.sources {
+        return sources(air, invocation);
+    }
     let mut read = air.source.read(&[]);
     let has_uniform = |(case, _): &CaseWithNotes| case.air.lateral == Lateral::Uniform;
     let is_uniform = match &read {

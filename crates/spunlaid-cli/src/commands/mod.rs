@@ -16,6 +16,7 @@ pub(crate) mod new;
 pub(crate) mod reproduce;
 pub(crate) mod run;
 mod scan;
+mod sources;
 pub(crate) mod spin;
 pub(crate) mod sweep;
 pub(crate) mod web;

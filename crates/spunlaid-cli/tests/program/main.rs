@@ -27,6 +27,7 @@ mod results;
 mod scan;
 mod shell;
 mod signals;
+mod sources;
 mod spin;
 mod sweep;
 mod sweep_again;

@@ -8,6 +8,7 @@
 //! scan       what is found of a scan: map, figures, report, summary
 //! record     what is found in a velocity record: curves, figures, report
 //! paper      the paper's claims and figures
+//! sources    the force of filaments on the cells of their field, for CFD programs: VTK, OpenFOAM, report, summary
 //! spinline   a solved spinline: the thread, figures, report, summary
 //! fit        the journal of a fit, and what is made from it
 //! kept       flights of a run that outlive the process that flies them
@@ -32,6 +33,7 @@ pub mod paper;
 pub mod record;
 pub mod run;
 pub mod scan;
+pub mod sources;
 pub mod spinline;
 pub mod study;
 pub mod tensions;

@@ -17,6 +17,7 @@ mod neighbours;
 pub mod origin;
 pub mod paraview;
 pub mod pictures;
+pub mod sources;
 mod spill;
 pub mod spinline;
 pub mod study;

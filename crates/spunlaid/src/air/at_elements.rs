@@ -79,6 +79,12 @@ impl AirAtElements {
         self.looked = true;
     }
 
+    /// Velocity of the air at element `j` in a step since the last look [m/s]; None beyond the last element.
+    pub(super) fn velocity(&self, j: usize, step: u64) -> Option<Vec3<Lanes>> {
+        let ElementAir { value, rise } = self.elements.get(j)?;
+        Some(*value + *rise * Lanes::splat((step % self.every) as f64))
+    }
+
     /// The air before a step.
     #[inline(always)]
     pub(super) fn now<S: Register>(&self, step: u64) -> InstantStations<'_, S> {

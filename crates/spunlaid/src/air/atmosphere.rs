@@ -124,6 +124,18 @@ impl Atmosphere {
         }
     }
 
+    /// Velocity of the air at element `j` of fed fibres, as the last step has felt it [m/s]; None of other fibres, and
+    /// beyond the last element.
+    ///
+    /// * `step` – number of that step, from 0
+    pub(crate) fn felt(&self, j: usize, step: u64) -> Option<Vec3<Lanes>> {
+        match self {
+            Self::Way(_, stations) => stations.velocity(j, step),
+            Self::Space(air) => air.velocity(j, step),
+            Self::Uniform(_) | Self::Flow(..) => None,
+        }
+    }
+
     /// Whether it fits fibres of so many elements.
     ///
     /// # Errors

@@ -115,6 +115,11 @@ impl AirInSpace {
         self.give(&unmade);
     }
 
+    /// Velocity of the air at element `j` in the last step [m/s].
+    pub(super) fn velocity(&self, j: usize, step: u64) -> Option<Vec3<Lanes>> {
+        self.elements.velocity(j, step)
+    }
+
     /// Share of the time that the elements of a lane's fibre have spent outside of a CFD field's data.
     pub(super) fn outside(&self, lane: usize) -> Option<f64> {
         self.surroundings.as_ref().map(|surroundings| surroundings.outside(lane))

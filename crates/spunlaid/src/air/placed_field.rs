@@ -96,21 +96,29 @@ impl PlacedField {
         (local.k, local.epsilon)
     }
 
+    /// A place of the fibre's frame [m] in the coordinates of the field.
+    pub(crate) fn in_field(&self, at: Vec3<f64>) -> Vec3<f64> {
+        (self.root + self.axis.to_field(at)) * (1.0 / self.unit)
+    }
+
+    /// A vector of the fibre's frame in that of the field.
+    pub(crate) fn turned(&self, vector: Vec3<f64>) -> Vec3<f64> {
+        self.axis.to_field(vector)
+    }
+
     pub(super) fn at(&self, at: Vec3<f64>, hint: &mut Hint) -> Local {
-        let place = (self.root + self.axis.to_field(at)) * (1.0 / self.unit);
-        let local = self.field.sample(place, hint);
+        let local = self.field.sample(self.in_field(at), hint);
         Local { velocity: self.axis.to_fibre(local.velocity), ..local }
     }
 
     /// Why there is no air at a place of the fibre, if the file has no numbers there.
     pub(crate) fn why_no_air(&self, at: Vec3<f64>) -> Option<Fault> {
-        self.field.why_no_air((self.root + self.axis.to_field(at)) * (1.0 / self.unit))
+        self.field.why_no_air(self.in_field(at))
     }
 
     /// The air around a place of the fibre's frame [m], linear in space, in that frame.
     pub(super) fn around(&self, at: Vec3<f64>, hint: &mut Hint) -> AirAround {
-        let place = (self.root + self.axis.to_field(at)) * (1.0 / self.unit);
-        let AirAround { value, gradients, reach, inside } = self.field.around(place, hint);
+        let AirAround { value, gradients, reach, inside } = self.field.around(self.in_field(at), hint);
         let turned = |[u, v, w, root_k]: [f64; 4]| {
             let v = self.axis.to_fibre(Vec3::new(u, v, w));
             [v.x, v.y, v.z, root_k]

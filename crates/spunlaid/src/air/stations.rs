@@ -190,6 +190,11 @@ impl Stations {
         self.field.as_ref().map(|field| field.outside(lane))
     }
 
+    /// Velocity of the air at element `j` in the last step [m/s].
+    pub(super) fn velocity(&self, j: usize, step: u64) -> Option<Vec3<Lanes>> {
+        self.elements.velocity(j, step)
+    }
+
     /// Forgets the looks so far.
     pub(crate) fn forget(&mut self) {
         self.elements.forget();

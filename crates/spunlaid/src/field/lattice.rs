@@ -1,5 +1,6 @@
 //! Values on a lattice, linear in each coordinate between the points.
 
+use super::cells_of_file::{BlockKind, Blocks};
 use super::fault;
 use super::node::Node;
 use super::values::{Quantities, check_range};
@@ -88,6 +89,57 @@ impl Lattice {
         ([0, 1, 2].map(|i| self.axes[i].at[0]), [0, 1, 2].map(|i| self.axes[i].at[self.axes[i].at.len() - 1]))
     }
 
+    /// The boxes between the points, x first; rectangles if the lattice is one point thick. None of a row of points.
+    pub(super) fn blocks(&self) -> Option<Blocks> {
+        let thick: Vec<usize> = (0..3).filter(|axis| self.axes[*axis].at.len() > 1).collect();
+        let kind = match thick.len() {
+            2 => BlockKind::Pixel,
+            3 => BlockKind::Voxel,
+            _ => return None,
+        };
+        let [xs, ys, zs] = self.points();
+        let sides = [0, 1, 2].map(|axis| self.axes[axis].sides());
+        let mut blocks = Blocks {
+            kind,
+            points: Vec::with_capacity(xs * ys * zs),
+            corners: Vec::new(),
+            ends: Vec::new(),
+            volumes: Vec::new(),
+            centres: Vec::new(),
+            depth: (thick.len() == 2).then_some(1.0),
+        };
+        for z in &self.axes[2].at {
+            for y in &self.axes[1].at {
+                blocks.points.extend(self.axes[0].at.iter().map(|x| [*x, *y, *z]));
+            }
+        }
+        let strides = [1, xs, xs * ys];
+        let of_corner = |corner: usize| -> usize {
+            thick.iter().enumerate().map(|(bit, axis)| (corner >> bit & 1) * strides[*axis]).sum()
+        };
+        for (k, (z, of_z)) in sides[2].iter().enumerate() {
+            for (j, (y, of_y)) in sides[1].iter().enumerate() {
+                for (i, (x, of_x)) in sides[0].iter().enumerate() {
+                    let first = i + xs * (j + ys * k);
+                    blocks
+                        .corners
+                        .extend((0..kind.corners()).map(|corner| (first + of_corner(corner)) as u32));
+                    blocks.ends.push(blocks.ends.len() as u32 + 1);
+                    blocks.volumes.push(of_x * of_y * of_z);
+                    blocks.centres.push([*x, *y, *z]);
+                }
+            }
+        }
+        Some(blocks)
+    }
+
+    /// The number of the box in which a place lies; None outside.
+    pub(super) fn cell(&self, at: [f64; 3]) -> Option<usize> {
+        let [x, y, z] = [0, 1, 2].map(|i| self.axes[i].locate(at[i]));
+        let [across, up] = [0, 1].map(|i| self.axes[i].at.len().saturating_sub(1).max(1));
+        (x.inside && y.inside && z.inside).then(|| x.before + across * (y.before + up * z.before))
+    }
+
     /// Calls `with` for the points in a box, and where the planes through them meet its edges and faces.
     pub(super) fn points_in_box(
         &self,
@@ -172,6 +224,14 @@ impl Axis {
         let length = at[at.len() - 1] - at[0];
         let density = if length > 0.0 { (at.len() - 1) as f64 / length } else { 0.0 };
         Self { at, density }
+    }
+
+    /// The middle and the length of each piece between two points; of a single point itself, with a length of one.
+    fn sides(&self) -> Vec<(f64, f64)> {
+        match &*self.at {
+            [only] => vec![(*only, 1.0)],
+            all => all.windows(2).map(|pair| (0.5 * (pair[0] + pair[1]), pair[1] - pair[0])).collect(),
+        }
     }
 
     /// Two coordinates, and those of the points between them.

@@ -43,6 +43,7 @@
 //! ```
 
 mod bricks;
+mod cells_of_file;
 mod fault;
 mod holes;
 mod lattice;
@@ -56,6 +57,7 @@ mod tree;
 mod values;
 
 pub use bricks::AirAround;
+pub use cells_of_file::{BlockKind, FieldCells};
 pub use layout::FieldLayout;
 pub use mesh::cells::{Cells, Shape};
 pub use overview::{Overview, Spread};

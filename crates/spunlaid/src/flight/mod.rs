@@ -273,6 +273,13 @@ impl Flight {
         self.end_node = EndNodeStatistics::default();
     }
 
+    /// Velocity of the air at an element, as a step has felt it [m/s]; known after the step, of fed fibres.
+    ///
+    /// * `step` – number of the last step, from 0
+    pub(crate) fn air_felt(&self, element: usize, step: u64) -> Option<Vec3<Lanes>> {
+        self.air.felt(element, step)
+    }
+
     /// Share of the time that the elements of the fibre in a lane have spent outside the given flow. `None` in
     /// uniform air.
     pub fn outside(&self, lane: usize) -> Option<f64> {

@@ -17,6 +17,7 @@ pub(crate) mod full_names;
 pub(crate) mod keys;
 mod plan;
 mod shared_air;
+mod sources;
 mod stretches;
 
 pub use comparison::FewOfWeb;

@@ -5,7 +5,7 @@ use super::{
 };
 use crate::case::Case;
 use crate::chain::schemes::Scheme;
-use crate::flight::Flight;
+use crate::flight::{Flight, Snapshot};
 use crate::lanes::{Lanes, WIDTH};
 use crate::load::WayPlace;
 use crate::statistics::Estimate;
@@ -101,6 +101,20 @@ impl<'a> Nodes<'a> {
             tension_lag: lag(flight.scheme() == Scheme::ImplicitTension, 1.0),
         }
     }
+
+    /// Those of a snapshot, which has its velocities at the time of its positions.
+    ///
+    /// * `fibres` – number of fibres; the lanes after the last one repeat the first
+    pub(crate) fn of(snapshot: &'a Snapshot, fibres: usize, tension_lag: f64) -> Self {
+        Self {
+            position: &snapshot.position,
+            velocity: &snapshot.velocity,
+            tension: &snapshot.tension,
+            count: std::array::from_fn(|lane| if lane < fibres { snapshot.nodes[lane] } else { 0 }),
+            velocity_lag: 0.0,
+            tension_lag,
+        }
+    }
 }
 
 /// The balance of the momentum of a fed fibre along x, in classes of distance from the inlet: sums over instants.
@@ -110,7 +124,7 @@ impl<'a> Nodes<'a> {
 /// passes a plane is `m v_x²/(b − a)` of each node in the class. Sums over a class are therefore the means of those
 /// over the classes that it is divided into.                                              theory.md (116)
 #[derive(Clone, Debug)]
-struct MomentumBalance {
+pub(crate) struct MomentumBalance {
     distance: f64,
     /// Number of classes per distance [1/m].
     per_length: f64,
@@ -131,6 +145,11 @@ struct MomentumBalance {
 }
 
 impl MomentumBalance {
+    /// That of a case, in the usual number of classes.
+    pub(crate) fn of(case: &Case) -> Self {
+        Self::new(case, CLASSES)
+    }
+
     /// * `classes` – number of classes, from the inlet to the belt
     fn new(case: &Case, classes: usize) -> Self {
         let fibre = &case.fibre;
@@ -156,7 +175,7 @@ impl MomentumBalance {
     /// Adds an instant.
     ///
     /// * `balances` – one for each lane, or one for all of them
-    fn see(balances: &mut [Self], nodes: &Nodes<'_>) {
+    pub(crate) fn see(balances: &mut [Self], nodes: &Nodes<'_>) {
         let most = nodes.position.len().min(nodes.tension.len() + 1);
         let count = nodes.count.map(|count| count.min(most));
         let Some(last) = balances.len().checked_sub(1) else { return };
@@ -256,6 +275,21 @@ impl MomentumBalance {
         forces
     }
 
+    /// The force on the air between the inlet and the last place before the belt disturbs the balance [N]; NaN without
+    /// an instant.
+    pub(crate) fn force_above_belt(&self) -> f64 {
+        self.forces().get(self.last_free_class()).copied().unwrap_or(f64::NAN)
+    }
+
+    /// How much a force at a distance from the inlet [m] counts in [`MomentumBalance::force_above_belt`].
+    pub(crate) fn share_above_belt(&self, x: f64) -> f64 {
+        (self.last_free_class() as f64 + 1.0 - x * self.per_length).clamp(0.0, 1.0)
+    }
+
+    fn last_free_class(&self) -> usize {
+        self.classes.len().saturating_sub(3)
+    }
+
     /// Length of fibre per length of the way in each class [-]; NaN without an instant.
     fn lengths(&self) -> Vec<f64> {
         self.classes.iter().map(|[.., length]| length / self.instants).collect()
@@ -285,7 +319,7 @@ pub(crate) struct StretchedBalance {
 impl StretchedBalance {
     pub(crate) fn new(case: &Case) -> Self {
         let way = case.line.map_or(f64::NAN, |line| line.distance / line.feed_speed);
-        let empty = MomentumBalance::new(case, CLASSES);
+        let empty = MomentumBalance::of(case);
         Self { stretch: WAYS_OF_STRETCH * way, empty, stretches: Vec::new() }
     }
 
@@ -343,7 +377,7 @@ impl Balances {
         // A snapshot has its velocities at the time of its positions.
         let lags = flight.scheme() == Scheme::ImplicitTension;
         let tension_lag = if lags { flight.time_step() } else { 0.0 };
-        Self { of_lanes: lanes.map(|case| MomentumBalance::new(case, CLASSES)).collect(), tension_lag }
+        Self { of_lanes: lanes.map(MomentumBalance::of).collect(), tension_lag }
     }
 }
 
@@ -352,18 +386,7 @@ impl Observer for Balances {
         if !observation.settled {
             return;
         }
-        let snapshot = observation.snapshot;
-        let nodes = Nodes {
-            position: &snapshot.position,
-            velocity: &snapshot.velocity,
-            tension: &snapshot.tension,
-            // The lanes after the last fibre repeat the first one.
-            count: std::array::from_fn(
-                |lane| if lane < self.of_lanes.len() { snapshot.nodes[lane] } else { 0 },
-            ),
-            velocity_lag: 0.0,
-            tension_lag: self.tension_lag,
-        };
+        let nodes = Nodes::of(observation.snapshot, self.of_lanes.len(), self.tension_lag);
         MomentumBalance::see(&mut self.of_lanes, &nodes);
     }
 
@@ -425,14 +448,7 @@ mod tests {
         let time = STEPS as f64 * flight.time_step();
         for step in 0..=STEPS {
             let snapshot = flight.observe();
-            let nodes = Nodes {
-                position: &snapshot.position,
-                velocity: &snapshot.velocity,
-                tension: &snapshot.tension,
-                count: std::array::from_fn(|lane| if lane == 0 { snapshot.nodes[0] } else { 0 }),
-                velocity_lag: 0.0,
-                tension_lag: flight.time_step(),
-            };
+            let nodes = Nodes::of(&snapshot, 1, flight.time_step());
             if step < STEPS {
                 balances
                     .iter_mut()

@@ -57,8 +57,7 @@ impl Tensions {
         tensions
     }
 
-    /// Drag on a node at the start of the last step [N].
-    #[cfg(test)]
+    /// Drag on a node at the start of the last step [N], by the number that the node had then.
     pub(crate) fn drag(&self, node: usize) -> Vec3<Lanes> {
         self.links[node].drag
     }

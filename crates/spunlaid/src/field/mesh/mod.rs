@@ -5,6 +5,7 @@ mod cut;
 mod faces;
 mod plane;
 
+use super::cells_of_file::{BlockKind, Blocks};
 use super::fault;
 use super::node::{self, Node, bounding_box, merge};
 use super::tree::Tree;
@@ -163,7 +164,7 @@ impl Mesh {
     }
 
     /// The place in the plane of a plane flow where the air is that of another place.
-    fn in_plane(&self, mut at: [f64; 3]) -> [f64; 3] {
+    pub(super) fn in_plane(&self, mut at: [f64; 3]) -> [f64; 3] {
         if let Some(Plane { axis, level }) = self.plane {
             at[axis] = level;
         }
@@ -172,16 +173,52 @@ impl Mesh {
 
     pub(super) fn sample(&self, at: [f64; 3], hint: &mut Hint) -> (Quantities, bool) {
         let at = self.in_plane(at);
-        let (low, high) = self.bounds;
-        let within = (0..3).all(|axis| low[axis] <= at[axis] && at[axis] <= high[axis]);
-        let found = if within { self.walk(at, *hint).or_else(|| self.search(at)) } else { None };
-        if let Some((found, weights)) = found {
-            *hint = Hint(found + 1);
+        if let Some((found, weights)) = self.locate(at, hint) {
             let nodes = self.tetrahedra[found as usize].nodes;
             let values = nodes.map(|node| &self.nodes[node as usize].values);
             return (mean(weights.into_iter().zip(values)), true);
         }
         (self.nearest(at), false)
+    }
+
+    /// The tetrahedron around a place in the plane, and the weights of its nodes there; None outside.
+    pub(super) fn locate(&self, at: [f64; 3], hint: &mut Hint) -> Option<(u32, [f64; 4])> {
+        let (low, high) = self.bounds;
+        let within = (0..3).all(|axis| low[axis] <= at[axis] && at[axis] <= high[axis]);
+        let found = if within { self.walk(at, *hint).or_else(|| self.search(at)) } else { None };
+        if let Some((found, _)) = found {
+            *hint = Hint(found + 1);
+        }
+        found
+    }
+
+    /// The tetrahedra of the cells, in the order of the file.
+    pub(super) fn blocks(&self) -> Blocks {
+        let mut ends: Vec<u32> = self.cells.iter().map(|cell| cell.data[1]).collect();
+        ends.sort_unstable();
+        let (mut start, mut volumes, mut centres) = (0, Vec::new(), Vec::new());
+        for end in &ends {
+            let (mut sum, mut moment) = (0.0, Vec3::default());
+            for tetrahedron in &self.tetrahedra[start..*end as usize] {
+                let [o, a, b, c] = tetrahedron.nodes.map(|node| vector(self.nodes[node as usize].at));
+                let volume = (a - o).dot((b - o).cross(c - o)) / 6.0;
+                sum += volume;
+                moment += (o + a + b + c) * (0.25 * volume);
+            }
+            volumes.push(sum);
+            centres.push(self.in_plane([moment.x / sum, moment.y / sum, moment.z / sum]));
+            start = *end as usize;
+        }
+        let (low, high) = bounding_box(self.nodes.iter().map(|node| node.at));
+        Blocks {
+            kind: BlockKind::Tetrahedron,
+            points: self.nodes.iter().map(|node| node.at).collect(),
+            corners: self.tetrahedra.iter().flat_map(|tetrahedron| tetrahedron.nodes).collect(),
+            ends,
+            volumes,
+            centres,
+            depth: self.plane.map(|Plane { axis, .. }| high[axis] - low[axis]),
+        }
     }
 
     /// Starts at the tetrahedron of the hint and moves on through the face that the point lies farthest outside of.

@@ -1,0 +1,122 @@
+//! `spunlaid air --sources`: what the filaments of a line do to the cells of their CFD field.
+
+use super::delivery::{Asides, Delivery};
+use super::flown::flown;
+use super::{plural, run_control, stem};
+use crate::args::{Air, Invocation, is_standard, overrides};
+use crate::failure::Failure;
+use crate::{progress, say};
+use spunlaid::case::{Case, Note};
+use spunlaid::ensemble::{Curtain, Sources};
+use spunlaid::error::{Error, Fault, Problem};
+use spunlaid::input::{WebFile, read_web};
+use spunlaid_results::folders::sources::SourcesFolder;
+use spunlaid_results::numbers::significant;
+use spunlaid_results::output::kept_input::Input;
+use std::sync::atomic::AtomicU64;
+
+/// Share of the force outside of the cells from which on it is told.
+const MUCH_OUTSIDE: f64 = 0.01;
+
+/// What was read.
+enum Line {
+    /// The file of a web, with one layer.
+    Web(Box<WebFile>),
+    /// A case.
+    Case(Box<Case>, Vec<Note>),
+}
+
+pub(crate) fn sources(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
+    let line = read(air)?;
+    let refuse = |fault: Fault| Error::File(Box::new(Problem::with_path(&air.source.case, fault)));
+    let (case, curtain, input, notes) = match &line {
+        Line::Web(file) => {
+            let case = match &file.spec.layers[..] {
+                [layer] => layer.source.case().ok_or_else(|| refuse(no_case()))?,
+                layers => return Err(refuse(several(layers.len())).into()),
+            };
+            (case, file.spec.curtain(0), Input::Web(&file.spec), &file.notes)
+        }
+        Line::Case(case, notes) => (&**case, Curtain::of_spinline(case), Input::Case(case), notes),
+    };
+    if let Some(fault) = Sources::fault(case) {
+        return Err(refuse(fault).into());
+    }
+    let curtain = curtain.ok_or_else(|| refuse(no_filaments()))?;
+    notes.iter().for_each(say::note);
+    let (name, origin) = (stem(&air.source.case, "case"), invocation.origin_of([&air.source.case]));
+    let folder = air.output.optional_folder(format!("{name}_sources"));
+    let delivery = Delivery::open::<SourcesFolder<'_>>(folder, origin, &air.output, &air.figures.files())?;
+    let done = AtomicU64::new(0);
+    let (steps, replicates) = (case.run.steps * case.run.replicates, case.run.replicates);
+    let label = format!("flying {}", plural(replicates, "fibre"));
+    let sources = progress::follow(&done, steps, &label, air.output.quiet, || {
+        Sources::fly(case, &curtain, run_control(air.threads, &done))
+    })?;
+    let found: Vec<String> = outside(&sources).into_iter().collect();
+    let notes = [Note::notes_of_results(notes), found.clone()].concat();
+    let contents = SourcesFolder { name: &name, case, input, sources: &sources, notes: &notes };
+    delivery.deliver(&contents, air.threads, Asides { lines: &[], found: &found })
+}
+
+/// The line, from the file of a web or from a case.
+fn read(air: &Air) -> Result<Line, Failure> {
+    let (path, quiet) = (&air.source.case, air.output.quiet);
+    let web = match is_standard(path) {
+        true => None,
+        false => Some(flown(read_web(path, overrides(&air.source.set)), air.threads, quiet)),
+    };
+    if let Some(Ok(file)) = web {
+        return Ok(Line::Web(Box::new(file)));
+    }
+    match (flown(air.source.read(&[]), air.threads, quiet), web) {
+        (Ok((case, notes)), _) => Ok(Line::Case(Box::new(case), notes)),
+        (Err(_), Some(Err(error))) if is_web(air) => Err(error.into()),
+        (Err(error), _) => Err(error.into()),
+    }
+}
+
+/// Whether a file is meant to be that of a web.
+fn is_web(air: &Air) -> bool {
+    let text = std::fs::read_to_string(&air.source.case).unwrap_or_default();
+    text.lines()
+        .any(|line| ["[web]", "[laydown]", "[[layer]]"].iter().any(|table| line.trim().starts_with(table)))
+}
+
+fn no_filaments() -> Fault {
+    Fault::new(
+        "does not say how many filaments there are, and sources are those of all filaments of a metre of width",
+        "add [line] with filaments_per_metre = 5000 and [web] with the width and the length of a piece of its web, or \
+         name the file of a web that flies this case",
+    )
+}
+
+fn no_case() -> Fault {
+    Fault::new(
+        "lays known curves, and sources are those of flown filaments",
+        "name a case in laydown.case, or write its tables into the file",
+    )
+}
+
+fn several(layers: usize) -> Fault {
+    Fault::new(
+        format!("has {layers} layers, each in air of its own, and sources are those of the filaments of one"),
+        "write a file for each layer",
+    )
+}
+
+/// What is said if much of the force is outside of the cells.
+fn outside(sources: &Sources) -> Option<String> {
+    let (outside, inside) = (sources.outside.mean, sources.along.mean);
+    let share = outside.abs() / (outside.abs() + inside.abs());
+    (share > MUCH_OUTSIDE).then(|| {
+        format!(
+            "{} % of the force of the filaments on the air is outside of the cells of air.field and is in no source: \
+             {} N/m beside {} N/m. Does the field reach from the inlet to the belt, and as far to both sides as the \
+             filaments swing?",
+            significant(share * 100.0, 2),
+            significant(outside, 3),
+            significant(inside, 3)
+        )
+    })
+}

@@ -1,0 +1,143 @@
+//! `spunlaid air --sources`: what filaments do to the cells of their field, as a CFD program reads it.
+
+use crate::desk::{Desk, refusal, success};
+use spunlaid::field::{Field, FieldLayout};
+use std::fmt::Write;
+use std::fs;
+
+const CELLS: [usize; 2] = [12, 5];
+const SIZE: [f64; 3] = [0.2, 0.1, 0.01];
+
+const LINE: &str = "version = 1
+[fibre]
+diameter = '20 µm'
+density = '910 kg/m³'
+youngs_modulus = '2 GPa'
+element_length = '8 mm'
+[feed]
+speed = '20 m/s'
+[belt]
+distance = '0.2 m'
+speed = '3 m/s'
+[air]
+field = 'air.vtk'
+turbulence_intensity = 0.1
+length_scale = '16 mm'
+cutoff_frequency = '500 Hz'
+[run]
+duration = '60 ms'
+spin_up = '20 ms'
+replicates = 2
+";
+const FILAMENTS: &str = "[line]\nfilaments_per_metre = 4000\ndepth = '10 mm'\n[web]\nwidth = '0.1 m'\nlength = '0.1 m'\n\
+    method = 'surrogate'\n";
+
+/// Air that slows from 20 to 10 m/s.
+fn velocity(x: f64, y: f64) -> [f64; 3] {
+    [20.0 - 50.0 * x, 50.0 * y, 0.0]
+}
+
+/// Hexahedra in rows along x, one cell thick, as legacy VTK.
+fn field() -> String {
+    let [nx, ny] = CELLS;
+    let (mut points, mut velocities, mut cells) = (String::new(), String::new(), String::new());
+    for (k, j, i) in (0..2).flat_map(|k| (0..=ny).flat_map(move |j| (0..=nx).map(move |i| (k, j, i)))) {
+        let x = i as f64 / nx as f64 * SIZE[0];
+        let y = (j as f64 / ny as f64 - 0.5) * SIZE[1];
+        let [u, v, w] = velocity(x, y);
+        writeln!(points, "{x} {y} {}", f64::from(k) * SIZE[2]).unwrap();
+        writeln!(velocities, "{u} {v} {w}").unwrap();
+    }
+    let (up, layer) = (nx + 1, (nx + 1) * (ny + 1));
+    for first in (0..ny).flat_map(|j| (0..nx).map(move |i| i + up * j)) {
+        let face = [first, first + 1, first + 1 + up, first + up];
+        let corners = [face, face.map(|corner| corner + layer)].concat();
+        let corners: Vec<String> = corners.iter().map(ToString::to_string).collect();
+        writeln!(cells, "8 {}", corners.join(" ")).unwrap();
+    }
+    let (count, points_count) = (nx * ny, 2 * layer);
+    format!(
+        "# vtk DataFile Version 2.0\nair\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {points_count} double\n{points}\
+         CELLS {count} {}\n{cells}CELL_TYPES {count}\n{}POINT_DATA {points_count}\nVECTORS U double\n{velocities}",
+        9 * count,
+        "12\n".repeat(count)
+    )
+}
+
+/// The numbers of a field of OpenFOAM: its class, dimensions and values.
+fn openfoam(text: &str) -> (String, String, Vec<Vec<f64>>) {
+    let after = |word: &str| text.split_once(word).unwrap().1.split_once(';').unwrap().0.trim().to_owned();
+    let list = text.split_once("internalField").unwrap().1.split_once("\n)\n;").unwrap().0;
+    let (head, values) = list.split_once("\n(\n").unwrap();
+    let numbers = |line: &str| {
+        let line = line.trim_matches(['(', ')']);
+        line.split_whitespace().map(|number| number.parse().unwrap()).collect::<Vec<f64>>()
+    };
+    let values: Vec<Vec<f64>> = values.lines().map(numbers).collect();
+    assert_eq!(head.lines().last().unwrap().parse(), Ok(values.len()));
+    (after("class "), after("dimensions "), values)
+}
+
+#[test]
+fn invariant_the_fields_for_openfoam_have_the_force_of_the_summary() {
+    let desk = Desk::new();
+    fs::write(desk.path("air.vtk"), field()).unwrap();
+    fs::write(desk.path("line.toml"), format!("{LINE}{FILAMENTS}")).unwrap();
+    let said = success(&mut desk.spunlaid("air line.toml --sources --out out"));
+    assert!(said.contains("4000 per metre of width") && said.contains("N/m along their way"), "{said}");
+    let read = |name: &str| fs::read_to_string(desk.path(&format!("out/openfoam/{name}"))).unwrap();
+    let (class, dimensions, su) = openfoam(&read("Su"));
+    assert_eq!((&*class, &*dimensions), ("volVectorField", "[1 -2 -2 0 0 0 0]"));
+    let (class, dimensions, sp) = openfoam(&read("Sp"));
+    assert_eq!((&*class, &*dimensions), ("volScalarField", "[1 -3 -1 0 0 0 0]"));
+    let [nx, ny] = CELLS;
+    assert_eq!((su.len(), sp.len()), (nx * ny, nx * ny));
+
+    // Per metre of width, in the order of the cells of the file.
+    let area = SIZE[0] * SIZE[1] / (nx * ny) as f64;
+    let mut force = [0.0; 3];
+    for (cell, (su, sp)) in su.iter().zip(&sp).enumerate() {
+        let x = ((cell % nx) as f64 + 0.5) / nx as f64 * SIZE[0];
+        let y = (((cell / nx) as f64 + 0.5) / ny as f64 - 0.5) * SIZE[1];
+        assert!(sp[0] <= 0.0 && (sp[0] < 0.0) == (su[0] != 0.0));
+        (0..3).for_each(|i| force[i] += (su[i] + sp[0] * velocity(x, y)[i]) * area);
+    }
+    let summary = desk.summary("out");
+    for (i, force) in force.iter().enumerate() {
+        let told = summary["force_n_per_m"][i]["mean"].as_f64().unwrap();
+        assert!((force - told).abs() < 1e-5 * force.abs().max(0.1), "{force} {told}");
+    }
+    assert!(force[0].abs() > 0.05 && summary["openfoam"] == true, "{force:?}");
+    let met = summary["cells_met"].as_u64().unwrap() as usize;
+    assert_eq!(met, sp.iter().filter(|sp| sp[0] < 0.0).count());
+
+    // The cells for ParaView are VTK that the program reads itself.
+    let layout = FieldLayout { velocity: Some("Su".to_owned()), ..FieldLayout::default() };
+    let cells = fs::read(desk.path("out/sources.vtu")).unwrap();
+    let (cells, _) = Field::parse_as(&cells, "sources.vtu", &layout).unwrap();
+    let (low, high) = cells.bounds();
+    assert!((high.x - SIZE[0]).abs() < 1e-12 && (low.y + 0.5 * SIZE[1]).abs() < 1e-12, "{low:?} {high:?}");
+
+    // The kept input gives the same again.
+    success(&mut desk.spunlaid("air out/web.toml --sources --threads 1 --out again"));
+    for name in ["sources.vtu", "openfoam/Su", "openfoam/Sp", "openfoam/SuStandardError"] {
+        assert!(desk.read(&format!("out/{name}")) == desk.read(&format!("again/{name}")), "{name}");
+    }
+}
+
+#[test]
+fn rejects_lines_without_a_field_or_a_number_of_filaments() {
+    let desk = Desk::new();
+    fs::write(desk.path("air.vtk"), field()).unwrap();
+    let refused = |text: &str, words: &str| {
+        fs::write(desk.path("line.toml"), text).unwrap();
+        let said = refusal(&mut desk.spunlaid("air line.toml --sources"), 1);
+        assert!(said.contains("line.toml") && said.contains(words), "{said}");
+    };
+    refused(LINE, "filaments_per_metre = 5000");
+    let uniform = LINE.replace("field = 'air.vtk'", "velocity = '20 m/s'");
+    refused(&format!("{uniform}{FILAMENTS}"), "air.field");
+    let (head, tail) = LINE.split_once("[feed]").unwrap();
+    let fixed = format!("{head}length = '0.1 m'\n{}", &tail[tail.find("[air]").unwrap()..]);
+    refused(&fixed, "[feed] and [belt]");
+}

@@ -1,0 +1,77 @@
+//! `openfoam/Su` and `openfoam/Sp`, with their errors: fields of OpenFOAM in the order of the cells of the file.
+
+use super::field_of;
+use crate::Failure;
+use crate::output::folder::Staging;
+use spunlaid::case::Case;
+use spunlaid::ensemble::{CellSource, Sources};
+use spunlaid::field::Description;
+use std::fmt::Write;
+
+/// Folder of the fields.
+pub const OPENFOAM: &str = "openfoam";
+
+/// Dimensions of a force per volume, and of one per velocity: mass, length, time.
+const OF_FORCE: [i32; 3] = [1, -2, -2];
+const PER_VELOCITY: [i32; 3] = [1, -3, -1];
+
+/// Whether the cells of a case's field are those of OpenFOAM in their order, if OpenFOAM has written it: those of a mesh
+/// from one file.
+pub fn has_order_of_openfoam(case: &Case) -> bool {
+    field_of(case).is_some_and(|placed| {
+        matches!(placed.field.describe(), Description::Mesh { .. }) && placed.field.parts().len() < 2
+    })
+}
+
+/// Writes the fields, if the cells have the order of OpenFOAM.
+///
+/// # Errors
+/// If a file cannot be written.
+pub fn write_openfoam(staging: &Staging<'_>, case: &Case, sources: &Sources) -> Result<(), Failure> {
+    if !has_order_of_openfoam(case) {
+        return Ok(());
+    }
+    let cells = &sources.cells;
+    let write = |name: &str, text: String| staging.write(&format!("{OPENFOAM}/{name}"), text);
+    write("Su", vectors("Su", cells, |cell| cell.su))?;
+    write("Sp", scalars("Sp", cells, |cell| cell.sp))?;
+    if sources.replicates > 1 {
+        write("SuStandardError", vectors("SuStandardError", cells, |cell| cell.su_error))?;
+        write("SpStandardError", scalars("SpStandardError", cells, |cell| cell.sp_error))?;
+    }
+    Ok(())
+}
+
+fn vectors(name: &str, cells: &[CellSource], value: impl Fn(&CellSource) -> [f64; 3]) -> String {
+    let value = |cell: &CellSource| {
+        let [x, y, z] = value(cell);
+        format!("({x:e} {y:e} {z:e})")
+    };
+    field(("volVectorField", "vector", name), OF_FORCE, cells, value)
+}
+
+fn scalars(name: &str, cells: &[CellSource], value: impl Fn(&CellSource) -> f64) -> String {
+    field(("volScalarField", "scalar", name), PER_VELOCITY, cells, |cell| format!("{:e}", value(cell)))
+}
+
+/// The text of a field. Patches with a constraint keep their own kind, and the others have no source on them.
+fn field(
+    (class, of, name): (&str, &str, &str),
+    [mass, length, time]: [i32; 3],
+    cells: &[CellSource],
+    value: impl Fn(&CellSource) -> String,
+) -> String {
+    let mut text = format!(
+        "FoamFile\n{{\n    version     2.0;\n    format      ascii;\n    class       {class};\n    location    \
+         \"constant\";\n    object      {name};\n}}\n\ndimensions      [{mass} {length} {time} 0 0 0 0];\n\n\
+         internalField   nonuniform List<{of}>\n{}\n(\n",
+        cells.len()
+    );
+    for cell in cells {
+        let _ = writeln!(text, "{}", value(cell));
+    }
+    text.push_str(
+        ")\n;\n\nboundaryField\n{\n    #includeEtc \"caseDicts/setConstraintTypes\"\n    \".*\" { type zeroGradient; }\n}\n",
+    );
+    text
+}

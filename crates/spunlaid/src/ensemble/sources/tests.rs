@@ -1,0 +1,213 @@
+//! Sources of flights in fields whose air every mesh gives exactly.
+
+use super::*;
+use crate::air::{Air, Axis, FileContent};
+use crate::fibre::{Fibre, Root};
+use crate::field::{Cells, Field, Shape, Values};
+use crate::lanes::Isa;
+use crate::line::Line;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64};
+
+const WAY: f64 = 0.3;
+const HALF: f64 = 0.15;
+
+/// Air that slows from 40 to 10 m/s and widens as much, which every mesh of its points gives exactly.
+fn velocity(at: Vec3<f64>) -> Vec3<f64> {
+    Vec3::new(40.0 - 100.0 * at.x, 100.0 * at.y, 0.0)
+}
+
+fn values(points: &[Vec3<f64>]) -> Values {
+    Values { velocity: points.iter().map(|at| velocity(*at)).collect(), ..Values::default() }
+}
+
+fn row(cells: usize, from: f64, to: f64) -> Vec<f64> {
+    (0..=cells).map(|i| from + (to - from) * i as f64 / cells as f64).collect()
+}
+
+/// A lattice of so many cells; of one point along z if there are none.
+fn lattice([nx, ny, nz]: [usize; 3]) -> PlacedField {
+    let z = if nz == 0 { vec![0.0] } else { row(nz, 0.0, 0.4) };
+    let axes = [row(nx, 0.0, WAY), row(ny, -HALF, HALF), z];
+    let points: Vec<Vec3<f64>> = axes[2]
+        .iter()
+        .flat_map(|z| axes[1].iter().map(move |y| (*y, *z)))
+        .flat_map(|(y, z)| axes[0].iter().map(move |x| Vec3::new(*x, y, z)))
+        .collect();
+    placed(Field::lattice(axes, &values(&points)).unwrap())
+}
+
+/// Hexahedra, in rows along x, one cell thick.
+fn mesh(nx: u32, ny: u32) -> PlacedField {
+    let (xs, ys) = (row(nx as usize, 0.0, WAY), row(ny as usize, -HALF, HALF));
+    let points: Vec<Vec3<f64>> = [0.0, 0.02]
+        .iter()
+        .flat_map(|z| ys.iter().map(move |y| (*y, *z)))
+        .flat_map(|(y, z)| xs.iter().map(move |x| Vec3::new(*x, y, z)))
+        .collect();
+    let mut cells = Cells::new();
+    let (up, layer) = (nx + 1, (nx + 1) * (ny + 1));
+    for first in (0..ny).flat_map(|j| (0..nx).map(move |i| i + up * j)) {
+        let face = [first, first + 1, first + 1 + up, first + up];
+        let all = [face, face.map(|point| point + layer)].concat();
+        cells.push(Shape::Hexahedron, &all).unwrap();
+    }
+    placed(Field::mesh(&points, &cells, &values(&points)).unwrap().0)
+}
+
+fn placed(field: Field) -> PlacedField {
+    let (axis, unit) = (Axis::ALL[0], 1.0);
+    let root = PlacedField::middle_of_inlet(&field, axis, unit);
+    let field = FileContent::new(PathBuf::from("air.vtu"), 0, Arc::new(field));
+    PlacedField { field, root, axis, unit, length_constant: 0.43, time_constant: 0.3 }
+}
+
+fn line(placed: PlacedField, replicates: u64) -> Case {
+    let mut case = Case::unset();
+    case.fibre =
+        Fibre { diameter: 18e-6, density: 910.0, youngs_modulus: 2e9, root: Root::Clamped, ..Fibre::UNKNOWN };
+    case.fibre.span(WAY, 4e-3);
+    let (feed_speed, belt_speed, kept_length) = (50.0, 3.0, 0.03);
+    case.line = Some(Line {
+        feed_speed,
+        distance: WAY,
+        belt_speed,
+        kept_length,
+        steps_per_element: 2,
+        ..Line::UNKNOWN
+    });
+    case.air = Air { flow: Flow::Field(Box::new(placed)), ..Air::uniform(40.0, 0.1, 0.016, 500.0) };
+    case.run.time_step = 4e-5;
+    (case.run.steps, case.run.output_steps, case.run.replicates) = (5000, 5, replicates);
+    case.run.spin_up_steps = 1500;
+    (case.run.scheme, case.run.gravity, case.run.damping) = (Scheme::ImplicitTension, 9.81, 0.0);
+    case
+}
+
+fn control<'a>(threads: usize, stop: &'a AtomicBool, fibre_steps: &'a AtomicU64) -> RunControl<'a> {
+    RunControl { threads, isa: Isa::detect(), stop, fibre_steps, recorder: None }
+}
+
+fn fly(case: &Case, inlets: &[f64], threads: usize) -> Sources {
+    let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
+    let curtain = Curtain { filaments_per_metre: 5000.0, inlets: inlets.to_vec() };
+    let sources = Sources::fly(case, &curtain, control(threads, &stop, &done)).unwrap();
+    assert_eq!(done.into_inner(), case.run.steps * case.run.replicates);
+    sources
+}
+
+/// What a CFD program makes of the cells: the force per metre of width.
+fn summed(sources: &Sources, depth: f64) -> [f64; 3] {
+    [0, 1, 2].map(|i| sources.cells.iter().map(|cell| cell.force()[i] * cell.volume / depth).sum())
+}
+
+#[test]
+fn invariant_the_cells_have_the_force_of_the_balance_of_momentum() {
+    let mut case = line(lattice([100, 10, 0]), 8);
+    case.run.steps = 14000;
+    let force = |cell: &CellSource| cell.force()[0] * cell.volume;
+    let sources = fly(&case, &[], 1);
+    let [x, y, z] = summed(&sources, 1.0);
+    let [force_x, force_y, force_z] = sources.force.each_ref().map(|force| force.mean);
+    assert!((x - force_x).abs() < 1e-9 * x.abs() && (y - force_y).abs() < 1e-9 * x.abs());
+    assert!(z.abs() > 0.0 && (z - force_z).abs() < 1e-9 * x.abs());
+    assert_eq!(sources.along.mean, force_x);
+    assert_eq!(sources.outside.mean, 0.0);
+    let [drag, balance] = &sources.above_belt;
+    let above: f64 =
+        (0..95).flat_map(|i| (0..10).map(move |j| i + 100 * j)).map(|i| force(&sources.cells[i])).sum();
+    assert!((above - drag.mean).abs() < 5e-3 * drag.mean.abs());
+    assert!((drag.mean - balance.mean).abs() < 0.01 * balance.mean.abs(), "{drag:?} {balance:?}");
+    let met: Vec<_> = sources.cells.iter().filter(|cell| cell.hits > 0).collect();
+    assert!(met.len() > 30 && met.len() < sources.cells.len());
+    assert!(met.iter().all(|cell| cell.sp < 0.0 && cell.sp_error >= 0.0 && cell.su_error[0] > 0.0));
+    let unmet = sources.cells.iter().filter(|cell| cell.hits == 0);
+    assert!(unmet.clone().count() > 0 && unmet.clone().all(|cell| cell.sp == 0.0 && cell.su == [0.0; 3]));
+}
+
+/// The same flights in cells of other sizes, shapes and depths.
+#[test]
+fn invariant_the_whole_force_does_not_depend_on_the_cells() {
+    let case = line(lattice([30, 10, 0]), 2);
+    let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
+    let jobs = [Job::new(&case, 0), Job::new(&case, 1)];
+    let in_cells = |placed: PlacedField, depth: f64| {
+        let of_cells = line(placed, 2);
+        let fitting = fitting(&of_cells).unwrap();
+        let mut merged = Merged::new(&of_cells, &fitting);
+        let flown = fly_together(&jobs, &fitting, control(1, &stop, &done)).unwrap();
+        flown.iter().for_each(|sums| merged.add(sums, 5000.0));
+        let sources = merged.finish(5000.0);
+        let [x, y, z] = summed(&sources, depth);
+        let drag: f64 = sources.cells.iter().map(|cell| cell.sp * cell.volume / depth).sum();
+        [x, y, z, drag]
+    };
+    let first = in_cells(lattice([30, 10, 0]), 1.0);
+    for (placed, depth) in [(lattice([7, 3, 0]), 1.0), (mesh(20, 6), 0.02), (lattice([12, 4, 5]), 0.4)] {
+        let again = in_cells(placed, depth);
+        for (a, b) in first.iter().zip(again) {
+            assert!((a - b).abs() < 1e-9 * first[0].abs().max(first[3].abs()), "{first:?} {again:?}");
+        }
+    }
+}
+
+/// The drag of the elements, taken apart from that of the nodes, is that of the laws at the velocities of the air
+/// that the step has felt.
+#[test]
+fn identical_drag_of_the_elements_and_of_the_laws() {
+    let case = line(lattice([30, 10, 0]), 1);
+    let (law, mut flight) = (case.strand().drag, Flight::new(&[Job::new(&case, 0)], Isa::detect()).unwrap());
+    flight.advance(1500);
+    let (mut births, mut off, mut sum) = (0, 0.0, 0.0);
+    for step in 1500..1530 {
+        let fed = flight.chain().fed();
+        let (snapshot, elements) = Elements::see(&mut flight, step);
+        births += flight.chain().fed() - fed;
+        for j in 0..snapshot.in_air[0] - 4 {
+            let edge = snapshot.position[j + 1].lane(0) - snapshot.position[j].lane(0);
+            let (tangent, relative) = (edge * (1.0 / edge.norm()), elements.relative[j].lane(0));
+            let along = relative.dot(tangent);
+            let across = relative - tangent * along;
+            let force = tangent * (law.along.force(along.abs(), 1.0) * along.signum())
+                + across * (law.across.force(across.norm(), 1.0) / across.norm());
+            off += (force - elements.drag[j].lane(0)).norm();
+            sum += force.norm();
+        }
+    }
+    assert!(births > 5 && sum > 0.0 && off < 5e-3 * sum, "{births} {off:e} {sum:e}");
+}
+
+#[test]
+fn identical_for_any_number_of_threads() {
+    let case = line(mesh(20, 6), 10);
+    let inlets = [-0.01, 0.0, 0.01];
+    let [one, two] = [1, 2].map(|threads| fly(&case, &inlets, threads));
+    assert_eq!(format!("{one:?}"), format!("{two:?}"));
+    assert!(one.cells.iter().filter(|cell| cell.hits > 0).count() > 20);
+}
+
+#[test]
+fn rejects_cases_without_cells_or_filaments() {
+    let reject = |change: &dyn Fn(&mut Case), key: &str| {
+        let mut case = line(lattice([5, 4, 0]), 1);
+        change(&mut case);
+        let fault = Sources::fault(&case).unwrap().to_string();
+        assert!(fault.contains(key), "{fault}");
+    };
+    assert!(Sources::fault(&line(lattice([5, 4, 0]), 1)).is_none());
+    reject(&|case| case.line = None, "[feed] and [belt]");
+    reject(&|case| case.air.flow = Flow::Uniform, "air.field");
+    reject(&|case| case.run.scheme = Scheme::Leapfrog, "run.scheme");
+    let scattered: Vec<Vec3<f64>> =
+        (0..40).map(f64::from).map(|i| Vec3::new(i, i * i % 7.0, i * i * i % 11.0)).collect();
+    let scattered = Field::points(&scattered, &values(&scattered)).unwrap().0;
+    let scattered = placed(scattered);
+    reject(&|case| case.air.flow = Flow::Field(Box::new(scattered.clone())), "without cells");
+    // The plane of the way and of the cross direction.
+    let (x, z) = (row(4, 0.0, WAY), row(4, 0.0, 0.1));
+    let points: Vec<Vec3<f64>> =
+        z.iter().flat_map(|z| x.iter().map(move |x| Vec3::new(*x, 0.0, *z))).collect();
+    let turned = placed(Field::lattice([x, vec![0.0], z], &values(&points)).unwrap());
+    reject(&|case| case.air.flow = Flow::Field(Box::new(turned.clone())), "air.field_axis");
+}
