@@ -251,7 +251,7 @@ fn identical_alone_and_in_a_study_for_every_key_of_a_web() {
         let (web, mut known) = (web_beside_cases(text, &[]).unwrap().spec, BTreeMap::new());
         // What is not of a layer varies once, and a flown web, which takes long, varies only what the others cannot.
         let done: BTreeSet<&str> = varied.iter().filter_map(|full| Some(web_key(full)?.name)).collect();
-        let is_once = |key: &WebKey| name.starts_with("flown") || key.table() == "web";
+        let is_once = |key: &WebKey| name.starts_with("flown") || ["web", "fabric"].contains(&key.table());
         let is_needed = |key: &&WebKey| key.varies && !(is_once(key) && done.contains(key.name));
         for key in WEB_KEYS.iter().filter(is_needed) {
             let full = full_name(&web, key);

@@ -323,9 +323,9 @@ fn coverage(of: Surrogate, loops: u64) -> [f64; 3] {
 #[test]
 fn stat_intervals_of_the_identified_numbers_hold() {
     for (ratio, noise) in [(1.0, 12.4), (2.5, 8.0)] {
-        let held = coverage(surrogate(ratio, noise), 60);
-        // 95 %; 2.8 % is the standard deviation of a share of 60. docs/validation.md has the shares of 200.
-        assert!(held.iter().all(|share| (0.87..=1.0).contains(share)), "{ratio} {noise}: {held:?}");
+        let held = coverage(surrogate(ratio, noise), 40);
+        // 95 %; 3.4 % is the standard deviation of a share of 40. docs/validation.md has the shares of 200.
+        assert!(held.iter().all(|share| (0.85..=1.0).contains(share)), "{ratio} {noise}: {held:?}");
     }
 }
 

@@ -59,7 +59,7 @@ fn mesh(nx: u32, ny: u32) -> PlacedField {
 fn placed(field: Field) -> PlacedField {
     let (axis, unit) = (Axis::ALL[0], 1.0);
     let root = PlacedField::middle_of_inlet(&field, axis, unit);
-    let field = FileContent::new(PathBuf::from("air.vtu"), 0, Arc::new(field));
+    let field = FileContent::new(PathBuf::from("box.vtu"), 0, Arc::new(field));
     PlacedField { field, root, axis, unit, length_constant: 0.43, time_constant: 0.3 }
 }
 
