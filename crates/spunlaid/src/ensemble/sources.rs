@@ -4,7 +4,8 @@
 //! flight, instant by instant → drag of each element, on the cell around it → CellSums of a replicate
 //! CellSums of all replicates × filaments per metre of width / volume of the cell → Sources
 //! ```
-//!                                                                            theory.md (120)
+//!
+//! Each cell gets the force that the flights have exerted on its air.         theory.md (120)
 
 use super::{Job, RunControl, in_order};
 use crate::air::{Flow, PlacedField};
