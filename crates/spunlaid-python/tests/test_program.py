@@ -95,7 +95,10 @@ def test_ctrl_c_ends_a_command_that_waits_for_an_answer(installed: Path) -> None
     while "_spunlaid" not in maps.read_text():
         assert child.poll() is None
         time.sleep(0.01)
-    time.sleep(0.3)
+    # It waits for an answer when it has no more use for a processor.
+    used, before = Path(f"/proc/{child.pid}/stat"), ""
+    while before != (before := " ".join(used.read_text().rsplit(")")[-1].split()[11:13])):
+        time.sleep(0.5)
     child.send_signal(signal.SIGINT)
     child.communicate()
     assert child.returncode == -signal.SIGINT
