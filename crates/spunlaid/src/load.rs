@@ -7,6 +7,7 @@
 //! The flights are in the air as it is given; a load says by how much the filaments would change it.
 //!                                                                            theory.md (116) to (119)
 
+use crate::air::HEAT_CAPACITY_OF_AIR;
 use crate::case::Case;
 use crate::field::Hint;
 use crate::spinline::{Solution, ZERO_CELSIUS};
@@ -14,9 +15,6 @@ use crate::vec3::Vec3;
 
 /// Number of places at which a load is told, at equal distances from the inlet to the belt.
 const PLACES: usize = 10;
-
-/// Heat capacity of air [J/(kg K)].
-const HEAT_CAPACITY_OF_AIR: f64 = 1006.0;
 
 /// What one flown filament does at a place on its way.
 #[derive(Clone, Copy, Debug, PartialEq)]

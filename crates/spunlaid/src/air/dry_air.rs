@@ -13,6 +13,9 @@ const VISCOSITY: f64 = 1.716e-5;
 /// Sutherland's temperature of air [K].
 const SUTHERLAND: f64 = 110.4;
 
+/// Heat capacity of air `c_pa` [J/(kg K)].
+pub(crate) const HEAT_CAPACITY_OF_AIR: f64 = 1006.0;
+
 /// Temperatures for which Sutherland's formula keeps within 2 % of measured viscosities [K], after F. M. White,
 /// Viscous Fluid Flow.
 pub const SUTHERLAND_RANGE: RangeInclusive<f64> = 170.0..=1900.0;

@@ -1,11 +1,8 @@
 //! Rows of filaments that one stream of air crosses: each row meets the air that the one before has warmed and dragged.
 
 use super::{AirTable, Curtain, Failure, Solution, Spinline, Surroundings, steady};
-use crate::air::density_at;
+use crate::air::{HEAT_CAPACITY_OF_AIR, density_at};
 use crate::drag::FrictionLaw;
-
-/// Heat capacity of air `c_pa` [J/(kg K)].
-const HEAT_CAPACITY_OF_AIR: f64 = 1006.0;
 
 /// The steady state of each row, the quenched side first.
 pub(super) fn solve(line: &Spinline, friction: FrictionLaw) -> Result<Vec<Solution>, Failure> {
