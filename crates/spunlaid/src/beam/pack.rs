@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::fibre::Place;
 use crate::flight::{Flight, Job, SurroundingRun};
 use crate::lanes::{Isa, WIDTH};
-use crate::observe::{Nodes, StretchedBalance};
+use crate::observe::{NodeStates, StretchedBalance};
 use crate::sort::sort_by_key;
 use crate::web::Brush;
 use std::sync::Arc;
@@ -124,7 +124,7 @@ impl Pack {
             let tension = self.flight.chain().tension();
             let flies =
                 |lane: usize| self.filaments.get(lane).is_some_and(|filament| filament.lost.is_none());
-            let nodes = Nodes::between_steps(&self.flight, &tension, flies);
+            let nodes = NodeStates::between_steps(&self.flight, &tension, flies);
             self.balance.see(&nodes, time);
         }
     }

@@ -16,7 +16,7 @@ use crate::fibre::Place;
 use crate::field::{FieldCells, Hint};
 use crate::flight::{Flight, Snapshot};
 use crate::lanes::{Lanes, WIDTH};
-use crate::observe::{MomentumBalance, Nodes};
+use crate::observe::{MomentumBalance, NodeStates};
 use crate::statistics::Estimate;
 use crate::vec3::Vec3;
 use std::collections::HashMap;
@@ -227,7 +227,7 @@ fn fly_together(jobs: &[Job<'_>], fitting: &Fitting<'_>, by: RunControl<'_>) -> 
                 watch.see((&snapshot, &elements), lane, fitting, balance);
             }
             let tension_lag = flight.time_step();
-            MomentumBalance::see(&mut balances, &Nodes::of(&snapshot, jobs.len(), tension_lag));
+            MomentumBalance::see(&mut balances, &NodeStates::of(&snapshot, jobs.len(), tension_lag));
             flight.advance(steps - 1);
         }
         if let Some((_, lost)) = flight.lost() {

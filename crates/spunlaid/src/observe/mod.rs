@@ -25,6 +25,7 @@ mod force_on_air;
 mod laydown;
 mod load;
 mod measure;
+mod momentum;
 mod record;
 mod residence;
 mod root_tension;
@@ -37,7 +38,6 @@ mod web;
 
 pub use fabric::{OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES, OF_STREAKS, OF_STRIPS, OF_THINNEST};
 pub use force_on_air::{FIBRE_ON_WAY, FORCE_ON_AIR};
-pub(crate) use force_on_air::{MomentumBalance, Nodes, StretchedBalance};
 pub use laydown::{LAYDOWN, SURROGATE};
 pub use load::{OF_LOAD_PLACES, OF_LOADS};
 pub use measure::{
@@ -45,6 +45,7 @@ pub use measure::{
     METRES_PER_SECOND, MILLIMETRES, MILLINEWTONS, Measure, Measured, OF_PERCENT, PER_METRE, PER_SQUARE_METRE,
     PERCENT, RATIO, SQUARE_MILLIMETRES_PER_HERTZ, Unit, Value, measured, with_errors,
 };
+pub(crate) use momentum::{MomentumBalance, NodeStates, StretchedBalance};
 pub use record::{OF_COMPONENTS, OF_RECORDS};
 pub use sample::Sample;
 pub use scan::{OF_SCANNED_PATCHES, OF_SCANS};

@@ -1,0 +1,213 @@
+//! The balance of the momentum of a fed fibre along x: what its air must have taken, from what is seen of its nodes.
+//!
+//! ```text
+//! nodes of a flight, or of a snapshot → NodeStates → MomentumBalance, sums over instants in classes of distance
+//!   → force on the air down to each class, fibre per length of the way
+//!   └ StretchedBalance: of fibres in one air, in stretches of time that tell the error
+//! ```
+
+mod states;
+mod stretched;
+#[cfg(test)]
+mod tests;
+
+pub(crate) use states::NodeStates;
+pub(crate) use stretched::StretchedBalance;
+
+use crate::case::Case;
+use crate::lanes::WIDTH;
+
+/// Classes of distance from the inlet.
+const CLASSES: usize = 50;
+
+/// Length of each of the stretches from which the change of the force at the inlet is found, of the way.
+const THIRD: f64 = 0.06;
+
+/// The balance of the momentum of a fed fibre along x, in classes of distance from the inlet: sums over instants.
+///
+/// A class from `a` to `b` stands for the mean over all planes in it. What lies above a plane counts, so a force on
+/// a node at `x` counts as `φ(x) = (b − x)/(b − a)`, one above the class and zero below it, and the momentum that
+/// passes a plane is `m v_x²/(b − a)` of each node in the class. Sums over a class are therefore the means of those
+/// over the classes that it is divided into.                                              theory.md (116)
+#[derive(Clone, Debug)]
+pub(crate) struct MomentumBalance {
+    distance: f64,
+    /// Number of classes per distance [1/m].
+    per_length: f64,
+    /// Rest length [m], mass [kg], weight [N] and axial stiffness `EA` [N] of an element.
+    element: f64,
+    mass: f64,
+    weight: f64,
+    stiffness: f64,
+    /// Mass flow [kg/s] and speed [m/s] of the feed, and the share of its direction that points along x.
+    mass_flow: f64,
+    feed_speed: f64,
+    along: f64,
+    instants: f64,
+    /// Sum of the tensions of the first element [N].
+    root_tension: f64,
+    /// Of each class: force that counts from here on, momentum that passes [N], and fibre per length of the way [-].
+    classes: Vec<[f64; 3]>,
+}
+
+impl MomentumBalance {
+    /// That of a case, in the usual number of classes.
+    pub(crate) fn of(case: &Case) -> Self {
+        Self::new(case, CLASSES)
+    }
+
+    /// * `classes` – number of classes, from the inlet to the belt
+    fn new(case: &Case, classes: usize) -> Self {
+        let fibre = &case.fibre;
+        let (distance, feed_speed) =
+            case.line.map_or((f64::NAN, f64::NAN), |line| (line.distance, line.feed_speed));
+        let mass = fibre.element_mass();
+        Self {
+            distance,
+            per_length: classes as f64 / distance,
+            element: fibre.rest_length(),
+            mass,
+            weight: mass * case.run.gravity,
+            stiffness: fibre.youngs_modulus * fibre.cross_section(),
+            mass_flow: case.linear_density() * feed_speed,
+            feed_speed,
+            along: fibre.direction.x,
+            instants: 0.0,
+            root_tension: 0.0,
+            classes: vec![[0.0; 3]; classes],
+        }
+    }
+
+    /// Adds an instant.
+    ///
+    /// * `balances` – one for each lane, or one for all of them
+    pub(crate) fn see(balances: &mut [Self], nodes: &NodeStates<'_>) {
+        let most = nodes.position.len().min(nodes.tension.len() + 1);
+        let count = nodes.count.map(|count| count.min(most));
+        let Some(last) = balances.len().checked_sub(1) else { return };
+        let mut from_above = [0.0; WIDTH];
+        // Node after node, because the lanes of a node lie together.
+        for (i, (position, velocity)) in nodes.position.iter().zip(nodes.velocity).enumerate() {
+            for lane in (0..WIDTH).filter(|lane| i < count[*lane]) {
+                let balance = &mut balances[lane.min(last)];
+                let (x, v) = (position.x.0[lane], velocity.x.0[lane]);
+                let at = (x - nodes.velocity_lag * v, v);
+                let mut force = balance.weight - from_above[lane];
+                if i + 1 < count[lane] {
+                    let below = nodes.position[i + 1].lane(lane);
+                    let edge = below - position.lane(lane);
+                    let v_below = nodes.velocity[i + 1].x.0[lane];
+                    let tension = nodes.tension[i].0[lane];
+                    from_above[lane] = tension * edge.x / edge.norm();
+                    force += from_above[lane];
+                    if i == 0 {
+                        balance.root_tension += tension;
+                    }
+                    balance.pass([at, (below.x - nodes.velocity_lag * v_below, v_below)]);
+                }
+                // What holds the root bears the forces on it.
+                if i > 0 {
+                    balance.push(x - nodes.tension_lag * v, force);
+                } else {
+                    // The fibre between the inlet and the root.
+                    balance.pass([(at.0 - balance.element * balance.along, v), at]);
+                    balance.instants += 1.0;
+                }
+            }
+        }
+    }
+
+    /// Adds the instants of another balance of the same case.
+    fn add(&mut self, other: &Self) {
+        self.instants += other.instants;
+        self.root_tension += other.root_tension;
+        for (sums, others) in self.classes.iter_mut().zip(&other.classes) {
+            sums.iter_mut().zip(others).for_each(|(sum, other)| *sum += other);
+        }
+    }
+
+    /// Enters a force on a node.
+    fn push(&mut self, x: f64, force: f64) {
+        let place = (x * self.per_length).max(0.0);
+        let (class, inside) = (place as usize, place.fract());
+        if let Some(sums) = self.classes.get_mut(class) {
+            sums[0] += force * (1.0 - inside);
+        }
+        if let Some(sums) = self.classes.get_mut(class + 1) {
+            sums[0] += force * inside;
+        }
+    }
+
+    /// Enters an element: its length, and the momentum that it carries past planes. Its mass lies evenly between its ends, of which the
+    /// places and velocities along x are given, and each half has the momentum of its end.
+    fn pass(&mut self, [(x, v), (x_below, v_below)]: [(f64, f64); 2]) {
+        let per_length = self.per_length;
+        let (from, to) = (x.min(x_below) * per_length, x.max(x_below) * per_length);
+        let flux = self.mass * (0.375 * (v * v + v_below * v_below) + 0.25 * v * v_below) * per_length;
+        let classes = from.max(0.0) as usize..(to.max(0.0) as usize + 1).min(self.classes.len());
+        for class in classes {
+            let inside = (to.min(class as f64 + 1.0) - from.max(class as f64)).max(0.0);
+            let share = if to > from { inside / (to - from) } else { 1.0 };
+            let [_, passing, length] = &mut self.classes[class];
+            *passing += flux * share;
+            *length += self.element * per_length * share;
+        }
+    }
+
+    /// The middles of the classes [m].
+    pub(super) fn places(&self) -> Vec<f64> {
+        let classes = self.classes.len() as f64;
+        (0..self.classes.len()).map(|i| (i as f64 + 0.5) / classes * self.distance).collect()
+    }
+
+    /// The force on the air between the inlet and each class [N]; NaN without an instant.
+    pub(super) fn forces(&self) -> Vec<f64> {
+        let n = self.instants;
+        let strain = self.root_tension / n / self.stiffness;
+        let fed = self.mass_flow * self.feed_speed * (1.0 + strain) * self.along;
+        let mut acting = 0.0;
+        let balance = |[force, passing, _]: &[f64; 3]| {
+            acting += force;
+            fed + (acting - passing) / n
+        };
+        let mut forces: Vec<f64> = self.classes.iter().map(balance).collect();
+        // What holds the root bears the drag on half of the first element too, which is that at the inlet.
+        let on_root = 0.5 * self.element * self.along * self.slope_at_inlet(&forces);
+        forces.iter_mut().for_each(|force| *force += on_root);
+        // In the last class the belt stops the fibre, so it continues the two before.
+        if let [.., before, last_before, last] = &mut forces[..] {
+            *last = 2.0 * *last_before - *before;
+        }
+        forces
+    }
+
+    /// The force on the air between the inlet and the last place before the belt disturbs the balance [N]; NaN without
+    /// an instant.
+    pub(crate) fn force_above_belt(&self) -> f64 {
+        self.forces().get(self.last_free_class()).copied().unwrap_or(f64::NAN)
+    }
+
+    /// How much a force at a distance from the inlet [m] counts in [`MomentumBalance::force_above_belt`].
+    pub(crate) fn share_above_belt(&self, x: f64) -> f64 {
+        (self.last_free_class() as f64 + 1.0 - x * self.per_length).clamp(0.0, 1.0)
+    }
+
+    fn last_free_class(&self) -> usize {
+        self.classes.len().saturating_sub(3)
+    }
+
+    /// Length of fibre per length of the way in each class [-]; NaN without an instant.
+    pub(super) fn lengths(&self) -> Vec<f64> {
+        self.classes.iter().map(|[.., length]| length / self.instants).collect()
+    }
+
+    /// Change of the forces with the distance at the inlet [N/m], by the parabola that has their means over three
+    /// equal stretches behind it.
+    fn slope_at_inlet(&self, forces: &[f64]) -> f64 {
+        let third = (forces.len() as f64 * THIRD).ceil() as usize;
+        let mean = |of: usize| forces.iter().skip(of * third).take(third).sum::<f64>() / third as f64;
+        let [first, second, last] = [0, 1, 2].map(mean);
+        let length = third as f64 * self.distance / forces.len() as f64;
+        (3.0 * second - 2.0 * first - last) / length
+    }
+}
