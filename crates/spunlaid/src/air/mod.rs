@@ -26,6 +26,8 @@ pub mod spectrum;
 mod station_grid;
 mod stations;
 mod surroundings;
+#[cfg(test)]
+mod tests;
 mod wind;
 
 pub use at_places::AirAtPlaces;

@@ -257,6 +257,3 @@ impl Task for Look<'_> {
 pub(crate) fn time_between_looks(air: &Air, feed_speed: f64) -> f64 {
     air.length_scale / air.velocity.abs().max(feed_speed) / LOOKS
 }
-
-#[cfg(test)]
-mod tests;

@@ -1,8 +1,11 @@
 //! What elements along the way feel of the signals at the stations.
 
-use super::{Hint, PerLane, Place, StationGrid, Stations, Way};
+use super::{StationGrid, Stations, Way};
 use crate::air::{Air, EddyModel, FileContent, Flow, Profile, Stream, StreamKey, Widening, Wind};
 use crate::air::{Atmosphere, Instant, Velocities};
+use crate::company::PerLane;
+use crate::fibre::Place;
+use crate::field::Hint;
 use crate::lanes::{Isa, Lanes, Plain, WIDTH};
 use crate::vec3::Vec3;
 use std::sync::Arc;
