@@ -1,11 +1,16 @@
 //! Sources of flights in fields whose air every mesh gives exactly.
 
+use super::watch::Elements;
 use super::*;
 use crate::air::{Air, Axis, FileContent};
+use crate::air::{Flow, PlacedField};
+use crate::chain::schemes::Scheme;
 use crate::fibre::{Fibre, Root};
 use crate::field::{Cells, Field, Shape, Values};
+use crate::flight::Flight;
 use crate::lanes::Isa;
 use crate::line::Line;
+use crate::vec3::Vec3;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64};

@@ -1,0 +1,61 @@
+//! The cases whose sources can be found, and their fields.
+
+use crate::air::{Flow, PlacedField};
+use crate::case::Case;
+use crate::chain::schemes::Scheme;
+use crate::error::Fault;
+use crate::field::FieldCells;
+use crate::vec3::Vec3;
+
+/// A case whose sources can be found, in its field.
+#[derive(Debug)]
+pub(super) struct Fitting<'a> {
+    pub(super) placed: &'a PlacedField,
+    pub(super) cells: FieldCells<'a>,
+    /// Distance from the inlet to the belt [m].
+    pub(super) distance: f64,
+    /// The lowest place of the field across the width, and how wide it is [m].
+    pub(super) across: [f64; 2],
+}
+
+pub(super) fn fitting(case: &Case) -> Result<Fitting<'_>, Fault> {
+    let Some(line) = case.line else {
+        return Err(Fault::new(
+            "the fibre has a fixed length, and sources are those of the filaments of a line",
+            "give the case the tables [feed] and [belt]",
+        ));
+    };
+    let Flow::Field(placed) = &case.air.flow else {
+        return Err(Fault::new(
+            "the air is no CFD field, so it has no cells for sources",
+            "give the file of a CFD solution in air.field",
+        ));
+    };
+    if case.run.scheme != Scheme::ImplicitTension {
+        return Err(Fault::new(
+            "the drag on each element is known with implicit tension only",
+            "set run.scheme = \"implicit-tension\"",
+        ));
+    }
+    let cells = placed.field.cells().ok_or_else(|| {
+        Fault::new(
+            "air.field has points without cells, so there are no cells for sources",
+            "export the cells of the CFD solution, as .vtu or .vtk",
+        )
+    })?;
+    let width = placed.turned(Vec3::new(0.0, 0.0, 1.0));
+    let axis = [width.x, width.y, width.z].iter().position(|share| *share != 0.0);
+    if placed.field.plane_axis().is_some_and(|plane| Some(plane) != axis) {
+        return Err(Fault::new(
+            "air.field is a plane flow that does not lie across the width of the line, so its cells hold the \
+             filaments of no known width",
+            "turn the CFD model, or set air.field_axis, so that the air is the same along the cross direction z",
+        ));
+    }
+    let (low, high) = placed.extent();
+    let across = match cells.depth() {
+        Some(depth) => [low.z - 0.5 * depth * placed.unit, depth * placed.unit],
+        None => [low.z, high.z - low.z],
+    };
+    Ok(Fitting { placed, cells, distance: line.distance, across })
+}

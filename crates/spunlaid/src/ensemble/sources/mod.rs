@@ -1,0 +1,132 @@
+//! What the filaments of a curtain do to each cell of the CFD field in which they fly: sources of momentum.
+//!
+//! ```text
+//! flight, instant by instant → drag of each element, on the cell around it → CellSums of a replicate
+//! CellSums of all replicates × filaments per metre of width / volume of the cell → Sources
+//! ```
+//!
+//! Each cell gets the force that the flights have exerted on its air.         theory.md (120)
+
+mod fitting;
+mod merged;
+#[cfg(test)]
+mod tests;
+mod watch;
+
+use super::{Job, RunControl, in_order};
+use crate::case::Case;
+use crate::error::{Error, Fault};
+use crate::fibre::Place;
+use crate::lanes::WIDTH;
+use crate::statistics::Estimate;
+use fitting::fitting;
+use merged::Merged;
+use watch::{CellSums, fly_together};
+
+/// The filaments of a line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curtain {
+    /// Filaments per metre of width [1/m].
+    pub filaments_per_metre: f64,
+    /// Where they are fed, from the middle of the slot in machine direction [m], in increasing order. The flown ones are
+    /// spread evenly over this list. Empty if all are fed in the middle.
+    pub inlets: Vec<f64>,
+}
+
+/// The force of the filaments on the air of each cell, `Su + Sp U` per volume, as means over time and replicates.
+///
+/// Vectors and places are those of the field, so that it can be given back to the program that has made it.
+#[derive(Clone, Debug)]
+pub struct Sources {
+    /// Filaments per metre of width [1/m].
+    pub filaments_per_metre: f64,
+    /// Number of flown filaments.
+    pub replicates: u64,
+    /// Of each cell, in the order of [`FieldCells`].
+    pub cells: Vec<CellSource>,
+    /// Force on the air in all cells, in the frame of the field [N/m].
+    pub force: [Estimate; 3],
+    /// The same along x of the case [N/m].
+    pub along: Estimate,
+    /// Along x of the case, outside of the cells [N/m].
+    pub outside: Estimate,
+    /// Force along x of the case between the inlet and 95 % of the way to the belt [N/m]: of the drag on the elements, and
+    /// by the balance of the momentum of the same flights, which the belt disturbs below.
+    pub above_belt: [Estimate; 2],
+}
+
+/// The source of a cell.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CellSource {
+    /// Constant part of the force per volume [N/m³].
+    pub su: [f64; 3],
+    /// Its standard error [N/m³]; NaN of a single replicate.
+    pub su_error: [f64; 3],
+    /// Part per velocity of the air, zero or negative [N s/m⁴].
+    pub sp: f64,
+    /// Its standard error [N s/m⁴]; NaN of a single replicate.
+    pub sp_error: f64,
+    /// Mean velocity of the given air in the middle of the cell [m/s].
+    pub velocity: [f64; 3],
+    /// Volume [m³]; of a unit depth where the field has none.
+    pub volume: f64,
+    /// How many elements have been seen in it, at all instants of all replicates.
+    pub hits: u64,
+}
+
+impl CellSource {
+    /// The force on the air per volume in the given air [N/m³].
+    pub fn force(&self) -> [f64; 3] {
+        [0, 1, 2].map(|i| self.su[i] + self.sp * self.velocity[i])
+    }
+}
+
+impl Sources {
+    /// Flies the replicates of a case and finds what they do to the cells of its field.
+    ///
+    /// # Errors
+    /// If the case has no such cells ([`Sources::fault`]), a fibre is lost, or another thread stops the flights.
+    pub fn fly(case: &Case, curtain: &Curtain, by: RunControl<'_>) -> Result<Self, Error> {
+        let fitting = fitting(case).map_err(Error::Flight)?;
+        let mut merged = Merged::new(case, &fitting);
+        let each = WIDTH as u64;
+        let flights = case.run.replicates.div_ceil(each) as usize;
+        in_order(
+            flights,
+            by.threads,
+            |flight| {
+                let first = flight as u64 * each;
+                let last = case.run.replicates.min(first + each);
+                let jobs: Vec<Job<'_>> =
+                    (first..last).map(|replicate| curtain.job(case, replicate)).collect();
+                fly_together(&jobs, &fitting, by)
+            },
+            |sums: Result<Vec<CellSums>, Error>| {
+                sums?.iter().for_each(|sums| merged.add(sums, curtain.filaments_per_metre));
+                Ok::<(), Error>(())
+            },
+        )?;
+        Ok(merged.finish(curtain.filaments_per_metre))
+    }
+
+    /// Why there are no sources of a case; none if they can be found.
+    pub fn fault(case: &Case) -> Option<Fault> {
+        fitting(case).err()
+    }
+}
+
+impl Curtain {
+    /// The curtain of a case whose spinline has one; None of any other.
+    pub fn of_spinline(case: &Case) -> Option<Self> {
+        let curtain = case.spinline.as_ref()?.curtain?;
+        let filaments_per_metre = curtain.rows as f64 * curtain.filaments_per_metre;
+        Some(Self { filaments_per_metre, inlets: Vec::new() })
+    }
+
+    fn job<'a>(&self, case: &'a Case, replicate: u64) -> Job<'a> {
+        let share = (replicate as f64 + 0.5) / case.run.replicates as f64;
+        let inlet = (share * self.inlets.len() as f64) as usize;
+        let place = Place { y: self.inlets.get(inlet).copied().unwrap_or_default(), z: 0.0 };
+        Job { case, replicate, place }
+    }
+}

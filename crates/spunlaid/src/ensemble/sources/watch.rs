@@ -1,0 +1,161 @@
+//! Flies replicates and enters the drag on each of their elements into the cell around it.
+
+use super::fitting::Fitting;
+use crate::ensemble::{Job, RunControl};
+use crate::error::Error;
+use crate::fibre::Place;
+use crate::field::Hint;
+use crate::flight::{Flight, Snapshot};
+use crate::lanes::Lanes;
+use crate::observe::{MomentumBalance, NodeStates};
+use crate::vec3::Vec3;
+use std::collections::HashMap;
+use std::sync::atomic::Ordering;
+
+/// Fraction by which the place across the width moves on from one instant to the next: all places come equally often.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// What a replicate has done: sums over instants.
+#[derive(Debug)]
+pub(super) struct CellSums {
+    /// Of each cell that it has met: force in the frame of the field [N], drag per velocity [kg/s], and elements seen.
+    pub(super) cells: HashMap<u32, ([f64; 4], u64)>,
+    /// Force outside of the cells along x of the case [N].
+    pub(super) outside: f64,
+    pub(super) instants: u64,
+    /// Force along x above the belt, of the drag [N].
+    pub(super) above_belt: f64,
+    /// And by the balance of momentum, as a mean over the instants [N].
+    pub(super) by_momentum: f64,
+}
+
+/// Looks at the fibre in a lane.
+#[derive(Debug)]
+struct Watch {
+    sums: CellSums,
+    place: Place,
+    hint: Hint,
+    /// Where in the width the fibre is taken to be, as a share of it.
+    turn: f64,
+}
+
+/// Flies up to eight replicates to the end of their case.
+pub(super) fn fly_together(
+    jobs: &[Job<'_>],
+    fitting: &Fitting<'_>,
+    by: RunControl<'_>,
+) -> Result<Vec<CellSums>, Error> {
+    let mut flight = Flight::new(jobs, by.isa)?;
+    let clock = flight.clock().clone();
+    let mut watches: Vec<Watch> = jobs.iter().map(Watch::new).collect();
+    let mut balances: Vec<MomentumBalance> = jobs.iter().map(|job| MomentumBalance::of(job.case)).collect();
+    let mut step = 0;
+    while step < clock.steps {
+        let steps = clock.output_steps.min(clock.steps - step);
+        if step < clock.spin_up_steps {
+            flight.advance(steps);
+        } else {
+            let (snapshot, elements) = Elements::see(&mut flight, step);
+            for (lane, (watch, balance)) in watches.iter_mut().zip(&balances).enumerate() {
+                watch.see((&snapshot, &elements), lane, fitting, balance);
+            }
+            let tension_lag = flight.time_step();
+            MomentumBalance::see(&mut balances, &NodeStates::of(&snapshot, jobs.len(), tension_lag));
+            flight.advance(steps - 1);
+        }
+        if let Some((_, lost)) = flight.lost() {
+            return Err(lost);
+        }
+        step += steps;
+        (0..jobs.len()).for_each(|lane| drop(flight.take_laid(lane)));
+        by.fibre_steps.fetch_add(steps * jobs.len() as u64, Ordering::Relaxed);
+        if by.stop.load(Ordering::Relaxed) {
+            return Err(Error::Interrupted);
+        }
+    }
+    let finish = |(watch, balance): (Watch, MomentumBalance)| CellSums {
+        by_momentum: balance.force_above_belt(),
+        ..watch.sums
+    };
+    Ok(watches.into_iter().zip(balances).map(finish).collect())
+}
+
+/// The elements of eight fibres at an instant.
+pub(super) struct Elements {
+    /// Of each element: the drag on it [N], and the velocity of the air relative to it [m/s].
+    pub(super) drag: Vec<Vec3<Lanes>>,
+    pub(super) relative: Vec<Vec3<Lanes>>,
+}
+
+impl Elements {
+    /// Looks at a flight, which advances by one step.
+    ///
+    /// * `step` – number of that step, from 0
+    pub(super) fn see(flight: &mut Flight, step: u64) -> (Snapshot, Self) {
+        let fed = flight.chain().fed();
+        let snapshot = flight.observe();
+        // Air that is known after the step has the numbers of after the step.
+        let born = (flight.chain().fed() - fed) as usize;
+        let count = snapshot.nodes.iter().copied().max().unwrap_or_default().saturating_sub(1);
+        let (mut drag, mut relative) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        // A node has half of the drag of each element beside it, and the root that of the first one.
+        let mut half = Vec3::ZERO;
+        for j in 0..count {
+            half = flight.chain().tensions.drag(j) - half;
+            drag.push(half + half);
+            let velocity = (snapshot.velocity[j] + snapshot.velocity[j + 1]) * Lanes::splat(0.5);
+            let felt = flight.air_felt(j + born, step);
+            relative.push(felt.map_or(Vec3::ZERO, |felt| felt - velocity));
+        }
+        (snapshot, Self { drag, relative })
+    }
+}
+
+impl Watch {
+    fn new(job: &Job<'_>) -> Self {
+        let sums = CellSums {
+            cells: HashMap::new(),
+            outside: 0.0,
+            instants: 0,
+            above_belt: 0.0,
+            by_momentum: f64::NAN,
+        };
+        Self { sums, place: job.place, hint: Hint::default(), turn: 0.5 }
+    }
+
+    /// Enters the drag on each element that hangs in the air.
+    fn see(
+        &mut self,
+        (snapshot, elements): (&Snapshot, &Elements),
+        lane: usize,
+        fitting: &Fitting<'_>,
+        balance: &MomentumBalance,
+    ) {
+        let Fitting { placed, cells, distance, across: [low, width] } = fitting;
+        self.sums.instants += 1;
+        self.turn = (self.turn + GOLDEN).fract();
+        for j in 0..snapshot.nodes[lane].saturating_sub(1) {
+            let middle = (snapshot.position[j].lane(lane) + snapshot.position[j + 1].lane(lane)) * 0.5;
+            // The others lie on the belt.
+            if middle.x >= *distance {
+                continue;
+            }
+            let (drag, relative) = (elements.drag[j].lane(lane), elements.relative[j].lane(lane));
+            self.sums.above_belt -= drag.x * balance.share_above_belt(middle.x);
+            // The filaments stand everywhere across the width, and those beyond one side come in from the other.
+            let z = low + ((middle.z - low) / width + self.turn).rem_euclid(1.0) * width;
+            let at = placed.in_field(Vec3::new(middle.x, middle.y + self.place.y, z));
+            let Some(cell) = cells.find(at, &mut self.hint) else {
+                self.sums.outside -= drag.x;
+                continue;
+            };
+            let speed = relative.dot(relative);
+            let per_velocity = if speed > 0.0 { (drag.dot(relative) / speed).max(0.0) } else { 0.0 };
+            let force = placed.turned(-drag);
+            let (sums, hits) = self.sums.cells.entry(cell as u32).or_default();
+            let terms = [force.x, force.y, force.z, per_velocity];
+            sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+            *hits += 1;
+        }
+    }
+}
