@@ -226,7 +226,8 @@ fn check_tells_in_which_air_the_filaments_of_a_web_hang() {
         ),
         "{said}"
     );
-    // What charge does is estimated, and warned of.
+    // What charge does is estimated, and warned of: 0.2316 mg/m · 5000 · 50/45 times 20 µC/g over 2 ε₀, and 20 µC/g of
+    // that over 9.81 m/s².
     assert!(!said.contains("charged"), "{said}");
     let charged = ["line.filaments_per_metre=5000", "line.charge=20 µC/g"];
     let output = desk.with("check web.toml", &charged).output().unwrap();

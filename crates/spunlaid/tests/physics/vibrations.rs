@@ -112,7 +112,7 @@ fn published_hanging_chain() {
         let (nodes, tension) = hung(&fibre, 9.81);
         let (discrete, modes) =
             vibrations(&string_stiffness(&tension, fibre.rest_length()), &node_masses(&fibre));
-        let h = 0.5 * fibre.axial_step_limit();
+        let h = 0.8 * fibre.axial_step_limit();
         let flown = flown_frequencies(fibre, 9.81, &nodes, &modes[..3], Y, 1e-4, (h, 6.0));
         for i in 0..3 {
             // Half of the last digit published.

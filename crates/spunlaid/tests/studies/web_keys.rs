@@ -89,20 +89,6 @@ filaments_per_metre = 300
 "#,
     ),
     (
-        "flown",
-        r#"
-[laydown]
-case = "short.case"
-[line]
-filaments_per_metre = 40
-[web]
-width = "300 mm"
-length = "300 mm"
-cell = "2 mm"
-patches = ["20 mm"]
-"#,
-    ),
-    (
         "flown with charge",
         r#"
 [laydown]
@@ -111,6 +97,20 @@ case = "short.case"
 filaments_per_metre = 40
 charge = "1 µC/g"
 walls = "0.1 m"
+[web]
+width = "300 mm"
+length = "100 mm"
+cell = "2 mm"
+patches = ["20 mm"]
+"#,
+    ),
+    (
+        "flown",
+        r#"
+[laydown]
+case = "short.case"
+[line]
+filaments_per_metre = 40
 [web]
 width = "300 mm"
 length = "300 mm"
@@ -305,7 +305,7 @@ fn holes_are_counted_in_a_study_that_asks_for_them() {
 /// What is set in the flown case is set in a study of its web, and the belt is that of the case.
 #[test]
 fn keys_of_a_flown_case_are_set_in_a_study() {
-    let (_, text) = WEBS[2];
+    let (_, text) = WEBS[3];
     let study = "web = 'web.toml'\ndesign = 'grid'\n[set]\nrun.replicates = 3\nrun.seed = 9\n[vary]\n\
                  fibre.diameter = ['18 µm', '20 µm']\n[link]\nbelt.speed = 'feed.speed / 10'\n";
     let points = study_beside_cases(text, study, &[]).unwrap().study.points;
