@@ -2,6 +2,7 @@
 
 pub mod air;
 pub mod analysis;
+mod appended;
 mod compared;
 pub mod comparison;
 pub mod doubt;

@@ -2,6 +2,7 @@
 
 use super::{Plane, Slices};
 use crate::Failure;
+use crate::output::appended::AppendedArrays;
 use crate::output::folder::Staging;
 use spunlaid::vec3::Vec3;
 use std::fmt::Write;
@@ -32,24 +33,14 @@ fn structured_grid(plane: &Plane, velocities: &[Vec3<f64>]) -> Vec<u8> {
     let vectors = |all: &[Vec3<f64>]| -> Vec<u8> {
         all.iter().flat_map(|v| [v.x, v.y, v.z]).flat_map(|x| (x as f32).to_le_bytes()).collect()
     };
-    let (velocities, points) = (vectors(velocities), vectors(&places));
     let [columns, rows] = plane.points.map(|points| points - 1);
-    let mut file = format!(
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"StructuredGrid\" version=\"1.0\" \
-        byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
-        <StructuredGrid WholeExtent=\"0 {columns} 0 {rows} 0 0\">\n\
-        <Piece Extent=\"0 {columns} 0 {rows} 0 0\">\n<PointData Vectors=\"velocity_m_s\">\n\
-        <DataArray type=\"Float32\" Name=\"velocity_m_s\" NumberOfComponents=\"3\" format=\"appended\" \
-        offset=\"0\"/>\n</PointData>\n<Points>\n<DataArray type=\"Float32\" Name=\"Points\" \
-        NumberOfComponents=\"3\" format=\"appended\" offset=\"{}\"/>\n</Points>\n</Piece>\n\
-        </StructuredGrid>\n<AppendedData encoding=\"raw\">\n_",
-        size_of::<u64>() + velocities.len()
-    )
-    .into_bytes();
-    for block in [velocities, points] {
-        file.extend((block.len() as u64).to_le_bytes());
-        file.extend(block);
-    }
-    file.extend(b"\n</AppendedData>\n</VTKFile>\n");
-    file
+    let mut arrays = AppendedArrays::default();
+    let velocities = arrays.declare("velocity_m_s", "Float32", 3, vectors(velocities));
+    let points = arrays.declare("Points", "Float32", 3, vectors(&places));
+    let text = format!(
+        "<StructuredGrid WholeExtent=\"0 {columns} 0 {rows} 0 0\">\n\
+        <Piece Extent=\"0 {columns} 0 {rows} 0 0\">\n<PointData Vectors=\"velocity_m_s\">\n{velocities}\
+        </PointData>\n<Points>\n{points}</Points>\n</Piece>\n</StructuredGrid>\n"
+    );
+    arrays.file("StructuredGrid", &text)
 }

@@ -2,11 +2,11 @@
 
 use super::field_of;
 use crate::Failure;
+use crate::output::appended::AppendedArrays;
 use crate::output::folder::Staging;
 use spunlaid::case::Case;
 use spunlaid::ensemble::{CellSource, Sources};
 use spunlaid::field::BlockKind;
-use std::fmt::Write;
 
 /// Name of the file.
 pub const VTK: &str = "sources.vtu";
@@ -42,49 +42,30 @@ fn unstructured_grid(case: &Case, sources: &Sources) -> Option<Vec<u8>> {
         doubles(&of_cell.iter().flat_map(|cell| values(&sources.cells[*cell as usize])).collect::<Vec<f64>>())
     };
     let hits: Vec<i64> = of_cell.iter().map(|cell| sources.cells[*cell as usize].hits as i64).collect();
-    let data: [(&str, &str, usize, Vec<u8>); 7] = [
-        ("Su", "Float64", 3, each(&|cell| cell.su.to_vec())),
-        ("Sp", "Float64", 1, each(&|cell| vec![cell.sp])),
-        ("Su_standard_error", "Float64", 3, each(&|cell| cell.su_error.to_vec())),
-        ("Sp_standard_error", "Float64", 1, each(&|cell| vec![cell.sp_error])),
-        ("force", "Float64", 3, each(&|cell| cell.force().to_vec())),
-        ("hits", "Int64", 1, wholes(&hits)),
-        ("cell", "Int64", 1, wholes(&of_cell)),
+    let mut arrays = AppendedArrays::default();
+    let of_cells = [
+        arrays.declare("Su", "Float64", 3, each(&|cell| cell.su.to_vec())),
+        arrays.declare("Sp", "Float64", 1, each(&|cell| vec![cell.sp])),
+        arrays.declare("Su_standard_error", "Float64", 3, each(&|cell| cell.su_error.to_vec())),
+        arrays.declare("Sp_standard_error", "Float64", 1, each(&|cell| vec![cell.sp_error])),
+        arrays.declare("force", "Float64", 3, each(&|cell| cell.force().to_vec())),
+        arrays.declare("hits", "Int64", 1, wholes(&hits)),
+        arrays.declare("cell", "Int64", 1, wholes(&of_cell)),
     ];
-    let grid = [
-        ("Points", "Float64", 3, doubles(&points)),
-        ("connectivity", "Int64", 1, wholes(&connectivity)),
-        ("offsets", "Int64", 1, wholes(&offsets)),
-        ("types", "UInt8", 1, vec![kind; of_cell.len()]),
+    let places = arrays.declare("Points", "Float64", 3, doubles(&points));
+    let bodies = [
+        arrays.declare("connectivity", "Int64", 1, wholes(&connectivity)),
+        arrays.declare("offsets", "Int64", 1, wholes(&offsets)),
+        arrays.declare("types", "UInt8", 1, vec![kind; of_cell.len()]),
     ];
-    let mut offset = 0;
-    let mut array = |(name, kind, components, bytes): &(&str, &str, usize, Vec<u8>)| {
-        let text = format!(
-            "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"appended\" \
-             offset=\"{offset}\"/>\n"
-        );
-        offset += size_of::<u64>() + bytes.len();
-        text
-    };
-    let of_cells: String = data.iter().map(&mut array).collect();
-    let [points_text, lists @ ..] = grid.each_ref().map(&mut array);
-    let mut text = format!(
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" \
-         header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+    let text = format!(
+        "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n\
+        <CellData Vectors=\"Su\" Scalars=\"Sp\">\n{}</CellData>\n<Points>\n{places}</Points>\n\
+        <Cells>\n{}</Cells>\n</Piece>\n</UnstructuredGrid>\n",
         points.len() / 3,
-        of_cell.len()
+        of_cell.len(),
+        of_cells.concat(),
+        bodies.concat()
     );
-    let _ = write!(
-        text,
-        "<CellData Vectors=\"Su\" Scalars=\"Sp\">\n{of_cells}</CellData>\n<Points>\n{points_text}</Points>\n\
-         <Cells>\n{}</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_",
-        lists.concat()
-    );
-    let mut file = text.into_bytes();
-    for (.., block) in data.iter().chain(&grid) {
-        file.extend((block.len() as u64).to_le_bytes());
-        file.extend(block);
-    }
-    file.extend(b"\n</AppendedData>\n</VTKFile>\n");
-    Some(file)
+    Some(arrays.file("UnstructuredGrid", &text))
 }
