@@ -8,8 +8,8 @@ use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::case::{Case, Note};
 use spunlaid::ensemble::{Curtain, Sources};
-use spunlaid::error::{Error, Fault, Problem};
-use spunlaid::input::{WebFile, read_web};
+use spunlaid::error::{Error, Fault, FileKind, Problem};
+use spunlaid::input::{WebFile, kind_of, read_web};
 use spunlaid_results::folders::sources::SourcesFolder;
 use spunlaid_results::numbers::significant;
 use spunlaid_results::output::kept_input::Input;
@@ -62,25 +62,12 @@ pub(crate) fn sources(air: &Air, invocation: &Invocation) -> Result<(), Failure>
 /// The line, from the file of a web or from a case.
 fn read(air: &Air) -> Result<Line, Failure> {
     let (path, quiet) = (&air.source.case, air.output.quiet);
-    let web = match is_standard(path) {
-        true => None,
-        false => Some(flown(read_web(path, overrides(&air.source.set)), air.threads, quiet)),
-    };
-    if let Some(Ok(file)) = web {
+    if !is_standard(path) && kind_of(path) == FileKind::Web {
+        let file = flown(read_web(path, overrides(&air.source.set)), air.threads, quiet)?;
         return Ok(Line::Web(Box::new(file)));
     }
-    match (flown(air.source.read(&[]), air.threads, quiet), web) {
-        (Ok((case, notes)), _) => Ok(Line::Case(Box::new(case), notes)),
-        (Err(_), Some(Err(error))) if is_web(air) => Err(error.into()),
-        (Err(error), _) => Err(error.into()),
-    }
-}
-
-/// Whether a file is meant to be that of a web.
-fn is_web(air: &Air) -> bool {
-    let text = std::fs::read_to_string(&air.source.case).unwrap_or_default();
-    text.lines()
-        .any(|line| ["[web]", "[laydown]", "[[layer]]"].iter().any(|table| line.trim().starts_with(table)))
+    let (case, notes) = flown(air.source.read(&[]), air.threads, quiet)?;
+    Ok(Line::Case(Box::new(case), notes))
 }
 
 fn no_filaments() -> Fault {

@@ -137,6 +137,9 @@ fn rejects_lines_without_a_field_or_a_number_of_filaments() {
     refused(LINE, "filaments_per_metre = 5000");
     let uniform = LINE.replace("field = 'air.vtk'", "velocity = '20 m/s'");
     refused(&format!("{uniform}{FILAMENTS}"), "air.field");
+    // A mistake of the web is told as that, though the fibre could be read alone.
+    let mistaken = FILAMENTS.replace("'0.1 m'\nmethod", "'-1 m'\nmethod");
+    refused(&format!("{LINE}{mistaken}"), "length = ");
     let (head, tail) = LINE.split_once("[feed]").unwrap();
     let fixed = format!("{head}length = '0.1 m'\n{}", &tail[tail.find("[air]").unwrap()..]);
     refused(&fixed, "[feed] and [belt]");
