@@ -171,7 +171,7 @@ impl Differences<'_> {
         let apart = Difference {
             value: after - before,
             standard_error: error_before.hypot(error_after),
-            degrees: 1e9,
+            degrees: f64::INFINITY,
         };
         if !self.study.common_phases {
             return Ok(apart);
