@@ -78,7 +78,7 @@ def test_advice_can_be_set(web: spunlaid.Web) -> None:
 
 
 def test_keys_of_the_flown_case(tmp_path: Path) -> None:
-    small = {"web.length": 0.4, "web.cell": "1 mm", "run.duration": "0.15 s", "run.replicates": 2}
+    small = {"web.method": "surrogate", "web.length": 0.4, "web.cell": "1 mm", "run.duration": "0.15 s", "run.replicates": 2}
     near, far = (spunlaid.web(CASES / "web.toml", set={**small, "belt.distance": at}, threads=2) for at in ("0.3 m", "0.5 m"))
     assert near.summary["layers"][0]["sigma_cd_m"] != far.summary["layers"][0]["sigma_cd_m"]
     with pytest.raises(spunlaid.CaseError, match="is a key of a filament that flies, and this web flies none"):
