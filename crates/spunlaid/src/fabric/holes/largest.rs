@@ -68,28 +68,30 @@ pub(super) fn largest_discs(
     nearest: &Nearest,
     least: f64,
 ) -> Vec<Disc> {
-    let mut holes: BTreeMap<u32, Vec<Square>> = BTreeMap::new();
+    // Squares of a hole, and the largest room about their centres.
+    let mut holes: BTreeMap<u32, (Vec<Square>, f64)> = BTreeMap::new();
     for row in 0..coarse.side {
         coarse.bare_runs(row, |run| {
-            for column in run {
+            let mut column = run.start;
+            while column < run.end {
                 let centre = [column, row].map(|i| (i as f64 + 0.5) * coarse.pixel);
                 let room = nearest.room(centre);
                 let bound = room + HALF_DIAGONAL * coarse.pixel;
                 let [x, y] = centre.map(|at| (at / fine.pixel) as usize);
-                if bound >= least
-                    && let Some(region) = regions.at(y, x)
-                {
-                    holes.entry(region).or_default().push(Square {
-                        centre,
-                        side: coarse.pixel,
-                        bound,
-                        near: None,
-                    });
+                column += 1;
+                let Some(region) = regions.at(y, x) else { continue };
+                let (squares, largest) = holes.entry(region).or_default();
+                if bound >= least {
+                    let side = coarse.pixel;
+                    squares.push(Square { centre, side, bound, near: None });
+                    *largest = largest.max(room);
                 }
+                // The squares of a run are of one hole; the next of them cannot have its largest disc.
+                column += ((*largest - bound) / coarse.pixel).max(0.0) as usize;
             }
         });
     }
-    let discs = holes.into_values().map(|squares| largest(squares, nearest, ACCURACY * least));
+    let discs = holes.into_values().map(|(squares, _)| largest(squares, nearest, ACCURACY * least));
     discs.filter(|disc| disc.radius >= least).collect()
 }
 
