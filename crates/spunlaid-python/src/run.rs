@@ -90,7 +90,7 @@ pub(crate) fn fly(
         .or_else(|ended| if ended.is_instance_of::<PyKeyboardInterrupt>(py) { Ok(()) } else { Err(ended) })?;
     let checks = unlock(checks);
     let mut notes = Note::notes_of_results(&case.notes);
-    notes.extend(folder::lost(&description, &results));
+    notes.extend(folder::lost(&results.lost, description.run.replicates));
     notes.extend(folder::outside(&results));
     notes.extend(folder::coarse_shapes(&description, &results));
     // A pickled run knows its checks, but not why one was not made.

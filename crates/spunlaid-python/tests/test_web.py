@@ -39,6 +39,25 @@ def test_identical_to_the_program(web: spunlaid.Web, program: Path, tmp_path: Pa
     assert ".pdf" in suffixes and ".svg" not in suffixes
 
 
+def test_what_filaments_do_to_their_air() -> None:
+    flown = {"web.width": 0.2, "web.length": 0.2, "web.flown": 40, "run.duration": "0.2 s"}
+    web = spunlaid.web(CASES / "web_shared.toml", set=flown, guesses=False, threads=2)
+    [curtain], told = web.curtains, web.summary["layers"][0]["curtain"]
+    assert curtain["filaments_per_m"] == 5000 and curtain["mass_loading"] == told["mass_loading"]
+    places = curtain["places"]
+    np.testing.assert_allclose(places["x_m"], np.linspace(0.05, 0.5, 10))
+    for name in ("mean", "standard_error"):
+        column = places["force_n_per_m" if name == "mean" else "force_n_per_m_se"]
+        np.testing.assert_array_equal(column, [place["force_n_per_m"][name] for place in told["places"]])
+    # The filaments fall into air that is slower than they are.
+    assert places["force_n_per_m"][-1] > 5 * places["force_n_per_m_se"][-1] > 0
+    np.testing.assert_allclose(places["change_of_velocity"], np.sqrt(1 + places["share_of_momentum"]) - 1)
+
+
+def test_known_curves_have_no_places_in_the_air(web: spunlaid.Web) -> None:
+    assert all(curtain["places"] == {} for curtain in web.curtains)
+
+
 def test_advice_only_where_it_is_asked_for(web: spunlaid.Web) -> None:
     assert {change["setting"] for change in web.summary["advice"]["changes"]} == {"throughput", "holes", "titre"}
     without = spunlaid.web(CASES / "web_known.toml", set=SMALL, threads=2)

@@ -10,7 +10,7 @@
 use crate::air::HEAT_CAPACITY_OF_AIR;
 use crate::case::Case;
 use crate::field::Hint;
-use crate::spinline::{Solution, ZERO_CELSIUS};
+use crate::spinline::Solution;
 use crate::vec3::Vec3;
 
 /// Number of places at which a load is told, at equal distances from the inlet to the belt.
@@ -230,15 +230,12 @@ impl Heat {
     fn new(case: &Case, spun: &Solution, mass_flow: f64, air: Option<SlotAir>) -> Option<Self> {
         let line = case.spinline.as_ref()?;
         let material = &line.material;
-        // Of the melt, whose heat capacity rises linearly with the temperature.
-        let content = |temperature: f64| {
-            let above = temperature - ZERO_CELSIUS;
-            (material.heat_capacity + 0.5 * material.heat_capacity_slope * above) * above
-        };
         let end = spun.end();
         let of_crystals = material.crystals.crystallinity * material.crystals.heat_of_fusion;
         let crystallised = if line.crystallisation { end.transformed * of_crystals } else { 0.0 };
-        let given = mass_flow * (content(line.die_temperature) - content(end.temperature) + crystallised);
+        let given = mass_flow
+            * (material.heat_content(line.die_temperature) - material.heat_content(end.temperature)
+                + crystallised);
         Some(Self {
             given,
             of_crystals: (!line.crystallisation).then_some(mass_flow * of_crystals),

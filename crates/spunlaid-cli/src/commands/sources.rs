@@ -10,6 +10,7 @@ use spunlaid::case::{Case, Note};
 use spunlaid::ensemble::{Curtain, Sources};
 use spunlaid::error::{Error, Fault, FileKind, Problem};
 use spunlaid::input::{WebFile, kind_of, read_web};
+use spunlaid_results::folders::run::lost;
 use spunlaid_results::folders::sources::SourcesFolder;
 use spunlaid_results::numbers::significant;
 use spunlaid_results::output::kept_input::Input;
@@ -53,10 +54,12 @@ pub(crate) fn sources(air: &Air, invocation: &Invocation) -> Result<(), Failure>
     let sources = progress::follow(&done, steps, &label, air.output.quiet, || {
         Sources::fly(case, &curtain, run_control(air.threads, &done))
     })?;
+    let lost = lost(&sources.lost, replicates);
     let found: Vec<String> = outside(&sources).into_iter().collect();
-    let notes = [Note::notes_of_results(notes), found.clone()].concat();
+    let notes = [Note::notes_of_results(notes), lost.iter().cloned().collect(), found.clone()].concat();
     let contents = SourcesFolder { name: &name, case, input, sources: &sources, notes: &notes };
-    delivery.deliver(&contents, air.threads, Asides { lines: &[], found: &found })
+    delivery.deliver(&contents, air.threads, Asides { lines: &[], found: &found })?;
+    lost.map_or(Ok(()), |lost| Err(Failure::FibresLost { lost }))
 }
 
 /// The line, from the file of a web or from a case.

@@ -29,6 +29,20 @@ duration = '60 ms'
 spin_up = '20 ms'
 replicates = 2
 ";
+/// A spinline in place of what is known of the filament.
+const SPINLINE: &str = "version = 1
+[spinline]
+polymer = 'pp'
+melt_flow_rate = 35
+die_temperature = '230 °C'
+hole_diameter = '0.6 mm'
+throughput = '0.35 g/min'
+length = '1.2 m'
+end = 'take-up'
+take_up_speed = '20 m/s'
+[fibre]
+element_length = '8 mm'
+";
 const FILAMENTS: &str = "[line]\nfilaments_per_metre = 4000\ndepth = '10 mm'\n[web]\nwidth = '0.1 m'\nlength = '0.1 m'\n\
     method = 'surrogate'\n";
 
@@ -123,6 +137,52 @@ fn invariant_the_fields_for_openfoam_have_the_force_of_the_summary() {
     for name in ["sources.vtu", "openfoam/Su", "openfoam/Sp", "openfoam/SuStandardError"] {
         assert!(desk.read(&format!("out/{name}")) == desk.read(&format!("again/{name}")), "{name}");
     }
+}
+
+#[test]
+fn invariant_the_heat_for_openfoam_is_what_the_filaments_lose() {
+    let desk = Desk::new();
+    fs::write(desk.path("air.vtk"), field()).unwrap();
+    let cold = format!("{LINE}{FILAMENTS}");
+    fs::write(desk.path("cold.toml"), &cold).unwrap();
+    let said = success(&mut desk.spunlaid("air cold.toml --sources --out cold"));
+    assert!(said.contains("Heat is left out: the filaments come from no spinline"), "{said}");
+    let summary = desk.summary("cold");
+    assert!(summary["heat_w_per_m"].is_null() && summary["lost"] == 0, "{summary}");
+    assert!(!desk.path("cold/openfoam/Sh").exists() && desk.path("cold/openfoam/Sp").exists());
+
+    let hot = format!("{SPINLINE}{}", &cold[cold.find("[belt]").unwrap()..]);
+    fs::write(desk.path("hot.toml"), hot).unwrap();
+    let said = success(&mut desk.spunlaid("air hot.toml --sources --out hot"));
+    assert!(said.contains("kW/m") && !said.contains("left out"), "{said}");
+    let summary = desk.summary("hot");
+    let number = |name: &str| summary[name]["mean"].as_f64().unwrap();
+    let read = |name: &str| fs::read_to_string(desk.path(&format!("hot/openfoam/{name}"))).unwrap();
+    let (class, dimensions, sh) = openfoam(&read("Sh"));
+    assert_eq!((&*class, &*dimensions), ("volScalarField", "[1 -1 -3 0 0 0 0]"));
+    let (class, dimensions, per_kelvin) = openfoam(&read("ShT"));
+    assert_eq!((&*class, &*dimensions), ("volScalarField", "[1 -1 -3 -1 0 0 0]"));
+
+    // Air of 20 °C, as its usual density has it, takes what the melt's heat capacity says.
+    let of_air = summary["air_temperature_c"].as_f64().unwrap();
+    assert!((of_air - 20.0).abs() < 0.1, "{of_air}");
+    let area = SIZE[0] * SIZE[1] / (CELLS[0] * CELLS[1]) as f64;
+    let heat = |(sh, per_kelvin): (&Vec<f64>, &Vec<f64>)| (sh[0] + per_kelvin[0] * (of_air + 273.15)) * area;
+    let given: f64 = sh.iter().zip(&per_kelvin).map(heat).sum();
+    assert!((given / number("heat_w_per_m") - 1.0).abs() < 1e-6, "{given}");
+    let (inlet, belt) = (summary["inlet_temperature_c"].as_f64().unwrap(), number("belt_temperature_c"));
+    let content = |celsius: f64| (2100.0 + 0.5 * 3.35 * celsius) * celsius;
+    let lost = 4000.0 * 0.35e-3 / 60.0 * (content(inlet) - content(belt));
+    // The heat content of the mean temperature is not quite the mean of the heat contents.
+    let all = given + number("heat_outside_w_per_m");
+    assert!((all / lost - 1.0).abs() < 1e-3 && lost > 50.0, "{all} {lost}");
+    assert!(desk.path("hot/openfoam/ShTStandardError").exists());
+    let text = String::from_utf8_lossy(&fs::read(desk.path("hot/sources.vtu")).unwrap()).into_owned();
+    assert!(
+        ["Sh", "ShT", "heat", "ShT_standard_error"]
+            .iter()
+            .all(|name| text.contains(&format!("Name=\"{name}\"")))
+    );
 }
 
 #[test]

@@ -47,12 +47,33 @@ class Web(Sheet):
         names = ["distance_m", "correlation_md", "correlation_md_se", "correlation_cd", "correlation_cd_se"]
         return {name: np.array([entry[name] for entry in entries], dtype=float) for name in names}
 
+    @property
+    def curtains(self) -> list[dict[str, Any]]:
+        """What the filaments of each layer do to their air, if its case is known, as `summary["layers"]` has it: `filaments_per_m`,
+        `mass_loading`, `momentum_loading`, `eddy_damping`, `heat_w_per_m`, …; and in `places`, where filaments were flown, an array of each
+        number from the inlet to the belt: `x_m`, `force_n_per_m` with its standard error `force_n_per_m_se`, `share_of_momentum`,
+        `change_of_velocity` and `pressure_pa`. A number that is not known is None, in an array NaN."""
+        return [_with_columns(layer["curtain"]) for layer in self.summary["layers"] if "curtain" in layer]
+
     def specification(self) -> bytes:
         """The specification sheet, one page of PDF: every number of the web and of its fabric with its error, as `spunlaid web --sheet`
         writes it."""
         if isinstance(self._computed, Kept):
             raise ValueError("a web that has been pickled has no specification sheet; ask for it where it was laid")
         return self._computed.specification()
+
+
+def _with_columns(curtain: dict[str, Any]) -> dict[str, Any]:
+    """The load of a curtain, its places as arrays."""
+    columns: dict[str, list[Any]] = {}
+    for place in curtain.get("places", []):
+        for name, number in place.items():
+            mean, *error = number.values() if isinstance(number, dict) else [number]
+            columns.setdefault(name, []).append(mean)
+            if error:
+                columns.setdefault(f"{name}_se", []).append(error[0])
+    places = {name: np.array(numbers, dtype=float) for name, numbers in columns.items()}
+    return {**curtain, "places": places}
 
 
 def web(

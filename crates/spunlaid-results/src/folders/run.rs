@@ -14,8 +14,8 @@ use crate::output::{doubt, paraview};
 use crate::report::run_report;
 use spunlaid::case::Case;
 use spunlaid::ensemble::{
-    FinerChecks, FinerPlans, Keep, KeepShapes, Recorder, Results, RunControl, RunPaths, fly_for_checks,
-    turbulence_spectrum,
+    FinerChecks, FinerPlans, Keep, KeepShapes, LostFibre, Recorder, Results, RunControl, RunPaths,
+    fly_for_checks, turbulence_spectrum,
 };
 use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid_charts::Figure;
@@ -202,7 +202,7 @@ impl Contents for Run<'_> {
 /// What must be said of results: that fibres were lost; that they leave the region where the flow is known;
 /// and that shapes are too far apart in time.
 pub fn found(case: &Case, results: &Results) -> [Option<String>; 3] {
-    [lost(case, results), outside(results), coarse_shapes(case, results)]
+    [lost(&results.lost, case.run.replicates), outside(results), coarse_shapes(case, results)]
 }
 
 /// A warning about fibres that leave the region where the flow is known.
@@ -221,11 +221,12 @@ pub fn outside(results: &Results) -> Option<String> {
 }
 
 /// A warning about fibres that were lost.
-pub fn lost(case: &Case, results: &Results) -> Option<String> {
-    let lost = lost_fibres_text(results.lost.len() as u64, case.run.replicates);
-    let each: String =
-        results.lost.iter().take(LOST_LISTED).map(|fibre| format!("\n{}", fibre.reason)).collect();
-    (!results.lost.is_empty()).then(|| format!("{lost}; all others are in the results{each}"))
+///
+/// * `of` – how many were to fly
+pub fn lost(fibres: &[LostFibre], of: u64) -> Option<String> {
+    let lost = lost_fibres_text(fibres.len() as u64, of);
+    let each: String = fibres.iter().take(LOST_LISTED).map(|fibre| format!("\n{}", fibre.reason)).collect();
+    (!fibres.is_empty()).then(|| format!("{lost}; all others are in the results{each}"))
 }
 
 /// A note about shapes for ParaView that are too far apart in time to follow the free end.

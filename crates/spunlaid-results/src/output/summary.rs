@@ -47,7 +47,7 @@ pub struct Summary<'a> {
 
 /// A fibre that was lost.
 #[derive(Debug, Serialize)]
-struct LostSummary<'a> {
+pub struct LostSummary<'a> {
     /// Counted from 1.
     replicate: u64,
     time_s: f64,
@@ -151,7 +151,7 @@ impl<'a> Summary<'a> {
             steps: case.run.steps,
             replicates: case.run.replicates,
             lost: results.lost.len(),
-            lost_fibres: results.lost.iter().map(lost_summary).collect(),
+            lost_fibres: results.lost.iter().map(LostSummary::from).collect(),
             measures,
             neighbours: NeighboursSummary::new(results),
             step_check: checks.step.as_ref().ok().map(FinerSummary::new),
@@ -187,8 +187,10 @@ fn summary_of(number: &Number) -> NumberSummary<'_> {
     }
 }
 
-fn lost_summary(fibre: &LostFibre) -> LostSummary<'_> {
-    LostSummary { replicate: fibre.replicate + 1, time_s: fibre.time, reason: &fibre.reason }
+impl<'a> From<&'a LostFibre> for LostSummary<'a> {
+    fn from(fibre: &'a LostFibre) -> Self {
+        Self { replicate: fibre.replicate + 1, time_s: fibre.time, reason: &fibre.reason }
+    }
 }
 
 fn summarise_mean(estimate: &Estimate) -> NumberSummary<'_> {

@@ -3,11 +3,12 @@
 use super::document::{Report, Section};
 use super::methods::{case_account, methods};
 use super::table::Table;
-use super::words::estimate_text;
-use crate::numbers::{THIN, number};
+use super::words::{estimate_text, quantity};
+use crate::numbers::{THIN, number, plus_minus};
 use crate::output::sources::has_order_of_openfoam;
 use spunlaid::case::Case;
 use spunlaid::ensemble::Sources;
+use spunlaid::spinline::ZERO_CELSIUS;
 use spunlaid::statistics::Estimate;
 
 /// What filaments do to the cells of their field.
@@ -15,14 +16,27 @@ use spunlaid::statistics::Estimate;
 /// * `case` – and what it is from, as a file
 pub fn sources_report<'a>((case, toml): (&Case, &str), sources: &Sources) -> Report<'a> {
     let force = |estimate: &Estimate| format!("{}{THIN}N/m", estimate_text(estimate, 1.0));
+    let power = |estimate: &Estimate| format!("{}{THIN}kW/m", estimate_text(estimate, 1e-3));
+    let celsius = |estimate: &Estimate| {
+        let mean = estimate.mean - ZERO_CELSIUS;
+        format!("{}{THIN}°C", plus_minus(mean, estimate.standard_error))
+    };
+    let and_heat = match &sources.heat {
+        Ok(heat) => format!(" and give it {}", power(&heat.in_cells)),
+        Err(_) => String::new(),
+    };
     let headline = format!(
-        "The filaments drive the air of the cells with {} along their way, per metre of width.",
+        "The filaments drive the air of the cells with {} along their way{and_heat}, per metre of width.",
         force(&sources.along)
     );
+    let without_heat = match &sources.heat {
+        Ok(_) => String::new(),
+        Err(fault) => format!(" Heat is left out: {}.", fault.message),
+    };
     let met = sources.cells.iter().filter(|cell| cell.hits > 0).count();
     let lead = format!(
         "{} flown filaments, for {} per metre of width, have met {met} of the {} cells of the field. The sources are \
-         Su + Sp U per volume, means over time and replicates with standard errors.",
+         Su + Sp U per volume, means over time and replicates with standard errors.{without_heat}",
         sources.replicates,
         number(sources.filaments_per_metre),
         sources.cells.len()
@@ -37,28 +51,46 @@ pub fn sources_report<'a>((case, toml): (&Case, &str), sources: &Sources) -> Rep
         ("Along the way, from the inlet to 95 % of it", above),
         ("The same by the balance of momentum", by_momentum),
     ];
+    let forces = facts.map(|(name, estimate)| (name, force(estimate)));
+    let heats = sources.heat.iter().flat_map(|heat| {
+        [
+            ("Heat of the filaments in all cells", power(&heat.in_cells)),
+            ("Outside of all cells", power(&heat.outside)),
+            ("Temperature of the filaments at the inlet", quantity(heat.at_inlet - ZERO_CELSIUS, "°C")),
+            ("At the belt", celsius(&heat.at_belt)),
+            ("Temperature of the air", quantity(heat.of_air - ZERO_CELSIUS, "°C")),
+        ]
+    });
     let sums = Section::new("sums", "Sums")
-        .table(Table::of_facts(facts.map(|(name, estimate)| (name, force(estimate)))))
+        .table(Table::of_facts(forces.into_iter().chain(heats)))
         .caption(
-            "Forces per metre of width. The last two are found in two ways from the same flights: from the drag on each \
-             element, and from what momentum the filaments have lost; they differ by chance.",
+            "Forces and heat per metre of width. The force from the inlet to 95 % of the way is found in two ways from the \
+             same flights: from the drag on each element, and from what momentum the filaments have lost; they differ \
+             by chance.",
         )
         .on_terminal();
     let openfoam = match has_order_of_openfoam(case) {
         true => {
-            " openfoam/Su and openfoam/Sp hold the same for OpenFOAM, in the order of the cells of its mesh, if \
-             foamToVTK has written the field."
+            " The folder openfoam holds the same for OpenFOAM, in the order of the cells of its mesh, if foamToVTK has \
+             written the field."
         }
         false => "",
     };
-    let computed = Section::new("methods", "How it was computed").paragraph(
+    let cooling = match sources.heat {
+        Ok(_) => {
+            " They begin with the temperature at the end of their spinline and cool by its law in air of one temperature, \
+             theory (121)."
+        }
+        Err(_) => "",
+    };
+    let computed = Section::new("methods", "How it was computed").paragraph(format!(
         "The drag on each element counts in the cell in which its middle lies, theory (120). Filaments are taken to be \
-         the same everywhere across the width. Heat is left out, because the temperature of the fibres below the spinline \
-         is not computed.",
-    );
+         the same everywhere across the width.{cooling}"
+    ));
+    let arrays_of_heat = if sources.heat.is_ok() { "Sh, ShT, heat, " } else { "" };
     let file = Section::new("file", "The input").file("case-toml", toml).caption(format!(
-        "sources.vtu has the cells with Su, Sp, their standard errors, the force in the given air and the number of hits.\
-         {openfoam} All sums are in summary.json, beside this page."
+        "sources.vtu has the cells with Su, Sp, {arrays_of_heat}their standard errors, the force in the given air and the \
+         number of hits.{openfoam} All sums are in summary.json, beside this page."
     ));
     let found = [lead.clone(), headline.clone()];
     Report::new("air", headline)

@@ -27,6 +27,13 @@ pub fn density_at(temperature: f64) -> f64 {
     PRESSURE / (GAS_CONSTANT * temperature)
 }
 
+/// Temperature [K] of dry air as an ideal gas at 101,325 Pa; None of a density that such air does not have.
+///
+/// * `density` – [kg/m³]
+pub(crate) fn temperature_of(density: f64) -> Option<f64> {
+    Some(PRESSURE / (GAS_CONSTANT * density)).filter(|temperature| SUTHERLAND_RANGE.contains(temperature))
+}
+
 /// Kinematic viscosity [m²/s] of dry air at 101,325 Pa: Sutherland's formula, with the constants of the U.S. Standard
 /// Atmosphere 1976, over the density.
 ///

@@ -22,7 +22,7 @@ pub use order::in_order;
 pub use recorder::{LaidCurves, Recorder};
 pub use results::{Collector, Curve, LostFibre, Number, Place, Results};
 pub use shapes::{Shape, Shapes};
-pub use sources::{CellSource, Curtain, Sources};
+pub use sources::{CellSource, Curtain, HeatSums, Sources};
 pub use trajectory::{Keep, KeepShapes, Trajectory, fly_each, fly_together, pace};
 pub use turbulence::{SpectrumPoint, turbulence_spectrum, velocity_record};
 

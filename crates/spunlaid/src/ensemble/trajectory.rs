@@ -2,7 +2,7 @@
 
 use super::{EndPath, RunControl, Shapes};
 use crate::case::Case;
-use crate::error::{Error, Fault};
+use crate::error::Error;
 use crate::flight::{Flight, Job, LaidPoint, SurroundingRun};
 use crate::lanes::{Isa, WIDTH};
 use crate::observe::{Measure, Observation, Observers, Sample, Value};
@@ -129,18 +129,26 @@ pub fn fly_each(
     keep: Keep,
     computing: RunControl<'_>,
 ) -> Result<Vec<Result<Trajectory, Error>>, Error> {
+    each_or_lost(jobs, |together| {
+        let first = together.first().ok_or_else(Error::no_fibre)?;
+        fly_until_lost(together, keep, SurroundingRun::run(first.case), computing)
+    })
+}
+
+/// Flies jobs side by side, and those that are left again as long as one of them is lost: for each job what it
+/// gives, or the reason why its fibre is lost.
+///
+/// * `fly` – what each of some jobs gives, or the first fibre among them that is lost
+pub(super) fn each_or_lost<T>(
+    jobs: &[Job<'_>],
+    mut fly: impl FnMut(&[Job<'_>]) -> Result<Vec<T>, FlightEnd>,
+) -> Result<Vec<Result<T, Error>>, Error> {
     let mut lost: Vec<(usize, Error)> = Vec::new();
     loop {
         let flying: Vec<usize> =
             (0..jobs.len()).filter(|job| lost.iter().all(|(other, _)| other != job)).collect();
         let together: Vec<Job<'_>> = flying.iter().map(|job| jobs[*job]).collect();
-        let flown = match together.first() {
-            Some(first) => fly_until_lost(&together, keep, SurroundingRun::run(first.case), computing),
-            None if jobs.is_empty() => {
-                Err(Error::Flight(Fault::plain("a flight needs at least one fibre")).into())
-            }
-            None => Ok(Vec::new()),
-        };
+        let flown = if together.is_empty() && !jobs.is_empty() { Ok(Vec::new()) } else { fly(&together) };
         match flown {
             Ok(flown) => {
                 let mut all: Vec<_> = flying.into_iter().zip(flown.into_iter().map(Ok)).collect();
@@ -168,7 +176,7 @@ pub(super) fn fly_in_air(
 }
 
 /// Why a flight has ended before its time.
-enum FlightEnd {
+pub(super) enum FlightEnd {
     /// The fibre in a lane is lost.
     Lost {
         lane: usize,

@@ -323,6 +323,14 @@ impl Material {
         self.heat_capacity + self.heat_capacity_slope * (temperature - ZERO_CELSIUS)
     }
 
+    /// Heat content above 0 °C `∫ c_p dT` [J/kg].
+    ///
+    /// * `temperature` – [K]
+    pub fn heat_content(&self, temperature: f64) -> f64 {
+        let above = temperature - ZERO_CELSIUS;
+        (self.heat_capacity + 0.5 * self.heat_capacity_slope * above) * above
+    }
+
     /// Birefringence of the melt, `Δn = C_op N_1`, with `C_op` proportional to `1/T` where this is known [-].
     /// theory.md (98)
     ///

@@ -9,6 +9,7 @@
 //!   end) → Solution; curtain: row after row, each in the air that the one before has warmed and dragged
 //! ```
 
+mod cooling;
 mod curtain;
 mod equality;
 mod integration;
@@ -22,6 +23,7 @@ mod surroundings;
 mod tests;
 mod thread;
 
+pub(crate) use cooling::{Cooled, SolidFilament};
 pub use material::{Crystals, Material, Polymer, PolymerFile, ZERO_CELSIUS};
 pub use solution::{Freezing, FreezingCause, Solution, Station};
 pub use surroundings::{AirChange, AirState, AirTable, Surroundings};

@@ -32,7 +32,7 @@ pub(super) const WORK: usize = 8;
 /// Acceleration of gravity [m/s²].
 pub(super) const GRAVITY: f64 = 9.81;
 /// Stefan–Boltzmann constant [W/(m² K⁴)].
-const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
+pub(super) const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
 /// Gas constant [J/(mol K)].
 const GAS_CONSTANT: f64 = 8.314_462_618;
 
@@ -220,18 +220,14 @@ impl<'a> Thread<'a> {
         air_temperature: f64,
     ) -> [f64; 2] {
         let film = 0.5 * (temperature + air_temperature);
-        let speeds = faster * faster + 64.0 * cross * cross;
-        let nusselt = self.line.nusselt_factor
-            * 0.42
-            * libm::cbrt(diameter / kinematic_viscosity_at(film))
-            * libm::sqrt(libm::cbrt(speeds));
         let fourth = |t: f64| t * t * t * t;
         let radiation = PI
             * diameter
             * self.line.emissivity
             * STEFAN_BOLTZMANN
             * (fourth(temperature) - fourth(air_temperature));
-        let transfer = self.heat_transfer.unwrap_or_else(|| conductivity_at(film) * nusselt);
+        let transfer =
+            self.heat_transfer.unwrap_or_else(|| self.line.convection(diameter, [faster, cross], film));
         [PI * transfer * (temperature - air_temperature), radiation]
     }
 
@@ -329,6 +325,20 @@ impl<'a> Thread<'a> {
 }
 
 impl Spinline {
+    /// `k Nu` of a thread in air [W/(m K)].                                                         theory.md (89)
+    ///
+    /// * `diameter` – of the thread [m]
+    /// * `faster`, `cross` – velocity of the air relative to it, along and across [m/s]
+    /// * `film` – mean temperature of thread and air [K]
+    pub(super) fn convection(&self, diameter: f64, [faster, cross]: [f64; 2], film: f64) -> f64 {
+        let speeds = faster * faster + 64.0 * cross * cross;
+        let nusselt = self.nusselt_factor
+            * 0.42
+            * libm::cbrt(diameter / kinematic_viscosity_at(film))
+            * libm::sqrt(libm::cbrt(speeds));
+        conductivity_at(film) * nusselt
+    }
+
     /// Viscosity of the melt at the reference temperature `η_r` [Pa s].
     pub fn viscosity(&self) -> f64 {
         match self.melt {

@@ -41,17 +41,28 @@ fn unstructured_grid(case: &Case, sources: &Sources) -> Option<Vec<u8>> {
     let each = |values: &dyn Fn(&CellSource) -> Vec<f64>| {
         doubles(&of_cell.iter().flat_map(|cell| values(&sources.cells[*cell as usize])).collect::<Vec<f64>>())
     };
+    let scalars = |value: fn(&CellSource) -> f64| each(&|cell| vec![value(cell)]);
     let hits: Vec<i64> = of_cell.iter().map(|cell| sources.cells[*cell as usize].hits as i64).collect();
     let mut arrays = AppendedArrays::default();
-    let of_cells = [
+    let mut of_cells = vec![
         arrays.declare("Su", "Float64", 3, each(&|cell| cell.su.to_vec())),
-        arrays.declare("Sp", "Float64", 1, each(&|cell| vec![cell.sp])),
+        arrays.declare("Sp", "Float64", 1, scalars(|cell| cell.sp)),
         arrays.declare("Su_standard_error", "Float64", 3, each(&|cell| cell.su_error.to_vec())),
-        arrays.declare("Sp_standard_error", "Float64", 1, each(&|cell| vec![cell.sp_error])),
+        arrays.declare("Sp_standard_error", "Float64", 1, scalars(|cell| cell.sp_error)),
         arrays.declare("force", "Float64", 3, each(&|cell| cell.force().to_vec())),
         arrays.declare("hits", "Int64", 1, wholes(&hits)),
         arrays.declare("cell", "Int64", 1, wholes(&of_cell)),
     ];
+    if sources.heat.is_ok() {
+        of_cells.extend([
+            arrays.declare("Sh", "Float64", 1, scalars(|cell| cell.sh)),
+            arrays.declare("ShT", "Float64", 1, scalars(|cell| cell.sh_per_kelvin)),
+            arrays.declare("Sh_standard_error", "Float64", 1, scalars(|cell| cell.sh_error)),
+            arrays.declare("ShT_standard_error", "Float64", 1, scalars(|cell| cell.sh_per_kelvin_error)),
+            arrays.declare("heat", "Float64", 1, scalars(|cell| cell.heat)),
+            arrays.declare("heat_standard_error", "Float64", 1, scalars(|cell| cell.heat_error)),
+        ]);
+    }
     let places = arrays.declare("Points", "Float64", 3, doubles(&points));
     let bodies = [
         arrays.declare("connectivity", "Int64", 1, wholes(&connectivity)),

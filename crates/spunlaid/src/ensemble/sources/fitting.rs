@@ -1,10 +1,11 @@
 //! The cases whose sources can be found, and their fields.
 
-use crate::air::{Flow, PlacedField};
+use crate::air::{Flow, PlacedField, temperature_of};
 use crate::case::Case;
 use crate::chain::schemes::Scheme;
 use crate::error::Fault;
 use crate::field::FieldCells;
+use crate::spinline::SolidFilament;
 use crate::vec3::Vec3;
 
 /// A case whose sources can be found, in its field.
@@ -16,6 +17,10 @@ pub(super) struct Fitting<'a> {
     pub(super) distance: f64,
     /// The lowest place of the field across the width, and how wide it is [m].
     pub(super) across: [f64; 2],
+    /// How the filament cools, or why this is not known.
+    pub(super) filament: Result<SolidFilament<'a>, Fault>,
+    /// Direction of the feed.
+    pub(super) along: Vec3<f64>,
 }
 
 pub(super) fn fitting(case: &Case) -> Result<Fitting<'_>, Fault> {
@@ -57,5 +62,25 @@ pub(super) fn fitting(case: &Case) -> Result<Fitting<'_>, Fault> {
         Some(depth) => [low.z - 0.5 * depth * placed.unit, depth * placed.unit],
         None => [low.z, high.z - low.z],
     };
-    Ok(Fitting { placed, cells, distance: line.distance, across })
+    let (filament, along) = (filament(case), case.fibre.direction);
+    Ok(Fitting { placed, cells, distance: line.distance, across, filament, along })
+}
+
+/// How the filament of a case cools below its spinline.
+fn filament(case: &Case) -> Result<SolidFilament<'_>, Fault> {
+    let line = case.spinline.as_deref().ok_or_else(|| {
+        Fault::new(
+            "the filaments come from no spinline, so their temperature is not known",
+            "add [spinline] to know their heat too",
+        )
+    })?;
+    let of_air = temperature_of(case.air.density).ok_or_else(|| {
+        Fault::new(
+            "the density of the air is not that of air in the atmosphere, so its temperature is not known",
+            "write air.temperature in place of air.density to know the heat too",
+        )
+    })?;
+    // The case could be read, so that its spinline has a steady state.
+    let solution = line.solve(case.drag.along).map_err(|failure| failure.fault)?;
+    Ok(SolidFilament::new(line, &solution, of_air))
 }

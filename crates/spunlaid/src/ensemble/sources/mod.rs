@@ -1,11 +1,12 @@
-//! What the filaments of a curtain do to each cell of the CFD field in which they fly: sources of momentum.
+//! What the filaments of a curtain do to each cell of the CFD field in which they fly: sources of momentum and heat.
 //!
 //! ```text
-//! flight, instant by instant → drag of each element, on the cell around it → CellSums of a replicate
+//! flight, instant by instant → drag and heat of each element, in the cell around it → CellSums of a replicate
 //! CellSums of all replicates × filaments per metre of width / volume of the cell → Sources
 //! ```
 //!
-//! Each cell gets the force that the flights have exerted on its air.         theory.md (120)
+//! Each cell gets the force that the flights have exerted on its air, and the heat that hot filaments have given it.
+//!                                                                            theory.md (120), (121)
 
 mod fitting;
 mod merged;
@@ -13,7 +14,7 @@ mod merged;
 mod tests;
 mod watch;
 
-use super::{Job, RunControl, in_order};
+use super::{Job, LostFibre, RunControl, in_order};
 use crate::case::Case;
 use crate::error::{Error, Fault};
 use crate::fibre::Place;
@@ -21,7 +22,7 @@ use crate::lanes::WIDTH;
 use crate::statistics::Estimate;
 use fitting::fitting;
 use merged::Merged;
-use watch::{CellSums, fly_together};
+use watch::{CellSums, fly_each};
 
 /// The filaments of a line.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,15 +34,18 @@ pub struct Curtain {
     pub inlets: Vec<f64>,
 }
 
-/// The force of the filaments on the air of each cell, `Su + Sp U` per volume, as means over time and replicates.
+/// The force of the filaments on the air of each cell, `Su + Sp U` per volume, and their heat, as means over time and
+/// replicates.
 ///
 /// Vectors and places are those of the field, so that it can be given back to the program that has made it.
 #[derive(Clone, Debug)]
 pub struct Sources {
     /// Filaments per metre of width [1/m].
     pub filaments_per_metre: f64,
-    /// Number of flown filaments.
+    /// Number of flown filaments without those that were lost.
     pub replicates: u64,
+    /// The filaments that were lost. They are in no mean.
+    pub lost: Vec<LostFibre>,
     /// Of each cell, in the order of [`FieldCells`].
     pub cells: Vec<CellSource>,
     /// Force on the air in all cells, in the frame of the field [N/m].
@@ -53,6 +57,23 @@ pub struct Sources {
     /// Force along x of the case between the inlet and 95 % of the way to the belt [N/m]: of the drag on the elements, and
     /// by the balance of the momentum of the same flights, which the belt disturbs below.
     pub above_belt: [Estimate; 2],
+    /// Heat of the filaments between the inlet and the belt, or why it is not known. It is not in the cells then.
+    pub heat: Result<HeatSums, Fault>,
+}
+
+/// Heat of the filaments between the inlet and the belt.
+#[derive(Clone, Debug)]
+pub struct HeatSums {
+    /// In all cells [W/m].
+    pub in_cells: Estimate,
+    /// Outside of the cells [W/m].
+    pub outside: Estimate,
+    /// Temperature of the filaments at the inlet, which is that at the end of their spinline [K].
+    pub at_inlet: f64,
+    /// And at the belt [K].
+    pub at_belt: Estimate,
+    /// Temperature of the air [K].
+    pub of_air: f64,
 }
 
 /// The source of a cell.
@@ -66,6 +87,18 @@ pub struct CellSource {
     pub sp: f64,
     /// Its standard error [N s/m⁴]; NaN of a single replicate.
     pub sp_error: f64,
+    /// Constant part of the heat per volume, `Sh` [W/m³].
+    pub sh: f64,
+    /// Its standard error [W/m³]; NaN of a single replicate.
+    pub sh_error: f64,
+    /// Part per temperature of the air, zero or negative [W/(m³ K)].
+    pub sh_per_kelvin: f64,
+    /// Its standard error [W/(m³ K)]; NaN of a single replicate.
+    pub sh_per_kelvin_error: f64,
+    /// Heat per volume in the given air [W/m³].
+    pub heat: f64,
+    /// Its standard error [W/m³]; NaN of a single replicate.
+    pub heat_error: f64,
     /// Mean velocity of the given air in the middle of the cell [m/s].
     pub velocity: [f64; 3],
     /// Volume [m³]; of a unit depth where the field has none.
@@ -85,12 +118,14 @@ impl Sources {
     /// Flies the replicates of a case and finds what they do to the cells of its field.
     ///
     /// # Errors
-    /// If the case has no such cells ([`Sources::fault`]), a fibre is lost, or another thread stops the flights.
+    /// If the case has no such cells ([`Sources::fault`]), or another thread stops the flights; and with the reason of the
+    /// first lost fibre, if so many are lost that fewer than two are left, or none of a single one.
     pub fn fly(case: &Case, curtain: &Curtain, by: RunControl<'_>) -> Result<Self, Error> {
         let fitting = fitting(case).map_err(Error::Flight)?;
         let mut merged = Merged::new(case, &fitting);
         let each = WIDTH as u64;
         let flights = case.run.replicates.div_ceil(each) as usize;
+        let (mut replicate, mut first_lost) = (0, None);
         in_order(
             flights,
             by.threads,
@@ -99,13 +134,25 @@ impl Sources {
                 let last = case.run.replicates.min(first + each);
                 let jobs: Vec<Job<'_>> =
                     (first..last).map(|replicate| curtain.job(case, replicate)).collect();
-                fly_together(&jobs, &fitting, by)
+                fly_each(&jobs, &fitting, by)
             },
-            |sums: Result<Vec<CellSums>, Error>| {
-                sums?.iter().for_each(|sums| merged.add(sums, curtain.filaments_per_metre));
+            |flown: Result<Vec<Result<CellSums, Error>>, Error>| {
+                for sums in flown? {
+                    match sums {
+                        Ok(sums) => merged.add(&sums, curtain.filaments_per_metre),
+                        Err(error) => {
+                            merged.lose(LostFibre::new(replicate, &error));
+                            first_lost.get_or_insert(error);
+                        }
+                    }
+                    replicate += 1;
+                }
                 Ok::<(), Error>(())
             },
         )?;
+        if let Some(error) = first_lost.filter(|_| merged.replicates() < case.run.replicates.min(2)) {
+            return Err(error);
+        }
         Ok(merged.finish(curtain.filaments_per_metre))
     }
 

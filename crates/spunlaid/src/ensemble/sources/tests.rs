@@ -10,6 +10,7 @@ use crate::field::{Cells, Field, Shape, Values};
 use crate::flight::Flight;
 use crate::lanes::Isa;
 use crate::line::Line;
+use crate::spinline::{End, Melt, Polymer, SolidFilament, Spinline};
 use crate::vec3::Vec3;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -17,6 +18,8 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 
 const WAY: f64 = 0.3;
 const HALF: f64 = 0.15;
+/// Air that pulls filaments straight [m/s].
+const FAST: f64 = 80.0;
 
 /// Air that slows from 40 to 10 m/s and widens as much, which every mesh of its points gives exactly.
 fn velocity(at: Vec3<f64>) -> Vec3<f64> {
@@ -24,6 +27,10 @@ fn velocity(at: Vec3<f64>) -> Vec3<f64> {
 }
 
 fn values(points: &[Vec3<f64>]) -> Values {
+    values_of(points, velocity)
+}
+
+fn values_of(points: &[Vec3<f64>], velocity: impl Fn(Vec3<f64>) -> Vec3<f64>) -> Values {
     Values { velocity: points.iter().map(|at| velocity(*at)).collect(), ..Values::default() }
 }
 
@@ -32,7 +39,11 @@ fn row(cells: usize, from: f64, to: f64) -> Vec<f64> {
 }
 
 /// A lattice of so many cells; of one point along z if there are none.
-fn lattice([nx, ny, nz]: [usize; 3]) -> PlacedField {
+fn lattice(cells: [usize; 3]) -> PlacedField {
+    placed(field_of(cells, velocity))
+}
+
+fn field_of([nx, ny, nz]: [usize; 3], velocity: impl Fn(Vec3<f64>) -> Vec3<f64>) -> Field {
     let z = if nz == 0 { vec![0.0] } else { row(nz, 0.0, 0.4) };
     let axes = [row(nx, 0.0, WAY), row(ny, -HALF, HALF), z];
     let points: Vec<Vec3<f64>> = axes[2]
@@ -40,7 +51,7 @@ fn lattice([nx, ny, nz]: [usize; 3]) -> PlacedField {
         .flat_map(|z| axes[1].iter().map(move |y| (*y, *z)))
         .flat_map(|(y, z)| axes[0].iter().map(move |x| Vec3::new(*x, y, z)))
         .collect();
-    placed(Field::lattice(axes, &values(&points)).unwrap())
+    Field::lattice(axes, &values_of(&points, velocity)).unwrap()
 }
 
 /// Hexahedra, in rows along x, one cell thick.
@@ -141,8 +152,8 @@ fn invariant_the_whole_force_does_not_depend_on_the_cells() {
         let of_cells = line(placed, 2);
         let fitting = fitting(&of_cells).unwrap();
         let mut merged = Merged::new(&of_cells, &fitting);
-        let flown = fly_together(&jobs, &fitting, control(1, &stop, &done)).unwrap();
-        flown.iter().for_each(|sums| merged.add(sums, 5000.0));
+        let flown = fly_each(&jobs, &fitting, control(1, &stop, &done)).unwrap();
+        flown.iter().flatten().for_each(|sums| merged.add(sums, 5000.0));
         let sources = merged.finish(5000.0);
         let [x, y, z] = summed(&sources, depth);
         let drag: f64 = sources.cells.iter().map(|cell| cell.sp * cell.volume / depth).sum();
@@ -181,6 +192,90 @@ fn identical_drag_of_the_elements_and_of_the_laws() {
         }
     }
     assert!(births > 5 && sum > 0.0 && off < 5e-3 * sum, "{births} {off:e} {sum:e}");
+}
+
+/// A case whose filament comes hot from a spinline, of a polymer with the same heat capacity at all temperatures.
+fn hot(placed: PlacedField, replicates: u64) -> Case {
+    let mut case = line(placed, replicates);
+    let mut spinline = Spinline {
+        material: Polymer::Pp.material(false),
+        melt: Melt::FlowRate(35.0),
+        die_temperature: 503.15,
+        hole_diameter: 0.6e-3,
+        throughput: 0.7e-3 / 60.0,
+        length: 0.3,
+        end: End::TakeUp(50.0),
+        ..Spinline::UNKNOWN
+    };
+    spinline.material.heat_capacity_slope = 0.0;
+    let solution = spinline.solve(case.drag.along).unwrap();
+    case.spinline = Some(Box::new(spinline));
+    case.take_filament(&solution);
+    case
+}
+
+#[test]
+fn invariant_the_cells_have_the_heat_that_the_filaments_lose() {
+    // The field ends above the belt.
+    let mut short = lattice([30, 10, 0]);
+    short.unit = 0.8;
+    for (placed, depth) in [(lattice([30, 10, 0]), 1.0), (short, 0.8)] {
+        let case = hot(placed, 3);
+        let sources = fly(&case, &[], 1);
+        let heat = sources.heat.as_ref().unwrap();
+        let spinline = case.spinline.as_deref().unwrap();
+        let in_cells: f64 = sources.cells.iter().map(|cell| cell.heat * cell.volume / depth).sum();
+        assert!((in_cells / heat.in_cells.mean - 1.0).abs() < 1e-9, "{in_cells} {heat:?}");
+        let fallen = heat.at_inlet - heat.at_belt.mean;
+        let lost = 5000.0 * spinline.throughput * spinline.material.heat_capacity * fallen;
+        let given = heat.in_cells.mean + heat.outside.mean;
+        assert!((given / lost - 1.0).abs() < 1e-9 && lost > 100.0, "{given} {lost}");
+        assert!(heat.at_belt.mean > heat.of_air && heat.at_belt.standard_error.unwrap() > 0.0);
+        for cell in sources.cells.iter().filter(|cell| cell.hits > 0) {
+            assert!(cell.heat > 0.0 && cell.sh_per_kelvin < 0.0 && cell.heat_error >= 0.0);
+            assert!((cell.sh + cell.sh_per_kelvin * heat.of_air - cell.heat).abs() < 1e-9 * cell.sh);
+        }
+    }
+}
+
+/// In calm air that is as fast everywhere filaments hang straight until the belt folds them.
+#[test]
+fn analytic_heat_of_straight_filaments_in_uniform_air() {
+    let mut case = hot(placed(field_of([30, 10, 0], |_| Vec3::new(FAST, 0.0, 0.0))), 2);
+    case.air.turbulence_intensity = 1e-3;
+    case.run.gravity = 0.0;
+    let sources = fly(&case, &[], 1);
+    let heat = sources.heat.as_ref().unwrap();
+    let spinline = case.spinline.as_deref().unwrap();
+    let solution = spinline.solve(case.drag.along).unwrap();
+    let filament = SolidFilament::new(spinline, &solution, heat.of_air);
+    let expected: f64 = (0..500)
+        .fold((filament.at_start, 0.0), |(temperature, heat), _| {
+            let cooled = filament.cool(temperature, 0.5 * WAY / 500.0, [FAST - solution.final_speed, 0.0]);
+            (cooled.temperature, heat + 5000.0 * cooled.heat)
+        })
+        .1;
+    let above = sources.cells.iter().enumerate().filter(|(i, _)| i % 30 < 15);
+    let found: f64 = above.map(|(_, cell)| cell.heat * cell.volume).sum();
+    assert!(expected > 100.0 && (found / expected - 1.0).abs() < 0.01, "{found} {expected}");
+}
+
+#[test]
+fn lost_filaments_are_counted_and_the_others_are_the_same_without_them() {
+    // Air that rises at one side: filaments that are fed there never come down.
+    let rising = |at: Vec3<f64>| Vec3::new(if at.y > 0.06 { -30.0 } else { 40.0 }, 0.0, 0.0);
+    let case = line(placed(field_of([30, 10, 0], rising)), 4);
+    let mut alone = case.clone();
+    alone.run.replicates = 2;
+    let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
+    let curtain = |inlets: &[f64]| Curtain { filaments_per_metre: 5000.0, inlets: inlets.to_vec() };
+    let all = Sources::fly(&case, &curtain(&[0.0, 0.12]), control(1, &stop, &done)).unwrap();
+    assert_eq!((all.replicates, all.lost.len()), (2, 2), "{:?}", all.lost);
+    assert!(all.lost.iter().map(|fibre| fibre.replicate).eq([2, 3]));
+    let few = fly(&alone, &[0.0], 1);
+    assert_eq!(format!("{:?}", all.cells), format!("{:?}", few.cells));
+    let ended = Sources::fly(&alone, &curtain(&[0.12]), control(1, &stop, &done)).unwrap_err();
+    assert!(ended.lost_fibre().is_some(), "{ended}");
 }
 
 #[test]

@@ -1,6 +1,7 @@
-//! Flies replicates and enters the drag on each of their elements into the cell around it.
+//! Flies replicates and enters the drag on each of their elements, and its heat, into the cell around it.
 
 use super::fitting::Fitting;
+use crate::ensemble::trajectory::{FlightEnd, each_or_lost};
 use crate::ensemble::{Job, RunControl};
 use crate::error::Error;
 use crate::fibre::Place;
@@ -8,6 +9,7 @@ use crate::field::Hint;
 use crate::flight::{Flight, Snapshot};
 use crate::lanes::Lanes;
 use crate::observe::{MomentumBalance, NodeStates};
+use crate::spinline::{Cooled, SolidFilament};
 use crate::vec3::Vec3;
 use std::collections::HashMap;
 use std::sync::atomic::Ordering;
@@ -18,10 +20,13 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// What a replicate has done: sums over instants.
 #[derive(Debug)]
 pub(super) struct CellSums {
-    /// Of each cell that it has met: force in the frame of the field [N], drag per velocity [kg/s], and elements seen.
-    pub(super) cells: HashMap<u32, ([f64; 4], u64)>,
-    /// Force outside of the cells along x of the case [N].
-    pub(super) outside: f64,
+    /// Of each cell that it has met: force in the frame of the field [N], drag per velocity [kg/s], heat [W] and heat
+    /// per temperature of the air [W/K], and elements seen.
+    pub(super) cells: HashMap<u32, ([f64; 6], u64)>,
+    /// Force outside of the cells along x of the case [N], and heat [W].
+    pub(super) outside: [f64; 2],
+    /// Temperature at the belt [K].
+    pub(super) at_belt: f64,
     pub(super) instants: u64,
     /// Force along x above the belt, of the drag [N].
     pub(super) above_belt: f64,
@@ -39,12 +44,20 @@ struct Watch {
     turn: f64,
 }
 
-/// Flies up to eight replicates to the end of their case.
-pub(super) fn fly_together(
+/// Flies up to eight replicates to the end of their case: what each of them has done, or why its fibre is lost.
+pub(super) fn fly_each(
     jobs: &[Job<'_>],
     fitting: &Fitting<'_>,
     by: RunControl<'_>,
-) -> Result<Vec<CellSums>, Error> {
+) -> Result<Vec<Result<CellSums, Error>>, Error> {
+    each_or_lost(jobs, |together| fly_until_lost(together, fitting, by))
+}
+
+fn fly_until_lost(
+    jobs: &[Job<'_>],
+    fitting: &Fitting<'_>,
+    by: RunControl<'_>,
+) -> Result<Vec<CellSums>, FlightEnd> {
     let mut flight = Flight::new(jobs, by.isa)?;
     let clock = flight.clock().clone();
     let mut watches: Vec<Watch> = jobs.iter().map(Watch::new).collect();
@@ -63,14 +76,16 @@ pub(super) fn fly_together(
             MomentumBalance::see(&mut balances, &NodeStates::of(&snapshot, jobs.len(), tension_lag));
             flight.advance(steps - 1);
         }
-        if let Some((_, lost)) = flight.lost() {
-            return Err(lost);
+        if let Some((lane, error)) = flight.lost() {
+            // The fibres that are left fly again.
+            by.fibre_steps.fetch_sub(step * jobs.len() as u64, Ordering::Relaxed);
+            return Err(FlightEnd::Lost { lane, error });
         }
         step += steps;
         (0..jobs.len()).for_each(|lane| drop(flight.take_laid(lane)));
         by.fibre_steps.fetch_add(steps * jobs.len() as u64, Ordering::Relaxed);
         if by.stop.load(Ordering::Relaxed) {
-            return Err(Error::Interrupted);
+            return Err(Error::Interrupted.into());
         }
     }
     let finish = |(watch, balance): (Watch, MomentumBalance)| CellSums {
@@ -115,7 +130,8 @@ impl Watch {
     fn new(job: &Job<'_>) -> Self {
         let sums = CellSums {
             cells: HashMap::new(),
-            outside: 0.0,
+            outside: [0.0; 2],
+            at_belt: 0.0,
             instants: 0,
             above_belt: 0.0,
             by_momentum: f64::NAN,
@@ -123,7 +139,9 @@ impl Watch {
         Self { sums, place: job.place, hint: Hint::default(), turn: 0.5 }
     }
 
-    /// Enters the drag on each element that hangs in the air.
+    /// Enters the drag on each element that hangs in the air, and its heat.
+    ///
+    /// The fibre at an instant is taken for the way of each of its elements.                     theory.md (121)
     fn see(
         &mut self,
         (snapshot, elements): (&Snapshot, &Elements),
@@ -131,31 +149,47 @@ impl Watch {
         fitting: &Fitting<'_>,
         balance: &MomentumBalance,
     ) {
-        let Fitting { placed, cells, distance, across: [low, width] } = fitting;
+        let Fitting { placed, cells, distance, across: [low, width], filament, along } = fitting;
+        let filament = filament.as_ref().ok();
+        let mut temperature = filament.map_or(f64::NAN, |filament| filament.at_start);
+        // The first element has the fibre between the inlet and the root with it.
+        let mut before = snapshot.position.first().map_or(0.0, |root| root.lane(lane).dot(*along));
         self.sums.instants += 1;
         self.turn = (self.turn + GOLDEN).fract();
         for j in 0..snapshot.nodes[lane].saturating_sub(1) {
-            let middle = (snapshot.position[j].lane(lane) + snapshot.position[j + 1].lane(lane)) * 0.5;
+            let [above, below] = [j, j + 1].map(|node| snapshot.position[node].lane(lane));
+            let middle = (above + below) * 0.5;
             // The others lie on the belt.
             if middle.x >= *distance {
                 continue;
             }
             let (drag, relative) = (elements.drag[j].lane(lane), elements.relative[j].lane(lane));
             self.sums.above_belt -= drag.x * balance.share_above_belt(middle.x);
+            let cool = |filament: &SolidFilament<'_>| {
+                let edge = below - above;
+                let length = edge.norm();
+                let faster = relative.dot(edge) / length;
+                let cross = (relative.dot(relative) - faster * faster).max(0.0).sqrt();
+                filament.cool(temperature, length + before, [faster, cross])
+            };
+            let cooled = filament.map_or(Cooled { temperature, heat: 0.0, per_kelvin: 0.0 }, cool);
+            (temperature, before) = (cooled.temperature, 0.0);
             // The filaments stand everywhere across the width, and those beyond one side come in from the other.
             let z = low + ((middle.z - low) / width + self.turn).rem_euclid(1.0) * width;
             let at = placed.in_field(Vec3::new(middle.x, middle.y + self.place.y, z));
             let Some(cell) = cells.find(at, &mut self.hint) else {
-                self.sums.outside -= drag.x;
+                self.sums.outside[0] -= drag.x;
+                self.sums.outside[1] += cooled.heat;
                 continue;
             };
             let speed = relative.dot(relative);
             let per_velocity = if speed > 0.0 { (drag.dot(relative) / speed).max(0.0) } else { 0.0 };
             let force = placed.turned(-drag);
             let (sums, hits) = self.sums.cells.entry(cell as u32).or_default();
-            let terms = [force.x, force.y, force.z, per_velocity];
+            let terms = [force.x, force.y, force.z, per_velocity, cooled.heat, cooled.per_kelvin];
             sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
             *hits += 1;
         }
+        self.sums.at_belt += temperature;
     }
 }
