@@ -17,7 +17,6 @@ const ALONG: f64 = 32.0;
 const CELLS: usize = 4;
 /// Points along the side of a brick.
 const SIDE: usize = CELLS + 1;
-const POINTS: usize = SIDE * SIDE * SIDE;
 /// How often a brick is divided into eight at most.
 const DEEPEST: u32 = 6;
 /// Largest error of a brick, as a share of the largest value in the undivided brick.
@@ -76,7 +75,10 @@ struct Parts {
 
 #[derive(Debug)]
 struct Values {
-    at: [AirNumbers; POINTS],
+    /// Of the points of the lattice; along an axis in which the field has no extent there is one.
+    at: Box<[AirNumbers]>,
+    /// How far neighbours along each axis lie apart in it; zero where there is one point.
+    stride: [usize; 3],
     inside: bool,
     /// [`MARGIN`], or zero where the flow changes at the faces.
     margin: f64,
@@ -168,7 +170,7 @@ impl Bricks {
                 let brick = self.make(place, allowed, field);
                 let memory = match &brick {
                     Brick::Rough => 0,
-                    Brick::Whole(_) => size_of::<Values>(),
+                    Brick::Whole(values) => size_of::<Values>() + size_of_val(&*values.at),
                     Brick::Divided(_) => size_of::<Parts>(),
                 };
                 self.memory.fetch_add(memory, Ordering::Relaxed);
@@ -220,19 +222,17 @@ impl Bricks {
             let (values, inside) = field.sample(to_point(share), &mut hint);
             (air_numbers(values), inside)
         };
-        let mut values = Values { at: [[0.0; 4]; POINTS], inside: true, margin: 0.0 };
         let mut outside = 0;
-        for i in 0..POINTS {
-            let index = [i % SIDE, i / SIDE % SIDE, i / (SIDE * SIDE)];
-            if let Some(axis) = (0..3).find(|axis| flat[*axis] && index[*axis] > 0) {
-                values.at[i] = values.at[i - [1, SIDE, SIDE * SIDE][axis]];
-                continue;
-            }
+        let points = flat.map(|flat| if flat { 1 } else { SIDE });
+        let all = indices(points).map(|index| {
             let (value, inside) = at(index.map(|index| index as f64 / CELLS as f64));
-            values.at[i] = value;
             outside += usize::from(!inside);
-        }
-        values.inside = outside == 0;
+            value
+        });
+        let all = all.collect();
+        let stride = [(0, 1), (1, points[0]), (2, points[0] * points[1])];
+        let stride = stride.map(|(axis, stride)| if flat[axis] { 0 } else { stride });
+        let mut values = Values { at: all, stride, inside: outside == 0, margin: 0.0 };
         let largest = values.at.as_flattened().iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         let allowed = allowed.unwrap_or(ERROR * largest);
         // Continued from points at random, because a regular pattern could miss a regular flow, to the corners of
@@ -288,6 +288,11 @@ impl Bricks {
 /// Steps of an evenly spread sequence of points along x, y and z (Roberts' R₃).
 const RATIOS: [f64; 3] = [0.819_172_513_396_164_5, 0.671_043_606_703_789_2, 0.549_700_477_901_967_3];
 
+/// The points of a lattice of so many, x first.
+fn indices([nx, ny, nz]: [usize; 3]) -> impl Iterator<Item = [usize; 3]> {
+    (0..nx * ny * nz).map(move |i| [i % nx, i / nx % ny, i / (nx * ny)])
+}
+
 fn air_numbers([u, v, w, k, _]: Quantities) -> AirNumbers {
     [u, v, w, k.max(0.0).sqrt()]
 }
@@ -324,10 +329,11 @@ impl Values {
         let along = share.map(|share| share * CELLS as f64);
         let before = along.map(|along| (along as usize).min(CELLS - 1));
         let [sx, sy, sz] = [0, 1, 2].map(|axis| along[axis] - before[axis] as f64);
-        let first = before[0] + SIDE * (before[1] + SIDE * before[2]);
+        let [next_x, next_y, next_z] = self.stride;
+        let first = before[0] * next_x + before[1] * next_y + before[2] * next_z;
         let corner = |y: usize, z: usize| {
-            let row = first + SIDE * (y + SIDE * z);
-            (&self.at[row], &self.at[row + 1])
+            let row = first + y * next_y + z * next_z;
+            (&self.at[row], &self.at[row + next_x])
         };
         let (mut value, mut gradients) = ([0.0; 4], [[0.0; 4]; 3]);
         let [ll, hl, lh, hh] = [corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)];
@@ -349,18 +355,19 @@ impl Values {
     /// where the field is smooth.
     fn error_of_every_second(&self) -> f64 {
         let mut worst = 0.0_f64;
-        for i in 0..POINTS {
-            let index = [i % SIDE, i / SIDE % SIDE, i / (SIDE * SIDE)];
+        for (index, value) in indices(self.stride.map(|next| if next == 0 { 1 } else { SIDE })).zip(&self.at)
+        {
             let ends = |axis: usize| (index[axis] - index[axis] % 2, index[axis] + index[axis] % 2);
             let [x, y, z] = [ends(0), ends(1), ends(2)];
             let mut mean = [0.0; 4];
             for corner in 0..8 {
                 let pick =
                     |(low, high): (usize, usize), bit: usize| if corner >> bit & 1 == 0 { low } else { high };
-                let node = &self.at[pick(x, 0) + SIDE * (pick(y, 1) + SIDE * pick(z, 2))];
+                let [next_x, next_y, next_z] = self.stride;
+                let node = &self.at[pick(x, 0) * next_x + pick(y, 1) * next_y + pick(z, 2) * next_z];
                 mean.iter_mut().zip(node).for_each(|(mean, value)| *mean += 0.125 * value);
             }
-            worst = worst.max(difference(&mean, &self.at[i]));
+            worst = worst.max(difference(&mean, value));
         }
         0.25 * worst
     }
