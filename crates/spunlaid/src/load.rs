@@ -216,13 +216,15 @@ fn between(way: &[WayPlace], distance: f64) -> (f64, Option<f64>) {
 /// eddies of the place, and ℓ' the length of fibre per length of the way.                     theory.md (118)
 fn drag_of_eddies(case: &Case, way: &[WayPlace], distance: f64) -> f64 {
     let drag = case.strand().drag;
-    let step = distance / way.len() as f64;
+    // The last place is the belt.
+    let classes = way.iter().filter(|place| place.distance < distance);
+    let step = distance / classes.clone().count() as f64;
     let at = |place: &WayPlace| {
         let rms = case.air.local(Vec3::new(place.distance, 0.0, 0.0), &mut Hint::default()).rms;
         let k = if rms > 0.0 { drag.across.force(rms, 1.0) / rms / case.fibre.rest_length() } else { 0.0 };
         k * place.fibre * step
     };
-    way.iter().map(at).sum()
+    classes.map(at).sum()
 }
 
 impl Heat {

@@ -35,8 +35,7 @@ pub(super) fn section_of_loads(loads: &[(Option<&str>, &LoadSummary)]) -> Option
         false => "",
     };
     Some(section.caption(format!(
-        "The force is that of the balance of the momentum of the flown filaments, ± one standard error, times the \
-        filaments per metre; docs/theory.md has the equations. The air of the slot is taken to keep its mass flow.{heat}"
+        "The force is the drag on the flown filaments, ± one standard error, times the filaments per metre; docs/theory.md has the equations. The air of the slot is taken to keep its mass flow.{heat}"
     )))
 }
 

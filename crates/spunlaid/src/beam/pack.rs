@@ -124,7 +124,8 @@ impl Pack {
             let tension = self.flight.chain().tension();
             let flies =
                 |lane: usize| self.filaments.get(lane).is_some_and(|filament| filament.lost.is_none());
-            let nodes = NodeStates::between_steps(&self.flight, &tension, flies);
+            let drag = self.flight.drag_of_last_step();
+            let nodes = NodeStates::between_steps(&self.flight, (&tension, &drag), flies);
             self.balance.see(&nodes, time);
         }
     }

@@ -66,6 +66,7 @@ impl Flight {
         let root_strain_integral = self.root_strain * Lanes::splat(self.h);
         let (before, first) = (self.work, self.steps_done == 0);
         self.run(1, (self.h, self.h), true);
+        let drag = self.drag_of_elements(tension.len(), 0);
         if first {
             velocity.clone_from(&self.start.velocity);
         } else if self.scheme.is_staggered() {
@@ -91,7 +92,7 @@ impl Flight {
         let mut energy = Energy::stored_energy(self.isa, constants, &position, &velocity, origin);
         let works = (&before, &self.work);
         energy.enter_work(&self.start.energy, works, &carried, self.scheme, self.h);
-        Snapshot { time, position, velocity, tension, nodes, in_air, root_strain_integral, energy }
+        Snapshot { time, position, velocity, tension, drag, nodes, in_air, root_strain_integral, energy }
     }
 
     pub(super) fn run(&mut self, steps: u64, kick_and_drift: (f64, f64), split: bool) {

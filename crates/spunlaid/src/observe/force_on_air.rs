@@ -21,7 +21,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             column: "force_on_air_n",
             label: "Force on the air",
             meaning: "mean force along x with which the fibre drives the air between the inlet and each distance \
-                from it, by the balance of its momentum; negative where the air drives the fibre",
+                from it: the drag on it turned round; negative where the air drives the fibre",
             unit: MILLINEWTONS,
             kind: Kind::Way,
             group: FIBRE,

@@ -1,6 +1,6 @@
 //! Sources of flights in fields whose air every mesh gives exactly.
 
-use super::watch::Elements;
+use super::watch::see;
 use super::*;
 use crate::air::{Air, Axis, FileContent};
 use crate::air::{Flow, PlacedField};
@@ -178,16 +178,16 @@ fn identical_drag_of_the_elements_and_of_the_laws() {
     let (mut births, mut off, mut sum) = (0, 0.0, 0.0);
     for step in 1500..1530 {
         let fed = flight.chain().fed();
-        let (snapshot, elements) = Elements::see(&mut flight, step);
+        let (snapshot, relative) = see(&mut flight, step);
         births += flight.chain().fed() - fed;
         for j in 0..snapshot.in_air[0] - 4 {
             let edge = snapshot.position[j + 1].lane(0) - snapshot.position[j].lane(0);
-            let (tangent, relative) = (edge * (1.0 / edge.norm()), elements.relative[j].lane(0));
+            let (tangent, relative) = (edge * (1.0 / edge.norm()), relative[j].lane(0));
             let along = relative.dot(tangent);
             let across = relative - tangent * along;
             let force = tangent * (law.along.force(along.abs(), 1.0) * along.signum())
                 + across * (law.across.force(across.norm(), 1.0) / across.norm());
-            off += (force - elements.drag[j].lane(0)).norm();
+            off += (force - snapshot.drag[j].lane(0)).norm();
             sum += force.norm();
         }
     }

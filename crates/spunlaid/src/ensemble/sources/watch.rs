@@ -68,9 +68,9 @@ fn fly_until_lost(
         if step < clock.spin_up_steps {
             flight.advance(steps);
         } else {
-            let (snapshot, elements) = Elements::see(&mut flight, step);
+            let (snapshot, relative) = see(&mut flight, step);
             for (lane, (watch, balance)) in watches.iter_mut().zip(&balances).enumerate() {
-                watch.see((&snapshot, &elements), lane, fitting, balance);
+                watch.see((&snapshot, &relative), lane, fitting, balance);
             }
             let tension_lag = flight.time_step();
             MomentumBalance::see(&mut balances, &NodeStates::of(&snapshot, jobs.len(), tension_lag));
@@ -95,35 +95,22 @@ fn fly_until_lost(
     Ok(watches.into_iter().zip(balances).map(finish).collect())
 }
 
-/// The elements of eight fibres at an instant.
-pub(super) struct Elements {
-    /// Of each element: the drag on it [N], and the velocity of the air relative to it [m/s].
-    pub(super) drag: Vec<Vec3<Lanes>>,
-    pub(super) relative: Vec<Vec3<Lanes>>,
-}
-
-impl Elements {
-    /// Looks at a flight, which advances by one step.
-    ///
-    /// * `step` – number of that step, from 0
-    pub(super) fn see(flight: &mut Flight, step: u64) -> (Snapshot, Self) {
-        let fed = flight.chain().fed();
-        let snapshot = flight.observe();
-        // Air that is known after the step has the numbers of after the step.
-        let born = (flight.chain().fed() - fed) as usize;
-        let count = snapshot.nodes.iter().copied().max().unwrap_or_default().saturating_sub(1);
-        let (mut drag, mut relative) = (Vec::with_capacity(count), Vec::with_capacity(count));
-        // A node has half of the drag of each element beside it, and the root that of the first one.
-        let mut half = Vec3::ZERO;
-        for j in 0..count {
-            half = flight.chain().tensions.drag(j) - half;
-            drag.push(half + half);
-            let velocity = (snapshot.velocity[j] + snapshot.velocity[j + 1]) * Lanes::splat(0.5);
-            let felt = flight.air_felt(j + born, step);
-            relative.push(felt.map_or(Vec3::ZERO, |felt| felt - velocity));
-        }
-        (snapshot, Self { drag, relative })
-    }
+/// Looks at a flight, which advances by one step: what it is, and the velocity of the air relative to each element [m/s].
+///
+/// * `step` – number of that step, from 0
+pub(super) fn see(flight: &mut Flight, step: u64) -> (Snapshot, Vec<Vec3<Lanes>>) {
+    let fed = flight.chain().fed();
+    let snapshot = flight.observe();
+    // Air that is known after the step has the numbers of after the step.
+    let born = (flight.chain().fed() - fed) as usize;
+    let count = snapshot.nodes.iter().copied().max().unwrap_or_default().saturating_sub(1);
+    let relative = |j: usize| {
+        let velocity = (snapshot.velocity[j] + snapshot.velocity[j + 1]) * Lanes::splat(0.5);
+        let felt = flight.air_felt(j + born, step);
+        felt.map_or(Vec3::ZERO, |felt| felt - velocity)
+    };
+    let relative = (0..count).map(relative).collect();
+    (snapshot, relative)
 }
 
 impl Watch {
@@ -144,7 +131,7 @@ impl Watch {
     /// The fibre at an instant is taken for the way of each of its elements.                     theory.md (121)
     fn see(
         &mut self,
-        (snapshot, elements): (&Snapshot, &Elements),
+        (snapshot, relative): (&Snapshot, &[Vec3<Lanes>]),
         lane: usize,
         fitting: &Fitting<'_>,
         balance: &MomentumBalance,
@@ -163,7 +150,7 @@ impl Watch {
             if middle.x >= *distance {
                 continue;
             }
-            let (drag, relative) = (elements.drag[j].lane(lane), elements.relative[j].lane(lane));
+            let (drag, relative) = (snapshot.drag[j].lane(lane), relative[j].lane(lane));
             self.sums.above_belt -= drag.x * balance.share_above_belt(middle.x);
             let cool = |filament: &SolidFilament<'_>| {
                 let edge = below - above;

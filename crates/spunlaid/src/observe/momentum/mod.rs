@@ -1,8 +1,9 @@
-//! The balance of the momentum of a fed fibre along x: what its air must have taken, from what is seen of its nodes.
+//! The force of a fed fibre on its air along x: by the drag on its elements, and by the balance of its momentum, which
+//! says what its air must have taken from what is seen of its nodes.
 //!
 //! ```text
 //! nodes of a flight, or of a snapshot → NodeStates → MomentumBalance, sums over instants in classes of distance
-//!   → force on the air down to each class, fibre per length of the way
+//!   → force on the air down to each class and to the belt, fibre per length of the way
 //!   └ StretchedBalance: of fibres in one air, in stretches of time that tell the error
 //! ```
 
@@ -23,12 +24,14 @@ const CLASSES: usize = 50;
 /// Length of each of the stretches from which the change of the force at the inlet is found, of the way.
 const THIRD: f64 = 0.06;
 
-/// The balance of the momentum of a fed fibre along x, in classes of distance from the inlet: sums over instants.
+/// The drag on a fed fibre and the balance of its momentum along x, in classes of distance from the inlet: sums over
+/// instants.
 ///
 /// A class from `a` to `b` stands for the mean over all planes in it. What lies above a plane counts, so a force on
 /// a node at `x` counts as `φ(x) = (b − x)/(b − a)`, one above the class and zero below it, and the momentum that
 /// passes a plane is `m v_x²/(b − a)` of each node in the class. Sums over a class are therefore the means of those
-/// over the classes that it is divided into.                                              theory.md (116)
+/// over the classes that it is divided into. The drag is the force itself; the balance checks it, and stands for it
+/// where a scheme does not tell the drag.                                                 theory.md (116)
 #[derive(Clone, Debug)]
 pub(crate) struct MomentumBalance {
     distance: f64,
@@ -48,6 +51,8 @@ pub(crate) struct MomentumBalance {
     root_tension: f64,
     /// Of each class: force that counts from here on, momentum that passes [N], and fibre per length of the way [-].
     classes: Vec<[f64; 3]>,
+    /// Drag that counts from each class on, and from the belt on [N]; empty as long as it is not known.
+    drag: Vec<f64>,
 }
 
 impl MomentumBalance {
@@ -75,6 +80,7 @@ impl MomentumBalance {
             instants: 0.0,
             root_tension: 0.0,
             classes: vec![[0.0; 3]; classes],
+            drag: Vec::new(),
         }
     }
 
@@ -104,6 +110,10 @@ impl MomentumBalance {
                         balance.root_tension += tension;
                     }
                     balance.pass([at, (below.x - nodes.velocity_lag * v_below, v_below)]);
+                    if let Some(drag) = nodes.drag.get(i) {
+                        let middle = 0.5 * (x + below.x - nodes.drag_lag * (v + v_below));
+                        balance.drive(middle, drag.x.0[lane]);
+                    }
                 }
                 // What holds the root bears the forces on it.
                 if i > 0 {
@@ -121,6 +131,8 @@ impl MomentumBalance {
     fn add(&mut self, other: &Self) {
         self.instants += other.instants;
         self.root_tension += other.root_tension;
+        self.drag.resize(self.drag.len().max(other.drag.len()), 0.0);
+        self.drag.iter_mut().zip(&other.drag).for_each(|(sum, other)| *sum += other);
         for (sums, others) in self.classes.iter_mut().zip(&other.classes) {
             sums.iter_mut().zip(others).for_each(|(sum, other)| *sum += other);
         }
@@ -128,14 +140,29 @@ impl MomentumBalance {
 
     /// Enters a force on a node.
     fn push(&mut self, x: f64, force: f64) {
-        let place = (x * self.per_length).max(0.0);
-        let (class, inside) = (place as usize, place.fract());
+        let (class, inside) = self.class(x);
         if let Some(sums) = self.classes.get_mut(class) {
             sums[0] += force * (1.0 - inside);
         }
         if let Some(sums) = self.classes.get_mut(class + 1) {
             sums[0] += force * inside;
         }
+    }
+
+    /// Enters the drag on an element, unless it lies on the belt.
+    fn drive(&mut self, x: f64, drag: f64) {
+        let (class, inside) = self.class(x);
+        if class < self.classes.len() {
+            self.drag.resize(self.classes.len() + 1, 0.0);
+            self.drag[class] += drag * (1.0 - inside);
+            self.drag[class + 1] += drag * inside;
+        }
+    }
+
+    /// The class of a place, and which share of it lies above the place.
+    fn class(&self, x: f64) -> (usize, f64) {
+        let place = (x * self.per_length).max(0.0);
+        (place as usize, place.fract())
     }
 
     /// Enters an element: its length, and the momentum that it carries past planes. Its mass lies evenly between its ends, of which the
@@ -154,14 +181,28 @@ impl MomentumBalance {
         }
     }
 
-    /// The middles of the classes [m].
+    /// The middles of the classes, and the belt [m].
     pub(super) fn places(&self) -> Vec<f64> {
         let classes = self.classes.len() as f64;
-        (0..self.classes.len()).map(|i| (i as f64 + 0.5) / classes * self.distance).collect()
+        let middle = |i: usize| (i as f64 + 0.5) / classes * self.distance;
+        (0..self.classes.len()).map(middle).chain([self.distance]).collect()
     }
 
-    /// The force on the air between the inlet and each class [N]; NaN without an instant.
+    /// The force on the air between the inlet and each of the places [N]; NaN without an instant.
     pub(super) fn forces(&self) -> Vec<f64> {
+        if self.drag.is_empty() {
+            return self.by_momentum();
+        }
+        let mut acting = 0.0;
+        let drag = |drag: &f64| {
+            acting -= drag;
+            acting / self.instants
+        };
+        self.drag.iter().map(drag).collect()
+    }
+
+    /// The same by the balance of momentum.
+    fn by_momentum(&self) -> Vec<f64> {
         let n = self.instants;
         let strain = self.root_tension / n / self.stiffness;
         let fed = self.mass_flow * self.feed_speed * (1.0 + strain) * self.along;
@@ -176,15 +217,18 @@ impl MomentumBalance {
         forces.iter_mut().for_each(|force| *force += on_root);
         // In the last class the belt stops the fibre, so it continues the two before.
         if let [.., before, last_before, last] = &mut forces[..] {
-            *last = 2.0 * *last_before - *before;
+            let growth = *last_before - *before;
+            *last = *last_before + growth;
+            let at_belt = *last + 0.5 * growth;
+            forces.push(at_belt);
         }
         forces
     }
 
-    /// The force on the air between the inlet and the last place before the belt disturbs the balance [N]; NaN without
-    /// an instant.
+    /// The force on the air by the balance of momentum, between the inlet and the last place before the belt disturbs
+    /// it [N]; NaN without an instant.
     pub(crate) fn force_above_belt(&self) -> f64 {
-        self.forces().get(self.last_free_class()).copied().unwrap_or(f64::NAN)
+        self.by_momentum().get(self.last_free_class()).copied().unwrap_or(f64::NAN)
     }
 
     /// How much a force at a distance from the inlet [m] counts in [`MomentumBalance::force_above_belt`].
@@ -198,7 +242,8 @@ impl MomentumBalance {
 
     /// Length of fibre per length of the way in each class [-]; NaN without an instant.
     pub(super) fn lengths(&self) -> Vec<f64> {
-        self.classes.iter().map(|[.., length]| length / self.instants).collect()
+        let lengths = self.classes.iter().map(|[.., length]| length / self.instants);
+        lengths.clone().chain(lengths.last()).collect()
     }
 
     /// Change of the forces with the distance at the inlet [N/m], by the parabola that has their means over three

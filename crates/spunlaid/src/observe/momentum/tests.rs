@@ -64,9 +64,14 @@ fn invariant_the_force_on_the_air_is_the_sum_of_the_drag() {
             }
         }
     }
-    let [coarse, usual, fine] = balances.map(|balance| balance.forces());
+    // The drag, summed element by element in classes, is that of the nodes but for half an element at the belt.
+    let by_drag = balances[1].forces();
+    assert_eq!((by_drag.len(), balances[1].places()[50]), (51, 0.5));
+    let [coarse, usual, fine] = balances.map(|balance| balance.by_momentum());
     let largest = usual.iter().fold(0.0, |largest: f64, force| largest.max(force.abs()));
     assert!(largest > 1.5e-4 && usual[0] > 0.0, "{usual:?}");
+    let summed = |class: usize| (by_drag[class] + drag[class]) / largest;
+    assert!((0..50).all(|class| summed(class).abs() < 3e-3), "{:?}", (0..50).map(summed).collect::<Vec<_>>());
     let off = |class: usize| (usual[class] + lost[class] + drag[class]) / largest;
     // The last class continues the others; in the one before, arches leave the chain that are taken as laid.
     assert!(
@@ -100,6 +105,7 @@ fn analytic_a_thread_without_drag_drives_no_air() {
         instants: 0.0,
         root_tension: 0.0,
         classes: vec![[0.0; 3]; 50],
+        drag: Vec::new(),
     };
     // An element is fed each 10 ms. Its root is let go half an element below the inlet, and falls.
     let instants: u32 = 64;
@@ -116,9 +122,11 @@ fn analytic_a_thread_without_drag_drives_no_air() {
             position: &position,
             velocity: &velocity,
             tension: &[Lanes::ZERO; 59],
+            drag: &[],
             count: [60; WIDTH],
             velocity_lag: 0.0,
             tension_lag: 0.0,
+            drag_lag: 0.0,
         };
         MomentumBalance::see(std::slice::from_mut(&mut balance), &nodes);
     }
