@@ -66,7 +66,7 @@ pub fn sources_report<'a>((case, toml): (&Case, &str), sources: &Sources) -> Rep
         .caption(
             "Forces and heat per metre of width. The force from the inlet to 95 % of the way is found in two ways from the \
              same flights: from the drag on each element, and from what momentum the filaments have lost; they differ \
-             by chance.",
+             by chance, and with elements longer than a hundredth of the way by what the belt does to the last of them.",
         )
         .on_terminal();
     let openfoam = match has_order_of_openfoam(case) {

@@ -240,10 +240,10 @@ impl MomentumBalance {
         self.classes.len().saturating_sub(3)
     }
 
-    /// Length of fibre per length of the way in each class [-]; NaN without an instant.
+    /// Length of fibre per length of the way in each class, and at the belt that of the last one [-]; NaN without an instant.
     pub(super) fn lengths(&self) -> Vec<f64> {
-        let lengths = self.classes.iter().map(|[.., length]| length / self.instants);
-        lengths.clone().chain(lengths.last()).collect()
+        let lengths = self.classes.iter().chain(self.classes.last());
+        lengths.map(|[.., length]| length / self.instants).collect()
     }
 
     /// Change of the forces with the distance at the inlet [N/m], by the parabola that has their means over three
