@@ -37,7 +37,7 @@ melt_flow_rate = 35
 die_temperature = '230 °C'
 hole_diameter = '0.6 mm'
 throughput = '0.35 g/min'
-length = '1.2 m'
+length = '0.25 m'
 end = 'take-up'
 take_up_speed = '20 m/s'
 [fibre]
