@@ -54,8 +54,8 @@ def test_what_filaments_do_to_their_air() -> None:
     np.testing.assert_allclose(places["change_of_velocity"], np.sqrt(1 + places["share_of_momentum"]) - 1)
 
 
-def test_known_curves_have_no_places_in_the_air(web: spunlaid.Web) -> None:
-    assert all(curtain["places"] == {} for curtain in web.curtains)
+def test_known_curves_have_no_air(web: spunlaid.Web) -> None:
+    assert web.curtains == []
 
 
 def test_advice_only_where_it_is_asked_for(web: spunlaid.Web) -> None:
