@@ -43,7 +43,7 @@ impl<'a> Flying<'a> {
         let numbers = pack::side_by_side(beam.places);
         let packs = numbers.iter().map(|_| Mutex::new(None)).collect();
         let stretch = Stretch::before(&line, line.feed_speed * beam.case.run.spin_up(), windows, sheet);
-        let field = BeamField::new(&beam);
+        let field = BeamField::new(&beam, sheet);
         Ok(Self { beam, line, numbers, packs, stretch, reach: Reach::default(), field, done: 0 })
     }
 
@@ -91,13 +91,19 @@ impl<'a> Flying<'a> {
     }
 
     /// Takes how far the packs reach after some more steps.
-    pub(super) fn reached(&mut self, steps: u64, packs: impl IntoIterator<Item = Reach>) {
+    pub(super) fn reached(
+        &mut self,
+        steps: u64,
+        packs: impl IntoIterator<Item = Reach>,
+        by: BeamControl<'_>,
+    ) {
         let before = Reach { fed: f64::INFINITY, lost: 0, ..self.reach };
         self.reach = packs.into_iter().fold(before, Reach::with);
         self.done += steps;
         if let Some(field) = &mut self.field {
+            field.begin(steps as f64 * self.beam.case.run.time_step);
             self.packs.iter().for_each(|pack| lock(pack).iter().for_each(|pack| pack.see_charge(field)));
-            field.renew(steps as f64 * self.beam.case.run.time_step);
+            field.renew(by.threads);
         }
         if !self.has_lost_too_many() {
             self.stretch.settle(&self.reach);

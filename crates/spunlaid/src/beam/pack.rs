@@ -130,9 +130,9 @@ impl Pack {
         }
     }
 
-    /// Gives its filaments their charge and the field around them.
+    /// Gives its filaments their charge and what the others do to them.
     pub(super) fn charge(&mut self, field: &BeamField) {
-        field.charge(&mut self.flight);
+        field.charge(&mut self.flight, self.filaments.iter().map(|filament| filament.number));
     }
 
     /// Hands over where the charge of its filaments is.

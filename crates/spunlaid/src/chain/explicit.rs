@@ -8,6 +8,7 @@
 //! drift    r ← r + h v
 //! ```
 
+use super::charged::Charged;
 use super::constants::{Constants, ElementConstants};
 use super::force_pass::{ElementBlock, Integrator, force_pass};
 use super::forces::Element;
@@ -34,7 +35,7 @@ pub(crate) fn step<S: Register, const LEAPFROG: bool, const FED: bool>(
     let Chain { position, velocity, earlier, constants: c, laying, charged, .. } = chain;
     let mut integrator = ExplicitIntegrator::<S, LEAPFROG, FED> {
         damped,
-        field: Chain::forces_of_field(charged),
+        charged: charged.as_ref(),
         laying: if FED { laying.as_mut() } else { None },
         step: drift,
         supports: Supports::start(work),
@@ -57,8 +58,7 @@ pub(crate) fn step<S: Register, const LEAPFROG: bool, const FED: bool>(
 /// The nodes on their way through the step.
 struct ExplicitIntegrator<'a, S: Register, const LEAPFROG: bool, const FED: bool> {
     damped: bool,
-    /// Forces of an electric field along y [N].
-    field: Option<&'a [Lanes]>,
+    charged: Option<&'a Charged>,
     laying: Option<&'a mut LayingState>,
     /// The length of the drift [s].
     step: f64,
@@ -122,8 +122,8 @@ impl<S: Register, const LEAPFROG: bool, const FED: bool> ExplicitIntegrator<'_, 
         let before = Vec3::load(&self.velocity[i]);
         let mut force = force;
         force.x += Wide::load(&node.weight);
-        if let Some(field) = self.field {
-            force.y += Wide::load(&field[i]);
+        if let Some(charged) = self.charged {
+            charged.push(i, &mut force);
         }
         let mut damping = None;
         if self.damped {

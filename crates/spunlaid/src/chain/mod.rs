@@ -165,12 +165,6 @@ impl Chain {
         })
     }
 
-    /// Forces of the field on the nodes along the machine direction [N]; none of fibres without charge.
-    #[inline(always)]
-    fn forces_of_field(charged: &Option<Charged>) -> Option<&[Lanes]> {
-        charged.as_ref().map(|charged| &charged.force[..])
-    }
-
     /// Number of elements that have been fed so far.
     pub(crate) fn fed(&self) -> u64 {
         self.laying.as_ref().map_or(0, LayingState::fed)

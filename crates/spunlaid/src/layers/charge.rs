@@ -15,7 +15,7 @@ impl LayerSpec {
     /// Its charge; None of filaments without charge.
     pub(crate) fn charged(&self) -> Option<Charge> {
         let per_mass = self.charge.filter(|charge| *charge != 0.0)?;
-        Some(Charge { per_mass, walls: self.walls })
+        Some(Charge { per_mass, walls: self.walls, pairs: self.charge_pairs })
     }
 
     /// What its charge does at the edge of the curtain, before it has been flown; None of filaments without
@@ -45,6 +45,11 @@ fn length_per_height(case: &Case) -> Option<f64> {
 }
 
 impl WebSpec {
+    /// Whether only a few filaments of a layer would be flown, whose neighbours are not there.
+    pub(crate) fn flies_few(&self, layer: usize) -> bool {
+        self.flown_sheet(layer, false).is_some_and(|sheet| self.few(layer, &sheet).is_some())
+    }
+
     /// The charge of the filaments of a layer that fly.
     ///
     /// * `flown` – where they are fed, and for which filaments they stand if they are a few

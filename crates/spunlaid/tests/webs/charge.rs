@@ -24,8 +24,12 @@ fn slot(count: usize) -> Vec<Place> {
 }
 
 fn charge(per_mass: f64, places: &[Place]) -> BeamCharge {
-    let charge = Charge { per_mass, walls: None };
+    let charge = Charge { per_mass, walls: None, pairs: false };
     BeamCharge { charge, per_metre: 5000.0, weights: vec![1; places.len()] }
+}
+
+fn with_pairs(of_beam: BeamCharge) -> BeamCharge {
+    BeamCharge { charge: Charge { pairs: true, ..of_beam.charge }, ..of_beam }
 }
 
 fn lay(
@@ -48,7 +52,10 @@ fn identical_without_charge_and_with_none_of_it() {
     assert_eq!(plain.map.cells, none.map.cells);
     assert_eq!(of_plain.kept, of_none.kept);
     assert!(plain.shared_air.unwrap().charged.is_empty() && none.shared_air.unwrap().charged.is_empty());
-    let (charged, of_charged) = lay(&case, (&places, Some(&charge(2e-3, &places))), by);
+    let with_charge = charge(2e-3, &places);
+    let (charged, of_charged) = lay(&case, (&places, Some(&with_charge)), by);
+    let (_, of_pairs) = lay(&case, (&places, Some(&with_pairs(with_charge))), by);
+    assert_ne!(of_charged.kept, of_pairs.kept);
     assert_ne!(plain.map.cells, charged.map.cells);
     assert_ne!(of_plain.kept, of_charged.kept);
 }
@@ -57,23 +64,34 @@ fn identical_without_charge_and_with_none_of_it() {
 fn identical_charged_webs_for_any_number_of_threads_and_any_registers() {
     let (case, places) = (case_in("von-karman"), slot(12));
     let charge = charge(3e-3, &places);
-    let (one, of_one) = lay(&case, (&places, Some(&charge)), (Isa::detect(), 1));
+    for charge in [charge.clone(), with_pairs(charge)] {
+        is_the_same_for_all(&case, &places, &charge);
+    }
+}
+
+fn is_the_same_for_all(case: &Case, places: &[Place], charge: &BeamCharge) {
+    let (one, of_one) = lay(case, (places, Some(charge)), (Isa::detect(), 1));
     for (isa, threads) in Isa::available().into_iter().map(|isa| (isa, 2)) {
-        let (other, of_other) = lay(&case, (&places, Some(&charge)), (isa, threads));
+        let (other, of_other) = lay(case, (places, Some(charge)), (isa, threads));
         assert_eq!(one.map.cells, other.map.cells, "{isa:?}");
         assert_eq!(of_one.kept, of_other.kept, "{isa:?}");
         assert_eq!(one.shared_air.as_ref().unwrap().charged, other.shared_air.unwrap().charged, "{isa:?}");
     }
 }
 
+/// A short way through calm air.
+fn calm() -> Case {
+    let set = [("belt.distance", "0.1 m"), ("run.duration", "0.1 s"), ("run.spin_up", "10 ms")];
+    let set = set.iter().chain(&[("air.intensity_factor", "0")]);
+    let set: Vec<_> = set.map(|(key, value)| (key.to_string(), value.to_string())).collect();
+    read_case(Path::new("../../cases/spunbond.toml"), &set).unwrap().0
+}
+
 /// The sign of the charge does not matter, and by what it moves filaments aside goes with its square. A few
 /// filaments that stand for many do the same to each other as these.
 #[test]
 fn analytic_the_curtain_opens_with_the_square_of_the_charge() {
-    let set = [("belt.distance", "0.1 m"), ("run.duration", "0.1 s"), ("run.spin_up", "10 ms")];
-    let set = set.iter().chain(&[("air.intensity_factor", "0")]);
-    let set: Vec<_> = set.map(|(key, value)| (key.to_string(), value.to_string())).collect();
-    let (case, _) = read_case(Path::new("../../cases/spunbond.toml"), &set).unwrap();
+    let case = calm();
     let opened = |per_mass: f64, count: usize| {
         let places = slot(count);
         let charge = charge(per_mass, &places);
@@ -93,4 +111,33 @@ fn analytic_the_curtain_opens_with_the_square_of_the_charge() {
     assert!((twice / once / 4.0 - 1.0).abs() < 0.1, "{none} {once} {twice}");
     assert_eq!(once, minus);
     assert!((few / twice - 1.0).abs() < 0.1, "{few} {twice}");
+}
+
+/// Two filaments side by side go apart across, as far to one side as to the other, and the more the nearer they
+/// are. The field of all moves nothing across.
+#[test]
+fn analytic_neighbours_go_apart_across() {
+    let case = calm();
+    let apart = |per_mass: f64, distance: f64, pairs: bool| {
+        let places = [-0.5, 0.5].map(|side| Place { y: 0.0, z: 12e-3 + side * distance });
+        let charge = BeamCharge { per_metre: 5000.0, ..charge(per_mass, &places) };
+        let charge = if pairs { with_pairs(charge) } else { charge };
+        let (_, flown) = lay(&case, (&places, Some(&charge)), (Isa::detect(), 2));
+        let mean = |(_, points): &(usize, Vec<spunlaid::flight::LaidPoint>)| {
+            points.iter().map(|point| point.cd).sum::<f64>() / points.len() as f64
+        };
+        let sides: Vec<f64> = flown.kept.iter().map(mean).collect();
+        [sides[0], sides[1]]
+    };
+    let [left, right] = apart(6e-3, 1e-3, false);
+    let none = right - left;
+    let gone = |per_mass: f64, distance: f64| {
+        let [one, other] = apart(per_mass, distance, true);
+        (other - one - none, (other - right) + (one - left))
+    };
+    let [once, twice, far] =
+        [(3e-3, 1e-3), (6e-3, 1e-3), (6e-3, 2e-3)].map(|(q, distance)| gone(q, distance));
+    assert!(once.0 > 1e-5 && once.1.abs() < 0.05 * once.0, "{once:?}");
+    assert!((twice.0 / once.0 / 4.0 - 1.0).abs() < 0.2, "{once:?} {twice:?}");
+    assert!(far.0 < 0.7 * twice.0 && far.0 > 0.3 * twice.0, "{far:?} {twice:?}");
 }

@@ -364,7 +364,7 @@ pub(crate) fn text(value: &Value) -> Result<String, Fault> {
     }
 }
 
-pub(super) fn switch(value: &Value) -> Result<bool, Fault> {
+pub(crate) fn switch(value: &Value) -> Result<bool, Fault> {
     match value {
         Value::Text(text) if text == SWITCH[1] => Ok(true),
         Value::Text(text) if text == SWITCH[0] => Ok(false),

@@ -120,7 +120,7 @@ impl From<Content> for Value {
 
 impl Value {
     /// The value of a switch.
-    pub(super) fn from_switch(is_on: bool) -> Self {
+    pub(crate) fn from_switch(is_on: bool) -> Self {
         Self::Text(SWITCH[usize::from(is_on)].to_owned())
     }
 

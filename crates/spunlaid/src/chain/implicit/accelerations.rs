@@ -1,6 +1,7 @@
 //! The forces with the tensions of the last step, and the system of the accelerations.
 
 use super::Tensions;
+use crate::chain::charged::Charged;
 use crate::chain::constants::{Constants, ElementConstants};
 use crate::chain::force_pass::Integrator;
 use crate::chain::forces::Element;
@@ -26,8 +27,7 @@ pub(super) fn most_kept<S: Register, const FED: bool>(h: f64) -> Wide<S> {
 /// free end. `K'` is the share of the string's stiffness that the averaging adds to the mass.
 pub(super) struct Predictor<'a, S: Register> {
     pub(super) damped: bool,
-    /// Forces of an electric field along y [N].
-    pub(super) field: Option<&'a [Lanes]>,
+    pub(super) charged: Option<&'a Charged>,
     pub(super) position: &'a [Vec3<Lanes>],
     pub(super) velocity: &'a [Vec3<Lanes>],
     pub(super) earlier: &'a [Vec3<Lanes>],
@@ -85,8 +85,8 @@ impl<S: Register> Integrator<S> for Predictor<'_, S> {
         let node = self.c.node(i, nodes);
         let mut force = force;
         force.x += Wide::load(&node.weight);
-        if let Some(field) = self.field {
-            force.y += Wide::load(&field[i]);
+        if let Some(charged) = self.charged {
+            charged.push(i, &mut force);
         }
         if self.damped {
             let damping = Wide::load(&node.mass) * Wide::load(&self.c.damping);

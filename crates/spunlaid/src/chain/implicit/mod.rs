@@ -44,7 +44,7 @@ pub(crate) fn step<S: Register, const FED: bool>(
     let c = &chain.constants;
     let mut predictor = Predictor::<S> {
         damped,
-        field: Chain::forces_of_field(&chain.charged),
+        charged: chain.charged.as_ref(),
         position: &chain.position,
         velocity: &chain.velocity,
         earlier: &chain.earlier,

@@ -1,0 +1,410 @@
+//! What neighbours do to each other: the force between nodes of different filaments that are near each other,
+//! which the sheets, a mean over the width, do not know.
+//!
+//! ```text
+//! nodes and their ways in a block → cells of the height and the plane → for each node all others within the reach
+//!       → the mean force during the block, equal and opposite for the two nodes of a pair
+//! ```
+//!
+//! A node is a part of a thread that reaches an element up and down. Within the reach the force is `1/r − r/r_c²`;
+//! what this is in the mean over the width is taken off the sheets.                theory.md (83m) to (83p)
+
+use super::PERMITTIVITY;
+use crate::threads::each;
+use std::f64::consts::PI;
+use std::ops::Range;
+
+/// Two nodes that move by less than this part of their distance, against each other, are taken in the middle of
+/// their ways: the mean force is that one within less than a hundredth.
+const STILL: f64 = 0.3;
+/// Fewest cells across a width that is closed to a ring. In fewer of them a node would be met twice.
+const FEWEST: usize = 3;
+/// Most cells along the machine direction.
+const MOST: usize = 1024;
+
+/// A node of a charged filament while a force is held.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct MovingNode {
+    /// Number of its filament.
+    pub(crate) filament: usize,
+    /// Place in the middle of the time [m]: below the inlet, in machine and in cross direction.
+    pub(crate) at: [f64; 3],
+    /// Half of its way in machine and in cross direction during this time [m].
+    pub(crate) half_way: [f64; 2],
+}
+
+/// The forces between neighbours.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Repulsion {
+    /// Charge of a node [C].
+    pub(crate) charge: f64,
+    /// Distance `r_c` in the horizontal plane beyond which there is no force [m].
+    pub(crate) reach: f64,
+    /// How far a node reaches up and down as a part of a thread, a whole number of elements [m].
+    pub(crate) height: f64,
+    /// Distance within which the force grows no more, the diameter of the filaments [m].
+    pub(crate) least: f64,
+    /// Distance from inlet to belt; there are no forces outside [m].
+    pub(crate) distance: f64,
+    /// Width after which the filaments repeat themselves, if they do [m].
+    pub(crate) width: Option<f64>,
+}
+
+/// Nodes in the order of their cells.
+struct Cells {
+    counts: [usize; 3],
+    /// The first node of each cell, and the end of the last one.
+    starts: Vec<usize>,
+    nodes: Vec<MovingNode>,
+    /// Where each of them was before.
+    numbers: Vec<usize>,
+}
+
+impl Repulsion {
+    /// The mean forces on all nodes while they go their ways [N], in machine and in cross direction. They do not
+    /// depend on the number of threads.
+    pub(crate) fn forces(&self, nodes: &[MovingNode], threads: usize) -> Vec<[f64; 2]> {
+        let mut forces = vec![[0.0; 2]; nodes.len()];
+        let cells = self.cells(nodes);
+        let found = each(threads, cells.counts[0], |height| self.forces_at(&cells, height));
+        for (number, force) in cells.numbers.iter().zip(found.into_iter().flatten()) {
+            forces[*number] = force;
+        }
+        forces
+    }
+
+    fn cells(&self, nodes: &[MovingNode]) -> Cells {
+        let counts = |node: &MovingNode| {
+            (0.0..self.distance).contains(&node.at[0]) && node.at.iter().all(|at| at.is_finite())
+        };
+        let inside = || nodes.iter().enumerate().filter(|(_, node)| counts(node));
+        let across = |node: &MovingNode| match self.width {
+            Some(width) => node.at[2].rem_euclid(width),
+            None => node.at[2],
+        };
+        let range = |of: &dyn Fn(&MovingNode) -> f64| {
+            let all = inside().map(|(_, node)| of(node));
+            all.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), at| (least.min(at), most.max(at)))
+        };
+        let (back, front) = range(&|node| node.at[1]);
+        let (left, right) = self.width.map_or_else(|| range(&across), |width| (0.0, width));
+        let cells_of = |size: f64, cell: f64| ((size / cell) as usize).clamp(1, MOST);
+        let heights = ((self.distance / self.height) as usize).max(1);
+        let mut counts = [heights, cells_of(front - back, self.reach), cells_of(right - left, self.reach)];
+        if self.width.is_some() && counts[2] < FEWEST {
+            counts[2] = 1;
+        }
+        let cell = |place: f64, (from, to): (f64, f64), count: usize| {
+            let cell = (place - from) / (to - from) * count as f64;
+            // All at one place are in the first cell.
+            if cell > 0.0 { (cell as usize).min(count - 1) } else { 0 }
+        };
+        let cell_of = |node: &MovingNode| {
+            let height = cell(node.at[0], (0.0, self.distance), counts[0]);
+            let along = cell(node.at[1], (back, front), counts[1]);
+            (height * counts[1] + along) * counts[2] + cell(across(node), (left, right), counts[2])
+        };
+        let mut starts = vec![0; counts.iter().product::<usize>() + 1];
+        inside().for_each(|(_, node)| starts[cell_of(node) + 1] += 1);
+        for cell in 1..starts.len() {
+            starts[cell] += starts[cell - 1];
+        }
+        let mut next = starts.clone();
+        let count = starts.last().copied().unwrap_or(0);
+        let mut numbers = vec![0; count];
+        for (number, node) in inside() {
+            let place = &mut next[cell_of(node)];
+            numbers[*place] = number;
+            *place += 1;
+        }
+        let sorted = |number: &usize| {
+            let node = nodes[*number];
+            MovingNode { at: [node.at[0], node.at[1], across(&node)], ..node }
+        };
+        let nodes = numbers.iter().map(sorted).collect();
+        Cells { counts, starts, nodes, numbers }
+    }
+
+    /// The forces on the nodes of one height of cells.
+    fn forces_at(&self, cells: &Cells, height: usize) -> Vec<[f64; 2]> {
+        let [heights, along, across] = cells.counts;
+        let around = |cell: usize, count: usize| cell.saturating_sub(1)..(cell + 2).min(count);
+        let strength = self.charge * self.charge / (2.0 * PI * PERMITTIVITY * self.height);
+        let mut forces = Vec::new();
+        for row in 0..along {
+            for column in 0..across {
+                let own = cells.nodes_in((height * along + row) * across, column..column + 1);
+                if own.is_empty() {
+                    continue;
+                }
+                let mut others: Vec<&[MovingNode]> = Vec::new();
+                for height in around(height, heights) {
+                    for row in around(row, along) {
+                        let start = (height * along + row) * across;
+                        others.push(cells.nodes_in(start, around(column, across)));
+                        // The last cell of a ring stands beside the first one.
+                        if self.width.is_some() && across >= FEWEST {
+                            let beyond = match column {
+                                0 => Some(across - 1),
+                                column if column + 1 == across => Some(0),
+                                _ => None,
+                            };
+                            others.extend(beyond.map(|cell| cells.nodes_in(start, cell..cell + 1)));
+                        }
+                    }
+                }
+                forces.extend(own.iter().map(|node| {
+                    let mut sum = [0.0; 2];
+                    for other in others.iter().copied().flatten() {
+                        self.add(node, other, &mut sum);
+                    }
+                    sum.map(|force| strength * force)
+                }));
+            }
+        }
+        forces
+    }
+
+    /// Adds the mean force of another node, over the strength of a pair. Each operation has the same bits, or the
+    /// same bits with the other sign, if the nodes change places: so the two forces are equal and opposite.
+    #[inline(always)]
+    fn add(&self, node: &MovingNode, other: &MovingNode, sum: &mut [f64; 2]) {
+        let apart = (node.at[0] - other.at[0]).abs();
+        let [y, mut z] = [1, 2].map(|axis| node.at[axis] - other.at[axis]);
+        if let Some(width) = self.width {
+            if z > 0.5 * width {
+                z -= width;
+            } else if z < -0.5 * width {
+                z += width;
+            }
+        }
+        let (squared, reach_squared) = (y * y + z * z, self.reach * self.reach);
+        if apart >= self.height || squared >= reach_squared || node.filament == other.filament {
+            return;
+        }
+        let share = 1.0 - apart / self.height;
+        let [way_y, way_z] = [0, 1].map(|axis| node.half_way[axis] - other.half_way[axis]);
+        let still = way_y * way_y + way_z * way_z <= 0.25 * STILL * STILL * squared;
+        let [force_y, force_z] = match still {
+            true => {
+                let bounded = squared.max(self.least * self.least);
+                [y / bounded, z / bounded]
+            }
+            false => mean_on_a_way([y, z], [way_y, way_z], self.least),
+        };
+        sum[0] += share * (force_y - y / reach_squared);
+        sum[1] += share * (force_z - z / reach_squared);
+    }
+
+    /// The part of the field of a sheet, at a distance from it along the machine direction, which is in the
+    /// forces of its filaments as neighbours, from 0 to 1.                                  theory.md (83o)
+    pub(super) fn share_of_sheet(reach: f64, distance: f64) -> f64 {
+        let half_chord = (reach * reach - distance * distance).max(0.0).sqrt();
+        let mean = libm::atan2(half_chord, distance) - half_chord * distance / (reach * reach);
+        2.0 / PI * mean
+    }
+}
+
+impl Cells {
+    /// The nodes of some cells across.
+    fn nodes_in(&self, start: usize, cells: Range<usize>) -> &[MovingNode] {
+        &self.nodes[self.starts[start + cells.start]..self.starts[start + cells.end]]
+    }
+}
+
+/// The mean of `r/r²` over a straight way with its middle at `[y, z]`: the force of a thread, as a complex number
+/// `1/ζ`, whose integral is a logarithm.                                                      theory.md (83n)
+fn mean_on_a_way([y, z]: [f64; 2], half_way: [f64; 2], least: f64) -> [f64; 2] {
+    let from = [y - half_way[0], z - half_way[1]];
+    let to = [y + half_way[0], z + half_way[1]];
+    let bounded = |[y, z]: [f64; 2]| (y * y + z * z).max(least * least);
+    let grown = 0.5 * libm::log(bounded(to) / bounded(from));
+    let turned = libm::atan2(to[1] * from[0] - to[0] * from[1], to[0] * from[0] + to[1] * from[1]);
+    let way = [2.0 * half_way[0], 2.0 * half_way[1]];
+    let squared = way[0] * way[0] + way[1] * way[1];
+    // The complex conjugate of (grown + i turned) / way.
+    [(grown * way[0] + turned * way[1]) / squared, (grown * way[1] - turned * way[0]) / squared]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::charge::{Charge, ChargedNode, Curtain, Sheets};
+
+    const ELEMENT: f64 = 2e-3;
+    const DISTANCE: f64 = 64e-3;
+    const OPEN: Repulsion = Repulsion {
+        charge: 1e-12,
+        reach: 8e-3,
+        height: ELEMENT,
+        least: 18e-6,
+        distance: DISTANCE,
+        width: None,
+    };
+
+    /// A straight thread, whose nodes are as far from the inlet as the others and `off` more.
+    fn thread(filament: usize, [y, z]: [f64; 2], off: f64) -> impl Iterator<Item = MovingNode> {
+        let nodes = (DISTANCE / ELEMENT) as usize;
+        let at = move |j: usize| [(j as f64 + 0.25) * ELEMENT + off, y, z];
+        (0..nodes).map(move |j| MovingNode { filament, at: at(j), half_way: [0.0; 2] })
+    }
+
+    /// Numbers from 0 to 1 that look like chance.
+    fn chance(i: usize, of: f64) -> f64 {
+        (i as f64 * of + 0.5).fract()
+    }
+
+    /// Filaments at places and with ways of chance, 20 mm wide and deep.
+    fn crowd() -> Vec<MovingNode> {
+        let node = |i: usize| MovingNode {
+            filament: i % 50,
+            at: [
+                DISTANCE * chance(i, 0.618_033_988_75),
+                20e-3 * chance(i, 0.754_877_666_25),
+                20e-3 * chance(i, 0.569_840_290_99),
+            ],
+            half_way: [chance(i, 0.819_172_513_4), chance(i, 0.671_043_606_7)]
+                .map(|share| 1e-3 * (share - 0.5)),
+        };
+        (0..5000).map(node).collect()
+    }
+
+    #[test]
+    fn analytic_two_parallel_threads() {
+        for (height, off, distance) in [(1.0, 0.0, 1e-3), (1.0, 0.7e-3, 2e-3), (3.0, 1.1e-3, 5e-3)] {
+            let place = [0.6 * distance, -0.8 * distance];
+            let nodes: Vec<MovingNode> = thread(0, [0.0; 2], 0.0).chain(thread(1, place, off)).collect();
+            let of = Repulsion { height: height * ELEMENT, ..OPEN };
+            let forces = of.forces(&nodes, 1);
+            let line = OPEN.charge / ELEMENT;
+            let exact = line * line * ELEMENT / (2.0 * PI * PERMITTIVITY)
+                * (1.0 / distance - distance / (OPEN.reach * OPEN.reach));
+            let node = 16;
+            let [y, z] = forces[node].map(|force| force / exact);
+            assert!((y + 0.6).abs() < 1e-6 && (z - 0.8).abs() < 1e-6, "{height}: {y} {z}");
+            // Beyond the reach there is none, nor from its own filament.
+            let far: Vec<MovingNode> = thread(0, [0.0; 2], 0.0)
+                .chain(thread(0, place, off))
+                .chain(thread(1, [-8.1e-3, 0.0], 0.0))
+                .collect();
+            assert!(of.forces(&far, 1).iter().all(|force| *force == [0.0; 2]));
+        }
+    }
+
+    #[test]
+    fn invariant_forces_of_neighbours_add_up_to_nothing() {
+        for width in [None, Some(20e-3), Some(17e-3)] {
+            let of = Repulsion { width, ..OPEN };
+            let nodes = crowd();
+            let forces = of.forces(&nodes, 2);
+            for axis in [0, 1] {
+                let sum: f64 = forces.iter().map(|force| force[axis]).sum();
+                let all: f64 = forces.iter().map(|force| force[axis].abs()).sum();
+                assert!(all > 0.0 && sum.abs() < 1e-13 * all, "{sum:e} {all:e}");
+            }
+            // A pair alone to the last bit, wherever it is on the ring.
+            for pair in nodes.chunks_exact(2) {
+                let [one, other] =
+                    [0, 1].map(|i| MovingNode { at: [0.03, pair[i].at[1], pair[i].at[2]], ..pair[i] });
+                let forces = of.forces(&[one, other], 1);
+                assert_eq!(forces[0], forces[1].map(|force| -force));
+            }
+        }
+    }
+
+    /// Cells find all neighbours: as when all nodes are looked at.
+    #[test]
+    fn invariant_cells_leave_no_neighbour_out() {
+        for width in [None, Some(20e-3), Some(50e-3)] {
+            let of = Repulsion { width, reach: 3e-3, ..OPEN };
+            let nodes = crowd();
+            let strength = of.charge * of.charge / (2.0 * PI * PERMITTIVITY * of.height);
+            for (node, force) in nodes.iter().zip(of.forces(&nodes, 1)).step_by(100) {
+                let mut sum = [0.0; 2];
+                nodes.iter().for_each(|other| of.add(node, other, &mut sum));
+                for axis in [0, 1] {
+                    let exact = strength * sum[axis];
+                    assert!((force[axis] - exact).abs() <= 1e-9 * exact.abs(), "{force:?} {exact:e}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn identical_forces_of_neighbours_on_any_threads() {
+        let nodes = crowd();
+        let of = Repulsion { width: Some(20e-3), ..OPEN };
+        let one = of.forces(&nodes, 1);
+        assert!((2..4).all(|threads| of.forces(&nodes, threads) == one));
+    }
+
+    /// The mean on a straight way is that of many places of it, near by and far.
+    #[test]
+    fn analytic_the_mean_force_on_a_way() {
+        let half_way = [0.3e-3, 0.4e-3];
+        for place in [[0.1e-3, -0.05e-3], [0.5e-3, 0.2e-3], [-2e-3, 1e-3]] {
+            let found = mean_on_a_way(place, half_way, 0.0);
+            let places = 100_000;
+            let mut sum = [0.0; 2];
+            for i in 0..places {
+                let part = 2.0 * (i as f64 + 0.5) / f64::from(places) - 1.0;
+                let at = [0, 1].map(|axis| place[axis] + part * half_way[axis]);
+                let squared = at[0] * at[0] + at[1] * at[1];
+                (0..2).for_each(|axis| sum[axis] += at[axis] / squared / f64::from(places));
+            }
+            for axis in [0, 1] {
+                assert!((found[axis] / sum[axis] - 1.0).abs() < 1e-6, "{found:?} {sum:?}");
+            }
+        }
+        // Where the middle of the way is taken for it, it is so within a hundredth.
+        let (place, half_way) = ([1e-3, 0.0], [0.0, 0.149e-3]);
+        assert!((mean_on_a_way(place, half_way, 0.0)[0] * place[0] - 1.0).abs() < 0.01);
+        let along = [half_way[1], 0.0];
+        assert!((mean_on_a_way(place, along, 0.0)[0] * place[0] - 1.0).abs() < 0.01);
+    }
+
+    /// Neighbours and the rest of the field are together the field of sheets, where filaments are even across:
+    /// in a slab as at its edges, whatever the reach.
+    #[test]
+    fn analytic_neighbours_take_nothing_twice() {
+        const ROWS: usize = 12;
+        const ACROSS: usize = 100;
+        let (pitch, width) = (0.4e-3, 0.4e-3 * ACROSS as f64);
+        let y = |row: usize| 0.8e-3 * (row as f64 - 0.5 * (ROWS - 1) as f64);
+        let mut nodes: Vec<MovingNode> = Vec::new();
+        for i in 0..ROWS * ACROSS {
+            let z = (i / ROWS) as f64 * pitch;
+            nodes.extend(thread(i, [y(i % ROWS), z], 0.0));
+        }
+        let (per_mass, node_mass) = (1e-3, OPEN.charge / 1e-3);
+        let count = (ROWS * ACROSS) as u64;
+        let (per_metre, element, distance) = (count as f64 / width, ELEMENT, DISTANCE);
+        let curtain = Curtain { per_metre, node_mass, element, distance, weights: count };
+        let charge = Charge { per_mass, walls: None, pairs: true };
+        let charged = |node: &MovingNode| ChargedNode { x: node.at[0], y: node.at[1], weight: 1 };
+        let charged: Vec<ChargedNode> = nodes.iter().map(charged).collect();
+        let field = |reach: f64| {
+            let mut sheets = Sheets::new(&charge, &curtain).without_neighbours(reach);
+            sheets.renew(&charged, 1.0);
+            sheets.field()
+        };
+        let (all, edge) = (field(0.0), field(0.0).edge());
+        for reach in [2e-3, 5e-3, 12e-3] {
+            let rest = field(reach);
+            let forces = Repulsion { width: Some(width), reach, ..OPEN }.forces(&nodes, 2);
+            for row in 0..ROWS {
+                let at = row * (DISTANCE / ELEMENT) as usize + 16;
+                let (x, y) = (nodes[at].at[0], nodes[at].at[1]);
+                let of_neighbours = forces[at][0] / OPEN.charge;
+                let found = rest.at(x, y) + of_neighbours;
+                assert!(
+                    (found - all.at(x, y)).abs() < 0.01 * edge,
+                    "{reach} {row}: {found} {}",
+                    all.at(x, y)
+                );
+                assert!(row > 0 || of_neighbours.abs() > 0.04 * edge, "they are a part of it");
+                assert!(forces[at][1].abs() < 1e-9 * OPEN.charge * edge);
+            }
+        }
+    }
+}
