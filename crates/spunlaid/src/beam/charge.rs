@@ -1,6 +1,6 @@
 //! What the charge of all filaments of a beam does to each of them, found anew after every block of time.
 
-use super::Beam;
+use super::{Beam, BeamControl};
 use crate::charge::{Charge, ChargedNode, Curtain, MovingNode, Repulsion, SheetField, Sheets};
 use crate::flight::Flight;
 use crate::lanes::WIDTH;
@@ -13,7 +13,7 @@ const BLOCKS: f64 = 8.0;
 /// The same where the forces of neighbours are held for a block, which pass by each other in it.
 const BLOCKS_OF_NEIGHBOURS: f64 = 32.0;
 /// How far the forces of neighbours reach, in mean distances of the filaments of a curtain.
-const REACH: f64 = 2.5;
+const REACH: f64 = 2.0;
 /// By how much gusts make a usual curtain deeper, as a mean over the way and in parts of it.
 const DEEPER: f64 = 0.09;
 /// Most that they reach, in parts of a width after which the filaments repeat themselves.
@@ -118,12 +118,12 @@ impl BeamField {
     }
 
     /// Finds the field and the forces of neighbours for the next block.
-    pub(super) fn renew(&mut self, threads: usize) {
+    pub(super) fn renew(&mut self, by: BeamControl<'_>) {
         let share = 1.0 - libm::exp(-self.block / self.memory);
         self.sheets.renew(&self.nodes, share);
         self.field = Arc::new(self.sheets.field());
         if let Some(neighbours) = &mut self.neighbours {
-            neighbours.renew(threads);
+            neighbours.renew(by);
         }
     }
 
@@ -161,13 +161,13 @@ impl ChargedNeighbours {
         self.of_filament.get(filament).and_then(|range| self.forces.get(range.clone())).unwrap_or(&[])
     }
 
-    fn renew(&mut self, threads: usize) {
+    fn renew(&mut self, by: BeamControl<'_>) {
         self.all.clear();
         for (nodes, range) in self.nodes.iter().zip(&mut self.of_filament) {
             *range = self.all.len()..self.all.len() + nodes.len();
             self.all.extend(nodes);
         }
-        self.forces = self.repulsion.forces(&self.all, threads);
+        self.forces = self.repulsion.forces(&self.all, (by.isa, by.threads));
     }
 }
 

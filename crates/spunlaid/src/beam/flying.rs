@@ -103,7 +103,7 @@ impl<'a> Flying<'a> {
         if let Some(field) = &mut self.field {
             field.begin(steps as f64 * self.beam.case.run.time_step);
             self.packs.iter().for_each(|pack| lock(pack).iter().for_each(|pack| pack.see_charge(field)));
-            field.renew(by.threads);
+            field.renew(by);
         }
         if !self.has_lost_too_many() {
             self.stretch.settle(&self.reach);

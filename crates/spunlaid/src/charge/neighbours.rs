@@ -10,6 +10,7 @@
 //! what this is in the mean over the width is taken off the sheets.                theory.md (83m) to (83p)
 
 use super::PERMITTIVITY;
+use crate::lanes::{Isa, Lanes, Register, Task, WIDTH, Wide};
 use crate::threads::each;
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -62,11 +63,11 @@ struct Cells {
 
 impl Repulsion {
     /// The mean forces on all nodes while they go their ways [N], in machine and in cross direction. They do not
-    /// depend on the number of threads.
-    pub(crate) fn forces(&self, nodes: &[MovingNode], threads: usize) -> Vec<[f64; 2]> {
+    /// depend on the instruction set or the number of threads.
+    pub(crate) fn forces(&self, nodes: &[MovingNode], (isa, threads): (Isa, usize)) -> Vec<[f64; 2]> {
         let mut forces = vec![[0.0; 2]; nodes.len()];
         let cells = self.cells(nodes);
-        let found = each(threads, cells.counts[0], |height| self.forces_at(&cells, height));
+        let found = each(threads, cells.counts[0], |height| self.forces_at(&cells, height, isa));
         for (number, force) in cells.numbers.iter().zip(found.into_iter().flatten()) {
             forces[*number] = force;
         }
@@ -126,74 +127,43 @@ impl Repulsion {
     }
 
     /// The forces on the nodes of one height of cells.
-    fn forces_at(&self, cells: &Cells, height: usize) -> Vec<[f64; 2]> {
+    fn forces_at(&self, cells: &Cells, height: usize, isa: Isa) -> Vec<[f64; 2]> {
         let [heights, along, across] = cells.counts;
         let around = |cell: usize, count: usize| cell.saturating_sub(1)..(cell + 2).min(count);
-        let strength = self.charge * self.charge / (2.0 * PI * PERMITTIVITY * self.height);
-        let mut forces = Vec::new();
+        let (mut forces, mut others) = (Vec::new(), Vec::new());
         for row in 0..along {
             for column in 0..across {
                 let own = cells.nodes_in((height * along + row) * across, column..column + 1);
                 if own.is_empty() {
                     continue;
                 }
-                let mut others: Vec<&[MovingNode]> = Vec::new();
+                let mut count = 0;
+                others.clear();
+                let mut add = |nodes: &[MovingNode]| {
+                    for node in nodes {
+                        Eight::take(node, count, &mut others);
+                        count += 1;
+                    }
+                };
                 for height in around(height, heights) {
                     for row in around(row, along) {
                         let start = (height * along + row) * across;
-                        others.push(cells.nodes_in(start, around(column, across)));
+                        add(cells.nodes_in(start, around(column, across)));
                         // The last cell of a ring stands beside the first one.
                         if self.width.is_some() && across >= FEWEST {
-                            let beyond = match column {
-                                0 => Some(across - 1),
-                                column if column + 1 == across => Some(0),
-                                _ => None,
-                            };
-                            others.extend(beyond.map(|cell| cells.nodes_in(start, cell..cell + 1)));
+                            match column {
+                                0 => add(cells.nodes_in(start, across - 1..across)),
+                                column if column + 1 == across => add(cells.nodes_in(start, 0..1)),
+                                _ => {}
+                            }
                         }
                     }
                 }
-                forces.extend(own.iter().map(|node| {
-                    let mut sum = [0.0; 2];
-                    for other in others.iter().copied().flatten() {
-                        self.add(node, other, &mut sum);
-                    }
-                    sum.map(|force| strength * force)
-                }));
+                let others = &others[..];
+                forces.extend(own.iter().map(|node| isa.run(OfOthers { of: self, node, others })));
             }
         }
         forces
-    }
-
-    /// Adds the mean force of another node, over the strength of a pair. Each operation has the same bits, or the
-    /// same bits with the other sign, if the nodes change places: so the two forces are equal and opposite.
-    #[inline(always)]
-    fn add(&self, node: &MovingNode, other: &MovingNode, sum: &mut [f64; 2]) {
-        let apart = (node.at[0] - other.at[0]).abs();
-        let [y, mut z] = [1, 2].map(|axis| node.at[axis] - other.at[axis]);
-        if let Some(width) = self.width {
-            if z > 0.5 * width {
-                z -= width;
-            } else if z < -0.5 * width {
-                z += width;
-            }
-        }
-        let (squared, reach_squared) = (y * y + z * z, self.reach * self.reach);
-        if apart >= self.height || squared >= reach_squared || node.filament == other.filament {
-            return;
-        }
-        let share = 1.0 - apart / self.height;
-        let [way_y, way_z] = [0, 1].map(|axis| node.half_way[axis] - other.half_way[axis]);
-        let still = way_y * way_y + way_z * way_z <= 0.25 * STILL * STILL * squared;
-        let [force_y, force_z] = match still {
-            true => {
-                let bounded = squared.max(self.least * self.least);
-                [y / bounded, z / bounded]
-            }
-            false => mean_on_a_way([y, z], [way_y, way_z], self.least),
-        };
-        sum[0] += share * (force_y - y / reach_squared);
-        sum[1] += share * (force_z - z / reach_squared);
     }
 
     /// The part of the field of a sheet, at a distance from it along the machine direction, which is in the
@@ -202,6 +172,99 @@ impl Repulsion {
         let half_chord = (reach * reach - distance * distance).max(0.0).sqrt();
         let mean = libm::atan2(half_chord, distance) - half_chord * distance / (reach * reach);
         2.0 / PI * mean
+    }
+}
+
+/// Eight nodes side by side.
+#[derive(Clone, Copy, Debug)]
+struct Eight {
+    filament: Lanes,
+    at: [Lanes; 3],
+    half_way: [Lanes; 2],
+}
+
+impl Eight {
+    /// None, as nodes that are far from all others.
+    const NONE: Self = Self {
+        filament: Lanes::splat(-1.0),
+        at: [Lanes::splat(1e9), Lanes::splat(0.0), Lanes::splat(0.0)],
+        half_way: [Lanes::splat(0.0); 2],
+    };
+
+    /// Puts the next node behind some others.
+    fn take(node: &MovingNode, number: usize, into: &mut Vec<Self>) {
+        let lane = number % WIDTH;
+        if lane == 0 {
+            into.push(Self::NONE);
+        }
+        if let Some(eight) = into.last_mut() {
+            eight.filament.0[lane] = node.filament as f64;
+            (0..3).for_each(|axis| eight.at[axis].0[lane] = node.at[axis]);
+            (0..2).for_each(|axis| eight.half_way[axis].0[lane] = node.half_way[axis]);
+        }
+    }
+}
+
+/// The mean force of other nodes on a node [N].
+///
+/// Each operation has the same bits, or the same bits with the other sign, if two nodes change places: so what
+/// they do to each other is equal and opposite.
+struct OfOthers<'a> {
+    of: &'a Repulsion,
+    node: &'a MovingNode,
+    others: &'a [Eight],
+}
+
+impl Task for OfOthers<'_> {
+    type Output = [f64; 2];
+
+    #[inline(always)]
+    fn call<S: Register>(self) -> [f64; 2] {
+        let Self { of, node, others } = self;
+        let splat = Wide::<S>::splat;
+        let zero = Wide::zero();
+        let own = node.at.map(splat);
+        let (own_half_way, filament) = (node.half_way.map(splat), splat(node.filament as f64));
+        let (per_height, reach_squared) = (splat(1.0 / of.height), splat(of.reach * of.reach));
+        let background = 1.0 / (of.reach * of.reach);
+        let least_squared = splat(of.least * of.least);
+        let half = splat(of.width.map_or(f64::INFINITY, |width| 0.5 * width));
+        let width = splat(of.width.unwrap_or(0.0));
+        let mut sums = [zero; 2];
+        let mut passing = [0.0; 2];
+        for other in others {
+            let apart = (own[0] - Wide::load(&other.at[0])).abs();
+            let y = own[1] - Wide::load(&other.at[1]);
+            let z = own[2] - Wide::load(&other.at[2]);
+            let z = Wide::select_less(half, z, z - width, Wide::select_less(z, -half, z + width, z));
+            let squared = y.mul_add(y, z * z);
+            let share = (splat(1.0) - apart * per_height).max(zero);
+            let share = Wide::select_less(squared, reach_squared, share, zero);
+            let is_other = (filament - Wide::load(&other.filament)).abs();
+            let share = Wide::select_less(is_other, splat(0.5), zero, share);
+            let ways = [0, 1].map(|axis| own_half_way[axis] - Wide::load(&other.half_way[axis]));
+            let way_squared = ways[0].mul_add(ways[0], ways[1] * ways[1]);
+            let still = splat(0.25 * STILL * STILL) * squared;
+            let of_passing = Wide::select_less(still, way_squared, share, zero);
+            let of_still = share - of_passing;
+            let strength = of_still * (splat(1.0).over(squared.max(least_squared)) - splat(background));
+            sums[0] = strength.mul_add(y, sums[0]);
+            sums[1] = strength.mul_add(z, sums[1]);
+            if of_passing.any_above(0.0) {
+                let (share, at) = (of_passing.store(), [y, z].map(Wide::store));
+                let ways = ways.map(Wide::store);
+                for lane in (0..WIDTH).filter(|lane| share.0[*lane] > 0.0) {
+                    let at = at.each_ref().map(|at| at.0[lane]);
+                    let mean = mean_on_a_way(at, ways.each_ref().map(|way| way.0[lane]), of.least);
+                    for axis in [0, 1] {
+                        passing[axis] += share.0[lane] * (mean[axis] - background * at[axis]);
+                    }
+                }
+            }
+        }
+        let strength = of.charge * of.charge / (2.0 * PI * PERMITTIVITY * of.height);
+        let sums = sums.map(|sum| sum.store().0.iter().sum::<f64>());
+        [0, 1].map(|axis| strength * (sums[axis] + passing[axis]))
     }
 }
 
@@ -242,6 +305,10 @@ mod tests {
         width: None,
     };
 
+    fn by(threads: usize) -> (Isa, usize) {
+        (Isa::detect(), threads)
+    }
+
     /// A straight thread, whose nodes are as far from the inlet as the others and `off` more.
     fn thread(filament: usize, [y, z]: [f64; 2], off: f64) -> impl Iterator<Item = MovingNode> {
         let nodes = (DISTANCE / ELEMENT) as usize;
@@ -275,7 +342,7 @@ mod tests {
             let place = [0.6 * distance, -0.8 * distance];
             let nodes: Vec<MovingNode> = thread(0, [0.0; 2], 0.0).chain(thread(1, place, off)).collect();
             let of = Repulsion { height: height * ELEMENT, ..OPEN };
-            let forces = of.forces(&nodes, 1);
+            let forces = of.forces(&nodes, by(1));
             let line = OPEN.charge / ELEMENT;
             let exact = line * line * ELEMENT / (2.0 * PI * PERMITTIVITY)
                 * (1.0 / distance - distance / (OPEN.reach * OPEN.reach));
@@ -287,7 +354,7 @@ mod tests {
                 .chain(thread(0, place, off))
                 .chain(thread(1, [-8.1e-3, 0.0], 0.0))
                 .collect();
-            assert!(of.forces(&far, 1).iter().all(|force| *force == [0.0; 2]));
+            assert!(of.forces(&far, by(1)).iter().all(|force| *force == [0.0; 2]));
         }
     }
 
@@ -296,7 +363,7 @@ mod tests {
         for width in [None, Some(20e-3), Some(17e-3)] {
             let of = Repulsion { width, ..OPEN };
             let nodes = crowd();
-            let forces = of.forces(&nodes, 2);
+            let forces = of.forces(&nodes, by(2));
             for axis in [0, 1] {
                 let sum: f64 = forces.iter().map(|force| force[axis]).sum();
                 let all: f64 = forces.iter().map(|force| force[axis].abs()).sum();
@@ -306,7 +373,7 @@ mod tests {
             for pair in nodes.chunks_exact(2) {
                 let [one, other] =
                     [0, 1].map(|i| MovingNode { at: [0.03, pair[i].at[1], pair[i].at[2]], ..pair[i] });
-                let forces = of.forces(&[one, other], 1);
+                let forces = of.forces(&[one, other], by(1));
                 assert_eq!(forces[0], forces[1].map(|force| -force));
             }
         }
@@ -318,12 +385,12 @@ mod tests {
         for width in [None, Some(20e-3), Some(50e-3)] {
             let of = Repulsion { width, reach: 3e-3, ..OPEN };
             let nodes = crowd();
-            let strength = of.charge * of.charge / (2.0 * PI * PERMITTIVITY * of.height);
-            for (node, force) in nodes.iter().zip(of.forces(&nodes, 1)).step_by(100) {
-                let mut sum = [0.0; 2];
-                nodes.iter().for_each(|other| of.add(node, other, &mut sum));
+            for (node, force) in nodes.iter().zip(of.forces(&nodes, by(1))).step_by(100) {
+                let mut others = Vec::new();
+                nodes.iter().enumerate().for_each(|(i, other)| Eight::take(other, i, &mut others));
+                let sum = Isa::detect().run(OfOthers { of: &of, node, others: &others });
                 for axis in [0, 1] {
-                    let exact = strength * sum[axis];
+                    let exact = sum[axis];
                     assert!((force[axis] - exact).abs() <= 1e-9 * exact.abs(), "{force:?} {exact:e}");
                 }
             }
@@ -331,11 +398,13 @@ mod tests {
     }
 
     #[test]
-    fn identical_forces_of_neighbours_on_any_threads() {
+    fn identical_forces_of_neighbours_on_any_threads_and_registers() {
         let nodes = crowd();
         let of = Repulsion { width: Some(20e-3), ..OPEN };
-        let one = of.forces(&nodes, 1);
-        assert!((2..4).all(|threads| of.forces(&nodes, threads) == one));
+        let one = of.forces(&nodes, by(1));
+        for isa in Isa::available() {
+            assert!((1..4).all(|threads| of.forces(&nodes, (isa, threads)) == one), "{isa:?}");
+        }
     }
 
     /// The mean on a straight way is that of many places of it, near by and far.
@@ -388,10 +457,11 @@ mod tests {
             sheets.renew(&charged, 1.0);
             sheets.field()
         };
-        let (all, edge) = (field(0.0), field(0.0).edge());
+        let all = field(0.0);
+        let edge = all.at(nodes[16].at[0], 20e-3);
         for reach in [2e-3, 5e-3, 12e-3] {
             let rest = field(reach);
-            let forces = Repulsion { width: Some(width), reach, ..OPEN }.forces(&nodes, 2);
+            let forces = Repulsion { width: Some(width), reach, ..OPEN }.forces(&nodes, by(2));
             for row in 0..ROWS {
                 let at = row * (DISTANCE / ELEMENT) as usize + 16;
                 let (x, y) = (nodes[at].at[0], nodes[at].at[1]);

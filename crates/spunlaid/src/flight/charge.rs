@@ -201,7 +201,7 @@ mod tests {
             }));
             starts.push(nodes.len());
         }
-        let forces = repulsion.forces(&nodes, 1);
+        let forces = repulsion.forces(&nodes, (Isa::detect(), 1));
         let on = |lane: usize| if lane < lanes { &forces[starts[lane]..starts[lane + 1]] } else { &[] };
         flight.hold_neighbours(std::array::from_fn(on));
     }
