@@ -184,7 +184,7 @@ pub(super) const KEYS: &[WebKey] = &[
                 Ok(())
             },
         })
-        .value("false")
+        .follows("`false`")
         .varies()
         .meaning(
             "With `line.charge`: whether what single neighbours do to each other at a few of their distances \
