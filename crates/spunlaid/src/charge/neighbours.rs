@@ -23,6 +23,9 @@ const FEWEST: usize = 3;
 /// Most cells along the machine direction.
 const MOST: usize = 1024;
 
+/// Numbers that are kept of each node.
+const COLUMNS: usize = 6;
+
 /// A node of a charged filament while a force is held.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct MovingNode {
@@ -56,7 +59,8 @@ struct Cells {
     counts: [usize; 3],
     /// The first node of each cell, and the end of the last one.
     starts: Vec<usize>,
-    nodes: Vec<MovingNode>,
+    /// Filament, place and half way of each node, and of some that are far away behind the last one.
+    columns: [Vec<f64>; COLUMNS],
     /// Where each of them was before.
     numbers: Vec<usize>,
 }
@@ -118,12 +122,16 @@ impl Repulsion {
             numbers[*place] = number;
             *place += 1;
         }
-        let sorted = |number: &usize| {
-            let node = nodes[*number];
-            MovingNode { at: [node.at[0], node.at[1], across(&node)], ..node }
-        };
-        let nodes = numbers.iter().map(sorted).collect();
-        Cells { counts, starts, nodes, numbers }
+        let mut columns = [const { Vec::new() }; COLUMNS];
+        for number in &numbers {
+            let node = &nodes[*number];
+            let ([x, y, _], [way_y, way_z]) = (node.at, node.half_way);
+            let values = [node.filament as f64, x, y, across(node), way_y, way_z];
+            columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
+        }
+        // Eight nodes are looked at together.
+        columns.iter_mut().for_each(|column| column.resize(count + WIDTH, 0.0));
+        Cells { counts, starts, columns, numbers }
     }
 
     /// The forces on the nodes of one height of cells.
@@ -137,30 +145,22 @@ impl Repulsion {
                 if own.is_empty() {
                     continue;
                 }
-                let mut count = 0;
                 others.clear();
-                let mut add = |nodes: &[MovingNode]| {
-                    for node in nodes {
-                        Eight::take(node, count, &mut others);
-                        count += 1;
-                    }
-                };
                 for height in around(height, heights) {
                     for row in around(row, along) {
                         let start = (height * along + row) * across;
-                        add(cells.nodes_in(start, around(column, across)));
+                        others.push(cells.nodes_in(start, around(column, across)));
                         // The last cell of a ring stands beside the first one.
-                        if self.width.is_some() && across >= FEWEST {
-                            match column {
-                                0 => add(cells.nodes_in(start, across - 1..across)),
-                                column if column + 1 == across => add(cells.nodes_in(start, 0..1)),
-                                _ => {}
-                            }
-                        }
+                        let beyond = match column {
+                            _ if self.width.is_none() || across < FEWEST => continue,
+                            0 => across - 1,
+                            column if column + 1 == across => 0,
+                            _ => continue,
+                        };
+                        others.push(cells.nodes_in(start, beyond..beyond + 1));
                     }
                 }
-                let others = &others[..];
-                forces.extend(own.iter().map(|node| isa.run(OfOthers { of: self, node, others })));
+                isa.run(OfOthers { of: self, cells, own, others: &others, forces: &mut forces });
             }
         }
         forces
@@ -175,94 +175,76 @@ impl Repulsion {
     }
 }
 
-/// Eight nodes side by side.
-#[derive(Clone, Copy, Debug)]
-struct Eight {
-    filament: Lanes,
-    at: [Lanes; 3],
-    half_way: [Lanes; 2],
-}
-
-impl Eight {
-    /// None, as nodes that are far from all others.
-    const NONE: Self = Self {
-        filament: Lanes::splat(-1.0),
-        at: [Lanes::splat(1e9), Lanes::splat(0.0), Lanes::splat(0.0)],
-        half_way: [Lanes::splat(0.0); 2],
-    };
-
-    /// Puts the next node behind some others.
-    fn take(node: &MovingNode, number: usize, into: &mut Vec<Self>) {
-        let lane = number % WIDTH;
-        if lane == 0 {
-            into.push(Self::NONE);
-        }
-        if let Some(eight) = into.last_mut() {
-            eight.filament.0[lane] = node.filament as f64;
-            (0..3).for_each(|axis| eight.at[axis].0[lane] = node.at[axis]);
-            (0..2).for_each(|axis| eight.half_way[axis].0[lane] = node.half_way[axis]);
-        }
-    }
-}
-
-/// The mean force of other nodes on a node [N].
+/// The mean forces of other nodes on some nodes [N].
 ///
 /// Each operation has the same bits, or the same bits with the other sign, if two nodes change places: so what
 /// they do to each other is equal and opposite.
 struct OfOthers<'a> {
     of: &'a Repulsion,
-    node: &'a MovingNode,
-    others: &'a [Eight],
+    cells: &'a Cells,
+    own: Range<usize>,
+    others: &'a [Range<usize>],
+    forces: &'a mut Vec<[f64; 2]>,
 }
 
 impl Task for OfOthers<'_> {
-    type Output = [f64; 2];
+    type Output = ();
 
     #[inline(always)]
-    fn call<S: Register>(self) -> [f64; 2] {
-        let Self { of, node, others } = self;
+    fn call<S: Register>(self) {
+        let Self { of, cells, own, others, forces } = self;
+        forces.extend(own.map(|node| of.force_on::<S>(node, cells, others)));
+    }
+}
+
+impl Repulsion {
+    #[inline(always)]
+    fn force_on<S: Register>(&self, node: usize, cells: &Cells, others: &[Range<usize>]) -> [f64; 2] {
         let splat = Wide::<S>::splat;
         let zero = Wide::zero();
-        let own = node.at.map(splat);
-        let (own_half_way, filament) = (node.half_way.map(splat), splat(node.filament as f64));
-        let (per_height, reach_squared) = (splat(1.0 / of.height), splat(of.reach * of.reach));
-        let background = 1.0 / (of.reach * of.reach);
-        let least_squared = splat(of.least * of.least);
-        let half = splat(of.width.map_or(f64::INFINITY, |width| 0.5 * width));
-        let width = splat(of.width.unwrap_or(0.0));
+        let [filament, own_x, own_y, own_z, own_way_y, own_way_z] =
+            cells.columns.each_ref().map(|column| splat(column[node]));
+        let background = 1.0 / (self.reach * self.reach);
+        let (per_height, reach_squared) = (splat(1.0 / self.height), splat(self.reach * self.reach));
+        let least_squared = splat(self.least * self.least);
+        let half = splat(self.width.map_or(f64::INFINITY, |width| 0.5 * width));
+        let width = splat(self.width.unwrap_or(0.0));
+        let numbers = Wide::<S>::load(&Lanes::from_fn(|lane| lane as f64));
         let mut sums = [zero; 2];
         let mut passing = [0.0; 2];
-        for other in others {
-            let apart = (own[0] - Wide::load(&other.at[0])).abs();
-            let y = own[1] - Wide::load(&other.at[1]);
-            let z = own[2] - Wide::load(&other.at[2]);
-            let z = Wide::select_less(half, z, z - width, Wide::select_less(z, -half, z + width, z));
-            let squared = y.mul_add(y, z * z);
-            let share = (splat(1.0) - apart * per_height).max(zero);
-            let share = Wide::select_less(squared, reach_squared, share, zero);
-            let is_other = (filament - Wide::load(&other.filament)).abs();
-            let share = Wide::select_less(is_other, splat(0.5), zero, share);
-            let ways = [0, 1].map(|axis| own_half_way[axis] - Wide::load(&other.half_way[axis]));
-            let way_squared = ways[0].mul_add(ways[0], ways[1] * ways[1]);
-            let still = splat(0.25 * STILL * STILL) * squared;
-            let of_passing = Wide::select_less(still, way_squared, share, zero);
-            let of_still = share - of_passing;
-            let strength = of_still * (splat(1.0).over(squared.max(least_squared)) - splat(background));
-            sums[0] = strength.mul_add(y, sums[0]);
-            sums[1] = strength.mul_add(z, sums[1]);
-            if of_passing.any_above(0.0) {
-                let (share, at) = (of_passing.store(), [y, z].map(Wide::store));
-                let ways = ways.map(Wide::store);
-                for lane in (0..WIDTH).filter(|lane| share.0[*lane] > 0.0) {
-                    let at = at.each_ref().map(|at| at.0[lane]);
-                    let mean = mean_on_a_way(at, ways.each_ref().map(|way| way.0[lane]), of.least);
-                    for axis in [0, 1] {
-                        passing[axis] += share.0[lane] * (mean[axis] - background * at[axis]);
+        for range in others {
+            for first in range.clone().step_by(WIDTH) {
+                let [filaments, x, y, z, way_y, way_z] = cells.eight_from::<S>(first);
+                let apart = (own_x - x).abs();
+                let (y, z) = (own_y - y, own_z - z);
+                let z = Wide::select_less(half, z, z - width, Wide::select_less(z, -half, z + width, z));
+                let squared = y.mul_add(y, z * z);
+                let share = (splat(1.0) - apart * per_height).max(zero);
+                let share = Wide::select_less(squared, reach_squared, share, zero);
+                let share = Wide::select_less((filament - filaments).abs(), splat(0.5), zero, share);
+                let share = Wide::select_less(numbers, splat((range.end - first) as f64), share, zero);
+                let ways = [own_way_y - way_y, own_way_z - way_z];
+                let way_squared = ways[0].mul_add(ways[0], ways[1] * ways[1]);
+                let still = splat(0.25 * STILL * STILL) * squared;
+                let of_passing = Wide::select_less(still, way_squared, share, zero);
+                let of_still = share - of_passing;
+                let strength = of_still * (splat(1.0).over(squared.max(least_squared)) - splat(background));
+                sums[0] = strength.mul_add(y, sums[0]);
+                sums[1] = strength.mul_add(z, sums[1]);
+                if of_passing.any_above(0.0) {
+                    let (share, at) = (of_passing.store(), [y, z].map(Wide::store));
+                    let ways = ways.map(Wide::store);
+                    for lane in (0..WIDTH).filter(|lane| share.0[*lane] > 0.0) {
+                        let at = at.each_ref().map(|at| at.0[lane]);
+                        let mean = mean_on_a_way(at, ways.each_ref().map(|way| way.0[lane]), self.least);
+                        for axis in [0, 1] {
+                            passing[axis] += share.0[lane] * (mean[axis] - background * at[axis]);
+                        }
                     }
                 }
             }
         }
-        let strength = of.charge * of.charge / (2.0 * PI * PERMITTIVITY * of.height);
+        let strength = self.charge * self.charge / (2.0 * PI * PERMITTIVITY * self.height);
         let sums = sums.map(|sum| sum.store().0.iter().sum::<f64>());
         [0, 1].map(|axis| strength * (sums[axis] + passing[axis]))
     }
@@ -270,8 +252,17 @@ impl Task for OfOthers<'_> {
 
 impl Cells {
     /// The nodes of some cells across.
-    fn nodes_in(&self, start: usize, cells: Range<usize>) -> &[MovingNode] {
-        &self.nodes[self.starts[start + cells.start]..self.starts[start + cells.end]]
+    fn nodes_in(&self, start: usize, cells: Range<usize>) -> Range<usize> {
+        self.starts[start + cells.start]..self.starts[start + cells.end]
+    }
+
+    /// The columns of eight nodes.
+    #[inline(always)]
+    fn eight_from<S: Register>(&self, first: usize) -> [Wide<S>; COLUMNS] {
+        self.columns.each_ref().map(|column| {
+            let eight = column.get(first..).and_then(<[f64]>::first_chunk::<WIDTH>);
+            eight.map_or(Wide::zero(), |eight| Wide::load(&Lanes(*eight)))
+        })
     }
 }
 
@@ -385,10 +376,12 @@ mod tests {
         for width in [None, Some(20e-3), Some(50e-3)] {
             let of = Repulsion { width, reach: 3e-3, ..OPEN };
             let nodes = crowd();
-            for (node, force) in nodes.iter().zip(of.forces(&nodes, by(1))).step_by(100) {
-                let mut others = Vec::new();
-                nodes.iter().enumerate().for_each(|(i, other)| Eight::take(other, i, &mut others));
-                let sum = Isa::detect().run(OfOthers { of: &of, node, others: &others });
+            for (node, force) in nodes.iter().zip(of.forces(&nodes, by(1))).step_by(1000) {
+                let mut sum = [0.0; 2];
+                for other in &nodes {
+                    let pair = of.forces(&[*node, *other], by(1))[0];
+                    (0..2).for_each(|axis| sum[axis] += pair[axis]);
+                }
                 for axis in [0, 1] {
                     let exact = sum[axis];
                     assert!((force[axis] - exact).abs() <= 1e-9 * exact.abs(), "{force:?} {exact:e}");
