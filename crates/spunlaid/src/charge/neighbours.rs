@@ -193,7 +193,10 @@ impl Task for OfOthers<'_> {
     #[inline(always)]
     fn call<S: Register>(self) {
         let Self { of, cells, own, others, forces } = self;
-        forces.extend(own.map(|node| of.force_on::<S>(node, cells, others)));
+        // Closures would not be compiled for the registers.
+        for node in own {
+            forces.push(of.force_on::<S>(node, cells, others));
+        }
     }
 }
 
@@ -202,10 +205,9 @@ impl Repulsion {
     fn force_on<S: Register>(&self, node: usize, cells: &Cells, others: &[Range<usize>]) -> [f64; 2] {
         let splat = Wide::<S>::splat;
         let zero = Wide::zero();
-        let [filament, own_x, own_y, own_z, own_way_y, own_way_z] =
-            cells.columns.each_ref().map(|column| splat(column[node]));
-        let background = 1.0 / (self.reach * self.reach);
+        let [filament, own_x, own_y, own_z, own_way_y, own_way_z] = cells.one_of::<S>(node);
         let (per_height, reach_squared) = (splat(1.0 / self.height), splat(self.reach * self.reach));
+        let background = splat(1.0 / (self.reach * self.reach));
         let least_squared = splat(self.least * self.least);
         let half = splat(self.width.map_or(f64::INFINITY, |width| 0.5 * width));
         let width = splat(self.width.unwrap_or(0.0));
@@ -213,7 +215,8 @@ impl Repulsion {
         let mut sums = [zero; 2];
         let mut passing = [0.0; 2];
         for range in others {
-            for first in range.clone().step_by(WIDTH) {
+            let mut first = range.start;
+            while first < range.end {
                 let [filaments, x, y, z, way_y, way_z] = cells.eight_from::<S>(first);
                 let apart = (own_x - x).abs();
                 let (y, z) = (own_y - y, own_z - z);
@@ -228,25 +231,32 @@ impl Repulsion {
                 let still = splat(0.25 * STILL * STILL) * squared;
                 let of_passing = Wide::select_less(still, way_squared, share, zero);
                 let of_still = share - of_passing;
-                let strength = of_still * (splat(1.0).over(squared.max(least_squared)) - splat(background));
+                let strength = of_still * (splat(1.0).over(squared.max(least_squared)) - background);
                 sums[0] = strength.mul_add(y, sums[0]);
                 sums[1] = strength.mul_add(z, sums[1]);
                 if of_passing.any_above(0.0) {
-                    let (share, at) = (of_passing.store(), [y, z].map(Wide::store));
-                    let ways = ways.map(Wide::store);
-                    for lane in (0..WIDTH).filter(|lane| share.0[*lane] > 0.0) {
-                        let at = at.each_ref().map(|at| at.0[lane]);
-                        let mean = mean_on_a_way(at, ways.each_ref().map(|way| way.0[lane]), self.least);
-                        for axis in [0, 1] {
-                            passing[axis] += share.0[lane] * (mean[axis] - background * at[axis]);
-                        }
-                    }
+                    let ways = [ways[0].store(), ways[1].store()];
+                    self.add_passing(&of_passing.store(), [y.store(), z.store()], ways, &mut passing);
                 }
+                first += WIDTH;
             }
         }
         let strength = self.charge * self.charge / (2.0 * PI * PERMITTIVITY * self.height);
-        let sums = sums.map(|sum| sum.store().0.iter().sum::<f64>());
+        let sums = [sums[0].store(), sums[1].store()].map(|sum| sum.0.iter().sum::<f64>());
         [0, 1].map(|axis| strength * (sums[axis] + passing[axis]))
+    }
+
+    /// Adds the mean forces of nodes that pass by, over the strength of a pair.
+    #[inline(never)]
+    fn add_passing(&self, share: &Lanes, at: [Lanes; 2], half_ways: [Lanes; 2], sums: &mut [f64; 2]) {
+        let background = 1.0 / (self.reach * self.reach);
+        for lane in (0..WIDTH).filter(|lane| share.0[*lane] > 0.0) {
+            let at = at.map(|at| at.0[lane]);
+            let mean = mean_on_a_way(at, half_ways.map(|way| way.0[lane]), self.least);
+            for axis in [0, 1] {
+                sums[axis] += share.0[lane] * (mean[axis] - background * at[axis]);
+            }
+        }
     }
 }
 
@@ -256,13 +266,26 @@ impl Cells {
         self.starts[start + cells.start]..self.starts[start + cells.end]
     }
 
+    /// The columns of a node.
+    #[inline(always)]
+    fn one_of<S: Register>(&self, node: usize) -> [Wide<S>; COLUMNS] {
+        let mut values = [Wide::zero(); COLUMNS];
+        for (value, column) in values.iter_mut().zip(&self.columns) {
+            *value = Wide::splat(column[node]);
+        }
+        values
+    }
+
     /// The columns of eight nodes.
     #[inline(always)]
     fn eight_from<S: Register>(&self, first: usize) -> [Wide<S>; COLUMNS] {
-        self.columns.each_ref().map(|column| {
-            let eight = column.get(first..).and_then(<[f64]>::first_chunk::<WIDTH>);
-            eight.map_or(Wide::zero(), |eight| Wide::load(&Lanes(*eight)))
-        })
+        let mut values = [Wide::zero(); COLUMNS];
+        for (value, column) in values.iter_mut().zip(&self.columns) {
+            if let Some(eight) = column[first..].first_chunk::<WIDTH>() {
+                *value = Wide::load(&Lanes(*eight));
+            }
+        }
+        values
     }
 }
 
