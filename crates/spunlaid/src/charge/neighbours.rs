@@ -482,7 +482,7 @@ mod tests {
     #[test]
     fn analytic_neighbours_take_nothing_twice() {
         const ROWS: usize = 12;
-        const ACROSS: usize = 100;
+        const ACROSS: usize = 60;
         let (pitch, width) = (0.4e-3, 0.4e-3 * ACROSS as f64);
         let y = |row: usize| 0.8e-3 * (row as f64 - 0.5 * (ROWS - 1) as f64);
         let mut nodes: Vec<MovingNode> = Vec::new();
@@ -504,7 +504,7 @@ mod tests {
         };
         let all = field(0.0);
         let edge = all.at(nodes[16].at[0], 20e-3);
-        for reach in [2e-3, 5e-3, 12e-3] {
+        for reach in [2e-3, 4e-3, 8e-3] {
             let rest = field(reach);
             let forces = Repulsion { width: Some(width), reach, ..OPEN }.forces(&nodes, by(2));
             for row in 0..ROWS {
