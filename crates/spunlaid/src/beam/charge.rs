@@ -11,7 +11,7 @@ use std::sync::Arc;
 /// Blocks in the time over which the charge is averaged. The field is that of the block before.
 const BLOCKS: f64 = 8.0;
 /// The same where the forces of neighbours are held for a block, which pass by each other in it.
-const BLOCKS_OF_NEIGHBOURS: f64 = 32.0;
+const BLOCKS_OF_NEIGHBOURS: f64 = 16.0;
 /// How far the forces of neighbours reach, in mean distances of the filaments of a curtain.
 const REACH: f64 = 2.0;
 /// By how much gusts make a usual curtain deeper, as a mean over the way and in parts of it.
