@@ -129,7 +129,9 @@ impl BeamField {
 
     /// What the filaments have been like of late.
     pub(super) fn curtain(&self) -> ChargedCurtain {
-        ChargedCurtain { layer: 0, edge_field: self.field.edge(), heights: self.sheets.heights() }
+        // The field of all, also what is found neighbour by neighbour.
+        let field = self.sheets.clone().without_neighbours(0.0).field();
+        ChargedCurtain { layer: 0, edge_field: field.edge(), heights: self.sheets.heights() }
     }
 }
 

@@ -100,6 +100,7 @@ walls = "0.1 m"
 [web]
 width = "300 mm"
 length = "100 mm"
+flown = "all"
 cell = "2 mm"
 patches = ["20 mm"]
 "#,

@@ -286,10 +286,16 @@ impl VariedKey {
         self.kind.dimension().unwrap_or(Dimension::Ratio)
     }
 
+    /// A value that is a word, as a file has it.
+    fn word(&self, value: f64) -> Option<String> {
+        let word = *self.words().get(value as usize)?;
+        Some(if matches!(self.kind, Kind::Switch) { word.to_owned() } else { format!("\"{word}\"") })
+    }
+
     /// A value in the form of a study file, without rounding.
     fn exact(&self, value: f64) -> String {
-        match self.words().get(value as usize) {
-            Some(word) => format!("\"{word}\""),
+        match self.word(value) {
+            Some(word) => word,
             None if self.is_whole() => format!("{value:.0}"),
             None => format!("\"{}\"", self.dimension().exact(value)),
         }
@@ -297,8 +303,8 @@ impl VariedKey {
 
     /// A value for people, as a case would show it.
     fn pretty(&self, value: f64) -> String {
-        match self.words().get(value as usize) {
-            Some(word) => format!("\"{word}\""),
+        match self.word(value) {
+            Some(word) => word,
             None if self.is_whole() => format!("{value:.0}"),
             None => self.dimension().pretty(value),
         }
