@@ -3,8 +3,11 @@
 use super::blanks::Blanks;
 use super::grid::Grid;
 use crate::error::Fault;
-use crate::units::shortest;
+use crate::units::{excerpt, shortest};
 use crate::vec3::Vec3;
+
+/// Most characters of the name of an array in a message.
+const LONGEST: usize = 40;
 
 /// The points or cells at which an array has no number, in all pieces.
 pub(super) struct Gap {
@@ -71,6 +74,7 @@ impl Gaps {
         let said = |gap: &Gap| {
             let kind = if gap.of_cells { "cell" } else { "point" };
             let Gap { array, count, first, .. } = gap;
+            let array = excerpt(array, LONGEST);
             match count {
                 1 => format!("{array} has no number at 1 {kind}; it {first}"),
                 _ => format!("{array} has no number at {count} {kind}s; the first {first}"),

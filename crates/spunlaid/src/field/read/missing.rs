@@ -29,7 +29,7 @@ pub(super) fn velocity(arrays: &Arrays<'_>) -> Fault {
 /// The arrays that may be the velocity, as the key takes them: those of three components, or else three with
 /// the endings of components.
 fn likely_velocities(arrays: &Arrays<'_>) -> Vec<String> {
-    let short = |name: &str| name.len() <= LONGEST && !name.contains(',');
+    let short = |name: &str| can_be_written(name) && !name.contains(',');
     let named = |i: usize| arrays.names[i].written.trim();
     let all = || (0..arrays.names.len()).filter(|i| short(named(*i)));
     let vectors: Vec<String> =
@@ -126,7 +126,12 @@ pub(super) fn turbulence(arrays: &Arrays<'_>) -> Option<Fault> {
 fn unused_scalars(arrays: &Arrays<'_>) -> Vec<usize> {
     let used = arrays.used().unwrap_or_default();
     let is_free = |i: &usize| {
-        arrays.components[*i] == 1 && arrays.names[*i].written.len() <= LONGEST && !used.contains(i)
+        arrays.components[*i] == 1 && can_be_written(arrays.names[*i].written.trim()) && !used.contains(i)
     };
     (0..arrays.names.len()).filter(is_free).collect()
+}
+
+/// Whether a message may say that the name of an array is to be written.
+fn can_be_written(name: &str) -> bool {
+    name.len() <= LONGEST && !name.contains(char::is_control)
 }
