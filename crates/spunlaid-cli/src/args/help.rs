@@ -117,7 +117,8 @@ case whose air is the same everywhere across is shown as if it had this key.
 
 With --sources the filaments of a line are flown in its CFD field, and the momentum that they give
 to each cell is written for the CFD program, and their heat if they come from a spinline. The file
-is a web, or a case with [line] and [web], because the filaments per metre of width have to be known.
+is a web, or a case with [line] and [web], because the filaments per metre of width have to be
+known.
 
 Examples:
   spunlaid air cases/spunbond_slot.toml                    open report.html in the folder it names
