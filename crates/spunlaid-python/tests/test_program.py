@@ -86,8 +86,13 @@ def test_a_stopped_run_leaves_nothing_and_says_so(sent: signal.Signals, installe
 
 @pytest.mark.skipif(os.name == "nt", reason="there are no such signals")
 def test_ctrl_c_ends_a_command_that_waits_for_an_answer(installed: Path) -> None:
+    # Where this test runs in the background, Ctrl-C may be ignored; a command would ignore it too.
     child = subprocess.Popen(
-        [installed, "check", "-"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+        [installed, "check", "-"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
     maps = Path(f"/proc/{child.pid}/maps")
     if not maps.exists():
