@@ -18,6 +18,11 @@ impl LayerSpec {
         Some(Charge { per_mass, walls: self.walls, pairs: self.charge_pairs })
     }
 
+    /// Whether what single charged neighbours do to each other is found.
+    pub(crate) fn has_pairs(&self) -> bool {
+        self.charged().is_some_and(|charge| charge.pairs)
+    }
+
     /// What its charge does at the edge of the curtain, before it has been flown; None of filaments without
     /// charge, and of those that no case flies.
     pub fn charge_estimate(&self, sheet: &Sheet) -> Option<ChargeEstimate> {
@@ -45,9 +50,10 @@ fn length_per_height(case: &Case) -> Option<f64> {
 }
 
 impl WebSpec {
-    /// Whether only a few filaments of a layer would be flown, whose neighbours are not there.
-    pub(crate) fn flies_few(&self, layer: usize) -> bool {
-        self.flown_sheet(layer, false).is_some_and(|sheet| self.few(layer, &sheet).is_some())
+    /// Whether only a few filaments of a layer would be flown if what charged neighbours do were left out.
+    pub(crate) fn has_pairs_of_a_few(&self, layer: usize) -> bool {
+        let has_few = || self.few_without_pairs(layer, &self.flown_sheet(layer, false)?);
+        self.layers.get(layer).is_some_and(LayerSpec::has_pairs) && has_few().is_some()
     }
 
     /// The charge of the filaments of a layer that fly.

@@ -20,8 +20,7 @@ impl Reading<'_> {
 
     /// Refuses forces of neighbours where most neighbours are not flown.
     fn check_pairs(&mut self, key: &str, web: &WebSpec, layer: usize) {
-        let has_pairs = web.layers.get(layer).and_then(LayerSpec::charged).is_some_and(|charge| charge.pairs);
-        if has_pairs && web.method == Method::SharedAir && web.flies_few(layer) {
+        if web.has_pairs_of_a_few(layer) {
             let fault = Fault::needs(
                 "web.flown = \"all\"",
                 "a few filaments that stand for all of them have no neighbours to drive apart; write it, or \
