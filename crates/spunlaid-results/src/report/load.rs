@@ -35,7 +35,9 @@ pub(super) fn section_of_loads(loads: &[(Option<&str>, &LoadSummary)]) -> Option
         false => "",
     };
     Some(section.caption(format!(
-        "The force is the drag on the flown filaments, ± one standard error, times the filaments per metre; docs/theory.md has the equations. The air of the slot is taken to keep its mass flow.{heat}"
+        "The force is the drag on the flown filaments (without implicit tension the balance of their momentum), ± one \
+        standard error, times the filaments per metre; docs/theory.md has the equations. The air of the slot is taken \
+        to keep its mass flow.{heat}"
     )))
 }
 

@@ -2,7 +2,7 @@
 //! which the sheets, a mean over the width, do not know.
 //!
 //! ```text
-//! nodes and their ways in a block → cells of the height and the plane → pairs: of each node all others within the reach
+//! nodes and their ways in a block → cells of the height and the plane → pairs of nodes within the reach
 //!       → the mean force during the block, equal and opposite for the two nodes of a pair
 //! ```
 //!

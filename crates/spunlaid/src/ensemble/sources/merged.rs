@@ -17,8 +17,8 @@ pub(super) struct Merged<'a> {
     /// Of each cell that was met: sums of Su, Sp, Sh, its part per kelvin and the heat over replicates, and of their
     /// squares.
     sums: HashMap<u32, [[f64; 7]; 2]>,
-    /// Of each replicate, per metre of width: force in the frame of the field, outside, and above the belt by drag and by momentum
-    /// [N/m]; heat in the cells and outside [W/m]; temperature at the belt [K].
+    /// Of each replicate, per metre of width: force in the frame of the field, outside, and above the belt by drag
+    /// and by momentum [N/m]; heat in the cells and outside [W/m]; temperature at the belt [K].
     of_replicates: [Vec<f64>; 9],
     lost: Vec<LostFibre>,
 }

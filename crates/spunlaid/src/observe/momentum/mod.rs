@@ -165,8 +165,8 @@ impl MomentumBalance {
         (place as usize, place.fract())
     }
 
-    /// Enters an element: its length, and the momentum that it carries past planes. Its mass lies evenly between its ends, of which the
-    /// places and velocities along x are given, and each half has the momentum of its end.
+    /// Enters an element: its length, and the momentum that it carries past planes. Its mass lies evenly between
+    /// its ends, of which the places and velocities along x are given, and each half has the momentum of its end.
     fn pass(&mut self, [(x, v), (x_below, v_below)]: [(f64, f64); 2]) {
         let per_length = self.per_length;
         let (from, to) = (x.min(x_below) * per_length, x.max(x_below) * per_length);
@@ -240,7 +240,8 @@ impl MomentumBalance {
         self.classes.len().saturating_sub(3)
     }
 
-    /// Length of fibre per length of the way in each class, and at the belt that of the last one [-]; NaN without an instant.
+    /// Length of fibre per length of the way in each class, and at the belt that of the last one [-]; NaN
+    /// without an instant.
     pub(super) fn lengths(&self) -> Vec<f64> {
         let lengths = self.classes.iter().chain(self.classes.last());
         lengths.map(|[.., length]| length / self.instants).collect()

@@ -174,7 +174,10 @@ pub(super) const KEYS: &[WebKey] = &[
         .label("Charge of the filaments"),
     key("line.charge_pairs", Kind::Switch)
         .access(Access {
-            get: |web| layer(web).filter(|layer| layer.charge.is_some()).map(|layer| Value::from_switch(layer.charge_pairs)),
+            get: |web| {
+                let charged = layer(web).filter(|layer| layer.charge.is_some())?;
+                Some(Value::from_switch(charged.charge_pairs))
+            },
             set: |web, value| {
                 let layer = layer_mut(web)?;
                 if layer.charge.is_none() {
