@@ -13,6 +13,8 @@
 mod field;
 mod neighbours;
 mod sheets;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use field::SheetField;
 pub(crate) use neighbours::{MovingNode, Repulsion};

@@ -1,6 +1,6 @@
 //! Nodes by their places, so that those near a node are found without a look at all others.
 
-use super::{MovingNode, Repulsion};
+use super::repulsion::{MovingNode, Repulsion};
 use crate::lanes::{Lanes, Register, WIDTH, Wide};
 use std::ops::Range;
 

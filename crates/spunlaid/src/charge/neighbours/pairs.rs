@@ -1,9 +1,10 @@
 //! The mean force of each two nodes that are near each other.
 
-use super::Repulsion;
 use super::cells::Cells;
+use super::repulsion::{MovingNode, Repulsion};
 use crate::charge::PERMITTIVITY;
 use crate::lanes::{Isa, Lanes, Register, Task, WIDTH, Wide};
+use crate::threads::each;
 use std::f64::consts::PI;
 use std::ops::Range;
 
@@ -12,8 +13,20 @@ use std::ops::Range;
 const SLOW: f64 = 0.5;
 
 impl Repulsion {
+    /// The mean forces on all nodes while they go their ways [N], in machine and in cross direction. They do not
+    /// depend on the instruction set or the number of threads.
+    pub(crate) fn forces(&self, nodes: &[MovingNode], (isa, threads): (Isa, usize)) -> Vec<[f64; 2]> {
+        let mut forces = vec![[0.0; 2]; nodes.len()];
+        let cells = Cells::new(self, nodes);
+        let found = each(threads, cells.heights(), |height| self.forces_at(&cells, height, isa));
+        for (number, force) in cells.numbers().iter().zip(found.into_iter().flatten()) {
+            forces[*number] = force;
+        }
+        forces
+    }
+
     /// The forces on the nodes of one height of cells.
-    pub(super) fn forces_at(&self, cells: &Cells, height: usize, isa: Isa) -> Vec<[f64; 2]> {
+    fn forces_at(&self, cells: &Cells, height: usize, isa: Isa) -> Vec<[f64; 2]> {
         let mut forces = Vec::new();
         cells.each_at(height, |own, others| {
             isa.run(OfOthers { of: self, cells, own, others, forces: &mut forces });

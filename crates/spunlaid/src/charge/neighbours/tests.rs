@@ -1,8 +1,8 @@
-//! The forces of neighbours against those of threads, of means, of sheets and of all nodes.
+//! The forces of neighbours against those of threads, of means and of all nodes.
 
 use super::pairs::mean_on_a_way;
 use super::{MovingNode, Repulsion};
-use crate::charge::{Charge, ChargedNode, Curtain, PERMITTIVITY, Sheets};
+use crate::charge::PERMITTIVITY;
 use crate::lanes::Isa;
 use std::f64::consts::PI;
 
@@ -155,48 +155,6 @@ fn analytic_the_series_of_slow_nodes() {
         for axis in [0, 1] {
             let off = (force[axis] / strength - exact[axis]) * distance;
             assert!(off.abs() < 3e-3, "{way_y} {way_z}: {off}");
-        }
-    }
-}
-
-/// Neighbours and the rest of the field are together the field of sheets, where filaments are even across:
-/// in a slab as at its edges, whatever the reach.
-#[test]
-fn analytic_neighbours_take_nothing_twice() {
-    const ROWS: usize = 12;
-    const ACROSS: usize = 60;
-    let (pitch, width) = (0.4e-3, 0.4e-3 * ACROSS as f64);
-    let y = |row: usize| 0.8e-3 * (row as f64 - 0.5 * (ROWS - 1) as f64);
-    let mut nodes: Vec<MovingNode> = Vec::new();
-    for i in 0..ROWS * ACROSS {
-        let z = (i / ROWS) as f64 * pitch;
-        nodes.extend(thread(i, [y(i % ROWS), z], 0.0));
-    }
-    let (per_mass, node_mass) = (1e-3, OPEN.charge / 1e-3);
-    let count = (ROWS * ACROSS) as u64;
-    let (per_metre, element, distance) = (count as f64 / width, ELEMENT, DISTANCE);
-    let curtain = Curtain { per_metre, node_mass, element, distance, weights: count };
-    let charge = Charge { per_mass, walls: None, pairs: true };
-    let charged = |node: &MovingNode| ChargedNode { x: node.at[0], y: node.at[1], weight: 1 };
-    let charged: Vec<ChargedNode> = nodes.iter().map(charged).collect();
-    let field = |reach: f64| {
-        let mut sheets = Sheets::new(&charge, &curtain).without_neighbours(reach);
-        sheets.renew(&charged, 1.0);
-        sheets.field()
-    };
-    let all = field(0.0);
-    let edge = all.at(nodes[16].at[0], 20e-3);
-    for reach in [2e-3, 4e-3, 8e-3] {
-        let rest = field(reach);
-        let forces = Repulsion { width: Some(width), reach, ..OPEN }.forces(&nodes, by(2));
-        for row in 0..ROWS {
-            let at = row * (DISTANCE / ELEMENT) as usize + 16;
-            let (x, y) = (nodes[at].at[0], nodes[at].at[1]);
-            let of_neighbours = forces[at][0] / OPEN.charge;
-            let found = rest.at(x, y) + of_neighbours;
-            assert!((found - all.at(x, y)).abs() < 0.01 * edge, "{reach} {row}: {found} {}", all.at(x, y));
-            assert!(row > 0 || of_neighbours.abs() > 0.04 * edge, "they are a part of it");
-            assert!(forces[at][1].abs() < 1e-9 * OPEN.charge * edge);
         }
     }
 }
