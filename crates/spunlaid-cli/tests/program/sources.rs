@@ -147,6 +147,11 @@ fn invariant_the_heat_for_openfoam_is_what_the_filaments_lose() {
     fs::write(desk.path("cold.toml"), &cold).unwrap();
     let said = success(&mut desk.spunlaid("air cold.toml --sources --out cold"));
     assert!(said.contains("Heat is left out: the filaments come from no spinline"), "{said}");
+    // The report has all that the terminal says.
+    let page = fs::read_to_string(desk.path("cold/report.html")).unwrap();
+    for row in ["Along the way, from the inlet to", "The same by the balance of momentum"] {
+        assert!(page.contains(row), "no {row}");
+    }
     let summary = desk.summary("cold");
     assert!(summary["heat_w_per_m"].is_null() && summary["lost"] == 0, "{summary}");
     assert!(!desk.path("cold/openfoam/Sh").exists() && desk.path("cold/openfoam/Sp").exists());

@@ -68,7 +68,7 @@ pub fn sources_report<'a>((case, toml): (&Case, &str), sources: &Sources) -> Rep
              same flights: from the drag on each element, and from what momentum the filaments have lost; they differ \
              by chance, and with elements longer than a hundredth of the way by what the belt does to the last of them.",
         )
-        .on_terminal();
+        .told();
     let openfoam = match has_order_of_openfoam(case) {
         true => {
             " The folder openfoam holds the same for OpenFOAM, in the order of the cells of its mesh, if foamToVTK has \
