@@ -28,15 +28,19 @@ pub fn main(words: impl IntoIterator<Item = OsString>) -> u8 {
 }
 
 fn obey(words: impl IntoIterator<Item = OsString>) -> u8 {
+    let words: Vec<OsString> = words.into_iter().collect();
     let parsed = Arguments::command()
-        .try_get_matches_from(words)
+        .try_get_matches_from(&words)
         .and_then(|matches| Ok((Invocation::new(&matches), Arguments::from_arg_matches(&matches)?)));
     let (invocation, arguments) = match parsed {
         Ok(parsed) => parsed,
         Err(error) => {
             // Help and version are not errors; everything else is wrong input.
             let code = u8::from(error.use_stderr());
-            let _ = error.print();
+            match args::removed(&words, &error) {
+                Some(failure) => say::error(&failure),
+                None => drop(error.print()),
+            }
             return code;
         }
     };

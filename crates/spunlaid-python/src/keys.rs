@@ -4,6 +4,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use spunlaid::case::keys::{CASE, Key, KeyTable, Omission};
 use spunlaid::layers::WEB;
+use spunlaid::removed::Removed;
 
 /// Every key of a case or of a web: a dict for each. See spunlaid.keys, which calls it.
 #[pyfunction]
@@ -16,6 +17,12 @@ pub(crate) fn keys(py: Python<'_>, web: bool) -> PyResult<Bound<'_, PyList>> {
         CASE.rows.iter().try_for_each(|key| list.append(about(py, &CASE, key)?))?;
     }
     Ok(list)
+}
+
+/// What to do without a function or a class that the package had once, if it had one of this name.
+#[pyfunction]
+pub(crate) fn removed(name: &str) -> Option<String> {
+    Removed::Python.fault(&format!("spunlaid.{name}")).map(|fault| fault.to_string())
 }
 
 /// The properties of a key.

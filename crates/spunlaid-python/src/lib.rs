@@ -56,7 +56,7 @@ mod _spunlaid {
         compare::{Compared, compare_folders},
         fit::find_fit,
         flight::Flight,
-        keys::keys,
+        keys::{keys, removed},
         program::program,
         record::analyse,
         results::RunResults,

@@ -63,6 +63,7 @@ mod sort;
 pub mod units;
 
 pub mod error;
+pub mod removed;
 
 pub mod threads;
 

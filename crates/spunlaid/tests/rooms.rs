@@ -14,7 +14,7 @@ const ROOMS: &[&[&str]] = &[
     &["lanes"],
     &["vec3", "fft", "nodes", "sort"],
     &["error"],
-    &["units", "threads"],
+    &["units", "threads", "removed"],
     &["company"],
     &["file", "table"],
     &["fibre", "line"],

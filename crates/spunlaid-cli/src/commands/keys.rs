@@ -7,6 +7,7 @@ use spunlaid::case::keys::{self, CASE, Key, KeyTable, Kind};
 use spunlaid::error::Fault;
 use spunlaid::fabric::about;
 use spunlaid::layers::{WEB, WEB_KEYS, WebKey};
+use spunlaid::removed::Removed;
 use spunlaid::study::STUDY;
 use spunlaid::units::{Dimension, UnitAdvice};
 use std::fmt::Write;
@@ -88,6 +89,9 @@ pub(crate) fn keys(arguments: &Keys) -> Result<(), Failure> {
         let nearest = if is_of_case { keys::like(&word) } else { Vec::new() };
         let nearest: Vec<&str> = nearest.iter().take(MOST_NEAREST).map(|key| key.name).collect();
         let message = format!("no key has \"{}\" in its name or meaning", pattern.escape_debug());
+        if let Some(fault) = Removed::Key.fault(&word) {
+            return Err(Fault::new(format!("{word} {}", fault.message), fault.remedy).into());
+        }
         let remedy = match &nearest[..] {
             [] => "`spunlaid keys` lists them all".to_owned(),
             keys => format!("did you mean {}?", keys.join(" or ")),

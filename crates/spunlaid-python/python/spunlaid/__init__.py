@@ -30,6 +30,7 @@ from ._keys import Key, keys
 from ._measures import Curve, Measure, Measures, Shapes
 from ._run import Run, load, run
 from ._spunlaid import Case, Flight, __version__
+from ._spunlaid import removed as _removed
 
 if TYPE_CHECKING:
     from ._air import Air
@@ -116,7 +117,8 @@ def __getattr__(name: str) -> Any:
         value = getattr(import_module(f".{_LATER[name]}", __name__), name)
         globals()[name] = value
         return value
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    gone = _removed(name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}" if gone is None else f"spunlaid.{name} {gone}")
 
 
 def __dir__() -> list[str]:

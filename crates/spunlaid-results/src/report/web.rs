@@ -238,12 +238,11 @@ fn charge_sentence(spec: &WebSpec, findings: &Findings) -> String {
         let last = charged.heights.last()?;
         let [behind, .., before] = last.places;
         Some(format!(
-            "Charged with {}, the filaments{} drive each other apart{}: 95 % of them hang within {} along the \
+            "Charged with {}, the filaments{} drive each other apart: 95 % of them hang within {} along the \
             machine direction just above the belt. The field beside them is {} at most, and air breaks \
             down at {}.",
             Dimension::SpecificCharge.pretty(layer.charge?),
             if spec.layers.len() > 1 { format!(" of layer {}", charged.layer + 1) } else { String::new() },
-            if layer.charge_pairs { ", single neighbours too" } else { "" },
             Dimension::Length.pretty_to(before - behind, 3),
             Dimension::ElectricField.pretty_to(charged.edge_field, 2),
             Dimension::ElectricField.pretty(BREAKDOWN),

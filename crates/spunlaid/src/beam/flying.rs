@@ -43,7 +43,7 @@ impl<'a> Flying<'a> {
         let numbers = pack::side_by_side(beam.places);
         let packs = numbers.iter().map(|_| Mutex::new(None)).collect();
         let stretch = Stretch::before(&line, line.feed_speed * beam.case.run.spin_up(), windows, sheet);
-        let field = BeamField::new(&beam, sheet);
+        let field = BeamField::new(&beam);
         Ok(Self { beam, line, numbers, packs, stretch, reach: Reach::default(), field, done: 0 })
     }
 
@@ -95,7 +95,6 @@ impl<'a> Flying<'a> {
         &mut self,
         steps: u64,
         packs: impl IntoIterator<Item = Reach>,
-        by: BeamControl<'_>,
     ) {
         let before = Reach { fed: f64::INFINITY, lost: 0, ..self.reach };
         self.reach = packs.into_iter().fold(before, Reach::with);
@@ -103,7 +102,7 @@ impl<'a> Flying<'a> {
         if let Some(field) = &mut self.field {
             field.begin(steps as f64 * self.beam.case.run.time_step);
             self.packs.iter().for_each(|pack| lock(pack).iter().for_each(|pack| pack.see_charge(field)));
-            field.renew(by);
+            field.renew();
         }
         if !self.has_lost_too_many() {
             self.stretch.settle(&self.reach);

@@ -132,7 +132,7 @@ impl Pack {
 
     /// Gives its filaments their charge and what the others do to them.
     pub(super) fn charge(&mut self, field: &BeamField) {
-        field.charge(&mut self.flight, self.filaments.iter().map(|filament| filament.number));
+        field.charge(&mut self.flight);
     }
 
     /// Hands over where the charge of its filaments is.

@@ -23,7 +23,7 @@ impl SheetField {
     /// which is earthed, and none behind the plates.
     #[inline]
     pub(crate) fn at(&self, x: f64, y: f64) -> f64 {
-        if self.values.is_empty() || !(self.is_above_belt(x) && y.abs() < self.walls) {
+        if self.values.is_empty() || !(x >= 0.0 && x < self.distance && y.abs() < self.walls) {
             return 0.0;
         }
         let row = x / self.distance * HEIGHTS as f64;
@@ -36,12 +36,6 @@ impl SheetField {
             values[0] + share * (values[1] - values[0])
         });
         upper + (row - above as f64) * (lower - upper)
-    }
-
-    /// Whether a place below the inlet is above the belt [m].
-    #[inline]
-    pub(crate) fn is_above_belt(&self, x: f64) -> bool {
-        x >= 0.0 && x < self.distance
     }
 
     /// The strongest field beside the curtain, at any height [V/m].

@@ -7,17 +7,11 @@
 //!
 //! At each height the filaments are sheets across the web, so the field has a component along the machine
 //! direction only, and is known from the shares of charge on either side.       theory.md (83i) to (83l)
-//!
-//! What neighbours do to each other beside it is found from their nodes, if it is asked for.
 
 mod field;
-mod neighbours;
 mod sheets;
-#[cfg(test)]
-mod tests;
 
 pub(crate) use field::SheetField;
-pub(crate) use neighbours::{MovingNode, Repulsion};
 pub use sheets::SheetHeight;
 pub(crate) use sheets::{ChargedNode, Curtain, Sheets};
 
@@ -35,8 +29,6 @@ pub struct Charge {
     pub per_mass: f64,
     /// Distance of grounded plates from the middle of the slot, on both sides [m]; None without plates.
     pub walls: Option<f64>,
-    /// Whether what single neighbours do to each other is found too.
-    pub pairs: bool,
 }
 
 /// What charge does to a curtain, estimated before it is flown.

@@ -5,7 +5,7 @@
 //! other is equal and opposite. The parts are whole numbers of quanta, whose sum does not depend on the order.
 
 use super::field::{CELLS, HEIGHTS, SheetField};
-use super::{Charge, PERMITTIVITY, Repulsion};
+use super::{Charge, PERMITTIVITY};
 
 const MIDDLE: usize = CELLS / 2;
 /// Width of a cell at first, in mean distances of neighbours: between these the charge is no sheet.
@@ -65,8 +65,6 @@ pub(crate) struct Sheets {
     /// Length for each height that one quantum is there [-].
     length: f64,
     per_length: f64,
-    /// How far forces of neighbours reach that are found beside the field; zero without these [m].
-    reach: f64,
     /// Quanta now, and their mean, at the points of all heights.
     now: Vec<f64>,
     mean: Vec<f64>,
@@ -86,15 +84,9 @@ impl Sheets {
             strength: 0.5 * sheet / PERMITTIVITY / (QUANTA * QUANTA),
             length: element / (weights as f64 * step * QUANTA * QUANTA),
             per_length: per_metre / FINEST,
-            reach: 0.0,
             now: vec![0.0; points],
             mean: vec![0.0; points],
         }
-    }
-
-    /// The same curtain without what neighbours as far as a reach do to each other [m].
-    pub(crate) fn without_neighbours(self, reach: f64) -> Self {
-        Self { reach, ..self }
     }
 
     /// Takes where the nodes are now.
@@ -143,13 +135,6 @@ impl Sheets {
         }
     }
 
-    /// What neighbours have of the field of a cell, at the distance of one cell, of two …; empty without them.
-    fn of_neighbours(&self) -> Vec<f64> {
-        let distances = (1..=CELLS).map(|cells| cells as f64 / self.per_length);
-        let within = distances.take_while(|distance| *distance < self.reach);
-        within.map(|distance| Repulsion::share_of_sheet(self.reach, distance)).collect()
-    }
-
     /// Heights with their charge, and whether the height is the first or the last: half a step belongs to these.
     fn rows(&self) -> impl Iterator<Item = (f64, &[f64])> {
         let rows = self.mean.chunks_exact(CELLS + 1).enumerate();
@@ -186,10 +171,9 @@ impl Sheets {
         self.rows().enumerate().filter_map(height).collect()
     }
 
-    /// The field of the mean.                                               theory.md (83i), (83j), (83o)
+    /// The field of the mean.                                               theory.md      (83i), (83j)
     pub(crate) fn field(&self) -> SheetField {
         let mut values = Vec::with_capacity(self.mean.len());
-        let (of_neighbours, mut near) = (self.of_neighbours(), vec![0.0; CELLS + 1]);
         for (parts, charges) in self.rows() {
             let strength = parts * self.strength;
             let whole: f64 = charges.iter().sum();
@@ -197,36 +181,13 @@ impl Sheets {
             let moments = charges.iter().enumerate().map(|(point, charge)| charge * self.place(point as f64));
             let moment: f64 = moments.sum();
             let mut before = 0.0;
-            let start = values.len();
             values.extend(charges.iter().map(|charge| {
                 let (own, other) = (2.0 * before + charge, whole - moment / self.walls);
                 before += charge;
                 strength * (own - other)
             }));
-            if !of_neighbours.is_empty() {
-                find_near(charges, &of_neighbours, &mut near);
-                let all = values[start..].iter_mut().zip(&near);
-                all.for_each(|(value, near)| *value -= strength * near);
-            }
         }
         SheetField { distance: self.distance, per_length: self.per_length, walls: self.walls, values }
-    }
-}
-
-/// The field of the charge of neighbours as far as a reach, in that of a quantum at the edge.
-///
-/// * `shares` – of the field of a cell at the distance of one cell, of two …
-fn find_near(charges: &[f64], shares: &[f64], near: &mut [f64]) {
-    near.fill(0.0);
-    for (point, charge) in charges.iter().enumerate().filter(|(_, charge)| **charge > 0.0) {
-        for (cells, share) in (1..).zip(shares) {
-            if let Some(near) = near.get_mut(point + cells) {
-                *near += charge * share;
-            }
-            if let Some(near) = point.checked_sub(cells).and_then(|point| near.get_mut(point)) {
-                *near -= charge * share;
-            }
-        }
     }
 }
 
@@ -236,7 +197,7 @@ mod tests {
 
     const CURTAIN: Curtain =
         Curtain { per_metre: 5000.0, node_mass: 1e-9, element: 2e-3, distance: 0.5, weights: 100 };
-    const PLAIN: Charge = Charge { per_mass: 1e-3, walls: None, pairs: false };
+    const PLAIN: Charge = Charge { per_mass: 1e-3, walls: None };
 
     /// A hundred straight filaments with a node every 2 mm, at places in machine direction.
     fn nodes(places: impl Fn(usize) -> f64) -> Vec<ChargedNode> {

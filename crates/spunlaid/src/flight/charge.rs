@@ -2,8 +2,8 @@
 
 use super::Flight;
 use crate::chain::charged::Charged;
-use crate::charge::{ChargedNode, MovingNode, SheetField};
-use crate::lanes::{Lanes, WIDTH};
+use crate::charge::{ChargedNode, SheetField};
+use crate::lanes::Lanes;
 use std::sync::Arc;
 
 impl Flight {
@@ -26,34 +26,6 @@ impl Flight {
         let nodes = self.chain.position.iter().take(self.chain.nodes()[lane]);
         nodes.map(move |at| ChargedNode { x: at.x.0[lane], y: at.y.0[lane] + inlet, weight })
     }
-
-    /// The nodes of a fibre as they will move during some time, if they keep their velocities.
-    ///
-    /// * `filament` – its number
-    /// * `time` – from now on [s]
-    pub(crate) fn moving_nodes(
-        &self,
-        lane: usize,
-        filament: usize,
-        time: f64,
-    ) -> impl Iterator<Item = MovingNode> {
-        let inlet = self.entries.get(lane).map(|entry| entry.place).unwrap_or_default();
-        let nodes = self.chain.position.iter().zip(self.chain.velocity.iter());
-        nodes.take(self.chain.nodes()[lane]).map(move |(at, velocity)| {
-            let (at, velocity) = (at.lane(lane), velocity.lane(lane));
-            let [half_x, half_y, half_z] = [velocity.x, velocity.y, velocity.z].map(|v| 0.5 * time * v);
-            MovingNode {
-                filament,
-                at: [at.x + half_x, at.y + inlet.y + half_y, at.z + inlet.z + half_z],
-                half_way: [half_y, half_z],
-            }
-        })
-    }
-
-    /// Holds the forces of neighbours on the nodes of each fibre, in machine and in cross direction [N].
-    pub(crate) fn hold_neighbours(&mut self, forces: [&[[f64; 2]]; WIDTH]) {
-        self.chain.hold_neighbours(forces);
-    }
 }
 
 #[cfg(test)]
@@ -62,7 +34,7 @@ mod tests {
     use crate::case::{Case, Checks, Companions, Run};
     use crate::chain::Strand;
     use crate::chain::schemes::Scheme;
-    use crate::charge::{Charge, ChargedNode, Curtain, PERMITTIVITY, Repulsion, SheetField, Sheets};
+    use crate::charge::{Charge, ChargedNode, Curtain, PERMITTIVITY, SheetField, Sheets};
     use crate::drag::{Drag, ElementDrag, FrictionLaw, Growth, NormalLaw, Share};
     use crate::fibre::{Fibre, Place, Root};
     use crate::flight::{Flight, Job};
@@ -91,7 +63,7 @@ mod tests {
         let node_mass = FIBRE.element_mass();
         let curtain =
             Curtain { per_metre: PER_METRE, node_mass, element: SPACING, distance: HEIGHT, weights };
-        Sheets::new(&Charge { per_mass: PER_MASS, walls: None, pairs: false }, &curtain)
+        Sheets::new(&Charge { per_mass: PER_MASS, walls: None }, &curtain)
     }
 
     /// The field beside straight filaments [V/m].
@@ -182,63 +154,11 @@ mod tests {
         }
     }
 
-    /// Holds on the fibres of a flight what they do to each other in the next time, as neighbours that stand
-    /// 1.5 mm farther across each.
-    fn hold_neighbours(flight: &mut Flight, lanes: usize, (charge, time): (f64, f64)) {
-        let repulsion = Repulsion {
-            charge,
-            reach: 20e-3,
-            height: SPACING,
-            least: FIBRE.diameter,
-            distance: HEIGHT,
-            width: None,
-        };
-        let (mut nodes, mut starts) = (Vec::new(), vec![0]);
-        for lane in 0..lanes {
-            nodes.extend(flight.moving_nodes(lane, lane, time).map(|mut node| {
-                node.at[2] += 1.5e-3 * lane as f64;
-                node
-            }));
-            starts.push(nodes.len());
-        }
-        let forces = repulsion.forces(&nodes, (Isa::detect(), 1));
-        let on = |lane: usize| if lane < lanes { &forces[starts[lane]..starts[lane + 1]] } else { &[] };
-        flight.hold_neighbours(std::array::from_fn(on));
-    }
-
-    /// So it is with the work of neighbours, which drive each other apart across too.
-    #[test]
-    fn invariant_energy_of_free_fibres_closes_with_the_work_of_neighbours() {
-        for (scheme, h) in
-            [(Scheme::SemiImplicitEuler, 1e-6), (Scheme::Leapfrog, 1e-6), (Scheme::ImplicitTension, 2e-5)]
-        {
-            let mut flight = free(scheme, 50.0, h, &[1e-3; WIDTH]);
-            flight.charge(0.1 * PER_MASS, &between_rows());
-            for _ in 0..10 {
-                let charge = 3.0 * PER_MASS * FIBRE.element_mass();
-                hold_neighbours(&mut flight, WIDTH, (charge, 2e-4));
-                flight.advance((2e-4 / h) as u64);
-            }
-            let seen = flight.snapshot();
-            for lane in [0, 3, 7] {
-                let energy = seen.energy;
-                let (field, kinetic) = (energy.field_work.0[lane], energy.kinetic.0[lane]);
-                assert!(field > kinetic && kinetic > 0.5 * field, "{scheme:?}: {field:e} {kinetic:e}");
-                assert!(energy.imbalance().0[lane].abs() < 1e-3 * field, "{scheme:?} {field:e}: {energy:?}");
-            }
-            // Those at the two ends go apart, and all together stay where they are.
-            let across = |lane: usize| seen.velocity[40].lane(lane).z;
-            assert!(across(0) < -1e-2 && across(7) > 1e-2, "{} {}", across(0), across(7));
-            let sum: f64 = (0..WIDTH).map(across).sum();
-            assert!(sum.abs() < 1e-9 * across(7), "{sum:e}");
-        }
-    }
-
     /// So it is of a fed fibre that lands: the balance is as good as without charge.
     #[test]
     fn invariant_energy_of_a_fed_fibre_closes_with_the_work_of_the_field() {
         let case = fed();
-        let balance = |charge: f64| balance(&case, charge, None);
+        let balance = |charge: f64| balance(&case, charge);
         let (plain, charged) = (balance(0.0), balance(50.0 * PER_MASS));
         assert_eq!(plain.works[1], 0.0);
         assert!(charged.works[1].abs() > 2e-3, "the field does work: {charged:?}");
@@ -249,18 +169,6 @@ mod tests {
         );
     }
 
-    /// And with a neighbour, whose forces are held on nodes while others are born and land.
-    #[test]
-    fn invariant_energy_of_a_fed_fibre_closes_with_the_work_of_neighbours() {
-        let case = fed();
-        let charge = 50.0 * PER_MASS;
-        let [alone, beside] =
-            [None, Some(charge * case.fibre.element_mass())].map(|of_node| balance(&case, charge, of_node));
-        assert!((beside.works[1] - alone.works[1]).abs() > 1e-4, "{beside:?} {alone:?}");
-        assert!(beside.cd < alone.cd - 1e-3, "it goes away from its neighbour: {beside:?} {alone:?}");
-        assert!(beside.works[0] < 1e-3, "{beside:?} {alone:?}");
-    }
-
     /// What the first of two fibres has done.
     #[derive(Debug)]
     struct Balance {
@@ -268,11 +176,9 @@ mod tests {
         works: [f64; 2],
         /// Where it came down at last [m].
         md: f64,
-        cd: f64,
     }
 
-    /// * `of_node` – the charge of a node, if the two are neighbours [C]
-    fn balance(case: &Case, charge: f64, of_node: Option<f64>) -> Balance {
+    fn balance(case: &Case, charge: f64) -> Balance {
         let place = Place { y: 12e-3, z: 0.0 };
         let jobs = [0, 1].map(|replicate| Job { case, replicate, place });
         let mut flight = Flight::new(&jobs, Isa::detect()).unwrap();
@@ -281,9 +187,6 @@ mod tests {
         }
         let block = 4e-4;
         for number in 1..=100 {
-            if let Some(of_node) = of_node {
-                hold_neighbours(&mut flight, 2, (of_node, block));
-            }
             flight.step_to(f64::from(number) * block).unwrap();
         }
         let laid = flight.take_laid(0);
@@ -293,7 +196,6 @@ mod tests {
         Balance {
             works: [energy.imbalance().0[0].abs() / works, energy.field_work.0[0] / works],
             md: last.md + 3.0 * last.time,
-            cd: last.cd,
         }
     }
 

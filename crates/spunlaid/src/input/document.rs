@@ -12,6 +12,7 @@ use crate::case::keys::{CASE, Key, KeyTable, Kind, Omission, TableList, Value};
 use crate::error::{Error, Fault, Finding, Place, Problem};
 use crate::layers::full_names::without_numbers;
 use crate::layers::keys::WEB;
+use crate::removed::Removed;
 use crate::sort::sort_by_key;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -319,7 +320,12 @@ impl<'a, T> Document<'a, T> {
         };
         let (value, fault) = match read {
             Ok(value) => (Some(value), None),
-            Err(fault) => (None, Some(fault.or_words(key.words))),
+            Err(fault) => {
+                let removed = value
+                    .as_str()
+                    .and_then(|word| Removed::Value.fault(&format!("{} = \"{word}\"", key.name)));
+                (None, Some(removed.unwrap_or_else(|| fault.or_words(key.words))))
+            }
         };
         self.key_values.set(full.clone(), WrittenValue { place, shown, value });
         if let Some(fault) = fault {

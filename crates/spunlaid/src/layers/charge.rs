@@ -15,12 +15,7 @@ impl LayerSpec {
     /// Its charge; None of filaments without charge.
     pub(crate) fn charged(&self) -> Option<Charge> {
         let per_mass = self.charge.filter(|charge| *charge != 0.0)?;
-        Some(Charge { per_mass, walls: self.walls, pairs: self.charge_pairs })
-    }
-
-    /// Whether what single charged neighbours do to each other is found.
-    pub(crate) fn has_pairs(&self) -> bool {
-        self.charged().is_some_and(|charge| charge.pairs)
+        Some(Charge { per_mass, walls: self.walls })
     }
 
     /// What its charge does at the edge of the curtain, before it has been flown; None of filaments without
@@ -50,12 +45,6 @@ fn length_per_height(case: &Case) -> Option<f64> {
 }
 
 impl WebSpec {
-    /// Whether only a few filaments of a layer would be flown if what charged neighbours do were left out.
-    pub(crate) fn has_pairs_of_a_few(&self, layer: usize) -> bool {
-        let has_few = || self.few_without_pairs(layer, &self.flown_sheet(layer, false)?);
-        self.layers.get(layer).is_some_and(LayerSpec::has_pairs) && has_few().is_some()
-    }
-
     /// The charge of the filaments of a layer that fly.
     ///
     /// * `flown` – where they are fed, and for which filaments they stand if they are a few

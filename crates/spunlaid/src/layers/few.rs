@@ -71,12 +71,6 @@ impl WebSpec {
     ///
     /// * `on` – the sheet that they lay
     pub(super) fn few(&self, layer: usize, on: &FlownSheet) -> Option<FewFlight> {
-        // A few have none of the neighbours that drive each other apart.
-        if self.layers.get(layer)?.has_pairs() { None } else { self.few_without_pairs(layer, on) }
-    }
-
-    /// [`WebSpec::few`] of filaments whatever their charge.
-    pub(super) fn few_without_pairs(&self, layer: usize, on: &FlownSheet) -> Option<FewFlight> {
         let spec = self.layers.get(layer)?;
         let LaydownSource::Case { case, .. } = &spec.source else { return None };
         if self.method != Method::SharedAir {

@@ -140,8 +140,6 @@ pub struct LayerSpec {
     pub defects: Vec<Defect>,
     /// Charge per mass of the filaments, if they are charged [C/kg].
     pub charge: Option<f64>,
-    /// Whether what single neighbours do to each other by their charge is found too.
-    pub charge_pairs: bool,
     /// Distance of grounded plates from the middle of the slot, if there are any [m].
     pub walls: Option<f64>,
 }
@@ -210,7 +208,6 @@ impl LayerSpec {
             filaments,
             defects,
             charge,
-            charge_pairs: false,
             walls,
         }
     }

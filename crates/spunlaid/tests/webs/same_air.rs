@@ -47,23 +47,6 @@ fn few(webs: &[&WebFile], threads: usize) -> Vec<LayerFew> {
     told.into_iter().flat_map(|layers| layers.unwrap()).collect()
 }
 
-/// Where a web is compared, fewer filaments stand for all than where it is laid. They have none of the charged
-/// neighbours that drive each other apart, so webs in which these matter are flown whole instead.
-#[test]
-fn charged_neighbours_are_not_compared_by_a_few_filaments() {
-    let web = |more: &[(&str, &str)]| {
-        let all = [("web.flown", "auto"), ("line.filaments_per_metre", "600"), ("line.charge", "1 µC/g")];
-        read(&[&all, more].concat())
-    };
-    let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let compared = |web: &WebFile| {
-        let flyer = Flyer::new(1, &stop, &unwatched);
-        flyer.few_in_same_air(&[&web.spec, &web.spec], &steps).unwrap().is_some()
-    };
-    assert!(compared(&web(&[])));
-    assert!(!compared(&web(&[("line.charge_pairs", "true")])));
-}
-
 /// Another web beside it makes the room larger, in which both of them hang.
 #[test]
 fn identical_a_web_beside_itself_has_not_changed() {

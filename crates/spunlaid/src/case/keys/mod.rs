@@ -22,6 +22,7 @@ pub use value::{Content, FileKind, Kind, Sign, Value};
 
 use super::Case;
 use crate::error::{Fault, Finding, Place, Problem};
+use crate::removed::Removed;
 use crate::units::Dimension;
 
 /// The tables of a case file, in order.
@@ -124,7 +125,8 @@ pub fn named(name: &str) -> Result<&'static Key, Box<Problem>> {
             (format!("[{table}] takes"), known)
         };
         let nearest = nearest(name).map(|key| key.name.to_owned());
-        let what = Fault::unknown("is not a key of a case file", nearest, &takes, &known);
+        let unknown = || Fault::unknown("is not a key of a case file", nearest, &takes, &known);
+        let what = Removed::Key.fault(name).unwrap_or_else(unknown);
         let key = crate::units::excerpt(name, 60);
         Box::new(Finding { place: Place::Code, key, value: None, what })
     })

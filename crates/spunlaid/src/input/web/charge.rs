@@ -13,21 +13,6 @@ impl Reading<'_> {
         for (prefix, layer) in prefixes.iter().zip(&web.layers) {
             self.check_charge_of(prefix, web, layer);
         }
-        for (number, prefix) in prefixes.iter().enumerate() {
-            self.check_pairs(&format!("{prefix}line.charge_pairs"), web, number);
-        }
-    }
-
-    /// Refuses forces of neighbours where most neighbours are not flown.
-    fn check_pairs(&mut self, key: &str, web: &WebSpec, layer: usize) {
-        if web.has_pairs_of_a_few(layer) {
-            let fault = Fault::needs(
-                "web.flown = \"all\"",
-                "a few filaments that stand for all of them have no neighbours to drive apart; write it, or \
-                 leave this key out",
-            );
-            self.key_values.reject(key, fault);
-        }
     }
 
     fn check_charge_of(&mut self, prefix: &str, web: &WebSpec, layer: &LayerSpec) {

@@ -4,7 +4,7 @@ use super::super::access::{
     Access, WebKey, first_row, in_rows, is_flown, layer, layer_mut, of_row, uncharged,
 };
 use super::{EITHER, MOST_FILAMENTS, positive};
-use crate::case::keys::row::{key, number, quantity, switch, whole};
+use crate::case::keys::row::{key, number, quantity, whole};
 use crate::case::keys::{EVEN, Kind, Sign, Value};
 use crate::units::Dimension;
 use crate::web::Filaments;
@@ -172,30 +172,6 @@ pub(super) const KEYS: &[WebKey] = &[
         )
         .synonyms(&["charging", "electrostatic", "corona", "electret"])
         .label("Charge of the filaments"),
-    key("line.charge_pairs", Kind::Switch)
-        .access(Access {
-            get: |web| {
-                let charged = layer(web).filter(|layer| layer.charge.is_some())?;
-                Some(Value::from_switch(charged.charge_pairs))
-            },
-            set: |web, value| {
-                let layer = layer_mut(web)?;
-                if layer.charge.is_none() {
-                    return Err(uncharged());
-                }
-                layer.charge_pairs = switch(value)?;
-                Ok(())
-            },
-        })
-        .follows("`false`")
-        .varies()
-        .meaning(
-            "With `line.charge`: whether what single neighbours do to each other at a few of their distances \
-             is found beside the field of all, which is a mean over the width. It moves filaments across too, \
-             and needs all filaments (`web.flown = \"all\"`).",
-        )
-        .synonyms(&["repulsion", "coulomb", "neighbours"])
-        .label("Forces of charged neighbours"),
     positive("line.walls", Dimension::Length)
         .access(Access {
             get: |web| layer(web)?.walls.map(Value::Number),

@@ -1,0 +1,81 @@
+//! What the program had once and no longer has: one row for each name, with what to do now.
+//!
+//! Readers of cases, webs and studies, `--set`, options, commands and Python ask this table where a name is not
+//! known; none of them knows a removed name of its own. `CHANGELOG.md` has the same rows under "Removed".
+
+use crate::error::Fault;
+
+/// What a removed name was.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Removed {
+    /// A key by its full name, or a table with all its keys: `line.charge_pairs`.
+    Key,
+    /// A value of a key: `design = "sobol"`, with the full name of the key.
+    Value,
+    /// A command of the program, or an option with the command before it: `run --until`.
+    Command,
+    /// A function or class of the Python package: `spunlaid.join`.
+    Python,
+}
+
+/// Kind, name, the version since which it is gone, and what to do now.
+type Row = (Removed, &'static str, &'static str, &'static str);
+
+/// Every removed name.
+pub const REMOVED: &[Row] = &[
+    (
+        Removed::Key,
+        "line.charge_pairs",
+        "0.1.0",
+        "leave it out: line.charge drives filaments apart in the mean field of all of them",
+    ),
+];
+
+impl Removed {
+    /// What is wrong with a name of this kind, if it was removed.
+    pub fn fault(self, name: &str) -> Option<Fault> {
+        self.fault_of(REMOVED, name)
+    }
+
+    fn fault_of(self, rows: &[Row], name: &str) -> Option<Fault> {
+        let is_it = |known: &str| {
+            let rest = name.strip_prefix(known);
+            rest.is_some_and(|rest| rest.is_empty() || self == Self::Key && rest.starts_with('.'))
+        };
+        let (_, _, since, way_out) = rows.iter().find(|(kind, known, ..)| *kind == self && is_it(known))?;
+        Some(Fault::new(format!("is gone since {since}"), *way_out))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_is_found_with_its_kind_and_a_table_with_its_keys() {
+        let rows: [Row; 2] = [
+            (Removed::Key, "old", "0.1.0", "leave it out"),
+            (Removed::Command, "run --old", "0.1.0", "write --new"),
+        ];
+        let told = |kind: Removed, name: &str| kind.fault_of(&rows, name).map(|fault| fault.to_string());
+        for name in ["old", "old.key"] {
+            assert_eq!(told(Removed::Key, name).as_deref(), Some("is gone since 0.1.0; leave it out"));
+        }
+        assert_eq!(told(Removed::Command, "run --old").as_deref(), Some("is gone since 0.1.0; write --new"));
+        for (kind, name) in
+            [(Removed::Key, "older"), (Removed::Value, "old"), (Removed::Command, "run --old.x")]
+        {
+            assert_eq!(told(kind, name), None, "{name}");
+        }
+    }
+
+    /// Each row says what to do, and stands once.
+    #[test]
+    fn each_row_has_a_way_out() {
+        for (at, (kind, name, since, way_out)) in REMOVED.iter().enumerate() {
+            assert!(since.split('.').count() == 3 && way_out.len() > 10, "{name}");
+            let twice = REMOVED[at + 1..].iter().any(|(other, also, ..)| (other, also) == (kind, name));
+            assert!(!twice, "{name} stands twice");
+        }
+    }
+}
