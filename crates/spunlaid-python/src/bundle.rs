@@ -36,20 +36,20 @@ pub(crate) fn parts(points: &[Point], batches: &[Batch]) -> Vec<BundlePart> {
 }
 
 /// What is computed, for another machine.
-pub(crate) fn packed(experiment: &Experiment) -> Packed {
+fn packed(experiment: &Experiment) -> Packed {
     let experiment = make_portable(experiment);
     (experiment.noun().to_owned(), write_experiment(&experiment), checksum(&experiment))
 }
 
 /// What [`packed`] has packed; None if it is another one on this machine.
-pub(crate) fn unpacked(noun: &str, text: &str, sum: u32) -> Result<Option<Experiment>, Error> {
+fn unpacked(noun: &str, text: &str, sum: u32) -> Result<Option<Experiment>, Error> {
     Ok(Some(read(noun, text)?).filter(|experiment| checksum(experiment) == sum))
 }
 
 /// The error of a machine on which something is another one than on the client.
 ///
 /// * `what` – that is another one: "point 3: its case or web"
-pub(crate) fn another(py: Python<'_>, what: &str) -> PyErr {
+fn another(py: Python<'_>, what: &str) -> PyErr {
     let text = format!(
         "{what} is another one on this machine, because a file that it names has another content here, or \
          this machine has another version of spunlaid; give all machines the same"

@@ -6,7 +6,7 @@
 //! watched   work without the lock of the interpreter, with Ctrl-C and progress
 //! save      results in a folder         source    the file that a user names
 //! program   the program `spunlaid`, which comes with the package
-//! case, run, flight, air, spinline, study, web, stretch, scan, record, compare, keys     the classes and functions
+//! case, run, flight, air, spinline, study, web, scan, record, compare, keys     the classes and functions
 //! ```
 
 // Names such as CaseError are those of Python; units are written in brackets, [m/s].
@@ -37,7 +37,6 @@ mod bundle;
 mod compare;
 mod scan;
 mod spinline;
-mod stretch;
 mod study;
 mod table;
 mod web;
@@ -65,7 +64,6 @@ mod _spunlaid {
         scan::{AnalysedScan, analyse_scan, is_scan},
         spinline::{SolvedSpinline, solve_spinline},
         state::flown_from,
-        stretch::{WebFlight, fly_web, lay_stretch},
         study::Study,
         table::read_table,
         web::{LaidWeb, lay_web},

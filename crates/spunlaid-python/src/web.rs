@@ -44,16 +44,16 @@ pub(crate) struct LaidWeb {
 
 /// The file of a web, and what is tried with it once it has been laid.
 #[derive(Debug)]
-pub(crate) struct Asked {
+struct Asked {
     name: String,
-    pub(crate) file: WebFile,
+    file: WebFile,
     advice: Option<Vec<Change>>,
     guesses: Option<Vec<Change>>,
 }
 
 impl Asked {
     /// * `advice`, `guesses` – whether they are tried
-    pub(crate) fn read(
+    fn read(
         py: Python<'_>,
         path: Option<PathBuf>,
         changes: &Bound<'_, PyAny>,
@@ -70,14 +70,10 @@ impl Asked {
         Ok(Self { name, file, advice, guesses })
     }
 
-    pub(crate) fn name(&self) -> &str {
-        &self.name
-    }
-
     /// Looks at a web, which is laid unless it has been, and tries what is asked for.
     ///
     /// * `started` – when the computation began
-    pub(crate) fn find(
+    fn find(
         &self,
         mut flown: FlownWeb,
         started: Instant,
@@ -103,7 +99,7 @@ impl Asked {
 }
 
 /// What flies fibres while a watch looks on.
-pub(crate) fn flown_while_watched<T>(
+fn flown_while_watched<T>(
     watch: &Watch,
     laying: LayControl<'_>,
     fly: impl FnOnce(&mut Flyer<'_>) -> Result<T, Error>,

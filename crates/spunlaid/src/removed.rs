@@ -21,6 +21,8 @@ pub enum Removed {
 /// Kind, name, the version since which it is gone, and what to do now.
 type Row = (Removed, &'static str, &'static str, &'static str);
 
+const AT_ONCE: &str = "lay the sheet at once on one machine, by spunlaid.web(file)";
+
 /// Every removed name.
 pub const REMOVED: &[Row] = &[
     (
@@ -29,6 +31,10 @@ pub const REMOVED: &[Row] = &[
         "0.1.0",
         "leave it out: line.charge drives filaments apart in the mean field of all of them",
     ),
+    (Removed::Python, "spunlaid.fly_web", "0.1.0", AT_ONCE),
+    (Removed::Python, "spunlaid.WebFlight", "0.1.0", AT_ONCE),
+    (Removed::Python, "spunlaid.Stretch", "0.1.0", AT_ONCE),
+    (Removed::Python, "spunlaid.LaidStretch", "0.1.0", AT_ONCE),
 ];
 
 impl Removed {

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from ._scan import Scan, scan
     from ._spinline import Spinline, spin
     from ._study import Study, sweep
-    from ._web import LaidStretch, Stretch, Web, WebFlight, fly_web, web
+    from ._web import Web, web
 
 __all__ = [
     "Air",
@@ -60,7 +60,6 @@ __all__ = [
     "InternalError",
     "Interrupted",
     "Key",
-    "LaidStretch",
     "Measure",
     "Measures",
     "Problem",
@@ -68,15 +67,12 @@ __all__ = [
     "Scan",
     "Shapes",
     "Spinline",
-    "Stretch",
     "Study",
     "Web",
-    "WebFlight",
     "__version__",
     "analyse",
     "compare",
     "fit",
-    "fly_web",
     "keys",
     "load",
     "run",
@@ -100,11 +96,7 @@ _LATER = {
     "spin": "_spinline",
     "Study": "_study",
     "sweep": "_study",
-    "LaidStretch": "_web",
-    "Stretch": "_web",
     "Web": "_web",
-    "WebFlight": "_web",
-    "fly_web": "_web",
     "web": "_web",
 }
 

@@ -1,4 +1,4 @@
-"""Studies, and sheets of webs, on a cluster with dask.distributed.
+"""Studies on a cluster with dask.distributed.
 
 The client keeps the journal. It cuts what the journal lacks into bundles of whole flights, or of the webs of a point, hands out a few more of them
 than the cluster has threads, and writes down what comes back before it hands out more. So neither it nor the scheduler
@@ -11,7 +11,6 @@ import pickle
 import time
 import zlib
 from collections.abc import Callable
-from dataclasses import replace
 from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING, Any
 
@@ -34,8 +33,6 @@ _AHEAD = 3
 _LEAST_AHEAD = 16
 _LOOK_S = 2.0
 """Time between two looks whether workers have joined [s]."""
-_STRETCH_M = 0.5
-"""Shortest stretch of a sheet [m]: long beside the way over which filaments lie to and fro."""
 _RETRIES = 3
 """How often a bundle that failed on a worker is tried again."""
 
@@ -54,30 +51,6 @@ def _check_version(version: str) -> None:
             f"this worker has spunlaid {_spunlaid.__version__} and the client {version}; their numbers may differ in the last "
             "bits and are not mixed. Install the same version everywhere"
         )
-
-
-def lay_rows(sheet: Any, rows: tuple[int, int], version: str) -> Any:
-    """Lays some rows of a sheet; a worker calls it."""
-    _check_version(version)
-    return replace(sheet, rows=rows).lay(threads=1)
-
-
-def lay(flight: Any, client: Any) -> list[Any]:
-    """The sheet of a web that has been flown, in stretches that the workers of a client lay."""
-    (sheet,) = flight.stretches(1)
-    (rows, most) = (sheet.rows[1], _AHEAD * sum(client.nthreads().values()))
-    length = rows * flight.cell
-    stretches = flight.stretches(max(1, min(most, int(length / _STRETCH_M))))
-    # The filaments that were flown go to each worker once.
-    of_all = client.scatter(sheet, broadcast=True)
-    laid = [
-        client.submit(lay_rows, of_all, stretch.rows, _spunlaid.__version__, pure=False, retries=_RETRIES) for stretch in stretches
-    ]
-    try:
-        return [_result(future) for future in laid]
-    finally:
-        # After Ctrl-C or an error nobody waits for the others.
-        client.cancel(laid)
 
 
 def fly_bundle(packed: bytes, version: str, all_threads: bool) -> NDArray[np.float64]:
@@ -157,7 +130,7 @@ def _result(future: Any) -> NDArray[np.float64]:
         return future.result()  # type: ignore[no-any-return]
     except KilledWorker as error:
         raise ClusterError(
-            f"a bundle or a stretch was lost with {_RETRIES} workers or more: {error}. Do they run out of memory? What was flown of a "
+            f"a bundle was lost with {_RETRIES} workers or more: {error}. Do they run out of memory? What was flown of a "
             "study is kept; the same call goes on from there"
         ) from error
     except ImportError as error:

@@ -17,7 +17,6 @@ __all__ = [
     "LaidWeb",
     "SolvedSpinline",
     "Study",
-    "WebFlight",
     "__version__",
     "analyse",
     "analyse_scan",
@@ -28,14 +27,13 @@ __all__ = [
     "flown_from",
     "fly",
     "fly_bundle",
-    "fly_web",
     "is_scan",
     "keys",
-    "lay_stretch",
     "lay_web",
     "measures",
     "program",
     "read_table",
+    "removed",
     "solve_spinline",
 ]
 
@@ -45,11 +43,6 @@ _Floats = NDArray[np.float64]
 _Progress = Callable[[int, int], object] | None
 _Figures = tuple[Any, str | float | None]
 _Scale = tuple[str, float, float, bool]
-_PackedWeb = tuple[str, list[tuple[int, str]] | None, int]
-_PackedCurtain = tuple[int, tuple[float | None, float, float], tuple[list[float], float], _Floats, NDArray[np.float32]]
-_PackedStretch = tuple[
-    int, NDArray[np.uint32], tuple[float, float, bool, float], list[tuple[int, int, _Floats]], list[list[float]]
-]
 _Part = tuple[int, str, list[tuple[int, str]] | None, int, int, int]
 
 @final
@@ -239,17 +232,6 @@ class LaidWeb(_Results):
     def specification(self) -> bytes: ...
 
 @final
-class WebFlight:
-    """A web in one air that has been flown."""
-
-    web: Final[_PackedWeb]
-    curtains: Final[list[_PackedCurtain]]
-    cell: Final[float]
-    name: Final[str]
-    def stretches(self, count: int) -> list[tuple[int, int]]: ...
-    def join(self, stretches: Sequence[_PackedStretch], threads: int | None = None, progress: _Progress = None) -> LaidWeb: ...
-
-@final
 class AnalysedScan(_Results):
     """What is found of a scan."""
 
@@ -314,15 +296,6 @@ def lay_web(
     threads: int | None = None,
     progress: _Progress = None,
 ) -> LaidWeb: ...
-def fly_web(
-    path: str | None,
-    changes: Mapping[str, Any],
-    advice: bool = False,
-    guesses: bool = True,
-    threads: int | None = None,
-    progress: _Progress = None,
-) -> WebFlight: ...
-def lay_stretch(web: _PackedWeb, curtains: list[_PackedCurtain], rows: tuple[int, int], threads: int | None) -> _PackedStretch: ...
 def analyse_scan(picture: str | bytes, options: dict[str, Any]) -> AnalysedScan: ...
 def column_unit(name: str) -> str: ...
 def compare_folders(folders: Sequence[str]) -> Compared: ...

@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import os
-import pickle
-import zlib
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -82,7 +79,6 @@ def web(
     set: Mapping[str, Any] | None = None,  # noqa: A002 - the word of the program
     advice: bool = False,
     guesses: bool = True,
-    client: Any = None,
     threads: int | None = None,
     progress: Progress = None,
 ) -> Web:
@@ -95,122 +91,9 @@ def web(
     advice: whether to try what settings of the line would make it more even at the same basis weight; `summary["advice"]` then says it
     guesses: whether a web whose file calls numbers guesses (`web.guessed`) is also tried with half and twice of each;
         `summary["guesses"]` then has the CVs
-    client: a client of dask.distributed, whose workers then lay a web in one air, stretch by stretch, from the few filaments that are flown
-        here. It is for sheets of many square metres
     threads: number of threads, by default one for each processor; the results do not depend on it
     progress: None, True, False, or a function that gets the parts done and their number
     """
-    if client is not None:
-        from ._dask import check_client, lay
-
-        check_client(client)
-        flight = fly_web(web, set=set, advice=advice, guesses=guesses, threads=threads, progress=progress)
-        return flight.join(lay(flight, client), threads=threads, progress=progress)
     path, changes = split_source(web, set)
     with shown(progress, "web") as show:
         return Web(_spunlaid.lay_web(path, changes, advice, guesses, check_threads(threads), show))
-
-
-@dataclass(frozen=True, eq=False)
-class LaidStretch:
-    """A stretch of a sheet that has been laid, to be joined with the others. It can be pickled."""
-
-    flight: int
-    """What tells one flight from another."""
-    first: int
-    """First row of cells on the sheet."""
-    values: Any
-    """What lies there."""
-
-    def __repr__(self) -> str:
-        rows, columns = self.values[1].shape
-        return f"<LaidStretch of {columns} cells across, rows {self.first} to {self.first + rows}>"
-
-
-@dataclass(frozen=True, eq=False)
-class Stretch:
-    """A stretch of the sheet of a web along the belt. It can be pickled: any machine with the same version of spunlaid lays it."""
-
-    flight: int
-    """What tells one flight from another."""
-    rows: tuple[int, int]
-    """Its first row of cells, and the row after its last one."""
-    web: Any
-    """The web."""
-    curtains: list[Any]
-    """The filaments that were flown."""
-
-    def lay(self, threads: int | None = None) -> LaidStretch:
-        """Lays it.
-
-        threads: number of threads, by default one for each processor; the results do not depend on it
-        """
-        laid = _spunlaid.lay_stretch(self.web, self.curtains, self.rows, check_threads(threads))
-        return LaidStretch(self.flight, self.rows[0], laid)
-
-    def __repr__(self) -> str:
-        return f"<Stretch of rows {self.rows[0]} to {self.rows[1]}>"
-
-
-class WebFlight:
-    """A web in one air of which a few filaments have been flown, and nothing has been laid yet. `spunlaid.fly_web` returns it."""
-
-    def __init__(self, flight: _spunlaid.WebFlight) -> None:
-        self._flight = flight
-        self._web, self._curtains = flight.web, flight.curtains
-        self._number = zlib.crc32(pickle.dumps(self._web))
-        for numbers in self._curtains:
-            for part in (repr(numbers[:3]).encode(), numbers[3].tobytes(), numbers[4].tobytes()):
-                self._number = zlib.crc32(part, self._number)
-
-    @property
-    def cell(self) -> float:
-        """Side of a cell of the sheet [m]."""
-        return self._flight.cell
-
-    def stretches(self, count: int) -> list[Stretch]:
-        """The sheet cut into stretches along the belt, of nearly equal length and of whole cells. Each carries the filaments that were flown,
-        some megabytes, and takes the time of its area.
-
-        count: number of stretches
-        """
-        rows = self._flight.stretches(count)
-        return [Stretch(self._number, of, self._web, self._curtains) for of in rows]
-
-    def join(self, stretches: Iterable[LaidStretch], *, threads: int | None = None, progress: Progress = None) -> Web:
-        """The web of stretches that have been laid, in any order: the same bits as that of `spunlaid.web`. They may be those of an earlier flight
-        of the same web, which has the same bits. Raises CaseError and names the place if a part of the sheet is missing or there twice.
-
-        threads, progress: as of `spunlaid.web`
-        """
-        stretches = list(stretches)
-        for stretch in stretches:
-            if not isinstance(stretch, LaidStretch):
-                raise TypeError(f"join takes stretches that were laid, of Stretch.lay, not {type(stretch).__name__}")
-            if stretch.flight != self._number:
-                raise ValueError(f"{stretch!r} is one of another flight; lay all stretches from one flight")
-        with shown(progress, "web") as show:
-            values = [stretch.values for stretch in stretches]
-            return Web(self._flight.join(values, check_threads(threads), show))
-
-    def __repr__(self) -> str:
-        filaments = sum(len(numbers[3]) for numbers in self._curtains)
-        return f"<WebFlight {self._flight.name}: {filaments} filaments>"
-
-
-def fly_web(
-    web: str | os.PathLike[str] | Mapping[str, Any],
-    *,
-    set: Mapping[str, Any] | None = None,  # noqa: A002 - the word of the program
-    advice: bool = False,
-    guesses: bool = True,
-    threads: int | None = None,
-    progress: Progress = None,
-) -> WebFlight:
-    """Flies a few filaments of a web in one air, from which its sheet is laid in stretches.
-
-    All arguments are those of `spunlaid.web`; advice and guesses are tried when the stretches are joined.
-    """
-    path, changes = split_source(web, set)
-    with shown(progress, "flight") as show:
-        return WebFlight(_spunlaid.fly_web(path, changes, advice, guesses, check_threads(threads), show))

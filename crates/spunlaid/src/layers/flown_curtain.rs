@@ -11,73 +11,47 @@ use std::sync::atomic::AtomicBool;
 
 /// The curves of a few filaments of a layer, from which those of all others follow.
 #[derive(Clone, Debug)]
-pub struct FlownCurtain {
+pub(super) struct FlownCurtain {
     /// Number of the layer, from 0.
-    pub layer: usize,
+    pub(super) layer: usize,
     /// The curves.
-    pub curves: FlownCurves,
+    pub(super) curves: FlownCurves,
     /// Width and length of the sheet that they have laid [m].
-    pub sheet: [f64; 2],
+    pub(super) sheet: [f64; 2],
     /// Where that sheet begins on the belt [m].
-    pub back: f64,
+    pub(super) back: f64,
 }
-
-/// Those of all layers of which only a few filaments were flown.
-#[derive(Clone, Debug, Default)]
-pub struct FlownCurtains(pub Vec<FlownCurtain>);
 
 /// The layers of a web once they have been flown.
 #[derive(Clone, Debug, Default)]
 pub(super) struct FlownLayers {
     pub(super) layers: Vec<LayerFibres>,
     pub(super) shared_air: SharedAirFindings,
-    pub(super) curtains: FlownCurtains,
+    /// Those of which only a few filaments were flown.
+    pub(super) curtains: Vec<FlownCurtain>,
     /// The pieces of fibres in the windows in which holes are counted, by window.
     pub(super) pieces: Vec<PieceInWindow>,
 }
 
-/// What is found while the filaments of curtains are drawn.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct DrawnCurtains {
-    /// Their parts in the window of the sheet, by layer.
-    pub strands: Vec<Strand>,
-    /// Their pieces in the windows in which holes are counted.
-    pub pieces: Vec<PieceInWindow>,
-    /// Of each curtain, the part of the variance that the few do not tell, in machine and in cross direction.
-    pub missing: Vec<[f64; 2]>,
-}
-
 impl FlownLayers {
-    /// Adds what was found while the curtains were drawn.
-    pub(super) fn add(&mut self, drawn: DrawnCurtains) {
-        let strands = &mut self.shared_air.strands;
-        strands.extend(drawn.strands);
-        sort_by_key(strands, |strand| strand.layer);
-        self.pieces.extend(drawn.pieces);
-        sort_by_key(&mut self.pieces, |piece| piece.window);
-        for (few, missing) in self.shared_air.few.iter_mut().zip(drawn.missing) {
-            few.missing = missing;
-        }
-    }
-}
-
-impl FlownCurtains {
-    /// Draws all filaments on the rows of a canvas.
+    /// Draws all filaments of curtains of which a few were flown.
     pub(super) fn draw(
-        &self,
+        &mut self,
         spec: &WebSpec,
         canvas: &Canvas,
         by: (usize, &AtomicBool),
-    ) -> Result<DrawnCurtains, Error> {
-        let mut all = DrawnCurtains::default();
-        for curtain in &self.0 {
+    ) -> Result<(), Error> {
+        for (curtain, few) in self.curtains.iter().zip(&mut self.shared_air.few) {
             let (KeptFibres { strands, pieces }, missing) = curtain.draw(spec, canvas, by)?;
             let layer = curtain.layer;
-            all.strands.extend(strands.into_iter().map(|strand| Strand { layer, ..strand }));
-            all.pieces.extend(pieces.into_iter().map(|piece| PieceInWindow { layer, ..piece }));
-            all.missing.push(missing);
+            let strands = strands.into_iter().map(|strand| Strand { layer, ..strand });
+            self.shared_air.strands.extend(strands);
+            self.pieces.extend(pieces.into_iter().map(|piece| PieceInWindow { layer, ..piece }));
+            few.missing = missing;
         }
-        Ok(all)
+        sort_by_key(&mut self.shared_air.strands, |strand| strand.layer);
+        sort_by_key(&mut self.pieces, |piece| piece.window);
+        Ok(())
     }
 }
 

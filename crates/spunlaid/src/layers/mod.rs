@@ -2,7 +2,6 @@
 //!
 //! ```text
 //! WebSpec (sheet and layers) → Flyer: the fibres of each layer, flown or read or known → Web, which `web` lays
-//!                                     └ WebFlight: a few filaments in one air → stretches of the sheet, laid one by one ┘
 //! ```
 
 mod charge;
@@ -18,17 +17,14 @@ pub(crate) mod keys;
 mod plan;
 mod shared_air;
 mod sources;
-mod stretches;
 
 pub use comparison::FewOfWeb;
 pub(crate) use comparison::{fits_memory, steps_in_same_air};
 pub use finished_run::{LAID, read as read_laid};
-pub use flown_curtain::{DrawnCurtains, FlownCurtain, FlownCurtains};
 pub use flyer::{Flights, FlownFibres, FlownWeb, Flyer, LayerFibres, ProgressDisplay};
 pub use full_names::{place_in_web, web_key};
 pub use keys::{WEB, WEB_KEYS, WEB_TABLES, WebKey};
 pub use plan::PlannedFlight;
-pub use stretches::{LaidStretch, WebFlight};
 
 use crate::case::Case;
 use crate::case::keys::{self as case_keys, Value};

@@ -119,52 +119,15 @@ impl Flyer<'_> {
     /// few curves of each layer are kept, which say what independent filaments would give.
     pub(super) fn fly_together(&self, spec: &WebSpec) -> Result<(Vec<LayerFibres>, LaidWeb), Error> {
         let beams = beams(spec)?;
-        let canvas = canvas(spec, 0..spec.sheet.cells()[1])?;
-        let mut flown = self.fly_layers(spec, beams, Some(&canvas))?;
-        let drawn = flown.curtains.draw(spec, &canvas, self.by())?;
-        flown.add(drawn);
-        let FlownLayers { layers, pieces, shared_air, .. } = flown;
-        Ok((layers, LaidWeb { pieces, shared_air: Some(shared_air), ..canvas.finish()? }))
-    }
-
-    /// Flies a few filaments of each layer, in an air of its own.
-    ///
-    /// # Errors
-    /// If all filaments of a layer would fly, which lay the sheet while they do.
-    pub(super) fn fly_few(&self, spec: &WebSpec) -> Result<FlownLayers, Error> {
-        let beams = beams(spec)?;
-        if let Some(layer) = beams.iter().position(|layer| layer.few.is_none()) {
-            return Err(Fault::new(
-                format!(
-                    "all filaments of layer {} fly, and they lay the whole sheet while they do; stretches of \
-                    it are laid from a few of them",
-                    layer + 1
-                ),
-                "lay it at once, or let fewer filaments fly (web.flown)",
-            )
-            .into());
-        }
-        self.fly_layers(spec, beams, None)
-    }
-
-    /// Flies each layer.
-    ///
-    /// * `canvas` – on which all filaments of a layer are laid, unless only a few of them fly
-    fn fly_layers(
-        &self,
-        spec: &WebSpec,
-        beams: Vec<LayerBeam<'_>>,
-        canvas: Option<&Canvas>,
-    ) -> Result<FlownLayers, Error> {
+        let canvas = canvas(spec)?;
         let mut all = FlownLayers::default();
         for (number, layer) in beams.into_iter().enumerate() {
-            let brush = |canvas| Brush::new(canvas, layer.beam().element_mass(), spec.titres(number));
-            let brush = canvas.map(brush);
-            let (layer, mut flown, told) = self.fly_until_told(spec, (number, layer), brush.as_ref())?;
+            let brush = Brush::new(&canvas, layer.beam().element_mass(), spec.titres(number));
+            let (layer, mut flown, told) = self.fly_until_told(spec, (number, layer), &brush)?;
             let mut of_layer = flown.take_shared_air();
             if let Some((curves, told)) = told {
                 let flown_sheet = [layer.sheet.width, layer.sheet.length];
-                all.curtains.0.push(FlownCurtain {
+                all.curtains.push(FlownCurtain {
                     layer: number,
                     curves,
                     sheet: flown_sheet,
@@ -184,7 +147,9 @@ impl Flyer<'_> {
             let fibres = Fibres::Curves(Arc::clone(&flown.curves));
             all.layers.push(LayerFibres { fibres, flown: Some(flown) });
         }
-        Ok(all)
+        all.draw(spec, &canvas, self.by())?;
+        let FlownLayers { layers, pieces, shared_air, .. } = all;
+        Ok((layers, LaidWeb { pieces, shared_air: Some(shared_air), ..canvas.finish()? }))
     }
 
     /// Flies a layer. Unless the file says how many filaments are flown, more of them fly where a few do not
@@ -193,12 +158,12 @@ impl Flyer<'_> {
         &self,
         spec: &'a WebSpec,
         (number, mut layer): (usize, LayerBeam<'a>),
-        on: Option<&Brush<'_>>,
+        on: &Brush<'_>,
     ) -> Result<ToldFlight<'a>, Error> {
         let (mut finer, mut spent) = (0, TimeSpent::default());
         let mut sheet = spec.flown_sheet(number, false);
         loop {
-            let mut flown = self.fly_layer(&layer, spec, on.filter(|_| layer.few.is_none()))?;
+            let mut flown = self.fly_layer(&layer, spec, Some(on).filter(|_| layer.few.is_none()))?;
             spent.whole += flown.spent.whole;
             spent.in_parallel += flown.spent.in_parallel;
             flown.spent = spent;
@@ -300,13 +265,13 @@ fn beams(spec: &WebSpec) -> Result<Vec<LayerBeam<'_>>, Error> {
     (0..spec.layers.len()).map(|number| beam_on(spec, number, None)).collect()
 }
 
-/// The canvas of some rows of the sheet.
-pub(super) fn canvas(spec: &WebSpec, rows: Range<usize>) -> Result<Canvas, Error> {
+/// The canvas of the sheet.
+fn canvas(spec: &WebSpec) -> Result<Canvas, Error> {
     let beams = (0..spec.layers.len()).map(|number| beam_on(spec, number, None));
     let beams = beams.collect::<Result<Vec<_>, _>>()?;
     let elements: Vec<f64> = beams.iter().map(|layer| layer.beam().element_mass()).collect();
     let weight = beams.iter().map(LayerBeam::basis_weight).sum();
-    Ok(Canvas::of_rows(&spec.sheet, rows, &elements, weight)?)
+    Ok(Canvas::new(&spec.sheet, &elements, weight)?)
 }
 
 /// The filaments of a layer at their places. Air that a case leaves the same across the flow becomes a field

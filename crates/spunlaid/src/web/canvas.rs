@@ -42,20 +42,7 @@ impl Canvas {
     /// # Errors
     /// If the cells are too large for the fibre that they would hold.
     pub(crate) fn new(sheet: &Sheet, pieces: &[f64], basis_weight: f64) -> Result<Self, Fault> {
-        Self::of_rows(sheet, 0..sheet.cells()[1], pieces, basis_weight)
-    }
-
-    /// A stretch of the sheet, whose cells hold what they hold on all of it.
-    ///
-    /// # Errors
-    /// As [`Canvas::new`].
-    pub(crate) fn of_rows(
-        sheet: &Sheet,
-        rows: Range<usize>,
-        pieces: &[f64],
-        basis_weight: f64,
-    ) -> Result<Self, Fault> {
-        let columns = sheet.cells()[0];
+        let [columns, rows] = sheet.cells();
         let heaviest = pieces.iter().copied().fold(0.0, f64::max);
         let lightest = pieces.iter().copied().fold(f64::INFINITY, f64::min);
         let highest = HIGHEST + ROPE * basis_weight * sheet.cell * sheet.cell / heaviest;
@@ -67,11 +54,11 @@ impl Canvas {
         }
         Ok(Self {
             columns: columns as i64,
-            rows: rows.start as i64..rows.end as i64,
+            rows: 0..rows as i64,
             cell: sheet.cell,
             quantum,
             edges: sheet.edges,
-            cells: (0..columns * rows.len()).map(|_| AtomicU32::new(0)).collect(),
+            cells: (0..columns * rows).map(|_| AtomicU32::new(0)).collect(),
             cut: AtomicU64::new(0),
             is_full: AtomicBool::new(false),
         })
@@ -125,7 +112,7 @@ impl Canvas {
         let column =
             if is_across || self.edges == Edges::Cut { column } else { column.rem_euclid(self.columns) };
         let is_on = self.rows.contains(&row) && (is_across || self.edges == Edges::Periodic);
-        is_on.then(|| ((row - self.rows.start) * self.columns + column) as usize)
+        is_on.then(|| (row * self.columns + column) as usize)
     }
 
     /// Counts what lies beyond an edge. What lies before and behind the rows is not counted.
@@ -147,7 +134,7 @@ impl Canvas {
         let cells = self.cells.into_iter().map(AtomicU32::into_inner).collect();
         let map = Map {
             columns: self.columns as usize,
-            rows: (self.rows.end - self.rows.start) as usize,
+            rows: self.rows.end as usize,
             cell: self.cell,
             quantum: self.quantum,
             closed,
@@ -303,27 +290,6 @@ mod tests {
             let (on, cut) = (laid.map.total(), (laid.cut / laid.map.quantum).round() as u64);
             let beyond = if edges == Edges::Periodic { [3, 0] } else { [2, 1] };
             assert_eq!([on, cut], beyond.map(|halves| halves * u64::from(quanta) / 2), "{edges:?}");
-        }
-    }
-
-    /// Stretches of a sheet that follow each other hold what all of it holds, also where a piece leaves one
-    /// and enters the next.
-    #[test]
-    fn identical_a_sheet_and_its_stretches() {
-        let sheet = Sheet { edges: Edges::Cut, ..Sheet::new(10e-3, 20e-3, CELL) };
-        let draw = |rows: Range<usize>| {
-            let canvas = Canvas::of_rows(&sheet, rows, &[1e-9], 1e-3).unwrap();
-            for i in 0..40 {
-                let [z, y] = [i % 13, i * 7 % 20].map(|number| 1.03e-3 * f64::from(number));
-                canvas.draw([z, y], [z - 2.1e-3, y + 1.7e-3], canvas.quanta(1e-9));
-            }
-            canvas.finish().unwrap()
-        };
-        let whole = draw(0..20);
-        assert!(whole.cut > 0.0);
-        for at in [1, 7, 19] {
-            let joined = LaidWeb::joined(vec![draw(0..at), draw(at..20)]).unwrap();
-            assert_eq!((joined.map, joined.cut), (whole.map.clone(), whole.cut), "{at}");
         }
     }
 

@@ -47,24 +47,6 @@ pub struct SharedAirFindings {
     pub spent: TimeSpent,
 }
 
-impl LaidWeb {
-    /// Stretches of a sheet that follow each other in machine direction, as one; None without any.
-    pub(crate) fn joined(stretches: Vec<Self>) -> Option<Self> {
-        let cells: usize = stretches.iter().map(|stretch| stretch.map.cells.len()).sum();
-        let mut stretches = stretches.into_iter();
-        let mut all = stretches.next()?;
-        all.map.cells.reserve_exact(cells - all.map.cells.len());
-        let quanta = |laid: &Self| (laid.cut / laid.map.quantum).round();
-        let mut cut = quanta(&all);
-        for stretch in stretches {
-            cut += quanta(&stretch);
-            all.map.rows += stretch.map.rows;
-            all.map.cells.extend(stretch.map.cells);
-        }
-        Some(Self { cut: cut * all.map.quantum, ..all })
-    }
-}
-
 impl SharedAirFindings {
     /// Whether the few filaments of each layer tell the CV of all over patches of a side.
     pub fn tells(&self, patch: f64) -> bool {

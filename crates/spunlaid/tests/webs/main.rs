@@ -11,7 +11,6 @@ mod fit;
 mod guesses;
 mod neighbours;
 mod same_air;
-mod stretches;
 mod surrogate;
 mod two_filaments;
 mod web;
