@@ -50,7 +50,7 @@ pub(crate) fn fly(
     let (description, run) = (Arc::clone(&case.case), case.case.run);
     let plans =
         if check_step { FinerPlans::for_case(&description) } else { FinerPlans::none(Unchecked::NotAsked) };
-    let watch = Watch::new(run.steps.saturating_mul(description.fibres()));
+    let watch = Watch::new(run.steps.saturating_mul(run.replicates));
     let belt = LaidCurves::default();
     let recorder = description.line.is_some().then_some(&belt as &dyn Recorder);
     let computing = RunControl { recorder, ..watch.run_control(threads) };

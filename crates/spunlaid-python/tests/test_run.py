@@ -300,16 +300,3 @@ def test_rejects_bad_arguments(short: Case) -> None:
         spunlaid.run(short, 0)
     lost = short.with_({"run.scheme": "semi-implicit-euler", "run.time_step": "1 us"})
     assert lost["run.scheme"] == "semi-implicit-euler"
-
-
-def test_neighbours_in_the_same_air(short: Case) -> None:
-    shared = {"air.lateral": "von-karman", "air.lateral_cutoff": 6, "neighbours.cd": [0.02, 0.001], "neighbours.md": ["2 mm"]}
-    run = spunlaid.run(short.with_(shared))
-    near_and_far = run.curves["neighbours_cd_correlation_y"]
-    np.testing.assert_array_equal(near_and_far.at, [0.001, 0.02])
-    assert near_and_far.mean[0] > near_and_far.mean[1]
-    entry = run.summary["neighbours"]["md"][0]
-    assert entry["distance_m"] == 0.002
-    assert entry["correlation_z"] == run.curves["neighbours_md_correlation_z"].mean[0]
-    with pytest.raises(spunlaid.CaseError, match="air.lateral"):
-        short.with_({"neighbours.cd": [0.001]})

@@ -31,6 +31,12 @@ pub const REMOVED: &[Row] = &[
         "0.1.0",
         "leave it out: line.charge drives filaments apart in the mean field of all of them",
     ),
+    (
+        Removed::Key,
+        "neighbours",
+        "0.1.0",
+        "lay a web of this case (spunlaid web), which tells how far neighbours come down together",
+    ),
     (Removed::Python, "spunlaid.fly_web", "0.1.0", AT_ONCE),
     (Removed::Python, "spunlaid.WebFlight", "0.1.0", AT_ONCE),
     (Removed::Python, "spunlaid.Stretch", "0.1.0", AT_ONCE),

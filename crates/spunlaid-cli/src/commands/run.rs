@@ -103,7 +103,7 @@ fn fly(
         }
     };
     let (steps, label) =
-        (case.run.steps * case.fibres(), format!("flying {}", plural(case.fibres(), "fibre")));
+        (case.run.steps * case.run.replicates, format!("flying {}", plural(case.run.replicates, "fibre")));
     let work = || files::fly(case, plans, computing, delivery.staging(), told);
     Ok(progress::follow(computing.fibre_steps, steps, &label, quiet, work)?)
 }

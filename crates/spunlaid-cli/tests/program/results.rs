@@ -452,33 +452,3 @@ fn sorted(words: &str) -> Vec<String> {
     words.sort();
     words
 }
-
-/// Companions in the same air: their correlations in the summary, the figure and its numbers, and the report.
-#[test]
-fn neighbours_are_in_the_summary_the_figures_and_the_report() {
-    let desk = Desk::new();
-    let set = "--set air.lateral=von-karman --set air.lateral_cutoff=6";
-    let beside = "--set neighbours.cd=['5mm','1mm'] --set neighbours.md=['2mm']";
-    let said = success(&mut desk.spunlaid(&format!("run brief.toml {set} {beside} --out r")));
-    assert!(said.contains("Correlation with neighbours in cross direction\n  y at 1 mm  "), "{said}");
-    let summary = desk.summary("r");
-    assert_eq!(summary["case"]["neighbours"], json!({"cd_m": [0.001, 0.005], "md_m": [0.002]}));
-    let neighbours = &summary["neighbours"];
-    let [near, far] = neighbours["cd"].as_array().unwrap().as_slice() else { panic!("{neighbours}") };
-    let names = ["correlation_y", "correlation_y_se", "correlation_z", "correlation_z_se", "distance_m"];
-    assert_eq!((keys(near), keys(far)), (names.to_vec(), names.to_vec()));
-    assert_eq!((&near["distance_m"], &far["distance_m"]), (&json!(0.001), &json!(0.005)));
-    let correlation = |of: &Value| of["correlation_y"].as_f64().unwrap();
-    assert!(correlation(near) > 0.8 && correlation(far) < correlation(near), "{neighbours}");
-    assert_eq!(neighbours["md"][0]["distance_m"], json!(0.002));
-    let numbers = String::from_utf8(desk.read("r/figures/neighbours_cd.csv")).unwrap();
-    assert!(
-        numbers.starts_with("series,distance_mm,correlation_with_neighbours_in_cross_direction,error\ny,1,"),
-        "{numbers}"
-    );
-    let report = String::from_utf8(desk.read("r/report.html")).unwrap();
-    assert!(report.contains("Neighbours in the same air"));
-    // Without companions there is nothing to tell.
-    success(&mut desk.spunlaid("run brief.toml --out alone"));
-    assert!(desk.summary("alone").get("neighbours").is_none());
-}

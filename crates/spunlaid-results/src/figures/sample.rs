@@ -1,7 +1,7 @@
 //! Made-up results for the tests.
 
 use spunlaid::air::Air;
-use spunlaid::case::{Case, Companions, Run};
+use spunlaid::case::{Case, Run};
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::{Drag, FrictionLaw, NormalLaw};
 use spunlaid::ensemble::{Results, Sample, Shape, SpectrumPoint, Trajectory};
@@ -28,7 +28,6 @@ pub fn case(elements: usize, instants: usize, replicates: u64) -> Case {
         drag: Drag { along: FrictionLaw::Matsui { factor: 0.9 }, across: NormalLaw::JuShambaugh },
         line: None,
         spinline: None,
-        companions: Companions::default(),
         run: Run {
             time_step: 1e-3,
             steps: instants as u64 - 1,
@@ -101,7 +100,7 @@ fn trajectory(case: &Case, nodes: usize, replicate: u64, amplitude: f64) -> Traj
         "balance_error_over_time" => over_time(Sample::balance_error_percent),
         _ => match measure.kind {
             Kind::Number => Value::Number(1e-4),
-            Kind::Profile | Kind::Way | Kind::Lag | Kind::Neighbour | Kind::Direction => along(0.5),
+            Kind::Profile | Kind::Way | Kind::Lag | Kind::Direction => along(0.5),
             Kind::Series => over_time(|sample| sample.time),
             Kind::Spectrum => spectrum(),
         },

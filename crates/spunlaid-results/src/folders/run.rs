@@ -267,7 +267,7 @@ pub fn performance(case: &Case, results: &Results, computing: RunControl<'_>, wa
     // Of a fed fibre, as many as there are in the air on average.
     let elements =
         results.number("nodes_in_air").map_or(case.fibre.elements as f64, |nodes| nodes.estimate.mean);
-    let element_steps = (elements * (case.run.steps * case.fibres()) as f64).round() as u64;
+    let element_steps = (elements * (case.run.steps * case.run.replicates) as f64).round() as u64;
     Performance {
         wall_s,
         threads,

@@ -14,7 +14,6 @@ pub mod kept_input;
 pub mod leftovers;
 pub mod load;
 pub mod measured;
-mod neighbours;
 pub mod origin;
 pub mod paraview;
 pub mod pictures;

@@ -2,7 +2,6 @@
 
 use super::in_order::OrderedObject;
 use super::load::LoadSummary;
-use super::neighbours::NeighboursSummary;
 use super::spinline::SpinSummary;
 use serde::Serialize;
 use serde_json::Value as Json;
@@ -34,9 +33,6 @@ pub struct Summary<'a> {
     /// `end_node`, `fibre`, `energy`, `laydown`: the measures by group.
     #[serde(flatten)]
     measures: GroupSummary<'a>,
-    /// How the fibres move, or come down, together with their companions.
-    #[serde(skip_serializing_if = "NeighboursSummary::is_empty")]
-    neighbours: NeighboursSummary,
     /// Null if the run is too short for it, or if the fibres do not move across the flow.
     step_check: Option<FinerSummary<'a>>,
     /// The same of the elements.
@@ -153,7 +149,6 @@ impl<'a> Summary<'a> {
             lost: results.lost.len(),
             lost_fibres: results.lost.iter().map(LostSummary::from).collect(),
             measures,
-            neighbours: NeighboursSummary::new(results),
             step_check: checks.step.as_ref().ok().map(FinerSummary::new),
             mesh_check: checks.mesh.as_ref().ok().map(FinerSummary::new),
             performance,

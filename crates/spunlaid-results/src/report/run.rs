@@ -4,7 +4,7 @@ use super::document::{Part, Report, Section};
 use super::frames;
 use super::load::{loads_in_short, section_of_loads};
 use super::methods::{case_account, methods};
-use super::run_table::{capitalised, groups, neighbour_table, replicate_table, result_table, sentence};
+use super::run_table::{capitalised, groups, replicate_table, result_table, sentence};
 use super::spinline::section_of_fibre;
 use super::view::View;
 use super::words::{self, count};
@@ -110,7 +110,6 @@ fn numbers(results: &Results) -> Section<'static> {
         .paragraph(about)
         .table(result_table(results))
         .caption(caption)
-        .table(neighbour_table(results))
         .with(Part::Folded("Values of each replicate", of_each))
 }
 
@@ -165,14 +164,13 @@ fn energy(case: &Case, results: &Results) -> Section<'static> {
 
 /// The figures under headings, in the order of the headings.
 fn under_headings(figures: &[Figure]) -> Section<'_> {
-    const HEADINGS: [&str; 7] = [
+    const HEADINGS: [&str; 6] = [
         "The laid fibre",
         "From the inlet to the belt",
         "Motion of the free end",
         "Along the fibre",
         "Over time",
         "Air",
-        "Neighbours in the same air",
     ];
     let kind = |figure: &Figure| {
         let mut measures = DECLARED.iter().flat_map(|declaration| declaration.measures);
@@ -185,7 +183,6 @@ fn under_headings(figures: &[Figure]) -> Section<'_> {
         Some(Kind::Number | Kind::Spectrum) => HEADINGS[2],
         Some(Kind::Profile) => HEADINGS[3],
         Some(Kind::Series) => HEADINGS[4],
-        Some(Kind::Neighbour) => HEADINGS[6],
         None if figure.name.starts_with("end_node") => HEADINGS[2],
         None => HEADINGS[5],
     };

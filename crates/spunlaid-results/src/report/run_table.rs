@@ -2,10 +2,9 @@
 
 use super::table::{Content, Layout, Row, Table};
 use super::words::{estimate_text, unbroken};
-use crate::numbers::{number, plus_minus, signed};
-use spunlaid::ensemble::{Curve, Number, Place, Results};
-use spunlaid::observe::{Aggregate, Kind};
-use spunlaid::units::Dimension;
+use crate::numbers::{number, signed};
+use spunlaid::ensemble::{Number, Results};
+use spunlaid::observe::Aggregate;
 
 /// Most replicates whose own values are listed.
 const LISTED: usize = 1000;
@@ -43,25 +42,6 @@ fn row(one: &Number) -> Row {
     let cells = [value(one), measure.unit.shown.to_owned(), n.to_string(), unbroken(measure.meaning)];
     let note = if n > 1 { note } else { "" };
     Row::new(unbroken(measure.label), cells).detail(note.to_owned())
-}
-
-/// The correlations with companions: a row for each place, under the direction in which the companions are.
-pub(super) fn neighbour_table(results: &Results) -> Table {
-    let curves = results.curves.iter().filter(|curve| curve.measure.kind == Kind::Neighbour);
-    let curves: Vec<_> = curves.collect();
-    let row = |curve: &&Curve| {
-        let series = curve.measure.series.trim_matches('*');
-        let row = |place: &Place| {
-            let name = format!("{series} at {}", Dimension::Length.pretty(place.at));
-            Row::new(name, [plus_minus(place.mean, place.standard_error)])
-        };
-        curve.places.iter().map(row).collect::<Vec<_>>()
-    };
-    let directions = curves.chunk_by(|a, b| a.measure.figure.title == b.measure.figure.title);
-    directions.fold(Table::new(["Neighbours in the same air", "Correlation"]), |table, of_one| {
-        let title = of_one.first().map_or("", |curve| curve.measure.figure.title);
-        table.group(title.to_owned(), of_one.iter().flat_map(row))
-    })
 }
 
 /// Number of replicates that it is taken over.

@@ -176,7 +176,7 @@ impl Group<'_> {
                     of_packs.push(reach);
                 }
                 match of_packs.into_iter().collect::<Result<Vec<Reach>, Error>>() {
-                    Ok(of_packs) => of_beam.reached(steps[number], of_packs, by),
+                    Ok(of_packs) => of_beam.reached(steps[number], of_packs),
                     Err(error) => {
                         ended.push((beam, Err(error)));
                         continue;

@@ -91,11 +91,7 @@ impl<'a> Flying<'a> {
     }
 
     /// Takes how far the packs reach after some more steps.
-    pub(super) fn reached(
-        &mut self,
-        steps: u64,
-        packs: impl IntoIterator<Item = Reach>,
-    ) {
+    pub(super) fn reached(&mut self, steps: u64, packs: impl IntoIterator<Item = Reach>) {
         let before = Reach { fed: f64::INFINITY, lost: 0, ..self.reach };
         self.reach = packs.into_iter().fold(before, Reach::with);
         self.done += steps;

@@ -206,7 +206,7 @@ impl Beam<'_> {
         while !flying.has_ended() {
             let field = make_air(&mut shared, flying.done..flying.done + steps, &mut making);
             let reaches = in_parallel(flying.packs(), &|i| flying.advance(i, steps, field.as_ref(), on, by))?;
-            flying.reached(steps, reaches, by);
+            flying.reached(steps, reaches);
             if !flying.has_lost_too_many() {
                 flying.compare(&mut together);
                 together.add();

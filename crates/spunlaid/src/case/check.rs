@@ -1,7 +1,6 @@
 //! The conditions that a case must meet before it can be run.
 
 use super::Case;
-use super::companions::without_shared_air;
 use super::keys::{self, FLOWN, finding};
 use super::limits::{MOST_INSTANTS, MOST_STEPS};
 use super::memory::FLIGHT_MEMORY_LIMIT;
@@ -35,7 +34,6 @@ impl Case {
             let fits = check.memory();
             check.times();
             check.shared_record();
-            check.neighbours();
             // It makes a list of the eddies, of which there may be more than there is memory for.
             if fits {
                 check.records();
@@ -367,17 +365,6 @@ impl Check<'_> {
                 (spunlaid analyse) instead of it";
             let fault = Fault::excludes("air.record", remedy);
             self.blame_key("air.lateral", format!("\"{}\"", lateral.name()), fault);
-        }
-    }
-
-    /// Companions share the air, so that there must be one to share.
-    fn neighbours(&mut self) {
-        if self.case.air.lateral == Lateral::Uniform {
-            for key in keys::keys_of_table("neighbours") {
-                if let Some(value) = key.get(self.case) {
-                    self.blame_key(key.name, key.kind.pretty(&value), without_shared_air());
-                }
-            }
         }
     }
 

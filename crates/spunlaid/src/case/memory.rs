@@ -2,6 +2,7 @@
 
 use super::Case;
 use crate::air::{EddyField, EddyModel, Wind};
+use crate::lanes::WIDTH;
 
 /// Most memory a flight of eight fibres may take [bytes].
 pub const FLIGHT_MEMORY_LIMIT: f64 = 8.0 * (1u64 << 30) as f64;
@@ -58,7 +59,7 @@ impl Case {
         let (turbulence, synthesis, field) = match air.field_cutoff() {
             None => (turbulence, synthesis, 0.0),
             Some(cutoff) => {
-                let (fields, extent) = (self.replicates_of_a_flight(), self.extent_of_air());
+                let (fields, extent) = (self.run.replicates.min(WIDTH as u64), self.extent_of_air());
                 (0.0, 0.0, EddyField::memory(fields, air, self.way_of_air(), extent, cutoff))
             }
         };

@@ -2,7 +2,6 @@
 
 mod check;
 mod checks;
-mod companions;
 mod files;
 pub mod keys;
 mod limits;
@@ -15,7 +14,6 @@ mod usual;
 
 pub(crate) use check::too_many_steps;
 pub use checks::Checks;
-pub use companions::Companions;
 pub(crate) use limits::whole_parts;
 pub use limits::{INSTANT_ON_DISK, MOST_INSTANTS, MOST_REPLICATES, MOST_SHAPES, MOST_STEPS};
 pub use memory::{FLIGHT_MEMORY_LIMIT, FlightMemory};
@@ -33,6 +31,7 @@ use crate::drag::Drag;
 use crate::error::Error;
 use crate::fibre::Fibre;
 use crate::field::Hint;
+use crate::lanes::WIDTH;
 use crate::line::Line;
 use crate::spinline::{Solution, Spinline};
 use crate::units::Dimension;
@@ -52,8 +51,6 @@ pub struct Case {
     pub line: Option<Line>,
     /// The spinline that gives diameter, density and feed speed; `None` where the case gives them itself.
     pub spinline: Option<Box<Spinline>>,
-    /// Fibres that fly beside each replicate in the same air.
-    pub companions: Companions,
     /// Time, integration and ensemble.
     pub run: Run,
 }
@@ -168,13 +165,16 @@ impl Case {
         self.line.map_or(1.1 * self.fibre.length, |line| line.distance)
     }
 
+    /// Number of flights of a run.
+    pub fn flights(&self) -> u64 {
+        self.run.replicates.div_ceil(WIDTH as u64)
+    }
+
     /// After what distances a field of eddies in space repeats itself: ten times the largest length scale on
-    /// the way, and four times the largest distance of a companion.
+    /// the way.
     pub fn extent_of_air(&self) -> Extent {
         let side = 10.0 * self.length_scales().fold(0.0, f64::max);
-        let farthest = |distances: &[f64]| distances.last().map_or(0.0, |distance| 4.0 * distance);
-        let Companions { cd, md } = &self.companions;
-        Extent { y: side.max(farthest(md)), z: side.max(farthest(cd)) }
+        Extent { y: side, z: side }
     }
 
     /// The smallest length scale of the eddies on the way of the air [m].

@@ -1,6 +1,6 @@
 //! A case of which nothing is known yet.
 
-use super::{Case, Companions, Run};
+use super::{Case, Run};
 use crate::air::Air;
 use crate::drag::{Drag, FrictionLaw, NormalLaw};
 use crate::fibre::Fibre;
@@ -25,7 +25,6 @@ impl Case {
             drag: Drag { along: FrictionLaw::ALL[0], across: NormalLaw::ALL[0] },
             line: None,
             spinline: None,
-            companions: Companions::default(),
             run: Run::UNKNOWN,
         }
     }

@@ -1,6 +1,5 @@
 //! Ensembles: replicates packed eight to a flight, flights shared out to threads.
 
-mod companions;
 mod end_path;
 mod finer;
 mod order;
@@ -61,7 +60,7 @@ pub fn fly<E: From<Error>>(
     mut take: impl FnMut(Trajectory) -> Result<(), E>,
 ) -> Result<(), E> {
     in_order(
-        pieces(case, keep),
+        case.flights() as usize,
         computing.threads,
         |index| fly_one(case, index, keep, computing),
         |flown| flown?.into_iter().try_for_each(|trajectory| take(trajectory?)),
@@ -90,10 +89,10 @@ pub fn fly_for_checks<E: From<Error>>(
     let watched = RunControl { recorder: Some(&paths), ..computing };
     let (mut replicate, mut left, mut first_lost) = (0, 0, None);
     in_order(
-        pieces(case, keep),
+        case.flights() as usize,
         computing.threads,
         |index| {
-            let replicates = replicates(case, index, keep);
+            let replicates = replicates(case, index);
             let steps = case.run.steps * (replicates.end - replicates.start);
             match recall(replicates, &paths)? {
                 Some(flown) => {
@@ -136,24 +135,9 @@ pub fn nothing_kept(_: Range<u64>, _: &dyn Recorder) -> Result<Option<Vec<Trajec
 }
 
 /// The replicates of a piece of work of a case.
-fn replicates(case: &Case, index: usize, keep: Keep) -> Range<u64> {
-    let each = if has_companions(case, keep) { 1 } else { WIDTH as u64 };
-    let first = index as u64 * each;
-    first..case.run.replicates.min(first + each)
-}
-
-/// Number of pieces of work of a case: flights of eight replicates, or replicates with their companions.
-fn pieces(case: &Case, keep: Keep) -> usize {
-    if has_companions(case, keep) {
-        case.run.replicates as usize
-    } else {
-        case.run.replicates.div_ceil(WIDTH as u64) as usize
-    }
-}
-
-/// Whether companions fly beside the replicates. What is measured of them are curves.
-fn has_companions(case: &Case, keep: Keep) -> bool {
-    keep.curves && !case.companions.is_empty()
+fn replicates(case: &Case, index: usize) -> Range<u64> {
+    let first = index as u64 * WIDTH as u64;
+    first..case.run.replicates.min(first + WIDTH as u64)
 }
 
 /// Computes one piece of work of a case: for each replicate its trajectory, or the reason why its fibre is lost.
@@ -163,10 +147,6 @@ fn fly_one(
     keep: Keep,
     computing: RunControl<'_>,
 ) -> Result<Vec<Result<Trajectory, Error>>, Error> {
-    if has_companions(case, keep) {
-        return Ok(vec![companions::fly_beside(case, index as u64, keep, computing)?]);
-    }
-    let jobs: Vec<Job<'_>> =
-        replicates(case, index, keep).map(|replicate| Job::new(case, replicate)).collect();
+    let jobs: Vec<Job<'_>> = replicates(case, index).map(|replicate| Job::new(case, replicate)).collect();
     fly_each(&jobs, keep, computing)
 }

@@ -201,14 +201,9 @@ fn fly_until_lost(
     if let Some(recorder) = computing.recorder {
         jobs.iter().for_each(|job| recorder.begin(job.replicate));
     }
-    // The companions of a replicate fly after it and are not recorded.
-    let is_companion: Vec<bool> = (0..jobs.len())
-        .map(|lane| jobs[..lane].iter().any(|before| before.replicate == jobs[lane].replicate))
-        .collect();
     let clock = flight.clock().clone();
     let mut observers = Observers::new(&flight, keep.curves, keep.way);
-    // The shapes of companions are not kept.
-    let keeps_shapes = |lane: usize| jobs[lane].replicate < keep.shapes.replicates && !is_companion[lane];
+    let keeps_shapes = |lane: usize| jobs[lane].replicate < keep.shapes.replicates;
     let begin = |(lane, job): (usize, &Job<'_>)| {
         let place = computing.recorder.filter(|_| keeps_shapes(lane));
         let shapes = place.map_or_else(|| Ok(Shapes::default()), |place| place.shapes(job.replicate))?;
@@ -250,7 +245,7 @@ fn fly_until_lost(
                 let counted = laid[lane].iter().filter(|point| point.fed >= first_counted);
                 trajectory.laid.extend(counted.take(room));
             }
-            if let Some(recorder) = computing.recorder.filter(|_| !is_companion[lane]) {
+            if let Some(recorder) = computing.recorder {
                 recorded[lane].push(samples[lane]);
                 if recorded[lane].len() == TOGETHER || step >= clock.steps {
                     recorder.samples(trajectory.replicate, &recorded[lane])?;

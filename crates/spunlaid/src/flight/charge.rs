@@ -31,7 +31,7 @@ impl Flight {
 #[cfg(test)]
 mod tests {
     use crate::air::{Air, Eddies, StreamKey, Wind};
-    use crate::case::{Case, Checks, Companions, Run};
+    use crate::case::{Case, Checks, Run};
     use crate::chain::Strand;
     use crate::chain::schemes::Scheme;
     use crate::charge::{Charge, ChargedNode, Curtain, PERMITTIVITY, SheetField, Sheets};
@@ -229,7 +229,6 @@ mod tests {
             drag: Drag { along: FrictionLaw::Matsui { factor: 0.9 }, across: NormalLaw::MarheinekeWegener },
             line: Some(line),
             spinline: None,
-            companions: Companions::default(),
             run,
         }
     }

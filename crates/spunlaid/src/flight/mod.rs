@@ -229,12 +229,6 @@ impl Flight {
     pub fn case(&self, lane: usize) -> Option<&Case> {
         self.entries.get(lane).map(|entry| &entry.case)
     }
-
-    /// The fibre in a lane with its present case; none as of [`Flight::case`].
-    pub(crate) fn job(&self, lane: usize) -> Option<Job<'_>> {
-        self.entries.get(lane).map(Entry::job)
-    }
-
     /// The times of its cases.
     pub(crate) const fn clock(&self) -> &Clock {
         &self.clock

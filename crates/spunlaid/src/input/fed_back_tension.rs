@@ -3,7 +3,7 @@
 
 use super::open::OpenCase;
 use crate::case::keys;
-use crate::case::{Case, Companions, Note, Remark};
+use crate::case::{Case, Note, Remark};
 use crate::ensemble::{Keep, RunControl, fly};
 use crate::error::{Error, Fault, Finding};
 use crate::spinline::End;
@@ -112,7 +112,7 @@ impl OpenCase {
 
 /// What flies of a case in a round.
 fn round(case: &Case) -> Case {
-    let mut case = Case { companions: Companions::default(), ..case.clone() };
+    let mut case = case.clone();
     case.run.replicates = flown_replicates(case.run.replicates);
     if let Some(line) = case.line {
         let descents = DESCENTS * line.distance / line.feed_speed / case.run.time_step;

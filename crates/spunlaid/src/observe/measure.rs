@@ -413,8 +413,6 @@ pub enum Kind {
     Way,
     /// A curve over the length of fibre between two points [m].
     Lag,
-    /// A curve over the distance between the roots of two fibres [m].
-    Neighbour,
     /// A curve over the direction on the belt [degrees], 0 in machine direction.
     Direction,
 }
@@ -429,7 +427,6 @@ impl Kind {
             Self::Spectrum => Some(("frequency_hz", "Frequency *f*", HERTZ)),
             Self::Way => Some(("distance_m", "Distance from the inlet", MILLIMETRES)),
             Self::Lag => Some(("lag_m", "Length of fibre between two points", MILLIMETRES)),
-            Self::Neighbour => Some(("distance_m", "Distance between the fibres", MILLIMETRES)),
             Self::Direction => {
                 Some(("direction_degrees", "Direction on the belt", Unit { shown: "°", per_si: 1.0 }))
             }

@@ -14,7 +14,6 @@
 
 mod along_fibre;
 mod along_way;
-mod companions;
 mod curvature;
 mod deflection;
 mod end_node;
@@ -68,10 +67,6 @@ pub const DECLARED: &[&Declaration] = &[
     &laydown::DECLARATION,
     &along_way::DECLARATION,
     &force_on_air::DECLARATION,
-    &companions::FED_CD,
-    &companions::FED_MD,
-    &companions::FIXED_CD,
-    &companions::FIXED_MD,
     &root_tension::DECLARATION,
     &strain::USUAL,
     &strain::LARGEST,

@@ -1,12 +1,10 @@
 //! Statistics over replicates and over time.
 
-mod covariance;
 mod difference;
 mod even_sample;
 pub(crate) mod linear;
 mod spectrum;
 
-pub use covariance::Covariance;
 pub use difference::{Difference, difference_of_deviations, student_t_95_at};
 pub use even_sample::EvenSample;
 pub use spectrum::{Spectrum, Welch, Window};

@@ -6,7 +6,6 @@ use crate::spinline::SpinSpec;
 
 /// What a point repeats, with its seed.
 #[derive(Clone, Debug, PartialEq)]
-#[expect(clippy::large_enum_variant, reason = "the points of a study are all of one kind")]
 pub enum Experiment {
     /// Each replicate is a fibre of this case, in turbulence of its own. The case has the largest number of replicates
     /// that may be flown.

@@ -1,7 +1,7 @@
 //! A case that the tests of this module share.
 
 use crate::air::Air;
-use crate::case::{Case, Companions, Run};
+use crate::case::{Case, Run};
 use crate::chain::schemes::Scheme;
 use crate::drag::{Drag, FrictionLaw, NormalLaw};
 use crate::fibre::{Fibre, Root};
@@ -24,7 +24,6 @@ pub(crate) fn table1() -> Case {
         drag: Drag { along: FrictionLaw::Matsui { factor: 0.9 }, across: NormalLaw::JuShambaugh },
         line: None,
         spinline: None,
-        companions: Companions::default(),
         run: Run {
             time_step: 2e-5,
             steps: 1000,

@@ -2,7 +2,7 @@
 #![allow(dead_code, clippy::unwrap_used)]
 
 use spunlaid::air::Air;
-use spunlaid::case::{Case, Companions, Run};
+use spunlaid::case::{Case, Run};
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::fibre::{Fibre, Root};
 use spunlaid::flight::{Flight, Job, LaidPoint};
@@ -118,15 +118,7 @@ impl Thread {
             kept_length: 5.0 * length,
             steps_per_element: 1,
         };
-        let mut case = Case {
-            fibre,
-            air,
-            drag: super::paper_drag(),
-            line: Some(line),
-            spinline: None,
-            companions: Companions::default(),
-            run,
-        };
+        let mut case = Case { fibre, air, drag: super::paper_drag(), line: Some(line), spinline: None, run };
         let limits = case.stable_step_limits();
         let limit = limits.into_iter().map(|limit| limit.limit).fold(f64::INFINITY, f64::min);
         // As many steps as a whole number of births takes, so that a share of the step has a share of the steps.

@@ -8,7 +8,7 @@ pub mod modes;
 pub mod reference;
 
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
-use spunlaid::case::{Case, Companions, Run};
+use spunlaid::case::{Case, Run};
 use spunlaid::chain::Strand;
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::{Drag, ElementDrag, FrictionLaw, Growth, NormalLaw, Share};
@@ -64,15 +64,7 @@ pub fn table1(scheme: Scheme, time_step: f64, duration: f64, replicates: u64) ->
         shapes: None,
         checks: spunlaid::case::Checks::default(),
     };
-    Case {
-        fibre: table1_fibre(),
-        air: table1_air(),
-        drag: paper_drag(),
-        line: None,
-        spinline: None,
-        companions: Companions::default(),
-        run,
-    }
+    Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), line: None, spinline: None, run }
 }
 
 /// A fibre in a vacuum.

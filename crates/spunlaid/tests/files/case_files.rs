@@ -3,7 +3,7 @@
 use crate::cases;
 use crate::cases::{bits, changed, read_again};
 use spunlaid::air::{Air, Flow};
-use spunlaid::case::{Case, Companions, Remark, Run};
+use spunlaid::case::{Case, Remark, Run};
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::{Drag, FrictionLaw, NormalLaw};
 use spunlaid::fibre::{Fibre, Root};
@@ -86,7 +86,6 @@ fn table_1_is_read_in_si_units() {
         drag: Drag { along: FrictionLaw::Matsui { factor: 0.9 }, across: NormalLaw::JuShambaugh },
         line: None,
         spinline: None,
-        companions: Companions::default(),
         run: Run {
             time_step: 1e-6,
             steps: 1_000_000,

@@ -3,7 +3,7 @@
 use crate::cases::{bits, read_again, remarks};
 use proptest::prelude::*;
 use spunlaid::air::{Air, EddyModel, Lateral};
-use spunlaid::case::{Case, Checks, Companions, FLIGHT_MEMORY_LIMIT, Run};
+use spunlaid::case::{Case, Checks, FLIGHT_MEMORY_LIMIT, Run};
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::{Drag, FrictionLaw, NormalLaw};
 use spunlaid::fibre::{Fibre, Root};
@@ -73,9 +73,7 @@ prop_compose! {
             shapes: leapfrog.then_some(seed % 20_001), checks: Checks::ALL[(seed % 3) as usize],
         };
         let drag = Drag { along, across };
-        let distances = if lateral == Lateral::Uniform { Vec::new() } else { vec![0.1 * length_scale, length_scale] };
-        let companions = Companions { cd: distances, md: Vec::new() };
-        let mut case = Case { fibre, air, drag, line: None, spinline: None, companions, run };
+        let mut case = Case { fibre, air, drag, line: None, spinline: None, run };
         let limit = case.stable_step_limits().iter().map(|limit| limit.limit).fold(f64::INFINITY, f64::min);
         case.run.time_step = share * limit;
         case.air.harmonics = (case.air.cutoff_frequency * case.run.duration()) as usize + more_harmonics;
@@ -129,7 +127,7 @@ prop_compose! {
         case.air.harmonics = cycles as usize + more_harmonics;
         // A field of many generations takes more memory than is allowed.
         if case.flight_memory().total() > FLIGHT_MEMORY_LIMIT {
-            (case.air.lateral, case.companions) = (Lateral::Uniform, Companions::default());
+            case.air.lateral = Lateral::Uniform;
         }
         case
     }

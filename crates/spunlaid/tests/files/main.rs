@@ -18,6 +18,7 @@ mod fuzz_findings;
 mod keys;
 mod one_file;
 mod rejects;
+mod removed;
 mod slips;
 mod web_files;
 mod web_lines;

@@ -20,7 +20,6 @@ mod friction;
 mod laydown;
 mod laydown_statistics;
 mod load;
-mod neighbours;
 mod schemes;
 mod slack;
 mod spinline;

@@ -63,44 +63,6 @@ fn analytic_rows_have_neighbours_of_their_own() {
     assert!(self::flown("uniform", &sheet, &places[..1], Airs::Shared, 2).neighbours.is_empty());
 }
 
-/// The filaments of a web are correlated as the companions of a case, whose correlation is computed for pairs
-/// that fly by themselves.
-#[test]
-fn stat_the_neighbours_of_a_web_are_the_companions_of_a_case() {
-    let mut case = case_in("von-karman");
-    case.companions.cd = vec![2e-3, 4e-3, 10e-3];
-    (case.run.replicates, case.run.seed) = (16, 5);
-    let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let computing =
-        RunControl { threads: 2, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, recorder: None };
-    let mut collector = Results::collector(0);
-    fly::<Error>(&case, Keep::CURVES, computing, |trajectory| {
-        collector.take(trajectory);
-        Ok(())
-    })
-    .unwrap();
-    let results = collector.finish();
-    let companions =
-        ["md", "cd"].map(|direction| results.curve(&format!("neighbours_cd_correlation_{direction}")));
-
-    let sheet = Sheet { edges: Edges::Cut, ..sheet(40, 1200) };
-    let web = flown("von-karman", &sheet, &row(&sheet, 20), Airs::Shared, 2).neighbours;
-    for (number, distance) in case.companions.cd.iter().enumerate() {
-        let neighbour = web.iter().find(|found| (found.distance - distance).abs() < 1e-9).unwrap();
-        for (found, companions) in both(neighbour).iter().zip(&companions) {
-            let wanted = &companions[number];
-            assert!((wanted.at - distance).abs() < 1e-12);
-            let error = found.standard_error.unwrap().hypot(wanted.standard_error.unwrap());
-            assert!(error < 0.05, "{error}");
-            let (value, wanted) = (found.value, wanted.mean);
-            assert!((value - wanted).abs() < 4.0 * error, "{distance}: {value} {wanted} {error}");
-            assert!(value > 0.2, "{distance}: {value}");
-        }
-    }
-    let near_and_far: Vec<f64> = web.iter().map(|neighbour| neighbour.md.value).collect();
-    assert!(near_and_far.is_sorted_by(|a, b| a > b), "{near_and_far:?}");
-}
-
 #[test]
 fn identical_neighbours_on_any_threads() {
     let sheet = sheet(24, 64);

@@ -273,7 +273,7 @@ fn limits(case: &Case) -> Vec<String> {
 
 /// More replicates that take no longer: a flight takes eight, in one thread, and costs the same with fewer.
 fn idle_threads(case: &Case, threads: u64) -> Option<String> {
-    let each = if case.companions.is_empty() { WIDTH as u64 } else { 1 };
+    let each = WIDTH as u64;
     let full = each * threads;
     (case.run.replicates < full && case.flights() < threads).then(|| {
         format!(

@@ -45,7 +45,7 @@ fn one(declared: &observe::Figure, curves: &[&Curve], results: &Results) -> Figu
         let places = scaled(curve, unit);
         chart = match first.kind {
             Kind::Profile => profile(chart, i, curve, &places, MARKED),
-            Kind::Way | Kind::Neighbour => profile(chart, i, curve, &places, places.len()),
+            Kind::Way => profile(chart, i, curve, &places, places.len()),
             Kind::Lag => correlation(chart, i, curve, &places),
             Kind::Series => series(chart, i, curve, &places, results.replicates()),
             Kind::Number | Kind::Spectrum | Kind::Direction => {
@@ -70,14 +70,13 @@ pub fn axes(first: &Measure, alone: bool) -> (Axis, Axis) {
     };
     let label = with_unit(abscissa, unit.shown);
     let along = match first.kind {
-        Kind::Spectrum | Kind::Neighbour => Axis::logarithmic(&label),
+        Kind::Spectrum => Axis::logarithmic(&label),
         _ => Axis::linear(&label),
     };
     let along = match first.kind {
         Kind::Profile | Kind::Way | Kind::Lag => along.including(0.0),
         Kind::Direction => along.tight(),
         Kind::Series => along.tight().including(0.0),
-        Kind::Neighbour => along,
         Kind::Number | Kind::Spectrum => along.tight(),
     };
     // The numbers beside a figure are in the units of its axes.
@@ -222,7 +221,7 @@ fn caption(declared: &observe::Figure, kind: Kind, places: &[Place], replicates:
             )
         }
         (Kind::Direction, n) => mean_sentence(n),
-        (Kind::Profile | Kind::Way | Kind::Neighbour, n) => {
+        (Kind::Profile | Kind::Way, n) => {
             let marked = if kind == Kind::Profile && places.len() > MARKED {
                 format!(" {MARKED} of {} places carry a marker.", places.len())
             } else {

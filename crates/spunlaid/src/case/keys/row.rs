@@ -165,25 +165,6 @@ macro_rules! of_record {
     };
 }
 
-/// Access to the distances of companions: `of_companions!(cd)`.
-macro_rules! of_companions {
-    ($field:ident) => {
-        Access {
-            get: |case| {
-                let distances = &case.companions.$field;
-                (!distances.is_empty()).then(|| Value::Numbers(distances.clone()))
-            },
-            set: |case, value| {
-                if case.air.lateral == Lateral::Uniform {
-                    return Err(without_shared_air());
-                }
-                case.companions.$field = distances(value)?;
-                Ok(())
-            },
-        }
-    };
-}
-
 /// Access to a number of the friction on the belt.
 macro_rules! of_friction {
     ($field:ident) => {

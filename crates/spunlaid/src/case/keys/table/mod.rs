@@ -2,7 +2,6 @@
 
 mod air;
 mod belt;
-mod companions;
 mod drag;
 mod feed;
 mod fibre;
@@ -14,7 +13,7 @@ use super::joined::{self, Table};
 use crate::case::Case;
 
 /// The tables of a case file and their keys, in one or several parts.
-const TABLES: [Table<Case>; 9] = [
+const TABLES: [Table<Case>; 8] = [
     ("spinline", spinline::KEYS),
     ("spinline.material", spinline::MATERIAL),
     ("fibre", &[fibre::KEYS]),
@@ -22,7 +21,6 @@ const TABLES: [Table<Case>; 9] = [
     ("belt", &[belt::KEYS]),
     ("air", air::KEYS),
     ("drag", &[drag::KEYS]),
-    ("neighbours", &[companions::KEYS]),
     ("run", &[run::KEYS]),
 ];
 
