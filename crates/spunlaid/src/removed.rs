@@ -37,6 +37,13 @@ pub const REMOVED: &[Row] = &[
         "0.1.0",
         "lay a web of this case (spunlaid web), which tells how far neighbours come down together",
     ),
+    (
+        Removed::Command,
+        "run --until",
+        "0.1.0",
+        "run the case.toml of its results folder with --set run.duration=\"20 s\": the first part has the same bits",
+    ),
+    (Removed::Command, "check --json", "0.1.0", "read summary.json of a run or a web, which has the same numbers"),
     (Removed::Python, "spunlaid.fly_web", "0.1.0", AT_ONCE),
     (Removed::Python, "spunlaid.WebFlight", "0.1.0", AT_ONCE),
     (Removed::Python, "spunlaid.Stretch", "0.1.0", AT_ONCE),

@@ -13,7 +13,6 @@ Examples:
   spunlaid sweep my_study.toml                      fly it with many values of some keys
   spunlaid spin my_line.toml                        from the die to the solid filament
   spunlaid web my_web.toml                          lay a fabric of many such filaments
-  spunlaid run results/my --until \"20 s\"             fly it for longer, in the same turbulence
   spunlaid web cases/web.toml                       lay thousands of filaments: how even is it?
   spunlaid fit my_web.toml --to results/scan --vary air.length_scale   the settings of a scan
   spunlaid compare results/my results/faster        say what differs between two runs
@@ -61,15 +60,9 @@ The results folder holds
   laid.vtp             the same of the first fibres as curves, for ParaView
   figures/             the report's figures as SVG and PNG, and their numbers as CSV
 
-With --until, a finished run is flown for longer, again from the start: everything but the
-duration is as in its case.toml, harmonics of the turbulence and time step too, and the first
-part has the same bits. The new results replace the old ones when they are complete, or go to
---out.
-
 Examples:
   spunlaid run cases/table1.toml
-  spunlaid run cases/table1.toml --set fibre.diameter=\"18 um\" --replicates 40 --out results/fine
-  spunlaid run results/table1 --until \"20 s\"";
+  spunlaid run cases/table1.toml --set fibre.diameter=\"18 um\" --replicates 40 --out results/fine";
 
 pub(super) const SWEEP_HELP: &str = "\
 A study is a small text file beside the case it varies:
@@ -281,8 +274,8 @@ Examples:
   spunlaid compare results/web results/scan";
 
 pub(super) const CHECK_HELP: &str = "\
-Of a case it prints every default, the mesh, the limits of the time step, and the expected time,
-memory and size of the results. Of a web it prints the numbers of its line: grams per minute and
+Of a case it prints every default, the mesh, the limits of the time step, and and the expected time
+and memory. Of a web it prints the numbers of its line: grams per minute and
 hole, dtex, holes per metre, g/m², the speed of the belt, kg/h from each metre of width, and in
 which air the filaments hang. Of a study it prints its points. The output is itself such a file.
 

@@ -47,7 +47,7 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     /// Fly the fibres of a case and write table, data, figures and report
     #[command(after_help = RUN_HELP, mut_arg("json", |json| json.help("Print summary.json instead of the \
-        table; without --out or --until, write no files")))]
+        table; without --out, write no files")))]
     Run(Run),
     /// Fly a case with many values of its keys, and rank which keys matter
     #[command(after_help = SWEEP_HELP, mut_arg("force", |force| force.help(FORCE_HELP)), mut_arg("json", |json| json.help("Print results.json instead of the table")))]
@@ -113,10 +113,6 @@ pub(crate) struct Run {
     /// Seed of the turbulence; replaces run.seed
     #[arg(long, value_name = "S", value_parser = whole(0))]
     pub(crate) seed: Option<u64>,
-    /// Fly a finished run again for longer, to this time, as "20 s"; CASE is its results folder
-    #[arg(long, value_name = "TIME", value_parser = quantity(Dimension::Time),
-          conflicts_with_all = ["set", "replicates", "seed"])]
-    pub(crate) until: Option<f64>,
     /// What the checks of step and mesh may cost; replaces run.checks
     #[arg(long, value_enum)]
     pub(crate) checks: Option<ChecksName>,
@@ -329,9 +325,6 @@ pub(crate) struct Compare {
 pub(crate) struct Check {
     #[command(flatten)]
     pub(crate) source: CaseSource,
-    /// Print the same as JSON
-    #[arg(long)]
-    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]

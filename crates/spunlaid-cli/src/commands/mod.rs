@@ -6,7 +6,6 @@ pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod completions;
 mod delivery;
-mod finished_run;
 pub(crate) mod fit;
 mod flown;
 pub(crate) mod keys;

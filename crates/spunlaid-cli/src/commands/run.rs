@@ -1,10 +1,9 @@
 //! `spunlaid run`: flies a case and writes the results.
 
 use super::delivery::{Asides, Delivery};
-use super::finished_run::continued;
 use super::flown::flown;
 use super::{plural, run_control, stem};
-use crate::args::{Invocation, Output, Run};
+use crate::args::{Invocation, Run};
 use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::case::{Case, Note};
@@ -19,13 +18,9 @@ use std::time::Instant;
 
 pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     let (mut case, mut notes) = read(run)?;
-    let (name, is_own) = (name(run), run.until.is_some() && run.output.out.is_none());
-    let output = Output { force: run.output.force || is_own, ..run.output.clone() };
-    let folder = if is_own { Some(run.source.case.clone()) } else { output.optional_folder(&name) };
-    // A continued run took longer, so that the run from which it began does not replace it.
-    let made_from = invocation.origin_of([&run.source.case]);
-    let origin = |folder: &Path| if run.until.is_some() { None } else { made_from(folder) };
-    let mut delivery = Delivery::open::<files::Run<'_>>(folder, origin, &output, &run.figures.files())?;
+    let (name, output) = (stem(&run.source.case, "case"), &run.output);
+    let (folder, origin) = (output.optional_folder(&name), invocation.origin_of([&run.source.case]));
+    let mut delivery = Delivery::open::<files::Run<'_>>(folder, origin, output, &run.figures.files())?;
 
     let fibre_steps = AtomicU64::new(0);
     let computing = run_control(run.threads, &fibre_steps);
@@ -80,9 +75,6 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
 
 /// The case, and the notes about it, which are told.
 fn read(run: &Run) -> Result<(Case, Vec<String>), Failure> {
-    if let Some(until) = run.until {
-        return continued(run, &overrides(run), until);
-    }
     let (case, notes) = flown(run.source.read(&overrides(run)), run.threads, run.output.quiet)?;
     notes.iter().for_each(say::note);
     Ok((case, Note::notes_of_results(&notes)))
@@ -123,13 +115,6 @@ fn holds_more(folder: &Path, replicates: u64) -> bool {
 /// A note about results of a part of the replicates.
 fn interrupted(flown: u64, asked: u64) -> String {
     format!("{flown} of {asked} replicates: the run was interrupted, and the same command flies the others")
-}
-
-/// What the results are called: as the case file, or as the folder of a run that is continued.
-fn name(run: &Run) -> String {
-    let case = &run.source.case;
-    let folder = run.until.and_then(|_| Some(case.canonicalize().ok()?.file_name()?.to_owned()));
-    folder.map_or_else(|| stem(case, "case"), |folder| folder.to_string_lossy().into_owned())
 }
 
 /// The changes to the case on the command line.

@@ -15,7 +15,7 @@ fn check_prints_a_case_that_can_be_read_again() {
         "axial waves",
         "the shortest, axial waves: sound crosses an element in this time",
         "expected: less than a second on 1 of ",
-        "MiB of memory, 3 MB of results",
+        "MiB of memory",
         "ready: spunlaid run brief.toml --set 'air.velocity=12 m/s'",
     ] {
         assert!(said.contains(part), "{part}\n{said}");
@@ -143,20 +143,6 @@ fn analytic_check_tells_the_numbers_of_a_web() {
         success(&mut desk.spunlaid("check printed.toml")),
         said.replace("web web.toml", "web printed.toml")
     );
-    let json: serde_json::Value =
-        serde_json::from_str(&success(&mut desk.spunlaid("check web.toml --json"))).unwrap();
-    for (path, wanted) in [
-        ("/basis_weight_kg_m2", 20e-3),
-        ("/belt_speed_m_s", 2500.0 / 60.0 / 20.0),
-        ("/mass_flow_kg_s_m", 150.0 / 3600.0),
-        ("/layers/0/throughput_kg_s", 0.5e-3 / 60.0),
-        ("/layers/0/linear_density_kg_m", 2e-7),
-        ("/layers/0/filaments_per_m", 5000.0),
-    ] {
-        let found = json.pointer(path).and_then(serde_json::Value::as_f64).unwrap();
-        assert!((found / wanted - 1.0).abs() < 1e-12, "{path} {found} {wanted}");
-    }
-
     // Each point of a study has numbers of its own.
     let study = "web = 'web.toml'\ndesign = 'grid'\nreplicates = 2\n[vary]\n\
         'line.basis_weight' = ['10 g/m²', '20 g/m²']\n";
@@ -172,9 +158,6 @@ fn analytic_check_tells_the_numbers_of_a_web() {
     ] {
         assert!(lines.iter().any(|said| said == line), "{line}\n{said}");
     }
-    let json = success(&mut desk.spunlaid("check study.toml --json"));
-    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
-    assert_eq!(json["points"][1]["line.basis_weight_kg_m2"], 0.02);
 }
 
 /// Whether the air of the case is the same everywhere, and how all filaments fly in one.

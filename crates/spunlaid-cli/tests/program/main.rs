@@ -12,7 +12,6 @@ mod check;
 mod commands;
 mod compare;
 mod compared_webs;
-mod continued;
 mod figures;
 mod fit;
 mod flown_tension;

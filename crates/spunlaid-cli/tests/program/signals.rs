@@ -134,20 +134,6 @@ fn identical_bytes_from_a_run_that_was_interrupted_or_killed() {
 }
 
 #[test]
-fn interrupted_while_it_goes_on_a_run_stays_as_it_was() {
-    let desk = Desk::new();
-    success(&mut desk.with("run brief.toml --out r", &["run.output_interval=10 ms"]));
-    let before = desk.read("r/summary.json");
-    for (signal, code) in [("INT", Some(130)), ("KILL", None)] {
-        let longer = flying(&desk, &mut desk.spunlaid("run r --until 3000s"), "r");
-        assert_eq!(end(longer, signal).status.code(), code);
-        assert!(desk.read("r/summary.json") == before);
-    }
-    success(&mut desk.spunlaid("run r --until 20ms"));
-    assert_eq!(desk.entries("r"), entries_without_origin());
-}
-
-#[test]
 fn killed_nothing_looks_like_results_and_the_next_run_clears_up() {
     let desk = Desk::new();
     assert_eq!(end(long_run(&desk, "--out r", ""), "KILL").status.code(), None);

@@ -213,9 +213,6 @@ fn check_tells_throughput_and_line_density_of_every_fed_fibre() {
         said.contains("filaments of 18 µm, 2.32 dtex, fed at 50 m/s: 0.695 g/min from each hole"),
         "{said}"
     );
-    let told: serde_json::Value =
-        serde_json::from_str(&success(&mut desk.spunlaid("check brief.toml --json"))).unwrap();
-    assert!((told["throughput_kg_s"].as_f64().unwrap() / 1.157_828e-5 - 1.0).abs() < 1e-5, "{told}");
     let desk = Desk::with_case(&fed());
     let said = success(&mut desk.spunlaid("check brief.toml"));
     assert!(said.contains(": 0.5 g/min from each hole"), "{said}");

@@ -7,10 +7,8 @@ pub const MOST_SHAPES: u64 = 20_000;
 /// Largest number of replicates. Each takes half a kilobyte of memory for its values in the summary.
 pub const MOST_REPLICATES: u64 = 10_000_000;
 /// Largest number of recorded instants over all replicates. They are written to disk during the run, so they take
-/// no memory. Each takes [`INSTANT_ON_DISK`], which makes 150 GB in all.
+/// no memory. Each takes 150 bytes in the tables of a run, which makes 150 GB in all.
 pub const MOST_INSTANTS: f64 = 1e9;
-/// Size of a recorded instant in the tables of a run [bytes].
-pub const INSTANT_ON_DISK: f64 = 150.0;
 
 /// How many times `part` fits into `whole`, rounded to a whole number, and whether it fits exactly (apart from
 /// floating-point rounding).

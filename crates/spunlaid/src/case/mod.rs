@@ -15,7 +15,7 @@ mod usual;
 pub(crate) use check::too_many_steps;
 pub use checks::Checks;
 pub(crate) use limits::whole_parts;
-pub use limits::{INSTANT_ON_DISK, MOST_INSTANTS, MOST_REPLICATES, MOST_SHAPES, MOST_STEPS};
+pub use limits::{MOST_INSTANTS, MOST_REPLICATES, MOST_SHAPES, MOST_STEPS};
 pub use memory::{FLIGHT_MEMORY_LIMIT, FlightMemory};
 pub use note::{Note, Remark};
 use step::FEEDING;

@@ -67,8 +67,7 @@ impl FileKind {
 
     /// The path is a folder.
     pub(crate) fn is_folder(self) -> Fault {
-        let option = if self == Self::Case { "--until flies a finished run for longer" } else { "" };
-        Fault::new("is a folder", format!("name the {} in it", self.name())).option(option)
+        Fault::new("is a folder", format!("name the {} in it", self.name()))
     }
 
     /// The file is larger than `most` bytes.

@@ -5,10 +5,8 @@ use crate::args::{Check, Threads, overrides};
 use crate::commands::plural;
 use crate::failure::Failure;
 use crate::say;
-use serde::Serialize;
-use serde_json::Value as Json;
 use spunlaid::air::{Air, Flow, PlacedField};
-use spunlaid::case::{Case, INSTANT_ON_DISK, Note, StepLimit};
+use spunlaid::case::Case;
 use spunlaid::ensemble::{FinerPlans, KeepShapes, pace};
 use spunlaid::field::Spread;
 use spunlaid::input::{read_spinline, write_case, write_spinline};
@@ -17,11 +15,7 @@ use spunlaid::line::Line;
 use spunlaid::units::Dimension;
 use spunlaid_results::folders::run::POSITIONS;
 use spunlaid_results::numbers::significant;
-use spunlaid_results::output::in_order::OrderedObject;
-use spunlaid_results::output::paraview::thinned;
-use spunlaid_results::output::spinline::{self, SpinResults, SpinSummary};
-use spunlaid_results::output::summary::resolved;
-use spunlaid_results::output::versioned_json;
+use spunlaid_results::output::spinline::{self, SpinResults};
 use spunlaid_results::report::spinline_text;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -33,22 +27,17 @@ pub(super) fn case(check: &Check) -> Result<(), Failure> {
     let (case, notes) = looked_at(check.source.read(&[]))?;
     notes.iter().for_each(say::note);
     let expected = Needs::new(&case, started.elapsed().as_secs_f64())?;
-    if check.json {
-        say::text(&json(&case, expected, notes.iter().map(Note::to_string).collect()));
-        return Ok(());
-    }
     let field = match &case.air.flow {
         Flow::Field(placed) => field(placed),
         Flow::Uniform | Flow::Profile(_) => Vec::new(),
     };
     let mut comments = [field, mesh(&case), error_of_mesh(&case), limits(&case)].concat();
     comments.push(format!(
-        "expected: {} on {} of {} threads, {:.0} MiB of memory, {} of results",
+        "expected: {} on {} of {} threads, {:.0} MiB of memory",
         duration(expected.wall_s),
         expected.threads,
         Threads::default().number(),
-        expected.memory_bytes / f64::from(1 << 20),
-        size(expected.disk_bytes)
+        expected.memory_bytes / f64::from(1 << 20)
     ));
     comments.extend(idle_threads(&case, Threads::default().number() as u64));
     show("case", &write_case(&case), &comments, "run", &check.source);
@@ -60,50 +49,9 @@ pub(super) fn spinline_alone(check: &Check) -> Result<(), Failure> {
     let file = looked_at(read_spinline(&check.source.case, overrides(&check.source.set)))?;
     file.notes.iter().for_each(say::note);
     let results = SpinResults::new(&file)?;
-    if check.json {
-        let notes = Note::notes_of_results(&file.notes);
-        say::text(&spinline::Summary::new(&results.rows, &results.influences, &notes).to_json());
-        return Ok(());
-    }
     let comments: Vec<String> = spinline_text(&results).lines().map(str::to_owned).collect();
     show("spinline", &write_spinline(&file.spec), &comments, "spin", &check.source);
     Ok(())
-}
-
-/// The same as JSON.
-fn json(case: &Case, expected: Needs, notes: Vec<String>) -> String {
-    #[derive(Serialize)]
-    struct Summary {
-        case: OrderedObject<OrderedObject<Json>>,
-        /// Of a fed fibre.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        throughput_kg_s: Option<f64>,
-        #[serde(skip_serializing_if = "Option::is_none")]
-        linear_density_kg_m: Option<f64>,
-        #[serde(skip_serializing_if = "Option::is_none")]
-        spinline: Option<SpinSummary>,
-        elements: usize,
-        eddies: usize,
-        steps: u64,
-        step_limits: Vec<StepLimit>,
-        expected: Needs,
-        notes: Vec<String>,
-    }
-    versioned_json(
-        1,
-        &Summary {
-            case: resolved(case),
-            throughput_kg_s: case.throughput(),
-            linear_density_kg_m: case.line.map(|_| case.linear_density()),
-            spinline: SpinSummary::from_case(case),
-            elements: case.fibre.elements,
-            eddies: case.stations().map_or_else(|| case.eddies().count(), |stations| stations.count),
-            steps: case.run.steps,
-            step_limits: case.stable_step_limits(),
-            expected,
-            notes,
-        },
-    )
 }
 
 /// What was read from a CFD solution, and whether the fibre hangs along the air.
@@ -283,12 +231,10 @@ fn idle_threads(case: &Case, threads: u64) -> Option<String> {
 }
 
 /// What a run is expected to need.
-#[derive(Clone, Copy, Serialize)]
 struct Needs {
     wall_s: f64,
     threads: u64,
     memory_bytes: f64,
-    disk_bytes: f64,
 }
 
 impl Needs {
@@ -309,7 +255,6 @@ impl Needs {
             wall_s: reading + flying + FIGURES + WRITING * positions(case),
             threads: busy,
             memory_bytes: memory(case, busy),
-            disk_bytes: on_disk(case),
         })
     }
 }
@@ -361,27 +306,6 @@ fn instants(case: &Case) -> f64 {
 fn positions(case: &Case) -> f64 {
     let shapes = KeepShapes::within(case, POSITIONS);
     instants(case) / shapes.every as f64 * shapes.replicates as f64 * (case.fibre.elements + 1) as f64
-}
-
-/// Size of the results: tables, shapes and laid curves as text, figures and report [bytes].
-fn on_disk(case: &Case) -> f64 {
-    const POSITION: f64 = 85.0;
-    const LAID_POINT: f64 = 110.0;
-    const FIGURES_AND_REPORT: f64 = 3e6;
-    /// Nodes of a fed fibre, with its loops and what lies on the belt, over those of a straight one.
-    const SLACK: f64 = 1.5;
-    let run = &case.run;
-    let points = case.line.map_or(0.0, |line| line.feed_speed * run.duration() / case.fibre.rest_length());
-    let each = instants(case) * INSTANT_ON_DISK + points * LAID_POINT;
-    let shapes = instants(case) / KeepShapes::within(case, POSITIONS).every as f64;
-    let files = (shapes / thinned(case, shapes.ceil() as usize) as f64).ceil();
-    let slack = if case.line.is_some() { SLACK } else { 1.0 };
-    let written = slack * positions(case) * files / shapes;
-    run.replicates as f64 * each + written * POSITION + FIGURES_AND_REPORT
-}
-
-fn size(bytes: f64) -> String {
-    if bytes < 1e9 { format!("{:.0} MB", bytes / 1e6) } else { format!("{:.1} GB", bytes / 1e9) }
 }
 
 /// An expected time in words.

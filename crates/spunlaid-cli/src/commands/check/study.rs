@@ -6,12 +6,8 @@ use crate::args::{Check, overrides};
 use crate::commands::{LISTED, aligned, plural};
 use crate::failure::Failure;
 use crate::say;
-use serde::Serialize;
-use serde_json::Value as Json;
-use spunlaid::input::{StudyChanges, StudyFile, StudyNote, read_changed_study};
+use spunlaid::input::{StudyChanges, read_changed_study};
 use spunlaid::study::{Point, Study};
-use spunlaid_results::output::in_order::OrderedObject;
-use spunlaid_results::output::versioned_json;
 
 /// Checks the file of a study.
 pub(super) fn study(check: &Check) -> Result<(), Failure> {
@@ -19,10 +15,6 @@ pub(super) fn study(check: &Check) -> Result<(), Failure> {
     let changes = StudyChanges { set, ..StudyChanges::points(None) };
     let file = looked_at(read_changed_study(&check.source.case, &changes))?;
     file.notes.iter().for_each(say::study_note);
-    if check.json {
-        say::text(&json(&file));
-        return Ok(());
-    }
     let study = &file.study;
     let replicates = &study.replicates;
     let each = match (replicates.at_least, replicates.at_most) {
@@ -54,32 +46,4 @@ fn points(study: &Study) -> String {
         text += &format!("  and {} more points\n", study.points.len() - LISTED);
     }
     text
-}
-
-/// The same as JSON.
-fn json(file: &StudyFile) -> String {
-    #[derive(Serialize)]
-    struct Summary {
-        design: &'static str,
-        replicates: [u64; 2],
-        points: Vec<OrderedObject<Json>>,
-        notes: Vec<String>,
-    }
-    let study = &file.study;
-    let point = |point: &Point| {
-        let values = point.values.iter().zip(study.inputs());
-        let value = |(value, input): (&f64, spunlaid::study::Input<'_>)| {
-            (input.column(), input.word(*value).map_or_else(|| Json::from(*value), Json::from))
-        };
-        OrderedObject(values.map(value).collect())
-    };
-    versioned_json(
-        1,
-        &Summary {
-            design: study.design.name(),
-            replicates: [study.replicates.at_least, study.replicates.at_most],
-            points: study.points.iter().map(point).collect(),
-            notes: file.notes.iter().map(StudyNote::to_string).collect(),
-        },
-    )
 }

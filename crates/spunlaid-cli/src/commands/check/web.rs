@@ -5,104 +5,24 @@ use crate::args::{Check, overrides};
 use crate::commands::plural;
 use crate::failure::Failure;
 use crate::say;
-use serde::Serialize;
 use spunlaid::air::Lateral;
-use spunlaid::case::Note;
-use spunlaid::charge::{BREAKDOWN, ChargeEstimate};
+use spunlaid::charge::BREAKDOWN;
 use spunlaid::input::{LaydownSource, LayerSpec, Method, WebSpec, read_web};
 use spunlaid::layers::PlannedFlight;
 use spunlaid::units::Dimension;
 use spunlaid::web::Filaments;
 use spunlaid_results::numbers::{THIN, significant};
 use spunlaid_results::output::load::LoadSummary;
-use spunlaid_results::output::spinline::SpinSummary;
-use spunlaid_results::output::versioned_json;
 use spunlaid_results::report::load_words;
 
 /// Checks the file of a web.
 pub(super) fn web(check: &Check) -> Result<(), Failure> {
     let file = looked_at(read_web(&check.source.case, overrides(&check.source.set)))?;
     file.notes.iter().for_each(say::note);
-    let notes: Vec<String> = file.notes.iter().map(Note::to_string).collect();
-    if check.json {
-        say::text(&versioned_json(1, &Summary::new(&file.spec, notes)));
-        return Ok(());
-    }
     let spec = &file.spec;
     let comments = [line(spec), sheet(spec).to_vec(), air(spec), load(spec), guesses(spec)].concat();
     show("web", &file.text, &comments, "web", &check.source);
     Ok(())
-}
-
-/// The same as JSON.
-#[derive(Serialize)]
-struct Summary {
-    basis_weight_kg_m2: f64,
-    belt_speed_m_s: Option<f64>,
-    /// From each metre of width.
-    mass_flow_kg_s_m: f64,
-    layers: Vec<CheckedLayer>,
-    notes: Vec<String>,
-}
-
-#[derive(Serialize)]
-struct CheckedLayer {
-    name: Option<String>,
-    diameter_m: f64,
-    linear_density_kg_m: f64,
-    feed_speed_m_s: f64,
-    /// Of each hole.
-    throughput_kg_s: f64,
-    filaments: u64,
-    filaments_per_m: f64,
-    /// What is known of their load on the air before a flight.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    curtain: Option<LoadSummary>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    spinline: Option<SpinSummary>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    charge: Option<EstimatedCharge>,
-}
-
-/// What charge does at the edge of the curtain, before it is flown.
-#[derive(Serialize)]
-struct EstimatedCharge {
-    edge_field_v_m: f64,
-    /// Force on a filament there over its weight.
-    force_over_weight: f64,
-}
-
-impl From<ChargeEstimate> for EstimatedCharge {
-    fn from(estimate: ChargeEstimate) -> Self {
-        Self { edge_field_v_m: estimate.edge_field, force_over_weight: estimate.over_weight }
-    }
-}
-
-impl Summary {
-    fn new(spec: &WebSpec, notes: Vec<String>) -> Self {
-        let layer = |layer: &LayerSpec| {
-            let filaments = layer.filaments.count(&spec.sheet);
-            CheckedLayer {
-                name: layer.name.clone(),
-                diameter_m: layer.diameter,
-                linear_density_kg_m: layer.linear_density(),
-                feed_speed_m_s: layer.feed_speed,
-                throughput_kg_s: layer.linear_density() * layer.feed_speed,
-                filaments,
-                filaments_per_m: filaments as f64 / spec.sheet.width,
-                curtain: curtain(spec, layer),
-                spinline: layer.source.case().and_then(SpinSummary::from_case),
-                charge: layer.charge_estimate(&spec.sheet).map(EstimatedCharge::from),
-            }
-        };
-        Self {
-            basis_weight_kg_m2: weight(spec),
-            belt_speed_m_s: belt(spec),
-            mass_flow_kg_s_m: spec.mass_flow(),
-            layers: spec.layers.iter().map(layer).collect(),
-            notes,
-        }
-    }
 }
 
 /// The speed of the belt, on which all layers lie [m/s].
