@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! data → Chart (axes, series, marks) → Figure ─ picture   layout, ticks, thinning, legend: a list of shapes, for the screen or for a
-//!                                             │            width in print, written as svg, png, gif or pdf with the crate's own fonts
+//!                                             │            width in print, written as svg, png or pdf with the crate's own fonts
 //!                                             └ table     every point that the figure shows, as CSV
 //! ```
 //!
@@ -46,7 +46,6 @@ mod decimate;
 mod draw;
 mod drawing;
 mod figure;
-mod gif;
 mod glyphs;
 pub mod label;
 mod layout;
@@ -68,7 +67,6 @@ pub use chart::{Chart, Mark, Series};
 pub use decimate::even;
 pub use drawing::Drawing;
 pub use figure::Figure;
-pub use gif::gif;
 pub use map::{Map, Shades};
 pub use numbers::{shortest, signed, significant};
 pub use palette::Marker;

@@ -25,7 +25,7 @@ const CHARTS: &[&[&str]] = &[
     &["label", "picture"],
     &["outline", "svg"],
     &["pixels", "pdf", "drawing", "table", "map"],
-    &["png", "gif", "scale"],
+    &["png", "scale"],
     &["chart"],
     &["legend"],
     &["layout"],

@@ -97,7 +97,7 @@ def test_a_study_has_a_line_for_what_is_in_common(short: Case) -> None:
 def test_words_and_drawn_points_are_not_joined(short: Case) -> None:
     roots = spunlaid.sweep({"case": short, "replicates": 2, "vary": {"fibre.root": ["pinned", "clamped"]}}).plot()
     assert [text.get_text() for text in roots.get_xticklabels()] == ["pinned", "clamped"]
-    drawn = {"design": "sobol", "points": 4, "vary": {"air.velocity": {"from": 5, "to": 20}, "fibre.length": {"from": 0.5, "to": 1.0}}}
+    drawn = {"design": "latin-hypercube", "points": 4, "vary": {"air.velocity": {"from": 5, "to": 20}, "fibre.length": {"from": 0.5, "to": 1.0}}}
     drawn_ax = spunlaid.sweep({"case": short, "replicates": 2, **drawn}).plot()
     for ax in (roots, drawn_ax):
         assert [container.lines[0].get_linestyle() for container in ax.containers] == ["None"]

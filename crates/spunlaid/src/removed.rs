@@ -44,6 +44,7 @@ pub const REMOVED: &[Row] = &[
         "run the case.toml of its results folder with --set run.duration=\"20 s\": the first part has the same bits",
     ),
     (Removed::Command, "check --json", "0.1.0", "read summary.json of a run or a web, which has the same numbers"),
+    (Removed::Value, "design = \"sobol\"", "0.1.0", "write \"latin-hypercube\", which draws from the same ranges"),
     (Removed::Python, "spunlaid.fly_web", "0.1.0", AT_ONCE),
     (Removed::Python, "spunlaid.WebFlight", "0.1.0", AT_ONCE),
     (Removed::Python, "spunlaid.Stretch", "0.1.0", AT_ONCE),

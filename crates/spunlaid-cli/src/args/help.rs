@@ -68,8 +68,8 @@ pub(super) const SWEEP_HELP: &str = "\
 A study is a small text file beside the case it varies:
 
   case = \"table1.toml\"
-  design = \"grid\"           # or \"one-at-a-time\", \"paired\", \"latin-hypercube\", \"sobol\"
-  # points = 64              # how many a latin-hypercube or sobol design draws
+  design = \"grid\"           # or \"one-at-a-time\", \"paired\", \"latin-hypercube\"
+  # points = 64              # how many a latin-hypercube design draws
   replicates = 10            # fibres per point; or a table:
                              #   [replicates] at_most = 100, until = { amplitude_y = \"3 %\" }
   # common_phases = true     # the same random phases of turbulence at all points
@@ -179,7 +179,7 @@ A throughput and a basis weight may stand in [line] in place of the speeds. Seve
 `spunlaid keys` and `spunlaid keys --web` explain every key. The results folder holds
   report.html    for the browser: the web on a light table, what would make it more even, figures
   summary.json   basis weight, CV over patches with errors, directions, clouds, advice
-  map.npy, map.parquet, map.png   the basis weight of each cell
+  map.npy, map.png     the basis weight of each cell
   fibres.vtp     the single fibres of a window, for ParaView
   figures/       every figure as SVG, PNG and CSV
   web.toml       the file with every default; laying it again gives the same bits

@@ -62,7 +62,7 @@ pub(crate) enum Command {
     #[command(after_help = FIT_HELP, mut_arg("out", |out| out.help("Folder for the results [default: \
         results/<name of the web>_fit]")), mut_arg("force", |force| force.help(FORCE_HELP)), mut_arg("json", |json| json.help("Print fit.json instead of the table")))]
     Fit(Fit),
-    /// Look at the turbulent air of a case: moving pictures of its gusts, slices for ParaView
+    /// Look at the turbulent air of a case: pictures of its gusts, slices for ParaView
     #[command(after_help = AIR_HELP, mut_arg("out", |out| out.help("Folder for the results [default: \
         results/<name of the case>_air]")))]
     Air(Air),
@@ -173,10 +173,10 @@ pub(crate) struct Air {
     /// The replicate whose air it is, as they are numbered in a run
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=u64::from(u32::MAX)))]
     pub(crate) replicate: u64,
-    /// Number of pictures
+    /// Number of instants
     #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u64).range(1..=200))]
     pub(crate) frames: u64,
-    /// Time from the first picture to the last, as "20 ms" [default: as long as the air needs for the way]
+    /// Time from the first instant to the last, as "20 ms" [default: as long as the air needs for the way]
     #[arg(long, value_name = "TIME", value_parser = quantity(Dimension::Time))]
     pub(crate) duration: Option<f64>,
     #[command(flatten)]

@@ -167,7 +167,7 @@ class Study:
                 raise KeyError(f"no {what} {name!r} in this study; there are {', '.join(known) or 'none'}")
         values = self.inputs[along]
         # Neither words nor the points of a random design have an order.
-        is_ordered = values.dtype.kind == "f" and self.design not in ("latin-hypercube", "sobol")
+        is_ordered = values.dtype.kind == "f" and self.design != "latin-hypercube"
         measure = (self.scale_of_measure(column), self.mean[column], self.standard_error[column])
         return plot_points((self.scale_of_factor(along), values), measure, self._families(along), is_ordered, ax)
 

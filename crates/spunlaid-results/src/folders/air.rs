@@ -3,7 +3,7 @@
 use super::contents::{Contents, Maker, Page};
 use crate::Failure;
 use crate::numbers::{THIN, significant};
-use crate::output::air::{PLANES, Slices, Summary, pictures, write_vtk};
+use crate::output::air::{Slices, Summary, pictures, write_vtk};
 use crate::output::folder::{CASE_FILES, Staging};
 use crate::output::kept_input::Input;
 use crate::output::origin::ORIGIN;
@@ -53,8 +53,6 @@ impl Contents for AirFolder<'_> {
         "along.pvd",
         "across.pvd",
         "slices",
-        "along.gif",
-        "across.gif",
         "figures",
         "report.html",
         "summary.json",
@@ -66,13 +64,9 @@ impl Contents for AirFolder<'_> {
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
         let input = maker.keep(Input::Case(self.case))?;
-        let pictures = pictures(self.case, self.slices)?;
-        let figures: Vec<&Figure> = pictures.iter().map(|picture| &picture.figure).collect();
-        let files = |staging: &Staging<'_>| {
-            write_vtk(staging, self.slices)?;
-            let mut named = PLANES.iter().zip(&pictures);
-            named.try_for_each(|(name, picture)| staging.write(&format!("{name}.gif"), &picture.moving))
-        };
+        let pictures = pictures(self.case, self.slices);
+        let figures: Vec<&Figure> = pictures.iter().collect();
+        let files = |staging: &Staging<'_>| write_vtk(staging, self.slices);
         let report = || Ok(air_report((self.case, input), self.slices, &pictures, self.headline()));
         maker.finish((self.name, self.notes), &figures, files, report)
     }

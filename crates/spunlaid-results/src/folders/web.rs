@@ -57,7 +57,6 @@ impl Contents for WebFolder<'_> {
         CASE_FILES,
         "map.npy",
         "map.png",
-        "map.parquet",
         "fibres.vtp",
         STATIONS,
         TABLES,

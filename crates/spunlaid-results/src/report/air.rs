@@ -2,27 +2,23 @@
 
 use super::document::{Report, Section};
 use super::methods::{case_account, methods};
-use super::pictures::Moving;
-use super::view::View;
 use super::words::length;
 use crate::numbers::{THIN, significant};
-use crate::output::air::{Picture, Slices};
+use crate::output::air::Slices;
 use spunlaid::case::Case;
+use spunlaid_charts::Figure;
 
-/// The air of a case, in moving pictures.
+/// The air of a case, in pictures.
 ///
 /// * `case` – and the same as a file
 /// * `headline` – how strong the gusts are
 pub fn air_report<'a>(
     (case, toml): (&Case, &str),
     slices: &Slices,
-    pictures: &'a [Picture],
+    pictures: &'a [Figure],
     headline: String,
 ) -> Report<'a> {
     let summary = summary(case, slices);
-    let moving = pictures.iter().map(|picture| {
-        Section::new(&picture.figure.name, &picture.figure.title).view(View::Moving(Moving::new(picture)))
-    });
     let computed = Section::new("methods", "How it was computed").paragraph(
         "The air is a field of eddies in space with the lateral structure of von Kármán’s isotropic \
         turbulence, carried by the mean flow (air.lateral = \"von-karman\"). Fibres of this case that fly \
@@ -30,13 +26,13 @@ pub fn air_report<'a>(
         that are shorter than 2π length scales over air.lateral_cutoff are left out.",
     );
     let file = Section::new("file", "The case").file("case-toml", toml).caption(
-        "along.pvd and across.pvd open the velocities, all three components, in ParaView; along.gif and \
-        across.gif are the pictures of this page; all numbers are in summary.json, beside this page.",
+        "along.pvd and across.pvd open the velocities, all three components, in ParaView, which shows \
+        them one after the other; all numbers are in summary.json, beside this page.",
     );
     let found = [summary.clone(), headline.clone()];
     Report::new("air", headline)
         .lead(summary)
-        .with_all(moving)
+        .with(Section::new("pictures", "At the first instant").figures(pictures))
         .with(computed)
         .with(methods("air", case_account(case), found))
         .with(file)
@@ -48,7 +44,7 @@ fn summary(case: &Case, slices: &Slices) -> String {
     let duration = slices.times.last().copied().unwrap_or_default();
     let frames = slices.times.len();
     format!(
-        "{} of air on a way of {}, in {frames} pictures that are seen slowed down. Its turbulence repeats \
+        "{} of air on a way of {}, at {frames} instants. Its turbulence repeats \
         itself after {} in machine direction and {} across.",
         format_args!("{}{THIN}ms", significant(duration * 1e3, 3)),
         length(case.way_of_air()),

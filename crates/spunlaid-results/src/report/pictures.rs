@@ -1,8 +1,7 @@
-//! Pictures of webs beside each other, and moving pictures of the air.
+//! Pictures of webs beside each other.
 
 use super::words::{metres, millimetres};
 use crate::numbers::{THIN, significant};
-use crate::output::air::Picture;
 use crate::output::web::Pictures;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -62,18 +61,4 @@ pub(super) fn caption(Pictures { sides: [width, length], pixel, .. }: &Pictures)
         metres(*length),
         millimetres(*pixel)
     )
-}
-
-/// A moving picture.
-#[derive(Debug)]
-pub(super) struct Moving<'a> {
-    pub(super) caption: &'a str,
-    /// As base64.
-    pub(super) gif: String,
-}
-
-impl<'a> Moving<'a> {
-    pub(super) fn new(Picture { figure, moving }: &'a Picture) -> Self {
-        Self { caption: &figure.caption, gif: STANDARD.encode(moving) }
-    }
 }

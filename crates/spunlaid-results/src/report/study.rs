@@ -303,7 +303,6 @@ fn summary(study: &Study, results: &[PointResults]) -> String {
             "a Latin hypercube, in which the range of each factor has as many slices as there are points, \
             and each slice holds one point"
         }
-        Design::Sobol(_) => "the first points of Sobol’s sequence, which fills all ranges evenly",
     };
     let fibres: u64 = results.iter().map(|point| point.n).sum();
     let least = results.iter().map(|point| point.n).min().unwrap_or(0);

@@ -1,9 +1,8 @@
-//! What is looked at and not read: the moving fibre, the web on its light table, webs beside each other,
-//! moving pictures of the air.
+//! What is looked at and not read: the moving fibre, the web on its light table, webs beside each other.
 
 use super::frames::Frames;
 use super::light_table::Sheet;
-use super::pictures::{Beside, Moving};
+use super::pictures::Beside;
 use askama::Template;
 
 /// A view, by its kind: each has its template and its scripts.
@@ -15,8 +14,6 @@ pub(super) enum View<'a> {
     LightTable(Sheet),
     #[template(path = "beside.html")]
     Beside(Beside<'a>),
-    #[template(path = "moving.html")]
-    Moving(Moving<'a>),
 }
 
 impl View<'_> {
@@ -32,7 +29,7 @@ impl View<'_> {
                 include_str!("../../assets/fibre.js"),
             ],
             Self::LightTable(_) => &[include_str!("../../assets/light_table.js")],
-            Self::Beside(_) | Self::Moving(_) => &[],
+            Self::Beside(_) => &[],
         }
     }
 }

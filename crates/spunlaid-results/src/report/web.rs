@@ -181,9 +181,8 @@ fn file(layers: &[Layer], toml: &str) -> Section<'static> {
         .table(Table::new(heads).rows(layers.iter().map(layer)))
         .file("web-toml", toml)
         .caption(
-            "The map is in map.npy (kg/m², a row of the web after the other), map.png (16 bit) and \
-            map.parquet, the fibres of the window in fibres.vtp, all numbers in summary.json, beside this \
-            page.",
+            "The map is in map.npy (kg/m², a row of the web after the other), map.png (16 bit), the \
+            fibres of the window in fibres.vtp, all numbers in summary.json, beside this page.",
         )
 }
 

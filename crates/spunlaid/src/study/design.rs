@@ -1,6 +1,5 @@
 //! Designs: how the values of the factors are combined into points.
 
-use super::sobol::{MOST_DIMENSIONS, Sobol};
 use super::{Input, RandomUse, stream};
 use crate::units::Dimension;
 use rand_chacha::rand_core::Rng;
@@ -68,8 +67,6 @@ pub enum Design {
     Paired,
     /// This number of points; the range of each factor is divided into as many slices, and each slice holds one point.
     LatinHypercube(u64),
-    /// This number of points of Sobol's sequence.
-    Sobol(u64),
 }
 
 impl Design {
@@ -80,26 +77,17 @@ impl Design {
             Self::OneAtATime => "one-at-a-time",
             Self::Paired => "paired",
             Self::LatinHypercube(_) => "latin-hypercube",
-            Self::Sobol(_) => "sobol",
         }
     }
 
     /// All of them; those that draw have this number of points.
-    pub(crate) const fn all(points: u64) -> [Self; 5] {
-        [Self::Grid, Self::OneAtATime, Self::Paired, Self::LatinHypercube(points), Self::Sobol(points)]
-    }
-
-    /// Largest number of factors.
-    pub const fn most_factors(self) -> usize {
-        match self {
-            Self::Sobol(_) => MOST_DIMENSIONS,
-            _ => usize::MAX,
-        }
+    pub(crate) const fn all(points: u64) -> [Self; 4] {
+        [Self::Grid, Self::OneAtATime, Self::Paired, Self::LatinHypercube(points)]
     }
 
     /// Whether it draws values from the ranges instead of using the listed values.
     pub const fn draws(self) -> bool {
-        matches!(self, Self::LatinHypercube(_) | Self::Sobol(_))
+        matches!(self, Self::LatinHypercube(_))
     }
 
     /// Number of points; a floating-point number, because a large grid may exceed the range of an integer.
@@ -112,7 +100,7 @@ impl Design {
                 1.0 + factors.iter().zip(base).map(|(f, b)| f.other_values(*b).len() as f64).sum::<f64>()
             }
             Self::Paired => factors.first().map_or(0.0, |factor| factor.levels.count() as f64),
-            Self::LatinHypercube(points) | Self::Sobol(points) => points as f64,
+            Self::LatinHypercube(points) => points as f64,
         }
     }
 
@@ -143,12 +131,6 @@ impl Design {
                     (0..factors.len()).map(|i| latin(points, seed, i as u64)).collect();
                 let row = |k: usize| factors.iter().zip(&shares).map(|(f, shares)| f.at(shares[k])).collect();
                 (0..points as usize).map(row).collect()
-            }
-            Self::Sobol(points) => {
-                let sobol: Vec<Sobol> = (0..factors.len()).map(Sobol::dimension).collect();
-                let row =
-                    |k: u64| factors.iter().zip(&sobol).map(|(f, sequence)| f.at(sequence.at(k))).collect();
-                (0..points).map(row).collect()
             }
         }
     }
@@ -351,11 +333,9 @@ mod tests {
     #[test]
     fn lists_are_drawn_from_evenly() {
         let factors = [factor(Levels::List(vec![5.0, 6.0, 7.0, 8.0]))];
-        for design in [Design::LatinHypercube(8), Design::Sobol(8)] {
-            let mut drawn: Vec<f64> =
-                design.rows(&factors, &[0.0], 1).into_iter().map(|row| row[0]).collect();
-            drawn.sort_by(f64::total_cmp);
-            assert_eq!(drawn, [5.0, 5.0, 6.0, 6.0, 7.0, 7.0, 8.0, 8.0]);
-        }
+        let rows = Design::LatinHypercube(8).rows(&factors, &[0.0], 1);
+        let mut drawn: Vec<f64> = rows.into_iter().map(|row| row[0]).collect();
+        drawn.sort_by(f64::total_cmp);
+        assert_eq!(drawn, [5.0, 5.0, 6.0, 6.0, 7.0, 7.0, 8.0, 8.0]);
     }
 }

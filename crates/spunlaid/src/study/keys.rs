@@ -50,15 +50,15 @@ const KEYS: &[Key<Study>] = &[
         .meaning(
             "How the values are combined to points: every combination; around the base one key at a \
             time; the first values of all lists, then the second ones; or a number of points drawn at random \
-            in slices of the ranges, or from Sobol's sequence.",
+            in slices of the ranges.",
         ),
     key("points", Kind::Whole(1, MOST_POINTS))
         .told(|study: &Study| match study.design {
-            Design::LatinHypercube(points) | Design::Sobol(points) => Some(points.into()),
+            Design::LatinHypercube(points) => Some(points.into()),
             _ => None,
         })
-        .follows("that of the values; required for `latin-hypercube` and `sobol`, like `64`")
-        .meaning("Number of points that `latin-hypercube` and `sobol` draw."),
+        .follows("that of the values; required for `latin-hypercube`, like `64`")
+        .meaning("Number of points that `latin-hypercube` draws."),
     key("seed", Kind::Whole(0, u64::MAX))
         .told(|study: &Study| Some(study.seed.into()))
         .follows("that of the case or web")

@@ -22,7 +22,6 @@ mod measures;
 mod pack;
 mod rounds;
 mod run;
-mod sobol;
 mod spinlines;
 mod webs;
 

@@ -123,8 +123,6 @@ fn stat_intervals_hold_the_truth_as_often_as_they_say() {
         ("design = 'latin-hypercube'\npoints = 10", 6, MIXED, COMMON),
         ("design = 'latin-hypercube'\npoints = 24\ncommon_phases = false", 3, BENT, ALONE),
         ("design = 'latin-hypercube'\npoints = 40", 1, BENT, ALONE),
-        ("design = 'sobol'\npoints = 16", 6, STRAIGHT, COMMON),
-        ("design = 'sobol'\npoints = 32", 6, MIXED, COMMON),
     ] {
         let (share, width, scatter) = coverage(design, replicates, model, noise);
         let line = format!(
@@ -145,7 +143,6 @@ fn analytic_effects_of_a_straight_line() {
         ("design = 'grid'", 1.0),
         ("design = 'one-at-a-time'", 1.0),
         ("design = 'latin-hypercube'\npoints = 20", 1.0),
-        ("design = 'sobol'\npoints = 16", 1.0),
     ] {
         let study = three_keys(design, 6, 1);
         let none = Noise { fibre: 0.0, replicate: 0.0, slopes: 0.0 };
@@ -279,7 +276,6 @@ fn analytic_effects_of_words_are_differences_from_the_first() {
         "design = 'grid'",
         "design = 'one-at-a-time'",
         "design = 'latin-hypercube'\npoints = 20",
-        "design = 'sobol'\npoints = 16",
     ] {
         let (effects, explained) = effects_of_words(design, 4, none, 1);
         for ((change, half), wanted) in effects.iter().zip(WORDS.2) {

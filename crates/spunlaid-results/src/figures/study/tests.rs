@@ -74,7 +74,7 @@ fn draws_every_kind_of_study() {
         (Design::OneAtATime, &[3, 4, 2], 6 + 2),
         (Design::Paired, &[3, 3], n + 2),
         (Design::LatinHypercube(64), &[0, 0, 0], 6 + 2),
-        (Design::Sobol(2000), &[0, 0], 4 + 2),
+        (Design::LatinHypercube(2000), &[0, 0], 4 + 2),
     ] {
         let (study, results) = study(design, counts);
         let figures = study_figures(&study, &results, &rankings(&study));

@@ -3,15 +3,15 @@
 //! ```text
 //! Slices   the velocities on the points of both planes, instant by instant
 //! vtk      each instant as VTK images
-//! moving   all instants as moving pictures, and the first one as a figure
+//! pictures the first instant as figures
 //! summary  what was looked at, and how strong the gusts are
 //! ```
 
-mod moving;
+mod pictures;
 mod summary;
 mod vtk;
 
-pub use moving::{PLANES, Picture, pictures};
+pub use pictures::{PLANES, pictures};
 pub use summary::Summary;
 pub use vtk::write_vtk;
 

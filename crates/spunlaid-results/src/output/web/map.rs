@@ -1,11 +1,9 @@
-//! The map of the basis weight as array, table and picture.
+//! The map of the basis weight as array and picture.
 
 use super::MOST_CELLS;
 use crate::Failure;
 use crate::failure::undrawable;
 use crate::output::folder::Staging;
-use crate::output::table::number;
-use crate::output::table::parquet::Parquet;
 use spunlaid::scan::{CELL, WEIGHT_OF_BLACK};
 use spunlaid::web::Map;
 use std::fs::File;
@@ -14,21 +12,17 @@ use std::panic::resume_unwind;
 
 /// Longest side of a picture that browsers show [px].
 const LONGEST_SIDE: usize = 16_000;
-/// Number of rows in a row group.
-const ROWS: usize = 1 << 18;
 
-/// Writes the map as array, table and picture, each on a thread.
+/// Writes the map as array and picture, each on a thread.
 pub fn write(staging: &Staging<'_>, map: &Map) -> Result<(), Failure> {
     if map.cells.len() > MOST_CELLS {
         return write_array(staging, map);
     }
     std::thread::scope(|scope| {
-        let table = scope.spawn(|| table(staging, map));
         let array = scope.spawn(|| write_array(staging, map));
         let picture = picture(map).map_err(|reason| undrawable("map", &reason));
         let pictured = picture.and_then(|picture| staging.write("map.png", picture));
-        let written = [array, table].map(|files| files.join().unwrap_or_else(|panic| resume_unwind(panic)));
-        written.into_iter().fold(pictured, Result::and)
+        array.join().unwrap_or_else(|panic| resume_unwind(panic)).and(pictured)
     })
 }
 
@@ -61,22 +55,6 @@ pub(super) fn array(map: &Map, mut to: impl Write) -> io::Result<()> {
         to.write_all(&numbers.flat_map(f32::to_le_bytes).collect::<Vec<u8>>())?;
     }
     to.flush()
-}
-
-/// `map.parquet`: a row for each cell, with its middle.
-fn table(staging: &Staging<'_>, map: &Map) -> Result<(), Failure> {
-    let names = ["md_m", "cd_m", "basis_weight_kg_m2"];
-    let mut writer = Parquet::create(staging.begin("map.parquet")?, &names.map(number), ROWS)?;
-    let middle = |i: usize| (i as f64 + 0.5) * map.cell;
-    let weight = map.weight_of_quantum();
-    // All columns of a group of rows have as many values, and the first says how many.
-    for row in 0..map.rows {
-        writer.extend(0, (0..map.columns).map(|_| middle(row)));
-        writer.extend(1, (0..map.columns).map(middle));
-        writer.extend(2, map.row(row).iter().map(|quanta| f64::from(*quanta) * weight));
-        writer.flush_when_full()?;
-    }
-    writer.finish().map(drop)
 }
 
 /// A 16-bit grey picture of the web, lighter where there is less; the file tells the basis weight of black and white.

@@ -62,13 +62,6 @@ impl<'a> Reader<'a> {
     ///
     /// * `base` – values of the factors before they vary; NaN for none
     pub(super) fn combination(&mut self, design: Design, factors: &[Factor], base: &[f64]) {
-        let (found, most) = (factors.len(), design.most_factors());
-        if found > most {
-            let message =
-                format!("varies {found} keys; design = \"{}\" allows at most {most}", design.name());
-            self.key_values
-                .reject("design", Fault::new(message, "vary fewer keys, or choose another design"));
-        }
         if let (Design::Paired, Some(first)) = (design, factors.first()) {
             let wanted = first.levels.count();
             for factor in factors.iter().filter(|factor| factor.levels.count() != wanted) {

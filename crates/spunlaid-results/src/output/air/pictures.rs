@@ -1,50 +1,27 @@
 //! The planes as pictures: the gusts in machine direction, which swing a fibre from side to side.
 
 use super::Slices;
-use crate::Failure;
-use crate::failure::undrawable;
 use crate::numbers::significant;
 use spunlaid::case::Case;
 use spunlaid::vec3::Vec3;
-use spunlaid_charts::{Axis, Chart, Figure, Map, Shades, gif};
+use spunlaid_charts::{Axis, Chart, Figure, Map, Shades};
 
 /// Names of the planes, and of the pictures of them.
 pub const PLANES: [&str; 2] = ["along", "across"];
-/// Frames that are seen in a second.
-const PER_SECOND: f64 = 20.0;
 /// The colours reach so many standard deviations.
 const DEVIATIONS: f64 = 2.5;
 /// Width of a picture [px].
 const WIDTH: f64 = 620.0;
 const MM: f64 = 1e3;
 
-/// A plane as pictures.
-#[derive(Clone, Debug)]
-pub struct Picture {
-    /// The first instant.
-    pub figure: Figure,
-    /// All instants, as GIF.
-    pub moving: Vec<u8>,
-}
-
-/// Draws both planes.
-pub fn pictures(case: &Case, slices: &Slices) -> Result<Vec<Picture>, Failure> {
-    let draw = |i: usize| -> Result<Option<Picture>, Failure> {
+/// Draws both planes at the first instant. The colours are those of all instants.
+pub fn pictures(case: &Case, slices: &Slices) -> Vec<Figure> {
+    let draw = |i: usize| {
         let deviation = deviation(&slices.velocities[i]);
         let range = if deviation > 0.0 { DEVIATIONS * deviation } else { 1.0 };
-        let figures = (0..slices.times.len()).map(|frame| figure(case, slices, (i, frame), range));
-        let figures: Vec<Figure> = figures.collect();
-        let moving = gif(figures.iter().map(Figure::picture), PER_SECOND)
-            .map_err(|error| undrawable(PLANES[i], &error.to_string()))?;
-        let first = figures.into_iter().next();
-        Ok(first.map(|figure| Picture { figure, moving }))
+        figure(case, slices, i, range)
     };
-    let drawn = std::thread::scope(|scope| {
-        let other = scope.spawn(|| draw(1));
-        [draw(0), other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))]
-    });
-    let drawn: Vec<Option<Picture>> = drawn.into_iter().collect::<Result<_, _>>()?;
-    Ok(drawn.into_iter().flatten().collect())
+    if slices.times.is_empty() { Vec::new() } else { [0, 1].map(draw).into() }
 }
 
 /// Standard deviation of the velocity in machine direction over a plane and all times [m/s].
@@ -55,11 +32,11 @@ fn deviation(velocities: &[Vec<Vec3<f64>>]) -> f64 {
     (all().map(|y| (y - mean).powi(2)).sum::<f64>() / count).sqrt()
 }
 
-/// A plane at an instant.
+/// A plane at the first instant.
 ///
 /// * `range` – the velocity that the darkest colour stands for [m/s]
-fn figure(case: &Case, slices: &Slices, (i, frame): (usize, usize), range: f64) -> Figure {
-    let (plane, velocities) = (&slices.planes[i], &slices.velocities[i][frame]);
+fn figure(case: &Case, slices: &Slices, i: usize, range: f64) -> Figure {
+    let (plane, velocities) = (&slices.planes[i], &slices.velocities[i][0]);
     let [first, second] = [plane.steps[0], plane.steps[1]];
     let [columns, rows] = plane.points;
     let ends = |start: f64, step: f64, points: usize| {
@@ -80,7 +57,7 @@ fn figure(case: &Case, slices: &Slices, (i, frame): (usize, usize), range: f64) 
         label: "*v* (m/s)".to_owned(),
         shades: Shades::Signed,
     };
-    let time = significant(slices.times[frame] * MM, 3);
+    let time = significant(slices.times[0] * MM, 3);
     let way = significant(case.way_of_air() * MM, 3);
     let (title, axis, caption) = match i {
         0 => (
