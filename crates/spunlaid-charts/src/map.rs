@@ -140,12 +140,6 @@ impl Shades {
     }
 }
 
-/// Every colour of a map.
-pub(crate) fn colours() -> impl Iterator<Item = Colour> {
-    let palette = |shades: Shades| (0..LEVELS).map(move |level| shades.colour(level));
-    palette(Shades::Amount).chain(palette(Shades::Signed))
-}
-
 #[cfg(test)]
 mod tests {
     use super::{LEVELS, Map, OUTSIDE, Shades};

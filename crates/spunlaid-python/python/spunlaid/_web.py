@@ -29,7 +29,7 @@ class Web(Sheet):
         surrogate in place of the flown curves, and its `cv_whole_error` by all of them; `cv_single_fibres` expected
         from single fibres of the kind that was laid; `cv_flown` expected from the flown curves, and `cv_surrogate` expected
         from the surrogate, each with its standard error; `cv_independent` expected from the same filaments of a web in one air
-        if each had an air of its own, and `cv_pairs` from these and from what pairs of filaments have in common; and `cv_straight_fibres`
+        if each had an air of its own; and `cv_straight_fibres`
         of straight fibres in all directions of the same mass.
         What is not known is NaN: without flown fibres, `cv_flown`, the model error and the whole error."""
         return self._computed.patches

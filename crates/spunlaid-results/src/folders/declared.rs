@@ -61,7 +61,7 @@ fn kinds(found: &Findings) -> [Findings; 5] {
         with(&|patch| patch.surrogate = None),
         with(&|patch| {
             let independent = IndependentCv { cv: 0.05, standard_error: 0.001, degrees: 20.0 };
-            (patch.independent, patch.pairs) = (Some(independent), Some(0.06));
+            patch.independent = Some(independent);
         }),
         with(&|patch| {
             let (few, cv) = (0.07, 0.06);

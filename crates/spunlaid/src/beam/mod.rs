@@ -21,7 +21,6 @@ mod filament;
 mod flying;
 mod neighbours;
 mod pack;
-mod pairs;
 
 use crate::air::EddyField;
 use crate::case::Case;
@@ -34,7 +33,7 @@ use crate::sort::sort_by_key;
 use crate::threads::try_each;
 use crate::web::{
     Brush, Canvas, ChargedCurtain, KeptFibres, LaidWeb, NeighbourCorrelation, SharedAirFindings,
-    SharedVariance, Sheet, TimeSpent, Titres, Window, Windows,
+    Sheet, TimeSpent, Titres, Window, Windows,
 };
 pub(crate) use abreast::{FlownAbreast, fly_abreast, memory_abreast};
 use air::SharedField;
@@ -102,9 +101,6 @@ pub struct BeamFindings {
     pub(crate) in_windows: KeptFibres,
     /// How filaments come down together, over their distance.
     pub neighbours: Vec<NeighbourCorrelation>,
-    /// The part of CV² that neighbours make together, over patches of each side of the sheet; empty if pairs
-    /// do not tell it.
-    pub pairs: Vec<SharedVariance>,
     /// The filaments that were lost, by their numbers across the web, each with the reason.
     pub lost: Vec<(usize, Error)>,
     /// What a filament does to its air on its way, in the mean.
@@ -212,12 +208,7 @@ impl Beam<'_> {
                 together.add();
             }
         }
-        let flown = BeamFindings {
-            neighbours: together.correlations(),
-            // A few filaments do not know what those between them do.
-            pairs: on.map_or_else(Vec::new, |_| together.variances(self, sheet, by.threads)),
-            ..BeamFindings::default()
-        };
+        let flown = BeamFindings { neighbours: together.correlations(), ..BeamFindings::default() };
         let flown = flying.finish(flown)?;
         spent.in_parallel += making;
         spent.whole = started.elapsed();
@@ -242,11 +233,10 @@ impl Beam<'_> {
 impl BeamFindings {
     /// The findings on the web in one air. The strands of single fibres are moved out of `self`.
     pub(crate) fn take_shared_air(&mut self) -> SharedAirFindings {
-        let Self { in_windows, neighbours, pairs, lost, time, spent, charged, .. } = self;
+        let Self { in_windows, neighbours, lost, time, spent, charged, .. } = self;
         SharedAirFindings {
             strands: std::mem::take(&mut in_windows.strands),
             neighbours: neighbours.clone(),
-            pairs: pairs.clone(),
             few: Vec::new(),
             charged: charged.take().into_iter().collect(),
             lost: lost.len() as u64,

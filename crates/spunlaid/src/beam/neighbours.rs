@@ -8,9 +8,8 @@
 //! Nothing but the sums is kept, so the memory does not grow with the points.
 
 use super::Beam;
-use super::pairs::Pairs;
 use crate::fibre::{Place, rows};
-use crate::web::{Correlation, Edges, NeighbourCorrelation, SharedVariance, Sheet};
+use crate::web::{Correlation, Edges, NeighbourCorrelation, Sheet};
 
 /// Farthest neighbours, in parts of the distance after which the air repeats itself at least, which is ten
 /// length scales.
@@ -35,7 +34,6 @@ pub(super) struct Neighbours {
     stretches: Vec<Sums>,
     /// Points of each filament in a stretch.
     points: u64,
-    pairs: Pairs,
 }
 
 /// Pairs at one distance.
@@ -109,7 +107,6 @@ impl Neighbours {
             lost: vec![false; count],
             stretches: Vec::new(),
             points: (stretch / spacing).ceil().max(1.0) as u64,
-            pairs: Pairs::new(beam, farthest, sheet),
         }
     }
 
@@ -153,7 +150,6 @@ impl Neighbours {
                 }
             }
         }
-        self.pairs.add(&self.waiting, common);
         for waiting in &mut self.waiting {
             waiting.drain(..common.min(waiting.len()));
         }
@@ -172,11 +168,6 @@ impl Neighbours {
         };
         let all = self.distances.iter().enumerate().map(correlation);
         all.filter(|neighbour| neighbour.md.value.is_finite() && neighbour.cd.value.is_finite()).collect()
-    }
-
-    /// The part of CV² that neighbours make together, over patches of each side, from pairs.
-    pub(super) fn variances(&self, beam: &Beam<'_>, sheet: &Sheet, threads: usize) -> Vec<SharedVariance> {
-        self.pairs.variances(beam, sheet, (&self.means(None), &self.lost), threads)
     }
 
     /// The mean deviation of each filament, without one of the stretches.

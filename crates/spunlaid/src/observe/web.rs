@@ -78,12 +78,6 @@ pub const OF_PATCHES: &[Measure<PatchFindings>] = &[
         share("cv_independent_high", "", |patch| Some(patch.independent?.interval()?[1]))
             .meaning("upper end of its 95 % interval"),
     ]),
-    share("cv_pairs", "CV expected from pairs of filaments", |patch| patch.pairs)
-        .meaning("CV that is expected of a web in one air from the correlations of pairs of filaments")
-        .kept("cv_#_mm_pairs", "cv_#_mm_pairs")
-        .figure(&figure("cv_pairs", "CV expected from pairs of filaments", "CV from pairs of filaments"))
-        .short("")
-        .shown_if(|patch| patch.pairs.is_some()),
     share("cv_surrogate", "CV expected from the surrogate", |patch| Some(patch.surrogate?.0))
         .meaning("CV that is expected from the surrogate")
         .short("surrogate")

@@ -223,10 +223,6 @@ pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Res
         let (cv, standard_error) = single_fibres;
         let independent =
             is_shared.then_some(IndependentCv { cv, standard_error, degrees: alone[i].degrees });
-        let pairs = laid
-            .shared_air
-            .as_ref()
-            .and_then(|together| with_pairs(web, together, single_fibres.0, map.patch));
         let few = laid.shared_air.as_ref().and_then(|together| of_all_layers(web, together, map));
         let of_map = map.cv;
         // A map of pieces of another sheet says nothing of chance.
@@ -242,7 +238,6 @@ pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Res
             surrogate,
             straight_fibres,
             independent,
-            pairs,
         });
     }
     let lags = ((LAG / sheet.cell).round() as usize + 1).min(LAGS);
@@ -302,16 +297,4 @@ fn of_all_layers(web: &Web, together: &SharedAirFindings, map: Unevenness) -> Op
         own: sum(&|few| few.own, 1),
         few: sum(&|few| few.few * few.few, 1).sqrt(),
     })
-}
-
-/// CV over patches from that of independent filaments and from what pairs have in common.
-fn with_pairs(web: &Web, together: &SharedAirFindings, independent: f64, patch: f64) -> Option<f64> {
-    let weights = || web.layers.iter().map(|layer| layer.basis_weight(&web.sheet));
-    let whole: f64 = weights().sum();
-    let of_layer = |(number, weight): (usize, f64)| {
-        let known = together.pairs.iter().find(|pair| pair.layer == number && pair.patch == patch)?;
-        Some((weight / whole).powi(2) * known.variance)
-    };
-    let shared: Option<f64> = weights().enumerate().map(of_layer).sum();
-    Some((independent * independent + shared?).max(0.0).sqrt())
 }

@@ -4,7 +4,7 @@ use super::charged::ChargedCurtain;
 use super::few_findings::LayerFew;
 use super::laying::TimeSpent;
 use super::map::Map;
-use super::neighbours::{NeighbourCorrelation, SharedVariance};
+use super::neighbours::NeighbourCorrelation;
 use super::window::{PieceInWindow, Strand};
 use crate::error::Fault;
 
@@ -32,9 +32,6 @@ pub struct SharedAirFindings {
     pub strands: Vec<Strand>,
     /// How filaments of each layer come down together, over their distance.
     pub neighbours: Vec<NeighbourCorrelation>,
-    /// The part of CV² that neighbours make together, of each layer over patches of each side; empty if it is
-    /// not known.
-    pub pairs: Vec<SharedVariance>,
     /// What a few filaments say about the web of all, of each layer of which only a few were flown.
     pub few: Vec<LayerFew>,
     /// What charge has made of the filaments of each layer that carry some.
@@ -59,7 +56,6 @@ impl SharedAirFindings {
         let neighbours = other.neighbours.into_iter();
         self.neighbours.extend(neighbours.map(|neighbour| NeighbourCorrelation { layer, ..neighbour }));
         self.few.extend(other.few.into_iter().map(|few| LayerFew { layer, ..few }));
-        self.pairs.extend(other.pairs.into_iter().map(|pair| SharedVariance { layer, ..pair }));
         self.charged.extend(other.charged.into_iter().map(|charged| ChargedCurtain { layer, ..charged }));
         self.lost += other.lost;
         self.time = self.time.max(other.time);

@@ -54,7 +54,7 @@ pub use laid_web::{LaidWeb, SharedAirFindings};
 pub use lay::{lay, lay_in_windows, pieces};
 pub use laying::{LayControl, TimeSpent};
 pub use map::Map;
-pub use neighbours::{Correlation, NeighbourCorrelation, SharedVariance};
+pub use neighbours::{Correlation, NeighbourCorrelation};
 pub(crate) use nozzles::inlets;
 pub use one_fibre::{OneFibre, SingleFibres, one_fibre, straight_fibres};
 pub use orientation::{Orientation, orientation};

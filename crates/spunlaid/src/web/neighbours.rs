@@ -15,19 +15,6 @@ pub struct NeighbourCorrelation {
     pub cd: Correlation,
 }
 
-/// The part of CV² of a layer that its filaments make together because they share their air: CV² is this and
-/// that of independent filaments.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SharedVariance {
-    /// Index of the layer.
-    pub layer: usize,
-    /// Side of the square patches [m].
-    pub patch: f64,
-    /// Variance of the basis weight of patches over its squared mean [-], from the correlations of pairs of
-    /// filaments. It holds to about 10 % for CV over patches that are larger than a loop.
-    pub variance: f64,
-}
-
 /// A correlation coefficient.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Correlation {

@@ -115,13 +115,13 @@ fn invariant_a_blocked_hole_takes_one_filament_from_a_web_in_one_air() {
         let (less, _) = missing(&whole.map, &half.map);
         assert!((less / mass - 0.5).abs() < 1e-3, "{less} {mass}");
     };
-    let flight = Flyer::new(2, &stop, &unwatched).flight(&small).unwrap();
-    check(&small, &|spec, threads| flight.curtains().lay(spec, 0..100, by(threads)).unwrap().laid);
+    let flown = |spec: &WebSpec, threads| {
+        Flyer::new(threads, &stop, &unwatched).web(spec).unwrap().measure(by(threads)).unwrap().laid
+    };
+    check(&small, &flown);
     let set = [("web.length", "0.1 m"), ("web.window", "20 mm"), ("web.flown", "all")];
     let all = read(&[&set[..], &[("line.filaments_per_metre", "100")]].concat()).spec;
-    check(&all, &|spec, threads| {
-        Flyer::new(threads, &stop, &unwatched).web(spec).unwrap().measure(by(threads)).unwrap().laid
-    });
+    check(&all, &flown);
 }
 
 #[test]

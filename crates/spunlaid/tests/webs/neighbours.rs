@@ -2,12 +2,9 @@
 
 use super::beam::{case_in, lay_by, row, sheet};
 use spunlaid::beam::{Airs, BeamFindings};
-use spunlaid::ensemble::{Keep, Results, RunControl, fly};
-use spunlaid::error::Error;
 use spunlaid::fibre::Place;
 use spunlaid::lanes::Isa;
-use spunlaid::web::{Correlation, Edges, NeighbourCorrelation, Row, Sheet};
-use std::sync::atomic::{AtomicBool, AtomicU64};
+use spunlaid::web::{Correlation, NeighbourCorrelation, Row, Sheet};
 
 fn flown(lateral: &str, sheet: &Sheet, places: &[Place], airs: Airs, threads: usize) -> BeamFindings {
     lay_by((&case_in(lateral), sheet), places, airs, Isa::detect(), threads).1

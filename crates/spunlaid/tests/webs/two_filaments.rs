@@ -81,9 +81,5 @@ fn stat_two_filaments_say_how_uneven_a_web_in_one_air_is() {
         let shared: f64 = covariances.iter().filter(|(neighbour, ..)| *neighbour != 0).map(term).sum();
         let (expected, found) = ((alone + shared).sqrt(), cv(&laid.map, side));
         assert!((expected / found - 1.0).abs() < 0.05, "{side} mm: {expected} for {found}");
-        // The program knows the correlations at a few distances and lags only.
-        let pairs =
-            flown.pairs.iter().find(|pair| pair.patch == patch).expect("pairs at every distance").variance;
-        assert!((pairs / shared - 1.0).abs() < 0.1, "{side} mm: {pairs} for {shared}");
     }
 }

@@ -6,7 +6,7 @@ use crate::commands::plural;
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::air::Lateral;
-use spunlaid::charge::BREAKDOWN;
+use spunlaid::charge::{BREAKDOWN, ChargeEstimate};
 use spunlaid::input::{LaydownSource, LayerSpec, Method, WebSpec, read_web};
 use spunlaid::layers::PlannedFlight;
 use spunlaid::units::Dimension;

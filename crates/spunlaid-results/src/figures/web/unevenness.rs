@@ -55,7 +55,6 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
         let point = |patch: &PatchFindings| Some((patch.map.patch * MM, cv(patch)?.0 * PER_CENT));
         findings.patches.iter().filter_map(point).collect()
     };
-    let pairs = curve(|patch| Some((patch.pairs?, f64::NAN)));
     let (flown, surrogate) = (curve(|patch| patch.flown), curve(|patch| patch.surrogate));
     let single: Vec<(f64, f64)> = findings
         .patches
@@ -74,13 +73,6 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
         _ if is_shared => {
             let alone = Series::new("the same filaments in airs of their own", VERMILION).width(1.8);
             let chart = chart.line(alone, &single);
-            let chart = match pairs.is_empty() {
-                true => chart,
-                false => chart.line(
-                    Series::new("expected, from pairs of filaments", GREEN).dashed(&[6.0, 4.0]),
-                    &pairs,
-                ),
-            };
             chart.line(Series::new("", BLUE).unlabelled().adorning().width(1.0), &line)
         }
         (false, false) => chart
@@ -94,7 +86,7 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
     let rows = web.layers.iter().any(|layer| !layer.filaments.are_at_random());
     let places = if rows { "in their rows" } else { "at random places" };
     if is_shared {
-        return Figure::new(&chart, shared_air(places, of_few, !pairs.is_empty()));
+        return Figure::new(&chart, shared_air(places, of_few));
     }
     let cut = if web.sheet.edges == Edges::Cut {
         "cut off at the edges in cross direction, and the strips at the edges, where the web is thinner, are left out"
@@ -119,23 +111,16 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
 ///
 /// * `of_few` – whether a few filaments were flown for all
 /// * `by_pairs` – whether the CV that pairs tell is drawn
-fn shared_air(places: &str, of_few: bool, by_pairs: bool) -> String {
+fn shared_air(places: &str, of_few: bool) -> String {
     let bars = match of_few {
         true => "by chance, from the waves of the map of the flown filaments, and because few were flown",
         false => "by chance, from the waves of the map",
-    };
-    let dashed = match by_pairs {
-        true => {
-            " The dashed one adds what neighbours do together, from the correlations of pairs of them alone: \
-            it checks the map, and holds to about 10 % over patches larger than a loop."
-        }
-        false => "",
     };
     format!(
         "Standard deviation of the basis weight of square patches over its mean, on a stretch of belt on \
         which every filament lies as it does after its start. Bars are one standard error {bars}. The curve \
         below is what the same filaments {places} would give if each had an air of its own: the sum of their \
-        own variances, without what neighbours do together.{dashed} Straight fibres are those of the same \
+        own variances, without what neighbours do together. Straight fibres are those of the same \
         mass in all directions at random."
     )
 }
