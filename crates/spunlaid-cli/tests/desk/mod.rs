@@ -76,13 +76,6 @@ pub const ENTRIES: [&str; 9] = [
     "summary.json",
 ];
 
-/// What the folder of a continued run holds.
-pub fn entries_without_origin() -> BTreeSet<String> {
-    let mut entries = names(&ENTRIES);
-    entries.remove("origin.toml");
-    entries
-}
-
 /// A folder with a case in it, `brief.toml`, where the program is called.
 pub struct Desk {
     pub folder: TempDir,

@@ -1,7 +1,7 @@
 //! Runs that are stopped, killed or cannot write: nothing is left, or the next run clears it up.
 #![cfg(unix)]
 
-use crate::desk::{Desk, ENTRIES, FED, entries, entries_of_fed, entries_without_origin, names, success};
+use crate::desk::{Desk, ENTRIES, FED, entries, entries_of_fed, names, success};
 use std::fs::{self, File};
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};

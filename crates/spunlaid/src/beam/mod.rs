@@ -32,8 +32,8 @@ use crate::load::WayPlace;
 use crate::sort::sort_by_key;
 use crate::threads::try_each;
 use crate::web::{
-    Brush, Canvas, ChargedCurtain, KeptFibres, LaidWeb, NeighbourCorrelation, SharedAirFindings,
-    Sheet, TimeSpent, Titres, Window, Windows,
+    Brush, Canvas, ChargedCurtain, KeptFibres, LaidWeb, NeighbourCorrelation, SharedAirFindings, Sheet,
+    TimeSpent, Titres, Window, Windows,
 };
 pub(crate) use abreast::{FlownAbreast, fly_abreast, memory_abreast};
 use air::SharedField;

@@ -77,9 +77,6 @@ pub struct PatchFindings {
     /// [`PatchFindings::single_fibres`] where they were flown in one air; None if they are independent as
     /// they are.
     pub independent: Option<IndependentCv>,
-    /// What is expected of filaments in one air from those in airs of their own and from the correlations of
-    /// pairs; it checks the map. None if the filaments are independent or if pairs do not tell it.
-    pub pairs: Option<f64>,
     /// What a few filaments in one air say of all; None if all were flown, or if the patch is too large for
     /// the sheet that they laid.
     pub few: Option<FewFilamentsCv>,

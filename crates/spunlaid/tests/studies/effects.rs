@@ -272,11 +272,7 @@ fn effects_of_words(
 #[test]
 fn analytic_effects_of_words_are_differences_from_the_first() {
     let none = Noise { fibre: 0.0, replicate: 0.0, slopes: 0.0 };
-    for design in [
-        "design = 'grid'",
-        "design = 'one-at-a-time'",
-        "design = 'latin-hypercube'\npoints = 20",
-    ] {
+    for design in ["design = 'grid'", "design = 'one-at-a-time'", "design = 'latin-hypercube'\npoints = 20"] {
         let (effects, explained) = effects_of_words(design, 4, none, 1);
         for ((change, half), wanted) in effects.iter().zip(WORDS.2) {
             assert!((change - wanted).abs() < 1e-9 && half.unwrap() < 1e-9, "{design}: {change} {half:?}");
