@@ -35,6 +35,15 @@ pub(super) fn too_many(most: u64, parts: &str) -> Fault {
     Fault::new(format!("has more than {most} {parts}"), "cut out the part where the fibres fly, or thin it")
 }
 
+/// The file is a surface.
+pub(super) fn poly_data() -> Fault {
+    Fault::format(
+        "a surface (PolyData), which is not read any more",
+        "name the file that holds the interior; a plane flow: open it in ParaView, apply Clean to Grid and save \
+         it as .vtu",
+    )
+}
+
 /// A number of values does not fit.
 pub(super) fn count(found: usize, wanted: usize, parts: &str) -> Fault {
     Fault::new(format!("has {found} {parts} and needs {wanted}"), "is the file complete?")

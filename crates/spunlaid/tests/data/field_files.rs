@@ -340,29 +340,6 @@ fn tables_of_many_programs_are_read() {
             (m/s)                  k (m^2/s^2)              ep (m^2/s^3)\n{}",
             rows("1;2;3;4;5", "                       ")
         ),
-        format!(
-            "TITLE = \"channel, 2 by 2\"\nVARIABLES = \"X\", \"Y\", \"Z\", \"U [m/s]\", \"V [m/s]\", \"W \
-            [m/s]\", \"k\", \"epsilon\"\nZONE T=\"F=BLOCK\", I=2, J=2, K=2, DATAPACKING=POINT\n{}",
-            rows("1;2;3;4;5", " ")
-        ),
-        format!(
-            "# made by a solver\nvariables = \
-            \"x-coordinate\"\n\"y-coordinate\"\n\"z-coordinate\"\n\"x-velocity\"\n\"y-velocity\"\n\"z-velocity\"\n\"turb-kinetic-energy\"\n\"turb-diss-rate\"\nzone t=\"fluid\"\n n=8, e=1, f=fepoint, et=brick\n{}1 2 4 3 5 6 8 7\n",
-            rows("1;2;3;4;5", "\t")
-        ),
-        format!(
-            "VARIABLES = X Y Z U V W k omega\nZONE I=4, F=POINT\n{}ZONE I=4, F=POINT\n{}",
-            rows("1;2;3;4;13.888888888888889", ", ")
-                .lines()
-                .take(4)
-                .map(|row| format!("{row}\n"))
-                .collect::<String>(),
-            rows("1;2;3;4;13.888888888888889", ", ")
-                .lines()
-                .skip(4)
-                .map(|row| format!("{row}\n"))
-                .collect::<String>()
-        ),
         format!("x;y;z;u;v;w;k;epsilon;\r\n{}", rows("1,0;2,0;3,0;4,0;5,0;", ";")),
         format!("x\ty\tz\tu\tv\tw\ttke\tomega\n{}", rows("100e-2;2;3;4;13.888888888888889", "\t")),
         format!(

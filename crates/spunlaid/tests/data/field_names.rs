@@ -145,12 +145,6 @@ fn identical_with_german_names_in_every_table() {
             GERMAN,
         ),
         (
-            "VARIABLES = \"X\" \"Y\" \"Z\" \"Geschw. längs\" \"Geschw. quer\" \"Geschw. hoch\" \
-            \"Turbulenzenergie\" \"Dissipation\"\nZONE I=2, J=2, K=2, DATAPACKING=POINT",
-            " ",
-            components("Geschw. längs, geschw. quer, Geschw. hoch"),
-        ),
-        (
             "% Length unit: m\n% x  y  z  längs (m/s)  quer (m/s)  hoch (m/s)  Turbulenzenergie (m^2/s^2)  \
             Dissipation (m^2/s^3)",
             "   ",

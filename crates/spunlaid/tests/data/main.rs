@@ -15,6 +15,7 @@ mod vtk;
 mod field_blanks;
 mod field_cases;
 mod field_files;
+mod field_foreign;
 mod field_lists;
 mod field_names;
 mod field_points;

@@ -14,10 +14,6 @@ use crate::vec3::Vec3;
 /// How such files begin.
 pub(super) const START: &[u8] = b"# vtk DataFile Version";
 
-/// The keywords of the cells of a surface in the order of their values, and the types that they are in a mesh.
-const SURFACE_CELLS: [(&str, i64); 4] =
-    [("VERTICES", 2), ("LINES", 4), ("POLYGONS", 7), ("TRIANGLE_STRIPS", 6)];
-
 /// Reads a file.
 pub(super) fn read(bytes: &[u8], layout: &FieldLayout) -> Result<(Field, Vec<Fault>), FileError> {
     let mut scanner = Scanner { bytes, at: 0, binary: false };
@@ -65,16 +61,11 @@ impl<'a> Scanner<'a> {
                 let listed = self.cells(version >= 5.0, budget)?;
                 Grid::unstructured(points, &listed)?
             }
-            "POLYDATA" => {
-                self.next_keyword("POINTS")?;
-                let points = self.points(None, budget)?;
-                let listed = self.surface(version >= 5.0, budget)?;
-                Grid::unstructured(points, &listed)?
-            }
+            "POLYDATA" => return Err(fault::poly_data().into()),
             other => {
                 return Err(wrong(
                     other,
-                    "STRUCTURED_POINTS, RECTILINEAR_GRID, STRUCTURED_GRID, UNSTRUCTURED_GRID or POLYDATA",
+                    "STRUCTURED_POINTS, RECTILINEAR_GRID, STRUCTURED_GRID or UNSTRUCTURED_GRID",
                 ));
             }
         };
@@ -134,25 +125,6 @@ impl<'a> Scanner<'a> {
         let count: usize = self.parse("a number of cells")?;
         listed.types = self.array("CELL_TYPES".to_owned(), NumberType::I32, 1, count)?.all(budget)?;
         Ok(listed)
-    }
-
-    /// The vertices, lines, polygons and strips of a surface, in whatever order; its cells are numbered in this one.
-    fn surface(&mut self, with_ends: bool, budget: &mut Budget) -> Result<MeshLists, FileError> {
-        let mut kinds = SURFACE_CELLS.map(|_| MeshLists::default());
-        loop {
-            if self.peek() == Some("METADATA") {
-                self.word()?;
-                self.metadata();
-                continue;
-            }
-            let Some(kind) = SURFACE_CELLS.iter().position(|(keyword, _)| self.peek() == Some(*keyword))
-            else {
-                break;
-            };
-            self.word()?;
-            kinds[kind] = self.cell_lists(with_ends, budget)?;
-        }
-        Ok(MeshLists::of_surface(SURFACE_CELLS.map(|(_, number)| number).into_iter().zip(kinds)))
     }
 
     /// Numbers of points and the points of cells, after their keyword.

@@ -37,7 +37,6 @@ fn list_type(kind: &str) -> Option<List> {
         "PStructuredGrid" => pieces("StructuredGrid"),
         "PRectilinearGrid" => pieces("RectilinearGrid"),
         "PImageData" => pieces("ImageData"),
-        "PPolyData" => pieces("PolyData"),
         _ => return None,
     })
 }

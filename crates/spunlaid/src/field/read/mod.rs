@@ -8,6 +8,7 @@ mod arrays;
 mod assembly;
 mod blanks;
 mod encoding;
+mod foreign;
 mod gaps;
 mod grid;
 mod join;
@@ -18,7 +19,6 @@ mod missing;
 mod names;
 mod piece;
 mod table;
-mod tecplot;
 mod unstructured;
 mod xml;
 
@@ -41,6 +41,9 @@ pub(crate) struct ReadField {
 impl ReadField {
     /// Reads a field from a file, with the files that this one lists.
     pub(crate) fn read(path: &Path, layout: &FieldLayout) -> Result<Self, FileError> {
+        if let Some(fault) = foreign::folder(path) {
+            return Err(FileError::from(fault).path(path));
+        }
         let bytes = file::read(path, FileKind::Field, u64::MAX)?;
         if list::is_list(&bytes) {
             return list::read(path, &bytes, layout);
@@ -76,17 +79,16 @@ impl Field {
     /// As [`Field::read`], and if an array that the layout names is not there.
     pub fn parse_as(bytes: &[u8], name: &str, layout: &FieldLayout) -> Result<(Self, Vec<Fault>), FileError> {
         let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-        let read = if list::is_list(start) {
+        let read = if let Some(fault) = foreign::refusal(start, name) {
+            Err(fault.into())
+        } else if list::is_list(start) {
             Err(list::without_path().into())
         } else if start.trim_ascii_start().starts_with(b"<") {
             xml::read(start, layout)
         } else if start.starts_with(legacy::START) {
             legacy::read(start, layout)
-        } else if start.trim_ascii_start().starts_with(b"FoamFile") || start.starts_with(b"/*----") {
-            let found = "a file of OpenFOAM’s own";
-            Err(Fault::format(found, "convert the case with foamToVTK and name its internal.vtu").into())
         } else {
-            tecplot::as_table(start).and_then(|table| table::read(&table, layout))
+            table::read(start, layout)
         };
         read.map_err(|error| error.file(name))
     }

@@ -87,18 +87,6 @@ fn kind(number: i64) -> Option<Kind> {
 }
 
 impl MeshLists {
-    /// The cells of a surface: lists of each kind, with the type of their cells.
-    pub(super) fn of_surface(kinds: impl IntoIterator<Item = (i64, Self)>) -> Self {
-        let mut all = Self::default();
-        for (number, lists) in kinds {
-            let before = all.connectivity.len() as i64;
-            all.types.extend(lists.ends.iter().map(|_| number));
-            all.ends.extend(lists.ends.iter().map(|end| end + before));
-            all.connectivity.extend(lists.connectivity);
-        }
-        all
-    }
-
     /// The cells that have a volume, or the faces if none has.
     ///
     /// * `points` – number of points

@@ -16,9 +16,7 @@ use roxmltree::{Document, Node};
 use std::borrow::Cow;
 
 /// The kinds of grids.
-const GRIDS: [&str; 5] = ["ImageData", "RectilinearGrid", "StructuredGrid", "UnstructuredGrid", "PolyData"];
-/// The cells of a surface in the order of their values, and the types that they are in a mesh.
-const SURFACE_CELLS: [(&str, i64); 4] = [("Verts", 2), ("Lines", 4), ("Polys", 7), ("Strips", 6)];
+const GRIDS: [&str; 4] = ["ImageData", "RectilinearGrid", "StructuredGrid", "UnstructuredGrid"];
 
 /// Reads a file.
 pub(super) fn read(bytes: &[u8], layout: &FieldLayout) -> Result<(Field, Vec<Fault>), FileError> {
@@ -69,6 +67,9 @@ fn add(bytes: &[u8], announced: Option<&str>, assembly: &mut Assembly<'_>) -> Re
         return Err(Fault::format(found, "write the field as a VTK file").into());
     }
     let kind = root.attribute("type").unwrap_or_default();
+    if matches!(kind, "PolyData" | "PPolyData") {
+        return Err(fault::poly_data().into());
+    }
     if !GRIDS.contains(&kind) {
         let found = format!("a VTK file of {}", excerpt(kind, 40));
         let advice = "write an unstructured grid (.vtu), or name the file that holds one";
@@ -186,10 +187,6 @@ impl<'a> File<'a> {
                 let (_, size) = extent()?;
                 Grid::Structured { size, points: self.points(piece, counted(size)?, budget)? }
             }
-            "PolyData" => {
-                let points = self.points(piece, number(piece, "NumberOfPoints")?, budget)?;
-                Grid::unstructured(points, &self.surface(piece, budget)?)?
-            }
             _ => {
                 let count = |name| number(piece, name);
                 let points = self.points(piece, count("NumberOfPoints")?, budget)?;
@@ -223,19 +220,6 @@ impl<'a> File<'a> {
             return Err(array.fault(fault::count(array.components, 3, "components")));
         }
         Ok(vectors(&array.numbers(count, budget)?))
-    }
-
-    fn surface(&self, piece: Node<'a, '_>, budget: &mut Budget) -> Result<MeshLists, FileError> {
-        let mut kinds = Vec::new();
-        for (part, number) in SURFACE_CELLS {
-            let arrays = self.arrays(piece, part)?;
-            let find = |name: &str| arrays.iter().find(|array| array.name == name);
-            if let (Some(connectivity), Some(ends)) = (find("connectivity"), find("offsets")) {
-                let (connectivity, ends) = (connectivity.all(budget)?, ends.all(budget)?);
-                kinds.push((number, MeshLists { connectivity, ends, ..MeshLists::default() }));
-            }
-        }
-        Ok(MeshLists::of_surface(kinds))
     }
 
     fn listed(&self, piece: Node<'a, '_>, count: usize, budget: &mut Budget) -> Result<MeshLists, FileError> {
