@@ -44,6 +44,16 @@ pub(super) fn poly_data() -> Fault {
     )
 }
 
+/// The file holds several times, and the air of a field is that of one.
+///
+/// * `found` – what tells so
+pub(super) fn several_times(found: &str) -> Fault {
+    Fault::new(
+        format!("{found}: these seem to be several times, and the mean flow of a field is that of one"),
+        "write one time only, or the mean over time",
+    )
+}
+
 /// A number of values does not fit.
 pub(super) fn count(found: usize, wanted: usize, parts: &str) -> Fault {
     Fault::new(format!("has {found} {parts} and needs {wanted}"), "is the file complete?")

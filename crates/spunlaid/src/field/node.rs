@@ -1,8 +1,10 @@
 //! Points with the values of the air there.
 
+use super::fault::several_times;
 use super::mean;
 use super::values::{Quantities, Values, at_point, check_range};
 use crate::error::{Fault, FileError, by_count, counted};
+use crate::units::shortest;
 use crate::vec3::Vec3;
 use std::cmp::Ordering;
 
@@ -31,7 +33,7 @@ pub(super) fn nodes(points: &[Vec3<f64>], values: Vec<Quantities>) -> Result<Vec
 /// The points at different places, each with the mean of the values there, and a warning where they differ.
 pub(super) fn distinct(points: &[Vec3<f64>], values: &Values) -> Result<(Vec<Node>, Vec<Fault>), FileError> {
     let mut nodes = nodes(points, values.check(points.len())?)?;
-    let (place_of, warning) = merge(&mut nodes);
+    let (place_of, warning) = merge(&mut nodes)?;
     let mut number = 0..;
     nodes.retain(|_| number.next().is_some_and(|i: u32| place_of[i as usize] == i));
     Ok((nodes, warning.into_iter().collect()))
@@ -41,15 +43,19 @@ pub(super) fn distinct(points: &[Vec3<f64>], values: &Values) -> Result<(Vec<Nod
 ///
 /// Returns for each point the first point at its place, and a warning if the values of some points differed from
 /// those of the first.
-pub(super) fn merge(nodes: &mut [Node]) -> (Vec<u32>, Option<Fault>) {
+///
+/// # Errors
+/// When all points stand there several times with different air.
+pub(super) fn merge(nodes: &mut [Node]) -> Result<(Vec<u32>, Option<Fault>), FileError> {
     let mut order: Vec<u32> = (0..nodes.len() as u32).collect();
     order.sort_unstable_by(|a, b| compare(&nodes[*a as usize].at, &nodes[*b as usize].at).then(a.cmp(b)));
     let mut place_of: Vec<u32> = (0..nodes.len() as u32).collect();
-    let mut differ = 0;
+    let (mut differ, mut repeats) = (0, Repeats::default());
     let mut rest = order.as_slice();
     while let Some(&first) = rest.first() {
         let Node { at, values } = nodes[first as usize];
         let (group, after) = rest.split_at(rest.iter().take_while(|i| nodes[**i as usize].at == at).count());
+        repeats.add(group, nodes);
         let others = group.iter().filter(|i| nodes[**i as usize].values != values).count();
         if others > 0 {
             let share = 1.0 / group.len() as f64;
@@ -61,6 +67,7 @@ pub(super) fn merge(nodes: &mut [Node]) -> (Vec<u32>, Option<Fault>) {
         differ += others as u64;
         rest = after;
     }
+    repeats.check(&place_of)?;
     let warning = (differ > 0).then(|| {
         Fault::plain(format!(
             "{} {} exactly at the place of another point but {} other values; the mean of their values is used",
@@ -69,7 +76,72 @@ pub(super) fn merge(nodes: &mut [Node]) -> (Vec<u32>, Option<Fault>) {
             by_count(differ, ("has", "have")),
         ))
     });
-    (place_of, warning)
+    Ok((place_of, warning))
+}
+
+/// Velocities that differ by less than this share of the largest one are the same air, written twice [-].
+const SAME_AIR: f64 = 1e-3;
+
+/// How often places occur, and with how different air.
+#[derive(Default)]
+struct Repeats {
+    /// Number of places that occur once, twice, ….
+    places: Vec<usize>,
+    fastest: f64,
+    /// The two points at one place whose velocities differ most, and by how much.
+    farthest: Option<([Node; 2], f64)>,
+}
+
+impl Repeats {
+    /// Adds a place.
+    ///
+    /// * `group` – the points there
+    fn add(&mut self, group: &[u32], nodes: &[Node]) {
+        let length = |u: f64, v: f64, w: f64| (u * u + v * v + w * w).sqrt();
+        self.places.resize(self.places.len().max(group.len()), 0);
+        self.places[group.len() - 1] += 1;
+        let first = nodes[group[0] as usize];
+        for node in group.iter().map(|i| nodes[*i as usize]) {
+            let ([u, v, w, ..], [first_u, first_v, first_w, ..]) = (node.values, first.values);
+            self.fastest = self.fastest.max(length(u, v, w));
+            let off = length(u - first_u, v - first_v, w - first_w);
+            if off > self.farthest.map_or(0.0, |(_, most)| most) {
+                self.farthest = Some(([first, node], off));
+            }
+        }
+    }
+
+    /// Whether the points are those of several times: each place occurs so often, or the list begins anew after the
+    /// last place and may end before it. Where only pieces meet, most places occur once.
+    fn check(self, place_of: &[u32]) -> Result<(), FileError> {
+        let Some(([one, other], off)) = self.farthest.filter(|(_, off)| *off > SAME_AIR * self.fastest)
+        else {
+            return Ok(());
+        };
+        let count = self.places.iter().sum::<usize>();
+        let usual = (0..self.places.len()).max_by_key(|i| self.places[*i]).unwrap_or(0);
+        // A row may be missing at some places.
+        let fewer = usual.checked_sub(1).map_or(0, |fewer| self.places[fewer]);
+        let each = usual > 0 && fewer <= 1.max(count / 100) && fewer + self.places[usual] == count;
+        let anew = count + 1 < place_of.len()
+            && place_of.iter().zip((0..count as u32).cycle()).all(|(place, number)| *place == number);
+        if !each && !anew {
+            return Ok(());
+        }
+        let speed = |node: &Node| {
+            let [u, v, w, ..] = node.values;
+            shortest((u * u + v * v + w * w).sqrt())
+        };
+        let [x, y, z] = one.at.map(shortest);
+        Err(several_times(&format!(
+            "has all its places several times with different air, like ({x}, {y}, {z}) m with {} and {} m/s (velocities \
+             off by {} m/s)",
+            speed(&one),
+            speed(&other),
+            shortest(off)
+        ))
+        .into())
+    }
 }
 
 /// Orders points by z, then y, then x.

@@ -146,14 +146,18 @@ fn mixed<'a>(lines: usize, text: impl Fn(usize) -> &'a str) -> Option<(usize, Pa
     longest.map(|(_, from, parting)| (from, parting))
 }
 
-/// The names in a line. Where blanks separate cells, a unit is joined to its name.
+/// The names in a line. Where blanks separate cells, a unit is joined to its name, and a time too.
 fn names(line: &str, parting: Parting) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for cell in parting.cells(line) {
         match names.last_mut() {
             Some(name)
                 if parting == Parting::Blanks
-                    && (cell.starts_with(['[', '(']) || cell.contains('/') && is_unit(cell)) =>
+                    && (cell.starts_with(['[', '('])
+                        || cell.contains('/') && is_unit(cell)
+                        // COMSOL’s `u (m/s) @ t=0`.
+                        || cell == "@"
+                        || name.ends_with('@')) =>
             {
                 name.push(' ');
                 name.push_str(cell);

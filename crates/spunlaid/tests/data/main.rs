@@ -20,6 +20,7 @@ mod field_lists;
 mod field_names;
 mod field_points;
 mod field_refusals;
+mod field_times;
 mod fields;
 mod record_dialects;
 mod record_files;

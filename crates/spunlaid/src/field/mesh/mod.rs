@@ -76,7 +76,7 @@ impl Mesh {
             return Err(FileError::from(fault).at(Position::Cell(cell as u64 + 1)));
         }
         let mut nodes = node::nodes(points, values)?;
-        let (place_of, merged) = merge(&mut nodes);
+        let (place_of, merged) = merge(&mut nodes)?;
         let mut warnings = Vec::from_iter(merged);
         let plane = plane.or_else(|| plane_of(&nodes));
         let mut cut = Cut::default();

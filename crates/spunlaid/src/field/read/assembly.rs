@@ -1,5 +1,6 @@
 //! Makes a field of the pieces of a file.
 
+use super::array::Array;
 use super::blanks::Blanks;
 use super::encoding::Budget;
 use super::gaps::Gaps;
@@ -7,6 +8,7 @@ use super::join::{Part, join};
 use super::measure::Measure;
 use super::missing;
 use super::piece::{Piece, Range, Reader};
+use super::times::one_time;
 use crate::error::{Fault, FileError, IS, by_count, counted};
 use crate::field::{Field, FieldLayout};
 
@@ -26,6 +28,8 @@ pub(super) struct Assembly<'l> {
     sources: Vec<(&'static str, String)>,
     /// What the first piece lacks for turbulence.
     lacks: Option<Fault>,
+    /// The time of the values, if a file tells it.
+    time: Option<f64>,
     /// How much may still be read, for all pieces together.
     pub(super) budget: Budget,
 }
@@ -40,6 +44,7 @@ impl<'l> Assembly<'l> {
             ranges: Vec::new(),
             sources: Vec::new(),
             lacks: None,
+            time: None,
             budget: Budget::new(),
         }
     }
@@ -56,6 +61,12 @@ impl<'l> Assembly<'l> {
         let values = reader.values()?;
         self.parts.push(Part { grid: piece.grid, values, blanks });
         Ok(())
+    }
+
+    /// Takes note of the time that a file tells.
+    pub(super) fn add_time(&mut self, array: &Array<'_>) -> Result<(), FileError> {
+        let times: Vec<f64> = array.all(&mut self.budget)?;
+        one_time(&mut self.time, array, &times)
     }
 
     pub(super) fn warn(&mut self, warning: Fault) {

@@ -5,6 +5,7 @@ use super::assembly::Assembly;
 use super::encoding::Budget;
 use super::grid::{Grid, counted, vectors};
 use super::piece::Piece;
+use super::times;
 use super::unstructured::{MeshLists, Polyhedra};
 use crate::error::{Fault, FileError, Position};
 use crate::field::fault;
@@ -16,10 +17,11 @@ pub(super) const START: &[u8] = b"# vtk DataFile Version";
 
 /// Reads a file.
 pub(super) fn read(bytes: &[u8], layout: &FieldLayout) -> Result<(Field, Vec<Fault>), FileError> {
-    let mut scanner = Scanner { bytes, at: 0, binary: false };
+    let mut scanner = Scanner { bytes, at: 0, binary: false, times: Vec::new() };
     let mut assembly = Assembly::new(layout);
     let piece = scanner.piece(&mut assembly.budget).map_err(|error| error.at(scanner.place()));
-    let added = piece.and_then(|piece| assembly.add(piece));
+    let timed = |piece| scanner.times.iter().try_for_each(|time| assembly.add_time(time)).map(|()| piece);
+    let added = piece.and_then(timed).and_then(|piece| assembly.add(piece));
     added.and_then(|()| assembly.finish()).map_err(|error| match scanner.binary {
         true => error,
         false => error.in_text(bytes),
@@ -31,6 +33,8 @@ struct Scanner<'a> {
     bytes: &'a [u8],
     at: usize,
     binary: bool,
+    /// The arrays that tell the time of the file.
+    times: Vec<Array<'a>>,
 }
 
 impl<'a> Scanner<'a> {
@@ -86,6 +90,10 @@ impl<'a> Scanner<'a> {
                     self.word()?;
                     let numbers = [self.parse("a number")?, self.parse("a number")?, self.parse("a number")?];
                     *(if keyword == "ORIGIN" { &mut origin } else { &mut spacing }) = numbers;
+                }
+                Some("FIELD") => {
+                    self.word()?;
+                    self.whole_fields()?;
                 }
                 _ => break,
             }
@@ -168,8 +176,7 @@ impl<'a> Scanner<'a> {
                     target = Some((keyword == "CELL_DATA", self.parse("a number of points or cells")?));
                 }
                 ("METADATA", _) => self.metadata(),
-                // Field data of the whole data set are left out.
-                ("FIELD", None) => drop(self.fields()?),
+                ("FIELD", None) => self.whole_fields()?,
                 (_, None) => return Err(wrong(keyword, "POINT_DATA or CELL_DATA")),
                 (_, Some((of_cells, count))) => {
                     let arrays = self.arrays(keyword, count)?;
@@ -222,6 +229,13 @@ impl<'a> Scanner<'a> {
             }
             other => Err(wrong(other, "SCALARS, VECTORS or FIELD")),
         }
+    }
+
+    /// Field data of the whole data set, of which only the time is kept.
+    fn whole_fields(&mut self) -> Result<(), FileError> {
+        let arrays = self.fields()?;
+        self.times.extend(arrays.into_iter().filter(|array| times::tells_time(&array.name)));
+        Ok(())
     }
 
     fn fields(&mut self) -> Result<Vec<Array<'a>>, FileError> {
@@ -322,7 +336,7 @@ impl<'a> Scanner<'a> {
             match self.peek() {
                 Some("FIELD") => {
                     self.word()?;
-                    self.fields()?;
+                    self.whole_fields()?;
                 }
                 Some("METADATA") => self.metadata(),
                 _ => return self.keyword(wanted),

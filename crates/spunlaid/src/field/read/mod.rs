@@ -19,6 +19,7 @@ mod missing;
 mod names;
 mod piece;
 mod table;
+mod times;
 mod unstructured;
 mod xml;
 

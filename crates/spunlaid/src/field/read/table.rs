@@ -9,6 +9,7 @@ use super::measure::Measure;
 use super::missing;
 use super::names::{self, Name, ScaledColumn};
 use super::piece::Piece;
+use super::times::{self, Times};
 use crate::error::{Fault, FileError, FileKind, Position, listed};
 use crate::field::{Field, FieldLayout};
 use crate::table::Table;
@@ -24,7 +25,8 @@ pub(super) fn read(bytes: &[u8], layout: &FieldLayout) -> Result<(Field, Vec<Fau
     if !table.named() {
         return Err(Fault::no_header(EXAMPLE).into());
     }
-    let names: Vec<Name> = table.heads().iter().map(|head| Name::new(&head.text)).collect();
+    let heads = table.heads().iter().map(|head| head.text.as_str());
+    let names: Vec<Name> = times::of_one_time(heads)?.into_iter().map(Name::new).collect();
     let coordinates = coordinates(&names)?;
     let arrays = Arrays::from_table(layout, names);
     if arrays.velocity()?.is_none() {
@@ -34,6 +36,7 @@ pub(super) fn read(bytes: &[u8], layout: &FieldLayout) -> Result<(Field, Vec<Fau
     used.extend(arrays.used()?);
     used.extend((0..arrays.names.len()).filter(|column| Mark::of(&arrays.names[*column]).is_some()));
     let placed = coordinates.iter().flatten().count();
+    let mut times = Times::new(&arrays.names);
     let mut columns: Vec<Vec<f64>> = vec![Vec::new(); used.len()];
     let mut lines = Vec::new();
     // Number of rows that lack a coordinate, and the line of the first.
@@ -45,6 +48,7 @@ pub(super) fn read(bytes: &[u8], layout: &FieldLayout) -> Result<(Field, Vec<Fau
             dropped = (dropped.0 + 1, if dropped.0 == 0 { table.line() } else { dropped.1 });
             continue;
         }
+        times.look(&table, &numbers[..placed])?;
         lines.push(table.line());
         columns.iter_mut().zip(numbers).for_each(|(column, number)| column.push(number));
     }

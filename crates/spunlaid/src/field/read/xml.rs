@@ -7,6 +7,7 @@ use super::assembly::Assembly;
 use super::encoding::{Budget, Compressor, Packing};
 use super::grid::{Grid, counted, vectors};
 use super::piece::Piece;
+use super::times;
 use super::unstructured::{MeshLists, Polyhedra};
 use crate::error::{Fault, FileError, Position};
 use crate::field::fault;
@@ -83,6 +84,13 @@ fn add(bytes: &[u8], announced: Option<&str>, assembly: &mut Assembly<'_>) -> Re
         return Err(Fault::cut_off("the grid").into());
     };
     let file = File { format: Format::new(root)?, appended, offsets: offsets(grid) };
+    // Above all pieces; what else stands there is not looked at.
+    let whole =
+        grid.children().filter(|node| node.has_tag_name("FieldData")).flat_map(|data| data.children());
+    let tells_time = |node: &Node<'_, '_>| node.attribute("Name").is_some_and(times::tells_time);
+    for node in whole.filter(|node| node.has_tag_name("DataArray")).filter(tells_time) {
+        assembly.add_time(&file.array(node).map_err(|error| error.at(place(node)))?)?;
+    }
     for piece in grid.children().filter(|node| node.has_tag_name("Piece")) {
         let read = file.piece(kind, grid, piece, &mut assembly.budget);
         assembly.add(read.map_err(|error| error.at(place(piece)))?)?;
