@@ -8,7 +8,7 @@ use crate::table::Table;
 use crate::units::{excerpt, shortest};
 
 /// Names of columns of time, with or without a unit of time at their end.
-const COLUMNS: [&str; 10] = [
+const COLUMNS: [&str; 13] = [
     "time",
     "timestep",
     "time_step",
@@ -18,6 +18,9 @@ const COLUMNS: [&str; 10] = [
     "solution_time",
     "flow_time",
     "physical_time",
+    "time_index",
+    "timestep_index",
+    "time_step_index",
     "zeit",
 ];
 const UNITS: [&str; 8] = ["s", "sec", "second", "seconds", "ms", "us", "µs", "min"];
