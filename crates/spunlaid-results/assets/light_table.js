@@ -27,7 +27,6 @@ function readMarks(marks) {
     stripsMd: strips(marks.strips[0]),
     stripsCd: strips(marks.strips[1]),
     streaks: groupsOf(marks.streaks, 4),
-    holes: groupsOf(marks.holes, 3),
   };
 }
 
@@ -77,8 +76,8 @@ function startTable(canvas, image, data) {
   }
 
   const marks = readMarks(data.marks);
-  // Which marks are shown, and the least radius of the holes.
-  const chosen = { radius: 0 };
+  // Which marks are shown.
+  const chosen = {};
 
   /** Rectangles on the picture, never thinner than can be seen. */
   function drawRectangles(rectangles, colour, isFilled) {
@@ -106,22 +105,10 @@ function startTable(canvas, image, data) {
       drawRectangles(strips.weakest, "rgba(213, 94, 0, 0.55)", true);
     }
     if (chosen.thin) drawRectangles(marks.thin, "rgba(213, 94, 0, 0.5)", true);
-    if (chosen.holes) {
-      const [width, height] = size();
-      pen.strokeStyle = "#009e73";
-      pen.lineWidth = 1.5;
-      for (const [x, y, radius] of marks.holes) {
-        if (radius < chosen.radius) break;
-        pen.beginPath();
-        const drawn = Math.max(radius * view.scale, 2);
-        pen.arc(width / 2 + (x - view.x) * view.scale, height / 2 + (y - view.y) * view.scale, drawn, 0, 2 * Math.PI);
-        pen.stroke();
-      }
-    }
     pen.restore();
   }
 
-  /** A button for each kind of mark that the web has, and the slider of the radius. */
+  /** A button for each kind of mark that the web has. */
   function offerMarks() {
     if (!marks) return;
     for (const label of byId("marks").querySelectorAll("label")) {
@@ -136,22 +123,6 @@ function startTable(canvas, image, data) {
       });
       if (count > 0) byId("marks").hidden = false;
     }
-    const holes = marks.holes;
-    if (holes.length === 0) return;
-    const slider = byId("radius");
-    const least = Math.floor(1000 * holes[holes.length - 1][2]);
-    [slider.min, slider.max, slider.value] = [least, Math.floor(1000 * holes[0][2]), least];
-    const tell = () => {
-      chosen.radius = slider.value / 1000;
-      const count = holes.findIndex((hole) => hole[2] < chosen.radius);
-      byId("radius-words").value = `${slider.value} µm or more: ${count < 0 ? holes.length : count}`;
-      requestAnimationFrame(draw);
-    };
-    slider.addEventListener("input", () => {
-      byId("marks").querySelector('[data-marks="holes"] input').checked = chosen.holes = true;
-      tell();
-    });
-    tell();
   }
 
   /** The thinnest places as small pictures, each of which shows its place. */

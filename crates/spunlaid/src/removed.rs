@@ -23,6 +23,9 @@ type Row = (Removed, &'static str, &'static str, &'static str);
 
 const AT_ONCE: &str = "lay the sheet at once on one machine, by spunlaid.web(file)";
 
+const NO_HOLES: &str =
+    "leave it out: the bare area is told of every web, and thin places say where a fabric is weak";
+
 /// Every removed name.
 pub const REMOVED: &[Row] = &[
     (
@@ -55,6 +58,9 @@ pub const REMOVED: &[Row] = &[
         "0.1.0",
         "write \"latin-hypercube\", which draws from the same ranges",
     ),
+    (Removed::Key, "fabric.holes", "0.1.0", NO_HOLES),
+    (Removed::Key, "fabric.contact_angle", "0.1.0", NO_HOLES),
+    (Removed::Command, "web --for holes", "0.1.0", "write --for 2mm, the patches that it judged by"),
     (Removed::Python, "spunlaid.fly_web", "0.1.0", AT_ONCE),
     (Removed::Python, "spunlaid.WebFlight", "0.1.0", AT_ONCE),
     (Removed::Python, "spunlaid.Stretch", "0.1.0", AT_ONCE),

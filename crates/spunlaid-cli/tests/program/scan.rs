@@ -22,9 +22,6 @@ feed_speed = "50 m/s"
 belt_speed = "5 m/s"
 filaments_per_metre = 5000
 
-[fabric]
-holes = false
-
 [web]
 width = "100 mm"
 length = "150 mm"

@@ -263,7 +263,7 @@ fn a_fed_fibre_that_is_killed_or_cannot_be_written_leaves_nothing() {
 
 const WEB: &str = "[fibre]\ndiameter = '18 µm'\ndensity = '910 kg/m³'\n[laydown]\nsigma_md = '18 mm'\n\
     sigma_cd = '18 mm'\nnoise = '12 m^-0.5'\n[line]\nfeed_speed = '50 m/s'\nbelt_speed = '5 m/s'\n\
-    filaments_per_metre = 100\n[fabric]\nholes = false\n[web]\nwidth = '0.5 m'\nlength = '0.5 m'\ncell = '1 mm'\n";
+    filaments_per_metre = 100\n[web]\nwidth = '0.5 m'\nlength = '0.5 m'\ncell = '1 mm'\n";
 
 #[test]
 fn a_web_that_is_killed_or_cannot_be_written_leaves_nothing() {

@@ -6,19 +6,11 @@ use super::words::millimetres;
 use crate::output::web::{fabric_rows, known_text};
 use spunlaid::fabric::Fabric;
 use spunlaid::observe::{
-    Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES, OF_STREAKS, OF_STRIPS, OF_THINNEST, PERCENT, measured,
+    Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_STREAKS, OF_STRIPS, OF_THINNEST, PERCENT, measured,
 };
 
 /// Everything that is told of a fabric.
 pub(super) fn fabric_section(fabric: &Fabric) -> Section<'static> {
-    let windows = fabric.holes.as_ref().map_or_else(String::new, |holes| {
-        let area = (holes.area * 1e6).round();
-        format!(
-            " Holes were counted in {} windows, {area} mm² together, in which fibres were drawn with \
-            their width.",
-            holes.windows
-        )
-    });
     let columns = [("Number", Content::Words), ("Value", Content::Numbers), ("Meaning", Content::Sentences)];
     let rows = measured(OF_FABRICS, fabric).filter_map(|row| {
         let value = known_text(&row)?;
@@ -27,11 +19,11 @@ pub(super) fn fabric_section(fabric: &Fabric) -> Section<'static> {
     let mut section = Section::new("fabric", "Fabric")
         .table(Table::of(columns).laid_out(Layout::Results).rows(rows))
         .caption(format!(
-            "{}; bonds and finishes are not known.{windows}",
+            "{}; bonds and finishes are not known.",
             match fabric.is_of_map_alone {
                 true => "From the map",
                 false => {
-                    "From the map, from the curves of the fibres and from what the file says of the fabric ([fabric])"
+                    "From the map, from the directions of the fibres and from what the file says of the fabric ([fabric])"
                 }
             }
         ));
@@ -53,17 +45,13 @@ pub(super) fn fabric_section(fabric: &Fabric) -> Section<'static> {
     section = compare(section, ("Strips", "Direction"), OF_STRIPS, &strips);
     let [place, told @ ..] = OF_STREAKS else { return section };
     let streaks: Vec<_> = fabric.streaks.iter().map(|streak| (shown(place, streak), streak)).collect();
-    section = compare(section, ("Streaks of the defects", place.label), told, &streaks);
-    let [radius, holes @ ..] = OF_HOLES else { return section };
-    let radii = fabric.holes.iter().flat_map(|holes| &holes.radii);
-    let radii: Vec<_> = radii.map(|of| (shown(radius, of), of)).collect();
-    compare(section, ("Holes into which a disc fits", radius.label), holes, &radii)
+    compare(section, ("Streaks of the defects", place.label), told, &streaks)
 }
 
 /// A few numbers of the fabric for a terminal.
 pub(super) fn fabric_in_short(fabric: &Fabric) -> Section<'static> {
     let facts = fabric_rows(fabric).into_iter().map(|[name, value]| (name, value));
-    let of = if fabric.is_of_map_alone { "" } else { " and of the curves of the fibres" };
+    let of = if fabric.is_of_map_alone { "" } else { " and of the directions of the fibres" };
     Section::new("", format!("Fabric, of the map{of}"))
         .table(Table::of_facts(facts))
         .paragraphs(fabric.notes.iter().cloned())

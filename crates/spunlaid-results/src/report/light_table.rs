@@ -60,8 +60,6 @@ pub(super) struct MarkedPlaces {
     strips: [[String; 2]; 2],
     /// Streaks of the defects of the line.
     streaks: String,
-    /// Middle and radius of holes.
-    holes: String,
 }
 
 impl MarkedPlaces {
@@ -85,14 +83,13 @@ impl MarkedPlaces {
             thinnest: packed(marks.thinnest.iter().flat_map(thinnest)),
             strips: marks.strips.each_ref().map(parts),
             streaks: packed(fabric.streaks.iter().flat_map(streak)),
-            holes: packed(marks.holes.iter().flat_map(|([x, y], radius)| [*x, *y, *radius])),
         }
     }
 }
 
 /// What the marks of a picture mean; nothing without any.
 pub(super) fn marks_note(fabric: &Fabric) -> String {
-    let Marks { patch, thin, thin_of_all, strips, holes, .. } = &fabric.marks;
+    let Marks { patch, thin, thin_of_all, strips, .. } = &fabric.marks;
     let mut words = Vec::new();
     if !thin.is_empty() {
         let all = if thin.len() < *thin_of_all {
@@ -110,12 +107,6 @@ pub(super) fn marks_note(fabric: &Fabric) -> String {
     }
     if !fabric.streaks.is_empty() {
         words.push("pink, the bands over which the defects of the line are looked for".to_owned());
-    }
-    if !holes.is_empty() {
-        words.push(
-            "green, holes in the windows in which they were counted, by the largest disc that fits"
-                .to_owned(),
-        );
     }
     if words.is_empty() { String::new() } else { format!(" Marked where chosen: {}.", words.join("; ")) }
 }

@@ -2,6 +2,7 @@
 
 use crate::error::{Error, Fault};
 use crate::layers::WebSpec;
+use crate::removed::Removed;
 use crate::units::Dimension;
 
 /// Something that follows the CV over patches of its size.
@@ -13,13 +14,11 @@ pub struct Aim {
     side: fn(&WebSpec) -> f64,
 }
 
-/// All of them. How many thin places there are follows from the CV over patches of their size; the weakest
-/// section of a strip from that over patches of the area of a section; and holes from the length of fibre
-/// over 1 to 2 mm.                                                            theory.md (103), (104), (111)
-pub const AIMS: [Aim; 3] = [
+/// All of them. How many thin places there are follows from the CV over patches of their size, and the weakest
+/// section of a strip from that over patches of the area of a section.                 theory.md (103), (104)
+pub const AIMS: [Aim; 2] = [
     Aim { name: "thin-places", side: |_| 10e-3 },
     Aim { name: "strips", side: |web| (web.fabric.strip.width * web.fabric.strip.section).sqrt() },
-    Aim { name: "holes", side: |_| 1.5e-3 },
 ];
 
 /// The side of the patches by whose CV a web is judged [m].
@@ -36,6 +35,9 @@ pub fn judged_by(spec: &WebSpec, text: &str) -> Result<f64, Error> {
         return nearest.ok_or_else(|| {
             Fault::new("the web is looked at over no patches", "name some in web.patches").into()
         });
+    }
+    if let Some(fault) = Removed::Command.fault(&format!("web --for {text}")) {
+        return Err(Fault::new(format!("--for {text} {}", fault.message), fault.remedy).into());
     }
     let names = || AIMS.map(|aim| aim.name).join(", ");
     let side = Dimension::Length.parse(text).ok().filter(|side| *side > 0.0).ok_or_else(|| {

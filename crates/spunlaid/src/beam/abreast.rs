@@ -129,7 +129,7 @@ impl Group<'_> {
         let mut ended = Vec::new();
         let mut flying = Vec::new();
         for &beam in &self.members {
-            match Flying::new(self.beams[beam], (sheet, no_window.into())) {
+            match Flying::new(self.beams[beam], (sheet, no_window)) {
                 Ok(of_beam) => flying.push((beam, of_beam)),
                 Err(error) => ended.push((beam, Err(error))),
             }

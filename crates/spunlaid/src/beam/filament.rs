@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::fibre::Place;
 use crate::flight::LaidPoint;
 use crate::line::Line;
-use crate::web::{Brush, Sheet, Strands, WindowOnSheet, Windows};
+use crate::web::{Brush, Sheet, Strands, Window, WindowOnSheet};
 
 /// How far what has been laid reaches along the belt.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,8 +53,8 @@ impl Stretch {
     /// While nothing has been laid.
     ///
     /// * `start` – length of fibre that is fed in the start [m]
-    pub(super) fn before(line: &Line, start: f64, windows: Windows, sheet: &Sheet) -> Self {
-        let window = WindowOnSheet::new(windows, sheet);
+    pub(super) fn before(line: &Line, start: f64, window: Window, sheet: &Sheet) -> Self {
+        let window = WindowOnSheet::new(window, sheet);
         Self { belt_ratio: line.belt_ratio(), start, length: sheet.length, window, back: None }
     }
 

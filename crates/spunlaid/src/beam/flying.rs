@@ -10,7 +10,7 @@ use crate::error::{Error, Fault};
 use crate::line::Line;
 use crate::observe::StretchedBalance;
 use crate::threads::{lock, unlock};
-use crate::web::{Brush, Sheet, Windows};
+use crate::web::{Brush, Sheet, Window};
 use std::ops::Range;
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex};
@@ -37,12 +37,12 @@ impl<'a> Flying<'a> {
     ///
     /// # Errors
     /// If the fibre of the case is not laid on a moving belt.
-    pub(super) fn new(beam: Beam<'a>, (sheet, windows): (&Sheet, Windows)) -> Result<Self, Error> {
+    pub(super) fn new(beam: Beam<'a>, (sheet, window): (&Sheet, Window)) -> Result<Self, Error> {
         let line = beam.case.line.filter(|line| line.belt_speed > 0.0);
         let line = line.ok_or_else(|| Fault::plain("the fibre of the case is not laid on a moving belt"))?;
         let numbers = pack::side_by_side(beam.places);
         let packs = numbers.iter().map(|_| Mutex::new(None)).collect();
-        let stretch = Stretch::before(&line, line.feed_speed * beam.case.run.spin_up(), windows, sheet);
+        let stretch = Stretch::before(&line, line.feed_speed * beam.case.run.spin_up(), window, sheet);
         let field = BeamField::new(&beam);
         Ok(Self { beam, line, numbers, packs, stretch, reach: Reach::default(), field, done: 0 })
     }

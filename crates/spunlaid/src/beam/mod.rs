@@ -32,8 +32,8 @@ use crate::load::WayPlace;
 use crate::sort::sort_by_key;
 use crate::threads::try_each;
 use crate::web::{
-    Brush, Canvas, ChargedCurtain, KeptFibres, LaidWeb, NeighbourCorrelation, SharedAirFindings, Sheet,
-    TimeSpent, Titres, Window, Windows,
+    Brush, Canvas, ChargedCurtain, LaidWeb, NeighbourCorrelation, SharedAirFindings, Sheet, Strand, TimeSpent,
+    Titres, Window,
 };
 pub(crate) use abreast::{FlownAbreast, fly_abreast, memory_abreast};
 use air::SharedField;
@@ -97,8 +97,8 @@ pub struct BeamControl<'a> {
 pub struct BeamFindings {
     /// All points that some filaments have laid, from the start on, with their numbers across the web.
     pub kept: Vec<(usize, Vec<LaidPoint>)>,
-    /// The parts of all filaments in the windows of the sheet.
-    pub(crate) in_windows: KeptFibres,
+    /// The parts of all filaments in the window of the sheet.
+    pub(crate) strands: Vec<Strand>,
     /// How filaments come down together, over their distance.
     pub neighbours: Vec<NeighbourCorrelation>,
     /// The filaments that were lost, by their numbers across the web, each with the reason.
@@ -150,7 +150,7 @@ impl Beam<'_> {
         let element = self.element_mass();
         let canvas = Canvas::new(sheet, &[element], self.basis_weight(sheet))?;
         let brush = Brush::new(&canvas, element, Titres::default());
-        let mut flown = self.fly((sheet, window.into()), Some(&brush), by)?;
+        let mut flown = self.fly((sheet, window), Some(&brush), by)?;
         let shared_air = Some(flown.take_shared_air());
         Ok((LaidWeb { shared_air, ..canvas.finish()? }, flown))
     }
@@ -169,7 +169,7 @@ impl Beam<'_> {
 
     /// Flies all filaments, and lays them on a canvas or keeps all their curves.
     ///
-    /// * `windows` – of the sheet, whose single fibres are kept
+    /// * `window` – of the sheet, whose single fibres are kept
     /// * `on` – what draws an element of fibre; None to keep the curves of all filaments in place of it
     ///
     /// # Errors
@@ -177,12 +177,12 @@ impl Beam<'_> {
     /// filaments are lost, or if it is stopped.
     pub(crate) fn fly(
         &self,
-        (sheet, windows): (&Sheet, Windows),
+        (sheet, window): (&Sheet, Window),
         on: Option<&Brush<'_>>,
         by: BeamControl<'_>,
     ) -> Result<BeamFindings, Error> {
         let started = Instant::now();
-        let mut flying = Flying::new(*self, (sheet, windows))?;
+        let mut flying = Flying::new(*self, (sheet, window))?;
         let (mut spent, mut making) = (TimeSpent::default(), Duration::ZERO);
         let mut shared = SharedField::new(self, sheet, by.threads);
         let block = shared.as_ref().map_or(BLOCK, SharedField::block).min(self.longest_block());
@@ -233,9 +233,9 @@ impl Beam<'_> {
 impl BeamFindings {
     /// The findings on the web in one air. The strands of single fibres are moved out of `self`.
     pub(crate) fn take_shared_air(&mut self) -> SharedAirFindings {
-        let Self { in_windows, neighbours, lost, time, spent, charged, .. } = self;
+        let Self { strands, neighbours, lost, time, spent, charged, .. } = self;
         SharedAirFindings {
-            strands: std::mem::take(&mut in_windows.strands),
+            strands: std::mem::take(strands),
             neighbours: neighbours.clone(),
             few: Vec::new(),
             charged: charged.take().into_iter().collect(),
@@ -250,7 +250,7 @@ impl BeamFindings {
         sort_by_key(&mut self.kept, |(filament, _)| *filament);
         sort_by_key(&mut self.lost, |(filament, _)| *filament);
         // A filament comes through the window in the order of its strands.
-        sort_by_key(&mut self.in_windows.strands, |strand| strand.filament);
+        sort_by_key(&mut self.strands, |strand| strand.filament);
     }
 }
 

@@ -3,9 +3,7 @@
 use super::Curtain;
 use crate::error::{Error, Fault};
 use crate::threads::try_each;
-use crate::web::{
-    Brush, Canvas, CanvasPart, KeptFibres, LaidWeb, Sheet, Strand, Strands, Titres, WindowOnSheet, Windows,
-};
+use crate::web::{Brush, Canvas, CanvasPart, LaidWeb, Sheet, Strand, Strands, Titres, Window, WindowOnSheet};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -22,8 +20,8 @@ const GROUPS: usize = 8;
 pub struct Belt<'a> {
     /// The sheet.
     pub sheet: &'a Sheet,
-    /// Windows of the sheet, whose single fibres are kept.
-    pub windows: Windows,
+    /// A window of the sheet, whose single fibres are kept.
+    pub window: Window,
     /// Where the sheet begins, at its back [m].
     pub back: f64,
 }
@@ -33,11 +31,7 @@ impl<'a> Belt<'a> {
     ///
     /// # Errors
     /// If the curves are too short for the sheet.
-    pub fn within(
-        curtain: &dyn Curtain,
-        sheet: &'a Sheet,
-        windows: impl Into<Windows>,
-    ) -> Result<Self, Fault> {
+    pub fn within(curtain: &dyn Curtain, sheet: &'a Sheet, window: Window) -> Result<Self, Fault> {
         let [back_of_start, front_of_end] = curtain.reach();
         let passed = curtain.belt_ratio() * curtain.spacing() * (curtain.points() as f64 - 1.0);
         let longest = back_of_start - (front_of_end - passed);
@@ -51,12 +45,12 @@ impl<'a> Belt<'a> {
                 "fly the filaments for longer, or make the sheet shorter (web.length)",
             ));
         }
-        Ok(Self { sheet, windows: windows.into(), back: back_of_start - sheet.length })
+        Ok(Self { sheet, window, back: back_of_start - sheet.length })
     }
 }
 
-/// Draws all filaments of a curtain on the rows of a canvas. The parts of them in the windows that begin on
-/// these rows are returned.
+/// Draws all filaments of a curtain on the rows of a canvas. The parts of them in the window, if it begins on
+/// these rows, are returned.
 ///
 /// * `brush` – draws a piece from point to point
 ///
@@ -67,21 +61,19 @@ pub(crate) fn draw(
     belt: Belt<'_>,
     brush: &Brush<'_>,
     (threads, stop): (usize, &AtomicBool),
-) -> Result<KeptFibres, Error> {
+) -> Result<Vec<Strand>, Error> {
     let count = curtain.places().len();
     // Neighbours are drawn together, because they lie on the same part of the sheet.
     let together = (count / (GROUPS * threads.max(1))).clamp(1, MOST_TOGETHER);
-    let (points, windows) = points_on(curtain, belt, brush.canvas.ends());
+    let (points, window) = points_on(curtain, belt, brush.canvas.ends());
     let groups = try_each(threads, count.div_ceil(together), |group| {
         let filaments = group * together..count.min((group + 1) * together);
-        draw_neighbours(curtain, (filaments, &points), (belt, &windows), brush, stop)
+        draw_neighbours(curtain, (filaments, &points), (belt, &window), brush, stop)
     })?;
-    let mut kept = KeptFibres::default();
-    groups.into_iter().for_each(|group| kept.add(group));
-    Ok(kept)
+    Ok(groups.concat())
 }
 
-/// The points whose pieces may touch a stretch of the sheet, and the windows that begin there, which are then
+/// The points whose pieces may touch a stretch of the sheet, and the window if it begins there, which is then
 /// a part of the stretch.
 ///
 /// * `ends` – of the stretch [m]
@@ -90,8 +82,8 @@ fn points_on(
     belt: Belt<'_>,
     [mut from, mut to]: [f64; 2],
 ) -> (Range<usize>, WindowOnSheet) {
-    let windows = WindowOnSheet::beginning_on(belt.windows, belt.sheet, [from, to]);
-    if let Some([first, last]) = windows.reach() {
+    let window = WindowOnSheet::beginning_on(belt.window, belt.sheet, [from, to]);
+    if let Some([first, last]) = window.reach() {
         (from, to) = (from.min(first), to.max(last));
     }
     let (advance, farthest) = (curtain.belt_ratio() * curtain.spacing(), curtain.farthest());
@@ -100,7 +92,7 @@ fn points_on(
     // A piece more on each side, for numbers that are rounded.
     let begin = (first - farthest - to) / advance - 2.0;
     let end = (last + farthest - from) / advance + 3.0;
-    (begin as usize..(end as usize).min(curtain.points()), windows)
+    (begin as usize..(end as usize).min(curtain.points()), window)
 }
 
 /// A filament while it is drawn.
@@ -113,10 +105,10 @@ struct Pen {
 fn draw_neighbours(
     curtain: &dyn Curtain,
     (filaments, points_on): (Range<usize>, &Range<usize>),
-    (belt, windows): (Belt<'_>, &WindowOnSheet),
+    (belt, window): (Belt<'_>, &WindowOnSheet),
     brush: &Brush<'_>,
     stop: &AtomicBool,
-) -> Result<KeptFibres, Error> {
+) -> Result<Vec<Strand>, Error> {
     let advance = curtain.belt_ratio() * curtain.spacing();
     let mut pens: Vec<Pen> = filaments.clone().map(|_| Pen::default()).collect();
     let mut part = CanvasPart::new(brush.canvas);
@@ -148,15 +140,13 @@ fn draw_neighbours(
                 if let Some(from) = pen.last.replace(*to) {
                     let (quanta, titre) = brush.quanta_at(titre, to[1]);
                     part.draw(from, *to, quanta);
-                    pen.strands.keep(filament, ([from, *to], titre), windows);
+                    pen.strands.keep(filament, ([from, *to], titre), window);
                 }
             }
         }
     }
     part.pass_on();
-    let mut kept = KeptFibres::default();
-    pens.into_iter().for_each(|pen| kept.add(pen.strands.into_parts()));
-    Ok(kept)
+    Ok(pens.into_iter().flat_map(|pen| pen.strands.into_parts()).collect())
 }
 
 /// Lays all filaments of a curtain on a sheet; the parts of them in the window are returned too.
@@ -174,9 +164,8 @@ pub fn lay(
     let per_length = element / curtain.spacing() * curtain.places().len() as f64;
     let basis_weight = per_length / curtain.belt_ratio() / belt.sheet.width;
     let canvas = Canvas::new(belt.sheet, &[element], basis_weight)?;
-    let KeptFibres { strands, pieces } =
-        draw(curtain, belt, &Brush::new(&canvas, element, Titres::default()), by)?;
-    Ok((LaidWeb { pieces, ..canvas.finish()? }, strands))
+    let strands = draw(curtain, belt, &Brush::new(&canvas, element, Titres::default()), by)?;
+    Ok((canvas.finish()?, strands))
 }
 
 #[cfg(test)]
@@ -185,7 +174,6 @@ mod tests {
     use super::super::synthetic::{BELT_RATIO, Field, SPACING, row};
     use super::*;
     use crate::fibre::Place;
-    use crate::web::Window;
 
     const CELL: f64 = 1e-3;
     const ELEMENT: f64 = 1e-9;
@@ -260,7 +248,7 @@ mod tests {
         let window = Window { corner: [0.0; 2], sides: [20e-3; 2] };
         let fault = Belt::within(&flown, &sheet, window).unwrap_err().to_string();
         assert!(fault.contains("the sheet is 500 mm long"), "{fault}");
-        let belt = Belt { sheet: &sheet, windows: window.into(), back: 0.0 };
+        let belt = Belt { sheet: &sheet, window, back: 0.0 };
         assert!(matches!(lay(&flown, belt, ELEMENT, (1, &AtomicBool::new(true))), Err(Error::Interrupted)));
     }
 }

@@ -11,12 +11,8 @@ pub struct FabricKeys {
     pub saleable_width: Option<f64>,
     /// How far the weight may be from that of the middle, as a share, to be sold.
     pub tolerance: f64,
-    /// Whether holes are counted, which takes seconds of a processor; None where whoever asks decides.
-    pub holes: Option<bool>,
     /// Strips that are pulled, and the sections of which the lightest is looked for.
     pub strip: StripSize,
-    /// Angle at which the edge of water meets the polymer [rad]; without it no hydrohead is told.
-    pub contact_angle: Option<f64>,
     /// Pressure that drives air through the fabric [Pa].
     pub pressure: f64,
     /// Opacity that was measured of a fabric of the same filaments, and its basis weight if that was another
@@ -32,9 +28,7 @@ impl FabricKeys {
         thickness: None,
         saleable_width: None,
         tolerance: 0.05,
-        holes: None,
         strip: StripSize { width: 50e-3, length: 200e-3, section: 5e-3 },
-        contact_angle: None,
         pressure: 200.0,
         measured_opacity: None,
         opacity_weight: None,

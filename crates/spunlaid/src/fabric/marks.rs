@@ -1,6 +1,5 @@
-//! Places of the sheet that are worth a look: the thinnest ones, strips with their weakest section, holes.
+//! Places of the sheet that are worth a look: the thinnest ones, strips with their weakest section.
 
-use super::holes::{Disc, WindowHoles};
 use super::marked::Marked;
 use super::patches::weights;
 use super::strips::{StripPlace, StripSize, places as strip_places};
@@ -26,8 +25,6 @@ pub struct Marks {
     pub thinnest: Vec<Marked>,
     /// The strips along MD and those along CD.
     pub strips: [Vec<StripPlace>; 2],
-    /// Holes in the windows: the middle of the largest disc, and its radius [m].
-    pub holes: Vec<([f64; 2], f64)>,
 }
 
 impl Marks {
@@ -55,18 +52,7 @@ impl Marks {
             place.weakest.corner[0] += corner;
         }
         strips.iter_mut().for_each(|strips| strips.truncate(MOST));
-        Self { patch, thin: patches, thin_of_all, thinnest, strips, holes: Vec::new() }
-    }
-
-    /// The largest holes of windows, each with the place of its corner on the map.
-    pub(super) fn mark_holes(&mut self, windows: &[([f64; 2], WindowHoles)], corner: f64) {
-        let of_window = |([cd, md], window): &([f64; 2], WindowHoles)| {
-            let on_sheet = |disc: &Disc| ([corner + cd + disc.centre[0], md + disc.centre[1]], disc.radius);
-            window.holes.iter().map(on_sheet).collect::<Vec<_>>()
-        };
-        self.holes = windows.iter().flat_map(of_window).collect();
-        self.holes.sort_by(|a, b| b.1.total_cmp(&a.1));
-        self.holes.truncate(MOST);
+        Self { patch, thin: patches, thin_of_all, thinnest, strips }
     }
 }
 

@@ -25,7 +25,6 @@ pub fn of_scan(findings: &Findings) -> Fabric {
         filaments: filaments.into_iter().collect(),
         orientation: None,
         patches: findings.patches.iter().map(|patch| patch.unevenness).collect(),
-        windows: None,
         defects: Vec::new(),
     };
     let mut fabric = tell(&laid, &FabricKeys::USUAL, 1);
@@ -38,7 +37,7 @@ pub fn of_scan(findings: &Findings) -> Fabric {
     };
     // What else is not told needs the fibres, and that is said once.
     fabric.notes = vec![format!(
-        "a scan does not tell what needs its fibres: stiffness, bare area, holes, hydrohead, air \
+        "a scan does not tell what needs its fibres: stiffness, bare area, air \
         permeability{formation}"
     )];
     // What makes a CV doubtful does so to its patches: a guess of the lamp, blur, a small sheet.

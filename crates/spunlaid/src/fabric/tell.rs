@@ -1,10 +1,10 @@
 //! Everything that is told of a fabric.
 
 use super::air_through::{Filaments, air_permeability, sensitivity, solid_fraction};
+use super::bare::{LOCAL, bare_area};
 use super::directions::stiffness_ratio;
 use super::formation::formation as formation_number;
 use super::given::FabricKeys;
-use super::holes::{FabricHoles, LocalLength, Piece, carry, count_holes};
 use super::known::Known;
 use super::light;
 use super::marks::Marks;
@@ -12,19 +12,17 @@ use super::patches::{ThinPlaces, thin_places, weights};
 use super::streaks::{Streak, StreakSource, streaks};
 use super::strips::{Strips, strips};
 use super::usable::{Usable, usable};
-use super::water::hydrohead;
 use crate::statistics::Estimate;
 use crate::threads::each;
 use crate::web::uniformity::{Unevenness, unevenness};
-use crate::web::{Map, Orientation, PieceInWindow, WindowLattice, straight_fibres};
+use crate::web::{Map, Orientation, straight_fibres};
 use std::borrow::Cow;
 use std::f64::consts::PI;
 
 /// Sides of the patches of which thin places are told [m].
 pub(crate) const PATCHES: [f64; 5] = [1e-3, 2e-3, 5e-3, 10e-3, 20e-3];
-/// Area of a test of the hydrohead (ISO 9073-16) and of the air permeability (ISO 9073-15) [m²], and side of
-/// the patches over which the opacity varies [m].
-const WATER_AREA: f64 = 100e-4;
+/// Area of a test of the air permeability (ISO 9073-15) [m²], and side of the patches over which the opacity
+/// varies [m].
 const AIR_AREA: f64 = 20e-4;
 const OPACITY_PATCH: f64 = 2e-3;
 /// A patch may be so much larger or smaller than it is called, to be one of whole cells.
@@ -47,8 +45,6 @@ pub struct Laid<'a> {
     pub orientation: Option<&'a Orientation>,
     /// Its unevenness over patches of some sides.
     pub patches: Vec<Unevenness>,
-    /// Windows, and the pieces of fibres in them.
-    pub windows: Option<(&'a WindowLattice, &'a [PieceInWindow])>,
     /// Defects of the line.
     pub defects: Vec<StreakSource>,
 }
@@ -72,10 +68,8 @@ pub struct Fabric {
     pub streaks: Vec<Streak>,
     /// Stiffness along MD over that along CD, of the directions alone.
     pub stiffness_ratio: Option<Known>,
-    /// Holes.
-    pub holes: Option<FabricHoles>,
-    /// Pressure at which water comes through [Pa].
-    pub hydrohead: Option<Known>,
+    /// Share of the area that no fibre covers.
+    pub bare: Option<Known>,
     /// Air that is blown through.
     pub air: Option<AirThrough>,
     /// Opacity.
@@ -121,9 +115,6 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
     let map = map.as_ref();
     let corner = first as f64 * map.cell;
     let mut notes = Vec::new();
-    notes.extend(
-        (keys.holes == Some(false)).then(|| "holes are not counted: fabric.holes = false".to_owned()),
-    );
     let filaments = of_this_weight(&laid.filaments, map.basis_weight());
     let (length, diameter) = lengths(&filaments);
     let whole = |patch: f64| {
@@ -131,29 +122,23 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
         ((side * map.cell / patch - 1.0).abs() < ABOUT).then_some(side as usize)
     };
     let sides: Vec<usize> = PATCHES.into_iter().filter_map(whole).collect();
+    let uneven = |side: usize| match keys.saleable_width {
+        Some(_) => unevenness(map, side),
+        None => {
+            let same = |found: &&Unevenness| (found.patch / (side as f64 * map.cell) - 1.0).abs() < 1e-6;
+            laid.patches.iter().find(same).copied()
+        }
+    };
     let patches = each(threads, sides.len(), |i| {
         let thin = thin_places(map, sides[i])?;
-        let same = |found: &&Unevenness| (found.patch / thin.patch - 1.0).abs() < 1e-6;
-        let found = match keys.saleable_width {
-            Some(_) => unevenness(map, sides[i]),
-            None => laid.patches.iter().find(same).copied(),
-        };
-        let formation = found.filter(|_| length > 0.0);
+        let formation = uneven(sides[i]).filter(|_| length > 0.0);
         let formation = formation.map(|found| formation_number(&found, straight_fibres(length, thin.patch)));
         Some(FabricPatch { thin, formation })
     });
-    let mut marks = Marks::new(map, corner, keys.strip);
-    let holes = laid.windows.filter(|_| length > 0.0).and_then(|(windows, pieces)| {
-        let local = LocalLength::new(map, length);
-        let sizes = ([corner, map.columns as f64 * map.cell], threads);
-        let found = counted(windows, pieces, &filaments, sizes);
-        marks.mark_holes(&found, corner);
-        carry(&found, &local, diameter, WATER_AREA)
-    });
-    let hydrohead = holes.as_ref().zip(keys.contact_angle).and_then(|(holes, angle)| {
-        let found = hydrohead(holes.largest, angle);
-        notes.extend(found.is_none().then(no_hydrohead));
-        found
+    let bare = laid.orientation.filter(|_| length > 0.0).and_then(|_| {
+        let side = ((LOCAL / map.cell).round().max(1.0) as usize).min(map.columns.min(map.rows));
+        let found = uneven(side).or_else(|| unevenness(map, side))?;
+        Some(bare_area(map, length, diameter, &found))
     });
     let air = (!laid.filaments.is_empty()).then(|| {
         let found = keys.thickness.and_then(|thickness| air(map, &filaments, thickness, keys.pressure));
@@ -169,27 +154,19 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
         usable,
         patches: patches.into_iter().flatten().collect(),
         strips: strips(map, keys.strip),
-        marks,
+        marks: Marks::new(map, corner, keys.strip),
         streaks: streaks(map, corner, &laid.defects),
         stiffness_ratio: laid.orientation.map(stiffness_ratio),
-        holes,
-        hydrohead,
+        bare,
         air,
         opacity: keys.measured_opacity.and_then(|measured| {
             let scattering = light::scattering(measured);
             let heavier = keys.opacity_weight.map_or(1.0, |weight| map.basis_weight() / weight);
             opacity(map, scattering * heavier)
         }),
-        is_of_map_alone: laid.orientation.is_none() && laid.windows.is_none(),
+        is_of_map_alone: laid.orientation.is_none(),
         notes,
     }
-}
-
-/// Why no hydrohead is told.
-fn no_hydrohead() -> String {
-    "the hydrohead is not told: it needs a contact angle above 90° (fabric.contact_angle) and holes of 20 µm or \
-    more in the windows"
-        .to_owned()
 }
 
 /// Why no air permeability is told.
@@ -242,32 +219,6 @@ fn lengths(filaments: &[Filaments]) -> (f64, f64) {
     let length = |of: &Filaments| of.basis_weight / (0.25 * PI * of.diameter * of.diameter * of.density);
     let whole: f64 = filaments.iter().map(length).sum();
     (whole, filaments.iter().map(|of| length(of) * of.diameter).sum::<f64>() / whole)
-}
-
-/// The holes of all windows that lie on a stretch across the sheet, each with its place on that stretch.
-///
-/// * `across` – where the stretch begins, and its width [m]
-fn counted(
-    windows: &WindowLattice,
-    pieces: &[PieceInWindow],
-    filaments: &[Filaments],
-    (across, threads): ([f64; 2], usize),
-) -> Vec<([f64; 2], super::WindowHoles)> {
-    let mut of_windows = vec![Vec::new(); windows.windows()];
-    for PieceInWindow { window, layer, ends: [from, to], titre } in pieces {
-        if let Some((pieces, kind)) = of_windows.get_mut(*window).zip(filaments.get(*layer)) {
-            pieces.push(Piece { from: *from, to: *to, half_width: 0.5 * kind.diameter * titre.sqrt() });
-        }
-    }
-    let on_stretch = |window: &usize| {
-        let from = windows.corner(*window)[0] - across[0];
-        from >= 0.0 && from + windows.side <= across[1]
-    };
-    let numbers: Vec<usize> = (0..windows.windows()).filter(on_stretch).collect();
-    each(threads, numbers.len(), |i| {
-        let [cd, md] = windows.corner(numbers[i]);
-        ([cd - across[0], md], count_holes(windows.side, windows.margin, &of_windows[numbers[i]]))
-    })
 }
 
 fn air(map: &Map, filaments: &[Filaments], thickness: f64, pressure: f64) -> Option<AirThrough> {

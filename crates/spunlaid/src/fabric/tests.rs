@@ -5,7 +5,7 @@
 use super::*;
 use crate::scan::{Format, Light, Picture, Settings, analyse};
 use crate::statistics::{Estimate, NORMAL_95};
-use crate::web::uniformity::unevenness;
+use crate::web::uniformity::{Unevenness, unevenness};
 use crate::web::{Canvas, Edges, Map, Sheet, straight_fibres};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
@@ -53,17 +53,6 @@ impl Random {
             sum += self.exponential();
         }
         lines
-    }
-
-    /// The holes of a square of straight fibres at random.
-    fn holes(&mut self, side: f64, length: f64) -> WindowHoles {
-        let margin = 0.25e-3;
-        let lines = self.lines(side + 2.0 * margin, length);
-        let piece = |[from, to]: [[f64; 2]; 2]| {
-            let [from, to] = [from, to].map(|end| end.map(|at| at - margin));
-            Piece { from, to, half_width: 0.5 * DIAMETER }
-        };
-        count_holes(side, margin, &lines.into_iter().map(piece).collect::<Vec<_>>())
     }
 }
 
@@ -135,7 +124,7 @@ fn identical_a_map_that_is_laid_and_one_that_is_measured() {
     let found = |titre| of_scan(&analyse(&picture, &Settings { titre, ..Settings::new(light) }).unwrap());
     let [known, unknown] = [Some(titre), None].map(found);
     for scanned in [&known, &unknown] {
-        assert!(scanned.holes.is_none() && scanned.stiffness_ratio.is_none() && scanned.air.is_none());
+        assert!(scanned.bare.is_none() && scanned.stiffness_ratio.is_none() && scanned.air.is_none());
         assert_eq!(scanned.notes.len(), 1, "{:?}", scanned.notes);
         for (patch, side) in scanned.patches.iter().zip([2, 4, 10, 20]) {
             let laid = thin_places(&map, side).unwrap();
@@ -155,107 +144,53 @@ fn identical_a_map_that_is_laid_and_one_that_is_measured() {
     }
 }
 
-/// Holes per area, and their error.
-fn per_area(windows: &[WindowHoles], radius: f64) -> Known {
-    let number = |window: &WindowHoles| {
-        window.holes.iter().filter(|hole| hole.radius >= radius).count() as f64 / window.area
-    };
-    Known::of(&Estimate::new(windows.iter().map(number).collect()))
-}
-
+/// Straight fibres at random leave `exp(−τd)` bare: drawn with their true width, in squares of 2 mm, and as the map
+/// tells it, whose patches vary by chance only.
 #[test]
-fn stat_holes_between_straight_fibres_at_random() {
-    let (mut random, length) = (Random::new(1), 20e3);
-    let windows: Vec<WindowHoles> = (0..60).map(|_| random.holes(2e-3, length)).collect();
-    for (radius, expected) in [(30e-6, 26.8e6), (60e-6, 8.06e6), (90e-6, 2.43e6)] {
-        let formula = expected_holes(length, DIAMETER, radius);
-        assert!((formula / expected - 1.0).abs() < 3e-3, "{formula}");
-        let found = per_area(&windows, radius);
-        assert!(off(found, formula) < 3.0, "{radius}: {found:?} {formula}");
-    }
-    let bare = Known::of(&Estimate::new(windows.iter().map(|window| window.bare).collect()));
-    assert!(off(bare, libm::exp(-length * DIAMETER)) < 3.0, "{bare:?}");
-}
-
-/// Of fibres whose length per area has a Gamma distribution of the coefficient of variation c.
-#[test]
-fn stat_holes_of_a_cloudy_fabric() {
-    let (mut random, length, shape) = (Random::new(2), 20e3, 4);
-    let windows: Vec<WindowHoles> = (0..160)
+fn stat_the_bare_area_of_straight_fibres_at_random() {
+    let (side, pixels, length) = (2e-3, 400, 20e3);
+    let expected = libm::exp(-length * DIAMETER);
+    let mut random = Random::new(1);
+    let drawn: Vec<f64> = (0..60)
         .map(|_| {
-            let local = length * random.gamma(shape);
-            random.holes(1e-3, local)
+            let lines = random.lines(side, length);
+            let place =
+                |i: usize| [i % pixels, i / pixels].map(|at| (at as f64 + 0.5) * side / pixels as f64);
+            let is_bare = |i: &usize| lines.iter().all(|line| off_line(place(*i), line) > 0.5 * DIAMETER);
+            (0..pixels * pixels).step_by(7).filter(is_bare).count() as f64
+                / (pixels * pixels).div_ceil(7) as f64
         })
         .collect();
+    let drawn = Known::of(&Estimate::new(drawn));
+    assert!(off(drawn, expected) < 3.0, "{drawn:?} {expected}");
+    let (map, length) = random_fibres(3, 1);
+    let found = bare_area(&map, length, DIAMETER, &unevenness(&map, 4).unwrap());
+    assert!(
+        off(found, expected) < 3.0 && (found.value() / expected - 1.0).abs() < 0.01,
+        "{found:?} {expected}"
+    );
+}
+
+/// Distance of a place from a line.
+fn off_line(at: [f64; 2], [from, to]: &[[f64; 2]; 2]) -> f64 {
+    let along = [to[0] - from[0], to[1] - from[1]];
+    ((at[0] - from[0]) * along[1] - (at[1] - from[1]) * along[0]).abs() / libm::hypot(along[0], along[1])
+}
+
+/// Of fibres whose length per area has a Gamma distribution of the coefficient of variation c, `⟨exp(−τd)⟩` is
+/// `(1 + τdc²)^(−1/c²)`; the chance of single fibres in the patches adds nothing to it.
+#[test]
+fn analytic_the_bare_area_of_a_cloudy_fabric() {
+    let (mut random, length, shape) = (Random::new(2), 80e3, 8);
+    let sheet = map([300, 300], 2e-3, |_| random.gamma(shape));
     let squared = 1.0 / shape as f64;
-    for radius in [30e-6, 60e-6, 90e-6] {
-        let load = length * (2.0 * radius + DIAMETER) * squared;
-        let power = -(shape as f64) - 2.0;
-        let formula = length * length / PI * (1.0 + squared) * libm::pow(1.0 + load, power);
-        let found = per_area(&windows, radius);
-        assert!(off(found, formula) < 3.0, "{radius}: {found:?} {formula}");
-    }
-}
-
-/// Windows in some places of a cloudy fabric tell the holes of all of it.
-#[test]
-fn stat_holes_carried_from_windows_to_the_sheet() {
-    let (mut random, mean, cell) = (Random::new(4), 20e3, 10e-3);
-    let sheet = map([10, 10], cell, |_| random.gamma(8));
-    let lengths: Vec<f64> =
-        sheet.cells.iter().map(|quanta| mean * f64::from(*quanta) * 1e2 / sheet.total() as f64).collect();
-    let window = |i: usize| {
-        let corner = [i % 10, i / 10].map(|number| (number as f64 + 0.4) * cell);
-        (corner, random.holes(2e-3, lengths[i]))
-    };
-    let windows: Vec<([f64; 2], WindowHoles)> = (0..100).step_by(2).map(window).collect();
-    let local = LocalLength::new(&sheet, mean);
-    let found = carry(&windows, &local, DIAMETER, 1e-2).unwrap();
-    let over = |of: &dyn Fn(f64) -> f64| lengths.iter().map(|length| of(*length)).sum::<f64>() / 100.0;
-    let bare = over(&|length| libm::exp(-length * DIAMETER));
-    assert!(off(found.bare, bare) < 3.5, "{:?} {bare}", found.bare);
-    let mut carried = 0;
-    for holes in &found.radii {
-        let expected = over(&|length| expected_holes(length, DIAMETER, holes.radius));
-        match holes.per_area {
-            Known::Between([low, high]) => {
-                carried += 1;
-                // The chance of single fibres in patches of 10 mm is a part in two hundred.
-                assert!(low < 1.1 * expected && expected < 1.1 * high, "{holes:?} {expected}");
-            }
-            number => assert!(off(number, expected) < 3.5, "{holes:?} {expected}"),
-        }
-    }
-    assert!((1..RADII.len()).contains(&carried), "{found:?}");
-    let number = |radius: f64| over(&|length| expected_holes(length, DIAMETER, radius));
-    let Known::Between([low, high]) = found.largest else { panic!("{:?}", found.largest) };
-    assert!(number(low) > 0.9 * std::f64::consts::LN_2 / 1e-2, "{low}");
-    assert!(number(high) < 1.1 * std::f64::consts::LN_2 / 1e-2, "{high}");
-    assert!(high < 2.0 * low, "{low} {high}");
-}
-
-/// A square between four fibres, and a long one whose largest disc lies beyond the window.
-#[test]
-fn analytic_the_holes_of_a_lattice() {
-    let (half, pitch, side) = (0.5 * DIAMETER, 0.2e-3, 1e-3);
-    // Not along the rows of pixels: both families of fibres meet each side of the window in the same way as
-    // the one across from it.
-    let directions = [[0.8, 0.6], [-0.6, 0.8]];
-    let fibre = |i: i32, normal: [f64; 2], along: [f64; 2]| {
-        let at = (f64::from(i) + 0.37) * pitch;
-        let [from, to] = [-3e-3, 3e-3].map(|by| [0, 1].map(|axis| at * normal[axis] + by * along[axis]));
-        Piece { from, to, half_width: half }
-    };
-    let [a, b] = directions;
-    let pieces: Vec<Piece> = (-15..20).flat_map(|i| [fibre(i, a, b), fibre(i, b, a)]).collect();
-    let found = count_holes(side, 0.5e-3, &pieces);
-    assert!((found.bare - (1.0 - DIAMETER / pitch).powi(2)).abs() < 0.002, "{}", found.bare);
-    assert_eq!(found.holes.len(), 25);
-    for hole in &found.holes {
-        assert!((hole.radius - (0.5 * pitch - half)).abs() < 0.2e-6, "{hole:?}");
-    }
-    let empty = count_holes(side, 0.5e-3, &[]);
-    assert_eq!((empty.bare, empty.holes.len()), (1.0, 1));
+    let by_chance = straight_fibres(length, 2e-3).powi(2);
+    let found = Unevenness { patch: 2e-3, cv: (squared + by_chance).sqrt(), standard_error: Some(0.001) };
+    let expected = libm::pow(1.0 + length * DIAMETER * squared, -(shape as f64));
+    let found = bare_area(&sheet, length, DIAMETER, &found);
+    // 90,000 patches, whose shares scatter by 0.4 of their mean.
+    assert!((found.value() / expected - 1.0).abs() < 0.005, "{found:?} {expected}");
+    assert!(expected > 1.1 * libm::exp(-length * DIAMETER));
 }
 
 #[test]

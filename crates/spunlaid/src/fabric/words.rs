@@ -8,9 +8,9 @@ const WORDS: &[(&[&str], &str)] = &[
         cloudiness and the formation number, 1 for straight fibres at random (docs/fabric.md).",
     ),
     (
-        &["pinhole", "pin hole", "hole", "pore", "bare"],
-        "Holes are results, not keys: `spunlaid web` counts them by radius and tells the bare area and the \
-        largest hole (docs/fabric.md). Bonds are not in it.",
+        &["pinhole", "pin hole", "hole", "pore", "bare", "hydrohead", "hydrostatic head"],
+        "Holes and hydrohead are not told, because bonds and the calender make them: `spunlaid web` tells the bare \
+        area and thin places (docs/fabric.md).",
     ),
     (
         &["thin spot", "thin place", "thick place", "thick spot"],

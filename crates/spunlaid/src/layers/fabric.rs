@@ -15,7 +15,6 @@ impl WebSpec {
             density: layer.density,
             basis_weight: drawn.basis_weight(sheet),
         });
-        let counted = self.windows().counted;
         let laid = Laid {
             map: &found.laid.map,
             margins: found.margins,
@@ -24,7 +23,6 @@ impl WebSpec {
             orientation: Some(&found.orientation),
             patches: found.patches.iter().map(|patch| patch.map).collect(),
             defects: self.streak_sources(web),
-            windows: counted.as_ref().map(|windows| (windows, &found.laid.pieces[..])),
         };
         tell(&laid, &self.fabric, threads)
     }

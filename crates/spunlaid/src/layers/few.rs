@@ -225,8 +225,8 @@ impl FewPlan {
         };
         let places: Vec<Place> = self.rows.iter().flat_map(row).collect();
         let map = |filled: &Filling<'_>| {
-            let windows = Window { corner: [0.0; 2], sides: [0.0; 2] }.into();
-            let belt = Belt { sheet, windows, back };
+            let window = Window { corner: [0.0; 2], sides: [0.0; 2] };
+            let belt = Belt { sheet, window, back };
             lay(filled, belt, beam.element_mass(), by).map(|(laid, _)| laid.map)
         };
         let of_all = map(&curves.fill_by(covariances, places.clone(), by.0))?;

@@ -6,7 +6,7 @@ use crate::curtain::{Belt, FlownCurves, Library};
 use crate::error::Error;
 use crate::fibre::Place;
 use crate::sort::sort_by_key;
-use crate::web::{Brush, Canvas, Edges, KeptFibres, PieceInWindow, SharedAirFindings, Strand, inlets};
+use crate::web::{Brush, Canvas, Edges, SharedAirFindings, Strand, inlets};
 use std::sync::atomic::AtomicBool;
 
 /// The curves of a few filaments of a layer, from which those of all others follow.
@@ -29,8 +29,6 @@ pub(super) struct FlownLayers {
     pub(super) shared_air: SharedAirFindings,
     /// Those of which only a few filaments were flown.
     pub(super) curtains: Vec<FlownCurtain>,
-    /// The pieces of fibres in the windows in which holes are counted, by window.
-    pub(super) pieces: Vec<PieceInWindow>,
 }
 
 impl FlownLayers {
@@ -42,38 +40,36 @@ impl FlownLayers {
         by: (usize, &AtomicBool),
     ) -> Result<(), Error> {
         for (curtain, few) in self.curtains.iter().zip(&mut self.shared_air.few) {
-            let (KeptFibres { strands, pieces }, missing) = curtain.draw(spec, canvas, by)?;
+            let (strands, missing) = curtain.draw(spec, canvas, by)?;
             let layer = curtain.layer;
             let strands = strands.into_iter().map(|strand| Strand { layer, ..strand });
             self.shared_air.strands.extend(strands);
-            self.pieces.extend(pieces.into_iter().map(|piece| PieceInWindow { layer, ..piece }));
             few.missing = missing;
         }
         sort_by_key(&mut self.shared_air.strands, |strand| strand.layer);
-        sort_by_key(&mut self.pieces, |piece| piece.window);
         Ok(())
     }
 }
 
 impl FlownCurtain {
     /// Draws all filaments: those between the flown ones on the sheet that these have laid, and pieces of it
-    /// on any other sheet. Returns their parts in the windows, and the part of the variance that the few do
+    /// on any other sheet. Returns their parts in the window, and the part of the variance that the few do
     /// not tell.
     fn draw(
         &self,
         spec: &WebSpec,
         canvas: &Canvas,
         by: (usize, &AtomicBool),
-    ) -> Result<(KeptFibres, [f64; 2]), Error> {
-        let (sheet, windows, back) = (&spec.sheet, spec.windows(), self.back);
-        let Some(layer) = spec.layers.get(self.layer) else { return Ok((KeptFibres::default(), [0.0; 2])) };
+    ) -> Result<(Vec<Strand>, [f64; 2]), Error> {
+        let (sheet, window, back) = (&spec.sheet, spec.window(), self.back);
+        let Some(layer) = spec.layers.get(self.layer) else { return Ok((Vec::new(), [0.0; 2])) };
         let mass = layer.source.case().map_or(f64::NAN, |case| case.fibre.element_mass());
         let brush = Brush::new(canvas, mass, spec.titres(self.layer));
         let inlets = inlets(sheet, spec.seed, self.layer, &layer.filaments);
         let places = inlets.into_iter().map(|[z, y]| Place { y, z }).collect();
         if [sheet.width, sheet.length] == self.sheet {
             let all = self.curves.fill(places, by.0);
-            let kept = draw(&all, Belt { sheet, windows, back }, &brush, by)?;
+            let kept = draw(&all, Belt { sheet, window, back }, &brush, by)?;
             return Ok((kept, all.missing()));
         }
         let library = Library::new(&self.curves, by.0)?;
@@ -84,7 +80,7 @@ impl FlownCurtain {
             Edges::Cut => sheet.width + self.sheet[0],
         };
         let tiles = library.tiles(places, around, sheet.length, [spec.seed, self.layer as u64])?;
-        let kept = draw(&tiles, Belt::within(&tiles, sheet, windows)?, &brush, by)?;
+        let kept = draw(&tiles, Belt::within(&tiles, sheet, window)?, &brush, by)?;
         Ok((kept, library.missing()))
     }
 }

@@ -18,8 +18,7 @@ use crate::load::WayPlace;
 use crate::statistics::Estimate;
 use crate::surrogate::{IdentificationFailure, Residual, Surrogate, identify};
 use crate::web::{
-    Curves, Doubt, Fibres, Findings, LaidWeb, LayControl, Map, Web, WindowLattice, find_laid, lay,
-    lay_in_windows, measure_laid, pieces,
+    Curves, Doubt, Fibres, Findings, LaidWeb, LayControl, Map, Web, find_laid, lay, measure_laid, pieces,
 };
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -83,8 +82,6 @@ pub struct FlownWeb {
     pub layers: Vec<LayerFibres>,
     /// What filaments in one air have laid; None of a web that is still to be laid.
     pub(super) laid: Option<LaidWeb>,
-    /// The windows in which holes are counted.
-    pub(super) windows: Option<WindowLattice>,
 }
 
 /// Number of cases and folders whose curves are kept, some megabytes each.
@@ -130,7 +127,7 @@ impl<'a> Flyer<'a> {
                 (layers.collect::<Result<_, _>>()?, None)
             }
         };
-        Ok(FlownWeb { web: web_to_lay(spec, &layers), layers, laid, windows: spec.windows().counted })
+        Ok(FlownWeb { web: web_to_lay(spec, &layers), layers, laid })
     }
 
     /// The fibres of a layer.
@@ -297,7 +294,7 @@ impl FlownWeb {
     /// # Errors
     /// If the web cannot be laid, or if it is stopped.
     pub fn find(&mut self, by: LayControl<'_>) -> Result<Findings, Error> {
-        let laid = self.laid.take().map_or_else(|| lay_in_windows(&self.web, self.windows, by), Ok)?;
+        let laid = self.laid.take().map_or_else(|| lay(&self.web, by), Ok)?;
         find_laid(&self.web, Some(laid), by)
     }
 
@@ -306,7 +303,7 @@ impl FlownWeb {
     /// # Errors
     /// As [`FlownWeb::find`].
     pub fn measure(&mut self, by: LayControl<'_>) -> Result<Findings, Error> {
-        let laid = self.laid.take().map_or_else(|| lay_in_windows(&self.web, self.windows, by), Ok)?;
+        let laid = self.laid.take().map_or_else(|| lay(&self.web, by), Ok)?;
         measure_laid(&self.web, Some(laid), by)
     }
 }

@@ -32,22 +32,13 @@ use crate::error::{Error, Fault, Finding, Place, Problem};
 use crate::fabric::FabricKeys;
 use crate::surrogate::Surrogate;
 use crate::units::Dimension;
-use crate::web::{
-    Defect, Edges, Fibres, Filaments, Layer, Sheet, Titres, Web, Window, WindowLattice, Windows,
-};
+use crate::web::{Defect, Edges, Fibres, Filaments, Layer, Sheet, Titres, Web, Window};
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Fewest standard deviations of a filament's place that a closed side of the web is long.
 const LEAST_SPREADS: f64 = 8.0;
-
-/// Windows in which holes are counted, their side at most [m], in diameters of the thinnest fibre, and the
-/// margin about them in their side.
-const COUNTED_WINDOWS: usize = 25;
-const COUNTED: f64 = 3e-3;
-const COUNTED_DIAMETERS: f64 = 180.0;
-const COUNTED_MARGIN: f64 = 0.1;
 
 /// Relative difference up to which two numbers are the same.
 pub(crate) const SAME: f64 = 1e-9;
@@ -305,17 +296,6 @@ impl WebSpec {
     pub fn window(&self) -> Window {
         let corner = [self.sheet.width, self.sheet.length].map(|size| 0.5 * (size - self.window));
         Window { corner, sides: [self.window; 2] }
-    }
-
-    /// The windows of the sheet whose fibres are kept: the one that is shown, and those in which holes are
-    /// counted, some twenty-five that are as large as fibres of this diameter allow.
-    pub(crate) fn windows(&self) -> Windows {
-        let thinnest = self.layers.iter().map(|layer| layer.diameter).fold(f64::INFINITY, f64::min);
-        let side = COUNTED.min(COUNTED_DIAMETERS * thinnest);
-        let size = (side, COUNTED_MARGIN * side);
-        let is_counted = self.fabric.holes != Some(false);
-        let lattice = || WindowLattice::new(&self.sheet, size, COUNTED_WINDOWS);
-        Windows { shown: self.window(), counted: if is_counted { lattice() } else { None } }
     }
 
     /// The web, once the fibres of each layer are known, in their order.

@@ -13,8 +13,7 @@ use crate::fibre::Place;
 use crate::lanes::Isa;
 use crate::units::Dimension;
 use crate::web::{
-    Brush, Canvas, Curves, Fibres, LaidWeb, LayerFew, OneAir, PieceInWindow, Sheet, TimeSpent, blocks_on,
-    inlets,
+    Brush, Canvas, Curves, Fibres, LaidWeb, LayerFew, OneAir, Sheet, TimeSpent, blocks_on, inlets,
 };
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
@@ -135,9 +134,6 @@ impl Flyer<'_> {
                 of_layer.few = vec![told];
                 // Those of all filaments are found when they are drawn.
                 of_layer.strands = Vec::new();
-            } else {
-                let pieces = std::mem::take(&mut flown.in_windows.pieces).into_iter();
-                all.pieces.extend(pieces.map(|piece| PieceInWindow { layer: number, ..piece }));
             }
             all.shared_air.add(number, of_layer);
             let flown = Arc::new(layer.gather(flown)?);
@@ -147,8 +143,8 @@ impl Flyer<'_> {
             all.layers.push(LayerFibres { fibres, flown: Some(flown) });
         }
         all.draw(spec, &canvas, self.by())?;
-        let FlownLayers { layers, pieces, shared_air, .. } = all;
-        Ok((layers, LaidWeb { pieces, shared_air: Some(shared_air), ..canvas.finish()? }))
+        let FlownLayers { layers, shared_air, .. } = all;
+        Ok((layers, LaidWeb { shared_air: Some(shared_air), ..canvas.finish()? }))
     }
 
     /// Flies a layer. Unless the file says how many filaments are flown, more of them fly where a few do not
@@ -200,7 +196,7 @@ impl Flyer<'_> {
             time_step: layer.case.run.time_step,
         };
         let mut flown = Err(Error::Interrupted);
-        (self.follow)(flights, &mut || flown = beam.fly((&layer.sheet, spec.windows()), on, by));
+        (self.follow)(flights, &mut || flown = beam.fly((&layer.sheet, spec.window()), on, by));
         flown
     }
 }

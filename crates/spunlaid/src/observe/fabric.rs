@@ -1,18 +1,15 @@
-//! What is told of a fabric, of its patches, strips and holes.
+//! What is told of a fabric, of its patches and strips.
 
 use super::{Figure, Formula::Told, MILLIMETRES, Measure, PER_SQUARE_METRE, PERCENT, RATIO, Unit, figure};
 use crate::fabric::Known::Exact;
-use crate::fabric::{Fabric, FabricPatch, HolesOfRadius, Marked, Streak, Strips};
+use crate::fabric::{Fabric, FabricPatch, Marked, Streak, Strips};
 
 const THIN_PLACES: Figure =
     figure("thin_places", "Patches lighter than 80 % of the mean", "number of thin places");
 const WEAKEST: Figure =
     Figure { from_zero: false, ..figure("weakest_section", "Weakest section of a strip", "weakest section") };
-const HOLES: Figure =
-    Figure { logarithmic: true, ..figure("holes", "Holes in which a disc has room", "number of holes") };
 
 const METRES: Unit = Unit { shown: "m", per_si: 1.0 };
-const MICROMETRES: Unit = Unit { shown: "µm", per_si: 1e6 };
 
 /// The numbers of a whole fabric.
 pub const OF_FABRICS: &[Measure<Fabric>] = &[
@@ -53,30 +50,15 @@ pub const OF_FABRICS: &[Measure<Fabric>] = &[
         "bare_area",
         "Bare area",
         PERCENT,
-        Told(|fabric: &Fabric| Some(fabric.holes.as_ref()?.bare)),
+        Told(|fabric: &Fabric| fabric.bare),
     )
-    .meaning("share of the area that no fibre covers")
+    .meaning(
+        "share of the area that no fibre covers, of round fibres that lie independently of each other within \
+            2 mm: bonds lower it, and filaments in ropes raise it",
+    )
     .named("bare_area")
     .main()
     .figure(&figure("bare_area", "Bare area", "bare area")),
-    Measure::new(
-        "largest_hole_m",
-        "Radius of the largest hole in 100 cm²",
-        MICROMETRES,
-        Told(|fabric: &Fabric| Some(fabric.holes.as_ref()?.largest)),
-    )
-    .meaning(
-        "radius of the largest disc that fits into a hole of 100 cm², the area of the test of the \
-            hydrohead: half of all such areas have a larger one",
-    )
-    .named("largest_hole"),
-    Measure::new(
-        "hydrohead_pa",
-        "Hydrohead",
-        Unit { shown: "Pa", per_si: 1.0 },
-        Told(|fabric: &Fabric| fabric.hydrohead),
-    )
-    .meaning("pressure at which water comes through the largest hole"),
     Measure::new(
         "solid_fraction",
         "Share of the volume that is fibre",
@@ -269,33 +251,4 @@ pub const OF_STREAKS: &[Measure<Streak>] = &[
             "length of a scan over which the dip is as large as the 95 % bound of the chance at this \
             place; none where the web has streaks of its own that are as large, or is too small to tell",
         ),
-];
-
-/// The numbers of the holes of one radius.
-pub const OF_HOLES: &[Measure<HolesOfRadius>] = &[
-    Measure::new("radius_m", "Radius", MICROMETRES, Told(|holes: &HolesOfRadius| Some(Exact(holes.radius))))
-        .meaning("radius of a disc"),
-    Measure::new(
-        "counted",
-        "Counted",
-        RATIO,
-        Told(|holes: &HolesOfRadius| Some(Exact(holes.counted as f64))),
-    )
-    .meaning("holes in the windows into which such a disc fits"),
-    Measure::new("per_m2", "Holes", PER_SQUARE_METRE, Told(|holes: &HolesOfRadius| Some(holes.per_area)))
-        .meaning(
-            "holes per area into which such a disc fits: carried from the windows over the sheet, and \
-            where few were counted also from smaller radii",
-        )
-        .kept("holes_#_um", "holes_#_um_per_m2")
-        .main()
-        .figure(&HOLES)
-        .series("# µm"),
-    Measure::new(
-        "over_straight",
-        "Over straight fibres",
-        RATIO,
-        Told(|holes: &HolesOfRadius| holes.over_straight),
-    )
-    .meaning("holes over those of straight fibres at random with the local basis weight"),
 ];

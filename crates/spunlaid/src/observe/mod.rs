@@ -35,7 +35,7 @@ mod spinline;
 mod strain;
 mod web;
 
-pub use fabric::{OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES, OF_STREAKS, OF_STRIPS, OF_THINNEST};
+pub use fabric::{OF_FABRIC_PATCHES, OF_FABRICS, OF_STREAKS, OF_STRIPS, OF_THINNEST};
 pub use force_on_air::{FIBRE_ON_WAY, FORCE_ON_AIR};
 pub use laydown::{LAYDOWN, SURROGATE};
 pub use load::{OF_LOAD_PLACES, OF_LOADS};

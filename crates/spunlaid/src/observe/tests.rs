@@ -76,7 +76,6 @@ fn every_measure_has_names_a_label_a_meaning_and_a_unit() {
     check_list(OF_FABRICS);
     check_list(OF_FABRIC_PATCHES);
     check_list(OF_STRIPS);
-    check_list(OF_HOLES);
 }
 
 /// A table of measures for `docs/measures.md`.
@@ -124,7 +123,6 @@ fn every_measure_stands_in_the_docs() {
     table(&mut text, "The thinnest places of a fabric", with_errors(OF_THINNEST));
     table(&mut text, "Strips of a fabric", with_errors(OF_STRIPS));
     table(&mut text, "Streaks of a fabric, of the defects of its line", with_errors(OF_STREAKS));
-    table(&mut text, "Holes of a fabric", with_errors(OF_HOLES));
     table(&mut text, "A scan", with_errors(OF_SCANS));
     table(&mut text, "The patches of a scan", with_errors(OF_SCANNED_PATCHES));
     table(&mut text, "A velocity record", with_errors(OF_RECORDS));

@@ -1,11 +1,11 @@
 //! The numbers that a study keeps of each replicate: of a fibre, of a web, or of a spinline.
 
 use crate::ensemble::Trajectory;
-use crate::fabric::{ABOUT, Fabric, FabricPatch, Known, NONE_FOUND, PATCHES as FABRIC_PATCHES, RADII};
+use crate::fabric::{ABOUT, Fabric, FabricPatch, Known, NONE_FOUND, PATCHES as FABRIC_PATCHES};
 use crate::layers::WebSpec;
 use crate::observe::{
-    ErrorRole, Figure, Formula, KELVIN, MEASURES, Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES,
-    OF_PATCHES, OF_SPINLINES, OF_STRIPS, OF_WEBS, PER_SQUARE_METRE, Unit, Value, with_errors,
+    ErrorRole, Figure, Formula, KELVIN, MEASURES, Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_PATCHES,
+    OF_SPINLINES, OF_STRIPS, OF_WEBS, PER_SQUARE_METRE, Unit, Value, with_errors,
 };
 use crate::spinline::Solution;
 use crate::units::shortest;
@@ -82,7 +82,7 @@ impl Quantity {
 /// The figure of what no figure shows.
 const NONE: &Figure = Measure::<Fabric>::NUMBER.figure;
 
-/// A part of what is measured: the patches of one size, the strips in one direction, the holes of one radius.
+/// A part of what is measured: the patches of one size, the strips in one direction.
 struct Part {
     /// What stands in names in place of `#`: `10`.
     name: String,
@@ -96,12 +96,6 @@ impl Part {
         // In millimetres, without the rounding of the file.
         let name = shortest((side * 1e9).round() / 1e6);
         Self { words: format!("{name} mm"), name }
-    }
-
-    /// Holes into which a disc of a radius [m] fits.
-    fn holes(radius: f64) -> Self {
-        let name = shortest((radius * 1e9).round() / 1e3);
-        Self { words: format!("{name} µm"), name }
     }
 
     /// Strips along MD, or along CD.
@@ -119,8 +113,6 @@ impl Part {
 const DIRECTIONS: [&str; 2] = ["MD", "CD"];
 /// Side of the patches of a fabric that tables show [m]: the clouds that the eye sees first.
 const SHOWN_PATCH: f64 = 10e-3;
-/// Radius of the holes that tables show [m].
-const SHOWN_HOLE: f64 = 50e-6;
 
 /// Whether studies keep a measure.
 fn is_kept<T>(measure: &Measure<T>) -> bool {
@@ -223,9 +215,6 @@ pub(super) fn quantities_of_webs<'a>(webs: impl Iterator<Item = &'a WebSpec>) ->
     for direction in DIRECTIONS {
         add_part(true, &|all| add(all, OF_STRIPS, &Part::strips(direction)));
     }
-    for radius in RADII {
-        add_part(is_same(radius, SHOWN_HOLE), &|all| add(all, OF_HOLES, &Part::holes(radius)));
-    }
     all
 }
 
@@ -246,10 +235,6 @@ pub(super) fn measured_of_web(sides: &[f64], found: &Findings, fabric: &Fabric) 
     }
     for strips in &fabric.strips {
         enter(&mut all, OF_STRIPS, strips.as_ref());
-    }
-    for radius in RADII {
-        let holes = fabric.holes.iter().flat_map(|holes| &holes.radii);
-        enter(&mut all, OF_HOLES, holes.into_iter().find(|holes| is_same(holes.radius, radius)));
     }
     all.into()
 }

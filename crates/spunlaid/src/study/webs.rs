@@ -5,7 +5,6 @@ use super::pack::Batch;
 use super::{Point, seed_of_point};
 use crate::ensemble::RunControl;
 use crate::error::Error;
-use crate::fabric::FabricKeys;
 use crate::layers::{Flights, Flyer, WebSpec};
 use crate::web::LayControl;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -37,9 +36,7 @@ pub(super) fn lay(
         let Some(spec) = points[*point].experiment.web() else { continue };
         for replicate in replicates.clone() {
             let seed = seed_of_web(spec, replicate);
-            // They would take longer than a web of known numbers.
-            let holes = Some(spec.fabric.holes.unwrap_or(false));
-            let spec = WebSpec { seed, fabric: FabricKeys { holes, ..spec.fabric }, ..spec.clone() };
+            let spec = WebSpec { seed, ..spec.clone() };
             let mut flown = flyer.web(&spec)?;
             steps.fetch_add(flown.pieces()?, Ordering::Relaxed);
             let found = flown.measure(LayControl { threads, isa, stop, laid: fibre_steps })?;

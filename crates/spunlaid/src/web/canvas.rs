@@ -141,7 +141,7 @@ impl Canvas {
             cells,
         };
         let cut = self.cut.into_inner() as f64 * self.quantum;
-        Ok(LaidWeb { map, cut, pieces: Vec::new(), shared_air: None })
+        Ok(LaidWeb { map, cut, shared_air: None })
     }
 }
 

@@ -5,7 +5,7 @@ use super::few_findings::LayerFew;
 use super::laying::TimeSpent;
 use super::map::Map;
 use super::neighbours::NeighbourCorrelation;
-use super::window::{PieceInWindow, Strand};
+use super::window::Strand;
 use crate::error::Fault;
 
 /// Highest number of a cell, by which the quantum is chosen, over the mean one and over that of a single trace.
@@ -18,8 +18,6 @@ pub struct LaidWeb {
     pub map: Map,
     /// Mass beyond edges that cut it off [kg].
     pub cut: f64,
-    /// The pieces of fibres in the windows in which holes are counted, if they were asked for.
-    pub pieces: Vec<PieceInWindow>,
     /// What is known of filaments that were flown together and laid as they came down; None of a web of
     /// independent filaments.
     pub shared_air: Option<SharedAirFindings>,

@@ -5,7 +5,6 @@ use super::laying::LayControl;
 use super::map::Map;
 use super::plan::{BLOCK, Plan, plans};
 use super::strip::Strip;
-use super::window::WindowLattice;
 use super::{Edges, Web};
 use crate::error::{Error, Fault};
 use crate::lanes::WIDTH;
@@ -32,18 +31,6 @@ pub fn pieces(web: &Web) -> Result<u64, Error> {
 /// # Errors
 /// If the web cannot be laid, or if it is stopped.
 pub fn lay(web: &Web, by: LayControl<'_>) -> Result<LaidWeb, Error> {
-    lay_in_windows(web, None, by)
-}
-
-/// [`lay`] that keeps the pieces of fibres in some windows.
-///
-/// # Errors
-/// As [`lay`].
-pub fn lay_in_windows(
-    web: &Web,
-    windows: Option<WindowLattice>,
-    by: LayControl<'_>,
-) -> Result<LaidWeb, Error> {
     let sheet = &web.sheet;
     let [columns, rows] = sheet.cells();
     let mut plans = plans(web)?;
@@ -67,24 +54,22 @@ pub fn lay_in_windows(
     let sum = Mutex::new((Map::new([columns, rows], sheet.cell, quantum, closed), 0u64, false));
     // Strips are large; a thread uses one again.
     let strips = Mutex::new(Vec::new());
-    let pieces = try_each(by.threads, units.len(), |unit| {
+    try_each(by.threads, units.len(), |unit| {
         let (plan, which) = &units[unit];
         let mut strip = lock(&strips).pop().unwrap_or_else(|| Strip::new(rows));
-        let mut pieces = Vec::new();
-        let keep = windows.map(|windows| (windows, &mut pieces));
-        plan.draw(web, which.clone(), (&mut strip, keep), by)?;
+        plan.draw(web, which.clone(), &mut strip, by)?;
         let mut sum = lock(&sum);
         let (cut, is_full) = strip.add_to(&mut sum.0);
         sum.1 += cut;
         sum.2 |= is_full;
         lock(&strips).push(strip);
-        Ok(pieces)
+        Ok(())
     })?;
     let (map, cut, is_full) = unlock(sum);
     if is_full {
         return Err(too_full(sheet.cell).into());
     }
-    Ok(LaidWeb { map, cut: cut as f64 * quantum, pieces: pieces.concat(), shared_air: None })
+    Ok(LaidWeb { map, cut: cut as f64 * quantum, shared_air: None })
 }
 
 /// The quantum of mass [kg]: a part of a piece is a power of two of them, as many as the fullest cell can count.

@@ -51,7 +51,7 @@ pub(crate) use few::{Arrangement, FEWEST as FEWEST_OF_FEW, FewFilaments, blocks_
 pub use few_findings::{FewDoubt, FewFilamentsCv, LayerFew};
 pub use findings::{Findings, IndependentCv, PatchFindings, find, find_laid, measure, measure_laid};
 pub use laid_web::{LaidWeb, SharedAirFindings};
-pub use lay::{lay, lay_in_windows, pieces};
+pub use lay::{lay, pieces};
 pub use laying::{LayControl, TimeSpent};
 pub use map::Map;
 pub use neighbours::{Correlation, NeighbourCorrelation};
@@ -63,8 +63,8 @@ pub use strands::strands;
 pub use uniformity::nearest_to_seen;
 pub use waves::{Places, Streaks};
 pub use whole_error::WholeError;
-pub(crate) use window::{KeptFibres, Strands, WindowOnSheet};
-pub use window::{PieceInWindow, Strand, Window, WindowLattice, Windows};
+pub use window::{Strand, Window};
+pub(crate) use window::{Strands, WindowOnSheet};
 
 use crate::surrogate::Surrogate;
 use std::sync::Arc;

@@ -7,7 +7,6 @@ use super::nozzles::{PLACES, inlets, random, uniform};
 use super::points::Points;
 use super::raster::{Draw, Pens};
 use super::strip::Strip;
-use super::window::{PieceInWindow, WindowLattice};
 use super::{Fibres, Layer, Sheet, Web};
 use crate::error::{Error, Fault};
 use crate::lanes::{Isa, Lanes, WIDTH};
@@ -188,12 +187,12 @@ impl<'a> Plan<'a> {
         Lanes::from_fn(|lane| if lane < count { of_lane(lane) } else { 0.0 })
     }
 
-    /// Draws some filaments on a strip, and keeps their pieces in some windows.
+    /// Draws some filaments on a strip.
     pub(super) fn draw(
         &self,
         web: &Web,
         which: Range<usize>,
-        (strip, mut keep): (&mut Strip, Option<(WindowLattice, &mut Vec<PieceInWindow>)>),
+        strip: &mut Strip,
         by: LayControl<'_>,
     ) -> Result<(), Error> {
         let per_cell = 1.0 / web.sheet.cell;
@@ -220,8 +219,6 @@ impl<'a> Plan<'a> {
         for start in which.clone().step_by(2 * WIDTH) {
             let starts: Vec<usize> = (start..which.end).step_by(WIDTH).take(2).collect();
             let mut pens: Vec<Pens> = starts.iter().map(|start| pens(*start)).collect();
-            let mut traces: Vec<[Lanes; 2]> =
-                starts.iter().zip(&pens).map(|(start, pens)| self.start(web, *start, pens.curves)).collect();
             let counts: Vec<usize> = pens.iter().map(|pens| pens.curves).collect();
             let sets = starts.iter().zip(&pens).map(|(start, pens)| (*start, pens.curves)).collect();
             self.walk_together(web, sets, by, |set, points| {
@@ -230,39 +227,9 @@ impl<'a> Plan<'a> {
                     pens.quanta = self.quanta_at(starts[set], counts[set], &pens.at[1], web);
                 }
                 by.isa.run(Draw { pens: &mut pens[set], strip, points });
-                if let Some((windows, pieces)) = &mut keep {
-                    let along = &traces[set][1];
-                    let titres = Lanes::from_fn(|lane| self.titre_at(starts[set] + lane, along.0[lane], web));
-                    self.keep(points, (&mut traces[set], &titres.0[..counts[set]]), windows, pieces);
-                }
             })?;
         }
         Ok(())
-    }
-
-    /// Keeps the pieces between points in some windows, and goes on along the straight traces.
-    fn keep(
-        &self,
-        points: &[[Lanes; 2]],
-        ([across, along], titres): (&mut [Lanes; 2], &[f64]),
-        windows: &WindowLattice,
-        pieces: &mut Vec<PieceInWindow>,
-    ) {
-        let (advance, layer) = (self.layer.belt_ratio() * self.piece, self.number as usize);
-        for (lane, titre) in titres.iter().enumerate().filter(|(_, titre)| **titre > 0.0) {
-            let at = |i: usize| {
-                let [md, cd] = [points[i][0].0[lane], points[i][1].0[lane]];
-                [across.0[lane] + cd, along.0[lane] + md - advance * i as f64]
-            };
-            let mut from = at(0);
-            for i in 1..points.len() {
-                let to = at(i);
-                pieces.extend(windows.piece(layer, [from, to], true).map(|piece| piece.of(*titre)));
-                from = to;
-            }
-        }
-        let laid = (points.len() - 1) as f64;
-        *along = Lanes(along.0.map(|at| at - advance * laid));
     }
 
     /// Where the straight traces of some filaments begin, across the web and along it [m].

@@ -2,12 +2,12 @@
 
 use crate::web_studies::{study_beside_cases, web_beside_cases};
 use spunlaid::ensemble::RunControl;
-use spunlaid::fabric::{FabricKeys, Known, RADII};
+use spunlaid::fabric::Known;
 use spunlaid::input::{LaydownSource, WEB_KEYS, WebFile, WebKey, WebSpec};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, Flyer, web_key};
 use spunlaid::observe::{
-    Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES, OF_PATCHES, OF_STRIPS, OF_WEBS, Value, with_errors,
+    Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_PATCHES, OF_STRIPS, OF_WEBS, Value, with_errors,
 };
 use spunlaid::study::{Batch, fly_bundle};
 use spunlaid::units::Dimension;
@@ -42,13 +42,11 @@ patches = ["20 mm"]
 edges = "cut"
 seed = 3
 [fabric]
-holes = false
 thickness = "0.3 mm"
 saleable_width = "60 mm"
 strip_width = "20 mm"
 strip_length = "50 mm"
 section = "4 mm"
-contact_angle = "80°"
 measured_opacity = 0.3
 opacity_weight = "15 g/m²"
 "#,
@@ -180,9 +178,7 @@ fn measured(spec: &WebSpec) -> Vec<u64> {
         patch_columns().map(move |of| patch.map_or(f64::NAN, |patch| of.number(patch)))
     });
     let of_web = OF_WEBS.iter().map(|of| of.number(&found));
-    let holes = Some(spec.fabric.holes.unwrap_or(false));
-    let fabric = WebSpec { fabric: FabricKeys { holes, ..spec.fabric }, ..spec.clone() };
-    let fabric = fabric.fabric(&flown.web, &found, 1);
+    let fabric = spec.fabric(&flown.web, &found, 1);
     let mut all: Vec<f64> = patches.chain(of_web).collect();
     all.extend(told(OF_FABRICS, Some(&fabric)));
     for side in [1e-3, 2e-3, 5e-3, 10e-3, 20e-3] {
@@ -190,10 +186,6 @@ fn measured(spec: &WebSpec) -> Vec<u64> {
         all.extend(told(OF_FABRIC_PATCHES, patch));
     }
     all.extend(fabric.strips.iter().flat_map(|strips| told(OF_STRIPS, strips.as_ref())));
-    for radius in RADII {
-        let holes = fabric.holes.as_ref().map(|holes| &holes.radii[..]).unwrap_or_default();
-        all.extend(told(OF_HOLES, holes.iter().find(|holes| holes.radius == radius)));
-    }
     all.into_iter().map(f64::to_bits).collect()
 }
 
@@ -282,25 +274,6 @@ fn identical_alone_and_in_a_study_for_every_key_of_a_web() {
         assert!(varied.contains(full), "{full}: {varied:?}");
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-}
-
-/// Without being asked a study counts none; a dense web has few large ones, which are found soonest.
-#[test]
-fn holes_are_counted_in_a_study_that_asks_for_them() {
-    let text = WEBS[0].1.split("rows = [").next().unwrap().to_owned()
-        + "filaments_per_metre = 4000\n[web]\nwidth = '100 mm'\nlength = '100 mm'\ncell = '1 mm'\n\
-           patches = ['10 mm']\n";
-    let (key, values) = ("laydown.sigma_md", ["'9 mm'", "'10 mm'"].map(ToOwned::to_owned));
-    let study = format!(
-        "web = 'web.toml'\ndesign = 'grid'\n[set]\nfabric.holes = true\n[vary]\n{key} = [{}]\n",
-        values.join(", ")
-    );
-    let (counted, not) = (of_study(&text, &study, key).unwrap(), together(&text, key, &values).unwrap());
-    let asked = [("fabric.holes".to_owned(), "true".to_owned()), (key.to_owned(), "9 mm".to_owned())];
-    assert_eq!(counted[0], measured(&web_beside_cases(&text, &asked).unwrap().spec));
-    let known = |numbers: &[u64]| numbers.iter().filter(|bits| f64::from_bits(**bits).is_finite()).count();
-    // Bare area, largest hole, and holes of some radii with their errors.
-    assert!(known(&counted[0]) > known(&not[0]) + 6, "{} {}", known(&counted[0]), known(&not[0]));
 }
 
 /// What is set in the flown case is set in a study of its web, and the belt is that of the case.

@@ -64,7 +64,7 @@ impl Group {
     pub(super) fn is_main(&self) -> bool {
         let series: Vec<&str> = self.members.iter().map(|(_, series)| &**series).collect();
         series == ["*y*", "*z*"]
-            || ["cv", "thin_places", "weakest_section", "holes", "final_diameter", "final_speed"]
+            || ["cv", "thin_places", "weakest_section", "final_diameter", "final_speed"]
                 .contains(&self.figure.name)
     }
 

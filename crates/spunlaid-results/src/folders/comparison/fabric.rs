@@ -3,11 +3,10 @@
 use super::web::{Web, WebNumber, are_alike};
 use crate::numbers::significant;
 use serde_json::Value as Json;
-use spunlaid::observe::{Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES, OF_STRIPS, Unit};
+use spunlaid::observe::{Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_STRIPS, Unit};
 
-/// Side of the patches that are compared in all words [m], and radius of the holes [m].
+/// Side of the patches that are compared in all words [m].
 const PATCH: f64 = 5e-3;
-const HOLE: f64 = 100e-6;
 
 /// A number that both have.
 pub(super) struct InCommon {
@@ -17,7 +16,7 @@ pub(super) struct InCommon {
     pub(super) values: [WebNumber; 2],
 }
 
-/// Every number that is told of both fabrics with what is known of it: of the whole, of patches, strips and holes.
+/// Every number that is told of both fabrics with what is known of it: of the whole, of patches and strips.
 pub(super) fn in_common(webs: [&Web; 2]) -> Vec<InCommon> {
     let fabrics = webs.map(|web| (&web.fabric, web.name.as_str()));
     let mut found = both(OF_FABRICS, ["", ""], fabrics);
@@ -36,9 +35,6 @@ pub(super) fn in_common(webs: [&Web; 2]) -> Vec<InCommon> {
         let strips = fabrics.map(|(fabric, name)| (&fabric[list], name));
         found.extend(both(OF_STRIPS, words.map(String::as_str), strips));
     }
-    let size = significant(HOLE * 1e6, 3);
-    let words = [&format!(", radius of {size} µm or more"), &format!("_{size}_um")];
-    found.extend(both(OF_HOLES, words.map(String::as_str), parts("holes", "radius_m", HOLE)));
     found
 }
 

@@ -5,8 +5,7 @@ use crate::output::in_order::OrderedObject;
 use serde::Serialize;
 use spunlaid::fabric::{Fabric, Known};
 use spunlaid::observe::{
-    Measure, Measured, OF_FABRIC_PATCHES, OF_FABRICS, OF_HOLES, OF_STREAKS, OF_STRIPS, OF_THINNEST, Value,
-    measured,
+    Measure, Measured, OF_FABRIC_PATCHES, OF_FABRICS, OF_STREAKS, OF_STRIPS, OF_THINNEST, Value, measured,
 };
 
 /// The fabric in `summary.json`.
@@ -24,13 +23,6 @@ pub(super) struct FabricSummary<'a> {
     /// Of the defects of the line, in the order of the file.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     streaks: Vec<OrderedObject<Value>>,
-    /// Windows in which fibres were drawn to count holes, and their area together.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    windows: Option<usize>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    windows_m2: Option<f64>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    holes: Vec<OrderedObject<Value>>,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     notes: &'a [String],
 }
@@ -38,7 +30,6 @@ pub(super) struct FabricSummary<'a> {
 impl<'a> FabricSummary<'a> {
     pub(super) fn new(fabric: &'a Fabric) -> Self {
         let [strips_md, strips_cd] = fabric.strips.each_ref().map(|strips| strips.as_ref());
-        let holes = fabric.holes.as_ref();
         Self {
             numbers: entries(OF_FABRICS, fabric),
             patches: fabric.patches.iter().map(|patch| entries(OF_FABRIC_PATCHES, patch)).collect(),
@@ -46,9 +37,6 @@ impl<'a> FabricSummary<'a> {
             strips_md: strips_md.map(|strips| entries(OF_STRIPS, strips)),
             strips_cd: strips_cd.map(|strips| entries(OF_STRIPS, strips)),
             streaks: fabric.streaks.iter().map(|streak| entries(OF_STREAKS, streak)).collect(),
-            windows: holes.map(|holes| holes.windows),
-            windows_m2: holes.map(|holes| holes.area),
-            holes: holes.into_iter().flat_map(|holes| &holes.radii).map(|of| entries(OF_HOLES, of)).collect(),
             notes: &fabric.notes,
         }
     }
@@ -62,8 +50,6 @@ fn entries<T>(measures: &'static [Measure<T>], of: &T) -> OrderedObject<Value> {
 
 /// Side of the patches of which the terminal tells [m].
 const SHOWN: f64 = 5e-3;
-/// Radius of the holes of which the terminal tells [m].
-const SHOWN_HOLE: f64 = 100e-6;
 
 /// Most streaks of which the terminal tells.
 const MOST_STREAKS: usize = 5;
@@ -84,11 +70,6 @@ pub fn fabric_rows(fabric: &Fabric) -> Vec<[String; 2]> {
     for streak in fabric.streaks.iter().take(MOST_STREAKS) {
         let place = known_text(&name.of(streak)).unwrap_or_default();
         all.extend(rows(&format!("Streak at {place}: "), told, streak));
-    }
-    let holes = fabric.holes.iter().flat_map(|holes| &holes.radii);
-    for of in holes.filter(|of| is_near(of.radius, SHOWN_HOLE)) {
-        let before = format!("Radius of {} µm or more: ", number(of.radius * 1e6));
-        all.extend(rows(&before, &OF_HOLES[2..3], of));
     }
     all
 }

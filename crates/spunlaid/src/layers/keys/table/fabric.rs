@@ -2,8 +2,8 @@
 
 use super::super::access::{Access, WebKey};
 use super::positive;
-use crate::case::keys::row::{at, key, quantity};
-use crate::case::keys::{Kind, Sign};
+use crate::case::keys::Sign;
+use crate::case::keys::row::{at, quantity};
 use crate::units::Dimension;
 
 /// In the order of the file.
@@ -37,17 +37,6 @@ pub(super) const KEYS: &[WebKey] = &[
         )
         .label("Tolerance of the weight")
         .usual(1e-3, 0.5),
-    key("fabric.holes", Kind::Switch)
-        .access(at!(fabric.holes))
-        .fixed()
-        .follows("they are counted, but not in the webs of a study")
-        .meaning(
-            "Whether holes are counted, in windows in which each fibre is drawn with its true width: they take \
-             some two seconds of a processor. Without them there is no bare area, no largest hole and no \
-             hydrohead.",
-        )
-        .synonyms(&["pinhole", "pore", "porosity"])
-        .label("Count of holes"),
     positive("fabric.strip_width", Dimension::Length)
         .access(at!(fabric.strip.width))
         .value("50 mm")
@@ -72,16 +61,6 @@ pub(super) const KEYS: &[WebKey] = &[
         .synonyms(&["tensile", "weakest link"])
         .label("Section of a strip")
         .usual(1e-4, 0.1),
-    positive("fabric.contact_angle", Dimension::Angle)
-        .access(at!(fabric.contact_angle))
-        .follows("no hydrohead is told")
-        .meaning(
-            "Angle at which the edge of water meets the polymer, above 90°; that of clean polypropylene is \
-             some 105°. It gives the bound of the hydrohead.",
-        )
-        .synonyms(&["hydrohead", "hydrostatic head", "wetting"])
-        .label("Contact angle")
-        .usual(0.5, 3.0),
     positive("fabric.pressure", Dimension::Pressure)
         .access(at!(fabric.pressure))
         .value("200 Pa")
