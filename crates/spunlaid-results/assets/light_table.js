@@ -104,7 +104,10 @@ function startTable(canvas, image, data) {
       drawRectangles(strips.all, "#0072b2", false);
       drawRectangles(strips.weakest, "rgba(213, 94, 0, 0.55)", true);
     }
-    if (chosen.thin) drawRectangles(marks.thin, "rgba(213, 94, 0, 0.5)", true);
+    if (chosen.thin) {
+      drawRectangles(marks.thin, "rgba(213, 94, 0, 0.5)", true);
+      drawRectangles(marks.thinnest, "#d55e00", false);
+    }
     pen.restore();
   }
 
@@ -149,7 +152,7 @@ function startTable(canvas, image, data) {
       brush.lineWidth = 2;
       brush.strokeRect(72 - (across * scale) / 2, 72 - (along * scale) / 2, across * scale, along * scale);
       const words = document.createElement("span");
-      words.textContent = `${(100 * weight).toPrecision(3)} % at ${middle[0].toFixed(0)}, ${middle[1].toFixed(0)} mm`;
+      words.textContent = `${(100 * weight).toPrecision(3)} % at ${middle.map((at) => Number(at.toPrecision(5))).join(", ")} mm`;
       button.append(small, words);
       button.addEventListener("click", () => show(...middle, Math.min(...size()) / side));
       byId("thumbs").append(button);

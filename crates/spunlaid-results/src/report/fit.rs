@@ -5,7 +5,7 @@ use super::methods::{Account, MOMENTS, methods, web_account};
 use super::table::{Row, Table};
 use crate::numbers::significant;
 use crate::output::fit::{doubt, pretty, refused, sentences as sentences_of, value_and_interval};
-use spunlaid::fit::{Fit, FittedKey, FittedNumber, Target, Texture};
+use spunlaid::fit::{Fit, FittedKey, FittedNumber, KeyDoubt, Target, Texture};
 use spunlaid::layers::WebSpec;
 use spunlaid::units::Dimension;
 use spunlaid_charts::Figure;
@@ -107,8 +107,12 @@ fn title(fit: &Fit) -> String {
         .iter()
         .map(|key| {
             let [value, interval] = value_and_interval(key);
-            let interval = if key.interval.is_ok() { format!(" ({interval})") } else { String::new() };
-            format!("{} = {value}{interval}", key.parameter.key)
+            let name = &key.parameter.key;
+            match (key.doubt, &key.interval) {
+                (Some(KeyDoubt::Unknown | KeyDoubt::NoEffect), _) => format!("{name} is not determined"),
+                (_, Ok(_)) => format!("{name} = {value} ({interval})"),
+                (_, Err(_)) => format!("{name} = {value}"),
+            }
         })
         .collect();
     let values = values.join(", ");

@@ -98,7 +98,7 @@ pub(super) fn marks_note(fabric: &Fabric) -> String {
             thin_of_all.to_string()
         };
         words.push(format!(
-            "orange, patches of {} that are lighter than 80 % of the mean, {all}",
+            "orange, patches of {} that are lighter than 80 % of the mean, {all}, and outlined the thinnest places",
             millimetres(*patch)
         ));
     }

@@ -10,7 +10,7 @@ pub(super) const PER_CENT: f64 = 100.0;
 
 /// What is said below every table of CVs.
 pub(super) const CV_OF_PATCHES: &str = "Coefficient of variation of the basis weight over square patches, ± \
-    one standard error, which is a share of the CV; the interval holds the CV of all such webs in 95 % of \
+    one standard error, in percentage points as the CV is; the interval holds the CV of all such webs in 95 % of \
     the cases.";
 
 /// A basis weight in grams per square metre.
@@ -59,17 +59,21 @@ pub(super) fn per_cent(cv: f64, error: Option<f64>) -> String {
     format!("{}{THIN}%", plus_minus(cv * PER_CENT, error.map(|error| error * PER_CENT)))
 }
 
-/// Which clouds hold most of the variance, in a sentence.
+/// Longest wave of variance that is the grain of single fibres, and no clouds [m].
+const FINEST_CLOUDS: f64 = 2e-3;
+
+/// Which octave of wavelength holds most of the variance, in a sentence.
 pub(super) fn largest_clouds(clouds: &Clouds) -> Option<String> {
     let octaves = clouds.octaves();
     let whole: f64 = octaves.iter().map(|(_, variance)| variance.mean).sum();
     let (waves, variance) = octaves.iter().max_by(|a, b| a.1.mean.total_cmp(&b.1.mean))?;
     Some(format!(
-        "Clouds with wavelengths of {} to {} hold the most: {} % of the variance between {} and {}.",
+        "Of all octaves of wavelength, that of {} to {} holds most of the variance: {} % of what lies between {} and {}{}.",
         millimetres(waves[0]),
         millimetres(waves[1]),
         significant(PER_CENT * variance.mean / whole, 2),
         millimetres(clouds.shortest()),
-        millimetres(clouds.longest())
+        millimetres(clouds.longest()),
+        if waves[1] > FINEST_CLOUDS { "" } else { ", which single fibres make more than clouds do" }
     ))
 }

@@ -11,6 +11,8 @@ const ERGUN: f64 = 1.75;
 const SPHERE: f64 = 1.5;
 /// Highest solid fraction up to which the formulas are meant.
 pub const DENSEST: f64 = 0.3;
+/// What the formulas are worth: beds of fibres are between a half and twice the permeability that they give.
+const WORTH: f64 = 2.0;
 
 /// Filaments of one kind in a layered fabric.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,25 +45,33 @@ pub fn jackson_james(diameter: f64, solid: f64) -> f64 {
 
 /// Speed of the air that a pressure drives through a fabric [m/s]: the positive root of `Δp/t = ηv/K + βϱv²`,
 /// with Ergun's inertial term `β = 1.75 α/((1 − α)³ D)` of spheres with the surface of the fibres,
-/// `D = 1.5 d`. Layers lie one behind the other.                                              theory.md (108)
+/// `D = 1.5 d`. Layers lie one behind the other. Where there is next to no fibre, air is not faster than a
+/// jet, `√(2Δp/ϱ)`.                                                                           theory.md (108)
+///
+/// * `weight` – at the place over the mean: so much more fibre is in the same thickness
 ///
 /// Source: S. Ergun, Chem. Eng. Prog. 48 (1952) 89–94.
 pub fn air_speed(
     filaments: &[Filaments],
-    thickness: f64,
-    pressure: f64,
-    permeability: fn(f64, f64) -> f64,
+    weight: f64,
+    (thickness, pressure): (f64, f64),
+    permeability: impl Fn(f64, f64) -> f64,
 ) -> f64 {
     let volume = |of: &Filaments| of.basis_weight / of.density;
     let whole: f64 = filaments.iter().map(volume).sum();
-    let solid = whole / thickness;
+    let jet = (2.0 * pressure / DENSITY).sqrt();
+    // Heavy places of a fabric that is thinner than this let hardly any air through.
+    let solid = (weight * whole / thickness).min(DENSEST);
+    if solid <= 0.0 {
+        return jet;
+    }
     let (mut viscous, mut inertial) = (0.0, 0.0);
     for of in filaments {
         let depth = thickness * volume(of) / whole;
         viscous += depth * VISCOSITY / permeability(of.diameter, solid);
         inertial += depth * DENSITY * ERGUN * solid / ((1.0 - solid).powi(3) * SPHERE * of.diameter);
     }
-    2.0 * pressure / (viscous + (viscous * viscous + 4.0 * inertial * pressure).sqrt())
+    jet.min(2.0 * pressure / (viscous + (viscous * viscous + 4.0 * inertial * pressure).sqrt()))
 }
 
 /// Share of the fabric's volume that is fibre.
@@ -69,22 +79,33 @@ pub fn solid_fraction(filaments: &[Filaments], thickness: f64) -> f64 {
     filaments.iter().map(|of| of.basis_weight / of.density).sum::<f64>() / thickness
 }
 
-/// Speed of the air [m/s], between the two formulas; none of a fabric that is denser than they are meant for.
-pub fn air_permeability(filaments: &[Filaments], thickness: f64, pressure: f64) -> Option<Known> {
+/// Speed of the air [m/s], the mean over all places, from half of the lower one to twice the higher one of the
+/// permeabilities by both formulas; none of a fabric that is denser than they are meant for.
+///
+/// * `local` – the weight at each place over the mean
+pub fn air_permeability(
+    filaments: &[Filaments],
+    local: &[f64],
+    (thickness, pressure): (f64, f64),
+) -> Option<Known> {
     let solid = solid_fraction(filaments, thickness);
-    let speeds = [davies, jackson_james].map(|formula| air_speed(filaments, thickness, pressure, formula));
-    (solid > 0.0 && solid <= DENSEST)
-        .then(|| Known::Between([speeds[0].min(speeds[1]), speeds[0].max(speeds[1])]))
+    let mean = |permeability: &dyn Fn(f64, f64) -> f64| {
+        let at = |weight: &f64| air_speed(filaments, *weight, (thickness, pressure), permeability);
+        local.iter().map(at).sum::<f64>() / local.len() as f64
+    };
+    (solid > 0.0 && solid <= DENSEST && !local.is_empty()).then(|| {
+        Known::Between([
+            mean(&|diameter, solid| davies(diameter, solid).min(jackson_james(diameter, solid)) / WORTH),
+            mean(&|diameter, solid| davies(diameter, solid).max(jackson_james(diameter, solid)) * WORTH),
+        ])
+    })
 }
 
 /// Relative change of the speed for that of the basis weight at the same thickness, by Davies.
 pub fn sensitivity(filaments: &[Filaments], thickness: f64, pressure: f64) -> f64 {
     const STEP: f64 = 1e-3;
-    let [low, high] = [1.0 - STEP, 1.0 + STEP].map(|factor| {
-        let heavier = |of: &Filaments| Filaments { basis_weight: of.basis_weight * factor, ..*of };
-        let filaments: Vec<Filaments> = filaments.iter().map(heavier).collect();
-        libm::log(air_speed(&filaments, thickness, pressure, davies))
-    });
+    let [low, high] = [1.0 - STEP, 1.0 + STEP]
+        .map(|factor| libm::log(air_speed(filaments, factor, (thickness, pressure), davies)));
     (high - low) / (2.0 * STEP)
 }
 
@@ -107,7 +128,7 @@ mod tests {
             // Without inertia.
             let creeping = 200.0 * found / (VISCOSITY * THICKNESS);
             assert!((creeping / speed - 1.0).abs() < 3e-3, "{creeping}");
-            let with = air_speed(&[OF_EXAMPLE], THICKNESS, 200.0, formula);
+            let with = air_speed(&[OF_EXAMPLE], 1.0, (THICKNESS, 200.0), formula);
             assert!((0.5..0.67).contains(&(with / creeping)), "{with} of {creeping}");
         }
     }
@@ -121,7 +142,7 @@ mod tests {
             solid_fraction(&[twice], 2.0 * THICKNESS).to_bits(),
             solid_fraction(&[OF_EXAMPLE], THICKNESS).to_bits()
         );
-        let speed = |of, thickness, pressure| air_speed(&[of], thickness, pressure, davies);
+        let speed = |of, thickness, pressure| air_speed(&[of], 1.0, (thickness, pressure), davies);
         assert_eq!(
             speed(twice, 2.0 * THICKNESS, 400.0).to_bits(),
             speed(OF_EXAMPLE, THICKNESS, 200.0).to_bits()
@@ -130,13 +151,47 @@ mod tests {
         assert!((ratio - 0.5).abs() < 1e-4, "{ratio}");
         // Two layers of half the weight each are the same fabric.
         let half = Filaments { basis_weight: 0.5 * OF_EXAMPLE.basis_weight, ..OF_EXAMPLE };
-        let layered = air_speed(&[half, half], THICKNESS, 200.0, davies);
+        let layered = air_speed(&[half, half], 1.0, (THICKNESS, 200.0), davies);
         assert!((layered / speed(OF_EXAMPLE, THICKNESS, 200.0) - 1.0).abs() < 1e-12);
     }
 
     #[test]
     fn rejects_a_fabric_that_is_denser_than_the_formulas() {
-        assert_eq!(air_permeability(&[OF_EXAMPLE], 0.05e-3, 200.0), None);
-        assert!(air_permeability(&[OF_EXAMPLE], THICKNESS, 200.0).is_some());
+        assert_eq!(air_permeability(&[OF_EXAMPLE], &[1.0], (0.05e-3, 200.0)), None);
+        assert!(air_permeability(&[OF_EXAMPLE], &[1.0], (THICKNESS, 200.0)).is_some());
+    }
+
+    /// Without inertia the speed of an even fabric is between a half and twice that of a formula, however near
+    /// the two formulas are to each other.
+    #[test]
+    fn analytic_the_range_of_an_even_fabric() {
+        for weight in [0.2, 0.5, 1.0, 1.5] {
+            let of = Filaments { basis_weight: weight * OF_EXAMPLE.basis_weight, ..OF_EXAMPLE };
+            let solid = solid_fraction(&[of], THICKNESS);
+            let Some(Known::Between([low, high])) = air_permeability(&[of], &[1.0; 3], (THICKNESS, 1e-3))
+            else {
+                panic!("no range at {weight}")
+            };
+            let speeds =
+                [davies, jackson_james].map(|formula| 1e-3 * formula(18e-6, solid) / (VISCOSITY * THICKNESS));
+            assert!((low / (0.5 * speeds[0].min(speeds[1])) - 1.0).abs() < 1e-3, "{low} {speeds:?}");
+            assert!((high / (2.0 * speeds[0].max(speeds[1])) - 1.0).abs() < 1e-3, "{high} {speeds:?}");
+        }
+    }
+
+    /// Air goes through the light places of a cloudy fabric: the mean is that of the places, above the speed at
+    /// the mean weight, and a bare place lets no more through than a jet of `√(2Δp/ϱ)`.
+    #[test]
+    fn analytic_clouds_let_more_air_through() {
+        let at = |weights: &[f64]| match air_permeability(&[OF_EXAMPLE], weights, (THICKNESS, 200.0)) {
+            Some(Known::Between(ends)) => ends,
+            other => panic!("{other:?}"),
+        };
+        let ([even, cloudy], [light, heavy]) = ([at(&[1.0]), at(&[0.7, 1.3])], [at(&[0.7]), at(&[1.3])]);
+        for end in 0..2 {
+            assert!((cloudy[end] / (0.5 * (light[end] + heavy[end])) - 1.0).abs() < 1e-12);
+            assert!((1.05..1.3).contains(&(cloudy[end] / even[end])), "{cloudy:?} {even:?}");
+            assert!((at(&[0.0])[end] - (400.0 / DENSITY).sqrt()).abs() < 1e-9);
+        }
     }
 }

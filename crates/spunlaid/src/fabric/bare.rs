@@ -1,33 +1,38 @@
-//! The part of the sheet that no fibre covers.
+//! The weight about a place, and the part of the sheet that no fibre covers.
 
 use super::Known;
 use super::patches::weights;
 use crate::web::uniformity::Unevenness;
 use crate::web::{Map, straight_fibres};
 
-/// Side of the patches over which the length of fibre is local [m].
+/// Side of the patches over which the weight is local [m].
 pub(super) const LOCAL: f64 = 2e-3;
+
+/// The weight about each place over the mean. Patches of straight fibres at random differ by chance, which
+/// formulas for fibres at random know already; so the deviations from the mean are lowered until they vary by
+/// as much as the web varies more than straight fibres do.                                    theory.md (111)
+///
+/// * `length` – of fibre per area of the sheet [1/m]
+/// * `found` – the unevenness over patches of [`LOCAL`]
+pub fn local_weights(map: &Map, length: f64, found: &Unevenness) -> Vec<f64> {
+    let weights = weights(map, found.patch);
+    let variance = weights.iter().map(|weight| (weight - 1.0).powi(2)).sum::<f64>() / weights.len() as f64;
+    let of_clouds = (found.cv * found.cv - straight_fibres(length, found.patch).powi(2)).max(0.0);
+    let lower = if variance > 0.0 { (of_clouds / variance).sqrt() } else { 0.0 };
+    weights.into_iter().map(|weight| (1.0 + lower * (weight - 1.0)).max(0.0)).collect()
+}
 
 /// The share of the sheet that no fibre covers, `⟨exp(−τd)⟩`, where τ is the length of fibre per area about a
 /// place, as it was fed: what round fibres leave bare that lie independently of each other within 2 mm.
+///                                                                                            theory.md (110)
 ///
-/// Patches of straight fibres at random differ by chance, which the exponential of their mean knows already;
-/// so the deviations from the mean are lowered until they vary by as much as the web varies more than
-/// straight fibres do.                                                                  theory.md (110), (111)
-///
+/// * `local` – of [`local_weights`]
 /// * `length` – of fibre per area of the sheet [1/m]
 /// * `diameter` – of the fibres, the mean over their length [m]
 /// * `found` – the unevenness over patches of [`LOCAL`]; its error becomes that of the share
-pub fn bare_area(map: &Map, length: f64, diameter: f64, found: &Unevenness) -> Known {
-    let weights = weights(map, found.patch);
-    let mean = |of: &dyn Fn(f64) -> f64| {
-        weights.iter().map(|weight| of(*weight)).sum::<f64>() / weights.len() as f64
-    };
-    let variance = mean(&|weight| (weight - 1.0).powi(2));
-    let of_clouds = (found.cv * found.cv - straight_fibres(length, found.patch).powi(2)).max(0.0);
-    let lower = if variance > 0.0 { (of_clouds / variance).sqrt() } else { 0.0 };
+pub fn bare_area(local: &[f64], length: f64, diameter: f64, found: &Unevenness) -> Known {
     let covered = length * diameter;
-    let share = mean(&|weight| libm::exp(-covered * (1.0 + lower * (weight - 1.0)).max(0.0)));
+    let share = local.iter().map(|weight| libm::exp(-covered * weight)).sum::<f64>() / local.len() as f64;
     // The clouds add ½ (τd)² CV² of it, whose chance is that of the CV.                     theory.md (113)
     let error = found.standard_error.map(|error| libm::exp(-covered) * covered * covered * found.cv * error);
     Known::Value(share, error)

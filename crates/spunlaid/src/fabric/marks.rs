@@ -1,7 +1,7 @@
 //! Places of the sheet that are worth a look: the thinnest ones, strips with their weakest section.
 
 use super::marked::Marked;
-use super::patches::weights;
+use super::patches::{lightest, weights};
 use super::strips::{StripPlace, StripSize, places as strip_places};
 use crate::web::Map;
 
@@ -21,7 +21,7 @@ pub struct Marks {
     pub thin: Vec<Marked>,
     /// Number of all of them.
     pub thin_of_all: usize,
-    /// The lightest patches that do not touch each other, the lightest first.
+    /// The lightest patches at any place of the lattice of cells that do not touch each other, the lightest first.
     pub thinnest: Vec<Marked>,
     /// The strips along MD and those along CD.
     pub strips: [Vec<StripPlace>; 2],
@@ -34,16 +34,11 @@ impl Marks {
         let patch = side as f64 * map.cell;
         let mut patches = patches(map, corner, side);
         patches.sort_by(|a, b| a.weight.total_cmp(&b.weight));
-        let mut thinnest: Vec<Marked> = Vec::new();
-        for marked in &patches {
-            // Patches side by side are one place.
-            let is_far = |other: &Marked| {
-                (0..2).any(|axis| (other.corner[axis] - marked.corner[axis]).abs() > 1.5 * patch)
-            };
-            if thinnest.len() < THINNEST && thinnest.iter().all(is_far) {
-                thinnest.push(*marked);
-            }
-        }
+        let thinnest = lightest(map, side, THINNEST).into_iter().map(|(at, weight)| {
+            let at = at.map(|cells| cells as f64 * map.cell);
+            Marked { corner: [corner + at[0], at[1]], sides: [patch; 2], weight }
+        });
+        let thinnest = thinnest.collect();
         let thin_of_all = patches.partition_point(|marked| marked.weight < THIN);
         patches.truncate(thin_of_all.min(MOST));
         let mut strips = strip_places(map, size);

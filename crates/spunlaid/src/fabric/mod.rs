@@ -4,15 +4,14 @@
 //! given numbers. Bonds and finishes of the fabric are not known here.
 //!
 //! ```text
-//! map ─────────────→ formation, thin places, strips, bare area ┐
-//! directions ──────→ ratio of stiffness                        ├→ Fabric
-//! thickness ───────→ air permeability                          │
-//! measured opacity → opacity, place by place                   ┘
+//! map ─────────────────→ formation, thin places, strips, bare area ┐
+//! directions ──────────→ ratio of stiffness                        ├→ Fabric
+//! map, thickness ──────→ air permeability                          │
+//! map, measured opacity → opacity                                  ┘
 //! ```
 
 mod air_through;
 mod bare;
-mod directions;
 mod formation;
 mod given;
 mod known;
@@ -30,8 +29,7 @@ mod usable;
 mod words;
 
 pub use air_through::{Filaments, air_permeability, air_speed, davies, jackson_james, solid_fraction};
-pub use bare::bare_area;
-pub use directions::stiffness_ratio;
+pub use bare::{bare_area, local_weights};
 pub use formation::formation;
 pub use given::FabricKeys;
 pub use known::Known;

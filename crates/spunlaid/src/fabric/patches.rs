@@ -65,6 +65,11 @@ pub fn thin_places(map: &Map, side: usize) -> Option<ThinPlaces> {
     let (area, whole) = (patch * patch, (map.columns * map.rows) as f64 * map.cell * map.cell);
     let per_area = |share: Known| match share {
         Known::Value(0.0, _) => Known::AtMost(NONE_FOUND / whole),
+        // Less than one on the sheet is chance, as large as that of so small a count.
+        Known::Value(share, error) if share * whole < area => {
+            let least = (share * area / whole).sqrt();
+            Known::Value(share, error.map(|error| error.max(least))).times(1.0 / area)
+        }
         share => share.times(1.0 / area),
     };
     Some(ThinPlaces {
@@ -73,6 +78,32 @@ pub fn thin_places(map: &Map, side: usize) -> Option<ThinPlaces> {
         heavier: per_area(weights.above(HEAVIER * CLASSES_PER_MEAN)),
         quantiles: QUANTILES.map(|share| weights.quantile(share)),
     })
+}
+
+/// The lightest patches of one side at any place of the lattice of cells, with at least half a side between
+/// them, the lightest first: their first column and row, and their weight over the mean.
+///
+/// * `side` – of a patch [cells], within the map
+pub(super) fn lightest(map: &Map, side: usize, most: usize) -> Vec<([usize; 2], f64)> {
+    let mean = map.total() as f64 / map.cells.len() as f64 * (side * side) as f64;
+    let places = [map.columns, map.rows].map(|cells| cells - side + 1);
+    let mut found: Vec<([usize; 2], u64)> = Vec::new();
+    while found.len() < most {
+        let mut next: Option<([usize; 2], u64)> = None;
+        boxes(map, side, places, |row, boxes| {
+            for (column, weight) in boxes.iter().enumerate() {
+                let is_far = |(at, _): &([usize; 2], u64)| {
+                    2 * at[0].abs_diff(column).max(at[1].abs_diff(row)) > 3 * side
+                };
+                if next.is_none_or(|(_, least)| *weight < least) && found.iter().all(is_far) {
+                    next = Some(([column, row], *weight));
+                }
+            }
+        });
+        let Some(next) = next.filter(|_| mean > 0.0) else { break };
+        found.push(next);
+    }
+    found.into_iter().map(|(at, weight)| (at, weight as f64 / mean)).collect()
 }
 
 /// Weights over their mean of patches side by side, whose side is about this: the nearest whole number of cells.
@@ -117,10 +148,11 @@ impl Weights {
 
     /// The share below an edge of the classes, which may lie between two.
     fn at(below: &[f64], edge: f64) -> f64 {
-        // Edges at whole numbers are met, whatever rounding does to them.
-        let edge = edge.clamp(0.0, CLASSES as f64) + 1e-9;
+        // Edges at whole numbers are met exactly, whatever rounding does to them.
+        let near = edge.round();
+        let edge = if (edge - near).abs() < 1e-6 { near } else { edge }.clamp(0.0, CLASSES as f64);
         let number = (edge as usize).min(CLASSES - 1);
-        below[number] + (edge - number as f64 - 1e-9).clamp(0.0, 1.0) * (below[number + 1] - below[number])
+        below[number] + (edge - number as f64) * (below[number + 1] - below[number])
     }
 
     /// Standard error of the share below an edge, from the scatter of the blocks.

@@ -1,8 +1,7 @@
 //! Everything that is told of a fabric.
 
 use super::air_through::{Filaments, air_permeability, sensitivity, solid_fraction};
-use super::bare::{LOCAL, bare_area};
-use super::directions::stiffness_ratio;
+use super::bare::{LOCAL, bare_area, local_weights};
 use super::formation::formation as formation_number;
 use super::given::FabricKeys;
 use super::known::Known;
@@ -14,6 +13,7 @@ use super::strips::{Strips, strips};
 use super::usable::{Usable, usable};
 use crate::statistics::Estimate;
 use crate::threads::each;
+use crate::units::Dimension;
 use crate::web::uniformity::{Unevenness, unevenness};
 use crate::web::{Map, Orientation, straight_fibres};
 use std::borrow::Cow;
@@ -135,19 +135,21 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
         let formation = formation.map(|found| formation_number(&found, straight_fibres(length, thin.patch)));
         Some(FabricPatch { thin, formation })
     });
-    let bare = laid.orientation.filter(|_| length > 0.0).and_then(|_| {
+    let local = laid.orientation.filter(|_| length > 0.0).and_then(|_| {
         let side = ((LOCAL / map.cell).round().max(1.0) as usize).min(map.columns.min(map.rows));
         let found = uneven(side).or_else(|| unevenness(map, side))?;
-        Some(bare_area(map, length, diameter, &found))
+        Some((local_weights(map, length, &found), found))
     });
     let air = (!laid.filaments.is_empty()).then(|| {
-        let found = keys.thickness.and_then(|thickness| air(map, &filaments, thickness, keys.pressure));
+        let given = keys.thickness.map(|thickness| (thickness, keys.pressure)).zip(local.as_ref());
+        let found = given.and_then(|(by, (local, _))| air(map, &filaments, local, by));
         notes.extend(found.is_none().then(|| no_permeability(&filaments, keys.thickness)));
         found
     });
     let air = air.flatten();
     let usable = laid.reach.and_then(|reach| usable(laid.map, reach, keys.tolerance));
     notes.extend(usable.is_some().then(unknown_neck_in));
+    notes.extend(laid.orientation.map(directions_of));
     Fabric {
         width: map.columns as f64 * map.cell,
         trim: keys.saleable_width.zip(laid.reach).map(|(width, [from, to])| (to - from - width).max(0.0)),
@@ -156,8 +158,8 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
         strips: strips(map, keys.strip),
         marks: Marks::new(map, corner, keys.strip),
         streaks: streaks(map, corner, &laid.defects),
-        stiffness_ratio: laid.orientation.map(stiffness_ratio),
-        bare,
+        stiffness_ratio: laid.orientation.map(|of| Known::Value(of.stiffness_ratio.0, of.stiffness_ratio.1)),
+        bare: local.map(|(local, found)| bare_area(&local, length, diameter, &found)),
         air,
         opacity: keys.measured_opacity.and_then(|measured| {
             let scattering = light::scattering(measured);
@@ -181,6 +183,15 @@ fn no_permeability(filaments: &[Filaments], thickness: Option<f64>) -> String {
             (100.0 * solid_fraction(filaments, thickness)).round()
         ),
     }
+}
+
+/// Of which directions the stiffness is.
+fn directions_of(orientation: &Orientation) -> String {
+    format!(
+        "the stiffness MD/CD is that of pieces of {} of fibre as they were laid, each straight; curls within a \
+        piece, which bring it nearer to 1, are not in it",
+        Dimension::Length.pretty_to(orientation.piece, 2)
+    )
 }
 
 fn unknown_neck_in() -> String {
@@ -221,11 +232,11 @@ fn lengths(filaments: &[Filaments]) -> (f64, f64) {
     (whole, filaments.iter().map(|of| length(of) * of.diameter).sum::<f64>() / whole)
 }
 
-fn air(map: &Map, filaments: &[Filaments], thickness: f64, pressure: f64) -> Option<AirThrough> {
-    let permeability = air_permeability(filaments, thickness, pressure)?;
-    let spread = spread(&weights(map, AIR_AREA.sqrt()))
-        .map(|cv| cv.times(sensitivity(filaments, thickness, pressure).abs()));
-    Some(AirThrough { solid: solid_fraction(filaments, thickness), permeability, spread })
+fn air(map: &Map, filaments: &[Filaments], local: &[f64], by: (f64, f64)) -> Option<AirThrough> {
+    let permeability = air_permeability(filaments, local, by)?;
+    let spread =
+        spread(&weights(map, AIR_AREA.sqrt())).map(|cv| cv.times(sensitivity(filaments, by.0, by.1).abs()));
+    Some(AirThrough { solid: solid_fraction(filaments, by.0), permeability, spread })
 }
 
 fn opacity(map: &Map, scattering: f64) -> Option<Opacity> {

@@ -164,7 +164,8 @@ fn stat_the_bare_area_of_straight_fibres_at_random() {
     let drawn = Known::of(&Estimate::new(drawn));
     assert!(off(drawn, expected) < 3.0, "{drawn:?} {expected}");
     let (map, length) = random_fibres(3, 1);
-    let found = bare_area(&map, length, DIAMETER, &unevenness(&map, 4).unwrap());
+    let uneven = unevenness(&map, 4).unwrap();
+    let found = bare_area(&local_weights(&map, length, &uneven), length, DIAMETER, &uneven);
     assert!(
         off(found, expected) < 3.0 && (found.value() / expected - 1.0).abs() < 0.01,
         "{found:?} {expected}"
@@ -187,7 +188,7 @@ fn analytic_the_bare_area_of_a_cloudy_fabric() {
     let by_chance = straight_fibres(length, 2e-3).powi(2);
     let found = Unevenness { patch: 2e-3, cv: (squared + by_chance).sqrt(), standard_error: Some(0.001) };
     let expected = libm::pow(1.0 + length * DIAMETER * squared, -(shape as f64));
-    let found = bare_area(&sheet, length, DIAMETER, &found);
+    let found = bare_area(&local_weights(&sheet, length, &found), length, DIAMETER, &found);
     // 90,000 patches, whose shares scatter by 0.4 of their mean.
     assert!((found.value() / expected - 1.0).abs() < 0.005, "{found:?} {expected}");
     assert!(expected > 1.1 * libm::exp(-length * DIAMETER));
@@ -207,9 +208,48 @@ fn stat_thin_places_of_normal_weights() {
     {
         assert!(off(*quantile, 1.0 + cv * deviations) < 3.5, "{quantile:?}");
     }
+    // A number below one on the sheet is no rounding, and not surer than so small a count.
+    let rare = thin_places(&map([100, 100], 1e-3, |i| if i < 20 { 0.1 } else { 1.0 }), 10).unwrap();
+    let [.., Known::Value(number, Some(error))] = rare.lighter else { panic!("{rare:?}") };
+    assert!(number * 0.01 < 1.0 && error * 0.01 >= (number * 0.01).sqrt(), "{number} {error}");
+    // Weights at the edge of a class are no thick places: 1.3 of the mean, and nothing above.
+    let steps = thin_places(&map([100, 100], 1e-3, |i| if i % 100 < 50 { 0.7 } else { 1.29 }), 2).unwrap();
+    assert_eq!(steps.heavier, Known::AtMost(300.0), "{steps:?}");
     let even = thin_places(&map([100, 100], 1e-3, |_| 1.0), 5).unwrap();
     assert_eq!(even.heavier, Known::AtMost(300.0));
     assert_eq!(even.lighter, [Known::AtMost(300.0); 3]);
+}
+
+/// The lightest patches lie anywhere, not on a lattice: found one by one beside all places of a small map.
+#[test]
+fn stat_the_thinnest_places_are_the_lightest_of_all_places() {
+    let mut random = Random::new(11);
+    for _ in 0..5 {
+        let mut sheet = map([83, 61], 1e-3, |_| 1.0 + 0.3 * random.normal());
+        sheet.closed = [true; 2];
+        let marks = Marks::new(&sheet, 0.02, STRIP);
+        let mean = sheet.total() as f64 / sheet.cells.len() as f64 * 25.0;
+        let weight = |[x, y]: [usize; 2]| {
+            let rows = (y..y + 5)
+                .map(|row| sheet.row(row)[x..x + 5].iter().map(|cell| f64::from(*cell)).sum::<f64>());
+            rows.sum::<f64>() / mean
+        };
+        let mut places: Vec<[usize; 2]> = (0..=78).flat_map(|x| (0..=56).map(move |y| [x, y])).collect();
+        for marked in &marks.thinnest {
+            places.sort_by(|a, b| weight(*a).total_cmp(&weight(*b)));
+            let [x, y] = places[0];
+            assert!((marked.weight - weight([x, y])).abs() < 1e-12);
+            // Where the map begins across the sheet, the same as that of the marks.
+            let corner = [0.02 + x as f64 * 1e-3, y as f64 * 1e-3];
+            assert!(
+                (0..2).all(|axis| (marked.corner[axis] - corner[axis]).abs() < 1e-12),
+                "{marked:?} {corner:?}"
+            );
+            places.retain(|[i, j]| i.abs_diff(x).max(j.abs_diff(y)) > 7);
+        }
+        assert_eq!(marks.thinnest.len(), 6);
+        assert!(marks.thinnest[0].weight <= marks.thin.iter().map(|of| of.weight).fold(1.0, f64::min));
+    }
 }
 
 /// A web of normal cells with the streak of one blocked hole.

@@ -2,7 +2,13 @@
 
 use super::WebSpec;
 use crate::fabric::{Fabric, Filaments, Laid, StreakSource, tell};
-use crate::web::{Defect, Findings, Layer, Web, holes};
+use crate::web::uniformity::Unevenness;
+use crate::web::{Defect, Findings, Layer, PatchFindings, Web, holes};
+
+/// The unevenness of a web with all causes of its error, the few filaments too.
+fn with_whole_error(found: &PatchFindings) -> Unevenness {
+    Unevenness { standard_error: found.whole_error().whole().or(found.map.standard_error), ..found.map }
+}
 
 impl WebSpec {
     /// What a buyer wants to know of the fabric.
@@ -21,7 +27,7 @@ impl WebSpec {
             reach: Some(found.reach),
             filaments: kinds.collect(),
             orientation: Some(&found.orientation),
-            patches: found.patches.iter().map(|patch| patch.map).collect(),
+            patches: found.patches.iter().map(with_whole_error).collect(),
             defects: self.streak_sources(web),
         };
         tell(&laid, &self.fabric, threads)

@@ -42,8 +42,8 @@ pub const OF_FABRICS: &[Measure<Fabric>] = &[
         Told(|fabric: &Fabric| fabric.stiffness_ratio),
     )
     .meaning(
-        "stiffness along MD over that along CD of straight fibres in these directions, within 20 %: curl and \
-            bonds are not in it",
+        "stiffness along MD over that along CD, ⟨cos⁴⟩/⟨sin⁴⟩ of the directions of the laid fibres, within 20 %: \
+            curl within a piece and bonds are not in it",
     )
     .named("stiffness_ratio"),
     Measure::new(
@@ -73,8 +73,9 @@ pub const OF_FABRICS: &[Measure<Fabric>] = &[
         Told(|fabric: &Fabric| Some(fabric.air?.permeability)),
     )
     .meaning(
-        "speed of the air at the pressure of the test, between the formulas of Davies and of \
-            Jackson and James, both with an inertial term; trust the ratio of two webs, not the number",
+        "speed of the air at the pressure of the test, the mean over places of 2 mm, from half the permeability of \
+            the formulas of Davies and of Jackson and James to twice theirs, with an inertial term; trust the \
+            ratio of two webs, not the number",
     )
     .named("air_permeability")
     .figure(&figure("air_permeability", "Air permeability", "air permeability")),
@@ -223,12 +224,14 @@ pub const OF_STRIPS: &[Measure<Strips>] = &[
 /// The numbers of one of the thinnest places.
 pub const OF_THINNEST: &[Measure<Marked>] = &[
     Measure::new("across_m", "Across", MILLIMETRES, Told(|place: &Marked| Some(Exact(place.middle()[0]))))
-        .meaning("middle of the patch across the sheet"),
+        .meaning("middle of the patch across the sheet, from the edge of the web")
+        .digits(5),
     Measure::new("along_m", "Along", MILLIMETRES, Told(|place: &Marked| Some(Exact(place.middle()[1]))))
-        .meaning("middle of the patch along the sheet"),
+        .meaning("middle of the patch along the sheet, from its beginning")
+        .digits(5),
     Measure::new("weight", "Weight", PERCENT, Told(|place: &Marked| Some(Exact(place.weight)))).meaning(
-        "weight of the patch over the mean; the patches stand side by side on the sheet and do not \
-            touch each other",
+        "weight of the patch over the mean: the lightest patch at any place of the sheet, then the lightest with at \
+            least half a side between them",
     ),
 ];
 

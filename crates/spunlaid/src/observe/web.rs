@@ -144,9 +144,9 @@ pub const OF_WEBS: &[Measure<Findings>] = &[
             (cos_squared.mean, cos_squared.standard_error)
         }),
     )
-    .meaning("mean cos² of the angle between fibre and machine direction: 0.5 without orientation")
+    .meaning("mean cos² of the angle between the pieces of the fibres and the machine direction: 0.5 without orientation")
     .named("orientation_md"),
-    Measure::<Findings>::new("md_cd_ratio", "MD/CD", RATIO, Number(|found| found.orientation.md_cd_ratio()))
+    Measure::<Findings>::new("md_cd_ratio", "MD/CD", RATIO, Mean(|found| found.orientation.md_cd_ratio()))
         .meaning("length of fibre along the machine direction over that along the cross direction")
         .named("md_cd_ratio")
         .main()

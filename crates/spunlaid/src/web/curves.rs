@@ -130,6 +130,11 @@ impl Curves {
         })
     }
 
+    /// The points (ξ₁, ξ₂) of each curve [m].
+    pub(super) fn curves(&self) -> &[Vec<[f64; 2]>] {
+        &self.curves
+    }
+
     /// Fed length of the shortest curve [m].
     pub(super) fn length(&self) -> f64 {
         self.pieces() as f64 * self.spacing

@@ -1,76 +1,249 @@
 //! The directions of the fibres in a web.
 
-use super::Web;
 use super::laying::LayControl;
-use super::plan::plans;
+use super::plan::{Plan, plans};
+use super::shared_error::{Part, SharedError};
+use super::{Curves, Fibres, Web};
 use crate::error::Error;
 use crate::lanes::WIDTH;
 use crate::statistics::Estimate;
+use std::f64::consts::PI;
 
-/// Directions of the pieces of some filaments on the belt, each piece with its mass.
+/// Directions of the pieces of some filaments on the belt, each piece with its mass: of curves that were flown,
+/// each of them once; of a surrogate, those of up to 64 filaments.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Orientation {
-    /// `⟨cos²⟩` of the angle to the machine direction of each filament: ½ without orientation.
+    /// `⟨cos²⟩` of the angle to the machine direction of each filament: ½ without orientation. Its error counts
+    /// gusts that move neighbours together.
     pub cos_squared: Estimate,
     /// Share of the mass by direction: entry i holds angles to the machine direction from 10i to 10(i+1)
     /// degrees, positive towards the cross direction, in the sense in which the fibre was fed.
     pub directions: [f64; Self::DIRECTIONS],
+    /// Stiffness along MD over that along CD of straight fibres in these directions that follow the strain of the
+    /// sheet, `⟨cos⁴⟩/⟨sin⁴⟩`, and its standard error; none if it is not known.      theory.md (105)
+    ///
+    /// Source: H. L. Cox, Br. J. Appl. Phys. 3 (1952) 72–79.
+    pub stiffness_ratio: (f64, Option<f64>),
+    /// Longest fed length of a piece [m]: what bends within it is not seen.
+    pub piece: f64,
+}
+
+/// Filaments of a layer of a surrogate that are looked at.
+const SAMPLE: usize = 8 * WIDTH;
+
+/// Sums over pieces in a stretch of a filament.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sums {
+    pieces: f64,
+    squares: f64,
+    fourths: f64,
+}
+
+impl Sums {
+    fn add(&mut self, cos_squared: f64) {
+        self.pieces += 1.0;
+        self.squares += cos_squared;
+        self.fourths += cos_squared * cos_squared;
+    }
+
+    /// `Σ cos²`, `Σ cos⁴` and `Σ sin⁴`.
+    fn moments(&self) -> [f64; 3] {
+        [self.squares, self.fourths, self.pieces - 2.0 * self.squares + self.fourths]
+    }
+}
+
+/// The filaments of a layer that are looked at.
+struct Sample {
+    /// Share of the mass of the web.
+    weight: f64,
+    /// Of each filament, by stretches of it: one unless filaments hang in one air.
+    filaments: Vec<Vec<Sums>>,
+    /// The groups of neighbours of filaments in one air.
+    groups: Option<Vec<usize>>,
+    directions: [u64; Orientation::DIRECTIONS],
+}
+
+impl Sample {
+    fn new(weight: f64) -> Self {
+        Self { weight, filaments: Vec::new(), groups: None, directions: [0; Orientation::DIRECTIONS] }
+    }
+
+    fn add(&mut self, sums: (usize, usize), [md, cd]: [f64; 2]) {
+        let squared = md * md + cd * cd;
+        if squared > 0.0 {
+            self.filaments[sums.0][sums.1].add(md * md / squared);
+            let turn = libm::atan2(cd, md) / (2.0 * PI);
+            let class = ((turn + 1.0).fract() * Orientation::DIRECTIONS as f64) as usize;
+            self.directions[class.min(Orientation::DIRECTIONS - 1)] += 1;
+        }
+    }
+
+    /// All curves that were flown, each once.
+    fn of_curves(weight: f64, curves: &Curves, advance: f64) -> Self {
+        let one_air = curves.one_air();
+        let stretches = one_air.map_or(1, |air| (curves.length() / air.memory).max(1.0) as usize);
+        let mut sample = Self::new(weight);
+        sample.groups = one_air.map(|air| air.groups.clone());
+        for (number, curve) in curves.curves().iter().enumerate() {
+            sample.filaments.push(vec![Sums::default(); stretches]);
+            let pieces = curve.len() - 1;
+            for (i, pair) in curve.windows(2).enumerate() {
+                let step = [pair[1][0] - pair[0][0] - advance, pair[1][1] - pair[0][1]];
+                sample.add((number, i * stretches / pieces), step);
+            }
+        }
+        sample
+    }
+
+    /// Filaments of a surrogate, spread over the width.
+    fn of_surrogate(weight: f64, plan: &Plan<'_>, web: &Web, by: LayControl<'_>) -> Result<Self, Error> {
+        let groups = plan.places.len().div_ceil(WIDTH);
+        let advance = plan.layer.belt_ratio() * plan.piece;
+        let mut sample = Self::new(weight);
+        for group in (0..groups).step_by(groups.div_ceil(SAMPLE / WIDTH).max(1)) {
+            let (first, count) = (group * WIDTH, WIDTH.min(plan.places.len() - group * WIDTH));
+            let before = sample.filaments.len();
+            sample.filaments.resize(before + count, vec![Sums::default()]);
+            plan.walk(web, first, count, by, |points| {
+                for pair in points.windows(2) {
+                    for lane in 0..count {
+                        let [md, cd] = [0, 1].map(|axis| pair[1][axis].0[lane] - pair[0][axis].0[lane]);
+                        sample.add((before + lane, 0), [md - advance, cd]);
+                    }
+                }
+            })?;
+        }
+        Ok(sample)
+    }
+
+    /// The means of `cos²`, `cos⁴` and `sin⁴` of a filament.
+    fn of_filament(stretches: &[Sums]) -> Option<[f64; 3]> {
+        let whole = stretches.iter().fold(Sums::default(), |sum, of| Sums {
+            pieces: sum.pieces + of.pieces,
+            squares: sum.squares + of.squares,
+            fourths: sum.fourths + of.fourths,
+        });
+        (whole.pieces > 0.0).then(|| whole.moments().map(|moment| moment / whole.pieces))
+    }
+
+    fn filaments(&self) -> Vec<[f64; 3]> {
+        self.filaments.iter().filter_map(|stretches| Self::of_filament(stretches)).collect()
+    }
+
+    /// Standard error of the mean over filaments of a sum of the three moments; NaN if it is not known.
+    fn error(&self, factors: [f64; 3]) -> f64 {
+        let sum =
+            |moments: [f64; 3]| moments.iter().zip(factors).map(|(of, factor)| of * factor).sum::<f64>();
+        let Some(groups) = &self.groups else {
+            let values = self.filaments().into_iter().map(sum).collect();
+            return Estimate::new(values).standard_error.unwrap_or(f64::NAN);
+        };
+        let of_filament = |stretches: &Vec<Sums>| {
+            let whole: f64 = stretches.iter().map(|of| of.pieces).sum();
+            let part = |of: &Sums| Part { value: sum(of.moments()) / whole, length: of.pieces / whole };
+            stretches.iter().map(part).collect()
+        };
+        let parts: Vec<Vec<Part>> = self.filaments.iter().map(of_filament).collect();
+        SharedError::of(&parts, groups).standard_error
+    }
 }
 
 impl Orientation {
     /// Number of classes of direction.
     pub const DIRECTIONS: usize = 36;
 
-    /// Mass along the machine direction over mass along the cross direction, `⟨cos²⟩/⟨sin²⟩`.
-    pub fn md_cd_ratio(&self) -> f64 {
-        self.cos_squared.mean / (1.0 - self.cos_squared.mean)
+    /// Mass along the machine direction over mass along the cross direction, `⟨cos²⟩/⟨sin²⟩`, and its standard
+    /// error.
+    pub fn md_cd_ratio(&self) -> (f64, Option<f64>) {
+        let sin_squared = 1.0 - self.cos_squared.mean;
+        let error = self.cos_squared.standard_error.map(|error| error / (sin_squared * sin_squared));
+        (self.cos_squared.mean / sin_squared, error)
+    }
+
+    /// What the filaments of all layers say together; their airs are independent of each other.
+    fn of(samples: &[Sample], piece: f64) -> Self {
+        let whole: f64 = samples.iter().map(|of| of.weight).sum();
+        let filaments: Vec<Vec<[f64; 3]>> = samples.iter().map(Sample::filaments).collect();
+        let mut means = [0.0; 3];
+        let mut directions = [0.0; Self::DIRECTIONS];
+        for (sample, filaments) in samples.iter().zip(&filaments) {
+            let share = sample.weight / whole;
+            for (axis, mean) in means.iter_mut().enumerate() {
+                let sum: f64 = filaments.iter().map(|moments| moments[axis]).sum();
+                *mean += share * sum / filaments.len() as f64;
+            }
+            let total: u64 = sample.directions.iter().sum();
+            for (direction, count) in directions.iter_mut().zip(sample.directions) {
+                *direction += sample.weight * count as f64 / total.max(1) as f64;
+            }
+        }
+        let error = |factors: [f64; 3]| {
+            let squares = samples.iter().map(|of| (of.weight / whole * of.error(factors)).powi(2));
+            Some(squares.sum::<f64>().sqrt()).filter(|error| error.is_finite())
+        };
+        // Each value stands for its layer's share of the mass.
+        let count = filaments.iter().map(Vec::len).min().unwrap_or(0);
+        let layers = || samples.iter().zip(&filaments);
+        let mixed =
+            |i: usize| layers().map(|(of, filaments)| of.weight / whole * filaments[i][0]).sum::<f64>();
+        let [cos_squared, md, cd] = means;
+        let ratio = md / cd;
+        Self {
+            cos_squared: Estimate {
+                mean: cos_squared,
+                standard_error: error([1.0, 0.0, 0.0]),
+                values: (0..count).map(mixed).collect(),
+            },
+            directions,
+            stiffness_ratio: (ratio, error([0.0, 1.0 / cd, -ratio / cd])),
+            piece,
+        }
     }
 }
 
-/// Filaments of a layer that are looked at.
-const SAMPLE: usize = 8 * WIDTH;
-
-/// Directions of the web, from up to 64 filaments of each layer, spread over its width.
+/// Directions of the fibres of a web.
 ///
 /// # Errors
 /// As [`lay`](super::lay).
 pub fn orientation(web: &Web, by: LayControl<'_>) -> Result<Orientation, Error> {
-    let (mut values, mut directions, mut whole) = (Vec::new(), [0.0; Orientation::DIRECTIONS], 0.0);
+    let (mut samples, mut piece) = (Vec::new(), 0.0_f64);
     for plan in &plans(web)? {
-        let groups = plan.places.len().div_ceil(WIDTH);
         let weight = plan.layer.basis_weight(&web.sheet) / web.basis_weight();
-        let advance = plan.layer.belt_ratio() * plan.piece;
-        let mut of_layer = Vec::new();
-        let mut counts = [0u64; Orientation::DIRECTIONS];
-        for group in (0..groups).step_by(groups.div_ceil(SAMPLE / WIDTH).max(1)) {
-            let (first, count) = (group * WIDTH, WIDTH.min(plan.places.len() - group * WIDTH));
-            let mut sums = [(0u64, 0.0); WIDTH];
-            plan.walk(web, first, count, by, |points| {
-                for pair in points.windows(2) {
-                    for (lane, sum) in sums.iter_mut().enumerate().take(count) {
-                        let md = pair[1][0].0[lane] - pair[0][0].0[lane] - advance;
-                        let cd = pair[1][1].0[lane] - pair[0][1].0[lane];
-                        let squared = md * md + cd * cd;
-                        if squared > 0.0 {
-                            *sum = (sum.0 + 1, sum.1 + md * md / squared);
-                            let turn = libm::atan2(cd, md) / (2.0 * std::f64::consts::PI);
-                            let class = ((turn + 1.0).fract() * Orientation::DIRECTIONS as f64) as usize;
-                            counts[class.min(Orientation::DIRECTIONS - 1)] += 1;
-                        }
-                    }
-                }
-            })?;
-            of_layer.extend(sums.iter().take(count).filter(|sum| sum.0 > 0).map(|sum| sum.1 / sum.0 as f64));
-        }
-        let total: u64 = counts.iter().sum();
-        for (direction, count) in directions.iter_mut().zip(counts) {
-            *direction += weight * count as f64 / total.max(1) as f64;
-        }
-        values.push((weight, of_layer));
-        whole += weight;
+        piece = piece.max(plan.piece);
+        samples.push(match &plan.layer.fibres {
+            Fibres::Curves(curves) => {
+                Sample::of_curves(weight, curves, plan.layer.belt_ratio() * curves.spacing())
+            }
+            Fibres::Surrogate(_) => Sample::of_surrogate(weight, plan, web, by)?,
+        });
     }
-    // Each value stands for its layer's share of the mass.
-    let count = values.iter().map(|(_, shares)| shares.len()).min().unwrap_or(0);
-    let mixed = |i: usize| values.iter().map(|(weight, shares)| weight * shares[i] / whole).sum::<f64>();
-    Ok(Orientation { cos_squared: Estimate::new((0..count).map(mixed).collect()), directions })
+    Ok(Orientation::of(&samples, piece))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_the_ratio_of_stiffness_of_directions_with_a_cosine() {
+        const PIECES: usize = 200_000;
+        for (share, expected) in [(0.0, 1.0), (0.4, 1.727_272_7), (0.8, 3.285_714_3)] {
+            // Angles of equal mass: the inverse of the distribution by bisection.
+            let below = |angle: f64| (angle + 0.5 * share * libm::sin(2.0 * angle)) / (2.0 * PI);
+            let mut sample = Sample::new(1.0);
+            sample.filaments = vec![vec![Sums::default()]; 2];
+            for i in 0..PIECES {
+                let wanted = (i as f64 + 0.5) / PIECES as f64;
+                let (mut low, mut high) = (0.0, 2.0 * PI);
+                for _ in 0..40 {
+                    let middle = 0.5 * (low + high);
+                    if below(middle) < wanted { low = middle } else { high = middle }
+                }
+                sample.add((i % 2, 0), [libm::cos(low), libm::sin(low)]);
+            }
+            let found = Orientation::of(&[sample], 1e-3);
+            assert!((found.stiffness_ratio.0 / expected - 1.0).abs() < 1e-6, "{share}: {found:?}");
+            assert!((found.cos_squared.mean - 0.5 - 0.25 * share).abs() < 1e-6, "{share}: {found:?}");
+        }
+    }
 }

@@ -82,6 +82,9 @@ fn directions(findings: &Findings) -> Figure {
         classes. The mean of the squared cosine of the angle to the machine direction is {}; without \
         orientation it is ½. MD over CD: {}.",
         crate::numbers::plus_minus(orientation.mean, orientation.standard_error),
-        crate::numbers::significant(found.md_cd_ratio(), 3)
+        {
+            let (ratio, error) = found.md_cd_ratio();
+            crate::numbers::plus_minus(ratio, error)
+        }
     ))
 }

@@ -1,6 +1,6 @@
 //! What is told of a fabric, for `summary.json`, the terminal and the report.
 
-use crate::numbers::{HARD, THIN, number, plus_minus, range};
+use crate::numbers::{HARD, THIN, number, number_to, plus_minus, range};
 use crate::output::in_order::OrderedObject;
 use serde::Serialize;
 use spunlaid::fabric::{Fabric, Known};
@@ -94,7 +94,7 @@ pub fn known_text<T>(row: &Measured<T>) -> Option<String> {
     let Some(Value::Told(known)) = &row.value else { return None };
     let unit = row.measure.unit.readable(known.value());
     let shown = match known.times(unit.per_si) {
-        Known::Exact(value) => number(value),
+        Known::Exact(value) => number_to(value, row.measure.digits.unwrap_or(3)),
         Known::Value(value, error) => plus_minus(value, error),
         Known::AtLeast(least) => format!("at least {}", number(least)),
         Known::AtMost(most) => format!("at most {}", number(most)),
