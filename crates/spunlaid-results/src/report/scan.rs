@@ -68,7 +68,11 @@ pub fn scan_report<'a>(
 fn title(findings: &Findings) -> String {
     let nearest_patch = nearest_to_seen(findings.patches.iter().map(|patch| patch.unevenness.patch));
     let weight = findings.mean_known.then(|| findings.map.basis_weight());
-    headline(weight, nearest_patch.map(|i| &findings.patches[i].unevenness), false)
+    headline(
+        weight.map(|weight| (weight, None)),
+        nearest_patch.map(|i| &findings.patches[i].unevenness),
+        false,
+    )
 }
 
 /// How uneven it is.

@@ -18,6 +18,14 @@ pub(super) fn grams(weight: f64) -> String {
     format!("{}{THIN}g/m²", significant(weight * 1e3, 3))
 }
 
+/// A basis weight with its standard error.
+pub(super) fn grams_with_error((weight, error): (f64, Option<f64>)) -> String {
+    error.map_or_else(
+        || grams(weight),
+        |error| format!("{}{THIN}g/m²", plus_minus(weight * 1e3, Some(error * 1e3))),
+    )
+}
+
 /// The patch nearest to what the eye judges first.
 pub(super) fn headline_patch(findings: &Findings) -> Option<usize> {
     nearest_to_seen(findings.patches.iter().map(|patch| patch.map.patch))
@@ -27,10 +35,15 @@ pub(super) fn cost(performance: Performance) -> String {
     format!("computed in {} on {}", time(performance.wall_s), count(performance.threads as u64, "thread"))
 }
 
-/// * `weight` – mean basis weight, if it is known [kg/m²]
+/// * `weight` – mean basis weight and its standard error, if they are known [kg/m²]
 /// * `is_bound` – whether its filaments are independent of each other, so that a real web is more uneven
-pub(super) fn headline(weight: Option<f64>, patch: Option<&Unevenness>, is_bound: bool) -> String {
-    let web = weight.map_or_else(|| "A web".to_owned(), |weight| format!("A web of {}", grams(weight)));
+pub(super) fn headline(
+    weight: Option<(f64, Option<f64>)>,
+    patch: Option<&Unevenness>,
+    is_bound: bool,
+) -> String {
+    let web =
+        weight.map_or_else(|| "A web".to_owned(), |weight| format!("A web of {}", grams_with_error(weight)));
     match patch {
         Some(unevenness) => format!(
             "{web} that varies by {}{} over patches of {}{}.",

@@ -9,7 +9,8 @@ use super::methods::{methods, web_account};
 use super::spinline::{LayerSpinline, sections_of_web};
 use super::table::{Row, Table};
 use super::unevenness::{
-    CV_OF_PATCHES, cost, grams, headline, headline_patch, largest_clouds, per_cent, unevenness,
+    CV_OF_PATCHES, cost, grams, grams_with_error, headline, headline_patch, largest_clouds, per_cent,
+    unevenness,
 };
 use super::view::View;
 use super::words::{count, metres, millimetres};
@@ -54,7 +55,7 @@ pub fn web_report<'a>(
         Section::new("web", "The web on a light table").view(View::LightTable(sheet)).caption(caption);
     let together = findings.laid.shared_air.as_ref();
     let headline = headline(
-        Some(findings.within().basis_weight()),
+        Some(findings.basis_weight()),
         headline_patch(findings).map(|i| whole(&findings.patches[i])).as_ref(),
         together.is_none(),
     );
@@ -69,7 +70,7 @@ pub fn web_report<'a>(
     Ok(Report::new("web", headline)
         .lead(guess_words(spec, findings, guesses))
         .lead(advice_words(spec, findings, advice))
-        .lead([summary(web), air_sentence(spec, findings), errors].join(" "))
+        .lead([summary(web), laid_weight(web, findings), air_sentence(spec, findings), errors].join(" "))
         .lead(charge_sentence(spec, findings))
         .lead(spun)
         .with(table)
@@ -202,6 +203,23 @@ fn summary(web: &Web) -> String {
         count(filaments, "filament")
     )
 }
+
+/// That the piece is lighter or heavier than the web that the line makes; nothing where it is as heavy.
+fn laid_weight(web: &Web, findings: &Findings) -> String {
+    let (laid, made) = (findings.basis_weight(), web.basis_weight());
+    if (laid.0 / made - 1.0).abs() < AS_HEAVY {
+        return String::new();
+    }
+    format!(
+        "The line makes {} in the mean, and this piece has {}: clouds that its ends and edges cut are in it by \
+        chance.",
+        grams(made),
+        grams_with_error(laid)
+    )
+}
+
+/// Relative difference of two basis weights up to which they are shown as one.
+const AS_HEAVY: f64 = 0.005;
 
 /// The map with its error by all causes, or by chance alone if the others are not known.
 fn whole(patch: &PatchFindings) -> Unevenness {

@@ -104,7 +104,7 @@ fn every_measure_stands_in_the_docs() {
     let mut text = "# All measures\n\nThis page is written from the declarations of the measures \
         (`crates/spunlaid/src/observe/`). Names are those of `summary.json`, of a velocity record those of \
         `analysis.json`. Studies keep some of them, under the same name or under that of the second column, \
-        which is here of patches of 10 mm, of strips along MD, and of holes for a disc of a radius of 50 µm. [results.md](results.md) says where they stand.\n"
+        which is here of patches of 10 mm and of strips along MD. [results.md](results.md) says where they stand.\n"
         .to_owned();
     let mut groups: Vec<Group> = Vec::new();
     let observed = || DECLARED.iter().flat_map(|declaration| declaration.measures);

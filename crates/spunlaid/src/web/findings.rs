@@ -10,7 +10,7 @@ use super::map::Map;
 use super::one_fibre::OneFibre;
 use super::orientation::{Orientation, orientation};
 use super::sensitivity::{Sensitivity, Source, sensitivities};
-use super::uniformity::{Unevenness, unevenness_at};
+use super::uniformity::{Unevenness, error_of_mean, nearest_to_seen, unevenness_at};
 use super::waves::Places;
 use super::{Fibres, Layer, Web};
 use crate::error::{Error, Fault};
@@ -55,6 +55,16 @@ impl Findings {
         let map = &self.laid.map;
         let [first, last] = self.margins.map(|margin| (margin / map.cell).round() as usize);
         map.between(first..map.columns - last)
+    }
+
+    /// The basis weight of this piece of web without its edges, and how far that of other pieces of the same web
+    /// is from the mean of all [kg/m²]; no error of a sheet that is closed to a ring.
+    pub fn basis_weight(&self) -> (f64, Option<f64>) {
+        let map = self.within();
+        let seen = nearest_to_seen(self.patches.iter().map(|patch| patch.map.patch));
+        let side = seen.map_or(1, |seen| (self.patches[seen].map.patch / map.cell).round() as usize);
+        let weight = map.basis_weight();
+        (weight, error_of_mean(&map, side).map(|error| error * weight))
     }
 }
 

@@ -66,26 +66,7 @@ pub fn unevenness(map: &Map, side: usize) -> Option<Unevenness> {
 /// * `side` – of a patch [cells], at least one and within the sheet; None otherwise, and without any fibre
 /// * `places` – what is known of the places of the filaments
 pub fn unevenness_at(map: &Map, side: usize, places_of_filaments: &Places) -> Option<Unevenness> {
-    let sizes = [map.columns, map.rows];
-    let mean = map.total() as f64 / map.cells.len() as f64 * (side * side) as f64;
-    if side == 0 || sizes.iter().any(|size| side > *size) || mean <= 0.0 {
-        return None;
-    }
-    let places = [0, 1].map(|axis| if map.closed[axis] { sizes[axis] } else { sizes[axis] - side + 1 });
-    // So many of the places, evenly spread, a power of two.
-    let [columns, rows] = places.map(|places| 1 << places.min(WAVES).ilog2());
-    let mut some = Vec::with_capacity(columns * rows);
-    let mut squares = 0.0;
-    boxes(map, side, places, |row, boxes| {
-        let deviation = |weight: &u64| *weight as f64 / mean - 1.0;
-        squares += boxes.iter().map(|weight| deviation(weight).powi(2)).sum::<f64>();
-        if some.len() / columns * places[1] / rows == row {
-            some.extend((0..columns).map(|column| deviation(&boxes[column * places[0] / columns])));
-        }
-    });
-    let squares = squares / (places[0] * places[1]) as f64;
-    let powers = (columns.min(rows) >= FEWEST)
-        .then(|| Powers::new(columns, rows, 1, |row, column| some[row * columns + column]));
+    let (squares, powers) = deviations(map, side)?;
     let of_mean = match places_of_filaments {
         Places::Unknown => powers.as_ref().map_or(0.0, |powers| powers.variance_of_mean(map.closed)),
         Places::AtRandom(streaks) => streaks.variance_of_mean,
@@ -107,6 +88,41 @@ pub fn unevenness_at(map: &Map, side: usize, places_of_filaments: &Places) -> Op
         cv,
         standard_error: error.filter(|error| error.is_finite()),
     })
+}
+
+/// Standard error of the mean basis weight of a map that is a piece of a web, as a share of it: by the waves that
+/// are as long as the piece. None of a map that is closed to a ring both ways, whose mean is that of the web,
+/// and of a map that is too small to say.
+///
+/// * `side` – of the patches whose waves are looked at [cells]
+pub fn error_of_mean(map: &Map, side: usize) -> Option<f64> {
+    let (_, powers) = deviations(map, side)?;
+    Some(powers?.variance_of_mean(map.closed).sqrt()).filter(|error| *error > 0.0)
+}
+
+/// The mean square of the deviations of the patches of one side from the mean, over it, and the powers of their
+/// waves, if they are enough.
+fn deviations(map: &Map, side: usize) -> Option<(f64, Option<Powers>)> {
+    let sizes = [map.columns, map.rows];
+    let mean = map.total() as f64 / map.cells.len() as f64 * (side * side) as f64;
+    if side == 0 || sizes.iter().any(|size| side > *size) || mean <= 0.0 {
+        return None;
+    }
+    let places = [0, 1].map(|axis| if map.closed[axis] { sizes[axis] } else { sizes[axis] - side + 1 });
+    // So many of the places, evenly spread, a power of two.
+    let [columns, rows] = places.map(|places| 1 << places.min(WAVES).ilog2());
+    let mut some = Vec::with_capacity(columns * rows);
+    let mut squares = 0.0;
+    boxes(map, side, places, |row, boxes| {
+        let deviation = |weight: &u64| *weight as f64 / mean - 1.0;
+        squares += boxes.iter().map(|weight| deviation(weight).powi(2)).sum::<f64>();
+        if some.len() / columns * places[1] / rows == row {
+            some.extend((0..columns).map(|column| deviation(&boxes[column * places[0] / columns])));
+        }
+    });
+    let powers = (columns.min(rows) >= FEWEST)
+        .then(|| Powers::new(columns, rows, 1, |row, column| some[row * columns + column]));
+    Some((squares / (places[0] * places[1]) as f64, powers))
 }
 
 /// The coefficient of variation over the patches of this very map, at every place within its edges. That of

@@ -52,11 +52,12 @@ fn rows(findings: &Findings, fabric: &Fabric) -> Vec<[String; 2]> {
     let within = findings.within();
     let size = |cells: usize| format!("{}{THIN}m", number(cells as f64 * within.cell));
     let sheet = format!("{}{HARD}×{HARD}{}", size(within.columns), size(within.rows));
+    let (weight, error) = findings.basis_weight();
     let mut rows = vec![
         ["Sheet, across and along".to_owned(), sheet],
         [
             "Basis weight, of the sheet".to_owned(),
-            format!("{}{THIN}g/m²", number(1e3 * within.basis_weight())),
+            format!("{}{THIN}g/m²", plus_minus(1e3 * weight, error.map(|error| 1e3 * error))),
         ],
     ];
     for patch in &findings.patches {
