@@ -32,8 +32,8 @@ use crate::load::WayPlace;
 use crate::sort::sort_by_key;
 use crate::threads::try_each;
 use crate::web::{
-    Brush, Canvas, ChargedCurtain, LaidWeb, NeighbourCorrelation, SharedAirFindings, Sheet, Strand, TimeSpent,
-    Titres, Window,
+    Brush, Canvas, ChargedCurtain, LaidWeb, NeighbourCorrelation, SharedAirFindings, Sheet, Strand,
+    TimeSpent, Titres, Window,
 };
 pub(crate) use abreast::{FlownAbreast, fly_abreast, memory_abreast};
 use air::SharedField;
