@@ -24,15 +24,22 @@ pub fn decimals(error: f64) -> Option<i32> {
     Some(1 - exponent)
 }
 
-/// A value with this number of decimals (see [`decimals`]). If that would be too long, with six digits.
+/// A value with this number of decimals (see [`decimals`]). If that would be too long, with as many digits as they
+/// leave, at most six; if nothing would be left of it, with two.
 pub fn to_decimals(value: f64, decimals: i32) -> String {
-    let size = if value == 0.0 { 0.0 } else { value.abs().log10().floor() };
-    if !value.is_finite() || !(-DECIMALS..=DECIMALS).contains(&decimals) || size as i32 + decimals >= DIGITS {
-        return number_to(value, 6);
+    let size = if value == 0.0 { 0 } else { value.abs().log10().floor() as i32 };
+    if !value.is_finite() || !(-DECIMALS..=DECIMALS).contains(&decimals) || size + decimals >= DIGITS {
+        return number_to(value, size.saturating_add(decimals).saturating_add(1).clamp(2, 6));
     }
     let power = 10f64.powi(-decimals.min(0));
-    let value = if decimals < 0 { (value / power).round() * power } else { value };
-    signed(value, decimals.max(0) as usize)
+    let rounded = if decimals < 0 { (value / power).round() * power } else { value };
+    let text = signed(rounded, decimals.max(0) as usize);
+    let is_nothing = value != 0.0 && !text.bytes().any(|digit| (b'1'..=b'9').contains(&digit));
+    match is_nothing {
+        true if size < -DECIMALS => number_to(value, 2),
+        true => significant(value, 2),
+        false => text,
+    }
 }
 
 /// A mean and its error, apart: the error to two digits, the mean to as many decimals.
@@ -66,12 +73,14 @@ pub fn number_to(value: f64, digits: i32) -> String {
     if !value.is_finite() {
         return "–".to_owned();
     }
-    let magnitude = if value == 0.0 { 0 } else { value.abs().log10().floor() as i32 };
+    // The exponent is read after rounding: 9.999e17 is 1 × 10¹⁸.
+    let text = format!("{value:.*e}", (digits - 1).max(0) as usize);
+    let (mantissa, magnitude) = text.split_once('e').unwrap_or((&text, "0"));
+    let (mantissa, magnitude) = (mantissa.parse().unwrap_or(value), magnitude.parse().unwrap_or(0));
     if (-3..6).contains(&magnitude) {
         return significant(value, digits);
     }
-    let mantissa = significant(value / 10f64.powi(magnitude), digits);
-    format!("{mantissa}{THIN}×{THIN}10{}", superscript(magnitude))
+    format!("{}{THIN}×{THIN}10{}", significant(mantissa, digits), superscript(magnitude))
 }
 
 /// `50 to 52.3`: to three digits, more where the ends would look alike; one number where they are.
@@ -117,7 +126,10 @@ mod tests {
             (9.541, 0.0996, "9.54 ± 0.10"),
             (812.3, 31.4, "812 ± 31"),
             (31_234.0, 1_520.0, "31200 ± 1500"),
-            (-0.0004, 0.02, "0.000 ± 0.020"),
+            (-0.0004, 0.02, "−0.0004 ± 0.020"),
+            (2510.0, 3.7e7, "2500 ± 37000000"),
+            (7.270_91e-15, 7.3e-15, "7.3 × 10⁻¹⁵ ± 7.3 × 10⁻¹⁵"),
+            (0.0, 0.02, "0.000 ± 0.020"),
             (-12.34, 0.5, "−12.34 ± 0.50"),
             (997.54, 1.23e-9, "997.54 ± 1.2 × 10⁻⁹"),
             (3e12, 2.5e11, "3 × 10¹² ± 2.5 × 10¹¹"),
@@ -139,6 +151,10 @@ mod tests {
     fn numbers_far_from_one_have_a_power_of_ten() {
         assert_eq!(number(1.5e-9), "1.5\u{202f}×\u{202f}10⁻⁹");
         assert_eq!(number(0.0), "0");
+        assert_eq!(number(9.999e17), "1\u{202f}×\u{202f}10¹⁸");
+        assert_eq!(number(-9.999e-10), "−1\u{202f}×\u{202f}10⁻⁹");
+        assert_eq!(number(999_999.0), "1\u{202f}×\u{202f}10⁶");
+        assert_eq!(number(9.9999e-4), "0.001");
         assert_eq!(number(-0.25), "−0.25");
     }
 

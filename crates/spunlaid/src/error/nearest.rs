@@ -23,6 +23,8 @@ pub(crate) fn by_similarity<'a, T>(word: &str, known: impl Iterator<Item = (T, &
         strsim::normalized_damerau_levenshtein(&word, &known).max(if part { 0.7 } else { 0.0 })
     };
     let mut like: Vec<(f64, T)> = known
+        // The top of a file has no name that can be meant.
+        .filter(|(_, spelling, _)| !spelling.is_empty())
         .map(|(candidate, spelling, bonus)| (similarity(spelling) + bonus, candidate))
         .filter(|(similarity, _)| *similarity >= 0.6)
         .collect();

@@ -175,7 +175,9 @@ impl Problem {
     #[must_use]
     pub(crate) fn column(self: Box<Self>, name: &str) -> Box<Self> {
         self.placed(|_, _, part| {
-            part.get_or_insert_with(|| format!("column {}", excerpt(name, 40)));
+            // A column without a name is called by its number.
+            let word = if name.starts_with("column ") { "" } else { "column " };
+            part.get_or_insert_with(|| format!("{word}{}", excerpt(name, 40)));
         })
     }
 

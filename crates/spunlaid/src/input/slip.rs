@@ -1,6 +1,7 @@
 //! What is wrong with a line that is not TOML, and the line as it should be.
 
 use crate::error::{Fault, shortest};
+use crate::units::readings;
 use toml::de::DeTable;
 
 /// Signs that stand before comments in other languages.
@@ -70,11 +71,15 @@ pub(super) fn slip(line: &str) -> Option<Fault> {
     let number = bare.split_whitespace().next().unwrap_or(bare);
     let point = number.replacen(',', ".", 1);
     let has_comma = point != number && is_number(&point);
+    let thousands =
+        readings(number)[0].as_ref().filter(|_| has_comma).map(|whole| bare.replacen(number, whole, 1));
     let bare = if has_comma { bare.replacen(',', ".", 1) } else { bare.to_owned() };
     let short = is_number(&bare) && !has_comma && !is_toml(&format!("{key} = {bare}"));
     let bare = if short { shortest(bare.parse().ok()?) } else { bare };
     let what = if short {
         "has a number without a digit before or behind its point, or with a zero before it"
+    } else if thousands.is_some() {
+        "has a comma, which is a decimal sign or stands between thousands"
     } else if has_comma {
         "has a decimal comma"
     } else if written.starts_with(['"', '\'']) || written.ends_with(['"', '\'']) {
@@ -85,8 +90,14 @@ pub(super) fn slip(line: &str) -> Option<Fault> {
         "has a value without quotes"
     };
     let is_bare = is_number(&bare) && !written.starts_with(QUOTES);
-    let value = if is_bare { bare } else { format!("\"{bare}\"") };
-    offer(what, &format!("{key} = {value}"))
+    let value = |bare: String| if is_bare { bare } else { format!("\"{bare}\"") };
+    let fault = offer(what, &format!("{key} = {}", value(bare)))?;
+    match thousands {
+        Some(whole) => {
+            Some(Fault { remedy: format!("{}, or {key} = {}", fault.remedy, value(whole)).into(), ..fault })
+        }
+        None => Some(fault),
+    }
 }
 
 /// Whether a text could be a key, or several with points between.
@@ -130,6 +141,11 @@ mod tests {
             ("diameter = 50 µm    # um or \"18 dtex\"", "without quotes", "diameter = \"50 µm\""),
             ("turbulence_intensity = 0,1 # rms; \"10 %\"", "decimal comma", "turbulence_intensity = 0.1"),
             ("diameter = 0,05 mm", "decimal comma", "diameter = \"0.05 mm\""),
+            (
+                "modulus = 1,500 MPa",
+                "between thousands",
+                "modulus = \"1.500 MPa\", or modulus = \"1500 MPa\"",
+            ),
             ("diameter = \"50 µm    # or \"18.7 dtex\"", "one end only", "diameter = \"50 µm\""),
             ("diameter = 50 µm\"", "one end only", "diameter = \"50 µm\""),
             ("diameter = “50 µm”", "not straight", "diameter = \"50 µm\""),

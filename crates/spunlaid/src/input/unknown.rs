@@ -38,7 +38,8 @@ impl<T> Document<'_, T> {
                         table_meant.or_else(|| keys.find_by_short_name(key.get_ref()).map(Key::table));
                 }
             }
-            if let Some(meant) = table_meant {
+            // The top of the file is no table with a name.
+            if let Some(meant) = table_meant.filter(|meant| !meant.is_empty()) {
                 self.key_values.excuse(format!("{before}{meant}."));
                 nearest = Some(self.header(layer, meant));
             }

@@ -1,11 +1,13 @@
 //! Computes the statistics of a record with their confidence intervals.
 
 use super::analysis::{BLOCKS, SpectrumSettings, block_time};
+use super::artefacts::Artefacts;
 use super::doubts::warnings;
 use super::flat::FlatPart;
 use super::interval::{Interval, error};
 use super::jackknife::{Blocks, Estimates};
 use super::limits::{LEAST_SAMPLES, rate_fault, too_few_samples};
+use super::words::number;
 use super::{Analysis, Autocorrelation, Component, IntegralRule, Moments, Record, Samples, Settings, Trend};
 use crate::error::{Fault, FileError};
 use crate::statistics::Welch;
@@ -34,8 +36,8 @@ pub fn analyse(record: &Record, settings: &Settings) -> Result<Analysis, FileErr
     let fault = Fault::new(
         format!(
             "the mean velocity is zero within its error ({} ± {} m/s)",
-            shortest(value),
-            shortest(0.5 * (high - low))
+            number(value),
+            number(0.5 * (high - low))
         ),
         "if the mean has been subtracted, give the mean velocity",
     );
@@ -44,8 +46,21 @@ pub fn analyse(record: &Record, settings: &Settings) -> Result<Analysis, FileErr
 
 /// [`analyse`] for a record that may lack a mean velocity. What depends on it has no meaning then.
 pub(crate) fn analyse_fluctuation(record: &Record, settings: &Settings) -> Result<Analysis, FileError> {
-    let (samples, interval) = (record.samples(), record.interval);
     check(record, settings)?;
+    let artefacts = Artefacts::find(record).map_err(|(name, fault)| refuse(record, Some(name), fault))?;
+    let mut analysis = statistics(record, settings)?;
+    let mended = artefacts.mended(record);
+    let rest = mended.as_ref().and_then(|mended| {
+        check(&mended.record, settings).and_then(|()| statistics(&mended.record, settings)).ok()
+    });
+    let without = mended.zip(rest.as_ref()).map(|(mended, rest)| (mended.left_out, mended.joints, rest));
+    analysis.warnings = warnings(record, &analysis, artefacts, without);
+    Ok(analysis)
+}
+
+/// The results without warnings.
+fn statistics(record: &Record, settings: &Settings) -> Result<Analysis, FileError> {
+    let (samples, interval) = (record.samples(), record.interval);
     let lengths: Vec<usize> =
         record.components.iter().map(|c| lags(&c.values, interval, settings.integral)).collect();
     let rough: Vec<(f64, Autocorrelation)> = (record.components.iter().zip(&lengths))
@@ -82,7 +97,7 @@ pub(crate) fn analyse_fluctuation(record: &Record, settings: &Settings) -> Resul
     let mean_velocity = settings.mean_velocity.map_or(components[0].mean, Interval::exactly);
     let along = &components[0];
     let (integral_time, cutoff_frequency) = (along.integral_time, along.flat.cutoff);
-    let mut analysis = Analysis {
+    Ok(Analysis {
         samples,
         interval,
         duration: record.duration(),
@@ -95,9 +110,7 @@ pub(crate) fn analyse_fluctuation(record: &Record, settings: &Settings) -> Resul
         integral: settings.integral,
         blocks: count,
         warnings: Vec::new(),
-    };
-    analysis.warnings = warnings(record, &analysis);
-    Ok(analysis)
+    })
 }
 
 fn refuse(record: &Record, column: Option<&str>, fault: Fault) -> FileError {

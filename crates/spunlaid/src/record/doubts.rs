@@ -1,15 +1,14 @@
 //! What makes a record or its results doubtful.
 
 use super::analysis::BLOCKS;
+use super::artefacts::Artefacts;
+use super::words::{hertz, number, time};
 use super::{Analysis, Component, Interval, Reading, Record, Trend};
 use crate::error::{Fault, WAS, by_count, counted, listed};
-use crate::statistics::median;
-use crate::units::{Dimension, shortest};
+use crate::units::Dimension;
 
-/// Standard deviations from the median beyond which a sample may be an outlier.
-const OUTLIER: f64 = 12.0;
-/// Largest number of samples that are sorted to find the median.
-const MOST_RANKED: usize = 1 << 16;
+/// Largest share of an integral time that joints may take off, so that the record without its artefacts is told.
+const MOST_JOINED: f64 = 0.02;
 /// Share of interpolated samples from which results may mislead.
 const MUCH_FILLED: f64 = 0.001;
 
@@ -59,10 +58,21 @@ fn filled(record: &Record) -> Option<Fault> {
 }
 
 /// All warnings about a record and its analysis, with what to do about each.
-pub(super) fn warnings(record: &Record, analysis: &Analysis) -> Vec<Fault> {
+///
+/// * `without` – the number of samples that are no velocities, of places where others were joined in their place, and
+///   the analysis without them, if there is one; doubts about the air are those about it
+pub(super) fn warnings(
+    record: &Record,
+    analysis: &Analysis,
+    artefacts: Artefacts,
+    without: Option<(usize, usize, &Analysis)>,
+) -> Vec<Fault> {
     let mut warnings = Vec::new();
     warnings.extend(record.reading.doubt.clone());
     warnings.extend(filled(record).filter(|_| record.filled_share() > MUCH_FILLED));
+    warnings.extend(artefacts.faults);
+    warnings.extend(without.and_then(|(samples, joints, rest)| told_without(samples, joints, rest)));
+    let analysis = without.map_or(analysis, |(.., rest)| rest);
     let longest = analysis.components.iter().map(Component::block_time).fold(0.0, f64::max);
     if analysis.duration < BLOCKS.0 as f64 * longest {
         let count = number(analysis.duration / analysis.integral_time.value);
@@ -73,13 +83,8 @@ pub(super) fn warnings(record: &Record, analysis: &Analysis) -> Vec<Fault> {
             format!("measure for {} or longer", time(BLOCKS.0 as f64 * longest)),
         ));
     }
-    for (component, samples) in analysis.components.iter().zip(&record.components) {
-        let faults = [
-            spike(&samples.values, record.reading.cut_off_start, analysis.interval),
-            level(component),
-            clipping(&samples.values),
-            spectrum(component, analysis.interval),
-        ];
+    for component in &analysis.components {
+        let faults = [level(component), spectrum(component, analysis.interval)];
         warnings.extend(faults.into_iter().flatten().map(|fault| Fault {
             message: format!("{}: {}", component.name, fault.message).into(),
             ..fault
@@ -114,37 +119,20 @@ pub(super) fn warnings(record: &Record, analysis: &Analysis) -> Vec<Fault> {
     warnings
 }
 
-fn time(seconds: f64) -> String {
-    Dimension::Time.pretty_to(seconds, 3)
-}
-
-fn hertz(frequency: f64) -> String {
-    Dimension::Frequency.pretty_to(frequency, 3)
-}
-
-fn number(value: f64) -> String {
-    shortest(format!("{value:.2e}").parse().unwrap_or(value))
-}
-
-/// A sample that is far from all others.
-///
-/// * `missing` – rows of the data before the first sample
-fn spike(values: &[f64], missing: usize, interval: f64) -> Vec<Fault> {
-    let Some((sample, deviations, count)) = outlier(values) else {
-        return Vec::new();
-    };
-    let others = if count > 1 { format!(", the farthest of {count} outliers") } else { String::new() };
-    vec![Fault::new(
-        format!(
-            "{} m/s in data row {} (at {}) is {} standard deviations from the median{others}; such a spike is not \
-             turbulence and spoils every result",
-            number(values[sample]),
-            missing + sample + 1,
-            time(sample as f64 * interval),
-            number(deviations)
-        ),
-        "leave the cell empty and run the analysis again",
-    )]
+/// What the analysis gives without the samples that are no velocities. None if too many others had to be joined: each
+/// joint takes an integral time out of the record.
+fn told_without(samples: usize, joints: usize, rest: &Analysis) -> Option<Fault> {
+    let joined = joints as f64 * rest.integral_time.value;
+    if !rest.has_mean() || joined > MOST_JOINED * rest.duration {
+        return None;
+    }
+    Some(Fault::plain(format!(
+        "without {} the analysis gives a turbulence intensity of {} %, an integral time of {} and a length scale of {}",
+        if samples == 1 { "this sample".to_owned() } else { format!("these {samples} samples") },
+        number(100.0 * rest.turbulence_intensity.value),
+        time(rest.integral_time.value),
+        Dimension::Length.pretty_to(rest.length_scale.value, 3),
+    )))
 }
 
 /// Whether the mean and the rms stay the same over the record, and whether the autocorrelation falls far enough.
@@ -183,21 +171,6 @@ fn level(component: &Component) -> Vec<Fault> {
         faults.push(Fault::plain(message));
     }
     faults
-}
-
-fn clipping(values: &[f64]) -> Vec<Fault> {
-    let clipped = [1.0, -1.0].into_iter().filter_map(|sign| clipped(values, sign));
-    let fault = |(samples, extreme)| {
-        Fault::new(
-            format!(
-                "{samples} samples are all {} m/s, the extreme of the record: the instrument seems to clip at this \
-                 value, which makes the rms too small",
-                number(extreme)
-            ),
-            "measure with a wider range",
-        )
-    };
-    clipped.map(fault).collect()
 }
 
 /// Whether the spectrum is that of turbulence, and whether it is resolved.
@@ -268,41 +241,6 @@ fn spectrum(component: &Component, interval: f64) -> Vec<Fault> {
     faults
 }
 
-/// The sample farthest off the others, its distance in standard deviations, and the number of such samples. Resolved
-/// turbulence rises over several samples, so that an outlier also differs from a neighbour by half its distance.
-fn outlier(values: &[f64]) -> Option<(usize, f64, usize)> {
-    let some: Vec<f64> = values.iter().copied().step_by(values.len().div_ceil(MOST_RANKED)).collect();
-    let middle = median(&some);
-    let distances: Vec<f64> = some.iter().map(|x| (x - middle).abs()).collect();
-    // The median distance of a Gaussian is 0.6745 standard deviations.
-    let deviation = median(&distances) / 0.6745;
-    let far = |i: usize| (values[i] - middle).abs();
-    let leaps = |i: usize, j: usize| values.get(j).is_some_and(|x| (values[i] - x).abs() > 0.5 * far(i));
-    let all = (0..values.len())
-        .filter(|i| far(*i) > OUTLIER * deviation && (leaps(*i, i.wrapping_sub(1)) || leaps(*i, i + 1)));
-    let (count, farthest) = all.fold((0, None), |(count, farthest), i| {
-        (count + 1, farthest.filter(|j| far(*j) >= far(i)).or(Some(i)))
-    });
-    farthest.filter(|_| deviation > 0.0).map(|i| (i, far(i) / deviation, count))
-}
-
-/// Number of samples at the extreme value and the value, if far more samples have it than the value next to it.
-fn clipped(values: &[f64], sign: f64) -> Option<(usize, f64)> {
-    let (mut first, mut second) = ((f64::NEG_INFINITY, 0), (f64::NEG_INFINITY, 0));
-    for value in values.iter().map(|x| sign * x) {
-        if value > first.0 {
-            (second, first) = (first, (value, 1));
-        } else if value == first.0 {
-            first.1 += 1;
-        } else if value > second.0 {
-            second = (value, 1);
-        } else if value == second.0 {
-            second.1 += 1;
-        }
-    }
-    (first.1 >= 5 && first.1 > 4 * second.1).then_some((first.1, sign * first.0))
-}
-
 /// The entry of the highest peak and its share of the variance, if it is far above its surroundings.
 fn tone(density: &[f64]) -> Option<(usize, f64)> {
     let peak = (0..density.len()).max_by(|a, b| density[*a].total_cmp(&density[*b]))?;
@@ -318,35 +256,4 @@ fn tone(density: &[f64]) -> Option<(usize, f64)> {
     let line: f64 = near(peak.saturating_sub(2), peak + 3).sum();
     let share = line / density.iter().sum::<f64>();
     (is_resolved && density[peak] > 20.0 * level && share > 0.1).then_some((peak, share))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_spike_is_an_outlier_and_a_gust_is_not() {
-        let at = |i: usize| 10.0 + (i as f64 * 0.7).sin() + (i as f64 * 0.13).cos();
-        let mut values: Vec<f64> = (0..20_000).map(at).collect();
-        assert_eq!(outlier(&values), None);
-        values[7000] = 1e4;
-        values[9000] = -300.0;
-        assert_eq!(outlier(&values).map(|(sample, _, count)| (sample, count)), Some((7000, 2)));
-        let gust = |i: usize| at(i) + 100.0 * libm::exp(-((i as f64 - 500.0) / 20.0).powi(2));
-        assert_eq!(outlier(&(0..20_000).map(gust).collect::<Vec<_>>()), None);
-    }
-
-    #[test]
-    fn piles_at_an_extreme_are_clipping() {
-        let swing = |i: u32| 3.0 * f64::from(i * i % 997) / 997.0;
-        let whole: Vec<f64> = (0..3000).map(swing).collect();
-        assert_eq!(
-            clipped(&whole.iter().map(|x| x.min(2.5)).collect::<Vec<_>>(), 1.0).map(|c| c.1),
-            Some(2.5)
-        );
-        assert_eq!(
-            clipped(&whole.iter().map(|x| x.max(0.5)).collect::<Vec<_>>(), -1.0).map(|c| c.1),
-            Some(0.5)
-        );
-    }
 }

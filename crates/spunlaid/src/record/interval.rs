@@ -2,6 +2,9 @@
 
 use crate::statistics::{NORMAL_95, student_t_95};
 
+/// Half width of an interval from which that of the logarithm has no meaning: a factor of ten.
+const LARGEST_LOGARITHM: f64 = std::f64::consts::LN_10;
+
 /// A value with its 95 % confidence interval.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Interval {
@@ -46,17 +49,22 @@ impl Interval {
     /// The block jackknife: `left_out` are the estimates with each block left out in turn.
     ///
     /// The standard error `s` follows from `s² = (B−1)/B Σ(θ_b − θ̄)²` (Künsch, Annals of Statistics 17, 1989);
-    /// the interval is Student's with `B−1` degrees of freedom, of the logarithm if `positive` and
-    /// all estimates are positive.
+    /// the interval is Student's with `B−1` degrees of freedom, of the logarithm if `positive`. Where an estimate is
+    /// not positive, or the logarithms scatter too much to have a meaning, a positive quantity has as much room above
+    /// as by its own scatter, and as large a factor below.
     pub(super) fn jackknife(value: f64, left_out: &[f64], positive: bool) -> Self {
         let quantile = student_t_95((left_out.len() as u64).saturating_sub(1));
-        let in_logarithm = positive && value > 0.0 && left_out.iter().all(|x| *x > 0.0);
-        if in_logarithm {
-            let logarithms: Vec<f64> = left_out.iter().map(|x| libm::log(*x)).collect();
-            return Self::logarithmic(value, error(&logarithms), quantile);
-        }
         let half = quantile * error(left_out);
-        Self { value, low: value - half, high: value + half }
+        if !(positive && value > 0.0) {
+            return Self { value, low: value - half, high: value + half };
+        }
+        let logarithms: Vec<f64> = left_out.iter().map(|x| libm::log(x.max(0.0))).collect();
+        let of_logarithm = error(&logarithms);
+        if quantile * of_logarithm < LARGEST_LOGARITHM {
+            return Self::logarithmic(value, of_logarithm, quantile);
+        }
+        let high = value + half;
+        Self { value, low: value * (value / high), high }
     }
 }
 
@@ -99,5 +107,18 @@ mod tests {
         assert!((error(&left_out) - (variance / n).sqrt()).abs() < 1e-12);
         let interval = Interval::jackknife(sum / n, &left_out, false);
         assert!(interval.holds(sum / n) && !interval.holds(7.0));
+    }
+
+    #[test]
+    fn invariant_intervals_of_positive_quantities_are_positive() {
+        for left_out in
+            [[3.0, -1.0, 2.0, 0.5], [1e-9, 1.0, 2.0, 1.5], [0.0, 1.0, 2.0, 1.5], [1.0, 1.1, 0.9, 1.0]]
+        {
+            let Interval { value, low, high } = Interval::jackknife(1.2, &left_out, true);
+            assert!(
+                0.0 < low && low <= value && value <= high && high < 20.0,
+                "{left_out:?}: {low} to {high}"
+            );
+        }
     }
 }

@@ -37,6 +37,7 @@
 //! ```
 
 mod analysis;
+mod artefacts;
 mod clock;
 mod columns;
 mod compute;
@@ -52,6 +53,7 @@ mod parquet;
 mod rows;
 mod text;
 mod trend;
+mod words;
 
 pub use analysis::{Analysis, Component, Settings, SpectrumSettings};
 pub use compute::analyse;
@@ -114,6 +116,8 @@ pub struct Reading {
     pub unused: Vec<String>,
     /// Whether there was a column of time.
     pub timed: bool,
+    /// From the unit of the file to m/s, of each component; 1 where it is not known.
+    pub factors: Vec<f64>,
     /// CRC-32 of the file.
     pub checksum: u32,
 }

@@ -132,6 +132,7 @@ impl Rows {
         self.reading.doubt = doubt;
         self.reading.cut_off = rows - (end - first);
         self.reading.cut_off_start = first;
+        self.reading.factors = self.roles.components.iter().map(|column| column.factor).collect();
         let mut components = Vec::new();
         for (mut values, column) in self.values.into_iter().zip(&self.roles.components) {
             values.truncate(end);
@@ -183,7 +184,7 @@ impl Places {
 }
 
 /// Interpolates missing values linearly; returns how many there were.
-fn fill(values: &mut [f64]) -> usize {
+pub(super) fn fill(values: &mut [f64]) -> usize {
     let mut filled = 0;
     let mut last = 0;
     for i in 0..values.len() {

@@ -11,6 +11,8 @@ use std::ops::Range;
 pub(super) enum Parting {
     Sign(u8),
     Blanks,
+    /// Blanks, and parentheses around the components of a vector: `0.1 (10.2 0.3 -0.1)`.
+    Vectors,
 }
 
 impl Parting {
@@ -27,6 +29,7 @@ impl Parting {
             }
             Self::Sign(sign) => is_in(text, sign),
             Self::Blanks => true,
+            Self::Vectors => text.contains('('),
         }
     }
 
@@ -42,7 +45,8 @@ impl Parting {
     /// The separator that makes a line a row of numbers; `None` where no separator does.
     pub(super) fn from_numbers(text: &str) -> Option<Self> {
         let mut cells = Vec::new();
-        Self::ALL.into_iter().filter(|parting| parting.occurs(text)).find(|parting| {
+        let all = Self::ALL.into_iter().chain([Self::Vectors]);
+        all.filter(|parting| parting.occurs(text)).find(|parting| {
             parting.split(text, &mut cells);
             let looks = || cells.iter().map(|cell| Looks::new(&text[cell.clone()], *parting));
             looks().all(|looks| looks != Looks::Text) && looks().any(|looks| looks == Looks::Number)
@@ -60,7 +64,7 @@ impl Parting {
             let around = |c: char| c.is_whitespace() || c == '"';
             let start = to - cell.trim_start_matches(around).len();
             let cell = cell.trim_matches(around);
-            if self != Self::Blanks || from < to {
+            if matches!(self, Self::Sign(_)) || from < to {
                 cells.push(start..start + cell.len());
             }
         };
@@ -69,6 +73,7 @@ impl Parting {
             let parts = match self {
                 Self::Sign(sign) => byte == sign,
                 Self::Blanks => matches!(byte, b' ' | b'\t'),
+                Self::Vectors => matches!(byte, b' ' | b'\t' | b'(' | b')'),
             };
             if parts && !quoted {
                 put(from, at);
@@ -155,7 +160,15 @@ fn parsed(cell: &str, parting: Parting) -> Option<f64> {
         _ => Cow::Borrowed(cell),
     };
     let is_missing = || with_point.len() <= 10 && MISSING.contains(&with_point.to_ascii_lowercase().as_str());
-    with_point.parse().ok().or_else(|| is_missing().then_some(f64::NAN))
+    let number = with_point.parse().ok().or_else(|| double_precision(&with_point)?.parse().ok());
+    number.or_else(|| is_missing().then_some(f64::NAN))
+}
+
+/// A number with an exponent of Fortran's double precision, `1.5D+00`, as others write it.
+fn double_precision(cell: &str) -> Option<String> {
+    let (mantissa, exponent) = cell.split_once(['D', 'd'])?;
+    // A name like 2D5 has neither a point nor a sign.
+    (mantissa.contains('.') || exponent.starts_with(['+', '-'])).then(|| format!("{mantissa}e{exponent}"))
 }
 
 /// Whether a cell holds a finite number, or says that it is missing.
@@ -165,8 +178,39 @@ pub(super) fn is_number(cell: &str, parting: Parting) -> bool {
 
 /// The unit of the last digit of a number as it is written.
 pub(super) fn last_place(cell: &str) -> f64 {
-    let (mantissa, exponent) = cell.split_once(['e', 'E']).unwrap_or((cell, "0"));
+    let (mantissa, exponent) = cell.split_once(['e', 'E', 'd', 'D']).unwrap_or((cell, "0"));
     let decimals = mantissa.split_once(['.', ',']).map_or(0, |(_, decimals)| decimals.len() as i32);
     let exponent = exponent.parse::<i32>().unwrap_or(0);
     libm::exp10(f64::from(exponent.saturating_sub(decimals).clamp(-400, 400)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exponents_of_fortran_are_read() {
+        let read = |cell| number(cell, Parting::Blanks, &mut None);
+        for (cell, value, last) in [
+            ("1.0043D+01", 10.043, 1e-3),
+            ("-0.5d-3", -5e-4, 1e-4),
+            ("2.D0", 2.0, 1.0),
+            ("3D+02", 300.0, 100.0),
+            ("1,5D+00", 1.5, 0.1),
+        ] {
+            assert_eq!(read(cell), Ok(value), "{cell}");
+            assert!((last_place(cell) / last - 1.0).abs() < 1e-12, "{cell}");
+        }
+        for cell in ["2D5", "D+01", "1.5D", "1.5D+", "1.5DD+01", "3D"] {
+            assert!(read(cell).is_err(), "{cell}");
+        }
+    }
+
+    #[test]
+    fn parentheses_part_the_components_of_vectors() {
+        let line = "0.1 (10.04 0.1 -0.2) (1 2 3)";
+        assert_eq!(Parting::from_numbers(line), Some(Parting::Vectors));
+        assert_eq!(Parting::Vectors.cells(line), ["0.1", "10.04", "0.1", "-0.2", "1", "2", "3"]);
+        assert_eq!(Parting::from_numbers("0.1 (a b c)"), None);
+    }
 }

@@ -2,7 +2,8 @@
 //!
 //! * **Cells** are separated by tabs, semicolons, commas or blanks; a cell may have quotation marks around it.
 //! * **Numbers** have a decimal point or, where commas do not separate cells, a decimal comma. NaN, `null`, `n/a` and
-//!   an empty cell count as missing and are read as NaN. Infinity is an error.
+//!   an empty cell count as missing and are read as NaN. Infinity is an error. Exponents may be Fortran's, `1.5D+00`.
+//! * **Vectors** may have parentheses around their components, as OpenFOAM's probes have.
 //! * **The header** is the line of names above the first row of numbers. A line of units may follow it, and so may
 //!   the fourth line of TOA5 files. Lines above the header are recognised and skipped. Units may also be
 //!   part of the names: `u_m_s`, `u [m/s]`, `u (m/s)`.
@@ -41,6 +42,7 @@ mod head;
 mod lines;
 mod logical;
 mod parquet;
+mod probes;
 mod stamp;
 mod start;
 mod thousands;

@@ -3,6 +3,7 @@
 use super::cells::{Looks, Parting, is_comment};
 use super::head::{Head, is_unit};
 use super::lines::Line;
+use super::probes;
 
 /// What is known before the first row is read.
 pub(super) struct Start {
@@ -74,6 +75,10 @@ pub(super) fn find(lines: &[Line]) -> Option<Start> {
         return start(content[i + 1], parting, Some(names), content[at]);
     }
     let row = content[first];
+    if parting == Parting::Vectors {
+        let above = lines[..row].iter().map(|line| line.text.as_str());
+        return start(row, parting, probes::names(above, width), row.saturating_sub(1));
+    }
     let above = row.checked_sub(1).map(|i| lines[i].text.as_str());
     if let Some(comment) = above.filter(|text| is_comment(text)) {
         let names = names_in(comment.trim_start_matches(['#', '%', '/', ' '])).filter(|n| words(n, parting));

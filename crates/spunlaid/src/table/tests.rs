@@ -102,3 +102,19 @@ fn messages_show_control_characters() {
     let error = FileError::from(Fault::no_rows()).file("t\u{8}les/\u{1b}[2J.csv").column("u\u{7}");
     assert!(error.to_string().chars().all(|c| !c.is_control()), "{error}");
 }
+
+#[test]
+fn probes_of_openfoam_have_names_and_units() {
+    let one = "# Probe 0 (0.1 0 0)\n#       Probe             0\n#        Time\n0 (10.0 0.5 0)\n0.001 (9 -1e-3 0)\n";
+    let mut table = Table::open(one.as_bytes(), FileKind::Record, 0).unwrap();
+    let heads: Vec<&str> = table.heads().iter().map(|head| head.text.as_str()).collect();
+    assert_eq!(heads, ["Time [s]", "Ux [m/s]", "Uy [m/s]", "Uz [m/s]"]);
+    assert!(table.next_row().unwrap() && table.next_row().unwrap());
+    assert_eq!((table.number(0), table.number(2)), (Ok(0.001), Ok(-1e-3)));
+    let two = "# Probe 0 (0.1 0 0)\n# Probe 4 (0.2 0 0)\n# Probe 0 4\n# Time\n0 (10 1 0) (11 2 0)\n";
+    let table = Table::open(two.as_bytes(), FileKind::Record, 0).unwrap();
+    let names: Vec<&str> = table.heads().iter().map(|head| head.name.as_str()).collect();
+    assert_eq!(names[4..], ["Ux at probe 4", "Uy at probe 4", "Uz at probe 4"]);
+    let unknown = Table::open(&b"# Time\n0 (10 1 0)\n1 (11 2 0)\n"[..], FileKind::Record, 0).unwrap();
+    assert_eq!((unknown.named(), unknown.heads().len()), (false, 4));
+}

@@ -1,11 +1,13 @@
 //! Quantities with units. They are converted to SI units when they are read, and from SI units when they are shown.
 
+mod comma;
 mod expression;
 mod si;
 mod spelling;
 mod table;
 
 pub(crate) use crate::error::{excerpt, shortest};
+pub(crate) use comma::readings;
 pub(crate) use expression::unknown_name;
 pub use expression::{Expression, Powers};
 pub use si::{si_unit_of, udunits};
@@ -226,11 +228,7 @@ impl Dimension {
         }
         let digit_follows = rest.chars().nth(1).is_some_and(|c| c.is_ascii_digit());
         if digit_follows && rest.starts_with(',') {
-            let mended = excerpt(&text.replacen(',', ".", 1).replace(',', ""), 40);
-            return Err(Fault::new(
-                "has a comma",
-                format!("write the number with a decimal point and no separators, like \"{mended}\""),
-            ));
+            return Err(comma::comma(text));
         }
         if digit_follows && rest.starts_with('_') {
             let mended = excerpt(&text.replace('_', ""), 40);
@@ -263,9 +261,24 @@ impl Dimension {
         }
     }
 
-    /// The value in the SI unit, `5e-5 m`. [`Dimension::parse`] reads it back to the same bits.
+    /// The value in the SI unit, `5e-5 m`. [`Dimension::parse`] reads it back to the same bits. Where the SI unit takes
+    /// more digits than people write, in the unit that takes few, if there is one: `0.6 g/min`.
     pub fn exact(self, value: f64) -> String {
-        with_unit(&shortest(value), self.si_unit())
+        /// Most digits that people write.
+        const FEW: usize = 8;
+        let plain = with_unit(&shortest(value), self.si_unit());
+        if format!("{value:.*e}", FEW - 1).parse() == Ok(value) {
+            return plain;
+        }
+        let short = |unit: &table::Unit| {
+            let zero = if let Above(zero) = unit.scale { zero } else { 0.0 };
+            let number: f64 = format!("{:.*e}", FEW - 1, (value - zero) / unit.scale.size()).parse().ok()?;
+            let text = with_unit(&shortest(number), unit.shown);
+            self.parse(&text).is_ok_and(|read| read == value).then_some(text)
+        };
+        let mut texts: Vec<String> = self.units().iter().filter_map(short).collect();
+        sort_by_key(&mut texts, |text| text.len());
+        texts.into_iter().next().unwrap_or(plain)
     }
 
     /// The value for people, with four digits and a suitable unit: `50 µm`, `34.46 µs`, `2 GPa`.
@@ -316,12 +329,8 @@ impl Dimension {
         if value != 0.0 && value.is_finite() {
             // The largest unit that gives a number of at least one, or else the smallest unit.
             let mut sizes: Vec<(f64, &str)> = (self.units().iter().filter(|unit| unit.pretty))
-                .filter_map(|unit| match unit.scale {
-                    Ten(power) => Some((10f64.powi(power), unit.shown)),
-                    Times(size) => Some((size, unit.shown)),
-                    Over(number) => Some((1.0 / number, unit.shown)),
-                    Above(_) => None,
-                })
+                .filter(|unit| !matches!(unit.scale, Above(_)))
+                .map(|unit| (unit.scale.size(), unit.shown))
                 .collect();
             sort_by_key(&mut sizes, |(size, _)| Reverse(*size));
             let rounded: f64 = format!("{:.decimals$e}", value.abs()).parse().unwrap_or(value);

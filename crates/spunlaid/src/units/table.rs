@@ -15,6 +15,18 @@ pub(super) enum Scale {
     Above(f64),
 }
 
+impl Scale {
+    /// Size of the unit, or of its steps, in SI units.
+    pub(super) fn size(self) -> f64 {
+        match self {
+            Self::Ten(power) => 10f64.powi(power),
+            Self::Times(size) => size,
+            Self::Over(number) => 1.0 / number,
+            Self::Above(_) => 1.0,
+        }
+    }
+}
+
 /// A unit: its symbol, its spelling in plain ASCII without `^`, and its size.
 pub(super) struct Unit {
     pub(super) shown: &'static str,

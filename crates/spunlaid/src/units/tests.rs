@@ -90,11 +90,7 @@ fn rejects_what_is_no_quantity() {
         ),
         (Dimension::Length, "1e400 m", "is too large; write a length with its unit: m, cm, mm, µm or nm"),
         (Dimension::Time, "1e308 min", "is too large; write a time with its unit: s, ms, µs, ns, min or h"),
-        (
-            Dimension::Length,
-            "1,5 m",
-            "has a comma; write the number with a decimal point and no separators, like \"1.5 m\"",
-        ),
+        (Dimension::Length, "1,5 m", "has a comma; write the number with a decimal point, like \"1.5 m\""),
         (
             Dimension::Length,
             "1_000 m",
@@ -160,6 +156,22 @@ fn people_read_handy_units() {
     ] {
         assert_eq!(dimension.pretty(value), text);
     }
+}
+
+#[test]
+fn what_people_wrote_is_written_as_they_wrote_it() {
+    for (dimension, text) in [
+        (Dimension::MassFlow, "0.6 g/min"),
+        (Dimension::MassFlow, "0.35 g/min"),
+        (Dimension::LinearDensity, "1.7 dtex"),
+        (Dimension::Velocity, "7 m/min"),
+        (Dimension::Temperature, "230.1 °C"),
+    ] {
+        assert_eq!(dimension.exact(dimension.parse(text).unwrap()), text);
+    }
+    assert_eq!(Dimension::MassFlow.exact(1e-5), "1e-5 kg/s");
+    // No unit takes few digits.
+    assert_eq!(Dimension::Length.exact(1.0 / 3.0), "0.3333333333333333 m");
 }
 
 proptest! {

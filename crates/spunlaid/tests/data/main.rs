@@ -22,6 +22,7 @@ mod field_points;
 mod field_refusals;
 mod field_times;
 mod fields;
+mod record_artefacts;
 mod record_dialects;
 mod record_files;
 mod record_short;

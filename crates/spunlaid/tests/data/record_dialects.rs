@@ -181,3 +181,27 @@ fn parquet_is_read_by_its_logical_types() {
     let said = read(file(vec![stamps, date], &times, &[1, 2, 3, 4])).unwrap_err().to_string();
     assert!(said.contains("column u_m_s: holds dates without a time"), "{said}");
 }
+
+#[test]
+fn probes_of_openfoam_and_exponents_of_fortran_are_read() {
+    let at = |i: usize| 10.0 + (i * i % 97) as f64 / 97.0;
+    let rows = |row: &dyn Fn(usize) -> String| (0..200).map(row).collect::<String>();
+    let probe = rows(&|i| format!("{:.3} ({:.4} {:.4} 0)\n", i as f64 * 1e-3, at(i), 0.1 * at(i)));
+    let record = read(&format!("# Probe 0 (0.1 0 0)\n#  Probe  0\n#   Time\n{probe}")).unwrap();
+    let names: Vec<&str> = record.components.iter().map(|component| component.name.as_str()).collect();
+    assert_eq!((names, record.samples()), (vec!["Ux", "Uy", "Uz"], 200));
+    assert!((record.interval - 1e-3).abs() < 1e-12 && (record.components[0].values[7] - at(7)).abs() < 1e-4);
+    // Without the lines of OpenFOAM columns have no names, and are called by their numbers.
+    let said = read(&probe).unwrap_err();
+    assert!(said.starts_with("a.csv: column ") && !said.contains("column column"), "{said}");
+    let double = rows(&|i| format!("{},{}\n", fortran(i as f64 * 1e-3), fortran(at(i))));
+    let record = read(&format!("time_s,u_m_s\n{double}")).unwrap();
+    assert!((record.components[0].values[7] - at(7)).abs() < 1e-4 && (record.interval - 1e-3).abs() < 1e-9);
+}
+
+/// As Fortran writes a number in double precision: `1.0043D+01`.
+fn fortran(value: f64) -> String {
+    let text = format!("{value:.4e}");
+    let (mantissa, exponent) = text.split_once('e').unwrap();
+    format!("{mantissa}D{:+03}", exponent.parse::<i32>().unwrap())
+}

@@ -89,7 +89,7 @@ pub(super) fn spinline_air(text: &[u8]) -> Result<AirTable, FileError> {
     Ok(AirTable { distance, velocity, cross_velocity, temperature })
 }
 
-/// Reads a spectrum: `frequency_hz, energy`.
+/// Reads a spectrum: `frequency_hz, energy`, the energies in any unit, or in decibels.
 pub(super) fn spectrum(text: &[u8]) -> Result<SpectrumTable, FileError> {
     let [frequency, energy] = read(text, &SPECTRUM, "frequency_hz,energy")?;
     if energy.iter().all(|e| *e == 0.0) {
@@ -127,7 +127,8 @@ fn read<const N: usize>(
                 return Err(table.blame(index, Fault::new(message, "every cell of the table needs one")));
             }
             if let Some(Fault { message, remedy, .. }) =
-                Kind::Quantity(rule.dimension, rule.sign).fault(&value.into())
+                Kind::Quantity(rule.dimension, if unit.is_decibel { Any } else { rule.sign })
+                    .fault(&value.into())
             {
                 return Err(table.blame(index, Fault::new(format!("{text} {message}"), remedy)));
             }
@@ -138,6 +139,11 @@ fn read<const N: usize>(
             }
             values[i].push(value);
         }
+    }
+    for (values, _) in
+        values.iter_mut().zip(&columns).filter(|(_, column)| column.is_some_and(|c| c.1.is_decibel))
+    {
+        from_decibels(values);
     }
     let found = values[0].len();
     if found < LEAST_ROWS {
@@ -155,14 +161,37 @@ fn read<const N: usize>(
 struct ColumnUnit {
     factor: f64,
     zero: f64,
+    /// Whether they are ten times the decadic logarithm of what is meant.
+    is_decibel: bool,
+}
+
+impl ColumnUnit {
+    const PLAIN: Self = Self { factor: 1.0, zero: 0.0, is_decibel: false };
+}
+
+/// Whether a header says that its column is in decibels: `psd_dB`, `E (dB)`, `PSD [dB re 1 (m/s)²/Hz]`.
+fn is_decibel(head: &Head) -> bool {
+    let mut words = head.text.split(|c: char| !c.is_alphabetic());
+    words.any(|word| ["db", "decibel", "decibels", "dezibel"].contains(&word.to_lowercase().as_str()))
+}
+
+/// Makes energies of decibels; the largest is 1, for only their shape counts.
+fn from_decibels(values: &mut [f64]) {
+    let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    values.iter_mut().for_each(|value| *value = libm::exp10(0.1 * (*value - largest)));
 }
 
 /// Index of the column, and its unit.
 fn find(heads: &[Head], rule: &ColumnRule) -> Result<Option<(usize, ColumnUnit)>, FileError> {
     let names: Vec<&str> = rule.names.split(' ').collect();
-    let named = heads.iter().enumerate();
-    let matching: Vec<(usize, Option<&str>)> =
-        named.filter_map(|(i, head)| Some((i, head.named(&names)?))).collect();
+    let is_energy = rule.example == ENERGY;
+    let named = || heads.iter().enumerate();
+    let mut matching: Vec<(usize, Option<&str>)> =
+        named().filter_map(|(i, head)| Some((i, head.named(&names)?))).collect();
+    if matching.is_empty() && is_energy {
+        // Decibels may stand without a name.
+        matching.extend(named().filter(|(_, head)| is_decibel(head)).map(|(i, _)| (i, None)));
+    }
     let text = |i: usize| excerpt(&heads[i].text, 60);
     let (index, unit) = match matching[..] {
         [] if rule.required => {
@@ -185,8 +214,9 @@ fn find(heads: &[Head], rule: &ColumnRule) -> Result<Option<(usize, ColumnUnit)>
             .into());
         }
     };
-    if rule.example == ENERGY || unit.is_none() && rule.dimension == Dimension::Ratio {
-        return Ok(Some((index, ColumnUnit { factor: 1.0, zero: 0.0 })));
+    if is_energy || unit.is_none() && rule.dimension == Dimension::Ratio {
+        let is_decibel = is_energy && is_decibel(&heads[index]);
+        return Ok(Some((index, ColumnUnit { is_decibel, ..ColumnUnit::PLAIN })));
     }
     if rule.dimension == Dimension::Temperature
         && let Some(unit) = unit.map(|unit| unit.trim_matches(['[', ']', '(', ')', ' ']))
@@ -194,9 +224,53 @@ fn find(heads: &[Head], rule: &ColumnRule) -> Result<Option<(usize, ColumnUnit)>
         let celsius = ["c", "C", "°C", "degc", "degC", "deg_c", "celsius"].contains(&unit);
         if celsius || unit.eq_ignore_ascii_case("k") {
             let zero = if celsius { ZERO_CELSIUS } else { 0.0 };
-            return Ok(Some((index, ColumnUnit { factor: 1.0, zero })));
+            return Ok(Some((index, ColumnUnit { zero, ..ColumnUnit::PLAIN })));
         }
     }
     let head = Head { unit: unit.map(str::to_owned), ..heads[index].clone() };
-    Ok(Some((index, ColumnUnit { factor: head.factor(rule.dimension, rule.example)?, zero: 0.0 })))
+    Ok(Some((index, ColumnUnit { factor: head.factor(rule.dimension, rule.example)?, ..ColumnUnit::PLAIN })))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_decibels_are_ten_times_the_logarithm() {
+        let energies = [0.99751, 0.5, 0.03, 2e-4];
+        let text = |head: &str, of: &dyn Fn(f64) -> f64| {
+            let rows = energies.iter().enumerate().map(|(i, e)| format!("{i};{:.6}\n", of(*e)));
+            format!("f_hz;{head}\n{}", rows.collect::<String>())
+        };
+        let read = |text: &str| spectrum(text.as_bytes()).unwrap().energy;
+        let linear = read(&text("energy", &|e| e));
+        for head in [
+            "energy_dB",
+            "psd_dB",
+            "PSD [dB/Hz]",
+            "PSD [dB]",
+            "E(dB)",
+            "E (dB re 1 (m/s)²/Hz)",
+            "dB re 1 (m/s)²/Hz",
+            "level dB",
+            "PSD dB",
+            "psd_decibel",
+        ] {
+            for reference in [60.0, -40.0] {
+                let energy = read(&text(head, &|e| 10.0 * e.log10() + reference));
+                for (found, right) in energy.iter().zip(&linear) {
+                    // The sixth decimal of a decibel.
+                    assert!(
+                        (found / energy[0] / (right / linear[0]) - 1.0).abs() < 3e-7,
+                        "{head}: {energy:?}"
+                    );
+                }
+            }
+        }
+        for head in ["energy", "e_m2_s2", "density"] {
+            assert_eq!(read(&text(head, &|e| e)), linear, "{head}");
+        }
+        let said = spectrum(text("energy", &|e| 10.0 * e.log10()).as_bytes()).unwrap_err().to_string();
+        assert!(said.contains("-0.010827"), "{said}");
+    }
 }
