@@ -171,6 +171,13 @@ impl RunResults {
             let dict = described(py, number.measure)?;
             dict.set_item("mean", number.estimate.mean)?;
             dict.set_item("standard_error", number.estimate.standard_error)?;
+            let whole = doubt::with_error_of_checks(
+                number.estimate.clone(),
+                number.measure.name,
+                &self.checks,
+                &self.case,
+            );
+            dict.set_item("error", whole.standard_error)?;
             dict.set_item("shown", number.value())?;
             let values = PyArray1::from_slice(py, &number.estimate.values);
             dict.set_item("values", locked(values.as_any())?)?;
@@ -280,10 +287,11 @@ fn differences<'py>(py: Python<'py>, check: &FinerCheck) -> PyResult<Bound<'py, 
     let dict = PyDict::new(py);
     dict.set_item("duration_s", check.duration)?;
     dict.set_item("share_of_run", check.share_of_run)?;
-    dict.set_item("error_over_difference", check.error_over_change())?;
-    for (name, difference) in check.differences() {
+    for (name, difference, factor) in check.differences() {
         dict.set_item(&name, difference.mean)?;
         dict.set_item(format!("{name}_standard_error"), difference.standard_error)?;
+        let statistic = name.trim_end_matches("_difference");
+        dict.set_item(format!("{statistic}_error_over_difference"), factor)?;
     }
     Ok(dict)
 }

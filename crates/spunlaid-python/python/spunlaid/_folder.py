@@ -48,7 +48,9 @@ class Folder:
                 values.setflags(write=False)
                 mean = np.nan if number["mean"] is None else number["mean"]
                 shown = number.get("median", number.get("largest", mean))
-                found.append({**of, "mean": mean, "standard_error": number["standard_error"], "shown": shown, "values": values})
+                chance = number["standard_error"]
+                errors = {"standard_error": chance, "error": number.get("error", chance)}
+                found.append({**of, "mean": mean, **errors, "shown": shown, "values": values})
         return found
 
     @property
@@ -65,11 +67,12 @@ class Folder:
         check = self._read[name]
         if check is None:
             return None
-        found = {name: check[name] for name in ("duration_s", "share_of_run", "error_over_difference")}
+        found = {name: check[name] for name in ("duration_s", "share_of_run")}
         for difference, of in check.items():
             if difference.endswith("_difference") and isinstance(of, dict):
                 found[difference] = of["mean"]
                 found[f"{difference}_standard_error"] = of["standard_error"]
+                found[f"{difference.removesuffix('_difference')}_error_over_difference"] = of["error_over_difference"]
         return found
 
     @property

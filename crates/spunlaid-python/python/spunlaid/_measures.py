@@ -27,7 +27,9 @@ class Measure(NamedTuple):
     mean: float
     """Mean over the replicates."""
     standard_error: float | None
-    """Standard error of the mean; None from a single replicate."""
+    """Standard error of the mean, by chance alone; None from a single replicate."""
+    error: float | None
+    """Its whole error, by chance and by what the checks of step and mesh found beyond their limit; None if not known."""
     shown: float
     """What stands for all replicates in reports: the mean, the median or the largest value."""
     values: NDArray[np.float64]
@@ -37,7 +39,7 @@ class Measure(NamedTuple):
         return self.mean
 
     def __repr__(self) -> str:
-        error = "" if self.standard_error is None else f" ± {self.standard_error:.2g}"
+        error = "" if self.error is None else f" ± {self.error:.2g}"
         return f"<{self.column}: {self.mean:.6g}{error}>"
 
 
@@ -110,10 +112,13 @@ class Measures(MeasureMapping):
         return super().__getitem__(column)  # type: ignore[no-any-return]
 
     def to_pandas(self) -> pandas.DataFrame:
-        """A row for each measure, by column, in SI units: `label`, `mean`, `standard_error`, `shown`, which stands for all
-        replicates in reports, the number `n` of replicates in which it is defined, and its `meaning`."""
+        """A row for each measure, by column, in SI units: `label`, `mean`, `standard_error`, `error`, `shown`, which stands
+        for all replicates in reports, the number `n` of replicates in which it is defined, and its `meaning`."""
         pd = needed("pandas", "pandas", "to_pandas()")
-        rows = [(m.label, m.mean, m.standard_error, m.shown, np.isfinite(m.values).sum(), m.meaning) for m in self.values()]
-        columns = ["label", "mean", "standard_error", "shown", "n", "meaning"]
+        rows = [
+            (m.label, m.mean, m.standard_error, m.error, m.shown, np.isfinite(m.values).sum(), m.meaning)
+            for m in self.values()
+        ]
+        columns = ["label", "mean", "standard_error", "error", "shown", "n", "meaning"]
         table = pd.DataFrame(rows, columns=columns, index=pd.Index(list(self), name="measure"))
-        return table.astype({"standard_error": float})
+        return table.astype({"standard_error": float, "error": float})

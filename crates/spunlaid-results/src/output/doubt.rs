@@ -23,12 +23,51 @@ pub(super) fn counted(check: &FinerCheck) -> impl Iterator<Item = &Change> {
 }
 
 /// The smallest error that a change stands for, with what is known of chance.
-fn least(check: &FinerCheck, Change { estimate, .. }: &Change) -> f64 {
-    factor(check) * (estimate.mean.abs() - SURE * estimate.standard_error.unwrap_or(f64::INFINITY))
+fn least(check: &FinerCheck, change: &Change) -> f64 {
+    let least = |of: Estimate| of.mean.abs() - SURE * of.standard_error.unwrap_or(f64::INFINITY);
+    errors(check, change).into_iter().map(least).fold(f64::NEG_INFINITY, f64::max)
 }
 
-fn factor(check: &FinerCheck) -> f64 {
-    check.error_over_change().unwrap_or(1.0)
+/// The error of a statistic, where the order of convergence is known; else what the finer flights change, which is the
+/// least that can be told.
+pub(super) fn errors(check: &FinerCheck, change: &Change) -> Vec<Estimate> {
+    let times = |estimate: &Estimate, factor: f64| Estimate {
+        mean: factor * estimate.mean,
+        standard_error: estimate.standard_error.map(|error| factor * error),
+        values: Vec::new(),
+    };
+    match check.error_over(change) {
+        Some(factor) => vec![times(&change.estimate, factor)],
+        None => change.estimates().map(|estimate| times(estimate, 1.0)).collect(),
+    }
+}
+
+/// What a check tells of the error of a statistic: `frequency is off by +25 ± 2 %`, or what differs where its order is
+/// not known.
+pub(super) fn told(check: &FinerCheck, change: &Change, case: &Case) -> String {
+    let (label, errors) = (change.statistic.label.to_lowercase(), errors(check, change));
+    let at = |i: usize| errors.get(i).map(percent).unwrap_or_default();
+    let is_limit = check.refined == Refinement::TimeStep && check.is_resolved;
+    let most = if check.refined == Refinement::TimeStep && !check.is_resolved { "at most " } else { "" };
+    match (check.error_over(change), &change.from_quarter) {
+        (Some(_), _) if is_limit => {
+            let with = compared_with(check, case);
+            format!("{label} differs by {} from {}", at(0), with.trim_end_matches(','))
+        }
+        (Some(_), _) => format!("{label} is off by {most}{}", at(0)),
+        (None, Some((length, _))) => format!(
+            "{label} differs by {} from {} and by {} from those of {}, which does not show how far it is from very \
+            fine elements",
+            at(0),
+            compared_with(check, case),
+            at(1),
+            Dimension::Length.pretty_to(*length, 3)
+        ),
+        (None, None) => {
+            let with = compared_with(check, case);
+            format!("{label} differs by {} from {}", at(0), with.trim_end_matches(','))
+        }
+    }
 }
 
 const fn name(refined: Refinement) -> &'static str {
@@ -48,20 +87,15 @@ fn part(check: &FinerCheck, case: &Case) -> String {
 /// Notes about checks that are beyond their limit, and about those that could not be made.
 pub fn notes(checks: &FinerChecks, case: &Case) -> Vec<String> {
     let found = |check: &FinerCheck| {
-        let changes: Vec<String> = beyond(check)
-            .map(|Change { statistic, estimate }| {
-                format!("{} differs by {}", statistic.label.to_lowercase(), percent(estimate))
-            })
-            .collect();
+        let changes: Vec<String> = beyond(check).map(|change| told(check, change, case)).collect();
         (!changes.is_empty()).then(|| {
             format!(
-                "the check of the {} is beyond its limit of {} %: {}{} from {}; the standard errors over the \
-                replicates do not contain this",
+                "the check of the {} is beyond its limit of {} %: {}{}; {}",
                 name(check.refined),
                 100.0 * FINE_ENOUGH,
                 part(check, case),
                 changes.join(", "),
-                compared_with(check, case).trim_end_matches(',')
+                kept(check, case)
             )
         })
     };
@@ -74,13 +108,22 @@ pub fn notes(checks: &FinerChecks, case: &Case) -> Vec<String> {
         .collect()
 }
 
+/// Whether the errors of the results contain what a check found.
+fn kept(check: &FinerCheck, case: &Case) -> &'static str {
+    match (check.is_of_a_part(&case.run), case.run.replicates) {
+        (true, _) => "the errors do not contain this",
+        (false, 1) => "a single replicate has no error that could contain this",
+        (false, _) => "the errors contain this",
+    }
+}
+
 /// That a check was not made, and why.
 pub(super) fn unchecked(refined: Refinement, why: &Unchecked) -> String {
     format!("{}: not checked: {why}", name(refined))
 }
 
-/// A number of the headline with the errors that the checks found beyond their limit. Those over a part of
-/// the run are told in words alone.
+/// An estimate of a run with its whole error: by chance, and what the checks found beyond their limit. Those over a
+/// part of the run are told in words alone. What chance does to a single replicate is not known, nor is its error.
 pub fn with_error_of_checks(
     estimate: Estimate,
     measure: &str,
@@ -93,40 +136,41 @@ pub fn with_error_of_checks(
         .flat_map(|check| {
             let own = beyond(check).filter(|change| change.statistic.measures.contains(&measure));
             own.map(|change| {
-                // From the value of the limit to that of the run.
-                let error = (factor(check) * change.estimate.mean).max(-0.95);
-                (estimate.mean * error / (1.0 + error)).powi(2)
+                // From the value of the limit, or of the finer flight, to that of the run.
+                let off = |error: &Estimate| {
+                    let error = error.mean.max(-0.95);
+                    (estimate.mean * error / (1.0 + error)).abs()
+                };
+                errors(check, change).iter().map(off).fold(0.0, f64::max).powi(2)
             })
         })
         .sum();
-    if of_checks == 0.0 {
-        return estimate;
-    }
-    let chance = estimate.standard_error.unwrap_or(0.0);
-    Estimate { standard_error: Some(chance.hypot(of_checks.sqrt())), ..estimate }
+    let standard_error = estimate.standard_error.map(|chance| chance.hypot(of_checks.sqrt()));
+    Estimate { standard_error, ..estimate }
+}
+
+/// The measures whose whole errors have more in them than chance, as the labels of their statistics.
+pub fn statistics_in_errors(checks: &FinerChecks, case: &Case) -> Vec<&'static str> {
+    let whole = checks.all().filter(|check| !check.is_of_a_part(&case.run));
+    let mut labels: Vec<_> = whole.flat_map(beyond).map(|change| change.statistic.label).collect();
+    labels.dedup();
+    labels
 }
 
 /// What the headline has to say about the checks, as whole sentences; empty if they are within their limits.
 pub fn sentences(checks: &FinerChecks, case: &Case) -> String {
     let mut text = String::new();
     for check in checks.all() {
-        let of_part = check.is_of_a_part(&case.run);
-        for Change { statistic, estimate } in beyond(check) {
-            let error = Estimate {
-                mean: factor(check) * estimate.mean,
-                standard_error: estimate.standard_error.map(|error| factor(check) * error),
-                values: Vec::new(),
-            };
-            let kept =
-                if of_part { "The error above does not contain what" } else { "The error contains what" };
-            let most =
-                if check.refined == Refinement::TimeStep && !check.is_resolved { "at most " } else { "" };
-            let place = part(check, case);
+        let kept = match (check.is_of_a_part(&case.run), case.run.replicates) {
+            (false, 2..) => "The error contains what",
+            _ => "No error above contains what",
+        };
+        for change in beyond(check) {
             text += &format!(
-                " {kept} the check of the {} found: {place}the {} is off by {most}{}.",
+                " {kept} the check of the {} found: {}the {}.",
                 name(check.refined),
-                statistic.label.to_lowercase(),
-                percent(&error)
+                part(check, case),
+                told(check, change, case)
             );
         }
     }
@@ -162,7 +206,7 @@ mod tests {
             replicates: 8,
             share_of_run: 0.1,
             path: None,
-            changes: vec![Change { statistic, estimate }],
+            changes: vec![Change::new(statistic, estimate)],
         };
         FinerChecks { step: Ok(step), mesh: Err(Unchecked::Dear { times: 12.0 }) }
     }
@@ -186,7 +230,7 @@ mod tests {
         // A part of a fed fibre's run is told as one.
         let part = checks(1.17, 0.05, 0.1 * run);
         assert_eq!(error(&part), 0.026);
-        assert!(sentences(&part, &case).starts_with(" The error above does not contain"));
+        assert!(sentences(&part, &case).starts_with(" No error above contains"));
         assert!(notes(&part, &case)[0].contains("in the first "));
         // What chance alone may be is within the limit.
         let within = checks(-0.05, 0.02, run);

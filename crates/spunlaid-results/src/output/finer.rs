@@ -1,7 +1,7 @@
 //! What a finer time step and finer elements change, in words. Terminal and report say the same.
 
 use super::compared::{compared_with, percent};
-use super::doubt::{FINE_ENOUGH, SURE, counted, unchecked};
+use super::doubt::{FINE_ENOUGH, SURE, counted, errors, unchecked};
 use crate::numbers::significant;
 use spunlaid::air::EddyModel;
 use spunlaid::case::Case;
@@ -57,19 +57,19 @@ impl FinerWords {
         let mut differences: Vec<String> = path
             .map(|path| format!("Path of the free end differs by {} of its amplitude", percent(path)))
             .collect();
-        let factor = check.error_over_change().filter(|_| check.refined == Refinement::Elements);
-        differences.extend(check.changes.iter().map(|Change { statistic, estimate }| {
-            let error = factor.map_or(String::new(), |factor| {
-                let times = |value: f64| factor * value;
-                let Estimate { mean, standard_error, .. } = estimate;
-                let error = Estimate {
-                    mean: times(*mean),
-                    standard_error: standard_error.map(times),
-                    values: Vec::new(),
-                };
-                format!("; the error of the mesh is about {}", percent(&error))
+        differences.extend(check.changes.iter().map(|change| {
+            let Change { statistic, estimate, from_quarter, .. } = change;
+            let label = statistic.label;
+            let quarter = from_quarter.as_ref().map_or(String::new(), |(length, estimate)| {
+                let length = Dimension::Length.pretty_to(*length, 3);
+                format!(", and by {} from elements of {length}", percent(estimate))
             });
-            format!("{} differs by {}{error}", statistic.label, percent(estimate))
+            let is_mesh = check.refined == Refinement::Elements;
+            let error = check.error_over(change).filter(|_| is_mesh).map_or(String::new(), |_| {
+                let error = errors(check, change).first().map(percent).unwrap_or_default();
+                format!("; the error of the mesh is about {error}")
+            });
+            format!("{label} differs by {}{quarter}{error}", percent(estimate))
         }));
         if check.is_of_a_part(&case.run) {
             differences.push(format!(
@@ -83,33 +83,44 @@ impl FinerWords {
             Refinement::TimeStep => ("time step", step_advice(check, results)),
             Refinement::Elements => ("mesh", mesh_advice(check) + papers_mesh(case)),
         };
-        let meaning = match check.error_over_change() {
-            Some(1.0) => {
-                "The finer step stands for the limit, so the difference is the error of the step.".to_owned()
-            }
-            Some(factor) if check.refined == Refinement::TimeStep => {
-                format!("The error of the step is at most about {factor} times as large.")
-            }
-            Some(_) => {
-                "The error of elements well below an eddy falls with the square of their length, so it is \
-                about 4/3 of the difference."
-                    .to_owned()
-            }
-            None => String::new(),
-        };
+        let meaning = meaning(check).to_owned();
         Self { what, with, differences, meaning, extent, advice }
+    }
+}
+
+/// How the error follows from what differs.
+fn meaning(check: &FinerCheck) -> &'static str {
+    let has_order = check.changes.iter().any(|change| change.is_second_order);
+    match (check.refined, check.error_of_step()) {
+        (Refinement::TimeStep, Some(1.0)) => {
+            "The finer step stands for the limit, so the difference is the error of the step."
+        }
+        (Refinement::TimeStep, Some(_)) => "The error of the step is at most about 2.5 times as large.",
+        (Refinement::TimeStep, None) => {
+            "Implicit tension damps axial waves by as much at half the step, so the error is not known: the difference \
+            is the least that can be told."
+        }
+        (Refinement::Elements, _) if has_order => {
+            "Where two halvings show that the error falls with the square of the length, it is 4/3 of the difference; \
+            elsewhere it is not known, and the difference is the least that can be told."
+        }
+        (Refinement::Elements, _) => {
+            "It was not shown that the error falls with the square of the length, so it is not known: the difference \
+            is the least that can be told."
+        }
     }
 }
 
 /// Compares the error of the step with the standard error of the amplitude or the spread, as a share of it.
 fn step_advice(check: &FinerCheck, results: &Results) -> String {
-    let Some(Change { statistic, estimate }) = check.changes.first() else {
+    let Some(change) = check.changes.first() else {
         return String::new();
     };
+    let statistic = change.statistic;
     let quantity = statistic.label.to_lowercase();
     // Where one end of the difference is the limit itself, the other end is the error.
-    let factor = check.error_over_change().unwrap_or(1.0);
-    let error = factor * (estimate.mean.abs() + estimate.standard_error.unwrap_or(0.0));
+    let most = |error: Estimate| error.mean.abs() + error.standard_error.unwrap_or(0.0);
+    let error = errors(check, change).into_iter().map(most).fold(0.0, f64::max);
     let Some(scatter) = scatter(statistic.measures, results) else {
         return "If that matters to you, halve run.time_step; with more replicates the scatter would be known too"
             .to_owned();
@@ -148,17 +159,12 @@ fn papers_mesh(case: &Case) -> &'static str {
 /// Which elements to take.
 fn mesh_advice(check: &FinerCheck) -> String {
     let shares = |sure: f64| {
-        let factor = check.error_over_change().unwrap_or(1.0);
-        counted(check)
-            .map(|Change { estimate, .. }| {
-                factor
-                    * (estimate.mean.abs() + sure * estimate.standard_error.unwrap_or(f64::INFINITY)).max(0.0)
-            })
-            .fold(0.0, f64::max)
+        let share = |of: Estimate| of.mean.abs() + sure * of.standard_error.unwrap_or(f64::INFINITY);
+        counted(check).flat_map(|change| errors(check, change)).map(share).fold(0.0, f64::max)
     };
     let (surely, at_most) = (shares(-SURE), shares(SURE));
     let length = |metres: f64| Dimension::Length.pretty_to(metres, 3);
-    if check.error_over_change().is_none() {
+    if check.is_fed {
         return if surely > FINE_ENOUGH {
             let half = length(check.element_length);
             format!("The elements are too long: write fibre.element_length = \"{half}\" and look again")
@@ -169,11 +175,11 @@ fn mesh_advice(check: &FinerCheck) -> String {
         };
     }
     if at_most <= FINE_ENOUGH {
-        return "The elements are short enough: their error is below 3 %".to_owned();
+        return "The elements are short enough: finer ones change less than 3 %".to_owned();
     }
     let found = shares(0.0);
     if surely > FINE_ENOUGH || found > 2.0 * FINE_ENOUGH {
-        // The error falls with the square of the length.
+        // If the error falls with the square of the length; the next run shows whether it does.
         let halvings = (0.5 * (found / FINE_ENOUGH).log2()).ceil().max(1.0);
         let own = 2.0 * check.element_length;
         let proposed = own * 0.5f64.powf(halvings);
@@ -206,7 +212,7 @@ mod tests {
             replicates: 8,
             share_of_run: 0.1,
             path: None,
-            changes: vec![Change { statistic, estimate }],
+            changes: vec![Change { is_second_order: !is_fed, ..Change::new(statistic, estimate) }],
         }
     }
 
@@ -220,7 +226,7 @@ mod tests {
             "{}",
             advice(-0.045, 0.007)
         );
-        assert!(advice(0.011, 0.002).contains("below 3 %"));
+        assert!(advice(0.011, 0.002).contains("less than 3 %"));
         assert!(advice(0.01, 0.02).contains("too short to show"));
         let advice_for_spread = |mean| mesh_advice(&check(Refinement::Elements, "spread", mean, 1e-3));
         assert!(

@@ -1,5 +1,6 @@
 //! `summary.json`: all results of a run.
 
+use super::doubt;
 use super::in_order::OrderedObject;
 use super::load::LoadSummary;
 use super::spinline::SpinSummary;
@@ -62,12 +63,26 @@ struct FinerSummary<'a> {
     finer_scheme: &'static str,
     finer_time_step_s: f64,
     finer_element_length_m: f64,
-    /// Factor from a difference to the error of the run; null where it is not known.
-    error_over_difference: Option<f64>,
     /// `path_difference`, the rms distance between two paths, divided by the amplitude; and the relative changes of
     /// statistics: `amplitude_difference`.
     #[serde(flatten)]
-    differences: BTreeMap<String, NumberSummary<'a>>,
+    differences: BTreeMap<String, DifferenceSummary<'a>>,
+}
+
+#[derive(Debug, Serialize)]
+struct DifferenceSummary<'a> {
+    #[serde(flatten)]
+    difference: NumberSummary<'a>,
+    /// Factor from the difference to the error of the run; null where it is not known.
+    error_over_difference: Option<f64>,
+}
+
+impl<'a> DifferenceSummary<'a> {
+    fn named(
+        (name, difference, error_over_difference): (String, &'a Estimate, Option<f64>),
+    ) -> (String, Self) {
+        (name, Self { difference: summarise_mean(difference), error_over_difference })
+    }
 }
 
 impl<'a> FinerSummary<'a> {
@@ -78,11 +93,7 @@ impl<'a> FinerSummary<'a> {
             finer_scheme: check.scheme.name(),
             finer_time_step_s: check.time_step,
             finer_element_length_m: check.element_length,
-            error_over_difference: check.error_over_change(),
-            differences: check
-                .differences()
-                .map(|(name, difference)| (name, summarise_mean(difference)))
-                .collect(),
+            differences: check.differences().map(DifferenceSummary::named).collect(),
         }
     }
 }
@@ -96,7 +107,11 @@ struct NumberSummary<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     largest: Option<f64>,
     mean: f64,
+    /// By chance alone.
     standard_error: Option<f64>,
+    /// By chance and by what the checks found beyond their limit, as headline and tables have it; of means alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<Option<f64>>,
     values: &'a [f64],
 }
 
@@ -137,7 +152,8 @@ impl<'a> Summary<'a> {
     ) -> Self {
         let mut measures = GroupSummary::new();
         for number in &results.numbers {
-            insert(&mut measures, number.measure.group.name, number);
+            let summary = summary_of(number, checks, case);
+            insert(&mut measures, number.measure.group.name, (number.measure.column, summary));
         }
         Self {
             case: resolved(case),
@@ -163,21 +179,27 @@ impl<'a> Summary<'a> {
 }
 
 /// Puts a number into its group. The name of a group within another one has a point: `laydown.surrogate`.
-fn insert<'a>(into: &mut GroupSummary<'a>, group: &'static str, number: &'a Number) {
+fn insert<'a>(
+    into: &mut GroupSummary<'a>,
+    group: &'static str,
+    (column, number): (&'static str, NumberSummary<'a>),
+) {
     let (outer, inner) = group.split_once('.').map_or((group, None), |(outer, inner)| (outer, Some(inner)));
     let member = into.entry(outer).or_insert_with(|| Member::Group(BTreeMap::new()));
     let Member::Group(members) = member else { return };
     match inner {
-        Some(inner) => insert(members, inner, number),
-        None => drop(members.insert(number.measure.column, Member::Number(summary_of(number)))),
+        Some(inner) => insert(members, inner, (column, number)),
+        None => drop(members.insert(column, Member::Number(number))),
     }
 }
 
-fn summary_of(number: &Number) -> NumberSummary<'_> {
+fn summary_of<'a>(number: &'a Number, checks: &FinerChecks, case: &Case) -> NumberSummary<'a> {
+    let whole = || doubt::with_error_of_checks(number.estimate.clone(), number.measure.name, checks, case);
     let value_if = |aggregate| (number.measure.aggregate == aggregate).then(|| number.value());
     NumberSummary {
         median: value_if(Aggregate::Median),
         largest: value_if(Aggregate::Largest),
+        error: (number.measure.aggregate == Aggregate::Mean).then(|| whole().standard_error),
         ..summarise_mean(&number.estimate)
     }
 }
@@ -190,7 +212,8 @@ impl<'a> From<&'a LostFibre> for LostSummary<'a> {
 
 fn summarise_mean(estimate: &Estimate) -> NumberSummary<'_> {
     let Estimate { mean, standard_error, values } = estimate;
-    NumberSummary { median: None, largest: None, mean: *mean, standard_error: *standard_error, values }
+    let standard_error = *standard_error;
+    NumberSummary { median: None, largest: None, mean: *mean, standard_error, error: None, values }
 }
 
 /// The resolved case: every key, with its SI unit in the name. A key without a meaning for the case is null. If the

@@ -4,12 +4,13 @@ use super::document::{Part, Report, Section};
 use super::frames;
 use super::load::{loads_in_short, section_of_loads};
 use super::methods::{case_account, methods};
-use super::run_table::{capitalised, groups, replicate_table, result_table, sentence};
+use super::run_table::{Whole, capitalised, groups, replicate_table, result_table, sentence};
 use super::spinline::section_of_fibre;
 use super::view::View;
 use super::words::{self, count};
 use crate::Failure;
 use crate::numbers::{THIN, number};
+use crate::output::doubt;
 use crate::output::finer::{self, FinerWords};
 use crate::output::load::LoadSummary;
 use crate::output::spinline::SpinResults;
@@ -37,7 +38,10 @@ pub fn run_report<'a>(
 ) -> Result<Report<'a>, Failure> {
     let headline = words::headline(case, results, checks);
     let finer = finer::words(checks, case, results);
-    let found = [headline.clone()].into_iter().chain(groups(results).first().map(|group| sentence(group)));
+    let whole =
+        |one: &Number| doubt::with_error_of_checks(one.estimate.clone(), one.measure.name, checks, case);
+    let found =
+        [headline.clone()].into_iter().chain(groups(results).first().map(|group| sentence(group, &whole)));
     let found = found.chain(finer.iter().flatten().flat_map(FinerWords::sentences));
     let methods = methods("run", case_account(case), found);
     let cost = format!(
@@ -58,7 +62,7 @@ pub fn run_report<'a>(
     Ok(Report::new("run", headline)
         .lead(words::case(case))
         .with(motion(case, results)?)
-        .with(numbers(results).told())
+        .with(numbers(results, &whole, &doubt::statistics_in_errors(checks, case)).told())
         .with_all(spinline.map(|(results, figures)| section_of_fibre(case, results, figures)))
         .with_all(section_of_loads(&loads))
         .with(loads_in_short(&loads))
@@ -90,12 +94,21 @@ fn motion(case: &Case, results: &Results) -> Result<Section<'static>, Failure> {
 }
 
 /// The results, and those of each replicate.
-fn numbers(results: &Results) -> Section<'static> {
+///
+/// * `beyond` – the statistics whose errors contain what the checks found
+fn numbers(results: &Results, whole: &Whole<'_>, beyond: &[&str]) -> Section<'static> {
     let n = results.replicates() as u64;
     let (about, caption) = if n > 1 {
         let caption = "Replicates are fibres that differ in nothing but the random phases of the turbulence. \
             About two times in three the true mean lies within one standard error.";
-        (format!("Mean ± one standard error of the mean over {}.", count(n, "replicate")), caption)
+        let contained = match beyond {
+            [] => String::new(),
+            all => {
+                let all: Vec<String> = all.iter().map(|label| label.to_lowercase()).collect();
+                format!(" Those of {} contain what the checks found too.", all.join(" and "))
+            }
+        };
+        (format!("Mean ± one standard error of the mean over {}.{contained}", count(n, "replicate")), caption)
     } else {
         let about = "From a single replicate, so without a standard error: run more to learn how sure these \
             numbers are.";
@@ -108,7 +121,7 @@ fn numbers(results: &Results) -> Section<'static> {
     }
     Section::new("results", "Results")
         .paragraph(about)
-        .table(result_table(results))
+        .table(result_table(results, whole))
         .caption(caption)
         .with(Part::Folded("Values of each replicate", of_each))
 }

@@ -5,9 +5,13 @@ use super::words::{estimate_text, unbroken};
 use crate::numbers::{number, signed};
 use spunlaid::ensemble::{Number, Results};
 use spunlaid::observe::Aggregate;
+use spunlaid::statistics::Estimate;
 
 /// Most replicates whose own values are listed.
 const LISTED: usize = 1000;
+
+/// The mean of a result with its whole error.
+pub(super) type Whole<'a> = dyn Fn(&Number) -> Estimate + 'a;
 
 /// The results that stand under one heading.
 pub(super) fn groups(results: &Results) -> Vec<&[Number]> {
@@ -19,7 +23,9 @@ fn title(group: &[Number]) -> String {
 }
 
 /// A row for each number, under the headings of the measures.
-pub(super) fn result_table(results: &Results) -> Table {
+///
+/// * `whole` – an estimate with its whole error
+pub(super) fn result_table(results: &Results, whole: &Whole<'_>) -> Table {
     let columns = [
         ("Result", Content::Words),
         ("Value", Content::Numbers),
@@ -28,10 +34,13 @@ pub(super) fn result_table(results: &Results) -> Table {
         ("Meaning", Content::Meanings),
     ];
     let table = Table::of(columns).laid_out(Layout::Results);
-    groups(results).into_iter().fold(table, |table, group| table.group(title(group), group.iter().map(row)))
+    groups(results).into_iter().fold(table, |table, group| {
+        let rows: Vec<Row> = group.iter().map(|one| row(one, whole)).collect();
+        table.group(title(group), rows)
+    })
 }
 
-fn row(one: &Number) -> Row {
+fn row(one: &Number, whole: &Whole<'_>) -> Row {
     let measure = one.measure;
     let note = match measure.aggregate {
         Aggregate::Median => "median over the replicates",
@@ -39,7 +48,7 @@ fn row(one: &Number) -> Row {
         Aggregate::Mean => "",
     };
     let n = count(one);
-    let cells = [value(one), measure.unit.shown.to_owned(), n.to_string(), unbroken(measure.meaning)];
+    let cells = [value(one, whole), measure.unit.shown.to_owned(), n.to_string(), unbroken(measure.meaning)];
     let note = if n > 1 { note } else { "" };
     Row::new(unbroken(measure.label), cells).detail(note.to_owned())
 }
@@ -50,19 +59,19 @@ fn count(one: &Number) -> usize {
 }
 
 /// A median or a largest value has no error.
-fn value(one: &Number) -> String {
+fn value(one: &Number, whole: &Whole<'_>) -> String {
     let factor = one.measure.unit.per_si;
     match one.measure.aggregate {
-        Aggregate::Mean => estimate_text(&one.estimate, factor),
+        Aggregate::Mean => estimate_text(&whole(one), factor),
         Aggregate::Median | Aggregate::Largest => number(one.value() * factor),
     }
 }
 
 /// The results of a group in a sentence.
-pub(super) fn sentence(group: &[Number]) -> String {
+pub(super) fn sentence(group: &[Number], whole: &Whole<'_>) -> String {
     let result = |one: &Number| {
         let (name, unit) = (unbroken(one.measure.label), one.measure.unit.shown);
-        format!("{name} {} {unit}", value(one)).trim_end().to_owned()
+        format!("{name} {} {unit}", value(one, whole)).trim_end().to_owned()
     };
     let n = group.iter().map(count).max().unwrap_or(0);
     let errors = if n > 1 {

@@ -66,7 +66,8 @@ impl FinerPlan {
     /// Flies one of its cases. Nothing that is recorded is kept, but for the paths that are compared.
     fn fly(&self, case: &Case, computing: RunControl<'_>) -> Result<Flight, Error> {
         let jobs: Vec<Job<'_>> = (0..self.replicates).map(|replicate| Job::new(case, replicate)).collect();
-        let air = SurroundingRun { case: case_of_air(case, &self.fine), horizon: self.horizon, field: None };
+        let finest = self.finest.as_ref().unwrap_or(&self.fine);
+        let air = SurroundingRun { case: case_of_air(case, finest), horizon: self.horizon, field: None };
         let paths = Paths { stride: 1, ..Paths::from_run(Some(self), None) };
         let computing = RunControl { recorder: Some(&paths), ..computing };
         let trajectories = fly_in_air(&jobs, Keep::NUMBERS, air, computing)?;

@@ -26,6 +26,9 @@ const COMPARED: f64 = 2.0;
 const PART_OF_LIMIT: f64 = 0.75;
 /// Time over which the motion of a fibre of fixed length is compared at least, in the time in which the air passes it.
 const PASSES: f64 = 5.0;
+/// Part of an eddy that an element is long at most where the error of a mesh has an order. Longer ones cannot follow the
+/// eddies: of Table 1 the frequency goes up with the first halvings and down with the next ones.
+const OF_AN_EDDY: f64 = 0.25;
 /// Most recorded instants at which paths are compared, so that they take little memory.
 const MOST_COMPARED: u64 = 1 << 14;
 
@@ -37,6 +40,10 @@ pub struct FinerPlan {
     /// The case with the step and mesh of the run, to compare with; `None` if the paths of the run itself are compared.
     pub(super) coarse: Option<Case>,
     pub(super) fine: Case,
+    /// The case with elements of a quarter of the length, if it is flown too.
+    pub(super) finest: Option<Case>,
+    /// Whether the elements of the run are short enough beside an eddy for their error to have an order.
+    pub(super) resolves_eddies: bool,
     /// One recorded instant of the run in this many is compared.
     pub(super) stride: u64,
     /// Until when the air has to last [s].
@@ -164,6 +171,8 @@ fn step_of_a_path(case: &Case, budget: Budget) -> Result<FinerPlan, Unchecked> {
         refined: Refinement::TimeStep,
         coarse: None,
         fine,
+        finest: None,
+        resolves_eddies: false,
         stride,
         horizon,
         replicates,
@@ -185,14 +194,23 @@ fn step_of_the_laid(case: &Case, budget: Budget) -> Result<FinerPlan, Unchecked>
         fine.run.scheme = case.run.scheme;
     }
     fine.set_time_step(resolved.min(0.5 * case.run.time_step));
-    statistics(Refinement::TimeStep, case, (case.clone(), fine), budget)
+    statistics(Refinement::TimeStep, case, vec![case.clone(), fine], budget)
 }
 
-/// Compares the statistics of the case's elements with those of half their length, both with the same long steps of
-/// implicit tension: the elements matter whatever the scheme.
+/// Compares the statistics of the case's elements with those of half their length, and of a quarter of it if that can
+/// be paid: two refinements show the order of the error. A laid fibre has none, and a carried pattern is made for
+/// elements of two lengths at most.
 fn mesh(case: &Case, budget: Budget) -> Result<FinerPlan, Unchecked> {
+    let one = case.line.is_some() || matches!(case.air.eddies, EddyModel::Convected { .. });
+    let twice = (!one).then(|| refined(case, 2, budget)).and_then(Result::ok);
+    twice.map_or_else(|| refined(case, 1, budget), Ok)
+}
+
+/// The same, with elements that are halved so many times. All fly with the same long steps of implicit tension: the
+/// elements matter whatever the scheme.
+fn refined(case: &Case, halvings: u32, budget: Budget) -> Result<FinerPlan, Unchecked> {
     let (mut coarse, mut fine) = (case.clone(), case.clone());
-    fine.fibre.elements *= 2;
+    fine.fibre.elements *= 1 << halvings;
     fine.run.scheme = Scheme::ImplicitTension;
     let suggested = fine.suggested_time_step(ERROR_TOLERANCE, case.run.duration()).0;
     // Bending limits the step with the square of the elements, and then the longest steps are long enough.
@@ -213,7 +231,9 @@ fn mesh(case: &Case, budget: Budget) -> Result<FinerPlan, Unchecked> {
     coarse.run.scheme = Scheme::ImplicitTension;
     fine.set_time_step(step);
     coarse.set_time_step(fine.run.time_step);
-    statistics(Refinement::Elements, case, (coarse, fine), budget)
+    let mut meshes: Vec<Case> = (0..=halvings).map(|_| coarse.clone()).collect();
+    meshes.iter_mut().enumerate().for_each(|(i, mesh)| mesh.fibre.elements <<= i);
+    statistics(Refinement::Elements, case, meshes, budget)
 }
 
 fn shortest_limit(case: &Case) -> f64 {
@@ -222,16 +242,19 @@ fn shortest_limit(case: &Case) -> f64 {
 }
 
 /// A plan that compares statistics, over as much time as is worth its computing time.
+///
+/// * `flights` – as the run and finer, the finest one last
 fn statistics(
     refined: Refinement,
     case: &Case,
-    (mut coarse, mut fine): (Case, Case),
+    mut flights: Vec<Case>,
     budget: Budget,
 ) -> Result<FinerPlan, Unchecked> {
     let all = case.run.duration();
     let of_run = cost_of_run(case);
-    let takes = |[coarse, fine]: [&Case; 2], times: [f64; 2]| {
-        (cost(coarse, case_of_air(coarse, fine), times[0]) + cost(fine, fine, times[1])) / of_run
+    let takes = |flights: &[Case], time: &dyn Fn(&Case) -> f64| {
+        let finest = flights.last().unwrap_or(case);
+        flights.iter().map(|one| cost(one, case_of_air(one, finest), time(one))).sum::<f64>() / of_run
     };
     let (comes_down, least) = match &case.line {
         Some(line) => (COMES_DOWN * way(line), (COMES_DOWN + COMPARED) * way(line)),
@@ -244,11 +267,10 @@ fn statistics(
     if least > all * (1.0 + 1e-9) {
         return Err(Unchecked::TooShort);
     }
-    let of_part = |part: f64| takes([&coarse, &fine], [part * all; 2]);
-    let duration = all * budget.part(of_part, least / all)?;
+    let duration = all * budget.part(|part| takes(&flights, &|_| part * all), least / all)?;
     // A part of a run leaves out no more than the way down; the whole leaves out what the run leaves out.
     let spin_up = if duration < all { comes_down.min(case.run.spin_up()) } else { case.run.spin_up() };
-    for case in [&mut coarse, &mut fine] {
+    for case in &mut flights {
         let steps = |time: f64| (time / case.run.time_step * (1.0 + 1e-9)) as u64;
         (case.run.steps, case.run.spin_up_steps) = (steps(duration).max(1), steps(spin_up));
         case.run.output_steps = case.run.output_steps.min(case.run.steps);
@@ -256,16 +278,30 @@ fn statistics(
             return Err(Unchecked::beyond());
         }
     }
+    let share_of_run = takes(&flights, &|one| one.run.duration());
+    let mut flights = flights.into_iter();
+    let (coarse, fine, finest) =
+        (flights.next(), flights.next().unwrap_or_else(|| case.clone()), flights.next());
     let instants = fine.run.steps / fine.run.output_steps;
     if duration < spin_up || instants < FEWEST && case.line.is_none() {
         return Err(Unchecked::TooShort);
     }
-    let share_of_run = takes([&coarse, &fine], [coarse.run.duration(), fine.run.duration()]);
     // Replicates of a record need a record that is long enough.
     let replicates =
         if case.air.records.is_empty() { WIDTH as u64 } else { case.run.replicates.min(WIDTH as u64) };
+    let resolves_eddies = case.fibre.rest_length() <= OF_AN_EDDY * case.air.length_scale * (1.0 + 1e-9);
     let horizon = case.air_horizon();
-    Ok(FinerPlan { refined, coarse: Some(coarse), fine, stride: 1, horizon, replicates, share_of_run })
+    Ok(FinerPlan {
+        refined,
+        coarse,
+        fine,
+        finest,
+        resolves_eddies,
+        stride: 1,
+        horizon,
+        replicates,
+        share_of_run,
+    })
 }
 
 /// The case whose air a flight of a check has: a carried pattern has a signal for each element, and both
@@ -283,7 +319,7 @@ fn way(line: &Line) -> f64 {
 impl FinerPlan {
     /// The cases that are flown: as the run where its own paths are not compared, and finer.
     pub(super) fn flights(&self) -> impl Iterator<Item = &Case> {
-        self.coarse.iter().chain([&self.fine])
+        self.coarse.iter().chain([&self.fine]).chain(&self.finest)
     }
 
     /// Number of fibre steps, as in [`RunControl::fibre_steps`](crate::ensemble::RunControl::fibre_steps).
