@@ -11,8 +11,8 @@ pub(crate) enum Failure {
     Error(Error),
     /// A study was interrupted.
     Paused { done: u64, total: Option<u64>, what: &'static str },
-    /// Fibres were lost; the results are those of all others.
-    FibresLost { lost: String },
+    /// The results are written but lack something: lost fibres, or the sources of flights that are not steady.
+    Incomplete { what: String },
     /// The program panicked; the message has been printed.
     Panicked,
 }
@@ -23,7 +23,7 @@ impl Failure {
         match self {
             Self::Error(Error::Interrupted) | Self::Paused { .. } => 130,
             Self::Error(error) => error.exit_code(),
-            Self::FibresLost { .. } | Self::Panicked => 2,
+            Self::Incomplete { .. } | Self::Panicked => 2,
         }
     }
 
@@ -66,7 +66,7 @@ impl fmt::Display for Failure {
                     "interrupted; {done}{total} {what} are done and kept. Repeat the command to continue"
                 )
             }
-            Self::FibresLost { lost } => f.write_str(lost),
+            Self::Incomplete { what } => f.write_str(what),
             Self::Panicked => write!(
                 f,
                 "the program has a fault, see above; please report it with the case or study that shows it"
@@ -102,7 +102,7 @@ mod tests {
         for not_the_inputs_fault in [
             Failure::from(Error::unwritable(path)(full())),
             Error::System(Box::new(Problem::from(Fault::plain("the page cannot be served")))).into(),
-            Failure::FibresLost { lost: "1 of 2 fibres was lost".to_owned() },
+            Failure::Incomplete { what: "1 of 2 fibres was lost".to_owned() },
             Failure::Panicked,
             Error::Diverged {
                 replicate: 1,

@@ -82,14 +82,16 @@ impl<'a> Delivery<'a> {
     }
 
     /// Writes results into the folder, where files can be replaced later.
-    pub(super) fn publish(
+    pub(super) fn publish<C: Contents>(
         &mut self,
-        contents: &impl Contents,
+        contents: &C,
         threads: Threads,
     ) -> Result<Delivered, Failure> {
         let making = making(threads);
         let write = |staging| contents.write(staging, making);
         let written = self.staging.as_ref().map(write).transpose()?;
+        let lacking = self.staging.as_ref().and_then(|staging| staging.lacking_tables(C::OF_ONE_FORMAT));
+        lacking.iter().filter(|_| !self.output.quiet).for_each(|lacking| say::remark(false, lacking));
         let published = self.staging.take().map(Staging::publish_first).transpose()?;
         Ok(Delivered { written: published.zip(written), making })
     }

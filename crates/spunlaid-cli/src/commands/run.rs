@@ -70,7 +70,7 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
         return Err(paused());
     }
     flown.forget_kept();
-    lost.map_or(Ok(()), |lost| Err(Failure::FibresLost { lost }))
+    lost.map_or(Ok(()), |what| Err(Failure::Incomplete { what }))
 }
 
 /// The case, and the notes about it, which are told.

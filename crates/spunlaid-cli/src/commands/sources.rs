@@ -14,6 +14,7 @@ use spunlaid_results::folders::run::lost;
 use spunlaid_results::folders::sources::SourcesFolder;
 use spunlaid_results::numbers::significant;
 use spunlaid_results::output::kept_input::Input;
+use spunlaid_results::output::sources::unsteady;
 use std::sync::atomic::AtomicU64;
 
 /// Share of the force outside of the cells from which on it is told.
@@ -55,11 +56,15 @@ pub(crate) fn sources(air: &Air, invocation: &Invocation) -> Result<(), Failure>
         Sources::fly(case, &curtain, run_control(air.threads, &done))
     })?;
     let lost = lost(&sources.lost, replicates);
+    let unsteady = unsteady(case, &sources);
     let found: Vec<String> = outside(&sources).into_iter().collect();
-    let notes = [Note::notes_of_results(notes), lost.iter().cloned().collect(), found.clone()].concat();
+    let notes =
+        [Note::notes_of_results(notes), lost.iter().chain(&unsteady).cloned().collect(), found.clone()]
+            .concat();
     let contents = SourcesFolder { name: &name, case, input, sources: &sources, notes: &notes };
     delivery.deliver(&contents, air.threads, Asides { lines: &[], found: &found })?;
-    lost.map_or(Ok(()), |lost| Err(Failure::FibresLost { lost }))
+    let lacking: Vec<String> = lost.into_iter().chain(unsteady).collect();
+    if lacking.is_empty() { Ok(()) } else { Err(Failure::Incomplete { what: lacking.join("\n") }) }
 }
 
 /// The line, from the file of a web or from a case.

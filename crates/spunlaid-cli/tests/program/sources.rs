@@ -190,6 +190,44 @@ fn invariant_the_heat_for_openfoam_is_what_the_filaments_lose() {
     );
 }
 
+/// Filaments that have not come down when the means begin: their drag and the balance of their momentum differ by half,
+/// and no CFD program shall read that.
+#[test]
+fn rejects_sources_of_flights_that_are_not_steady() {
+    let desk = Desk::new();
+    fs::write(desk.path("air.vtk"), field()).unwrap();
+    fs::write(desk.path("line.toml"), format!("{LINE}{FILAMENTS}")).unwrap();
+    for replicates in [1, 2, 8] {
+        let arguments =
+            format!("air line.toml --sources --set run.replicates={replicates} --out r{replicates}");
+        let steady = format!("r{replicates}");
+        success(&mut desk.spunlaid(&arguments));
+        assert!(
+            desk.summary(&steady)["steady"] == true && desk.path(&format!("{steady}/openfoam/Su")).exists()
+        );
+
+        let output = desk.spunlaid(&format!("{arguments}_short --set run.spin_up=2ms")).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(
+            said.contains("not steady") && said.contains("write run.spin_up = \"30 ms\" or more"),
+            "{said}"
+        );
+        let folder = format!("{steady}_short");
+        let summary = desk.summary(&folder);
+        assert!(summary["steady"] == false && summary["openfoam"] == false, "{summary}");
+        assert!(summary["notes"].to_string().contains("No fields are written"), "{summary}");
+        let [drag, balance] =
+            ["above_belt_n_per_m", "by_momentum_n_per_m"].map(|of| summary[of]["mean"].as_f64());
+        assert!(balance.unwrap() > 1.3 * drag.unwrap(), "{summary}");
+        assert!(!desk.path(&format!("{folder}/openfoam")).exists());
+        assert!(
+            !desk.path(&format!("{folder}/sources.vtu")).exists()
+                && desk.path(&format!("{folder}/report.html")).exists()
+        );
+    }
+}
+
 #[test]
 fn rejects_lines_without_a_field_or_a_number_of_filaments() {
     let desk = Desk::new();

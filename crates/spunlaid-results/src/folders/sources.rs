@@ -37,6 +37,9 @@ impl Contents for SourcesFolder<'_> {
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
         let input = maker.keep(self.input)?;
         let files = |staging: &Staging<'_>| {
+            if !self.sources.are_steady() {
+                return Ok(());
+            }
             write_vtk(staging, self.case, self.sources)?;
             write_openfoam(staging, self.case, self.sources)
         };

@@ -25,10 +25,18 @@ pub fn sources_report<'a>((case, toml): (&Case, &str), sources: &Sources) -> Rep
         Ok(heat) => format!(" and give it {}", power(&heat.in_cells)),
         Err(_) => String::new(),
     };
-    let headline = format!(
-        "The filaments drive the air of the cells with {} along their way{and_heat}, per metre of width.",
-        force(&sources.along)
-    );
+    let headline = match sources.are_steady() {
+        true => format!(
+            "The filaments drive the air of the cells with {} along their way{and_heat}, per metre of width.",
+            force(&sources.along)
+        ),
+        false => format!(
+            "The flights are not steady, so there are no sources: from the inlet to 95 % of the way the filaments drive the \
+             air with {} by their drag, and with {} by the balance of their momentum.",
+            force(&sources.above_belt[0]),
+            force(&sources.above_belt[1])
+        ),
+    };
     let without_heat = match &sources.heat {
         Ok(_) => String::new(),
         Err(fault) => format!(" Heat is left out: {}.", fault.message),
@@ -61,15 +69,23 @@ pub fn sources_report<'a>((case, toml): (&Case, &str), sources: &Sources) -> Rep
             ("Temperature of the air", quantity(heat.of_air - ZERO_CELSIUS, "°C")),
         ]
     });
+    let difference = match sources.are_steady() {
+        true => {
+            "they differ by chance, and with elements longer than a hundredth of the way by what the belt does to the \
+             last of them"
+        }
+        false => "they differ by more than chance, so the flights are not steady and no fields are written",
+    };
     let sums = Section::new("sums", "Sums")
         .table(Table::of_facts(forces.into_iter().chain(heats)))
-        .caption(
-            "Forces and heat per metre of width. The force from the inlet to 95 % of the way is found in two ways from the \
-             same flights: from the drag on each element, and from what momentum the filaments have lost; they differ \
-             by chance, and with elements longer than a hundredth of the way by what the belt does to the last of them.",
-        )
+        .caption(format!(
+            "Forces and heat per metre of width, ± one standard error. The force from the inlet to 95 % of the way is \
+             found in two ways from the same flights: from the drag on each element, and from what momentum the filaments \
+             have lost; {difference}."
+        ))
         .told();
     let openfoam = match has_order_of_openfoam(case) {
+        _ if !sources.are_steady() => "",
         true => {
             " The folder openfoam holds the same for OpenFOAM, in the order of the cells of its mesh, if foamToVTK has \
              written the field."
@@ -88,10 +104,16 @@ pub fn sources_report<'a>((case, toml): (&Case, &str), sources: &Sources) -> Rep
          the same everywhere across the width.{cooling}"
     ));
     let arrays_of_heat = if sources.heat.is_ok() { "Sh, ShT, heat, " } else { "" };
-    let file = Section::new("file", "The input").file("case-toml", toml).caption(format!(
+    let fields = format!(
         "sources.vtu has the cells with Su, Sp, {arrays_of_heat}their standard errors, the force in the given air and the \
          number of hits.{openfoam} All sums are in summary.json, beside this page."
-    ));
+    );
+    let fields = if sources.are_steady() {
+        fields
+    } else {
+        "All sums are in summary.json, beside this page.".to_owned()
+    };
+    let file = Section::new("file", "The input").file("case-toml", toml).caption(fields);
     let found = [lead.clone(), headline.clone()];
     Report::new("air", headline)
         .lead(lead)

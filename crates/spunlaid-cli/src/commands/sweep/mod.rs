@@ -164,8 +164,8 @@ fn lost(study: &Study, journal: &mut Journal, fibres: u64) -> Result<(), Failure
         "spinline" => format!("{lost} of {fibres} spinlines have no steady state"),
         _ => lost_fibres_text(lost, fibres),
     };
-    let lost = format!("{what}; all others are in the results{first}");
-    Err(Failure::FibresLost { lost })
+    let what = format!("{what}; all others are in the results{first}");
+    Err(Failure::Incomplete { what })
 }
 
 /// Why a spinline has no steady state: `spinline.length = 20 mm is too short…`.

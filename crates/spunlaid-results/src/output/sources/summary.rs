@@ -36,6 +36,8 @@ pub struct SourcesSummary<'a> {
     pub above_belt_n_per_m: Number,
     /// The same by the balance of the momentum of the same flights.
     pub by_momentum_n_per_m: Number,
+    /// Whether these two forces agree within chance. If not, there are no fields.
+    pub steady: bool,
     /// Heat of the filaments between the inlet and the belt; none where it is not known, which a note says.
     #[serde(flatten)]
     pub heat: Option<HeatSummary>,
@@ -103,8 +105,9 @@ impl<'a> SourcesSummary<'a> {
             outside_n_per_m: (&sources.outside).into(),
             above_belt_n_per_m: above.into(),
             by_momentum_n_per_m: by_momentum.into(),
+            steady: sources.are_steady(),
             heat,
-            openfoam: has_order_of_openfoam(case),
+            openfoam: sources.are_steady() && has_order_of_openfoam(case),
             notes: notes.to_vec(),
             case: resolved(case),
         }

@@ -19,10 +19,18 @@ use crate::case::Case;
 use crate::error::{Error, Fault};
 use crate::fibre::Place;
 use crate::lanes::WIDTH;
-use crate::statistics::Estimate;
+use crate::statistics::{Difference, Estimate, NORMAL_95};
 use fitting::fitting;
 use merged::Merged;
 use watch::{CellSums, fly_each};
+
+/// Part of the force by which the two ways to find it may differ: the belt disturbs the last elements.
+const FAR: f64 = 0.05;
+/// Standard errors beyond which a difference is none by chance, of many replicates.
+const ERRORS: f64 = 3.0;
+/// Replicates below which the errors themselves are too uncertain, and the part by which the two forces may then differ.
+const FEW: u64 = 3;
+const FAR_OF_FEW: f64 = 0.25;
 
 /// The filaments of a line.
 #[derive(Clone, Debug, PartialEq)]
@@ -154,6 +162,19 @@ impl Sources {
             return Err(error);
         }
         Ok(merged.finish(curtain.filaments_per_metre))
+    }
+
+    /// Whether the force by the drag is that by the balance of momentum, as far as the flights tell. It is not while the
+    /// filaments still come down or swing themselves in: their momentum then changes, and the sources are those of no
+    /// steady air.
+    pub fn are_steady(&self) -> bool {
+        let [drag, balance] = &self.above_belt;
+        let apart = (balance.mean - drag.mean).abs() / drag.mean.abs().max(balance.mean.abs());
+        if self.replicates < FEW {
+            return apart <= FAR_OF_FEW;
+        }
+        let difference = Difference::independent(&drag.values, &balance.values);
+        apart <= FAR || difference.is_some_and(|of| of.value.abs() <= ERRORS * of.half_width() / NORMAL_95)
     }
 
     /// Why there are no sources of a case; none if they can be found.
