@@ -67,7 +67,8 @@ impl Way {
 /// A factor matters more if its effect is larger than so many times that of the other one by more than three
 /// standard errors. A result rises or falls if its ends differ by more than three standard errors, and no step
 /// between two values goes the other way by more than 2.5. It turns if the greatest or the least value between
-/// the ends differs from both ends by more than three.
+/// the ends differs from both ends by more than three. Results in which nothing is by chance have no errors, and every
+/// difference counts.
 ///
 /// # Errors
 /// When the journal cannot be read.
@@ -123,18 +124,24 @@ fn matters(
     let distance = (more.value.abs() - times * less.value.abs()) / error;
     let words = told
         .map(|(factor, effect)| format!("{} over {}", in_words(quantity, effect), study.factors[factor].key));
-    let verdict = if error.is_finite() { Verdict::of_difference(distance) } else { Verdict::Open };
+    let verdict = match error {
+        0.0 => Verdict::of(more.value.abs() > times * less.value.abs()),
+        error if error.is_finite() => Verdict::of_difference(distance),
+        _ => Verdict::Open,
+    };
     (words.join(", "), verdict)
 }
 
-/// A difference and its standard error in the unit of a quantity.
+/// A difference in the unit of a quantity, and its standard error if it is known and there is one.
 fn in_words(quantity: &Quantity, difference: Difference) -> String {
     let scale = quantity.unit.per_si;
     let (value, error) = (difference.value * scale, difference.standard_error * scale);
-    let digits = if error > 0.0 { (1.0 - error.log10().floor()).clamp(0.0, 6.0) as usize } else { 3 };
+    let size = if error > 0.0 { error } else { 0.01 * value.abs() };
+    let digits = if size > 0.0 { (1.0 - size.log10().floor()).clamp(0.0, 6.0) as usize } else { 0 };
+    let error = if error > 0.0 { format!(" ± {error:.digits$}") } else { String::new() };
     let unit = quantity.unit.shown;
     let space = if unit.is_empty() { "" } else { " " };
-    format!("{value:+.digits$} ± {error:.digits$}{space}{unit}").replace('-', "−")
+    format!("{value:+.digits$}{error}{space}{unit}").replace('-', "−")
 }
 
 /// The points that differ from the first one in a factor alone, and the first one, by the values of the factor.
@@ -168,6 +175,9 @@ impl Differences<'_> {
             (results.mean[self.quantity], results.errors[self.quantity])
         };
         let ((before, error_before), (after, error_after)) = (known(from), known(to));
+        if [from, to].iter().all(|point| self.study.points[*point].experiment.is_exact()) {
+            return Ok(Difference::exact(after - before));
+        }
         let apart = Difference {
             value: after - before,
             standard_error: error_before.hypot(error_after),
@@ -219,9 +229,17 @@ fn follows(
     if way != Way::Turns {
         let direction = if way == Way::Rises { 1.0 } else { -1.0 };
         let back = step_back(direction);
-        let verdict =
-            if back > CHANCE { Verdict::Fails } else { Verdict::of_difference(direction * overall) };
-        let evidence = format!("{told}; largest step in the other direction {back:.1} standard errors");
+        let verdict = match ends.standard_error {
+            _ if back > CHANCE => Verdict::Fails,
+            0.0 => Verdict::of(direction * ends.value > 0.0),
+            _ => Verdict::of_difference(direction * overall),
+        };
+        let evidence = match ends.standard_error {
+            0.0 if back > CHANCE => format!("{told}, without error; a step goes the other way"),
+            0.0 => format!("{told}, without error; no step goes the other way"),
+            error if error.is_nan() => format!("{told}; the error of a single replicate is not known"),
+            _ => format!("{told}; largest step in the other direction {back:.1} standard errors"),
+        };
         return Ok((evidence, verdict));
     }
     let mean = |i: usize| of.results[of.points[i]].mean[of.quantity];
@@ -233,7 +251,7 @@ fn follows(
     for (turn, direction) in greatest.map(|i| (i, 1.0)).into_iter().chain(least.map(|i| (i, -1.0))) {
         let ends = [of.between(0, turn, journal)?, of.between(last, turn, journal)?];
         let [before, after] = ends.map(|end| direction * significance(end));
-        if before.min(after) > most {
+        if at.is_none() || before.min(after) > most {
             (most, at) = (before.min(after), Some((turn, ends)));
         }
     }
@@ -244,7 +262,8 @@ fn follows(
     let is_monotone = step_back(overall.signum()) <= CHANCE;
     let verdict = match most {
         most if most > REAL => Verdict::Holds,
-        _ if is_monotone && overall.abs() > REAL => Verdict::Fails,
+        // Without error, the steps are as they are.
+        _ if is_monotone && (overall.abs() > REAL || ends.standard_error == 0.0) => Verdict::Fails,
         _ => Verdict::Open,
     };
     Ok((evidence, verdict))

@@ -47,6 +47,16 @@ impl Experiment {
         }
     }
 
+    /// Whether nothing of it is by chance, so that a single replicate has no error: a spinline, or a fibre in air without
+    /// turbulence.
+    pub fn is_exact(&self) -> bool {
+        match self {
+            Self::Case(case) => case.air.turbulence_intensity == 0.0 && case.air.records.is_empty(),
+            Self::Web(_) => false,
+            Self::Spinline(_) => true,
+        }
+    }
+
     /// The seed of its random numbers.
     pub const fn seed(&self) -> u64 {
         match self {

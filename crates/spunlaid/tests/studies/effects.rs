@@ -67,6 +67,7 @@ fn flown(study: &Study, replicates: u64, model: Model, noise: Noise, seed: u64) 
 }
 
 const STRAIGHT: Model = |x| 5.0 + 3.0 * x[0] - x[1];
+const STRAIGHT_UP: Model = |x| 5.0 + 3.0 * x[0];
 const BENT: Model = |x| 5.0 + 3.0 * x[0] - x[1] + 2.0 * x[0] * x[0] - 3.0 * x[1] * x[1];
 const MIXED: Model = |x| BENT(x) + 1.5 * x[0] * x[1];
 
@@ -370,6 +371,42 @@ fn analytic_verdicts_on_claims_about_known_results() {
         [Holds, Holds, Fails, Open]
     );
     assert_eq!(verdicts(STRAIGHT, 50.0, &["fibre.diameter falls"]), [Open]);
+}
+
+/// In air without turbulence a single fibre has no error, and neither has the difference of two.
+#[test]
+fn analytic_what_has_no_error_is_judged_by_its_values() {
+    let judged = |intensity: &str, model: Model, claim: &str| {
+        let case = short::SHORT.replace("turbulence_intensity = 0.1\n", intensity);
+        let text = format!(
+            "case = 'case.toml'\ndesign = 'grid'\nreplicates = 1\n[vary]\n\
+             'air.velocity' = {{ from = '5 m/s', to = '15 m/s', steps = 5 }}\n[claims]\n\
+             'It is so.' = 'amplitude_y: air.velocity {claim}'\n"
+        );
+        let study = short::study(&case, &text).study;
+        let mut journal = flown(&study, 1, model, Noise { fibre: 0.0, replicate: 0.0, slopes: 0.0 }, 7);
+        let results: Vec<PointResults> = (0..study.points.len())
+            .map(|point| results_of_point(&study, &mut journal, point).unwrap())
+            .collect();
+        let rankings = rankings(&study, &mut journal).unwrap().of_measures;
+        let judged = judge(&study, &results, &rankings, &mut journal).unwrap().remove(0);
+        assert!(!judged.evidence.contains("NaN"), "{}", judged.evidence);
+        judged.verdict
+    };
+    const STILL: &str = "turbulence_intensity = 0\n";
+    let known: [(Model, &str, Verdict); 6] = [
+        (STRAIGHT_UP, "rises", Holds),
+        (STRAIGHT_UP, "falls", Fails),
+        (STRAIGHT_UP, "turns", Fails),
+        (|x| 1.0 - x[0] * x[0], "rises", Fails),
+        (|x| 1.0 - x[0] * x[0], "turns", Holds),
+        (|_| 1.0, "rises", Fails),
+    ];
+    for (model, claim, verdict) in known {
+        assert_eq!(judged(STILL, model, claim), verdict, "{claim}");
+    }
+    // A single fibre in turbulence tells nothing of its error.
+    assert_eq!(judged("turbulence_intensity = 0.1\n", STRAIGHT_UP, "rises"), Open);
 }
 
 #[test]
