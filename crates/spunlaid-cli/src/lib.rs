@@ -21,10 +21,19 @@ use std::path::Path;
 ///
 /// Returns the exit code: 0, 1 if the input is wrong, 130 if interrupted, 2 otherwise.
 pub fn main(words: impl IntoIterator<Item = OsString>) -> u8 {
+    outlive_the_file_size_limit();
     let code = obey(words);
     // A program does this as it ends, but whoever calls this function may go on. What could not be written is told.
     let _ = std::io::stdout().flush();
     code
+}
+
+/// A file beyond the limit of its size (`ulimit -f`) shall be an error like any other, and not a signal that ends the
+/// program without a word.
+fn outlive_the_file_size_limit() {
+    // Without the handler, the program ends there and leaves its hidden folder behind.
+    #[cfg(unix)]
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, std::sync::Arc::default());
 }
 
 fn obey(words: impl IntoIterator<Item = OsString>) -> u8 {

@@ -313,7 +313,9 @@ impl Study {
                 dict.set_item("from", effect.of.from)?;
                 dict.set_item("to", effect.of.to)?;
                 dict.set_item("change", effect.difference.value)?;
-                dict.set_item("half_width", effect.difference.known_half_width())?;
+                let known = effect.difference.known_half_width();
+                dict.set_item("standard_error", known.map(|_| effect.difference.standard_error))?;
+                dict.set_item("half_width", known)?;
                 dict.set_item("explained", ranking.explained)?;
                 all.append(dict)?;
             }

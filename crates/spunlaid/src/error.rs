@@ -101,6 +101,9 @@ impl Error {
                 io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
                     "free some space, or name another folder"
                 }
+                io::ErrorKind::FileTooLarge => {
+                    "lift the limit of the size of files (ulimit -f), or name a folder on another disk"
+                }
                 _ => "name another folder",
             };
             let fault = Fault::new(format!("cannot be written: {source}"), remedy);

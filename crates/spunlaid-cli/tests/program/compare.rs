@@ -1,7 +1,7 @@
 //! `spunlaid compare`: differences of runs, and what is refused.
 
 use crate::desk::{Desk, names, refusal, success};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 const LONGER: [&str; 4] =
     ["run.duration=80 ms", "run.output_interval=0.2 ms", "run.replicates=8", "run.spin_up=10 ms"];
@@ -119,4 +119,42 @@ fn rejects_what_is_no_run() {
     assert!(refusal(&mut desk.spunlaid("compare a empty"), 1).contains("holds a study or an analysis"));
     assert!(refusal(&mut desk.spunlaid("compare a a a a a a a"), 1).contains("at most 6"));
     assert!(!desk.path("results").exists());
+}
+
+/// The CV of a web over patches of 10 mm, and its formation number, which goes with the square. One web has few waves, so
+/// that its interval reaches up to the other one; the errors by chance alone would say the contrary.
+#[test]
+fn invariant_a_cv_and_the_formation_number_have_one_verdict() {
+    let desk = Desk::new();
+    let write = |name: &str, cv: f64, error: f64, interval: [f64; 2]| {
+        let formation = cv * cv / 1e-4;
+        let summary = json!({
+            "web": { "patches": [{
+                "patch_m": 0.01, "cv": cv, "cv_standard_error": error, "cv_interval": interval, "cv_whole_error": error,
+            }] },
+            "fabric": { "patches": [{
+                "patch_m": 0.01,
+                "formation": { "value": formation, "standard_error": 2.0 * formation * error / cv },
+            }] },
+        });
+        std::fs::create_dir(desk.path(name)).unwrap();
+        std::fs::write(desk.path(&format!("{name}/summary.json")), summary.to_string()).unwrap();
+    };
+    write("a", 0.198, 0.013, [0.174, 0.226]);
+    write("few", 0.086, 0.012, [0.0745, 0.238]);
+    write("many", 0.086, 0.012, [0.0745, 0.114]);
+    for (other, is_beyond) in [("few", false), ("many", true)] {
+        let found = json(&desk, &format!("a {other}"));
+        let measures = &found["comparisons"][0]["measures"];
+        let [cv, formation] = ["cv_10_mm", "formation_10_mm"].map(|name| &measures[name]);
+        assert_eq!(
+            (&cv["beyond_chance"], &formation["beyond_chance"]),
+            (&json!(is_beyond), &json!(is_beyond))
+        );
+        let distance =
+            |of: &Value| of["difference"].as_f64().unwrap().abs() / of["half_width"].as_f64().unwrap();
+        assert!((distance(cv) / distance(formation) - 1.0).abs() < 1e-9, "{cv} {formation}");
+        let why = cv["remark"].as_str().unwrap_or_default();
+        assert_eq!(why.contains("has the 95 % interval 7.45 to 23.8"), !is_beyond, "{cv}");
+    }
 }

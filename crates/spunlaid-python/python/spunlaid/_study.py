@@ -97,7 +97,7 @@ class Study:
 
     def effects(self) -> list[dict[str, Any]]:
         """How much each factor changes each measure from one end of its range to the other: `measure`, `factor`, `from`,
-        `to`, `change` and `half_width` of its interval of 95 %; empty if the design does not tell."""
+        `to`, `change`, its `standard_error` and `half_width` of its interval of 95 %; empty if the design does not tell."""
         return self._study.effects()[0]
 
     def replicates(self) -> pandas.DataFrame:

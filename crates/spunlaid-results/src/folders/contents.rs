@@ -29,6 +29,8 @@ pub trait Contents: Sync {
     const ENTRIES: &'static [&'static str];
     /// The file of the summary.
     const SUMMARY: &'static str = "summary.json";
+    /// Files of many numbers that have one format only.
+    const OF_ONE_FORMAT: &'static [&'static str] = &[];
 
     /// The numbers, as JSON.
     fn summary(&self) -> String;

@@ -164,6 +164,7 @@ impl Run<'_> {
 /// The tables are those of [`fly`].
 impl Contents for Run<'_> {
     const ENTRIES: &'static [&'static str] = ENTRIES;
+    const OF_ONE_FORMAT: &'static [&'static str] = &["end_node.parquet", "energy.parquet", "laid.parquet"];
 
     fn summary(&self) -> String {
         Summary::new(self.case, self.results, self.checks, self.performance, self.all_notes()).to_json()

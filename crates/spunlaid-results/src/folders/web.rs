@@ -64,6 +64,7 @@ impl Contents for WebFolder<'_> {
         "report.html",
         "summary.json",
     ];
+    const OF_ONE_FORMAT: &'static [&'static str] = &["map.npy"];
 
     fn summary(&self) -> String {
         let rows = rows(&self.file.spec, self.web, self.layers);

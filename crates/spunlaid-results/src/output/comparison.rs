@@ -38,6 +38,8 @@ pub struct ComparedMeasure {
     pub means: [Estimate; 2],
     /// None where there are too few replicates for an error, or there is a doubt.
     pub difference: Option<Difference>,
+    /// What a verdict within chance follows from, if the standard errors alone do not show it.
+    pub remark: Option<String>,
     /// Why one of the numbers is not to be had, so that nothing is said about the difference.
     pub doubt: Option<String>,
 }
@@ -69,6 +71,9 @@ struct Numbers {
     /// Half the width of the 95 % interval.
     half_width: Option<f64>,
     beyond_chance: Option<bool>,
+    /// Why it is within chance, where the standard errors alone do not show it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    remark: Option<String>,
     /// Why there is no verdict.
     #[serde(skip_serializing_if = "Option::is_none")]
     no_verdict: Option<String>,
@@ -102,6 +107,7 @@ pub fn json(comparisons: &[Comparison], notes: &[String]) -> String {
             standard_error: compared.difference.map(|d| d.standard_error),
             half_width: compared.difference.map(|d| d.half_width()),
             beyond_chance: compared.difference.map(|d| d.is_beyond_chance()),
+            remark: compared.remark.clone(),
             no_verdict: compared.doubt.clone(),
         };
         (compared.column.clone(), numbers)
@@ -140,11 +146,13 @@ impl ComparedMeasure {
         };
         let difference = self.difference.map_or_else(|| "–".to_owned(), |d| difference_text(&d, factor));
         let verdict = match self.difference {
-            None => self.doubt.as_deref().unwrap_or("too few data"),
-            Some(d) if d.value == 0.0 && d.standard_error == 0.0 => "the same",
-            Some(d) if d.is_beyond_chance() => "beyond chance",
-            Some(_) => "within chance",
+            None => self.doubt.clone().unwrap_or_else(|| "too few data".to_owned()),
+            Some(d) if d.value == 0.0 && d.standard_error == 0.0 => "the same".to_owned(),
+            Some(d) if d.is_beyond_chance() => "beyond chance".to_owned(),
+            Some(_) => {
+                self.remark.iter().fold("within chance".to_owned(), |v, remark| format!("{v}: {remark}"))
+            }
         };
-        [mean(&self.means[0]), mean(&self.means[1]), difference, verdict.to_owned()]
+        [mean(&self.means[0]), mean(&self.means[1]), difference, verdict]
     }
 }

@@ -186,6 +186,24 @@ impl<'a> Staging<'a> {
         Table::create(name, (usual, &self.figures.tables), columns, |file| self.begin(file))
     }
 
+    /// What the results lack of the formats of tables that were asked for, in a sentence.
+    ///
+    /// * `fixed` – files that have one format
+    pub fn lacking_tables(&self, fixed: &[&str]) -> Option<String> {
+        let formats: Vec<&str> = self.figures.tables.iter().map(|format| format.name).collect();
+        let (new, formats) = (self.staging.join(NEW), formats.join(", "));
+        let fixed: Vec<&str> = fixed.iter().copied().filter(|file| new.join(file).exists()).collect();
+        let stay = format!("{} stay as they are: they have too many rows for text", fixed.join(", "));
+        match (formats.is_empty(), new.join(TABLES).is_dir(), fixed.is_empty()) {
+            (true, ..) | (_, true, true) => None,
+            (_, true, false) => Some(format!("not all tables are written as {formats} too: {stay}")),
+            (_, false, true) => {
+                Some(format!("nothing is written as {formats}: results of this kind have no tables"))
+            }
+            (_, false, false) => Some(format!("nothing is written as {formats}: {stay}")),
+        }
+    }
+
     /// Writes a file and creates its parent folders.
     pub fn write(&self, name: &str, content: impl AsRef<[u8]>) -> Result<(), Failure> {
         self.write_with(name, |file| file.write_all(content.as_ref()))

@@ -48,7 +48,7 @@ fn pair<'a>(number: usize, comparison: &Comparison) -> Section<'a> {
             the difference leaves out zero); of twenty without any difference, one would by chance."
         ))
         .table(table.rows(measures.iter().map(row)))
-        .caption(format!("{errors} The difference has its standard error."))
+        .caption(format!("{errors} The difference has its standard error, towards the other value."))
 }
 
 fn row(compared: &ComparedMeasure) -> Row {

@@ -89,8 +89,8 @@ fn ranking(study: &Study, rankings: &[Ranking], refusal: Option<&str>) -> Option
         .foot(Row::new("explained", explained(rankings, &quantities)));
     Some(section.table(table).caption(format!(
         "Change of the mean from the least to the greatest value of a factor, on the straight line that fits \
-        the points best, or from one word to another, ± half a 95\u{202f}% confidence interval. Grey values \
-        have an interval that contains zero. “Explained” is the fraction of the variation between points \
+        the points best, or from one word to another, ± one standard error. Grey values \
+        have a 95\u{202f}% confidence interval that contains zero. “Explained” is the fraction of the variation between points \
         that straight lines explain (adjusted R²). If it is low, the response is curved or the factors act \
         together, and the figures tell more than the ranking. {}",
         intervals(study)
@@ -220,11 +220,7 @@ fn effects(study: &Study, rankings: &[Ranking]) -> Vec<String> {
             format!("{} from {from} to {to} of the {}", change(result, &effect.difference), name_of_key(key))
         };
         let effects: Vec<String> = ranking_of(rankings, quantity)?.effects.iter().map(effect).collect();
-        Some(format!(
-            "Change of {}: {} (± half a 95\u{a0}% interval).",
-            shown::head(result),
-            effects.join(", ")
-        ))
+        Some(format!("Change of {}: {} (± one standard error).", shown::head(result), effects.join(", ")))
     };
     shown::quantities(study).into_iter().filter_map(sentence).collect()
 }
@@ -289,9 +285,10 @@ fn is_of_words(study: &Study, contrast: Contrast) -> bool {
     !study.factors[contrast.factor].words.is_empty()
 }
 
-/// The change of a result, ± half a 95 % interval.
+/// The change of a result, ± one standard error.
 fn change(result: &Quantity, difference: &Difference) -> String {
-    shown::in_unit(result, difference.value, difference.known_half_width())
+    let known = difference.known_half_width().map(|_| difference.standard_error);
+    shown::in_unit(result, difference.value, known)
 }
 
 fn summary(study: &Study, results: &[PointResults]) -> String {

@@ -73,15 +73,21 @@ impl Difference {
 ///
 /// Source: R. A. Fisher, Proceedings of the International Congress of Mathematics, Toronto 2 (1924) 805–813.
 pub fn difference_of_deviations(deviations: [(f64, f64); 2]) -> Difference {
-    let [(first, _), (second, _)] = deviations;
-    let variance = |(deviation, error): (f64, f64)| {
+    let log_error = |(deviation, error): (f64, f64)| {
         let inverse = 2.0 * (error / deviation).powi(2);
-        0.5 * (inverse + inverse * inverse)
+        (0.5 * (inverse + inverse * inverse)).sqrt()
     };
+    difference_of_logarithms(deviations.map(|(deviation, _)| deviation), deviations.map(log_error))
+}
+
+/// The difference of two positive values, with the standard errors of their logarithms. The error of the difference is
+/// made so that it says the same as that of the logarithms, and the same of the values, of their squares and of any
+/// other powers.
+pub fn difference_of_logarithms([first, second]: [f64; 2], log_errors: [f64; 2]) -> Difference {
     let log = libm::log(second / first);
     // The difference over that of the logarithms: a mean of both.
     let mean = if log.abs() > 1e-6 { (second - first) / log } else { 0.5 * (first + second) };
-    let standard_error = mean * deviations.map(variance).iter().sum::<f64>().sqrt();
+    let standard_error = mean * log_errors[0].hypot(log_errors[1]);
     Difference { value: second - first, standard_error, degrees: f64::INFINITY }
 }
 

@@ -5,7 +5,7 @@ mod even_sample;
 pub(crate) mod linear;
 mod spectrum;
 
-pub use difference::{Difference, difference_of_deviations, student_t_95_at};
+pub use difference::{Difference, difference_of_deviations, difference_of_logarithms, student_t_95_at};
 pub use even_sample::EvenSample;
 pub use spectrum::{Spectrum, Welch, Window};
 

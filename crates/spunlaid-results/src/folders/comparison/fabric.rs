@@ -7,6 +7,8 @@ use spunlaid::observe::{Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_STRIPS, Unit}
 
 /// Side of the patches that are compared in all words [m].
 const PATCH: f64 = 5e-3;
+/// The number of a fabric that goes with the square of its CV.
+const SQUARE_OF_CV: &str = "formation";
 
 /// A number that both have.
 pub(super) struct InCommon {
@@ -28,7 +30,11 @@ pub(super) fn in_common(webs: [&Web; 2]) -> Vec<InCommon> {
         let told = if are_alike(side, PATCH) { &OF_FABRIC_PATCHES[1..] } else { &OF_FABRIC_PATCHES[1..2] };
         let size = significant(side * 1e3, 3);
         let words = [&format!(", patches of {size} mm"), &format!("_{size}_mm")];
-        found.extend(both(told, words.map(String::as_str), parts("patches", "patch_m", side)));
+        let of_patches = both(told, words.map(String::as_str), parts("patches", "patch_m", side));
+        found.extend(of_patches.into_iter().map(|one| match one.column.starts_with(SQUARE_OF_CV) {
+            true => InCommon { values: squared(webs, side, one.values), ..one },
+            false => one,
+        }));
     }
     for (direction, list) in [("MD", "strips_md"), ("CD", "strips_cd")] {
         let words = [&format!(", strips along {direction}"), &format!("_{list}")];
@@ -36,6 +42,10 @@ pub(super) fn in_common(webs: [&Web; 2]) -> Vec<InCommon> {
         found.extend(both(OF_STRIPS, words.map(String::as_str), strips));
     }
     found
+}
+
+fn squared([a, b]: [&Web; 2], side: f64, [of_a, of_b]: [WebNumber; 2]) -> [WebNumber; 2] {
+    [a.squared(side, of_a), b.squared(side, of_b)]
 }
 
 /// The part of nearly this size; nothing if there is none.

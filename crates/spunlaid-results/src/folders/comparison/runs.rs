@@ -53,6 +53,7 @@ fn compare_with(first: &Run, other: &Run) -> Comparison {
             per_si: measure.unit.per_si,
             means,
             difference,
+            remark: None,
             doubt: None,
         })
     };

@@ -98,6 +98,19 @@ impl Web {
         at(&self.patches, side).ok_or_else(|| self.missing(side))
     }
 
+    /// A number that goes with the square of the CV over patches, as the formation number does: it is as well known as
+    /// that, so that both say the same of a difference.
+    pub(super) fn squared(&self, side: f64, number: WebNumber) -> WebNumber {
+        let Ok(cv) = self.cv(side) else { return number };
+        let square = |end: f64| number.value * (end / cv.value).powi(2);
+        WebNumber {
+            value: number.value,
+            standard_error: cv.standard_error.map(|error| 2.0 * number.value * error / cv.value),
+            ends: cv.ends.map(|ends| ends.map(square)),
+            doubt: number.doubt.or(cv.doubt),
+        }
+    }
+
     /// Why there is no CV over patches of a size.
     fn missing(&self, side: f64) -> String {
         let shorter = |map: &MapFile| map.sides().into_iter().fold(f64::INFINITY, f64::min);
@@ -112,6 +125,9 @@ impl Web {
     }
 }
 
+/// Part of a number below which its standard error is a share of it.
+const SMALL: f64 = 1.0 / 3.0;
+
 impl WebNumber {
     /// A value with its standard error.
     pub(super) const fn known(value: f64, standard_error: f64) -> Self {
@@ -124,19 +140,20 @@ impl WebNumber {
     }
 
     /// With the error by all causes in place of that by chance alone, if it is known: what is not chance
-    /// makes the interval wider on both sides.
+    /// makes the interval wider on both sides, by the same share of the number.
     ///
     /// * `is_of_map` – whether the number is that of the map, which has this error
     fn with_all_causes(self, whole: &Json, is_of_map: bool) -> Self {
         let (Some(whole), Some(chance)) = (whole.as_f64().filter(|_| is_of_map), self.standard_error) else {
             return self;
         };
-        let others = NORMAL_95 * (whole * whole - chance * chance).max(0.0).sqrt();
         let value = self.value;
-        let ends = self
-            .ends
-            .map(|[low, high]| [value - (value - low).hypot(others), value + (high - value).hypot(others)]);
-        Self { standard_error: Some(whole), ends, ..self }
+        let others = NORMAL_95 * (whole * whole - chance * chance).max(0.0).sqrt() / value;
+        let end = |end: f64| {
+            let log = (end / value).ln();
+            value * (log.signum() * log.hypot(others)).exp()
+        };
+        Self { standard_error: Some(whole), ends: self.ends.map(|ends| ends.map(end)), ..self }
     }
 
     /// The error upwards or downwards, so that 1.96 of it reach to the end of the interval.
@@ -145,6 +162,22 @@ impl WebNumber {
             Some(ends) => Some((ends[usize::from(up)] - self.value).abs() / NORMAL_95),
             None => self.standard_error,
         }
+    }
+
+    /// The same of its logarithm.
+    pub(super) fn log_error_towards(&self, up: bool) -> Option<f64> {
+        match self.ends {
+            Some(ends) => Some((ends[usize::from(up)] / self.value).ln().abs() / NORMAL_95),
+            None => self.standard_error.map(|error| error / self.value),
+        }
+    }
+
+    /// Whether its errors are shares of it: with an interval, which is that of a deviation, or with an error that is small
+    /// beside it.
+    pub(super) fn is_of_shares(&self) -> bool {
+        let is_small = |error: f64| error < SMALL * self.value;
+        self.value > 0.0
+            && (self.ends.map_or(self.standard_error.is_some_and(is_small), |[low, _]| low > 0.0))
     }
 
     /// Its 95 % interval, unless there is a doubt.
@@ -183,6 +216,19 @@ pub(super) mod tests {
 
     pub(in super::super) const fn number(value: f64, ends: Option<[f64; 2]>) -> WebNumber {
         WebNumber { value, standard_error: Some(0.01), ends, doubt: None }
+    }
+
+    impl WebNumber {
+        /// The error of a power of it, and the ends of its interval.
+        pub(in super::super) fn error_of_power(&self, power: i32) -> Option<f64> {
+            let slope = f64::from(power).abs() * self.value.powi(power - 1);
+            self.standard_error.map(|error| slope * error)
+        }
+
+        pub(in super::super) fn ends_of_power(&self, power: i32) -> Option<[f64; 2]> {
+            let ends = self.ends.map(|ends| ends.map(|end| end.powi(power)))?;
+            Some(if power < 0 { [ends[1], ends[0]] } else { ends })
+        }
     }
 
     #[test]

@@ -11,8 +11,11 @@ use crate::numbers::significant;
 use crate::output::comparison::{ComparedMeasure, Comparison};
 use spunlaid::error::{Error, Fault};
 use spunlaid::scan::shortest_sharp_wave;
-use spunlaid::statistics::{Difference, Estimate};
+use spunlaid::statistics::{Difference, Estimate, difference_of_logarithms};
 use std::path::PathBuf;
+
+/// How many standard errors an end of an interval is away, over 1.96, where the standard error alone would mislead.
+const FAR: f64 = 1.5;
 
 /// Reads the folders if the first holds a web.
 ///
@@ -164,14 +167,27 @@ fn measure(
     let doubt = (!doubts.is_empty()).then(|| doubts.join("; "));
     // The ends of both intervals that face each other make that of the difference: Zou and Donner, Statistics
     // in Medicine 27 (2008) 1693–1702. A standard error is from many parts of a web, and a normal
-    // distribution serves.
+    // distribution serves. Errors that are shares of their numbers are those of logarithms: a CV and its square then
+    // have one verdict.
     let difference = |a: &WebNumber, b: &WebNumber| {
-        let ups = if b.value > a.value { [true, false] } else { [false, true] };
-        let standard_error = a.error_towards(ups[0])?.hypot(b.error_towards(ups[1])?);
+        let up = b.value > a.value;
+        if a.is_of_shares() && b.is_of_shares() {
+            let errors = [a.log_error_towards(up)?, b.log_error_towards(!up)?];
+            return Some(difference_of_logarithms([a.value, b.value], errors));
+        }
+        let standard_error = a.error_towards(up)?.hypot(b.error_towards(!up)?);
         Some(Difference { value: b.value - a.value, standard_error, degrees: f64::INFINITY })
     };
     let difference = match (&values, &doubt) {
         ([Ok(a), Ok(b)], None) => difference(a, b),
+        _ => None,
+    };
+    let remark = match (&values, &difference) {
+        ([Ok(a), Ok(b)], Some(difference)) if !difference.is_beyond_chance() => {
+            let up = b.value > a.value;
+            let far = [(a, up), (b, !up)].into_iter().filter_map(|(number, up)| far_end(number, up, per_si));
+            far.reduce(|a, b| format!("{a}; {b}"))
+        }
         _ => None,
     };
     let means = values.map(|number| {
@@ -179,7 +195,15 @@ fn measure(
             number.map_or((f64::NAN, None), |number| (number.value, number.standard_error));
         Estimate { mean, standard_error, values: Vec::new() }
     });
-    ComparedMeasure { label, column, unit, per_si, means, difference, doubt }
+    ComparedMeasure { label, column, unit, per_si, means, difference, remark, doubt }
+}
+
+/// That the interval of a number reaches far further to one side than its standard error tells.
+fn far_end(number: &WebNumber, up: bool, per_si: f64) -> Option<String> {
+    let ([low, high], error) = (number.interval()?, number.standard_error?);
+    let is_far = number.error_towards(up)? > FAR * error;
+    let [value, low, high] = [number.value, low, high].map(|value| significant(value * per_si, 3));
+    is_far.then(|| format!("{value} has the 95 % interval {low} to {high}"))
 }
 
 #[cfg(test)]
@@ -191,16 +215,58 @@ mod tests {
     fn the_ends_that_face_each_other_decide_and_a_doubt_leaves_no_verdict() {
         let compared =
             |values: [WebNumber; 2]| measure(String::new(), String::new(), ("", 1.0), values.map(Ok));
-        // Upwards the first reaches 3, downwards the second 4: together 5.
+        // Upwards the first reaches 13, downwards the second 11.1; the logarithms have this distance together.
         let [a, b] = [number(10.0, Some([9.9, 13.0])), number(15.1, Some([11.1, 30.0]))];
-        let difference = compared([a.clone(), b.clone()]).difference.unwrap();
-        assert!((difference.half_width() - 5.0).abs() < 1e-6 && difference.is_beyond_chance());
-        // The other way round as well.
-        let difference = compared([b.clone(), a.clone()]).difference.unwrap();
-        assert!((difference.half_width() - 5.0).abs() < 1e-6 && difference.is_beyond_chance());
+        let far = libm::log(13.0_f64 / 10.0).hypot(libm::log(15.1_f64 / 11.1));
+        for values in [[a.clone(), b.clone()], [b.clone(), a.clone()]] {
+            let difference = compared(values).difference.unwrap();
+            let share = difference.half_width() / difference.value.abs();
+            assert!((share - far / libm::log(1.51)).abs() < 1e-6 && difference.is_beyond_chance());
+        }
         let mut doubtful = a;
         doubtful.doubt = Some("below the blur".to_owned());
         let found = compared([doubtful, b]);
         assert_eq!((found.difference, found.cells()[3].as_str()), (None, "below the blur"));
+    }
+
+    /// A CV of few waves, whose interval reaches up to the other one. Its square, its root and its inverse are judged as
+    /// it is, and the interval stands beside the verdict, because the standard errors alone would say the contrary.
+    #[test]
+    fn invariant_a_number_and_its_powers_have_one_verdict() {
+        let cv = |value: f64, error: f64, ends: Option<[f64; 2]>| WebNumber {
+            standard_error: Some(error),
+            ..number(value, ends)
+        };
+        for (first, second, is_beyond) in [
+            (cv(19.8, 1.3, None), cv(8.6, 1.2, Some([7.45, 23.8])), false),
+            (cv(19.8, 1.3, Some([17.4, 22.6])), cv(8.6, 1.2, Some([7.45, 11.4])), true),
+            (cv(0.198, 0.013, None), cv(0.086, 0.012, None), true),
+        ] {
+            let of = |power: i32| {
+                let power_of = |web: &WebNumber| WebNumber {
+                    value: web.value.powi(power),
+                    standard_error: web.error_of_power(power),
+                    ends: web.ends_of_power(power),
+                    doubt: None,
+                };
+                let values = [power_of(&first), power_of(&second)];
+                measure(String::new(), String::new(), ("%", 1.0), values.map(Ok))
+            };
+            let distance = |power: i32| {
+                let difference = of(power).difference.unwrap();
+                assert_eq!(difference.is_beyond_chance(), is_beyond, "{power}: {difference:?}");
+                difference.value.abs() / difference.half_width()
+            };
+            for power in [2, -1] {
+                assert!((distance(power) / distance(1) - 1.0).abs() < 1e-9, "{power}");
+            }
+            let verdict = of(1).cells()[3].clone();
+            let told = if first.value > 1.0 && !is_beyond {
+                "within chance: 8.60 has the 95 % interval 7.45 to 23.8"
+            } else {
+                "beyond chance"
+            };
+            assert_eq!(verdict, told);
+        }
     }
 }

@@ -45,6 +45,7 @@ struct EffectEntry<'a> {
     from: Json,
     to: Json,
     change: f64,
+    standard_error: Option<f64>,
     /// Half the width of the 95 % interval.
     half_width: Option<f64>,
 }
@@ -111,6 +112,7 @@ fn effect_of<'a>(study: &'a Study, effect: &Effect<Contrast>) -> EffectEntry<'a>
         from: end(from),
         to: end(to),
         change: effect.difference.value,
+        standard_error: effect.difference.known_half_width().map(|_| effect.difference.standard_error),
         half_width: effect.difference.known_half_width(),
     }
 }
