@@ -127,6 +127,47 @@ impl Desk {
     }
 }
 
+/// No page and no summary that a test has written has a number that is none.
+impl Drop for Desk {
+    fn drop(&mut self) {
+        if !std::thread::panicking() {
+            files(self.folder.path()).iter().for_each(|file| tells_numbers(file));
+        }
+    }
+}
+
+/// All files in a folder and in those within it.
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+    let paths = entries.flatten().map(|entry| entry.path());
+    paths
+        .flat_map(|path| if path.is_dir() && !path.is_symlink() { files(&path) } else { vec![path] })
+        .collect()
+}
+
+/// Panics if a report or a summary has NaN or inf where a number should stand.
+fn tells_numbers(file: &Path) {
+    let name = file.file_name().unwrap().to_string_lossy();
+    if !(name == "report.html" || name == "summary.json" || name == "analysis.json") {
+        return;
+    }
+    let text = fs::read_to_string(file).unwrap_or_default();
+    // What is said on a page: neither its program nor its style.
+    let said = ["script", "style"].iter().fold(text, |text, tag| without(&text, tag));
+    let is_word = |word: &&str| ["NaN", "inf", "-inf", "\u{2212}inf"].contains(word);
+    let words = said.split(|c: char| c.is_whitespace() || "<>\"\u{2009},;()[]".contains(c));
+    assert_eq!(words.into_iter().find(is_word), None, "{}", file.display());
+}
+
+/// A page without the elements of a name.
+fn without(page: &str, tag: &str) -> String {
+    let mut parts = page.split(&format!("<{tag}")).map(str::to_owned);
+    let first = parts.next().unwrap_or_default();
+    let end = format!("</{tag}>");
+    let after = |part: String| part.split_once(&end).map_or(String::new(), |(_, rest)| rest.to_owned());
+    parts.fold(first, |all, part| all + &after(part))
+}
+
 pub fn entries(folder: &Path) -> BTreeSet<String> {
     let entries = fs::read_dir(folder).unwrap();
     entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()

@@ -19,7 +19,7 @@ use spunlaid::observe::{
     OF_WEBS, Value, measured, with_errors,
 };
 use spunlaid::scan::{self, Format, Light, Picture};
-use spunlaid::web::{FewFilamentsCv, Findings, IndependentCv, LayControl, PatchFindings};
+use spunlaid::web::{FewDoubt, FewFilamentsCv, Findings, IndependentCv, LayControl, PatchFindings};
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -48,12 +48,25 @@ static STOP: AtomicBool = AtomicBool::new(false);
 const MAKING: Making<'_> = Making { threads: 2, stop: &STOP, room: 200 };
 
 /// Webs that know different numbers of their patches: from the surrogate alone, from flown curves too, from
-/// neither, and of filaments in one air, all or a few of which were flown.
-fn kinds(found: &Findings) -> [Findings; 5] {
+/// neither, and of filaments in one air, all or a few of which were flown, and so few that they tell nothing.
+fn kinds(found: &Findings) -> [Findings; 6] {
     let with = |change: &dyn Fn(&mut PatchFindings)| {
         let mut kind = found.clone();
         kind.patches.iter_mut().for_each(change);
         kind
+    };
+    let few = |patch: &mut PatchFindings| {
+        let (few, cv) = (0.07, 0.06);
+        let told = FewFilamentsCv {
+            patch: patch.map.patch,
+            cv,
+            by_chance: Some(0.002),
+            by_pitch: 0.001,
+            of_halves: 0.01,
+            own: 1e-3,
+            few,
+        };
+        (patch.few, patch.filled) = (Some(told), Some(0.061));
     };
     [
         found.clone(),
@@ -63,18 +76,15 @@ fn kinds(found: &Findings) -> [Findings; 5] {
             let independent = IndependentCv { cv: 0.05, standard_error: 0.001, degrees: 20.0 };
             patch.independent = Some(independent);
         }),
+        with(&few),
         with(&|patch| {
-            let (few, cv) = (0.07, 0.06);
-            let told = FewFilamentsCv {
-                patch: patch.map.patch,
-                cv,
-                by_chance: Some(0.002),
-                by_pitch: 0.001,
-                of_halves: 0.01,
-                own: 1e-3,
-                few,
-            };
-            (patch.few, patch.filled) = (Some(told), Some(0.061));
+            few(patch);
+            let independent = IndependentCv { cv: 0.05, standard_error: f64::NAN, degrees: f64::NAN };
+            (patch.independent, patch.doubt) = (Some(independent), Some(FewDoubt::Neighbours(0.1)));
+            patch.map.standard_error = None;
+            if let Some(few) = &mut patch.few {
+                (few.cv, few.by_chance, few.by_pitch, few.of_halves) = (0.0, None, f64::NAN, f64::NAN);
+            }
         }),
     ]
 }
@@ -109,6 +119,12 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
         let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
         let (summary, report): (Json, _) =
             (serde_json::from_str(&read("summary.json")).unwrap(), read("report.html"));
+        assert!(!text.contains("NaN") && !report.contains("NaN"), "{text}");
+        if findings.patches[0].doubt.is_some() {
+            let patch = &summary["web"]["patches"][0];
+            assert!(patch["cv"].is_null() && patch.get("cv").is_some(), "{patch}");
+            assert_eq!(patch["no_interval"], "too few filaments were flown");
+        }
         for declared in OF_WEBS {
             let column = declared.column;
             let places = [&summary["web"], &summary["layers"][0]];

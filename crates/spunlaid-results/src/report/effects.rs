@@ -267,7 +267,7 @@ pub fn guess_words(spec: &WebSpec, findings: &Findings, guesses: Option<&Advice>
     let judged = guesses.and_then(|guesses| {
         let patch = judged_by(findings, guesses)?;
         let found = findings.patches.iter().find(|found| found.map.patch == patch)?;
-        Some((guesses, patch, found.map.cv))
+        Some((guesses, patch, found.told()?.cv))
     });
     let Some((guesses, patch, cv)) = judged else {
         return format!(

@@ -54,14 +54,11 @@ pub fn web_report<'a>(
     let table =
         Section::new("web", "The web on a light table").view(View::LightTable(sheet)).caption(caption);
     let together = findings.laid.shared_air.as_ref();
-    let headline = headline(
-        Some(findings.basis_weight()),
-        headline_patch(findings).map(|i| whole(&findings.patches[i])).as_ref(),
-        together.is_none(),
-    );
+    let headline = headline_of(findings);
     let errors = error_sentences(findings);
-    let cvs = findings.patches.iter().map(whole).collect::<Vec<_>>();
-    let found = [headline.clone(), unevenness(&cvs), errors.clone()];
+    let cvs = findings.patches.iter().filter_map(whole).collect::<Vec<_>>();
+    let cvs = if cvs.is_empty() { String::new() } else { unevenness(&cvs) };
+    let found = [headline.clone(), cvs, errors.clone()];
     let account = web_account(spec, together.map(|together| &together.few[..]));
     let loads = named_loads(layers);
     let spun = spinlines
@@ -221,9 +218,32 @@ fn laid_weight(web: &Web, findings: &Findings) -> String {
 /// Relative difference of two basis weights up to which they are shown as one.
 const AS_HEAVY: f64 = 0.005;
 
-/// The map with its error by all causes, or by chance alone if the others are not known.
-fn whole(patch: &PatchFindings) -> Unevenness {
-    Unevenness { standard_error: patch.whole_error().whole().or(patch.map.standard_error), ..patch.map }
+/// What is told of the web first. Where a few filaments do not tell how uneven it is, so many as would.
+fn headline_of(findings: &Findings) -> String {
+    let weight = findings.basis_weight();
+    let patch = headline_patch(findings).map(|i| &findings.patches[i]);
+    let together = findings.laid.shared_air.as_ref();
+    if patch.is_none_or(|patch| patch.doubt.is_none()) {
+        return headline(Some(weight), patch.and_then(whole).as_ref(), together.is_none());
+    }
+    let few = together.iter().flat_map(|together| &together.few).filter(|few| few.doubt().is_some());
+    let enough = few.map(|few| few.enough_per_metre().unwrap_or(f64::INFINITY)).fold(0.0, f64::max);
+    let remedy = match enough.is_finite() {
+        true => format!(
+            "Leave web.flown out: then as many fly as are found to tell it, {enough} or more for each metre"
+        ),
+        false => "Fly all of them, web.flown = \"all\"".to_owned(),
+    };
+    format!(
+        "A web of {}. How uneven it is, is not known: too few filaments were flown. {remedy}.",
+        grams_with_error(weight)
+    )
+}
+
+/// What is told of the web with its error by all causes, or by chance alone if the others are not known.
+fn whole(patch: &PatchFindings) -> Option<Unevenness> {
+    let told = patch.told()?;
+    Some(Unevenness { standard_error: patch.whole_error().whole().or(told.standard_error), ..told })
 }
 
 /// What the filaments of a web without independent filaments have in common, and what those with airs of
@@ -231,6 +251,10 @@ fn whole(patch: &PatchFindings) -> Unevenness {
 fn air_sentence(spec: &WebSpec, findings: &Findings) -> String {
     let patch = headline_patch(findings).map(|i| &findings.patches[i]);
     match (&findings.laid.shared_air, patch.and_then(|patch| Some((patch, patch.independent?.cv)))) {
+        (Some(_), Some((patch, independent))) if patch.doubt.is_some() => format!(
+            "In airs of their own the same filaments would give {}, which is a lower bound.",
+            per_cent(independent, None)
+        ),
         (Some(_), Some((patch, independent))) => format!(
             "In airs of their own the same filaments would give {}, {} times less: here neighbours hang in \
             the same gusts, which carry them aside together and lay them in ropes and clouds.",
@@ -285,12 +309,17 @@ fn error_sentences(findings: &Findings) -> String {
         let sheets = together.few.iter().map(|few| few.sheet.map(metres).join(" × "));
         let mut sheets: Vec<String> = sheets.collect();
         sheets.dedup();
-        return format!(
-            "{} of all were flown, evenly across, on a sheet of {}; the others follow from them. Chance \
-            contributes {} to the error, because the clouds on that sheet are few, and the small number of \
-            flown filaments {}.",
+        let flown = format!(
+            "{} of all were flown, evenly across, on a sheet of {}",
             count(filaments, "filament"),
-            sheets.join(" and of "),
+            sheets.join(" and of ")
+        );
+        if patch.doubt.is_some() {
+            return format!("{flown}; they do not tell what all do, and the map is no better.");
+        }
+        return format!(
+            "{flown}; the others follow from them. Chance contributes {} to the error, because the clouds \
+            on that sheet are few, and the small number of flown filaments {}.",
             part(error.chance),
             part(error.flight)
         );
@@ -347,6 +376,9 @@ fn verdict(findings: &Findings, has_advice: bool) -> Vec<String> {
     let mut sentences: Vec<String> = findings.clouds.as_ref().and_then(largest_clouds).into_iter().collect();
     let Some(i) = headline_patch(findings) else { return sentences };
     let patch = &findings.patches[i];
+    if patch.doubt.is_some() {
+        return Vec::new();
+    }
     // The flown curves are believed where there are some.
     let is_shared = patch.independent.is_some();
     let cv = if is_shared { patch.map.cv } else { patch.flown.unwrap_or(patch.single_fibres).0 };

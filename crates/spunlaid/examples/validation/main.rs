@@ -12,6 +12,7 @@ mod common;
 mod fits;
 mod flights;
 mod mechanics;
+mod one_air;
 #[path = "../../tests/common/scans.rs"]
 mod pictures;
 mod scans;
@@ -22,6 +23,9 @@ fn main() {
     let asked = |what: &str| std::env::args().any(|word| word == what);
     if asked("webs") {
         return webs::intervals();
+    }
+    if asked("one-air") {
+        return one_air::errors();
     }
     if asked("fits") {
         return fits::intervals();

@@ -3,7 +3,7 @@
 use crate::effects::Effect;
 use crate::layers::WebSpec;
 use crate::statistics::Difference;
-use crate::web::LayerFew;
+use crate::web::{FewDoubt, LayerFew};
 
 /// What a few filaments say about the layers of a web.
 pub(super) struct WebOfFew {
@@ -78,6 +78,10 @@ impl WebOfFew {
         let mut patches = Patches { square: 0.0, own: 0.0, layers: Vec::new(), of_halves: 0.0 };
         for layer in &self.layers {
             let (weight, number) = of_layer(layer)?;
+            // Nothing is a change of a CV that is not told at all.
+            if let Some(FewDoubt::Own(_) | FewDoubt::Neighbours(_)) = layer.1.doubt_over(patch) {
+                return None;
+            }
             let cv = layer.1.cvs[number];
             patches.square += weight * cv.cv * cv.cv;
             patches.own += weight * cv.own;

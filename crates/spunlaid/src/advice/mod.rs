@@ -75,7 +75,9 @@ pub const fn most_steps(method: Method) -> u64 {
 /// effects are seen. Guesses must also fit into the memory beside each other.
 pub fn are_tried(spec: &WebSpec, findings: &Findings, changes: &[Change]) -> bool {
     let few = findings.laid.shared_air.as_ref().map(|together| together.few.len());
-    let says_enough = few.is_none_or(|layers| layers == spec.layers.len());
+    let seen = nearest_to_seen(findings.patches.iter().map(|patch| patch.map.patch));
+    let is_told = seen.is_none_or(|seen| findings.patches[seen].doubt.is_none());
+    let says_enough = is_told && few.is_none_or(|layers| layers == spec.layers.len());
     let are_guesses = changes.iter().any(is_guess);
     let fits = || !are_guesses || spec.method != Method::SharedAir || fits_memory(&all_webs(spec, changes));
     says_enough && steps(spec, changes) <= most_steps(spec.method) && fits()

@@ -107,7 +107,9 @@ impl Simulator for WebSimulator<'_> {
             };
             self.target.textures().iter().map(error).collect()
         };
-        let of_map = |patch: &PatchFindings| Some((patch.filled? - patch.map.cv).abs());
+        // Where a few filaments do not tell the CV of all, the map may be off by all of it.
+        let told = |patch: &PatchFindings| patch.told().map_or(0.0, |told| told.cv);
+        let of_map = |patch: &PatchFindings| Some((patch.filled? - told(patch)).abs());
         let causes = [
             errors(&|patch| patch.whole_error().flight),
             errors(&|patch| patch.whole_error().model),

@@ -5,11 +5,6 @@ use crate::fabric::{Fabric, Filaments, Laid, StreakSource, tell};
 use crate::web::uniformity::Unevenness;
 use crate::web::{Defect, Findings, Layer, PatchFindings, Web, holes};
 
-/// The unevenness of a web with all causes of its error, the few filaments too.
-fn with_whole_error(found: &PatchFindings) -> Unevenness {
-    Unevenness { standard_error: found.whole_error().whole().or(found.map.standard_error), ..found.map }
-}
-
 impl WebSpec {
     /// What a buyer wants to know of the fabric.
     ///
@@ -27,7 +22,7 @@ impl WebSpec {
             reach: Some(found.reach),
             filaments: kinds.collect(),
             orientation: Some(&found.orientation),
-            patches: found.patches.iter().map(with_whole_error).collect(),
+            patches: found.patches.iter().filter_map(with_whole_error).collect(),
             defects: self.streak_sources(web),
         };
         tell(&laid, &self.fabric, threads)
@@ -50,4 +45,11 @@ impl WebSpec {
         // Where chance chose no hole, there is no streak.
         all.filter(|source| !source.missing.is_empty()).collect()
     }
+}
+
+/// The CV of a web with its error by all causes, or by chance where another one is not known; None if it is not
+/// told.
+fn with_whole_error(patch: &PatchFindings) -> Option<Unevenness> {
+    let told = patch.told()?;
+    Some(Unevenness { standard_error: patch.whole_error().whole().or(told.standard_error), ..told })
 }

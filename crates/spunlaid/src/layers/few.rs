@@ -7,14 +7,13 @@ use crate::error::Error;
 use crate::fibre::{Place, rows};
 use crate::flight::LaidPoint;
 use crate::web::{
-    Arrangement, Edges, FEWEST_OF_FEW, FewFilaments, Filaments, LayerFew, Map, Row, Sheet, Window, inlets,
+    Arrangement, Edges, FEWEST_OF_FEW, FewFilaments, Filaments, LEAST_SAVING, LayerFew, Map, Row, Sheet,
+    Window, inlets,
 };
 use std::sync::atomic::AtomicBool;
 
 /// Distance of the filaments that are flown, in smallest length scales of the air on the way.
 const PITCH: f64 = 1.0 / 8.0;
-/// Filaments are left out only where there are so many for each that is flown.
-const LEAST_SAVING: f64 = 1.5;
 /// Area whose clouds tell the CV over patches of 10 mm within some 3 % [m²].
 const AREA: f64 = 0.2;
 /// Area on which webs in the same air are compared [m²].
@@ -186,15 +185,18 @@ impl FewPlan {
         by: (usize, &AtomicBool),
     ) -> Result<LayerFew, Error> {
         let filaments = self.filaments((sheet, blocks), beam, flown);
+        let usual_pitch = PITCH * beam.case.smallest_length_scale();
+        let pitch_of_all = sheet.width * self.rows.len() as f64 / self.all;
+        let with_pitches = |told: LayerFew| LayerFew { usual_pitch, pitch_of_all, ..told };
         let Some(curves) = curves else {
             let told = filaments.tell(number, None, by.0)?;
-            return Ok(LayerFew { correlation: f64::NAN, ..told });
+            return Ok(with_pitches(LayerFew { correlation: f64::NAN, ..told }));
         };
         let covariances = Covariances::fit(curves, by.0);
         let filled = self.filled((sheet, flown.back), beam, (curves, &covariances), by)?;
         let told = filaments.tell(number, filled.as_ref(), by.0)?;
         let correlation = covariances.smooth.map(|covariance| covariance.correlation([told.pitch, 0.0]));
-        Ok(LayerFew { correlation: correlation[0].min(correlation[1]), ..told })
+        Ok(with_pitches(LayerFew { correlation: correlation[0].min(correlation[1]), ..told }))
     }
 
     /// Maps of rows in which the filaments between the flown ones have been filled in, from all of them and

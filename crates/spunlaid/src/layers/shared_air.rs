@@ -13,7 +13,7 @@ use crate::fibre::Place;
 use crate::lanes::Isa;
 use crate::units::Dimension;
 use crate::web::{
-    Brush, Canvas, Curves, Fibres, LaidWeb, LayerFew, OneAir, Sheet, TimeSpent, blocks_on, inlets,
+    Brush, Canvas, Curves, Fibres, LaidWeb, LayerFew, OneAir, Sheet, TRIED, TimeSpent, blocks_on, inlets,
 };
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
@@ -23,9 +23,6 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// Smallest lateral cut-off that is worth to be written.
 const FEWEST_WAVES: f64 = 5.0;
-
-/// How often more filaments are flown where a few do not tell what all do; each time twice as many.
-const FINEST: u32 = 2;
 
 /// How many times as long elements and steps are where webs are compared.
 const MESH_OF_COMPARISON: f64 = 2.0;
@@ -155,7 +152,7 @@ impl Flyer<'_> {
         (number, mut layer): (usize, LayerBeam<'a>),
         on: &Brush<'_>,
     ) -> Result<ToldFlight<'a>, Error> {
-        let (mut finer, mut spent) = (0, TimeSpent::default());
+        let (mut flights, mut spent) = (0, TimeSpent::default());
         let mut sheet = spec.flown_sheet(number, false);
         loop {
             let mut flown = self.fly_layer(&layer, spec, Some(on).filter(|_| layer.few.is_none()))?;
@@ -166,9 +163,9 @@ impl Flyer<'_> {
             let curves = few.curves(&layer.sheet, &layer.beam(), &flown)?;
             let of_sheet = (number, &layer.sheet, blocks_on(&layer.sheet));
             let told = few.tell(of_sheet, (&layer.beam(), &flown), Some(&curves), self.by())?;
-            finer += 1;
+            flights += 1;
             sheet = sheet.map(FlownSheet::finer);
-            let more = told.doubt().is_some() && spec.flown == Flown::Auto && finer <= FINEST;
+            let more = told.doubt().is_some() && spec.flown == Flown::Auto && flights < TRIED.len();
             let more = more.then(|| beam_on(spec, number, sheet.as_ref())).transpose()?;
             let Some(more) = more.filter(|more| more.few.is_some()) else {
                 return Ok((layer, flown, Some((curves, told))));

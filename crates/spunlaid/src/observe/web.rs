@@ -9,7 +9,7 @@ use Formula::{Known, Mean, Number};
 /// The measures of the patches of each size, in the order of `summary.json`, where the interval follows the
 /// first, of the tables and of studies.
 pub const OF_PATCHES: &[Measure<PatchFindings>] = &[
-    share("cv", "CV over patches of # mm", |patch| Some(patch.map.cv))
+    share("cv", "CV over patches of # mm", |patch| Some(patch.told()?.cv))
         .meaning("coefficient of variation of the basis weight of the map over square patches")
         .kept("cv_#_mm", "cv_#_mm")
         .main()
@@ -44,7 +44,7 @@ pub const OF_PATCHES: &[Measure<PatchFindings>] = &[
         "own_share",
         "",
         RATIO,
-        Known(|patch| patch.few.map(|few| few.own / (few.cv * few.cv))),
+        Known(|patch| patch.few.filter(|_| patch.doubt.is_none()).map(|few| few.own / (few.cv * few.cv))),
     )
     .meaning("part of CV² that each filament of a web in one air makes for itself"),
     share("cv_independent", "CV of the same filaments in airs of their own", |patch| {

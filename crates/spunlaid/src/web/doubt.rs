@@ -25,16 +25,22 @@ pub enum Doubt {
         why: FewDoubt,
         /// Distance of the flown ones [m].
         pitch: f64,
+        /// Least number for each metre of a row that flies where the file leaves it open; None if all have to fly.
+        enough: Option<f64>,
     },
     /// The field of charged filaments is near to that in which air breaks down.
     StrongField {
         /// The strongest field [V/m].
         field: f64,
     },
-    /// The map is too uneven over small patches, because filaments between the flown ones are not known well.
+    /// The map is not as uneven as the CV that is told, because filaments between the flown ones are not known well.
     FilledIn {
         /// Part of their variance that is not known.
         missing: f64,
+        /// Sides of the patches over which the map has another CV [m].
+        sides: Vec<f64>,
+        /// The CV of the map over the told one, less one, where they differ most.
+        apart: f64,
     },
     /// The sheet that was flown is too small for these patches.
     SmallSheet {
@@ -109,14 +115,19 @@ impl Display for Doubt {
                 is lighter by that, and a little more uneven",
                 if *filaments == 1 { "was" } else { "were" }
             ),
-            Self::FewFilaments { sides, why, pitch } => write!(
+            Self::FewFilaments { sides, why, pitch, enough } => write!(
                 f,
-                "the CV over patches of {} has no error, because {}: too few filaments were flown to tell \
-                what all do. Fly twice as many, web.flown = {}, or \"all\"; \"auto\" flies as many as are \
-                needed, up to four times its first number",
+                "the CV over patches of {} is not known, because {}: too few filaments were flown to tell \
+                what all do. The map, the picture and all that follows from them are no better. Fly {}",
                 millimetres(sides),
                 reason(*why, *pitch),
-                (2.0 / pitch).round()
+                match enough {
+                    Some(enough) => format!(
+                        "as many as are found to tell it: leave web.flown out, which flies {enough} or more for \
+                        each metre"
+                    ),
+                    None => "all of them, web.flown = \"all\"".to_owned(),
+                }
             ),
             Self::StrongField { field } => write!(
                 f,
@@ -125,12 +136,21 @@ impl Display for Doubt {
                 Dimension::ElectricField.pretty_to(*field, 2),
                 Dimension::ElectricField.pretty(BREAKDOWN)
             ),
-            Self::FilledIn { missing } => write!(
+            Self::FilledIn { missing, sides, apart } => write!(
                 f,
-                "filaments between the flown ones are known but for {} % of their variance, so the map is \
-                too uneven over patches below 10 mm; the CV that is told is not. Fly more filaments for the \
-                map (web.flown)",
-                per_cent(*missing, 2)
+                "filaments between the flown ones are known but for {} % of their variance, so the map, \
+                and what follows from it (picture, thin places, strips, light), {}; the CV that is told is \
+                not. Fly more filaments for the map (web.flown)",
+                per_cent(*missing, 2),
+                match sides.is_empty() {
+                    true => "is too uneven over small patches".to_owned(),
+                    false => format!(
+                        "is too {} over patches of {}, by up to {} % of the CV",
+                        if *apart > 0.0 { "uneven" } else { "even" },
+                        listed(sides),
+                        per_cent(apart.abs(), 2)
+                    ),
+                }
             ),
             Self::SmallSheet { sides } => write!(
                 f,
@@ -229,6 +249,11 @@ fn reason(why: FewDoubt, pitch: f64) -> String {
             per_cent(off.abs(), 2),
             if off > 0.0 { "higher" } else { "lower" }
         ),
+        FewDoubt::Own(patch) => format!(
+            "over patches of {} what each flown filament makes for itself is nearly all of the unevenness, \
+            and what is left for all is not told from none",
+            millimetres(&[patch])
+        ),
         FewDoubt::Neighbours(correlation) => format!(
             "the flown filaments are {} mm apart, and the places where such neighbours come down have a \
             correlation of {}",
@@ -281,17 +306,28 @@ mod tests {
             said.starts_with(begin) && said.ends_with("web.method = \"dynamics\" lays the map from them"),
             "{said}"
         );
-        let few =
-            Doubt::FewFilaments { sides: vec![0.01, 0.02], why: FewDoubt::Halves(0.02, -0.08), pitch: 0.002 };
-        let said = few.to_string();
+        let few = |enough: Option<f64>| {
+            let (sides, why) = (vec![0.01, 0.02], FewDoubt::Halves(0.02, -0.08));
+            Doubt::FewFilaments { sides, why, pitch: 0.002, enough }.to_string()
+        };
+        let said = few(Some(1000.0));
         assert!(
-            said.starts_with("the CV over patches of 10, 20 mm has no error, because every second one"),
+            said.starts_with("the CV over patches of 10, 20 mm is not known, because every second one"),
             "{said}"
         );
         assert!(
-            said.contains("over patches of 20 mm that is 8 % lower") && said.contains("web.flown = 1000"),
+            said.contains("over patches of 20 mm that is 8 % lower")
+                && said.ends_with("leave web.flown out, which flies 1000 or more for each metre"),
             "{said}"
         );
+        assert!(few(None).ends_with("Fly all of them, web.flown = \"all\""), "{}", few(None));
+        let filled = |sides: Vec<f64>| Doubt::FilledIn { missing: 0.12, sides, apart: 0.131 }.to_string();
+        let said = filled(vec![0.01, 0.02]);
+        assert!(
+            said.contains("is too uneven over patches of 10 and 20 mm, by up to 13 % of the CV"),
+            "{said}"
+        );
+        assert!(filled(Vec::new()).contains("is too uneven over small patches; the CV"));
         let single = Doubt::FewFibres { sides: vec![0.05], error: f64::NAN }.to_string();
         assert!(single.contains("50 mm the CV of the flown curves rests on a single fibre"), "{single}");
         assert!(Doubt::Lost { filaments: 1, of: 40 }.to_string().starts_with("1 of 40 filaments was lost"));

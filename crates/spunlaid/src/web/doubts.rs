@@ -8,6 +8,8 @@ use crate::surrogate::Residual;
 
 /// Part of the variance that filled-in filaments may miss where small patches of the map are to be believed.
 const MISSING: f64 = 0.1;
+/// A map whose CV is farther from the told one, as a share of it, is another one.
+const OF_MAP: f64 = 0.05;
 /// A flown CV with a larger relative error checks no surrogate within 5 %.
 const TOO_FEW: f64 = 0.025;
 /// A surrogate whose autocorrelations are farther off, beyond chance, does not describe the laid fibre.
@@ -32,10 +34,8 @@ impl Findings {
         if self.margins != [0.0; 2] {
             doubts.push(Doubt::ThinEdges { margins: self.margins });
         }
-        let together = self.laid.shared_air.as_ref();
-        let is_told = |patch: f64| together.is_none_or(|together| together.tells(patch));
-        let unsure = self.patches.iter().map(|patch| patch.map);
-        let unsure = unsure.filter(|map| map.standard_error.is_none() && is_told(map.patch));
+        let unsure = self.patches.iter().filter_map(PatchFindings::told);
+        let unsure = unsure.filter(|map| map.standard_error.is_none());
         doubts.extend(of_sides(unsure.map(|map| map.patch), |sides| Doubt::NoError { sides }));
         doubts
     }
@@ -69,12 +69,21 @@ fn few_filaments(findings: &Findings, together: &SharedAirFindings) -> Vec<Doubt
     let too_few = together.few.iter().filter_map(|few| {
         let why = few.doubt()?;
         let sides = few.cvs.iter().map(|cv| cv.patch).filter(|patch| few.doubt_over(*patch).is_some());
-        Some(Doubt::FewFilaments { sides: sides.collect(), why, pitch: few.pitch })
+        let (pitch, enough) = (few.pitch, few.enough_per_metre());
+        Some(Doubt::FewFilaments { sides: sides.collect(), why, pitch, enough })
     });
     let mut doubts: Vec<Doubt> = too_few.collect();
     let missing = together.few.iter().flat_map(|few| few.missing).fold(0.0, f64::max);
-    if missing > MISSING {
-        doubts.push(Doubt::FilledIn { missing });
+    let apart = |patch: &PatchFindings| {
+        let told = patch.few.and_then(|_| patch.told())?;
+        Some((told.patch, patch.filled? / told.cv - 1.0))
+    };
+    let apart: Vec<(f64, f64)> = findings.patches.iter().filter_map(apart).collect();
+    let off: Vec<(f64, f64)> = apart.into_iter().filter(|(_, apart)| apart.abs() > OF_MAP).collect();
+    if missing > MISSING || !off.is_empty() {
+        let most = off.iter().map(|(_, apart)| *apart).max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let sides = off.iter().map(|(side, _)| *side).collect();
+        doubts.push(Doubt::FilledIn { missing, sides, apart: most.unwrap_or(0.0) });
     }
     let larger = findings.patches.iter().filter(|patch| patch.few.is_none() && !together.few.is_empty());
     doubts.extend(of_sides(larger.map(|patch| patch.map.patch), |sides| Doubt::SmallSheet { sides }));

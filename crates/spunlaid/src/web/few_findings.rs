@@ -5,7 +5,7 @@
 pub struct FewFilamentsCv {
     /// Side of the patches [m].
     pub patch: f64,
-    /// CV of the web of all filaments.
+    /// CV of the web of all filaments; zero where the filaments take all of CV² for their own part.
     pub cv: f64,
     /// Its standard error by chance: the clouds on the sheet that was flown are few. None if the sheet is too
     /// small to say.
@@ -27,6 +27,17 @@ const FAR_OFF: f64 = 0.05;
 /// Correlation of the places where neighbours come down, at the pitch of the few, below which those between
 /// them are not told.
 const TOGETHER: f64 = 0.7;
+/// Filaments are left out only where there are so many for each that is flown.
+pub(crate) const LEAST_SAVING: f64 = 1.5;
+/// A CV whose error by the few is a larger part of it is not told from zero.
+const UNCLEAR: f64 = 0.5;
+/// How far a number may be above a whole one and still be it.
+const WHOLE: f64 = 1e-6;
+/// How many times as many filaments as in most airs are flown, one after the other, where a file leaves their
+/// number open.
+pub(crate) const TRIED: [f64; 3] = [1.0, 2.0, 4.0];
+/// How many times as many filaments are advised at least.
+const MORE: f64 = 2.0;
 
 /// Why a few filaments do not tell the CV of all.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,6 +47,9 @@ pub enum FewDoubt {
     Halves(f64, f64),
     /// Neighbours have too little in common: correlation of the places where they come down.
     Neighbours(f64),
+    /// What each filament makes for itself takes nearly all of CV² over patches of a side [m]: what is left
+    /// is not told from zero.
+    Own(f64),
 }
 
 /// What a few filaments of a layer say about all of them.
@@ -51,6 +65,11 @@ pub struct LayerFew {
     pub sheet: [f64; 2],
     /// Distance of neighbours in a row [m].
     pub pitch: f64,
+    /// The distance at which few filaments of such an air have been found to tell all [m]; zero where it is
+    /// not known.
+    pub usual_pitch: f64,
+    /// Distance of all filaments in a row [m]; zero where it is not known.
+    pub pitch_of_all: f64,
     /// Correlation of the places where filaments at this distance and equal depth come down, in the direction
     /// in which it is smaller; not a number where it was not looked for.
     pub correlation: f64,
@@ -69,25 +88,43 @@ pub struct LayerFew {
 impl LayerFew {
     /// Why they do not tell the CV over patches of a side; None if they do.
     pub fn doubt_over(&self, patch: f64) -> Option<FewDoubt> {
-        // Where chance leaves more open, more filaments would tell hardly more.
-        let matters = |cv: &FewFilamentsCv| cv.by_chance.is_none_or(|by_chance| cv.by_pitch > by_chance);
-        let of_patch = |cv: &&FewFilamentsCv| {
-            cv.patch == patch && patch >= TOLD_WELL && cv.of_halves.abs() > FAR_OFF && matters(cv)
-        };
-        match self.correlation < TOGETHER {
-            true => Some(FewDoubt::Neighbours(self.correlation)),
-            false => self.cvs.iter().find(of_patch).map(|cv| FewDoubt::Halves(patch, cv.of_halves)),
+        if self.correlation < TOGETHER {
+            return Some(FewDoubt::Neighbours(self.correlation));
         }
+        let cv = self.cvs.iter().find(|cv| cv.patch == patch)?;
+        let is_clear = cv.by_pitch < UNCLEAR * cv.cv;
+        if !is_clear {
+            return Some(FewDoubt::Own(patch));
+        }
+        // Where chance leaves more open, more filaments would tell hardly more.
+        let matters = cv.by_chance.is_none_or(|by_chance| cv.by_pitch > by_chance);
+        let is_off = patch >= TOLD_WELL && cv.of_halves.abs() > FAR_OFF && matters;
+        is_off.then_some(FewDoubt::Halves(patch, cv.of_halves))
     }
 
     /// Why they do not tell the CV over patches of every side; None if they do. Of several reasons the strongest.
     pub fn doubt(&self) -> Option<FewDoubt> {
         let off = |doubt: &FewDoubt| match doubt {
             FewDoubt::Halves(_, off) => off.abs(),
+            FewDoubt::Own(_) => f64::MAX,
             FewDoubt::Neighbours(_) => f64::INFINITY,
         };
         let all = self.cvs.iter().filter_map(|cv| self.doubt_over(cv.patch));
         all.max_by(|a, b| off(a).total_cmp(&off(b)))
+    }
+
+    /// How many filaments fly for each metre of a row where the number is left open: as many as do in most
+    /// airs, or two or four times as many, and more than now. None if all of them have to fly, or if the flown
+    /// ones tell it.
+    pub fn enough_per_metre(&self) -> Option<f64> {
+        let times = match self.doubt()? {
+            FewDoubt::Halves(_, off) => (off.abs() / FAR_OFF).max(MORE),
+            FewDoubt::Own(_) | FewDoubt::Neighbours(_) => MORE,
+        };
+        let enough = TRIED.map(|tried| (tried / self.usual_pitch - WHOLE).ceil());
+        let is_enough = |number: &f64| *number * self.pitch > times - WHOLE;
+        let saves = |number: &f64| *number * self.pitch_of_all * LEAST_SAVING <= 1.0;
+        enough.into_iter().find(is_enough).filter(saves)
     }
 }
 
@@ -127,5 +164,40 @@ mod tests {
         assert_eq!(told.doubt_over(0.002), Some(FewDoubt::Neighbours(0.69)));
         assert_eq!(told.doubt(), Some(FewDoubt::Neighbours(0.69)));
         assert_eq!(LayerFew { correlation: 0.7, cvs: vec![cv(0.002, 0.0)], ..told }.doubt(), None);
+    }
+
+    /// Twenty filaments of three thousand left zero of the CV, and its error was not a number.
+    #[test]
+    fn a_cv_that_is_not_told_from_zero_is_doubted_over_patches_of_any_size() {
+        let own = |cv: f64, by_pitch: f64| {
+            let cvs = vec![FewFilamentsCv { cv, by_pitch, ..self::cv(0.002, 0.0) }];
+            LayerFew { correlation: 0.9, cvs, ..LayerFew::default() }.doubt_over(0.002)
+        };
+        assert_eq!(own(0.2, 0.09), None);
+        for (cv, by_pitch) in [(0.2, 0.11), (0.0, 0.0), (0.0, f64::NAN), (f64::NAN, 0.01), (0.1, f64::NAN)] {
+            assert_eq!(own(cv, by_pitch), Some(FewDoubt::Own(0.002)), "{cv} {by_pitch}");
+        }
+    }
+
+    /// The advised number does what was found to do, and is never that of nearly all.
+    #[test]
+    fn so_many_are_advised_as_tell_it() {
+        let few = |pitch: f64, correlation: f64, off: f64| LayerFew {
+            pitch,
+            usual_pitch: 0.002,
+            pitch_of_all: 1.0 / 6000.0,
+            correlation,
+            cvs: vec![cv(0.01, off)],
+            ..LayerFew::default()
+        };
+        // Far from enough: not twice as many, but what the air asks for.
+        assert_eq!(few(0.025, 0.2, 0.0).enough_per_metre(), Some(500.0));
+        assert_eq!(few(0.002, 0.6, 0.0).enough_per_metre(), Some(1000.0));
+        assert_eq!(few(0.002, 0.9, 0.2).enough_per_metre(), Some(2000.0));
+        // More than are flown without being asked.
+        assert_eq!(few(0.0005, 0.6, 0.0).enough_per_metre(), None);
+        assert_eq!(few(0.002, 0.9, 0.01).enough_per_metre(), None);
+        // Five sixths of all save nothing.
+        assert_eq!(LayerFew { pitch_of_all: 1.0 / 1200.0, ..few(0.002, 0.6, 0.0) }.enough_per_metre(), None);
     }
 }

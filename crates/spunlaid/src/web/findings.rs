@@ -2,7 +2,7 @@
 
 use super::clouds::{Clouds, autocorrelation};
 use super::expected::{ALONE, SheetPosition, across, expected, side, sides};
-use super::few_findings::FewFilamentsCv;
+use super::few_findings::{FewDoubt, FewFilamentsCv};
 use super::laid_web::{LaidWeb, SharedAirFindings};
 use super::lay::lay;
 use super::laying::LayControl;
@@ -71,7 +71,8 @@ impl Findings {
 /// The unevenness over patches of one size, in several ways.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchFindings {
-    /// On the map; of filaments in one air of which a few were flown, as these tell it ([`PatchFindings::few`]).
+    /// On the map; of filaments in one air of which a few were flown, as these tell it ([`PatchFindings::few`]),
+    /// and on the map again, without an error, where they do not tell it ([`PatchFindings::doubt`]).
     pub map: Unevenness,
     /// The expected one of independent filaments at the places of the layers, from single fibres, with its
     /// standard error.
@@ -90,6 +91,9 @@ pub struct PatchFindings {
     /// What a few filaments in one air say of all; None if all were flown, or if the patch is too large for
     /// the sheet that they laid.
     pub few: Option<FewFilamentsCv>,
+    /// Why a few filaments do not tell the CV of all: there is no number then. None if they do, or if all
+    /// were flown.
+    pub doubt: Option<FewDoubt>,
     /// CV of the map itself, in which filaments between the flown ones are filled in; None if all were flown
     /// or nothing.
     pub filled: Option<f64>,
@@ -116,6 +120,11 @@ impl IndependentCv {
 }
 
 impl PatchFindings {
+    /// The CV of the web; None if a few filaments were flown and do not tell it.
+    pub fn told(&self) -> Option<Unevenness> {
+        self.doubt.is_none().then_some(self.map)
+    }
+
     /// The 95 % confidence interval of the CV of all such webs; none if the sheet is too small to say, or if
     /// a few filaments do not tell it. Which filaments were flown for all is chance too.
     pub fn interval(&self) -> Option<[f64; 2]> {
@@ -235,9 +244,12 @@ pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Res
         // A map of pieces of another sheet says nothing of chance.
         let is_of_few = laid.shared_air.as_ref().is_some_and(|together| !together.few.is_empty());
         let unknown = if is_of_few { Unevenness { standard_error: None, ..map } } else { map };
-        let map = few.map_or(unknown, |few| Unevenness { cv: few.cv, standard_error: few.by_chance, ..map });
+        let doubt = laid.shared_air.as_ref().and_then(|together| together.doubt_over(map.patch));
+        let told = few.filter(|_| doubt.is_none());
+        let map = told.map_or(unknown, |few| Unevenness { cv: few.cv, standard_error: few.by_chance, ..map });
         patches.push(PatchFindings {
             few,
+            doubt,
             filled: few.map(|_| of_map),
             map,
             single_fibres,
@@ -283,9 +295,7 @@ fn of_all_layers(web: &Web, together: &SharedAirFindings, map: Unevenness) -> Op
     let layers = weights.iter().enumerate().map(|(number, weight)| {
         let few = together.few.iter().find(|few| few.layer == number)?;
         let cv = few.cvs.iter().find(|cv| cv.patch == map.patch)?;
-        // What they do not tell has no error.
-        let by_chance = cv.by_chance.filter(|_| few.doubt_over(map.patch).is_none());
-        Some((weight / whole, FewFilamentsCv { by_chance, ..*cv }))
+        Some((weight / whole, *cv))
     });
     let layers: Vec<(f64, FewFilamentsCv)> = layers.collect::<Option<_>>()?;
     let sum = |of: &dyn Fn(&FewFilamentsCv) -> f64, power: i32| {

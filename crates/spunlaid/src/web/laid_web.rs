@@ -1,7 +1,7 @@
 //! What has been laid.
 
 use super::charged::ChargedCurtain;
-use super::few_findings::LayerFew;
+use super::few_findings::{FewDoubt, LayerFew};
 use super::laying::TimeSpent;
 use super::map::Map;
 use super::neighbours::NeighbourCorrelation;
@@ -43,9 +43,9 @@ pub struct SharedAirFindings {
 }
 
 impl SharedAirFindings {
-    /// Whether the few filaments of each layer tell the CV of all over patches of a side.
-    pub fn tells(&self, patch: f64) -> bool {
-        self.few.iter().all(|few| few.doubt_over(patch).is_none())
+    /// Why the few filaments of a layer do not tell the CV of all over patches of a side; None if they do.
+    pub fn doubt_over(&self, patch: f64) -> Option<FewDoubt> {
+        self.few.iter().find_map(|few| few.doubt_over(patch))
     }
 
     /// Adds what is known of another layer.

@@ -49,6 +49,7 @@ pub use doubt::Doubt;
 pub use expected::{ExpectedCv, expected_cv, inner_columns};
 pub(crate) use few::{Arrangement, FEWEST as FEWEST_OF_FEW, FewFilaments, blocks_on};
 pub use few_findings::{FewDoubt, FewFilamentsCv, LayerFew};
+pub(crate) use few_findings::{LEAST_SAVING, TRIED};
 pub use findings::{Findings, IndependentCv, PatchFindings, find, find_laid, measure, measure_laid};
 pub use laid_web::{LaidWeb, SharedAirFindings};
 pub use lay::{lay, pieces};

@@ -40,8 +40,11 @@ impl Unevenness {
 /// A variance is given with an error only if it has at least this many degrees of freedom: the number of
 /// independent values that would tell as much.
 pub(super) const DEGREES: f64 = 5.0;
-/// Most places of a patch each way whose waves are looked at.
+/// Places of a patch each way whose waves are looked at, and the most of them: so many that patches of the
+/// next places overlap by half. Waves between farther places would pass for longer ones, of which there are
+/// fewer, so that the error would be too large.
 const WAVES: usize = 512;
+const MOST_WAVES: usize = 2048;
 /// Size of the patches that the eye judges first [m].
 const SEEN: f64 = 10e-3;
 
@@ -110,7 +113,8 @@ fn deviations(map: &Map, side: usize) -> Option<(f64, Option<Powers>)> {
     }
     let places = [0, 1].map(|axis| if map.closed[axis] { sizes[axis] } else { sizes[axis] - side + 1 });
     // So many of the places, evenly spread, a power of two.
-    let [columns, rows] = places.map(|places| 1 << places.min(WAVES).ilog2());
+    let overlapping = |places: usize| places.min((2 * places / side).clamp(WAVES, MOST_WAVES));
+    let [columns, rows] = places.map(|places| 1 << overlapping(places).ilog2());
     let mut some = Vec::with_capacity(columns * rows);
     let mut squares = 0.0;
     boxes(map, side, places, |row, boxes| {

@@ -45,9 +45,9 @@ pub(super) fn scanned(findings: &scan::Findings) -> Figure {
 
 /// The coefficient of variation over the size of the patches.
 pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
-    let map = findings.patches.iter().map(|patch| {
-        let (side, cv, error) = point(&patch.map);
-        (side, cv, patch.whole_error().whole().map(|error| error * PER_CENT).or(error))
+    let map = findings.patches.iter().filter_map(|patch| {
+        let (side, cv, error) = point(&patch.told()?);
+        Some((side, cv, patch.whole_error().whole().map(|error| error * PER_CENT).or(error)))
     });
     let map: Vec<_> = map.collect();
     let line: Vec<(f64, f64)> = map.iter().map(|(patch, cv, _)| (*patch, *cv)).collect();

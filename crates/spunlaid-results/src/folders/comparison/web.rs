@@ -15,6 +15,8 @@ pub(super) struct Web {
     pub(super) weight: Option<f64>,
     /// By the side of the patches.
     pub(super) patches: Vec<Patch>,
+    /// Sides of the patches whose CV is not told, each with the reason.
+    pub(super) untold: Vec<(f64, String)>,
     /// The CV expected from the flown curves, if there were some.
     pub(super) flown: Vec<Patch>,
     /// Cloudiness index and share of the texture along the machine direction.
@@ -76,6 +78,10 @@ impl Web {
             };
             all.iter().filter_map(patch).collect()
         };
+        let is_null = |json: &&Json| json.get("cv").is_some_and(Json::is_null);
+        let untold = all.iter().filter(is_null).filter_map(|json| {
+            Some((json["patch_m"].as_f64()?, json["no_interval"].as_str().unwrap_or_default().to_owned()))
+        });
         let clouds = [("cloudiness", "index"), ("texture_md", "mean")]
             .map(|(group, value)| number(&web[group], [value, "standard_error", "interval"]));
         Some(Self {
@@ -84,6 +90,7 @@ impl Web {
             weight: web["basis_weight_kg_m2"].as_f64(),
             // Older folders have no error but that by chance.
             patches: patches(["cv", "cv_standard_error", "cv_interval"]),
+            untold: untold.collect(),
             flown: patches(["cv_flown", "cv_flown_standard_error", ""]),
             clouds,
             // A map of basis weight has no blur of a camera.
@@ -116,6 +123,9 @@ impl Web {
     fn missing(&self, side: f64) -> String {
         let shorter = |map: &MapFile| map.sides().into_iter().fold(f64::INFINITY, f64::min);
         let name = &self.name;
+        if let Some((_, why)) = self.untold.iter().find(|(patch, _)| are_alike(*patch, side)) {
+            return format!("{why} ({name})");
+        }
         match &self.map {
             Ok(map) if side < map.cell && !are_alike(side, map.cell) => {
                 format!("smaller than a cell of the map ({name})")

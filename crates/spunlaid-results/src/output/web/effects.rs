@@ -149,7 +149,7 @@ impl<'a> EffectsSummary<'a> {
 /// The CV of the web as it is.
 fn cv_over(findings: &Findings, patch: f64) -> f64 {
     let found = findings.patches.iter().find(|found| found.map.patch == patch);
-    found.map_or(f64::NAN, |found| found.map.cv)
+    found.and_then(|found| found.told()).map_or(f64::NAN, |told| told.cv)
 }
 
 fn failures(advice: &Advice) -> Vec<Failure<'_>> {

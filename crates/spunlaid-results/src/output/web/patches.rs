@@ -81,13 +81,13 @@ impl Reader {
     /// Side of the patches, CV with its error by all causes, or by chance alone if the others are not known,
     /// error by chance, and interval.
     fn cells_of_map(self, patch: &PatchFindings) -> [String; 4] {
-        let (cv, error) = (patch.map.cv, patch.whole_error());
+        let (told, error) = (patch.told(), patch.whole_error());
         let whole = error.whole().or(error.chance);
         let space = if self == Self::Report { THIN } else { ' ' };
         let ends = |ends: [f64; 2]| ends.map(|end| significant(100.0 * end, 3)).join(" to ");
         [
             format!("{}{space}mm", significant(patch.map.patch * 1e3, 3)),
-            self.cell(Some(plus_minus(100.0 * cv, whole.map(|error| 100.0 * error)))),
+            self.cell(told.map(|told| plus_minus(100.0 * told.cv, whole.map(|error| 100.0 * error)))),
             self.cell(error.chance.map(|error| significant(100.0 * error, 2))),
             self.cell(patch.interval().map(ends)),
         ]

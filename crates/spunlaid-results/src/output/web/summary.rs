@@ -301,7 +301,8 @@ impl WebSummary {
     }
 }
 
-/// The numbers of the patches of one size. Those that are not known are left out.
+/// The numbers of the patches of one size. Those that are not known are left out; the CV, which is the first,
+/// is null.
 ///
 /// * `interval` – 95 % confidence interval of the CV of all such webs, or why it cannot be told
 fn numbers_of_patch<T>(
@@ -316,7 +317,10 @@ fn numbers_of_patch<T>(
     };
     let mut all = vec![("patch_m".to_owned(), side.into())];
     for (place, measure) in measures.iter().enumerate() {
-        all.extend(with_errors(measure, found));
+        let known = with_errors(measure, found);
+        let is_missing = place == 0 && known.is_empty();
+        all.extend(is_missing.then(|| (measure.entry().to_owned(), Json::Null)));
+        all.extend(known);
         // It follows the CV, which is the first.
         all.extend((place == 0).then(|| (name.to_owned(), interval.clone())));
     }
@@ -347,10 +351,9 @@ impl<'a> Summary<'a> {
         notes: &'a [String],
     ) -> Self {
         let patches = findings.patches.iter().map(|patch| {
-            let together = findings.laid.shared_air.as_ref();
-            let why = match together.is_none_or(|together| together.tells(patch.map.patch)) {
-                true => "the map is too small",
-                false => "too few filaments were flown",
+            let why = match patch.doubt {
+                None => "the map is too small",
+                Some(_) => "too few filaments were flown",
             };
             let interval = patch.interval().ok_or_else(|| why.to_owned());
             numbers_of_patch(patch.map.patch, OF_PATCHES, patch, interval)

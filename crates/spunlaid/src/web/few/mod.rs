@@ -9,6 +9,11 @@
 //! its pitch. In a slot a filament is nearer to itself than to any other one at the same place across, and
 //! this own part falls with the number of filaments.                                          theory.md (83d)
 
+mod products;
+mod sums;
+#[cfg(test)]
+mod tests;
+
 use super::canvas::Canvas;
 use super::few_findings::{FewFilamentsCv, LayerFew};
 use super::map::Map;
@@ -16,6 +21,8 @@ use super::uniformity::{boxes, unevenness};
 use super::{Edges, Sheet};
 use crate::error::Error;
 use crate::threads::{each, try_each};
+use products::{Known, Products};
+use sums::Sums;
 
 /// How all filaments hang of which a few are flown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,8 +55,8 @@ pub(crate) struct FewFilaments<'a> {
 
 /// Fewest filaments of a row that say something of its neighbours.
 pub(crate) const FEWEST: usize = 10;
-/// Filaments whose own patches are looked at, spread over the beam.
-const REFERENCES: usize = 64;
+/// Pairs of neighbours whose own patches are looked at, spread over the beam, at most.
+const PAIRS: usize = 64;
 /// Neighbours with which a filament is compared: itself, the next ones, and those of every second filament.
 const NEIGHBOURS: [usize; 4] = [0, 1, 2, 4];
 /// Smallest patch of a row whose CV does not know the pitch, in pitches.
@@ -83,7 +90,7 @@ impl FewFilaments<'_> {
         let maps = [Map { cells, ..even.clone() }, even, odd];
         let sides: Vec<usize> = self.sheet.patches.iter().map(|patch| self.side(*patch)).collect();
         let products = match self.arrangement {
-            Arrangement::Rows => vec![[0.0; NEIGHBOURS.len()]; sides.len()],
+            Arrangement::Rows => vec![Products::default(); sides.len()],
             Arrangement::Slot | Arrangement::AtRandom => self.products(&maps[0], &sides, threads)?,
         };
         let found = each(threads, sides.len(), |i| {
@@ -94,10 +101,11 @@ impl FewFilaments<'_> {
         let (filaments, pitch, blocks_across) = (count as u64, self.pitch(), self.blocks[0]);
         let mut told =
             LayerFew { layer, filaments, lost, sheet, pitch, blocks_across, ..LayerFew::default() };
-        for ((found, blocks), ([itself, next, second, fourth], patch)) in
+        for ((found, blocks), (products, patch)) in
             found.into_iter().zip(products.into_iter().zip(&self.sheet.patches))
         {
             let [Some(all), Some(even), Some(odd)] = found else { continue };
+            let [itself, next, second, fourth] = products.means;
             // What filaments at random places of a row have more than those of an even one.
             let at_random = |square: f64| (itself - 1.0 - square) / self.all;
             // What is left of the CV² of this many filaments where there are all of them, and their own part.
@@ -125,13 +133,19 @@ impl FewFilaments<'_> {
                 continue;
             }
             let small = if *patch < PITCHES * pitch { SMALL * cv } else { 0.0 };
+            // One half differs from the other as the places of its filaments do. The depths of a slot are
+            // known better from all filaments than from two halves, which may agree by chance.
+            let by_places = match self.arrangement {
+                Arrangement::Slot => 0.5 * products.variance(count, self.all).sqrt() / cv,
+                Arrangement::Rows | Arrangement::AtRandom => 0.5 * (halves[0] - halves[1]),
+            };
+            let depths = if self.arrangement == Arrangement::Slot { by_places } else { 0.0 };
             told.cvs.push(FewFilamentsCv {
                 patch: *patch,
                 cv,
-                by_chance: all.standard_error.map(|error| error * all.cv / cv),
-                // The error falls faster than the pitch, and one of the halves differs from the other as the
-                // depths of its filaments do.
-                by_pitch: (0.5 * off).hypot(0.5 * (halves[0] - halves[1])).hypot(small),
+                by_chance: all.standard_error.and_then(|error| by_clouds([all.cv, error], cv, depths)),
+                // The error falls faster than the pitch.
+                by_pitch: (0.5 * off).hypot(by_places).hypot(small),
                 of_halves: off / cv,
                 own: whole[1],
                 few: all.cv,
@@ -209,43 +223,52 @@ impl FewFilaments<'_> {
         Ok(Canvas::new(sheet, &[self.piece], weight)?)
     }
 
-    /// The mean product of the patches of a filament and of a neighbour over the squared mean patch of a
-    /// filament, for each side and each of [`NEIGHBOURS`].
+    /// Products of the patches of filaments with those of their neighbours and of all, for each side.
     ///
     /// * `map` – of all
-    fn products(
-        &self,
-        map: &Map,
-        sides: &[usize],
-        threads: usize,
-    ) -> Result<Vec<[f64; NEIGHBOURS.len()]>, Error> {
+    fn products(&self, map: &Map, sides: &[usize], threads: usize) -> Result<Vec<Products>, Error> {
         let Some(row) = self.rows.first().filter(|row| row.len() >= FEWEST) else {
-            return Ok(vec![[f64::NAN; NEIGHBOURS.len()]; sides.len()]);
+            let unknown = Products { means: [f64::NAN; NEIGHBOURS.len()], pairs: Vec::new() };
+            return Ok(vec![unknown; sides.len()]);
         };
-        let references = row.len().min(REFERENCES);
-        let of_reference = |i: usize| self.products_of(row, i * row.len() / references, sides);
-        let found = try_each(threads, references, of_reference)?;
+        let pairs = (row.len() / 2).min(PAIRS);
+        let references: Vec<usize> =
+            (0..pairs).flat_map(|i| [0, 1].map(|second| i * row.len() / pairs + second)).collect();
+        let found =
+            try_each(threads, references.len(), |i| self.products_of(row, references[i], map, sides))?;
         let per_filament = map.total() as f64 / map.cells.len() as f64 / row.iter().flatten().count() as f64;
         let of_side = |(number, side): (usize, &usize)| {
             let patches = (map.columns * (map.rows + 1 - side)) as f64;
             let mean = per_filament * (side * side) as f64;
-            std::array::from_fn(|neighbour| {
+            let scale = 1.0 / patches / (mean * mean);
+            let means = std::array::from_fn(|neighbour| {
                 let known = || found.iter().filter_map(|found| found[number][neighbour]);
-                known().sum::<f64>() / known().count() as f64 / patches / (mean * mean)
-            })
+                known().sum::<f64>() / known().count() as f64 * scale
+            });
+            let known = |found: &Vec<Known>| {
+                let [Some(itself), Some(next), Some(second), _, Some(all)] = found[number] else {
+                    return None;
+                };
+                Some([itself, next, second, all].map(|product| scale * product))
+            };
+            let pairs = found.chunks_exact(2).filter_map(|pair| Some([known(&pair[0])?, known(&pair[1])?]));
+            Products { means, pairs: pairs.collect() }
         };
         Ok(sides.iter().enumerate().map(of_side).collect())
     }
 
-    /// Sums over all patches of the products of one filament and its neighbours [quanta²]; None where one of
-    /// them is lost.
+    /// Sums over all patches of the products of one filament with its neighbours, and with all [quanta²];
+    /// None where one of them is lost.
+    ///
+    /// * `map` – of all
     fn products_of(
         &self,
         row: &[Option<Vec<[f64; 2]>>],
         reference: usize,
+        map: &Map,
         sides: &[usize],
-    ) -> Result<Vec<[Option<f64>; NEIGHBOURS.len()]>, Error> {
-        let none = || vec![[None; NEIGHBOURS.len()]; sides.len()];
+    ) -> Result<Vec<Known>, Error> {
+        let none = || vec![Known::default(); sides.len()];
         let (cell, largest) = (self.sheet.cell, sides.iter().copied().max().unwrap_or(1));
         let curves = NEIGHBOURS.map(|further| {
             let number = reference + further;
@@ -275,11 +298,28 @@ impl FewFilaments<'_> {
             all.push(sums(curve)?);
         }
         let Some(own) = &all[0] else { return Ok(none()) };
+        let around = Sums::around(map, first as i64, own.columns);
         let of_side = |side: &usize| {
-            std::array::from_fn(|neighbour| all[neighbour].as_ref().map(|other| own.product(other, *side)))
+            let with = |other: &Sums| own.product(other, *side);
+            let [itself, next, second, fourth] =
+                std::array::from_fn(|neighbour| all[neighbour].as_ref().map(with));
+            [itself, next, second, fourth, Some(with(&around))]
         };
         Ok(sides.iter().map(of_side).collect())
     }
+}
+
+/// What the clouds on the sheet make of the error of the CV of all; None where all of CV² is taken for the own
+/// part. The waves of the map of a few hold the chance of their depths too, which is an error by the few, and
+/// is not counted twice. As what filaments make alone is spread over more waves than clouds are, the clouds
+/// are told no better than the map, in parts of their CV.                                 theory.md (83e)
+///
+/// * `map` – CV of the map of the few, with its error by chance
+/// * `by_depths` – error of the CV of all by the depths of the few
+fn by_clouds([of_map, error]: [f64; 2], cv: f64, by_depths: f64) -> Option<f64> {
+    let all = error * of_map / cv;
+    let clouds = (all * all - by_depths * by_depths).max(0.0).sqrt().max(error * cv / of_map);
+    clouds.is_finite().then_some(clouds)
 }
 
 /// Number of blocks of a sheet, across and along.
@@ -308,49 +348,3 @@ fn blocks(map: &Map, side: usize, numbers: [usize; 2]) -> Vec<f64> {
     });
     sums.into_iter().map(|(sum, count): (f64, f64)| sum / count).collect()
 }
-
-/// Sums of a map over all cells before a corner.
-struct Sums {
-    columns: usize,
-    rows: usize,
-    sums: Vec<u64>,
-}
-
-impl Sums {
-    fn over(map: &Map) -> Self {
-        let width = map.columns + 1;
-        let mut sums = vec![0; width * (map.rows + 1)];
-        for row in 0..map.rows {
-            let mut of_row = 0;
-            for (column, cell) in map.row(row).iter().enumerate() {
-                of_row += u64::from(*cell);
-                sums[(row + 1) * width + column + 1] = sums[row * width + column + 1] + of_row;
-            }
-        }
-        Self { columns: map.columns, rows: map.rows, sums }
-    }
-
-    /// Sum over the places of a patch of its products on this map and on another one of the same size.
-    ///
-    /// * `side` – of the patch [cells]; places are half of it apart
-    fn product(&self, other: &Self, side: usize) -> f64 {
-        let (width, step) = (self.columns + 1, (side / 2).max(1));
-        let mut sum = 0.0;
-        for row in (0..=self.rows - side).step_by(step) {
-            let [above, below] = [row, row + side].map(|row| row * width);
-            for column in (0..=self.columns - side).step_by(step) {
-                let patch = |sums: &[u64]| {
-                    let [left, right] = [column, column + side];
-                    (sums[below + right] + sums[above + left] - sums[below + left] - sums[above + right])
-                        as f64
-                };
-                sum += patch(&self.sums) * patch(&other.sums);
-            }
-        }
-        let [rows, taken] = [self.rows - side + 1, (self.rows - side) / step + 1];
-        sum * step as f64 * rows as f64 / taken as f64
-    }
-}
-
-#[cfg(test)]
-mod tests;

@@ -175,6 +175,44 @@ fn stat_every_tenth_filament_of_a_slot_tells_the_cv_of_all() {
     }
 }
 
+/// How far a few depths of a slot are off from all, against the told error, where the even and the odd half
+/// often agree by chance: many choices of the flown filaments in one field.
+#[test]
+fn stat_the_error_of_few_depths_is_their_scatter() {
+    const SHARED: f64 = 0.7;
+    const CHOICES: usize = 12;
+    const FEW: usize = 24;
+    let sheet = sheet(&[5.0, 10.0]);
+    let field = Field::new(31);
+    // Each choice has depths of its own: what a filament does for itself.
+    let of = |choice: usize, i: usize, z: f64| {
+        let own = Field::new(10_000 + (choice * 1000 + i) as u64);
+        curve(z, |s| {
+            let (shared, own) = (field.at(s, z), own.at(s, 0.0));
+            [0, 1].map(|d| SHARED.sqrt() * shared[d] + (1.0 - SHARED).sqrt() * own[d])
+        })
+    };
+    let found: Vec<Vec<FewFilamentsCv>> = (0..CHOICES)
+        .map(|choice| {
+            let curves = even(FEW).enumerate().map(|(i, z)| of(choice, i, z));
+            few(&sheet, Arrangement::Slot, 480, curves).tell(0, None, 2).unwrap().cvs
+        })
+        .collect();
+    for patch in 0..sheet.patches.len() {
+        let count = CHOICES as f64;
+        let mean = found.iter().map(|cvs| cvs[patch].cv).sum::<f64>() / count;
+        let scatter = found.iter().map(|cvs| (cvs[patch].cv - mean).powi(2)).sum::<f64>() / (count - 1.0);
+        let told = found.iter().map(|cvs| cvs[patch].by_pitch.powi(2)).sum::<f64>() / count;
+        let least = found.iter().map(|cvs| cvs[patch].by_pitch).fold(f64::INFINITY, f64::min);
+        let ratio = (told / scatter).sqrt();
+        println!("cv {mean:.4}, scatter {:.4}, told {:.4}, least {least:.4}", scatter.sqrt(), told.sqrt());
+        // Twelve choices know their scatter within a fifth; what is told holds the pitch too.
+        assert!((0.7..2.0).contains(&ratio), "{ratio}");
+        // No choice has an error near to nothing.
+        assert!(least > 0.4 * scatter.sqrt(), "{least} {}", scatter.sqrt());
+    }
+}
+
 /// A row of filaments at random places of one field: an even row of a few tells the CV, with what the places do.
 #[test]
 fn stat_an_even_row_tells_the_cv_of_random_places() {
