@@ -139,11 +139,12 @@ impl FewFilaments<'_> {
                 Arrangement::Slot => 0.5 * products.variance(count, self.all).sqrt() / cv,
                 Arrangement::Rows | Arrangement::AtRandom => 0.5 * (halves[0] - halves[1]),
             };
-            let depths = if self.arrangement == Arrangement::Slot { by_places } else { 0.0 };
             told.cvs.push(FewFilamentsCv {
                 patch: *patch,
                 cv,
-                by_chance: all.standard_error.and_then(|error| by_clouds([all.cv, error], cv, depths)),
+                // The waves of the few hold the chance of their depths too, which is an error by the few. The
+                // clouds leave the same part of the CV open whether the own part lies in them or not.
+                by_chance: all.standard_error.map(|error| error * cv / all.cv),
                 // The error falls faster than the pitch.
                 by_pitch: (0.5 * off).hypot(by_places).hypot(small),
                 of_halves: off / cv,
@@ -307,19 +308,6 @@ impl FewFilaments<'_> {
         };
         Ok(sides.iter().map(of_side).collect())
     }
-}
-
-/// What the clouds on the sheet make of the error of the CV of all; None where all of CV² is taken for the own
-/// part. The waves of the map of a few hold the chance of their depths too, which is an error by the few, and
-/// is not counted twice. As what filaments make alone is spread over more waves than clouds are, the clouds
-/// are told no better than the map, in parts of their CV.                                 theory.md (83e)
-///
-/// * `map` – CV of the map of the few, with its error by chance
-/// * `by_depths` – error of the CV of all by the depths of the few
-fn by_clouds([of_map, error]: [f64; 2], cv: f64, by_depths: f64) -> Option<f64> {
-    let all = error * of_map / cv;
-    let clouds = (all * all - by_depths * by_depths).max(0.0).sqrt().max(error * cv / of_map);
-    clouds.is_finite().then_some(clouds)
 }
 
 /// Number of blocks of a sheet, across and along.
