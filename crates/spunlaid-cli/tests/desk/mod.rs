@@ -161,11 +161,10 @@ fn tells_numbers(file: &Path) {
 
 /// A page without the elements of a name.
 fn without(page: &str, tag: &str) -> String {
-    let mut parts = page.split(&format!("<{tag}")).map(str::to_owned);
-    let first = parts.next().unwrap_or_default();
-    let end = format!("</{tag}>");
-    let after = |part: String| part.split_once(&end).map_or(String::new(), |(_, rest)| rest.to_owned());
-    parts.fold(first, |all, part| all + &after(part))
+    let [begin, end] = [format!("<{tag}"), format!("</{tag}>")];
+    let (first, rest) = page.split_once(&begin).unwrap_or((page, ""));
+    let after = |part: &str| part.split_once(&end).map_or(String::new(), |(_, said)| said.to_owned());
+    rest.split(&begin).fold(first.to_owned(), |all, part| all + &after(part))
 }
 
 pub fn entries(folder: &Path) -> BTreeSet<String> {
