@@ -3,6 +3,7 @@
 use spunlaid::error::{Error, Fault, FileError};
 use std::fmt;
 use std::panic::{self, AssertUnwindSafe};
+use std::path::PathBuf;
 
 /// What ends the program.
 #[derive(Debug)]
@@ -11,6 +12,8 @@ pub(crate) enum Failure {
     Error(Error),
     /// A study was interrupted.
     Paused { done: u64, total: Option<u64>, what: &'static str },
+    /// What was tried with a web was interrupted, and the web is in its folder, if there is one.
+    Kept { folder: Option<PathBuf> },
     /// The results are written but lack something: lost fibres, or the sources of flights that are not steady.
     Incomplete { what: String },
     /// The program panicked; the message has been printed.
@@ -21,7 +24,7 @@ impl Failure {
     /// 1 if the input is wrong, 130 if interrupted, 2 otherwise.
     pub(crate) const fn exit_code(&self) -> u8 {
         match self {
-            Self::Error(Error::Interrupted) | Self::Paused { .. } => 130,
+            Self::Error(Error::Interrupted) | Self::Paused { .. } | Self::Kept { .. } => 130,
             Self::Error(error) => error.exit_code(),
             Self::Incomplete { .. } | Self::Panicked => 2,
         }
@@ -65,6 +68,15 @@ impl fmt::Display for Failure {
                     f,
                     "interrupted; {done}{total} {what} are done and kept. Repeat the command to continue"
                 )
+            }
+            Self::Kept { folder: Some(folder) } => write!(
+                f,
+                "interrupted; the web is complete in {}, with what was tried before. Repeat the command to try the \
+                rest",
+                folder.display()
+            ),
+            Self::Kept { folder: None } => {
+                write!(f, "interrupted; the web is complete, and it has no folder")
             }
             Self::Incomplete { what } => f.write_str(what),
             Self::Panicked => write!(
@@ -116,9 +128,11 @@ mod tests {
         ] {
             assert_eq!(not_the_inputs_fault.exit_code(), 2, "{not_the_inputs_fault:?}");
         }
-        for interrupted in
-            [Failure::Paused { done: 1, total: Some(2), what: "fibres" }, Error::Interrupted.into()]
-        {
+        for interrupted in [
+            Failure::Paused { done: 1, total: Some(2), what: "fibres" },
+            Failure::Kept { folder: None },
+            Error::Interrupted.into(),
+        ] {
             assert_eq!(interrupted.exit_code(), 130, "{interrupted:?}");
         }
     }

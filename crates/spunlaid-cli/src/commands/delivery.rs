@@ -19,11 +19,15 @@ pub(super) struct Delivery<'a> {
     output: &'a Output,
 }
 
-/// What has been delivered.
+/// Results that are in their folder, and what of them has been said.
 #[derive(Debug)]
-pub(super) struct Delivered {
+pub(super) struct Delivered<'a> {
+    folder: Option<PathBuf>,
     written: Option<(Published<'static>, Written)>,
     making: Making<'static>,
+    output: &'a Output,
+    /// What the terminal has shown of the results.
+    said: Option<String>,
 }
 
 /// What is said besides the results.
@@ -76,8 +80,9 @@ impl<'a> Delivery<'a> {
         threads: Threads,
         asides: Asides<'_>,
     ) -> Result<(), Failure> {
-        let delivered = self.publish(contents, threads)?;
-        self.tell(contents, delivered, asides);
+        let mut delivered = self.publish(contents, threads)?;
+        delivered.say(asides);
+        delivered.finish(contents);
         Ok(())
     }
 
@@ -86,36 +91,74 @@ impl<'a> Delivery<'a> {
         &mut self,
         contents: &C,
         threads: Threads,
-    ) -> Result<Delivered, Failure> {
+    ) -> Result<Delivered<'a>, Failure> {
         let making = making(threads);
         let write = |staging| contents.write(staging, making);
         let written = self.staging.as_ref().map(write).transpose()?;
         let lacking = self.staging.as_ref().and_then(|staging| staging.lacking_tables(C::OF_ONE_FORMAT));
         lacking.iter().filter(|_| !self.output.quiet).for_each(|lacking| say::remark(false, lacking));
         let published = self.staging.take().map(Staging::publish_first).transpose()?;
-        Ok(Delivered { written: published.zip(written), making })
-    }
-
-    /// Says what was found: as JSON or as lines.
-    pub(super) fn tell(self, contents: &impl Contents, delivered: Delivered, asides: Asides<'_>) {
-        let text = delivered.written.map_or_else(String::new, |(_, written)| written.text);
-        tell(contents, (self.folder(), &text), self.output, asides);
+        let (folder, output) = (self.folder.clone(), self.output);
+        Ok(Delivered { folder, written: published.zip(written), making, output, said: None })
     }
 }
 
-impl Delivered {
-    /// Whether there are files.
-    pub(super) const fn is_in_folder(&self) -> bool {
-        self.written.is_some()
+impl Delivered<'_> {
+    /// The folder, if there are files.
+    pub(super) fn folder(&self) -> Option<&Path> {
+        self.folder.as_deref().filter(|_| self.written.is_some())
     }
 
-    /// Writes report and summary again, when more is known.
+    /// Writes report, summary and new figures again, when more is known.
     pub(super) fn rewrite(&mut self, contents: &impl Contents) -> Result<(), Failure> {
         if let Some((folder, written)) = &mut self.written {
             *written = contents.rewrite(folder, written, self.making)?;
         }
         Ok(())
     }
+
+    /// Says as lines what was found and has not been said; the first time also which page to open.
+    pub(super) fn say(&mut self, asides: Asides<'_>) {
+        if self.output.json || self.output.quiet {
+            return;
+        }
+        let text = self.written.as_ref().map_or("", |(_, written)| &written.text);
+        let page = self.folder.as_deref().filter(|_| self.said.is_none());
+        say_lines(&new_text(self.said.as_deref().unwrap_or_default(), text), page, asides);
+        self.said = Some(text.to_owned());
+    }
+
+    /// Says a line beside the results.
+    pub(super) fn line(&self, line: &str) {
+        if !self.output.json && !self.output.quiet {
+            say::line(line);
+        }
+    }
+
+    /// Says what was found as JSON, if that is asked for.
+    pub(super) fn finish(&self, contents: &impl Contents) {
+        if self.output.json {
+            say::text(&contents.summary());
+        }
+    }
+}
+
+/// What a text says that an earlier one did not: the lines of its first paragraph, and whole paragraphs below it.
+fn new_text(before: &str, now: &str) -> String {
+    if before.is_empty() {
+        return now.to_owned();
+    }
+    let (first, rest) = now.split_once("\n\n").unwrap_or((now, ""));
+    let first = first.lines().filter(|line| !before.lines().any(|other| other == *line));
+    let rest = rest.split("\n\n").filter(|part| !part.is_empty() && !before.contains(part.trim_end()));
+    let lines = |part: &str| format!("{}\n", part.trim_end());
+    let parts: Vec<String> = [first.collect::<Vec<_>>().join("\n")]
+        .into_iter()
+        .chain(rest.map(str::to_owned))
+        .filter(|part| !part.is_empty())
+        .map(|part| lines(&part))
+        .collect();
+    if parts.is_empty() { String::new() } else { format!("\n{}", parts.join("\n")) }
 }
 
 /// How files are made; Ctrl-C ends it.
@@ -133,11 +176,15 @@ pub(super) fn tell(
     if output.json {
         say::text(&contents.summary());
     } else if !output.quiet {
-        say::table(text);
-        asides.lines.iter().for_each(|line| say::line(line));
-        asides.found.iter().for_each(|note| say::remark(false, note));
-        folder.iter().for_each(|folder| say::line(&format!("open {}", folder.join("report.html").display())));
+        say_lines(text, folder, asides);
     }
+}
+
+fn say_lines(text: &str, folder: Option<&Path>, asides: Asides<'_>) {
+    say::table(text);
+    asides.lines.iter().for_each(|line| say::line(line));
+    asides.found.iter().for_each(|note| say::remark(false, note));
+    folder.iter().for_each(|folder| say::line(&format!("open {}", folder.join("report.html").display())));
 }
 
 /// Says that the earlier results of the same command are replaced.

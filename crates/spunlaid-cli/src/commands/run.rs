@@ -57,15 +57,16 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
             return Err(failure);
         }
     };
-    coarse.iter().filter(|_| delivered.is_in_folder()).for_each(|coarse| say::remark(false, coarse));
-
     // The results are safe now, whatever becomes of the checks.
+    delivered.say(Asides::default());
+    coarse.iter().filter(|_| delivered.folder().is_some()).for_each(|coarse| say::remark(false, coarse));
     let checked = flown.paths.as_ref().map(|paths| check(&plans, paths, computing, output.quiet));
     let written = files::Run { checks: checked.as_ref().unwrap_or(&before), ..first };
     if plans.fibre_steps() > 0 && checked.is_some() {
         delivered.rewrite(&written)?;
     }
-    delivery.tell(&written, delivered, Asides::default());
+    delivered.say(Asides::default());
+    delivered.finish(&written);
     if checked.is_none() {
         return Err(paused());
     }

@@ -1,24 +1,24 @@
 //! `spunlaid web`: lays a web of many filaments and says how even it is.
 
-use super::delivery::{Asides, Delivery};
+use super::delivery::{Asides, Delivered, Delivery};
 use super::flown::flown;
 use super::{lay_control, plural, stem};
-use crate::args::{self, Invocation, overrides};
+use crate::args::{self, Invocation, Output, overrides};
 use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::advice::{Advice, Change, advise, are_tried, judged_by, most_steps, steps};
 use spunlaid::case::Note;
 use spunlaid::error::{Error, Fault};
-use spunlaid::input::{Changes, Unflown, Unread, WebFile, WebSpec, read_changes, read_web};
+use spunlaid::input::{Changes, Unflown, Unread, WebSpec, read_changes, read_web};
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
-use spunlaid::web::{Findings, LayControl, Web};
+use spunlaid::web::{Findings, LayControl};
 use spunlaid_results::folders;
 use spunlaid_results::folders::web::WebFolder;
 use spunlaid_results::numbers::significant;
 use spunlaid_results::output::web::{Performance, specification_sheet};
 use std::fs;
 use std::path::Path;
-use std::sync::atomic::AtomicU64;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), Failure> {
@@ -28,7 +28,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     let judged_by = arguments.judged_by.as_deref().map(|text| judged_by(&file.spec, text)).transpose()?;
     let (name, origin) = (stem(&arguments.file, "web"), invocation.origin_of([&arguments.file]));
     let (folder, figures) = (output.optional_folder(&name), arguments.figures.files());
-    let delivery = Delivery::open::<WebFolder<'_>>(folder, origin, output, &figures)?;
+    let mut delivery = Delivery::open::<WebFolder<'_>>(folder, origin, output, &figures)?;
     arguments.sheet.as_deref().map_or(Ok(()), |sheet| check_sheet(sheet, output.force))?;
     // Before anything is flown, because the file may change meanwhile.
     let trials = Trials { judged_by, ..Trials::read(arguments, &file.spec)? };
@@ -42,30 +42,31 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     let laying = format!("{label} took {:.2} s", started.elapsed().as_secs_f64());
     let FlownWeb { web, layers, .. } = &flown;
     let fabric = file.spec.fabric(web, &findings, by.threads);
-    let tried = trials.run(arguments, (&file, web, &findings), by)?;
-
+    let trials = trials.worth_it(arguments, (&file.spec, &findings));
     let performance = Performance::measure(started, by.threads, by.isa).with_flights(&findings);
     let found = &folders::web::notes(&flown, &findings);
     let notes = &[Note::notes_of_results(&file.notes), found.clone()].concat();
-    let lines = &[vec![laying], tried.lines].concat();
-    let contents = WebFolder {
+    let first = WebFolder {
         name: &name,
         file: &file,
         web,
         layers,
         findings: &findings,
         fabric: &fabric,
-        advice: tried.advice.as_ref(),
-        guesses: tried.guesses.as_ref(),
+        advice: None,
+        guesses: None,
+        awaited: !trials.is_empty(),
         notes,
         performance,
     };
-    delivery.deliver(&contents, threads, Asides { lines, found })?;
     if let Some(sheet) = &arguments.sheet {
         let page = specification_sheet(&name, (&findings, &fabric), notes)?;
         fs::write(sheet, page).map_err(|error| Error::unwritable(sheet)(error))?;
     }
-    Ok(())
+    let mut delivered = delivery.publish(&first, threads)?;
+    // The web is safe now, whatever becomes of what is tried with it.
+    delivered.say(Asides { lines: &[laying], found });
+    trials.run(output, first, by, &mut delivered)
 }
 
 /// Whether a specification sheet can be written there, before anything is flown for it. One that is there already
@@ -95,15 +96,6 @@ struct Trials {
     judged_by: Option<f64>,
 }
 
-/// What was tried.
-#[derive(Default)]
-struct Tried {
-    guesses: Option<Advice>,
-    advice: Option<Advice>,
-    /// How long it took.
-    lines: Vec<String>,
-}
-
 impl Trials {
     fn read(arguments: &args::Web, spec: &WebSpec) -> Result<Self, Failure> {
         let (file, set) = (&arguments.file, overrides(&arguments.set));
@@ -120,37 +112,47 @@ impl Trials {
         Ok(Self { guesses, changes, judged_by: None })
     }
 
-    /// Tries what says enough and does not take too long, or is asked for.
+    /// Those that say enough and do not take too long, or are asked for.
+    fn worth_it(self, arguments: &args::Web, (spec, findings): (&WebSpec, &Findings)) -> Self {
+        let is_tried = |all: &Vec<Change>| arguments.advice || are_tried(spec, findings, all);
+        Self { guesses: self.guesses.filter(is_tried), changes: self.changes.filter(is_tried), ..self }
+    }
+
+    const fn is_empty(&self) -> bool {
+        self.guesses.is_none() && self.changes.is_none()
+    }
+
+    /// Tries the guesses, then the changes of the line, and delivers what each says as soon as it is known.
     fn run(
         self,
-        arguments: &args::Web,
-        (file, web, findings): (&WebFile, &Web, &Findings),
+        output: &Output,
+        first: WebFolder<'_>,
         by: LayControl<'_>,
-    ) -> Result<Tried, Failure> {
-        let (spec, mut tried) = (&file.spec, Tried::default());
-        let is_tried = |all: &Vec<Change>| arguments.advice || are_tried(spec, findings, all);
-        let (guesses, changes) = (self.guesses.filter(is_tried), self.changes.filter(is_tried));
-        let mut compare = |changes: Option<Vec<Change>>, [noun, of, without]: [&str; 3]| {
-            let Some(changes) = changes else { return Ok(None) };
-            let (label, begun) =
-                (format!("trying {} of {of}", plural(changes.len() as u64, noun)), Instant::now());
-            let (judged_by, quiet) = (self.judged_by, arguments.output.quiet);
-            match compare_with(changes, (file, web, findings), judged_by, by, (&label, quiet)) {
-                Err(Failure::Error(error)) if !matches!(error, Error::Interrupted) => {
-                    let name = stem(&arguments.file, "web");
-                    say::warning(&format!("{label} of {name} failed: {error}"));
-                    Ok(None)
-                }
-                compared => {
-                    let seconds = begun.elapsed().as_secs_f64();
-                    tried.lines.push(format!("{label} took {seconds:.2} s; {without} leaves it out"));
-                    compared.map(Some)
-                }
-            }
+        delivered: &mut Delivered<'_>,
+    ) -> Result<(), Failure> {
+        let (judged_by, quiet) = (self.judged_by, output.quiet);
+        let of_guesses = ["other value", "guesses", "--set web.guessed=none"];
+        let guesses = match self.guesses {
+            Some(all) => try_changes(all, of_guesses, (first, judged_by), by, (quiet, delivered))?,
+            None => None,
         };
-        let guesses = compare(guesses, ["other value", "guesses", "--set web.guessed=none"])?;
-        let advice = compare(changes, ["change", "the line", "--no-advice"])?;
-        Ok(Tried { guesses, advice, ..tried })
+        let guessed = WebFolder { guesses: guesses.as_ref(), awaited: self.changes.is_some(), ..first };
+        if guesses.is_some() {
+            delivered.rewrite(&guessed)?;
+            delivered.say(Asides::default());
+        }
+        let of_line = ["change", "the line", "--no-advice"];
+        let advice = match self.changes {
+            Some(all) => try_changes(all, of_line, (guessed, judged_by), by, (quiet, delivered))?,
+            None => None,
+        };
+        let advised = WebFolder { advice: advice.as_ref(), awaited: false, ..guessed };
+        if guessed.awaited {
+            delivered.rewrite(&advised)?;
+            delivered.say(Asides::default());
+        }
+        delivered.finish(&advised);
+        Ok(())
     }
 }
 
@@ -160,18 +162,35 @@ fn is_long(spec: &WebSpec, unflown: &Unflown<Vec<Change>>) -> bool {
     flights + unflown.most_steps() > most_steps(spec.method)
 }
 
-/// What changes do to a web, with their progress.
-fn compare_with(
+/// What changes do to a web; nothing if that cannot be found, which is told. If it is interrupted, the web
+/// and what was tried before stay in their folder.
+fn try_changes(
     changes: Vec<Change>,
-    (file, web, findings): (&WebFile, &Web, &Findings),
-    judged_by: Option<f64>,
+    [noun, of, without]: [&str; 3],
+    (folder, judged_by): (WebFolder<'_>, Option<f64>),
     by: LayControl<'_>,
-    (label, quiet): (&str, bool),
-) -> Result<Advice, Failure> {
-    let done = AtomicU64::new(0);
-    let (all, by) = (steps(&file.spec, &changes), LayControl { laid: &done, ..by });
-    let work = || advise(&file.spec, (web, findings), changes, judged_by, by);
-    Ok(progress::follow(&done, all, label, quiet, work)?)
+    (quiet, delivered): (bool, &mut Delivered<'_>),
+) -> Result<Option<Advice>, Failure> {
+    let label = format!("trying {} of {of}", plural(changes.len() as u64, noun));
+    let (begun, done, spec) = (Instant::now(), AtomicU64::new(0), &folder.file.spec);
+    let (all, by) = (steps(spec, &changes), LayControl { laid: &done, ..by });
+    let work = || advise(spec, (folder.web, folder.findings), changes, judged_by, by);
+    match progress::follow(&done, all, &label, quiet, work) {
+        Err(Error::Interrupted) => {
+            by.stop.store(false, Ordering::Relaxed);
+            delivered.rewrite(&WebFolder { awaited: false, ..folder })?;
+            Err(Failure::Kept { folder: delivered.folder().map(Path::to_owned) })
+        }
+        Err(error) => {
+            say::warning(&format!("{label} of {} failed: {error}", folder.name));
+            Ok(None)
+        }
+        Ok(advice) => {
+            let seconds = begun.elapsed().as_secs_f64();
+            delivered.line(&format!("{label} took {seconds:.2} s; {without} leaves it out"));
+            Ok(Some(advice))
+        }
+    }
 }
 
 /// Shows the progress of the flights of a case.

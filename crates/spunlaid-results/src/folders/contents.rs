@@ -54,7 +54,7 @@ pub trait Contents: Sync {
     /// # Errors
     /// The errors of [`Contents::make`].
     fn html(&self, making: Making<'_>) -> Result<String, Failure> {
-        Ok(self.make(&Maker { making, staging: None, input: OnceCell::new() })?.html)
+        Ok(self.make(&Maker { making, place: Place::Nowhere, input: OnceCell::new() })?.html)
     }
 
     /// Writes all files.
@@ -62,14 +62,14 @@ pub trait Contents: Sync {
     /// # Errors
     /// The errors of [`Contents::make`].
     fn write(&self, staging: &Staging<'_>, making: Making<'_>) -> Result<Written, Failure> {
-        let maker = Maker { making, staging: Some(staging), input: OnceCell::new() };
+        let maker = Maker { making, place: Place::Staging(staging), input: OnceCell::new() };
         let page = self.make(&maker)?;
         staging.write(REPORT, page.html)?;
         staging.write_with(Self::SUMMARY, |to| self.write_summary(to))?;
         Ok(Written { input: maker.input, text: page.text })
     }
 
-    /// Writes report and summary again, when more is known of the same results.
+    /// Writes report, summary and new figures again, when more is known of the same results.
     ///
     /// # Errors
     /// The errors of [`Contents::make`].
@@ -79,7 +79,7 @@ pub trait Contents: Sync {
         before: &Written,
         making: Making<'_>,
     ) -> Result<Written, Failure> {
-        let maker = Maker { making, staging: None, input: before.input.clone() };
+        let maker = Maker { making, place: Place::Published(folder), input: before.input.clone() };
         let page = self.make(&maker)?;
         folder.replace(REPORT, page.html)?;
         folder.replace(Self::SUMMARY, self.summary())?;
@@ -95,8 +95,18 @@ const REPORT: &str = "report.html";
 pub struct Maker<'a> {
     /// How it is made.
     pub making: Making<'a>,
-    staging: Option<&'a Staging<'a>>,
+    place: Place<'a>,
     input: OnceCell<String>,
+}
+
+/// Where the files of results are made.
+#[derive(Debug)]
+enum Place<'a> {
+    /// Only the page is asked for.
+    Nowhere,
+    Staging(&'a Staging<'a>),
+    /// All are there, but for what is new.
+    Published(&'a Published<'a>),
 }
 
 impl Maker<'_> {
@@ -105,8 +115,10 @@ impl Maker<'_> {
     /// # Errors
     /// If a file cannot be written.
     pub fn keep(&self, input: Input<'_>) -> Result<&str, Failure> {
-        let kept = self.staging.filter(|_| self.input.get().is_none());
-        let kept = kept.map(|staging| input.keep(staging)).transpose()?;
+        let kept = match self.place {
+            Place::Staging(staging) if self.input.get().is_none() => Some(input.keep(staging)?),
+            _ => None,
+        };
         Ok(self.input.get_or_init(|| kept.unwrap_or_else(|| input.text())))
     }
 
@@ -127,7 +139,11 @@ impl Maker<'_> {
             let report = report()?.named(name).noting(notes);
             Ok(Page { html: report.html(), text: report.text(self.making.room) })
         };
-        let Some(staging) = self.staging else { return page() };
+        let staging = match self.place {
+            Place::Nowhere => return page(),
+            Place::Published(folder) => return folder.write_new_figures(figures).and_then(|()| page()),
+            Place::Staging(staging) => staging,
+        };
         // Writing many small files waits for the disk, and pictures take time.
         std::thread::scope(|scope| {
             let files = scope.spawn(|| files(staging));

@@ -111,6 +111,7 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
             fabric: &fabric,
             advice: None,
             guesses: None,
+            awaited: false,
             notes: &[],
             performance: Performance::default(),
         };
@@ -174,8 +175,6 @@ fn every_declared_measure_of_a_scan_is_in_summary_and_report() {
         weight_of_black: None,
         colour: false,
         more: false,
-        transparent: 0,
-        clipped: 0,
         numbered: [false; 2],
     };
     let light = Light::Transmitted { mean: Some(0.02), white: Some(60_000.0) };

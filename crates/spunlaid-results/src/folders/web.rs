@@ -10,7 +10,7 @@ use crate::output::origin::ORIGIN;
 use crate::output::spinline::{STATIONS, SpinResults, SpinSummary, write_stations};
 use crate::output::table::TABLES;
 use crate::output::web::{self, Layer, Performance, Summary};
-use crate::report::{LayerSpinline, web_report};
+use crate::report::{Advised, LayerSpinline, web_report};
 use spunlaid::advice::Advice;
 use spunlaid::case::Case;
 use spunlaid::fabric::Fabric;
@@ -42,6 +42,8 @@ pub struct WebFolder<'a> {
     pub advice: Option<&'a Advice>,
     /// What guesses matter for it; None if it was not tried.
     pub guesses: Option<&'a Advice>,
+    /// Whether what was not tried is tried next.
+    pub awaited: bool,
     /// Notes for the reader.
     pub notes: &'a [String],
     /// What it cost.
@@ -101,7 +103,7 @@ impl Contents for WebFolder<'_> {
             web_report(
                 (spec, input, web),
                 (findings, self.fabric),
-                (self.advice, self.guesses),
+                Advised { advice: self.advice, guesses: self.guesses, awaited: self.awaited },
                 (&rows(spec, web, self.layers), &spinlines),
                 &strands,
                 &figures,

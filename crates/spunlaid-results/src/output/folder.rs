@@ -298,6 +298,17 @@ impl Published<'_> {
         let (new, place) = (self.0.staging.join(NEXT), self.0.folder.join(name));
         fs::write(&new, content).and_then(|()| fs::rename(&new, &place)).map_err(Failure::unwritable(&place))
     }
+
+    /// Writes the files of those figures that the results do not have yet.
+    ///
+    /// # Errors
+    /// If a figure cannot be drawn or written.
+    pub(crate) fn write_new_figures<F: Borrow<Figure> + Sync>(&self, figures: &[F]) -> Result<(), Failure> {
+        let name = |figure: &Figure| format!("figures/{}.csv", figure.name);
+        let is_new = |figure: &&Figure| !self.0.folder.join(name(figure)).exists();
+        let new: Vec<&Figure> = figures.iter().map(F::borrow).filter(is_new).collect();
+        self.0.figures.write(&new, |name, content| self.replace(&format!("figures/{name}"), content))
+    }
 }
 
 impl Drop for Staging<'_> {

@@ -14,6 +14,17 @@ use spunlaid::layers::WebSpec;
 use spunlaid::statistics::Difference;
 use spunlaid::web::Findings;
 
+/// What was tried with a web.
+#[derive(Clone, Copy, Debug)]
+pub struct Advised<'a> {
+    /// What would make it more even; None if it was not tried.
+    pub advice: Option<&'a Advice>,
+    /// What guesses matter for it; None if these were not tried.
+    pub guesses: Option<&'a Advice>,
+    /// Whether what was not tried is tried next.
+    pub awaited: bool,
+}
+
 /// Side of the patches by which changes are judged [m].
 fn judged_by(findings: &Findings, advice: &Advice) -> Option<f64> {
     let seen = || headline_patch(findings).map(|i| findings.patches[i].map.patch);
@@ -21,10 +32,11 @@ fn judged_by(findings: &Findings, advice: &Advice) -> Option<f64> {
 }
 
 /// Which changed settings lower the CV of a web most, by how much, and what they cost in throughput: a sentence or two.
-///
-/// * `advice` – None if no change was tried
-pub fn advice_words(spec: &WebSpec, findings: &Findings, advice: Option<&Advice>) -> String {
-    let Some(advice) = advice else {
+pub fn advice_words(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> String {
+    let Some(advice) = tried.advice else {
+        if tried.awaited {
+            return "What would make it more even is tried next.".to_owned();
+        }
         return "What would make it more even was not tried: spunlaid web with --advice flies it anew for \
             each setting of the line."
             .to_owned();
@@ -255,9 +267,8 @@ pub(super) fn effects_table(spec: &WebSpec, findings: &Findings, advice: &Advice
 
 /// What the CV of a web is with half and twice of each number that its file calls a guess, because the error
 /// of the CV knows nothing of them. Empty without such numbers.
-///
-/// * `guesses` – None if nothing was tried
-pub fn guess_words(spec: &WebSpec, findings: &Findings, guesses: Option<&Advice>) -> String {
+pub fn guess_words(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> String {
+    let guesses = tried.guesses;
     let names = listed(&spec.guessed);
     if names.is_empty() {
         return String::new();
@@ -270,6 +281,9 @@ pub fn guess_words(spec: &WebSpec, findings: &Findings, guesses: Option<&Advice>
         Some((guesses, patch, found.told()?.cv))
     });
     let Some((guesses, patch, cv)) = judged else {
+        if tried.awaited && guesses.is_none() && tried.advice.is_none() {
+            return format!("{begin}. What half and twice of them do is tried next.");
+        }
         return format!(
             "{begin}, and what half and twice of them would do was not tried: spunlaid web with --advice tries it."
         );

@@ -40,6 +40,7 @@ pub use air::air_report;
 pub use analysis::analysis_report;
 pub use comparison::comparison_report;
 pub use document::Report;
+pub use effects::Advised;
 pub use fit::fit_report;
 pub use load::load_words;
 pub use paper::paper_report;

@@ -1,7 +1,9 @@
 //! The report of a web: the web on a light table, what makes it uneven, and the figures.
 
 use super::document::{Part, Report, Section};
-use super::effects::{advice_commands, advice_words, effect_cell, effects_table, guess_words, is_known};
+use super::effects::{
+    Advised, advice_commands, advice_words, effect_cell, effects_table, guess_words, is_known,
+};
 use super::fabric::{fabric_in_short, fabric_section};
 use super::light_table::{Fibres, MarkedPlaces, Strands, marks_note, picture_note, sheet};
 use super::load::{loads_in_short, section_of_loads};
@@ -32,7 +34,7 @@ use spunlaid_charts::Figure;
 ///
 /// * `web` – what is said of it, the same as a file, and the web
 /// * `findings` – of the web, with what is told of its fabric
-/// * `advice` – what would make it more even, and what guesses matter for it; None if these were not tried
+/// * `tried` – what was tried with it
 /// * `layers` – with the spinlines from which their filaments come
 /// * `strands` – the fibres in the window
 ///
@@ -41,7 +43,7 @@ use spunlaid_charts::Figure;
 pub fn web_report<'a>(
     (spec, toml, web): (&WebSpec, &str, &Web),
     (findings, fabric): (&Findings, &Fabric),
-    (advice, guesses): (Option<&Advice>, Option<&Advice>),
+    tried: Advised<'_>,
     (layers, spinlines): (&[Layer], &'a [LayerSpinline]),
     strands: &[Strand],
     figures: &'a [Figure],
@@ -65,19 +67,19 @@ pub fn web_report<'a>(
         .first()
         .map_or("", |_| "Its filaments begin at the die: [from the melt to the web](#spinline).");
     Ok(Report::new("web", headline)
-        .lead(guess_words(spec, findings, guesses))
-        .lead(advice_words(spec, findings, advice))
+        .lead(guess_words(spec, findings, tried))
+        .lead(advice_words(spec, findings, tried))
         .lead([summary(web), laid_weight(web, findings), air_sentence(spec, findings), errors].join(" "))
         .lead(charge_sentence(spec, findings))
         .lead(spun)
         .with(table)
-        .with(uneven(spec, findings, (advice, guesses)))
+        .with(uneven(spec, findings, tried))
         .with(uneven_in_short(findings))
         .with(fabric_section(fabric))
         .with(fabric_in_short(fabric))
         .with_all(section_of_loads(&loads))
         .with(loads_in_short(&loads))
-        .with(commands(findings, advice))
+        .with(commands(findings, tried.advice))
         .with(Section::of_figures(figures))
         .with_all(sections_of_web(web, layers, spinlines))
         .with(methods("web", account, found))
@@ -89,7 +91,7 @@ pub fn web_report<'a>(
 fn uneven(
     spec: &WebSpec,
     findings: &Findings,
-    (advice, guesses): (Option<&Advice>, Option<&Advice>),
+    Advised { advice, guesses, .. }: Advised<'_>,
 ) -> Section<'static> {
     let PatchTable { heads, rows } = PatchTable::new(findings, Reader::Report);
     let mut section = Section::new("verdict", "What makes it uneven")
