@@ -128,14 +128,16 @@ fn invariant_a_cv_and_the_formation_number_have_one_verdict() {
     let desk = Desk::new();
     let write = |name: &str, cv: f64, error: f64, interval: [f64; 2]| {
         let formation = cv * cv / 1e-4;
+        let patch = |side: f64, part: f64| {
+            json!({
+                "patch_m": side, "cv": part * cv, "cv_standard_error": part * error, "cv_whole_error": part * error,
+                "cv_interval": interval.map(|end| part * end),
+            })
+        };
+        let number = json!({ "value": formation, "standard_error": 2.0 * formation * error / cv });
         let summary = json!({
-            "web": { "patches": [{
-                "patch_m": 0.01, "cv": cv, "cv_standard_error": error, "cv_interval": interval, "cv_whole_error": error,
-            }] },
-            "fabric": { "patches": [{
-                "patch_m": 0.01,
-                "formation": { "value": formation, "standard_error": 2.0 * formation * error / cv },
-            }] },
+            "web": { "patches": [patch(0.01, 1.0), patch(0.02, 0.6)] },
+            "fabric": { "patches": [{ "patch_m": 0.01, "formation": number }] },
         });
         std::fs::create_dir(desk.path(name)).unwrap();
         std::fs::write(desk.path(&format!("{name}/summary.json")), summary.to_string()).unwrap();
