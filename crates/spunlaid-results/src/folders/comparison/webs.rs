@@ -262,7 +262,7 @@ mod tests {
             }
             let verdict = of(1).cells()[3].clone();
             let told = if first.value > 1.0 && !is_beyond {
-                "within chance: 8.60 has the 95 % interval 7.45 to 23.8"
+                "within chance: 8.6 has the 95 % interval 7.45 to 23.8"
             } else {
                 "beyond chance"
             };
