@@ -1,7 +1,7 @@
 //! The report of the air of a case.
 
 use super::document::{Report, Section};
-use super::methods::{case_account, methods};
+use super::methods::{methods, of_case};
 use super::words::length;
 use crate::numbers::{THIN, significant};
 use crate::output::air::Slices;
@@ -29,12 +29,11 @@ pub fn air_report<'a>(
         "along.pvd and across.pvd open the velocities, all three components, in ParaView, which shows \
         them one after the other; all numbers are in summary.json, beside this page.",
     );
-    let found = [summary.clone(), headline.clone()];
     Report::new("air", headline)
         .lead(summary)
         .with(Section::new("pictures", "At the first instant").figures(pictures))
         .with(computed)
-        .with(methods("air", case_account(case), found))
+        .with(methods("air", of_case(case), "case.toml of the results"))
         .with(file)
 }
 

@@ -21,15 +21,8 @@ pub fn analysis_report<'a>(
     remarks: &[String],
     air: &str,
 ) -> Report<'a> {
-    let (rows, _) = results(analysis);
     let (headline, summary) = (headline(analysis), summary(record, analysis));
     let steps = steps(analysis);
-    let texts = [summary.clone()].into_iter().chain(steps.iter().map(|(_, text)| text.clone()));
-    let value = |row: &ResultRow| {
-        format!("{} {} ({} to {}) {}", row.name, row.value, row.low, row.high, row.unit).trim_end().to_owned()
-    };
-    let found = format!("{}.", rows.iter().map(value).collect::<Vec<_>>().join(", "));
-    let methods = methods("analyse", (texts.collect(), Vec::new()), [headline.clone(), found]);
     let remarks: String = remarks.iter().map(|remark| format!(" {remark}.")).collect();
     let [of_air, components] = numbers(analysis);
     let computed = Section::new("methods", "How it was computed").descriptions(steps).caption(
@@ -41,7 +34,7 @@ pub fn analysis_report<'a>(
         .with(Section::of_figures(figures))
         .with(components.told())
         .with(computed)
-        .with(methods)
+        .with(methods("analyse", Vec::new(), ""))
 }
 
 /// The numbers for the air of a case, then those of each component.

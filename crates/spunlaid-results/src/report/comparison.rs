@@ -23,14 +23,11 @@ pub fn comparison_report<'a>(
         let view = View::Beside(Beside::new(webs));
         Section::new("pictures", "Beside each other").view(view).caption(caption(&webs.pictures))
     });
-    let found = [format!("{title}.")].into_iter().chain(comparisons.iter().flat_map(differences));
-    let sentences = comparisons.iter().map(method).collect();
-    let methods = methods("compare", (sentences, Vec::new()), found);
     Report::new("compare", title)
         .with_all(beside)
         .with_all(pairs(comparisons).map(Section::told))
         .with(Section::of_figures(figures))
-        .with(methods)
+        .with(methods("compare", Vec::new(), ""))
 }
 
 fn pairs<'a>(comparisons: &[Comparison]) -> impl Iterator<Item = Section<'a>> {
@@ -78,28 +75,6 @@ fn title(comparisons: &[Comparison]) -> String {
             format!("Against {first}: {}", each.join("; "))
         }
     }
-}
-
-/// How two results were compared, in sentences.
-fn method(comparison: &Comparison) -> String {
-    let Comparison { run, against, reason, errors, .. } = comparison;
-    format!(
-        "The results {run} and {against} were compared {reason}. {errors} A difference is beyond chance if \
-        its 95\u{a0}% interval leaves out zero."
-    )
-}
-
-/// Each difference beyond chance, in a sentence.
-fn differences(comparison: &Comparison) -> impl Iterator<Item = String> {
-    let is_beyond = |measure: &&ComparedMeasure| {
-        measure.difference.is_some_and(|difference| difference.is_beyond_chance())
-    };
-    comparison.measures.iter().filter(is_beyond).map(move |measure| {
-        let [first, other, difference, _] = measure.cells();
-        let Comparison { run, against, .. } = comparison;
-        let unit = if measure.unit.is_empty() { String::new() } else { format!(" ({})", measure.unit) };
-        format!("{}{unit}: {first} in {against}, {other} in {run}, difference {difference}.", measure.label)
-    })
 }
 
 /// The measure whose difference is the most of its interval.

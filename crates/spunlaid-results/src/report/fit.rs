@@ -1,7 +1,7 @@
 //! The report of a fit: the values, what they are worth, the figures.
 
 use super::document::{Report, Section};
-use super::methods::{Account, MOMENTS, methods, web_account};
+use super::methods::{MOMENTS, methods, of_web};
 use super::table::{Row, Table};
 use crate::numbers::significant;
 use crate::output::fit::{doubt, pretty, refused, sentences as sentences_of, value_and_interval};
@@ -27,8 +27,8 @@ pub fn fit_report<'a>(
         each trial.",
         fit.webs
     );
-    let found = std::iter::once(format!("Values with 95 % intervals: {title}.")).chain(sentences_of(fit));
-    let methods = methods("fit", account(fit, target, spec), found);
+    let cited = of_web(spec).into_iter().chain([MOMENTS]).collect();
+    let methods = methods("fit", cited, "web.toml of the results");
     let file = Section::new("file", "The web with these values")
         .paragraph("This file is web.toml in the folder of this page; `spunlaid web web.toml` lays it.")
         .file("web-toml", toml);
@@ -75,29 +75,6 @@ fn numbers(fit: &Fit) -> Section<'static> {
     Section::new("numbers", "What was compared")
         .table(Table::new(heads).rows(fit.numbers.iter().map(number)))
         .caption(caption)
-}
-
-/// How the values were found, with what is cited for it.
-fn account(fit: &Fit, target: &Target, spec: &WebSpec) -> Account {
-    let (mut sentences, mut cited) = web_account(spec, None);
-    let [width, length] = target.sides().map(|side| Dimension::Length.pretty(side));
-    sentences.push(format!(
-        "These values were found by a simulated method of moments ({}): the logarithms of {} numbers (CV \
-        over square patches{}) of a piece of {width} × {length} were compared with the mean of {} simulated \
-        webs, weighted by the inverse of their covariance from web to web. A 95 % interval holds the values \
-        with which simulated webs, each in the place of the scan, differ from the others as much as the scan \
-        does.",
-        MOMENTS.short,
-        fit.numbers.len(),
-        if fit.numbers.iter().any(|number| matches!(number.texture, Texture::Band { .. })) {
-            ", variance of octaves of the spectrum"
-        } else {
-            ""
-        },
-        fit.webs,
-    ));
-    cited.push(MOMENTS);
-    (sentences, cited)
 }
 
 /// The answer.

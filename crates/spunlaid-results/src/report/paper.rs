@@ -2,7 +2,7 @@
 
 use super::claims::{claim_table, claims_in_short};
 use super::document::{Report, Section};
-use super::methods::{case_account, methods};
+use super::methods::{methods, of_case};
 use super::table::{Row, Table};
 use spunlaid::case::Case;
 use spunlaid::claim::{Claim, Verdict};
@@ -25,7 +25,6 @@ pub fn paper_report<'a>(
         0 => "The paper’s figures, drawn anew".to_owned(),
         all => format!("{holds} of the paper’s {all} claims hold"),
     };
-    let found = [how.to_owned(), format!("{headline}.")];
     let mut report = Report::new("reproduce", headline).lead(how);
     if !claims.is_empty() {
         let table = claim_table(claims, "What the paper says");
@@ -55,5 +54,8 @@ pub fn paper_report<'a>(
     let file = Section::new("case", "The base case")
         .paragraph("Table 1 of the paper with every default filled in.")
         .file("case-toml", toml);
-    report.with(Section::of_figures(figures)).with(methods("reproduce", case_account(case), found)).with(file)
+    report
+        .with(Section::of_figures(figures))
+        .with(methods("reproduce", of_case(case), "case.toml of the results"))
+        .with(file)
 }

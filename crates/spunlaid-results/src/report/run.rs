@@ -3,8 +3,8 @@
 use super::document::{Part, Report, Section};
 use super::frames;
 use super::load::{loads_in_short, section_of_loads};
-use super::methods::{case_account, methods};
-use super::run_table::{Whole, capitalised, groups, replicate_table, result_table, sentence};
+use super::methods::{methods, of_case};
+use super::run_table::{Whole, capitalised, replicate_table, result_table};
 use super::spinline::section_of_fibre;
 use super::view::View;
 use super::words::{self, count};
@@ -38,12 +38,7 @@ pub fn run_report<'a>(
 ) -> Result<Report<'a>, Failure> {
     let headline = words::headline(case, results, checks);
     let finer = finer::words(checks, case, results);
-    let whole =
-        |one: &Number| doubt::with_error_of_checks(one.estimate.clone(), one.measure.name, checks, case);
-    let found =
-        [headline.clone()].into_iter().chain(groups(results).first().map(|group| sentence(group, &whole)));
-    let found = found.chain(finer.iter().flatten().flat_map(FinerWords::sentences));
-    let methods = methods("run", case_account(case), found);
+    let methods = methods("run", of_case(case), "case.toml of the results");
     let cost = format!(
         "computed in {} on {} with {} instructions, {} per element and step",
         words::time(performance.wall_s),

@@ -67,22 +67,6 @@ fn value(one: &Number, whole: &Whole<'_>) -> String {
     }
 }
 
-/// The results of a group in a sentence.
-pub(super) fn sentence(group: &[Number], whole: &Whole<'_>) -> String {
-    let result = |one: &Number| {
-        let (name, unit) = (unbroken(one.measure.label), one.measure.unit.shown);
-        format!("{name} {} {unit}", value(one, whole)).trim_end().to_owned()
-    };
-    let n = group.iter().map(count).max().unwrap_or(0);
-    let errors = if n > 1 {
-        format!(" (mean ± one standard error of the mean over {n} replicates)")
-    } else {
-        String::new()
-    };
-    let all: Vec<String> = group.iter().map(result).collect();
-    format!("{}: {}{errors}.", title(group), all.join(", "))
-}
-
 pub(super) fn capitalised(text: &str) -> String {
     let mut chars = text.chars();
     chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())

@@ -5,7 +5,7 @@ use super::fabric::{fabric_in_short, fabric_section};
 use super::light_table::{MarkedPlaces, marks_note, picture_note, sheet};
 use super::methods::methods;
 use super::table::{Row, Table};
-use super::unevenness::{CV_OF_PATCHES, cost, headline, largest_clouds, per_cent, unevenness};
+use super::unevenness::{CV_OF_PATCHES, cost, headline, largest_clouds, per_cent};
 use super::view::View;
 use super::words::{metres, millimetres};
 use crate::Failure;
@@ -41,11 +41,6 @@ pub fn scan_report<'a>(
         metres(findings.map.rows as f64 * findings.map.cell)
     );
     let facts = facts(file, findings);
-    let numbers = facts.iter().map(|(name, value)| format!("{name} {value}")).collect::<Vec<_>>().join(", ");
-    let cvs = findings.patches.iter().map(|patch| patch.unevenness).collect::<Vec<_>>();
-    let texts = vec![summary.clone(), format!("{numbers}.")];
-    let found = [headline.clone(), unevenness(&cvs)].into_iter().chain(verdict(findings));
-    let methods = methods("analyse", (texts, Vec::new()), found);
     let spots = if findings.aside.spots.is_empty() { "" } else { " Black spots were left out." };
     let caption = picture_note(sheet.pixel) + spots + &marks_note(fabric);
     let read = Section::new("file", "The scan").table(Table::of_facts(facts)).caption(
@@ -60,7 +55,7 @@ pub fn scan_report<'a>(
         .with(fabric_section(fabric))
         .with(fabric_in_short(fabric))
         .with(Section::of_figures(figures))
-        .with(methods)
+        .with(methods("analyse", Vec::new(), ""))
         .with(read)
         .costing(cost(performance)))
 }

@@ -1,7 +1,7 @@
 //! The report of the sources of a line.
 
 use super::document::{Report, Section};
-use super::methods::{case_account, methods};
+use super::methods::{methods, of_case};
 use super::table::Table;
 use super::words::{estimate_text, quantity};
 use crate::numbers::{THIN, number, plus_minus};
@@ -114,11 +114,10 @@ pub fn sources_report<'a>((case, toml): (&Case, &str), sources: &Sources) -> Rep
         "All sums are in summary.json, beside this page.".to_owned()
     };
     let file = Section::new("file", "The input").file("case-toml", toml).caption(fields);
-    let found = [lead.clone(), headline.clone()];
     Report::new("air", headline)
         .lead(lead)
         .with(sums)
         .with(computed)
-        .with(methods("air --sources", case_account(case), found))
+        .with(methods("air --sources", of_case(case), "case.toml of the results"))
         .with(file)
 }

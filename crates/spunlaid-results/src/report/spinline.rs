@@ -1,7 +1,7 @@
 //! The report of a spinline, and the section about it in the reports of runs and of webs.
 
 use super::document::{Part, Report, Section};
-use super::methods::{Account, methods};
+use super::methods::methods;
 use super::table::{Content, Layout, Row, Table};
 use super::unevenness::grams;
 use super::words::length;
@@ -29,13 +29,6 @@ pub fn spinline_report<'a>(
 ) -> Report<'a> {
     let rows = &results.rows;
     let headline = rows.first().map_or_else(String::new, headline);
-    let number = |row: Measured<Solution>| {
-        let value = text(&row).unwrap_or_default();
-        format!("{} {value} {}", row.measure.label, row.measure.unit.shown).trim_end().to_owned()
-    };
-    let first = rows.iter().take(1);
-    let numbers: Vec<String> = first.flat_map(|row| measured(OF_SPINLINES, row).map(number)).collect();
-    let found = [headline.clone(), format!("{}.", numbers.join(", ")), numerical_error(rows)];
     let computed = Section::new("methods", "How it was computed").descriptions(model(spec));
     let file = Section::new("file", "The spinline")
         .paragraph(
@@ -52,7 +45,7 @@ pub fn spinline_report<'a>(
         .lead(summary(spec, rows))
         .with(section(Section::new("results", "Results"), Vec::new(), results, figures).told())
         .with(computed)
-        .with(methods("spin", account(spec, rows), found))
+        .with(methods("spin", vec![spec.drag.along.source()], "spinline.toml of the results"))
         .with(file)
 }
 
@@ -224,13 +217,6 @@ fn curtain(rows: &[Solution]) -> Option<String> {
         micrometres(first),
         micrometres(last)
     ))
-}
-
-/// What is computed of a spinline and how, with what is cited for it.
-pub(super) fn account(spec: &SpinSpec, rows: &[Solution]) -> Account {
-    let texts = model(spec).into_iter().map(|(_, text)| text);
-    let length = format!("The line is {} long.", length(spec.spinline.length));
-    ([summary(spec, rows), length].into_iter().chain(texts).collect(), vec![spec.drag.along.source()])
 }
 
 /// What the model is, in a few words each.

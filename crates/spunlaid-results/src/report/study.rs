@@ -3,8 +3,7 @@
 use super::claims::{claim_table, claims_in_short};
 use super::document::{Report, Section};
 use super::effects::effect_cell;
-use super::methods::{Account, case_account, methods, web_account};
-use super::spinline;
+use super::methods::{Reference, methods, of_case, of_web};
 use super::table::{Cell, Layout, Row, Table};
 use super::words::count;
 use crate::figures::name_of_key;
@@ -20,8 +19,6 @@ use spunlaid_charts::Figure;
 const LISTED: usize = 500;
 /// Figures whose quantities a terminal shows of webs.
 const IN_SHORT: [&str; 5] = ["cv", "cv_flown", "basis_weight", "md_cd_ratio", "thin_places"];
-/// Most values of a factor that the methods list.
-const MOST_VALUES: usize = 12;
 
 /// A study.
 ///
@@ -41,7 +38,6 @@ pub fn study_report<'a>(
         Some(answer) => (answer, format!("{question} ")),
         None => (question, String::new()),
     };
-    let effects = effects(study, rankings);
     let judged = (!claims.is_empty()).then(|| {
         let section = Section::new("claims", "Claim by claim").table(claim_table(claims, "What is claimed"));
         section.caption(
@@ -60,7 +56,7 @@ pub fn study_report<'a>(
         .with_all(ranking(study, rankings, refusal))
         .with(Section::of_figures(figures))
         .with(points(study, results))
-        .with(methods("sweep", account(study, results), effects))
+        .with(methods("sweep", cited(study), "study.toml of the results"))
         .with(files(study, texts))
 }
 
@@ -181,48 +177,14 @@ fn files(study: &Study, [text, base_text]: [&str; 2]) -> Section<'static> {
         .file("base-toml", base_text)
 }
 
-/// What was varied and of what, with what is cited for it.
-fn account(study: &Study, results: &[PointResults]) -> Account {
-    let (base, references) = match study.points.first().map(|point| &point.experiment) {
-        Some(Experiment::Case(case)) => case_account(case),
-        Some(Experiment::Web(spec)) => web_account(spec, None),
-        Some(Experiment::Spinline(spec)) => spinline::account(spec, &[]),
-        None => Account::default(),
-    };
-    let varied = study.factors.iter().map(|factor| {
-        let values: Vec<String> =
-            factor.levels().into_iter().map(|value| factor.input().pretty(value)).collect();
-        let values = match values.as_slice() {
-            [first, .., last] if values.len() > MOST_VALUES => {
-                format!("{} values from {first} to {last}", values.len())
-            }
-            values => values.join(", "),
-        };
-        format!("The {} ({}) is varied: {values}.", name_of_key(&factor.key), factor.key)
-    });
-    // Nothing of a spinline is by chance.
-    let seed = match study.noun() {
-        "spinline" => String::new(),
-        _ => format!("The study has the seed {}.", study.seed),
-    };
-    let sentences = [summary(study, results), phases(study).to_owned(), seed].into_iter().chain(varied);
-    let first = "Everything else is as at the first point:".to_owned();
-    (sentences.chain([first]).chain(base).collect(), references)
-}
-
-/// The effects of each factor on each result of the tables, in sentences.
-fn effects(study: &Study, rankings: &[Ranking]) -> Vec<String> {
-    let sentence = |quantity: usize| {
-        let result = &study.quantities[quantity];
-        let effect = |effect: &Effect<Contrast>| {
-            let [from, to] = ends(study, effect.of);
-            let key = &study.factors[effect.of.factor].key;
-            format!("{} from {from} to {to} of the {}", change(result, &effect.difference), name_of_key(key))
-        };
-        let effects: Vec<String> = ranking_of(rankings, quantity)?.effects.iter().map(effect).collect();
-        Some(format!("Change of {}: {} (± one standard error).", shown::head(result), effects.join(", ")))
-    };
-    shown::quantities(study).into_iter().filter_map(sentence).collect()
+/// What is cited for what varies.
+fn cited(study: &Study) -> Vec<Reference> {
+    match study.points.first().map(|point| &point.experiment) {
+        Some(Experiment::Case(case)) => of_case(case),
+        Some(Experiment::Web(spec)) => of_web(spec),
+        Some(Experiment::Spinline(spec)) => vec![spec.drag.along.source()],
+        None => Vec::new(),
+    }
 }
 
 fn question(study: &Study) -> String {

@@ -56,18 +56,6 @@ pub(super) fn headline(
     }
 }
 
-/// The CV over each size of patches, in a sentence.
-pub(super) fn unevenness(patches: &[Unevenness]) -> String {
-    let one = |patch: &Unevenness| {
-        format!("{} over patches of {}", per_cent(patch.cv, patch.standard_error), millimetres(patch.patch))
-    };
-    let all: Vec<String> = patches.iter().map(one).collect();
-    format!(
-        "Its CV (standard deviation over mean of the basis weight) is {}, ± one standard error.",
-        all.join(", ")
-    )
-}
-
 pub(super) fn per_cent(cv: f64, error: Option<f64>) -> String {
     format!("{}{THIN}%", plus_minus(cv * PER_CENT, error.map(|error| error * PER_CENT)))
 }

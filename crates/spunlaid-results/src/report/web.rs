@@ -7,12 +7,11 @@ use super::effects::{
 use super::fabric::{fabric_in_short, fabric_section};
 use super::light_table::{Fibres, MarkedPlaces, Strands, marks_note, picture_note, sheet};
 use super::load::{loads_in_short, section_of_loads};
-use super::methods::{methods, web_account};
+use super::methods::{methods, of_web};
 use super::spinline::{LayerSpinline, sections_of_web};
 use super::table::{Row, Table};
 use super::unevenness::{
     CV_OF_PATCHES, cost, grams, grams_with_error, headline, headline_patch, largest_clouds, per_cent,
-    unevenness,
 };
 use super::view::View;
 use super::words::{count, metres, millimetres};
@@ -58,10 +57,6 @@ pub fn web_report<'a>(
     let together = findings.laid.shared_air.as_ref();
     let headline = headline_of(findings);
     let errors = error_sentences(findings);
-    let cvs = findings.patches.iter().filter_map(whole).collect::<Vec<_>>();
-    let cvs = if cvs.is_empty() { String::new() } else { unevenness(&cvs) };
-    let found = [headline.clone(), cvs, errors.clone()];
-    let account = web_account(spec, together.map(|together| &together.few[..]));
     let loads = named_loads(layers);
     let spun = spinlines
         .first()
@@ -82,7 +77,7 @@ pub fn web_report<'a>(
         .with(commands(findings, tried.advice))
         .with(Section::of_figures(figures))
         .with_all(sections_of_web(web, layers, spinlines))
-        .with(methods("web", account, found))
+        .with(methods("web", of_web(spec), "web.toml of the results"))
         .with(file(layers, toml))
         .costing(cost(performance)))
 }

@@ -1,14 +1,8 @@
-//! The paragraph about methods in every report: what a paper says of the numbers that it takes, with what it cites.
-//!
-//! ```text
-//! case, web, spinline, study → sentences with their references (case) → methods, a section to copy
-//! ```
+//! The paragraph about methods in every report: by what the numbers were made, where the case stands, and what is cited.
 
-mod case;
 mod reference;
 
-pub(super) use case::{Account, case_account, web_account};
-pub(super) use reference::MOMENTS;
+pub(super) use reference::{MOMENTS, Reference, of_case, of_web};
 
 use super::document::{Part, Section};
 use reference::PROGRAM;
@@ -16,23 +10,29 @@ use reference::PROGRAM;
 /// A paragraph to copy, and below it the works that it cites, each once, the program first.
 ///
 /// * `command` – that made the results
-/// * `account` – what was done, with the works that are cited for it
-/// * `found` – the results, in sentences
-pub(super) fn methods(
-    command: &str,
-    (sentences, cited): Account,
-    found: impl IntoIterator<Item = String>,
-) -> Section<'static> {
-    let first = format!("The numbers come from {} (spunlaid {command}).", PROGRAM.short);
-    let all: Vec<String> = [first].into_iter().chain(sentences).chain(found).collect();
-    let text = all.iter().map(|sentence| sentence.trim()).filter(|sentence| !sentence.is_empty());
-    let mut paragraphs = vec![text.collect::<Vec<_>>().join(" "), PROGRAM.full.to_owned()];
-    for reference in cited {
-        if !paragraphs.iter().any(|known| known == reference.full) {
-            paragraphs.push(reference.full.to_owned());
+/// * `cited` – the works on whose models they rest
+/// * `input` – where everything stands with which the command gives them again; empty if it made nothing of a case
+pub(super) fn methods(command: &str, cited: Vec<Reference>, input: &str) -> Section<'static> {
+    let mut works: Vec<Reference> = Vec::new();
+    for work in cited {
+        if !works.iter().any(|known| known.full == work.full) {
+            works.push(work);
         }
     }
+    let models = match &works[..] {
+        [] => String::new(),
+        works => {
+            let names: Vec<&str> = works.iter().map(|work| work.short).collect();
+            format!(", by the models of {}", names.join("; "))
+        }
+    };
+    let case = match input {
+        "" => String::new(),
+        input => format!(" The input with all its numbers is {input}."),
+    };
+    let text = format!("The numbers come from {} (spunlaid {command}){models}.{case}", PROGRAM.short);
+    let full = works.iter().map(|work| work.full.to_owned());
+    let paragraphs = [text, PROGRAM.full.to_owned()].into_iter().chain(full).collect();
     Section::new("methods-paragraph", "Methods, for a paper")
-        .paragraph("What was computed and how, with all numbers of the case, to copy and to shorten.")
         .with(Part::Prose { id: "methods-text", paragraphs })
 }

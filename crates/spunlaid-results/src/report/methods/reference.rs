@@ -1,7 +1,10 @@
 //! What a paper cites beside its numbers: the program, and the sources of the models that the numbers rest on.
 
 /// A work that is cited. A law of the drag names its own.
-pub(super) use spunlaid::drag::Source as Reference;
+pub(in crate::report) use spunlaid::drag::Source as Reference;
+
+use spunlaid::case::Case;
+use spunlaid::layers::{Method, WebSpec};
 
 /// The program itself.
 pub(in crate::report) const PROGRAM: Reference = Reference {
@@ -35,6 +38,21 @@ pub(in crate::report) const MOMENTS: Reference = Reference {
     full: "D. McFadden: A method of simulated moments for estimation of discrete response models without \
         numerical integration. Econometrica 57(5), 995–1026, 1989.",
 };
+
+/// What a flown case rests on: the chain, and the laws of the drag.
+pub(in crate::report) fn of_case(case: &Case) -> Vec<Reference> {
+    match case.air.density > 0.0 {
+        true => vec![CHAIN, case.drag.along.source(), case.drag.across.source()],
+        false => vec![CHAIN],
+    }
+}
+
+/// What a web rests on: the surrogate where it lays the fibres, and the cases that fly.
+pub(in crate::report) fn of_web(spec: &WebSpec) -> Vec<Reference> {
+    let surrogate = (spec.method == Method::Surrogate).then_some(SURROGATE);
+    let cases = spec.layers.iter().filter_map(|layer| layer.source.case()).flat_map(|case| of_case(case));
+    surrogate.into_iter().chain(cases).collect()
+}
 
 #[cfg(test)]
 mod tests {
