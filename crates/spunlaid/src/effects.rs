@@ -6,7 +6,7 @@
 //! ```
 //!
 //! How a pair is measured is up to whoever asks: webs fly in the same air or lie on the paths of the same
-//! fibres (`advice`), single fibres are laid with another number (`web::sensitivities`), a spinline is solved
+//! fibres (`advice`), a spinline is solved
 //! again (`input`), and a study fits lines to the replicates of its points.
 
 use crate::error::Error;

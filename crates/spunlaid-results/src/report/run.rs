@@ -38,6 +38,8 @@ pub fn run_report<'a>(
 ) -> Result<Report<'a>, Failure> {
     let headline = words::headline(case, results, checks);
     let finer = finer::words(checks, case, results);
+    let whole =
+        |one: &Number| doubt::with_error_of_checks(one.estimate.clone(), one.measure.name, checks, case);
     let methods = methods("run", of_case(case), "case.toml of the results");
     let cost = format!(
         "computed in {} on {} with {} instructions, {} per element and step",

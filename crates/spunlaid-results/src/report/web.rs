@@ -1,9 +1,7 @@
 //! The report of a web: the web on a light table, what makes it uneven, and the figures.
 
 use super::document::{Part, Report, Section};
-use super::effects::{
-    Advised, advice_commands, advice_words, effect_cell, effects_table, guess_words, is_known,
-};
+use super::effects::{Advised, advice_commands, advice_words, effects_table, guess_words, is_known};
 use super::fabric::{fabric_in_short, fabric_section};
 use super::light_table::{Fibres, MarkedPlaces, Strands, marks_note, picture_note, sheet};
 use super::load::{loads_in_short, section_of_loads};
@@ -16,8 +14,8 @@ use super::unevenness::{
 use super::view::View;
 use super::words::{count, metres, millimetres};
 use crate::Failure;
-use crate::effects::{PER_CENT, difference_text};
-use crate::numbers::{THIN, number, plus_minus, significant};
+use crate::effects::PER_CENT;
+use crate::numbers::{THIN, number, significant};
 use crate::output::load::LoadSummary;
 use crate::output::web::{Layer, PatchTable, Performance, Reader};
 use spunlaid::advice::Advice;
@@ -26,7 +24,7 @@ use spunlaid::fabric::Fabric;
 use spunlaid::layers::WebSpec;
 use spunlaid::units::Dimension;
 use spunlaid::web::uniformity::Unevenness;
-use spunlaid::web::{ChargedCurtain, Findings, PatchFindings, Sensitivity, Source, Strand, Web};
+use spunlaid::web::{ChargedCurtain, Findings, PatchFindings, Strand, Web};
 use spunlaid_charts::Figure;
 
 /// A web.
@@ -90,7 +88,7 @@ fn uneven(
 ) -> Section<'static> {
     let PatchTable { heads, rows } = PatchTable::new(findings, Reader::Report);
     let mut section = Section::new("verdict", "What makes it uneven")
-        .paragraphs(verdict(findings, advice.is_some()))
+        .paragraphs(verdict(findings))
         .table(Table::new(heads).rows(rows.into_iter().map(Row::from)))
         .caption(format!("{CV_OF_PATCHES} {}", about_errors(findings)));
     let effects = [("What would make it more even", advice), ("How much the guesses matter", guesses)];
@@ -99,20 +97,7 @@ fn uneven(
             section = section.heading(heading).table(table).caption(caption);
         }
     }
-    if findings.sensitivities.is_empty() {
-        return section;
-    }
-    let sizes = findings.patches.iter().map(|patch| millimetres(patch.map.patch));
-    let heads = ["One per cent more of".to_owned()].into_iter().chain(sizes);
     section
-        .table(Table::new(heads).rows(findings.sensitivities.iter().map(|of| levers(of, findings))))
-        .caption(
-            "What explains it: change of the expected CV in per cent, while the other numbers stay, ± one \
-        standard error, for patches of each size. The speed of the belt moves the flown curves on the belt \
-        and leaves the flight as it was (docs/web.md). “Not known”: the number would come from the \
-        surrogate, whose CV is more than 5 % from that of the flown curves there. A faster belt makes the \
-        web lighter, more filaments make it heavier.",
-        )
 }
 
 /// The unevenness for a terminal.
@@ -336,20 +321,6 @@ fn error_sentences(findings: &Findings) -> String {
     )
 }
 
-fn levers(sensitivity: &Sensitivity, findings: &Findings) -> Row {
-    let cell = |patch: &PatchFindings| {
-        let effect = sensitivity.on(patch.map.patch).map(|effect| &effect.difference);
-        effect_cell(effect, "not known", |effect| format!("{}{THIN}%", difference_text(effect, 1.0)))
-    };
-    let source = match sensitivity.change.experiment {
-        Source::FlownFibres => ", from the flown curves",
-        Source::Surrogate => ", from the surrogate",
-        Source::Law => "",
-    };
-    let name = format!("{}{source}", sensitivity.change.setting.words);
-    Row::new(name, findings.patches.iter().map(cell))
-}
-
 fn layer(layer: &Layer) -> Row {
     let spread = |sigma: Option<f64>| sigma.map_or("–".to_owned(), millimetres);
     let cells = [
@@ -366,10 +337,8 @@ fn layer(layer: &Layer) -> Row {
     Row::new(&layer.name, cells)
 }
 
-/// What makes the web uneven, and what would make it more even, in sentences.
-///
-/// * `has_advice` – whether the settings of the line say what would
-fn verdict(findings: &Findings, has_advice: bool) -> Vec<String> {
+/// What makes the web uneven, in sentences.
+fn verdict(findings: &Findings) -> Vec<String> {
     let mut sentences: Vec<String> = findings.clouds.as_ref().and_then(largest_clouds).into_iter().collect();
     let Some(i) = headline_patch(findings) else { return sentences };
     let patch = &findings.patches[i];
@@ -393,19 +362,5 @@ fn verdict(findings: &Findings, has_advice: bool) -> Vec<String> {
         if is_shared { "" } else { "expected " },
         significant(ratio, 3)
     ));
-    if has_advice {
-        return sentences;
-    }
-    let of_patch = |of: &'_ Sensitivity| Some((of.change.setting.words, of.on(patch.map.patch)?.difference));
-    let known = findings.sensitivities.iter().filter_map(of_patch);
-    if let Some((words, effect)) = known.max_by(|a, b| a.1.value.abs().total_cmp(&b.1.value.abs())) {
-        let way = if effect.value < 0.0 { "more" } else { "less" };
-        let effect = plus_minus(10.0 * effect.value.abs(), Some(10.0 * effect.standard_error));
-        sentences.push(format!(
-            "Among the numbers of the line whose effect is known, {words} lowers the CV over patches of {} most: 10 % \
-             {way} of it lowers the CV by about {effect} % of its value.",
-            millimetres(patch.map.patch)
-        ));
-    }
     sentences
 }

@@ -212,7 +212,7 @@ fn cvs(spec: &WebSpec, by: LayControl<'_>) -> Result<Vec<ExpectedCv>, Error> {
     let mut flyer = Flyer::new(by.threads, by.stop, &unwatched);
     let mut flown = flyer.web(&WebSpec { method, ..spec.clone() })?;
     match spec.method {
-        Method::SharedAir => Ok(of_maps(&flown.measure(by)?.patches)),
+        Method::SharedAir => Ok(of_maps(&flown.find(by)?.patches)),
         Method::Surrogate | Method::Dynamics => expected_cv(&flown.web, by),
     }
 }

@@ -93,7 +93,7 @@ impl Simulator for WebSimulator<'_> {
         });
         spec.sheet.patches = sides.collect();
         let mut flown = self.flyer.web(&spec)?;
-        let found = flown.measure(self.by)?;
+        let found = flown.find(self.by)?;
         let errors = |cause: &dyn Fn(&PatchFindings) -> Option<f64>| -> Vec<f64> {
             let of_side = |side: f64| {
                 let far = |patch: &&PatchFindings| (patch.map.patch / side).ln().abs();

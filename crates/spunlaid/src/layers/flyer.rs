@@ -18,7 +18,7 @@ use crate::load::WayPlace;
 use crate::statistics::Estimate;
 use crate::surrogate::{IdentificationFailure, Residual, Surrogate, identify};
 use crate::web::{
-    Curves, Doubt, Fibres, Findings, LaidWeb, LayControl, Map, Web, find_laid, lay, measure_laid, pieces,
+    Curves, Doubt, Fibres, Findings, LaidWeb, LayControl, Map, Web, find_laid, lay, pieces,
 };
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -231,10 +231,7 @@ impl FlownFibres {
             traces.push(statistics);
         }
         let places = laid.iter().map(|points| points.iter().map(|point| [point.md, point.cd]).collect());
-        let delay = |point: &LaidPoint| line.feed_speed * point.time - point.fed;
-        let delays = laid.iter().map(|points| points.iter().map(delay).collect());
-        let curves = Curves::new(spacing, belt_ratio, places.collect())
-            .and_then(|curves| curves.with_delays(delays.collect()))?;
+        let curves = Curves::new(spacing, belt_ratio, places.collect())?;
         let numbers = numbers.map(Estimate::new);
         let correlations: Vec<[&[f64]; 2]> = traces
             .iter()
@@ -296,15 +293,6 @@ impl FlownWeb {
     pub fn find(&mut self, by: LayControl<'_>) -> Result<Findings, Error> {
         let laid = self.laid.take().map_or_else(|| lay(&self.web, by), Ok)?;
         find_laid(&self.web, Some(laid), by)
-    }
-
-    /// [`FlownWeb::find`] without the sensitivities, which take as long as the rest.
-    ///
-    /// # Errors
-    /// As [`FlownWeb::find`].
-    pub fn measure(&mut self, by: LayControl<'_>) -> Result<Findings, Error> {
-        let laid = self.laid.take().map_or_else(|| lay(&self.web, by), Ok)?;
-        measure_laid(&self.web, Some(laid), by)
     }
 }
 

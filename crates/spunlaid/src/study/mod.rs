@@ -10,7 +10,7 @@
 //!
 //! A study is data: it is read from a file (`input::read_study`) or made in code, [`Study::of_cases`].
 //! [`run`] makes the replicates that the journal does not hold yet. The record of a replicate has the same bits for any
-//! number of threads, any packing and any interruption, and equals the result of `ensemble::fly` or `web::measure`.
+//! number of threads, any packing and any interruption, and equals the result of `ensemble::fly` or `web::find`.
 
 mod claims;
 mod design;

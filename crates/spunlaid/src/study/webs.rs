@@ -39,7 +39,7 @@ pub(super) fn lay(
             let spec = WebSpec { seed, ..spec.clone() };
             let mut flown = flyer.web(&spec)?;
             steps.fetch_add(flown.pieces()?, Ordering::Relaxed);
-            let found = flown.measure(LayControl { threads, isa, stop, laid: fibre_steps })?;
+            let found = flown.find(LayControl { threads, isa, stop, laid: fibre_steps })?;
             let fabric = spec.fabric(&flown.web, &found, threads);
             let outcome = ReplicateOutcome::Measured(measured_of_web(sides, &found, &fabric));
             take(Record { point: *point as u64, replicate, outcome })?;

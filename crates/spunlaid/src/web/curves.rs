@@ -14,9 +14,6 @@ pub struct Curves {
     belt_ratio: f64,
     /// Of each curve the points (ξ₁, ξ₂) [m].
     curves: Vec<Vec<[f64; 2]>>,
-    /// Of each point the length of fibre that is fed while it flies, less the mean of its curve [m]; empty if
-    /// it is not known.
-    delays: Vec<Vec<f64>>,
     /// How far they hang together, if they were flown in one air.
     one_air: Option<OneAir>,
 }
@@ -60,27 +57,7 @@ impl Curves {
                 *point = [point[0] - middle[0], point[1] - middle[1]];
             }
         }
-        Ok(Self { spacing, belt_ratio, curves, delays: Vec::new(), one_air: None })
-    }
-
-    /// The same curves with the times of their touch-downs, which [`Curves::on_belt`] needs.
-    ///
-    /// * `delays` – of each point the length of fibre that is fed between its own feed and its touch-down [m]
-    ///
-    /// # Errors
-    /// If there is not one finite delay for each point.
-    pub fn with_delays(mut self, mut delays: Vec<Vec<f64>>) -> Result<Self, Fault> {
-        let alike = delays.len() == self.curves.len()
-            && delays.iter().zip(&self.curves).all(|(delays, curve)| delays.len() == curve.len());
-        if !alike || !delays.iter().flatten().all(|delay| delay.is_finite()) {
-            return Err(no_curves());
-        }
-        for delays in &mut delays {
-            let mean = delays.iter().sum::<f64>() / delays.len() as f64;
-            delays.iter_mut().for_each(|delay| *delay -= mean);
-        }
-        self.delays = delays;
-        Ok(self)
+        Ok(Self { spacing, belt_ratio, curves, one_air: None })
     }
 
     /// The same curves, known to hang together.
@@ -90,24 +67,6 @@ impl Curves {
 
     pub(super) const fn one_air(&self) -> Option<&OneAir> {
         self.one_air.as_ref()
-    }
-
-    /// The curves that the same flights leave on a belt of another speed: each point comes down at the same
-    /// time and place, and the belt has gone farther or less far since it was fed. What the belt does to the
-    /// fibre in the air is taken as it was. None if the times of the touch-downs are not known.
-    ///                                                                                         theory.md (75)
-    ///
-    /// * `belt_ratio` – speed of the belt over speed of the feed
-    pub fn on_belt(&self, belt_ratio: f64) -> Option<Self> {
-        if self.delays.is_empty() || !(belt_ratio > 0.0 && belt_ratio.is_finite()) {
-            return None;
-        }
-        let faster = belt_ratio - self.belt_ratio;
-        let moved = |(curve, delays): (&Vec<[f64; 2]>, &Vec<f64>)| {
-            curve.iter().zip(delays).map(|([md, cd], delay)| [md - faster * delay, *cd]).collect()
-        };
-        let curves = self.curves.iter().zip(&self.delays).map(moved).collect();
-        Some(Self { belt_ratio, curves, ..self.clone() })
     }
 
     /// Fed length from point to point [m].
@@ -122,12 +81,7 @@ impl Curves {
 
     /// Each curve for itself.
     pub(super) fn single(&self) -> impl Iterator<Item = Self> + '_ {
-        self.curves.iter().map(|curve| Self {
-            curves: vec![curve.clone()],
-            delays: Vec::new(),
-            one_air: None,
-            ..*self
-        })
+        self.curves.iter().map(|curve| Self { curves: vec![curve.clone()], one_air: None, ..*self })
     }
 
     /// The points (ξ₁, ξ₂) of each curve [m].
@@ -232,58 +186,4 @@ pub(super) fn no_curves() -> Fault {
         "there are no laid curves, or they are too short: each needs more than 16 points at a spacing above zero",
         "fly the case for longer (run.duration)",
     )
-}
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used)]
-mod tests {
-    use super::*;
-
-    /// Where and when a fibre comes down, whatever the belt does: place along the machine direction [m], and
-    /// length fed by then [m].
-    fn landing(fed: f64) -> (f64, f64) {
-        (0.02 * (31.0 * fed).sin() + 0.01 * (77.0 * fed).cos(), fed + 0.4 + 0.03 * (19.0 * fed).sin())
-    }
-
-    /// Curves on a belt of this speed over that of the feed: `md = y − v_b t`.
-    fn laid(belt_ratio: f64) -> Curves {
-        const SPACING: f64 = 1e-3;
-        let fed: Vec<f64> = (0..500).map(|i| 2.0 + f64::from(i) * SPACING).collect();
-        let point = |fed: &f64| {
-            let (place, until) = landing(*fed);
-            [place - belt_ratio * until, 0.01 * (13.0 * fed).cos()]
-        };
-        let delays = fed.iter().map(|fed| landing(*fed).1 - fed).collect();
-        let curve = fed.iter().map(point).collect();
-        Curves::new(SPACING, belt_ratio, vec![curve]).unwrap().with_delays(vec![delays]).unwrap()
-    }
-
-    #[test]
-    fn analytic_the_same_landings_on_a_faster_belt() {
-        let moved = laid(0.1).on_belt(0.6).unwrap();
-        let wanted = laid(0.6);
-        assert_eq!(moved.belt_ratio(), 0.6);
-        for (moved, wanted) in moved.curves[0].iter().zip(&wanted.curves[0]) {
-            // Rounding of sums of five hundred numbers of the size of a metre.
-            assert!(
-                (0..2).all(|i| (moved[i] - wanted[i]).abs() < 1e-12),
-                "{moved:?} where {wanted:?} is wanted"
-            );
-        }
-        // The delays matter: 0.5 times 0.03 m.
-        let apart = |(one, other): (&[f64; 2], &[f64; 2])| (one[0] - other[0]).abs();
-        let farthest = laid(0.1).curves[0].iter().zip(&wanted.curves[0]).map(apart).fold(0.0, f64::max);
-        assert!(farthest > 0.01, "{farthest}");
-    }
-
-    #[test]
-    fn rejects_delays_that_are_not_those_of_the_points() {
-        let curves = || laid(0.1);
-        assert!(curves().with_delays(vec![]).is_err());
-        assert!(curves().with_delays(vec![vec![0.0; 499]]).is_err());
-        assert!(curves().with_delays(vec![vec![f64::NAN; 500]]).is_err());
-        let without = Curves { delays: Vec::new(), ..curves() };
-        assert_eq!(without.on_belt(0.2), None);
-        assert_eq!(curves().on_belt(f64::NAN), None);
-    }
 }

@@ -77,11 +77,6 @@ pub enum Doubt {
     },
     /// No fibre was flown beside the surrogate.
     NothingFlown,
-    /// What a faster belt does is not known, because this one pulls at the fibre in the air.
-    PullingBelt {
-        /// Speed of the belt over that of the feed.
-        ratio: f64,
-    },
     /// No surrogate describes the laid fibre of a layer well.
     PoorSurrogate {
         /// Basis weight of the layer [kg/m²].
@@ -200,13 +195,6 @@ impl Display for Doubt {
                 "no fibre was flown for every layer of this web, so the errors are by chance only, and it is \
                 not known how far a surrogate with these numbers is from real fibres. Compared with flown \
                 curves, its CV was up to 20 % wrong (docs/web.md)"
-            ),
-            Self::PullingBelt { ratio } => write!(
-                f,
-                "the effect of a faster belt is not given, because this belt runs at {} of the feed speed \
-                and pulls at the fibre in the air, so the flight changes with it; fly webs at other speeds \
-                (a study over belt.speed, docs/web.md)",
-                digits(*ratio, 2)
             ),
             Self::PoorSurrogate { basis_weight, residual: Residual { rms, by_chance } } => write!(
                 f,

@@ -123,11 +123,6 @@ fn models(web: &Web, findings: &Findings, residuals: &[Option<Residual>]) -> Vec
     if is_laid && patches().any(|patch| patch.flown.is_none()) {
         doubts.push(Doubt::NothingFlown);
     }
-    if let ([layer], false) = (&web.layers[..], findings.sensitivities.is_empty())
-        && layer.belt_changes_flight()
-    {
-        doubts.push(Doubt::PullingBelt { ratio: layer.belt_ratio() });
-    }
     for (layer, residual) in web.layers.iter().zip(residuals) {
         let Some(residual) = *residual else { continue };
         let excess = (residual.rms.powi(2) - residual.by_chance.unwrap_or(0.0).powi(2)).max(0.0).sqrt();

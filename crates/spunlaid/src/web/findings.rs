@@ -1,7 +1,7 @@
 //! Everything that is found out about a web.
 
 use super::clouds::{Clouds, autocorrelation};
-use super::expected::{ALONE, SheetPosition, across, expected, side, sides};
+use super::expected::{ALONE, SheetPosition, across, expected, sides};
 use super::few_findings::{FewDoubt, FewFilamentsCv};
 use super::laid_web::{LaidWeb, SharedAirFindings};
 use super::lay::lay;
@@ -9,7 +9,6 @@ use super::laying::LayControl;
 use super::map::Map;
 use super::one_fibre::OneFibre;
 use super::orientation::{Orientation, orientation};
-use super::sensitivity::{Sensitivity, Source, sensitivities};
 use super::uniformity::{Unevenness, error_of_mean, nearest_to_seen, unevenness_at};
 use super::waves::Places;
 use super::{Fibres, Layer, Web};
@@ -45,8 +44,6 @@ pub struct Findings {
     pub fibre_length: f64,
     /// The surrogate of the first layer, if it has one.
     pub surrogate: Option<Surrogate>,
-    /// What would make it more even, at the patches of [`Findings::patches`]; empty for several layers.
-    pub sensitivities: Vec<Sensitivity>,
 }
 
 impl Findings {
@@ -137,8 +134,6 @@ impl PatchFindings {
     }
 }
 
-/// Fibres that are laid alone for each sensitivity.
-const TURNED: u64 = 8;
 /// Longest lag of the autocorrelation [m], and most lags.
 const LAG: f64 = 0.1;
 const LAGS: usize = 257;
@@ -156,38 +151,6 @@ pub fn find(web: &Web, by: LayControl<'_>) -> Result<Findings, Error> {
 /// # Errors
 /// As [`find`].
 pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Result<Findings, Error> {
-    let found = measure_laid(web, laid, by)?;
-    if found.laid.shared_air.is_some() {
-        // What changes the unevenness of independent filaments says little about that of their clouds.
-        return Ok(found);
-    }
-    let patch = |found: &PatchFindings| (found.map.patch, side(&web.sheet, found.map.patch));
-    let patches: Vec<(f64, usize)> = found.patches.iter().map(patch).collect();
-    let sample = OneFibre { cell: web.sheet.cell, fibres: TURNED, seed: web.seed };
-    let aside = AtomicU64::new(0);
-    let mut sensitivities = sensitivities(web, &patches, sample, LayControl { laid: &aside, ..by })?;
-    // A surrogate that is not like the flown fibres does not say what would change their web.
-    let is_far =
-        |patch: f64| found.patches.iter().any(|found| found.map.patch == patch && found.surrogate_is_far());
-    for sensitivity in sensitivities.iter_mut().filter(|of| of.change.experiment == Source::Surrogate) {
-        sensitivity.effects.retain(|effect| !is_far(effect.of));
-    }
-    Ok(Findings { sensitivities, ..found })
-}
-
-/// [`find`] without the sensitivities, which take as long as the rest.
-///
-/// # Errors
-/// As [`find`].
-pub fn measure(web: &Web, by: LayControl<'_>) -> Result<Findings, Error> {
-    measure_laid(web, None, by)
-}
-
-/// [`measure`] of a web that has been laid already, if it is given.
-///
-/// # Errors
-/// As [`find`].
-pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Result<Findings, Error> {
     let sheet = &web.sheet;
     let SheetPosition { reach, columns } = across(web);
     let sides = sides(sheet, &columns);
@@ -279,7 +242,6 @@ pub fn measure_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Res
         orientation,
         clouds,
         autocorrelation,
-        sensitivities: Vec::new(),
         patches,
         margins,
         reach,

@@ -16,6 +16,9 @@ noise = '12 m^-0.5'
 feed_speed = '50 m/s'
 belt_speed = '3 m/s'
 filaments_per_metre = 500
+[web]
+width = '1 m'
+length = '1 m'
 ";
 
 /// Whatever file a removed key belonged to, each reader knows it: from outside and, of a case, in code.
@@ -26,7 +29,7 @@ fn rejects_removed_keys_with_the_way_out() {
         let key = if name.contains('.') { (*name).to_owned() } else { format!("{name}.any") };
         let set = [(key.clone(), "1".to_owned())];
         let set = Overrides { values: &set, word: "--set" };
-        let wanted = format!("--set {key} = \"1\" is gone since {since}; {way_out}");
+        let wanted = format!("--set {key} = 1 is gone since {since}; {way_out}");
         let case = parse_case(starter_case(), "starter.toml", set).unwrap_err().to_string();
         let web = parse_web(WEB, "web.toml", set).unwrap_err().to_string();
         assert!(case.contains(&wanted) && web.contains(&wanted), "{case}\n{web}\n{wanted}");

@@ -169,8 +169,7 @@ fn measured(spec: &WebSpec) -> Vec<u64> {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
     let mut flown = Flyer::new(1, &stop, &follow).web(spec).unwrap();
-    let found =
-        flown.measure(LayControl { threads: 1, isa: Isa::detect(), stop: &stop, laid: &laid }).unwrap();
+    let found = flown.find(LayControl { threads: 1, isa: Isa::detect(), stop: &stop, laid: &laid }).unwrap();
     // The strips that are cut off at the edges may leave no room for large patches.
     let patch = |side: f64| found.patches.iter().find(|patch| (patch.map.patch / side - 1.0).abs() < 1e-9);
     let patches = spec.sheet.patches.iter().flat_map(|side| {

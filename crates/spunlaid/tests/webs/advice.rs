@@ -75,7 +75,7 @@ fn advice(text: &str, threads: usize, stop: &AtomicBool) -> Result<Advice, Error
     let by = LayControl { threads, isa: Isa::detect(), stop: &on, laid: &laid };
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
     let mut flown = Flyer::new(threads, &on, &follow).web(&file.spec).unwrap();
-    let findings = flown.measure(by).unwrap();
+    let findings = flown.find(by).unwrap();
     advise(&file.spec, (&flown.web, &findings), changes, None, LayControl { stop, ..by })
 }
 

@@ -10,8 +10,7 @@ use spunlaid::input::read_case;
 use spunlaid::lanes::Isa;
 use spunlaid::web::uniformity::unevenness;
 use spunlaid::web::{
-    Curves, Fibres, Filaments, Findings, LaidWeb, LayControl, Layer, Map, Row, Sheet, Web, Window,
-    measure_laid,
+    Curves, Fibres, Filaments, Findings, LaidWeb, LayControl, Layer, Map, Row, Sheet, Web, Window, find_laid,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -176,7 +175,7 @@ fn found(sheet: &Sheet, laid: LaidWeb, flown: &BeamFindings, filaments: Filament
     let web = Web { sheet: sheet.clone(), layers: vec![layer], seed: 1 };
     let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
     let by = LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &done };
-    measure_laid(&web, Some(laid), by).unwrap()
+    find_laid(&web, Some(laid), by).unwrap()
 }
 
 #[test]

@@ -114,7 +114,7 @@ fn invariant_a_blocked_hole_takes_one_filament_from_a_web_in_one_air() {
         assert!((less / mass - 0.5).abs() < 1e-3, "{less} {mass}");
     };
     let flown = |spec: &WebSpec, threads| {
-        Flyer::new(threads, &stop, &unwatched).web(spec).unwrap().measure(by(threads)).unwrap().laid
+        Flyer::new(threads, &stop, &unwatched).web(spec).unwrap().find(by(threads)).unwrap().laid
     };
     check(&small, &flown);
     let set = [("web.length", "0.1 m"), ("web.window", "20 mm"), ("web.flown", "all")];

@@ -45,7 +45,7 @@ fn told(flown: &str) -> LayerFew {
     let (laid, stop) = (AtomicU64::new(0), AtomicBool::new(false));
     let by = LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &laid };
     let mut web = Flyer::new(2, &stop, &|_, work| work()).web(&spec).unwrap();
-    let findings = web.measure(by).unwrap();
+    let findings = web.find(by).unwrap();
     findings.laid.shared_air.unwrap().few.remove(0)
 }
 

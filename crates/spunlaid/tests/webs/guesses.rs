@@ -121,7 +121,7 @@ guessed = \"line.filaments_per_metre\"
     let (laid, stop) = (AtomicU64::new(0), AtomicBool::new(false));
     let by = LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &laid };
     let mut flown = Flyer::new(2, &stop, &|_, work| work()).web(&spec).unwrap();
-    let findings = flown.measure(by).unwrap();
+    let findings = flown.find(by).unwrap();
     assert!(are_tried(&spec, &findings, &changes));
     let guesses = advise(&spec, (&flown.web, &findings), changes, None, by).unwrap();
     let ends = guesses.range(10e-3);

@@ -142,7 +142,6 @@ struct WebSummary {
     texture_md: Option<NumberWithError>,
     cloudiness: Option<Cloudiness>,
     clouds: Vec<Octave>,
-    sensitivities: Vec<Levers>,
 }
 
 /// The few filaments of a layer from which all others follow.
@@ -256,18 +255,6 @@ impl<'a> NeighboursSummary<'a> {
     }
 }
 
-/// Per cent of the CV for one per cent of a number.
-#[derive(Debug, Serialize)]
-struct Levers {
-    number: &'static str,
-    patch_m: f64,
-    /// What it rests on.
-    source: &'static str,
-    /// None where the surrogate is too far from the flown curves to say.
-    elasticity: Option<f64>,
-    standard_error: Option<f64>,
-}
-
 impl WebSummary {
     /// What any map says.
     fn from_map(map: &Map, clouds: Option<&Clouds>, patches: Vec<OrderedObject<Json>>) -> Self {
@@ -296,7 +283,6 @@ impl WebSummary {
             texture_md: clouds.map(|clouds| NumberWithError::new(&clouds.texture_md())),
             cloudiness,
             clouds: clouds.into_iter().flat_map(Clouds::octaves).map(octave).collect(),
-            sensitivities: Vec::new(),
         }
     }
 }
@@ -358,18 +344,6 @@ impl<'a> Summary<'a> {
             let interval = patch.interval().ok_or_else(|| why.to_owned());
             numbers_of_patch(patch.map.patch, OF_PATCHES, patch, interval)
         });
-        let levers = findings.sensitivities.iter().flat_map(|sensitivity| {
-            findings.patches.iter().map(|patch| {
-                let effect = sensitivity.on(patch.map.patch).map(|effect| effect.difference);
-                Levers {
-                    number: sensitivity.change.setting.name,
-                    patch_m: patch.map.patch,
-                    source: sensitivity.change.experiment.name(),
-                    elasticity: effect.map(|effect| effect.value),
-                    standard_error: effect.map(|effect| effect.standard_error).filter(|error| *error > 0.0),
-                }
-            })
-        });
         Self {
             layers,
             web: WebSummary {
@@ -388,7 +362,6 @@ impl<'a> Summary<'a> {
                     basis_weight_sheet_kg_m2: findings.laid.map.basis_weight(),
                 }),
                 declared: declared_of_web(findings),
-                sensitivities: levers.collect(),
                 ..WebSummary::from_map(&findings.laid.map, findings.clouds.as_ref(), patches.collect())
             },
             fabric: Some(FabricSummary::new(fabric)),
