@@ -17,9 +17,7 @@ use crate::laydown::{Trace, TraceSettings};
 use crate::load::WayPlace;
 use crate::statistics::Estimate;
 use crate::surrogate::{IdentificationFailure, Residual, Surrogate, identify};
-use crate::web::{
-    Curves, Doubt, Fibres, Findings, LaidWeb, LayControl, Map, Web, find_laid, lay, pieces,
-};
+use crate::web::{Curves, Doubt, Fibres, Findings, LaidWeb, LayControl, Map, Web, find_laid, lay, pieces};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64};
