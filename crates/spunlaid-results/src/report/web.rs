@@ -52,7 +52,6 @@ pub fn web_report<'a>(
     let caption = format!("{} {}{}", picture_note(sheet.pixel), strands.words(), marks_note(fabric));
     let table =
         Section::new("web", "The web on a light table").view(View::LightTable(sheet)).caption(caption);
-    let together = findings.laid.shared_air.as_ref();
     let headline = headline_of(findings);
     let errors = error_sentences(findings);
     let loads = named_loads(layers);
