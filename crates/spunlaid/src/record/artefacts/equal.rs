@@ -71,15 +71,16 @@ pub(super) fn equal(values: &[f64], robust: &Robust, is_known: impl Fn(f64) -> b
         .iter()
         .filter(|run| (values[run.start] - values[frozen[0].start]).abs() < 1.5 * robust.resolution);
     let is_rest = frozen.len() > 1 && 2 * of_one_value.count() > frozen.len();
-    let all: usize = frozen.iter().map(ExactSizeIterator::len).sum();
-    if frozen.len() > resting.len() && !is_rest && all as f64 > LEAST_SHARE * values.len() as f64 {
-        return Equal::Frozen(frozen);
-    }
+    let samples = values.len() as f64;
+    let all = frozen.iter().map(ExactSizeIterator::len).sum::<usize>() as f64 / samples;
     let known: usize = runs.iter().filter(|run| is_known(values[run.start])).map(|run| run.len() - 1).sum();
-    let share = (equal - known) as f64 / values.len() as f64;
-    let is_irregular = is_resolved && resting.is_empty() && share > (8.0 * explained).max(0.1);
-    if is_irregular {
+    let share = (equal - known) as f64 / samples;
+    // Beside frozen stretches there are no more equal neighbours than the resolution makes.
+    if is_resolved && resting.is_empty() && share - all > (8.0 * explained).max(0.1) {
         return Equal::Irregular(share, explained);
+    }
+    if frozen.len() > resting.len() && !is_rest && all > LEAST_SHARE {
+        return Equal::Frozen(frozen);
     }
     Equal::Usual
 }
