@@ -37,27 +37,32 @@ impl Axis {
         }
     }
 
-    /// Turns a vector from the fibre's frame, whose x is along this axis, into the frame of the field. Both frames
-    /// are right-handed.
-    fn to_field(self, v: Vec3<f64>) -> Vec3<f64> {
-        // A half turn about z reverses the direction.
-        let [x, y, z] = if self.backwards { [-v.x, -v.y, v.z] } else { [v.x, v.y, v.z] };
-        match self.index {
-            0 => Vec3::new(x, y, z),
-            1 => Vec3::new(z, x, y),
-            _ => Vec3::new(y, z, x),
-        }
+    /// The axis that makes a right-handed frame of this one, another one across it, and itself.
+    pub const fn cross(self, other: Self) -> Self {
+        let is_next = (self.index + 1) % 3 == other.index;
+        let backwards = self.backwards ^ other.backwards ^ !is_next;
+        Self { index: (6 - self.index - other.index) % 3, backwards }
     }
 
-    /// Turns a vector from the frame of the field into the fibre's frame.
-    fn to_fibre(self, v: Vec3<f64>) -> Vec3<f64> {
-        let [x, y, z] = match self.index {
-            0 => [v.x, v.y, v.z],
-            1 => [v.y, v.z, v.x],
-            _ => [v.z, v.x, v.y],
-        };
-        if self.backwards { Vec3::new(-x, -y, z) } else { Vec3::new(x, y, z) }
+    /// The part of a vector along the axis.
+    pub fn part_of(self, v: Vec3<f64>) -> f64 {
+        let part = [v.x, v.y, v.z][self.index];
+        if self.backwards { -part } else { part }
     }
+}
+
+/// Turns a vector from the fibre's frame, whose x, y and z are along these axes, into the frame of the field.
+fn to_field(axes: [Axis; 3], v: Vec3<f64>) -> Vec3<f64> {
+    let mut turned = [0.0; 3];
+    for (axis, part) in axes.into_iter().zip([v.x, v.y, v.z]) {
+        turned[axis.index] = if axis.backwards { -part } else { part };
+    }
+    Vec3::new(turned[0], turned[1], turned[2])
+}
+
+/// Turns a vector from the frame of the field into the fibre's frame.
+fn to_fibre([along, machine, cross]: [Axis; 3], v: Vec3<f64>) -> Vec3<f64> {
+    Vec3::new(along.part_of(v), machine.part_of(v), cross.part_of(v))
 }
 
 /// A CFD field around a fibre.
@@ -69,6 +74,8 @@ pub struct PlacedField {
     pub root: Vec3<f64>,
     /// The direction of the field that is the fibre's x, along gravity.
     pub axis: Axis,
+    /// The direction of the field that is the fibre's y, in which the belt runs; across [`PlacedField::axis`].
+    pub machine_direction: Axis,
     /// Length of a unit of its coordinates [m].
     pub unit: f64,
     /// `C_L` of the length scale `C_L k^1.5/ε` [-].                           theory.md (48)
@@ -98,17 +105,40 @@ impl PlacedField {
 
     /// A place of the fibre's frame [m] in the coordinates of the field.
     pub(crate) fn in_field(&self, at: Vec3<f64>) -> Vec3<f64> {
-        (self.root + self.axis.to_field(at)) * (1.0 / self.unit)
+        (self.root + self.turned(at)) * (1.0 / self.unit)
     }
 
     /// A vector of the fibre's frame in that of the field.
     pub(crate) fn turned(&self, vector: Vec3<f64>) -> Vec3<f64> {
-        self.axis.to_field(vector)
+        to_field(self.axes(), vector)
+    }
+
+    /// A vector of the frame of the field in the fibre's.
+    pub(crate) fn turned_back(&self, vector: Vec3<f64>) -> Vec3<f64> {
+        to_fibre(self.axes(), vector)
+    }
+
+    /// A place of the field, in its coordinates, in the fibre's frame [m].
+    pub(crate) fn from_field(&self, at: Vec3<f64>) -> Vec3<f64> {
+        self.turned_back(at * self.unit - self.root)
+    }
+
+    /// The directions of the field that are the fibre's x, y and z: along gravity, machine and cross direction.
+    pub const fn axes(&self) -> [Axis; 3] {
+        [self.axis, self.machine_direction, self.axis.cross(self.machine_direction)]
+    }
+
+    /// The machine direction if the case does not give it. The cross direction is then an axis of the field in its
+    /// positive sense: that along which the air is the same, if there is one across the fibre, so that the machine
+    /// direction lies in the plane of a plane flow; else z, x or y for a fibre along x, y or z.
+    pub fn usual_machine_direction(field: &Field, axis: Axis) -> Axis {
+        let even = field.even_axis().filter(|even| *even != axis.index);
+        Axis { index: even.unwrap_or((axis.index + 2) % 3), backwards: false }.cross(axis)
     }
 
     pub(super) fn at(&self, at: Vec3<f64>, hint: &mut Hint) -> Local {
         let local = self.field.sample(self.in_field(at), hint);
-        Local { velocity: self.axis.to_fibre(local.velocity), ..local }
+        Local { velocity: self.turned_back(local.velocity), ..local }
     }
 
     /// Why there is no air at a place of the fibre, if the file has no numbers there.
@@ -119,16 +149,15 @@ impl PlacedField {
     /// The air around a place of the fibre's frame [m], linear in space, in that frame.
     pub(super) fn around(&self, at: Vec3<f64>, hint: &mut Hint) -> AirAround {
         let AirAround { value, gradients, reach, inside } = self.field.around(self.in_field(at), hint);
+        let axes = self.axes();
         let turned = |[u, v, w, root_k]: [f64; 4]| {
-            let v = self.axis.to_fibre(Vec3::new(u, v, w));
+            let v = to_fibre(axes, Vec3::new(u, v, w));
             [v.x, v.y, v.z, root_k]
         };
-        let along = |axis: Vec3<f64>| {
-            let way = self.axis.to_field(axis) * (1.0 / self.unit);
-            let [x, y, z] = &gradients;
-            turned(std::array::from_fn(|i| way.x * x[i] + way.y * y[i] + way.z * z[i]))
+        let along = |axis: Axis| {
+            let per_metre = if axis.backwards { -1.0 / self.unit } else { 1.0 / self.unit };
+            turned(gradients[axis.index].map(|change| per_metre * change))
         };
-        let axes = [Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0), Vec3::new(0.0, 0.0, 1.0)];
         AirAround { value: turned(value), gradients: axes.map(along), reach: reach * self.unit, inside }
     }
 
@@ -141,7 +170,7 @@ impl PlacedField {
     /// The lowest and the highest coordinates of the field in the fibre's frame [m].
     pub fn extent(&self) -> (Vec3<f64>, Vec3<f64>) {
         let (low, high) = self.field.bounds();
-        let [a, b] = [low, high].map(|corner| self.axis.to_fibre(corner * self.unit - self.root));
+        let [a, b] = [low, high].map(|corner| self.from_field(corner));
         let least = |a: f64, b: f64| (a.min(b), a.max(b));
         let ((x0, x1), (y0, y1), (z0, z1)) = (least(a.x, b.x), least(a.y, b.y), least(a.z, b.z));
         (Vec3::new(x0, y0, z0), Vec3::new(x1, y1, z1))
@@ -151,7 +180,7 @@ impl PlacedField {
     /// goes there.
     pub fn main_direction(&self) -> (Axis, f64) {
         let mean = self.field.overview().velocity;
-        let along = |axis: Axis| axis.to_fibre(mean).x / mean.norm();
+        let along = |axis: Axis| axis.part_of(mean) / mean.norm();
         let shares = Axis::ALL.map(|axis| (axis, along(axis)));
         let most = |a: (Axis, f64), b: (Axis, f64)| if b.1 > a.1 { b } else { a };
         shares.into_iter().reduce(most).unwrap_or((self.axis, f64::NAN))
@@ -180,14 +209,17 @@ mod tests {
     fn identical_after_turning_there_and_back_and_right_handed() {
         let (x, y, z) = (Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0), Vec3::new(0.0, 0.0, 1.0));
         let names = ["x", "y", "z", "-x", "-y", "-z"];
-        for (axis, name) in Axis::ALL.into_iter().zip(names) {
-            assert_eq!(axis.name(), name);
-            let ahead = axis.to_field(x);
-            let along = [ahead.x, ahead.y, ahead.z][axis.index];
-            assert_eq!(along, if axis.backwards { -1.0 } else { 1.0 });
-            assert_eq!(axis.to_field(y).cross(axis.to_field(z)), ahead);
+        assert_eq!(Axis::ALL.map(Axis::name), names);
+        let across = |axis: Axis| Axis::ALL.into_iter().filter(move |other| other.index != axis.index);
+        for (axis, machine) in Axis::ALL.into_iter().flat_map(|axis| across(axis).map(move |m| (axis, m))) {
+            let axes = [axis, machine, axis.cross(machine)];
+            let turned = [x, y, z].map(|unit| to_field(axes, unit));
+            for (axis, turned) in axes.into_iter().zip(turned) {
+                assert_eq!([turned.x, turned.y, turned.z][axis.index], if axis.backwards { -1.0 } else { 1.0 });
+            }
+            assert_eq!(turned[1].cross(turned[2]), turned[0]);
             let v = Vec3::new(1.0, 2.0, 3.0);
-            assert_eq!(axis.to_fibre(axis.to_field(v)), v);
+            assert_eq!(to_fibre(axes, to_field(axes, v)), v);
         }
     }
 }

@@ -349,6 +349,16 @@ impl Check<'_> {
             self.blame_key("air.field_unit", format!("\"{}\"", Dimension::Length.pretty(placed.unit)), fault);
             return;
         }
+        let [axis, machine, _] = placed.axes();
+        if axis.index == machine.index {
+            let fault = Fault::new(
+                format!("is parallel to air.field_axis = \"{}\"", axis.name()),
+                "the belt runs across the fibre: choose one of the four directions at a right angle to it, or leave \
+                 this key out",
+            );
+            self.blame_key("air.field_machine_direction", format!("\"{}\"", machine.name()), fault);
+            return;
+        }
         let along = self.case.along();
         let lacks = (0..=PLACES).find_map(|i| placed.why_no_air(along * (i as f64 / PLACES as f64)));
         if let Some(fault) = lacks {

@@ -333,6 +333,44 @@ pub enum Remark {
         /// Mean speed [m/s].
         speed: f64,
     },
+    /// The case gives no machine direction in a field.
+    #[error(
+        "is used: the cross direction (CD) is {cross} of the field, {}",
+        if *plane { "along which its air is the same" } else { "as always where its air changes along all axes, or \
+            along one only; write the key if the belt runs otherwise" }
+    )]
+    MachineDirectionChosen {
+        /// Name of the axis along the cross direction.
+        cross: &'static str,
+        /// Whether the air is the same along it.
+        plane: bool,
+    },
+    /// A field whose machine and cross direction look swapped.
+    #[error(
+        "makes the air the same along the machine direction, and lets it change along the cross direction ({cross} of \
+        the field), as if the two were swapped: the air of a slot is the same across. Write \"{cross}\", or leave \
+        the key out"
+    )]
+    EvenAlongBelt {
+        /// Name of the axis along the cross direction.
+        cross: &'static str,
+    },
+    /// A web whose air changes over its width.
+    #[error(
+        "lets the air change by {} % of its mean speed along the cross direction ({cross} of the field), within {} of \
+        the root, the width of the web; a web is laid as if its air were the same across. If {cross} is the machine \
+        direction, write it here; otherwise choose root and width where the air is even, or make a plane flow of the \
+        middle",
+        Dimension::Ratio.pretty_to(100.0 * *share, 2), Dimension::Length.pretty_to(*width, 3)
+    )]
+    ChangesAcross {
+        /// Name of the axis along the cross direction.
+        cross: &'static str,
+        /// Width of the web [m].
+        width: f64,
+        /// Largest change over the mean speed [-].
+        share: f64,
+    },
     /// A field much larger or smaller than the fibre.
     #[error(
         "makes the field {} long, while the fibre is {} long; check that this is the unit of the mesh",
@@ -398,7 +436,10 @@ impl Note {
     }
 
     pub(crate) const fn is_of_results(&self) -> bool {
-        !matches!(self.what, Remark::StepChosen { .. } | Remark::TensionFlown { .. })
+        !matches!(
+            self.what,
+            Remark::StepChosen { .. } | Remark::TensionFlown { .. } | Remark::MachineDirectionChosen { .. }
+        )
     }
 }
 
@@ -457,6 +498,8 @@ impl Remark {
                     | Self::SlowsOnly { .. }
                     | Self::RootOutside { .. }
                     | Self::NotAlong { .. }
+                    | Self::EvenAlongBelt { .. }
+                    | Self::ChangesAcross { .. }
                     | Self::FewReplicates
                     | Self::ElementsStubby { .. }
             )

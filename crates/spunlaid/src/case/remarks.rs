@@ -6,7 +6,7 @@ use super::note::{Note, Remark};
 use crate::air::{Flow, SpectrumShape};
 use crate::drag::NormalLaw;
 use crate::error::Place;
-use crate::field::Hint;
+use crate::field::{Hint, is_even};
 use crate::units::Dimension;
 use crate::vec3::Vec3;
 
@@ -14,6 +14,8 @@ use crate::vec3::Vec3;
 const LOW_DRAG: f64 = 0.5;
 /// Velocity at the belt over that at the inlet below which the widening of the air matters [-].
 const LEAST_SLOWING: f64 = 0.9;
+/// Change of the velocity over the width of a web, over its mean, above which a web is warned [-].
+const MOST_ACROSS: f64 = 0.05;
 
 impl Case {
     /// Notes and warnings.
@@ -109,6 +111,35 @@ impl Case {
         (to < LEAST_SLOWING * from).then_some(Remark::SlowsOnly { from, to })
     }
 
+    /// The machine direction of a field as the case has it, with what is said of it where nobody has written it.
+    pub(crate) fn chosen_machine_direction(&self) -> Option<(&'static str, Remark)> {
+        let Flow::Field(placed) = &self.air.flow else { return None };
+        let [_, machine, cross] = placed.axes();
+        let plane = placed.field.even_axis() == Some(cross.index);
+        Some((machine.name(), Remark::MachineDirectionChosen { cross: cross.name(), plane }))
+    }
+
+    /// What is said of a web of this width [m], if the air of a field changes over it.
+    pub(crate) fn changes_across(&self, width: f64) -> Option<Remark> {
+        const PLACES: i32 = 16;
+        let Flow::Field(placed) = &self.air.flow else { return None };
+        let mut hint = Hint::default();
+        let mut at = |step: i32, z: f64| {
+            let along = self.along() * ((f64::from(step) + 0.5) / f64::from(PLACES));
+            self.air.local(along + Vec3::new(0.0, 0.0, z), &mut hint)
+        };
+        let middle: Vec<Vec3<f64>> = (0..PLACES).map(|step| at(step, 0.0).velocity).collect();
+        let speed: f64 = middle.iter().map(|velocity| velocity.norm()).sum();
+        let change = |side: i32| {
+            let z = width * f64::from(side) / f64::from(PLACES);
+            let there = middle.iter().zip(0..).map(|(here, step)| (here, at(step, z)));
+            there.filter(|(_, there)| there.inside).map(|(here, there)| (there.velocity - *here).norm()).sum::<f64>()
+        };
+        let share = (-PLACES..=PLACES).map(change).fold(0.0, f64::max) / speed;
+        let cross = placed.axes()[2].name();
+        (share > MOST_ACROSS).then_some(Remark::ChangesAcross { cross, width, share })
+    }
+
     /// Whether the root is farther outside of a field's box than rounding.
     fn root_outside(&self) -> Option<Note> {
         let Flow::Field(placed) = &self.air.flow else {
@@ -144,6 +175,11 @@ impl Case {
         let (along, speed) = self.air.along_and_speed(self.along());
         if along < 0.25 * speed {
             note("air.field_axis", format!("\"{}\"", placed.axis.name()), Remark::NotAlong { along, speed });
+        }
+        let ([_, machine, cross], changes) = (placed.axes(), placed.field.changes());
+        if is_even(changes, machine.index) && !is_even(changes, cross.index) {
+            let what = Remark::EvenAlongBelt { cross: cross.name() };
+            note("air.field_machine_direction", format!("\"{}\"", machine.name()), what);
         }
         let (low, high) = placed.extent();
         let size = high - low;

@@ -44,6 +44,7 @@
 
 mod bricks;
 mod cells_of_file;
+mod evenness;
 mod fault;
 mod holes;
 mod lattice;
@@ -63,6 +64,7 @@ pub use mesh::cells::{Cells, Shape};
 pub use overview::{Overview, Spread};
 pub use values::Values;
 
+pub(crate) use evenness::is_even;
 pub(crate) use read::ReadField;
 
 use crate::error::{Fault, FileError};
@@ -73,6 +75,7 @@ use lattice::Lattice;
 use mesh::Mesh;
 use points::Points;
 use std::fmt;
+use std::sync::OnceLock;
 use values::Quantities;
 
 /// Coordinates are limited to this value, so that squares of distances stay finite [m].
@@ -97,6 +100,8 @@ pub struct Field {
     holes: Option<Holes>,
     /// The name of a coordinate that has a unit.
     measured_coordinate: Option<String>,
+    /// How much the velocity changes along x, y and z, once it is known.
+    changes: OnceLock<[f64; 3]>,
 }
 
 /// How the points with the values are arranged.
@@ -264,7 +269,8 @@ impl Field {
         let bricks = Bricks::new(support.bounds());
         let (sources, layout) = (Vec::new(), FieldLayout::default());
         let (turbulence, lacks, holes, measured_coordinate) = (values.has_turbulence(), None, None, None);
-        Self { support, turbulence, bricks, lacks, sources, layout, holes, measured_coordinate }
+        let changes = OnceLock::new();
+        Self { support, turbulence, bricks, lacks, sources, layout, holes, measured_coordinate, changes }
     }
 
     /// Whether the field has `k` and `ε`.

@@ -14,6 +14,8 @@ const MUCH_LONGER: f64 = 50.0;
 /// Length of fibre that still moves on the belt, over the distance from inlet to belt. Of a usual filament 2
 /// % still hang in arches when it leaves the chain; with a quarter of this length it is a third.
 const KEPT: f64 = 0.25;
+/// The key that says how the belt runs in a field.
+const MACHINE_DIRECTION: &str = "air.field_machine_direction";
 
 impl OpenCase {
     /// The checked case, with notes and warnings. The tension at the end of its spinline is taken as it is known.
@@ -38,6 +40,12 @@ impl OpenCase {
             self.notes.push(Finding { place, ..keys::finding("run.time_step", time_step, remark) });
         }
         self.look_at_what_no_case_has();
+        if !self.is_written(MACHINE_DIRECTION)
+            && let Some((axis, what)) = self.case.chosen_machine_direction()
+        {
+            let (place, key) = (self.key_values.whole(), MACHINE_DIRECTION.to_owned());
+            self.notes.push(Finding { place, key, value: Some(format!("\"{axis}\"")), what });
+        }
         match self.case.check() {
             Ok(more) => {
                 self.notes.extend(more.into_iter().map(|note| self.key_values.placed(note)));

@@ -70,8 +70,17 @@ fn field(
 }
 
 fn placed(field: Field, root: Vec3<f64>, axis: Axis, unit: f64) -> Flow {
+    let machine_direction = PlacedField::usual_machine_direction(&field, axis);
     let field = FileContent::new(PathBuf::from("field.vti"), 1, Arc::new(field));
-    Flow::Field(Box::new(PlacedField { field, root, axis, unit, length_constant: 0.43, time_constant: 0.3 }))
+    Flow::Field(Box::new(PlacedField {
+        field,
+        root,
+        axis,
+        machine_direction,
+        unit,
+        length_constant: 0.43,
+        time_constant: 0.3,
+    }))
 }
 
 const TOLD: FlowNumbers =

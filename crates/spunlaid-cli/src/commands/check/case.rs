@@ -5,7 +5,7 @@ use crate::args::{Check, Threads, overrides};
 use crate::commands::plural;
 use crate::failure::Failure;
 use crate::say;
-use spunlaid::air::{Air, Flow, PlacedField};
+use spunlaid::air::{Air, Axis, Flow, PlacedField};
 use spunlaid::case::Case;
 use spunlaid::ensemble::{FinerPlans, KeepShapes, pace};
 use spunlaid::field::Spread;
@@ -71,6 +71,11 @@ fn field(placed: &PlacedField) -> Vec<String> {
     if let Some(axis) = placed.field.plane_axis().and_then(|axis| ["x", "y", "z"].get(axis)) {
         lines.push(format!("  a plane flow: the air is the same everywhere along {axis} of the field"));
     }
+    let [way, machine, cross] = placed.axes().map(Axis::name);
+    lines.push(format!(
+        "  the fibre's x is {way} of the field, its y, the machine direction (MD), {machine}, and its z, the cross \
+         direction (CD), {cross}"
+    ));
     let read = placed.field.sources().iter().map(|(quantity, arrays)| format!("{quantity} from {arrays}"));
     lines.push(format!("  read: {}", read.collect::<Vec<_>>().join("; ")));
     lines.push(format!("  velocity {}", spread(overview.speed, "m/s")));

@@ -48,13 +48,13 @@ pub(super) fn fitting(case: &Case) -> Result<Fitting<'_>, Fault> {
             "export the cells of the CFD solution, as .vtu or .vtk",
         )
     })?;
-    let width = placed.turned(Vec3::new(0.0, 0.0, 1.0));
-    let axis = [width.x, width.y, width.z].iter().position(|share| *share != 0.0);
-    if placed.field.plane_axis().is_some_and(|plane| Some(plane) != axis) {
+    let [_, _, across] = placed.axes();
+    if placed.field.plane_axis().is_some_and(|plane| plane != across.index) {
         return Err(Fault::new(
             "air.field is a plane flow that does not lie across the width of the line, so its cells hold the \
              filaments of no known width",
-            "turn the CFD model, or set air.field_axis, so that the air is the same along the cross direction z",
+            "write air.field_axis and air.field_machine_direction so that the air is the same along the cross \
+             direction",
         ));
     }
     let (low, high) = placed.extent();

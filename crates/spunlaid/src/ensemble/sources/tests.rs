@@ -73,10 +73,15 @@ fn mesh(nx: u32, ny: u32) -> PlacedField {
 }
 
 fn placed(field: Field) -> PlacedField {
-    let (axis, unit) = (Axis::ALL[0], 1.0);
+    placed_along(field, Axis::ALL[0])
+}
+
+fn placed_along(field: Field, axis: Axis) -> PlacedField {
+    let unit = 1.0;
     let root = PlacedField::middle_of_inlet(&field, axis, unit);
+    let machine_direction = PlacedField::usual_machine_direction(&field, axis);
     let field = FileContent::new(PathBuf::from("box.vtu"), 0, Arc::new(field));
-    PlacedField { field, root, axis, unit, length_constant: 0.43, time_constant: 0.3 }
+    PlacedField { field, root, axis, machine_direction, unit, length_constant: 0.43, time_constant: 0.3 }
 }
 
 fn line(placed: PlacedField, replicates: u64) -> Case {

@@ -97,6 +97,10 @@ impl Reading<'_> {
                 self.refuse(key, Dimension::Length.pretty(side), what);
             }
         }
+        if let Some(what) = layer.source.case().and_then(|case| case.changes_across(sheet.width)) {
+            let (place, key) = (self.key_values.whole(), "air.field_machine_direction".to_owned());
+            self.note(vec![Note { place, key, value: None, what }]);
+        }
         let fed = sheet.length * layer.feed_speed / layer.belt_speed;
         let density = layer.linear_density();
         if !density.is_normal() {

@@ -75,7 +75,16 @@ pub(super) const KEYS: &[Key] = &[
                 let (field, axis, unit) = (field.clone(), Axis::ALL[0], 1.0);
                 let root = PlacedField::middle_of_inlet(&field, axis, unit);
                 let (length_constant, time_constant) = (LENGTH_CONSTANT, TIME_CONSTANT);
-                let placed = PlacedField { field, root, axis, unit, length_constant, time_constant };
+                let machine_direction = Axis::ALL[1];
+                let placed = PlacedField {
+                    field,
+                    root,
+                    axis,
+                    machine_direction,
+                    unit,
+                    length_constant,
+                    time_constant,
+                };
                 case.air.flow = Flow::Field(Box::new(placed));
                 Ok(())
             },
@@ -107,6 +116,21 @@ pub(super) const KEYS: &[Key] = &[
              model points down along −z.",
         )
         .label("Direction of the fibre in the field"),
+    choose("air.field_machine_direction", || Axis::ALL.map(Axis::name).to_vec())
+        .access(at!(placed, placed_mut, machine_direction))
+        .read_after(&["air.field_axis"])
+        .inferred(|case| {
+            let Ok(placed) = placed_mut(case) else { return false };
+            placed.machine_direction = PlacedField::usual_machine_direction(&placed.field, placed.axis);
+            true
+        })
+        .follows("in the plane of a plane flow, so that the air is the same along the cross direction")
+        .meaning(
+            "Direction in the field that is the fibre's y, the machine direction, in which the belt runs; at a \
+             right angle to `air.field_axis`. The fibre's z, the cross direction, follows from both.",
+        )
+        .synonyms(&["MD", "belt"])
+        .label("Machine direction in the field"),
     quantity("air.field_unit", Dimension::Length, Positive)
         .access(at!(placed, placed_mut, unit))
         .or_unit()
