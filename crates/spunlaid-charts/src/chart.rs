@@ -112,6 +112,8 @@ pub enum Mark {
     Stretch(f64, f64),
     /// Colours over the plane.
     Map(Map),
+    /// An arrow from a place to another one, with words at its head.
+    Arrow([(f64, f64); 2], String),
 }
 
 /// A chart in the making.
@@ -195,6 +197,11 @@ impl Chart {
         self.with(series, Mark::Stretch(from, to))
     }
 
+    /// Adds an arrow with words at its head.
+    pub fn arrow(self, colour: Colour, ends: [(f64, f64); 2], words: &str) -> Self {
+        self.with(Series::new("", colour).adorning(), Mark::Arrow(ends, words.to_owned()))
+    }
+
     /// Lays colours under everything else.
     pub fn map(self, map: Map) -> Self {
         self.with(Series::new(&map.label, INK).unlabelled(), Mark::Map(map))
@@ -257,6 +264,10 @@ impl Chart {
                 Mark::Map(map) => {
                     xs.extend([map.x.0, map.x.1]);
                     ys.extend([map.y.0, map.y.1]);
+                }
+                Mark::Arrow(ends, _) => {
+                    xs.extend(ends.map(|end| end.0));
+                    ys.extend(ends.map(|end| end.1));
                 }
                 Mark::Vertical(_) | Mark::Stretch(..) => {}
             }

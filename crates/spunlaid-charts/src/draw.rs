@@ -5,7 +5,7 @@ use crate::decimate::{along_x, path, runs};
 use crate::label::width as width_of;
 use crate::layout::{LABEL, Plot, TICK, TICK_ROW, maps};
 use crate::legend;
-use crate::palette::{Colour, GREY, GRID, INK, Marker};
+use crate::palette::{Colour, GREY, GRID, INK, Marker, PAPER};
 use crate::picture::{Anchor, Picture, Stroke, Text};
 use crate::scale::factor;
 
@@ -160,7 +160,12 @@ fn draw_line(picture: &mut Picture, plot: &Plot, series: &Series, mark: &Mark) {
             let x = plot.along(*x);
             picture.line((x, plot.top), (x, plot.bottom), &stroke);
         }
-        Mark::Vertical(_) | Mark::Scatter(_) | Mark::Band(_) | Mark::Stretch(..) | Mark::Map(_) => {}
+        Mark::Vertical(_)
+        | Mark::Scatter(_)
+        | Mark::Band(_)
+        | Mark::Stretch(..)
+        | Mark::Map(_)
+        | Mark::Arrow(..) => {}
     }
 }
 
@@ -193,8 +198,36 @@ fn draw_points(picture: &mut Picture, plot: &Plot, series: &Series, mark: &Mark,
             let below = if index.is_multiple_of(2) { 12.0 } else { 28.0 };
             picture.marker((plot.along(*x), plot.top + below), marker, series.colour);
         }
+        (Mark::Arrow(ends, words), _) => {
+            draw_arrow(picture, ends.map(|end| plot.at(end)), words, series.colour)
+        }
         _ => {}
     }
+}
+
+/// An arrow that is seen on all colours of a map, with words beyond its head: beside one that goes up or down, above
+/// another one.
+fn draw_arrow(picture: &mut Picture, [from, to]: [(f64, f64); 2], words: &str, colour: Colour) {
+    const HEAD: (f64, f64) = (13.0, 5.0);
+    let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+    let length = dx.hypot(dy);
+    // Not a number, or no arrow.
+    if !(length > 0.0) {
+        return;
+    }
+    let (ux, uy) = (dx / length, dy / length);
+    let at = |back: f64, aside: f64| (to.0 - back * ux - aside * uy, to.1 - back * uy + aside * ux);
+    let shaft = at(0.8 * HEAD.0, 0.0);
+    picture.line(from, shaft, &Stroke::solid(PAPER, 5.0));
+    picture.line(from, shaft, &Stroke::solid(colour, 2.2));
+    let head = [to, at(HEAD.0, HEAD.1), at(HEAD.0, -HEAD.1)];
+    picture.polygon(&head, colour, 1.0, Some(&Stroke::solid(PAPER, 1.2)));
+    let width = width_of(words, TICK);
+    let (x, y) = if dy.abs() > dx.abs() { (to.0 + 10.0, to.1 + 9.0) } else { (to.0 - width, to.1 - 13.0) };
+    let box_ =
+        [(x - 3.0, y - 12.0), (x + width + 3.0, y - 12.0), (x + width + 3.0, y + 5.0), (x - 3.0, y + 5.0)];
+    picture.polygon(&box_, PAPER, 0.85, None);
+    picture.text((x, y), words, Text { size: TICK, colour: INK, anchor: Anchor::Start, upright: true });
 }
 
 /// About ten of the points, evenly along the axis, those of the next series between those of this one.

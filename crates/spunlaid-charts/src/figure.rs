@@ -163,7 +163,7 @@ fn content<'a>(
         }
         (None, Mark::Vertical(at)) => (vec![x], Box::new(std::iter::once([*at, f64::NAN, f64::NAN]))),
         (None, Mark::Map(map)) => (vec![x, y, column(&map.label)], Box::new(map.cells())),
-        (None, Mark::Stretch(..)) => return None,
+        (None, Mark::Stretch(..) | Mark::Arrow(..)) => return None,
     })
 }
 

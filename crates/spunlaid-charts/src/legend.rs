@@ -69,7 +69,7 @@ fn draw_key(picture: &mut Picture, &Entry { series, mark, .. }: &Entry<'_>, x: f
     let middle = (x + KEY / 2.0, y);
     match mark {
         // Its key stands beside the picture.
-        Mark::Map(_) => {}
+        Mark::Map(_) | Mark::Arrow(..) => {}
         Mark::Band(_) | Mark::Stretch(..) => {
             let corners = [(x, y - 6.0), (x + KEY, y - 6.0), (x + KEY, y + 6.0), (x, y + 6.0)];
             picture.polygon(&corners, series.colour, 0.2, None);

@@ -4,14 +4,18 @@ use crate::merged::{merged, replaced};
 use crate::source::{Source, stem};
 use crate::state::full_path;
 use crate::value::{overrides, to_python};
-use crate::watched::read_file;
-use pyo3::exceptions::PyKeyError;
+use crate::watched::{guarded, read_file};
+use numpy::PyArray1;
+use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyIterator, PyList, PyMapping, PyTuple, PyType};
+use spunlaid::air::PlaceAxes;
 use spunlaid::case::keys::{self, Key, Value};
 use spunlaid::case::{self, Note};
 use spunlaid::error::FileKind;
 use spunlaid::input::{Overrides, parse_case, starter_case, starter_case_of_fed, write_case};
+use spunlaid::vec3::Vec3;
+use spunlaid_results::output::air::{POINT_COLUMNS, point_row};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -197,6 +201,37 @@ impl Case {
     /// The case as a case file with every key, in SI units: reading it gives the same case to the last bit.
     fn to_toml(&self) -> String {
         write_case(&self.case)
+    }
+
+    /// The air at places, in SI units: an array of a number for each place by the names of the columns of
+    /// `spunlaid air --at`. NaN where the air is not known.
+    ///
+    /// * `points` – n x 3 coordinates [m]
+    /// * `axes` – "line" or "field": of points and velocities; "field" if the air is a CFD field and nothing is said
+    #[pyo3(signature = (points, axes = None))]
+    fn air_at<'py>(
+        &self,
+        py: Python<'py>,
+        points: &Bound<'py, PyAny>,
+        axes: Option<&str>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let places: Vec<[f64; 3]> = points.extract().map_err(|_| {
+            PyValueError::new_err("points must have three coordinates in metres each, as an array of n x 3")
+        })?;
+        let places: Vec<Vec3<f64>> = places.into_iter().map(|[x, y, z]| Vec3::new(x, y, z)).collect();
+        let axes = match axes {
+            None => self.case.air.usual_axes(),
+            Some(name) => PlaceAxes::ALL.into_iter().find(|axes| axes.name() == name).ok_or_else(|| {
+                PyValueError::new_err(format!("axes must be \"line\" or \"field\", not \"{name}\""))
+            })?,
+        };
+        let found = guarded(py, || self.case.air.at_points(&places, axes))?;
+        let rows: Vec<_> = places.iter().zip(&found).map(|(at, air)| point_row(*at, *air)).collect();
+        let columns = PyDict::new(py);
+        for (i, name) in POINT_COLUMNS.into_iter().enumerate() {
+            columns.set_item(name, PyArray1::from_iter(py, rows.iter().map(|row| row[i])))?;
+        }
+        Ok(columns)
     }
 
     /// Notes and warnings about the case.

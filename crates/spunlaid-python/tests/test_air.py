@@ -55,3 +55,20 @@ def test_refuses_what_it_does_not_know(shared: Case, short: Case) -> None:
     with pytest.raises(ValueError):
         air.at([0.0, 1.0], [0.0, 1.0, 2.0], 0.0, 0.0)
     assert air.at([], 0.0, 0.0, 0.0).shape == (0, 3)
+
+
+def test_tells_the_air_at_places(short: Case) -> None:
+    places = np.array([[0.0, 0.0, 0.0], [0.1, -0.02, 5.0]])
+    found = short.air_at(places)
+    speed, rms = short["air.velocity"], short["air.velocity"] * short["air.turbulence_intensity"]
+    np.testing.assert_array_equal(np.stack([found[name] for name in ("x_m", "y_m", "z_m")], axis=1), places)
+    np.testing.assert_allclose(found["u_m_s"], speed)
+    np.testing.assert_allclose(found["k_m2_s2"], 1.5 * rms**2)
+    np.testing.assert_array_equal(found["cutoff_frequency_hz"], short["air.cutoff_frequency"])
+    with pytest.raises(spunlaid.FlightError, match="no CFD field"):
+        short.air_at(places, axes="field")
+    for wrong in ([0.0, 1.0, 2.0], [[0.0, 1.0]], "places"):
+        with pytest.raises(ValueError, match="three coordinates"):
+            short.air_at(wrong)
+    with pytest.raises(ValueError, match="axes"):
+        short.air_at(places, axes="belt")  # type: ignore[arg-type]

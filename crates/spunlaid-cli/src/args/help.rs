@@ -113,11 +113,16 @@ to each cell is written for the CFD program, and their heat if they come from a 
 is a web, or a case with [line] and [web], because the filaments per metre of width have to be
 known.
 
+With --at the air of the case is told at the places of a table: velocity u, v, w and its magnitude
+[m/s], k [m²/s²], length [m] and cut-off frequency [Hz] of the eddies, for every kind of air. Cells
+are empty where the air is not known, as outside of a field.
+
 Examples:
   spunlaid air cases/spunbond_slot.toml                    open report.html in the folder it names
   spunlaid air cases/spunbond.toml --duration \"5 ms\"      slower
   paraview results/spunbond_slot_air/along.pvd             all three components of the velocity
-  spunlaid air cases/web_in_field.toml --sources           Su and Sp of each cell, VTK and OpenFOAM";
+  spunlaid air cases/web_in_field.toml --sources           Su and Sp of each cell, VTK and OpenFOAM
+  spunlaid air cases/openfoam_diffuser.toml --at points.csv   x [mm],y [mm],z [mm]";
 
 pub(super) const SPIN_HELP: &str = "\
 A spinline is a table of a small text file, or of a case, where it takes the place of feed.speed

@@ -27,6 +27,7 @@ use help::{
     NEW_HELP, REPRODUCE_HELP, RUN_HELP, SPIN_HELP, SWEEP_HELP, WEB_HELP,
 };
 use source::key_and_value;
+use spunlaid::air::PlaceAxes;
 use spunlaid::case::Checks;
 use spunlaid::error::Fault;
 use spunlaid::removed::Removed;
@@ -62,9 +63,9 @@ pub(crate) enum Command {
     #[command(after_help = FIT_HELP, mut_arg("out", |out| out.help("Folder for the results [default: \
         results/<name of the web>_fit]")), mut_arg("force", |force| force.help(FORCE_HELP)), mut_arg("json", |json| json.help("Print fit.json instead of the table")))]
     Fit(Fit),
-    /// Look at the turbulent air of a case: pictures of its gusts, slices for ParaView
+    /// Look at the turbulent air of a case: pictures of its gusts, slices for ParaView, numbers at given places
     #[command(after_help = AIR_HELP, mut_arg("out", |out| out.help("Folder for the results [default: \
-        results/<name of the case>_air]")))]
+        results/<name of the case>_air], or file for the numbers of --at")))]
     Air(Air),
     /// Open a page on which eight fibres fly, and change while you look: real or slowed time
     #[command(after_help = LIVE_HELP)]
@@ -170,6 +171,15 @@ pub(crate) struct Air {
     /// Fly the filaments of a line in its CFD field, and write what they do to the air of each cell, for the CFD program
     #[arg(long, conflicts_with_all = ["replicate", "frames", "duration"])]
     pub(crate) sources: bool,
+    /// Print what the air is at the places of this table with the columns x [m], y [m] and z [m], or in other units; as
+    /// CSV, into the file that --out names if there is one
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath,
+          conflicts_with_all = ["sources", "replicate", "frames", "duration", "json"])]
+    pub(crate) at: Option<PathBuf>,
+    /// Axes of the places and velocities of --at: of the line, from the inlet or the root, or of the file of a CFD field
+    /// [default: field, if the air is one]
+    #[arg(long, value_enum, requires = "at")]
+    pub(crate) axes: Option<AxesName>,
     /// The replicate whose air it is, as they are numbered in a run
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=u64::from(u32::MAX)))]
     pub(crate) replicate: u64,
@@ -183,6 +193,24 @@ pub(crate) struct Air {
     pub(crate) threads: Threads,
     #[command(flatten)]
     pub(crate) figures: Figures,
+}
+
+/// The axes of places.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+pub(crate) enum AxesName {
+    /// x along gravity, y in machine direction, z in cross direction
+    Line,
+    /// x, y and z of the file
+    Field,
+}
+
+impl From<AxesName> for PlaceAxes {
+    fn from(axes: AxesName) -> Self {
+        match axes {
+            AxesName::Line => Self::Line,
+            AxesName::Field => Self::Field,
+        }
+    }
 }
 
 #[derive(Debug, Args)]

@@ -2,6 +2,7 @@
 
 use super::delivery::{Asides, Delivery};
 use super::flown::flown;
+use super::points::points;
 use super::sources::sources;
 use super::{stem, stop_on_ctrl_c};
 use crate::args::{Air, Invocation};
@@ -22,6 +23,9 @@ const UNIFORM: &str = "the case has air.lateral = \"uniform\": each of its fibre
 pub(crate) fn air(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
     if air.sources {
         return sources(air, invocation);
+    }
+    if let Some(file) = &air.at {
+        return points(air, file);
     }
     let mut read = air.source.read(&[]);
     let has_uniform = |(case, _): &CaseWithNotes| case.air.lateral == Lateral::Uniform;

@@ -4,6 +4,7 @@ use super::{plural, stop_on_ctrl_c};
 use crate::args::{Output, Threads};
 use crate::failure::Failure;
 use crate::say;
+use spunlaid::error::{Error, Fault};
 use spunlaid::study::JournalState;
 use spunlaid_results::folders::{Contents, Making, Written};
 use spunlaid_results::output::folder::{Published, Staging};
@@ -37,6 +38,26 @@ pub(super) struct Asides<'a> {
     pub(super) lines: &'a [String],
     /// Remarks about what was found.
     pub(super) found: &'a [String],
+}
+
+/// Whether a single file can be written there, before anything is computed for it. One that is there already is
+/// replaced with `--force` only.
+///
+/// * `option` – that names the file
+pub(super) fn check_file(file: &Path, option: &str, force: bool) -> Result<(), Error> {
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let fault = if folder.is_some_and(|folder| !folder.is_dir()) {
+        Fault::new("lies in a folder that is not there", "name another file, or make the folder")
+            .option(option.to_owned())
+    } else if file.is_dir() {
+        Fault::new("is a folder", "name a file").option(option.to_owned())
+    } else if file.exists() && !force {
+        Fault::new("is there already", "name another file, or replace it")
+            .option(format!("{option}, --force"))
+    } else {
+        return Ok(());
+    };
+    Err(Error::folder(file, fault))
 }
 
 impl<'a> Delivery<'a> {

@@ -12,6 +12,7 @@ pub(crate) mod keys;
 pub(crate) mod live;
 pub(crate) mod man;
 pub(crate) mod new;
+mod points;
 pub(crate) mod reproduce;
 pub(crate) mod run;
 mod scan;

@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Callable, ItemsView, Iterator, KeysView, Mapping, Sequence, ValuesView
-from typing import Any, Final, final
+from typing import Any, Final, Literal, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -91,6 +91,9 @@ class Case(Mapping[str, Any]):
 
     def to_toml(self) -> str:
         """The case as a case file with every key, in SI units."""
+
+    def air_at(self, points: ArrayLike, axes: Literal["line", "field"] | None = None) -> dict[str, _Floats]:
+        """The air at places, in SI units: an array for each column of `spunlaid air --at`."""
 
     @property
     def notes(self) -> list[str]:

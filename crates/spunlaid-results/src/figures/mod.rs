@@ -4,6 +4,7 @@ mod compare;
 #[cfg(test)]
 mod drag_laws;
 mod effects;
+mod field;
 mod fit;
 pub mod paper;
 mod record;
@@ -22,6 +23,7 @@ mod tests;
 mod web;
 
 pub use compare::{CurvePoint, Curves, MOST as MOST_COMPARED, overlaid_figures};
+pub use field::field_figure;
 pub use fit::fit_figures;
 pub use record::record_figures;
 pub use run::{run_figures, swing_frequency};

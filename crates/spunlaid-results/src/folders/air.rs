@@ -2,6 +2,7 @@
 
 use super::contents::{Contents, Maker, Page};
 use crate::Failure;
+use crate::figures::field_figure;
 use crate::numbers::{THIN, significant};
 use crate::output::air::{Slices, Summary, pictures, write_vtk};
 use crate::output::folder::{CASE_FILES, Staging};
@@ -64,10 +65,11 @@ impl Contents for AirFolder<'_> {
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
         let input = maker.keep(Input::Case(self.case))?;
+        let field: Vec<Figure> = field_figure(self.case, None).into_iter().collect();
         let pictures = pictures(self.case, self.slices);
-        let figures: Vec<&Figure> = pictures.iter().collect();
+        let figures: Vec<&Figure> = field.iter().chain(&pictures).collect();
         let files = |staging: &Staging<'_>| write_vtk(staging, self.slices);
-        let report = || Ok(air_report((self.case, input), self.slices, &pictures, self.headline()));
+        let report = || Ok(air_report((self.case, input), self.slices, [&field, &pictures], self.headline()));
         maker.finish((self.name, self.notes), &figures, files, report)
     }
 }

@@ -11,11 +11,12 @@ use spunlaid_charts::Figure;
 /// The air of a case, in pictures.
 ///
 /// * `case` – and the same as a file
+/// * `field` – how it lies around the line, if it is a CFD field
 /// * `headline` – how strong the gusts are
 pub fn air_report<'a>(
     (case, toml): (&Case, &str),
     slices: &Slices,
-    pictures: &'a [Figure],
+    [field, pictures]: [&'a [Figure]; 2],
     headline: String,
 ) -> Report<'a> {
     let summary = summary(case, slices);
@@ -31,6 +32,7 @@ pub fn air_report<'a>(
     );
     Report::new("air", headline)
         .lead(summary)
+        .with_all(field.chunks(1).map(|field| Section::new("field", "The field and the line").figures(field)))
         .with(Section::new("pictures", "At the first instant").figures(pictures))
         .with(computed)
         .with(methods("air", of_case(case), "case.toml of the results"))

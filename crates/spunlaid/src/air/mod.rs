@@ -9,6 +9,7 @@
 
 mod at_elements;
 mod at_places;
+mod at_points;
 mod atmosphere;
 mod dry_air;
 mod eddies;
@@ -31,6 +32,7 @@ mod tests;
 mod wind;
 
 pub use at_places::AirAtPlaces;
+pub use at_points::PlaceAxes;
 pub use atmosphere::Atmosphere;
 pub(crate) use atmosphere::{Instant, Velocities, VelocityAt, VelocityTask, misfit};
 pub(crate) use dry_air::{HEAT_CAPACITY_OF_AIR, temperature_of};

@@ -118,9 +118,9 @@ impl PlacedField {
         to_fibre(self.axes(), vector)
     }
 
-    /// A place of the field, in its coordinates, in the fibre's frame [m].
-    pub(crate) fn from_field(&self, at: Vec3<f64>) -> Vec3<f64> {
-        self.turned_back(at * self.unit - self.root)
+    /// A place of the field [m] in the fibre's frame.
+    pub(super) fn from_metres(&self, at: Vec3<f64>) -> Vec3<f64> {
+        self.turned_back(at - self.root)
     }
 
     /// The directions of the field that are the fibre's x, y and z: along gravity, machine and cross direction.
@@ -170,7 +170,7 @@ impl PlacedField {
     /// The lowest and the highest coordinates of the field in the fibre's frame [m].
     pub fn extent(&self) -> (Vec3<f64>, Vec3<f64>) {
         let (low, high) = self.field.bounds();
-        let [a, b] = [low, high].map(|corner| self.from_field(corner));
+        let [a, b] = [low, high].map(|corner| self.from_metres(corner * self.unit));
         let least = |a: f64, b: f64| (a.min(b), a.max(b));
         let ((x0, x1), (y0, y1), (z0, z1)) = (least(a.x, b.x), least(a.y, b.y), least(a.z, b.z));
         (Vec3::new(x0, y0, z0), Vec3::new(x1, y1, z1))
@@ -215,7 +215,10 @@ mod tests {
             let axes = [axis, machine, axis.cross(machine)];
             let turned = [x, y, z].map(|unit| to_field(axes, unit));
             for (axis, turned) in axes.into_iter().zip(turned) {
-                assert_eq!([turned.x, turned.y, turned.z][axis.index], if axis.backwards { -1.0 } else { 1.0 });
+                assert_eq!(
+                    [turned.x, turned.y, turned.z][axis.index],
+                    if axis.backwards { -1.0 } else { 1.0 }
+                );
             }
             assert_eq!(turned[1].cross(turned[2]), turned[0]);
             let v = Vec3::new(1.0, 2.0, 3.0);

@@ -357,8 +357,8 @@ pub enum Remark {
     },
     /// A web whose air changes over its width.
     #[error(
-        "lets the air change by {} % of its mean speed along the cross direction ({cross} of the field), within {} of \
-        the root, the width of the web; a web is laid as if its air were the same across. If {cross} is the machine \
+        "lets the air change by {} % of its mean speed along the cross direction ({cross} of the field), over the {} of \
+        the web around the root; a web is laid as if its air were the same across. If {cross} is the machine \
         direction, write it here; otherwise choose root and width where the air is even, or make a plane flow of the \
         middle",
         Dimension::Ratio.pretty_to(100.0 * *share, 2), Dimension::Length.pretty_to(*width, 3)

@@ -121,7 +121,7 @@ impl Case {
 
     /// What is said of a web of this width [m], if the air of a field changes over it.
     pub(crate) fn changes_across(&self, width: f64) -> Option<Remark> {
-        const PLACES: i32 = 16;
+        const PLACES: i32 = 8;
         let Flow::Field(placed) = &self.air.flow else { return None };
         let mut hint = Hint::default();
         let mut at = |step: i32, z: f64| {
@@ -131,9 +131,12 @@ impl Case {
         let middle: Vec<Vec3<f64>> = (0..PLACES).map(|step| at(step, 0.0).velocity).collect();
         let speed: f64 = middle.iter().map(|velocity| velocity.norm()).sum();
         let change = |side: i32| {
-            let z = width * f64::from(side) / f64::from(PLACES);
+            let z = 0.5 * width * f64::from(side) / f64::from(PLACES);
             let there = middle.iter().zip(0..).map(|(here, step)| (here, at(step, z)));
-            there.filter(|(_, there)| there.inside).map(|(here, there)| (there.velocity - *here).norm()).sum::<f64>()
+            there
+                .filter(|(_, there)| there.inside)
+                .map(|(here, there)| (there.velocity - *here).norm())
+                .sum::<f64>()
         };
         let share = (-PLACES..=PLACES).map(change).fold(0.0, f64::max) / speed;
         let cross = placed.axes()[2].name();

@@ -28,6 +28,7 @@ mod write;
 mod written_values;
 
 pub use crate::layers::{LaydownSource, LayerSpec, Method, WEB_KEYS, WEB_TABLES, WebKey, WebSpec};
+pub use data::read_points;
 pub use fed_back_tension::FlownTension;
 pub use influence::{Influence, OfFilament};
 pub use kind::kind_of;

@@ -2,15 +2,10 @@
 
 use super::MM;
 use crate::numbers::range;
-use spunlaid::air::{Flow, LocalAir};
+use spunlaid::air::LocalAir;
 use spunlaid::case::Case;
-use spunlaid::ensemble::Results;
 use spunlaid::field::Hint;
-use spunlaid::vec3::Vec3;
-use spunlaid_charts::{
-    Axis, Chart, Figure, Map, Series, Shades,
-    palette::{GREEN, VERMILION},
-};
+use spunlaid_charts::{Axis, Chart, Figure, Series, palette::GREEN};
 
 /// Places that are asked along the fibre.
 const PLACES: usize = 201;
@@ -54,83 +49,4 @@ pub(super) fn along_fibre(case: &Case) -> Figure {
         between(|air| air.cutoff_frequency, 1.0, "Hz"),
     );
     Figure::new(&chart, caption)
-}
-
-/// Columns and rows of a slice.
-const GRID: (usize, usize) = (276, 112);
-
-/// A plane along the fibre, and the direction across the fibre in it.
-struct Plane {
-    name: &'static str,
-    /// Of the field [m].
-    across: (f64, f64),
-    coordinate: fn(&Vec3<f64>) -> f64,
-    at: fn(f64) -> Vec3<f64>,
-}
-
-/// The speed of the air of a CFD field in the planes of x and y and of x and z, with where the fibres ended.
-pub(super) fn slices(case: &Case, results: &Results) -> Option<Figure> {
-    let Flow::Field(placed) = &case.air.flow else {
-        return None;
-    };
-    let (low, high) = placed.extent();
-    let length = case.fibre.length;
-    // As much of the field as the fibre could reach, and a little more.
-    let x = (low.x.max(-0.1 * length), high.x.min(1.1 * length));
-    let planes = [
-        Plane { name: "*y*", across: (low.y, high.y), coordinate: |p| p.y, at: |y| Vec3::new(0.0, y, 0.0) },
-        Plane { name: "*z*", across: (low.z, high.z), coordinate: |p| p.z, at: |z| Vec3::new(0.0, 0.0, z) },
-    ];
-    let mut maps = planes.each_ref().map(|Plane { across, at, .. }| {
-        let across = (across.0.max(-length), across.1.min(length));
-        let mut hint = Hint::default();
-        let mut speed = |i: usize, j: usize| {
-            let share = |n: usize, count: usize| (n as f64 + 0.5) / count as f64;
-            let along = Vec3::new(x.0 + (x.1 - x.0) * share(i, GRID.0), 0.0, 0.0);
-            let air =
-                case.air.local(at(across.0 + (across.1 - across.0) * share(j, GRID.1)) + along, &mut hint);
-            if air.inside { air.velocity.norm() } else { f64::NAN }
-        };
-        let values = (0..GRID.0 * GRID.1).map(|n| speed(n % GRID.0, n / GRID.0)).collect();
-        Map {
-            x: (x.0 * MM, x.1 * MM),
-            y: (across.0 * MM, across.1 * MM),
-            columns: GRID.0,
-            values,
-            range: (0.0, 1.0),
-            label: "|*U*| (m/s)".to_owned(),
-            shades: Shades::Amount,
-        }
-    });
-    let fastest =
-        maps.iter().flat_map(|map| &map.values).copied().filter(|v| v.is_finite()).fold(0.0, f64::max);
-    if fastest > 0.0 {
-        maps.iter_mut().for_each(|map| map.range = (0.0, fastest));
-    }
-    let charts = maps.into_iter().zip(&planes).map(|(map, Plane { name, coordinate, .. })| {
-        let chart = Chart::new(
-            &format!("air_slice_{}", name.trim_matches('*')),
-            "The field and the fibres",
-            Axis::linear("*x* from the root (mm)").tight(),
-            Axis::linear(&format!("{name} (mm)")).tight(),
-        )
-        .sized(640.0, 300.0)
-        .map(map);
-        results.trajectories.iter().enumerate().fold(chart, |chart, (i, trajectory)| {
-            let end = trajectory.shapes.last().unwrap_or_default().position;
-            let path: Vec<_> = end.iter().map(|p| (p.x * MM, coordinate(p) * MM)).collect();
-            let name = format!("fibre {}", trajectory.replicate + 1);
-            let series = Series::new("fibres at the end", VERMILION).named(&name).width(1.3);
-            chart.path(if i == 0 { series } else { series.unlabelled() }, &path)
-        })
-    });
-    let charts: Vec<Chart> = charts.collect();
-    let caption = format!(
-        "Speed of the mean flow in two planes through the root, of {}, and up to {} fibres as they were at \
-        the end. Grey: outside the field.",
-        placed.field.describe(),
-        results.trajectories.len(),
-    );
-    let charts: Vec<&Chart> = charts.iter().collect();
-    Some(Figure::stacked("air_slices", "The field and the fibres", &charts, caption))
 }

@@ -22,7 +22,7 @@ pub fn run_figures(case: &Case, results: &Results, turbulence: &[SpectrumPoint])
     figures.extend(measured::figures(results));
     if !case.air.is_uniform() {
         figures.push(air::along_fibre(case));
-        figures.extend(air::slices(case, results));
+        figures.extend(super::field_figure(case, Some(results)));
     }
     if !turbulence.is_empty() {
         figures.push(spectra::turbulence(case, turbulence));

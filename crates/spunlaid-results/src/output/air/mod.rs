@@ -2,16 +2,19 @@
 //!
 //! ```text
 //! Slices   the velocities on the points of both planes, instant by instant
+//! points   the air at given places as CSV
 //! vtk      each instant as VTK images
 //! pictures the first instant as figures
 //! summary  what was looked at, and how strong the gusts are
 //! ```
 
 mod pictures;
+mod points;
 mod summary;
 mod vtk;
 
 pub use pictures::{PLANES, pictures};
+pub use points::{POINT_COLUMNS, point_row, points_csv};
 pub use summary::Summary;
 pub use vtk::write_vtk;
 

@@ -173,6 +173,54 @@ fn invariant_the_whole_force_does_not_depend_on_the_cells() {
     }
 }
 
+/// The same flow around fibres along other axes of the field. The air is linear in space, so only rounding differs.
+#[test]
+fn invariant_the_sources_lie_along_the_axes_of_the_field() {
+    let turned = |(along, normal): (usize, usize)| {
+        let axis = Axis::ALL[along];
+        let cross = Axis { index: normal, backwards: false };
+        let axes = [axis, cross.cross(axis), cross];
+        let rows = [row(30, 0.0, WAY), row(10, -HALF, HALF), vec![0.0]];
+        let mut of_field = [vec![], vec![], vec![]];
+        for (axis, row) in axes.into_iter().zip(rows) {
+            let sign = if axis.backwards { -1.0 } else { 1.0 };
+            of_field[axis.index] = row.iter().map(|at| sign * at).collect();
+            of_field[axis.index].sort_unstable_by(f64::total_cmp);
+        }
+        let velocity = |at: Vec3<f64>| {
+            let v = velocity(Vec3::new(axes[0].part_of(at), axes[1].part_of(at), 0.0));
+            let mut turned = [0.0; 3];
+            for (axis, part) in axes.into_iter().zip([v.x, v.y, v.z]) {
+                turned[axis.index] = if axis.backwards { -part } else { part };
+            }
+            Vec3::new(turned[0], turned[1], turned[2])
+        };
+        let points: Vec<Vec3<f64>> = of_field[2]
+            .iter()
+            .flat_map(|z| of_field[1].iter().map(move |y| (*y, *z)))
+            .flat_map(|(y, z)| of_field[0].iter().map(move |x| Vec3::new(*x, y, z)))
+            .collect();
+        let field = Field::lattice(of_field, &values_of(&points, velocity)).unwrap();
+        let placed = placed_along(field, axis);
+        assert_eq!(placed.axes(), axes);
+        let sources = fly(&line(placed, 2), &[], 1);
+        let force = sources.force.each_ref().map(|force| force.mean);
+        let in_cells = summed(&sources, 1.0);
+        let along = |force: [f64; 3]| axes.map(|axis| axis.part_of(Vec3::new(force[0], force[1], force[2])));
+        (along(force), along(in_cells), sources.along.mean)
+    };
+    let first = turned((0, 2));
+    assert_eq!(first.0[0], first.2);
+    // Planes of x and z, of x and y and of y and z; forwards and backwards.
+    for axes in [(5, 1), (4, 2), (4, 0), (5, 0), (2, 1), (1, 2), (3, 1)] {
+        let other = turned(axes);
+        let all = |(force, cells, along): ([f64; 3], [f64; 3], f64)| [&force[..], &cells, &[along]].concat();
+        for (a, b) in all(first).into_iter().zip(all(other)) {
+            assert!((a - b).abs() < 1e-6 * first.2.abs(), "{axes:?}: {first:?} {other:?}");
+        }
+    }
+}
+
 /// The drag of the elements, taken apart from that of the nodes, is that of the laws at the velocities of the air
 /// that the step has felt.
 #[test]

@@ -11,6 +11,7 @@ use crate::field::{FieldLayout, ReadField};
 use crate::file;
 use crate::input::file::text as text_of;
 use crate::record::{Interval, LONGEST_GAP, Layout, Record, Settings, analyse_fluctuation, read_record};
+use crate::vec3::Vec3;
 use std::cell::RefCell;
 use std::fmt::Debug;
 use std::path::{Path, PathBuf};
@@ -111,6 +112,16 @@ fn measured(record: Record) -> Result<(Measured, Vec<Remark>), FileError> {
     let components: Vec<&[f64]> = record.components.iter().map(|c| c.values.as_slice()).collect();
     let measured = Measured::new(record.interval, &components, analysis.integral_time.value, says);
     Ok((measured, repairs.chain(analysis.warnings.into_iter().map(Remark::File)).collect()))
+}
+
+/// Reads places from a table with the columns x, y and z, each with its unit [m].
+///
+/// # Errors
+/// If the file cannot be read, or lacks a column, a unit or a number; the message says where.
+pub fn read_points(path: &Path) -> Result<Vec<Vec3<f64>>, FileError> {
+    table(path, FileKind::Table, profile::points)
+        .map(|points| points.to_vec())
+        .map_err(|error| error.path(path))
 }
 
 fn from_file<T>(path: &Path, checksum: u32, content: T) -> FileContent<T> {

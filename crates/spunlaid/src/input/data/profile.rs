@@ -8,6 +8,7 @@ use crate::spinline::{AirTable, ZERO_CELSIUS};
 use crate::table::{Head, Table};
 use crate::units::Dimension::{self, Frequency, Length, Ratio, Temperature, Velocity};
 use crate::units::excerpt;
+use crate::vec3::Vec3;
 
 /// Fewest rows of a table.
 const LEAST_ROWS: usize = 2;
@@ -74,6 +75,18 @@ const SPECTRUM: [ColumnRule; 2] = [
 /// Only the shape of a spectrum counts, so that its energies may have any unit.
 const ENERGY: &str = "energy";
 
+const POINTS: [ColumnRule; 3] = [
+    column("of the coordinate x", "x", Length, "x [m]", Any),
+    column("of the coordinate y", "y", Length, "y [m]", Any),
+    column("of the coordinate z", "z", Length, "z [m]", Any),
+];
+
+/// Reads places: `x [m], y [m], z [m]`, in any order of the rows.
+pub(in crate::input) fn points(text: &[u8]) -> Result<Vec<Vec3<f64>>, FileError> {
+    let [x, y, z] = rows(text, &POINTS, "x [m],y [m],z [m]", false)?;
+    Ok(x.into_iter().zip(y).zip(z).map(|((x, y), z)| Vec3::new(x, y, z)).collect())
+}
+
 /// Reads a profile of the air: `x_m, velocity_m_s, turbulence_intensity, length_scale_m, cutoff_frequency_hz`; the
 /// last three are optional.
 pub(super) fn profile(text: &[u8]) -> Result<Profile, FileError> {
@@ -104,6 +117,25 @@ fn read<const N: usize>(
     rules: &[ColumnRule; N],
     example: &'static str,
 ) -> Result<[Vec<f64>; N], FileError> {
+    let values = rows(text, rules, example, true)?;
+    let found = values[0].len();
+    if found < LEAST_ROWS {
+        return Err(Fault::new(
+            format!("has {found} {} of numbers", if found == 1 { "row" } else { "rows" }),
+            format!("at least {LEAST_ROWS} are needed for interpolation"),
+        )
+        .into());
+    }
+    Ok(values)
+}
+
+/// * `rising` – whether the first column must rise
+fn rows<const N: usize>(
+    text: &[u8],
+    rules: &[ColumnRule; N],
+    example: &'static str,
+    rising: bool,
+) -> Result<[Vec<f64>; N], FileError> {
     let mut table = Table::open(text, FileKind::Table, 0)?;
     if !table.named() {
         return Err(Fault::no_header(example).into());
@@ -132,7 +164,8 @@ fn read<const N: usize>(
             {
                 return Err(table.blame(index, Fault::new(format!("{text} {message}"), remedy)));
             }
-            if i == 0
+            if rising
+                && i == 0
                 && let Some(before) = values[0].last().copied().filter(|before| *before >= value)
             {
                 return Err(table.blame(index, Fault::not_increasing(before, value)));
@@ -144,14 +177,6 @@ fn read<const N: usize>(
         values.iter_mut().zip(&columns).filter(|(_, column)| column.is_some_and(|c| c.1.is_decibel))
     {
         from_decibels(values);
-    }
-    let found = values[0].len();
-    if found < LEAST_ROWS {
-        return Err(Fault::new(
-            format!("has {found} {} of numbers", if found == 1 { "row" } else { "rows" }),
-            format!("at least {LEAST_ROWS} are needed for interpolation"),
-        )
-        .into());
     }
     Ok(values)
 }
