@@ -3,7 +3,7 @@
 use crate::air::{Profile, SpectrumTable};
 use crate::case::keys::Kind;
 use crate::case::keys::Sign::{self, Any, NotNegative, Positive};
-use crate::error::{Fault, FileError, FileKind, listed};
+use crate::error::{Fault, FileError, FileKind, Problem, listed};
 use crate::spinline::{AirTable, ZERO_CELSIUS};
 use crate::table::{Head, Table};
 use crate::units::Dimension::{self, Frequency, Length, Ratio, Temperature, Velocity};
@@ -253,7 +253,12 @@ fn find(heads: &[Head], rule: &ColumnRule) -> Result<Option<(usize, ColumnUnit)>
         }
     }
     let head = Head { unit: unit.map(str::to_owned), ..heads[index].clone() };
-    Ok(Some((index, ColumnUnit { factor: head.factor(rule.dimension, rule.example)?, ..ColumnUnit::PLAIN })))
+    // Options that tell the units of a record are none of these tables.
+    let factor = head.factor(rule.dimension, rule.example).map_err(|error| {
+        let what = Fault { option: "".into(), ..error.what.clone() };
+        FileError::new(Problem { what, ..*error })
+    })?;
+    Ok(Some((index, ColumnUnit { factor, ..ColumnUnit::PLAIN })))
 }
 
 #[cfg(test)]
