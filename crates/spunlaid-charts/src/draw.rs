@@ -211,8 +211,7 @@ fn draw_arrow(picture: &mut Picture, [from, to]: [(f64, f64); 2], words: &str, c
     const HEAD: (f64, f64) = (13.0, 5.0);
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let length = dx.hypot(dy);
-    // Not a number, or no arrow.
-    if !(length > 0.0) {
+    if length.is_nan() || length == 0.0 {
         return;
     }
     let (ux, uy) = (dx / length, dy / length);
