@@ -1,10 +1,6 @@
 //! `spunlaid web`: lays a web of many filaments and says how even it is.
 
-<<<<<<< HEAD
-use super::delivery::{Asides, Delivered, Delivery};
-=======
-use super::delivery::{Asides, Delivery, check_file};
->>>>>>> 069c1106 (The air of a case at given places (spunlaid air --at, Case.air_at); the field is drawn with the directions of the line)
+use super::delivery::{Asides, Delivered, Delivery, check_file};
 use super::flown::flown;
 use super::{lay_control, plural, stem};
 use crate::args::{self, Invocation, Output, overrides};
@@ -12,13 +8,8 @@ use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::advice::{Advice, Change, advise, are_tried, judged_by, most_steps, steps};
 use spunlaid::case::Note;
-<<<<<<< HEAD
-use spunlaid::error::{Error, Fault};
-use spunlaid::input::{Changes, Unflown, Unread, WebSpec, read_changes, read_web};
-=======
 use spunlaid::error::Error;
-use spunlaid::input::{Changes, Unflown, Unread, WebFile, WebSpec, read_changes, read_web};
->>>>>>> 069c1106 (The air of a case at given places (spunlaid air --at, Case.air_at); the field is drawn with the directions of the line)
+use spunlaid::input::{Changes, Unflown, Unread, WebSpec, read_changes, read_web};
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
 use spunlaid::web::{Findings, LayControl};
 use spunlaid_results::folders;
@@ -26,12 +17,8 @@ use spunlaid_results::folders::web::WebFolder;
 use spunlaid_results::numbers::significant;
 use spunlaid_results::output::web::{Performance, specification_sheet};
 use std::fs;
-<<<<<<< HEAD
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
-=======
-use std::sync::atomic::AtomicU64;
->>>>>>> 069c1106 (The air of a case at given places (spunlaid air --at, Case.air_at); the field is drawn with the directions of the line)
 use std::time::Instant;
 
 pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), Failure> {
@@ -41,13 +28,8 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     let judged_by = arguments.judged_by.as_deref().map(|text| judged_by(&file.spec, text)).transpose()?;
     let (name, origin) = (stem(&arguments.file, "web"), invocation.origin_of([&arguments.file]));
     let (folder, figures) = (output.optional_folder(&name), arguments.figures.files());
-<<<<<<< HEAD
     let mut delivery = Delivery::open::<WebFolder<'_>>(folder, origin, output, &figures)?;
-    arguments.sheet.as_deref().map_or(Ok(()), |sheet| check_sheet(sheet, output.force))?;
-=======
-    let delivery = Delivery::open::<WebFolder<'_>>(folder, origin, output, &figures)?;
     arguments.sheet.as_deref().map_or(Ok(()), |sheet| check_file(sheet, "--sheet", output.force))?;
->>>>>>> 069c1106 (The air of a case at given places (spunlaid air --at, Case.air_at); the field is drawn with the directions of the line)
     // Before anything is flown, because the file may change meanwhile.
     let trials = Trials { judged_by, ..Trials::read(arguments, &file.spec)? };
 
