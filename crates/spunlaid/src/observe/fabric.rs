@@ -224,7 +224,7 @@ pub const OF_STRIPS: &[Measure<Strips>] = &[
 /// The numbers of one of the thinnest places.
 pub const OF_THINNEST: &[Measure<Marked>] = &[
     Measure::new("across_m", "Across", MILLIMETRES, Told(|place: &Marked| Some(Exact(place.middle()[0]))))
-        .meaning("middle of the patch across the sheet, from the edge of the web")
+        .meaning("middle of the patch across the sheet, from the edge of the map")
         .digits(5),
     Measure::new("along_m", "Along", MILLIMETRES, Told(|place: &Marked| Some(Exact(place.middle()[1]))))
         .meaning("middle of the patch along the sheet, from its beginning")

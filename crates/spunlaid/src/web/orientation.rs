@@ -221,8 +221,57 @@ pub fn orientation(web: &Web, by: LayControl<'_>) -> Result<Orientation, Error> 
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use rand_xoshiro::SplitMix64;
+    use rand_xoshiro::rand_core::{Rng, SeedableRng};
+
+    /// Directions of filaments of which ten beside each other are in the same gust: over many seeds the errors
+    /// that are told are as large as the scatter, and those of independent filaments a half of it or less.
+    #[test]
+    fn stat_the_errors_of_filaments_in_one_air_are_their_scatter() {
+        const FILAMENTS: usize = 60;
+        const STRETCHES: usize = 6;
+        const PIECES: usize = 24;
+        const GUST: usize = 10;
+        const SEEDS: usize = 400;
+        let mut random = SplitMix64::seed_from_u64(5);
+        let mut uniform = || (random.next_u64() >> 11) as f64 / 9_007_199_254_740_992.0;
+        let (mut found, mut told) = (Vec::new(), [0.0; 3]);
+        for _ in 0..SEEDS {
+            let mut sample = Sample::new(1.0);
+            sample.filaments = vec![vec![Sums::default(); STRETCHES]; FILAMENTS];
+            sample.groups = Some((0..FILAMENTS).map(|filament| filament / (2 * GUST)).collect());
+            for stretch in 0..STRETCHES {
+                let gusts: Vec<f64> = (0..FILAMENTS / GUST).map(|_| uniform()).collect();
+                for (filament, _) in
+                    (0..FILAMENTS).flat_map(|filament| (0..PIECES).map(move |i| (filament, i)))
+                {
+                    // A gust draws filaments out along the machine direction by more or less.
+                    let angle = PI * uniform();
+                    let drawn = 1.0 + gusts[filament / GUST];
+                    sample.add((filament, stretch), [drawn * libm::cos(angle), libm::sin(angle)]);
+                }
+            }
+            let alone = Estimate::new(sample.filaments().iter().map(|moments| moments[0]).collect());
+            let of = Orientation::of(&[sample], 1e-3);
+            let errors = [of.cos_squared.standard_error, of.stiffness_ratio.1, alone.standard_error];
+            told.iter_mut()
+                .zip(errors)
+                .for_each(|(sum, error)| *sum += error.unwrap().powi(2) / SEEDS as f64);
+            found.push([of.cos_squared.mean, of.stiffness_ratio.0]);
+        }
+        let scatter = |of: usize| {
+            let values = Estimate::new(found.iter().map(|values| values[of]).collect());
+            values.standard_error.unwrap() * (SEEDS as f64).sqrt()
+        };
+        for (of, told) in told.iter().enumerate().take(2) {
+            let ratio = told.sqrt() / scatter(of);
+            assert!((0.85..1.18).contains(&ratio), "{of}: {ratio}");
+        }
+        assert!(told[2].sqrt() < 0.7 * scatter(0), "{} {}", told[2].sqrt(), scatter(0));
+    }
 
     #[test]
     fn analytic_the_ratio_of_stiffness_of_directions_with_a_cosine() {
