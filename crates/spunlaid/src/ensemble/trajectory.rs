@@ -1,6 +1,7 @@
 //! The trajectory of one replicate.
 
 use super::{EndPath, RunControl, Shapes};
+use crate::air::Flow;
 use crate::case::Case;
 use crate::error::Error;
 use crate::flight::{Flight, Job, LaidPoint, SurroundingRun};
@@ -281,23 +282,34 @@ pub fn pace(case: &Case, isa: Isa) -> Result<f64, Error> {
     const TRIAL: f64 = 0.05;
     const PARTS: u64 = 64;
     let steps = ((2e5 / case.fibre.elements as f64).clamp(1.0, 1e4) as u64).min(case.run.steps).max(1);
-    let mut flight = Flight::new(&[Job::new(case, 0)], isa)?;
+    // Each fibre finds its own part of a field.
+    let is_in_field = matches!(case.air.flow, Flow::Field(_));
+    let fibres = if is_in_field { case.run.replicates.clamp(1, WIDTH as u64) } else { 1 };
+    let jobs: Vec<Job<'_>> = (0..fibres).map(|replicate| Job::new(case, replicate)).collect();
+    let mut flight = Flight::new(&jobs, isa)?;
     if let Some(line) = case.line {
         // Until the fibre has come down.
         let down = 1.5 * line.distance / line.feed_speed / case.run.time_step;
         flight.advance((down as u64).min(case.run.steps).min(100_000));
     }
-    // In parts, because a fibre that is lost may take very long for a step.
+    // In parts, because a fibre that is lost may take very long for a step. In a field the fibre flies on: it comes to
+    // places where no air was looked up before, which takes the longest at the beginning.
     let part = steps.div_ceil(PARTS);
+    let (trial_time, until) = if is_in_field { (4.0 * TRIAL, case.run.steps) } else { (TRIAL, steps) };
     let (mut done, mut trial, started) = (0, flight.clone(), Instant::now());
-    while done == 0 || started.elapsed().as_secs_f64() < TRIAL {
-        if done > 0 && done % steps < part {
+    let mut before = (0, 0.0);
+    while done == 0 || started.elapsed().as_secs_f64() < trial_time {
+        if done > 0 && done % until < part {
             trial = flight.clone();
         }
         trial.advance(part);
         done += part;
+        if is_in_field && before.0 == 0 && started.elapsed().as_secs_f64() > 0.5 * trial_time {
+            before = (done, started.elapsed().as_secs_f64());
+        }
     }
-    Ok(started.elapsed().as_secs_f64() / done as f64)
+    let (done_before, time_before) = if before.0 < done { before } else { (0, 0.0) };
+    Ok((started.elapsed().as_secs_f64() - time_before) / (done - done_before) as f64)
 }
 
 /// Finds where a fibre is first seen to be lost: repeats the flight, step by step after the last good instant.

@@ -344,7 +344,8 @@ impl Field {
     /// The air around a point, linear in space: its value and gradients at the point, and how far these may be used.
     ///
     /// It comes from lattices of values that are sampled once and kept for the life of the field. They are made as
-    /// fine as needed: within its reach the error is estimated to be a ten-thousandth of the largest velocity near by.
+    /// fine as needed: within its reach the error is estimated to be a thousandth of the largest velocity near by,
+    /// and up to eight times that in layers thinner than a thousandth of the field.
     /// Where the field is too rough for that, it is [`Field::sample`] with a reach of zero. The result does not depend
     /// on what was looked up before, except for [`Field::sample`]'s hint.
     ///

@@ -1,7 +1,7 @@
 //! Fields of air: linear flows are exact, smooth flows are second order, neighbouring cells agree, and points outside
 //! follow the documented rule.
 
-use crate::meshes::{ALL, Block, Made, at, at_points, field, inside, linear, numbers, smooth};
+use crate::meshes::{ALL, Block, Made, at, at_points, field, inside, linear, noise, numbers, smooth};
 use proptest::prelude::*;
 use spunlaid::error::Fault;
 use spunlaid::field::{AirAround, Cells, Field, Hint, Shape, Values};
@@ -57,7 +57,7 @@ fn analytic_linear_fields_are_exact_in_every_cell() {
 #[test]
 fn analytic_the_air_around_a_point_is_the_field_within_its_reach() {
     // The documented error, as a share of the largest value.
-    let limit = 1e-4 * std::f64::consts::E;
+    let limit = 1e-3 * std::f64::consts::E;
     for field in [lattice(16, smooth), field(&Block::cube(16, 0.2), Made::Hexahedra, smooth)] {
         let (mut hint, mut used, mut worst, mut beyond) = (Hint::default(), 0, 0.0_f64, 0);
         for point in inside(2000) {
@@ -121,7 +121,8 @@ fn the_reach_ends_where_the_flow_changes() {
         let here = field.around(at, &mut hint);
         let there = field.sample(at + V::new(0.0, 0.999 * here.reach, 0.0), &mut hint);
         let continued = here.value[0] + 0.999 * here.reach * here.gradients[1][0];
-        assert!((there.velocity.x - continued).abs() < 1e-3, "{here:?} {there:?}");
+        // A thousandth of the largest velocity, eight times that in the smallest bricks.
+        assert!((there.velocity.x - continued).abs() < 8e-3 * 10.0, "{here:?} {there:?}");
     }
 }
 
@@ -147,9 +148,58 @@ fn a_thin_jet_is_not_missed() {
     let field = Field::lattice(rows, &at_points(&points, jet)).unwrap();
     let mut hint = Hint::default();
     let beside = field.around(V::new(0.5, 0.5137 + 5e-3, 0.4829), &mut hint);
-    assert!((beside.value[0] - 1.0).abs() < 3e-3, "{beside:?}");
+    assert!((beside.value[0] - 1.0).abs() < 1e-3 * 30.0, "{beside:?}");
     let within = field.around(V::new(0.5, 0.5137, 0.4829), &mut hint);
-    assert!((within.value[0] - 30.0).abs() < 3e-3, "{within:?}");
+    // In one of the smallest bricks.
+    assert!((within.value[0] - 30.0).abs() < 8e-3 * 30.0, "{within:?}");
+}
+
+/// A jet whose edges are straight lines with kinks, askew to the lattice: walks in it take hardly more looks than in a
+/// smooth one, and what they find differs from the field by little on average.
+#[test]
+fn kinks_cost_few_looks() {
+    let axis = |points: usize, low: f64, high: f64| -> Vec<f64> {
+        (0..points).map(|i| low + (high - low) * i as f64 / (points - 1) as f64).collect()
+    };
+    let walk = |profile: &dyn Fn([f64; 3]) -> f64| {
+        let rows = [axis(61, 0.0, 0.6), axis(41, -0.1, 0.1), axis(21, -0.05, 0.05)];
+        let mut points = Vec::new();
+        for z in &rows[2] {
+            points.extend(rows[1].iter().flat_map(|y| rows[0].iter().map(move |x| [*x, *y, *z])));
+        }
+        let values = at_points(&points, |at| [profile(at), 0.0, 0.0, 0.01, 1.0]);
+        let field = Field::lattice(rows, &values).unwrap();
+        let (mut hint, mut looks, mut off, mut number) = (Hint::default(), 0u32, 0.0, 0);
+        let mut random = || {
+            number += 1;
+            noise(number)
+        };
+        for _ in 0..40 {
+            let mut at = [0.3 + 0.25 * random(), 0.08 * random(), 0.04 * random()];
+            let (mut from, mut here) = (at, AirAround { reach: -1.0, ..AirAround::default() });
+            for _ in 0..1000 {
+                let moved = [0, 1, 2].map(|axis| at[axis] - from[axis]);
+                if moved.iter().any(|by| by.abs() > here.reach) {
+                    here = field.around(V::new(at[0], at[1], at[2]), &mut hint);
+                    (from, looks) = (at, looks + 1);
+                }
+                let moved = [0, 1, 2].map(|axis| at[axis] - from[axis]);
+                let found: f64 = here.value[0] + (0..3).map(|i| moved[i] * here.gradients[i][0]).sum::<f64>();
+                off += (found - field.sample(V::new(at[0], at[1], at[2]), &mut hint).velocity.x).abs() / 40e3;
+                at.iter_mut().for_each(|x| *x += 1e-4 * random());
+            }
+        }
+        (looks, off / field.overview().speed.largest, field.memory())
+    };
+    let smooth = walk(&|[x, y, _]| 20.0 + 10.0 * (-(y / 0.05).powi(2)).exp() * (1.0 - 0.5 * x));
+    let kinked = walk(&|[x, y, z]| {
+        let edges = (1.0 - (y + 0.3 * z + 0.0031).abs() / 0.06).max(0.0);
+        let bands = (1.0 - (x - 0.317 - 0.2 * y).abs() / 0.1).max(0.0);
+        20.0 + 10.0 * (edges + 0.5 * bands) * (1.0 - 0.5 * x)
+    });
+    // One step in twenty, and bricks as many as three times those of a smooth jet.
+    assert!(kinked.0 < 40_000 / 20 && kinked.2 < 3 * smooth.2, "{kinked:?} {smooth:?}");
+    assert!(kinked.1 < 2e-4 && smooth.1 < 2e-4, "{kinked:?} {smooth:?}");
 }
 
 #[test]
