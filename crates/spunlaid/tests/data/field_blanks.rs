@@ -154,8 +154,8 @@ fn analytic_meshes_of_faces_in_a_plane_are_plane_flows() {
             let meant = 2.0 + 3.0 * a + 5.0 * b;
             assert!(local.inside && (local.velocity.x - meant).abs() < 1e-12, "{axis} {local:?} {meant}");
             let around = field.around(at, &mut Hint::default());
-            // A thousandth of the largest velocity, which is 14.5 m/s.
-            assert!(around.inside && (around.value[0] - meant).abs() < 1e-3 * 14.5, "{around:?} {meant}");
+            // What a kink may be wrong by, as the edge of the field is one, of 14.5 m/s.
+            assert!(around.inside && (around.value[0] - meant).abs() < 8e-3 * 14.5, "{around:?} {meant}");
         }
         // Beyond its edge the air is that of the edge’s nearest point, and not of the inside.
         let beyond = place(axis, 2.6, 0.5);

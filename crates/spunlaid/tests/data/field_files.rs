@@ -340,6 +340,8 @@ fn tables_of_many_programs_are_read() {
             (m/s)                  k (m^2/s^2)              ep (m^2/s^3)\n{}",
             rows("1;2;3;4;5", "                       ")
         ),
+        // Exponents of Fortran’s double precision.
+        format!("x y z u v w k epsilon\n{}", rows("1.000000D+00;2.0D0;0.3D+01;4;5", " ")),
         format!("x;y;z;u;v;w;k;epsilon;\r\n{}", rows("1,0;2,0;3,0;4,0;5,0;", ";")),
         format!("x\ty\tz\tu\tv\tw\ttke\tomega\n{}", rows("100e-2;2;3;4;13.888888888888889", "\t")),
         format!(
