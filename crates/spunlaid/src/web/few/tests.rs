@@ -180,8 +180,8 @@ fn stat_every_tenth_filament_of_a_slot_tells_the_cv_of_all() {
 #[test]
 fn stat_the_error_of_few_depths_is_their_scatter() {
     const SHARED: f64 = 0.7;
-    const CHOICES: usize = 12;
-    const FEW: usize = 24;
+    const CHOICES: usize = 24;
+    const FEW: usize = 48;
     let sheet = sheet(&[5.0, 10.0]);
     let field = Field::new(31);
     // Each choice has depths of its own: what a filament does for itself.
@@ -206,10 +206,11 @@ fn stat_the_error_of_few_depths_is_their_scatter() {
         let least = found.iter().map(|cvs| cvs[patch].by_pitch).fold(f64::INFINITY, f64::min);
         let ratio = (told / scatter).sqrt();
         println!("cv {mean:.4}, scatter {:.4}, told {:.4}, least {least:.4}", scatter.sqrt(), told.sqrt());
-        // Twelve choices know their scatter within a fifth; what is told holds the pitch too.
-        assert!((0.7..2.0).contains(&ratio), "{ratio}");
+        // 24 choices know their scatter within 15 %, and what is told holds the pitch too. Forty choices, with
+        // another program: 1.34 and 1.20, where the halves of one choice told a fifth of the scatter.
+        assert!((0.8..1.9).contains(&ratio), "{ratio}");
         // No choice has an error near to nothing.
-        assert!(least > 0.4 * scatter.sqrt(), "{least} {}", scatter.sqrt());
+        assert!(least > 0.5 * scatter.sqrt(), "{least} {}", scatter.sqrt());
     }
 }
 
