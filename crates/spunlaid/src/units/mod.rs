@@ -274,11 +274,11 @@ impl Dimension {
             let zero = if let Above(zero) = unit.scale { zero } else { 0.0 };
             let number: f64 = format!("{:.*e}", FEW - 1, (value - zero) / unit.scale.size()).parse().ok()?;
             let text = with_unit(&shortest(number), unit.shown);
-            self.parse(&text).is_ok_and(|read| read == value).then_some(text)
+            self.parse(&text).is_ok_and(|read| read == value).then_some((unit.pretty, text))
         };
-        let mut texts: Vec<String> = self.units().iter().filter_map(short).collect();
-        sort_by_key(&mut texts, |text| text.len());
-        texts.into_iter().next().unwrap_or(plain)
+        let mut texts: Vec<(bool, String)> = self.units().iter().filter_map(short).collect();
+        sort_by_key(&mut texts, |(is_usual, text)| text.len() + if *is_usual { 0 } else { 100 });
+        texts.into_iter().next().map_or(plain, |(_, text)| text)
     }
 
     /// The value for people, with four digits and a suitable unit: `50 µm`, `34.46 µs`, `2 GPa`.

