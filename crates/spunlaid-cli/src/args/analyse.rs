@@ -90,7 +90,7 @@ pub(crate) struct Scan {
     /// Take the lamp as even; without --lamp, its shading is else taken out as a polynomial
     #[arg(long)]
     pub(crate) keep_shading: bool,
-    /// Take all of the picture as web; else the bare lamp beside it, dust and blots are left out
+    /// Take all of the picture as web; else the bare lamp or a bare strip beside it, dust and blots are left out
     #[arg(long)]
     pub(crate) keep_spots: bool,
     /// Standard deviation of the noise of a single pixel, which is then taken out

@@ -8,7 +8,7 @@ use crate::failure::Failure;
 use crate::say;
 use spunlaid::error::{Fault, FileError, Problem};
 use spunlaid::record::{Layout, Settings, SpectrumSettings, read_record};
-use spunlaid::scan::is_picture_file;
+use spunlaid::scan::{columns_of_map, is_picture_file};
 use spunlaid_results::folders::record::RecordFolder;
 
 pub(crate) fn analyse(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
@@ -27,7 +27,23 @@ pub(crate) fn analyse(analyse: &Analyse, invocation: &Invocation) -> Result<(), 
         };
         return Err(FileError::from(Problem::with_path(&analyse.record, fault)).into());
     }
+    let is_told = is_scan || invocation.first_option::<RecordOptions>().is_some();
+    if let Some(columns) = columns_of_map(&analyse.record).filter(|_| !is_told) {
+        return Err(FileError::from(Problem::with_path(&analyse.record, unknown_table(columns))).into());
+    }
     if is_scan { scan(analyse, invocation) } else { record(analyse, invocation) }
+}
+
+/// The fault of a table that looks like a map of a web.
+fn unknown_table(columns: usize) -> Fault {
+    let remedy = "for a map, give the side of a pixel, and the mean basis weight unless the numbers are in kg/m²: \
+        --pixel \"1 mm\" --weight \"17 g/m²\"; for a velocity record, name the columns of the velocity: --columns 2";
+    Fault::new(
+        format!(
+            "has rows of {columns} numbers without names, as a map of basis weight has, not a velocity record"
+        ),
+        remedy,
+    )
 }
 
 fn record(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {

@@ -172,6 +172,12 @@ fn a_laid_web_and_its_scan_have_the_same_unevenness() {
     let command = command.replace(" --white 60000 --keep-shading", "");
     let told = success(&mut desk.spunlaid(&format!("{command} --weight 18gsm --out guessed")));
     assert!(told.contains("none: the level of the lamp is a guess"), "{told}");
+    let headline = told.lines().next().unwrap();
+    assert!(headline.ends_with(" mm: the level of the lamp is a guess."), "{headline}");
+    assert!(
+        headline.starts_with("A web of 18 g/m² that varies by at least ") && !headline.contains('±'),
+        "{headline}"
+    );
     let notes = desk.summary("guessed")["notes"].to_string();
     assert!(notes.contains("so no interval is given; take a picture of the lamp"), "{notes}");
     let told = success(&mut desk.spunlaid("compare laid guessed --out guesses"));
@@ -213,6 +219,34 @@ fn a_map_is_read_as_basis_weights() {
     let [a, b] = [&gauge["patches"][0], &found["patches"][3]]
         .map(|patch| (number(&patch["patch_m"]), number(&patch["cv"])));
     assert!(a.0 == 0.004 && b.0 == 0.005 && a.1 > b.1 && a.1 < 1.3 * b.1, "{a:?} {b:?}");
+}
+
+#[test]
+fn a_table_without_names_asks_what_it_is() {
+    let desk = desk();
+    let row =
+        |y: u32| (0..20).map(|x| format!("{}.5", 14 + (x * x + 3 * x * y) % 5)).collect::<Vec<_>>().join(",");
+    fs::write(desk.path("gauge.csv"), (0..30).map(|y| row(y) + "\n").collect::<String>()).unwrap();
+    let said = refusal(&mut desk.spunlaid("analyse gauge.csv"), 1);
+    assert!(
+        said.contains("has rows of 20 numbers without names, as a map of basis weight has")
+            && said.contains("--pixel \"1 mm\" --weight \"17 g/m²\"")
+            && said.contains("--columns"),
+        "{said}"
+    );
+    let said = refusal(&mut desk.spunlaid("analyse gauge.csv --pixel 1mm"), 1);
+    assert!(
+        said.contains("which are no basis weights in kg/m²")
+            && said.contains("(--weight, --light transmitted)"),
+        "{said}"
+    );
+    // No camera has blurred a map.
+    let said = success(&mut desk.spunlaid("analyse gauge.csv --pixel 1mm --weight 16gsm --patches 1mm"));
+    assert!(said.starts_with("A web of 16 g/m² that varies by ") && !said.contains("blur"), "{said}");
+    assert!(desk.summary("results/gauge")["web"]["patches"][0].get("blur_of_a_pixel").is_none());
+    // Who says which column is the velocity has a record.
+    let said = refusal(&mut desk.spunlaid("analyse gauge.csv --columns 2"), 1);
+    assert!(said.contains("gauge.csv: has no column of time"), "{said}");
 }
 
 #[test]

@@ -175,6 +175,8 @@ fn every_declared_measure_of_a_scan_is_in_summary_and_report() {
         weight_of_black: None,
         colour: false,
         more: false,
+        transparent: 0,
+        clipped: 0,
         numbered: [false; 2],
     };
     let light = Light::Transmitted { mean: Some(0.02), white: Some(60_000.0) };

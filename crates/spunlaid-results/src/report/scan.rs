@@ -5,7 +5,7 @@ use super::fabric::{fabric_in_short, fabric_section};
 use super::light_table::{MarkedPlaces, marks_note, picture_note, sheet};
 use super::methods::methods;
 use super::table::{Row, Table};
-use super::unevenness::{CV_OF_PATCHES, cost, headline, largest_clouds, per_cent};
+use super::unevenness::{CV_OF_PATCHES, cost, grams, headline, largest_clouds, per_cent};
 use super::view::View;
 use super::words::{metres, millimetres};
 use crate::Failure;
@@ -14,8 +14,9 @@ use crate::numbers::{THIN, plus_minus, significant};
 use crate::output::measured::text as shown_number;
 use crate::output::web::Performance;
 use spunlaid::fabric::Fabric;
-use spunlaid::observe::{Measured, OF_SCANNED_PATCHES, OF_SCANS, measured};
-use spunlaid::scan::{Findings, PatchFindings};
+use spunlaid::observe::{Measure, Measured, OF_SCANNED_PATCHES, OF_SCANS, measured};
+use spunlaid::scan::{Doubt, Findings, PatchFindings};
+use spunlaid::web::uniformity::Unevenness;
 use spunlaid::web::{Map, nearest_to_seen};
 use spunlaid_charts::Figure;
 use std::borrow::Cow;
@@ -62,31 +63,76 @@ pub fn scan_report<'a>(
 
 fn title(findings: &Findings) -> String {
     let nearest_patch = nearest_to_seen(findings.patches.iter().map(|patch| patch.unevenness.patch));
+    let patch = nearest_patch.map(|i| &findings.patches[i].unevenness);
     let weight = findings.mean_known.then(|| findings.map.basis_weight());
-    headline(
-        weight.map(|weight| (weight, None)),
-        nearest_patch.map(|i| &findings.patches[i].unevenness),
-        false,
-    )
+    let (Some(guess), Some(patch)) = (findings.guess, patch) else {
+        return headline(weight.map(|weight| (weight, None)), patch, false);
+    };
+    let web = weight.map_or_else(|| "A web".to_owned(), |weight| format!("A web of {}", grams(weight)));
+    match guess {
+        // The lamp is no lighter than the largest level, so the density is no larger than what was found.
+        Doubt::White => format!(
+            "{web} that varies by at least {} over patches of {}: {guess}.",
+            rough(patch),
+            millimetres(patch.patch)
+        ),
+        Doubt::Shading => format!(
+            "{web} that varies by about {} over patches of {}: {guess}.",
+            rough(patch),
+            millimetres(patch.patch)
+        ),
+        _ => format!("{web} whose unevenness is not known: {guess}."),
+    }
+}
+
+/// A CV whose error is not known, to two digits.
+fn rough(patch: &Unevenness) -> String {
+    format!("{}{THIN}%", significant(100.0 * patch.cv, 2))
+}
+
+/// A CV with its error; to two digits where that is not known.
+fn cv(patch: &Unevenness) -> String {
+    match patch.standard_error {
+        Some(_) => per_cent(patch.cv, patch.standard_error),
+        None => rough(patch),
+    }
 }
 
 /// How uneven it is.
 fn uneven(findings: &Findings) -> Section<'static> {
     let heads = ["Patch", "CV", "95 % interval"].into_iter();
-    let heads = heads.chain(OF_SCANNED_PATCHES.iter().skip(1).map(|measure| measure.label));
+    let heads = heads.chain(told_of(findings).map(|measure| measure.label));
+    let is_map = is_map(findings);
     Section::new("verdict", "What makes it uneven")
         .paragraphs(verdict(findings))
-        .table(Table::new(heads).rows(findings.patches.iter().map(row)))
+        .table(Table::new(heads).rows(findings.patches.iter().map(|patch| row(findings, patch))))
         .caption(format!(
-            "{CV_OF_PATCHES} The interval is that of the web, of which the scan is one piece. The noise of \
-            the camera is as it was given, and then taken out of the CV, or the most that it can be. Where \
-            one more pixel of blur changes little, the camera’s own blur has changed little as well."
+            "{CV_OF_PATCHES} The interval is that of the web, of which the scan is one piece. The noise is as it \
+            was given, and then taken out of the CV, or the most that it can be.{}",
+            if is_map {
+                ""
+            } else {
+                " Where one more pixel of blur changes little, the camera’s own blur has changed little as well."
+            }
         ))
 }
 
-fn row(patch: &PatchFindings) -> Row {
+/// Whether basis weights were read, which no camera has blurred.
+fn is_map(findings: &Findings) -> bool {
+    findings.patches.iter().all(|patch| patch.blur.is_none())
+}
+
+/// The measures that stand behind the interval.
+fn told_of(findings: &Findings) -> impl Iterator<Item = &'static Measure<PatchFindings>> + use<'_> {
+    let is_known = |measure: &&'static Measure<PatchFindings>| {
+        findings.patches.iter().any(|patch| measure.of(patch).value.is_some())
+    };
+    OF_SCANNED_PATCHES.iter().skip(1).filter(is_known)
+}
+
+fn row(findings: &Findings, patch: &PatchFindings) -> Row {
     let mut cells = vec![
-        per_cent(patch.unevenness.cv, patch.unevenness.standard_error),
+        cv(&patch.unevenness),
         patch.interval.map_or_else(
             |doubt| format!("none: {doubt}"),
             |[low, high]| {
@@ -95,7 +141,7 @@ fn row(patch: &PatchFindings) -> Row {
         ),
     ];
     // The CV stands before the interval.
-    cells.extend(measured(OF_SCANNED_PATCHES, patch).skip(1).map(|row| shown(&row).unwrap_or_default()));
+    cells.extend(told_of(findings).map(|measure| shown(&measure.of(patch)).unwrap_or_default()));
     Row::new(millimetres(patch.unevenness.patch), cells)
 }
 
@@ -144,6 +190,14 @@ fn facts(file: &str, findings: &Findings) -> Vec<(&'static str, String)> {
             format!("{} × {} of {}", findings.map.columns, findings.map.rows, millimetres(findings.map.cell)),
         ),
     ];
+    if findings.aside.corner != [0, 0] {
+        let [right, down] =
+            findings.aside.corner.map(|pixels| millimetres(pixels as f64 * findings.map.cell));
+        let place = format!(
+            "{right} from the left and {down} from the top of the picture; all places are of the web"
+        );
+        facts.push(("The web begins", place));
+    }
     // What is zero has not been found.
     let is_found =
         |row: &Measured<Findings>| !row.measure.label.is_empty() && row.measure.number(findings) != 0.0;
@@ -151,7 +205,7 @@ fn facts(file: &str, findings: &Findings) -> Vec<(&'static str, String)> {
     facts.extend(labelled.filter_map(|row| Some((row.measure.label, shown(&row)?))));
     if let Some(largest) = findings.aside.spots.first() {
         let spots = format!(
-            "{}, {}{THIN}mm² in all; the largest {}{THIN}mm², {} from the left and {} from the top of the picture",
+            "{}, {}{THIN}mm² in all; the largest {}{THIN}mm², {} from the left and {} from the top of the web",
             findings.aside.spots.len(),
             significant(findings.aside.masked * 1e6, 3),
             significant(largest.area * 1e6, 3),

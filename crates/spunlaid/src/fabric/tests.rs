@@ -118,6 +118,8 @@ fn identical_a_map_that_is_laid_and_one_that_is_measured() {
         weight_of_black: None,
         colour: false,
         more: false,
+        transparent: 0,
+        clipped: 0,
         numbered: [false; 2],
     };
     let light = Light::Weight { mean: Some(length * titre) };

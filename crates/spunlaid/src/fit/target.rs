@@ -28,7 +28,7 @@ impl MeasuredWeb {
         let patch = |patch: &PatchFindings| MeasuredPatch {
             side: patch.unevenness.patch,
             noise: patch.noise,
-            blur: patch.blur,
+            blur: patch.blur.unwrap_or(0.0),
         };
         Self {
             map: findings.map.clone(),

@@ -35,11 +35,11 @@ pub const OF_SCANS: &[Measure<Findings>] = &[
         .meaning("pixels lighter than the lamp without web: they count as empty"),
     Measure::<Findings>::new(
         "cut_off_m2",
-        "Cut off beside the web, with the bare lamp",
+        "Cut off beside the web",
         SQUARE_MILLIMETRES,
         Number(|scan| scan.aside.cut_off),
     )
-    .meaning("area beside the web that was cut off, because the bare lamp is seen there")
+    .meaning("area beside the web that was cut off: the bare lamp, a bare strip of a map, or pixels without a value")
     .digits(3),
     Measure::<Findings>::new("bare_lamp", "", RATIO, Known(|scan| scan.aside.bare))
         .meaning("median grey level of the bare lamp beside the web; none if it is not seen"),
@@ -61,17 +61,17 @@ pub const OF_SCANNED_PATCHES: &[Measure<PatchFindings>] = &[
         )
         .meaning("standard error of the CV: another piece of the same web would have another CV")
         .role(ErrorRole::OfOne)]),
-    Measure::<PatchFindings>::new("cv_noise", "Noise of the camera", PERCENT, Number(|patch| patch.noise))
+    Measure::<PatchFindings>::new("cv_noise", "Noise of the pixels", PERCENT, Number(|patch| patch.noise))
         .meaning("CV of the noise of the camera over such patches: as given and taken out, or at most")
-        .short("camera noise")
+        .short("pixel noise")
         .digits(2),
     Measure::<PatchFindings>::new(
         "blur_of_a_pixel",
         "Lost by one more pixel of blur",
         PERCENT,
-        Number(|patch| patch.blur),
+        Known(|patch| patch.blur),
     )
-    .meaning("share by which one more pixel of blur lowers the CV")
+    .meaning("share by which one more pixel of blur lowers the CV; none of a map of basis weight")
     .short("lost by blur")
     .digits(2),
 ];

@@ -12,6 +12,12 @@ pub enum Doubt {
     White,
     /// The shading of the lamp is a guess: a polynomial took it out, with what the web varies as smoothly.
     Shading,
+    /// The picture of the lamp is clipped.
+    ClippedLamp,
+    /// The picture of the lamp is darker than that of the web.
+    DarkLamp,
+    /// What is taken as basis weights may be grey levels.
+    GreyLevels,
     /// The blur of the camera has lowered the CV.
     Blur,
     /// The sheet holds too few such patches.
@@ -23,6 +29,9 @@ impl fmt::Display for Doubt {
         f.write_str(match self {
             Self::White => "the level of the lamp is a guess",
             Self::Shading => "the shading of the lamp is a guess",
+            Self::ClippedLamp => "the picture of the lamp is clipped",
+            Self::DarkLamp => "the picture of the lamp is darker than that of the web",
+            Self::GreyLevels => "the numbers may be grey levels and no basis weights",
             Self::Blur => "below the blur of the scan",
             Self::Few => "the sheet holds too few such patches",
         })
@@ -30,6 +39,12 @@ impl fmt::Display for Doubt {
 }
 
 impl Doubt {
-    /// All that a guess of the lamp makes doubtful, by its name in files.
-    pub const GUESSES: [(&'static str, Self); 2] = [("lamp", Self::White), ("shading", Self::Shading)];
+    /// What makes all numbers of a picture doubtful, by its name in files.
+    pub const GUESSES: [(&'static str, Self); 5] = [
+        ("lamp", Self::White),
+        ("shading", Self::Shading),
+        ("clipped_lamp", Self::ClippedLamp),
+        ("dark_lamp", Self::DarkLamp),
+        ("grey_levels", Self::GreyLevels),
+    ];
 }

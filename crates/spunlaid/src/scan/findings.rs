@@ -20,8 +20,8 @@ pub struct Settings {
     pub lamp: Option<Picture>,
     /// Whether the lamp is taken as even. Maps of basis weight are never corrected.
     pub keep_shading: bool,
-    /// Whether all of a picture in transmitted light is web. Otherwise the bare lamp beside it, dust and
-    /// blots are left out.
+    /// Whether all of a picture is web. Otherwise the bare lamp beside it, dust and blots are left out of one in
+    /// transmitted light, and the bare strips along the edges of a map.
     pub keep_spots: bool,
     /// Standard deviation of the noise of a single pixel, if it is known: its variance is taken out [levels].
     pub noise: Option<f64>,
@@ -66,7 +66,7 @@ pub struct Findings {
     pub titre: Option<f64>,
     /// Pixels that needed care.
     pub pixels: Pixels,
-    /// What is only a guess about the lamp, if anything: then nothing that depends on it has an interval.
+    /// What is only a guess about the lamp or the numbers, if anything: then nothing that depends on it has an interval.
     pub guess: Option<Doubt>,
     /// The parts of the picture that are not web and were left out.
     pub aside: ForeignParts,
@@ -91,14 +91,15 @@ pub struct PatchFindings {
     pub interval: Result<[f64; 2], Doubt>,
     /// CV of the noise of the camera over such patches: as given and taken out, or at most.
     pub noise: f64,
-    /// Share by which one more pixel of blur lowers the CV.
-    pub blur: f64,
+    /// Share by which one more pixel of blur lowers the CV; none of a map of basis weight, which no camera has
+    /// blurred.
+    pub blur: Option<f64>,
 }
 
 impl PatchFindings {
     /// Whether a blur of a pixel lowers the CV by less than one per cent.
     pub fn is_sharp(&self) -> bool {
-        self.blur < SHARP
+        self.blur.is_none_or(|blur| blur < SHARP)
     }
 }
 

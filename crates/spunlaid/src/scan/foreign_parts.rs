@@ -9,9 +9,9 @@ use std::cmp::Reverse;
 /// The parts of a picture that are not web.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ForeignParts {
-    /// Area beside the rectangle that was cut out, because the bare lamp is seen there [m²].
+    /// Area beside the rectangle that was cut out: the bare lamp, a bare strip, or pixels without a value [m²].
     pub cut_off: f64,
-    /// First column and row of the rectangle [pixels].
+    /// First column and row of the rectangle in the picture [pixels].
     pub corner: [usize; 2],
     /// Median grey level of the bare lamp, over its picture if there is one; none if it is not seen.
     pub bare: Option<f64>,
@@ -28,12 +28,19 @@ pub struct ForeignParts {
 pub struct Spot {
     /// Area [m²].
     pub area: f64,
-    /// Its middle, from the left and the upper edge of the picture [m].
+    /// Its middle, from the left and the upper edge of the web, which begins at [`ForeignParts::corner`] [m].
     pub place: [f64; 2],
 }
 
 impl ForeignParts {
-    pub(super) fn new(picture: &Picture, lamp: Option<&Picture>, found: &Spots) -> Self {
+    /// * `corner` – of the picture in its file
+    /// * `beside` – pixels of the file beside it
+    pub(super) fn new(
+        (corner, beside): ([usize; 2], usize),
+        picture: &Picture,
+        lamp: Option<&Picture>,
+        found: &Spots,
+    ) -> Self {
         let (pixel, area) = (picture.pixel, picture.pixel * picture.pixel);
         let ([left, top], [columns, rows]) = (found.web.corner, found.web.sides);
         let masked = &found.dark;
@@ -49,15 +56,15 @@ impl ForeignParts {
                 let mean = |place: &dyn Fn(usize) -> usize| {
                     (region.iter().map(|at| place(*at) as f64).sum::<f64>() / count + 0.5) * pixel
                 };
-                let place = [mean(&|at| left + at % columns), mean(&|at| top + at / columns)];
+                let place = [mean(&|at| at % columns), mean(&|at| at / columns)];
                 spots.push(Spot { area: count * area, place });
             }
         }
         sort_by_key(&mut spots, |spot| Reverse(spot.area));
         let pixels = masked.iter().filter(|is| **is).count();
         Self {
-            cut_off: (picture.values.len() - columns * rows) as f64 * area,
-            corner: found.web.corner,
+            cut_off: (beside + picture.values.len() - columns * rows) as f64 * area,
+            corner: [corner[0] + left, corner[1] + top],
             bare: (!found.bare.is_empty()).then(|| median(&bare.collect::<Vec<_>>())),
             spots,
             masked: pixels as f64 * area,

@@ -6,7 +6,7 @@ use crate::error::Fault;
 use crate::units::shortest;
 
 /// One pixel in so many may be filled in.
-const FILLED: usize = 100;
+pub(super) const FILLED: usize = 100;
 
 /// Refuses a setting that is not above zero.
 pub(super) fn above_zero(name: &'static str, value: Option<f64>) -> Result<(), Fault> {
@@ -21,25 +21,28 @@ pub(super) fn above_zero(name: &'static str, value: Option<f64>) -> Result<(), F
 
 /// The logarithm of the light that comes through, over that of the lamp if there is a picture of it; NaN
 /// where there is none.
-pub(super) fn logs(picture: &Picture, lamp: Option<&Picture>) -> Result<Vec<f64>, Fault> {
+pub(super) fn logs(picture: &Picture, lamp: Option<&Picture>) -> Vec<f64> {
     let log = |level: &f64| if level.is_finite() && *level > 0.0 { libm::log(*level) } else { f64::NAN };
     let mut logs: Vec<f64> = picture.values.iter().map(log).collect();
     if let Some(lamp) = lamp {
-        let [found, wanted] = [lamp, picture].map(|picture| [picture.columns, picture.rows]);
-        if found != wanted {
-            return Err(Fault::new(
-                format!(
-                    "has {} × {} pixels, but the picture of the lamp without web has {} × {}",
-                    wanted[0], wanted[1], found[0], found[1]
-                ),
-                "take both with the same camera from the same place",
-            )
-            .option("--lamp"));
-        }
         let scale = lamp.scale_to(picture);
         logs.iter_mut().zip(&lamp.values).for_each(|(light, lamp)| *light -= log(&(scale * lamp)));
     }
-    Ok(logs)
+    logs
+}
+
+/// Refuses a picture of the lamp of another size.
+pub(super) fn same_size(picture: &Picture, lamp: Option<&Picture>) -> Result<(), Fault> {
+    let (wanted, found) =
+        (picture.whole().sides, lamp.map_or(picture.whole().sides, |lamp| lamp.whole().sides));
+    if wanted == found {
+        return Ok(());
+    }
+    let message = format!(
+        "has {} × {} pixels, but the picture of the lamp without web has {} × {}",
+        wanted[0], wanted[1], found[0], found[1]
+    );
+    Err(Fault::new(message, "take both with the same camera from the same place").option("--lamp"))
 }
 
 /// The grey level of the lamp without web, or of the thickest web in reflected light.

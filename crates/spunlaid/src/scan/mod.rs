@@ -8,13 +8,13 @@
 //!
 //! | format | what is read |
 //! |---|---|
-//! | PNG | 8 or 16 bits, or fewer as sBIT tells; colours become luminance; transparency is left out |
+//! | PNG | 8 or 16 bits, or fewer as sBIT tells; colours become luminance; pixels that are not opaque have no value |
 //! | TIFF | the first of the largest pages; 8, 16 or 32 bits or floating point, plain, Deflate, LZW or PackBits; fewer bits as MaxSampleValue tells |
 //! | NumPy | an array of two dimensions in C order, of numbers of 1 to 8 bytes, but no half floats |
 //! | CSV | a line for each row of the map, as [`crate::table`] describes; an empty cell is a missing pixel; numbers of the rows and columns beside the map are left out |
 //!
 //! PNG and TIFF are turned as their orientation tells (Exif, TIFF tag 274). They tell the side of a pixel by
-//! their resolution, unless it is given. A PNG that tells the basis weight of black in a text,
+//! their resolution, in the unit that ImageJ or OME-XML writes into the description, unless it is given. A PNG that tells the basis weight of black in a text,
 //! [`WEIGHT_OF_BLACK`], is a map of basis weight; `spunlaid web` writes such maps.
 //!
 //! **From light to basis weight**, by the law of Beer and Lambert: the optical density `ln(white/level)` is
@@ -34,6 +34,9 @@
 //! **The results** are those of a simulated map: CV over patches with standard errors, clouds,
 //! autocorrelation. For each patch they also tell how much the noise of the camera and the blur of its optics
 //! count there.
+//!
+//! **What is no web** is cut off: pixels without a value along the edges, the bare lamp beside the web, and the
+//! bare strips along the edges of a map.
 //!
 //! **Limits.** At most [`MOST_PIXELS`] pixels and at least [`LEAST_SIDE`] either way. Up to one pixel in a
 //! hundred may say nothing; it is filled in from its row.
@@ -59,6 +62,9 @@ mod chance;
 mod doubt;
 mod findings;
 mod foreign_parts;
+mod frame;
+mod grey;
+mod lamp;
 mod levels;
 mod note;
 mod optics;
@@ -76,6 +82,6 @@ pub use foreign_parts::{ForeignParts, Spot};
 pub use optics::shortest_sharp_wave;
 pub use picture::{Format, Picture};
 pub use read::{CELL, LEAST_SIDE, MOST_PIXELS, WEIGHT_OF_BLACK, is_picture, parse, read};
-pub use request::{LightKind, ScanRequest, is_picture_file};
+pub use request::{LightKind, ScanRequest, columns_of_map, is_picture_file};
 pub use shading::flattened;
 pub use weigh::{Light, Pixels};

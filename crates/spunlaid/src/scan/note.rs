@@ -8,8 +8,6 @@ use super::weigh::{Light, WeighedPicture};
 use crate::error::Fault;
 use crate::units::{Dimension, shortest};
 
-/// Heaviest web that is believed [kg/m²].
-const HEAVIEST: f64 = 2.0;
 /// A larger difference between two sides of a pixel is not one of rounding.
 const OTHER: f64 = 0.01;
 /// Dots per inch that programs write into files when they do not know the resolution.
@@ -65,8 +63,7 @@ pub(super) fn notes(
         let mean = weighed.map.basis_weight();
         let shown = Dimension::BasisWeight.pretty(mean);
         let message = format!("the values are taken as basis weights in kg/m², with a mean of {shown}");
-        let remedy = "that is too much for a web, so give the mean basis weight of the sheet";
-        notes.push(Fault::new(message, if mean > HEAVIEST { remedy } else { "" }));
+        notes.push(Fault::plain(message));
     }
     if let Some(shading) = &weighed.shading {
         notes.push(Fault::new(
@@ -203,7 +200,7 @@ fn dark_spots(aside: &ForeignParts) -> Option<Fault> {
     let [right, down] = largest.place.map(|place| Dimension::Length.pretty_to(place, 3));
     Some(Fault::plain(format!(
         "dark spots such as dust or blots were left out: {}, {} in all; the largest, {}, is {right} from the \
-        left and {down} from the upper edge of the picture. If they belong to the web, say so",
+        left and {down} from the upper edge of the web. If they belong to the web, say so",
         aside.spots.len(),
         square(aside.masked),
         square(largest.area)

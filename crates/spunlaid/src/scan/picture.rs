@@ -29,6 +29,10 @@ pub struct Picture {
     pub colour: bool,
     /// Whether the file has further pictures, which were not read. A thumbnail is none.
     pub more: bool,
+    /// Pixels that are transparent in the file; they have no value.
+    pub transparent: usize,
+    /// Pixels of which a channel has the largest level that the file can hold.
+    pub clipped: usize,
     /// Whether the rows, and the columns, were numbered beside the values; the numbers were left out.
     pub numbered: [bool; 2],
 }
@@ -54,6 +58,11 @@ pub(super) struct Rectangle {
 }
 
 impl Picture {
+    /// All of it.
+    pub(super) const fn whole(&self) -> Rectangle {
+        Rectangle { corner: [0, 0], sides: [self.columns, self.rows] }
+    }
+
     /// What turns its levels into those of another picture, whose file may hold levels of another depth.
     pub(super) fn scale_to(&self, other: &Self) -> f64 {
         other.full_scale.zip(self.full_scale).map_or(1.0, |(other, own)| other / own)

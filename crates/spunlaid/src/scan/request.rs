@@ -3,9 +3,12 @@
 use super::analyse::analyse;
 use super::findings::{Findings, Settings};
 use super::picture::Picture;
-use super::read::{is_picture, read};
+use super::read::{LEAST_SIDE, is_picture, read};
 use super::weigh::Light;
-use crate::error::FileError;
+use crate::error::{Fault, FileError, FileKind};
+use crate::statistics::median;
+use crate::table::Table;
+use crate::units::shortest;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -90,7 +93,11 @@ impl ScanRequest {
     /// If the picture of the lamp cannot be read, or the picture cannot be analysed.
     pub fn analyse_picture(&self, picture: Picture) -> Result<(Picture, Findings), FileError> {
         let picture = self.turned(picture);
-        let findings = analyse(&picture, &self.settings(&picture)?)?;
+        let settings = self.settings(&picture)?;
+        if settings.light == (Light::Weight { mean: None }) {
+            weights_in_kilograms(&picture).map_err(|fault| FileError::from(fault).file(&picture.file))?;
+        }
+        let findings = analyse(&picture, &settings)?;
         Ok((picture, findings))
     }
 
@@ -114,6 +121,52 @@ impl ScanRequest {
         })
     }
 }
+
+/// Heaviest web that is believed [kg/m²].
+const HEAVIEST: f64 = 2.0;
+
+/// Refuses the numbers of a map that are no weights in kg/m², where nobody has told the mean.
+fn weights_in_kilograms(picture: &Picture) -> Result<(), Fault> {
+    let mean = median(&picture.weights().collect::<Vec<_>>());
+    if mean.is_nan() || mean <= HEAVIEST {
+        return Ok(());
+    }
+    let mean = shortest(format!("{mean:.3e}").parse().unwrap_or(f64::NAN));
+    Err(Fault::new(
+        format!(
+            "holds numbers of about {mean}, which are no basis weights in kg/m²: no web has {mean} kg/m²"
+        ),
+        "give the mean basis weight of the sheet, as \"17 g/m²\", or say that they are grey levels",
+    )
+    .option("--weight, --light transmitted"))
+}
+
+/// Whether a text file looks like a map: rows of many numbers, without names or with names that only number
+/// the columns. Returns the numbers of a row.
+pub fn columns_of_map(file: &Path) -> Option<usize> {
+    // A pipe gives its bytes only once.
+    if !file.metadata().ok()?.is_file() || is_picture_file(file) {
+        return None;
+    }
+    let mut head = Vec::new();
+    File::open(file).ok()?.take(BEGINNING).read_to_end(&mut head).ok()?;
+    // The last line may be cut off.
+    let table = Table::open(&*head, FileKind::Scan, 0).ok()?;
+    let names: Vec<&str> = table.heads().iter().map(|head| head.name.as_str()).collect();
+    let [first, rest @ ..] = names.as_slice() else { return None };
+    let bare =
+        |name: &str| name.trim_matches(|c: char| c.is_ascii_digit() || ".-+ ".contains(c)).to_lowercase();
+    // The name of the first column may be that of the row numbers.
+    let stem = bare(rest.first().unwrap_or(first));
+    let is_velocity = VELOCITIES.contains(&stem.as_str());
+    (names.len() >= LEAST_SIDE && !is_velocity && rest.iter().all(|name| bare(name) == stem))
+        .then_some(names.len())
+}
+
+/// Names of velocities, of which a record may have many side by side.
+const VELOCITIES: [&str; 8] = ["u", "v", "w", "u_", "v_", "w_", "velocity", "velocity_"];
+/// Bytes in which the first rows of a map are looked for.
+const BEGINNING: u64 = 1 << 18;
 
 /// Whether a file is the scan of a web, by its name or by how it begins. A file that cannot be opened is told
 /// of where it is read.

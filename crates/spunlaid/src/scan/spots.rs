@@ -18,15 +18,14 @@ pub(super) struct Spots {
 impl Spots {
     /// All of a picture is web.
     pub(super) const fn none(picture: &Picture) -> Self {
-        let web = Rectangle { corner: [0, 0], sides: [picture.columns, picture.rows] };
-        Self { web, bare: Vec::new(), dark: Vec::new() }
+        Self { web: picture.whole(), bare: Vec::new(), dark: Vec::new() }
     }
 }
 
 /// Side of a block of one level [blocks of the level below].
 const STEP: usize = 3;
 /// Fewest blocks either way in which something is looked for.
-const FEWEST: usize = 12;
+pub(super) const FEWEST: usize = 12;
 /// So many standard deviations above or below the median, a block is no web; its neighbours are not from half
 /// as many on.
 const FAR: f64 = 7.0;
@@ -41,14 +40,14 @@ const SAMPLE: usize = 1 << 18;
 /// At most this share of the web may be dark spots.
 const MOST: f64 = 0.05;
 /// At least this share of the web must be in the rectangle that is cut out.
-const KEPT: f64 = 0.6;
+pub(super) const KEPT: f64 = 0.6;
 
 /// Values on a lattice; NaN where there is none.
-struct Level {
-    values: Vec<f64>,
-    columns: usize,
+pub(super) struct Level {
+    pub(super) values: Vec<f64>,
+    pub(super) columns: usize,
     /// Side of a block [pixels].
-    block: usize,
+    pub(super) block: usize,
 }
 
 /// Looks for what is no web, at blocks of one, three, nine … pixels: blocks far from the median, compared
@@ -68,19 +67,7 @@ pub(super) fn spots(density: &[f64], columns: usize, is_absolute: bool) -> Resul
     let (mut dark, mut bare) = (vec![false; density.len()], vec![false; density.len()]);
     let mut level = Level { values: density.to_vec(), columns, block: 1 };
     while level.columns.min(level.rows()) >= FEWEST {
-        let sample = level.values.len().div_ceil(SAMPLE);
-        let mut sample: Vec<f64> = level.values.iter().step_by(sample).copied().collect();
-        if is_absolute && level.block > 1 {
-            // More than half of the picture may be bare.
-            let least = BARE * quantile(&sample, 0.9);
-            sample.retain(|x| *x > least);
-        }
-        let [median, upper, high] = [0.5, 0.75, 0.9].map(|share| quantile(&sample, share));
-        // A quarter of a normal distribution is farther than 0.6745 standard deviations above its median, a
-        // tenth 1.2816.
-        let scatter = (upper - median) / 0.6745;
-        // Few fibres cross in a single pixel, so thick ones are more frequent there.
-        let scatter = if level.block == 1 { scatter.max((high - median) / 1.2816) } else { scatter };
+        let [median, scatter] = level.typical(is_absolute);
         if scatter <= 0.0 {
             level = level.coarser();
             continue;
@@ -88,8 +75,7 @@ pub(super) fn spots(density: &[f64], columns: usize, is_absolute: bool) -> Resul
         let far = FAR * scatter;
         level.paint(&mut dark, [columns, rows], |x| x > median + far, |x| x > median + 0.5 * far, false);
         // A block of an open web may hold no fibre; one that is larger than its holes may not.
-        let is_even = scatter < EVEN * median;
-        let least = if is_absolute && is_even { BARE * median } else { f64::NEG_INFINITY };
+        let least = if is_absolute && scatter < EVEN * median { BARE * median } else { f64::NEG_INFINITY };
         if level.block > 1 {
             let is_bare = |x: f64| x < median - far || x < least;
             level.paint(&mut bare, [columns, rows], is_bare, |x| x < median - 0.5 * far || x < least, true);
@@ -140,12 +126,37 @@ pub(super) fn spots(density: &[f64], columns: usize, is_absolute: bool) -> Resul
 }
 
 impl Level {
-    fn rows(&self) -> usize {
+    pub(super) fn rows(&self) -> usize {
         self.values.len() / self.columns
     }
 
+    /// The median of the blocks, and the standard deviation that those above it show.
+    ///
+    /// * `is_absolute` – whether no density is that of the lamp
+    pub(super) fn typical(&self, is_absolute: bool) -> [f64; 2] {
+        let sample = self.values.len().div_ceil(SAMPLE);
+        let mut sample: Vec<f64> = self.values.iter().step_by(sample).copied().collect();
+        if is_absolute && self.block > 1 {
+            // More than half of the picture may be bare.
+            let least = BARE * quantile(&sample, 0.9);
+            sample.retain(|x| *x > least);
+        }
+        let [median, upper, high] = [0.5, 0.75, 0.9].map(|share| quantile(&sample, share));
+        // A quarter of a normal distribution is farther than 0.6745 standard deviations above its median, a
+        // tenth 1.2816.
+        let scatter = (upper - median) / 0.6745;
+        // Few fibres cross in a single pixel, so thick ones are more frequent there.
+        [median, if self.block == 1 { scatter.max((high - median) / 1.2816) } else { scatter }]
+    }
+
+    /// The median of blocks that are so even that those of a web all hold fibres; none of others.
+    pub(super) fn median_if_even(&self) -> Option<f64> {
+        let [median, scatter] = self.typical(true);
+        (scatter < EVEN * median).then_some(median)
+    }
+
     /// The means of blocks; what is left over at the right and the bottom goes to the last ones.
-    fn coarser(&self) -> Self {
+    pub(super) fn coarser(&self) -> Self {
         let [columns, rows] = [self.columns, self.rows()].map(|side| side / STEP);
         let mut sums = vec![(0.0, 0u32); columns * rows];
         for (row, values) in self.values.chunks_exact(self.columns).enumerate() {
@@ -161,7 +172,7 @@ impl Level {
 
     /// Marks the pixels of all blocks that are as wanted, and those that are nearly so and hang together with
     /// them. They and their neighbours are taken out, so that larger blocks show only what is still hidden.
-    fn paint(
+    pub(super) fn paint(
         &mut self,
         pixels: &mut [bool],
         [columns, rows]: [usize; 2],
@@ -234,7 +245,7 @@ pub(super) fn region(
 }
 
 /// Widens what is marked, to both sides.
-fn widen(marks: &mut [bool], columns: usize, [across, along]: [usize; 2]) {
+pub(super) fn widen(marks: &mut [bool], columns: usize, [across, along]: [usize; 2]) {
     let rows = marks.len() / columns;
     let spread = |old: &[bool], at: usize, size: usize, reach: usize| {
         (at.saturating_sub(reach)..(at + reach + 1).min(size)).any(|at| old[at])
@@ -252,7 +263,7 @@ fn widen(marks: &mut [bool], columns: usize, [across, along]: [usize; 2]) {
 }
 
 /// The largest rectangle without any mark.
-fn largest(marks: &[bool], columns: usize) -> Rectangle {
+pub(super) fn largest(marks: &[bool], columns: usize) -> Rectangle {
     let mut best = Rectangle { corner: [0, 0], sides: [0, 0] };
     // How far each column is free, upwards from the row.
     let mut heights = vec![0usize; columns];

@@ -91,7 +91,7 @@ const ROUNDS: usize = 4;
 
 /// The parts of a picture in transmitted light that are not web.
 pub(super) fn beside(picture: &Picture, light: Light, correction: Correction<'_>) -> Result<Spots, Fault> {
-    let logs = logs(picture, correction.lamp)?;
+    let logs = logs(picture, correction.lamp);
     let (lamp, given) = match light {
         _ if correction.lamp.is_some() => (0.0, true),
         Light::Transmitted { white: Some(white), .. } => (libm::log(white), true),
@@ -149,6 +149,11 @@ pub(super) fn weigh(
     }
 }
 
+/// What to do about pixels without a value.
+const fn advice(picture: &Picture, usual: &'static str) -> &'static str {
+    if picture.transparent > 0 { "cut out a part of the picture without transparent pixels" } else { usual }
+}
+
 fn transmitted(
     picture: &Picture,
     mean: Option<f64>,
@@ -158,8 +163,8 @@ fn transmitted(
 ) -> Result<WeighedPicture, Fault> {
     let white = white_level(picture, white, lamp)?;
     let levels = || picture.values.iter().copied().filter(|level| level.is_finite());
-    let mut logs = logs(picture, lamp)?;
-    let advice = "let more light through, or expose for longer";
+    let mut logs = logs(picture, lamp);
+    let advice = advice(picture, "let more light through, or expose for longer");
     let filled = unusable(&logs, "black or without a value", advice)?;
     logs.iter_mut().zip(masked).filter(|(_, is)| **is).for_each(|(log, _)| *log = f64::NAN);
     let mean_log = mean_of(&logs);
@@ -215,9 +220,9 @@ fn reflected(
     Correction { lamp, keep_shading }: Correction<'_>,
 ) -> Result<WeighedPicture, Fault> {
     let white = white_level(picture, white, lamp)?;
-    let mut logs = logs(picture, lamp)?;
-    let filled =
-        unusable(&logs, "black or without a value", "let more light fall on it, or expose for longer")?;
+    let mut logs = logs(picture, lamp);
+    let advice = advice(picture, "let more light fall on it, or expose for longer");
+    let filled = unusable(&logs, "black or without a value", advice)?;
     let shading = believed_shading(&logs, picture.columns, (lamp, keep_shading))?;
     let mean_log = mean_of(&logs);
     if let Some(shading) = &shading {
@@ -252,7 +257,7 @@ fn reflected(
 fn weights(picture: &Picture, mean: Option<f64>) -> Result<WeighedPicture, Fault> {
     let usable = |weight: f64| if weight.is_finite() && weight >= 0.0 { weight } else { f64::NAN };
     let mut weights: Vec<f64> = picture.weights().map(usable).collect();
-    let advice = "cut out a part of the map where the gauge has seen the web";
+    let advice = advice(picture, "cut out a part of the map where the gauge has seen the web");
     let filled = unusable(&weights, "negative or without a value", advice)?;
     let found = mean_of(&weights);
     if !found.is_finite() || found <= 0.0 {

@@ -66,6 +66,8 @@ pub fn scanned(map: &Map) -> MeasuredWeb {
         weight_of_black: None,
         colour: false,
         more: false,
+        transparent: 0,
+        clipped: 0,
         numbered: [false; 2],
     };
     let light = Light::Transmitted { mean: None, white: Some(50_000.0) };

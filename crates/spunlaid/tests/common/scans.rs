@@ -216,6 +216,64 @@ pub fn tiff_f32(columns: usize, levels: &[f32]) -> Vec<u8> {
     tiff::<Gray32Float>(columns, levels)
 }
 
+/// A grey TIFF of 8 bits with a description and a resolution in a unit, if it has one.
+pub fn tiff_of_program(
+    columns: usize,
+    levels: &[u8],
+    text: &[u8],
+    unit: Option<u16>,
+    [n, d]: [u32; 2],
+) -> Vec<u8> {
+    let mut file = Cursor::new(Vec::new());
+    let mut encoder = TiffEncoder::new(&mut file).unwrap();
+    let rows = (levels.len() / columns) as u32;
+    let mut image = encoder.new_image::<Gray8>(columns as u32, rows).unwrap();
+    let tags = image.encoder();
+    tags.write_tag(Tag::ImageDescription, text).unwrap();
+    for tag in [Tag::XResolution, Tag::YResolution] {
+        tags.write_tag(tag, Rational { n, d }).unwrap();
+    }
+    if let Some(unit) = unit {
+        tags.write_tag(Tag::ResolutionUnit, unit).unwrap();
+    }
+    image.write_data(levels).unwrap();
+    file.into_inner()
+}
+
+/// A TIFF of some channels, of which the further ones are told.
+pub fn tiff_of_channels<C: ColorType>(columns: usize, levels: &[C::Inner], extra: &[u16]) -> Vec<u8>
+where
+    [C::Inner]: TiffValue,
+{
+    let mut file = Cursor::new(Vec::new());
+    let rows = levels.len() / columns / C::BITS_PER_SAMPLE.len();
+    let mut encoder = TiffEncoder::new(&mut file).unwrap();
+    let mut image = encoder.new_image::<C>(columns as u32, rows as u32).unwrap();
+    image.encoder().write_tag(Tag::ExtraSamples, extra).unwrap();
+    image.write_data(levels).unwrap();
+    file.into_inner()
+}
+
+/// Relative weights of a web of waves at random, with a CV of about 13 % and a mean of one.
+pub fn waves(columns: usize, rows: usize, seed: u64) -> Vec<f64> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut uniform = || (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
+    let waves: Vec<[f64; 3]> = (0..24)
+        .map(|_| {
+            let (turn, length) = (2.0 * PI * uniform(), 30.0 + 60.0 * uniform());
+            [2.0 * PI / length * turn.cos(), 2.0 * PI / length * turn.sin(), 2.0 * PI * uniform()]
+        })
+        .collect();
+    let weight = |at: usize| {
+        let place = [(at % columns) as f64, (at / columns) as f64];
+        let sum: f64 = waves.iter().map(|[x, y, phase]| (x * place[0] + y * place[1] + phase).cos()).sum();
+        1.0 + 0.13 * (2.0 / 24f64).sqrt() * sum
+    };
+    let weights: Vec<f64> = (0..columns * rows).map(weight).collect();
+    let mean = weights.iter().sum::<f64>() / weights.len() as f64;
+    weights.iter().map(|weight| weight / mean).collect()
+}
+
 /// Any TIFF.
 pub fn tiff<C: ColorType>(columns: usize, levels: &[C::Inner]) -> Vec<u8>
 where

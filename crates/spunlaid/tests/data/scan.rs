@@ -77,7 +77,7 @@ fn rendered_and_found(lamp: Lamp, pictured: bool, truth: impl Fn(&Map) -> Vec<f6
                     assert!((ratio - 1.0).abs() < tolerance, "{ratio} at {side} pixels");
                 } else {
                     assert!(
-                        (1.0 - 2.0 * patch.blur..1.0 + tolerance).contains(&ratio),
+                        (1.0 - 2.0 * patch.blur.expect("a blur")..1.0 + tolerance).contains(&ratio),
                         "{ratio} at {side} pixels"
                     );
                 }
@@ -241,6 +241,26 @@ fn a_guess_of_the_lamp_leaves_no_interval() {
             doubt.is_some(),
             "{told:?}"
         );
+    }
+}
+
+/// Without a picture of the lamp, its level counts as the largest of the file.
+#[test]
+fn without_the_lamp_the_cv_is_a_lower_bound() {
+    let map = laid(3);
+    let (size, light, truth) = ([map.columns, map.rows], light(&map), unscanned(&map));
+    let even: Lamp = |_, _| 1.15;
+    for (name, lamp) in [("lens", lens as Lamp), ("spotted", spotted), ("even", even)] {
+        let scan = file(map.columns, &exposed(size, &light, lamp, 65535.0, 3), 16);
+        let patches = SIDES.map(|side| side as f64 * PIXEL).to_vec();
+        let light = Light::Transmitted { mean: None, white: None };
+        let found = scanned(&scan, &Settings { patches, ..Settings::new(light) });
+        assert_eq!(found.guess, Some(Doubt::White));
+        for (patch, truth) in found.patches.iter().zip(&truth) {
+            let ratio = patch.unevenness.cv / truth;
+            println!("{name} {} {truth} {ratio}", patch.unevenness.patch);
+            assert!(ratio < 1.0, "{name}: {ratio} over {} m", patch.unevenness.patch);
+        }
     }
 }
 

@@ -31,14 +31,14 @@ pub(super) fn scanned(findings: &scan::Findings) -> Figure {
     let noise: Vec<(f64, f64)> =
         findings.patches.iter().map(|patch| (patch.unevenness.patch * MM, patch.noise * PER_CENT)).collect();
     let chart = empty_chart()
-        .line(Series::new("noise of the camera", GREY).dashed(&[6.0, 4.0]), &noise)
+        .line(Series::new("noise of the pixels", GREY).dashed(&[6.0, 4.0]), &noise)
         .line(Series::new("", BLUE).unlabelled().adorning().width(1.0), &line)
         .scatter(Series::spots("this scan", BLUE), &found);
     Figure::new(
         &chart,
         "Standard deviation of the basis weight of square patches over its mean. Bars are one standard error by \
-         chance, that of one piece of web; there is none where it cannot be known. Dashed: the CV of the camera’s \
-         noise alone, as it was given, or else the most that neighbouring pixels allow; the finest structure of \
+         chance, that of one piece of web; there is none where it cannot be known. Dashed: the CV of the noise of the \
+         pixels alone, as it was given, or else the most that neighbouring pixels allow; the finest structure of \
          the web is in it.",
     )
 }

@@ -47,7 +47,7 @@ pub(super) fn maps(webs: &[Web]) -> Maps {
         });
         match clouds {
             Ok(clouds) => {
-                let sharp_from = web.is_scan.then(|| shortest_sharp_wave(map.cell));
+                let sharp_from = web.has_camera.then(|| shortest_sharp_wave(map.cell));
                 spectra.push(ComparedSpectrum { name: web.name.clone(), clouds, sharp_from });
             }
             Err(reason) => notes.push(without(&web.name, &reason, "no spectrum")),

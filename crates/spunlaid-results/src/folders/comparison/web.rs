@@ -21,8 +21,8 @@ pub(super) struct Web {
     pub(super) flown: Vec<Patch>,
     /// Cloudiness index and share of the texture along the machine direction.
     pub(super) clouds: [Option<WebNumber>; 2],
-    /// Whether it comes from a camera or a gauge, which blurs.
-    pub(super) is_scan: bool,
+    /// Whether it comes from a camera, which blurs.
+    pub(super) has_camera: bool,
     /// Side of a cell of its map, if it is known [m].
     pub(super) cell: Option<f64>,
     /// What is told of its fabric; nothing in an older folder.
@@ -93,7 +93,8 @@ impl Web {
             untold: untold.collect(),
             flown: patches(["cv_flown", "cv_flown_standard_error", ""]),
             clouds,
-            is_scan: summary.get("scan").is_some(),
+            // A map of basis weight has no blur of a camera.
+            has_camera: all.iter().any(|patch| patch["blur_of_a_pixel"].is_number()),
             cell: web["cell_m"].as_f64(),
             fabric: summary["fabric"].clone(),
             map: MapFile::new(folder, web),

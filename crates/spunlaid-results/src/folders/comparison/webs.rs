@@ -134,7 +134,7 @@ fn compare_webs(first: &Web, other: &Web) -> Result<Comparison, Failure> {
 /// Why the cloudiness of webs cannot be compared, if blur has lowered the shortest of its waves.
 fn blur_objection(webs: [&Web; 2]) -> Option<String> {
     let is_below = |cell: f64| SEEN[0] < shortest_sharp_wave(cell);
-    let blurred = webs.iter().filter(|web| web.is_scan && web.cell.is_some_and(is_below));
+    let blurred = webs.iter().filter(|web| web.has_camera && web.cell.is_some_and(is_below));
     let names: Vec<&str> = blurred.map(|web| web.name.as_str()).collect();
     let wave = significant(SEEN[0] * 1e3, 3);
     (!names.is_empty())

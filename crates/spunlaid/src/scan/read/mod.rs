@@ -1,5 +1,6 @@
 //! Pictures from files. Memory is taken only for a picture whose size is within the limits.
 
+mod channels;
 mod npy;
 mod orientation;
 mod png;
@@ -18,6 +19,8 @@ use std::path::Path;
 pub const MOST_PIXELS: usize = 1 << 26;
 /// Least number of pixels either way.
 pub const LEAST_SIDE: usize = 16;
+/// Pixels of a scan as a file may tell them [m]. Others are the mistake of a unit.
+const SCANNED: std::ops::RangeInclusive<f64> = 0.1e-6..=5e-3;
 /// The sides of a square pixel differ by less than this share.
 const SQUARE: f64 = 1e-3;
 /// Largest file [bytes]: 32 bytes of text for each pixel.
@@ -34,6 +37,9 @@ struct RawPicture {
     pixel: Option<[f64; 2]>,
     colour: bool,
     more: bool,
+    /// Pixels that are transparent, and those of which a channel has the largest level.
+    transparent: usize,
+    clipped: usize,
     /// Where the first row and column belong, from 1 to 8 as TIFF numbers it.
     orientation: u16,
     /// Whether the rows, and the columns, were numbered beside the values.
@@ -52,6 +58,8 @@ impl RawPicture {
             pixel: None,
             colour: false,
             more: false,
+            transparent: 0,
+            clipped: 0,
             orientation: 1,
             numbered: [false; 2],
         }
@@ -94,6 +102,11 @@ fn parsed(bytes: &[u8], name: &str, pixel: Option<f64>) -> Result<Picture, FileE
     };
     let raw = orientation::upright(raw);
     let RawPicture { values, columns, rows, full_scale, weight_of_black, colour, more, numbered, .. } = raw;
+    let (transparent, clipped) = (raw.transparent, raw.clipped);
+    if transparent == values.len() {
+        let remedy = "save the scan without transparency";
+        return Err(Fault::new("has no pixel that is not transparent", remedy).into());
+    }
     if columns.min(rows) < LEAST_SIDE {
         return Err(Fault::new(
             format!("has {columns} × {rows} pixels"),
@@ -106,31 +119,8 @@ fn parsed(bytes: &[u8], name: &str, pixel: Option<f64>) -> Result<Picture, FileE
     }
     let file = name.to_owned();
     let fewer_bits = full_scale.and_then(|full| fewer_bits(&values, full));
-    let sides_of_file = raw.pixel.filter(|sides| sides.iter().copied().all(is_length));
-    let square = |[width, height]: [f64; 2]| (width / height - 1.0).abs() < SQUARE;
-    let pixel_of_file = sides_of_file.filter(|sides| square(*sides)).map(|[width, _]| width);
-    let pixel =
-        match (pixel.or(pixel_of_file), sides_of_file) {
-            (Some(pixel), _) => pixel,
-            (None, Some([width, height])) => return Err(Fault::new(
-                format!(
-                    "says that its pixels are {} wide and {} high",
-                    Dimension::Length.pretty_to(width, 4),
-                    Dimension::Length.pretty_to(height, 4)
-                ),
-                "scan with the same resolution both ways, or give the side of a pixel if the file is wrong",
-            )
-            .option("--pixel")
-            .into()),
-            (None, None) => {
-                return Err(Fault::new(
-                    "does not say how large its pixels are",
-                    "give the side of a pixel, as \"0.1 mm\"",
-                )
-                .option("--pixel")
-                .into());
-            }
-        };
+    let is_map = weight_of_black.is_some();
+    let (pixel, pixel_of_file) = side_of_a_pixel(pixel, raw.pixel, is_map)?;
     Ok(Picture {
         file,
         format,
@@ -144,8 +134,41 @@ fn parsed(bytes: &[u8], name: &str, pixel: Option<f64>) -> Result<Picture, FileE
         weight_of_black,
         colour,
         more,
+        transparent,
+        clipped,
         numbered,
     })
+}
+
+/// The side of a pixel, as it was given or else as the file tells it, and what the file tells [m].
+///
+/// * `is_map` – whether the file is a map of this program, whose cells may be of any size
+fn side_of_a_pixel(
+    given: Option<f64>,
+    of_file: Option<[f64; 2]>,
+    is_map: bool,
+) -> Result<(f64, Option<f64>), Fault> {
+    let ask = |message: String, remedy: &'static str| Fault::new(message, remedy).option("--pixel");
+    let shown = |side: f64| Dimension::Length.pretty_to(side, 4);
+    let sides = of_file.filter(|sides| sides.iter().copied().all(is_length));
+    let is_square = |[width, height]: &[f64; 2]| (width / height - 1.0).abs() < SQUARE;
+    let square = sides.filter(is_square).map(|[width, _]| width);
+    match (given, square, sides) {
+        (Some(given), _, _) => Ok((given, square)),
+        (None, Some(side), _) if is_map || SCANNED.contains(&side) => Ok((side, square)),
+        (None, Some(side), _) => Err(ask(
+            format!("says that its pixels are {} wide, which no pixel of a scanned web is", shown(side)),
+            "give the side of a pixel, as \"0.1 mm\"",
+        )),
+        (None, None, Some([width, height])) => Err(ask(
+            format!("says that its pixels are {} wide and {} high", shown(width), shown(height)),
+            "scan with the same resolution both ways, or give the side of a pixel if the file is wrong",
+        )),
+        (None, None, None) => Err(ask(
+            "does not say how large its pixels are".to_owned(),
+            "give the side of a pixel, as \"0.1 mm\"",
+        )),
+    }
 }
 
 /// The bits that a camera has whose levels lie in numbers of 16 bits, if the levels need no more.
@@ -249,28 +272,6 @@ fn within_limits(columns: u64, rows: u64) -> Result<[usize; 2], Fault> {
         }
         _ => Err(too_many),
     }
-}
-
-/// The luminance of pixels of some channels: one is grey, two are grey and transparency, three and four
-/// colours without and with it.
-///
-/// Source: Recommendation ITU-R BT.709, 3.2.
-fn luminance(values: impl Iterator<Item = f64>, channels: usize) -> Vec<f64> {
-    let weights: &[f64] = match channels {
-        1 => &[1.0],
-        2 => &[1.0, 0.0],
-        3 => &[0.2126, 0.7152, 0.0722],
-        _ => &[0.2126, 0.7152, 0.0722, 0.0],
-    };
-    let (mut pixels, mut sum) = (Vec::new(), 0.0);
-    for (value, channel) in values.zip((0..weights.len()).cycle()) {
-        sum += weights[channel] * value;
-        if channel + 1 == weights.len() {
-            pixels.push(sum);
-            sum = 0.0;
-        }
-    }
-    pixels
 }
 
 fn broken(message: &impl ToString) -> Fault {

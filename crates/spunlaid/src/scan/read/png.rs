@@ -1,6 +1,7 @@
 //! Portable network graphics.
 
-use super::{MOST_PIXELS, RawPicture, broken, luminance, orientation, within_limits};
+use super::channels::{Extra, Pixels, pixels};
+use super::{MOST_PIXELS, RawPicture, broken, orientation, within_limits};
 use crate::error::Fault;
 use png::{BitDepth, Decoder, DecodingError, Limits, Transformations, Unit};
 use std::io::{Cursor, ErrorKind};
@@ -14,7 +15,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, Fault> {
     // Four channels of two bytes, and as much for decoding.
     let limits = Limits { bytes: 16 * MOST_PIXELS };
     let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), limits);
-    // Palettes and few bits become eight bits a channel.
+    // Palettes and few bits become eight bits a channel, and a transparent colour a channel.
     decoder.set_transformations(Transformations::EXPAND);
     let info = decoder.read_header_info().map_err(failed)?;
     let [columns, rows] = within_limits(info.width.into(), info.height.into())?;
@@ -25,12 +26,15 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, Fault> {
     let frame = reader.next_frame(&mut buffer).map_err(failed)?;
     let levels = &buffer[..frame.buffer_size()];
     let channels = colour.samples();
-    let (values, full_scale) = if depth == BitDepth::Sixteen {
+    let (found, full_scale) = if depth == BitDepth::Sixteen {
         let level = |pair: &[u8]| f64::from(u16::from_be_bytes([pair[0], pair[1]]));
-        (luminance(levels.chunks_exact(2).map(level), channels), u16::MAX.into())
+        let (levels, full) = (levels.chunks_exact(2).map(level), u16::MAX.into());
+        (pixels(levels, channels, Extra::Opacity, Some(full)), full)
     } else {
-        (luminance(levels.iter().map(|level| f64::from(*level)), channels), u8::MAX.into())
+        let (levels, full) = (levels.iter().map(|level| f64::from(*level)), u8::MAX.into());
+        (pixels(levels, channels, Extra::Opacity, Some(full)), full)
     };
+    let Pixels { values, transparent, clipped } = found;
     if values.len() != columns * rows {
         return Err(broken(&"it has fewer pixels than it says"));
     }
@@ -57,6 +61,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, Fault> {
         pixel: pixel.or(per_metre.map(|sides| sides.map(|count| 1.0 / f64::from(count)))),
         colour: channels > 2,
         more: info.is_animated(),
+        transparent,
+        clipped,
         orientation: info.exif_metadata.as_deref().map_or(1, orientation::of_exif),
         ..RawPicture::plain(values, columns, rows)
     })
@@ -81,9 +87,10 @@ fn failed(error: DecodingError) -> Fault {
 fn scale_of_bits(values: &[f64], bits: u8) -> f64 {
     let step = f64::from(1u32 << (16 - bits));
     let largest = f64::from((1u32 << bits) - 1);
-    if values.iter().all(|level| level % step == 0.0) {
+    let levels = || values.iter().filter(|level| !level.is_nan());
+    if levels().all(|level| level % step == 0.0) {
         largest * step
-    } else if values.iter().all(|level| *level <= largest) {
+    } else if levels().all(|level| *level <= largest) {
         largest
     } else {
         u16::MAX.into()

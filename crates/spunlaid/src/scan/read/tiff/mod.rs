@@ -2,8 +2,10 @@
 
 mod fault;
 mod page;
+mod scale;
 
-use super::{MOST_PIXELS, RawPicture, luminance, unsupported, within_limits};
+use super::channels::{Extra, Pixels, pixels};
+use super::{MOST_PIXELS, RawPicture, unsupported, within_limits};
 use crate::error::Fault;
 use fault::{compression_name, failed};
 use std::io::Cursor;
@@ -34,18 +36,15 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, Fault> {
         (TiffError::UnsupportedError(_), Some(number)) => compressed(number),
         (error, _) => failed(error),
     })?;
-    let (mut values, full_scale) = match image {
-        DecodingResult::U8(levels) => {
-            (luminance(levels.into_iter().map(f64::from), channels), Some(u8::MAX.into()))
-        }
-        DecodingResult::U16(levels) => {
-            (luminance(levels.into_iter().map(f64::from), channels), Some(u16::MAX.into()))
-        }
-        DecodingResult::U32(levels) => {
-            (luminance(levels.into_iter().map(f64::from), channels), Some(u32::MAX.into()))
-        }
-        DecodingResult::F32(levels) => (luminance(levels.into_iter().map(f64::from), channels), None),
-        DecodingResult::F64(levels) => (luminance(levels.into_iter(), channels), None),
+    let extra = extra(&mut decoder);
+    let of = |full: u32| Some(f64::from(full));
+    let read = |levels: &mut dyn Iterator<Item = f64>, full| (pixels(levels, channels, extra, full), full);
+    let (found, full_scale) = match image {
+        DecodingResult::U8(levels) => read(&mut levels.into_iter().map(f64::from), of(u8::MAX.into())),
+        DecodingResult::U16(levels) => read(&mut levels.into_iter().map(f64::from), of(u16::MAX.into())),
+        DecodingResult::U32(levels) => read(&mut levels.into_iter().map(f64::from), of(u32::MAX)),
+        DecodingResult::F32(levels) => read(&mut levels.into_iter().map(f64::from), None),
+        DecodingResult::F64(levels) => read(&mut levels.into_iter(), None),
         other => {
             let found = match other {
                 DecodingResult::F16(_) => "half floats",
@@ -56,6 +55,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, Fault> {
             return Err(unsupported(found, advice));
         }
     };
+    let Pixels { mut values, transparent, clipped } = found;
     if values.len() != columns * rows {
         let found = "each colour in a plane of its own";
         return Err(unsupported(found, "save the scan in shades of grey"));
@@ -63,12 +63,15 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, Fault> {
     let is_negative = photometric == Some(WHITE_IS_ZERO);
     let full_scale = full_scale.map(|full| scale_down(&mut decoder, &mut values, full, is_negative));
     let orientation = small_tag(&mut decoder, Tag::Orientation).unwrap_or(1);
-    let (pixel, colour) = (resolution(&mut decoder), channels > 2);
+    let (pixel, colour) = (scale::sides(&mut decoder), channels > 2);
+    leave_out_missing(&mut decoder, &mut values);
     Ok(RawPicture {
         full_scale,
         pixel,
         colour,
         more,
+        transparent,
+        clipped,
         orientation,
         ..RawPicture::plain(values, columns, rows)
     })
@@ -130,24 +133,29 @@ fn scale_down(decoder: &mut Decoder<Cursor<&[u8]>>, values: &mut [f64], full: f6
         return full;
     };
     let lift = if is_negative { full - largest } else { 0.0 };
-    if largest >= full || values.iter().any(|level| !(0.0..=largest).contains(&(level - lift))) {
+    let is_beyond = |level: &f64| *level < lift || *level > lift + largest;
+    if largest >= full || values.iter().any(is_beyond) {
         return full;
     }
     values.iter_mut().for_each(|level| *level -= lift);
     largest
 }
 
-/// Width and height of a pixel [m], if the file tells its resolution.
-fn resolution(decoder: &mut Decoder<Cursor<&[u8]>>) -> Option<[f64; 2]> {
-    let unit = match decoder.find_tag_unsigned::<u16>(Tag::ResolutionUnit) {
-        // Inches are the default.
-        Ok(None | Some(2)) => 25.4e-3,
-        Ok(Some(3)) => 10e-3,
-        _ => return None,
-    };
-    let mut side = |tag| match decoder.find_tag(tag) {
-        Ok(Some(Value::Rational(count, per))) => Some(unit * f64::from(per) / f64::from(count)),
-        _ => None,
-    };
-    Some([side(Tag::XResolution)?, side(Tag::YResolution)?])
+/// What the last channel is, if there are more than those of the colours.
+///
+/// Source: TIFF 6.0, section 18, ExtraSamples.
+fn extra(decoder: &mut Decoder<Cursor<&[u8]>>) -> Extra {
+    match decoder.find_tag_unsigned_vec::<u16>(Tag::ExtraSamples).ok().flatten().as_deref() {
+        Some([1, ..]) => Extra::Multiplied,
+        Some([2, ..]) => Extra::Opacity,
+        _ => Extra::Unknown,
+    }
+}
+
+/// Leaves out the number that stands for missing ones, as GDAL and programs of geography tell it.
+fn leave_out_missing(decoder: &mut Decoder<Cursor<&[u8]>>, values: &mut [f64]) {
+    let Ok(Some(Value::Ascii(text))) = decoder.find_tag(Tag::GdalNodata) else { return };
+    if let Ok(missing) = text.trim().parse::<f64>() {
+        values.iter_mut().filter(|value| **value == missing).for_each(|value| *value = f64::NAN);
+    }
 }

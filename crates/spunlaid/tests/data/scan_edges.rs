@@ -1,0 +1,176 @@
+//! Maps with bare strips beside the web, and maps whose edge is only thinner.
+
+use crate::scans::{light, npy_f64, piece, tiff_f32, waves, web};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+use spunlaid::scan::{Findings, Light, Picture, Settings, analyse, parse};
+
+const COLUMNS: usize = 160;
+const ROWS: usize = 180;
+const PIXEL: f64 = 0.1e-3;
+
+/// Whether a place is bare.
+type IsBare = Box<dyn Fn(usize, usize) -> bool>;
+
+/// A map of 20 g/m², changed at each place.
+fn map(change: impl Fn(usize, usize, f64) -> f64) -> Vec<f64> {
+    let web = waves(COLUMNS, ROWS, 4);
+    web.iter().enumerate().map(|(at, weight)| change(at % COLUMNS, at / COLUMNS, 20e-3 * weight)).collect()
+}
+
+fn found_in(picture: &Picture, keep_spots: bool) -> Findings {
+    let settings =
+        Settings { patches: vec![2e-3], keep_spots, ..Settings::new(Light::Weight { mean: None }) };
+    analyse(picture, &settings).unwrap()
+}
+
+fn found(values: &[f64]) -> Findings {
+    found_in(&parse(&npy_f64(COLUMNS, values), "a", PIXEL).unwrap(), false)
+}
+
+/// Mean [g/m²] and CV [%].
+fn numbers(found: &Findings) -> [f64; 2] {
+    [1e3 * found.map.basis_weight(), 100.0 * found.patches[0].unevenness.cv]
+}
+
+fn says(found: &Findings) -> bool {
+    found.notes.iter().any(|note| note.message.contains("is bare along its edges"))
+}
+
+#[test]
+fn analytic_a_bare_strip_beside_the_web_is_cut_off() {
+    let whole = found(&map(|_, _, weight| weight));
+    let mut random = ChaCha8Rng::seed_from_u64(1);
+    // Noise of a gauge that sees nothing: a normal number of one per cent of the web, none below zero.
+    let noise: Vec<f64> = (0..COLUMNS * ROWS)
+        .map(|_| {
+            let sum: f64 = (0..12).map(|_| (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64).sum();
+            (0.2e-3 * (sum - 6.0)).max(0.0)
+        })
+        .collect();
+    let wide = |left: usize, right: usize, top: usize, bottom: usize| {
+        move |x: usize, y: usize| x < left || x + right >= COLUMNS || y < top || y + bottom >= ROWS
+    };
+    // Turned by two degrees.
+    let skewed = |x: usize, y: usize| (x as f64) < 3.0 + 0.035 * y as f64;
+    let strips: [(&str, IsBare); 9] = [
+        ("left", Box::new(wide(10, 0, 0, 0))),
+        ("one column", Box::new(wide(1, 0, 0, 0))),
+        ("two columns at the right", Box::new(wide(0, 2, 0, 0))),
+        ("both", Box::new(wide(10, 10, 0, 0))),
+        ("top", Box::new(wide(0, 0, 14, 0))),
+        ("bottom", Box::new(wide(0, 0, 0, 25))),
+        ("all around", Box::new(wide(8, 11, 6, 9))),
+        ("a third", Box::new(wide(52, 0, 0, 0))),
+        ("skewed", Box::new(skewed)),
+    ];
+    for (name, is_bare) in &strips {
+        for (kind, level) in [("zero", None), ("noise", Some(&noise))] {
+            let at = |x: usize, y: usize| level.map_or(0.0, |noise| noise[y * COLUMNS + x]);
+            let values = map(|x, y, weight| if is_bare(x, y) { at(x, y) } else { weight });
+            let found = found(&values);
+            let ([left, top], [columns, rows]) = (found.aside.corner, [found.map.columns, found.map.rows]);
+            // The same piece of the web, cut out by hand.
+            let plain = map(|_, _, weight| weight);
+            let piece = plain.chunks(COLUMNS).skip(top).take(rows).flat_map(|row| &row[left..left + columns]);
+            let piece = npy_f64(columns, &piece.copied().collect::<Vec<_>>());
+            let truth = numbers(&found_in(&parse(&piece, "a", PIXEL).unwrap(), false));
+            let ([mean, cv], [of_piece, cv_of_piece]) = (numbers(&found), truth);
+            assert!((mean / of_piece - 1.0).abs() < 1e-9, "{name}, {kind}: {mean} for {of_piece}");
+            assert!((cv / cv_of_piece - 1.0).abs() < 1e-9, "{name}, {kind}: {cv} for {cv_of_piece}");
+            assert!(says(&found), "{name}, {kind}: {:?}", found.notes);
+            // No bare cell is left, and no more than a few lines of web are lost.
+            assert!(
+                (top..top + rows).all(|y| (left..left + columns).all(|x| !is_bare(x, y))),
+                "{name}, {kind}"
+            );
+            let bare = (0..COLUMNS * ROWS).filter(|at| is_bare(at % COLUMNS, at / COLUMNS)).count();
+            let most = if *name == "skewed" { 12 } else { 5 };
+            let lost = COLUMNS * ROWS - bare - columns * rows;
+            assert!(lost <= most * (COLUMNS + ROWS), "{name}, {kind}: {lost} pixels are lost");
+        }
+    }
+    // In a floating-point TIFF alike; who says that the strip is web keeps it.
+    let values = map(|x, _, weight| if x < 20 { 0.0 } else { weight });
+    let of_tiff =
+        parse(&tiff_f32(COLUMNS, &values.iter().map(|x| *x as f32).collect::<Vec<_>>()), "a", PIXEL).unwrap();
+    assert!(says(&found_in(&of_tiff, false)));
+    let kept = found_in(&of_tiff, true);
+    assert!(!says(&kept) && kept.aside.cut_off == 0.0 && numbers(&kept)[1] > 2.0 * numbers(&whole)[1]);
+}
+
+#[test]
+fn a_thin_edge_a_hole_and_an_open_web_are_web() {
+    let edge = |x: usize| x.min(COLUMNS - 1 - x) as f64;
+    let maps: [(&str, Vec<f64>); 6] = [
+        ("even", map(|_, _, weight| weight)),
+        ("neck-in", map(|x, _, weight| weight * (0.4 + 0.6 * (edge(x) / 20.0).min(1.0)))),
+        ("a cut edge", map(|x, _, weight| weight * (1.0 - 0.88 * (-edge(x) / 6.0).exp()))),
+        ("heavy edges", map(|x, _, weight| weight * (1.0 + (-edge(x) / 6.0).exp()))),
+        ("a hole", map(|x, y, weight| if x < 12 && y.abs_diff(60) < 25 { 0.0 } else { weight })),
+        ("a hole in the middle", map(|x, y, w| if x.abs_diff(80) + y.abs_diff(80) < 20 { 0.0 } else { w })),
+    ];
+    for (name, values) in &maps {
+        let found = found(values);
+        assert!(!says(&found) && found.aside.cut_off == 0.0, "{name}: {:?}", found.notes);
+    }
+    // Webs whose cells are smaller than their holes, from a few fibres to many.
+    for (filaments, cell) in [(40.0, 0.5e-3), (150.0, 0.5e-3), (600.0, 0.25e-3), (3000.0, 0.25e-3)] {
+        let open = piece(&web([0.1, 0.1], cell, 5e-3, filaments, false, 2), [0, 0], [180, 160]);
+        let empty = open.cells.iter().filter(|cell| **cell == 0).count();
+        let weights: Vec<f64> =
+            open.cells.iter().map(|cell| f64::from(*cell) * open.weight_of_quantum()).collect();
+        let found = found_in(&parse(&npy_f64(180, &weights), "a", cell).unwrap(), false);
+        assert!(!says(&found) && found.aside.cut_off == 0.0, "{filaments}, {empty} empty: {:?}", found.notes);
+    }
+}
+
+/// Light that a web on a black ground throws back: the ground beside it is bare too.
+#[test]
+fn the_black_ground_beside_the_web_is_cut_off() {
+    let level = |x: usize, weight: f64| if x < 15 { 2e-4 } else { 0.6 * weight / (0.02 + weight) };
+    let values = map(|x, _, weight| level(x, weight));
+    let picture = parse(&npy_f64(COLUMNS, &values), "a", PIXEL).unwrap();
+    let light = Light::Reflected { mean: None, white: Some(0.6) };
+    let settings = Settings { patches: vec![2e-3], keep_shading: true, ..Settings::new(light) };
+    let found = analyse(&picture, &settings).unwrap();
+    assert!(says(&found) && (15..20).contains(&found.aside.corner[0]), "{:?}", found.notes);
+}
+
+/// A scan that was turned is black around it.
+#[test]
+fn a_black_frame_of_a_scan_is_cut_off() {
+    let frame = |x: usize, y: usize| x < 9 || y >= ROWS - 12;
+    let level = |x: usize, y: usize, weight: f64| if frame(x, y) { 0.0 } else { (-40.0 * weight).exp() };
+    let picture = parse(&npy_f64(COLUMNS, &map(level)), "a", PIXEL).unwrap();
+    let light = Light::Transmitted { mean: None, white: Some(1.0) };
+    let settings = Settings { patches: vec![2e-3], keep_shading: true, ..Settings::new(light) };
+    let found = analyse(&picture, &settings).unwrap();
+    assert_eq!([found.map.columns, found.map.rows], [COLUMNS - 10, ROWS - 13]);
+    assert!(
+        found.notes.iter().any(|note| note.message.contains("is black along its edges")),
+        "{:?}",
+        found.notes
+    );
+}
+
+/// A map has no blur of a camera, so patches of few cells have an interval.
+#[test]
+fn a_map_is_not_blurred_by_a_camera() {
+    let map = piece(&web([0.2, 0.25], 1e-3, 10e-3, 3000.0, false, 6), [0, 0], [200, 250]);
+    let patches = vec![1e-3, 3e-3];
+    let of = |light: Light, values: &[f64]| {
+        let settings = Settings { patches: patches.clone(), keep_shading: true, ..Settings::new(light) };
+        analyse(&parse(&npy_f64(200, values), "a", 1e-3).unwrap(), &settings).unwrap()
+    };
+    let weights: Vec<f64> = map.cells.iter().map(|cell| f64::from(*cell) * map.weight_of_quantum()).collect();
+    let of_weights = of(Light::Weight { mean: None }, &weights);
+    let of_light = of(Light::Transmitted { mean: None, white: Some(1.0) }, &light(&map));
+    for (weighed, seen) in of_weights.patches.iter().zip(&of_light.patches) {
+        assert!(
+            weighed.blur.is_none() && weighed.interval.is_ok() && weighed.unevenness.standard_error.is_some()
+        );
+        assert!(seen.blur.is_some() && seen.interval.is_err(), "{seen:?}");
+    }
+    assert!(!of_weights.notes.iter().any(|note| note.message.contains("blur")), "{:?}", of_weights.notes);
+}
