@@ -2,12 +2,12 @@
 //! without the bare strips beside the web of a map.
 
 use super::findings::Settings;
-use super::levels::FILLED;
+use super::levels::{FILLED, per_cent};
 use super::picture::{Picture, Rectangle};
 use super::spots::{FEWEST, KEPT, Level, largest, region, widen};
 use super::weigh::Light;
 use crate::error::Fault;
-use crate::units::{Dimension, shortest};
+use crate::units::Dimension;
 
 /// Blocks of a map with less of its median weight are bare: a web that becomes thin towards its edge is a web
 /// down to that.
@@ -42,11 +42,9 @@ impl Frame {
     pub(super) fn new(picture: &Picture, lamp: Option<&Picture>, settings: &Settings) -> Result<Self, Fault> {
         let mut frame = Self { web: picture.whole(), notes: Vec::new() };
         if picture.transparent > 0 {
-            let share = 100.0 * picture.transparent as f64 / picture.values.len() as f64;
             let count = picture.transparent;
-            let share = shortest(format!("{share:.1e}").parse().unwrap_or(f64::NAN));
-            let message =
-                format!("pixels that are transparent: {count} ({share} %); they are taken as no web");
+            let share = per_cent(count as f64 / picture.values.len() as f64);
+            let message = format!("pixels that are transparent: {count} ({share}); they are taken as no web");
             frame.notes.push(Fault::plain(message));
         }
         let is_absent = |at: usize| {

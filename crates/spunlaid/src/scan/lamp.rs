@@ -1,6 +1,7 @@
 //! Whether the picture of the lamp can be believed.
 
 use super::doubt::Doubt;
+use super::levels::per_cent;
 use super::picture::Picture;
 use crate::error::Fault;
 use crate::statistics::quantile;
@@ -67,10 +68,4 @@ fn clipped(lamp: &Picture) -> Option<(f64, f64)> {
     let is_heap = share(at_largest) > HEAP && at_largest > TIMES * count(next);
     let is_uneven = largest - quantile(&levels, 0.01) > SPREAD * (largest - next);
     (is_heap && is_uneven).then(|| (largest, share(at_largest)))
-}
-
-/// `63 %`.
-fn per_cent(share: f64) -> String {
-    let digits: f64 = format!("{:.1e}", 100.0 * share).parse().unwrap_or(f64::NAN);
-    format!("{} %", shortest(digits))
 }

@@ -144,3 +144,9 @@ pub(super) fn mean_of(values: &[f64]) -> f64 {
     let finite = || values.iter().filter(|value| !value.is_nan());
     finite().sum::<f64>() / finite().count() as f64
 }
+
+/// `0.25 %`.
+pub(super) fn per_cent(share: f64) -> String {
+    let digits: f64 = format!("{:.1e}", 100.0 * share).parse().unwrap_or(f64::NAN);
+    format!("{} %", shortest(digits))
+}

@@ -3,6 +3,7 @@
 use super::doubt::Doubt;
 use super::findings::{PatchFindings, Settings};
 use super::foreign_parts::ForeignParts;
+use super::levels::per_cent;
 use super::picture::Picture;
 use super::weigh::{Light, WeighedPicture};
 use crate::error::Fault;
@@ -243,10 +244,4 @@ fn odd_pixels(picture: &Picture, weighed: &WeighedPicture) -> Vec<Fault> {
 fn square(area: f64) -> String {
     let digits: f64 = format!("{:.2e}", 1e6 * area).parse().unwrap_or(f64::NAN);
     format!("{} mm²", shortest(digits))
-}
-
-/// `0.25 %`.
-fn per_cent(share: f64) -> String {
-    let digits: f64 = format!("{:.1e}", 100.0 * share).parse().unwrap_or(f64::NAN);
-    format!("{} %", shortest(digits))
 }
