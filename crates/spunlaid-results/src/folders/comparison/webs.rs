@@ -217,11 +217,11 @@ mod tests {
             |values: [WebNumber; 2]| measure(String::new(), String::new(), ("", 1.0), values.map(Ok));
         // Upwards the first reaches 13, downwards the second 11.1; the logarithms have this distance together.
         let [a, b] = [number(10.0, Some([9.9, 13.0])), number(15.1, Some([11.1, 30.0]))];
-        let far = libm::log(13.0_f64 / 10.0).hypot(libm::log(15.1_f64 / 11.1));
+        let far = (13.0_f64 / 10.0).ln().hypot((15.1_f64 / 11.1).ln());
         for values in [[a.clone(), b.clone()], [b.clone(), a.clone()]] {
             let difference = compared(values).difference.unwrap();
             let share = difference.half_width() / difference.value.abs();
-            assert!((share - far / libm::log(1.51)).abs() < 1e-6 && difference.is_beyond_chance());
+            assert!((share - far / 1.51_f64.ln()).abs() < 1e-6 && difference.is_beyond_chance());
         }
         let mut doubtful = a;
         doubtful.doubt = Some("below the blur".to_owned());
