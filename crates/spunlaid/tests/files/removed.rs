@@ -34,7 +34,9 @@ fn rejects_removed_keys_with_the_way_out() {
         let web = parse_web(WEB, "web.toml", set).unwrap_err().to_string();
         assert!(case.contains(&wanted) && web.contains(&wanted), "{case}\n{web}\n{wanted}");
         assert!(keys::named(&key).unwrap_err().to_string().contains(way_out));
-        let study = format!("case = \"starter.toml\"\nreplicates = 2\n[vary]\n\"{key}\" = [1, 2]\n");
+        let study = format!(
+            "case = \"starter.toml\"\ndesign = \"grid\"\nreplicates = 2\n[vary]\n\"{key}\" = [1, 2]\n"
+        );
         let study =
             parse_study(&study, "study.toml", None, |_, _| Ok((starter_case().to_owned(), String::new())));
         let said = study.unwrap_err().to_string();

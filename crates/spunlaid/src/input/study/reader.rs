@@ -4,6 +4,7 @@ use super::super::document::{self, Document};
 use super::super::written_values::sorted;
 use crate::case::keys;
 use crate::error::{Error, Fault};
+use crate::removed::Removed;
 use crate::study::{STUDY, Study};
 use std::borrow::Cow;
 
@@ -40,6 +41,9 @@ pub(super) fn advice(name: &str) -> String {
     if let Some(key) = keys::find(name) {
         let in_study = |line| format!("write {line} in the study file, above its tables");
         return key.relations.in_study.map_or_else(|| TAKE_A_NUMBER.to_owned(), in_study);
+    }
+    if let Some(removed) = Removed::Key.fault(name) {
+        return format!("it {removed}");
     }
     match keys::nearest(name) {
         Some(key) if key.varies => format!("did you mean {}?", key.name),
