@@ -25,7 +25,10 @@ pub(super) fn points(air: &Air, file: &Path) -> Result<(), Failure> {
     let table = points_csv(&places, &found);
     match out {
         Some(out) => Ok(fs::write(out, table).map_err(Error::unwritable(out))?),
-        None => Ok(say::text(&table)),
+        None => {
+            say::text(&table);
+            Ok(())
+        }
     }
 }
 

@@ -70,7 +70,7 @@ fn numbers(file: &str, seed: u64) -> Vec<Told> {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
     let by = LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &laid };
     let mut flown = Flyer::new(2, &stop, &|_, work| work()).web(&spec).expect("a flight");
-    let found = flown.measure(by).expect("findings");
+    let found = flown.find(by).expect("findings");
     let fabric = spec.fabric(&flown.web, &found, 2);
     let of_patch = |patch: &spunlaid::web::PatchFindings| {
         let told = patch.told()?;

@@ -5,9 +5,7 @@ use spunlaid::lanes::Isa;
 use spunlaid::statistics::{difference_of_deviations, interval_of_deviation};
 use spunlaid::surrogate::Surrogate;
 use spunlaid::web::uniformity::{Unevenness, unevenness_at};
-use spunlaid::web::{
-    Clouds, Edges, Fibres, Filaments, LayControl, Layer, Map, Row, Sheet, Web, lay, measure,
-};
+use spunlaid::web::{Clouds, Edges, Fibres, Filaments, LayControl, Layer, Map, Row, Sheet, Web, find, lay};
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -111,7 +109,7 @@ fn of_kind(web: &Web) {
     let by = LayControl { threads: 1, isa: Isa::detect(), stop: &stop, laid: &laid };
     // The edges are as wide for every seed.
     let margins =
-        measure(&Web { sheet: Sheet { patches: vec![10.0 * CELL], ..web.sheet.clone() }, ..web.clone() }, by)
+        find(&Web { sheet: Sheet { patches: vec![10.0 * CELL], ..web.sheet.clone() }, ..web.clone() }, by)
             .expect("a web")
             .margins;
     let [first, last] = margins.map(|margin| (margin / CELL).round() as usize);

@@ -62,7 +62,7 @@ impl Air {
         }
         let mut hint = Hint::default();
         let look = |at: &Vec3<f64>| {
-            let local = self.local(placed.map_or(*at, |placed| placed.from_metres(*at)), &mut hint);
+            let local = self.local(placed.map_or(*at, |placed| placed.in_fibre_frame(*at)), &mut hint);
             let velocity = placed.map_or(local.velocity, |placed| placed.turned(local.velocity));
             local.inside.then_some(LocalAir { velocity, ..local })
         };

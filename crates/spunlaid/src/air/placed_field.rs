@@ -119,7 +119,7 @@ impl PlacedField {
     }
 
     /// A place of the field [m] in the fibre's frame.
-    pub(super) fn from_metres(&self, at: Vec3<f64>) -> Vec3<f64> {
+    pub(super) fn in_fibre_frame(&self, at: Vec3<f64>) -> Vec3<f64> {
         self.turned_back(at - self.root)
     }
 
@@ -170,7 +170,7 @@ impl PlacedField {
     /// The lowest and the highest coordinates of the field in the fibre's frame [m].
     pub fn extent(&self) -> (Vec3<f64>, Vec3<f64>) {
         let (low, high) = self.field.bounds();
-        let [a, b] = [low, high].map(|corner| self.from_metres(corner * self.unit));
+        let [a, b] = [low, high].map(|corner| self.in_fibre_frame(corner * self.unit));
         let least = |a: f64, b: f64| (a.min(b), a.max(b));
         let ((x0, x1), (y0, y1), (z0, z1)) = (least(a.x, b.x), least(a.y, b.y), least(a.z, b.z));
         (Vec3::new(x0, y0, z0), Vec3::new(x1, y1, z1))

@@ -5,8 +5,8 @@ use spunlaid::lanes::Isa;
 use spunlaid::surrogate::Surrogate;
 use spunlaid::web::uniformity::unevenness;
 use spunlaid::web::{
-    Curves, Edges, Fibres, Filaments, LaidWeb, LayControl, Layer, Map, OneFibre, Row, Sheet, Source, Strand,
-    Web, Window, find, lay, one_fibre, orientation, pieces, straight_fibres, strands,
+    Curves, Edges, Fibres, Filaments, LaidWeb, LayControl, Layer, Map, OneFibre, Row, Sheet, Strand, Web,
+    Window, find, lay, one_fibre, orientation, pieces, straight_fibres, strands,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;

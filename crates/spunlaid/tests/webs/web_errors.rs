@@ -6,7 +6,7 @@ use spunlaid::statistics::difference_of_deviations;
 use spunlaid::surrogate::Surrogate;
 use spunlaid::web::uniformity::{Unevenness, unevenness_at};
 use spunlaid::web::{
-    Clouds, Edges, Fibres, Filaments, Findings, LayControl, Layer, Row, Sheet, Web, lay, measure,
+    Clouds, Edges, Fibres, Filaments, Findings, LayControl, Layer, Row, Sheet, Web, find, lay,
 };
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -111,7 +111,7 @@ fn a_sheet_of_few_streaks_has_no_error() {
 }
 
 fn measured(web: &Web) -> Result<Findings, Error> {
-    with(|by| measure(web, by))
+    with(|by| find(web, by))
 }
 
 /// A web whose edges are cut is as uneven as the same web without edges: what is thinner at the edges is no unevenness.

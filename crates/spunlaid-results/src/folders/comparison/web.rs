@@ -37,7 +37,7 @@ pub(super) struct WebNumber {
     pub(super) value: f64,
     pub(super) standard_error: Option<f64>,
     /// Ends of its 95 % interval, if they are known.
-    ends: Option<[f64; 2]>,
+    pub(super) ends: Option<[f64; 2]>,
     /// Why it is not to be had.
     pub(super) doubt: Option<String>,
 }

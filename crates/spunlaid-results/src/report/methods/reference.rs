@@ -50,7 +50,7 @@ pub(in crate::report) fn of_case(case: &Case) -> Vec<Reference> {
 /// What a web rests on: the surrogate where it lays the fibres, and the cases that fly.
 pub(in crate::report) fn of_web(spec: &WebSpec) -> Vec<Reference> {
     let surrogate = (spec.method == Method::Surrogate).then_some(SURROGATE);
-    let cases = spec.layers.iter().filter_map(|layer| layer.source.case()).flat_map(|case| of_case(case));
+    let cases = spec.layers.iter().filter_map(|layer| layer.source.case()).flat_map(of_case);
     surrogate.into_iter().chain(cases).collect()
 }
 
