@@ -161,7 +161,10 @@ fn check_state<'py>(py: Python<'py>, check: &FinerCheck) -> PyResult<Bound<'py, 
     state.set_item("numbers", (time_step, element_length, duration, replicates, share_of_run))?;
     state.set_item("kind", (check.is_fed, check.is_resolved))?;
     state.set_item("path", check.path.as_ref().map(|path| estimate(py, path)))?;
-    let changes = check.changes.iter().map(|change| (change.statistic.name, estimate(py, &change.estimate)));
+    let changes = check.changes.iter().map(|change| {
+        let quarter = change.from_quarter.as_ref().map(|(length, found)| (*length, estimate(py, found)));
+        (change.statistic.name, estimate(py, &change.estimate), quarter, change.is_second_order)
+    });
     state.set_item("changes", changes.collect::<Vec<_>>())?;
     Ok(state)
 }
@@ -174,11 +177,13 @@ fn check_of(state: &Bound<'_, PyAny>, refined: Refinement) -> PyResult<FinerChec
         state.get_item("numbers")?.extract()?;
     let (is_fed, is_resolved) = state.get_item("kind")?.extract()?;
     let path: Option<EstimateState<'_>> = state.get_item("path")?.extract()?;
-    let changes: Vec<(String, EstimateState<'_>)> = state.get_item("changes")?.extract()?;
-    let changes = changes.into_iter().map(|(name, estimate)| {
+    let changes: Vec<ChangeState<'_>> = state.get_item("changes")?.extract()?;
+    let changes = changes.into_iter().map(|(name, estimate, quarter, is_second_order)| {
         let statistic = Statistic::all().find(|statistic| statistic.name == name);
         let statistic = statistic.ok_or_else(|| unknown("statistic", &name))?;
-        Ok(Change { statistic, estimate: restored_estimate(estimate)? })
+        let from_quarter =
+            quarter.map(|(length, found)| PyResult::Ok((length, restored_estimate(found)?))).transpose()?;
+        Ok(Change { statistic, estimate: restored_estimate(estimate)?, from_quarter, is_second_order })
     });
     Ok(FinerCheck {
         refined,
@@ -195,6 +200,8 @@ fn check_of(state: &Bound<'_, PyAny>, refined: Refinement) -> PyResult<FinerChec
     })
 }
 
+/// Name, estimate, element length and estimate of the second refinement, and whether both show the second order.
+type ChangeState<'py> = (String, EstimateState<'py>, Option<(f64, EstimateState<'py>)>, bool);
 /// Mean, standard error and values.
 type EstimateState<'py> = (f64, Option<f64>, PyReadonlyArray1<'py, f64>);
 
