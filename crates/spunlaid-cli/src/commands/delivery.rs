@@ -138,6 +138,12 @@ impl Delivered<'_> {
         Ok(())
     }
 
+    /// Says only the result, because the rest is told again when more is known.
+    pub(super) fn say_headline(&self) {
+        let text = self.written.as_ref().and_then(|(_, written)| written.text.lines().next());
+        text.into_iter().for_each(|headline| self.line(headline));
+    }
+
     /// Says as lines what was found and has not been said; the first time also which page to open.
     pub(super) fn say(&mut self, asides: Asides<'_>) {
         if self.output.json || self.output.quiet {

@@ -58,11 +58,14 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
         }
     };
     // The results are safe now, whatever becomes of the checks.
-    delivered.say(Asides::default());
+    let is_checked = plans.fibre_steps() > 0 && flown.paths.is_some();
+    if is_checked {
+        delivered.say_headline();
+    }
     coarse.iter().filter(|_| delivered.folder().is_some()).for_each(|coarse| say::remark(false, coarse));
     let checked = flown.paths.as_ref().map(|paths| check(&plans, paths, computing, output.quiet));
     let written = files::Run { checks: checked.as_ref().unwrap_or(&before), ..first };
-    if plans.fibre_steps() > 0 && checked.is_some() {
+    if is_checked {
         delivered.rewrite(&written)?;
     }
     delivered.say(Asides::default());

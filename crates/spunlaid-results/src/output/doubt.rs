@@ -165,17 +165,18 @@ pub fn sentences(checks: &FinerChecks, case: &Case) -> String {
             (false, 2..) => "The error contains what",
             _ => "No error above contains what",
         };
-        for change in beyond(check) {
-            text += &format!(
-                " {kept} the check of the {} found: {}the {}.",
-                name(check.refined),
-                part(check, case),
-                told(check, change, case)
-            );
+        let each: Vec<String> =
+            beyond(check).map(|change| format!("the {}", told(check, change, case))).collect();
+        if !each.is_empty() {
+            let (name, part) = (name(check.refined), part(check, case));
+            text += &format!(" {kept} the check of the {name} found: {part}{}.", each.join("; "));
         }
     }
     let why = if case.run.checks == Checks::None { ", as the case asks" } else { "" };
     match (&checks.step, &checks.mesh) {
+        (Err(Unchecked::Pending), _) | (_, Err(Unchecked::Pending)) => {
+            text += " Time step and mesh are not checked yet.";
+        }
         (Err(_), Err(_)) => text += &format!(" Time step and mesh are not checked{why}."),
         (Err(_), Ok(_)) => text += " The time step is not checked.",
         (Ok(_), Err(_)) => text += " The mesh is not checked.",

@@ -129,7 +129,7 @@ fn check(record: &Record, settings: &Settings) -> Result<(), FileError> {
     if !(record.interval > 0.0 && record.interval.is_finite()) {
         return Err(refuse(record, None, rate_fault(1.0 / record.interval)));
     }
-    for Samples { name, values } in &record.components {
+    for (number, Samples { name, values }) in record.components.iter().enumerate() {
         if values.len() != samples {
             let fault = too_few_samples(values.len(), samples);
             return Err(refuse(record, Some(name), fault));
@@ -157,7 +157,11 @@ fn check(record: &Record, settings: &Settings) -> Result<(), FileError> {
                         "is constant, {} m/s in every sample, so there is no turbulence in it",
                         shortest(mean)
                     ),
-                    "is the probe connected?",
+                    match number {
+                        0 => "is the probe connected?",
+                        // As across the plane of a plane simulation.
+                        _ => "name the other columns only (--columns), if the air moves in a plane",
+                    },
                 ),
             ));
         }

@@ -357,10 +357,13 @@ fn rejects_cases_without_cells_or_filaments() {
     let scattered = Field::points(&scattered, &values(&scattered)).unwrap().0;
     let scattered = placed(scattered);
     reject(&|case| case.air.flow = Flow::Field(Box::new(scattered.clone())), "without cells");
-    // The plane of the way and of the cross direction.
+    // The plane of the way and of the cross direction, which a key names against the usual one.
     let (x, z) = (row(4, 0.0, WAY), row(4, 0.0, 0.1));
     let points: Vec<Vec3<f64>> =
         z.iter().flat_map(|z| x.iter().map(move |x| Vec3::new(*x, 0.0, *z))).collect();
-    let turned = placed(Field::lattice([x, vec![0.0], z], &values(&points)).unwrap());
-    reject(&|case| case.air.flow = Flow::Field(Box::new(turned.clone())), "air.field_axis");
+    let turned = PlacedField {
+        machine_direction: Axis::ALL[1],
+        ..placed(Field::lattice([x, vec![0.0], z], &values(&points)).unwrap())
+    };
+    reject(&|case| case.air.flow = Flow::Field(Box::new(turned.clone())), "air.field_machine_direction");
 }

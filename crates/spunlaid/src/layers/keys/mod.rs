@@ -59,7 +59,7 @@ pub(crate) static WEB_FILE: LazyLock<KeyTable<()>> = LazyLock::new(|| {
 const LISTS_OF_FILE: &[TableList] = &[
     TableList {
         name: "layer",
-        tables: &["spinline", "fibre", "feed", "belt", "air", "drag", "neighbours", "run", "laydown", "line"],
+        tables: &["spinline", "fibre", "feed", "belt", "air", "drag", "run", "laydown", "line"],
         common: OF_FILAMENT,
         entry: "a layer",
         wanted: WANTED_LAYERS,
@@ -69,8 +69,7 @@ const LISTS_OF_FILE: &[TableList] = &[
 ];
 
 /// The tables of a filament, which all layers may have in common.
-pub(crate) const OF_FILAMENT: &[&str] =
-    &["spinline", "fibre", "feed", "belt", "air", "drag", "neighbours", "run"];
+pub(crate) const OF_FILAMENT: &[&str] = &["spinline", "fibre", "feed", "belt", "air", "drag", "run"];
 
 const WANTED_LAYERS: &str =
     "a list of tables: [[layer]], and below it [layer.fibre], [layer.laydown] and [layer.line]";
