@@ -123,8 +123,9 @@ fn frozen_stretches_are_named_with_place_and_length() {
                 assert!(named.len() == 1 && named[0].contains(words), "{words}: {named:?}");
             }
             if count <= 10 {
-                // What is cut out is a part of the record, whose values scatter by themselves.
-                holds_the_air(&analysis, &whole, "frozen", 0.12);
+                // What is left is another record of the same air, known as well as its interval says.
+                let within = (whole.integral_time.high / whole.integral_time.low).ln() / 2.0;
+                holds_the_air(&analysis, &whole, "frozen", within);
             }
         }
     }

@@ -201,7 +201,7 @@ fn probes_of_openfoam_and_exponents_of_fortran_are_read() {
 
 /// As Fortran writes a number in double precision: `1.0043D+01`.
 fn fortran(value: f64) -> String {
-    let text = format!("{value:.4e}");
+    let text = format!("{value:.6e}");
     let (mantissa, exponent) = text.split_once('e').unwrap();
     format!("{mantissa}D{:+03}", exponent.parse::<i32>().unwrap())
 }
