@@ -18,8 +18,6 @@ noise = \"12 m^-0.5\"
 feed_speed = \"50 m/s\"
 belt_speed = \"5 m/s\"
 filaments_per_metre = 500
-[fabric]
-holes = false
 [web]
 width = \"120 mm\"
 length = \"120 mm\"

@@ -78,8 +78,8 @@ fn interrupted_while_it_flies_for_the_tension_nothing_is_left() {
 #[test]
 fn tensions_fly_in_as_many_threads_as_are_asked_for() {
     let desk = slow();
-    // For each that flies one waits, and one waits for Ctrl-C.
-    for (threads, there) in [("1", 3), ("2", 5)] {
+    // For each that flies one waits; one waits for Ctrl-C, and one tells how far it is.
+    for (threads, there) in [("1", 4), ("2", 6)] {
         let child = flying(desk.spunlaid(&format!("sweep study.toml --threads {threads} --out r")));
         let count = || status(&child, "Threads:").parse::<u32>().unwrap();
         while count() < there {

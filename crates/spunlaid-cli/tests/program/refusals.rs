@@ -169,8 +169,8 @@ fn every_command_replaces_its_own_results_and_no_others() {
         ("air brief.toml --frames 1 --out air", "air brief.toml --frames 2 --out air", "summary.json"),
         ("analyse probe.csv --out analyse", "analyse probe.csv --segment 512 --out analyse", "analysis.json"),
         (
-            "analyse a/map.csv --pixel 1mm --out scan",
-            "analyse a/map.csv --pixel 2mm --out scan",
+            "analyse a/map.csv --pixel 1mm --weight 13gsm --out scan",
+            "analyse a/map.csv --pixel 2mm --weight 13gsm --out scan",
             "summary.json",
         ),
         ("compare a b --out compare", "compare b a --out compare", "comparison.json"),

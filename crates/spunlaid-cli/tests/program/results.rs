@@ -117,7 +117,7 @@ fn the_summary_has_the_fields_that_are_promised() {
     let reach = "deflection_99_m largest_deflection_m residence_radius_m";
     assert_eq!(keys(end), sorted(&format!("{motion} {reach}")));
     for estimate in end.as_object().unwrap().values() {
-        assert_eq!(keys(estimate), sorted("mean standard_error values"));
+        assert_eq!(keys(estimate), sorted("error mean standard_error values"));
         let values: Vec<f64> =
             estimate["values"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect();
         let [mean, error] = ["mean", "standard_error"].map(|key| estimate[key].as_f64().unwrap());
@@ -218,7 +218,9 @@ fn invariant_headline_table_notes_and_json_have_one_error() {
     let shown = plus_minus(number("mean"), Some(number("error")));
     let row = said.lines().find(|line| line.trim_start().starts_with("Frequency in y")).unwrap();
     assert!(said.lines().any(|line| line.contains("The error contains what")), "{said}");
-    assert!(row.contains(&shown) && said.lines().next().unwrap().contains(&shown), "{shown}\n{said}");
+    // The first headline is told before the checks.
+    let headline = said.lines().rfind(|line| line.starts_with("The free end swings")).unwrap();
+    assert!(row.contains(&shown) && headline.contains(&shown), "{shown}\n{said}");
     let notes = summary["notes"].to_string();
     assert!(notes.contains("; the errors contain this") && !notes.contains("not contain"), "{notes}");
     assert!(said.contains("frequency contain what the checks found"), "{said}");
@@ -450,7 +452,7 @@ fn a_fed_fibre_leaves_what_it_laid() {
     assert!(summary["end_node"].is_null());
     let laydown = &summary["laydown"];
     for name in ["sigma_md_m", "half_correlation_length_cd_m", "laid_length_m", "nodes_in_air"] {
-        assert_eq!(keys(&laydown[name]), ["mean", "standard_error", "values"], "{name}");
+        assert_eq!(keys(&laydown[name]), ["error", "mean", "standard_error", "values"], "{name}");
     }
     assert_eq!(keys(&laydown["surrogate"]), ["noise_per_sqrt_m", "sigma_1_m", "sigma_2_m"]);
     // As many elements at work as nodes in the air, in the steps of three fibres; those of the checks do not count.

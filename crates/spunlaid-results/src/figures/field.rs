@@ -1,6 +1,5 @@
 //! A CFD field around the way of a fibre: how line and field lie to each other.
 
-use crate::output::sources::field_of;
 use spunlaid::air::PlacedField;
 use spunlaid::case::Case;
 use spunlaid::ensemble::Results;
@@ -29,7 +28,7 @@ struct Plane {
 /// The speed of the air of a CFD field in the planes of x and y and of x and z, with the directions of the line, the belt
 /// and where the fibres of a run have ended.
 pub fn field_figure(case: &Case, results: Option<&Results>) -> Option<Figure> {
-    let placed = field_of(case)?;
+    let placed = case.air.flow.field()?;
     let ((low, high), length) = (placed.extent(), case.fibre.length);
     // As much of the field as the fibre could reach, and a little more.
     let within = |low: f64, high: f64| (low.max(-length), high.min(length));

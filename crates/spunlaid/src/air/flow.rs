@@ -52,6 +52,14 @@ impl Flow {
         }
     }
 
+    /// The CFD solution, if it is one.
+    pub fn field(&self) -> Option<&PlacedField> {
+        match self {
+            Self::Field(placed) => Some(placed),
+            _ => None,
+        }
+    }
+
     /// Whether it is a CFD solution.
     pub(crate) const fn is_field(&self) -> bool {
         matches!(self, Self::Field(_))

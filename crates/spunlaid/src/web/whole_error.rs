@@ -39,8 +39,8 @@ impl PatchFindings {
         if self.independent.is_some() {
             // Unless a few stand for all, every filament of the sheet has been flown.
             let flight = self.few.map_or(0.0, |few| few.by_pitch);
-            let flight = self.doubt.is_none().then_some(flight);
-            return WholeError { chance: self.map.standard_error, flight, model: Some(0.0) };
+            let [flight, model] = [flight, 0.0].map(|part| self.doubt.is_none().then_some(part));
+            return WholeError { chance: self.map.standard_error, flight, model };
         }
         // What is expected of the web is as far off, in parts of itself.
         let per_expected = self.map.cv / self.single_fibres.0;

@@ -15,7 +15,6 @@ pub use summary::SourcesSummary;
 pub use vtk::{VTK, write_vtk};
 
 use crate::numbers::plus_minus;
-use spunlaid::air::{Flow, PlacedField};
 use spunlaid::case::Case;
 use spunlaid::ensemble::Sources;
 use spunlaid::units::Dimension;
@@ -43,11 +42,3 @@ pub fn unsteady(case: &Case, sources: &Sources) -> Option<String> {
 
 /// Spin-up that is proposed, in ways down or in spin-ups that were too short.
 const WAYS: f64 = 3.0;
-
-/// The field of a case, if its air is one.
-pub(crate) fn field_of(case: &Case) -> Option<&PlacedField> {
-    match &case.air.flow {
-        Flow::Field(placed) => Some(placed),
-        _ => None,
-    }
-}

@@ -1,6 +1,5 @@
 //! `openfoam/Su`, `Sp`, `Sh` and `ShT`, with their errors: fields of OpenFOAM in the order of the cells of the file.
 
-use super::field_of;
 use crate::Failure;
 use crate::output::folder::Staging;
 use spunlaid::case::Case;
@@ -21,7 +20,7 @@ const PER_KELVIN: [i32; 4] = [1, -1, -3, -1];
 /// Whether the cells of a case's field are those of OpenFOAM in their order, if OpenFOAM has written it: those of a mesh
 /// from one file.
 pub fn has_order_of_openfoam(case: &Case) -> bool {
-    field_of(case).is_some_and(|placed| {
+    case.air.flow.field().is_some_and(|placed| {
         matches!(placed.field.describe(), Description::Mesh { .. }) && placed.field.parts().len() < 2
     })
 }

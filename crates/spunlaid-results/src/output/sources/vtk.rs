@@ -1,6 +1,5 @@
 //! `sources.vtu`: the cells with their sources.
 
-use super::field_of;
 use crate::Failure;
 use crate::output::appended::AppendedArrays;
 use crate::output::folder::Staging;
@@ -21,7 +20,7 @@ pub fn write_vtk(staging: &Staging<'_>, case: &Case, sources: &Sources) -> Resul
 
 /// VTK XML UnstructuredGrid, with the numbers behind the text.
 fn unstructured_grid(case: &Case, sources: &Sources) -> Option<Vec<u8>> {
-    let placed = field_of(case)?;
+    let placed = case.air.flow.field()?;
     let cells = placed.field.cells()?;
     let kind: u8 = match cells.kind() {
         BlockKind::Pixel => 8,
