@@ -80,14 +80,10 @@ fn json(text: &str) -> Value {
     serde_json::from_str(text).unwrap()
 }
 
-/// All numbers of a part of a summary.
-fn numbers(value: &Value) -> Vec<f64> {
-    match value {
-        Value::Number(number) => number.as_f64().into_iter().collect(),
-        Value::Array(values) => values.iter().flat_map(numbers).collect(),
-        Value::Object(values) => values.values().flat_map(numbers).collect(),
-        _ => Vec::new(),
-    }
+/// The CV of a web over each of its patches. What a surrogate says beside them comes from a fit, which makes rounding
+/// larger.
+fn cvs(web: &Value) -> Vec<f64> {
+    web["web"]["patches"].as_array().unwrap().iter().map(|patch| patch["cv"].as_f64().unwrap()).collect()
 }
 
 fn assert_alike(found: &[f64], first: &[f64], tolerance: f64, what: &str) {
@@ -115,8 +111,8 @@ fn invariant_one_diffuser_in_all_orientations_lays_the_same_fibre_and_the_same_w
         let web = json(&success(&mut desk.spunlaid("web web.toml --json --no-advice --threads 1")));
         let air = success(&mut desk.spunlaid("air brief.toml --at places.csv --axes line"));
         let air = air.lines().skip(1).flat_map(|line| line.split(',').map(|cell| cell.parse().unwrap()));
-        let found = [sigmas.to_vec(), numbers(&web["web"]["patches"]), air.collect()];
-        assert!(found[1].len() > 10 && found[2].len() == 30, "{found:?}");
+        let found = [sigmas.to_vec(), cvs(&web), air.collect()];
+        assert!(found[1].len() > 2 && found[2].len() == 30, "{found:?}");
         let Some(first) = &first else {
             first = Some(found);
             continue;

@@ -49,20 +49,23 @@ fn the_number_of_filaments_is_found_and_the_web_that_was_found_can_be_laid() {
     let [low, high] = [0, 1].map(|end| key["interval"][end].as_f64().unwrap());
     assert!(low < 900.0 && 900.0 < high, "{key}");
     // CV² falls as one over the number, so a single CV that scatters by s tells its logarithm to 2 s, and
-    // Student's t of ten webs is 2.26. All together tell it better, but a blurred scan worse.
-    let scatters =
-        found["numbers"].as_array().unwrap().iter().map(|number| number["scatter"].as_f64().unwrap());
-    let of_best = 2.26 * 2.0 * scatters.fold(f64::INFINITY, f64::min);
-    assert!((0.5..1.5).contains(&(0.5 * (high / low).ln() / of_best)), "{key}: {of_best}");
+    // Student's t of ten webs is 2.26. All together tell it better than patches of 2 mm alone, which scatter more than
+    // smaller ones, and do not tell what they cannot.
+    let numbers = found["numbers"].as_array().unwrap();
+    let scatter = |number: &Value| 2.26 * 2.0 * number["scatter"].as_f64().unwrap();
+    let of_best = numbers.iter().map(scatter).fold(f64::INFINITY, f64::min);
+    let of_2_mm = numbers.iter().find(|number| number["patch_m"] == 0.002).map(scatter).unwrap();
+    let told = 0.5 * (high / low).ln();
+    assert!(0.5 * of_best < told && told < of_2_mm, "{key}: {of_best} {of_2_mm}");
     assert!(found["misfit"].as_f64() < found["misfit_start"].as_f64(), "{found}");
-    // Patches that the scan has blurred away are not compared: no CV below 2 mm in pixels of 0.5 mm.
+    // The picture of a map has no blur of a camera, so that its pixels of 0.5 mm are compared too.
     let sides: Vec<f64> = found["numbers"]
         .as_array()
         .unwrap()
         .iter()
         .map(|number| number["patch_m"].as_f64().unwrap())
         .collect();
-    assert!(sides.iter().all(|side| (0.002..=0.03).contains(side)) && sides.len() >= 3, "{sides:?}");
+    assert!(sides.iter().all(|side| (0.0005..=0.03).contains(side)) && sides.len() >= 5, "{sides:?}");
     success(&mut desk.spunlaid("web fit/web.toml --out again --quiet"));
     let page = String::from_utf8(desk.read("fit/report.html")).unwrap();
     assert!(page.contains("can look like the scan") && page.contains("Misfit over line.filaments_per_metre"));

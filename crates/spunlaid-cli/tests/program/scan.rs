@@ -246,7 +246,7 @@ fn a_table_without_names_asks_what_it_is() {
     assert!(desk.summary("results/gauge")["web"]["patches"][0].get("blur_of_a_pixel").is_none());
     // Who says which column is the velocity has a record.
     let said = refusal(&mut desk.spunlaid("analyse gauge.csv --columns 2 --out other"), 1);
-    assert!(said.contains("gauge.csv: has no column of time"), "{said}");
+    assert!(said.contains("gauge.csv: column 2: contains a velocity"), "{said}");
 }
 
 #[test]

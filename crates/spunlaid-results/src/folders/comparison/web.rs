@@ -101,6 +101,11 @@ impl Web {
         })
     }
 
+    /// Sides of its patches [m], of those without a CV too.
+    pub(super) fn sides(&self) -> impl Iterator<Item = f64> {
+        self.patches.iter().map(|patch| patch.side).chain(self.untold.iter().map(|(side, _)| *side))
+    }
+
     /// The CV over patches of a size, or why there is none.
     pub(super) fn cv(&self, side: f64) -> Result<WebNumber, String> {
         at(&self.patches, side).ok_or_else(|| self.missing(side))

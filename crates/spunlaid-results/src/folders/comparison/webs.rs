@@ -58,10 +58,10 @@ pub(super) fn compared(webs: &[Web]) -> Result<Found, Failure> {
 }
 
 fn compare_webs(first: &Web, other: &Web) -> Result<Comparison, Failure> {
-    if !first.patches.iter().any(|patch| at(&other.patches, patch.side).is_some()) {
+    let has = |web: &Web, side: f64| web.sides().any(|own| are_alike(own, side));
+    if !first.sides().any(|side| has(other, side)) {
         let sides = |web: &Web| {
-            let sides: Vec<String> =
-                web.patches.iter().map(|patch| significant(patch.side * 1e3, 3)).collect();
+            let sides: Vec<String> = web.sides().map(|side| significant(side * 1e3, 3)).collect();
             format!("{} mm", sides.join(", "))
         };
         let message = format!(
@@ -78,9 +78,8 @@ fn compare_webs(first: &Web, other: &Web) -> Result<Comparison, Failure> {
         let (label, column) = (format!("{whose} over patches of {side} mm"), format!("cv_{side}_mm{end}"));
         measure(label, column, ("%", 100.0), values)
     };
-    let mut sides: Vec<f64> = first.patches.iter().map(|patch| patch.side).collect();
-    let new = |side: &f64| !first.patches.iter().any(|patch| are_alike(patch.side, *side));
-    sides.extend(other.patches.iter().map(|patch| patch.side).filter(new));
+    let mut sides: Vec<f64> = first.sides().collect();
+    sides.extend(other.sides().filter(|side| !has(first, *side)));
     sides.sort_by(f64::total_cmp);
     let of_map = |side: f64| of_patch(side, ["CV", ""], [first.cv(side), other.cv(side)]);
     let mut measures: Vec<ComparedMeasure> = sides.into_iter().map(of_map).collect();
