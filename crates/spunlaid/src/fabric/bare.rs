@@ -13,7 +13,7 @@ pub(super) const LOCAL: f64 = 2e-3;
 /// as much as the web varies more than straight fibres do.                                    theory.md (111)
 ///
 /// * `length` – of fibre per area of the sheet [1/m]
-/// * `found` – the unevenness over patches of [`LOCAL`]
+/// * `found` – the unevenness over patches of 2 mm
 pub fn local_weights(map: &Map, length: f64, found: &Unevenness) -> Vec<f64> {
     let weights = weights(map, found.patch);
     let variance = weights.iter().map(|weight| (weight - 1.0).powi(2)).sum::<f64>() / weights.len() as f64;
@@ -29,7 +29,7 @@ pub fn local_weights(map: &Map, length: f64, found: &Unevenness) -> Vec<f64> {
 /// * `local` – of [`local_weights`]
 /// * `length` – of fibre per area of the sheet [1/m]
 /// * `diameter` – of the fibres, the mean over their length [m]
-/// * `found` – the unevenness over patches of [`LOCAL`]; its error becomes that of the share
+/// * `found` – the unevenness over patches of 2 mm; its error becomes that of the share
 pub fn bare_area(local: &[f64], length: f64, diameter: f64, found: &Unevenness) -> Known {
     let covered = length * diameter;
     let share = local.iter().map(|weight| libm::exp(-covered * weight)).sum::<f64>() / local.len() as f64;
