@@ -106,7 +106,7 @@ fn the_summary_has_the_fields_that_are_promised() {
     let top = "schema_version spunlaid_version case elements steps replicates lost lost_fibres end_node \
         energy fibre step_check mesh_check performance notes";
     assert_eq!(keys(&summary), sorted(top));
-    assert_eq!(summary["schema_version"], 3);
+    assert_eq!(summary["schema_version"], 4);
     assert_eq!(summary["spunlaid_version"], env!("CARGO_PKG_VERSION"));
     assert_eq!(summary["elements"], 4);
     assert_eq!(summary["steps"], 500);

@@ -171,7 +171,7 @@ fn a_web_of_a_flight_tells_its_error_by_causes_and_the_cv_of_the_flown_curves() 
     fs::write(desk.path("dynamics.toml"), format!("{web}method = \"dynamics\"\n")).unwrap();
     desk::success(&mut desk.spunlaid("web dynamics.toml --out d --quiet"));
     let (s, d) = (desk.summary("s"), desk.summary("d"));
-    assert_eq!(s["schema_version"], 2);
+    assert_eq!(s["schema_version"], 3);
     for patch in 0..2 {
         let number = |summary: &serde_json::Value, name: &str| {
             summary["web"]["patches"][patch][name].as_f64().unwrap()

@@ -174,7 +174,7 @@ impl<'a> Summary<'a> {
 
     /// The text of the file.
     pub fn to_json(&self) -> String {
-        super::versioned_json(3, self)
+        super::versioned_json(4, self)
     }
 }
 

@@ -418,6 +418,6 @@ impl<'a> Summary<'a> {
 
     /// The text of the file.
     pub fn to_json(&self) -> String {
-        crate::output::versioned_json(2, self)
+        crate::output::versioned_json(3, self)
     }
 }
