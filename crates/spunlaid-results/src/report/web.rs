@@ -61,7 +61,7 @@ pub fn web_report<'a>(
     Ok(Report::new("web", headline)
         .lead(guess_words(spec, findings, tried))
         .lead(advice_words(spec, findings, tried))
-        .lead([summary(web), laid_weight(web, findings), air_sentence(spec, findings), errors].join(" "))
+        .lead(sentences([summary(web), laid_weight(web, findings), air_sentence(spec, findings), errors]))
         .lead(charge_sentence(spec, findings))
         .lead(spun)
         .with(table)
@@ -163,6 +163,11 @@ fn file(layers: &[Layer], toml: &str) -> Section<'static> {
             "The map is in map.npy (kg/m², a row of the web after the other), map.png (16 bit), the \
             fibres of the window in fibres.vtp, all numbers in summary.json, beside this page.",
         )
+}
+
+/// Sentences behind each other, without the empty ones.
+fn sentences(all: [String; 4]) -> String {
+    all.into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
 fn summary(web: &Web) -> String {
