@@ -116,7 +116,7 @@ fn chart(case: &Case, placed: &PlacedField, plane: &Plane) -> Chart {
     };
     let head = 0.6 * across.1.min(-across.0).max(0.25 * (across.1 - across.0)) * MM;
     let chart = chart
-        .arrow(INK, [(0.0, 0.0), (0.22 * length, 0.0)], &format!("*x*, gravity: {along} of the field"))
+        .arrow(INK, [(0.0, 0.0), (0.3 * length, 0.0)], &format!("*x*, gravity: {along} of the field"))
         .arrow(INK, [(0.0, 0.0), (0.0, head)], &format!("{direction}: {aside} of the field"))
         .scatter(Series::spots(root, ORANGE).drawn_only(), &[(0.0, 0.0, None)]);
     if case.line.is_none() {
