@@ -117,6 +117,8 @@ pub mod beam;
 
 pub mod layers;
 
+pub mod plausible;
+
 pub mod study;
 
 pub mod advice;

@@ -35,6 +35,7 @@ const ROOMS: &[&[&str]] = &[
     &["ensemble"],
     &["beam"],
     &["layers"],
+    &["plausible"],
     &["study"],
     &["advice", "fit"],
     &["input"],

@@ -401,6 +401,18 @@ pub enum Remark {
         /// The field [V/m].
         field: f64,
     },
+    /// A number that no spunbond line is known to have.
+    #[error("is doubtful: a {words} of {told}, where spunbond lines have {range}; {advice}")]
+    Implausible {
+        /// What the number is called.
+        words: &'static str,
+        /// The number with its unit.
+        told: String,
+        /// The range of spunbond lines.
+        range: String,
+        /// What may be wrong.
+        advice: &'static str,
+    },
     /// A key of a web in place of a number of its case, which has another.
     #[error("is laid with {of_case} = {used} in place of the {own} of {case}")]
     CaseChanged {
@@ -495,6 +507,7 @@ impl Remark {
                     | Self::CutoffLow { .. }
                     | Self::File(_)
                     | Self::LeavesFlow
+                    | Self::Implausible { .. }
                     | Self::SlowsOnly { .. }
                     | Self::RootOutside { .. }
                     | Self::NotAlong { .. }

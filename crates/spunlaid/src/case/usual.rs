@@ -89,6 +89,14 @@ impl Case {
         Some(Note { place: Place::Code, key: key.to_owned(), value, what })
     }
 
+    /// The largest mean velocity of the air along the way of the fibre, if there is air [m/s].
+    pub(crate) fn fastest_air(&self) -> Option<f64> {
+        let (mut hint, along) = (Hint::default(), self.along());
+        let places = (0..=PLACES).map(|i| along * (i as f64 / PLACES as f64));
+        let speeds = places.map(|at| self.air.local(at, &mut hint).velocity.norm());
+        Some(speeds.fold(0.0, f64::max)).filter(|speed| self.air.density > 0.0 && *speed > 0.0)
+    }
+
     /// Air that is too fast for air of constant density.
     fn fast(&self) -> Option<Note> {
         let air = &self.air;

@@ -1,8 +1,10 @@
 //! Webs in the words of a line: throughput, titre, holes and basis weight, and the speeds that follow.
 
 use crate::web_files::{KNOWN, assert_reads_back, bits, set};
+use spunlaid::case::{Note, Remark};
 use spunlaid::input::{LaydownSource, WebFile, parse_web, read_case, read_web};
 use spunlaid::web::{Fibres, Filaments};
+use std::path::Path;
 
 /// A line in its own words: 2 dtex, half a gram per minute and hole, 20 g/m².
 const LINE: &str = r#"
@@ -188,4 +190,58 @@ fn a_case_is_flown_with_the_throughput_and_the_belt_of_its_web() {
 fn assert_reads_back_beside_cases(file: &WebFile) {
     let again = parse_web(&file.text, "web.toml", &[]).unwrap();
     assert_eq!(bits(&again.spec), bits(&file.spec), "{}", file.text);
+}
+
+/// What is doubted of the numbers of a line.
+fn doubted(file: &WebFile) -> Vec<&'static str> {
+    let words = |note: &Note| match note.what {
+        Remark::Implausible { words, .. } => Some(words),
+        _ => None,
+    };
+    file.notes.iter().filter_map(words).collect()
+}
+
+#[test]
+fn numbers_that_no_spunbond_line_has_are_doubted() {
+    let (throughput, speed, belt) = ("throughput of a hole", "spinning speed", "speed of the belt");
+    let none: &[&str] = &[];
+    for (key, value, doubts) in [
+        ("line.throughput", "0.5 g/min", none),
+        ("line.throughput", "2 g/min", &[speed]),
+        ("line.throughput", "17 g/min", &[speed, belt, throughput]),
+        ("fibre.linear_density", "0.2 dtex", &[speed, "titre"]),
+        ("line.basis_weight", "2 g/m²", &["basis weight"]),
+        ("line.belt_speed", "30 m/s", &["basis weight", belt]),
+    ] {
+        let mut found = doubted(&read_line(&[(key, value)]));
+        found.sort_unstable();
+        let mut doubts = doubts.to_vec();
+        doubts.sort_unstable();
+        assert_eq!(found, doubts, "{key} = {value}");
+    }
+    let note = |file: &WebFile| {
+        file.notes.iter().find(|note| matches!(note.what, Remark::Implausible { .. })).unwrap().to_string()
+    };
+    let said = note(&read_line(&[("line.throughput", "2 g/min")]));
+    assert!(
+        said.ends_with(
+            "line.feed_speed is doubtful: a spinning speed of 10000 m/min, where spunbond lines have 500 to 8000 \
+            m/min; it follows from throughput and titre, so check both"
+        ),
+        "{said}"
+    );
+    // The air of this line has 60 m/s where it is fastest.
+    let shared = |speed: &str| {
+        let set = set("feed.speed", speed);
+        read_web(Path::new("../../cases/web_shared.toml"), &set).unwrap()
+    };
+    assert_eq!(doubted(&shared("59 m/s")), none);
+    assert_eq!(doubted(&shared("66 m/s")), ["filament"]);
+    let said = note(&shared("66 m/s"));
+    assert!(
+        said.contains(
+            "a filament of 1.1 times the speed of its fastest air, where spunbond lines have 1 at most"
+        ),
+        "{said}"
+    );
 }

@@ -40,7 +40,7 @@ pub(super) fn case(check: &Check) -> Result<(), Failure> {
         expected.memory_bytes / f64::from(1 << 20)
     ));
     comments.extend(idle_threads(&case, Threads::default().number() as u64));
-    show("case", &write_case(&case), &comments, "run", &check.source);
+    show("case", (&write_case(&case), &[]), &comments, "run", &check.source);
     Ok(())
 }
 
@@ -50,7 +50,7 @@ pub(super) fn spinline_alone(check: &Check) -> Result<(), Failure> {
     file.notes.iter().for_each(say::note);
     let results = SpinResults::new(&file)?;
     let comments: Vec<String> = spinline_text(&results).lines().map(str::to_owned).collect();
-    show("spinline", &write_spinline(&file.spec), &comments, "spin", &check.source);
+    show("spinline", (&write_spinline(&file.spec), &[]), &comments, "spin", &check.source);
     Ok(())
 }
 

@@ -9,6 +9,7 @@ use crate::args::{CaseSource, Check, Threads};
 use crate::commands::flown::flown;
 use crate::failure::Failure;
 use crate::say;
+use spunlaid::case::{Note, Remark};
 use spunlaid::error::FileKind;
 use spunlaid::input::{Unread, kind_of};
 
@@ -35,10 +36,14 @@ fn looked_at<T>(read: Result<T, Unread<T>>) -> Result<T, Failure> {
 
 /// Shows a file with every default, and in comments what it means and which command takes it, so that the
 /// output is such a file.
-fn show(kind: &str, text: &str, comments: &[String], command: &str, source: &CaseSource) {
+///
+/// * `notes` – of the file; one may doubt that it is meant
+fn show(kind: &str, (text, notes): (&str, &[Note]), comments: &[String], command: &str, source: &CaseSource) {
+    let is_doubtful = notes.iter().any(|note| matches!(note.what, Remark::Implausible { .. }));
     say::line(&format!("# the {kind} with every default"));
     say::text(text);
     say::line("");
     comments.iter().for_each(|comment| say::line(&format!("# {comment}")));
-    say::line(&format!("# ready: spunlaid {command} {}", source.words()));
+    let ready = if is_doubtful { "doubtful, see the warnings above; as it stands" } else { "ready" };
+    say::line(&format!("# {ready}: spunlaid {command} {}", source.words()));
 }

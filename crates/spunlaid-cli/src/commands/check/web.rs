@@ -21,7 +21,7 @@ pub(super) fn web(check: &Check) -> Result<(), Failure> {
     file.notes.iter().for_each(say::note);
     let spec = &file.spec;
     let comments = [line(spec), sheet(spec).to_vec(), air(spec), load(spec), guesses(spec)].concat();
-    show("web", &file.text, &comments, "web", &check.source);
+    show("web", (&file.text, &file.notes), &comments, "web", &check.source);
     Ok(())
 }
 

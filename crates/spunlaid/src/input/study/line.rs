@@ -7,6 +7,7 @@ use crate::advice::Change;
 use crate::air::{Air, Flow};
 use crate::effects::{ChangedKey, Setting};
 use crate::layers::{LaydownSource, LayerSpec, Method, WebSpec, web_key};
+use crate::plausible::leads_outside;
 use crate::units::Dimension;
 use crate::web::Filaments;
 
@@ -84,7 +85,8 @@ impl Line<'_> {
             settings.push((Setting::ROW_PLACES, &all, of_each(&every, &|layer| self.row_places(layer))));
             settings.push((Setting::CHARGE, &all, of_each(&every, &|layer| self.charge(layer))));
         }
-        settings.iter().flat_map(|(setting, layers, ways)| self.change(*setting, layers, ways)).collect()
+        let changes = settings.iter().flat_map(|(setting, layers, ways)| self.change(*setting, layers, ways));
+        changes.filter(|change| !leads_outside(self.spec(), &change.experiment.spec)).collect()
     }
 
     /// The numbers of the layers, from 1, equal ones together: they differ in nothing but their names.

@@ -6,6 +6,7 @@ use crate::case::{Note, Remark};
 use crate::error::{Fault, Place};
 use crate::layers::keys::{METHODS, WEB};
 use crate::layers::{LaydownSource, LayerSpec, SAME, WebKey, WebSpec, too_small};
+use crate::plausible::implausible;
 use crate::units::Dimension;
 use crate::web::{Defect, Edges, Filaments, Row, Sheet, holes};
 use std::path::Path;
@@ -115,6 +116,19 @@ impl Reading<'_> {
             };
             let message = format!("is so {how} that a filament would lay an infinite length on the web");
             self.key_values.reject(&key, Fault::new(message, remedy));
+        }
+    }
+
+    /// Notes numbers that spunbond lines do not have, where they are written or else of the whole file.
+    pub(super) fn doubt_numbers(&mut self, web: &WebSpec) {
+        for found in implausible(web) {
+            let note = found.note();
+            let full = self.prefixes.get(found.layer).map(|prefix| format!("{prefix}{}", note.key));
+            let note = match full.filter(|full| self.is_written(full)) {
+                Some(key) => self.key_values.placed(Note { key, ..note }),
+                None => Note { place: self.key_values.whole(), ..note },
+            };
+            self.note(vec![note]);
         }
     }
 

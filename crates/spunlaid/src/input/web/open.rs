@@ -102,6 +102,9 @@ impl OpenWeb<'_> {
         }
         let unusual = reading.unusual();
         reading.note(unusual.clone());
+        if reading.key_values.problems.is_empty() {
+            reading.doubt_numbers(&web);
+        }
         let Reading { mut key_values, notes, .. } = reading;
         if key_values.problems.is_empty() {
             if let Some(problem) = web.air_beyond_memory() {
