@@ -27,6 +27,9 @@ fn main() {
     if asked("one-air") {
         return one_air::errors();
     }
+    if asked("few-and-all") {
+        return one_air::few_and_all();
+    }
     if asked("fits") {
         return fits::intervals();
     }

@@ -1,14 +1,16 @@
 //! The numbers of webs in one air and of their fabrics: the errors that are told, against the scatter of many webs.
 
 use crate::title;
+use spunlaid::fabric::Fabric;
 use spunlaid::input::parse_web;
 use spunlaid::lanes::Isa;
 use spunlaid::layers::Flyer;
 use spunlaid::observe::{Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_WEBS, measured};
-use spunlaid::web::LayControl;
+use spunlaid::threads::each;
+use spunlaid::web::{Findings, LayControl, PatchFindings};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
-const SEEDS: u64 = 24;
+const SEEDS: usize = 24;
 
 /// The air of spunbond.toml.
 const AIR: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/tables/spunbond.csv");
@@ -44,14 +46,19 @@ length = "0.2 m"
 /// A number of a web with the error that is told of it.
 type Told = (String, f64, Option<f64>);
 
-/// Prints a row of the table for each number of three lines.
-pub fn errors() {
+/// Of each line the words that differ, and the filaments.
+fn lines() -> [(&'static str, String); 3] {
     let line = |widening: &str| LINE.replace("AIR", AIR).replace("WIDENING", widening);
     let slot = |depth: &str| format!("{}filaments_per_metre = 5000\ndepth = \"{depth}\"\n", line("md"));
     let row = format!("{}rows = [{{ pitch = \"0.2 mm\", filaments = 1000 }}]\n", line("none"));
-    for (name, file) in [("row", row), ("slot", slot("20 mm")), ("wide slot", slot("60 mm"))] {
+    [("row", row), ("slot", slot("20 mm")), ("wide slot", slot("60 mm"))]
+}
+
+/// Prints a row of the table for each number of three lines.
+pub fn errors() {
+    for (name, file) in lines() {
         title(&format!("Errors of webs in one air: {name}, {SEEDS} webs"));
-        let webs: Vec<Vec<Told>> = (1..=SEEDS).map(|seed| numbers(&file, seed)).collect();
+        let webs = each(processors(), SEEDS, |web| numbers(&file, &[("web.seed", &(web + 1).to_string())]));
         println!("  number                                    mean   scatter      told  ratio  within one");
         for (name, _, _) in &webs[0] {
             let of_all: Vec<(f64, Option<f64>)> = (webs.iter().flatten())
@@ -63,16 +70,14 @@ pub fn errors() {
     }
 }
 
-/// What is told of the web of a seed.
-fn numbers(file: &str, seed: u64) -> Vec<Told> {
-    let seed = ("web.seed".to_owned(), seed.to_string());
-    let spec = parse_web(file, "web.toml", &[seed]).unwrap_or_else(|_| panic!("a web")).spec;
-    let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &laid };
-    let mut flown = Flyer::new(2, &stop, &|_, work| work()).web(&spec).expect("a flight");
-    let found = flown.find(by).expect("findings");
-    let fabric = spec.fabric(&flown.web, &found, 2);
-    let of_patch = |patch: &spunlaid::web::PatchFindings| {
+fn processors() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// What is told of a web with some keys set.
+fn numbers(file: &str, set: &[(&str, &str)]) -> Vec<Told> {
+    let (found, fabric) = web(file, set);
+    let of_patch = |patch: &PatchFindings| {
         let told = patch.told()?;
         Some((format!("CV over {} mm", 1e3 * told.patch), told.cv, patch.whole_error().whole()))
     };
@@ -83,6 +88,72 @@ fn numbers(file: &str, seed: u64) -> Vec<Told> {
         add(&mut all, OF_FABRIC_PATCHES, patch, &format!(", {} mm", 1e3 * patch.thin.patch));
     }
     all
+}
+
+fn web(file: &str, set: &[(&str, &str)]) -> (Findings, Fabric) {
+    let set: Vec<_> = set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+    let spec = parse_web(file, "web.toml", &set).unwrap_or_else(|_| panic!("a web")).spec;
+    let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
+    let by = LayControl { threads: 1, isa: Isa::detect(), stop: &stop, laid: &laid };
+    let mut flown = Flyer::new(1, &stop, &|_, work| work()).web(&spec).expect("a flight");
+    let found = flown.find(by).expect("findings");
+    let fabric = spec.fabric(&flown.web, &found, 1);
+    (found, fabric)
+}
+
+/// What sets one line of twelve apart: its filaments, one of [`lines`], and its keys.
+const TWELVE: [(&str, usize, &[(&str, &str)]); 12] = [
+    ("row", 0, &[]),
+    ("slot of 20 mm", 1, &[]),
+    ("slot of 60 mm", 2, &[]),
+    ("slot of 10 mm", 1, &[("line.depth", "10 mm")]),
+    ("row, small eddies", 0, &[("air.length_factor", "0.5")]),
+    ("slot of 20 mm, small eddies", 1, &[("air.length_factor", "0.5")]),
+    ("row, thick filaments", 0, &[("fibre.diameter", "30 µm"), ("feed.speed", "25 m/s")]),
+    ("slot of 20 mm, thick filaments", 1, &[("fibre.diameter", "30 µm"), ("feed.speed", "25 m/s")]),
+    ("slot of 20 mm, fast belt", 1, &[("belt.speed", "8 m/s")]),
+    ("slot of 60 mm, fast belt", 2, &[("belt.speed", "8 m/s")]),
+    ("slot of 20 mm, near belt", 1, &[("belt.distance", "0.3 m")]),
+    ("slot of 20 mm, strong turbulence", 1, &[("air.intensity_factor", "1.5")]),
+];
+
+/// Webs of each of the twelve lines.
+const AIRS: usize = 6;
+
+/// Prints for twelve lines how far a few filaments are off all of them in the same air.
+pub fn few_and_all() {
+    title(&format!(
+        "A few filaments less all of them in the same air, {AIRS} webs of each line [points of CV]"
+    ));
+    println!("  line                            patch       all     told    (rms)    error  untold");
+    let webs = each(processors(), AIRS * TWELVE.len(), |number| {
+        let (_, line, set) = TWELVE[number / AIRS];
+        let seed = (1 + number % AIRS).to_string();
+        ["\"all\"", "\"auto\""].map(|flown| {
+            let set = [set, &[("web.flown", flown), ("web.seed", &seed)]].concat();
+            web(&lines()[line].1, &set).0.patches
+        })
+    });
+    for ((name, ..), webs) in TWELVE.iter().zip(webs.chunks(AIRS)) {
+        for patch in 0..webs[0][0].len() {
+            let mean = |of: &dyn Fn(&PatchFindings, &PatchFindings) -> f64| {
+                webs.iter().map(|[all, few]| of(&all[patch], &few[patch])).sum::<f64>() / webs.len() as f64
+            };
+            let error = |few: &PatchFindings| few.few.map_or(0.0, |few| few.by_pitch);
+            let root = |of: &dyn Fn(&PatchFindings, &PatchFindings) -> f64| {
+                100.0 * mean(&|all, few| of(all, few).powi(2)).sqrt()
+            };
+            println!(
+                "  {name:32} {:2.0} mm  {:8.2} {:+8.2} {:8.2} {:8.2}  {}",
+                1e3 * webs[0][0][patch].map.patch,
+                100.0 * mean(&|all, _| all.map.cv),
+                100.0 * mean(&|all, few| few.map.cv - all.map.cv),
+                root(&|all, few| few.map.cv - all.map.cv),
+                root(&|_, few| error(few)),
+                webs.iter().filter(|[_, few]| few[patch].doubt.is_some()).count(),
+            );
+        }
+    }
 }
 
 fn add<T>(all: &mut Vec<Told>, measures: &'static [Measure<T>], found: &T, of: &str) {

@@ -126,7 +126,7 @@ impl FlownCurves {
     }
 
     /// Mean distance of neighbours: of a slot, of those at random places in it [m].
-    pub(super) fn mean_distance(&self) -> f64 {
+    pub(crate) fn mean_distance(&self) -> f64 {
         let [width, pitch] = self.width_and_pitch();
         pitch.max(0.5 * (width * self.depth() / self.places.len() as f64).sqrt())
     }

@@ -7,8 +7,8 @@ use crate::error::Error;
 use crate::fibre::{Place, rows};
 use crate::flight::LaidPoint;
 use crate::web::{
-    Arrangement, Edges, FEWEST_OF_FEW, FewFilaments, Filaments, LEAST_SAVING, LayerFew, Map, Row, Sheet,
-    Window, inlets,
+    Arrangement, Edges, FEWEST_OF_FEW, FewFilaments, Filaments, FilledMaps, LEAST_SAVING, LayerFew, Row,
+    Sheet, Window, inlets, small_patch,
 };
 use std::sync::atomic::AtomicBool;
 
@@ -63,6 +63,8 @@ pub(super) struct FewPlan {
     pub(super) arrangement: Arrangement,
     /// Number of all filaments over the width of the sheet that is flown.
     pub(super) all: f64,
+    /// Where all filaments of a slot hang.
+    slot: Vec<Place>,
 }
 
 impl WebSpec {
@@ -113,7 +115,14 @@ impl WebSpec {
             Arrangement::Slot | Arrangement::AtRandom => vec![(0..places.len()).collect()],
             Arrangement::Rows => rows(&places),
         };
-        Some(FewFlight { sheet, places, few: FewPlan { rows, arrangement, all } })
+        let slot = match &spec.filaments {
+            Filaments::Slot { depth, .. } => {
+                let of_all = Filaments::Slot { per_metre: all / sheet.width, depth: *depth };
+                inlets(&sheet, self.seed, layer, &of_all).into_iter().map(place).collect()
+            }
+            Filaments::Rows(_) | Filaments::AtRandom { .. } => Vec::new(),
+        };
+        Some(FewFlight { sheet, places, few: FewPlan { rows, arrangement, all, slot } })
     }
 
     /// Whether a few filaments of each layer lay the whole sheet of the web, as all of them would, in the same air.
@@ -173,7 +182,7 @@ impl FewPlan {
     /// What they say of all filaments.
     ///
     /// * `blocks` – number of those that are told of the sheet, across and along
-    /// * `curves` – of the filaments; only those of rows are looked at
+    /// * `curves` – of the filaments, from which those between them are filled in
     ///
     /// # Errors
     /// If a cell would hold more fibre than can be counted, or if it is stopped.
@@ -193,46 +202,58 @@ impl FewPlan {
             return Ok(with_pitches(LayerFew { correlation: f64::NAN, ..told }));
         };
         let covariances = Covariances::fit(curves, by.0);
-        let filled = self.filled((sheet, flown.back), beam, (curves, &covariances), by)?;
-        let told = filaments.tell(number, filled.as_ref(), by.0)?;
+        let filled =
+            self.filled((sheet, flown.back), (beam, filaments.pitch()), (curves, &covariances), by)?;
+        let told = filaments.tell(number, Some(&filled), by.0)?;
         let correlation = covariances.smooth.map(|covariance| covariance.correlation([told.pitch, 0.0]));
         Ok(with_pitches(LayerFew { correlation: correlation[0].min(correlation[1]), ..told }))
     }
 
-    /// Maps of rows in which the filaments between the flown ones have been filled in, from all of them and
-    /// from every second one; None of a slot.
+    /// Maps in which the filaments between the flown ones have been filled in.
     ///
     /// * `back` – where the sheet begins on the belt [m]
+    /// * `pitch` – of the flown ones in a row [m]
     ///
     /// # Errors
     /// If a cell would hold more fibre than can be counted, or if it is stopped.
     fn filled(
         &self,
         (sheet, back): (&Sheet, f64),
-        beam: &Beam<'_>,
+        (beam, pitch): (&Beam<'_>, f64),
         (curves, covariances): (&FlownCurves, &Covariances),
         by: (usize, &AtomicBool),
-    ) -> Result<Option<[Map; 2]>, Error> {
-        // Rows are filled in up to their own pitch.
-        let most = match self.arrangement {
-            Arrangement::Slot => return Ok(None),
-            Arrangement::AtRandom => usize::MAX,
-            Arrangement::Rows => (self.all / self.rows.len() as f64).round() as usize,
+    ) -> Result<FilledMaps, Error> {
+        let places = || match self.arrangement {
+            Arrangement::Slot => self.slot.clone(),
+            Arrangement::AtRandom => self.finer_rows(usize::MAX, sheet, beam),
+            // Rows are filled in up to their own pitch.
+            Arrangement::Rows => {
+                self.finer_rows((self.all / self.rows.len() as f64).round() as usize, sheet, beam)
+            }
         };
+        let patches = match self.arrangement {
+            Arrangement::Slot => curves.mean_distance()..f64::INFINITY,
+            Arrangement::Rows | Arrangement::AtRandom => 0.0..small_patch(pitch),
+        };
+        let map = |filled: &Filling<'_>| {
+            let window = Window { corner: [0.0; 2], sides: [0.0; 2] };
+            let belt = Belt { sheet, window, back };
+            lay(filled, belt, beam.element_mass(), by).map(|(laid, _)| laid.map)
+        };
+        let of_all = map(&curves.fill_by(covariances, places(), by.0))?;
+        let of_every_second = map(&curves.every_second()?.fill(places(), by.0))?;
+        Ok(FilledMaps { of_all, of_every_second, patches })
+    }
+
+    /// Rows that have up to [`FINER`] times as many filaments as were flown.
+    fn finer_rows(&self, most: usize, sheet: &Sheet, beam: &Beam<'_>) -> Vec<Place> {
         let row = |row: &Vec<usize>| {
             let y = row.first().map_or(0.0, |first| beam.places[*first].y);
             let count = most.min(FINER * row.len());
             let pitch = sheet.width / count as f64;
             (0..count).map(move |i| Place { y, z: (i as f64 + 0.5) * pitch })
         };
-        let places: Vec<Place> = self.rows.iter().flat_map(row).collect();
-        let map = |filled: &Filling<'_>| {
-            let window = Window { corner: [0.0; 2], sides: [0.0; 2] };
-            let belt = Belt { sheet, window, back };
-            lay(filled, belt, beam.element_mass(), by).map(|(laid, _)| laid.map)
-        };
-        let of_all = map(&curves.fill_by(covariances, places.clone(), by.0))?;
-        Ok(Some([of_all, map(&curves.every_second()?.fill(places, by.0))?]))
+        self.rows.iter().flat_map(row).collect()
     }
 
     /// The filaments, with what they have laid on their sheet.

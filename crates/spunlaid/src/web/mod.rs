@@ -46,7 +46,9 @@ pub use defects::Defect;
 pub(crate) use defects::{Brush, Titres, holes};
 pub use doubt::Doubt;
 pub use expected::{ExpectedCv, expected_cv, inner_columns};
-pub(crate) use few::{Arrangement, FEWEST as FEWEST_OF_FEW, FewFilaments, blocks_on};
+pub(crate) use few::{
+    Arrangement, FEWEST as FEWEST_OF_FEW, FewFilaments, FilledMaps, blocks_on, small_patch,
+};
 pub use few_findings::{FewDoubt, FewFilamentsCv, LayerFew};
 pub(crate) use few_findings::{LEAST_SAVING, TRIED};
 pub use findings::{Findings, IndependentCv, PatchFindings, find, find_laid};

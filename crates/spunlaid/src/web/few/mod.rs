@@ -7,7 +7,8 @@
 //!
 //! Neighbours that hang a few millimetres apart come down almost alike, so the CV of a row hardly depends on
 //! its pitch. In a slot a filament is nearer to itself than to any other one at the same place across, and
-//! this own part falls with the number of filaments.                                          theory.md (83d)
+//! this own part falls with the number of filaments (theory.md, 83d). Where the filaments between them are filled in,
+//! the map with these tells the CV of a slot, unless the patches are smaller than the distance of the flown ones.
 
 mod products;
 mod sums;
@@ -22,6 +23,7 @@ use super::{Edges, Sheet};
 use crate::error::Error;
 use crate::threads::{each, try_each};
 use products::{Known, Products};
+use std::ops::Range;
 use sums::Sums;
 
 /// How all filaments hang of which a few are flown.
@@ -53,6 +55,22 @@ pub(crate) struct FewFilaments<'a> {
     pub(crate) all: f64,
 }
 
+/// Maps in which the filaments between the flown ones have been filled in.
+#[derive(Debug)]
+pub(crate) struct FilledMaps {
+    /// From all flown ones.
+    pub(crate) of_all: Map,
+    /// From every second one of them.
+    pub(crate) of_every_second: Map,
+    /// Sides of the patches over which they tell the CV [m].
+    pub(crate) patches: Range<f64>,
+}
+
+/// Side of a patch of a row below which its CV knows the pitch [m].
+pub(crate) fn small_patch(pitch: f64) -> f64 {
+    PITCHES * pitch
+}
+
 /// Fewest filaments of a row that say something of its neighbours.
 pub(crate) const FEWEST: usize = 10;
 /// Pairs of neighbours whose own patches are looked at, spread over the beam, at most.
@@ -71,15 +89,14 @@ impl FewFilaments<'_> {
     /// What they say of all filaments.
     ///
     /// * `layer` – its index
-    /// * `filled` – maps of rows in which the filaments between them have been filled in, from all of them
-    ///   and from every second one
+    /// * `filled` – with the filaments between them
     ///
     /// # Errors
     /// If a cell would hold more fibre than can be counted.
     pub(crate) fn tell(
         &self,
         layer: usize,
-        filled: Option<&[Map; 2]>,
+        filled: Option<&FilledMaps>,
         threads: usize,
     ) -> Result<LayerFew, Error> {
         let count = self.count();
@@ -127,16 +144,17 @@ impl FewFilaments<'_> {
             let cv = root(whole);
             let off = 0.5 * (halves[0] + halves[1]) - cv;
             told.blocks.push(blocks);
-            let by_filling = filled.and_then(|maps| self.by_filling(maps, (*patch, all.cv), &at_random));
+            let by_filling =
+                filled.and_then(|filled| self.by_filling(filled, (*patch, all.cv, whole[1]), &at_random));
             if let Some(by_filling) = by_filling {
                 told.cvs.push(by_filling);
                 continue;
             }
-            let small = if *patch < PITCHES * pitch { SMALL * cv } else { 0.0 };
+            let small = if *patch < small_patch(pitch) { SMALL * cv } else { 0.0 };
             // One half differs from the other as the places of its filaments do. The depths of a slot are
             // known better from all filaments than from two halves, which may agree by chance.
             let by_places = match self.arrangement {
-                Arrangement::Slot => 0.5 * products.variance(count, self.all).sqrt() / cv,
+                Arrangement::Slot => 0.5 * products.variance(cv * cv, count, self.all).sqrt() / cv,
                 Arrangement::Rows | Arrangement::AtRandom => 0.5 * (halves[0] - halves[1]),
             };
             told.cvs.push(FewFilamentsCv {
@@ -155,36 +173,44 @@ impl FewFilaments<'_> {
         Ok(told)
     }
 
-    /// The CV over patches that are so small that they know the pitch of a row, with the filaments filled in;
-    /// None for larger ones.
+    /// The CV of the map in which the filaments between the flown ones are filled in; None over patches that it does
+    /// not tell.
     ///
     /// * `few` – CV of the flown ones alone
+    /// * `slot` – part of CV² that filaments of a slot make each for itself
     /// * `at_random` – what filaments at random places have more, of a CV²
     fn by_filling(
         &self,
-        maps: &[Map; 2],
-        (patch, few): (f64, f64),
+        filled: &FilledMaps,
+        (patch, few, slot): (f64, f64, f64),
         at_random: &dyn Fn(f64) -> f64,
     ) -> Option<FewFilamentsCv> {
-        if self.arrangement == Arrangement::Slot || patch >= PITCHES * self.pitch() {
+        if !filled.patches.contains(&patch) {
             return None;
         }
-        let [filled, half] = maps.each_ref().map(|map| unevenness(map, self.side(patch)));
+        let maps = [&filled.of_all, &filled.of_every_second];
+        let [of_blocks, of_half_blocks] = maps.map(|map| blocks(map, self.side(patch), self.blocks));
+        let [filled, half] = maps.map(|map| unevenness(map, self.side(patch)));
         let (filled, half) = (filled?, half?);
         let own = |cv: f64| match self.arrangement {
             Arrangement::AtRandom => at_random(cv * cv),
             Arrangement::Rows | Arrangement::Slot => 0.0,
         };
         let [cv, half] = [filled.cv, half.cv].map(|cv| (cv * cv + own(cv)).max(0.0).sqrt());
+        // Halves may agree by chance, but not in every block of the sheet.
+        let differences =
+            of_blocks.iter().zip(&of_half_blocks).map(|(all, half)| (half - all) * (half - all));
+        let by_blocks = 0.5 * differences.sum::<f64>().sqrt() / of_blocks.len() as f64 / cv;
+        // Filled-in filaments lie more alike than they do, and lack what is missing. Over small patches the two
+        // errors may cancel in the halves, which then say too little.
+        let small = if patch < small_patch(self.pitch()) { SMALL * cv } else { 0.0 };
         Some(FewFilamentsCv {
             patch,
             cv,
             by_chance: filled.standard_error.map(|error| error * filled.cv / cv),
-            // Filled-in filaments lie more alike than they do, and lack what is missing. The two errors may
-            // cancel in the halves, which then say too little.
-            by_pitch: (0.5 * (half - cv)).hypot(SMALL * cv),
+            by_pitch: (half - cv).abs().max(by_blocks).hypot(small),
             of_halves: half / cv - 1.0,
-            own: own(filled.cv),
+            own: if self.arrangement == Arrangement::Slot { slot } else { own(filled.cv) },
             few,
         })
     }
@@ -247,10 +273,10 @@ impl FewFilaments<'_> {
                 known().sum::<f64>() / known().count() as f64 * scale
             });
             let known = |found: &Vec<Known>| {
-                let [Some(itself), Some(next), Some(second), _, Some(all)] = found[number] else {
+                let [Some(itself), Some(next), Some(second), _, Some(all), Some(even)] = found[number] else {
                     return None;
                 };
-                Some([itself, next, second, all].map(|product| scale * product))
+                Some([itself, next, second, all, per_filament * even].map(|product| scale * product))
             };
             let pairs = found.chunks_exact(2).filter_map(|pair| Some([known(&pair[0])?, known(&pair[1])?]));
             Products { means, pairs: pairs.collect() }
@@ -300,11 +326,12 @@ impl FewFilaments<'_> {
         }
         let Some(own) = &all[0] else { return Ok(none()) };
         let around = Sums::around(map, first as i64, own.columns);
+        let even = Sums::even(own.columns, map.rows);
         let of_side = |side: &usize| {
             let with = |other: &Sums| own.product(other, *side);
             let [itself, next, second, fourth] =
                 std::array::from_fn(|neighbour| all[neighbour].as_ref().map(with));
-            [itself, next, second, fourth, Some(with(&around))]
+            [itself, next, second, fourth, Some(with(&around)), Some(with(&even))]
         };
         Ok(sides.iter().map(of_side).collect())
     }

@@ -30,6 +30,12 @@ impl Sums {
         Self { columns, rows: map.rows, sums }
     }
 
+    /// One in each cell.
+    pub(super) fn even(columns: usize, rows: usize) -> Self {
+        let corner = |i: usize| (i / (columns + 1) * (i % (columns + 1))) as u64;
+        Self { columns, rows, sums: (0..(columns + 1) * (rows + 1)).map(corner).collect() }
+    }
+
     /// Sum over the places of a patch of its products on this map and on another one of the same size.
     ///
     /// * `side` – of the patch [cells]; places are half of it apart
