@@ -195,6 +195,39 @@ async function checkTable(page, where, shot) {
   expect((await page.locator("figure.view").innerText()) === words, `${where}: words of the light table change with the view`);
 }
 
+/** The answers stand on the first screen, before anything that is folded, and each command has a button that copies it. */
+async function checkAnswers(page, where) {
+  const cards = await page.locator(".card").evaluateAll((all) => all.map((one) => [one.id, one.getBoundingClientRect().top + scrollY]));
+  const ids = cards.map(([id]) => id);
+  for (const id of ["web", "scale", "line", "buyer", "measure", "change", "doubt"]) expect(ids.includes(id), `${where}: the answer ${id} is missing`);
+  const below = cards.filter(([, top]) => top > 900).map(([id]) => id);
+  expect(innerWidthOf(where) < 1000 || below.length === 0, `${where}: ${below} are below the first screen`);
+  const folded = await page.locator("details.fold").evaluateAll((all) => all.map((one) => [one.open, one.querySelector("summary span").textContent]));
+  expect(folded.length >= 4 && folded.every(([open]) => !open), `${where}: what is folded is open`);
+  expect(folded.every(([, contents]) => contents.trim() !== ""), `${where}: a fold does not say what is in it`);
+  for (const button of await page.locator(".card [data-command]").all()) {
+    await button.click();
+    await page.waitForFunction((one) => one.textContent === "Copied", await button.elementHandle());
+    const [copied, command] = [await page.evaluate(() => navigator.clipboard.readText()), await button.getAttribute("data-command")];
+    expect(copied === command && command.includes(" --out "), `${where}: copied is ${copied} and not ${command}`);
+  }
+}
+
+const innerWidthOf = (where) => Number(/(\d+) px/.exec(where)[1]);
+
+/** On paper the web keeps its shape, and all that is folded is open. */
+async function checkPaper(page, where) {
+  await page.emulateMedia({ media: "print" });
+  await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+  const image = await page.locator("#sheet").evaluate((one) => {
+    const { width, height } = one.getBoundingClientRect();
+    return [width / height, one.naturalWidth / one.naturalHeight];
+  });
+  expect(Math.abs(image[0] / image[1] - 1) < 0.01, `${where}: on paper the web has the shape ${image[0]}, and it is ${image[1]}`);
+  expect((await page.locator("details:not([open])").count()) === 0, `${where}: on paper something is folded`);
+  await page.emulateMedia({ media: "screen" });
+}
+
 /** The pictures of all webs have one size, on the screen and in pixels, so one scale. */
 async function checkPictures(page, where) {
   const sizes = await page.locator(".beside img").evaluateAll((pictures) =>
@@ -270,10 +303,12 @@ async function check(scheme, width) {
   };
   await shot("page", true);
 
+  if (options.web) await checkAnswers(page, where);
   await checkTables(page, where);
   const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
   expect(overflow <= 1, `${where}: the page is ${overflow} px wider than the window`);
   if (options.compare) await checkPictures(page, where);
+  if (options.web) await checkPaper(page, where);
   if (!options.spin && !options.compare && !options.page) {
     const drawn = await pixels(page);
     expect(drawn !== null, `${where}: there is no canvas`);

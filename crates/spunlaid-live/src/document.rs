@@ -6,7 +6,7 @@ use spunlaid::case::keys::{self, Key, Kind};
 use spunlaid::error::{Error, Place};
 use spunlaid::input::{CaseWithNotes, LARGEST_FILE, Unflown, Unread, parse_case};
 use spunlaid::units::Dimension;
-use spunlaid_results::command::quoted;
+use spunlaid_results::command::{beside_of, quoted};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use toml_edit::{DocumentMut, Item, TableLike, Value, value};
@@ -149,11 +149,16 @@ impl Document {
         let Some((path, original)) = &self.file else {
             return "save the case first; then this is the command that runs it".to_owned();
         };
-        let set: String = differences(original, &self.text)
-            .into_iter()
+        let changed = differences(original, &self.text);
+        let set: String = changed
+            .iter()
             .map(|(key, value)| format!(" --set {}", quoted(&format!("{key}={value}"))))
             .collect();
-        format!("spunlaid run {}{set} --replicates {replicates}", quoted(&path.to_string_lossy()))
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        let settings = changed.iter().map(|(key, value)| (&**key, &**value));
+        let out = beside_of(&format!("results/{stem}-live{replicates}"), settings);
+        let file = quoted(&path.to_string_lossy());
+        format!("spunlaid run {file}{set} --replicates {replicates} --out {}", quoted(&out))
     }
 
     /// The text for a file in the present folder: the paths in it are read from there.

@@ -179,6 +179,7 @@ impl LaidWeb {
             fabric: &self.fabric,
             advice: self.advice.as_ref(),
             guesses: self.guesses.as_ref(),
+            beside: &self.name,
             awaited: false,
             notes: &self.notes,
             performance: self.performance,

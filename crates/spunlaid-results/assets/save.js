@@ -32,24 +32,28 @@ function startSaving() {
   });
 }
 
-/** The buttons that copy a text of the page: the case, the methods. */
+/** The buttons that copy a text of the page (the case, the methods) or a command. */
 function startCopying() {
-  document.querySelectorAll("[data-copy]").forEach((button) =>
+  document.querySelectorAll("[data-copy], [data-command]").forEach((button) =>
     button.addEventListener("click", async () => {
-      const block = document.getElementById(button.dataset.copy);
-      let done = true;
+      const { copy, command } = button.dataset;
+      const block = document.getElementById(copy) ?? button;
+      let said = "Copied";
       try {
-        await navigator.clipboard.writeText(block.innerText);
+        await navigator.clipboard.writeText(command ?? block.innerText);
       } catch {
-        // Without leave to write the clipboard: mark the text, for the reader's own copy key.
-        getSelection().selectAllChildren(block);
-        done = false;
+        // Without leave to write the clipboard: show the text, for the reader's own copy key.
+        if (command) prompt("Ctrl+C copies it", command);
+        else getSelection().selectAllChildren(block);
+        said = command ? "Copy" : "Marked: press Ctrl+C";
       }
-      button.textContent = done ? "Copied" : "Marked: press Ctrl+C";
+      button.textContent = said;
       setTimeout(() => (button.textContent = "Copy"), 2500);
     }),
   );
 }
 
+// Paper cannot be unfolded.
+addEventListener("beforeprint", () => document.querySelectorAll("details").forEach((all) => (all.open = true)));
 startSaving();
 startCopying();

@@ -3,6 +3,7 @@
 use crate::case::{Note, Remark};
 use crate::error::Place;
 use crate::layers::{LayerSpec, WebSpec};
+use std::fmt;
 
 /// A number of a line, with the range in which spunbond lines have it; `docs/line.md` says where that comes from.
 #[derive(Debug)]
@@ -112,6 +113,12 @@ impl Implausible {
         };
         let what = Remark::Implausible { words, told, range, advice };
         Note { place: Place::Code, key: (*key).to_owned(), value: None, what }
+    }
+}
+
+impl fmt::Display for Implausible {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.note().fmt(f)
     }
 }
 

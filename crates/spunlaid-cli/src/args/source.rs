@@ -3,7 +3,7 @@
 use clap::{Args, ValueHint};
 use spunlaid::error::{Error, Fault, Problem};
 use spunlaid::input::{CaseWithNotes, LARGEST_FILE, Overrides, Unread, parse_case, read_case, text_of};
-use spunlaid_results::command::quoted;
+use spunlaid_results::command::{beside_of, quoted};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -35,10 +35,15 @@ impl CaseSource {
         read_case(&self.case, overrides)
     }
 
-    /// The same as arguments of a command line.
-    pub(crate) fn words(&self) -> String {
+    /// The same as arguments of a command line; what is set has a folder of its own.
+    ///
+    /// * `name` – of its results
+    pub(crate) fn words(&self, name: &str) -> String {
         let set = self.set.iter().map(|(key, value)| format!(" --set {}", quoted(&format!("{key}={value}"))));
-        quoted(&self.case.to_string_lossy()) + &set.collect::<String>()
+        let all = self.set.iter().map(|(key, value)| (&**key, &**value));
+        let out = format!(" --out {}", quoted(&beside_of(&format!("results/{name}"), all)));
+        let out = if self.set.is_empty() { "" } else { &out };
+        quoted(&self.case.to_string_lossy()) + &set.collect::<String>() + out
     }
 }
 

@@ -28,6 +28,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     let judged_by = arguments.judged_by.as_deref().map(|text| judged_by(&file.spec, text)).transpose()?;
     let (name, origin) = (stem(&arguments.file, "web"), invocation.origin_of([&arguments.file]));
     let (folder, figures) = (output.optional_folder(&name), arguments.figures.files());
+    let beside = output.folder(&name).display().to_string();
     let mut delivery = Delivery::open::<WebFolder<'_>>(folder, origin, output, &figures)?;
     arguments.sheet.as_deref().map_or(Ok(()), |sheet| check_file(sheet, "--sheet", output.force))?;
     // Before anything is flown, because the file may change meanwhile.
@@ -55,6 +56,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
         fabric: &fabric,
         advice: None,
         guesses: None,
+        beside: &beside,
         awaited: !trials.is_empty(),
         notes,
         performance,

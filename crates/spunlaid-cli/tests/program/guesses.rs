@@ -60,10 +60,9 @@ fn analytic_the_sentence_of_guesses_has_the_cv_of_each_and_why_one_cannot_be_lai
     for text in [said, report] {
         let text = text.replace(['\u{a0}', '\u{202f}', '\u{2009}'], " ");
         for part in [
-            "Its error does not know that line.filaments_per_metre and line.throughput are guesses (web.guessed).",
-            &format!(
-                "it lies between {from} and {to} % over patches of 10 mm: line.filaments_per_metre = 1000: "
-            ),
+            "Guesses, of which the error knows nothing",
+            &format!("the CV over patches of 10 mm lies between {from} and {to} %"),
+            "line.filaments_per_metre = 1000",
             "Half of line.throughput, 0.3 g/min, cannot be laid: ",
             "would tear the fibre",
         ] {

@@ -21,6 +21,7 @@ mod gusts;
 mod keys;
 mod lost;
 mod new;
+mod pasted;
 mod points;
 mod records;
 mod refusals;

@@ -19,7 +19,9 @@ fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
     let summary = desk.summary("w");
     // Advice takes such a web for each change, and has to be asked for.
     assert!(
-        table.contains("\nWhat would make it more even was not tried: spunlaid web with --advice"),
+        table.contains(
+            "\nChange first\nWhat would make it more even was not tried: spunlaid web with --advice"
+        ),
         "{table}"
     );
     assert!(summary.get("advice").is_none());

@@ -111,6 +111,7 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
             fabric: &fabric,
             advice: None,
             guesses: None,
+            beside: "web",
             awaited: false,
             notes: &[],
             performance: Performance::default(),

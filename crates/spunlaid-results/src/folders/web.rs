@@ -42,6 +42,8 @@ pub struct WebFolder<'a> {
     pub advice: Option<&'a Advice>,
     /// What guesses matter for it; None if it was not tried.
     pub guesses: Option<&'a Advice>,
+    /// The folder of the web, beside which those of changed webs lie.
+    pub beside: &'a str,
     /// Whether what was not tried is tried next.
     pub awaited: bool,
     /// Notes for the reader.
@@ -70,7 +72,7 @@ impl Contents for WebFolder<'_> {
 
     fn summary(&self) -> String {
         let rows = rows(&self.file.spec, self.web, self.layers);
-        let (found, tried) = ((self.findings, self.fabric), (self.advice, self.guesses));
+        let (found, tried) = ((self.findings, self.fabric), (self.advice, self.guesses, self.beside));
         Summary::new(self.web, found, tried, &rows, self.performance, self.notes).to_json()
     }
 
@@ -103,7 +105,12 @@ impl Contents for WebFolder<'_> {
             web_report(
                 (spec, input, web),
                 (findings, self.fabric),
-                Advised { advice: self.advice, guesses: self.guesses, awaited: self.awaited },
+                Advised {
+                    advice: self.advice,
+                    guesses: self.guesses,
+                    awaited: self.awaited,
+                    beside: self.beside,
+                },
                 (&rows(spec, web, self.layers), &spinlines),
                 &strands,
                 &figures,

@@ -32,8 +32,12 @@ pub fn air_report<'a>(
     );
     Report::new("air", headline)
         .lead(summary)
-        .with_all(field.chunks(1).map(|field| Section::new("field", "The field and the line").figures(field)))
-        .with(Section::new("pictures", "At the first instant").figures(pictures))
+        .with_all(
+            field
+                .chunks(1)
+                .map(|field| Section::new("field", "The field and the line").figures(field).open()),
+        )
+        .with(Section::new("pictures", "At the first instant").figures(pictures).open())
         .with(computed)
         .with(methods("air", of_case(case), "case.toml of the results"))
         .with(file)

@@ -72,6 +72,15 @@ impl<'a> Report<'a> {
         self.render().unwrap_or_else(|error| format!("<!doctype html><title>Report</title><p>{error}"))
     }
 
+    /// As much of the result as a reader takes in at once, and the rest of it.
+    fn said_first(&self) -> (&str, &str) {
+        let ends = self.headline.match_indices(". ").map(|(end, _)| end + 1);
+        match ends.filter(|_| self.headline.len() > MOST_FIRST).take_while(|end| *end <= MOST_FIRST).last() {
+            Some(end) => (&self.headline[..end], self.headline[end..].trim()),
+            None => (&self.headline, ""),
+        }
+    }
+
     /// Of the tab of a browser.
     fn title(&self) -> &str {
         if self.name.is_empty() { &self.headline } else { &self.name }
@@ -80,6 +89,11 @@ impl<'a> Report<'a> {
     /// The sections of the page.
     fn on_page(&self) -> impl Iterator<Item = &Section<'a>> {
         self.sections.iter().filter(|section| section.seen != Seen::Terminal)
+    }
+
+    /// Those of them that stand there in a way.
+    fn shaped(&self, shape: Shape) -> Vec<&Section<'a>> {
+        self.on_page().filter(|section| section.shape == shape).collect()
     }
 
     /// The scripts that the views need, each once.
@@ -105,8 +119,24 @@ pub(super) struct Section<'a> {
     id: String,
     pub(super) heading: String,
     pub(super) seen: Seen,
+    shape: Shape,
     pub(super) parts: Vec<Part<'a>>,
 }
+
+/// How a section stands on its page: an answer beside others on the first screen, open below these, or folded, with
+/// what is in it.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+enum Shape {
+    Card,
+    Open,
+    Folded,
+}
+
+/// Bytes of the sentences that stand above a page.
+const MOST_FIRST: usize = 140;
+
+/// Bytes of names after which those of a folded section are only counted.
+const MOST_NAMES: usize = 120;
 
 /// Where a section is seen.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -151,12 +181,48 @@ pub(super) enum Part<'a> {
 impl<'a> Section<'a> {
     /// * `id` – in its page
     pub(super) fn new(id: impl Into<String>, heading: impl Into<String>) -> Self {
-        Self { id: id.into(), heading: heading.into(), seen: Seen::Page, parts: Vec::new() }
+        let (seen, shape) = (Seen::Page, Shape::Folded);
+        Self { id: id.into(), heading: heading.into(), seen, shape, parts: Vec::new() }
     }
 
-    /// Shown by a terminal too.
+    /// Shown by a terminal too, and not folded on the page.
     pub(super) fn told(self) -> Self {
-        Self { seen: Seen::Both, ..self }
+        Self { seen: Seen::Both, ..self.open() }
+    }
+
+    /// Not folded.
+    pub(super) fn open(self) -> Self {
+        Self { shape: if self.shape == Shape::Card { Shape::Card } else { Shape::Open }, ..self }
+    }
+
+    /// On the first screen, beside others.
+    pub(super) fn card(self) -> Self {
+        Self { shape: Shape::Card, ..self }
+    }
+
+    /// What is in it, for whoever decides whether to unfold it.
+    fn contents(&self) -> String {
+        let headings = self.parts.iter().any(|part| matches!(part, Part::Heading(_)));
+        let names = |part: &Part<'_>| match part {
+            Part::Heading(words) => vec![words.clone()],
+            _ if headings => Vec::new(),
+            Part::Figures { figures, .. } => figures.iter().map(|figure| figure.title.clone()).collect(),
+            Part::Descriptions(all) => all.iter().map(|(name, _)| name.clone()).collect(),
+            Part::Table(table) => table.names(),
+            Part::File { .. } => vec!["the file, to copy".to_owned()],
+            Part::Prose { .. } => vec!["a paragraph and its references, to copy".to_owned()],
+            _ => Vec::new(),
+        };
+        let (mut told, names) = (String::new(), self.parts.iter().flat_map(names).collect::<Vec<_>>());
+        for (number, name) in names.iter().enumerate() {
+            if told.len() > MOST_NAMES {
+                told += &format!("; {} more", names.len() - number);
+                break;
+            }
+            told += if number > 0 { "; " } else { "" };
+            told += name;
+        }
+        told
     }
 
     /// Shown by a terminal in place of sections for which it has no room.
@@ -219,7 +285,7 @@ impl<'a> Section<'a> {
     }
 
     pub(super) fn view(self, view: View<'a>) -> Self {
-        self.with(Part::View(view))
+        self.open().with(Part::View(view))
     }
 }
 

@@ -1,6 +1,7 @@
-//! What changes do to a web, for people: what would make it more even and how much guesses matter, in
-//! sentences under the headline, and a table of all changes that were tried.
+//! What changes do to a web, for people: what would make it more even and how much guesses matter, on the first
+//! screen, and a table of all changes that were tried.
 
+use super::cards::Card;
 use super::table::{Cell, Row, Table, Tone};
 use super::unevenness::{grams, headline_patch};
 use super::words::millimetres;
@@ -23,6 +24,8 @@ pub struct Advised<'a> {
     pub guesses: Option<&'a Advice>,
     /// Whether what was not tried is tried next.
     pub awaited: bool,
+    /// The folder of the web, beside which those of changed webs lie.
+    pub beside: &'a str,
 }
 
 /// Side of the patches by which changes are judged [m].
@@ -31,72 +34,65 @@ fn judged_by(findings: &Findings, advice: &Advice) -> Option<f64> {
     advice.judged_by.or_else(seen)
 }
 
-/// Which changed settings lower the CV of a web most, by how much, and what they cost in throughput: a sentence or two.
-pub fn advice_words(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> String {
+/// Which changed settings lower the CV of a web most, by how much, and what they cost in throughput.
+pub(super) fn advice_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> Card {
+    let card = |rows, words: String| Card { id: "change", title: "Change first", rows, words: vec![words] };
     let Some(advice) = tried.advice else {
-        if tried.awaited {
-            return "What would make it more even is tried next.".to_owned();
-        }
-        return "What would make it more even was not tried: spunlaid web with --advice flies it anew for \
-            each setting of the line."
-            .to_owned();
+        return card(Vec::new(), untried("What would make it more even", tried.awaited));
     };
-    let Some(patch) = judged_by(findings, advice) else { return String::new() };
-    if advice.tried.is_empty() {
-        return "What would make it more even cannot be tried: its fibres have been flown above this belt, or \
-            no setting of its line can be changed. Name a case to fly (laydown.case)."
-            .to_owned();
-    }
+    let Some(patch) = judged_by(findings, advice).filter(|_| !advice.tried.is_empty()) else {
+        let why = "What would make it more even cannot be tried: its fibres have been flown above this belt, or no \
+            setting of its line can be changed. Name a case to fly (laydown.case).";
+        return card(Vec::new(), why.to_owned());
+    };
+    let row = |(tried, effect): Found<'_>, also: String| {
+        let acts = match effect.is_of_clouds() {
+            Some(true) => ", acts on the clouds",
+            Some(false) => ", acts on each filament",
+            None => "",
+        };
+        let [_, belt] = tried.change.experiment.belt_speed;
+        let detail = format!("{}, belt {}{THIN}m/min{acts}{also}", cost(tried), significant(60.0 * belt, 4));
+        Row::new(describe(&tried.change, spec), [format!("{}{THIN}%", per_cent(effect))]).detail(detail)
+    };
+    let with_command =
+        |row: Row, (found, _): Found<'_>| row.command(web_command(&found.change, tried.beside));
     let improvements = advice.improvements(patch);
-    let elsewhere = elsewhere(findings, advice, patch);
+    let named = improvements.iter().take(NAMED).map(|found| with_command(row(*found, String::new()), *found));
+    let other = elsewhere(findings, advice, patch).map(|found| {
+        let here = found.0.on(patch).map_or_else(String::new, |here| {
+            format!(", where it changes that of {} by {}{THIN}%", millimetres(patch), per_cent(here))
+        });
+        with_command(row(found, format!("; over patches of {}{here}", millimetres(found.1.of))), found)
+    });
     let weight = grams(findings.within().basis_weight());
     let what = if findings.laid.shared_air.is_some() { "CV" } else { "expected CV" };
-    let place = format!("over patches of {}", millimetres(patch));
-    let also = elsewhere.map_or_else(String::new, |found| elsewhere_words(found, spec, patch));
-    if improvements.is_empty() {
-        return format!(
-            "At the same {weight}, none of the {} changes of the line that were tried lowers the {what} \
-            {place} by more than 1{THIN}% and beyond chance.{}{also}",
-            advice.tried.len(),
-            unconfirmed(spec, advice, patch)
-        );
-    }
-    let named: Vec<String> = improvements
-        .iter()
-        .take(NAMED)
-        .map(|(tried, effect)| {
-            let acts = match effect.is_of_clouds() {
-                Some(true) => ", which acts on the clouds",
-                Some(false) => ", which acts on what each filament does for itself",
-                None => "",
-            };
-            format!("{} ({}{THIN}%){acts}, {}", describe(&tried.change, spec), per_cent(effect), cost(tried))
-        })
-        .collect();
-    let mut words =
-        format!("At the same {weight}, the {what} {place} falls most with {}.", named.join("; then with "));
-    if named.len() < NAMED {
-        words += &format!(
-            " No other setting that was tried lowers it {place} by more than 1{THIN}% and beyond chance."
-        );
-    }
-    if advice.is_confirmed {
-        words += " These numbers come from a second flight in another air, because the best of many changes \
-            is overrated.";
+    let about = format!(
+        "the {what} over patches of {}, of {} changes that were tried at the same {weight}",
+        millimetres(patch),
+        advice.tried.len()
+    );
+    let mut words = match improvements.len() {
+        0 => format!("None lowers {about}, by more than 1{THIN}% and beyond chance."),
+        1 => format!("Change of {about}; no other lowers it by more than 1{THIN}% and beyond chance."),
+        _ => format!("Change of {about}: what lowers it most."),
+    };
+    if advice.is_confirmed && !improvements.is_empty() {
+        words += " From a second flight in another air, because the best of many changes is overrated.";
     }
     words += &unconfirmed(spec, advice, patch);
-    words += &also;
     if is_known(spec) {
         words += " The lay-down itself is taken as it is, because no fibre was flown.";
     }
-    words
+    card(named.chain(other).collect(), words)
 }
 
-/// The commands that lay the webs of the changes which [`advice_words`] names, in their order.
-pub fn advice_commands(findings: &Findings, advice: &Advice) -> Vec<String> {
-    let Some(patch) = judged_by(findings, advice) else { return Vec::new() };
-    let named = advice.improvements(patch).into_iter().take(NAMED).chain(elsewhere(findings, advice, patch));
-    named.map(|(tried, _)| web_command(&tried.change)).collect()
+/// That something is tried next, or was not.
+fn untried(what: &str, awaited: bool) -> String {
+    match awaited {
+        true => format!("{what} is tried next."),
+        false => format!("{what} was not tried: spunlaid web with --advice tries it."),
+    }
 }
 
 /// Least change of a CV over patches of another size that is named beside those of the headline, as a share
@@ -115,20 +111,6 @@ fn elsewhere<'a>(findings: &Findings, advice: &'a Advice, patch: f64) -> Option<
     let found = patches.flat_map(|other| advice.improvements(other));
     let found = found.filter(|(tried, effect)| effect.difference.value <= -LARGE && is_new(tried));
     found.min_by(|(_, a), (_, b)| a.difference.value.total_cmp(&b.difference.value))
-}
-
-/// * `patch` – by which changes are judged [m]
-fn elsewhere_words((tried, effect): Found<'_>, spec: &WebSpec, patch: f64) -> String {
-    let here = tried.on(patch).map_or_else(String::new, |here| {
-        format!("; over patches of {} that changes it by {}{THIN}%", millimetres(patch), per_cent(here))
-    });
-    format!(
-        " Patches of another size ask for something else: over patches of {} it falls with {} ({}{THIN}%), {}{here}.",
-        millimetres(effect.of),
-        describe(&tried.change, spec),
-        per_cent(effect),
-        cost(tried)
-    )
 }
 
 /// What seemed to be among the best in a first air, and was not in a second one.
@@ -202,7 +184,11 @@ pub(super) fn effect_cell(
 }
 
 /// All changes that were tried, with the command of each, and what is said below them. None if there are none.
-pub(super) fn effects_table(spec: &WebSpec, findings: &Findings, advice: &Advice) -> Option<(Table, String)> {
+pub(super) fn effects_table(
+    spec: &WebSpec,
+    findings: &Findings,
+    (advice, beside): (&Advice, &str),
+) -> Option<(Table, String)> {
     let are_guesses = advice.tried.first()?.change.setting == Setting::GUESS;
     let patches: Vec<f64> = findings.patches.iter().map(|patch| patch.map.patch).collect();
     let row = |tried: &Tried| {
@@ -211,14 +197,15 @@ pub(super) fn effects_table(spec: &WebSpec, findings: &Findings, advice: &Advice
             effect_cell(effect, "–", |difference| difference_text(difference, PER_CENT))
         };
         let ChangedWeb { belt_speed, mass_flow, .. } = &tried.change.experiment;
-        let line = [belt_speed[1], HOUR * mass_flow[1]].map(|number| Cell::from(significant(number, 4)));
+        let line = [60.0 * belt_speed[1], belt_speed[1], HOUR * mass_flow[1]]
+            .map(|number| Cell::from(significant(number, 4)));
         let cells = patches.iter().map(cv).chain(line);
-        Row::new(describe(&tried.change, spec), cells).command(web_command(&tried.change))
+        Row::new(describe(&tried.change, spec), cells).command(web_command(&tried.change, beside))
     };
     let first = if are_guesses { "With another value" } else { "At the same basis weight" };
     let heads = patches.iter().map(|patch| format!("CV at {}, %", millimetres(*patch)));
     let heads = [first.to_owned()].into_iter().chain(heads);
-    let heads = heads.chain(["Belt, m/s", "From each metre, kg/h"].map(str::to_owned));
+    let heads = heads.chain(["Belt, m/min", "Belt, m/s", "From each metre, kg/h"].map(str::to_owned));
     let failed: Vec<String> =
         (advice.failed.iter()).map(|(change, why)| format!("{}: {why}", describe(change, spec))).collect();
     let in_same_air = |tried: &Tried| tried.effects.iter().any(|effect| effect.in_common.is_some());
@@ -266,56 +253,52 @@ pub(super) fn effects_table(spec: &WebSpec, findings: &Findings, advice: &Advice
 }
 
 /// What the CV of a web is with half and twice of each number that its file calls a guess, because the error
-/// of the CV knows nothing of them. Empty without such numbers.
-pub fn guess_words(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> String {
-    let guesses = tried.guesses;
+/// of the CV knows nothing of them: the guess that matters most first.
+pub(super) fn guess_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> Card {
+    let card = |rows, words: String| Card { id: "measure", title: "Measure first", rows, words: vec![words] };
     let names = listed(&spec.guessed);
-    if names.is_empty() {
-        return String::new();
-    }
-    let are = if spec.guessed.len() == 1 { "is a guess" } else { "are guesses" };
-    let begin = format!("Its error does not know that {names} {are} (web.guessed)");
-    let judged = guesses.and_then(|guesses| {
+    let judged = tried.guesses.and_then(|guesses| {
         let patch = judged_by(findings, guesses)?;
         let found = findings.patches.iter().find(|found| found.map.patch == patch)?;
         Some((guesses, patch, found.told()?.cv))
     });
     let Some((guesses, patch, cv)) = judged else {
-        if tried.awaited && guesses.is_none() && tried.advice.is_none() {
-            return format!("{begin}. What half and twice of them do is tried next.");
-        }
-        return format!(
-            "{begin}, and what half and twice of them would do was not tried: spunlaid web with --advice tries it."
+        return card(
+            Vec::new(),
+            match spec.guessed.is_empty() {
+                true => "Its file calls no number a guess (web.guessed).".to_owned(),
+                false => untried(
+                    &format!("What half and twice of the guesses {names} do to the CV"),
+                    tried.awaited && tried.guesses.is_none() && tried.advice.is_none(),
+                ),
+            },
         );
     };
+    let key = |tried: &Tried| tried.change.keys.first().map_or_else(String::new, |key| key.key.clone());
+    let most = |name: &str| {
+        let of = guesses.tried.iter().filter(|tried| key(tried) == name);
+        of.filter_map(|tried| Some(tried.on(patch)?.difference.value.abs())).fold(0.0, f64::max)
+    };
+    let mut sorted: Vec<&Tried> = guesses.tried.iter().collect();
+    sorted.sort_by(|a, b| most(&key(b)).total_cmp(&most(&key(a))));
+    let row = |found: &&Tried| {
+        let (name, value) = value_and_cv(found, patch, cv)?;
+        Some(Row::new(name, [value]).command(web_command(&found.change, tried.beside)))
+    };
+    let rows: Vec<Row> = sorted.iter().filter_map(row).collect();
     let place = format!("over patches of {}", millimetres(patch));
-    let mut told: Vec<(String, Vec<String>)> = Vec::new();
-    for tried in &guesses.tried {
-        let Some((name, value)) = value_and_cv(tried, patch, cv) else { continue };
-        match told.iter_mut().find(|(other, _)| *other == name) {
-            Some((_, values)) => values.push(value),
-            None => told.push((name, vec![value])),
-        }
-    }
-    if told.is_empty() {
-        let failed = failed_words(guesses);
-        return format!("{begin}, and no web with half or twice of them could be flown.{failed}");
-    }
-    let each: Vec<String> =
-        told.iter().map(|(name, values)| format!("{name} = {}", values.join(", "))).collect();
-    let range = guesses.range(patch);
-    let whole = match range {
-        [1.0, 1.0] => "none of them changes it beyond chance".to_owned(),
-        ends => {
+    let words = match (rows.is_empty(), guesses.range(patch)) {
+        (true, _) => "No web with half or twice of the guesses could be flown.".to_owned(),
+        (false, [1.0, 1.0]) => format!("None of these guesses changes the CV {place} beyond chance."),
+        (false, ends) => {
             let [from, to] = ends.map(|end| significant(PER_CENT * end * cv, 2));
-            format!("it lies between {from} and {to}{THIN}%")
+            format!(
+                "Guesses, of which the error knows nothing: with half and twice of each the CV {place} lies between \
+                {from} and {to}{THIN}%. The first one counts most."
+            )
         }
     };
-    format!(
-        "{begin}. With half and twice of each, {whole} {place}: {}.{}",
-        each.join("; "),
-        failed_words(guesses)
-    )
+    card(rows, words + &failed_words(guesses))
 }
 
 /// Which values could not be laid or flown, and why.
@@ -329,12 +312,20 @@ fn failed_words(guesses: &Advice) -> String {
     failed.collect()
 }
 
-/// A key, and `10 mm: 18.3 ± 1.5 %`.
+/// `line.depth = 10 mm`, and `18.3 ± 1.5 %`.
 fn value_and_cv(tried: &Tried, patch: f64, cv: f64) -> Option<(String, String)> {
-    let (key, change) = (tried.change.keys.first()?, tried.on(patch)?.difference);
+    let key = tried.change.keys.first()?;
     let value = key.pretty(key.to).replace(' ', &HARD.to_string());
-    let told = plus_minus(PER_CENT * cv * (1.0 + change.value), Some(PER_CENT * cv * change.standard_error));
-    Some((key.key.clone(), format!("{value}: {told}{THIN}%")))
+    let told = tried.on(patch).map_or_else(
+        || "not known".to_owned(),
+        |Effect { difference: Difference { value, standard_error, .. }, .. }| {
+            // An error of rounding is none.
+            let error = Some(PER_CENT * cv * standard_error).filter(|error| *error > 1e-9);
+            let told = plus_minus(PER_CENT * cv * (1.0 + value), error);
+            format!("{told}{THIN}%")
+        },
+    );
+    Some((format!("{} = {value}", key.key), told))
 }
 
 /// `a, b and c`.

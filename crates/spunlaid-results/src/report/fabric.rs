@@ -3,7 +3,7 @@
 use super::document::Section;
 use super::table::{Content, Layout, Row, Table};
 use super::words::millimetres;
-use crate::output::web::{fabric_rows, known_text};
+use crate::output::web::known_text;
 use spunlaid::fabric::Fabric;
 use spunlaid::observe::{
     Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_STREAKS, OF_STRIPS, OF_THINNEST, PERCENT, measured,
@@ -46,16 +46,6 @@ pub(super) fn fabric_section(fabric: &Fabric) -> Section<'static> {
     let [place, told @ ..] = OF_STREAKS else { return section };
     let streaks: Vec<_> = fabric.streaks.iter().map(|streak| (shown(place, streak), streak)).collect();
     compare(section, ("Streaks of the defects", place.label), told, &streaks)
-}
-
-/// A few numbers of the fabric for a terminal.
-pub(super) fn fabric_in_short(fabric: &Fabric) -> Section<'static> {
-    let facts = fabric_rows(fabric).into_iter().map(|[name, value]| (name, value));
-    let of = if fabric.is_of_map_alone { "" } else { " and of the directions of the fibres" };
-    Section::new("", format!("Fabric, of the map{of}"))
-        .table(Table::of_facts(facts))
-        .paragraphs(fabric.notes.iter().cloned())
-        .on_terminal()
 }
 
 /// A row for each of several parts of the fabric, a column for each measure; below it, what the measures mean.

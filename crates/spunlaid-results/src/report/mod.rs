@@ -9,6 +9,7 @@
 
 mod air;
 mod analysis;
+mod cards;
 mod claims;
 mod comparison;
 mod document;
@@ -23,6 +24,7 @@ mod paper;
 mod pictures;
 mod run;
 mod run_table;
+mod scale;
 mod scan;
 mod sources;
 mod spinline;

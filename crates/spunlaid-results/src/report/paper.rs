@@ -28,7 +28,7 @@ pub fn paper_report<'a>(
     let mut report = Report::new("reproduce", headline).lead(how);
     if !claims.is_empty() {
         let table = claim_table(claims, "What the paper says");
-        report = report.with(Section::new("claims", "Claim by claim").table(table).caption(
+        report = report.with(Section::new("claims", "Claim by claim").open().table(table).caption(
             "The program computes the verdicts from the data. A trend is almost linear if a straight line \
             explains 97\u{202f}% of the variance. A difference is real if it is larger than three standard \
             errors. A step in the wrong direction counts against a trend if it is larger than 2.5 standard \
@@ -55,7 +55,7 @@ pub fn paper_report<'a>(
         .paragraph("Table 1 of the paper with every default filled in.")
         .file("case-toml", toml);
     report
-        .with(Section::of_figures(figures))
+        .with(Section::of_figures(figures).open())
         .with(methods("reproduce", of_case(case), "case.toml of the results"))
         .with(file)
 }

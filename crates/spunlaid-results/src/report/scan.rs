@@ -1,9 +1,11 @@
 //! The report of a scanned web: the web on a light table, how uneven it is, and the figures.
 
+use super::cards;
 use super::document::{Report, Section};
-use super::fabric::{fabric_in_short, fabric_section};
-use super::light_table::{MarkedPlaces, marks_note, picture_note, sheet};
+use super::fabric::fabric_section;
+use super::light_table::{MarkedPlaces, marks_note, picture_note, reading, sheet};
 use super::methods::methods;
+use super::scale::{self, Judged};
 use super::table::{Row, Table};
 use super::unevenness::{CV_OF_PATCHES, cost, grams, headline, largest_clouds, per_cent};
 use super::view::View;
@@ -48,17 +50,31 @@ pub fn scan_report<'a>(
         "The map is in map.npy (kg/m², or parts of the mean where that is not known; a row of the web after \
         the other), all numbers in summary.json, beside this page.",
     );
-    let web = Section::new("web", "The web on a light table").view(View::LightTable(sheet)).caption(caption);
+    let web = Section::new("web", "The web on a light table")
+        .view(View::LightTable(sheet))
+        .with(reading(caption))
+        .card();
+    let seen = nearest_to_seen(findings.patches.iter().map(|patch| patch.unevenness.patch));
+    let judged = seen.map(|i| judged(findings, &findings.patches[i]));
+    let scale = judged.map(|judged| scale::card(&findings.map, judged)).transpose()?;
     Ok(Report::new("analyse", headline)
         .lead(summary)
         .with(web)
+        .with_all(scale)
         .with(uneven(findings).told())
         .with(fabric_section(fabric))
-        .with(fabric_in_short(fabric))
+        .with(cards::fabric(fabric).into())
         .with(Section::of_figures(figures))
         .with(methods("analyse", Vec::new(), ""))
         .with(read)
         .costing(cost(performance)))
+}
+
+/// What is known of the unevenness over patches; where it is guessed, nothing.
+fn judged(findings: &Findings, PatchFindings { unevenness, interval, .. }: &PatchFindings) -> Judged {
+    let told = findings.guess.is_none().then_some((unevenness.cv, unevenness.standard_error));
+    let (patch, of_map, chance) = (unevenness.patch, unevenness.cv, None);
+    Judged { patch, of_map, told, interval: interval.ok().filter(|_| told.is_some()), chance }
 }
 
 fn title(findings: &Findings) -> String {

@@ -77,6 +77,7 @@ pub fn sources_report<'a>((case, toml): (&Case, &str), sources: &Sources) -> Rep
         false => "they differ by more than chance, so the flights are not steady and no fields are written",
     };
     let sums = Section::new("sums", "Sums")
+        .open()
         .table(Table::of_facts(forces.into_iter().chain(heats)))
         .caption(format!(
             "Forces and heat per metre of width, ± one standard error. The force from the inlet to 95 % of the way is \

@@ -23,6 +23,8 @@ pub(super) enum Layout {
     Stacked,
     /// Results with what they mean: on a narrow screen the number stands below its name, and its meaning below both.
     Results,
+    /// Answers of a card: names with values, each with a button that copies its command.
+    Facts,
     /// In a frame that scrolls, which holds so many of this: `all points and columns`.
     Scrolled(&'static str),
 }
@@ -60,7 +62,7 @@ pub(super) struct Row {
     pub(super) detail: String,
     pub(super) cells: Vec<Cell>,
     /// The command that makes what the row is about, below it.
-    command: String,
+    pub(super) command: String,
 }
 
 #[derive(Debug)]
@@ -132,6 +134,14 @@ impl Table {
         Self { foot: Some(row), ..self }
     }
 
+    /// Its heads, or the names of its rows where it has none.
+    pub(super) fn names(&self) -> Vec<String> {
+        let rows = self.groups.iter().flat_map(|group| &group.rows).map(|row| &row.name);
+        let heads = self.columns.iter().map(|column| &column.head);
+        let names: Vec<&String> = if self.has_heads() { heads.collect() } else { rows.collect() };
+        names.into_iter().filter(|name| !name.is_empty()).cloned().collect()
+    }
+
     pub(super) fn is_empty(&self) -> bool {
         self.groups.iter().all(|group| group.rows.is_empty())
     }
@@ -146,6 +156,7 @@ impl Table {
         match self.layout {
             Layout::Stacked => "numbers stacked",
             Layout::Results => "results",
+            Layout::Facts => "facts",
             Layout::Scrolled(_) => "numbers",
         }
     }
@@ -154,7 +165,7 @@ impl Table {
     fn class_of(&self, column: &usize, tone: &Tone) -> String {
         let content = match self.columns.get(*column).map(|column| column.content) {
             // In other tables every cell is a number, unless it says something else.
-            Some(Content::Numbers) if self.layout == Layout::Results => "value",
+            Some(Content::Numbers) if matches!(self.layout, Layout::Results | Layout::Facts) => "value",
             Some(Content::Asides) => "value aside",
             Some(Content::Sentences | Content::Meanings) => "sentence",
             _ => "",

@@ -71,11 +71,16 @@ impl Table {
         let before = text.lines().count().saturating_sub(cells.len());
         let ends = std::iter::repeat_n(String::new(), before).chain(ends);
         let mut titles = self.titles(before);
+        let heads = before + usize::from(self.has_heads());
+        let commands: Vec<&str> = rows().map(|row| row.command.as_str()).collect();
         let lines = text.lines().zip(ends).enumerate();
         lines
             .map(|(i, (line, end))| {
                 let title = titles.remove(&i).map_or_else(String::new, |title| format!("{title}\n"));
-                format!("{title}{}\n", format!("{line}  {end}").trim_end())
+                let command =
+                    i.checked_sub(heads).and_then(|i| commands.get(i)).filter(|all| !all.is_empty());
+                let command = command.map_or_else(String::new, |command| format!("      {command}\n"));
+                format!("{title}{}\n{command}", format!("{line}  {end}").trim_end())
             })
             .collect()
     }

@@ -3,6 +3,7 @@
 use super::frames::Frames;
 use super::light_table::Sheet;
 use super::pictures::Beside;
+use super::scale::Scale;
 use askama::Template;
 
 /// A view, by its kind: each has its template and its scripts.
@@ -14,6 +15,8 @@ pub(super) enum View<'a> {
     LightTable(Sheet),
     #[template(path = "beside.html")]
     Beside(Beside<'a>),
+    #[template(path = "scale.html")]
+    Scale(Scale),
 }
 
 impl View<'_> {
@@ -29,7 +32,7 @@ impl View<'_> {
                 include_str!("../../assets/fibre.js"),
             ],
             Self::LightTable(_) => &[include_str!("../../assets/light_table.js")],
-            Self::Beside(_) => &[],
+            Self::Beside(_) | Self::Scale(_) => &[],
         }
     }
 }

@@ -1,11 +1,13 @@
 //! The report of a web: the web on a light table, what makes it uneven, and the figures.
 
-use super::document::{Part, Report, Section};
-use super::effects::{Advised, advice_commands, advice_words, effects_table, guess_words, is_known};
-use super::fabric::{fabric_in_short, fabric_section};
-use super::light_table::{Fibres, MarkedPlaces, Strands, marks_note, picture_note, sheet};
+use super::cards::{self, Card};
+use super::document::{Report, Section};
+use super::effects::{Advised, advice_card, effects_table, guess_card, is_known};
+use super::fabric::fabric_section;
+use super::light_table::{Fibres, MarkedPlaces, Strands, marks_note, picture_note, reading, sheet};
 use super::load::{loads_in_short, section_of_loads};
 use super::methods::{methods, of_web};
+use super::scale;
 use super::spinline::{LayerSpinline, sections_of_web};
 use super::table::{Row, Table};
 use super::unevenness::{
@@ -18,7 +20,6 @@ use crate::effects::PER_CENT;
 use crate::numbers::{THIN, number, significant};
 use crate::output::load::LoadSummary;
 use crate::output::web::{Layer, PatchTable, Performance, Reader};
-use spunlaid::advice::Advice;
 use spunlaid::charge::BREAKDOWN;
 use spunlaid::fabric::Fabric;
 use spunlaid::layers::WebSpec;
@@ -50,28 +51,44 @@ pub fn web_report<'a>(
     let strands = Strands { window: spec.window(), strands, diameter };
     let sheet = sheet(&findings.laid.map, Some(Fibres::new(strands)), Some(MarkedPlaces::new(fabric)))?;
     let caption = format!("{} {}{}", picture_note(sheet.pixel), strands.words(), marks_note(fabric));
-    let table =
-        Section::new("web", "The web on a light table").view(View::LightTable(sheet)).caption(caption);
-    let headline = headline_of(findings);
-    let errors = error_sentences(findings);
+    let table = Section::new("web", "The web on a light table")
+        .view(View::LightTable(sheet))
+        .with(reading(caption))
+        .card();
     let loads = named_loads(layers);
     let spun = spinlines
         .first()
         .map_or("", |_| "Its filaments begin at the die: [from the melt to the web](#spinline).");
-    Ok(Report::new("web", headline)
-        .lead(guess_words(spec, findings, tried))
-        .lead(advice_words(spec, findings, tried))
-        .lead(sentences([summary(web), laid_weight(web, findings), air_sentence(spec, findings), errors]))
-        .lead(charge_sentence(spec, findings))
+    let doubts = Card {
+        id: "doubt",
+        title: "What its error is made of",
+        rows: Vec::new(),
+        words: [error_sentences(findings), air_sentence(spec, findings)].into(),
+    };
+    let judged = headline_patch(findings).map(|i| scale::Judged::from(&findings.patches[i]));
+    let scale = judged.map(|judged| scale::card(&findings.within(), judged)).transpose()?;
+    Ok(Report::new("web", headline_of(findings))
+        .lead(verdict(findings).pop().unwrap_or_default())
         .lead(spun)
         .with(table)
-        .with(uneven(spec, findings, tried))
+        .with_all(scale)
+        .with_all(
+            [
+                cards::line(spec, findings, layers),
+                cards::fabric(fabric),
+                guess_card(spec, findings, tried),
+                advice_card(spec, findings, tried),
+                doubts,
+            ]
+            .map(Section::from),
+        )
+        .with(uneven(web, findings))
         .with(uneven_in_short(findings))
+        .with(effects(spec, findings, tried))
         .with(fabric_section(fabric))
-        .with(fabric_in_short(fabric))
         .with_all(section_of_loads(&loads))
         .with(loads_in_short(&loads))
-        .with(commands(findings, tried.advice))
+        .with(charge(spec, findings))
         .with(Section::of_figures(figures))
         .with_all(sections_of_web(web, layers, spinlines))
         .with(methods("web", of_web(spec), "web.toml of the results"))
@@ -79,24 +96,27 @@ pub fn web_report<'a>(
         .costing(cost(performance)))
 }
 
-/// What makes it uneven, and what would make it more even.
-fn uneven(
-    spec: &WebSpec,
-    findings: &Findings,
-    Advised { advice, guesses, .. }: Advised<'_>,
-) -> Section<'static> {
+/// All that was changed, and all that was guessed.
+fn effects(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> Section<'static> {
+    let all =
+        [("What would make it more even", tried.advice), ("How much the guesses matter", tried.guesses)];
+    let tables = all.into_iter().filter_map(|(heading, effects)| {
+        Some((heading, effects_table(spec, findings, (effects?, tried.beside))?))
+    });
+    tables.fold(
+        Section::new("tried", "All that was changed and guessed"),
+        |section, (heading, (table, caption))| section.heading(heading).table(table).caption(caption),
+    )
+}
+
+/// How uneven it is over patches of each size, and what makes it so.
+fn uneven(web: &Web, findings: &Findings) -> Section<'static> {
     let PatchTable { heads, rows } = PatchTable::new(findings, Reader::Report);
-    let mut section = Section::new("verdict", "What makes it uneven")
+    Section::new("verdict", "How uneven over which size")
         .paragraphs(verdict(findings))
         .table(Table::new(heads).rows(rows.into_iter().map(Row::from)))
-        .caption(format!("{CV_OF_PATCHES} {}", about_errors(findings)));
-    let effects = [("What would make it more even", advice), ("How much the guesses matter", guesses)];
-    for (heading, tried) in effects {
-        if let Some((table, caption)) = tried.and_then(|tried| effects_table(spec, findings, tried)) {
-            section = section.heading(heading).table(table).caption(caption);
-        }
-    }
-    section
+        .caption(format!("{CV_OF_PATCHES} {}", about_errors(findings)))
+        .paragraph(sentences([summary(web), laid_weight(web, findings)]))
 }
 
 /// The unevenness for a terminal.
@@ -115,13 +135,6 @@ fn uneven_in_short(findings: &Findings) -> Section<'static> {
     Section::new("", format!("Unevenness, CV in %: {whole}, and as expected"))
         .table(Table::of_numbers(heads).rows(rows.into_iter().map(Row::from)))
         .on_terminal()
-}
-
-/// The commands that lay the webs of the changes which are named, for a terminal.
-fn commands(findings: &Findings, advice: Option<&Advice>) -> Section<'static> {
-    let all = advice.map_or_else(Vec::new, |advice| advice_commands(findings, advice));
-    let section = Section::new("", "These webs are laid by").on_terminal();
-    if all.is_empty() { section } else { section.with(Part::List(all)) }
 }
 
 /// What the errors of the CV are made of.
@@ -166,7 +179,7 @@ fn file(layers: &[Layer], toml: &str) -> Section<'static> {
 }
 
 /// Sentences behind each other, without the empty ones.
-fn sentences(all: [String; 4]) -> String {
+fn sentences<const N: usize>(all: [String; N]) -> String {
     all.into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
@@ -259,7 +272,7 @@ fn air_sentence(spec: &WebSpec, findings: &Findings) -> String {
 }
 
 /// What the charge of the filaments does; nothing of filaments without charge.
-fn charge_sentence(spec: &WebSpec, findings: &Findings) -> String {
+fn charge(spec: &WebSpec, findings: &Findings) -> Section<'static> {
     let told = |charged: &ChargedCurtain| {
         let layer = spec.layers.get(charged.layer)?;
         let last = charged.heights.last()?;
@@ -276,7 +289,7 @@ fn charge_sentence(spec: &WebSpec, findings: &Findings) -> String {
         ))
     };
     let together = findings.laid.shared_air.iter().flat_map(|together| &together.charged);
-    together.filter_map(told).collect::<Vec<_>>().join(" ")
+    Section::new("charge", "Charge").paragraphs(together.filter_map(told)).told()
 }
 
 /// What the error in the headline is made of, and what the flown curves say, in sentences.

@@ -23,6 +23,7 @@ pub const OF_FABRICS: &[Measure<Fabric>] = &[
         MILLIMETRES,
         Told(|fabric: &Fabric| Some(Exact(fabric.usable?.width))),
     )
+    .short("Width within tolerance")
     .meaning(
         "width from where, from each edge inwards, the profile across, averaged over 20 mm, is \
             within the tolerance of the mean of the middle half, in this map",
@@ -41,6 +42,7 @@ pub const OF_FABRICS: &[Measure<Fabric>] = &[
         RATIO,
         Told(|fabric: &Fabric| fabric.stiffness_ratio),
     )
+    .short("Stiffness MD/CD")
     .meaning(
         "stiffness along MD over that along CD, ⟨cos⁴⟩/⟨sin⁴⟩ of the directions of the laid fibres, within 20 %: \
             curl within a piece and bonds are not in it",
@@ -65,6 +67,7 @@ pub const OF_FABRICS: &[Measure<Fabric>] = &[
         PERCENT,
         Told(|fabric: &Fabric| Some(Exact(fabric.air?.solid))),
     )
+    .short("Fibre by volume")
     .meaning("volume of the fibre over that of the fabric"),
     Measure::new(
         "air_permeability_m_s",
@@ -85,6 +88,7 @@ pub const OF_FABRICS: &[Measure<Fabric>] = &[
         PERCENT,
         Told(|fabric: &Fabric| fabric.air?.spread),
     )
+    .short("Its spread over 20 cm²")
     .meaning("coefficient of variation of the speed of the air over areas of 20 cm² by the basis weight")
     .named("air_permeability_cv"),
     Measure::new("opacity", "Opacity", PERCENT, Told(|fabric: &Fabric| Some(fabric.opacity?.mean)))
@@ -96,6 +100,7 @@ pub const OF_FABRICS: &[Measure<Fabric>] = &[
         PERCENT,
         Told(|fabric: &Fabric| Some(fabric.opacity?.spread)),
     )
+    .short("Its spread over 2 mm")
     .meaning("standard deviation of the opacity over patches of 2 mm by the basis weight")
     .named("opacity_spread"),
 ];

@@ -7,6 +7,7 @@ mod web;
 
 use crate::args::{CaseSource, Check, Threads};
 use crate::commands::flown::flown;
+use crate::commands::stem;
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::case::{Note, Remark};
@@ -45,5 +46,5 @@ fn show(kind: &str, (text, notes): (&str, &[Note]), comments: &[String], command
     say::line("");
     comments.iter().for_each(|comment| say::line(&format!("# {comment}")));
     let ready = if is_doubtful { "doubtful, see the warnings above; as it stands" } else { "ready" };
-    say::line(&format!("# {ready}: spunlaid {command} {}", source.words()));
+    say::line(&format!("# {ready}: spunlaid {command} {}", source.words(&stem(&source.case, kind))));
 }

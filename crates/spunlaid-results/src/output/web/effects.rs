@@ -125,14 +125,16 @@ fn alone(change: &Change) -> Option<usize> {
 
 impl<'a> EffectsSummary<'a> {
     /// Changes of the line.
-    pub(super) fn of_line(advice: &'a Advice, findings: &Findings) -> Self {
-        let changes = Some(changed_webs(advice, findings, false));
+    ///
+    /// * `beside` – the folder of the web
+    pub(super) fn of_line(advice: &'a Advice, findings: &Findings, beside: &str) -> Self {
+        let changes = Some(changed_webs(advice, (findings, beside), false));
         let judged_by_patch_m = advice.judged_by;
         Self { judged_by_patch_m, ranges: None, changes, values: None, failed: failures(advice) }
     }
 
     /// Other values of guesses.
-    pub(super) fn of_guesses(guesses: &'a Advice, findings: &Findings) -> Self {
+    pub(super) fn of_guesses(guesses: &'a Advice, findings: &Findings, beside: &str) -> Self {
         let range = |effect: &Effect<f64>| {
             let cv = cv_over(findings, effect.of);
             let [cv_from, cv_to] = guesses.range(effect.of).map(|ratio| ratio * cv);
@@ -140,7 +142,7 @@ impl<'a> EffectsSummary<'a> {
         };
         let first = guesses.tried.first();
         let ranges = first.map_or_else(Vec::new, |first| first.effects.iter().map(range).collect());
-        let values = Some(changed_webs(guesses, findings, true));
+        let values = Some(changed_webs(guesses, (findings, beside), true));
         let failed = failures(guesses);
         Self { judged_by_patch_m: guesses.judged_by, ranges: Some(ranges), changes: None, values, failed }
     }
@@ -162,7 +164,7 @@ fn failures(advice: &Advice) -> Vec<Failure<'_>> {
 
 fn changed_webs<'a>(
     advice: &'a Advice,
-    findings: &Findings,
+    (findings, beside): (&Findings, &str),
     are_guesses: bool,
 ) -> Vec<ChangedWebSummary<'a>> {
     let patch = |tried: &Tried, effect: &Effect<f64>| {
@@ -190,7 +192,7 @@ fn changed_webs<'a>(
             layers: if alone(change).is_none() { &change.layers } else { &[] },
             keys: keys(change),
             set: set.iter().map(|(key, value)| (&**key, &**value)).collect(),
-            command: web_command(change),
+            command: web_command(change, beside),
             belt_speed_m_s: belt_speed[1],
             belt_speed_change: belt_speed[1] / belt_speed[0] - 1.0,
             throughput_kg_h_m: HOUR * mass_flow[1],

@@ -51,20 +51,33 @@ fn entries<T>(measures: &'static [Measure<T>], of: &T) -> OrderedObject<Value> {
 /// Side of the patches of which the terminal tells [m].
 const SHOWN: f64 = 5e-3;
 
+/// What is told in two units.
+const AIR: &str = "Air permeability";
+
 /// Most streaks of which the terminal tells.
 const MOST_STREAKS: usize = 5;
 
-/// What the terminal tells of a fabric: names and numbers.
+/// What a buyer counts of a fabric: names and numbers. Thin places and strips come first.
 pub fn fabric_rows(fabric: &Fabric) -> Vec<[String; 2]> {
     let is_near = |value: f64, shown: f64| (value / shown - 1.0).abs() < 0.05;
-    let mut all = rows("", OF_FABRICS, fabric);
+    let mut all = Vec::new();
     for patch in fabric.patches.iter().filter(|patch| is_near(patch.thin.patch, SHOWN)) {
-        let before = format!("Patches of {} mm: ", number(patch.thin.patch * 1e3));
-        all.extend(rows(&before, &OF_FABRIC_PATCHES[1..5], patch));
+        let before = format!("{} mm patches ", number(patch.thin.patch * 1e3));
+        all.extend(rows(&before, &OF_FABRIC_PATCHES[2..4], patch));
     }
     for (strips, direction) in fabric.strips.iter().zip(["MD", "CD"]) {
-        let before = format!("Strips along {direction}: ");
-        all.extend(strips.iter().flat_map(|strips| rows(&before, &OF_STRIPS[2..3], strips)));
+        let name = |[_, value]: [String; 2]| [format!("Weakest strip along {direction}"), value];
+        all.extend(strips.iter().flat_map(|strips| rows("", &OF_STRIPS[2..3], strips)).map(name));
+    }
+    // The width of a piece without edges says nothing of the fabric.
+    let of_edges = if fabric.trim.is_some() { 0 } else { 1 };
+    for row in rows("", &OF_FABRICS[of_edges..], fabric) {
+        let is_air = row[0] == AIR;
+        all.push(row);
+        // As tests tell it.
+        let litres =
+            fabric.air.filter(|_| is_air).map(|air| told(air.permeability.times(1e3), "l/(m² s)", None));
+        all.extend(litres.map(|litres| ["the same".to_owned(), litres]));
     }
     let (name, told) = (&OF_STREAKS[0], &OF_STREAKS[3..]);
     for streak in fabric.streaks.iter().take(MOST_STREAKS) {
@@ -76,7 +89,7 @@ pub fn fabric_rows(fabric: &Fabric) -> Vec<[String; 2]> {
 
 fn rows<T>(before: &str, measures: &'static [Measure<T>], of: &T) -> Vec<[String; 2]> {
     let row = |row: Measured<T>| {
-        let label = row.measure.label;
+        let label = row.measure.terse();
         let name = if before.is_empty() { label.to_owned() } else { before.to_owned() + &lower(label) };
         Some([name, known_text(&row)?])
     };
@@ -93,8 +106,13 @@ fn lower(label: &str) -> String {
 pub fn known_text<T>(row: &Measured<T>) -> Option<String> {
     let Some(Value::Told(known)) = &row.value else { return None };
     let unit = row.measure.unit.readable(known.value());
-    let shown = match known.times(unit.per_si) {
-        Known::Exact(value) => number_to(value, row.measure.digits.unwrap_or(3)),
+    Some(told(known.times(unit.per_si), unit.shown, row.measure.digits))
+}
+
+/// A number in words, with its unit.
+fn told(known: Known, unit: &str, digits: Option<i32>) -> String {
+    let shown = match known {
+        Known::Exact(value) => number_to(value, digits.unwrap_or(3)),
         Known::Value(value, error) => plus_minus(value, error),
         Known::AtLeast(least) => format!("at least {}", number(least)),
         Known::AtMost(most) => format!("at most {}", number(most)),
@@ -102,9 +120,9 @@ pub fn known_text<T>(row: &Measured<T>) -> Option<String> {
         Known::Between([low, high]) if low < 1e-3 => format!("at most {}", number(high)),
         Known::Between([low, high]) => range(low, high),
     };
-    Some(match unit.shown.strip_prefix("1/") {
+    match unit.strip_prefix("1/") {
         Some(area) => format!("{shown} per{HARD}{area}"),
-        None if unit.shown.is_empty() => shown,
-        None => format!("{shown}{THIN}{}", unit.shown),
-    })
+        None if unit.is_empty() => shown,
+        None => format!("{shown}{THIN}{unit}"),
+    }
 }

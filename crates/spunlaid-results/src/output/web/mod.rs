@@ -1,6 +1,7 @@
 //! The files of a web's results folder.
 
 mod charge;
+mod clouds;
 mod effects;
 mod fabric;
 mod map;
@@ -10,6 +11,7 @@ mod sheet;
 mod strands;
 mod summary;
 
+pub use clouds::with_clouds;
 pub(crate) use effects::HOUR;
 pub use fabric::{fabric_rows, known_text};
 pub use map::{light_table, write as write_map, write_array as write_scan};

@@ -12,7 +12,7 @@ const PICTURE: f64 = 1000.0;
 /// Most cells of a piece.
 const MOST_CELLS: f64 = 16e6;
 /// Quanta of a pixel of mean weight: fine enough for any web, and a pixel may be four thousand times as heavy.
-const MEAN: f64 = (1u32 << 20) as f64;
+pub(super) const MEAN: f64 = (1u32 << 20) as f64;
 /// So much of a pixel may be missing by rounding.
 const ROUNDING: f64 = 1e-6;
 

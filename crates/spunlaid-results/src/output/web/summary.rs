@@ -328,10 +328,12 @@ impl NumberWithError {
 
 impl<'a> Summary<'a> {
     /// Gathers everything.
+    ///
+    /// * `beside` – the folder of the web, beside which those of changed ones lie
     pub fn new(
         web: &Web,
         (findings, fabric): (&Findings, &'a Fabric),
-        (advice, guesses): (Option<&'a Advice>, Option<&'a Advice>),
+        (advice, guesses, beside): (Option<&'a Advice>, Option<&'a Advice>, &str),
         layers: &'a [Layer],
         performance: Performance,
         notes: &'a [String],
@@ -365,8 +367,8 @@ impl<'a> Summary<'a> {
                 ..WebSummary::from_map(&findings.laid.map, findings.clouds.as_ref(), patches.collect())
             },
             fabric: Some(FabricSummary::new(fabric)),
-            advice: advice.map(|advice| EffectsSummary::of_line(advice, findings)),
-            guesses: guesses.map(|guesses| EffectsSummary::of_guesses(guesses, findings)),
+            advice: advice.map(|advice| EffectsSummary::of_line(advice, findings, beside)),
+            guesses: guesses.map(|guesses| EffectsSummary::of_guesses(guesses, findings, beside)),
             neighbours: NeighboursSummary::from_findings(findings, layers),
             charge: ChargeSummary::from_findings(findings, |layer| {
                 layers.get(layer).map_or("", |layer| layer.name.as_str())

@@ -1,0 +1,96 @@
+//! Every command that the program prints or writes works as it stands, where it was printed, and a second time too.
+
+use crate::desk::{Desk, FED, success};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+/// A line of known filaments with a guess, on a sheet that is laid in an instant.
+const LINE: &str = "
+[fibre]
+linear_density = \"2 dtex\"
+density = \"910 kg/m³\"
+[laydown]
+sigma_md = \"4 mm\"
+sigma_cd = \"4 mm\"
+noise = \"15 m^-0.5\"
+[line]
+throughput = \"0.6 g/min\"
+basis_weight = \"20 g/m²\"
+filaments_per_metre = 2000
+[web]
+width = \"40 mm\"
+length = \"40 mm\"
+cell = \"1 mm\"
+patches = [\"2 mm\", \"10 mm\"]
+guessed = \"line.filaments_per_metre\"
+";
+
+/// The commands in a text: on lines of their own, behind `: ` or `# `, or in attributes and code of a page.
+fn commands(text: &str) -> BTreeSet<String> {
+    let plain = text.replace("&#39;", "'").replace("&#x27;", "'").replace("&amp;", "&");
+    let plain = [": ", ", "]
+        .iter()
+        .fold(plain, |text, before| text.replace(&format!("{before}spunlaid "), "\nspunlaid "));
+    let trimmed = plain.split(['\n', '"', '<', '>', '#']).map(str::trim);
+    let is_command = |part: &&str| {
+        let named = part.strip_prefix("spunlaid ").and_then(|rest| rest.split_once(' '));
+        named.is_some_and(|(verb, rest)| {
+            ["check", "run", "spin", "web", "sweep", "air"].contains(&verb) && rest.contains(".toml")
+        })
+    };
+    trimmed.filter(is_command).map(str::to_owned).collect()
+}
+
+/// Runs a line of a shell, in which the program is called as people call it.
+fn paste(desk: &Desk, line: &str) {
+    let program = Path::new(env!("CARGO_BIN_EXE_spunlaid")).parent().unwrap();
+    let path = format!("{}:{}", program.display(), std::env::var("PATH").unwrap());
+    let output =
+        Command::new("sh").args(["-c", line]).env("PATH", path).current_dir(desk.path("")).output().unwrap();
+    assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+}
+
+/// Runs all commands of some texts, twice.
+fn paste_all(desk: &Desk, texts: &[String], least: usize) {
+    let all: BTreeSet<String> = texts.iter().flat_map(|text| commands(text)).collect();
+    assert!(all.len() >= least, "{all:#?}");
+    for _ in 0..2 {
+        all.iter().for_each(|line| paste(desk, line));
+    }
+}
+
+#[test]
+fn every_command_of_a_web_can_be_pasted() {
+    let desk = Desk::with_case(FED);
+    fs::write(desk.path("my line.toml"), LINE).unwrap();
+    for (arguments, folder, set) in [
+        (&["web", "my line.toml"][..], "results/my line", &[][..]),
+        (&["web", "my line.toml", "--out", "here"], "here", &["line.throughput=0.5 g/min"]),
+    ] {
+        let set_is_empty = set.is_empty();
+        let set = set.iter().flat_map(|set| ["--set", set]);
+        let said = success(desk.spunlaid("").args(arguments).args(set));
+        let report = String::from_utf8(desk.read(&format!("{folder}/report.html"))).unwrap();
+        let summary = desk.summary(folder);
+        let told: Vec<String> = ["advice", "guesses"]
+            .iter()
+            .flat_map(|kind| ["changes", "values"].map(|list| &summary[*kind][list]))
+            .flat_map(|list| list.as_array().cloned().unwrap_or_default())
+            .map(|change| change["command"].as_str().unwrap().to_owned())
+            .collect();
+        assert!(told.len() >= 6, "{told:?}");
+        // Each has a folder of its own beside that of the web.
+        let folders: BTreeSet<&str> =
+            told.iter().filter_map(|line| Some(line.split_once("--out ")?.1)).collect();
+        assert_eq!(folders.len(), told.len(), "{told:?}");
+        assert!(folders.iter().all(|out| out.trim_matches('\'').starts_with(folder)), "{folders:?}");
+        let on_page = commands(&report);
+        assert!(told.iter().all(|line| on_page.contains(line)), "{told:#?} {on_page:#?}");
+        // Of the second web only the names of the folders are other ones.
+        if set_is_empty {
+            paste_all(&desk, &[said, report], told.len());
+        }
+    }
+}
