@@ -305,7 +305,8 @@ Examples:
   spunlaid new --web line.toml --polymer pp --throughput \"0.5 g/min\" --dtex 2 \\
     --basis-weight \"20 g/m²\" --holes-per-metre 5000 --air-speed \"60 m/s\"
   spunlaid new --web two.toml --polymer pp --throughput \"0.4 g/min\" --diameter \"16 µm\" \\
-    --basis-weight \"15 g/m²\" --holes 22500 --width \"4.5 m\" --beams 2 --air-speed \"70 m/s\"";
+    --basis-weight \"15 g/m²\" --holes 22500 --width \"4.5 m\" --beams 2 --air-speed \"70 m/s\"
+  spunlaid new --web line.toml --belt-speed \"250 m/min\" --thickness \"0.25 mm\"   asks for the rest";
 
 /// Of commands that go on where they were left.
 pub(super) const FORCE_HELP: &str = "Start again; deletes what is in the output folder. A complete one of \

@@ -14,7 +14,8 @@ pub(crate) use figures::Figures;
 pub(crate) use fit::Fit;
 pub(crate) use invocation::Invocation;
 pub(crate) use new::{
-    Given, LineNumbers, New, basis_weight, beams, holes, length, polymer, speed, throughput, titre,
+    Given, LineNumbers, New, basis_weight, beams, belt_speed, depth, holes, length, polymer, speed,
+    throughput, titre, turbulence,
 };
 pub(crate) use output::{Output, Threads};
 pub(crate) use source::{CaseSource, is_standard, overrides};

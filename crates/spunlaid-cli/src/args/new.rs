@@ -3,7 +3,7 @@
 use super::quantity;
 use clap::{Args, ValueHint};
 use spunlaid::spinline::Polymer;
-use spunlaid::units::Dimension;
+use spunlaid::units::{Dimension, with_decimal_point};
 use std::path::PathBuf;
 
 /// Most beams of a line, and most holes of a beam.
@@ -48,6 +48,9 @@ pub(crate) struct LineNumbers {
     /// Basis weight of the web in g/m², of all beams together, or with its unit, as "20 gsm"
     #[arg(long, value_name = "WEIGHT", requires = "web", value_parser = basis_weight)]
     pub(crate) basis_weight: Option<Given<f64>>,
+    /// Speed of the belt in m/min in place of the basis weight, or with its unit, as "4 m/s"
+    #[arg(long, value_name = "SPEED", requires = "web", value_parser = belt_speed)]
+    pub(crate) belt_speed: Option<Given<f64>>,
     /// Holes of a beam per metre of width
     #[arg(long, value_name = "N", requires = "web", value_parser = holes)]
     pub(crate) holes_per_metre: Option<u64>,
@@ -63,6 +66,15 @@ pub(crate) struct LineNumbers {
     /// Distance from the slot to the belt in m, or with its unit, as "500 mm" [default: "0.5 m"]
     #[arg(long, value_name = "LENGTH", requires = "web", value_parser = length)]
     pub(crate) distance: Option<Given<f64>>,
+    /// Depth of the slot along the machine in mm, or with its unit [default: "20 mm", a guess]
+    #[arg(long, value_name = "LENGTH", requires = "web", value_parser = depth)]
+    pub(crate) slot_depth: Option<Given<f64>>,
+    /// Turbulence intensity of the air at the end of the slot, as "12 %" [default: "10 %", a guess]
+    #[arg(long, value_name = "SHARE", requires = "web", value_parser = turbulence)]
+    pub(crate) turbulence: Option<Given<f64>>,
+    /// Thickness of the finished fabric in mm, or with its unit, as "250 µm": without it no air permeability is told
+    #[arg(long, value_name = "LENGTH", requires = "web", value_parser = depth)]
+    pub(crate) thickness: Option<Given<f64>>,
     /// Number of equal beams, one behind the other [default: 1]
     #[arg(long, value_name = "N", requires = "web", value_parser = beams)]
     pub(crate) beams: Option<u64>,
@@ -84,9 +96,12 @@ impl<T> From<T> for Given<T> {
 impl LineNumbers {
     /// What there is to say about the numbers, each once.
     pub(crate) fn remarks(&self) -> impl Iterator<Item = &str> {
-        let Self { throughput, dtex, diameter, basis_weight, air_speed, width, distance, .. } = self;
-        let numbers = [throughput, dtex, diameter, basis_weight, air_speed, width, distance];
-        let of_numbers = numbers.into_iter().flatten().map(|given| &given.remark);
+        let Self { throughput, dtex, diameter, basis_weight, belt_speed, air_speed, width, distance, .. } =
+            self;
+        let Self { slot_depth, turbulence, thickness, .. } = self;
+        let of_line = [throughput, dtex, diameter, basis_weight, belt_speed, air_speed, width, distance];
+        let numbers = of_line.into_iter().chain([slot_depth, turbulence, thickness]);
+        let of_numbers = numbers.flatten().map(|given| &given.remark);
         self.polymer.iter().map(|given| &given.remark).chain(of_numbers).flatten().map(String::as_str)
     }
 }
@@ -132,18 +147,23 @@ pub(crate) fn polymer(text: &str) -> Result<Given<Polymer>, String> {
     Ok(Given { value, remark: Some(remark.to_owned()) })
 }
 
-/// A quantity [SI]; a number without a unit has the unit of its question, and says so.
+/// A quantity [SI]; a number without a unit has the unit of its question, and a comma that can only be a decimal sign is
+/// one. Both are said.
 fn in_unit(dimension: Dimension, unit: &'static str) -> impl Fn(&str) -> Result<Given<f64>, String> + Clone {
     move |text| {
         let text = text.trim();
-        match text.parse::<f64>() {
-            Ok(_) => {
-                let whole = format!("{text} {unit}");
-                let remark = Some(format!("{text} has no unit and is taken as {whole}"));
-                Ok(Given { value: quantity(dimension)(&whole)?, remark })
-            }
-            Err(_) => quantity(dimension)(text).map(Given::from),
-        }
+        let point = with_decimal_point(text);
+        let read = point.as_deref().unwrap_or(text);
+        let whole = match read.parse::<f64>() {
+            Ok(_) => format!("{read} {unit}"),
+            Err(_) => read.to_owned(),
+        };
+        let remark = match (&point, whole == read) {
+            (None, true) => None,
+            (None, false) => Some(format!("{text} has no unit and is taken as {whole}")),
+            (Some(_), _) => Some(format!("{text} has a decimal comma and is taken as {whole}")),
+        };
+        Ok(Given { value: quantity(dimension)(&whole)?, remark })
     }
 }
 
@@ -165,6 +185,24 @@ fn diameter(text: &str) -> Result<Given<f64>, String> {
 /// A basis weight [kg/m²]; a number without a unit is one in g/m².
 pub(crate) fn basis_weight(text: &str) -> Result<Given<f64>, String> {
     in_unit(Dimension::BasisWeight, "g/m²")(text)
+}
+
+/// The speed of a belt [m/s]; a number without a unit is one in m/min.
+pub(crate) fn belt_speed(text: &str) -> Result<Given<f64>, String> {
+    in_unit(Dimension::Velocity, "m/min")(text)
+}
+
+/// A depth or a thickness [m]; a number without a unit is one in mm.
+pub(crate) fn depth(text: &str) -> Result<Given<f64>, String> {
+    in_unit(Dimension::Length, "mm")(text)
+}
+
+/// A turbulence intensity; a number without a unit is a share up to one, and per cent above.
+pub(crate) fn turbulence(text: &str) -> Result<Given<f64>, String> {
+    match text.trim().parse::<f64>() {
+        Ok(share) if share <= 1.0 => quantity(Dimension::Ratio)(text.trim()).map(Given::from),
+        _ => in_unit(Dimension::Ratio, "%")(text),
+    }
 }
 
 /// A speed [m/s].

@@ -238,13 +238,50 @@ fn identical_new_reads_the_numbers_of_a_line_however_they_are_written() {
     assert!(said.contains("write a whole number from 1 to 20"), "{said}");
 }
 
+/// The speed of the belt in place of the weight, what is known of slot and air in place of guesses, and the rest through
+/// a pipe with a decimal comma.
+#[test]
+fn new_takes_answers_through_a_pipe_and_what_is_known_is_no_guess() {
+    let desk = Desk::new();
+    // Polymer, throughput, titre, width, holes, beams, air, distance, turbulence; nothing of the thickness.
+    std::fs::write(desk.path("answers"), "pp\n0,6\n\n\n\n\n\n\n12 %\n").unwrap();
+    let mut command = desk.spunlaid("new --web line.toml --slot-depth 25");
+    command.args(["--belt-speed", "250 m/min"]).stdin(std::fs::File::open(desk.path("answers")).unwrap());
+    let output = command.output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{said}");
+    assert!(said.contains("note: 0,6 has a decimal comma and is taken as 0.6 g/min"), "{said}");
+    let web = String::from_utf8(desk.read("line.toml")).unwrap();
+    // 5000 holes/m × 0.6 g/min over 250 m/min.
+    for part in [
+        "belt_speed = \"250 m/min\"   # of the whole web: 5000 holes/m × 0.6 g/min / 4.167 m/s = 12 g/m²\n",
+        "depth = \"25 mm\"   # of the slot: the filaments",
+        "guessed = \"air.length_factor\"",
+    ] {
+        assert!(web.contains(part), "{part}\n{web}");
+    }
+    assert!(!web.contains("basis_weight") && !web.contains("[fabric]"), "{web}");
+    assert!(String::from_utf8(desk.read("line_air.csv")).unwrap().contains(",0.12,16,"));
+    assert!(success(&mut desk.spunlaid("check line.toml")).contains("12 g/m² on a belt of 4.167 m/s"));
+    // A weight that this belt does not take, and a thickness.
+    let more = ["--belt-speed", "250 m/min", "--basis-weight", "17 g/m²"];
+    let line = [&LINE[..6], &LINE[8..], &more].concat();
+    let said = refusal(desk.spunlaid("new --web other.toml").args(line), 1);
+    let told =
+        "a belt of 4.167 m/s takes 2 g/m² from these holes, and not 17 g/m², which need a belt of 0.4902 m/s";
+    assert!(said.contains(told), "{said}");
+    let line = [&LINE[..], &["--thickness", "0.25"]].concat();
+    success(desk.spunlaid("new --web thick.toml").args(line));
+    assert!(String::from_utf8(desk.read("thick.toml")).unwrap().contains("[fabric]\nthickness = \"250 µm\""));
+}
+
 #[test]
 fn rejects_a_line_that_is_not_whole_or_cannot_run() {
     let desk = Desk::new();
     assert_eq!(
         refusal(&mut desk.spunlaid("new --web line.toml --polymer pp --dtex 2 --holes-per-metre 5000"), 1),
-        "error: the numbers of the line are incomplete: --throughput, --basis-weight and --air-speed are \
-        missing; give them, or call the command in a terminal, where it asks; `spunlaid new --help` has \
+        "error: the numbers of the line are incomplete: --throughput, --basis-weight (or --belt-speed) and \
+        --air-speed are missing; give them, or call the command in a terminal, where it asks; `spunlaid new --help` has \
         examples\n"
     );
     let other = |more: &[&str]| refusal(desk.spunlaid("new --web line.toml").args(&LINE[..6]).args(more), 1);

@@ -19,10 +19,26 @@ pub(crate) fn readings(number: &str) -> [Option<String>; 2] {
     [are_thousands.then(|| number.replace(',', "")), is_decimal.then(|| number.replacen(',', ".", 1))]
 }
 
+/// A text whose number has a decimal comma, with a point in its place; None if the comma may stand between thousands
+/// too, or if there is none.
+///
+/// `0,6 g/min` is `0.6 g/min`, and `1,500 MPa` may be either.
+pub fn with_decimal_point(text: &str) -> Option<String> {
+    let (number, rest) = split(text);
+    match readings(number) {
+        [None, Some(decimal)] if number.contains(',') => Some(decimal + rest),
+        _ => None,
+    }
+}
+
+fn split(text: &str) -> (&str, &str) {
+    let is_of_number = |c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | ',' | '.');
+    text.split_at(text.find(|c| !is_of_number(c)).unwrap_or(text.len()))
+}
+
 /// The fault of a quantity that begins with a number with commas.
 pub(super) fn comma(text: &str) -> Fault {
-    let is_of_number = |c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | ',' | '.');
-    let (number, rest) = text.split_at(text.find(|c| !is_of_number(c)).unwrap_or(text.len()));
+    let (number, rest) = split(text);
     let quoted = |number: String| format!("\"{}\"", excerpt(&(number + rest), 40));
     let remedy = match readings(number).map(|reading| reading.map(quoted)) {
         [Some(thousands), Some(decimal)] => {
@@ -60,6 +76,14 @@ mod tests {
             let wanted = [thousands, decimal].map(|reading| reading.map(str::to_owned));
             assert_eq!(readings(number), wanted, "{number}");
         }
+    }
+
+    #[test]
+    fn a_comma_that_can_only_be_a_decimal_sign_becomes_a_point() {
+        let read = |text| with_decimal_point(text);
+        assert_eq!(read("0,6 g/min").as_deref(), Some("0.6 g/min"));
+        assert_eq!(read("2,25").as_deref(), Some("2.25"));
+        assert_eq!([read("1,500 MPa"), read("1,234,567"), read("0.6"), read("pp, 35")], [const { None }; 4]);
     }
 
     #[test]

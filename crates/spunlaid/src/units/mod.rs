@@ -8,6 +8,7 @@ mod table;
 
 pub(crate) use crate::error::{excerpt, shortest};
 pub(crate) use comma::readings;
+pub use comma::with_decimal_point;
 pub(crate) use expression::unknown_name;
 pub use expression::{Expression, Powers};
 pub use si::{si_unit_of, udunits};

@@ -1,6 +1,7 @@
 //! The files of a line: one of its web and its filament, and the air between slot and belt.
 
 use crate::args::{Given, LineNumbers};
+use spunlaid::error::Fault;
 use spunlaid::spinline::Polymer;
 use spunlaid::units::Dimension;
 use spunlaid_results::numbers::significant;
@@ -16,8 +17,10 @@ const INTENSITY: f64 = 0.1;
 const EDDY: f64 = 16e-3;
 const SLOWED: f64 = 1.0 / 6.0;
 
-/// The keys of the numbers that are made up and count for much. Those of the air are factors on what its table has.
-const GUESSED: &str = "line.depth, air.intensity_factor, air.length_factor";
+/// Depth of the slot [m], if the user gives none.
+const DEPTH: f64 = 20e-3;
+/// How far the weight that a belt takes may be from the one that is given beside it, as a share.
+const NEARLY: f64 = 0.01;
 
 /// Digits with which a number that was given is written.
 const GIVEN: usize = 9;
@@ -28,13 +31,26 @@ pub(super) struct Line {
     throughput: f64,
     /// As it was given: a titre, or a diameter.
     size: Size,
-    basis_weight: f64,
+    /// As it was given: of the web, or by the speed of the belt.
+    weight: Weight,
     holes_per_metre: u64,
     holes: Option<u64>,
     beams: u64,
     width: f64,
     distance: f64,
     air_speed: f64,
+    slot_depth: Option<f64>,
+    turbulence: Option<f64>,
+    thickness: Option<f64>,
+}
+
+/// How heavy the web is.
+#[derive(Clone, Copy)]
+enum Weight {
+    /// [kg/m²]
+    OfWeb(f64),
+    /// Of the belt [m/s].
+    BySpeed(f64),
 }
 
 /// How fine a filament is.
@@ -48,25 +64,50 @@ enum Size {
 
 impl Line {
     /// The line of complete numbers.
-    pub(super) fn new(numbers: &LineNumbers) -> Self {
+    ///
+    /// # Errors
+    /// If a belt of the given speed takes another weight than the given one.
+    pub(super) fn new(numbers: &LineNumbers) -> Result<Self, Fault> {
         let or = |given: &Option<Given<f64>>, usual: f64| given.as_ref().map_or(usual, |given| given.value);
         let nan = f64::NAN;
         let width = or(&numbers.width, WIDTH);
         let in_all = numbers.holes.map(|holes| (holes as f64 / width).round().max(1.0) as u64);
-        Self {
+        let value = |given: &Option<Given<f64>>| given.as_ref().map(|given| given.value);
+        let line = Self {
             polymer: numbers.polymer.as_ref().map_or(Polymer::Pp, |given| given.value),
             throughput: or(&numbers.throughput, nan),
             size: match &numbers.diameter {
                 Some(diameter) => Size::Diameter(diameter.value),
                 None => Size::Titre(or(&numbers.dtex, nan)),
             },
-            basis_weight: or(&numbers.basis_weight, nan),
+            weight: match &numbers.belt_speed {
+                Some(speed) => Weight::BySpeed(speed.value),
+                None => Weight::OfWeb(or(&numbers.basis_weight, nan)),
+            },
             holes_per_metre: numbers.holes_per_metre.or(in_all).unwrap_or(1),
             holes: numbers.holes,
             beams: numbers.beams.unwrap_or(1),
             width,
             distance: or(&numbers.distance, DISTANCE),
             air_speed: or(&numbers.air_speed, nan),
+            slot_depth: value(&numbers.slot_depth),
+            turbulence: value(&numbers.turbulence),
+            thickness: value(&numbers.thickness),
+        };
+        let wanted =
+            value(&numbers.basis_weight).filter(|wanted| (line.basis_weight() / wanted - 1.0).abs() > NEARLY);
+        match wanted {
+            None => Ok(line),
+            Some(wanted) => Err(Fault::new(
+                format!(
+                    "a belt of {} takes {} from these holes, and not {}, which need a belt of {}",
+                    speed(line.belt_speed()),
+                    Dimension::BasisWeight.pretty(line.basis_weight()),
+                    Dimension::BasisWeight.pretty(wanted),
+                    speed(line.mass_flow() / wanted),
+                ),
+                "leave out --belt-speed or --basis-weight, or change throughput and holes",
+            )),
         }
     }
 
@@ -92,7 +133,24 @@ impl Line {
     }
 
     fn belt_speed(&self) -> f64 {
-        self.mass_flow() / self.basis_weight
+        match self.weight {
+            Weight::OfWeb(weight) => self.mass_flow() / weight,
+            Weight::BySpeed(speed) => speed,
+        }
+    }
+
+    fn basis_weight(&self) -> f64 {
+        self.mass_flow() / self.belt_speed()
+    }
+
+    /// The keys of the numbers that are made up and count for much. Those of the air are factors on what its table has.
+    fn guessed(&self) -> String {
+        let keys = [
+            ("line.depth", self.slot_depth.is_none()),
+            ("air.intensity_factor", self.turbulence.is_none()),
+            ("air.length_factor", true),
+        ];
+        keys.into_iter().filter(|(_, is_guess)| *is_guess).map(|(key, _)| key).collect::<Vec<_>>().join(", ")
     }
 
     /// What is odd about these numbers.
@@ -125,7 +183,7 @@ impl Line {
 
     /// What comes from each beam, and the weight of all.
     fn holes_and_weight(&self) -> String {
-        let Self { throughput, basis_weight, holes_per_metre, beams, width, .. } = *self;
+        let Self { throughput, weight, holes_per_metre, beams, width, .. } = *self;
         let flow = self.mass_flow();
         let times_beams = if beams > 1 { format!("{beams} beams × ") } else { String::new() };
         let holes = match self.holes {
@@ -139,14 +197,22 @@ impl Line {
                 _ => (format!("\n[[layer]]\nname = \"beam {number}\"\n"), "layer."),
             };
             text += &header;
-            let weight = format!(
-                "basis_weight = \"{}\"   # of the whole web: {times_beams}{holes_per_metre} holes/m × {} / \
-                {} = a belt of {}\n",
-                exact_text(Dimension::BasisWeight, basis_weight),
-                flow_of_hole(throughput),
-                Dimension::BasisWeight.pretty(basis_weight),
-                speed(self.belt_speed()),
+            let [weight_text, belt] =
+                [Dimension::BasisWeight.pretty(self.basis_weight()), speed(self.belt_speed())];
+            let of_all = format!(
+                "of the whole web: {times_beams}{holes_per_metre} holes/m × {}",
+                flow_of_hole(throughput)
             );
+            let weight = match weight {
+                Weight::OfWeb(weight) => format!(
+                    "basis_weight = \"{}\"   # {of_all} / {weight_text} = a belt of {belt}\n",
+                    exact_text(Dimension::BasisWeight, weight)
+                ),
+                Weight::BySpeed(speed) => format!(
+                    "belt_speed = \"{} m/min\"   # {of_all} / {belt} = {weight_text}\n",
+                    significant(speed * 60.0, GIVEN as i32)
+                ),
+            };
             text += &format!(
                 "\n[{prefix}line]\nthroughput = \"{}\"   # of each hole: {} / {} dtex = fed at {}\n{}\
                  filaments_per_metre = {holes_per_metre}   # {holes}{} kg/h from each metre of width, {} kg/h in all\n",
@@ -158,8 +224,11 @@ impl Line {
                 significant(flow / beams as f64 * 3600.0, 4),
                 significant(flow / beams as f64 * width * 3600.0, 4),
             );
-            text += "depth = \"20 mm\"   # of the slot, a guess: the filaments come at an even pitch, each \
-                at a random depth\n";
+            text += &format!(
+                "depth = \"{}\"   # of the slot{}: the filaments come at an even pitch, each at a random depth\n",
+                exact_text(Dimension::Length, self.slot_depth.unwrap_or(DEPTH)),
+                if self.slot_depth.is_none() { ", a guess" } else { "" },
+            );
         }
         text
     }
@@ -170,9 +239,17 @@ impl Line {
             "\n[web]\nwidth = \"{}\"\nlength = \"1 m\"   # of the stretch that is looked at\n\
             # method = \"dynamics\"   # filaments that are independent of each other, a lower bound; left \
             out, they hang in one air\n# edges = \"cut\"   # if the edges of the web are to be seen; \
-            without, it is a part of a wide web\nguessed = \"{GUESSED}\"   # made up: the CV is also told \
-            for half and twice of each; take out what you have measured\n",
-            exact_text(Dimension::Length, self.width)
+            without, it is a part of a wide web\nguessed = \"{}\"   # made up: the CV is also told \
+            for half and twice of each; take out what you have measured\n{}",
+            exact_text(Dimension::Length, self.width),
+            self.guessed(),
+            match self.thickness {
+                Some(thickness) => format!(
+                    "\n[fabric]\nthickness = \"{}\"   # between its bonds\n",
+                    exact_text(Dimension::Length, thickness)
+                ),
+                None => String::new(),
+            }
         )
     }
 
@@ -214,7 +291,8 @@ impl Line {
     pub(super) fn air(&self) -> String {
         let row = |[place, velocity]: [f64; 2]| {
             let cutoff = velocity / (4.0 * EDDY);
-            format!("{},{},{INTENSITY},{},{}\n", place * 1e3, velocity, EDDY * 1e3, significant(cutoff, 4))
+            let intensity = significant(self.turbulence.unwrap_or(INTENSITY), GIVEN as i32);
+            format!("{},{},{intensity},{},{}\n", place * 1e3, velocity, EDDY * 1e3, significant(cutoff, 4))
         };
         let rows = [[0.0, self.air_speed], [self.distance, SLOWED * self.air_speed]].map(row);
         format!(

@@ -12,7 +12,7 @@ use line::Line;
 use spunlaid::error::{Error, Fault};
 use spunlaid::input::{Unread, read_web, starter_case, starter_case_of_fed};
 use std::fs::{OpenOptions, remove_file};
-use std::io::{ErrorKind, IsTerminal, Write, stderr, stdin};
+use std::io::{ErrorKind, Write, stdin};
 use std::path::{Path, PathBuf};
 
 pub(crate) fn new(new: &New) -> Result<(), Failure> {
@@ -35,11 +35,9 @@ pub(crate) fn new(new: &New) -> Result<(), Failure> {
 
 /// Writes the file of a line, and the table of its air.
 fn web(new: &New) -> Result<(), Failure> {
-    let is_terminal = stdin().is_terminal() && stderr().is_terminal();
-    let mut answers = is_terminal.then(|| stdin().lock());
-    let numbers = complete(new.line.clone(), answers.as_mut())?;
+    let numbers = complete(new.line.clone(), &mut stdin().lock())?;
     numbers.remarks().for_each(|remark| say::remark(false, &remark));
-    let line = Line::new(&numbers);
+    let line = Line::new(&numbers)?;
     let path = &new.file;
     need_file(path, "a web is written with the table of its air beside it")?;
     let name = super::stem(path, "line");
