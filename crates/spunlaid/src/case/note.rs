@@ -336,8 +336,8 @@ pub enum Remark {
     /// The case gives no machine direction in a field.
     #[error(
         "is used: the cross direction (CD) is {cross} of the field, {}",
-        if *plane { "along which its air is the same" } else { "as always where its air changes along all axes, or \
-            along one only; write the key if the belt runs otherwise" }
+        if *plane { "along which its air is the same" } else { "a choice of the program, because its air is the \
+            same along none of its axes, or along two; write the key if the belt runs otherwise" }
     )]
     MachineDirectionChosen {
         /// Name of the axis along the cross direction.
