@@ -24,6 +24,8 @@ pub(crate) mod web;
 use crate::args::{Threads, is_standard};
 use crate::say;
 use spunlaid::ensemble::RunControl;
+use spunlaid::error::FileKind;
+use spunlaid::input::kind_of;
 use spunlaid::lanes::Isa;
 use spunlaid::web::LayControl;
 use std::path::Path;
@@ -36,6 +38,13 @@ const LISTED: usize = 24;
 fn stem(file: &Path, otherwise: &str) -> String {
     let stem = file.file_stem().filter(|_| !is_standard(file)).unwrap_or(otherwise.as_ref());
     stem.to_string_lossy().into_owned()
+}
+
+/// What results are called if nobody says it: after their file, and where that is a file of something else, after what
+/// they are of, `line_fibre`. So results of several commands on one file lie beside each other.
+fn name_of(file: &Path, own: FileKind, [otherwise, what]: [&str; 2]) -> String {
+    let name = stem(file, otherwise);
+    if is_standard(file) || kind_of(file) == own { name } else { format!("{name}_{what}") }
 }
 
 /// Installs a handler for Ctrl-C and returns the flag that it sets.

@@ -2,12 +2,13 @@
 
 use super::delivery::{Asides, Delivery};
 use super::flown::flown;
-use super::{plural, run_control, stem};
+use super::{name_of, plural, run_control};
 use crate::args::{Invocation, Run};
 use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::case::{Case, Note};
 use spunlaid::ensemble::{FinerChecks, FinerPlans, RunControl, RunPaths};
+use spunlaid::error::FileKind;
 use spunlaid_results::folders::read_summary_of_run;
 use spunlaid_results::folders::run as files;
 
@@ -18,7 +19,7 @@ use std::time::Instant;
 
 pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     let (mut case, mut notes) = read(run)?;
-    let (name, output) = (stem(&run.source.case, "case"), &run.output);
+    let (name, output) = (name_of(&run.source.case, FileKind::Case, ["case", "fibre"]), &run.output);
     let (folder, origin) = (output.optional_folder(&name), invocation.origin_of([&run.source.case]));
     let mut delivery = Delivery::open::<files::Run<'_>>(folder, origin, output, &run.figures.files())?;
 

@@ -2,11 +2,12 @@
 
 use super::delivery::{Asides, Delivery};
 use super::flown::flown;
-use super::stem;
+use super::name_of;
 use crate::args::{Invocation, Spin, Threads, overrides};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::case::Note;
+use spunlaid::error::FileKind;
 use spunlaid::input::read_spinline;
 use spunlaid_results::folders::spinline::SpinFolder;
 use spunlaid_results::output::spinline::{SpinResults, remarks};
@@ -15,7 +16,8 @@ pub(crate) fn spin(spin: &Spin, invocation: &Invocation) -> Result<(), Failure> 
     let read = read_spinline(&spin.file, overrides(&spin.set));
     let file = flown(read, Threads::default(), spin.output.quiet)?;
     file.notes.iter().for_each(say::note);
-    let (name, origin) = (stem(&spin.file, "spinline"), invocation.origin_of([&spin.file]));
+    let (name, origin) =
+        (name_of(&spin.file, FileKind::Spinline, ["spinline"; 2]), invocation.origin_of([&spin.file]));
     let folder = spin.output.optional_folder(&name);
     let delivery = Delivery::open::<SpinFolder<'_>>(folder, origin, &spin.output, &spin.figures.files())?;
     let results = SpinResults::new(&file)?;

@@ -94,3 +94,25 @@ fn every_command_of_a_web_can_be_pasted() {
         }
     }
 }
+
+#[test]
+fn every_command_of_a_new_line_and_of_a_check_can_be_pasted() {
+    let desk = Desk::new();
+    let numbers =
+        ["--polymer", "pp", "--throughput", "0.5 g/min", "--dtex", "2 dtex", "--holes-per-metre", "100"];
+    let more = ["--basis-weight", "0.5 g/m²", "--air-speed", "60 m/s"];
+    let said = success(desk.spunlaid("new --web line.toml").args(numbers).args(more));
+    // A small sheet and short flights, so that they take an instant; what is printed stays the same.
+    let text = fs::read_to_string(desk.path("line.toml")).unwrap();
+    let small = text
+        .replace("\"1 m\"", "\"0.1 m\"")
+        .replace("\"500 mm\"", "\"100 mm\"")
+        .replace("duration = \"1 s\"", "duration = \"40 ms\"");
+    fs::write(desk.path("line.toml"), small.replace("replicates = 8", "replicates = 2")).unwrap();
+    let checked = success(&mut desk.spunlaid("check line.toml"));
+    let set = success(&mut desk.with("check line.toml", &["line.throughput=0.4 g/min", "web.guessed=none"]));
+    assert!(set.contains("--out results/line-throughput-0.4gmin-guessed-none"), "{set}");
+    let of_file = commands(&text);
+    assert!(of_file.len() >= 3, "{of_file:?}");
+    paste_all(&desk, &[said, text, checked, set], 4);
+}

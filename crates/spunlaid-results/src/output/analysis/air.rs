@@ -53,7 +53,7 @@ pub fn air_block(file: &str, analysis: &Analysis) -> String {
     let mut text = format!(
         "# The air of {}, computed by spunlaid analyse (version {}), with the 95 % confidence interval of each value.\n\
          # It replaces the [air] of a case. The same on the command line:\n\
-         #   spunlaid run my.toml{sets}\n\n[air]\n",
+         #   spunlaid run my.toml{sets} --out results/my-air\n\n[air]\n",
         one_line(file),
         env!("CARGO_PKG_VERSION"),
     );
