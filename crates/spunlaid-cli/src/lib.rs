@@ -38,10 +38,7 @@ fn outlive_the_file_size_limit() {
 
 fn obey(words: impl IntoIterator<Item = OsString>) -> u8 {
     let words: Vec<OsString> = words.into_iter().collect();
-    let parsed = Arguments::command()
-        .try_get_matches_from(&words)
-        .and_then(|matches| Ok((Invocation::new(&matches), Arguments::from_arg_matches(&matches)?)));
-    let (invocation, arguments) = match parsed {
+    let (invocation, arguments) = match parse(&words) {
         Ok(parsed) => parsed,
         Err(error) => {
             // Help and version are not errors; everything else is wrong input.
@@ -53,23 +50,7 @@ fn obey(words: impl IntoIterator<Item = OsString>) -> u8 {
             return code;
         }
     };
-    let done = Failure::catch_panic(|| match arguments.command {
-        Command::Run(run) => commands::run::run(&run, &invocation),
-        Command::Sweep(sweep) => commands::sweep::sweep(&sweep, &invocation),
-        Command::Spin(spin) => commands::spin::spin(&spin, &invocation),
-        Command::Web(web) => commands::web::web(&web, &invocation),
-        Command::Fit(fit) => commands::fit::fit(&fit, &invocation),
-        Command::Air(air) => commands::air::air(&air, &invocation),
-        Command::Live(live) => commands::live::live(&live),
-        Command::Reproduce(arguments) => commands::reproduce::reproduce(&arguments, &invocation),
-        Command::Analyse(analyse) => commands::analyse::analyse(&analyse, &invocation),
-        Command::Compare(compare) => commands::compare::compare(&compare, &invocation),
-        Command::Check(check) => commands::check::check(&check),
-        Command::Keys(keys) => commands::keys::keys(&keys),
-        Command::New(new) => commands::new::new(&new),
-        Command::Completions(completions) => commands::completions::completions(&completions),
-        Command::Man(man) => commands::man::man(&man),
-    });
+    let done = Failure::catch_panic(|| perform(&arguments.command, &invocation));
     let done = done.and_then(|()| say::lost().map_or(Ok(()), |why| Err(output_failure(why))));
     match done {
         Ok(()) => 0,
@@ -78,6 +59,38 @@ fn obey(words: impl IntoIterator<Item = OsString>) -> u8 {
             failure.exit_code()
         }
     }
+}
+
+/// The command of a command line.
+fn parse(words: &[OsString]) -> Result<(Invocation, Arguments), clap::Error> {
+    let matches = Arguments::command().try_get_matches_from(words)?;
+    Ok((Invocation::new(&matches), Arguments::from_arg_matches(&matches)?))
+}
+
+fn perform(command: &Command, invocation: &Invocation) -> Result<(), Failure> {
+    match command {
+        Command::Run(run) => commands::run::run(run, invocation),
+        Command::Sweep(sweep) => commands::sweep::sweep(sweep, invocation),
+        Command::Spin(spin) => commands::spin::spin(spin, invocation),
+        Command::Web(web) => commands::web::web(web, invocation),
+        Command::Fit(fit) => commands::fit::fit(fit, invocation),
+        Command::Air(air) => commands::air::air(air, invocation),
+        Command::Live(live) => commands::live::live(live),
+        Command::Reproduce(arguments) => commands::reproduce::reproduce(arguments, invocation),
+        Command::Analyse(analyse) => commands::analyse::analyse(analyse, invocation),
+        Command::Compare(compare) => commands::compare::compare(compare, invocation),
+        Command::Check(check) => commands::check::check(check),
+        Command::Keys(keys) => commands::keys::keys(keys),
+        Command::New(new) => commands::new::new(new),
+        Command::Completions(completions) => commands::completions::completions(completions),
+        Command::Man(man) => commands::man::man(man),
+    }
+}
+
+/// Performs a command as if it had been written.
+fn perform_words(words: &[OsString]) -> Result<(), Failure> {
+    let parsed = parse(words).map_err(|error| Fault::plain(error.to_string()))?;
+    perform(&parsed.1.command, &parsed.0)
 }
 
 /// Standard output cannot be written.

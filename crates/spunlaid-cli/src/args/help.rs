@@ -266,7 +266,9 @@ Examples:
 pub(super) const COMPARE_HELP: &str = "\
 Every run is compared with the first. Runs with the same seed and the same eddies are compared
 replicate by replicate, which shows small differences; others by Welch's t. Webs, laid by
-`spunlaid web` or scanned (`spunlaid analyse scan.png`), are compared patch by patch.
+`spunlaid web` or scanned (`spunlaid analyse scan.png`), are compared patch by patch. In place of a
+folder a file may stand: that of a web is laid first, a case flown, a scan analysed; the results are
+in results/NAME_flown and results/NAME_analysed. A scan that needs options is analysed before.
 
 The results folder holds
   report.html       for the browser: a table for each pair, and the curves in one picture each
@@ -276,7 +278,8 @@ The results folder holds
 Examples:
   spunlaid compare results/table1 results/faster
   spunlaid compare results/a results/b results/c --out results/three --json
-  spunlaid compare results/web results/scan";
+  spunlaid compare results/web results/scan
+  spunlaid compare scan.png line.toml          my scan against my line, in one step";
 
 pub(super) const CHECK_HELP: &str = "\
 Of a case it prints every default, the mesh, the limits of the time step, and and the expected time

@@ -340,8 +340,8 @@ pub(crate) fn quantity(dimension: Dimension) -> impl Fn(&str) -> Result<f64, Str
 
 #[derive(Debug, Args)]
 pub(crate) struct Compare {
-    /// Results folders of runs, or of webs, the one to compare with first
-    #[arg(value_name = "RUN", value_hint = ValueHint::DirPath, num_args = 2.., required = true)]
+    /// Results folders of runs, or of webs, the one to compare with first; or files of which these are made
+    #[arg(value_name = "RUN", value_hint = ValueHint::AnyPath, num_args = 2.., required = true)]
     pub(crate) runs: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) output: Output,

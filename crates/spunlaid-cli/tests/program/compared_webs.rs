@@ -154,3 +154,23 @@ fn a_folder_without_its_map_is_compared_without_a_picture() {
     let cloudiness = &found["comparisons"][0]["measures"]["cloudiness"]["no_verdict"];
     assert_eq!(cloudiness, "waves of 5 mm are below the blur of the scan (scan)");
 }
+
+/// A scan and the file of a line, in one step: the one is analysed, the other laid, and what one cannot know of the lamp
+/// stands in the first line.
+#[test]
+fn my_scan_is_compared_with_my_line_in_one_step() {
+    let desk = desk();
+    let picture = concat!(env!("CARGO_MANIFEST_DIR"), "/../spunlaid/tests/scan_fixtures/web.png");
+    fs::copy(picture, desk.path("scan.png")).unwrap();
+    let said = success(&mut desk.spunlaid("compare scan.png web.toml"));
+    let told = "web_flown against scan_analysed: what differs is not known: the level of the lamp is a guess";
+    assert!(said.contains(told), "{said}");
+    for folder in ["results/scan_analysed", "results/web_flown", "results/scan_analysed_against_web_flown"] {
+        assert!(desk.path(folder).join("report.html").is_file(), "{folder}");
+    }
+    // What stands in the folders is compared as well, and with the same words; a second time the same is made.
+    let again = success(&mut desk.spunlaid("compare results/scan_analysed web.toml"));
+    assert!(again.contains(told), "{again}");
+    let quiet = success(&mut desk.spunlaid("compare scan.png web.toml --json"));
+    assert!(serde_json::from_str::<Value>(&quiet).is_ok(), "{quiet}");
+}

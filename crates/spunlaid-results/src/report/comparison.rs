@@ -57,11 +57,20 @@ fn row(compared: &ComparedMeasure) -> Row {
     Row::new(format!("{}{unit}", compared.label), cells)
 }
 
+/// Why the first number that both have is not compared.
+fn first_doubt(comparison: &Comparison) -> Option<&str> {
+    let both = |measure: &&ComparedMeasure| measure.means.iter().all(|mean| mean.mean.is_finite());
+    comparison.measures.iter().filter(both).find_map(|measure| measure.doubt.as_deref())
+}
+
 /// What is compared, how much of it differs, and what most clearly.
 fn title(comparisons: &[Comparison]) -> String {
     let first = comparisons.first().map_or("", |comparison| comparison.against.as_str());
     let differing = |comparison: &Comparison| match comparison.beyond_chance() {
-        (_, 0) => "too few data to tell what differs".to_owned(),
+        (_, 0) => match first_doubt(comparison) {
+            Some(doubt) => format!("what differs is not known: {doubt}"),
+            None => "too few data to tell what differs".to_owned(),
+        },
         (0, all) => format!("none of {all} measures differs beyond chance"),
         (beyond, all) => {
             format!("{beyond} of {all} measures differ{}", clearest(comparison).unwrap_or_default())
