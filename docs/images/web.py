@@ -1,11 +1,13 @@
 """Draws web.png: two webs of the same size beside each other, on one scale of grey.
 
     spunlaid web cases/web_shared.toml
-    spunlaid web cases/web_shared.toml --set web.method=dynamics --out results/web_independent
+    spunlaid web cases/web_known.toml --set line.belt_speed="3 m/s" --set line.filaments_per_metre=auto \
+      --set 'line.rows=[{ pitch = "0.2 mm", filaments = 2500 }]' --set web.width="0.5 m" --set web.length="0.5 m" \
+      --out results/web_independent
     python docs/images/web.py results/web_shared/map.npy results/web_independent/map.npy docs/images/web.png
 
 line_web.png is made
-likewise from the webs of docs/line.md, in one air and with web.method=dynamics, with CELLS = 4, and line_cv.png is the figure web_cv.png of the one in one air.
+likewise from the web of docs/line.md, in one air and from the known numbers that its layer tells, with CELLS = 4, and line_cv.png is the figure web_cv.png of the one in one air.
 """
 
 import array

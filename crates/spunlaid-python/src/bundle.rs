@@ -65,11 +65,9 @@ fn make_portable(experiment: &Experiment) -> Experiment {
         Experiment::Web(web) => {
             let mut web = web.with_files_at(full_path);
             for layer in &mut web.layers {
-                match &mut layer.source {
-                    // It is read from this file.
-                    LaydownSource::Case { path, .. } => *path = PathBuf::from(WEB),
-                    LaydownSource::Results { folder, .. } => *folder = full_path(folder),
-                    LaydownSource::Surrogate(_) => {}
+                // It is read from this file.
+                if let LaydownSource::Case { path, .. } = &mut layer.source {
+                    *path = PathBuf::from(WEB);
                 }
             }
             Experiment::Web(web)

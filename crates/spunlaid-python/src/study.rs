@@ -16,7 +16,7 @@ use pyo3::types::{PyDict, PyList};
 use spunlaid::input::{
     Overrides, StudyChanges, StudyFile, parse_changed_study, read_changed_study, read_text, write_experiment,
 };
-use spunlaid::layers::{Method, WebSpec};
+use spunlaid::layers::WebSpec;
 use spunlaid::study::{
     Bundles, Experiment, Journal, Progress, Rounds, rankings, results_of_point, run, unsynced,
 };
@@ -217,8 +217,7 @@ impl Study {
     /// memory, and uses all threads of a machine.
     #[getter]
     fn one_web_a_machine(&self) -> bool {
-        let shares_air = |web: &WebSpec| web.method == Method::SharedAir;
-        self.file.study.points.iter().any(|point| point.experiment.web().is_some_and(shares_air))
+        self.file.study.points.iter().any(|point| point.experiment.web().is_some_and(WebSpec::flies))
     }
 
     /// The keys that differ between points: name, SI unit, whether a factor, the scale of its axis, its

@@ -115,7 +115,7 @@ def test_each_worker_has_one_web_in_one_air(tmp_path: Path) -> None:
         version = 1
         laydown.case = "short.toml"
         line = { filaments_per_metre = 300, depth = "10 mm" }
-        web = { width = "0.1 m", length = "40 mm", patches = ["2 mm", "5 mm"], method = "shared-air" }
+        web = { width = "0.1 m", length = "40 mm", patches = ["2 mm", "5 mm"] }
         """
     )
     study = {"web": tmp_path / "web.toml", "replicates": 2, "vary": {"line.depth": ["0 mm", "5 mm"]}}

@@ -97,7 +97,7 @@ def test_advice_can_be_set(web: spunlaid.Web) -> None:
 
 
 def test_keys_of_the_flown_case(tmp_path: Path) -> None:
-    small = {"web.method": "surrogate", "web.length": 0.4, "web.cell": "1 mm", "run.duration": "0.15 s", "run.replicates": 2}
+    small = {"web.length": 0.4, "web.cell": "1 mm", "run.duration": "0.15 s", "run.replicates": 2}
     near, far = (spunlaid.web(CASES / "web.toml", set={**small, "belt.distance": at}, threads=2) for at in ("0.3 m", "0.5 m"))
     assert near.summary["layers"][0]["sigma_cd_m"] != far.summary["layers"][0]["sigma_cd_m"]
     with pytest.raises(spunlaid.CaseError, match="is a key of a filament that flies, and this web flies none"):
@@ -148,7 +148,7 @@ def test_flown_fibres_make_a_web(tmp_path: Path, fed: spunlaid.Case) -> None:
         {
             "laydown": {"case": tmp_path / "case.toml"},
             "line": {"filaments_per_metre": 500},
-            "web": {"width": 0.5, "length": 0.5, "method": "dynamics"},
+            "web": {"width": 0.5, "length": 0.5},
         }
     )
     assert web.map.mean() > 0

@@ -60,6 +60,19 @@ pub const REMOVED: &[Row] = &[
     ),
     (Removed::Key, "fabric.holes", "0.1.0", NO_HOLES),
     (Removed::Key, "fabric.contact_angle", "0.1.0", NO_HOLES),
+    (
+        Removed::Key,
+        "web.method",
+        "0.1.0",
+        "leave it out: filaments of a case hang in one air, and known numbers in [laydown] make independent ones",
+    ),
+    (
+        Removed::Key,
+        "laydown.results",
+        "0.1.0",
+        "name the case of that run (laydown.case), or write the spreads σ₁ and σ₂ and the noise A that it tells as \
+         laydown.sigma_md, laydown.sigma_cd and laydown.noise",
+    ),
     (Removed::Command, "web --for holes", "0.1.0", "write --for 2mm, the patches that it judged by"),
     (Removed::Python, "spunlaid.fly_web", "0.1.0", AT_ONCE),
     (Removed::Python, "spunlaid.WebFlight", "0.1.0", AT_ONCE),

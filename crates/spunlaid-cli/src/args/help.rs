@@ -168,16 +168,14 @@ A web is a small text file:
   [web]
   width = \"1 m\"
   length = \"1 m\"
-  # method = \"dynamics\"           # lay the flown curves themselves, independent of each other
 
-and how a filament lies, in one of four ways:
+and how a filament lies, in one of three ways:
 
   - the tables of a case, [fibre], [feed], [belt], [air], [drag] and [run], in the same file: its
     filament is flown. `spunlaid run`, `spin` and `air` take the file too
   - [laydown] case = \"spunbond.toml\": they stand in that file, which several webs may share
-  - [laydown] results = \"results/spunbond\": the results folder of such a case
-  - [laydown] sigma_md, sigma_cd and noise: the numbers of the surrogate, with [fibre] and in
-    [line] feed_speed and belt_speed
+  - [laydown] sigma_md, sigma_cd and noise: the numbers of the surrogate, which `spunlaid run`
+    tells, with [fibre] and in [line] feed_speed and belt_speed: a lower bound of the unevenness
 
 A throughput and a basis weight may stand in [line] in place of the speeds. Several beams are
 [[layer]] tables, each with its own [layer.line]; what stands above them is that of all.

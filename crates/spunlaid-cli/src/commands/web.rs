@@ -6,7 +6,7 @@ use super::{lay_control, plural, stem};
 use crate::args::{self, Invocation, Output, overrides};
 use crate::failure::Failure;
 use crate::{progress, say};
-use spunlaid::advice::{Advice, Change, advise, are_tried, judged_by, most_steps, steps};
+use spunlaid::advice::{Advice, Change, MOST_STEPS, advise, are_tried, judged_by, steps};
 use spunlaid::case::Note;
 use spunlaid::error::Error;
 use spunlaid::input::{Changes, Unflown, Unread, WebSpec, read_changes, read_web};
@@ -144,7 +144,7 @@ impl Trials {
 /// Whether changes take longer with the flights for their tensions.
 fn is_long(spec: &WebSpec, unflown: &Unflown<Vec<Change>>) -> bool {
     let flights = unflown.without_flights().map_or(0, |changes| steps(spec, changes));
-    flights + unflown.most_steps() > most_steps(spec.method)
+    flights + unflown.most_steps() > MOST_STEPS
 }
 
 /// What changes do to a web; nothing if that cannot be found, which is told. If it is interrupted, the web

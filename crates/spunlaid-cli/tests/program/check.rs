@@ -201,7 +201,7 @@ fn check_tells_in_which_air_the_filaments_of_a_web_hang() {
         ),
         "{said}"
     );
-    let together = desk.with("check web.toml", &["web.method=shared-air", "web.flown=all"]).output().unwrap();
+    let together = desk.with("check web.toml", &["web.flown=all"]).output().unwrap();
     let said = String::from_utf8(together.stdout).unwrap();
     assert!(
         said.contains(
@@ -220,15 +220,4 @@ fn check_tells_in_which_air_the_filaments_of_a_web_hang() {
     assert!(said.contains(estimate), "{said}");
     let warned = String::from_utf8(output.stderr).unwrap();
     assert!(warned.contains("line.charge = 20 µC/g gives a field of some 1.5 MV/m"), "{warned}");
-    // The notes about the case are told, as `spunlaid web` tells them.
-    let notes = String::from_utf8(together.stderr).unwrap();
-    assert!(notes.contains("note:") && notes.contains("web.method"), "{notes}");
-    let alone = success(&mut desk.with("check web.toml", &["web.method=dynamics"]));
-    for part in [
-        "#   brief.toml: each fibre that is flown has turbulence of its own\n",
-        "lower bound",
-        "to fly them in one air, as in a line: --set web.method=shared-air --set line.depth=\"20 mm\"",
-    ] {
-        assert!(alone.contains(part), "{part}\n{alone}");
-    }
 }

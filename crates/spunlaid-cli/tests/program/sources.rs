@@ -43,8 +43,8 @@ take_up_speed = '20 m/s'
 [fibre]
 element_length = '8 mm'
 ";
-const FILAMENTS: &str = "[line]\nfilaments_per_metre = 4000\ndepth = '10 mm'\n[web]\nwidth = '0.1 m'\nlength = '0.1 m'\n\
-    method = 'surrogate'\n";
+const FILAMENTS: &str =
+    "[line]\nfilaments_per_metre = 4000\ndepth = '10 mm'\n[web]\nwidth = '0.1 m'\nlength = '0.1 m'\n";
 
 /// Air that slows from 20 to 10 m/s.
 fn velocity(x: f64, y: f64) -> [f64; 3] {
@@ -241,7 +241,7 @@ fn rejects_lines_without_a_field_or_a_number_of_filaments() {
     let uniform = LINE.replace("field = 'air.vtk'", "velocity = '20 m/s'");
     refused(&format!("{uniform}{FILAMENTS}"), "air.field");
     // A mistake of the web is told as that, though the fibre could be read alone.
-    let mistaken = FILAMENTS.replace("'0.1 m'\nmethod", "'-1 m'\nmethod");
+    let mistaken = FILAMENTS.replace("length = '0.1 m'", "length = '-1 m'");
     refused(&format!("{LINE}{mistaken}"), "length = ");
     let (head, tail) = LINE.split_once("[feed]").unwrap();
     let fixed = format!("{head}length = '0.1 m'\n{}", &tail[tail.find("[air]").unwrap()..]);

@@ -252,7 +252,7 @@ fn a_run_that_begins_at_the_die_shows_its_spinline() {
 fn a_web_that_begins_at_the_die_shows_the_whole_way() {
     let desk = Desk::with_case(&fed());
     let web = "[laydown]\ncase = \"brief.toml\"\n[line]\nfilaments_per_metre = 500\n[web]\n\
-        width = \"0.5 m\"\nlength = \"0.5 m\"\nmethod = \"dynamics\"\n";
+        width = \"0.2 m\"\nlength = \"0.1 m\"\n";
     fs::write(desk.path("web.toml"), web).unwrap();
     success(&mut desk.spunlaid("web web.toml --out w --quiet"));
     let layer = &desk.summary("w")["layers"][0];

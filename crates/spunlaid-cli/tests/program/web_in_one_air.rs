@@ -13,7 +13,7 @@ fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
         "filaments_per_metre = 500\ndepth = \"10 mm\"\n[web]\nwidth = \"0.1 m\"\nlength = \"40 mm\"\n\
         patches = [\"5 mm\", \"10 mm\"]",
     );
-    fs::write(desk.path("web.toml"), format!("{web}method = \"shared-air\"\n")).unwrap();
+    fs::write(desk.path("web.toml"), &web).unwrap();
     let table = desk::success(&mut desk.spunlaid("web web.toml --out w"));
     assert!(table.contains("airs of their own") && !table.contains("few fibres"), "{table}");
     let summary = desk.summary("w");
@@ -43,7 +43,7 @@ fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
     for patch in summary["web"]["patches"].as_array().unwrap() {
         let number = |name: &str| patch[name].as_f64().unwrap();
         assert!(number("cv") > number("cv_independent"), "{summary}");
-        assert_eq!(number("cv_independent"), number("cv_one_fibre"));
+        assert!(number("cv_independent") > 0.0 && patch.get("cv_one_fibre").is_none(), "{patch}");
     }
     // Filaments at a pitch of 2 mm, in summary and table alike, nearer ones more alike.
     let neighbours = summary["neighbours"]["cd"].as_array().unwrap();
@@ -67,39 +67,22 @@ fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
     let lines = String::from_utf8(desk.read("w/fibres.vtp")).unwrap_or_default();
     assert!(lines.contains("NumberOfLines") && !lines.contains("NumberOfLines=\"0\""), "single fibres");
 
-    // The same file again, and the same web with independent filaments, whose report says what they leave out.
+    // The same file again.
     desk::success(&mut desk.spunlaid("web web.toml --out again --threads 1 --quiet"));
     for file in ["map.npy", "fibres.vtp", "figures/web_cv.csv"] {
         let [one, other] = ["w", "again"].map(|folder| desk.read(&format!("{folder}/{file}")));
         assert!(one == other, "{file}");
     }
-    desk::success(
-        desk.spunlaid("web web.toml --set web.method=dynamics --out d --quiet")
-            .args(["--set", "web.length=0.2 m"]),
-    );
-    let page = String::from_utf8(desk.read("d/report.html")).unwrap();
-    let way_out =
-        page.contains("lower bound") && page.contains("leave web.method out to fly them in one air");
-    assert!(way_out, "nothing of a lower bound");
-    let independent = desk.summary("d");
-    // Alone or together, filaments do the same to their air, within three standard errors of 0.02 N/m. The slot of
-    // 10 mm has 0.54 kg/s of air.
-    let curtains =
-        [&summary, &desk.summary("again"), &independent].map(|of| of["layers"][0]["curtain"].clone());
-    assert_eq!(curtains[0], curtains[1]);
-    let belts = [&curtains[0], &curtains[2]].map(|curtain| {
-        assert_eq!((&curtain["slot_m"], &curtain["filaments_per_m"]), (&0.01.into(), &500.0.into()));
-        let belt = curtain["places"][9].clone();
-        let number = |name: &str| belt[name].as_f64().unwrap();
-        assert!((number("x_m") - 0.1).abs() < 1e-12);
-        let force = belt["force_n_per_m"]["mean"].as_f64().unwrap();
-        assert!((number("share_of_momentum") / (force / (0.5418 * 45.0)) - 1.0).abs() < 1e-3, "{belt}");
-        force
-    });
-    assert!((belts[0] - belts[1]).abs() < 0.06, "{belts:?}");
+    let [curtain, again] = [&summary, &desk.summary("again")].map(|of| of["layers"][0]["curtain"].clone());
+    assert_eq!(curtain, again);
+    // The slot of 10 mm has 0.54 kg/s of air.
+    assert_eq!((&curtain["slot_m"], &curtain["filaments_per_m"]), (&0.01.into(), &500.0.into()));
+    let belt = &curtain["places"][9];
+    let number = |name: &str| belt[name].as_f64().unwrap();
+    assert!((number("x_m") - 0.1).abs() < 1e-12);
+    let force = belt["force_n_per_m"]["mean"].as_f64().unwrap();
+    assert!((number("share_of_momentum") / (force / (0.5418 * 45.0)) - 1.0).abs() < 1e-3, "{belt}");
     assert!(table.contains("Down to the belt they drive it with"), "{table}");
-    assert!(independent["web"]["patches"][0].get("cv_independent").is_none());
-    assert!(independent.get("neighbours").is_none());
 }
 
 /// A web of twelve hundred filaments, larger than the sheet that a few of them lay: that sheet is cut into
@@ -184,7 +167,7 @@ fn a_web_of_too_few_filaments_has_no_number_and_says_how_many_tell_it() {
         "filaments_per_metre = 3000\ndepth = \"10 mm\"\n[web]\nwidth = \"0.3 m\"\nlength = \"40 mm\"\n\
         flown = 40\npatches = [\"5 mm\", \"10 mm\"]",
     );
-    fs::write(desk.path("web.toml"), format!("{web}method = \"shared-air\"\n")).unwrap();
+    fs::write(desk.path("web.toml"), &web).unwrap();
     let table = success(&mut desk.spunlaid("web web.toml --out w --sheet w.pdf"));
     let untold = "How uneven it is, is not known: too few filaments were flown.";
     // Eight in the length scale of 16 mm, as many as fly first where the file does not say.

@@ -25,13 +25,11 @@ class Web(Sheet):
     @property
     def patches(self) -> dict[str, NDArray[np.float64]]:
         """How uneven the web is over square patches, a number for each size `patch_m` [m]: `cv` of the map with its
-        `cv_standard_error` by chance, its `cv_flight_error` by the few fibres that were flown, its `cv_model_error` by the
-        surrogate in place of the flown curves, and its `cv_whole_error` by all of them; `cv_single_fibres` expected
-        from single fibres of the kind that was laid; `cv_flown` expected from the flown curves, and `cv_surrogate` expected
-        from the surrogate, each with its standard error; `cv_independent` expected from the same filaments of a web in one air
-        if each had an air of its own; and `cv_straight_fibres`
-        of straight fibres in all directions of the same mass.
-        What is not known is NaN: without flown fibres, `cv_flown`, the model error and the whole error."""
+        `cv_standard_error` by chance, its `cv_flight_error` by the few fibres that were flown,
+        and its `cv_whole_error` by both; `cv_single_fibres` expected of known numbers, from single fibres, with its standard
+        error; `cv_independent` expected from the same filaments of a web in one air if each had an air of its own, by their
+        surrogate; and `cv_straight_fibres` of straight fibres in all directions of the same mass.
+        What is not known is NaN: without flown fibres, the error by few of them and the whole error."""
         return self._computed.patches
 
     @property

@@ -19,7 +19,7 @@ use spunlaid::observe::{
     OF_WEBS, Value, measured, with_errors,
 };
 use spunlaid::scan::{self, Format, Light, Picture};
-use spunlaid::web::{FewDoubt, FewFilamentsCv, Findings, IndependentCv, LayControl, PatchFindings};
+use spunlaid::web::{FewDoubt, FewFilamentsCv, Findings, LayControl, PatchFindings};
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -49,7 +49,7 @@ const MAKING: Making<'_> = Making { threads: 2, stop: &STOP, room: 200 };
 
 /// Webs that know different numbers of their patches: from the surrogate alone, from flown curves too, from
 /// neither, and of filaments in one air, all or a few of which were flown, and so few that they tell nothing.
-fn kinds(found: &Findings) -> [Findings; 6] {
+fn kinds(found: &Findings) -> [Findings; 5] {
     let with = |change: &dyn Fn(&mut PatchFindings)| {
         let mut kind = found.clone();
         kind.patches.iter_mut().for_each(change);
@@ -70,17 +70,12 @@ fn kinds(found: &Findings) -> [Findings; 6] {
     };
     [
         found.clone(),
-        with(&|patch| patch.flown = Some((0.08, 0.002))),
-        with(&|patch| patch.surrogate = None),
-        with(&|patch| {
-            let independent = IndependentCv { cv: 0.05, standard_error: 0.001, degrees: 20.0 };
-            patch.independent = Some(independent);
-        }),
+        with(&|patch| patch.in_one_air = true),
+        with(&|patch| (patch.in_one_air, patch.single_fibres) = (true, None)),
         with(&few),
         with(&|patch| {
             few(patch);
-            let independent = IndependentCv { cv: 0.05, standard_error: f64::NAN, degrees: f64::NAN };
-            (patch.independent, patch.doubt) = (Some(independent), Some(FewDoubt::Neighbours(0.1)));
+            (patch.in_one_air, patch.doubt) = (true, Some(FewDoubt::Neighbours(0.1)));
             patch.map.standard_error = None;
             if let Some(few) = &mut patch.few {
                 (few.cv, few.by_chance, few.by_pitch, few.of_halves) = (0.0, None, f64::NAN, f64::NAN);

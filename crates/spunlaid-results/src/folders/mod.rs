@@ -37,8 +37,6 @@ pub mod sources;
 pub mod spinline;
 pub mod study;
 pub mod tensions;
-#[cfg(test)]
-mod tests;
 pub mod web;
 
 pub use contents::{Contents, Maker, Making, Page, Written};

@@ -18,7 +18,7 @@ use spunlaid::input::{LayerSpec, WebFile, WebSpec};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{FlownWeb, LayerFibres};
 use spunlaid::spinline::Solution;
-use spunlaid::web::{Fibres, Findings, LayControl, Web, strands};
+use spunlaid::web::{Findings, LayControl, Web, strands};
 use spunlaid_charts::Figure;
 use std::borrow::Cow;
 use std::sync::atomic::AtomicU64;
@@ -125,13 +125,7 @@ impl Contents for WebFolder<'_> {
 fn rows(spec: &WebSpec, web: &Web, layers: &[LayerFibres]) -> Vec<Layer> {
     let row = |(i, (layer, drawn)): (usize, (&LayerSpec, &spunlaid::web::Layer))| {
         let fit = layers.get(i).and_then(LayerFibres::residual);
-        let surrogate = [Some(&drawn.fibres), drawn.other_description.as_ref()]
-            .into_iter()
-            .flatten()
-            .find_map(|fibres| match fibres {
-                Fibres::Surrogate(surrogate) => Some(*surrogate),
-                Fibres::Curves(_) => None,
-            });
+        let surrogate = drawn.fibres.surrogate();
         Layer {
             name: layer.name.clone().unwrap_or_else(|| (i + 1).to_string()),
             linear_density_kg_m: drawn.linear_density,

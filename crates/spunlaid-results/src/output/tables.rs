@@ -102,7 +102,7 @@ pub fn unit_of_column(name: &str) -> &'static str {
 }
 
 /// `laid.parquet`: what fed fibres have laid, in the order of feed.
-pub use spunlaid::layers::LAID;
+pub const LAID: &str = "laid.parquet";
 /// A column of it.
 type PointColumn = (&'static str, fn(&LaidPoint) -> f64);
 /// Its columns.

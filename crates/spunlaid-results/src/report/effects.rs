@@ -41,8 +41,8 @@ pub(super) fn advice_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_
         return card(Vec::new(), untried("What would make it more even", tried.awaited));
     };
     let Some(patch) = judged_by(findings, advice).filter(|_| !advice.tried.is_empty()) else {
-        let why = "What would make it more even cannot be tried: its fibres have been flown above this belt, or no \
-            setting of its line can be changed. Name a case to fly (laydown.case).";
+        let why = "What would make it more even cannot be tried: no setting of its line can be changed. Name a case to \
+            fly (laydown.case).";
         return card(Vec::new(), why.to_owned());
     };
     let row = |(tried, effect): Found<'_>, also: String| {
@@ -81,7 +81,7 @@ pub(super) fn advice_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_
         words += " From a second flight in another air, because the best of many changes is overrated.";
     }
     words += &unconfirmed(spec, advice, patch);
-    if is_known(spec) {
+    if !spec.flies() {
         words += " The lay-down itself is taken as it is, because no fibre was flown.";
     }
     card(named.chain(other).collect(), words)
@@ -148,11 +148,6 @@ fn clouds_apart(spec: &WebSpec, advice: &Advice, patch: f64) -> String {
     )
 }
 
-/// Whether nothing of the web was flown.
-pub(super) fn is_known(spec: &WebSpec) -> bool {
-    spec.layers.iter().all(|layer| layer.source.case().is_none())
-}
-
 /// A change as a share, with its standard error.
 fn per_cent(effect: &Effect<f64>) -> String {
     difference_text(&effect.difference, PER_CENT)
@@ -213,14 +208,9 @@ pub(super) fn effects_table(
         "from blocks of both webs which the same air has laid, so that what both have by chance does not count"
     } else if findings.laid.shared_air.is_some() {
         "which counts both maps as independent"
-    } else if is_known(spec) {
+    } else {
         "from paths with the same random numbers before and after; the lay-down itself (σ MD, σ CD, A) is \
         taken as it is, because no fibre was flown"
-    } else if spec.layers.iter().any(|layer| layer.source.case().is_none()) {
-        "from paths with the same random numbers before and after the change, which leaves out the chance of \
-        the few flown fibres and takes the lay-down of the other layers as exact"
-    } else {
-        "over the flown fibres, each compared with itself in the same gusts before the change"
     }
     .to_owned();
     if advice.is_confirmed {

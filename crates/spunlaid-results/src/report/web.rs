@@ -2,7 +2,7 @@
 
 use super::cards::{self, Card};
 use super::document::{Report, Section};
-use super::effects::{Advised, advice_card, effects_table, guess_card, is_known};
+use super::effects::{Advised, advice_card, effects_table, guess_card};
 use super::fabric::fabric_section;
 use super::light_table::{Fibres, MarkedPlaces, Strands, marks_note, picture_note, reading, sheet};
 use super::load::{loads_in_short, section_of_loads};
@@ -63,7 +63,7 @@ pub fn web_report<'a>(
         id: "doubt",
         title: "What its error is made of",
         rows: Vec::new(),
-        words: [error_sentences(findings), air_sentence(spec, findings)].into(),
+        words: [error_sentences(findings), air_sentence(findings)].into(),
     };
     let judged = headline_patch(findings).map(|i| scale::Judged::from(&findings.patches[i]));
     let scale = judged.map(|judged| scale::card(&findings.within(), judged)).transpose()?;
@@ -122,11 +122,7 @@ fn uneven(web: &Web, findings: &Findings) -> Section<'static> {
 /// The unevenness for a terminal.
 fn uneven_in_short(findings: &Findings) -> Section<'static> {
     let PatchTable { heads, rows } = PatchTable::new(findings, Reader::Terminal);
-    let is_flown = |patch: &PatchFindings| patch.independent.is_none() && patch.flown.is_some();
-    let whole = if findings.patches.iter().any(is_flown) {
-        "of this map ± its standard error by all causes (chance, few fibres flown, model: the surrogate \
-        against the flown curves)"
-    } else if findings.patches.iter().any(|patch| patch.few.is_some()) {
+    let whole = if findings.patches.iter().any(|patch| patch.few.is_some()) {
         "of the web of all filaments, from the flown ones, ± its standard error by all causes (chance, few \
         filaments flown)"
     } else {
@@ -146,10 +142,6 @@ fn about_errors(findings: &Findings) -> &'static str {
     } else if is_shared {
         "All filaments were flown in one air. The error is by chance: another piece of the same web, in \
         other gusts, has another CV."
-    } else if findings.patches.iter().any(|patch| patch.flown.is_some()) {
-        "The error of the map is that of all its causes together: chance (another piece of the same web), \
-        the few fibres that were flown, and the model (the CV of the surrogate against that of the flown \
-        curves). It does not include what the flight itself leaves out."
     } else {
         "The error is by chance only: no fibre was flown, so it is not known how far the surrogate is from real fibres."
     }
@@ -247,9 +239,9 @@ fn whole(patch: &PatchFindings) -> Option<Unevenness> {
 
 /// What the filaments of a web without independent filaments have in common, and what those with airs of
 /// their own leave out, in a sentence or two.
-fn air_sentence(spec: &WebSpec, findings: &Findings) -> String {
+fn air_sentence(findings: &Findings) -> String {
     let patch = headline_patch(findings).map(|i| &findings.patches[i]);
-    match (&findings.laid.shared_air, patch.and_then(|patch| Some((patch, patch.independent?.cv)))) {
+    match (&findings.laid.shared_air, patch.and_then(|patch| Some((patch, patch.independent()?)))) {
         (Some(_), Some((patch, independent))) if patch.doubt.is_some() => format!(
             "In airs of their own the same filaments would give {}, which is a lower bound.",
             per_cent(independent, None)
@@ -261,12 +253,9 @@ fn air_sentence(spec: &WebSpec, findings: &Findings) -> String {
             significant(patch.map.cv / independent, 2)
         ),
         (Some(_), None) => "All filaments were flown in one air.".to_owned(),
-        (None, _) if is_known(spec) => "This is a lower bound: in a line neighbours hang in the same gusts \
+        (None, _) => "This is a lower bound: in a line neighbours hang in the same gusts \
             and come down together, and σ and A of one filament do not say how. Name a case whose filament \
             lies as this one (laydown.case) in place of the numbers to fly them in one air."
-            .to_owned(),
-        (None, _) => "This is a lower bound: in a line neighbours hang in the same gusts and come down \
-            together. Name a case (laydown.case) and leave web.method out to fly them in one air."
             .to_owned(),
     }
 }
@@ -292,10 +281,10 @@ fn charge(spec: &WebSpec, findings: &Findings) -> Section<'static> {
     Section::new("charge", "Charge").paragraphs(together.filter_map(told)).told()
 }
 
-/// What the error in the headline is made of, and what the flown curves say, in sentences.
+/// What the error in the headline is made of, in sentences.
 fn error_sentences(findings: &Findings) -> String {
     let Some(patch) = headline_patch(findings).map(|i| &findings.patches[i]) else { return String::new() };
-    if patch.independent.is_some() && patch.few.is_none() {
+    if patch.in_one_air && patch.few.is_none() {
         return "The error is by chance: every filament of the sheet was flown.".to_owned();
     }
     let error = patch.whole_error();
@@ -323,19 +312,7 @@ fn error_sentences(findings: &Findings) -> String {
             part(error.flight)
         );
     }
-    let Some((flown, of_flown)) = patch.flown else {
-        return "The error is by chance only; that of the surrogate is not known, because no fibre was \
-            flown."
-            .to_owned();
-    };
-    format!(
-        "Chance contributes {} to the error, the small number of flown fibres {}, and the model {}. The CV \
-         expected from the flown curves themselves is {}.",
-        part(error.chance),
-        part(error.flight),
-        part(error.model),
-        per_cent(flown, Some(of_flown))
-    )
+    "The error is by chance only; that of the surrogate is not known, because no fibre was flown.".to_owned()
 }
 
 fn layer(layer: &Layer) -> Row {
@@ -362,9 +339,8 @@ fn verdict(findings: &Findings) -> Vec<String> {
     if patch.doubt.is_some() {
         return Vec::new();
     }
-    // The flown curves are believed where there are some.
-    let is_shared = patch.independent.is_some();
-    let cv = if is_shared { patch.map.cv } else { patch.flown.unwrap_or(patch.single_fibres).0 };
+    let is_shared = patch.in_one_air;
+    let cv = patch.single_fibres.filter(|_| !is_shared).map_or(patch.map.cv, |(cv, _)| cv);
     let ratio = cv / patch.straight_fibres;
     let why = if is_shared {
         "filaments that come down together make clouds"

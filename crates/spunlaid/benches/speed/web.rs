@@ -44,7 +44,6 @@ fn web(cell: f64) -> Web {
             filaments: Filaments::AtRandom { per_metre: 1024.0 },
             fibres: Fibres::Surrogate(SURROGATE),
             defects: Vec::new(),
-            other_description: None,
         }],
         seed: 1,
     }

@@ -26,7 +26,6 @@ fn web(filaments: Filaments, sizes: [f64; 2], edges: Edges) -> Web {
             filaments,
             fibres: Fibres::Surrogate(spunbond),
             defects: Vec::new(),
-            other_description: None,
         }],
         seed: 0,
     }

@@ -16,9 +16,7 @@ pub use setting::ChangedWeb;
 use self::few::WebOfFew;
 use crate::effects::{self, NAMED, Outcome, Setting, Trials};
 use crate::error::{Error, Fault};
-use crate::layers::{
-    Flights, Flyer, LaydownSource, LayerSpec, Method, WebSpec, fits_memory, steps_in_same_air,
-};
+use crate::layers::{Flights, Flyer, WebSpec, fits_memory, steps_in_same_air};
 use crate::threads::try_each;
 use crate::units::Dimension;
 use crate::web::{ExpectedCv, Findings, LayControl, PatchFindings, Web, expected_cv, nearest_to_seen};
@@ -37,11 +35,11 @@ const ANOTHER_AIR: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// Steps of all fibres of the flights that it takes to try some changes of a web; of webs in one air, about.
 pub fn steps(spec: &WebSpec, changes: &[Change]) -> u64 {
-    if spec.method == Method::SharedAir {
+    if spec.flies() {
         let again = 1 + NAMED.min(changes.len()) as u64;
         return steps_in_same_air(&all_webs(spec, changes)) + again * steps_in_same_air(&[spec]);
     }
-    changes.iter().map(|change| steps_of_web(&change.experiment.spec)).sum()
+    0
 }
 
 /// A web and the changed ones.
@@ -49,26 +47,9 @@ fn all_webs<'a>(spec: &'a WebSpec, changes: &'a [Change]) -> Vec<&'a WebSpec> {
     std::iter::once(spec).chain(changes.iter().map(|change| &change.experiment.spec)).collect()
 }
 
-/// Steps of all fibres of a web of independent ones.
-fn steps_of_web(spec: &WebSpec) -> u64 {
-    let mut cases: Vec<_> = (spec.layers.iter())
-        .filter_map(|layer| match &layer.source {
-            LaydownSource::Case { path, case } => Some((path, case)),
-            _ => None,
-        })
-        .collect();
-    cases.dedup();
-    cases.iter().map(|(_, case)| case.run.steps * case.run.replicates).sum()
-}
-
 /// Most steps of all fibres that are flown for advice or for guesses without being asked: a minute or two of
-/// a processor, of filaments in one air too, whose steps are shorter.
-pub const fn most_steps(method: Method) -> u64 {
-    match method {
-        Method::Surrogate | Method::Dynamics => 4_000_000,
-        Method::SharedAir => 20_000_000,
-    }
-}
+/// a processor.
+pub const MOST_STEPS: u64 = 20_000_000;
 
 /// Whether changes of a web are tried without being asked: there are some, their flights are short, and a few
 /// filaments tell the web. Where all filaments in one air are flown, two maps are compared, and only large
@@ -79,8 +60,8 @@ pub fn are_tried(spec: &WebSpec, findings: &Findings, changes: &[Change]) -> boo
     let is_told = seen.is_none_or(|seen| findings.patches[seen].doubt.is_none());
     let says_enough = is_told && few.is_none_or(|layers| layers == spec.layers.len());
     let are_guesses = changes.iter().any(is_guess);
-    let fits = || !are_guesses || spec.method != Method::SharedAir || fits_memory(&all_webs(spec, changes));
-    says_enough && steps(spec, changes) <= most_steps(spec.method) && fits()
+    let fits = || !are_guesses || !spec.flies() || fits_memory(&all_webs(spec, changes));
+    says_enough && steps(spec, changes) <= MOST_STEPS && fits()
 }
 
 fn is_same(patch: f64, side: f64) -> bool {
@@ -170,7 +151,7 @@ fn try_alone(
     changes: &[Change],
     by: LayControl<'_>,
 ) -> Result<Outcomes, Error> {
-    let is_shared = spec.method == Method::SharedAir;
+    let is_shared = spec.flies();
     let aside = AtomicU64::new(0);
     let base = match is_shared {
         true => of_maps(&findings.patches),
@@ -203,16 +184,6 @@ fn of_maps(patches: &[PatchFindings]) -> Vec<ExpectedCv> {
 /// How uneven a web is over patches of each size: on the map of filaments in one air, or as it is expected of
 /// independent ones.
 fn cvs(spec: &WebSpec, by: LayControl<'_>) -> Result<Vec<ExpectedCv>, Error> {
-    let is_flown = |layer: &LayerSpec| matches!(layer.source, LaydownSource::Case { .. });
-    // The flown curves are compared, whether a surrogate is found in them or not.
-    let method = match spec.method {
-        Method::Surrogate if spec.layers.iter().all(is_flown) => Method::Dynamics,
-        method => method,
-    };
-    let mut flyer = Flyer::new(by.threads, by.stop, &unwatched);
-    let mut flown = flyer.web(&WebSpec { method, ..spec.clone() })?;
-    match spec.method {
-        Method::SharedAir => Ok(of_maps(&flown.find(by)?.patches)),
-        Method::Surrogate | Method::Dynamics => expected_cv(&flown.web, by),
-    }
+    let mut flown = Flyer::new(by.threads, by.stop, &unwatched).web(spec)?;
+    if spec.flies() { Ok(of_maps(&flown.find(by)?.patches)) } else { expected_cv(&flown.web, by) }
 }

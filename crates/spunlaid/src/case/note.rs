@@ -382,15 +382,6 @@ pub enum Remark {
         /// Length of the fibre [m].
         fibre: f64,
     },
-    /// A web in one air flies a case whose turbulence is the same across the flow.
-    #[error(
-        "flies the filaments of {case} with air.lateral = \"von-karman\" and the usual air.lateral_cutoff: \
-        with its own air.lateral = \"uniform\" all of them would lie alike"
-    )]
-    EddiesInSpace {
-        /// Path of the case.
-        case: String,
-    },
     /// The field of charged filaments is near to that in which air breaks down.
     #[error(
         "gives a field of some {} at the edge of the curtain: air breaks down at {}, and at edges of metal long \

@@ -4,7 +4,7 @@ use super::target::Target;
 use super::texture::Texture;
 use super::weights::Matrix;
 use crate::error::{Error, Fault};
-use crate::layers::{Flown, Flyer, Method, WebSpec};
+use crate::layers::{Flown, Flyer, WebSpec};
 use crate::study::seed_of_web;
 use crate::web::{LayControl, PatchFindings, inner_columns};
 
@@ -71,18 +71,15 @@ impl Simulator for WebSimulator<'_> {
         self.web_of(&self.spec.clone(), replicate)
     }
 
-    /// The errors of the logarithms by the few flown fibres, and by the model that lays the webs in their place.
+    /// The errors of the logarithms by the few flown filaments.
     fn errors_of_model(&mut self) -> Result<Matrix, Error> {
         let mut spec = self.spec.clone();
         // Where all filaments in one air have been flown nothing is left out, and known numbers say nothing
         // of real fibres.
-        let is_shared = spec.method == Method::SharedAir;
-        let all_fly = is_shared && spec.flown == Flown::All;
-        if all_fly || spec.layers.iter().all(|layer| layer.source.case().is_none()) {
+        if spec.flown == Flown::All || !spec.flies() {
             return Ok(Vec::new());
         }
-        if is_shared
-            && spec.lays_whole_sheet()
+        if spec.lays_whole_sheet()
             && let Some(error) = self.error_of_few()?
         {
             return Ok(vec![error]);
@@ -110,11 +107,7 @@ impl Simulator for WebSimulator<'_> {
         // Where a few filaments do not tell the CV of all, the map may be off by all of it.
         let told = |patch: &PatchFindings| patch.told().map_or(0.0, |told| told.cv);
         let of_map = |patch: &PatchFindings| Some((patch.filled? - told(patch)).abs());
-        let causes = [
-            errors(&|patch| patch.whole_error().flight),
-            errors(&|patch| patch.whole_error().model),
-            errors(&of_map),
-        ];
+        let causes = [errors(&|patch| patch.whole_error().flight), errors(&of_map)];
         Ok(causes.into_iter().filter(|errors| errors.iter().any(|error| *error > 0.0)).collect())
     }
 }

@@ -27,7 +27,7 @@ mod web;
 mod write;
 mod written_values;
 
-pub use crate::layers::{LaydownSource, LayerSpec, Method, WEB_KEYS, WEB_TABLES, WebKey, WebSpec};
+pub use crate::layers::{LaydownSource, LayerSpec, WEB_KEYS, WEB_TABLES, WebKey, WebSpec};
 pub use data::read_points;
 pub use fed_back_tension::FlownTension;
 pub use influence::{Influence, OfFilament};
@@ -132,16 +132,6 @@ pub fn parse_case<'a>(
 ) -> Result<CaseWithNotes, Unread<CaseWithNotes>> {
     let open = open_case(&Lookup::default(), text, name, &[overrides.into()]).map_err(Unread::Faulty)?;
     unread::read(move |lookup| lookup.resolve(open.clone()))
-}
-
-/// [`parse_case`] within a reading that goes on.
-fn parse_with(
-    lookup: &Lookup,
-    text: &str,
-    name: &str,
-    overrides: &[Overrides<'_>],
-) -> Result<CaseWithNotes, Error> {
-    lookup.resolve(open_case(lookup, text, name, overrides)?)
 }
 
 /// A case before it is checked.

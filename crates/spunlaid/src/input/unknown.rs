@@ -15,6 +15,10 @@ impl<T> Document<'_, T> {
         let path = if table.is_empty() { name.to_owned() } else { format!("{table}.{name}") };
         if let Some(what) = Removed::Key.fault(&path) {
             self.reject(&format!("{before}{name}"), entry, what);
+            // What stands in its place may be missing.
+            if !before.is_empty() {
+                self.key_values.excuse(before);
+            }
             return;
         }
         let word = name.split_once('.').map_or(name, |(word, _)| word);

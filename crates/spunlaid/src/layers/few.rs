@@ -1,6 +1,6 @@
 //! Which few filaments of a layer are flown for all of them, and on which sheet.
 
-use super::{Flown, LaydownSource, Method, WebSpec};
+use super::{Flown, WebSpec};
 use crate::beam::{Beam, BeamFindings};
 use crate::curtain::{Belt, Covariances, Filling, FlownCurves, lay};
 use crate::error::Error;
@@ -73,10 +73,7 @@ impl WebSpec {
     /// * `on` – the sheet that they lay
     pub(super) fn few(&self, layer: usize, on: &FlownSheet) -> Option<FewFlight> {
         let spec = self.layers.get(layer)?;
-        let LaydownSource::Case { case, .. } = &spec.source else { return None };
-        if self.method != Method::SharedAir {
-            return None;
-        }
+        let case = spec.source.case()?;
         let pitch = match self.flown {
             Flown::All => return None,
             Flown::PerMetre(number) => 1.0 / number as f64,

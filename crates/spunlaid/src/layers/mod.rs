@@ -1,7 +1,7 @@
 //! The layers of a web: what is to be laid, as a file says it, and the fibres of which it is laid.
 //!
 //! ```text
-//! WebSpec (sheet and layers) → Flyer: the fibres of each layer, flown or read or known → Web, which `web` lays
+//! WebSpec (sheet and layers) → Flyer: the fibres of each layer, flown or known → Web, which `web` lays
 //! ```
 
 mod charge;
@@ -9,7 +9,6 @@ mod comparison;
 mod fabric;
 mod few;
 mod files;
-mod finished_run;
 mod flown_curtain;
 mod flyer;
 pub(crate) mod full_names;
@@ -20,7 +19,6 @@ mod sources;
 
 pub use comparison::FewOfWeb;
 pub(crate) use comparison::{fits_memory, steps_in_same_air};
-pub use finished_run::{LAID, read as read_laid};
 pub use flyer::{Flights, FlownFibres, FlownWeb, Flyer, LayerFibres, ProgressDisplay};
 pub use full_names::{place_in_web, web_key};
 pub use keys::{WEB, WEB_KEYS, WEB_TABLES, WebKey};
@@ -52,8 +50,6 @@ pub struct WebSpec {
     pub layers: Vec<LayerSpec>,
     /// Seed of all random numbers.
     pub seed: u64,
-    /// What is laid.
-    pub method: Method,
     /// How many filaments of a web in one air are flown.
     pub flown: Flown,
     /// Side of the square in the middle of the sheet whose single fibres are written out [m].
@@ -66,29 +62,6 @@ pub struct WebSpec {
     pub fabric: FabricKeys,
     /// Keys of the web and of its cases whose numbers are guesses, as the file names them.
     pub guessed: Vec<String>,
-}
-
-/// What a web is laid of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Method {
-    /// Paths of the surrogate.
-    Surrogate,
-    /// The curves of the flown fibres.
-    Dynamics,
-    /// The curves of all filaments of the sheet, which fly in one air.
-    SharedAir,
-}
-
-impl Method {
-    /// How layers are laid if their file does not say it: together in one air, as in a line, where that can be flown.
-    pub(crate) fn default_for(layers: &[LayerSpec]) -> Self {
-        // A record says nothing of the air beside the fibre.
-        let can_share = |layer: &LayerSpec| matches!(&layer.source, LaydownSource::Case { case, .. } if case.air.records.is_empty());
-        match !layers.is_empty() && layers.iter().all(can_share) {
-            true => Self::SharedAir,
-            false => Self::Surrogate,
-        }
-    }
 }
 
 /// How many filaments of a web in one air are flown for all of them.
@@ -141,13 +114,6 @@ pub enum LaydownSource {
         /// What is in it.
         case: Arc<Case>,
     },
-    /// The results of such a case.
-    Results {
-        /// Their folder.
-        folder: PathBuf,
-        /// The case that was flown.
-        case: Arc<Case>,
-    },
     /// Known numbers.
     Surrogate(Surrogate),
 }
@@ -160,15 +126,15 @@ impl LaydownSource {
     /// The case of the flown fibres, if there is one.
     pub fn case(&self) -> Option<&Case> {
         match self {
-            Self::Case { case, .. } | Self::Results { case, .. } => Some(case),
+            Self::Case { case, .. } => Some(case),
             Self::Surrogate(_) => None,
         }
     }
 
-    /// The path of the case or of the results, for messages.
+    /// The path of the case, for messages.
     pub fn path(&self) -> &Path {
         match self {
-            Self::Case { path, .. } | Self::Results { folder: path, .. } => path,
+            Self::Case { path, .. } => path,
             Self::Surrogate(_) => Path::new(""),
         }
     }
@@ -223,7 +189,6 @@ impl LayerSpec {
             filaments: self.filaments.clone(),
             defects: self.defects.clone(),
             fibres,
-            other_description: None,
         }
     }
 }
@@ -236,7 +201,6 @@ impl WebSpec {
             sheet: Sheet::new(nan, nan, nan),
             layers: Vec::new(),
             seed: 0,
-            method: Method::Surrogate,
             flown: Flown::Auto,
             window: nan,
             memory_limit: nan,
@@ -244,6 +208,12 @@ impl WebSpec {
             fabric: FabricKeys::USUAL,
             guessed: Vec::new(),
         }
+    }
+
+    /// Whether its filaments are flown: those of cases hang in one air and lay the web as they come down. Those
+    /// of known numbers are independent paths of the surrogate.
+    pub fn flies(&self) -> bool {
+        self.layers.iter().any(|layer| layer.source.case().is_some())
     }
 
     /// What the defects of a layer make of its filaments.

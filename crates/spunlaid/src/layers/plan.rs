@@ -1,7 +1,7 @@
 //! What a web in one air will fly, before it is flown.
 
+use super::WebSpec;
 use super::shared_air::beam_on;
-use super::{Method, WebSpec};
 
 /// The flight of a layer of a web in one air.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,9 +19,6 @@ pub struct PlannedFlight {
 impl WebSpec {
     /// What a web in one air will fly, layer by layer; nothing of any other web, and of layers that name no case.
     pub fn planned_flights(&self) -> Vec<PlannedFlight> {
-        if self.method != Method::SharedAir {
-            return Vec::new();
-        }
         let layers = (0..self.layers.len()).filter_map(|number| beam_on(self, number, None).ok());
         let plan = layers.map(|layer| PlannedFlight {
             filaments: layer.places.len() as u64,

@@ -3,7 +3,7 @@
 use super::few::{FewFlight, FewPlan, FlownSheet};
 use super::flown_curtain::{FlownCurtain, FlownLayers};
 use super::flyer::Flights;
-use super::{Flown, FlownFibres, Flyer, LaydownSource, LayerFibres, Method, WebSpec};
+use super::{Flown, FlownFibres, Flyer, LaydownSource, LayerFibres, WebSpec};
 use crate::air::Lateral;
 use crate::beam::{Airs, Beam, BeamCharge, BeamControl, BeamFindings};
 use crate::case::Case;
@@ -136,7 +136,8 @@ impl Flyer<'_> {
             let flown = Arc::new(layer.gather(flown)?);
             // In machine direction the sheet is not closed.
             spec.check_spreads([0.0, flown.numbers[1].mean])?;
-            let fibres = Fibres::Curves(Arc::clone(&flown.curves));
+            let (curves, surrogate) = (Arc::clone(&flown.curves), flown.surrogate());
+            let fibres = Fibres::Flown { curves, surrogate };
             all.layers.push(LayerFibres { fibres, flown: Some(flown) });
         }
         all.draw(spec, &canvas, self.by())?;
@@ -202,15 +203,12 @@ impl WebSpec {
     /// Largest lateral wave number of the air that all filaments of a layer share, times its length scale;
     /// None of filaments in airs of their own.
     pub fn lateral_cutoff(&self, layer: usize) -> Option<f64> {
-        let case = self.layers.get(layer)?.source.case().filter(|_| self.method == Method::SharedAir)?;
+        let case = self.layers.get(layer)?.source.case()?;
         Some(case.air.lateral.cutoff().unwrap_or(Lateral::USUAL_CUTOFF))
     }
 
     /// The problem of a web in one air whose field of eddies does not fit into the memory that it may take.
     pub(crate) fn air_beyond_memory(&self) -> Option<Problem> {
-        if self.method != Method::SharedAir {
-            return None;
-        }
         let beams = (0..self.layers.len()).filter_map(|number| beam_on(self, number, None).ok());
         let largest = beams
             .map(|layer| (layer.beam().memory_of_air(&layer.sheet), layer.case.air.lateral))

@@ -82,8 +82,6 @@ pub enum Formula<T: 'static> {
 pub enum ErrorRole {
     /// Its standard error, unless there are several replicates, whose scatter tells it.
     OfOne,
-    /// Its standard error, also of several replicates: they share what causes it.
-    Always,
     /// A further error, which more replicates do not lower.
     Further,
     /// No error, but a number about the errors.
@@ -318,8 +316,8 @@ impl<T> Measure<T> {
         let error = match value {
             Some(Value::Mean { standard_error, .. }) => standard_error,
             _ => {
-                let is_standard = |error: &&Self| matches!(error.role, ErrorRole::OfOne | ErrorRole::Always);
-                let standard = self.errors.iter().find(is_standard).and_then(|error| error.value(found));
+                let of_one = self.errors.iter().find(|error| error.role == ErrorRole::OfOne);
+                let standard = of_one.and_then(|error| error.value(found));
                 standard.map(|error| error.number())
             }
         };

@@ -3,7 +3,7 @@
 
 use super::{ErrorRole, Formula, MILLIMETRES, Measure, PERCENT, RATIO, Unit, figure};
 use crate::web::{Findings, PatchFindings};
-use ErrorRole::{Always, Further, OfOne};
+use ErrorRole::{Further, OfOne};
 use Formula::{Known, Mean, Number};
 
 /// The measures of the patches of each size, in the order of `summary.json`, where the interval follows the
@@ -26,14 +26,7 @@ pub const OF_PATCHES: &[Measure<PatchFindings>] = &[
                 .kept("cv_#_mm_few_fibres", "cv_#_mm_few_fibres")
                 .short("few fibres")
                 .digits(2)
-                .shown_if(|patch| patch.few.is_some() || is_flown_alone(patch))
-                .role(Further),
-            share("cv_model_error", "Error of the CV by the model", |patch| patch.whole_error().model)
-                .meaning("error of the CV by the surrogate: its difference from that of the flown curves")
-                .kept("cv_#_mm_model", "cv_#_mm_model")
-                .short("model")
-                .digits(2)
-                .shown_if(is_flown_alone)
+                .shown_if(|patch| patch.few.is_some())
                 .role(Further),
             share("cv_whole_error", "", |patch| patch.whole_error().whole())
                 .meaning("error of the CV by all causes together"),
@@ -47,62 +40,25 @@ pub const OF_PATCHES: &[Measure<PatchFindings>] = &[
         Known(|patch| patch.few.filter(|_| patch.doubt.is_none()).map(|few| few.own / (few.cv * few.cv))),
     )
     .meaning("part of CV² that each filament of a web in one air makes for itself"),
-    share("cv_independent", "CV of the same filaments in airs of their own", |patch| {
-        Some(patch.independent?.cv)
-    })
-    .meaning("CV that the filaments of a web in one air would give in airs of their own")
-    .kept("cv_#_mm_independent", "cv_#_mm_independent")
-    .figure(&figure(
-        "cv_independent",
-        "CV of the same filaments in airs of their own",
-        "CV in airs of their own",
-    ))
-    .short("airs of their own")
-    .shown_if(|patch| patch.independent.is_some())
-    .errors(&[
-        share("cv_independent_standard_error", "Error of the CV in airs of their own", |patch| {
-            Some(patch.independent?.standard_error)
-        })
-        .meaning("standard error of the CV of the same filaments in airs of their own")
-        .kept("cv_#_mm_independent_error", "cv_#_mm_independent_error")
-        .role(OfOne),
-        Measure::<PatchFindings>::new(
-            "cv_independent_degrees",
-            "",
-            RATIO,
-            Known(|patch| Some(patch.independent?.degrees)),
+    share("cv_independent", "CV of the same filaments in airs of their own", PatchFindings::independent)
+        .meaning(
+            "CV that the filaments of a web in one air would give in airs of their own, by their surrogate",
         )
-        .meaning("degrees of freedom of that error"),
-        share("cv_independent_low", "", |patch| Some(patch.independent?.interval()?[0]))
-            .meaning("lower end of its 95 % interval"),
-        share("cv_independent_high", "", |patch| Some(patch.independent?.interval()?[1]))
-            .meaning("upper end of its 95 % interval"),
-    ]),
-    share("cv_surrogate", "CV expected from the surrogate", |patch| Some(patch.surrogate?.0))
-        .meaning("CV that is expected from the surrogate")
-        .short("surrogate")
-        .shown_if(|patch| patch.independent.is_none() && patch.surrogate.is_some())
-        .errors(&[share("cv_surrogate_standard_error", "", |patch| Some(patch.surrogate?.1))
-            .meaning("its standard error")
-            .role(OfOne)]),
-    share("cv_flown", "CV expected from the flown curves", |patch| Some(patch.flown?.0))
-        .meaning("CV that is expected from the flown curves")
-        .kept("cv_#_mm_flown", "cv_#_mm_flown")
-        .main()
-        .figure(&figure("cv_flown", "CV expected from the flown curves", "CV of the flown curves"))
-        .short("flown curves")
-        .shown_if(is_flown_alone)
-        .errors(&[share("cv_flown_standard_error", "Error of the flown CV", |patch| Some(patch.flown?.1))
-            .meaning("standard error of the CV that is expected from the flown curves")
-            .kept("cv_#_mm_flown_error", "cv_#_mm_flown_error")
-            .role(Always)]),
-    share("cv_one_fibre", "CV expected from single fibres", |patch| Some(patch.single_fibres.0))
-        .meaning("CV that is expected of independent filaments, from single fibres")
+        .kept("cv_#_mm_independent", "cv_#_mm_independent")
+        .figure(&figure(
+            "cv_independent",
+            "CV of the same filaments in airs of their own",
+            "CV in airs of their own",
+        ))
+        .short("airs of their own")
+        .shown_if(|patch| patch.in_one_air),
+    share("cv_one_fibre", "CV expected from single fibres", |patch| Some(of_known(patch)?.0))
+        .meaning("CV that is expected of independent filaments of known numbers, from single fibres")
         .kept("cv_#_mm_one_fibre", "cv_#_mm_one_fibre")
         .figure(&figure("cv_one_fibre", "CV expected from single fibres", "expected CV"))
         .short("single fibres")
-        .shown_if(|patch| patch.independent.is_none() && patch.flown.is_none() && patch.surrogate.is_none())
-        .errors(&[share("cv_one_fibre_standard_error", "", |patch| Some(patch.single_fibres.1))
+        .shown_if(|patch| !patch.in_one_air)
+        .errors(&[share("cv_one_fibre_standard_error", "", |patch| Some(of_known(patch)?.1))
             .meaning("its standard error")
             .role(OfOne)]),
     share("cv_straight_fibres", "CV of straight fibres", |patch| Some(patch.straight_fibres))
@@ -189,7 +145,7 @@ const fn share(
     Measure { series: "# mm", ..Measure::new(column, label, PERCENT, Known(number)) }
 }
 
-/// Whether filaments of independent airs were flown.
-fn is_flown_alone(patch: &PatchFindings) -> bool {
-    patch.independent.is_none() && patch.flown.is_some()
+/// What is expected of filaments of known numbers, with its error.
+fn of_known(patch: &PatchFindings) -> Option<(f64, f64)> {
+    patch.single_fibres.filter(|_| !patch.in_one_air)
 }

@@ -314,13 +314,8 @@ mod tests {
         };
         assert_eq!(
             errors_of("cv_2.5_mm"),
-            [
-                (ErrorRole::OfOne, "cv_2.5_mm_chance"),
-                (ErrorRole::Further, "cv_2.5_mm_few_fibres"),
-                (ErrorRole::Further, "cv_2.5_mm_model")
-            ]
+            [(ErrorRole::OfOne, "cv_2.5_mm_chance"), (ErrorRole::Further, "cv_2.5_mm_few_fibres")]
         );
-        assert_eq!(errors_of("cv_2.5_mm_flown"), [(ErrorRole::Always, "cv_2.5_mm_flown_error")]);
         // Its error is not kept.
         assert_eq!(errors_of("cv_2.5_mm_one_fibre"), []);
         // A temperature is kept in kelvin.

@@ -6,7 +6,6 @@ use crate::ensemble::{Job, Keep, RunControl, Trajectory, fly_each, in_order};
 use crate::error::Error;
 use crate::flight::Common;
 use crate::lanes::WIDTH;
-use crate::layers::Method;
 use crate::sort::sort_by_key;
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -56,9 +55,7 @@ impl Packing {
                 // Spinlines take milliseconds, so that many make a bundle.
                 Experiment::Spinline(_) => (Err(batch.point / 64), 0.0, WIDTH),
                 // All filaments fly for each web, which takes minutes.
-                Experiment::Web(web) if web.method == Method::SharedAir => {
-                    (Err(batch.point), f64::INFINITY, 1)
-                }
+                Experiment::Web(web) if web.flies() => (Err(batch.point), f64::INFINITY, 1),
                 // The webs of a point are laid of the same fibres.
                 Experiment::Web(_) => (Err(batch.point), 0.0, WIDTH),
             };
@@ -199,8 +196,9 @@ mod tests {
     use super::*;
     use crate::case::Case;
     use crate::drag::{FrictionLaw, NormalLaw};
-    use crate::layers::WebSpec;
+    use crate::layers::{LaydownSource, LayerSpec, WebSpec};
     use crate::study::tests::table1;
+    use std::sync::Arc;
 
     fn points(velocities: &[f64], lengths: &[f64]) -> Vec<Point> {
         let mut points = Vec::new();
@@ -273,11 +271,13 @@ mod tests {
 
     #[test]
     fn each_web_in_one_air_is_a_bundle() {
-        let of_method = |method| {
-            let experiment = Experiment::Web(WebSpec { method, ..WebSpec::unknown() });
+        let of_source = |flies| {
+            let case = LaydownSource::Case { path: "a.toml".into(), case: Arc::new(table1()) };
+            let layer = LayerSpec::unknown(if flies { case } else { LaydownSource::UNKNOWN });
+            let experiment = Experiment::Web(WebSpec { layers: vec![layer], ..WebSpec::unknown() });
             Point { values: Vec::new(), experiment }
         };
-        let points = [Method::Surrogate, Method::SharedAir, Method::SharedAir].map(of_method);
+        let points = [false, true, true].map(of_source);
         let batches: Vec<Batch> = (0..3).map(|point| Batch { point, replicates: 2..5 }).collect();
         let bundles = Bundles::from_batches(&points, &batches, 1);
         let mut all: Vec<Vec<Batch>> = (0..bundles.count()).map(|bundle| bundles.batches(bundle)).collect();

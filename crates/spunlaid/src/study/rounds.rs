@@ -66,11 +66,11 @@ fn results_of(
         let count = measured.len() as f64;
         // Webs whose counts are equal by chance have an error all the same.
         let is_one = count == 1.0 || scatter(i) == 0.0;
-        let of = |wanted| quantities[i].errors.iter().find(|(role, _)| *role == wanted);
-        let own = |of: Option<&(ErrorRole, usize)>| of.map(|(_, other)| estimates[*other].mean);
-        let of_one = own(of(ErrorRole::OfOne).filter(|_| is_one)).filter(|error| error.is_finite());
+        let of_one = quantities[i].errors.iter().find(|(role, _)| *role == ErrorRole::OfOne);
+        let of_one = of_one.filter(|_| is_one).map(|(_, other)| estimates[*other].mean);
+        let of_one = of_one.filter(|error| error.is_finite());
         let of_one = of_one.map(|error| error / count.sqrt());
-        own(of(ErrorRole::Always)).or(of_one).unwrap_or_else(|| scatter(i))
+        of_one.unwrap_or_else(|| scatter(i))
     };
     Ok(PointResults {
         n: measured.len() as u64,

@@ -31,7 +31,7 @@ pub(super) fn lay(
         work();
         fibre_steps.fetch_add(done.load(Ordering::Relaxed), Ordering::Relaxed);
     };
-    let mut flyer = Flyer::new(threads, stop, &follow);
+    let flyer = Flyer::new(threads, stop, &follow);
     for Batch { point, replicates } in batches {
         let Some(spec) = points[*point].experiment.web() else { continue };
         for replicate in replicates.clone() {

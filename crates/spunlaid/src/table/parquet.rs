@@ -15,8 +15,6 @@ use std::sync::Arc;
 
 /// Largest number of bytes that Snappy makes of one: a copy of 64 bytes takes three.
 const EXPANSION: u64 = 22;
-/// Rows read at a time.
-const ROWS: usize = 1 << 16;
 /// Largest number of rows of a group.
 const MOST_ROWS: usize = 1 << 28;
 
@@ -47,22 +45,6 @@ impl ParquetTable {
         let duration =
             |name: &str| durations.iter().find(|(column, _)| column == name).map(|(_, unit)| *unit);
         columns.map(|(name, column)| (name.clone(), Meaning::of(column, duration(&name)))).collect()
-    }
-
-    /// All numbers of a column of this name, of which none may be missing.
-    pub(crate) fn numbers(&self, name: &str) -> Decoded<Vec<f64>> {
-        let none = || ParquetError::General(format!("it has no column {name} of numbers"));
-        let found = self.columns().into_iter().enumerate().find(|(_, (column, _))| column == name);
-        let (index, (_, meaning)) = found.ok_or_else(none)?;
-        let meaning = meaning.map_err(|_| none())?;
-        let mut numbers = Vec::new();
-        for group in 0..self.groups() {
-            let mut column = self.column(group, index, meaning)?;
-            while column.next(ROWS).map(|()| !column.numbers.is_empty())? {
-                numbers.append(&mut column.numbers);
-            }
-        }
-        if numbers.iter().any(|number| number.is_nan()) { Err(none()) } else { Ok(numbers) }
     }
 
     /// Opens a column of a group of rows.

@@ -1,11 +1,6 @@
-//! Curves that fibres have laid, to be laid again in a web.
+//! Curves that fibres have laid.
 
-use super::points::Points;
 use crate::error::Fault;
-use crate::lanes::Lanes;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::Rng;
-use std::sync::Arc;
 
 /// Laid curves of one line, seen from their straight traces.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,11 +74,6 @@ impl Curves {
         self.belt_ratio
     }
 
-    /// Each curve for itself.
-    pub(super) fn single(&self) -> impl Iterator<Item = Self> + '_ {
-        self.curves.iter().map(|curve| Self { curves: vec![curve.clone()], one_air: None, ..*self })
-    }
-
     /// The points (ξ₁, ξ₂) of each curve [m].
     pub(super) fn curves(&self) -> &[Vec<[f64; 2]>] {
         &self.curves
@@ -91,12 +81,7 @@ impl Curves {
 
     /// Fed length of the shortest curve [m].
     pub(super) fn length(&self) -> f64 {
-        self.pieces() as f64 * self.spacing
-    }
-
-    /// Pieces of the shortest curve.
-    fn pieces(&self) -> usize {
-        self.curves.iter().map(|curve| curve.len() - 1).min().unwrap_or(0)
+        self.curves.iter().map(|curve| curve.len() - 1).min().unwrap_or(0) as f64 * self.spacing
     }
 
     /// Spread about the straight trace in cross direction [m].
@@ -104,84 +89,10 @@ impl Curves {
         let points = self.curves.iter().map(Vec::len).sum::<usize>() as f64;
         (self.curves.iter().flatten().map(|p| p[1] * p[1]).sum::<f64>() / points).sqrt()
     }
-
-    /// Squared mean of `e^{ikξ₂}` over all points.
-    pub(super) fn power_across(&self, wave: f64) -> f64 {
-        let points = self.curves.iter().map(Vec::len).sum::<usize>() as f64;
-        let parts = self.curves.iter().flatten().map(|p| (libm::cos(wave * p[1]), libm::sin(wave * p[1])));
-        let (re, im) = parts.fold((0.0, 0.0), |sum, part| (sum.0 + part.0, sum.1 + part.1));
-        (re * re + im * im) / (points * points)
-    }
-
-    /// Farthest distance from the straight trace in cross direction, and longest piece on a belt that stands,
-    /// in either direction [m].
-    pub(super) fn reach(&self) -> [f64; 2] {
-        let far = self.curves.iter().flatten().map(|p| p[1].abs());
-        let pieces = self.curves.iter().flat_map(|curve| curve.windows(2));
-        let long = pieces.map(|p| (p[1][0] - p[0][0]).abs().max((p[1][1] - p[0][1]).abs()));
-        [far.fold(0.0, f64::max), long.fold(0.0, f64::max)]
-    }
-}
-
-/// Up to eight filaments made of stretches of curves, chosen at random. All stretches begin and end together.
-pub(super) struct Stretches {
-    curves: Arc<Curves>,
-    random: ChaCha8Rng,
-    filaments: usize,
-    /// Curve and first point of the present stretch.
-    from: Vec<(usize, usize)>,
-    /// Points of the present stretch, and those that have been asked for.
-    length: usize,
-    taken: usize,
-}
-
-impl Stretches {
-    pub(super) fn new(curves: Arc<Curves>, random: ChaCha8Rng, filaments: usize) -> Self {
-        Self { curves, random, filaments, from: Vec::new(), length: 0, taken: 0 }
-    }
-
-    /// A whole number below `count`. The share by which some are likelier is below 2⁻³².
-    fn below(&mut self, count: usize) -> usize {
-        ((u128::from(self.random.next_u64()) * count as u128) >> 64) as usize
-    }
-
-    fn choose(&mut self, pieces: usize) {
-        let most = self.curves.pieces();
-        let stretch = pieces.min(most);
-        self.from.clear();
-        for _ in 0..self.filaments {
-            let curve = self.below(self.curves.curves.len());
-            let spare = self.curves.curves[curve].len() - stretch;
-            let start = self.below(spare);
-            self.from.push((curve, start));
-        }
-        (self.length, self.taken) = (stretch + 1, 0);
-    }
-}
-
-impl Points for Stretches {
-    fn next(&mut self, pieces: usize, points: &mut [[Lanes; 2]]) -> usize {
-        if self.taken == self.length {
-            self.choose(pieces);
-        }
-        // A stretch goes on from the last point that was given.
-        let first = self.taken.saturating_sub(1);
-        let count = points.len().min(self.length - first).min(pieces + 1);
-        for (i, point) in points[..count].iter_mut().enumerate() {
-            *point = [0, 1].map(|axis| {
-                Lanes::from_fn(|lane| {
-                    let (curve, start) = self.from[if lane < self.filaments { lane } else { 0 }];
-                    self.curves.curves[curve][start + first + i][axis]
-                })
-            });
-        }
-        self.taken = first + count;
-        count
-    }
 }
 
 /// The fault of curves that cannot be laid.
-pub(super) fn no_curves() -> Fault {
+fn no_curves() -> Fault {
     Fault::new(
         "there are no laid curves, or they are too short: each needs more than 16 points at a spacing above zero",
         "fly the case for longer (run.duration)",

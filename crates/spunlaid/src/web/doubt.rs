@@ -2,7 +2,6 @@
 
 use super::few_findings::FewDoubt;
 use crate::charge::BREAKDOWN;
-use crate::surrogate::Residual;
 use crate::units::Dimension;
 use std::fmt::{Display, Formatter, Result};
 
@@ -47,43 +46,8 @@ pub enum Doubt {
         /// Sides of the patches [m].
         sides: Vec<f64>,
     },
-    /// The surrogate's CV is more than 5 % from that of the flown curves.
-    FarSurrogate {
-        /// Sides of the patches where it is [m].
-        sides: Vec<f64>,
-        /// Side of those where it is farthest [m].
-        farthest: f64,
-        /// There, the CV of the surrogate and of the flown curves.
-        cv: [f64; 2],
-        /// There, the surrogate's CV over that of the flown curves, less one.
-        apart: f64,
-        /// Whether the map was laid of the surrogate.
-        is_laid: bool,
-    },
-    /// Over patches that are smaller than an element, surrogate and flown curves differ by more than 5 %, and
-    /// neither is accurate.
-    CoarseFlight {
-        /// Sides of the patches [m].
-        sides: Vec<f64>,
-        /// Length of an element [m].
-        element: f64,
-    },
-    /// The flown curves are too few to check the surrogate within 5 %.
-    FewFibres {
-        /// Sides of the patches [m].
-        sides: Vec<f64>,
-        /// Largest standard error of the CV of the flown curves, as a share of it; NaN of a single fibre.
-        error: f64,
-    },
     /// No fibre was flown beside the surrogate.
     NothingFlown,
-    /// No surrogate describes the laid fibre of a layer well.
-    PoorSurrogate {
-        /// Basis weight of the layer [kg/m²].
-        basis_weight: f64,
-        /// How far the best one is off.
-        residual: Residual,
-    },
     /// Fibre lies beyond the edges of the sheet.
     CutOff {
         /// As a share of all fibre.
@@ -153,56 +117,11 @@ impl Display for Doubt {
                 is made of pieces of that sheet, and it has no error",
                 millimetres(sides)
             ),
-            Self::FarSurrogate { sides, farthest, cv: [surrogate, flown], apart, is_laid } => write!(
-                f,
-                "the surrogate’s CV is more than 5 % from that of the flown curves over patches of {}: {} \
-                for {} %, {} % {}, over patches of {}. Rely on the flown curves there: the flight has laid \
-                them, and the surrogate has only their spread and their autocorrelation. {}",
-                listed(sides),
-                per_cent(*surrogate, 3),
-                per_cent(*flown, 3),
-                per_cent(apart.abs(), 2),
-                if *apart < 0.0 { "too low" } else { "too high" },
-                listed(&[*farthest]),
-                if *is_laid {
-                    "web.method = \"dynamics\" lays the map from them"
-                } else {
-                    "this map is laid from them"
-                }
-            ),
-            Self::CoarseFlight { sides, element } => write!(
-                f,
-                "over patches of {} the surrogate and the flown curves also differ by more than 5 %, and \
-                neither is accurate to 5 % there, because these patches are smaller than an element of the \
-                flight, {} mm (fibre.element_length)",
-                listed(sides),
-                digits(element * 1e3, 3)
-            ),
-            Self::FewFibres { sides, error } => {
-                write!(f, "over patches of {} the CV of the flown curves ", listed(sides))?;
-                if error.is_nan() {
-                    write!(f, "rests on a single fibre, so its error is not known")?;
-                } else {
-                    write!(f, "is known within {} % only, one standard error", per_cent(*error, 2))?;
-                }
-                write!(
-                    f,
-                    "; the surrogate cannot be checked within 5 %. Fly more fibre (run.replicates, run.duration)"
-                )
-            }
             Self::NothingFlown => write!(
                 f,
                 "no fibre was flown for every layer of this web, so the errors are by chance only, and it is \
                 not known how far a surrogate with these numbers is from real fibres. Compared with flown \
                 curves, its CV was up to 20 % wrong (docs/web.md)"
-            ),
-            Self::PoorSurrogate { basis_weight, residual: Residual { rms, by_chance } } => write!(
-                f,
-                "no surrogate describes the laid fibre of the layer of {} g/m² well: its autocorrelation \
-                differs by {} (rms) from that of the best one, and chance would explain {}",
-                digits(basis_weight * 1e3, 3),
-                digits(*rms, 2),
-                by_chance.map_or_else(|| "an unknown part".to_owned(), |by_chance| digits(by_chance, 2))
             ),
             Self::CutOff { share } => write!(
                 f,
@@ -284,16 +203,6 @@ mod tests {
 
     #[test]
     fn doubts_are_sentences_with_their_numbers() {
-        let sides = vec![0.002, 0.005, 0.0125];
-        let far =
-            Doubt::FarSurrogate { sides, farthest: 0.005, cv: [0.0812, 0.1], apart: -0.188, is_laid: true };
-        let said = far.to_string();
-        let begin = "the surrogate’s CV is more than 5 % from that of the flown curves over patches of 2, 5 \
-            and 12.5 mm: 8.12 for 10 %, 19 % too low, over patches of 5 mm. ";
-        assert!(
-            said.starts_with(begin) && said.ends_with("web.method = \"dynamics\" lays the map from them"),
-            "{said}"
-        );
         let few = |enough: Option<f64>| {
             let (sides, why) = (vec![0.01, 0.02], FewDoubt::Halves(0.02, -0.08));
             Doubt::FewFilaments { sides, why, pitch: 0.002, enough }.to_string()
@@ -316,8 +225,6 @@ mod tests {
             "{said}"
         );
         assert!(filled(Vec::new()).contains("is too uneven over small patches; the CV"));
-        let single = Doubt::FewFibres { sides: vec![0.05], error: f64::NAN }.to_string();
-        assert!(single.contains("50 mm the CV of the flown curves rests on a single fibre"), "{single}");
         assert!(Doubt::Lost { filaments: 1, of: 40 }.to_string().starts_with("1 of 40 filaments was lost"));
     }
 }

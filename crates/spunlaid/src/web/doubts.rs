@@ -2,29 +2,23 @@
 
 use super::doubt::Doubt;
 use super::laid_web::SharedAirFindings;
-use super::{Fibres, Findings, Layer, PatchFindings, Web};
+use super::{Findings, Layer, PatchFindings, Web};
 use crate::charge::STRONG;
-use crate::surrogate::Residual;
 
 /// Part of the variance that filled-in filaments may miss where small patches of the map are to be believed.
 const MISSING: f64 = 0.1;
 /// A map whose CV is farther from the told one, as a share of it, is another one.
 const OF_MAP: f64 = 0.05;
-/// A flown CV with a larger relative error checks no surrogate within 5 %.
-const TOO_FEW: f64 = 0.025;
-/// A surrogate whose autocorrelations are farther off, beyond chance, does not describe the laid fibre.
-const POOR_FIT: f64 = 0.05;
 
 impl Findings {
     /// What must be known of these numbers before they are believed.
-    ///
-    /// * `residuals` – of each layer, how well a surrogate fits what its fibres have laid; None where nothing was flown
-    pub fn doubts(&self, web: &Web, residuals: &[Option<Residual>]) -> Vec<Doubt> {
+    pub fn doubts(&self, web: &Web) -> Vec<Doubt> {
         let mut doubts = match &self.laid.shared_air {
             Some(together) => {
                 [lost(web, together), few_filaments(self, together), charged(together)].concat()
             }
-            None => models(web, self, residuals),
+            None if self.patches.is_empty() => Vec::new(),
+            None => vec![Doubt::NothingFlown],
         };
         let map = &self.laid.map;
         if self.laid.cut > 0.0 {
@@ -87,48 +81,5 @@ fn few_filaments(findings: &Findings, together: &SharedAirFindings) -> Vec<Doubt
     }
     let larger = findings.patches.iter().filter(|patch| patch.few.is_none() && !together.few.is_empty());
     doubts.extend(of_sides(larger.map(|patch| patch.map.patch), |sides| Doubt::SmallSheet { sides }));
-    doubts
-}
-
-/// Whether the surrogate speaks for the flown fibres, and which of them to believe where it does not.
-fn models(web: &Web, findings: &Findings, residuals: &[Option<Residual>]) -> Vec<Doubt> {
-    let mut doubts = Vec::new();
-    let patches = || findings.patches.iter();
-    let side = |patch: &PatchFindings| patch.map.patch;
-    let is_laid = web.layers.iter().any(|layer| matches!(layer.fibres, Fibres::Surrogate(_)));
-    let element = web.longest_element().unwrap_or(0.0);
-    let (coarse, fine): (Vec<&PatchFindings>, Vec<_>) =
-        patches().filter(|patch| patch.surrogate_is_far()).partition(|patch| side(patch) >= element);
-    let apart = |patch: &PatchFindings| patch.surrogate_over_flown().map_or(0.0, |difference| difference.0);
-    if let Some(most) = coarse.iter().max_by(|a, b| apart(a).abs().total_cmp(&apart(b).abs())) {
-        doubts.push(Doubt::FarSurrogate {
-            sides: coarse.iter().map(|patch| side(patch)).collect(),
-            farthest: side(most),
-            cv: [most.surrogate, most.flown].map(|cv| cv.map_or(f64::NAN, |cv| cv.0)),
-            apart: apart(most),
-            is_laid,
-        });
-    }
-    let fine = fine.into_iter().map(side);
-    doubts.extend(of_sides(fine, |sides| Doubt::CoarseFlight { sides, element }));
-    let too_few = |patch: &&PatchFindings| {
-        !patch.surrogate_is_far()
-            && patch.flown.is_some_and(|(cv, error)| error.is_nan() || error > TOO_FEW * cv)
-    };
-    let errors = patches().filter(too_few).filter_map(|patch| patch.flown).map(|(cv, error)| error / cv);
-    if let Some(error) = errors.max_by(f64::total_cmp) {
-        let sides = patches().filter(too_few).map(side).collect();
-        doubts.push(Doubt::FewFibres { sides, error });
-    }
-    if is_laid && patches().any(|patch| patch.flown.is_none()) {
-        doubts.push(Doubt::NothingFlown);
-    }
-    for (layer, residual) in web.layers.iter().zip(residuals) {
-        let Some(residual) = *residual else { continue };
-        let excess = (residual.rms.powi(2) - residual.by_chance.unwrap_or(0.0).powi(2)).max(0.0).sqrt();
-        if excess > POOR_FIT {
-            doubts.push(Doubt::PoorSurrogate { basis_weight: layer.basis_weight(&web.sheet), residual });
-        }
-    }
     doubts
 }

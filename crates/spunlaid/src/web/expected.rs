@@ -6,7 +6,7 @@ use super::plan::places;
 use super::uniformity::Unevenness;
 use super::{Edges, Fibres, Filaments, Layer, Sheet, Web};
 use crate::effects::Effect;
-use crate::error::Error;
+use crate::error::{Error, Fault};
 use crate::statistics::{Difference, Estimate};
 use crate::threads::try_each;
 use std::ops::Range;
@@ -58,8 +58,6 @@ pub(super) fn across(web: &Web) -> SheetPosition {
 pub(super) struct PatchExpectation {
     /// CV and its standard error.
     pub(super) cv: (f64, f64),
-    /// Degrees of freedom of that error.
-    pub(super) degrees: f64,
     /// CV of straight fibres of the same mass.
     pub(super) straight_fibres: f64,
     /// Of each layer, what each of its single fibres says of its part of CV².
@@ -115,21 +113,16 @@ impl ExpectedCv {
 pub(super) const ALONE: u64 = 16;
 
 /// The CV that is expected of a web of independent filaments over patches of each size that fits between its
-/// edges: of the curves that were flown where all layers have them, and else of the paths of the surrogate.
+/// edges: of the paths of its surrogates.
 ///
 /// # Errors
-/// If the filaments cannot be laid, if their curves are shorter than a patch, or if it is stopped.
+/// If the filaments cannot be laid, if a layer has no surrogate, or if it is stopped.
 pub fn expected_cv(web: &Web, by: LayControl<'_>) -> Result<Vec<ExpectedCv>, Error> {
-    let flown = |layer: &Layer| {
-        let curves = [Some(&layer.fibres), layer.other_description.as_ref()].into_iter().flatten();
-        let curves = curves.into_iter().find(|fibres| matches!(fibres, Fibres::Curves(_)))?;
-        Some(Layer { fibres: curves.clone(), ..layer.clone() })
-    };
-    let layers: Option<Vec<Layer>> = web.layers.iter().map(flown).collect();
+    let layers = paths(web).ok_or_else(|| Fault::plain("a layer has no surrogate".to_owned()))?;
     let columns = across(web).columns;
     let sides = sides(&web.sheet, &columns);
     let sample = OneFibre { cell: web.sheet.cell, fibres: ALONE, seed: web.seed };
-    let found = expected(web, layers.unwrap_or_else(|| web.layers.clone()), &sides, (sample, columns), by)?;
+    let found = expected(web, layers, &sides, (sample, columns), by)?;
     let of_side =
         |(PatchExpectation { cv: (cv, standard_error), parts, .. }, side): (PatchExpectation, &usize)| {
             let fibres = parts.first().map_or(0, Vec::len);
@@ -152,6 +145,13 @@ pub(super) fn sides(sheet: &Sheet, columns: &Range<usize>) -> Vec<usize> {
 /// Cells along the side of a patch [m].
 pub(super) fn side(sheet: &Sheet, patch: f64) -> usize {
     (patch / sheet.cell).round() as usize
+}
+
+/// The layers as paths of the surrogate, each filament for itself; None if one has no surrogate.
+pub(super) fn paths(web: &Web) -> Option<Vec<Layer>> {
+    let path =
+        |layer: &Layer| Some(Layer { fibres: Fibres::Surrogate(layer.fibres.surrogate()?), ..layer.clone() });
+    web.layers.iter().map(path).collect()
 }
 
 /// The CV that is expected of a web of these layers for each side of a patch.
@@ -187,7 +187,7 @@ pub(super) fn expected(
         let weights: Vec<(Vec<f64>, f64)> = layers.iter().zip(&found).enumerate().map(across_layer).collect();
         let whole = weights.iter().map(|(_, mean)| mean).sum::<f64>();
         // Variances of independent layers add up, and so do what their places do at each column.
-        let (mut square, mut error, mut shares, mut straight) = (0.0, 0.0, 0.0, 0.0);
+        let (mut square, mut error, mut straight) = (0.0, 0.0, 0.0);
         let (mut sums, mut parts) = (vec![0.0; count], Vec::new());
         for ((layer, found), (across, weight)) in layers.iter().zip(&found).zip(&weights) {
             let share = weight / whole;
@@ -195,10 +195,7 @@ pub(super) fn expected(
             let by_chance = found[i].estimate(&layer.filaments);
             square += scale * by_chance.mean;
             parts.push(by_chance.values.iter().map(|value| scale * value).collect());
-            let of_layer = found[i].error(&layer.filaments);
-            let variance = (scale * of_layer.standard_error).powi(2);
-            error += variance;
-            shares += variance * variance / of_layer.degrees;
+            error += (scale * by_chance.standard_error.unwrap_or(f64::NAN)).powi(2);
             let patch = sides[i] as f64 * sheet.cell;
             straight += (share * straight_fibres(weight / layer.linear_density, patch)).powi(2);
             sums.iter_mut().zip(across).for_each(|(sum, value)| *sum += value / whole);
@@ -206,7 +203,6 @@ pub(super) fn expected(
         square += sums.iter().map(|value| (value - 1.0).powi(2)).sum::<f64>() / count as f64;
         PatchExpectation {
             cv: (square.sqrt(), error.sqrt() / (2.0 * square.sqrt())),
-            degrees: error * error / shares,
             straight_fibres: straight.sqrt(),
             parts,
         }

@@ -1,19 +1,18 @@
 //! Everything that is found out about a web.
 
+use super::Web;
 use super::clouds::{Clouds, autocorrelation};
-use super::expected::{ALONE, SheetPosition, across, expected, sides};
+use super::expected::{ALONE, SheetPosition, across, expected, paths, sides};
 use super::few_findings::{FewDoubt, FewFilamentsCv};
 use super::laid_web::{LaidWeb, SharedAirFindings};
 use super::lay::lay;
 use super::laying::LayControl;
 use super::map::Map;
-use super::one_fibre::OneFibre;
+use super::one_fibre::{OneFibre, straight_fibres};
 use super::orientation::{Orientation, orientation};
 use super::uniformity::{Unevenness, error_of_mean, nearest_to_seen, unevenness_at};
 use super::waves::Places;
-use super::{Fibres, Layer, Web};
 use crate::error::{Error, Fault};
-use crate::statistics::student_t_95_at;
 use crate::surrogate::Surrogate;
 use crate::threads::try_each;
 use crate::units::Dimension;
@@ -71,20 +70,14 @@ pub struct PatchFindings {
     /// On the map; of filaments in one air of which a few were flown, as these tell it ([`PatchFindings::few`]),
     /// and on the map again, without an error, where they do not tell it ([`PatchFindings::doubt`]).
     pub map: Unevenness,
-    /// The expected one of independent filaments at the places of the layers, from single fibres, with its
-    /// standard error.
-    pub single_fibres: (f64, f64),
-    /// The expected one of the curves that were flown, with its standard error, NaN for a single curve; None
-    /// unless all layers have them.
-    pub flown: Option<(f64, f64)>,
-    /// The expected one of paths of the surrogate, with its standard error; None unless all layers have them.
-    pub surrogate: Option<(f64, f64)>,
+    /// The expected one of independent filaments at the places of the layers, from single paths of the
+    /// surrogate, with the standard error by the few paths; None unless all layers have a surrogate.
+    pub single_fibres: Option<(f64, f64)>,
     /// Of straight fibres in all directions of the same mass.
     pub straight_fibres: f64,
-    /// What the same filaments would give in airs of their own, with its standard error:
-    /// [`PatchFindings::single_fibres`] where they were flown in one air; None if they are independent as
-    /// they are.
-    pub independent: Option<IndependentCv>,
+    /// Whether the filaments were flown in one air: in airs of their own they would give
+    /// [`PatchFindings::independent`].
+    pub in_one_air: bool,
     /// What a few filaments in one air say of all; None if all were flown, or if the patch is too large for
     /// the sheet that they laid.
     pub few: Option<FewFilamentsCv>,
@@ -96,36 +89,22 @@ pub struct PatchFindings {
     pub filled: Option<f64>,
 }
 
-/// The CV that the filaments of a web in one air would give in airs of their own.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct IndependentCv {
-    /// The CV.
-    pub cv: f64,
-    /// Its standard error; NaN if the web is too small to know it.
-    pub standard_error: f64,
-    /// Degrees of freedom of the error: the filaments hang in one air and tell less than as many independent ones.
-    pub degrees: f64,
-}
-
-impl IndependentCv {
-    /// The 95 % confidence interval by Student's t, of the logarithm, because the error is a share of the CV;
-    /// none if the error is not known.
-    pub fn interval(&self) -> Option<[f64; 2]> {
-        let half = student_t_95_at(self.degrees) * self.standard_error / self.cv;
-        half.is_finite().then(|| [-half, half].map(|log| self.cv * libm::exp(log)))
-    }
-}
-
 impl PatchFindings {
     /// The CV of the web; None if a few filaments were flown and do not tell it.
     pub fn told(&self) -> Option<Unevenness> {
         self.doubt.is_none().then_some(self.map)
     }
 
+    /// What the filaments of a web in one air would give in airs of their own, by their surrogate; None if they
+    /// are independent as they are. How far a surrogate is from real curves is not known, so it has no error.
+    pub fn independent(&self) -> Option<f64> {
+        self.single_fibres.filter(|_| self.in_one_air).map(|(cv, _)| cv)
+    }
+
     /// The 95 % confidence interval of the CV of all such webs; none if the sheet is too small to say, or if
     /// a few filaments do not tell it. Which filaments were flown for all is chance too.
     pub fn interval(&self) -> Option<[f64; 2]> {
-        if self.independent.is_none() {
+        if !self.in_one_air {
             return self.map.interval();
         }
         let by_pitch = self.few.map_or(0.0, |few| few.by_pitch);
@@ -172,23 +151,9 @@ pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Result
     let by = LayControl { laid: &aside, ..by };
     let map = laid.map.between(columns.clone());
     let sample = OneFibre { cell: sheet.cell, fibres: ALONE, seed: web.seed };
-    let alone = expected(web, web.layers.clone(), &sides, (sample, columns.clone()), by)?;
-    let other = |layer: &Layer| Some(Layer { fibres: layer.other_description.clone()?, ..layer.clone() });
-    let compared = match web.layers.iter().map(other).collect() {
+    let alone = match paths(web) {
         Some(layers) => Some(expected(web, layers, &sides, (sample, columns.clone()), by)?),
         None => None,
-    };
-    let all = |is_kind: fn(&Fibres) -> bool, fibres: fn(&Layer) -> Option<&Fibres>| {
-        web.layers.iter().all(|layer| fibres(layer).is_some_and(is_kind))
-    };
-    let the_one = |is_kind: fn(&Fibres) -> bool, i: usize| {
-        let laid = all(is_kind, |layer| Some(&layer.fibres)).then_some(alone[i].cv);
-        laid.or_else(|| {
-            compared
-                .as_ref()
-                .filter(|_| all(is_kind, |layer| layer.other_description.as_ref()))
-                .map(|found| found[i].cv)
-        })
     };
     // The air displaces neighbours together, so their streaks are chance.
     let places = if is_shared { Places::Unknown } else { web.places(columns.len() as f64 * sheet.cell) };
@@ -196,12 +161,9 @@ pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Result
     let uneven = try_each(by.threads, sides.len(), |i| Ok(unevenness_at(&map, sides[i], &places)))?;
     for (i, map) in uneven.into_iter().enumerate() {
         let Some(map) = map else { continue };
-        let flown = the_one(|fibres| matches!(fibres, Fibres::Curves(_)), i);
-        let surrogate = the_one(|fibres| matches!(fibres, Fibres::Surrogate(_)), i);
-        let (single_fibres, straight_fibres) = (alone[i].cv, alone[i].straight_fibres);
-        let (cv, standard_error) = single_fibres;
-        let independent =
-            is_shared.then_some(IndependentCv { cv, standard_error, degrees: alone[i].degrees });
+        let single_fibres = alone.as_ref().map(|alone| alone[i].cv);
+        let straight_fibres =
+            alone.as_ref().map_or_else(|| straight(web, map.patch), |alone| alone[i].straight_fibres);
         let few = laid.shared_air.as_ref().and_then(|together| of_all_layers(web, together, map));
         let of_map = map.cv;
         // A map of pieces of another sheet says nothing of chance.
@@ -216,10 +178,8 @@ pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Result
             filled: few.map(|_| of_map),
             map,
             single_fibres,
-            flown,
-            surrogate,
             straight_fibres,
-            independent,
+            in_one_air: is_shared,
         });
     }
     let lags = ((LAG / sheet.cell).round() as usize + 1).min(LAGS);
@@ -227,15 +187,7 @@ pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Result
     let autocorrelation = autocorrelation(&map, lags, by.threads);
     let orientation = orientation(web, by)?;
     drop(map);
-    let fibres = web
-        .layers
-        .first()
-        .into_iter()
-        .flat_map(|layer| [Some(&layer.fibres), layer.other_description.as_ref()]);
-    let surrogate = fibres.flatten().find_map(|fibres| match fibres {
-        Fibres::Surrogate(surrogate) => Some(*surrogate),
-        Fibres::Curves(_) => None,
-    });
+    let surrogate = web.layers.first().and_then(|layer| layer.fibres.surrogate());
     Ok(Findings {
         fibre_length: web.fibre_length(),
         surrogate,
@@ -247,6 +199,15 @@ pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Result
         reach,
         laid,
     })
+}
+
+/// The CV of straight fibres in all directions in place of the layers.
+fn straight(web: &Web, patch: f64) -> f64 {
+    let squares = web.layers.iter().map(|layer| {
+        let weight = layer.basis_weight(&web.sheet);
+        (weight / web.basis_weight() * straight_fibres(weight / layer.linear_density, patch)).powi(2)
+    });
+    squares.sum::<f64>().sqrt()
 }
 
 /// What the few filaments of all layers say together: their airs are independent of each other, so the

@@ -27,7 +27,6 @@ mod nozzles;
 mod one_fibre;
 mod orientation;
 mod plan;
-mod points;
 mod raster;
 mod shared_error;
 mod strands;
@@ -51,7 +50,7 @@ pub(crate) use few::{
 };
 pub use few_findings::{FewDoubt, FewFilamentsCv, LayerFew};
 pub(crate) use few_findings::{LEAST_SAVING, TRIED};
-pub use findings::{Findings, IndependentCv, PatchFindings, find, find_laid};
+pub use findings::{Findings, PatchFindings, find, find_laid};
 pub use laid_web::{LaidWeb, SharedAirFindings};
 pub use lay::{lay, pieces};
 pub use laying::{LayControl, TimeSpent};
@@ -121,8 +120,6 @@ pub struct Layer {
     pub defects: Vec<Defect>,
     /// The curves that they lay.
     pub fibres: Fibres,
-    /// Another description of the same filaments, whose unevenness is told beside that of `fibres`.
-    pub other_description: Option<Fibres>,
 }
 
 /// Where the filaments of a layer come down in cross direction.
@@ -211,8 +208,13 @@ impl Row {
 pub enum Fibres {
     /// Paths of the stochastic model, each its own.
     Surrogate(Surrogate),
-    /// Curves that were flown, laid again and again at other places.
-    Curves(Arc<Curves>),
+    /// Curves of filaments that were flown in one air, which lay them on the sheet as they come down.
+    Flown {
+        /// Those of some of the filaments.
+        curves: Arc<Curves>,
+        /// The model of each of them, if one was found.
+        surrogate: Option<Surrogate>,
+    },
 }
 
 impl Layer {

@@ -1,7 +1,7 @@
 //! The directions of the fibres in a web.
 
 use super::laying::LayControl;
-use super::plan::{Plan, plans};
+use super::plan::Plan;
 use super::shared_error::{Part, SharedError};
 use super::{Curves, Fibres, Web};
 use crate::error::Error;
@@ -207,14 +207,18 @@ impl Orientation {
 /// As [`lay`](super::lay).
 pub fn orientation(web: &Web, by: LayControl<'_>) -> Result<Orientation, Error> {
     let (mut samples, mut piece) = (Vec::new(), 0.0_f64);
-    for plan in &plans(web)? {
-        let weight = plan.layer.basis_weight(&web.sheet) / web.basis_weight();
-        piece = piece.max(plan.piece);
-        samples.push(match &plan.layer.fibres {
-            Fibres::Curves(curves) => {
-                Sample::of_curves(weight, curves, plan.layer.belt_ratio() * curves.spacing())
+    for (number, layer) in web.layers.iter().enumerate() {
+        let weight = layer.basis_weight(&web.sheet) / web.basis_weight();
+        samples.push(match &layer.fibres {
+            Fibres::Flown { curves, .. } => {
+                piece = piece.max(curves.spacing());
+                Sample::of_curves(weight, curves, layer.belt_ratio() * curves.spacing())
             }
-            Fibres::Surrogate(_) => Sample::of_surrogate(weight, plan, web, by)?,
+            Fibres::Surrogate(_) => {
+                let plan = Plan::new(web, number, layer)?;
+                piece = piece.max(plan.piece);
+                Sample::of_surrogate(weight, &plan, web, by)?
+            }
         });
     }
     Ok(Orientation::of(&samples, piece))

@@ -1,10 +1,8 @@
 //! How the filaments of a layer are drawn: where they come down, in which pieces, with which random numbers.
 
-use super::curves::Stretches;
 use super::defects::Titres;
 use super::laying::LayControl;
 use super::nozzles::{PLACES, inlets, random, uniform};
-use super::points::Points;
 use super::raster::{Draw, Pens};
 use super::strip::Strip;
 use super::{Fibres, Layer, Sheet, Web};
@@ -12,7 +10,6 @@ use crate::error::{Error, Fault};
 use crate::lanes::{Isa, Lanes, WIDTH};
 use crate::surrogate::{PATH_POINTS, PathKey, Paths, Surrogate};
 use std::ops::Range;
-use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 /// Longest piece of a path: of the smaller standard deviation, and of the length 1/A² in which the direction
@@ -20,16 +17,16 @@ use std::sync::atomic::Ordering;
 const LONGEST_PIECE: [f64; 2] = [0.06, 0.2];
 /// Points that are drawn at once.
 pub(super) const BLOCK: usize = PATH_POINTS + 1;
-/// Last word of the keys of the choice of stretches. Places, paths and winds have others.
-const STRETCHES: u64 = 5;
 
-/// Paths of the surrogate.
-struct SurrogatePaths {
+/// Paths of up to eight filaments, point by point.
+struct Points {
     paths: Paths,
     last: Option<[Lanes; 2]>,
 }
 
-impl Points for SurrogatePaths {
+impl Points {
+    /// Fills `points` with the ends of at most so many pieces: the first is where the next piece begins, the
+    /// others where pieces end. Returns the number of points.
     fn next(&mut self, pieces: usize, points: &mut [[Lanes; 2]]) -> usize {
         let count = points.len().min(pieces + 1);
         let points = match self.last {
@@ -48,16 +45,13 @@ impl Points for SurrogatePaths {
         self.last = points.last().copied();
         points.len()
     }
-
-    fn paths(&mut self) -> Option<&mut Paths> {
-        Some(&mut self.paths)
-    }
 }
 
 /// How the filaments of a layer are drawn.
 pub(super) struct Plan<'a> {
     number: u64,
     pub(super) layer: &'a Layer,
+    surrogate: Surrogate,
     /// Places of the filaments across the web, in order [m].
     pub(super) places: Vec<f64>,
     /// Pieces of each filament.
@@ -86,38 +80,23 @@ fn cheapest_piece(longest: f64, part: f64) -> f64 {
 }
 
 impl<'a> Plan<'a> {
-    fn new(web: &Web, number: usize, layer: &'a Layer) -> Result<Self, Fault> {
+    pub(super) fn new(web: &Web, number: usize, layer: &'a Layer) -> Result<Self, Fault> {
         let sheet = &web.sheet;
         let fed = layer.fed_length(sheet);
-        let (wanted, longest) = match &layer.fibres {
-            Fibres::Surrogate(surrogate) => {
-                let least = surrogate.sigma_md.min(surrogate.sigma_cd);
-                let longest =
-                    (LONGEST_PIECE[0] * least).min(LONGEST_PIECE[1] / (surrogate.noise * surrogate.noise));
-                // A whole number of pieces, none of them longer.
-                let wanted = cheapest_piece(longest, sheet.cell / (1.0 + layer.belt_ratio()));
-                (fed / (fed / wanted).ceil(), None)
-            }
-            Fibres::Curves(curves) => {
-                let [_, longest] = curves.reach();
-                if (curves.belt_ratio() / layer.belt_ratio() - 1.0).abs() > 1e-9 {
-                    let message = format!(
-                        "the curves were laid at a belt speed of {} times the feed speed, the layer has {} times",
-                        curves.belt_ratio(),
-                        layer.belt_ratio()
-                    );
-                    return Err(Fault::new(message, "fly the case at the belt speed of the web"));
-                }
-                (curves.spacing(), Some(longest))
-            }
+        let Fibres::Surrogate(surrogate) = layer.fibres else {
+            return Err(Fault::plain("filaments in one air lay the web as they fly".to_owned()));
         };
+        let least = surrogate.sigma_md.min(surrogate.sigma_cd);
+        let longest = (LONGEST_PIECE[0] * least).min(LONGEST_PIECE[1] / (surrogate.noise * surrogate.noise));
+        // A whole number of pieces, none of them longer.
+        let wanted = fed / (fed / cheapest_piece(longest, sheet.cell / (1.0 + layer.belt_ratio()))).ceil();
         let pieces = (fed / wanted).round().max(1.0);
         if !(fed > 0.0 && pieces < 1e12) {
             return Err(no_layer(number + 1));
         }
         let piece = fed / pieces;
         let advance = layer.belt_ratio() * piece;
-        let parts = Pens::parts_of((longest.unwrap_or(piece) + advance) / sheet.cell);
+        let parts = Pens::parts_of((piece + advance) / sheet.cell);
         let places = places(web, number, layer);
         if places.is_empty() {
             return Err(no_layer(number + 1));
@@ -125,7 +104,8 @@ impl<'a> Plan<'a> {
         let titres =
             Titres::new((sheet, web.seed), (number, &layer.filaments), (&layer.defects, layer.belt_speed));
         let number = number as u64;
-        Ok(Self { number, layer, places, pieces: pieces as usize, piece, parts, quanta: 0, titres })
+        let pieces = pieces as usize;
+        Ok(Self { number, layer, surrogate, places, pieces, piece, parts, quanta: 0, titres })
     }
 
     /// Mass of a part of a piece [kg].
@@ -135,10 +115,7 @@ impl<'a> Plan<'a> {
 
     /// Highest mass of a cell that is reckoned with, without the other filaments [kg].
     pub(super) fn mass_of_trace(&self, sheet: &Sheet) -> f64 {
-        let width = match &self.layer.fibres {
-            Fibres::Surrogate(surrogate) => (2.0 * std::f64::consts::PI).sqrt() * surrogate.sigma_cd,
-            Fibres::Curves(_) => self.layer.fibres.reach(),
-        };
+        let width = (2.0 * std::f64::consts::PI).sqrt() * self.surrogate.sigma_cd;
         self.layer.linear_density / self.layer.belt_ratio() * sheet.cell * (sheet.cell / width).min(1.0)
     }
 
@@ -147,27 +124,19 @@ impl<'a> Plan<'a> {
     }
 
     /// The curves of the filaments from the number `first` on.
-    fn points(&self, web: &Web, isa: Isa, first: usize, count: usize) -> Result<Box<dyn Points>, Fault> {
-        match &self.layer.fibres {
-            Fibres::Surrogate(surrogate) => {
-                let keys: Vec<PathKey> = (first..first + count).map(|f| self.key(web, f)).collect();
-                let paths = Paths::new(isa, *surrogate, self.piece, &keys).ok_or_else(|| {
-                    let Surrogate { sigma_md, sigma_cd, noise } = surrogate;
-                    Fault::new(
-                        format!(
-                            "no path can be made with the standard deviations {sigma_md:e} m and \
-                            {sigma_cd:e} m and the noise {noise:e} m^-0.5"
-                        ),
-                        "all must be above zero",
-                    )
-                })?;
-                Ok(Box::new(SurrogatePaths { paths, last: None }))
-            }
-            Fibres::Curves(curves) => {
-                let random = random(web.seed, self.number << 48 | first as u64, STRETCHES);
-                Ok(Box::new(Stretches::new(Arc::clone(curves), random, count)))
-            }
-        }
+    fn points(&self, web: &Web, isa: Isa, first: usize, count: usize) -> Result<Points, Fault> {
+        let keys: Vec<PathKey> = (first..first + count).map(|f| self.key(web, f)).collect();
+        let paths = Paths::new(isa, self.surrogate, self.piece, &keys).ok_or_else(|| {
+            let Surrogate { sigma_md, sigma_cd, noise } = self.surrogate;
+            Fault::new(
+                format!(
+                    "no path can be made with the standard deviations {sigma_md:e} m and {sigma_cd:e} m and \
+                    the noise {noise:e} m^-0.5"
+                ),
+                "all must be above zero",
+            )
+        })?;
+        Ok(Points { paths, last: None })
     }
 
     /// Mass per length of a filament over that of the others where its straight trace is at a place [m], the
@@ -268,16 +237,14 @@ impl<'a> Plan<'a> {
     ) -> Result<(), Error> {
         let mut points = [[Lanes::ZERO; 2]; BLOCK];
         let curves = sets.iter().map(|(first, count)| self.points(web, by.isa, *first, *count));
-        let mut curves: Vec<Box<dyn Points>> = curves.collect::<Result<_, _>>()?;
+        let mut curves: Vec<Points> = curves.collect::<Result<_, _>>()?;
         let mut left = vec![self.pieces; sets.len()];
         while left.iter().any(|left| *left > 0) {
             if by.stop.load(Ordering::Relaxed) {
                 return Err(Error::Interrupted);
             }
-            if let [one, other] = &mut curves[..]
-                && let (Some(one), Some(other)) = (one.paths(), other.paths())
-            {
-                one.go_on_together(other);
+            if let [one, other] = &mut curves[..] {
+                one.paths.go_on_together(&mut other.paths);
             }
             for ((set, curves), left) in curves.iter_mut().enumerate().zip(&mut left) {
                 if *left > 0 {

@@ -3,7 +3,7 @@
 use super::laying::LayControl;
 use super::plan::{Plan, plans};
 use super::window::{Strand, Window};
-use super::{Edges, Fibres, Web};
+use super::{Edges, Web};
 use crate::error::Error;
 use crate::lanes::{Lanes, WIDTH};
 use crate::threads::try_each;
@@ -41,10 +41,6 @@ fn strands_of(
     let mut strands = Vec::new();
     let [places, mut along] = plan.start(web, first, count);
     let advance = plan.layer.belt_ratio() * plan.piece;
-    let longest = match &plan.layer.fibres {
-        Fibres::Surrogate(_) => plan.piece,
-        Fibres::Curves(curves) => 2.0 * curves.reach()[1],
-    };
     let mut open: [Option<Strand>; WIDTH] = Default::default();
     plan.walk(web, first, count, by, |points| {
         for (lane, open) in open.iter_mut().enumerate().take(count) {
@@ -59,7 +55,7 @@ fn strands_of(
             if ended.is_some_and(|end| window.distance(end, before) > 1e-6) {
                 strands.extend(open.take());
             }
-            let longest = (points.len() - 1) as f64 * (longest + advance);
+            let longest = (points.len() - 1) as f64 * (plan.piece + advance);
             let is_fed = plan.titre_at(first + lane, along.0[lane], web) > 0.0;
             if !(is_fed && window.nears(before, longest)) {
                 strands.extend(open.take());

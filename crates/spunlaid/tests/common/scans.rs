@@ -40,7 +40,6 @@ pub fn web(sides: [f64; 2], cell: f64, sigma: f64, filaments: f64, in_rows: bool
         },
         fibres,
         defects: Vec::new(),
-        other_description: None,
     };
     let sheet = Sheet::new(width, length, cell);
     let web = Web { sheet, layers: vec![layer], seed };

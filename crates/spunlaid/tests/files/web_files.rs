@@ -3,7 +3,7 @@
 
 use proptest::prelude::*;
 use spunlaid::case::keys::Value;
-use spunlaid::input::{LaydownSource, Method, WEB_KEYS, WEB_TABLES, WebFile, WebSpec, parse_web, read_web};
+use spunlaid::input::{LaydownSource, WEB_KEYS, WEB_TABLES, WebFile, WebSpec, parse_web, read_web};
 use spunlaid::layers::Flown;
 use spunlaid::surrogate::Surrogate;
 use spunlaid::web::{Defect, Edges, Fibres, Filaments, Row};
@@ -12,7 +12,7 @@ use std::fs;
 pub(super) const KNOWN: &str = "../../cases/web_known.toml";
 const FLOWN: &str = "../../cases/web.toml";
 
-/// Three layers in all three ways, with rows and at random.
+/// Two layers, with rows and at random.
 const LAYERS: &str = r#"
 version = 1
 [web]
@@ -24,9 +24,15 @@ seed = 7
 window = "1 cm"
 [[layer]]
 name = "first \"beam\""
+[layer.fibre]
+diameter = "18 µm"
+density = "910 kg/m³"
 [layer.laydown]
-case = "../../cases/spunbond.toml"
+sigma_md = "18 mm"
+sigma_cd = "18 mm"
+noise = "12.4 1/√m"
 [layer.line]
+feed_speed = "50 m/s"
 rows = [{ pitch = "0.5 mm", filaments = 2100 }, { offset = "-0.25 mm", pitch = "0.5 mm", filaments = 2100 }]
 [[layer]]
 [layer.fibre]
@@ -97,10 +103,7 @@ fn the_known_web_is_what_its_file_says() {
     assert_eq!(surrogate, Surrogate { sigma_md: 18.4e-3, sigma_cd: 18.3e-3, noise: 12.4 });
     // The defaults.
     assert_eq!(spec.sheet.patches, [1e-3, 2e-3, 5e-3, 10e-3, 20e-3, 50e-3]);
-    assert_eq!(
-        (spec.sheet.cell, spec.sheet.edges, spec.method),
-        (0.5e-3, Edges::Periodic, Method::Surrogate)
-    );
+    assert_eq!((spec.sheet.cell, spec.sheet.edges, spec.flies()), (0.5e-3, Edges::Periodic, false));
     assert_eq!((spec.seed, spec.window, spec.sheet.cells()), (1, 20e-3, [2000, 2000]));
     // 5000 filaments of π/4 (18 µm)² 910 kg/m³ a metre, fed at 50 m/s, on a belt for 15 g/m².
     let web = spec.web([Fibres::Surrogate(surrogate)]);
@@ -151,11 +154,9 @@ fn identical_the_cutoff_of_one_air_is_set_with_or_without_its_turbulence_across(
     let [alone, both] = [&[cutoff][..], &[lateral, cutoff]].map(|set| read(set).unwrap().spec);
     assert_eq!(alone.lateral_cutoff(0), Some(12.0));
     assert_eq!(alone, both);
-    // Independent filaments have no such air, and nobody overrules what is set.
-    for other in [("web.method", "dynamics"), ("air.lateral", "uniform")] {
-        let said = read(&[other, cutoff]).unwrap_err().to_string();
-        assert!(said.contains("air.lateral_cutoff = 12 has no effect without air.lateral"), "{said}");
-    }
+    // Nobody overrules what is set.
+    let said = read(&[("air.lateral", "uniform"), cutoff]).unwrap_err().to_string();
+    assert!(said.contains("air.lateral_cutoff = 12 has no effect without air.lateral"), "{said}");
 }
 
 #[test]
@@ -168,17 +169,14 @@ fn a_slot_rows_at_places_along_and_one_air_are_read_and_written() {
         ("line.rows", "auto"),
         ("line.filaments_per_metre", "500"),
         ("line.depth", "20 mm"),
-        ("web.method", "shared-air"),
         ("web.memory_limit", "20 GB"),
     ];
     let file = read(&in_slot);
     assert_reads_back(&file);
-    let WebFile { mut spec, notes, .. } = file;
+    let mut spec = file.spec;
     assert_eq!(spec.layers[0].filaments, Filaments::Slot { per_metre: 500.0, depth: 20e-3 });
-    assert_eq!((spec.method, spec.memory_limit), (Method::SharedAir, 20e9));
+    assert_eq!((spec.flies(), spec.memory_limit), (true, 20e9));
     assert_eq!(spec.lateral_cutoff(0), Some(10.0));
-    // The case leaves its turbulence the same across the flow, which is told.
-    assert!(notes.iter().any(|note| note.to_string().contains("von-karman")), "{notes:?}");
     // A study varies the number of filaments and keeps the slot.
     let key = |name: &str| WEB_KEYS.iter().find(|key| key.name == name).unwrap();
     key("line.filaments_per_metre").set(&mut spec, 700_u64).unwrap();
@@ -201,37 +199,20 @@ fn a_slot_rows_at_places_along_and_one_air_are_read_and_written() {
     assert_eq!(file.spec.layers[0].defects, [half, later]);
 }
 
-/// Webs hang in one air where their cases can be flown in one, unless the file says otherwise.
+/// Filaments of cases hang in one air, and those of known numbers are independent: the source decides.
 #[test]
-fn a_web_that_says_nothing_of_its_method_hangs_in_one_air_where_it_can() {
-    let read = |text: &str, values: &[(String, String)]| parse_web(text, "web.toml", values).unwrap();
-    let case = |name: &str| {
-        format!(
-            "[laydown]\ncase = \"{name}\"\n[line]\nfilaments_per_metre = 5000\n[web]\nwidth = \"0.5 m\"\n\
-            length = \"0.5 m\"\n"
-        )
-    };
-    let [flown, recorded] = ["tests/bad_webs/short.case", "tests/bad_webs/recorded.case"].map(case);
+fn a_web_hangs_in_one_air_where_its_filaments_fly() {
+    let read = |text: &str| parse_web(text, "web.toml", &[]).unwrap();
+    let flown = "[laydown]\ncase = \"tests/bad_webs/short.case\"\n[line]\nfilaments_per_metre = 5000\n[web]\n\
+        width = \"0.5 m\"\nlength = \"0.5 m\"\n";
     let known = fs::read_to_string(KNOWN).unwrap();
-    for (text, method) in [
-        (&flown, Method::SharedAir),
-        (&recorded, Method::Surrogate),
-        (&LAYERS.to_owned(), Method::Surrogate),
-        (&known, Method::Surrogate),
-    ] {
-        let file = read(text, &[]);
-        assert_eq!(file.spec.method, method, "{text}");
-        // What is chosen is written, and stays.
-        assert_eq!(read(&file.text, &[]).spec.method, method, "{}", file.text);
-        // What is said is taken, and can be taken back.
-        let said = read(text, &set("web.method", "surrogate"));
-        assert_eq!(said.spec.method, Method::Surrogate, "{text}");
-        assert_eq!(read(&said.text, &set("web.method", "auto")).spec.method, method, "{text}");
+    for (text, flies) in [(flown, true), (LAYERS, false), (&known, false)] {
+        let file = read(text);
+        assert_eq!(file.spec.flies(), flies, "{text}");
+        assert_eq!(read(&file.text).spec.flies(), flies, "{}", file.text);
+        // A usual web is not told that its air gets a place in space.
+        assert!(!file.notes.iter().any(|note| note.to_string().contains("von-karman")));
     }
-    // A usual web is not told that its air gets a place in space; one that asks for it is.
-    let tells = |file: &WebFile| file.notes.iter().any(|note| note.to_string().contains("von-karman"));
-    assert!(!tells(&read(&flown, &[])));
-    assert!(tells(&read(&flown, &set("web.method", "shared-air"))));
 }
 
 #[test]

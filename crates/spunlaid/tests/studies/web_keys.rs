@@ -266,7 +266,7 @@ fn identical_alone_and_in_a_study_for_every_key_of_a_web() {
         "layer.2.fibre.diameter",
         "layer.2.line.filaments_per_metre",
         "line.rows.2.offset",
-        "web.method",
+        "web.flown",
         "line.throughput",
         "layer.2.line.basis_weight",
     ] {

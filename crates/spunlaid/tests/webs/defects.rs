@@ -54,7 +54,7 @@ fn invariant_a_blocked_hole_takes_one_filament_from_a_web_of_independent_ones() 
     let by = |threads| LayControl { threads, isa: Isa::detect(), stop: &stop, laid: &laid };
     let lay_with = |defects: &[Defect], threads: usize| {
         let spec = with(&spec, defects);
-        let mut flyer = Flyer::new(threads, &stop, &unwatched);
+        let flyer = Flyer::new(threads, &stop, &unwatched);
         let web = flyer.web(&spec).unwrap().web;
         let kept = strands(&web, spec.window(), by(threads)).unwrap();
         (lay(&web, by(threads)).unwrap(), kept)

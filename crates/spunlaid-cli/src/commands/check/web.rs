@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::say;
 use spunlaid::air::Lateral;
 use spunlaid::charge::{BREAKDOWN, ChargeEstimate};
-use spunlaid::input::{LaydownSource, LayerSpec, Method, WebSpec, read_web};
+use spunlaid::input::{LaydownSource, LayerSpec, WebSpec, read_web};
 use spunlaid::layers::PlannedFlight;
 use spunlaid::units::Dimension;
 use spunlaid::web::Filaments;
@@ -106,18 +106,12 @@ fn air(spec: &WebSpec) -> Vec<String> {
             LaydownSource::Surrogate(_) => {
                 "  nothing is flown: the spread and the noise are given".to_owned()
             }
-            LaydownSource::Results { .. } => {
-                format!("  the filaments are those of {path}, which were flown before")
-            }
-            LaydownSource::Case { case, .. } => match (case.air.lateral, spec.method) {
-                (Lateral::VonKarman { .. }, _) => {
+            LaydownSource::Case { case, .. } => match case.air.lateral {
+                Lateral::VonKarman { .. } => {
                     format!("  {path}: its eddies lie in space (air.lateral = \"von-karman\")")
                 }
-                (Lateral::Uniform, Method::SharedAir) => {
+                Lateral::Uniform => {
                     format!("  {path}: its eddies are given a place in space (air.lateral = \"von-karman\")")
-                }
-                (Lateral::Uniform, _) => {
-                    format!("  {path}: each fibre that is flown has turbulence of its own")
                 }
             },
         }
@@ -128,10 +122,7 @@ fn air(spec: &WebSpec) -> Vec<String> {
             lines.push(line);
         }
     }
-    lines.extend(match spec.method {
-        Method::SharedAir => in_one_air(spec),
-        Method::Surrogate | Method::Dynamics => independent(spec),
-    });
+    lines.extend(if spec.flies() { in_one_air(spec) } else { independent() });
     lines
 }
 
@@ -207,23 +198,10 @@ fn guesses(spec: &WebSpec) -> Vec<String> {
 }
 
 /// That the web is a lower bound, and the way out of it.
-fn independent(spec: &WebSpec) -> Vec<String> {
-    let is_case = |layer: &LayerSpec| matches!(layer.source, LaydownSource::Case { .. });
-    let has_record = |layer: &LayerSpec| layer.source.case().is_some_and(|case| !case.air.records.is_empty());
-    let way_out = if !spec.layers.iter().all(is_case) {
-        "to fly them in one air, as in a line: name a case in laydown.case"
-    } else if spec.layers.iter().any(has_record) {
-        "a record says nothing of the air beside it: to fly them in one air, as in a line, write numbers or \
-        a profile in the case"
-    } else if is_at_random(spec) {
-        "to fly them in one air, as in a line: --set web.method=shared-air --set line.depth=\"20 mm\" (the \
-        depth of the slot)"
-    } else {
-        "to fly them in one air, as in a line: --set web.method=shared-air"
-    };
+fn independent() -> Vec<String> {
     vec![
         "  the filaments are independent of each other, which gives a lower bound of the unevenness"
             .to_owned(),
-        format!("  {way_out}"),
+        "  to fly them in one air, as in a line: name a case in laydown.case".to_owned(),
     ]
 }

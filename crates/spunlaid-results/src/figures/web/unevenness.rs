@@ -4,10 +4,10 @@ use super::{MM, PER_CENT, Weights};
 use crate::numbers::significant;
 use spunlaid::scan;
 use spunlaid::web::uniformity::Unevenness;
-use spunlaid::web::{Edges, Findings, Map, PatchFindings, Web, straight_fibres};
+use spunlaid::web::{Edges, Findings, Map, Web, straight_fibres};
 use spunlaid_charts::{
     Axis, Chart, Figure, Series,
-    palette::{BLUE, GREEN, GREY, VERMILION},
+    palette::{BLUE, GREY, VERMILION},
 };
 
 pub(super) fn empty_chart() -> Chart {
@@ -51,16 +51,11 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
     });
     let map: Vec<_> = map.collect();
     let line: Vec<(f64, f64)> = map.iter().map(|(patch, cv, _)| (*patch, *cv)).collect();
-    let curve = |cv: fn(&PatchFindings) -> Option<(f64, f64)>| -> Vec<(f64, f64)> {
-        let point = |patch: &PatchFindings| Some((patch.map.patch * MM, cv(patch)?.0 * PER_CENT));
-        findings.patches.iter().filter_map(point).collect()
-    };
-    let (flown, surrogate) = (curve(|patch| patch.flown), curve(|patch| patch.surrogate));
-    let single: Vec<(f64, f64)> = findings
+    let single = findings
         .patches
         .iter()
-        .map(|patch| (patch.map.patch * MM, patch.single_fibres.0 * PER_CENT))
-        .collect();
+        .filter_map(|patch| Some((patch.map.patch * MM, patch.single_fibres?.0 * PER_CENT)));
+    let single: Vec<(f64, f64)> = single.collect();
     let straight: Vec<(f64, f64)> = findings
         .patches
         .iter()
@@ -69,17 +64,14 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
     let mut chart =
         empty_chart().line(Series::new("straight fibres at random", GREY).dashed(&[6.0, 4.0]), &straight);
     let is_shared = findings.laid.shared_air.is_some();
-    chart = match (flown.is_empty(), surrogate.is_empty()) {
-        _ if is_shared => {
-            let alone = Series::new("the same filaments in airs of their own", VERMILION).width(1.8);
-            let chart = chart.line(alone, &single);
-            chart.line(Series::new("", BLUE).unlabelled().adorning().width(1.0), &line)
-        }
-        (false, false) => chart
-            .line(Series::new("expected, from the surrogate", VERMILION).width(1.8), &surrogate)
-            .line(Series::new("expected, from the flown curves", GREEN).width(1.8), &flown),
-        _ => chart.line(Series::new("expected, from single fibres", VERMILION).width(1.8), &single),
-    };
+    let of_single =
+        if is_shared { "the same filaments in airs of their own" } else { "expected, from single fibres" };
+    if !single.is_empty() {
+        chart = chart.line(Series::new(of_single, VERMILION).width(1.8), &single);
+    }
+    if is_shared {
+        chart = chart.line(Series::new("", BLUE).unlabelled().adorning().width(1.0), &line);
+    }
     let of_few = findings.patches.iter().any(|patch| patch.few.is_some());
     let spots = if of_few { "the web of all filaments, from the flown ones" } else { "this map" };
     let chart = chart.scatter(Series::spots(spots, BLUE), &map);
@@ -97,8 +89,7 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
     let tenth = straight_fibres(tau, 0.01) * PER_CENT;
     let caption = format!(
         "Standard deviation of the basis weight of square patches over its mean; the sheet is {cut}. Bars \
-        are one standard error of the map: by chance, from its waves, and, where fibres were flown, also by \
-        their small number and by the surrogate. The expected curve is that of independent filaments \
+        are one standard error of the map by chance, from its waves. The expected curve is that of independent filaments \
         {places}, from the lengths that one fibre leaves in each patch. Straight fibres of the same mass in \
         all directions would give CV² = 0.946 line density/(basis weight · side), {} % at 10 mm for the \
         first layer’s fibre: the distance to them is what the loops of the lay-down cost.",

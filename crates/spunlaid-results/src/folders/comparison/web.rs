@@ -17,8 +17,6 @@ pub(super) struct Web {
     pub(super) patches: Vec<Patch>,
     /// Sides of the patches whose CV is not told, each with the reason.
     pub(super) untold: Vec<(f64, String)>,
-    /// The CV expected from the flown curves, if there were some.
-    pub(super) flown: Vec<Patch>,
     /// Cloudiness index and share of the texture along the machine direction.
     pub(super) clouds: [Option<WebNumber>; 2],
     /// Whether it comes from a camera, which blurs.
@@ -91,7 +89,6 @@ impl Web {
             // Older folders have no error but that by chance.
             patches: patches(["cv", "cv_standard_error", "cv_interval"]),
             untold: untold.collect(),
-            flown: patches(["cv_flown", "cv_flown_standard_error", ""]),
             clouds,
             // A map of basis weight has no blur of a camera.
             has_camera: all.iter().any(|patch| patch["blur_of_a_pixel"].is_number()),
@@ -205,7 +202,7 @@ impl WebNumber {
 }
 
 /// The CV at a patch of nearly the same size, moved to that size along the slope to its neighbour.
-pub(super) fn at(patches: &[Patch], side: f64) -> Option<WebNumber> {
+fn at(patches: &[Patch], side: f64) -> Option<WebNumber> {
     let far = |patch: &Patch| (side / patch.side).ln().abs();
     let (i, nearest) = patches.iter().enumerate().min_by(|a, b| far(a.1).total_cmp(&far(b.1)))?;
     if !are_alike(side, nearest.side) {

@@ -4,7 +4,7 @@ use super::super::finished::read_summary;
 use super::fabric::{InCommon, in_common};
 use super::found::Found;
 use super::maps::maps;
-use super::web::{Patch, Web, WebNumber, are_alike, at};
+use super::web::{Patch, Web, WebNumber, are_alike};
 use crate::Failure;
 use crate::figures::{ComparedPatch, SEEN, overlaid_webs};
 use crate::numbers::significant;
@@ -83,11 +83,6 @@ fn compare_webs(first: &Web, other: &Web) -> Result<Comparison, Failure> {
     sides.sort_by(f64::total_cmp);
     let of_map = |side: f64| of_patch(side, ["CV", ""], [first.cv(side), other.cv(side)]);
     let mut measures: Vec<ComparedMeasure> = sides.into_iter().map(of_map).collect();
-    let of_flown = |patch: &Patch| {
-        let values = [Ok(patch.cv.clone()), Ok(at(&other.flown, patch.side)?)];
-        Some(of_patch(patch.side, ["CV of the flown curves", "_flown"], values))
-    };
-    measures.extend(first.flown.iter().filter_map(of_flown));
     let names =
         [("cloudiness index", "cloudiness", ("%", 100.0)), ("texture along MD", "texture_md", ("", 1.0))];
     for (i, (label, column, unit)) in names.into_iter().enumerate() {

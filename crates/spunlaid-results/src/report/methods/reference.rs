@@ -4,7 +4,7 @@
 pub(in crate::report) use spunlaid::drag::Source as Reference;
 
 use spunlaid::case::Case;
-use spunlaid::layers::{Method, WebSpec};
+use spunlaid::layers::WebSpec;
 
 /// The program itself.
 pub(in crate::report) const PROGRAM: Reference = Reference {
@@ -49,7 +49,7 @@ pub(in crate::report) fn of_case(case: &Case) -> Vec<Reference> {
 
 /// What a web rests on: the surrogate where it lays the fibres, and the cases that fly.
 pub(in crate::report) fn of_web(spec: &WebSpec) -> Vec<Reference> {
-    let surrogate = (spec.method == Method::Surrogate).then_some(SURROGATE);
+    let surrogate = (!spec.flies()).then_some(SURROGATE);
     let cases = spec.layers.iter().filter_map(|layer| layer.source.case()).flat_map(of_case);
     surrogate.into_iter().chain(cases).collect()
 }

@@ -6,7 +6,7 @@ use super::{Base, VariedKey};
 use crate::advice::Change;
 use crate::air::{Air, Flow};
 use crate::effects::{ChangedKey, Setting};
-use crate::layers::{LaydownSource, LayerSpec, Method, WebSpec, web_key};
+use crate::layers::{LayerSpec, WebSpec, web_key};
 use crate::plausible::leads_outside;
 use crate::units::Dimension;
 use crate::web::Filaments;
@@ -15,11 +15,6 @@ use crate::web::Filaments;
 const STEPS: [Step; 2] = [Step { factor: 0.8, kelvin: -10.0 }, Step { factor: 1.2, kelvin: 10.0 }];
 
 pub(super) fn changes(web: OpenWeb<'_>) -> Vec<Change> {
-    let is_laid = |layer: &LayerSpec| matches!(layer.source, LaydownSource::Results { .. });
-    if web.base.spec().layers.iter().any(is_laid) {
-        // What has been flown lies on the belt of its flight.
-        return Vec::new();
-    }
     Line { web }.changes()
 }
 
@@ -61,7 +56,6 @@ impl Line<'_> {
         };
         let titre =
             |layer: usize| vec![(format!("layer.{layer}.fibre.linear_density"), 1.0), throughput(layer, 0.0)];
-        let is_flown = |layer: &usize| self.spec().layers[layer - 1].source.case().is_some();
         // Nobody has to say which layers where all are changed.
         let named = |group| if groups.len() > 1 { group } else { &all };
         let mut settings: Vec<(Setting, &Vec<usize>, Vec<KeyPowers>)> = Vec::new();
@@ -70,20 +64,20 @@ impl Line<'_> {
             settings.push((Setting::THROUGHPUT, named(group), throughputs));
             settings.push((Setting::HOLES, named(group), of_each(group, &|layer| self.holes(layer))));
         }
-        for group in groups.iter().filter(|group| !is_flown(&group[0])) {
-            settings.push((Setting::TITRE, named(group), of_each(group, &titre)));
-        }
-        // The spinline decides the titre.
-        if self.web.base.number_of_cases("spinline.throughput").is_none() {
-            let flown: Vec<usize> = (1..=self.spec().layers.len()).filter(is_flown).collect();
-            settings.push((Setting::TITRE, &all, of_each(&flown, &titre)));
-        }
-        settings.extend(self.settings_of_air().into_iter().map(|(setting, ways)| (setting, &all, ways)));
-        if self.spec().method == Method::SharedAir {
+        if self.spec().flies() {
             let every: Vec<usize> = (1..=self.spec().layers.len()).collect();
+            // The spinline decides the titre.
+            if self.web.base.number_of_cases("spinline.throughput").is_none() {
+                settings.push((Setting::TITRE, &all, of_each(&every, &titre)));
+            }
+            settings.extend(self.settings_of_air().into_iter().map(|(setting, ways)| (setting, &all, ways)));
             settings.push((Setting::DEPTH, &all, of_each(&every, &|layer| self.depth(layer))));
             settings.push((Setting::ROW_PLACES, &all, of_each(&every, &|layer| self.row_places(layer))));
             settings.push((Setting::CHARGE, &all, of_each(&every, &|layer| self.charge(layer))));
+        } else {
+            for group in &groups {
+                settings.push((Setting::TITRE, named(group), of_each(group, &titre)));
+            }
         }
         let changes = settings.iter().flat_map(|(setting, layers, ways)| self.change(*setting, layers, ways));
         changes.filter(|change| !leads_outside(self.spec(), &change.experiment.spec)).collect()

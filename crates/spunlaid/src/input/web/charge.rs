@@ -4,7 +4,7 @@ use super::read::Reading;
 use crate::case::{Note, Remark};
 use crate::charge::{BREAKDOWN, STRONG};
 use crate::error::{Fault, Place};
-use crate::layers::{LayerSpec, Method, WebSpec};
+use crate::layers::{LayerSpec, WebSpec};
 use crate::units::Dimension;
 
 impl Reading<'_> {
@@ -17,11 +17,10 @@ impl Reading<'_> {
 
     fn check_charge_of(&mut self, prefix: &str, web: &WebSpec, layer: &LayerSpec) {
         let [charge, walls] = ["charge", "walls"].map(|name| format!("{prefix}line.{name}"));
-        if layer.charged().is_some() && web.method != Method::SharedAir {
-            let fault = Fault::needs(
-                "web.method = \"shared-air\"",
-                "filaments that know nothing of each other feel no field of each other; leave it out, or \
-                 fly them in one air",
+        if layer.charged().is_some() && !web.flies() {
+            let fault = Fault::new(
+                "is that of filaments of known numbers, which do not fly",
+                "leave it out, or name a case in [laydown] in place of the numbers",
             );
             self.key_values.reject(&charge, fault);
             return;

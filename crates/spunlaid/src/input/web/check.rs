@@ -1,15 +1,13 @@
 //! Checks layers together: with each other, and with the sheet on which they lie.
 
 use super::read::{BELT_SPEED, Reading};
-use crate::air::Lateral;
-use crate::case::{Note, Remark};
-use crate::error::{Fault, Place};
-use crate::layers::keys::{METHODS, WEB};
-use crate::layers::{LaydownSource, LayerSpec, SAME, WebKey, WebSpec, too_small};
+use crate::case::Note;
+use crate::error::Fault;
+use crate::layers::keys::{NUMBERS, WEB};
+use crate::layers::{LaydownSource, SAME, WebKey, WebSpec, too_small};
 use crate::plausible::implausible;
 use crate::units::Dimension;
 use crate::web::{Defect, Edges, Filaments, Row, Sheet, holes};
-use std::path::Path;
 
 /// Most mass per length of a filament over that of the others.
 const MOST_TITRE: f64 = 2.0;
@@ -28,36 +26,50 @@ impl Reading<'_> {
         }
     }
 
-    /// Refuses layers that cannot be flown in one air.
-    pub(super) fn check_shared_air(&mut self, prefixes: &[String], layers: &[LayerSpec]) {
-        for (prefix, layer) in prefixes.iter().zip(layers) {
-            let laydown = format!("{prefix}laydown");
-            let fault = match &layer.source {
-                LaydownSource::Case { case, path } if case.air.records.is_empty() => {
-                    // The usual web need not be told of.
-                    if case.air.lateral == Lateral::Uniform && self.is_written("web.method") {
-                        self.note(vec![uniform_air(path)]);
-                    }
-                    continue;
-                }
-                LaydownSource::Case { path, .. } => Fault::new(
-                    format!(
-                        "flies all filaments in one air, and that of {} follows a recorded wind \
-                        (air.record), which says nothing of how the air differs from place to place across \
-                        the flow",
-                        path.display()
-                    ),
-                    "give the case the spectrum of the record (air.spectrum) in place of the record",
-                ),
-                // A case that cannot be read has been noted.
-                LaydownSource::Surrogate(_) if !self.has_numbers(prefix) => continue,
-                LaydownSource::Results { .. } | LaydownSource::Surrogate(_) => Fault::new(
-                    format!("flies all filaments of the web, and {laydown} names no case to fly"),
-                    format!("write {laydown}.case, or method = \"surrogate\""),
-                ),
-            };
-            self.key_values.reject("web.method", fault);
+    /// Refuses layers that cannot be flown in one air, and what only flights have.
+    pub(super) fn check_sources(&mut self, prefixes: &[String], web: &WebSpec) {
+        if !web.flies() {
+            if self.is_written("web.flown") && prefixes.iter().any(|prefix| self.has_numbers(prefix)) {
+                let fault =
+                    Fault::needs("laydown.case", "leave it out: filaments of known numbers do not fly");
+                self.key_values.reject("web.flown", fault);
+            }
             return;
+        }
+        for (prefix, layer) in prefixes.iter().zip(&web.layers) {
+            let laydown = format!("{prefix}laydown");
+            match &layer.source {
+                LaydownSource::Case { case, path } if !case.air.records.is_empty() => {
+                    let keys = [format!("{prefix}air.record"), "air.record".to_owned()];
+                    let key = keys.into_iter().find(|key| self.is_written(key));
+                    let message = format!(
+                        "follows a recorded wind ({}, air.record), which says nothing of how the air differs from \
+                        place to place across the flow, and all filaments of a web hang in one air",
+                        path.display()
+                    );
+                    let remedy = format!(
+                        "give it the spectrum of the record (air.spectrum) in place of the record; or let \
+                        `spunlaid run` fly it, and write the spreads σ₁ and σ₂ and the noise A that it tells as \
+                        {laydown}.sigma_md, {laydown}.sigma_cd and {laydown}.noise in place of the case"
+                    );
+                    let key = key.unwrap_or_else(|| format!("{laydown}.case"));
+                    self.key_values.reject(&key, Fault::new(message, remedy));
+                }
+                LaydownSource::Surrogate(_) if self.has_numbers(prefix) => {
+                    let key = NUMBERS.iter().map(|name| format!("{prefix}{name}"));
+                    let key = key.into_iter().find(|key| self.is_written(key)).unwrap_or_default();
+                    let fault = Fault::new(
+                        "is a known number, and another layer flies: the filaments of a web all fly, or none does",
+                        format!(
+                            "name a case there ({laydown}.case); or let `spunlaid run` fly the case of the other \
+                            layer, and write the spreads and the noise that it tells in its [laydown]"
+                        ),
+                    );
+                    self.key_values.reject(&key, fault);
+                }
+                // A case that cannot be read has been noted.
+                LaydownSource::Case { .. } | LaydownSource::Surrogate(_) => {}
+            }
         }
     }
 
@@ -202,11 +214,4 @@ impl Reading<'_> {
             self.refuse(&format!("{before}offset"), offset, fault);
         }
     }
-}
-
-/// The note about a case whose turbulence is the same across the flow.
-fn uniform_air(case: &Path) -> Note {
-    let what = Remark::EddiesInSpace { case: case.display().to_string() };
-    let value = Some(format!("\"{}\"", METHODS[2]));
-    Note { place: Place::Code, key: "web.method".to_owned(), value, what }
 }

@@ -9,7 +9,7 @@ use super::read::{CASE, Reading, THROUGHPUT};
 use crate::case::keys::{self, CASE as OF_CASE, Value};
 use crate::case::{Case, Note, Remark};
 use crate::error::{Error, Fault, FileKind, Place, Problem};
-use crate::layers::keys::{EITHER, METHODS, WEB};
+use crate::layers::keys::{EITHER, WEB};
 use crate::layers::{LaydownSource, LayerSpec, WebKey};
 use crate::units::Dimension;
 use std::path::{Path, PathBuf};
@@ -144,23 +144,8 @@ impl Reading<'_> {
         for key in WEB.rows.iter().filter(|key| !key.relations.gives_case.is_empty()) {
             self.give(&mut filament, prefix, key);
         }
-        self.complete_for_one_air(&mut filament);
+        complete_for_one_air(&mut filament);
         Ok(Some(filament))
-    }
-
-    /// Adds what a filament in one air has anyway, and must say for the keys that are set from outside.
-    fn complete_for_one_air(&self, filament: &mut Filament) {
-        if self.key_values.text("web.method").is_some_and(|method| method != METHODS[2]) {
-            return;
-        }
-        let needed = |(name, written): (&str, &WrittenValue)| {
-            let (needed, value) = keys::find(name)?.relations.with_in_one_air?;
-            let is_set = matches!(written.place, Place::Override(_)) && filament.values.get(needed).is_none();
-            let value = Some(Value::Text(value.to_owned()));
-            is_set.then(|| (needed, WrittenValue { place: written.place.clone(), shown: None, value }))
-        };
-        let needed: Vec<_> = filament.values.all().filter_map(needed).collect();
-        needed.into_iter().for_each(|(name, written_value)| filament.values.set(name, written_value));
     }
 
     /// Takes what a key of the web gives of the case, which the same file must not say too.
@@ -339,4 +324,16 @@ impl Reading<'_> {
         self.key_values.reject(key, fault);
         Ok(None)
     }
+}
+
+/// Adds what a filament in one air has anyway, and must say for the keys that are set from outside.
+fn complete_for_one_air(filament: &mut Filament) {
+    let needed = |(name, written): (&str, &WrittenValue)| {
+        let (needed, value) = keys::find(name)?.relations.with_in_one_air?;
+        let is_set = matches!(written.place, Place::Override(_)) && filament.values.get(needed).is_none();
+        let value = Some(Value::Text(value.to_owned()));
+        is_set.then(|| (needed, WrittenValue { place: written.place.clone(), shown: None, value }))
+    };
+    let needed: Vec<_> = filament.values.all().filter_map(needed).collect();
+    needed.into_iter().for_each(|(name, written_value)| filament.values.set(name, written_value));
 }

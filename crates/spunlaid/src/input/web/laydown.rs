@@ -1,28 +1,20 @@
 //! What tells how the filaments of a layer lie.
 
 use super::super::written_values::WrittenValue;
-use super::super::{file, parse_with};
 use super::filament::Filament;
 use super::flies_none;
 use super::read::{CASE, Reading};
 use crate::case::keys::{self, Value};
-use crate::error::{Error, Fault, FileKind, Place};
+use crate::error::{Fault, Place};
+use crate::layers::LayerSpec;
 use crate::layers::keys::{NUMBERS, OF_FILAMENT, ONE_SOURCE};
-use crate::layers::{LaydownSource, LayerSpec};
 use std::path::PathBuf;
-
-const RESULTS: &str = "laydown.results";
-/// Files of a finished run.
-const SUMMARY: &str = "summary.json";
-const CASE_OF_RESULTS: &str = "case.toml";
 
 /// What tells how the filaments of a layer lie.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Way {
     /// A filament is flown.
     Fly,
-    /// It has been flown.
-    Results,
     /// The numbers of a surrogate.
     Numbers,
     /// It is not known, because of a problem that is noted.
@@ -45,7 +37,7 @@ impl Reading<'_> {
         let is_written = |name: &&&str| self.is_written(&format!("{prefix}{name}"));
         let numbers = NUMBERS.iter().find(is_written);
         let ways: Vec<&'static str> =
-            [&CASE, &RESULTS].into_iter().chain(numbers).filter(is_written).copied().collect();
+            [&CASE].into_iter().chain(numbers).filter(is_written).copied().collect();
         let own = self.first_of_flights(prefix);
         let (way, other) = match ways[..] {
             [] if own.is_some() || self.first_of_flights("").is_some() => return Way::Fly,
@@ -55,13 +47,11 @@ impl Reading<'_> {
                 let fault = Fault::new(
                     "says nothing of how the fibres lie",
                     "write [feed], [belt], [air] and [run] for a filament to fly, or in [laydown] case = \
-                    \"spunbond.toml\" (it stands in that file), results = \"results/spunbond\" (a finished \
-                    run), or sigma_md, sigma_cd and noise",
+                    \"spunbond.toml\" (it stands in that file), or sigma_md, sigma_cd and noise",
                 );
                 self.key_values.reject(&format!("{prefix}laydown"), fault);
                 return Way::Unknown;
             }
-            [RESULTS] => (Way::Results, RESULTS),
             // They are still to be set.
             [number] => (Way::Numbers, number),
             [other, ref more @ ..] => {
@@ -92,30 +82,6 @@ impl Reading<'_> {
         let found = self.key_values.all().filter(|(full, _)| is_of_flight(full).is_some());
         let first = found.min_by(|a, b| a.1.place.cmp(&b.1.place))?;
         Some((first.0.to_owned(), first.1.clone()))
-    }
-
-    /// The results of a run from which a layer is laid; none if there is a problem with them, which is noted.
-    ///
-    /// # Errors
-    /// A case that cannot be read for another reason than what is in it.
-    pub(super) fn results(&mut self, prefix: &str) -> Result<Option<LaydownSource>, Error> {
-        let key = &format!("{prefix}{RESULTS}");
-        let Some(folder) = self.path(key) else { return Ok(None) };
-        if let Some(missing) =
-            [SUMMARY, CASE_OF_RESULTS].into_iter().find(|name| !folder.join(name).is_file())
-        {
-            let fault = Fault::new(
-                format!("does not hold the results of a run ({missing} is not there)"),
-                "name a folder that `spunlaid run` has written",
-            );
-            self.key_values.reject(key, fault);
-            return Ok(None);
-        }
-        let path = folder.join(CASE_OF_RESULTS);
-        let text = file::read(&path, FileKind::Case);
-        let read = text.and_then(|text| parse_with(self.lookup, &text, &path.display().to_string(), &[]));
-        let case = self.fed_case(key, read)?;
-        Ok(case.map(|case| LaydownSource::Results { folder, case }))
     }
 
     /// The path that a key names: of the file, relative to its folder.

@@ -10,7 +10,7 @@ use super::read::{Reading, THROUGHPUT, as_web};
 use crate::case::Note;
 use crate::error::{Error, Fault};
 use crate::layers::keys::WEB;
-use crate::layers::{LaydownSource, LayerSpec, Method, WebKey, WebSpec};
+use crate::layers::{LaydownSource, LayerSpec, WebSpec};
 use crate::web::Filaments;
 use std::path::PathBuf;
 
@@ -88,12 +88,9 @@ impl OpenWeb<'_> {
             layer.take_flown();
             web.layers.push(layer);
         }
-        if !reading.is_written("web.method") {
-            web.method = Method::default_for(&web.layers);
-        }
         reading.check_names(&prefixes);
         reading.complete_sheet(&mut web);
-        reading.check_method(&prefixes, &web);
+        reading.check_sources(&prefixes, &web);
         reading.check_guessed(&web);
         reading.check_charge(&prefixes, &web);
         reading.settle_belt(&mut web, &ways);
@@ -148,22 +145,15 @@ impl OpenWeb<'_> {
 impl Reading<'_> {
     /// A layer. Its values are NaN where there is a problem with them, which is noted.
     fn layer(&mut self, prefix: &str) -> Result<Layer, Error> {
-        let (way, mut filament, mut source) = (self.way(prefix), None, None);
-        match way {
-            Way::Fly => filament = self.filament(prefix)?,
-            Way::Results => {
-                source = self.results(prefix)?;
-                self.refuse_flown(prefix, source.as_ref());
-            }
-            Way::Numbers | Way::Unknown => {}
-        }
-        let by_case = matches!(way, Way::Fly | Way::Results);
-        if by_case && filament.is_none() && source.is_none()
+        let way = self.way(prefix);
+        let by_case = way == Way::Fly;
+        let filament = if by_case { self.filament(prefix)? } else { None };
+        if by_case && filament.is_none()
             || way == Way::Unknown && self.key_values.is_excused(&format!("{prefix}laydown."))
         {
             self.excuse_numbers_of_case(prefix);
         }
-        let mut spec = LayerSpec::unknown(source.unwrap_or(LaydownSource::UNKNOWN));
+        let mut spec = LayerSpec::unknown(LaydownSource::UNKNOWN);
         as_web(&mut spec, |web| {
             self.fill(web, "layer", prefix, by_case);
             for table in ["fibre", "laydown", "line"]
@@ -190,19 +180,6 @@ impl Reading<'_> {
     fn excuse_numbers_of_case(&mut self, prefix: &str) {
         for key in WEB.rows.iter().filter(|key| key.key_of_case().is_some()) {
             self.key_values.excuse(format!("{prefix}{}", key.name));
-        }
-    }
-
-    /// Refuses numbers of fibres that have been flown already: they are those of their case.
-    fn refuse_flown(&mut self, prefix: &str, source: Option<&LaydownSource>) {
-        let Some(LaydownSource::Results { folder, .. }) = source else { return };
-        let is_of_case = |key: &&WebKey| key.key_of_case().is_some() || key.name == THROUGHPUT;
-        for key in WEB.rows.iter().filter(is_of_case) {
-            let full = format!("{prefix}{}", key.name);
-            if self.key_values.get(&full).is_some() {
-                let message = format!("is that of {}, with which the fibres were flown", folder.display());
-                self.key_values.reject(&full, Fault::new(message, "leave it out"));
-            }
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::case::{Note, unusual};
 use crate::error::{Fault, Finding};
 use crate::layers::full_names::{web_key, without_numbers};
 use crate::layers::keys::{NUMBERS, WEB, in_rows};
-use crate::layers::{LaydownSource, LayerSpec, Method, WebKey, WebSpec};
+use crate::layers::{LaydownSource, LayerSpec, WebKey, WebSpec};
 use crate::web::{Defect, Filaments, Row};
 use std::path::PathBuf;
 
@@ -197,26 +197,5 @@ impl Reading<'_> {
     /// Whether a layer gives the numbers of a surrogate.
     pub(super) fn has_numbers(&self, prefix: &str) -> bool {
         NUMBERS.iter().any(|name| self.is_written(&format!("{prefix}{name}")))
-    }
-
-    /// Refuses a method of laying that needs flights where there are none.
-    pub(super) fn check_method(&mut self, prefixes: &[String], web: &WebSpec) {
-        if web.method != Method::SharedAir && self.is_written("web.flown") {
-            let fault = Fault::needs("web.method = \"shared-air\"", "leave it out");
-            self.key_values.reject("web.flown", fault);
-        }
-        match web.method {
-            Method::SharedAir => self.check_shared_air(prefixes, &web.layers),
-            Method::Dynamics => {
-                if let Some(prefix) = prefixes.iter().find(|prefix| self.has_numbers(prefix)) {
-                    let fault = Fault::new(
-                        format!("lays the curves of flown fibres, and {prefix}laydown gives numbers"),
-                        "write method = \"surrogate\", or name a case or results there",
-                    );
-                    self.key_values.reject("web.method", fault);
-                }
-            }
-            Method::Surrogate => {}
-        }
     }
 }

@@ -5,7 +5,7 @@ use super::read::{BELT_SPEED, Reading};
 use crate::error::Fault;
 use crate::layers::full_names::without_numbers;
 use crate::layers::keys::EITHER;
-use crate::layers::{LaydownSource, LayerSpec, SAME, WebSpec};
+use crate::layers::{LayerSpec, SAME, WebSpec};
 use crate::units::Dimension;
 
 /// The key that stands in its place.
@@ -23,17 +23,6 @@ impl Reading<'_> {
             self.key_values.reject(&key, Fault::excludes(&belt, EITHER));
         }
         let Some(weight) = weight else { return };
-        if let Some(LaydownSource::Results { folder, .. }) = layers
-            .iter()
-            .map(|layer| &layer.spec.source)
-            .find(|source| matches!(source, LaydownSource::Results { .. }))
-        {
-            let message = format!(
-                "is laid on another belt than that above which the fibres of {} were flown",
-                folder.display()
-            );
-            self.key_values.reject(&key, Fault::new(message, "leave it out"));
-        }
         web.basis_weight = Some(weight);
         let flow = |layer: &Layer| {
             let each = layer.spun.unwrap_or(layer.spec.linear_density() * layer.spec.feed_speed);
@@ -126,7 +115,7 @@ impl Reading<'_> {
                     }
                     None => "write it in one layer and leave it out of the others".to_owned(),
                 };
-                let ways = ["laydown.case", "laydown.results", "belt.speed"];
+                let ways = ["laydown.case", "belt.speed"];
                 let ways = ways.map(|way| format!("{}{way}", self.prefixes[number]));
                 let way = ways.iter().find(|way| self.is_written(way)).filter(|_| !is_written);
                 self.key_values.reject(way.unwrap_or(key), Fault::new(message, remedy));

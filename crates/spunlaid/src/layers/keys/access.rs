@@ -1,11 +1,10 @@
 //! How keys read and change a web.
 
+use crate::case::keys::Key;
 use crate::case::keys::row::AccessTo;
-use crate::case::keys::{Key, Value};
 use crate::error::Fault;
 use crate::layers::{LayerSpec, WebSpec};
 use crate::web::{Defect, Filaments, Row};
-use std::path::Path;
 
 /// A key of a web.
 pub type WebKey = Key<WebSpec>;
@@ -52,7 +51,7 @@ pub(super) use {of_row, of_surrogate};
 
 /// A number of a surrogate that follows from flights.
 pub(super) fn flown() -> Fault {
-    Fault::needs("laydown without a case or results", "leave it out, or leave these out")
+    Fault::needs("laydown without a case", "leave it out, or leave this out")
 }
 
 /// The fault of a depth beside rows.
@@ -97,10 +96,6 @@ pub(super) fn defect(web: &WebSpec) -> Option<&Defect> {
 pub(super) fn defect_mut(web: &mut WebSpec) -> Result<&mut Defect, Fault> {
     let defect = layer_mut(web)?.defects.first_mut();
     defect.ok_or_else(|| Fault::needs("line.defects", "write a list of defects"))
-}
-
-pub(super) fn written(path: &Path) -> Value {
-    Value::Text(path.to_string_lossy().into_owned())
 }
 
 /// Diameter of a filament of this linear density [kg/m] and density [kg/m³].

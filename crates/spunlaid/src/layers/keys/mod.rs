@@ -12,7 +12,7 @@ mod table;
 
 pub use access::WebKey;
 pub(crate) use access::in_rows;
-pub(crate) use table::{EITHER, METHODS, NUMBERS, ONE_SOURCE};
+pub(crate) use table::{EITHER, NUMBERS, ONE_SOURCE};
 pub use table::{WEB_KEYS, WEB_TABLES};
 
 use super::WebSpec;
@@ -118,6 +118,5 @@ mod tests {
         let top = crate::case::keys::TABLES.into_iter().filter(|table| !table.contains('.'));
         assert!(top.eq(OF_FILAMENT.iter().copied()), "each table of a case is one of a filament");
         assert_eq!(WEB.replaced_by(&["line.rows"]), ["line.filaments_per_metre"]);
-        assert_eq!(WEB.replaced_by(&["laydown.results"]), ["laydown.case"]);
     }
 }

@@ -20,15 +20,15 @@ pub(super) const KEYS: &[WebKey] = &[
         .derived(is_flown)
         .required("18 µm")
         .meaning(
-            "Diameter of the round filaments. With `laydown.case` or `laydown.results` it is that of the \
-             case, and where a filament flies it is the key of its case.",
+            "Diameter of the round filaments. With `laydown.case` it is that of the case, and \
+             where a filament flies it is the key of its case.",
         )
         .label("Fibre diameter *d*"),
     positive("fibre.density", Dimension::Density)
         .access(at!(layer, layer_mut, density))
         .derived(is_flown)
         .required("910 kg/m³")
-        .meaning("Density of the polymer. With `laydown.case` or `laydown.results` it is that of the case.")
+        .meaning("Density of the polymer. With `laydown.case` it is that of the case.")
         .label("Fibre density"),
     positive("fibre.linear_density", Dimension::LinearDensity)
         .access(Access {

@@ -1,6 +1,6 @@
 //! The keys of the table `[laydown]`.
 
-use super::super::access::{WebKey, flown, layer, layer_mut, of_surrogate, written};
+use super::super::access::{WebKey, flown, layer, layer_mut, of_surrogate};
 use super::positive;
 use crate::case::keys::row::{key, number};
 use crate::case::keys::{Condition, Kind};
@@ -12,7 +12,7 @@ use crate::units::Dimension;
 pub(crate) const NUMBERS: [&str; 3] = ["laydown.sigma_md", "laydown.sigma_cd", "laydown.noise"];
 /// Filaments of which these numbers are known, so that none are flown.
 const KNOWN: &Condition<WebSpec> = &Condition {
-    words: "without case and results",
+    words: "without a case",
     holds: |web| matches!(layer(web).map(|layer| &layer.source), Some(LaydownSource::Surrogate(_))),
 };
 /// Where the numbers of a surrogate come from if they are left out.
@@ -20,27 +20,19 @@ const IDENTIFIED: &str = "identified in what the fibres of the case have laid";
 
 /// Why a layer names one source of its fibres.
 pub(crate) const ONE_SOURCE: &str =
-    "keep one of a filament to fly, results, and the numbers sigma_md, sigma_cd and noise";
+    "keep one of a filament to fly and the numbers sigma_md, sigma_cd and noise";
 
 /// In the order of the file.
 pub(super) const KEYS: &[WebKey] = &[
     key("laydown.case", Kind::Text("spunbond.toml"))
         // What stands there is written into the file of the web.
         .told(|_: &WebSpec| None)
-        .follows("the tables of a case in this file, `results`, or the three numbers")
+        .follows("the tables of a case in this file, or the three numbers")
         .meaning(
             "Path of the case of a fed fibre, relative to this file, which several webs may share. It is \
              flown, and the web is laid of what it lays. Keys of it that stand in this file too, as \
              `air.velocity`, take the place of those there.",
         ),
-    key("laydown.results", Kind::Text("results/spunbond"))
-        .told(|web: &WebSpec| match &layer(web)?.source {
-            LaydownSource::Results { folder, .. } => Some(written(folder)),
-            _ => None,
-        })
-        .alternative_to(&["laydown.case"], ONE_SOURCE)
-        .follows("`case`, or the three numbers")
-        .meaning("Folder with the results of such a case, which has been flown already."),
     positive("laydown.sigma_md", Dimension::Length)
         .access(of_surrogate!(sigma_md))
         .needed_if(KNOWN, "18.4 mm")

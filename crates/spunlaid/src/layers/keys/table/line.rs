@@ -28,7 +28,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .required("50 m/s")
         .meaning(
             "Speed at which each filament is fed: the spinning speed. Of a filament that flies it is \
-             `feed.speed`, in whose place it may be written; with `laydown.results` it is that of the case.",
+             `feed.speed`, in whose place it may be written.",
         )
         .label("Feed speed"),
     positive("line.throughput", Dimension::MassFlow)
@@ -72,8 +72,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .required("3 m/s")
         .meaning(
             "Speed of the belt. It is written once, in any of the layers, because all lie on one belt. \
-             Of a filament that flies it is `belt.speed`, in whose place it may be written; with \
-             `laydown.results` it is that of the case.",
+             Of a filament that flies it is `belt.speed`, in whose place it may be written.",
         )
         .label("Belt speed"),
     positive("line.basis_weight", Dimension::BasisWeight)
@@ -148,7 +147,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .meaning(
             "Size in machine direction of the slot through which the filaments come, with \
              `filaments_per_metre`: they are at an even pitch across the web, each at a random place of \
-             the depth. It changes a web in one air (`web.method = \"shared-air\"`), for filaments that \
+             the depth. It changes a web of a case, for filaments that \
              are deeper in the slot hang in other eddies; elsewhere only the even pitch counts. The air \
              comes through the same slot, and what filaments do to it is told by its size.",
         )
@@ -166,8 +165,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .usual(1e-5, 1e-2)
         .meaning(
             "Charge per mass of the filaments, as a charging bar leaves it on them: they drive each other \
-             apart along the machine direction while they come down. Only in one air (`web.method = \
-             \"shared-air\"`). The sign does not matter. No measured charge of a spunbond line is known to \
+             apart along the machine direction while they come down. Only filaments of a \
+             case, which fly, have one. The sign does not matter. No measured charge of a spunbond line is known to \
              us.",
         )
         .synonyms(&["charging", "electrostatic", "corona", "electret"])
@@ -255,7 +254,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .value("0 mm")
         .meaning(
             "Place of the row in machine direction at the inlet, from the middle of the slot. It changes a \
-             web in one air (`web.method = \"shared-air\"`).",
+             web of a case.",
         )
         .label("Place of the row in machine direction")
         .usual(1e-5, 1.0),

@@ -10,7 +10,6 @@ mod line;
 mod web;
 
 pub(crate) use laydown::{NUMBERS, ONE_SOURCE};
-pub(crate) use web::METHODS;
 
 use super::access::WebKey;
 use crate::case::keys::Sign;

@@ -4,14 +4,10 @@ use super::super::access::{Access, WebKey};
 use super::{MOST_FILAMENTS, positive};
 use crate::case::keys::row::{at, choose, key, named, number, text, whole};
 use crate::case::keys::{Kind, Value};
-use crate::layers::{Flown, Method};
+use crate::layers::Flown;
 use crate::units::Dimension;
 use crate::web::Edges;
 
-/// How a web can be laid.
-pub(crate) const METHODS: [&str; 3] = ["surrogate", "dynamics", "shared-air"];
-/// The values of [`METHODS`].
-const ALL_METHODS: [Method; 3] = [Method::Surrogate, Method::Dynamics, Method::SharedAir];
 /// How many filaments are flown: as many as it takes, or all.
 const AUTO: &str = "auto";
 const ALL: &str = "all";
@@ -88,23 +84,6 @@ pub(super) const KEYS: &[WebKey] = &[
              the unevenness.",
         )
         .label("Edges"),
-    choose("web.method", || METHODS.to_vec())
-        .access(Access {
-            get: |web| Some(METHODS[web.method as usize].into()),
-            set: |web, value| {
-                web.method = named(value, &ALL_METHODS, |one| METHODS[one as usize])?;
-                Ok(())
-            },
-        })
-        .follows("`shared-air` where cases are flown, but for cases with a record; otherwise `surrogate`")
-        .meaning(
-            "What is laid: `shared-air`, filaments are flown in one air, so that neighbours hang in the \
-             same gust and come down together; `dynamics`, the very curves of single flown fibres, again \
-             and again at other places; `surrogate`, paths of the stochastic model, each its own. In the \
-             last two the filaments are independent of each other, which gives a lower bound of the \
-             unevenness.",
-        )
-        .label("Method"),
     key("web.flown", Kind::Whole(1, MOST_FILAMENTS))
         .access(Access {
             get: |web| match web.flown {
@@ -124,9 +103,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .or_words(&[AUTO, ALL])
         .follows("eight in a length scale of the air, on a sheet of 0.2 m² at most")
         .meaning(
-            "Filaments per metre of width that are flown for all others in a web in one air (`web.method = \
-             \"shared-air\"`): neighbours come down almost alike, so a few of them carry the unevenness of \
-             all. `all` flies every filament of the sheet, `auto` as many as the length scale of the air \
+            "Filaments per metre of width that are flown for all others in a web of cases: they hang in one air and \
+             neighbours come down almost alike, so a few of them carry the unevenness of all. `all` flies every filament of the sheet, `auto` as many as the length scale of the air \
              asks for, and twice or four times as many where these do not tell what all do.",
         )
         .label("Filaments per metre that are flown"),
@@ -135,8 +113,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .value("4 GB")
         .fixed()
         .meaning(
-            "Most memory that the field of eddies may take with `web.method = \"shared-air\"`. A web that \
-             needs more is refused before it is flown.",
+            "Most memory that the field of eddies of a web in one air may take. A web that needs more is \
+             refused before it is flown.",
         )
         .label("Memory limit")
         .usual(1e7, 1e13),
