@@ -123,7 +123,7 @@ impl Task for StateEnergy<'_> {
         let mut above = Vec3::load(&c.root_direction);
         for (j, pair) in self.position.windows(2).enumerate() {
             let element = Element::<S>::between(Vec3::load(&pair[0]), Vec3::load(&pair[1]));
-            let properties = c.elements.at(j);
+            let properties = &c.element;
             let (rest_length, mut stiffness) =
                 (Wide::load(&properties.rest_length), Wide::load(c.bending_stiffness(j)));
             let mut stretch = element.length - rest_length;

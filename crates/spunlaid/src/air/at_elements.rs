@@ -39,11 +39,6 @@ impl AirAtElements {
         Self { elements: vec![nothing; elements].into(), every: every.max(1), looked: false }
     }
 
-    /// Number of elements.
-    pub(super) fn len(&self) -> usize {
-        self.elements.len()
-    }
-
     /// Forgets the looks so far.
     pub(super) fn forget(&mut self) {
         self.looked = false;

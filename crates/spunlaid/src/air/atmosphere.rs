@@ -14,7 +14,6 @@ use super::at_elements::InstantStations;
 use super::eddy_wind::{InstantEddies, LastEddy};
 use super::surroundings::InstantFlow;
 use super::{AirInSpace, Eddies, EddyWind, Stations, Surroundings, Wind};
-use crate::error::{Error, Fault};
 use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
 
@@ -136,31 +135,6 @@ impl Atmosphere {
         }
     }
 
-    /// Whether it fits fibres of so many elements.
-    ///
-    /// # Errors
-    /// A part of it is made for another number of elements or of eddies.
-    pub(crate) fn check(&self, elements: usize) -> Result<(), Error> {
-        let fits = |what, parts, found, wanted| match found == wanted {
-            true => Ok(()),
-            false => Err(misfit(what, parts, found, wanted)),
-        };
-        let with_eddies = |air: &EddyWind| {
-            fits("air", "elements", air.eddies.index_of_element().len(), elements)?;
-            fits("wind", "eddies", air.wind.eddies(), air.eddies.count())
-        };
-        match self {
-            Self::Uniform(air) => with_eddies(air),
-            Self::Flow(air, flow) => {
-                with_eddies(air)?;
-                fits("surrounding flow", "elements", flow.elements(), elements)
-            }
-            // It is made for fed fibres only, together with them.
-            Self::Way(..) => Ok(()),
-            Self::Space(air) => fits("air in space", "elements", air.elements(), elements),
-        }
-    }
-
     /// Makes the samples around time 0, which clones made later share.
     pub(crate) fn prepare(&mut self) {
         match self {
@@ -230,11 +204,4 @@ impl Atmosphere {
             Self::Space(air) => air.outside(lane),
         }
     }
-}
-
-/// The error of air, wind or a start that is made for another fibre.
-///
-/// * `what`, `parts` – what does not fit, and what it is counted in
-pub(crate) fn misfit(what: &str, parts: &str, found: usize, wanted: usize) -> Error {
-    Error::Flight(Fault::plain(format!("the {what} is for {found} {parts}, the fibres have {wanted}")))
 }

@@ -100,10 +100,6 @@ impl AirInSpace {
         }
     }
 
-    pub(super) fn elements(&self) -> usize {
-        self.elements.len()
-    }
-
     /// Gives all fibres a field that has been made for the times to come.
     pub(crate) fn give(&mut self, field: &Arc<EddyField>) {
         self.fields = self.fields.map(|_| Field { field: Arc::clone(field), same_as: 0 });

@@ -34,7 +34,7 @@ mod wind;
 pub use at_places::AirAtPlaces;
 pub use at_points::PlaceAxes;
 pub use atmosphere::Atmosphere;
-pub(crate) use atmosphere::{Instant, Velocities, VelocityAt, VelocityTask, misfit};
+pub(crate) use atmosphere::{Instant, Velocities, VelocityAt, VelocityTask};
 pub(crate) use dry_air::{HEAT_CAPACITY_OF_AIR, temperature_of};
 pub use dry_air::{SUTHERLAND_RANGE, density_at, kinematic_viscosity_at};
 pub use eddies::{Eddies, EddyModel};

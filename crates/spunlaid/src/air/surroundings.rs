@@ -80,11 +80,6 @@ impl Surroundings {
         Self { airs, places, nearby, hints, every, looked: false, outside: Lanes::ZERO, looks: 0 }
     }
 
-    /// Number of elements.
-    pub(crate) fn elements(&self) -> usize {
-        self.places.len()
-    }
-
     /// Share of the time that the elements of a lane's fibre have spent outside of the flow's data.
     pub fn outside(&self, lane: usize) -> f64 {
         if self.looks == 0 { 0.0 } else { self.outside.0[lane] / self.looks as f64 }

@@ -1,6 +1,6 @@
 //! The air that the filaments of a beam share: a field of eddies, made block by block as the time goes on.
 
-use super::{Airs, Beam};
+use super::Beam;
 use crate::air::{Air, EddyField, Extent, Flow, Lateral, Room, StreamKey};
 use crate::field::Hint;
 use crate::vec3::Vec3;
@@ -22,9 +22,9 @@ pub(super) struct SharedField {
 }
 
 impl SharedField {
-    /// None if every filament has an air of its own, or the same at every place.
+    /// None if the air is the same at every place.
     pub(super) fn new(beam: &Beam<'_>, sheet: &Sheet, threads: usize) -> Option<Self> {
-        let cutoff = beam.case.air.lateral.cutoff().filter(|_| beam.airs == Airs::Shared)?;
+        let cutoff = beam.case.air.lateral.cutoff()?;
         let (case, key) = (beam.case, StreamKey { seed: beam.case.run.seed, replicate: 0 });
         let field = EddyField::new(&case.air, case.way_of_air(), beam.extent_of_air(sheet), cutoff, key);
         Some(Self { field, time_step: case.run.time_step, threads })

@@ -54,15 +54,6 @@ const BLOCK: f64 = 4e-3;
 /// the display of progress needs it.
 const SPREAD: f64 = 0.2;
 
-/// Whose air a filament flies in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Airs {
-    /// All filaments fly in the same air.
-    Shared,
-    /// Each filament has turbulence of its own.
-    Own,
-}
-
 /// The filaments of a layer.
 #[derive(Clone, Copy, Debug)]
 pub struct Beam<'a> {
@@ -70,8 +61,6 @@ pub struct Beam<'a> {
     pub case: &'a Case,
     /// Where they are fed, in order across the web.
     pub places: &'a [Place],
-    /// Whose air they fly in.
-    pub airs: Airs,
     /// Size in machine direction of the slot in which the places lie [m]. All filaments of a slot fly in the
     /// same air, however many of them there are and wherever in its depth they hang.
     pub depth: f64,
@@ -117,10 +106,10 @@ pub struct BeamFindings {
 
 impl<'a> Beam<'a> {
     /// Filaments without charge at these places, in a slot that is as deep as they need.
-    pub fn new(case: &'a Case, places: &'a [Place], airs: Airs) -> Self {
+    pub fn new(case: &'a Case, places: &'a [Place]) -> Self {
         let y = || places.iter().map(|place| place.y);
         let depth = y().fold(f64::NEG_INFINITY, f64::max) - y().fold(f64::INFINITY, f64::min);
-        Self { case, places, airs, depth: depth.max(0.0), charge: None }
+        Self { case, places, depth: depth.max(0.0), charge: None }
     }
 }
 
@@ -219,14 +208,6 @@ impl Beam<'_> {
     pub(crate) fn keeps(&self, filament: usize) -> bool {
         let count = self.places.len();
         count <= KEPT || filament * KEPT / count != (filament + 1) * KEPT / count
-    }
-
-    /// The replicate of the air of a filament.
-    fn replicate(&self, filament: usize) -> u64 {
-        match self.airs {
-            Airs::Shared => 0,
-            Airs::Own => filament as u64,
-        }
     }
 }
 

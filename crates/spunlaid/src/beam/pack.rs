@@ -50,11 +50,7 @@ impl Pack {
         isa: Isa,
         field: Option<&Arc<EddyField>>,
     ) -> Result<Self, Error> {
-        let job = |number: &usize| Job {
-            case: beam.case,
-            replicate: beam.replicate(*number),
-            place: beam.places[*number],
-        };
+        let job = |number: &usize| Job { case: beam.case, replicate: 0, place: beam.places[*number] };
         let jobs: Vec<Job<'_>> = numbers.iter().map(job).collect();
         let filament =
             |number: &usize| Filament::new(*number, beam.places[*number], keeps_all || beam.keeps(*number));

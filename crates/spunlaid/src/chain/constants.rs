@@ -1,46 +1,27 @@
-//! The constants of eight fibres that a step needs.
-//!
-//! What belongs to an element or to a node is held along the chain, so that mass, length, diameter and
-//! stiffness may vary along a fibre. Fibres whose elements are all alike hold it once.
+//! The constants of eight fibres that a step needs. The elements of a fibre are all alike.
 
 use super::friction::Friction;
 use super::node::Node;
 use super::{Common, Strand};
 use crate::company::PerLane;
-use crate::drag::{DragLanes, ElementDrag};
+use crate::drag::DragLanes;
 use crate::fibre::Root;
 use crate::lanes::Lanes;
-use crate::nodes::ChainValues;
 use crate::vec3::Vec3;
-
-/// Properties of one element of a fibre.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct ElementProperties {
-    /// Rest length [m].
-    pub(crate) rest_length: f64,
-    /// Mass [kg], half of which belongs to each of its nodes.
-    pub(crate) mass: f64,
-    /// Axial stiffness `EA/l` [N/m].
-    pub(crate) axial_stiffness: f64,
-    /// Rotational stiffness `EI/l` [N·m].
-    pub(crate) rotational_stiffness: f64,
-    /// Drag of the air.
-    pub(crate) drag: ElementDrag,
-}
 
 /// The constants of eight fibres that a step needs.
 #[derive(Clone, Debug)]
 pub(crate) struct Constants {
     /// Of each element.
-    pub(crate) elements: ChainValues<ElementConstants>,
+    pub(crate) element: ElementConstants,
     /// The root. It does not move if it is held.
     pub(crate) root: Node,
-    /// Of each node as one between two elements.
-    pub(crate) nodes: ChainValues<Node>,
+    /// Of a node between two elements.
+    pub(crate) between: Node,
     /// The nodes that differ from the others, from the end upwards: the free end, and those on the belt.
     pub(crate) tail: Vec<Node>,
-    /// Of each node as one between two elements, theory.md (12).
-    pub(crate) bending_stiffness: ChainValues<Lanes>,
+    /// Of a node between two elements, theory.md (12).
+    pub(crate) stiffness: Lanes,
     /// Of the root, and of the node below it.
     pub(crate) root_stiffness: Lanes,
     pub(crate) second_stiffness: Lanes,
@@ -68,26 +49,10 @@ pub(crate) struct ElementConstants {
 }
 
 impl Constants {
-    /// The constants of up to eight fibres with so many elements.
-    pub(crate) fn new(common: &Common, strands: &PerLane<Strand>, elements: usize) -> Self {
-        Self::varying(common, strands, elements, Strand::element)
-    }
-
-    /// The constants of fibres whose element `j` has the properties `element(strand, j)`.
-    pub(crate) fn varying(
-        common: &Common,
-        strands: &PerLane<Strand>,
-        elements: usize,
-        element: impl Fn(&Strand, usize) -> ElementProperties,
-    ) -> Self {
-        let last = elements - 1;
-        // The elements above and below a node.
-        let around = |s: &Strand, i: usize| (element(s, i.max(1) - 1), element(s, i.min(last)));
-        let between = |s: &Strand, i: usize| {
-            let (above, below) = around(s, i);
-            0.5 * above.mass + 0.5 * below.mass
-        };
-        let node = |mass: &dyn Fn(&Strand) -> f64, held: &dyn Fn(&Strand) -> bool| {
+    /// The constants of up to eight fibres.
+    pub(crate) fn new(common: &Common, strands: &PerLane<Strand>) -> Self {
+        let node = |share: f64, held: &dyn Fn(&Strand) -> bool| {
+            let mass = |s: &Strand| share * s.fibre.element_mass();
             let inverse_mass = strands.lanes(|s| if held(s) { 0.0 } else { 1.0 / mass(s) });
             Node {
                 mass: strands.lanes(mass),
@@ -96,34 +61,29 @@ impl Constants {
                 weight: strands.lanes(|s| mass(s) * s.gravity),
             }
         };
-        // Two half elements, each with the turning of its own stiffness, in series.
-        let bending = |s: &Strand, i: usize| {
-            let (above, below) = around(s, i);
-            let ratio = above.rotational_stiffness / below.rotational_stiffness;
-            above.rotational_stiffness / (0.5 * (1.0 + ratio))
-        };
         let root_stiffness = |s: &Strand| match s.fibre.root {
             Root::Pinned | Root::Free => 0.0,
-            Root::Clamped => 2.0 * element(s, 0).rotational_stiffness,
+            Root::Clamped => 2.0 * s.fibre.rotational_stiffness(),
         };
-        let constants = |j: usize| ElementConstants {
-            rest_length: strands.lanes(|s| element(s, j).rest_length),
-            mass: strands.lanes(|s| element(s, j).mass),
-            inverse_mass: strands.lanes(|s| 1.0 / element(s, j).mass),
-            axial_stiffness: strands.lanes(|s| element(s, j).axial_stiffness),
-            compliance: strands.lanes(|s| 1.0 / element(s, j).axial_stiffness),
-            half_drag: DragLanes::pack(common.drag_curves, &strands.each(|s| element(s, j).drag.half())),
+        let element = ElementConstants {
+            rest_length: strands.lanes(|s| s.fibre.rest_length()),
+            mass: strands.lanes(|s| s.fibre.element_mass()),
+            inverse_mass: strands.lanes(|s| 1.0 / s.fibre.element_mass()),
+            axial_stiffness: strands.lanes(|s| s.fibre.axial_stiffness()),
+            compliance: strands.lanes(|s| 1.0 / s.fibre.axial_stiffness()),
+            half_drag: DragLanes::pack(common.drag_curves, &strands.each(|s| s.drag.half())),
         };
         let direction =
             |component: &dyn Fn(Vec3<f64>) -> f64| strands.lanes(|s| component(s.fibre.direction));
+        let stiffness = strands.lanes(|s| s.fibre.rotational_stiffness());
         Self {
-            elements: ChainValues::new(elements, constants),
-            root: node(&|s| 0.5 * element(s, 0).mass, &|s| s.fibre.root != Root::Free),
-            nodes: ChainValues::new(elements + 1, |i| node(&|s| between(s, i), &|_| false)),
-            tail: vec![node(&|s| 0.5 * element(s, last).mass, &|_| false)],
-            bending_stiffness: ChainValues::new(elements + 1, |i| strands.lanes(|s| bending(s, i))),
+            element,
+            root: node(0.5, &|s| s.fibre.root != Root::Free),
+            between: node(1.0, &|_| false),
+            tail: vec![node(0.5, &|_| false)],
+            stiffness,
             root_stiffness: strands.lanes(root_stiffness),
-            second_stiffness: strands.lanes(|s| bending(s, 1)),
+            second_stiffness: stiffness,
             root_direction: Vec3::new(direction(&|v| v.x), direction(&|v| v.y), direction(&|v| v.z)),
             viscosity: strands
                 .any(|s| s.fibre.bending_viscosity_time != 0.0)
@@ -140,7 +100,7 @@ impl Constants {
         if i == 0 {
             &self.root
         } else if i + self.tail.len() < nodes {
-            self.nodes.at(i)
+            &self.between
         } else {
             &self.tail[nodes - 1 - i]
         }
@@ -152,7 +112,7 @@ impl Constants {
         match i {
             0 => &self.root_stiffness,
             1 => &self.second_stiffness,
-            _ => self.bending_stiffness.at(i),
+            _ => &self.stiffness,
         }
     }
 
@@ -164,24 +124,6 @@ impl Constants {
 
     /// Distance of node `i` from the root along the fibre at rest [m].
     pub(crate) fn distance(&self, i: usize) -> Lanes {
-        if self.elements.is_uniform() {
-            return self.elements.at(0).rest_length * Lanes::splat(i as f64);
-        }
-        (0..i).fold(Lanes::ZERO, |sum, j| sum + self.elements.at(j).rest_length)
-    }
-
-    /// An element is born at the root, like the one below it.
-    pub(crate) fn push_root(&mut self) {
-        self.elements.push_root();
-        self.nodes.push_root();
-        self.bending_stiffness.push_root();
-    }
-
-    /// Keeps so many nodes from the root on. `former` is their number so far.
-    pub(crate) fn truncate(&mut self, nodes: usize, former: usize) {
-        self.tail.drain(..former - nodes);
-        self.elements.truncate(nodes - 1);
-        self.nodes.truncate(nodes);
-        self.bending_stiffness.truncate(nodes);
+        self.element.rest_length * Lanes::splat(i as f64)
     }
 }

@@ -50,8 +50,8 @@ pub(crate) fn force_pass<S: Register>(
     };
     let viscosity = c.viscosity.as_ref();
     // The fibres of a flight have the kinds of the laws in common.
-    let constants = c.elements.view();
-    let powers = constants.at(0).half_drag.is_powers();
+    let own = &c.element;
+    let powers = own.half_drag.is_powers();
     let mut spin_above = Vec3::zero();
     let mut dissipated = Wide::zero();
     // Sums so far on nodes j−1 and j: of all forces, and of the drag alone.
@@ -66,17 +66,14 @@ pub(crate) fn force_pass<S: Register>(
             viscous: viscosity.is_some(),
         });
         if powers {
-            for (j, item) in (start..).zip(&mut *elements) {
-                constants.at(j).half_drag.raise(&mut item.split);
-            }
+            elements.iter_mut().for_each(|item| own.half_drag.raise(&mut item.split));
         } else {
             for (j, item) in (start..).zip(&mut *elements) {
-                constants.at(j).half_drag.look_up(j, &mut item.split);
+                own.half_drag.look_up(j, &mut item.split);
             }
         }
         for (j, item) in (start..).zip(&*elements) {
             let stiffness = Wide::load(c.bending_stiffness(j));
-            let own = constants.at(j);
             let tension = integrator.tension(j, own, &item.element);
             let (mut a, mut pull) = internal(&above, &item.element, stiffness, tension);
             if let Some(time) = viscosity {

@@ -13,7 +13,7 @@ pub mod schemes;
 pub mod work;
 
 use self::charged::Charged;
-use self::constants::{Constants, ElementProperties};
+use self::constants::Constants;
 use self::laying::LayingState;
 use self::schemes::Scheme;
 use crate::company::{PerLane, shared};
@@ -35,19 +35,6 @@ pub struct Strand {
     pub gravity: f64,
     /// Mass-proportional damping [1/s].
     pub damping: f64,
-}
-
-impl Strand {
-    /// Properties of element `j`. A property that varies along the fibre varies here.
-    pub(crate) fn element(&self, _j: usize) -> ElementProperties {
-        ElementProperties {
-            rest_length: self.fibre.rest_length(),
-            mass: self.fibre.element_mass(),
-            axial_stiffness: self.fibre.axial_stiffness(),
-            rotational_stiffness: self.fibre.rotational_stiffness(),
-            drag: self.drag,
-        }
-    }
 }
 
 /// How a step is made.
@@ -110,12 +97,7 @@ pub struct Chain {
 impl Chain {
     /// Packs up to eight fibres, straight and at rest, with their roots at the origin.
     pub(crate) fn straight(common: &Common, strands: &PerLane<Strand>, scheme: Scheme) -> Self {
-        let elements = common.elements;
-        Self::with_constants(Constants::new(common, strands, elements), elements, scheme)
-    }
-
-    /// Fibres with these constants, straight and at rest, with their roots at the origin.
-    pub(crate) fn with_constants(constants: Constants, elements: usize, scheme: Scheme) -> Self {
+        let (elements, constants) = (common.elements, Constants::new(common, strands));
         let position = (0..=elements).map(|i| constants.root_direction * constants.distance(i)).collect();
         Self {
             position,
@@ -131,11 +113,10 @@ impl Chain {
     /// Replaces the fibres by others with the same number of elements. Positions and velocities stay; tensions
     /// change in proportion to the axial stiffness.
     pub(crate) fn become_of(&mut self, common: &Common, strands: &PerLane<Strand>) {
-        let constants = Constants::new(common, strands, self.elements());
-        let former = std::mem::replace(&mut self.constants, constants);
+        let former = std::mem::replace(&mut self.constants, Constants::new(common, strands));
         self.keep_held(&former);
-        for (j, tension) in self.tensions.tension.iter_mut().enumerate() {
-            let [before, after] = [&former, &self.constants].map(|c| c.elements.at(j).axial_stiffness);
+        let [before, after] = [&former, &self.constants].map(|c| c.element.axial_stiffness);
+        for tension in self.tensions.tension.iter_mut() {
             *tension = Lanes::from_fn(|i| tension.0[i] * (after.0[i] / before.0[i]));
         }
     }
@@ -156,8 +137,8 @@ impl Chain {
     }
 
     fn tension_of_stretch(&self) -> impl Iterator<Item = Lanes> {
-        self.position.windows(2).enumerate().map(|(j, pair)| {
-            let element = self.constants.elements.at(j);
+        self.position.windows(2).map(|pair| {
+            let element = &self.constants.element;
             Lanes::from_fn(|i| {
                 let length = (pair[1].lane(i) - pair[0].lane(i)).norm();
                 element.axial_stiffness.0[i] * (length - element.rest_length.0[i])

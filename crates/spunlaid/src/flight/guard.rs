@@ -88,8 +88,8 @@ impl Flight {
                 ),
             ));
         }
-        let rest_length = |j: usize| chain.constants.elements.at(j).rest_length.0[lane];
-        let strain = |j: usize| (at(j + 1) - at(j)).norm() / rest_length(j) - 1.0;
+        let rest_length = chain.constants.element.rest_length.0[lane];
+        let strain = |j: usize| (at(j + 1) - at(j)).norm() / rest_length - 1.0;
         if let Some(node) = (0..nodes.saturating_sub(1)).find(|&j| strain(j) > MOST_STRAIN) {
             let (below, strain) = (node + 1, percent(strain(node)));
             return Some((
@@ -118,7 +118,7 @@ impl Flight {
     fn adrift(&self, lane: usize) -> Option<Error> {
         let Entry { case, replicate, .. } = self.entries.get(lane)?;
         let line = case.line.as_ref()?;
-        let rest_length = self.chain.constants.elements.at(0).rest_length.0[lane];
+        let rest_length = self.chain.constants.element.rest_length.0[lane];
         let in_air = self.chain.in_air()[lane] as f64 * rest_length / line.distance;
         (in_air > MOST_IN_AIR).then(|| {
             let time = self.time();
@@ -163,7 +163,7 @@ impl Task for Doubts<'_> {
         }
         let one = Wide::splat(1.0);
         for (j, pair) in chain.position.windows(2).enumerate() {
-            let element = c.elements.at(j);
+            let element = &c.element;
             let rest_length = Wide::load(&element.rest_length);
             let edge = Vec3::load(&pair[1]) - Vec3::load(&pair[0]);
             let stretch = edge.dot(edge).sqrt() - rest_length;

@@ -32,8 +32,6 @@ mod guard;
 mod set;
 mod start;
 mod steps;
-#[cfg(test)]
-mod tests;
 
 pub(crate) use common::{Clock, Common};
 pub use end_node::{EndNodeMotion, EndNodeStatistics};

@@ -1,9 +1,7 @@
 //! Flights at their start: what may fly together, and how the fibres and the air around them begin.
 
 use super::{Clock, Common, EndNodeStatistics, Entry, Flight, Job, Start, SurroundingRun};
-use crate::air::{
-    AirInSpace, Atmosphere, EddyField, EddyWind, Stations, StreamKey, Surroundings, Wind, misfit,
-};
+use crate::air::{AirInSpace, Atmosphere, EddyField, EddyWind, Stations, StreamKey, Surroundings, Wind};
 use crate::case::Case;
 use crate::chain::schemes::Scheme;
 use crate::chain::work::WorkDone;
@@ -45,12 +43,11 @@ impl Flight {
         Ok(flight)
     }
 
-    /// Straight fibres at rest in given air, to be advanced by steps of `h` [s].
+    /// Straight fibres at rest in given air, which is made for their elements, to be advanced by steps of `h` [s].
     ///
     /// # Errors
     /// There is no strand or there are more than eight, the strands have different numbers of elements or
-    /// different kinds of drag laws, the eddies or surroundings have another number of elements, the wind has
-    /// another number of eddies, or the step is not positive.
+    /// different kinds of drag laws, or the step is not positive.
     pub fn assembled(
         isa: Isa,
         strands: &[Strand],
@@ -61,11 +58,9 @@ impl Flight {
         let air = air.into();
         let strands = PerLane::new(strands.to_vec())?;
         let common = strands.shared(|strand| chain::Common::new(strand, None))?;
-        let elements = common.elements;
-        if elements == 0 {
+        if common.elements == 0 {
             return Err(Error::Flight(Fault::plain("a fibre needs at least one element")));
         }
-        air.check(elements)?;
         Self::with_chain(
             isa,
             Chain::straight(&common, &strands, scheme),
@@ -129,7 +124,8 @@ impl Flight {
         let wanted = self.chain.position.len();
         for found in [position.len(), velocity.len()] {
             if found != wanted {
-                return Err(misfit("start", "nodes", found, wanted));
+                let message = format!("the start is for {found} nodes, the fibres have {wanted}");
+                return Err(Error::Flight(Fault::plain(message)));
             }
         }
         (self.chain.position, self.chain.velocity) = (position.into(), velocity.into());

@@ -141,11 +141,9 @@ impl Flight {
             self.end_node.see::<S>(&self.chain.position[self.chain.elements()]);
         }
         let element = Vec3::load(&self.chain.position[1]) - Vec3::load(&self.chain.position[0]);
-        let strain = element
-            .dot(element)
-            .sqrt()
-            .over(Wide::<S>::load(&self.chain.constants.elements.at(0).rest_length))
-            - Wide::splat(1.0);
+        let strain =
+            element.dot(element).sqrt().over(Wide::<S>::load(&self.chain.constants.element.rest_length))
+                - Wide::splat(1.0);
         self.root_strain = (Wide::load(&self.root_strain) + strain).store();
     }
 }

@@ -5,7 +5,7 @@ use super::flown_curtain::{FlownCurtain, FlownLayers};
 use super::flyer::Flights;
 use super::{Flown, FlownFibres, Flyer, LaydownSource, LayerFibres, WebSpec};
 use crate::air::Lateral;
-use crate::beam::{Airs, Beam, BeamCharge, BeamControl, BeamFindings};
+use crate::beam::{Beam, BeamCharge, BeamControl, BeamFindings};
 use crate::case::Case;
 use crate::curtain::FlownCurves;
 use crate::error::{Error, Fault, Place as ErrorPlace, Problem};
@@ -55,7 +55,7 @@ type ToldFlight<'a> = (LayerBeam<'a>, BeamFindings, Option<(FlownCurves, LayerFe
 impl LayerBeam<'_> {
     pub(super) fn beam(&self) -> Beam<'_> {
         let Self { case, places, depth, charge, .. } = self;
-        Beam { case, places, airs: Airs::Shared, depth: *depth, charge: charge.as_ref() }
+        Beam { case, places, depth: *depth, charge: charge.as_ref() }
     }
 
     /// The same filaments in elements twice as long, and in steps twice as long, as far as these still follow

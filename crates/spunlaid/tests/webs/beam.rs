@@ -1,7 +1,7 @@
 //! All filaments of a beam, flown together: limits that hold exactly, and nothing that depends on the threads.
 
 use spunlaid::air::Lateral;
-use spunlaid::beam::{Airs, Beam, BeamControl, BeamFindings};
+use spunlaid::beam::{Beam, BeamControl, BeamFindings};
 use spunlaid::case::Case;
 use spunlaid::error::Error;
 use spunlaid::fibre::Place;
@@ -45,20 +45,19 @@ pub(super) fn row(sheet: &Sheet, count: usize) -> Vec<Place> {
 pub(super) fn lay_by(
     (case, sheet): (&Case, &Sheet),
     places: &[Place],
-    airs: Airs,
     isa: Isa,
     threads: usize,
 ) -> (LaidWeb, BeamFindings) {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let window = Window { corner: [10e-3, 20e-3], sides: [10e-3; 2] };
-    let beam = Beam::new(case, places, airs);
+    let beam = Beam::new(case, places);
     let laid = beam.lay(sheet, window, BeamControl { threads, isa, stop: &stop, steps: &steps }).unwrap();
     assert!(steps.into_inner() > 0);
     laid
 }
 
-fn lay(sheet: &Sheet, places: &[Place], airs: Airs) -> (LaidWeb, BeamFindings) {
-    lay_by((&case(), sheet), places, airs, Isa::detect(), 2)
+fn lay(sheet: &Sheet, places: &[Place]) -> (LaidWeb, BeamFindings) {
+    lay_by((&case(), sheet), places, Isa::detect(), 2)
 }
 
 pub(super) fn cv(map: &Map, side: usize) -> f64 {
@@ -87,7 +86,7 @@ fn limit_filaments_in_a_field_without_waves_across_lay_the_same_curve() {
 /// * `most` – that cells beside each other may differ by, over the mean
 fn rows_lay_bars(case: &Case, most: f64) {
     let sheet = sheet(24, 64);
-    let (laid, _) = lay_by((case, &sheet), &row(&sheet, 24), Airs::Shared, Isa::detect(), 2);
+    let (laid, _) = lay_by((case, &sheet), &row(&sheet, 24), Isa::detect(), 2);
     let (mut different, mut bars) = (0.0_f64, 0.0_f64);
     let mean = laid.map.total() as f64 / laid.map.cells.len() as f64;
     for row in 0..laid.map.rows {
@@ -106,7 +105,7 @@ fn rows_lay_bars(case: &Case, most: f64) {
 fn analytic_filaments_at_one_place_have_the_unevenness_of_one() {
     let sheet = sheet(32, 64);
     let place = Place { y: 0.0, z: 13.3e-3 };
-    let maps = [1, 3, 11].map(|count| lay(&sheet, &vec![place; count], Airs::Shared).0.map);
+    let maps = [1, 3, 11].map(|count| lay(&sheet, &vec![place; count]).0.map);
     for side in [1, 4, 10] {
         let one = cv(&maps[0], side);
         assert!(one > 0.5, "{one}");
@@ -121,7 +120,7 @@ fn analytic_filaments_at_one_place_have_the_unevenness_of_one() {
 fn invariant_the_mass_of_the_sheet_is_that_of_the_fed_fibre() {
     let sheet = sheet(32, 1000);
     let places = row(&sheet, 16);
-    let (laid, _) = lay(&sheet, &places, Airs::Own);
+    let (laid, _) = lay(&sheet, &places);
     let case = case();
     let line = case.line.unwrap();
     let per_length = case.fibre.element_mass() / case.fibre.rest_length();
@@ -140,9 +139,9 @@ fn slot(sheet: &Sheet, count: usize) -> Vec<Place> {
 #[test]
 fn identical_on_any_threads_and_instruction_sets() {
     let sheet = sheet(24, 32);
-    for (lateral, airs) in [("uniform", Airs::Own), ("von-karman", Airs::Shared)] {
+    for lateral in ["uniform", "von-karman"] {
         let (case, places) = (case_in(lateral), slot(&sheet, 12));
-        let lay = |isa, threads| lay_by((&case, &sheet), &places, airs, isa, threads);
+        let lay = |isa, threads| lay_by((&case, &sheet), &places, isa, threads);
         let (one, flown) = lay(Isa::detect(), 1);
         let strands = |laid: &LaidWeb| laid.shared_air.clone().unwrap().strands;
         assert!(!strands(&one).is_empty());
@@ -160,7 +159,7 @@ fn identical_on_any_threads_and_instruction_sets() {
 fn identical_a_filament_whatever_flies_beside_it() {
     let sheet = sheet(24, 32);
     let (case, places) = (case_in("von-karman"), slot(&sheet, 12));
-    let lay = |places: &[Place]| lay_by((&case, &sheet), places, Airs::Shared, Isa::detect(), 2).1.kept;
+    let lay = |places: &[Place]| lay_by((&case, &sheet), places, Isa::detect(), 2).1.kept;
     let (all, some) = (lay(&places), lay(&places[2..7]));
     for (number, points) in &some {
         let beside = &all.iter().find(|(other, _)| *other == number + 2).unwrap().1;
@@ -175,8 +174,7 @@ fn identical_a_filament_whatever_flies_beside_it() {
 #[test]
 fn stat_a_row_in_one_field_lies_between_one_curve_and_independent_ones() {
     let (sheet, case) = (sheet(64, 400), case_in("von-karman"));
-    let unevenness =
-        |places: &[Place]| cv(&lay_by((&case, &sheet), places, Airs::Shared, Isa::detect(), 2).0.map, 10);
+    let unevenness = |places: &[Place]| cv(&lay_by((&case, &sheet), places, Isa::detect(), 2).0.map, 10);
     let place = Place { y: 0.0, z: 30e-3 };
     let (one, three) = (unevenness(&[place]), unevenness(&[place; 3]));
     assert!((three / one - 1.0).abs() < 1e-5, "{three} {one}");
@@ -195,7 +193,7 @@ fn rejects_a_beam_that_loses_its_filaments() {
     case.air.speed_factor = 0.01;
     let (stop, steps, places) = (AtomicBool::new(false), AtomicU64::new(0), slot(&sheet, 12));
     let window = Window { corner: [10e-3, 20e-3], sides: [10e-3; 2] };
-    let beam = Beam::new(&case, &places, Airs::Shared);
+    let beam = Beam::new(&case, &places);
     let by = BeamControl { threads: 2, isa: Isa::detect(), stop: &stop, steps: &steps };
     let said = beam.lay(&sheet, window, by).unwrap_err().to_string();
     assert!(said.contains("of 12 filaments were lost"), "{said}");

@@ -1,7 +1,7 @@
 //! Charged filaments of a web in one air: nothing without charge, and the square of the charge with it.
 
 use super::beam::{case_in, sheet};
-use spunlaid::beam::{Airs, Beam, BeamCharge, BeamControl, BeamFindings};
+use spunlaid::beam::{Beam, BeamCharge, BeamControl, BeamFindings};
 use spunlaid::case::Case;
 use spunlaid::charge::Charge;
 use spunlaid::fibre::Place;
@@ -35,7 +35,7 @@ fn lay(
 ) -> (LaidWeb, BeamFindings) {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let window = Window { corner: [5e-3, 5e-3], sides: [10e-3; 2] };
-    let beam = Beam { charge, ..Beam::new(case, places, Airs::Shared) };
+    let beam = Beam { charge, ..Beam::new(case, places) };
     beam.lay(&sheet(COLUMNS, 32), window, BeamControl { threads, isa, stop: &stop, steps: &steps }).unwrap()
 }
 

@@ -1,7 +1,6 @@
 //! Filaments that are filled in between flown ones, against the same filaments as they are flown.
 
 use super::beam::{case_in, cv, lay_by, row, sheet as sheet_of};
-use spunlaid::beam::Airs;
 use spunlaid::curtain::{Belt, Curtain, FlownCurves, lay};
 use spunlaid::lanes::Isa;
 use spunlaid::web::{Map, Window};
@@ -24,7 +23,7 @@ fn correlation(maps: [&Map; 2], cell: f64) -> f64 {
 fn stat_filaments_between_flown_ones_lie_as_they_are_flown() {
     let (case, sheet) = (case_in("von-karman"), sheet_of(32, 64));
     let places = row(&sheet, 64);
-    let (_, flown) = lay_by((&case, &sheet), &places, Airs::Shared, Isa::detect(), 2);
+    let (_, flown) = lay_by((&case, &sheet), &places, Isa::detect(), 2);
     let line = case.line.unwrap();
     let start = line.feed_speed * case.run.spin_up();
     let curves = flown.kept.iter().map(|(_, points)| {

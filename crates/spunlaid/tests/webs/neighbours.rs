@@ -1,13 +1,13 @@
 //! The correlation of neighbours in a web whose filaments fly together.
 
 use super::beam::{case_in, lay_by, row, sheet};
-use spunlaid::beam::{Airs, BeamFindings};
+use spunlaid::beam::BeamFindings;
 use spunlaid::fibre::Place;
 use spunlaid::lanes::Isa;
 use spunlaid::web::{Correlation, NeighbourCorrelation, Row, Sheet};
 
-fn flown(lateral: &str, sheet: &Sheet, places: &[Place], airs: Airs, threads: usize) -> BeamFindings {
-    lay_by((&case_in(lateral), sheet), places, airs, Isa::detect(), threads).1
+fn flown(lateral: &str, sheet: &Sheet, places: &[Place], threads: usize) -> BeamFindings {
+    lay_by((&case_in(lateral), sheet), places, Isa::detect(), threads).1
 }
 
 fn both(neighbour: &NeighbourCorrelation) -> [Correlation; 2] {
@@ -18,7 +18,7 @@ fn both(neighbour: &NeighbourCorrelation) -> [Correlation; 2] {
 #[test]
 fn limit_neighbours_in_the_same_air_have_a_correlation_of_one() {
     let sheet = sheet(24, 200);
-    let flown = flown("uniform", &sheet, &row(&sheet, 24), Airs::Shared, 2);
+    let flown = flown("uniform", &sheet, &row(&sheet, 24), 2);
     let distances: Vec<f64> = flown.neighbours.iter().map(|neighbour| neighbour.distance).collect();
     // Once, twice, five and ten times the pitch of a millimetre, up to half of the width.
     assert_eq!(distances.len(), 4);
@@ -27,19 +27,6 @@ fn limit_neighbours_in_the_same_air_have_a_correlation_of_one() {
     }
     for correlation in flown.neighbours.iter().flat_map(both) {
         assert!((correlation.value - 1.0).abs() < 1e-9, "{correlation:?}");
-    }
-}
-
-/// In airs of their own they are independent: the correlation is zero within its error, which is small.
-#[test]
-fn stat_neighbours_in_airs_of_their_own_have_none() {
-    let sheet = sheet(32, 2000);
-    let flown = flown("uniform", &sheet, &row(&sheet, 16), Airs::Own, 2);
-    assert!(flown.neighbours.len() >= 2);
-    for correlation in flown.neighbours.iter().flat_map(both) {
-        let error = correlation.standard_error.unwrap();
-        assert!(error > 1e-4 && error < 0.05, "{correlation:?}");
-        assert!(correlation.value.abs() < 4.0 * error, "{correlation:?}");
     }
 }
 
@@ -52,19 +39,19 @@ fn analytic_rows_have_neighbours_of_their_own() {
     let mut places: Vec<Place> =
         rows.iter().flat_map(|row| (0..row.filaments).map(move |i| place(row, i))).collect();
     places.sort_by(|a, b| a.z.total_cmp(&b.z));
-    let flown = flown("uniform", &sheet, &places, Airs::Shared, 2);
+    let flown = flown("uniform", &sheet, &places, 2);
     let distances: Vec<f64> = flown.neighbours.iter().map(|neighbour| 1e3 * neighbour.distance).collect();
     assert_eq!(distances.len(), 3, "{distances:?}");
     assert!((distances[0] - 2.0).abs() < 1e-9 && (distances[2] - 10.0).abs() < 1e-9, "{distances:?}");
     // A single filament has none.
-    assert!(self::flown("uniform", &sheet, &places[..1], Airs::Shared, 2).neighbours.is_empty());
+    assert!(self::flown("uniform", &sheet, &places[..1], 2).neighbours.is_empty());
 }
 
 #[test]
 fn identical_neighbours_on_any_threads() {
     let sheet = sheet(24, 64);
     let places = row(&sheet, 12);
-    let of = |threads| flown("von-karman", &sheet, &places, Airs::Shared, threads).neighbours;
+    let of = |threads| flown("von-karman", &sheet, &places, threads).neighbours;
     let one = of(1);
     assert!(!one.is_empty());
     assert_eq!(of(2), one);

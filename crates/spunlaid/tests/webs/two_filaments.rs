@@ -2,7 +2,6 @@
 
 use crate::beam::{case_in, cv, lay_by, row, sheet};
 use spunlaid::air::Lateral;
-use spunlaid::beam::Airs;
 use spunlaid::flight::LaidPoint;
 use spunlaid::lanes::Isa;
 use spunlaid::web::Sheet;
@@ -36,7 +35,7 @@ fn stat_two_filaments_say_how_uneven_a_web_in_one_air_is() {
     let mut case = case_in("von-karman");
     // With coarser waves the sum is 4 to 6 % too high.
     case.air.lateral = Lateral::VonKarman { cutoff: 15.0 };
-    let (laid, flown) = lay_by((&case, &sheet), &row(&sheet, COUNT), Airs::Shared, Isa::detect(), 2);
+    let (laid, flown) = lay_by((&case, &sheet), &row(&sheet, COUNT), Isa::detect(), 2);
     assert_eq!(flown.kept.len(), COUNT);
     let (line, spacing) = (case.line.unwrap(), case.fibre.rest_length());
     let per_point = line.belt_ratio() * spacing;

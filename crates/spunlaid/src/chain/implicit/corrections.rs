@@ -20,7 +20,7 @@ pub(super) fn predict_and_eliminate<S: Register, const FED: bool>(chain: &mut Ch
     let step = h;
     let h = Wide::<S>::splat(h);
     let h_squared = h * h;
-    let constants = c.elements.view();
+    let element = &c.element;
     let one = Wide::splat(1.0);
     let mut acceleration = Vec3::zero();
     // The node below: where it is predicted, and its mobility. Then the element below: the weights of its
@@ -59,7 +59,6 @@ pub(super) fn predict_and_eliminate<S: Register, const FED: bool>(chain: &mut Ch
         link.acceleration = predicted.store();
         let mobility = Weight { x: free_x, across: free };
         if i < elements {
-            let element = constants.at(i);
             let stiffness = Wide::load(&element.axial_stiffness);
             let edge = (lower.1 - predicted).mul_add(h, lower.0 - at);
             let length = edge.dot(edge).sqrt();

@@ -104,7 +104,7 @@ impl<S: Register, const FED: bool> Motion<'_, S, FED> {
         let last = Vec3::load(&link.tangent) * tension;
         let corrected = tension + self.correction;
         self.t.tension[i] = corrected.store();
-        let element = self.c.elements.at(i);
+        let element = &self.c.element;
         self.natural = Wide::load(&element.compliance).mul_add(corrected, Wide::load(&element.rest_length));
         Pull { change, last }
     }
@@ -185,7 +185,7 @@ impl<S: Register, const FED: bool> Motion<'_, S, FED> {
     /// which are equal.
     #[inline(always)]
     fn length_error(&self) -> Wide<S> {
-        let rest_length = Wide::load(&self.c.elements.at(0).rest_length);
+        let rest_length = Wide::load(&self.c.element.rest_length);
         self.furthest.over(rest_length * rest_length)
     }
 }

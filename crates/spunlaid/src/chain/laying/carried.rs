@@ -26,9 +26,9 @@ impl Chain {
         let c = &self.constants;
         let Some(below) = self.position.get(node + 1) else { return (0.0, 0.0) };
         let edge = below.lane(lane) - self.position[node].lane(lane);
-        let element = c.elements.at(node);
+        let element = &c.element;
         let stretch = edge.norm() - element.rest_length.0[lane];
-        let stiffness = c.bending_stiffness.at(node).0[lane];
+        let stiffness = c.stiffness.0[lane];
         let bending = if node == 0 { 0.0 } else { stiffness * self.bend_squared_in(node, lane) };
         (0.5 * element.axial_stiffness.0[lane] * stretch * stretch, 0.5 * bending)
     }

@@ -22,7 +22,7 @@ impl Chain {
     pub(crate) fn feed(&mut self, lanes: &[Feed], steps_per_element: u64) {
         let c = &mut self.constants;
         let elements = self.position.len() - 1;
-        let rest_length = c.elements.at(0).rest_length;
+        let rest_length = c.element.rest_length;
         let mut laying = LayingState::new(lanes, steps_per_element, rest_length, elements);
         let above = c.root_direction * (rest_length * Lanes::splat(BORN - 0.5));
         self.position.iter_mut().for_each(|position| *position += above);
@@ -45,7 +45,7 @@ impl Chain {
             self.tensions.rub();
         }
         // It becomes a node between two elements.
-        let Node { mass, weight, .. } = *c.nodes.at(0);
+        let Node { mass, weight, .. } = c.between;
         (c.root.mass, c.root.weight) = (mass, weight);
         self.laying = Some(laying);
         self.clamp(0);
@@ -56,7 +56,7 @@ impl Chain {
     /// * `lifetime` – until the next birth [s]
     pub(super) fn give_birth(&mut self, lifetime: f64) {
         let c = &self.constants;
-        let element = c.elements.at(0);
+        let element = &c.element;
         let length = |lane: usize| (self.position[1].lane(lane) - self.position[0].lane(lane)).norm();
         let stretch = match self.tensions.tension.first() {
             Some(tension) => Lanes::from_fn(|i| tension.0[i] / element.axial_stiffness.0[i]),
@@ -70,7 +70,6 @@ impl Chain {
         self.velocity.push_root(velocity);
         self.earlier.push_root(velocity);
         self.tensions.push_root(tension);
-        self.constants.push_root();
 
         // The former root now bends like every other node.
         let c = &self.constants;
@@ -78,11 +77,11 @@ impl Chain {
         let kinetic =
             (relative.x * relative.x + relative.y * relative.y + relative.z * relative.z) * c.root.mass;
         let axial = tension * stretch;
-        let [first, second, third] = [0, 1, 2].map(|i| *self.constants.bending_stiffness.at(i));
-        let bending = self.bent(1, second - self.constants.root_stiffness)
-            + self.bent(2, third - self.constants.second_stiffness);
+        let stiffness = self.constants.stiffness;
+        let bending = self.bent(1, stiffness - self.constants.root_stiffness)
+            + self.bent(2, stiffness - self.constants.second_stiffness);
         let half = Lanes::splat(0.5);
-        (self.constants.root_stiffness, self.constants.second_stiffness) = (first, second);
+        (self.constants.root_stiffness, self.constants.second_stiffness) = (stiffness, stiffness);
         let Some(laying) = &mut self.laying else { return };
         laying.root_number += 1;
         laying.origin.push_root(position);
@@ -94,13 +93,12 @@ impl Chain {
 
     /// Stiffness of the root and of the node below it, after so many steps since the birth.   theory.md (60)
     pub(crate) fn clamp(&mut self, since_birth: u64) {
-        let [k, k_second] = [0, 1].map(|i| *self.constants.bending_stiffness.at(i));
+        let k = self.constants.stiffness;
         let Some(laying) = &self.laying else { return };
         let inside = BORN + since_birth as f64 / laying.steps_per_element as f64;
         let before = (self.constants.root_stiffness, self.constants.second_stiffness);
         let root = Lanes::from_fn(|i| if laying.clamped[i] { k.0[i] / inside } else { 0.0 });
-        let second =
-            Lanes::from_fn(|i| k_second.0[i] * if laying.clamped[i] { 1.0 } else { inside.min(1.0) });
+        let second = Lanes::from_fn(|i| k.0[i] * if laying.clamped[i] { 1.0 } else { inside.min(1.0) });
         (self.constants.root_stiffness, self.constants.second_stiffness) = (root, second);
         // What the change adds or takes is the feed's.
         let half = Lanes::splat(0.5);

@@ -77,7 +77,7 @@ impl Chain {
                 if let Some(force) = tensions.belt_force.get_mut(nodes - 1 - c.tail.len()) {
                     *force = Vec3::ZERO;
                 }
-                c.tail.push(*c.nodes.at(nodes - 1 - c.tail.len()));
+                c.tail.push(c.between);
                 laying.landed_at.push(Lanes::splat(f64::NAN));
             }
             for lane in (0..WIDTH).filter(|&lane| !shares.0[lane].is_nan()) {
@@ -174,7 +174,7 @@ impl Chain {
         }
         laying.origin.truncate(needed);
         laying.landed_at.drain(..nodes - needed);
-        self.constants.truncate(needed, nodes);
+        self.constants.tail.drain(..nodes - needed);
         self.position.truncate(needed);
         self.velocity.truncate(needed);
         self.earlier.truncate(needed);

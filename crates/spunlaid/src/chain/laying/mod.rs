@@ -162,17 +162,16 @@ impl Chain {
         if self.laying.is_none() {
             return;
         }
-        let (nodes, c) = (self.position.len(), &mut self.constants);
+        let c = &mut self.constants;
         (c.frame, c.friction) = (former.frame, former.friction);
-        (c.root.mass, c.root.weight) = (c.nodes.at(0).mass, c.nodes.at(0).weight);
-        let scale = |stiffness: Lanes, i: usize| {
-            let [before, after] = [former, &*c].map(|c| c.bending_stiffness.at(i));
-            Lanes::from_fn(|lane| stiffness.0[lane] / before.0[lane] * after.0[lane])
+        (c.root.mass, c.root.weight) = (c.between.mass, c.between.weight);
+        let scale = |stiffness: Lanes| {
+            Lanes::from_fn(|lane| stiffness.0[lane] / former.stiffness.0[lane] * c.stiffness.0[lane])
         };
-        let (root, second) = (scale(former.root_stiffness, 0), scale(former.second_stiffness, 1));
+        let (root, second) = (scale(former.root_stiffness), scale(former.second_stiffness));
         let kept = |new: Lanes, old: Lanes| Lanes::from_fn(|i| if old.0[i] == 0.0 { 0.0 } else { new.0[i] });
-        let tail = former.tail.iter().enumerate().map(|(from_end, old)| {
-            let node = c.nodes.at(nodes - 1 - from_end);
+        let tail = former.tail.iter().map(|old| {
+            let node = c.between;
             Node {
                 mass: kept(node.mass, old.mass),
                 inverse_mass: kept(node.inverse_mass, old.inverse_mass),
