@@ -237,8 +237,7 @@ impl Line {
     fn sheet(&self) -> String {
         format!(
             "\n[web]\nwidth = \"{}\"\nlength = \"1 m\"   # of the stretch that is looked at\n\
-            # method = \"dynamics\"   # filaments that are independent of each other, a lower bound; left \
-            out, they hang in one air\n# edges = \"cut\"   # if the edges of the web are to be seen; \
+            # edges = \"cut\"   # if the edges of the web are to be seen; \
             without, it is a part of a wide web\nguessed = \"{}\"   # made up: the CV is also told \
             for half and twice of each; take out what you have measured\n{}",
             exact_text(Dimension::Length, self.width),
