@@ -288,7 +288,13 @@ pub(super) fn guess_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_>
             )
         }
     };
-    card(rows, words + &failed_words(guesses))
+    let unknown = match sorted.iter().all(|tried| tried.on(patch).is_some()) {
+        true => "",
+        false => {
+            " What is not known is not told by the few filaments that were flown of it: its command flies as many as do."
+        }
+    };
+    card(rows, words + unknown + &failed_words(guesses))
 }
 
 /// Which values could not be laid or flown, and why.
