@@ -84,7 +84,7 @@ impl Asked {
         let spec = &self.file.spec;
         let compare = |changes: Vec<Change>| {
             watch.begin(steps(spec, &changes));
-            advise(spec, (&flown.web, &findings), changes, None, laying)
+            advise(spec, (&flown.web, &findings), changes, None, (None, laying))
         };
         let guesses = self.guesses.clone().filter(|all| !all.is_empty() && are_tried(spec, &findings, all));
         let guesses = guesses.map(compare).transpose()?;

@@ -128,8 +128,12 @@ pub struct Trials<E, M> {
 
 /// Least change of a measure that is an improvement, as a share of it.
 const LEAST: f64 = 0.01;
-/// Largest number of settings that are named. Where changes are confirmed, theirs are tried once more.
+/// Largest number of settings that are named.
 pub const NAMED: usize = 2;
+/// Most changes that are tried once more, where changes are confirmed.
+pub const RACING: usize = 4;
+/// How many standard errors a change may lie behind the best ones and still be tried once more.
+const BEHIND: f64 = 2.0;
 
 impl<E: Clone, M: Copy + PartialEq> Trials<E, M> {
     /// Tries changes.
@@ -157,8 +161,8 @@ impl<E: Clone, M: Copy + PartialEq> Trials<E, M> {
         Ok(trials)
     }
 
-    /// Tries the best changes once more, and takes what they do there. They were chosen for what they did in
-    /// the first chance, which was kinder to them than to the others.
+    /// Tries the changes once more that may be among the best, and takes what they do there. They were chosen
+    /// for what they did in the first chance, which was kinder to them than to the others.
     ///                                                                  theory.md, "Two webs in the same air"
     ///
     /// # Errors
@@ -167,10 +171,9 @@ impl<E: Clone, M: Copy + PartialEq> Trials<E, M> {
         &mut self,
         measure: impl FnOnce(&[Change<E>]) -> Result<Vec<Outcome<M>>, Error>,
     ) -> Result<(), Error> {
-        let improvements = self.judged_by.map_or_else(Vec::new, |judged_by| self.improvements(judged_by));
-        let is_best =
-            |tried: &Tried<E, M>| improvements.iter().take(NAMED).any(|(best, _)| std::ptr::eq(*best, tried));
-        let best: Vec<usize> = (0..self.tried.len()).filter(|i| is_best(&self.tried[*i])).collect();
+        let racing = self.judged_by.map_or_else(Vec::new, |judged_by| self.racing(judged_by));
+        let races = |tried: &Tried<E, M>| racing.iter().any(|racing| std::ptr::eq(*racing, tried));
+        let best: Vec<usize> = (0..self.tried.len()).filter(|i| races(&self.tried[*i])).collect();
         let changes: Vec<Change<E>> = best.iter().map(|i| self.tried[*i].change.clone()).collect();
         self.is_confirmed = true;
         let outcomes = if changes.is_empty() { Vec::new() } else { measure(&changes)? };
@@ -183,17 +186,29 @@ impl<E: Clone, M: Copy + PartialEq> Trials<E, M> {
         Ok(())
     }
 
+    /// The changes that may be among those that lower a measure most, as far as is known of them.
+    fn racing(&self, measure: M) -> Vec<&Tried<E, M>> {
+        let best = self.best(measure, |difference| difference.value < 0.0);
+        let Some((_, last)) = best.get(NAMED - 1).or(best.last()) else { return Vec::new() };
+        let may_be_better = |(_, effect): &&(&Tried<E, M>, &Effect<M>)| {
+            let [own, other] = [effect.difference, last.difference];
+            own.value - other.value <= BEHIND * own.standard_error.hypot(other.standard_error)
+        };
+        best.iter().filter(may_be_better).take(RACING).map(|(tried, _)| *tried).collect()
+    }
+
     /// The changes that lower a measure by at least one per cent of it and beyond chance: the best of each
     /// setting, and of these the best first.
     pub fn improvements(&self, measure: M) -> Vec<(&Tried<E, M>, &Effect<M>)> {
-        let lowers = |tried| {
-            let effect: &Effect<M> = Tried::on(tried, measure)?;
-            (effect.difference.value <= -LEAST && effect.difference.is_beyond_chance())
-                .then_some((tried, effect))
-        };
+        self.best(measure, |difference| difference.value <= -LEAST && difference.is_beyond_chance())
+    }
+
+    /// The best change of each setting among some, the best first.
+    fn best(&self, measure: M, is_one: impl Fn(&Difference) -> bool) -> Vec<(&Tried<E, M>, &Effect<M>)> {
         let told = self.tried.iter().filter(|tried| !(self.is_confirmed && tried.at_first.is_empty()));
-        let mut improvements: Vec<(&Tried<E, M>, &Effect<M>)> = told.filter_map(lowers).collect();
-        sort_by_key(&mut improvements, |(_, effect)| effect.difference.value);
+        let some = told.filter_map(|tried| Some((tried, tried.on(measure)?)));
+        let mut improvements: Vec<_> = some.filter(|(_, effect)| is_one(&effect.difference)).collect();
+        sort_by_key(&mut improvements, |(_, effect): &(&Tried<E, M>, &Effect<M>)| effect.difference.value);
         let mut settings = Vec::new();
         improvements.retain(|(tried, _)| {
             let setting = (tried.change.setting, tried.change.layers.clone());

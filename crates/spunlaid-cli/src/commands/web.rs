@@ -6,14 +6,14 @@ use super::{lay_control, plural, stem};
 use crate::args::{self, Invocation, Output, overrides};
 use crate::failure::Failure;
 use crate::{progress, say};
-use spunlaid::advice::{Advice, Change, MOST_STEPS, advise, are_tried, judged_by, steps};
+use spunlaid::advice::{Advice, Change, MOST_STEPS, Shelf, advise, are_tried, judged_by, steps};
 use spunlaid::case::Note;
 use spunlaid::error::Error;
 use spunlaid::input::{Changes, Unflown, Unread, WebSpec, read_changes, read_web};
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
 use spunlaid::web::{Findings, LayControl};
-use spunlaid_results::folders;
 use spunlaid_results::folders::web::WebFolder;
+use spunlaid_results::folders::{self, KeptTrials};
 use spunlaid_results::numbers::significant;
 use spunlaid_results::output::web::{Performance, specification_sheet};
 use std::fs;
@@ -115,7 +115,14 @@ impl Trials {
         by: LayControl<'_>,
         delivered: &mut Delivered<'_>,
     ) -> Result<(), Failure> {
+        let kept = delivered.folder().map(KeptTrials::open);
+        if let Some(kept) = kept.as_ref().filter(|kept| kept.flights() + kept.damaged > 0) {
+            let torn = if kept.damaged == 0 { "" } else { "; a torn or damaged record is flown again" };
+            let flights = plural(kept.flights(), "flight");
+            delivered.line(&format!("continuing: {flights} of an earlier command are kept{torn}"));
+        }
         let (judged_by, quiet) = (self.judged_by, output.quiet);
+        let by = (kept.as_ref().map(|kept| kept as &dyn Shelf), by);
         let of_guesses = ["other value", "guesses", "--set web.guessed=none"];
         let guesses = match self.guesses {
             Some(all) => try_changes(all, of_guesses, (first, judged_by), by, (quiet, delivered))?,
@@ -136,6 +143,7 @@ impl Trials {
             delivered.rewrite(&advised)?;
             delivered.say(Asides::default());
         }
+        kept.iter().for_each(KeptTrials::clear);
         delivered.finish(&advised);
         Ok(())
     }
@@ -153,13 +161,13 @@ fn try_changes(
     changes: Vec<Change>,
     [noun, of, without]: [&str; 3],
     (folder, judged_by): (WebFolder<'_>, Option<f64>),
-    by: LayControl<'_>,
+    (shelf, by): (Option<&dyn Shelf>, LayControl<'_>),
     (quiet, delivered): (bool, &mut Delivered<'_>),
 ) -> Result<Option<Advice>, Failure> {
     let label = format!("trying {} of {of}", plural(changes.len() as u64, noun));
     let (begun, done, spec) = (Instant::now(), AtomicU64::new(0), &folder.file.spec);
     let (all, by) = (steps(spec, &changes), LayControl { laid: &done, ..by });
-    let work = || advise(spec, (folder.web, folder.findings), changes, judged_by, by);
+    let work = || advise(spec, (folder.web, folder.findings), changes, judged_by, (shelf, by));
     match progress::follow(&done, all, &label, quiet, work) {
         Err(Error::Interrupted) => {
             by.stop.store(false, Ordering::Relaxed);

@@ -319,3 +319,34 @@ fn a_web_in_one_air_that_is_interrupted_leaves_nothing() {
     assert!(said.ends_with("nothing was written. Repeat the command to start again\n"), "{said}");
     assert_eq!(desk.entries(""), names(&["brief.toml", "web.toml"]));
 }
+
+/// The guessed depth is tried in one flight, and each of the lengths of the eddies in one of its own.
+#[test]
+fn identical_guesses_that_were_interrupted_and_went_on() {
+    let desk = Desk::with_case(FED);
+    let web = "[laydown]\ncase = 'brief.toml'\n[line]\nfilaments_per_metre = 4000\ndepth = '10 mm'\n[web]\n\
+        width = '0.2 m'\nlength = '0.1 m'\npatches = ['5 mm', '10 mm']\n\
+        guessed = 'line.depth, air.length_scale'\n";
+    fs::write(desk.path("web.toml"), web).unwrap();
+    success(&mut desk.spunlaid("web web.toml --out whole --no-advice --quiet"));
+    let whole = desk.summary("whole");
+    let mut command = desk.spunlaid("web web.toml --out w --no-advice");
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    while !desk.path(".w.trials").exists() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let output = end(child, "INT");
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    assert!(
+        said.contains("interrupted; the web is complete in w") && desk.path("w/report.html").exists(),
+        "{said}"
+    );
+    assert!(desk.summary("w").get("guesses").is_none());
+    let said = success(&mut desk.spunlaid("web web.toml --out w --no-advice"));
+    assert!(said.contains("\ncontinuing: 1 flight of an earlier command"), "{said}");
+    let numbers = whole["guesses"].to_string().replace(" --out whole-", " --out w-");
+    assert_eq!(desk.summary("w")["guesses"].to_string(), numbers);
+    assert!(whole["guesses"]["values"].as_array().unwrap().len() >= 3, "{whole}");
+    assert!(!desk.path(".w.trials").exists());
+}

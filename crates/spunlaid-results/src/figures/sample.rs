@@ -32,6 +32,7 @@ pub fn case(elements: usize, instants: usize, replicates: u64) -> Case {
             time_step: 1e-3,
             steps: instants as u64 - 1,
             spin_up_steps: 0,
+            rarer_looks: 1.0,
             output_steps: 1,
             replicates,
             seed: 1,

@@ -16,6 +16,7 @@
 //! run        flies a case: tables while it flies, then figures, shapes, report, summary
 //! study      the folder of a study: its journal, and what is made from it
 //! tensions   the tensions of a study that flights have found, from before there is its journal
+//! trials     what flights have said of changes of a web, kept until all is told
 //! web        map, single fibres, figures, report, summary
 //! ```
 
@@ -37,9 +38,11 @@ pub mod sources;
 pub mod spinline;
 pub mod study;
 pub mod tensions;
+mod trials;
 pub mod web;
 
 pub use contents::{Contents, Maker, Making, Page, Written};
 pub use finished::{read_summary, read_summary_of_run};
 pub use journalled::JournalFolder;
 pub use measured_web::read_measured_web;
+pub use trials::KeptTrials;

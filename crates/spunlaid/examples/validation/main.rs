@@ -5,6 +5,7 @@
 // The tests' shared models come with the licences of tests.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
+mod advice;
 #[path = "../../tests/common/closed_loops.rs"]
 mod closed_loops;
 #[path = "../../tests/common/mod.rs"]
@@ -29,6 +30,9 @@ fn main() {
     }
     if asked("few-and-all") {
         return one_air::few_and_all();
+    }
+    if asked("advice") {
+        return advice::changes();
     }
     if asked("fits") {
         return fits::intervals();

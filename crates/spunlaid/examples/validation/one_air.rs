@@ -102,7 +102,8 @@ fn web(file: &str, set: &[(&str, &str)]) -> (Findings, Fabric) {
 }
 
 /// What sets one line of twelve apart: its filaments, one of [`lines`], and its keys.
-const TWELVE: [(&str, usize, &[(&str, &str)]); 12] = [
+type OneOfTwelve = (&'static str, usize, &'static [(&'static str, &'static str)]);
+const TWELVE: [OneOfTwelve; 12] = [
     ("row", 0, &[]),
     ("slot of 20 mm", 1, &[]),
     ("slot of 60 mm", 2, &[]),

@@ -3,7 +3,12 @@
 use crate::effects::Effect;
 use crate::layers::WebSpec;
 use crate::statistics::Difference;
-use crate::web::{FewDoubt, LayerFew};
+use crate::web::{ExpectedCv, FewDoubt, LayerFew};
+
+/// What the coarser mesh and air of webs that are compared do to a change of the CV, and to a CV by itself, as
+/// shares of the CV.
+const OF_MESH: f64 = 0.015;
+const OF_OTHER_MESH: f64 = 0.03;
 
 /// What a few filaments say about the layers of a web.
 pub(super) struct WebOfFew {
@@ -60,7 +65,7 @@ impl WebOfFew {
                 degrees = degrees.min(of_error);
             }
             let by_pitch = 0.5 * (after.of_halves - before.of_halves);
-            let standard_error = ratio * (variance + by_pitch * by_pitch).sqrt();
+            let standard_error = ratio * (variance + by_pitch * by_pitch + OF_MESH * OF_MESH).sqrt();
             let own = Some(0.5 * (after.own - before.own) / before.square);
             let [here, there, both] = common;
             let in_common = Some(both / (here * there).sqrt()).filter(|common| common.is_finite());
@@ -68,6 +73,23 @@ impl WebOfFew {
             Some(Effect { of: patch, difference, own, in_common })
         };
         first.cvs.iter().filter_map(|cv| change(cv.patch)).collect()
+    }
+
+    /// The CV over patches of each size, in an air that no other web has.
+    pub(super) fn cvs(&self) -> Vec<ExpectedCv> {
+        let Some((_, first)) = self.layers.first() else { return Vec::new() };
+        let of_patch = |patch: f64| {
+            let cv = self.over(patch)?.square.sqrt();
+            let part = |(share, few): &(f64, LayerFew)| {
+                let of_layer = few.cvs.iter().find(|of_layer| of_layer.patch == patch)?;
+                let error = of_layer.by_chance?.hypot(of_layer.by_pitch);
+                Some((share * share * of_layer.cv * error / cv).powi(2))
+            };
+            let variance: Option<f64> = self.layers.iter().map(part).sum();
+            let error = variance.map_or(f64::NAN, f64::sqrt).hypot(OF_OTHER_MESH * cv);
+            Some(ExpectedCv::alone(patch, cv, error))
+        };
+        first.cvs.iter().filter_map(|cv| of_patch(cv.patch)).collect()
     }
 
     fn over(&self, patch: f64) -> Option<Patches<'_>> {

@@ -11,14 +11,14 @@ use super::flying::Flying;
 use super::{Beam, BeamControl, BeamFindings};
 use crate::air::{EddyField, Room, StreamKey};
 use crate::error::{Error, Fault};
-use crate::threads::try_each;
+use crate::threads::{each, lock, try_each};
 use crate::web::{Sheet, Window};
-use std::ops::Range;
-use std::sync::Arc;
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex};
 
 /// Largest lateral wave number of the air, times its length scale. Smaller eddies change no CV from patches
 /// of 10 mm on, and hardly any change of it, but take as much time again.
-const HIGHEST: f64 = 10.0;
+const HIGHEST: f64 = 8.0;
 
 /// A beam that has flown beside others.
 #[derive(Debug)]
@@ -40,43 +40,83 @@ struct BeamField {
 /// Flies beams on a sheet, or on the belt that passes for them in the same time. All are flown for as long as
 /// the first ones take; a beam may lay a little less than the sheet.
 ///
+/// * `memory` – that the airs which pass side by side take at most, unless a single one takes more [B]
+///
 /// # Errors
 /// For each beam as of [`Beam::fly`]; and if it is stopped.
 pub(crate) fn fly_abreast(
     beams: &[Beam<'_>],
-    sheet: &Sheet,
+    (sheet, memory): (&Sheet, f64),
     by: BeamControl<'_>,
 ) -> Result<Vec<Result<FlownAbreast, Error>>, Error> {
     let room = room_of(beams, sheet);
     let fields = fields(beams, &room)?;
-    let Some(first) = fields.first().map(|first| first.field.block()) else { return Ok(Vec::new()) };
-    let mut found: Vec<Option<Result<FlownAbreast, Error>>> = beams.iter().map(|_| None).collect();
+    let none = Window { corner: [0.0; 2], sides: [0.0; 2] };
+    let mut flying: Vec<_> = beams.iter().map(|beam| Flying::new(*beam, (sheet, none))).collect();
+    let all = All { beams, fields: &fields, sheet };
+    let makers = (0..beams.len()).filter(|beam| fields[*beam].maker == *beam);
+    let mut waiting: VecDeque<Group> = makers.map(|maker| all.group(maker)).collect();
     let mut until = None;
-    for maker in 0..beams.len() {
-        let members: Vec<usize> = (0..beams.len()).filter(|beam| fields[*beam].maker == maker).collect();
-        if members.is_empty() {
-            continue;
+    while let Some(first) = waiting.pop_front() {
+        let mut needed = memory_of_air(first.beam(beams), &room);
+        let mut groups = vec![first];
+        while let Some(next) = waiting.front()
+            && needed + memory_of_air(next.beam(beams), &room) <= memory
+        {
+            needed += memory_of_air(next.beam(beams), &room);
+            groups.extend(waiting.pop_front());
         }
-        let group = Group { beams, fields: &fields, maker, members };
-        let pace = first / fields[maker].field.block();
-        let (flown, time) = group.fly(sheet, until.map(|until: f64| until / pace), by)?;
-        until.get_or_insert(time * pace);
-        for (beam, flown) in flown {
-            let flown = flown.map(|flown| FlownAbreast { flown, pace: pace * fields[beam].pace });
-            found[beam] = Some(flown);
+        loop {
+            groups.retain(|group| group.members.iter().any(|beam| flies(&flying[*beam])));
+            let has_ended = match (groups.first(), until) {
+                (None, _) => true,
+                (Some(group), Some(until)) => group.time * group.pace >= until,
+                (Some(group), None) => all.is_laid_by(group, &flying),
+            };
+            if has_ended {
+                break;
+            }
+            make(&mut groups, by.threads);
+            all.advance(&groups, &mut flying, by)?;
         }
+        until.get_or_insert(groups.first().map_or(0.0, |group| group.time * group.pace));
     }
-    Ok(found.into_iter().map(|found| found.unwrap_or_else(|| Err(Error::no_fibre()))).collect())
+    let paces = fields.iter().map(|field| all.pace(field.maker) * field.pace);
+    let finish = |(of_beam, pace): (Result<Flying<'_>, Error>, f64)| {
+        Ok(FlownAbreast { flown: of_beam?.finish(BeamFindings::default())?, pace })
+    };
+    Ok(flying.into_iter().zip(paces).map(finish).collect())
 }
 
-/// Most memory that the airs of beams take which fly abreast, one field after the other [B].
+/// Whether a beam goes on.
+fn flies(of_beam: &Result<Flying<'_>, Error>) -> bool {
+    of_beam.as_ref().is_ok_and(|of_beam| !of_beam.has_lost_too_many())
+}
+
+/// Makes the fields of all groups for their next block, side by side.
+fn make(groups: &mut [Group], threads: usize) {
+    let of_each = threads.div_ceil(groups.len());
+    let groups: Vec<_> = groups.iter_mut().map(Mutex::new).collect();
+    each(threads, groups.len(), |group| {
+        let mut group = lock(&groups[group]);
+        let from = group.time;
+        group.time += group.block;
+        let times = from - group.margin..group.time + group.margin;
+        group.making.make(times, of_each);
+    });
+}
+
+/// Most memory that the air of a beam takes in a room [B].
+fn memory_of_air(beam: &Beam<'_>, room: &Room) -> f64 {
+    let air = &beam.case.air;
+    let memory = |cutoff: f64| EddyField::memory_in_room(air, room, cutoff.min(HIGHEST));
+    air.lateral.cutoff().map_or(0.0, memory)
+}
+
+/// Most memory that the air of one of some beams takes that fly abreast [B].
 pub(crate) fn memory_abreast(beams: &[Beam<'_>], sheet: &Sheet) -> f64 {
     let room = room_of(beams, sheet);
-    let of_beam = |beam: &Beam<'_>| {
-        let air = &beam.case.air;
-        air.lateral.cutoff().map_or(0.0, |cutoff| EddyField::memory_in_room(air, &room, cutoff.min(HIGHEST)))
-    };
-    beams.iter().map(of_beam).fold(0.0, f64::max)
+    beams.iter().map(|beam| memory_of_air(beam, &room)).fold(0.0, f64::max)
 }
 
 /// The fields of the airs of beams, of which those with one pattern share one.
@@ -111,109 +151,108 @@ fn fields(beams: &[Beam<'_>], room: &Room) -> Result<Vec<BeamField>, Error> {
 }
 
 /// Beams that look at one field.
-struct Group<'a> {
-    beams: &'a [Beam<'a>],
-    fields: &'a [BeamField],
-    /// The beam whose field is made.
-    maker: usize,
+struct Group {
+    /// The field, as far as it has been made.
+    making: EddyField,
+    /// How many times as fast its pattern passes as that of the first beam.
+    pace: f64,
+    /// The beams, of which the first one has made the field, each with the time of the field in its step [s].
     members: Vec<usize>,
+    steps: Vec<f64>,
+    /// Time by which they advance, until which they have, and for which the field is made besides [s].
+    block: f64,
+    time: f64,
+    margin: f64,
 }
 
-/// What a beam has flown, with its number.
-type Flown = Vec<(usize, Result<BeamFindings, Error>)>;
+impl Group {
+    fn beam<'a, 'b>(&self, beams: &'b [Beam<'a>]) -> &'b Beam<'a> {
+        &beams[self.members[0]]
+    }
+}
 
-impl Group<'_> {
-    /// Flies the beams until a time of the field, or until all of them have laid the sheet. Returns the time too [s].
-    fn fly(&self, sheet: &Sheet, until: Option<f64>, by: BeamControl<'_>) -> Result<(Flown, f64), Error> {
-        let no_window = Window { corner: [0.0; 2], sides: [0.0; 2] };
-        let mut ended = Vec::new();
-        let mut flying = Vec::new();
-        for &beam in &self.members {
-            match Flying::new(self.beams[beam], (sheet, no_window)) {
-                Ok(of_beam) => flying.push((beam, of_beam)),
-                Err(error) => ended.push((beam, Err(error))),
-            }
-        }
-        let belt = self.beams[self.maker].case.line.map_or(f64::NAN, |line| line.belt_speed);
-        let enough = |laid: &Range<f64>| laid.end - laid.start >= sheet.length / belt;
-        let mut making = self.fields[self.maker].field.clone();
-        let own = |beam: &usize| self.beams[*beam].longest_block() * self.fields[*beam].pace;
-        let block = self.members.iter().map(own).fold(making.block(), f64::min);
-        let mut time = 0.0;
-        while !flying.is_empty() {
-            let from = time;
-            time += block;
-            let margin = 2.0 * flying.iter().map(|(beam, _)| self.step(*beam)).fold(0.0, f64::max);
-            making.make(from - margin..time + margin, by.threads);
-            let made = |beam: usize| {
-                let BeamField { field, pace, .. } = &self.fields[beam];
-                Arc::new(field.made_as(&making, *pace))
-            };
-            let fields: Vec<Arc<EddyField>> = flying.iter().map(|(beam, _)| made(*beam)).collect();
-            let packs = |(number, (_, of_beam)): (usize, &(usize, Flying<'_>))| {
-                (0..of_beam.packs()).map(move |pack| (number, pack)).collect::<Vec<_>>()
-            };
-            let packs: Vec<(usize, usize)> = flying.iter().enumerate().flat_map(packs).collect();
-            let steps: Vec<u64> = (flying.iter())
-                .map(|(beam, of_beam)| ((time / self.step(*beam)) as u64).saturating_sub(of_beam.done))
-                .collect();
-            // A beam that cannot fly does not end the others.
-            let reaches = try_each(by.threads, packs.len(), |i| {
-                let (number, pack) = packs[i];
-                let (of_beam, field) = (&flying[number].1, Some(&fields[number]));
-                let start = if of_beam.done == 0 { of_beam.start(pack, true, field, by) } else { Ok(()) };
-                match start.and_then(|()| of_beam.advance(pack, steps[number], field, None, by)) {
-                    Err(Error::Interrupted) => Err(Error::Interrupted),
-                    reached => Ok(reached),
-                }
-            })?;
-            drop(fields);
-            let mut reaches = packs.iter().zip(reaches).peekable();
-            let mut left = Vec::new();
-            for (number, (beam, mut of_beam)) in flying.into_iter().enumerate() {
-                let mut of_packs = Vec::new();
-                while let Some((_, reach)) = reaches.next_if(|((of, _), _)| *of == number) {
-                    of_packs.push(reach);
-                }
-                match of_packs.into_iter().collect::<Result<Vec<Reach>, Error>>() {
-                    Ok(of_packs) => of_beam.reached(steps[number], of_packs),
-                    Err(error) => {
-                        ended.push((beam, Err(error)));
-                        continue;
-                    }
-                }
-                match of_beam.has_lost_too_many() {
-                    true => ended.push((beam, of_beam.finish(BeamFindings::default()))),
-                    false => left.push((beam, of_beam)),
-                }
-            }
-            flying = left;
-            let has_ended = match until {
-                Some(until) => time >= until,
-                None => self.laid_by_all(&flying).is_some_and(|laid| enough(&laid)),
-            };
-            if has_ended {
-                break;
-            }
-        }
-        let finish = |(beam, of_beam): (usize, Flying<'_>)| (beam, of_beam.finish(BeamFindings::default()));
-        ended.extend(flying.into_iter().map(finish));
-        Ok((ended, time))
+/// All beams, with the fields of their airs.
+struct All<'a> {
+    beams: &'a [Beam<'a>],
+    fields: &'a [BeamField],
+    sheet: &'a Sheet,
+}
+
+impl All<'_> {
+    /// How many times as fast the pattern passes in the field of a beam as in that of the first one.
+    fn pace(&self, maker: usize) -> f64 {
+        self.fields[0].field.block() / self.fields[maker].field.block()
     }
 
-    /// Time of the field in a step of a beam [s].
-    fn step(&self, beam: usize) -> f64 {
-        self.beams[beam].case.run.time_step * self.fields[beam].pace
+    /// The beams of a field before they fly.
+    fn group(&self, maker: usize) -> Group {
+        let Self { beams, fields, .. } = self;
+        let members: Vec<usize> = (0..beams.len()).filter(|beam| fields[*beam].maker == maker).collect();
+        let making = fields[maker].field.clone();
+        let of_field = |beam: usize, time: f64| time * fields[beam].pace;
+        let steps: Vec<f64> =
+            members.iter().map(|beam| of_field(*beam, beams[*beam].case.run.time_step)).collect();
+        // The same stretch of the pattern passes for all groups, so that they end together.
+        let longest =
+            |beam: usize| of_field(beam, beams[beam].longest_block()) * self.pace(fields[beam].maker);
+        let block = (0..beams.len()).map(longest).fold(fields[0].field.block(), f64::min);
+        let (pace, margin) = (self.pace(maker), 2.0 * steps.iter().copied().fold(0.0, f64::max));
+        Group { making, pace, members, steps, block: block / pace, time: 0.0, margin }
     }
 
-    /// The times of the field at which the belt has passed on which the filaments of all beams lie; None
-    /// while some lay the fibre of their start.
-    fn laid_by_all(&self, flying: &[(usize, Flying<'_>)]) -> Option<Range<f64>> {
+    /// Whether all beams of a group have laid the sheet during the same time.
+    fn is_laid_by(&self, group: &Group, flying: &[Result<Flying<'_>, Error>]) -> bool {
         let mut all = f64::NEG_INFINITY..f64::INFINITY;
-        for (beam, of_beam) in flying {
-            let (laid, pace) = (of_beam.laid_during()?, self.fields[*beam].pace);
+        for beam in group.members.iter().filter(|beam| flies(&flying[**beam])) {
+            // While some lay the fibre of their start, nothing is known.
+            let Some(laid) = flying[*beam].as_ref().ok().and_then(Flying::laid_during) else { return false };
+            let pace = self.fields[*beam].pace;
             all = all.start.max(laid.start * pace)..all.end.min(laid.end * pace);
         }
-        Some(all)
+        let belt = group.beam(self.beams).case.line.map_or(f64::NAN, |line| line.belt_speed);
+        all.end - all.start >= self.sheet.length / belt
+    }
+
+    /// Advances all beams of some groups to the end of the block that has been made. Their packs are shared
+    /// among the threads.
+    fn advance(
+        &self,
+        groups: &[Group],
+        flying: &mut [Result<Flying<'_>, Error>],
+        by: BeamControl<'_>,
+    ) -> Result<(), Error> {
+        let members = groups.iter().flat_map(|group| {
+            group.members.iter().zip(&group.steps).map(move |(beam, step)| (group, *beam, *step))
+        });
+        let mut packs = Vec::new();
+        let mut advancing = Vec::new();
+        for (group, beam, step) in members {
+            let Some(of_beam) = flying[beam].as_ref().ok().filter(|_| flies(&flying[beam])) else { continue };
+            let BeamField { field, pace, .. } = &self.fields[beam];
+            let steps = ((group.time / step) as u64).saturating_sub(of_beam.done);
+            packs.extend((0..of_beam.packs()).map(|pack| (advancing.len(), of_beam, pack)));
+            advancing.push((beam, Arc::new(field.made_as(&group.making, *pace)), steps));
+        }
+        // A beam that cannot fly does not end the others.
+        let reaches = try_each(by.threads, packs.len(), |i| {
+            let (number, of_beam, pack) = packs[i];
+            let (_, field, steps) = &advancing[number];
+            let start = if of_beam.done == 0 { of_beam.start(pack, true, Some(field), by) } else { Ok(()) };
+            match start.and_then(|()| of_beam.advance(pack, *steps, Some(field), None, by)) {
+                Err(Error::Interrupted) => Err(Error::Interrupted),
+                reached => Ok(reached),
+            }
+        })?;
+        let numbers: Vec<usize> = packs.into_iter().map(|(number, ..)| number).collect();
+        let mut reaches = numbers.into_iter().zip(reaches).peekable();
+        for (number, (beam, _, steps)) in advancing.into_iter().enumerate() {
+            let of_packs = std::iter::from_fn(|| Some(reaches.next_if(|(of, _)| *of == number)?.1));
+            match (of_packs.collect::<Result<Vec<Reach>, Error>>(), &mut flying[beam]) {
+                (Ok(of_packs), Ok(of_beam)) => of_beam.reached(steps, of_packs),
+                (Err(error), of_beam) => *of_beam = Err(error),
+                (Ok(_), Err(_)) => {}
+            }
+        }
+        Ok(())
     }
 }

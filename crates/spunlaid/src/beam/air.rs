@@ -11,6 +11,8 @@ use std::sync::Arc;
 /// Distance in which the filaments of a slot without depth come down, in ways from inlet to belt: eight
 /// standard deviations of a usual filament. One that goes farther meets the eddies of the other side again.
 const REACH: f64 = 0.36;
+/// As far as beams are compared, five of them: hardly two filaments that meet the same eddies again hang so.
+const REACH_OF_COMPARED: f64 = 0.22;
 /// Steps for which the field is made before and after those that are flown.
 const MARGIN: f64 = 1.0;
 
@@ -26,7 +28,8 @@ impl SharedField {
     pub(super) fn new(beam: &Beam<'_>, sheet: &Sheet, threads: usize) -> Option<Self> {
         let cutoff = beam.case.air.lateral.cutoff()?;
         let (case, key) = (beam.case, StreamKey { seed: beam.case.run.seed, replicate: 0 });
-        let field = EddyField::new(&case.air, case.way_of_air(), beam.extent_of_air(sheet), cutoff, key);
+        let field =
+            EddyField::new(&case.air, case.way_of_air(), beam.extent_of_air(sheet, REACH), cutoff, key);
         Some(Self { field, time_step: case.run.time_step, threads })
     }
 
@@ -47,7 +50,7 @@ impl SharedField {
 impl Beam<'_> {
     /// Most memory that the air of all filaments takes [B].
     pub(crate) fn memory_of_air(&self, sheet: &Sheet) -> f64 {
-        let (case, extent) = (self.case, self.extent_of_air(sheet));
+        let (case, extent) = (self.case, self.extent_of_air(sheet, REACH));
         match case.air.lateral {
             Lateral::Uniform => 0.0,
             Lateral::VonKarman { cutoff } => {
@@ -58,14 +61,16 @@ impl Beam<'_> {
 
     /// After what distances the air repeats itself. Across a web that is wide everywhere it is the width;
     /// otherwise no filament meets the air of another one again.
-    fn extent_of_air(&self, sheet: &Sheet) -> Extent {
+    ///
+    /// * `reach` – distance in which filaments come down, in ways from inlet to belt
+    fn extent_of_air(&self, sheet: &Sheet, reach: f64) -> Extent {
         let (air, distance) = (&self.case.air, self.case.way_of_air());
         let least = self.case.extent_of_air().y;
         let width = range(self.places.iter().map(|place| place.z));
-        let y = (self.depth + REACH * distance) * widening(air, distance).sqrt();
+        let y = (self.depth + reach * distance) * widening(air, distance).sqrt();
         let z = match sheet.edges {
             Edges::Periodic => sheet.width,
-            Edges::Cut => width + REACH * distance + least,
+            Edges::Cut => width + reach * distance + least,
         };
         Extent { y: y.max(least), z }
     }
@@ -73,7 +78,8 @@ impl Beam<'_> {
 
 /// The room in which the airs of beams have the same pattern as far as they can.
 pub(super) fn room_of(beams: &[Beam<'_>], sheet: &Sheet) -> Room {
-    let airs = beams.iter().map(|beam| (&beam.case.air, beam.case.way_of_air(), beam.extent_of_air(sheet)));
+    let air = |beam: &'_ Beam<'_>| beam.extent_of_air(sheet, REACH_OF_COMPARED);
+    let airs = beams.iter().map(|beam| (&beam.case.air, beam.case.way_of_air(), air(beam)));
     Room::of(&airs.collect::<Vec<_>>())
 }
 

@@ -64,6 +64,9 @@ pub struct Run {
     pub steps: u64,
     /// Number of steps at the start that the statistics leave out.
     pub spin_up_steps: u64,
+    /// How many times as long as usual it takes from one look at the flow around the fibre to the next. No key
+    /// of a case: a web that is compared with another one is flown with rarer looks.
+    pub rarer_looks: f64,
     /// Number of steps from one recorded instant to the next.
     pub output_steps: u64,
     /// Number of fibres with different turbulence.
@@ -88,6 +91,7 @@ impl Run {
         time_step: f64::NAN,
         steps: 0,
         spin_up_steps: 0,
+        rarer_looks: 1.0,
         output_steps: 0,
         replicates: 1,
         seed: 0,
@@ -230,7 +234,7 @@ impl Case {
             Some(line) => time_between_looks(&self.air, line.feed_speed),
             None => self.air.time_between_looks(self.along()),
         };
-        ((time / self.run.time_step) as u64).clamp(1, self.run.steps.max(1))
+        ((self.run.rarer_looks * time / self.run.time_step) as u64).clamp(1, self.run.steps.max(1))
     }
 
     /// Largest Reynolds number across the fibre to expect [-]. The velocity is the larger of two: the mean flow's

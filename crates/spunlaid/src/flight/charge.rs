@@ -214,6 +214,7 @@ mod tests {
             time_step: 4e-5,
             steps: 2000,
             spin_up_steps: 0,
+            rarer_looks: 1.0,
             output_steps: 100,
             replicates: 1,
             seed: 1,

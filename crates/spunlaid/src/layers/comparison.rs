@@ -6,6 +6,7 @@
 //!      → what all have laid while the same part of the pattern of the air passed → few filaments of each web
 //! ```
 
+use super::few::Compared;
 use super::shared_air::{LayerBeam, beam_on};
 use super::{Flyer, WebSpec};
 use crate::beam::{Beam, BeamControl, BeamFindings, FlownAbreast, fly_abreast, memory_abreast};
@@ -13,6 +14,7 @@ use crate::error::{Error, Fault};
 use crate::flight::LaidPoint;
 use crate::lanes::Isa;
 use crate::line::{Contact, Line};
+use crate::threads::each;
 use crate::units::Dimension;
 use crate::web::{Arrangement, LayerFew, Sheet, blocks_on};
 use std::ops::Range;
@@ -38,10 +40,10 @@ impl Flyer<'_> {
     /// For each web as of [`Flyer::web`]; and if it is stopped.
     pub fn few_in_same_air(
         &self,
-        specs: &[&WebSpec],
+        (specs, of_each): (&[&WebSpec], Compared),
         steps: &AtomicU64,
     ) -> Result<Option<Vec<FewOfWeb>>, Error> {
-        let Some(layers) = comparisons(specs)? else { return Ok(None) };
+        let Some(layers) = comparisons(specs, of_each)? else { return Ok(None) };
         let mut told: Vec<FewOfWeb> = specs.iter().map(|_| Ok(Vec::new())).collect();
         for (number, layer) in layers.into_iter().enumerate() {
             for (told, of_layer) in told.iter_mut().zip(self.compare((number, layer), steps)?) {
@@ -63,7 +65,7 @@ impl Flyer<'_> {
     ) -> Result<Vec<Result<LayerFew, Error>>, Error> {
         let by = BeamControl { threads: self.threads, isa: Isa::detect(), stop: self.stop, steps };
         layer.check_memory()?;
-        let flown = fly_abreast(&layer.flown_beams(), &layer.sheet, by)?;
+        let flown = fly_abreast(&layer.flown_beams(), (&layer.sheet, layer.memory_limit), by)?;
         let flown: Vec<(usize, _)> = layer.flights().map(|(web, _)| web).zip(flown).collect();
         let of_web = |web: usize| {
             let of_beam = layer.beams[web].as_ref().map_err(again)?;
@@ -76,19 +78,24 @@ impl Flyer<'_> {
         let during = laid.iter().flatten().fold(f64::NEG_INFINITY..f64::INFINITY, |all, laid| {
             all.start.max(laid.during.start)..all.end.min(laid.during.end)
         });
-        let tell = |(laid, of_beam): (Result<Laid<'_>, Error>, &Result<LayerBeam<'_>, Error>)| {
-            let (laid, of_beam) = (laid?, of_beam.as_ref().map_err(again)?);
+        let threads = self.threads.div_ceil(laid.len());
+        Ok(each(self.threads, laid.len(), |web| {
+            let (laid, of_beam) =
+                (laid[web].as_ref().map_err(again)?, layer.beams[web].as_ref().map_err(again)?);
             let few = of_beam.few.as_ref().ok_or_else(Error::no_fibre)?;
             let (sheet, flown) = laid.sheet(&layer.sheet, &during)?;
             let beam = of_beam.beam();
             let curves = match few.arrangement {
                 Arrangement::Rows => Some(few.curves(&sheet, &beam, &flown)?),
+                // Alone it is told as the web as it is has been.
+                Arrangement::Slot | Arrangement::AtRandom if layer.beams.len() == 1 => {
+                    Some(few.curves(&sheet, &beam, &flown)?)
+                }
                 Arrangement::Slot | Arrangement::AtRandom => None,
             };
             let of_sheet = (number, &sheet, layer.blocks);
-            few.tell(of_sheet, (&beam, &flown), curves.as_ref(), (self.threads, self.stop))
-        };
-        Ok(laid.into_iter().zip(&layer.beams).map(tell).collect())
+            few.tell(of_sheet, (&beam, &flown), curves.as_ref(), (threads, self.stop))
+        }))
     }
 }
 
@@ -99,8 +106,8 @@ fn again(error: &Error) -> Error {
 
 /// About how many steps all filaments take for webs in the same air; where all filaments are flown, those of
 /// all webs but the first.
-pub(crate) fn steps_in_same_air(specs: &[&WebSpec]) -> u64 {
-    let Some(layers) = comparisons(specs).ok().flatten() else {
+pub(crate) fn steps_in_same_air(specs: &[&WebSpec], of_each: Compared) -> u64 {
+    let Some(layers) = comparisons(specs, of_each).ok().flatten() else {
         let layers = |spec: &&'_ WebSpec| -> u64 {
             let beams = (0..spec.layers.len()).filter_map(|number| beam_on(spec, number, None).ok());
             beams.map(|of_beam| of_beam.beam().steps(&of_beam.sheet)).sum()
@@ -114,8 +121,8 @@ pub(crate) fn steps_in_same_air(specs: &[&WebSpec]) -> u64 {
 }
 
 /// Whether the air in which webs fly beside each other takes no more memory than the first of them may take.
-pub(crate) fn fits_memory(specs: &[&WebSpec]) -> bool {
-    let layers = comparisons(specs).ok().flatten().unwrap_or_default();
+pub(crate) fn fits_memory(specs: &[&WebSpec], of_each: Compared) -> bool {
+    let layers = comparisons(specs, of_each).ok().flatten().unwrap_or_default();
     layers.iter().all(|layer| layer.check_memory().is_ok())
 }
 
@@ -134,15 +141,16 @@ struct Comparison<'a> {
 }
 
 /// The layers of webs that are compared; None if some of the first one are not flown as a few for all.
-fn comparisons<'a>(specs: &[&'a WebSpec]) -> Result<Option<Vec<Comparison<'a>>>, Error> {
+fn comparisons<'a>(specs: &[&'a WebSpec], of_each: Compared) -> Result<Option<Vec<Comparison<'a>>>, Error> {
     let Some((first, _)) = specs.split_first() else { return Ok(None) };
-    (0..first.layers.len()).map(|number| Comparison::new(specs, number)).collect()
+    (0..first.layers.len()).map(|number| Comparison::new(specs, number, of_each)).collect()
 }
 
 impl<'a> Comparison<'a> {
-    fn new(specs: &[&'a WebSpec], number: usize) -> Result<Option<Self>, Error> {
-        let sheet = specs.iter().filter_map(|spec| spec.flown_sheet(number, true));
-        let Some(on) = sheet.max_by(|a, b| a.sheet.width.total_cmp(&b.sheet.width)) else { return Ok(None) };
+    fn new(specs: &[&'a WebSpec], number: usize, of_each: Compared) -> Result<Option<Self>, Error> {
+        let Some(on) = specs.first().and_then(|first| first.flown_sheet(number, Some(of_each))) else {
+            return Ok(None);
+        };
         let is_few = |of_beam: LayerBeam<'a>| match of_beam.few {
             Some(_) => Ok(of_beam.with_coarser_mesh()),
             None => Err(Fault::plain("its filaments are so few that all of them are flown").into()),

@@ -16,11 +16,9 @@ use std::sync::atomic::AtomicBool;
 const PITCH: f64 = 1.0 / 8.0;
 /// Area whose clouds tell the CV over patches of 10 mm within some 3 % [m²].
 const AREA: f64 = 0.2;
-/// Area on which webs in the same air are compared [m²].
-const AREA_OF_COMPARISON: f64 = 0.15;
-/// Distance of the filaments of webs that are compared, in that of those which tell the CV: what a larger
-/// pitch does to one web it does to the other.
-const PITCH_OF_COMPARISON: f64 = 1.5;
+/// Pairs of neighbours whose own patches are looked at, at most, and of webs that are compared.
+const PAIRS: usize = 64;
+const PAIRS_OF_COMPARED: usize = 12;
 /// Width of the sheet that is flown, in ways from inlet to belt at least: eight spreads of a usual filament.
 const WIDTH: f64 = 0.4;
 /// Filaments that are filled in for each flown one where a row is looked at over small patches.
@@ -39,12 +37,24 @@ pub(super) struct FewFlight {
     pub(super) few: FewPlan,
 }
 
+/// How much of webs is flown where they are compared in the same air.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Compared {
+    /// Area of the sheets [m²].
+    pub area: f64,
+    /// Distance of the filaments, in that of those which tell the CV: what a larger pitch does to one web it
+    /// does to the other.
+    pub pitches: f64,
+}
+
 /// The sheet that a few filaments lay.
 #[derive(Clone, Debug)]
 pub(super) struct FlownSheet {
     pub(super) sheet: Sheet,
     /// Distance of the filaments, in the usual one.
     pitches: f64,
+    /// Most pairs of neighbours whose own patches are looked at.
+    pairs: usize,
 }
 
 impl FlownSheet {
@@ -65,6 +75,8 @@ pub(super) struct FewPlan {
     pub(super) all: f64,
     /// Where all filaments of a slot hang.
     slot: Vec<Place>,
+    /// Most pairs of neighbours whose own patches are looked at.
+    pairs: usize,
 }
 
 impl WebSpec {
@@ -119,24 +131,25 @@ impl WebSpec {
             }
             Filaments::Rows(_) | Filaments::AtRandom { .. } => Vec::new(),
         };
-        Some(FewFlight { sheet, places, few: FewPlan { rows, arrangement, all, slot } })
+        Some(FewFlight { sheet, places, few: FewPlan { rows, arrangement, all, slot, pairs: on.pairs } })
     }
 
     /// Whether a few filaments of each layer lay the whole sheet of the web, as all of them would, in the same air.
     pub(crate) fn lays_whole_sheet(&self) -> bool {
         let is_whole =
             |on: FlownSheet| on.sheet.width >= self.sheet.width && on.sheet.length >= self.sheet.length;
-        (0..self.layers.len()).all(|layer| self.flown_sheet(layer, false).is_some_and(is_whole))
+        (0..self.layers.len()).all(|layer| self.flown_sheet(layer, None).is_some_and(is_whole))
     }
 
     /// The sheet that the filaments of a case lay: that of the web unless a smaller one says as much. Long
     /// and narrow ones take the least time, because filaments are flown for a while before they lay the
     /// sheet. None of a layer that flies no case.
     ///
-    /// * `compared` – whether the web is compared with others in the same air
-    pub(super) fn flown_sheet(&self, layer: usize, compared: bool) -> Option<FlownSheet> {
-        let (area, pitches) = if compared { (AREA_OF_COMPARISON, PITCH_OF_COMPARISON) } else { (AREA, 1.0) };
-        let on = |sheet| Some(FlownSheet { sheet, pitches });
+    /// * `compared` – how much of it is flown where the web is compared with others
+    pub(super) fn flown_sheet(&self, layer: usize, compared: Option<Compared>) -> Option<FlownSheet> {
+        let Compared { area, pitches } = compared.unwrap_or(Compared { area: AREA, pitches: 1.0 });
+        let pairs = if compared.is_some() { PAIRS_OF_COMPARED } else { PAIRS };
+        let on = |sheet| Some(FlownSheet { sheet, pitches, pairs });
         let case = self.layers.get(layer)?.source.case()?;
         let way = case.line.map_or(0.0, |line| line.distance);
         let cell = self.sheet.cell;
@@ -266,8 +279,8 @@ impl FewPlan {
             Some(points.iter().map(|point| [place.z + point.cd, place.y + point.md - flown.back]).collect())
         };
         let rows = self.rows.iter().map(|row| row.iter().map(curve).collect()).collect();
-        let (arrangement, all) = (self.arrangement, self.all);
-        FewFilaments { sheet, blocks, rows, piece: beam.element_mass(), arrangement, all }
+        let Self { arrangement, all, pairs, .. } = *self;
+        FewFilaments { sheet, blocks, rows, piece: beam.element_mass(), arrangement, all, pairs }
     }
 }
 

@@ -19,6 +19,7 @@ mod sources;
 
 pub use comparison::FewOfWeb;
 pub(crate) use comparison::{fits_memory, steps_in_same_air};
+pub use few::Compared;
 pub use flyer::{Flights, FlownFibres, FlownWeb, Flyer, LayerFibres, ProgressDisplay};
 pub use full_names::{place_in_web, web_key};
 pub use keys::{WEB, WEB_KEYS, WEB_TABLES, WebKey};

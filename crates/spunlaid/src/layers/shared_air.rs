@@ -26,6 +26,8 @@ const FEWEST_WAVES: f64 = 5.0;
 
 /// How many times as long elements and steps are where webs are compared.
 const MESH_OF_COMPARISON: f64 = 2.0;
+/// How many times as rarely the air is looked at there: five times in the shortest period that a filament feels.
+const LOOKS_OF_COMPARISON: f64 = 1.6;
 /// Longest element that still follows the eddies, in their smallest length scale.
 const LONGEST_ELEMENT: f64 = 0.5;
 
@@ -59,17 +61,20 @@ impl LayerBeam<'_> {
     }
 
     /// The same filaments in elements twice as long, and in steps twice as long, as far as these still follow
-    /// the eddies: what a coarse mesh does to one web it does to another one with which it is compared.
+    /// the eddies, with rarer looks and half the start: what this does to one web it does to another one with which
+    /// it is compared.
     pub(super) fn with_coarser_mesh(mut self) -> Self {
         let mut coarse = self.case.clone();
-        let element = MESH_OF_COMPARISON * self.case.fibre.rest_length();
-        let Some(line) = coarse.line.filter(|_| element <= LONGEST_ELEMENT * coarse.smallest_length_scale())
-        else {
-            return self;
-        };
-        coarse.fibre.span(line.distance, element);
-        let looks = self.case.steps_between_looks() as f64 * self.case.run.time_step;
-        coarse.set_time_step((MESH_OF_COMPARISON * self.case.run.time_step).min(looks));
+        coarse.run.rarer_looks = LOOKS_OF_COMPARISON;
+        let element = MESH_OF_COMPARISON * coarse.fibre.rest_length();
+        if let Some(line) =
+            coarse.line.filter(|_| element <= LONGEST_ELEMENT * coarse.smallest_length_scale())
+        {
+            let looks = coarse.steps_between_looks() as f64 * coarse.run.time_step;
+            coarse.fibre.span(line.distance, element);
+            coarse.set_time_step((MESH_OF_COMPARISON * coarse.run.time_step).min(looks));
+        }
+        coarse.run.spin_up_steps /= 2;
         if coarse.check().is_ok() {
             self.case = coarse;
         }
@@ -154,7 +159,7 @@ impl Flyer<'_> {
         on: &Brush<'_>,
     ) -> Result<ToldFlight<'a>, Error> {
         let (mut flights, mut spent) = (0, TimeSpent::default());
-        let mut sheet = spec.flown_sheet(number, false);
+        let mut sheet = spec.flown_sheet(number, None);
         loop {
             let mut flown = self.fly_layer(&layer, spec, Some(on).filter(|_| layer.few.is_none()))?;
             spent.whole += flown.spent.whole;
@@ -285,7 +290,7 @@ pub(super) fn beam_on<'a>(
     }
     case.run.seed = key(case.run.seed, spec.seed, number as u64);
     let depth = layer.filaments.depth();
-    let flown_sheet = sheet.cloned().or_else(|| spec.flown_sheet(number, false));
+    let flown_sheet = sheet.cloned().or_else(|| spec.flown_sheet(number, None));
     Ok(match flown_sheet.and_then(|sheet| spec.few(number, &sheet)) {
         Some(FewFlight { sheet, places, few }) => {
             let charge = spec.beam_charge(number, (&places, Some(&few)));

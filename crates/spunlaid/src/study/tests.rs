@@ -28,6 +28,7 @@ pub(crate) fn table1() -> Case {
             time_step: 2e-5,
             steps: 1000,
             spin_up_steps: 0,
+            rarer_looks: 1.0,
             output_steps: 50,
             replicates: 10,
             seed: 1,

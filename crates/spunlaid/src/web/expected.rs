@@ -3,7 +3,6 @@
 use super::laying::LayControl;
 use super::one_fibre::{OneFibre, SingleFibres, one_fibre, straight_fibres};
 use super::plan::places;
-use super::uniformity::Unevenness;
 use super::{Edges, Fibres, Filaments, Layer, Sheet, Web};
 use crate::effects::Effect;
 use crate::error::{Error, Fault};
@@ -80,10 +79,11 @@ pub struct ExpectedCv {
 }
 
 impl ExpectedCv {
-    /// That of a map, which no other map has anything in common with.
-    pub fn of_map(map: &Unevenness) -> Self {
-        let standard_error = map.standard_error.unwrap_or(f64::NAN);
-        Self { patch: map.patch, cv: map.cv, standard_error, degrees: f64::INFINITY, parts: Vec::new() }
+    /// That of a map, or of a few filaments, which no other one has anything in common with.
+    ///
+    /// * `standard_error` – of the CV; not a number where it is not known
+    pub const fn alone(patch: f64, cv: f64, standard_error: f64) -> Self {
+        Self { patch, cv, standard_error, degrees: f64::INFINITY, parts: Vec::new() }
     }
 
     /// The change from this CV to the one over the same patches among others, as a share of it.

@@ -101,6 +101,7 @@ impl Thread {
             time_step: 1.0,
             steps: 1,
             spin_up_steps: 0,
+            rarer_looks: 1.0,
             output_steps: 100,
             replicates: 1,
             seed: 1,

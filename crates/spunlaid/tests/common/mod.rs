@@ -55,6 +55,7 @@ pub fn table1(scheme: Scheme, time_step: f64, duration: f64, replicates: u64) ->
         time_step,
         steps: (duration / time_step).round() as u64,
         spin_up_steps: 0,
+        rarer_looks: 1.0,
         output_steps: ((1e-3 / time_step).round() as u64).max(1),
         replicates,
         seed: 1,

@@ -90,6 +90,7 @@ fn table_1_is_read_in_si_units() {
             time_step: 1e-6,
             steps: 1_000_000,
             spin_up_steps: 0,
+            rarer_looks: 1.0,
             output_steps: 1000,
             replicates: 10,
             seed: 1,

@@ -69,6 +69,7 @@ prop_compose! {
         let spin_up_steps = (spin_up * steps as f64) as u64;
         let output_steps = 1 + (output * (steps - 1) as f64) as u64;
         let run = Run {
+            rarer_looks: 1.0,
             time_step: 1.0, steps, spin_up_steps, output_steps, replicates, seed, scheme, gravity, damping,
             shapes: leapfrog.then_some(seed % 20_001), checks: Checks::ALL[(seed % 3) as usize],
         };

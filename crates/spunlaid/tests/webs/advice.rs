@@ -71,7 +71,7 @@ fn advice(text: &str, threads: usize, stop: &AtomicBool) -> Result<Advice, Error
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
     let mut flown = Flyer::new(threads, &on, &follow).web(&file.spec).unwrap();
     let findings = flown.find(by).unwrap();
-    advise(&file.spec, (&flown.web, &findings), changes, None, LayControl { stop, ..by })
+    advise(&file.spec, (&flown.web, &findings), changes, None, (None, LayControl { stop, ..by }))
 }
 
 fn weight(spec: &WebSpec) -> f64 {

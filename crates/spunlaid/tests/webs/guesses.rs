@@ -123,7 +123,7 @@ guessed = \"line.filaments_per_metre\"
     let mut flown = Flyer::new(2, &stop, &|_, work| work()).web(&spec).unwrap();
     let findings = flown.find(by).unwrap();
     assert!(are_tried(&spec, &findings, &changes));
-    let guesses = advise(&spec, (&flown.web, &findings), changes, None, by).unwrap();
+    let guesses = advise(&spec, (&flown.web, &findings), changes, None, (None, by)).unwrap();
     let ends = guesses.range(10e-3);
     for (found, wanted) in ends.iter().zip([0.5_f64.sqrt(), 2.0_f64.sqrt()]) {
         assert!((found / wanted - 1.0).abs() < 1e-6, "{ends:?}");

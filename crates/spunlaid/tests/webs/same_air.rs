@@ -1,7 +1,7 @@
 //! Webs of a few filaments each in the same air.
 
 use spunlaid::input::{Overrides, WebFile, parse_web};
-use spunlaid::layers::{Flights, Flyer};
+use spunlaid::layers::{Compared, Flights, Flyer};
 use spunlaid::web::LayerFew;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -35,6 +35,8 @@ pub(super) fn read(set: &[(&str, &str)]) -> WebFile {
     parse_web(WEB, &cases.display().to_string(), Overrides { values: &set, word: "--set" }).unwrap()
 }
 
+const ALL: Compared = Compared { area: 0.15, pitches: 1.5 };
+
 pub(super) fn unwatched(_: Flights<'_>, work: &mut (dyn FnMut() + Send)) {
     work();
 }
@@ -43,7 +45,7 @@ fn few(webs: &[&WebFile], threads: usize) -> Vec<LayerFew> {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let specs: Vec<_> = webs.iter().map(|web| &web.spec).collect();
     let flyer = Flyer::new(threads, &stop, &unwatched);
-    let told = flyer.few_in_same_air(&specs, &steps).unwrap().unwrap();
+    let told = flyer.few_in_same_air((&specs, ALL), &steps).unwrap().unwrap();
     told.into_iter().flat_map(|layers| layers.unwrap()).collect()
 }
 
@@ -83,7 +85,7 @@ fn rejects_webs_whose_common_air_does_not_fit_into_the_memory() {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let flyer = Flyer::new(1, &stop, &unwatched);
     web.spec.memory_limit = 1e6;
-    let said = flyer.few_in_same_air(&[&web.spec, &farther.spec], &steps).unwrap_err().to_string();
+    let said = flyer.few_in_same_air((&[&web.spec, &farther.spec], ALL), &steps).unwrap_err().to_string();
     let begin = "the field of eddies in which the changed webs fly beside each other takes ";
     assert!(said.starts_with(begin) && said.contains("more than web.memory_limit = 1 MB; write "), "{said}");
 }

@@ -45,6 +45,10 @@ use std::sync::Arc;
 /// Looks in the shortest period that a fibre feels.
 const LOOKS_IN_PERIOD: f64 = 8.0;
 
+/// How many times as far apart as usual generations are in a [`Room`]: what the pattern of one of its airs
+/// remembers too long, that of another one does too.
+const COARSER: f64 = 2.0;
+
 /// A field of eddies with the mean zero and the rms one, as far as it has been made. Clones share what has been made.
 ///
 /// Equal airs, extents and keys give equal fields, bit for bit, in whatever order and with however many
@@ -88,7 +92,7 @@ impl Room {
     }
 
     fn way(&self, air: &Air) -> EddyPath {
-        EddyPath::with_steps(air, self.distance, self.steps)
+        EddyPath::with_steps(air, self.distance, (self.steps, COARSER))
     }
 }
 

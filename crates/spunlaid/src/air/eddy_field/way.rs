@@ -46,11 +46,12 @@ pub(super) struct EddyPath {
 impl EddyPath {
     /// * `distance` – from the inlet, or the root, to the end of the way [m]
     pub(super) fn new(air: &Air, distance: f64) -> Self {
-        Self::with_steps(air, distance, 0)
+        Self::with_steps(air, distance, (0, 1.0))
     }
 
     /// * `least` – steps from one generation to the next that there are at least, where eddies are carried
-    pub(super) fn with_steps(air: &Air, distance: f64, least: usize) -> Self {
+    /// * `longer` – how many times as much of their age and of the air they may be apart as usual
+    pub(super) fn with_steps(air: &Air, distance: f64, (least, longer): (usize, f64)) -> Self {
         let mut hint = Hint::default();
         let x = |i: f64| distance * i / PIECES as f64;
         let mut stage = |i: f64| {
@@ -88,7 +89,7 @@ impl EddyPath {
             return Self { pieces_per_length, passages, stages, ageing: f64::INFINITY };
         };
         let whole = travels[PIECES];
-        let steps = steps(&stages, &travels, whole / decay_time, least);
+        let steps = steps(&stages, &travels, (whole / decay_time, longer), least);
         let travel = if steps == 0 { 0.0 } else { whole / steps as f64 };
         let passages = travels.iter().map(|&time| [if steps == 0 { 0.0 } else { time / travel }, time]);
         Self {
@@ -190,19 +191,20 @@ fn at(stages: &[Stage], rising: &[f64], value: f64) -> Stage {
 /// Steps of equal travel time in which neither age nor air change too much. None if the pattern is the same everywhere.
 ///
 /// * `age` – of the air at the end of the way, in decay times
+/// * `longer` – how many times as large as usual a step may be
 /// * `least` – number of them
-fn steps(stages: &[Stage], travels: &[f64], age: f64, least: usize) -> usize {
+fn steps(stages: &[Stage], travels: &[f64], (age, longer): (f64, f64), least: usize) -> usize {
     let whole = travels[travels.len() - 1];
     let change = |a: &Stage, b: &Stage| {
         let ratios =
             [a.speed / b.speed, a.length_scale / b.length_scale, a.cutoff_frequency / b.cutoff_frequency];
         ratios.into_iter().map(|ratio| libm::log(ratio).abs()).fold(0.0, f64::max)
     };
-    let least = least.max((age / LONGEST_AGE - 1e-9).ceil().clamp(0.0, MOST as f64) as usize);
+    let least = least.max((age / (longer * LONGEST_AGE) - 1e-9).ceil().clamp(0.0, MOST as f64) as usize);
     (least..MOST)
         .find(|&steps| {
             let stage = |j: usize| at(stages, travels, whole * j as f64 / steps.max(1) as f64);
-            let largest = if steps == 0 { 1e-6 } else { LARGEST_CHANGE };
+            let largest = if steps == 0 { 1e-6 } else { longer * LARGEST_CHANGE };
             (0..steps.max(1)).all(|j| change(&stage(j), &stage(j + 1)) <= largest)
         })
         .unwrap_or(MOST)

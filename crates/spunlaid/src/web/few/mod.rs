@@ -53,6 +53,8 @@ pub(crate) struct FewFilaments<'a> {
     pub(crate) arrangement: Arrangement,
     /// Number of all filaments over the width of the sheet.
     pub(crate) all: f64,
+    /// Most pairs of neighbours whose own patches are looked at, spread over the beam.
+    pub(crate) pairs: usize,
 }
 
 /// Maps in which the filaments between the flown ones have been filled in.
@@ -73,8 +75,6 @@ pub(crate) fn small_patch(pitch: f64) -> f64 {
 
 /// Fewest filaments of a row that say something of its neighbours.
 pub(crate) const FEWEST: usize = 10;
-/// Pairs of neighbours whose own patches are looked at, spread over the beam, at most.
-const PAIRS: usize = 64;
 /// Neighbours with which a filament is compared: itself, the next ones, and those of every second filament.
 const NEIGHBOURS: [usize; 4] = [0, 1, 2, 4];
 /// Smallest patch of a row whose CV does not know the pitch, in pitches.
@@ -258,7 +258,7 @@ impl FewFilaments<'_> {
             let unknown = Products { means: [f64::NAN; NEIGHBOURS.len()], pairs: Vec::new() };
             return Ok(vec![unknown; sides.len()]);
         };
-        let pairs = (row.len() / 2).min(PAIRS);
+        let pairs = (row.len() / 2).min(self.pairs);
         let references: Vec<usize> =
             (0..pairs).flat_map(|i| [0, 1].map(|second| i * row.len() / pairs + second)).collect();
         let found =

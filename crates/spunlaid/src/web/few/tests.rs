@@ -80,6 +80,7 @@ fn few<'a>(
         piece: 1e-9,
         arrangement,
         all: all as f64,
+        pairs: 64,
     }
 }
 

@@ -1,0 +1,218 @@
+//! What changes and guesses do to the CV of three lines, as `spunlaid web` tells it, against long webs of each.
+//!
+//! All cores fly; a line takes some minutes of sixteen. `validation advice slot` looks at one of them.
+
+use crate::title;
+use spunlaid::advice::{Change, Tried, advise};
+use spunlaid::input::{Changes, Overrides, WebSpec, parse_changes, parse_web};
+use spunlaid::lanes::Isa;
+use spunlaid::layers::Flyer;
+use spunlaid::statistics::Difference;
+use spunlaid::threads::each;
+use spunlaid::web::{Findings, LayControl, Web, nearest_to_seen};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::Instant;
+
+/// Long webs of each change.
+const SEEDS: u64 = 8;
+/// One of them: twice as long as a web whose CV is told, with twice as many filaments as fly in most airs.
+const LONG: [(&str, &str); 3] = [("web.width", "0.2 m"), ("web.length", "1 m"), ("web.flown", "500")];
+
+/// The air of spunbond.toml, and where the files of the lines are looked for.
+const CASES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/web.toml");
+const REST: &str =
+    "[web]\nwidth = \"1 m\"\nlength = \"1 m\"\nguessed = \"none\"\n[run]\nduration = \"1 s\"\n";
+/// The line of `docs/line.md`.
+const SLOT: &str = r#"
+version = 1
+[line]
+throughput = "0.5 g/min"
+basis_weight = "20 g/m²"
+filaments_per_metre = 5000
+depth = "20 mm"
+[fibre]
+linear_density = "2 dtex"
+density = "905 kg/m³"
+youngs_modulus = "1.9 GPa"
+root = "clamped"
+[belt]
+distance = "500 mm"
+[air]
+profile = "tables/spunbond.csv"
+widening = "md"
+[drag]
+across = "marheineke-wegener"
+"#;
+/// The row of `cases/web.toml`.
+const ROW: &str = r#"
+version = 1
+[laydown]
+case = "spunbond.toml"
+[line]
+rows = [{ pitch = "0.2 mm", filaments = 5000 }]
+"#;
+/// Thick and slow filaments from a slot in a shorter way of air with smaller eddies.
+const THICK: &str = r#"
+version = 1
+[line]
+filaments_per_metre = 3300
+depth = "15 mm"
+[fibre]
+diameter = "30 µm"
+density = "1380 kg/m³"
+youngs_modulus = "4 GPa"
+root = "clamped"
+[feed]
+speed = "25 m/s"
+[belt]
+distance = "0.4 m"
+speed = "2.5 m/s"
+[air]
+velocity = "20 m/s"
+turbulence_intensity = 0.15
+length_scale = "12 mm"
+cutoff_frequency = "auto"
+[drag]
+across = "marheineke-wegener"
+"#;
+
+/// What is told of a change: its name, the CV over patches of 10 mm as a share of the web's, and whether it
+/// is one of the best two.
+struct Told {
+    name: String,
+    spec: WebSpec,
+    change: Difference,
+    is_named: bool,
+}
+
+/// Compares what is told of the lines that are asked for with long webs.
+pub fn changes() {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let asked = |name: &str| std::env::args().any(|word| word == name);
+    let lines = [
+        ("slot", SLOT, "line.depth, air.intensity_factor, air.length_factor"),
+        ("row", ROW, "air.intensity_factor, air.length_factor"),
+        ("thick", THICK, "line.depth, air.turbulence_intensity"),
+    ];
+    let all = !lines.iter().any(|(name, ..)| asked(name));
+    let (mut within, mut count) = (0, 0);
+    for (name, text, guesses) in lines.into_iter().filter(|(name, ..)| all || asked(name)) {
+        title(&format!("Changes of a line: {name}, against {SEEDS} webs of 0.2 m × 1 m each"));
+        let text = format!("{text}{}", REST.replace("none", guesses));
+        let (base, told) = told(&text, threads);
+        if asked("told") {
+            continue;
+        }
+        let held = compare(&base, &told, threads);
+        within += held;
+        count += told.len();
+        println!(
+            "  within two told errors: {held} of {}; of all lines so far {within} of {count}",
+            told.len()
+        );
+    }
+}
+
+fn set(changed: &[(&str, &str)]) -> Vec<(String, String)> {
+    changed.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect()
+}
+
+fn read(text: &str, changed: &[(&str, &str)]) -> WebSpec {
+    parse_web(text, CASES, &set(changed)[..]).unwrap_or_else(|why| panic!("a web: {why}")).spec
+}
+
+fn lay(spec: &WebSpec, threads: usize) -> (Web, Findings) {
+    let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
+    let by = LayControl { threads, isa: Isa::detect(), stop: &stop, laid: &laid };
+    let mut flown = Flyer::new(threads, &stop, &|_, work| work()).web(spec).expect("a flight");
+    let findings = flown.find(by).expect("findings");
+    (flown.web, findings)
+}
+
+/// What the program tells of a line, with what it takes.
+fn told(text: &str, threads: usize) -> (WebSpec, Vec<Told>) {
+    let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
+    let by = LayControl { threads, isa: Isa::detect(), stop: &stop, laid: &laid };
+    let spec = read(text, &[]);
+    let begun = Instant::now();
+    let (web, findings) = match std::env::args().any(|word| word == "small") {
+        true => lay(&read(text, &[("web.width", "0.2 m"), ("web.length", "0.1 m")]), threads),
+        false => lay(&spec, threads),
+    };
+    let of_web = begun.elapsed().as_secs_f64();
+    println!("  the web {of_web:.1} s");
+    let mut told = Vec::new();
+    for (which, name) in [(Changes::OfGuesses, "guesses"), (Changes::OfLine, "changes")] {
+        let word = Overrides { values: &[], word: "--set" };
+        let changes =
+            parse_changes(text.to_owned(), CASES, word, which).unwrap_or_else(|why| panic!("{why}"));
+        let begun = Instant::now();
+        let advice = advise(&spec, (&web, &findings), changes, None, (None, by)).expect("advice");
+        let seconds = begun.elapsed().as_secs_f64();
+        println!(
+            "  {name} {seconds:.1} s, {:.2} times the web, {} steps",
+            seconds / of_web,
+            laid.swap(0, Ordering::Relaxed)
+        );
+        advice.failed.iter().for_each(|(change, why)| println!("  {}: {why}", label(change)));
+        let Some(judged_by) = advice.judged_by else { continue };
+        let best = advice.improvements(judged_by);
+        let is_named = |tried: &Tried| {
+            which != Changes::OfGuesses && best.iter().take(2).any(|(best, _)| best.change == tried.change)
+        };
+        told.extend(advice.tried.iter().filter_map(|tried| {
+            let change = tried.on(judged_by)?.difference;
+            let (name, spec) = (label(&tried.change), tried.change.experiment.spec.clone());
+            println!(
+                "  {name:44} {:7.2} ± {:5.2} %{}",
+                100.0 * change.value,
+                100.0 * change.standard_error,
+                if is_named(tried) { " *" } else { "" }
+            );
+            Some(Told { name, spec, change, is_named: is_named(tried) })
+        }));
+    }
+    (spec, told)
+}
+
+fn label(change: &Change) -> String {
+    let key = |key: &spunlaid::effects::ChangedKey| format!("{} {}", key.key, key.pretty(key.to));
+    change.keys.first().map_or_else(String::new, key)
+}
+
+/// The same web on a long sheet, by another seed.
+fn long(spec: &WebSpec, seed: u64) -> WebSpec {
+    let like = read(&format!("{SLOT}{REST}"), &LONG);
+    WebSpec { seed: 1000 + seed, sheet: like.sheet, flown: like.flown, ..spec.clone() }
+}
+
+/// Prints what long webs say of each change beside what is told, and counts those within two told errors.
+fn compare(base: &WebSpec, told: &[Told], threads: usize) -> usize {
+    let specs: Vec<&WebSpec> = std::iter::once(base).chain(told.iter().map(|told| &told.spec)).collect();
+    let cvs = each(threads, specs.len() * SEEDS as usize, |i| {
+        let (_, findings) = lay(&long(specs[i / SEEDS as usize], i as u64 % SEEDS), 1);
+        let seen = nearest_to_seen(findings.patches.iter().map(|patch| patch.map.patch));
+        seen.and_then(|seen| findings.patches[seen].told()).map_or(f64::NAN, |told| told.cv)
+    });
+    let of = |web: usize| &cvs[web * SEEDS as usize..][..SEEDS as usize];
+    println!(
+        "  change                                          told             long webs       in told errors"
+    );
+    let mut held = 0;
+    for (web, Told { name, change, is_named, .. }) in (1..).zip(told) {
+        let ratios: Vec<f64> = of(web).iter().zip(of(0)).map(|(cv, base)| cv / base - 1.0).collect();
+        let mean = ratios.iter().sum::<f64>() / SEEDS as f64;
+        let scatter = ratios.iter().map(|ratio| (ratio - mean).powi(2)).sum::<f64>() / (SEEDS as f64 - 1.0);
+        let off = (change.value - mean) / change.standard_error;
+        held += usize::from(off.abs() <= 2.0);
+        println!(
+            "  {name:44} {:7.2} ± {:5.2} %  {:7.2} ± {:5.2} %  {off:6.2}{}",
+            100.0 * change.value,
+            100.0 * change.standard_error,
+            100.0 * mean,
+            100.0 * (scatter / SEEDS as f64).sqrt(),
+            if *is_named { " *" } else { "" }
+        );
+    }
+    held
+}
