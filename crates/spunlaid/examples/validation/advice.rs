@@ -21,7 +21,7 @@ const LONG: [(&str, &str); 3] = [("web.width", "0.2 m"), ("web.length", "1 m"), 
 /// The air of spunbond.toml, and where the files of the lines are looked for.
 const CASES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/web.toml");
 const REST: &str =
-    "[web]\nwidth = \"1 m\"\nlength = \"1 m\"\nguessed = \"none\"\n[run]\nduration = \"1 s\"\n";
+    "[web]\nwidth = \"0.2 m\"\nlength = \"1 m\"\nguessed = \"none\"\n[run]\nduration = \"1 s\"\n";
 /// The line of `docs/line.md`.
 const SLOT: &str = r#"
 version = 1
@@ -49,7 +49,7 @@ version = 1
 [laydown]
 case = "spunbond.toml"
 [line]
-rows = [{ pitch = "0.2 mm", filaments = 5000 }]
+rows = [{ pitch = "0.2 mm", filaments = 1000 }]
 "#;
 /// Thick and slow filaments from a slot in a shorter way of air with smaller eddies.
 const THICK: &str = r#"
@@ -71,7 +71,7 @@ speed = "2.5 m/s"
 velocity = "20 m/s"
 turbulence_intensity = 0.15
 length_scale = "12 mm"
-cutoff_frequency = "auto"
+cutoff_frequency = "420 Hz"
 [drag]
 across = "marheineke-wegener"
 "#;
