@@ -92,7 +92,7 @@ pub(crate) enum Command {
     Keys(Keys),
     /// Write a commented case file to start from, or the file of a web from the numbers of a line
     #[command(after_help = NEW_HELP)]
-    New(New),
+    New(Box<New>),
     /// Print a script that completes commands, options and keys in your shell
     #[command(
         after_help = "Example:\n  spunlaid completions bash > ~/.local/share/bash-completion/completions/spunlaid"
