@@ -288,17 +288,21 @@ mod tests {
 
     #[test]
     fn the_command_names_what_differs_from_the_file() {
-        assert_eq!(document().command(8), "spunlaid run 'some where/a.toml' --replicates 8");
+        assert_eq!(
+            document().command(8),
+            "spunlaid run 'some where/a.toml' --replicates 8 --out results/a-live8"
+        );
         let new = document().with(key("fibre.diameter"), Some("20 µm".into())).unwrap();
         let new = new.with(key("air.turbulence_intensity"), Some(0.2.into())).unwrap();
         let new = new.with(key("run.duration"), None).unwrap();
         assert_eq!(
             new.command(8),
             "spunlaid run 'some where/a.toml' --set 'fibre.diameter=20 µm' --set air.turbulence_intensity=0.2 \
-             --set run.duration=auto --replicates 8"
+             --set run.duration=auto --replicates 8 --out \
+             results/a-live8-diameter-20um-turbulence-intensity-0.2-duration-716b9f0e"
         );
         let saved = Document::saved("b.toml", new.to_save());
-        assert_eq!(saved.command(8), "spunlaid run b.toml --replicates 8");
+        assert_eq!(saved.command(8), "spunlaid run b.toml --replicates 8 --out results/b-live8");
         assert!(Document::new(CASE.to_owned(), None).command(8).starts_with("save the case first"));
     }
 

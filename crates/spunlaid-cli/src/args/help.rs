@@ -264,9 +264,9 @@ Examples:
 pub(super) const COMPARE_HELP: &str = "\
 Every run is compared with the first. Runs with the same seed and the same eddies are compared
 replicate by replicate, which shows small differences; others by Welch's t. Webs, laid by
-`spunlaid web` or scanned (`spunlaid analyse scan.png`), are compared patch by patch. In place of a
-folder a file may stand: that of a web is laid first, a case flown, a scan analysed; the results are
-in results/NAME_flown and results/NAME_analysed. A scan that needs options is analysed before.
+`spunlaid web` or scanned (`spunlaid analyse scan.png`), are compared patch by patch. In place of
+a folder a file may stand: that of a web is laid first, a case flown, a scan analysed; the results
+are in results/NAME_flown and results/NAME_analysed. A scan that needs options is analysed before.
 
 The results folder holds
   report.html       for the browser: a table for each pair, and the curves in one picture each

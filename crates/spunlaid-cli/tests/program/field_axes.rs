@@ -156,7 +156,10 @@ fn a_field_tells_its_machine_direction_and_an_own_one_wins() {
         assert!(said.contains(&frame(["-y", "x", "z"])) && !said.contains("swapped"), "{said}");
     }
     let said = notes(&desk("-y", &table(axes, 3, spread)), &[]);
-    assert!(said.contains("\"-z\" is used: the cross direction (CD) is x of the field, as always"), "{said}");
+    assert!(
+        said.contains("\"-z\" is used: the cross direction (CD) is x of the field, a choice of the program"),
+        "{said}"
+    );
     // What is written is used, and doubted if it looks swapped.
     let flat = desk("-y", &table(axes, 3, velocity));
     let said = notes(&flat, &["air.field_machine_direction=z"]);

@@ -1,14 +1,17 @@
 //! The first screen of a web: what is asked of a line, answered in rows, in the words of its plant.
 
 use super::document::Section;
+use super::scale::{self, Judged, Scale};
 use super::table::{Layout, Row, Table};
 use super::unevenness::{grams, grams_with_error};
+use super::view::View;
+use crate::Failure;
 use crate::numbers::{THIN, significant};
 use crate::output::web::{HOUR, Layer, fabric_rows};
 use spunlaid::fabric::Fabric;
 use spunlaid::layers::{LayerSpec, WebSpec};
 use spunlaid::plausible::implausible;
-use spunlaid::web::Findings;
+use spunlaid::web::{Findings, Map};
 use std::f64::consts::PI;
 
 /// What is asked, the answers, and what is to be said of them.
@@ -79,4 +82,17 @@ const FASTER: f64 = 10.0;
 pub(super) fn fabric(fabric: &Fabric) -> Card {
     let rows = fabric_rows(fabric).into_iter().map(|[name, value]| Row::new(name, [value])).collect();
     Card { id: "buyer", title: "What a buyer counts", rows, words: fabric.notes.clone() }
+}
+
+/// The scale as a card; without pictures if the web is too small for them.
+///
+/// # Errors
+/// If a picture cannot be drawn.
+pub(super) fn scale_card(map: &Map, judged: Judged) -> Result<Section<'static>, Failure> {
+    let section = Section::new("scale", "How even is that?");
+    let section = match Scale::new(map, judged)? {
+        Some(scale) => section.view(View::Scale(scale)),
+        None => section,
+    };
+    Ok(section.paragraph(scale::words(judged)).told().card())
 }

@@ -178,6 +178,13 @@ pub(super) enum Part<'a> {
     Folded(&'static str, Vec<Self>),
 }
 
+impl Part<'_> {
+    /// How a picture is to be read, folded.
+    pub(super) fn reading(caption: String) -> Self {
+        Part::Folded("How to read the picture", vec![Part::Caption(caption)])
+    }
+}
+
 impl<'a> Section<'a> {
     /// * `id` – in its page
     pub(super) fn new(id: impl Into<String>, heading: impl Into<String>) -> Self {

@@ -1,6 +1,5 @@
 //! The light table of a web's page: its picture, the single fibres of a window, and what is told of them.
 
-use super::document::Part;
 use super::words::millimetres;
 use crate::Failure;
 use crate::failure::undrawable;
@@ -211,11 +210,6 @@ fn thousands(number: f64) -> String {
     let groups: Vec<&str> =
         digits.as_bytes().rchunks(3).rev().filter_map(|part| str::from_utf8(part).ok()).collect();
     groups.join(",")
-}
-
-/// What is told of a picture, folded below it.
-pub(super) fn reading(caption: String) -> Part<'static> {
-    Part::Folded("How to read the picture", vec![Part::Caption(caption)])
 }
 
 /// What is told of a picture below it.

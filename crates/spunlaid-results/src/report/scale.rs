@@ -1,8 +1,6 @@
 //! What a CV means: the same web with weaker and stronger clouds, and where on this scale the web itself lies.
 
-use super::document::Section;
 use super::unevenness::per_cent;
-use super::view::View;
 use super::words::millimetres;
 use crate::Failure;
 use crate::failure::undrawable;
@@ -64,21 +62,12 @@ impl From<&PatchFindings> for Judged {
     }
 }
 
-/// The scale as a card; without pictures if the web is too small for them.
-///
-/// # Errors
-/// If a picture cannot be drawn.
-pub(super) fn card(map: &Map, judged: Judged) -> Result<Section<'static>, Failure> {
-    let section = Section::new("scale", "How even is that?");
-    let section = match Scale::new(map, judged)? {
-        Some(scale) => section.view(View::Scale(scale)),
-        None => section,
-    };
-    Ok(section.paragraph(words(judged)).told().card())
-}
-
 impl Scale {
-    fn new(map: &Map, judged: Judged) -> Result<Option<Self>, Failure> {
+    /// None if the web is too small for pictures.
+    ///
+    /// # Errors
+    /// If a picture cannot be drawn.
+    pub(super) fn new(map: &Map, judged: Judged) -> Result<Option<Self>, Failure> {
         let Judged { patch, of_map, told, interval, chance } = judged;
         let pictures = with_clouds(map, patch, &LEVELS.map(|level| level / of_map));
         let Some(pictures) = pictures.filter(|_| of_map > 0.0) else { return Ok(None) };
@@ -95,7 +84,7 @@ impl Scale {
 }
 
 /// What the scale says of a web.
-fn words(Judged { patch, told, interval, chance, .. }: Judged) -> String {
+pub(super) fn words(Judged { patch, told, interval, chance, .. }: Judged) -> String {
     let size = millimetres(patch);
     let chance = chance.map_or_else(String::new, |cv| {
         format!(" Chance alone, in straight fibres at random, gives {}{THIN}%.", significant(100.0 * cv, 3))

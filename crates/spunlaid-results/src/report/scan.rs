@@ -1,11 +1,11 @@
 //! The report of a scanned web: the web on a light table, how uneven it is, and the figures.
 
-use super::cards;
-use super::document::{Report, Section};
+use super::cards::{self, scale_card};
+use super::document::{Part, Report, Section};
 use super::fabric::fabric_section;
-use super::light_table::{MarkedPlaces, marks_note, picture_note, reading, sheet};
+use super::light_table::{MarkedPlaces, marks_note, picture_note, sheet};
 use super::methods::methods;
-use super::scale::{self, Judged};
+use super::scale::Judged;
 use super::table::{Row, Table};
 use super::unevenness::{CV_OF_PATCHES, cost, grams, headline, largest_clouds, per_cent};
 use super::view::View;
@@ -52,11 +52,11 @@ pub fn scan_report<'a>(
     );
     let web = Section::new("web", "The web on a light table")
         .view(View::LightTable(sheet))
-        .with(reading(caption))
+        .with(Part::reading(caption))
         .card();
     let seen = nearest_to_seen(findings.patches.iter().map(|patch| patch.unevenness.patch));
     let judged = seen.map(|i| judged(findings, &findings.patches[i]));
-    let scale = judged.map(|judged| scale::card(&findings.map, judged)).transpose()?;
+    let scale = judged.map(|judged| scale_card(&findings.map, judged)).transpose()?;
     Ok(Report::new("analyse", headline)
         .lead(summary)
         .with(web)

@@ -1,13 +1,13 @@
 //! The report of a web: the web on a light table, what makes it uneven, and the figures.
 
-use super::cards::{self, Card};
-use super::document::{Report, Section};
+use super::cards::{self, Card, scale_card};
+use super::document::{Part, Report, Section};
 use super::effects::{Advised, advice_card, effects_table, guess_card};
 use super::fabric::fabric_section;
-use super::light_table::{Fibres, MarkedPlaces, Strands, marks_note, picture_note, reading, sheet};
+use super::light_table::{Fibres, MarkedPlaces, Strands, marks_note, picture_note, sheet};
 use super::load::{loads_in_short, section_of_loads};
 use super::methods::{methods, of_web};
-use super::scale;
+use super::scale::Judged;
 use super::spinline::{LayerSpinline, sections_of_web};
 use super::table::{Row, Table};
 use super::unevenness::{
@@ -53,7 +53,7 @@ pub fn web_report<'a>(
     let caption = format!("{} {}{}", picture_note(sheet.pixel), strands.words(), marks_note(fabric));
     let table = Section::new("web", "The web on a light table")
         .view(View::LightTable(sheet))
-        .with(reading(caption))
+        .with(Part::reading(caption))
         .card();
     let loads = named_loads(layers);
     let spun = spinlines
@@ -65,8 +65,8 @@ pub fn web_report<'a>(
         rows: Vec::new(),
         words: [error_sentences(findings), air_sentence(findings)].into(),
     };
-    let judged = headline_patch(findings).map(|i| scale::Judged::from(&findings.patches[i]));
-    let scale = judged.map(|judged| scale::card(&findings.within(), judged)).transpose()?;
+    let judged = headline_patch(findings).map(|i| Judged::from(&findings.patches[i]));
+    let scale = judged.map(|judged| scale_card(&findings.within(), judged)).transpose()?;
     Ok(Report::new("web", headline_of(findings))
         .lead(verdict(findings).pop().unwrap_or_default())
         .lead(spun)

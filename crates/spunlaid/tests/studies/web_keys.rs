@@ -239,6 +239,8 @@ fn of_study(text: &str, study: &str, key: &str) -> Result<[Vec<u64>; 2], String>
 #[test]
 fn identical_alone_and_in_a_study_for_every_key_of_a_web() {
     let (mut varied, mut wrong): (BTreeSet<String>, _) = (BTreeSet::new(), Vec::new());
+    // Why keys do not vary in some of the webs.
+    let mut refused = BTreeMap::new();
     for (name, text) in WEBS {
         let (web, mut known) = (web_beside_cases(text, &[]).unwrap().spec, BTreeMap::new());
         // What is not of a layer varies once, and a flown web, which takes long, varies only what the others cannot.
@@ -249,7 +251,13 @@ fn identical_alone_and_in_a_study_for_every_key_of_a_web() {
             let full = full_name(&web, key);
             assert_eq!(web_key(&full).unwrap().name, key.name);
             let values = pair(key, &web);
-            let Ok(points) = together(text, &full, &values) else { continue };
+            let points = match together(text, &full, &values) {
+                Ok(points) => points,
+                Err(why) => {
+                    refused.insert(full, why);
+                    continue;
+                }
+            };
             let single = [0, 1].map(|i: usize| alone(text, &full, &values[i], &mut known));
             if points != single {
                 wrong.push(format!("{name}: {full} = {values:?}"));
@@ -266,11 +274,11 @@ fn identical_alone_and_in_a_study_for_every_key_of_a_web() {
         "layer.2.fibre.diameter",
         "layer.2.line.filaments_per_metre",
         "line.rows.2.offset",
-        "web.flown",
+        "line.charge",
         "line.throughput",
         "layer.2.line.basis_weight",
     ] {
-        assert!(varied.contains(full), "{full}: {varied:?}");
+        assert!(varied.contains(full), "{full}: {:?}", refused.get(full));
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

@@ -186,9 +186,16 @@ width = "250 mm"
 length = "250 mm"
 [[layer]]
 name = "S1"
+[layer.fibre]
+diameter = "18 µm"
+density = "910 kg/m³"
 [layer.laydown]
-case = "fed.case"
+sigma_md = "9 mm"
+sigma_cd = "8 mm"
+noise = "15 m^-0.5"
 [layer.line]
+feed_speed = "50 m/s"
+belt_speed = "4 m/s"
 filaments_per_metre = 5000
 [[layer]]
 name = "M"
@@ -209,7 +216,7 @@ fn keys_of_one_layer_vary_by_its_number_and_by_its_name() {
     let study = |layer: &str| {
         let text = format!(
             "web = 'web.toml'\ndesign = 'grid'\n[vary]\nlayer.{layer}.line.filaments_per_metre = [100, 300]\n[link]\n\
-             belt.speed = 'feed.speed / 10'\n'layer.{layer}.laydown.sigma_md' = '1000 * layer.2.fibre.diameter'\n"
+             layer.1.line.belt_speed = 'layer.1.line.feed_speed / 10'\n'layer.{layer}.laydown.sigma_md' = '1000 * layer.2.fibre.diameter'\n"
         );
         study_beside_cases(LAYERS, &text, &[]).unwrap_or_else(|error| panic!("{error}"))
     };
@@ -223,7 +230,7 @@ fn keys_of_one_layer_vary_by_its_number_and_by_its_name() {
         assert_eq!(second.filaments, Filaments::AtRandom { per_metre: wanted });
         let LaydownSource::Surrogate(surrogate) = second.source else { panic!("numbers") };
         assert_eq!(surrogate.sigma_md, 1000.0 * 4e-6);
-        // The belt is that of the case of the first layer.
+        // All layers lie on the belt of the first one.
         assert_eq!((first.belt_speed, second.belt_speed), (5.0, 5.0));
     }
     // The study as it was run gives the same points.
@@ -243,12 +250,16 @@ fn rejects_what_cannot_vary_of_a_layer() {
             "is of a layer that the file does not have; it has layer.1 to layer.2",
         ),
         ("layer.M.line.filament_per_metre = [100]", "did you mean line.filaments_per_metre?"),
-        ("run.replicates = [4]", "the flights of all points have the same; write it under [set]"),
     ] {
         let text = format!("web = 'web.toml'\ndesign = 'grid'\n[vary]\n{line}\n");
         let said = study_beside_cases(LAYERS, &text, &[]).unwrap_err().to_string();
         assert!(said.contains(wanted), "{line}\n{said}\n{wanted}");
     }
+    let flown = "[laydown]\ncase = 'short.case'\n[line]\nfilaments_per_metre = 5000\n\
+                 [web]\nwidth = '250 mm'\nlength = '250 mm'\n";
+    let text = "web = 'web.toml'\ndesign = 'grid'\n[vary]\nrun.replicates = [4]\n";
+    let said = study_beside_cases(flown, text, &[]).unwrap_err().to_string();
+    assert!(said.contains("the flights of all points have the same; write it under [set]"), "{said}");
 }
 
 #[test]
