@@ -295,12 +295,17 @@ mod tests {
         let new = document().with(key("fibre.diameter"), Some("20 µm".into())).unwrap();
         let new = new.with(key("air.turbulence_intensity"), Some(0.2.into())).unwrap();
         let new = new.with(key("run.duration"), None).unwrap();
+        let told = new.command(8);
+        let (settings, folder) = told.split_once(" --out ").unwrap();
         assert_eq!(
-            new.command(8),
+            settings,
             "spunlaid run 'some where/a.toml' --set 'fibre.diameter=20 µm' --set air.turbulence_intensity=0.2 \
-             --set run.duration=auto --replicates 8 --out \
-             results/a-live8-diameter-20um-turbulence-intensity-0.2-duration-716b9f0e"
+             --set run.duration=auto --replicates 8"
         );
+        // A long name is cut, and still that of these settings alone.
+        assert!(folder.starts_with("results/a-live8-diameter-20um-turbulence-intensity-0.2-"), "{folder}");
+        let other = new.with(key("run.duration"), Some("2 s".into())).unwrap().command(8);
+        assert_ne!(other.split_once(" --out ").unwrap().1, folder);
         let saved = Document::saved("b.toml", new.to_save());
         assert_eq!(saved.command(8), "spunlaid run b.toml --replicates 8 --out results/b-live8");
         assert!(Document::new(CASE.to_owned(), None).command(8).starts_with("save the case first"));
