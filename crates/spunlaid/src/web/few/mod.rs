@@ -108,7 +108,7 @@ impl FewFilaments<'_> {
         let sides: Vec<usize> = self.sheet.patches.iter().map(|patch| self.side(*patch)).collect();
         let products = match self.arrangement {
             Arrangement::Rows => vec![Products::default(); sides.len()],
-            Arrangement::Slot | Arrangement::AtRandom => self.products(&maps[0], &sides, threads)?,
+            Arrangement::Slot | Arrangement::AtRandom => self.products(&maps, &sides, threads)?,
         };
         let found = each(threads, sides.len(), |i| {
             (maps.each_ref().map(|map| unevenness(map, sides[i])), blocks(&maps[0], sides[i], self.blocks))
@@ -252,8 +252,8 @@ impl FewFilaments<'_> {
 
     /// Products of the patches of filaments with those of their neighbours and of all, for each side.
     ///
-    /// * `map` – of all
-    fn products(&self, map: &Map, sides: &[usize], threads: usize) -> Result<Vec<Products>, Error> {
+    /// * `maps` – of all, of the even and of the odd ones
+    fn products(&self, maps: &[Map; 3], sides: &[usize], threads: usize) -> Result<Vec<Products>, Error> {
         let Some(row) = self.rows.first().filter(|row| row.len() >= FEWEST) else {
             let unknown = Products { means: [f64::NAN; NEIGHBOURS.len()], pairs: Vec::new() };
             return Ok(vec![unknown; sides.len()]);
@@ -262,7 +262,8 @@ impl FewFilaments<'_> {
         let references: Vec<usize> =
             (0..pairs).flat_map(|i| [0, 1].map(|second| i * row.len() / pairs + second)).collect();
         let found =
-            try_each(threads, references.len(), |i| self.products_of(row, references[i], map, sides))?;
+            try_each(threads, references.len(), |i| self.products_of(row, references[i], maps, sides))?;
+        let map = &maps[0];
         let per_filament = map.total() as f64 / map.cells.len() as f64 / row.iter().flatten().count() as f64;
         let of_side = |(number, side): (usize, &usize)| {
             let patches = (map.columns * (map.rows + 1 - side)) as f64;
@@ -272,13 +273,17 @@ impl FewFilaments<'_> {
                 let known = || found.iter().filter_map(|found| found[number][neighbour]);
                 known().sum::<f64>() / known().count() as f64 * scale
             });
-            let known = |found: &Vec<Known>| {
-                let [Some(itself), Some(next), Some(second), _, Some(all), Some(even)] = found[number] else {
+            let known = |(found, reference): (&Vec<Known>, &usize)| {
+                let [Some(itself), Some(next), Some(second), _, Some(even), Some(odd), Some(alike)] =
+                    found[number]
+                else {
                     return None;
                 };
-                Some([itself, next, second, all, per_filament * even].map(|product| scale * product))
+                let [own, other] = if reference % 2 == 0 { [even, odd] } else { [odd, even] };
+                Some([itself, next, second, own, other, per_filament * alike].map(|product| scale * product))
             };
-            let pairs = found.chunks_exact(2).filter_map(|pair| Some([known(&pair[0])?, known(&pair[1])?]));
+            let known: Vec<_> = found.iter().zip(&references).map(known).collect();
+            let pairs = known.chunks_exact(2).filter_map(|pair| Some([pair[0]?, pair[1]?]));
             Products { means, pairs: pairs.collect() }
         };
         Ok(sides.iter().enumerate().map(of_side).collect())
@@ -287,12 +292,12 @@ impl FewFilaments<'_> {
     /// Sums over all patches of the products of one filament with its neighbours, and with all [quanta²];
     /// None where one of them is lost.
     ///
-    /// * `map` – of all
+    /// * `maps` – of all, of the even and of the odd ones
     fn products_of(
         &self,
         row: &[Option<Vec<[f64; 2]>>],
         reference: usize,
-        map: &Map,
+        maps: &[Map; 3],
         sides: &[usize],
     ) -> Result<Vec<Known>, Error> {
         let none = || vec![Known::default(); sides.len()];
@@ -325,13 +330,13 @@ impl FewFilaments<'_> {
             all.push(sums(curve)?);
         }
         let Some(own) = &all[0] else { return Ok(none()) };
-        let around = Sums::around(map, first as i64, own.columns);
-        let even = Sums::even(own.columns, map.rows);
+        let [even, odd] = [1, 2].map(|half| Sums::around(&maps[half], first as i64, own.columns));
+        let alike = Sums::even(own.columns, maps[0].rows);
         let of_side = |side: &usize| {
             let with = |other: &Sums| own.product(other, *side);
             let [itself, next, second, fourth] =
                 std::array::from_fn(|neighbour| all[neighbour].as_ref().map(with));
-            [itself, next, second, fourth, Some(with(&around)), Some(with(&even))]
+            [itself, next, second, fourth, Some(with(&even)), Some(with(&odd)), Some(with(&alike))]
         };
         Ok(sides.iter().map(of_side).collect())
     }
