@@ -1,9 +1,9 @@
 //! What changes do, in the words that files, figures and reports share.
 
-use crate::numbers::{HARD, THIN, plus_minus, rounded, significant};
+use crate::numbers::{HARD, THIN, in_sentence, plus_minus, rounded, significant};
 use spunlaid::advice::Change;
 use spunlaid::effects::{ChangedKey, Setting};
-use spunlaid::layers::WebSpec;
+use spunlaid::layers::{WebSpec, web_key};
 use spunlaid::statistics::Difference;
 
 pub(crate) const PER_CENT: f64 = 100.0;
@@ -33,8 +33,14 @@ pub(crate) fn name(change: &Change, spec: &WebSpec) -> String {
         [one] => format!(" of layer {one}"),
         [more @ .., last] => format!(" of layers {} and {last}", more.join(", ")),
     };
-    let what = change.keys.first().filter(|_| change.setting == Setting::GUESS);
-    format!("{}{whose}", what.map_or(change.setting.words, |key| &key.key))
+    let guess = change.keys.first().filter(|_| change.setting == Setting::GUESS);
+    let what = guess.map(|guess| in_sentence(label(&guess.key)));
+    format!("{}{whose}", what.unwrap_or_else(|| change.setting.words.to_owned()))
+}
+
+/// What the key of a guess stands for: `Depth of the slot`.
+pub(crate) fn label(key: &str) -> &str {
+    web_key(key).map_or(key, |key| key.label)
 }
 
 /// `20 % less`, or `10 °C more`.

@@ -109,6 +109,12 @@ fn superscript(exponent: i32) -> String {
     exponent.to_string().chars().map(raised).collect()
 }
 
+/// A label as it stands within a sentence: with a small first letter.
+pub(crate) fn in_sentence(label: &str) -> String {
+    let mut letters = label.chars();
+    letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())
+}
+
 /// `1 of 10 fibres was lost`.
 pub fn lost_fibres_text(lost: u64, all: u64) -> String {
     format!("{lost} of {all} fibres {} lost", if lost == 1 { "was" } else { "were" })

@@ -6,8 +6,8 @@ use super::table::{Cell, Row, Table, Tone};
 use super::unevenness::{grams, headline_patch};
 use super::words::millimetres;
 use crate::command::web_command;
-use crate::effects::{PER_CENT, describe, difference_text};
-use crate::numbers::{HARD, THIN, plus_minus, significant};
+use crate::effects::{PER_CENT, describe, difference_text, label};
+use crate::numbers::{HARD, THIN, in_sentence, plus_minus, significant};
 use crate::output::web::HOUR;
 use spunlaid::advice::{Advice, ChangedWeb, Tried};
 use spunlaid::effects::{Effect, NAMED, Setting};
@@ -246,7 +246,8 @@ pub(super) fn effects_table(
 /// of the CV knows nothing of them: the guess that matters most first.
 pub(super) fn guess_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> Card {
     let card = |rows, words: String| Card { id: "measure", title: "Measure first", rows, words: vec![words] };
-    let names = listed(&spec.guessed);
+    let names: Vec<String> = spec.guessed.iter().map(|key| in_sentence(label(key))).collect();
+    let names = listed(&names);
     let judged = tried.guesses.and_then(|guesses| {
         let patch = judged_by(findings, guesses)?;
         let found = findings.patches.iter().find(|found| found.map.patch == patch)?;
@@ -258,7 +259,7 @@ pub(super) fn guess_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_>
             match spec.guessed.is_empty() {
                 true => "Its file calls no number a guess (web.guessed).".to_owned(),
                 false => untried(
-                    &format!("What half and twice of the guesses {names} do to the CV"),
+                    &format!("What half and twice of the guessed {names} do to the CV"),
                     tried.awaited && tried.guesses.is_none() && tried.advice.is_none(),
                 ),
             },
@@ -303,12 +304,16 @@ fn failed_words(guesses: &Advice) -> String {
         let key = change.keys.first()?;
         let part = if key.to < key.from { "Half" } else { "Twice" };
         let verb = if change.refusal.is_some() { "cannot be laid" } else { "could not be flown" };
-        Some(format!(" {part} of {}, {}, {verb}: {why}.", key.key, key.pretty(key.to)))
+        Some(format!(
+            " {part} of the {}, {}, {verb}: {why}.",
+            in_sentence(label(&key.key)),
+            key.pretty(key.to)
+        ))
     });
     failed.collect()
 }
 
-/// `line.depth = 10 mm`, and `18.3 ± 1.5 %`.
+/// `Depth of the slot: 10 mm`, and `18.3 ± 1.5 %`.
 fn value_and_cv(tried: &Tried, patch: f64, cv: f64) -> Option<(String, String)> {
     let key = tried.change.keys.first()?;
     let value = key.pretty(key.to).replace(' ', &HARD.to_string());
@@ -321,7 +326,7 @@ fn value_and_cv(tried: &Tried, patch: f64, cv: f64) -> Option<(String, String)> 
             format!("{told}{THIN}%")
         },
     );
-    Some((format!("{} = {value}", key.key), told))
+    Some((format!("{}: {value}", label(&key.key)), told))
 }
 
 /// `a, b and c`.

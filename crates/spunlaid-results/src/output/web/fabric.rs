@@ -1,6 +1,6 @@
 //! What is told of a fabric, for `summary.json`, the terminal and the report.
 
-use crate::numbers::{HARD, THIN, number, number_to, plus_minus, range};
+use crate::numbers::{HARD, THIN, in_sentence, number, number_to, plus_minus, range};
 use crate::output::in_order::OrderedObject;
 use serde::Serialize;
 use spunlaid::fabric::{Fabric, Known};
@@ -90,16 +90,10 @@ pub fn fabric_rows(fabric: &Fabric) -> Vec<[String; 2]> {
 fn rows<T>(before: &str, measures: &'static [Measure<T>], of: &T) -> Vec<[String; 2]> {
     let row = |row: Measured<T>| {
         let label = row.measure.terse();
-        let name = if before.is_empty() { label.to_owned() } else { before.to_owned() + &lower(label) };
+        let name = if before.is_empty() { label.to_owned() } else { before.to_owned() + &in_sentence(label) };
         Some([name, known_text(&row)?])
     };
     measured(measures, of).filter_map(row).collect()
-}
-
-/// With a small first letter.
-fn lower(label: &str) -> String {
-    let mut letters = label.chars();
-    letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())
 }
 
 /// The number of a row in words, with its unit; none if it has none.

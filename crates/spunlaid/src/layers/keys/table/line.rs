@@ -144,6 +144,7 @@ pub(super) const KEYS: &[WebKey] = &[
             },
         })
         .follows("places at random in cross direction, all in the middle of the slot")
+        .label("Depth of the slot")
         .meaning(
             "Size in machine direction of the slot through which the filaments come, with \
              `filaments_per_metre`: they are at an even pitch across the web, each at a random place of \
