@@ -4,8 +4,8 @@ use super::document::{Report, Section};
 use super::methods::methods;
 use super::table::{Content, Layout, Row, Table};
 use super::words::{count, time};
-use crate::numbers::{THIN, plus_minus, significant};
-use crate::output::analysis::{ResultRow, half_width, results};
+use crate::numbers::{THIN, significant};
+use crate::output::analysis::{ResultRow, results};
 use spunlaid::record::{Analysis, Interval, Record};
 use spunlaid::units::Dimension;
 use spunlaid_charts::Figure;
@@ -60,24 +60,25 @@ fn table(rows: Vec<ResultRow>) -> Table {
     Table::of(columns).laid_out(Layout::Results).rows(rows.into_iter().map(row))
 }
 
-/// `10.02 ± 0.04 m/s`; half the width of the interval follows the sign.
-fn around(interval: &Interval, factor: f64, unit: &str) -> String {
-    format!("{}{THIN}{unit}", plus_minus(interval.value * factor, Some(half_width(interval) * factor)))
-}
-
+/// With the numbers of the table below it, and their intervals.
 fn headline(analysis: &Analysis) -> String {
+    let (rows, _) = results(analysis);
+    let told = |name: &str| {
+        let row = rows.iter().find(|row| row.name == name);
+        row.map_or_else(String::new, |ResultRow { value, low, high, unit, .. }| {
+            format!("{value}{THIN}{unit} ({low} to {high})")
+        })
+    };
+    let [velocity, intensity, length] = ["Mean velocity", "Turbulence intensity", "Length scale"].map(told);
     format!(
-        "The air flows at {} with a turbulence intensity of {} and a length scale of {}.",
-        around(&analysis.mean_velocity, 1.0, "m/s"),
-        around(&analysis.turbulence_intensity, 100.0, "%"),
-        around(&analysis.length_scale, 1e3, "mm"),
+        "The air flows at {velocity} with a turbulence intensity of {intensity} and a length scale of {length}."
     )
 }
 
 fn summary(record: &Record, analysis: &Analysis) -> String {
     let names: Vec<&str> = analysis.components.iter().map(|c| c.name.as_str()).collect();
     format!(
-        "From {}: {} of {} at {} over {}, {} integral times. The values after ± and the ranges in the tables are \
+        "From {}: {} of {} at {} over {}, {} integral times. The ranges here and in the tables are \
          95{THIN}% confidence intervals.",
         record.file,
         count(analysis.samples as u64, "sample"),
