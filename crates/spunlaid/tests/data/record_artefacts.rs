@@ -87,9 +87,14 @@ fn stat_spikes_are_named_and_the_air_without_them_is_told() {
     for (seed, (rate, rms, correlated, resolution)) in (0..).zip(AIRS) {
         let air = written(&rough(seed, 10_000, correlated), rms, resolution);
         let whole = analysed(&air, rate);
-        for (every, least, most, long) in
-            [(500, 8.0, 12.0, 1), (50, 5.0, 8.0, 1), (70, 5.0, 9.0, 2), (33, 4.5, 8.0, 1)]
-        {
+        for (every, least, most, long) in [
+            (500, 8.0, 12.0, 1),
+            (50, 5.0, 8.0, 1),
+            (70, 5.0, 9.0, 2),
+            (33, 4.5, 8.0, 1),
+            (250, 7.0, 11.0, 3),
+            (400, 7.0, 11.0, 7),
+        ] {
             let mut values = air.clone();
             let mut next = normal(seed + 100);
             for at in (every / 2..values.len() - long).step_by(every) {

@@ -1,4 +1,4 @@
-//! Finds spikes: one or two samples that leap away and back.
+//! Finds spikes: one or a few samples that leap away and back.
 
 use super::robust::{Robust, thinned};
 use crate::statistics::{median, quantile};
@@ -13,6 +13,8 @@ const NEAR: usize = 16;
 const LEAST_LOCAL: f64 = 6.0;
 /// Leaps of this share of the least one are compared with those that are longer.
 const SHORTER: f64 = 0.75;
+/// Fewest and most samples of a spike whose ends are looked for.
+const LONG: std::ops::RangeInclusive<usize> = 3..=8;
 /// Share of spikes from which they are the signal.
 const MOST: f64 = 0.1;
 /// Searches; each goes on without the spikes of the one before.
@@ -38,6 +40,8 @@ pub(super) fn spikes(values: &[f64], robust: &Robust) -> Vec<usize> {
             here.next_if(|i| *i + 1 == at).is_none()
         });
     }
+    let left: Vec<f64> = rest.iter().map(|i| values[*i]).collect();
+    found.extend(long(&left, robust).into_iter().map(|i| rest[i]));
     found.sort_unstable();
     if found.len() as f64 > MOST * values.len() as f64 { Vec::new() } else { found }
 }
@@ -51,17 +55,55 @@ fn leaping(values: &[f64], robust: &Robust, alarms: f64, is_first: bool) -> Vec<
         return Vec::new();
     }
     let changes: Vec<f64> = (0..values.len()).map(|i| change(values, i)).collect();
-    let least =
-        (LEAST_LEAP * robust.deviation).max(3.0 * robust.resolution).max(threshold(&changes, robust, alarms));
+    let least = least_leap(&changes, robust, alarms);
     let leaps: Vec<f64> = (0..values.len()).map(|i| leap(values, i)).collect();
-    let is_spike = |i: &usize| {
-        let near = || &changes[i.saturating_sub(NEAR)..changes.len().min(i + NEAR + 1)];
-        leaps[*i] >= least && leaps[*i] >= LEAST_LOCAL * median(near()) / 0.6745
-    };
+    let is_spike = |i: &usize| leaps[*i] >= least && leaps[*i] >= LEAST_LOCAL * usual(&changes, *i);
     let found: Vec<usize> = (0..values.len()).filter(is_spike).collect();
     // The leaps of the air are the fewer the farther they go; spikes stand apart from them.
     let shorter = leaps.iter().filter(|leap| **leap < least && **leap >= SHORTER * least).count();
     if !is_first || found.len() >= shorter { found } else { Vec::new() }
+}
+
+/// The samples of spikes that last for some samples: they begin and end with a step that the air does not make, stay
+/// away in between, and come back to where they left.
+fn long(values: &[f64], robust: &Robust) -> Vec<usize> {
+    if values.len() < 2 * NEAR {
+        return Vec::new();
+    }
+    let steps: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let sizes: Vec<f64> = steps.iter().map(|step| step.abs()).collect();
+    let least = least_leap(&sizes, robust, FALSE_ALARMS);
+    let is_leap = |at: usize| sizes[at] >= least && sizes[at] >= LEAST_LOCAL * usual(&sizes, at);
+    let (mut found, mut at) = (Vec::new(), 0);
+    while at < steps.len() {
+        let (from, step) = (values[at], steps[at]);
+        let is_end = |end: &usize| {
+            let is_away = |x: &f64| (x - from) * step.signum() > 0.5 * step.abs();
+            steps[*end] * step < 0.0
+                && is_leap(*end)
+                && (values[end + 1] - from).abs() < 0.5 * step.abs()
+                && values[at + 1..=*end].iter().all(is_away)
+        };
+        let mut ends = LONG.map(|samples| at + samples).filter(|end| *end < steps.len());
+        match is_leap(at).then(|| ends.find(is_end)).flatten() {
+            Some(end) => {
+                found.extend(at + 1..=end);
+                at = end + 1;
+            }
+            None => at += 1,
+        }
+    }
+    found
+}
+
+/// The least leap that the air does not make.
+fn least_leap(changes: &[f64], robust: &Robust, alarms: f64) -> f64 {
+    (LEAST_LEAP * robust.deviation).max(3.0 * robust.resolution).max(threshold(changes, robust, alarms))
+}
+
+/// The deviation of the changes about a sample.
+fn usual(changes: &[f64], at: usize) -> f64 {
+    median(&changes[at.saturating_sub(NEAR)..changes.len().min(at + NEAR + 1)]) / 0.6745
 }
 
 /// The leap beyond which this many samples of the air are expected: the distribution of the changes,

@@ -135,7 +135,7 @@ impl Teller<'_> {
                  result"
             ),
             count => format!(
-                "{count} spikes ({} %): one or two samples that leap away and back, {} to {far} standard deviations \
+                "{count} spikes ({} %): samples that leap away and back, {} to {far} standard deviations \
                  from the median, the farthest {at}; they are not turbulence, make the rms too large and the integral \
                  time too short, and raise the end of the spectrum",
                 self.share(count),
