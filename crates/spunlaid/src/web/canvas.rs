@@ -1,6 +1,5 @@
 //! A map on which many threads draw at once.
 
-use super::floor::floor;
 use super::laid_web::{HIGHEST, LaidWeb, too_full};
 use super::map::Map;
 use super::{Edges, Sheet};
@@ -19,9 +18,16 @@ const FEWEST: f64 = 16.0;
 /// Most cells of a part on which a thread draws alone: four megabytes.
 const MOST_NEAR: i64 = 1 << 20;
 
+/// The largest whole number that is not above, without a call.
+#[inline(always)]
+pub(super) fn floor(at: f64) -> i64 {
+    let whole = at as i64;
+    whole - i64::from(whole as f64 > at)
+}
+
 /// The cells of a sheet while straight pieces are drawn on it. The masses are whole numbers of a quantum, so
 /// the map does not depend on the order of the pieces. In machine direction the sheet is a stretch of the
-/// belt: what lies before and behind it is not counted.
+/// belt: what lies before and behind it is not counted, unless it is closed to a ring.
 #[derive(Debug)]
 pub(crate) struct Canvas {
     columns: i64,
@@ -29,7 +35,8 @@ pub(crate) struct Canvas {
     rows: Range<i64>,
     cell: f64,
     quantum: f64,
-    edges: Edges,
+    /// Whether the sheet goes on at the other edge, in cross and in machine direction.
+    closed: [bool; 2],
     cells: Vec<AtomicU32>,
     cut: AtomicU64,
     is_full: AtomicBool,
@@ -57,11 +64,16 @@ impl Canvas {
             rows: 0..rows as i64,
             cell: sheet.cell,
             quantum,
-            edges: sheet.edges,
+            closed: [sheet.edges == Edges::Periodic, false],
             cells: (0..columns * rows).map(|_| AtomicU32::new(0)).collect(),
             cut: AtomicU64::new(0),
             is_full: AtomicBool::new(false),
         })
+    }
+
+    /// The same sheet, closed to a ring in machine direction.
+    pub(super) fn ring(self) -> Self {
+        Self { closed: [self.closed[0], true], ..self }
     }
 
     /// Where its rows begin and end on the sheet [m].
@@ -108,16 +120,16 @@ impl Canvas {
     /// The number of a cell; None of one that is not on the sheet.
     #[inline(always)]
     fn at(&self, [column, row]: [i64; 2]) -> Option<usize> {
-        let is_across = (0..self.columns).contains(&column);
-        let column =
-            if is_across || self.edges == Edges::Cut { column } else { column.rem_euclid(self.columns) };
-        let is_on = self.rows.contains(&row) && (is_across || self.edges == Edges::Periodic);
+        let [is_across, is_along] = [(0..self.columns).contains(&column), self.rows.contains(&row)];
+        let column = if is_across || !self.closed[0] { column } else { column.rem_euclid(self.columns) };
+        let row = if is_along || !self.closed[1] { row } else { row.rem_euclid(self.rows.end) };
+        let is_on = (is_along || self.closed[1]) && (is_across || self.closed[0]);
         is_on.then(|| (row * self.columns + column) as usize)
     }
 
     /// Counts what lies beyond an edge. What lies before and behind the rows is not counted.
     fn cut_off(&self, [_, row]: [i64; 2], quanta: u32) {
-        if self.rows.contains(&row) {
+        if self.closed[1] || self.rows.contains(&row) {
             self.cut.fetch_add(u64::from(quanta), Ordering::Relaxed);
         }
     }
@@ -130,14 +142,13 @@ impl Canvas {
         if self.is_full.into_inner() {
             return Err(too_full(self.cell));
         }
-        let closed = [self.edges == Edges::Periodic, false];
         let cells = self.cells.into_iter().map(AtomicU32::into_inner).collect();
         let map = Map {
             columns: self.columns as usize,
             rows: self.rows.end as usize,
             cell: self.cell,
             quantum: self.quantum,
-            closed,
+            closed: self.closed,
             cells,
         };
         let cut = self.cut.into_inner() as f64 * self.quantum;
@@ -187,9 +198,9 @@ fn cross(side: f64, ends: [[f64; 2]; 2], quanta: u32, mut add: impl FnMut([i64; 
 pub(crate) struct CanvasPart<'a> {
     canvas: &'a Canvas,
     /// First column and row, and number of columns and rows.
-    first: [i64; 2],
-    size: [i64; 2],
-    cells: Vec<u32>,
+    pub(super) first: [i64; 2],
+    pub(super) size: [i64; 2],
+    pub(super) cells: Vec<u32>,
 }
 
 impl<'a> CanvasPart<'a> {
@@ -203,32 +214,46 @@ impl<'a> CanvasPart<'a> {
     /// * `corners` – in cross and in machine direction, the first and the last one [m]
     /// * `pieces` – that will be drawn. A few of them are not worth the while.
     pub(crate) fn move_to(&mut self, corners: [[f64; 2]; 2], pieces: usize) {
-        self.pass_on();
         let [first, last] = corners.map(|corner| corner.map(|at| floor(at / self.canvas.cell)));
         let size = [0, 1].map(|i| last[i].saturating_sub(first[i]).saturating_add(1));
         let cells = size[0].saturating_mul(size[1]);
         let is_worth = size.iter().all(|size| *size > 0) && cells < MOST_NEAR && cells as usize <= 4 * pieces;
-        (self.first, self.size) = (first, if is_worth { size } else { [0; 2] });
-        self.cells.resize((self.size[0] * self.size[1]) as usize, 0);
+        self.cover(first, if is_worth { size } else { [0; 2] });
+    }
+
+    /// Moves to a rectangle of cells.
+    pub(super) fn cover(&mut self, first: [i64; 2], size: [i64; 2]) {
+        self.pass_on();
+        (self.first, self.size) = (first, size);
+        self.cells.resize((size[0] * size[1]) as usize, 0);
     }
 
     /// As [`Canvas::draw`].
     pub(crate) fn draw(&mut self, from: [f64; 2], to: [f64; 2], quanta: u32) {
-        let Self { canvas, first, size, cells } = self;
-        cross(canvas.cell, [from, to], quanta, |cell, part| {
-            let [column, row] = [cell[0] - first[0], cell[1] - first[1]];
-            let is_near = (0..size[0]).contains(&column) && (0..size[1]).contains(&row);
-            match cells.get_mut((row * size[0] + column) as usize).filter(|_| is_near) {
-                Some(sum) => {
-                    let (whole, is_full) = sum.overflowing_add(part);
-                    *sum = whole;
-                    if is_full {
-                        canvas.is_full.store(true, Ordering::Relaxed);
-                    }
+        cross(self.canvas.cell, [from, to], quanta, |cell, part| self.add(cell, part));
+    }
+
+    /// Adds to a cell, near or far.
+    #[inline(always)]
+    pub(super) fn add(&mut self, cell: [i64; 2], quanta: u32) {
+        let [column, row] = [cell[0] - self.first[0], cell[1] - self.first[1]];
+        let is_near = (0..self.size[0]).contains(&column) && (0..self.size[1]).contains(&row);
+        match self.cells.get_mut((row * self.size[0] + column) as usize).filter(|_| is_near) {
+            Some(sum) => {
+                let (whole, is_full) = sum.overflowing_add(quanta);
+                *sum = whole;
+                if is_full {
+                    self.fill();
                 }
-                None => canvas.add(cell, part),
             }
-        });
+            None => self.canvas.add(cell, quanta),
+        }
+    }
+
+    /// Notes that a cell holds more than can be counted.
+    #[cold]
+    pub(super) fn fill(&self) {
+        self.canvas.is_full.store(true, Ordering::Relaxed);
     }
 
     /// Hands what has been drawn over to the canvas.

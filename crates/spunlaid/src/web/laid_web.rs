@@ -2,7 +2,7 @@
 
 use super::charged::ChargedCurtain;
 use super::few_findings::{FewDoubt, LayerFew};
-use super::laying::TimeSpent;
+use super::lay::TimeSpent;
 use super::map::Map;
 use super::neighbours::NeighbourCorrelation;
 use super::window::Strand;

@@ -42,11 +42,6 @@ fn overlaps(old: usize, ratio: f64, most: usize) -> Vec<Vec<(usize, f64)>> {
 }
 
 impl Map {
-    /// An empty map.
-    pub(super) fn new([columns, rows]: [usize; 2], cell: f64, quantum: f64, closed: [bool; 2]) -> Self {
-        Self { columns, rows, cell, quantum, closed, cells: vec![0; columns * rows] }
-    }
-
     /// The part between two columns, whose edges in cross direction are open. The map itself if that is all of it.
     pub fn between(&self, columns: Range<usize>) -> Cow<'_, Self> {
         if columns == (0..self.columns) {

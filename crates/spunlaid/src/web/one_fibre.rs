@@ -1,7 +1,7 @@
 //! What one fibre alone says about the unevenness of a web of many.
 
+use super::lay::LayControl;
 use super::lay::lay;
-use super::laying::LayControl;
 use super::uniformity::boxes;
 use super::{Fibres, Filaments, Layer, Row, Sheet, Web};
 use crate::error::Error;

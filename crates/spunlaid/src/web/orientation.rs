@@ -1,6 +1,6 @@
 //! The directions of the fibres in a web.
 
-use super::laying::LayControl;
+use super::lay::LayControl;
 use super::plan::Plan;
 use super::shared_error::{Part, SharedError};
 use super::{Curves, Fibres, Web};

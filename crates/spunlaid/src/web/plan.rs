@@ -1,10 +1,10 @@
 //! How the filaments of a layer are drawn: where they come down, in which pieces, with which random numbers.
 
+use super::canvas::CanvasPart;
 use super::defects::Titres;
-use super::laying::LayControl;
+use super::lay::LayControl;
 use super::nozzles::{PLACES, inlets, random, uniform};
-use super::raster::{Draw, Pens};
-use super::strip::Strip;
+use super::raster::{Draw, OUTSIDE, Pens};
 use super::{Fibres, Layer, Sheet, Web};
 use crate::error::{Error, Fault};
 use crate::lanes::{Isa, Lanes, WIDTH};
@@ -16,7 +16,7 @@ use std::sync::atomic::Ordering;
 /// is forgotten.
 const LONGEST_PIECE: [f64; 2] = [0.06, 0.2];
 /// Points that are drawn at once.
-pub(super) const BLOCK: usize = PATH_POINTS + 1;
+const BLOCK: usize = PATH_POINTS + 1;
 
 /// Paths of up to eight filaments, point by point.
 struct Points {
@@ -113,10 +113,10 @@ impl<'a> Plan<'a> {
         self.layer.linear_density * self.piece / self.parts as f64
     }
 
-    /// Highest mass of a cell that is reckoned with, without the other filaments [kg].
-    pub(super) fn mass_of_trace(&self, sheet: &Sheet) -> f64 {
+    /// Mean mass per area of the cells in the middle of a single trace [kg/m²].
+    pub(super) fn weight_of_trace(&self, sheet: &Sheet) -> f64 {
         let width = (2.0 * std::f64::consts::PI).sqrt() * self.surrogate.sigma_cd;
-        self.layer.linear_density / self.layer.belt_ratio() * sheet.cell * (sheet.cell / width).min(1.0)
+        self.layer.linear_density / self.layer.belt_ratio() / sheet.cell.max(width)
     }
 
     fn key(&self, web: &Web, filament: usize) -> PathKey {
@@ -156,12 +156,12 @@ impl<'a> Plan<'a> {
         Lanes::from_fn(|lane| if lane < count { of_lane(lane) } else { 0.0 })
     }
 
-    /// Draws some filaments on a strip.
+    /// Draws some filaments.
     pub(super) fn draw(
         &self,
         web: &Web,
         which: Range<usize>,
-        strip: &mut Strip,
+        part: &mut CanvasPart<'_>,
         by: LayControl<'_>,
     ) -> Result<(), Error> {
         let per_cell = 1.0 / web.sheet.cell;
@@ -170,20 +170,18 @@ impl<'a> Plan<'a> {
         };
         let reach = self.layer.fibres.reach() + 2.0 * web.sheet.cell;
         let first = ((low - reach) * per_cell).floor();
-        strip.take(first as i64, ((high + reach) * per_cell - first).ceil() as usize + 1);
+        let columns = ((high + reach) * per_cell - first).ceil() as i64 + 1;
+        let rows = web.sheet.cells()[1] as i64;
+        part.cover(
+            [first as i64 - OUTSIDE[0], -OUTSIDE[1]],
+            [columns + 2 * OUTSIDE[0], rows + 2 * OUTSIDE[1]],
+        );
         let pens = |start: usize| {
             let count = WIDTH.min(which.end - start);
-            let mut at = self.start(web, start, count).map(|at| Lanes(at.0.map(|at| at * per_cell)));
-            at[0] = Lanes(at[0].0.map(|at| at - first));
+            let at = self.start(web, start, count).map(|at| Lanes(at.0.map(|at| at * per_cell)));
             let advance = self.layer.belt_ratio() * self.piece * per_cell;
-            Pens {
-                per_cell,
-                advance,
-                parts: self.parts,
-                quanta: self.quanta_at(start, count, &at[1], web),
-                at,
-                curves: count,
-            }
+            let quanta = self.quanta_at(start, count, &at[1], web);
+            Pens { per_cell, advance, parts: self.parts, quanta, at, curves: count }
         };
         for start in which.clone().step_by(2 * WIDTH) {
             let starts: Vec<usize> = (start..which.end).step_by(WIDTH).take(2).collect();
@@ -195,9 +193,10 @@ impl<'a> Plan<'a> {
                     let pens = &mut pens[set];
                     pens.quanta = self.quanta_at(starts[set], counts[set], &pens.at[1], web);
                 }
-                by.isa.run(Draw { pens: &mut pens[set], strip, points });
+                by.isa.run(Draw { pens: &mut pens[set], part, points });
             })?;
         }
+        part.pass_on();
         Ok(())
     }
 

@@ -1,7 +1,11 @@
 //! Draws curves into cells, eight at a time.
 
-use super::strip::{OUTSIDE, Strip};
+use super::canvas::CanvasPart;
 use crate::lanes::{Lanes, Register, Task, WIDTH, Wide};
+
+/// Columns and rows of a part beyond what is drawn on, on each side. A wrapped coordinate may be off by a rounding error,
+/// and its piece a cell further.
+pub(super) const OUTSIDE: [i64; 2] = [1, 2];
 
 /// 2⁵²; the low bits of `2⁵² + integer` are the integer.
 const TWO_52: f64 = 4_503_599_627_370_496.0;
@@ -22,7 +26,7 @@ pub(super) struct Pens {
     pub(super) parts: usize,
     /// Quanta of a part of each curve; none of an unused one.
     pub(super) quanta: Lanes,
-    /// Column and row of the straight trace, from the first corner of the strip.
+    /// Column and row of the straight trace.
     pub(super) at: [Lanes; 2],
 }
 
@@ -36,25 +40,26 @@ impl Pens {
 }
 
 /// Draws the pieces between points, [ξ₁, ξ₂] of each curve [m], and goes on along the straight traces.
-pub(super) struct Draw<'a> {
+pub(super) struct Draw<'a, 'b> {
     pub(super) pens: &'a mut Pens,
-    pub(super) strip: &'a mut Strip,
+    /// A part with all rows of a ring, and [`OUTSIDE`] around it.
+    pub(super) part: &'a mut CanvasPart<'b>,
     pub(super) points: &'a [[Lanes; 2]],
 }
 
-impl Task for Draw<'_> {
+impl Task for Draw<'_, '_> {
     type Output = ();
 
     #[inline(always)]
     fn call<S: Register>(self) {
-        let Self { pens, strip, points } = self;
+        let Self { pens, part, points } = self;
         let splat = Wide::<S>::splat;
         let per_cell = splat(pens.per_cell);
         let advance = splat(pens.advance);
         let share = splat(1.0 / pens.parts as f64);
-        let rows = strip.rows() as f64;
+        let rows = (part.size[1] - 2 * OUTSIDE[1]) as f64;
         let (rows, per_row) = (splat(rows), splat(1.0 / rows));
-        let mut ink = Ink::<S>::new(pens, strip);
+        let mut ink = Ink::<S>::new(pens, part);
         let column = Wide::load(&pens.at[0]);
         let mut row = Wide::load(&pens.at[1]);
         for pair in points.windows(2) {
@@ -66,12 +71,12 @@ impl Task for Draw<'_> {
             for _ in 0..pens.parts {
                 let turns = (at[1] * per_row).floor();
                 let wrapped = turns.neg_mul_add(rows, at[1]);
-                ink.part([at[0], wrapped], by, strip);
+                ink.draw([at[0], wrapped], by, part);
                 at = [at[0] + by[0], at[1] + by[1]];
             }
             row -= advance;
         }
-        ink.finish(strip);
+        ink.finish(part);
         pens.at[1] = (row * per_row).floor().neg_mul_add(rows, row).store();
     }
 }
@@ -105,6 +110,8 @@ const LIST: usize = 256;
 /// next; these sums go to a list first, because adding to memory at once would wait for the sum before.
 struct Ink<S: Register> {
     stride: Wide<S>,
+    /// Index of the cell in column and row zero, with 2⁵² added.
+    origin: Wide<S>,
     middle: Wide<S>,
     half: f64,
     /// Quanta of a part; none of an unused curve.
@@ -119,12 +126,14 @@ struct Ink<S: Register> {
 
 impl<S: Register> Ink<S> {
     #[inline(always)]
-    fn new(pens: &Pens, strip: &Strip) -> Self {
+    fn new(pens: &Pens, part: &CanvasPart<'_>) -> Self {
+        let ([column, row], [columns, _]) = (part.first, part.size);
         Self {
-            stride: Wide::splat(strip.stride() as f64),
+            stride: Wide::splat(columns as f64),
+            origin: Wide::splat(TWO_52 - (row * columns + column) as f64),
             // Nothing that starts so far inside ends outside.
-            middle: Wide::splat(0.5 * strip.columns as f64),
-            half: 0.5 * strip.columns as f64 - 0.5,
+            middle: Wide::splat(column as f64 + 0.5 * columns as f64),
+            half: 0.5 * columns as f64 - (OUTSIDE[0] as f64 + 0.5),
             all: Wide::load(&pens.quanta),
             cell: Wide::splat(TWO_52),
             gathered: Wide::zero(),
@@ -135,7 +144,7 @@ impl<S: Register> Ink<S> {
 
     /// Draws a part. It crosses at most one edge of a cell each way.
     #[inline(always)]
-    fn part(&mut self, at: [Wide<S>; 2], by: [Wide<S>; 2], strip: &mut Strip) {
+    fn draw(&mut self, at: [Wide<S>; 2], by: [Wide<S>; 2], part: &mut CanvasPart<'_>) {
         let (zero, one, shift) = (Wide::<S>::zero(), Wide::<S>::splat(1.0), Wide::<S>::splat(TWO_52));
         let cell = [at[0].floor(), at[1].floor()];
         let x = Crossing::place(at[0], cell[0], by[0]);
@@ -146,15 +155,13 @@ impl<S: Register> Ink<S> {
         let until_first = first.mul_add(self.all, shift) - shift;
         let until_last = last.mul_add(self.all, shift) - shift;
         if (at[0] - self.middle).abs().any_above(self.half) {
-            self.finish(strip);
+            self.finish(part);
             let lanes = [cell[0], cell[1], x.to, y.to, x.share, y.share];
-            anywhere(lanes.map(Wide::store), [until_first, until_last, self.all].map(Wide::store), strip);
+            anywhere(lanes.map(Wide::store), [until_first, until_last, self.all].map(Wide::store), part);
             return;
         }
         let down = y.to * self.stride;
-        let column = cell[0] + Wide::splat(OUTSIDE[0] as f64);
-        let row = cell[1] + Wide::splat(OUTSIDE[1] as f64);
-        let start = row.mul_add(self.stride, column) + shift;
+        let start = cell[1].mul_add(self.stride, cell[0]) + self.origin;
         let between = start + Wide::select_less(x.share, y.share, x.to, down);
         self.cell = start + (x.to + down);
         let sum = self.gathered + until_first;
@@ -168,35 +175,37 @@ impl<S: Register> Ink<S> {
             }
         }
         if self.listed > LIST - 2 * WIDTH {
-            self.add(strip);
+            self.add(part);
         }
     }
 
     /// Adds the list to the cells.
     #[inline(always)]
-    fn add(&mut self, strip: &mut Strip) {
+    fn add(&mut self, part: &mut CanvasPart<'_>) {
         let mut is_full = false;
         for entry in &self.list[..self.listed.min(LIST)] {
-            if let Some(cell) = strip.cells.get_mut((entry >> 32) as usize) {
+            if let Some(cell) = part.cells.get_mut((entry >> 32) as usize) {
                 let (sum, beyond) = cell.overflowing_add(*entry as u32);
                 *cell = sum;
                 is_full |= beyond;
             }
         }
-        strip.is_full |= is_full;
+        if is_full {
+            part.fill();
+        }
         self.listed = 0;
     }
 
     /// Adds everything that has been gathered to the cells.
     #[inline(always)]
-    fn finish(&mut self, strip: &mut Strip) {
-        self.add(strip);
+    fn finish(&mut self, part: &mut CanvasPart<'_>) {
+        self.add(part);
         let entries = entry(self.cell, self.gathered + Wide::splat(TWO_52)).store();
         for (slot, entry) in self.list.iter_mut().zip(entries.0) {
             *slot = entry.to_bits();
         }
         (self.listed, self.gathered) = (WIDTH, Wide::zero());
-        self.add(strip);
+        self.add(part);
     }
 }
 
@@ -206,20 +215,19 @@ fn entry<S: Register>(index: Wide<S>, quanta: Wide<S>) -> Wide<S> {
     Wide(index.0.shift_left::<32>().add_as_integers(quanta.0.and_bits(0xffff_ffff)))
 }
 
-/// Adds parts of which some may lie beyond the strip: column, row, steps to the next ones, and shares before them.
+/// Adds parts of which some may lie beyond the part: column, row, steps to the next ones, and shares before them.
 #[cold]
 #[inline(never)]
 fn anywhere(
     [columns, rows, to_column, to_row, share, share_row]: [Lanes; 6],
     [first, last, all]: [Lanes; 3],
-    strip: &mut Strip,
+    part: &mut CanvasPart<'_>,
 ) {
     for i in 0..WIDTH {
         let [column, row, right, down] = [columns, rows, to_column, to_row].map(|lanes| lanes.0[i] as i64);
-        let (column, row) = (column + OUTSIDE[0] as i64, row + OUTSIDE[1] as i64);
-        let between = if share.0[i] < share_row.0[i] { (column + right, row) } else { (column, row + down) };
-        strip.add(column, row, first.0[i] as u32);
-        strip.add(between.0, between.1, (last.0[i] - first.0[i]) as u32);
-        strip.add(column + right, row + down, (all.0[i] - last.0[i]) as u32);
+        let between = if share.0[i] < share_row.0[i] { [column + right, row] } else { [column, row + down] };
+        part.add([column, row], first.0[i] as u32);
+        part.add(between, (last.0[i] - first.0[i]) as u32);
+        part.add([column + right, row + down], (all.0[i] - last.0[i]) as u32);
     }
 }

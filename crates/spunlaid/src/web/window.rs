@@ -1,6 +1,6 @@
 //! Windows of the sheet, and the parts of fibres in them.
 
-use super::floor::floor;
+use super::canvas::floor;
 use super::{Edges, Sheet};
 
 /// A rectangle of the sheet, in cross and in machine direction [m].
@@ -33,11 +33,11 @@ impl Window {
     pub(super) fn nears(&self, point: [f64; 2], distance: f64) -> bool {
         point.iter().zip(self.sides).all(|(at, side)| (-distance..=side + distance).contains(at))
     }
+}
 
-    /// The larger distance of two points either way, over the window's sides.
-    pub(super) fn distance(&self, a: [f64; 2], b: [f64; 2]) -> f64 {
-        ((a[0] - b[0]) / self.sides[0]).abs().max(((a[1] - b[1]) / self.sides[1]).abs())
-    }
+/// Whether two places are the same but for rounding.
+fn is_same(a: [f64; 2], b: [f64; 2]) -> bool {
+    (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) < 1e-9
 }
 
 /// A window as it is met on a sheet.
@@ -45,8 +45,8 @@ impl Window {
 pub(crate) struct WindowOnSheet {
     /// The window that is shown; None if it is on another stretch.
     window: Option<Window>,
-    /// Width after which the sheet goes on at its edges [m].
-    turn: Option<f64>,
+    /// After which the sheet goes on at its edges in cross and in machine direction [m].
+    turns: [Option<f64>; 2],
     /// How far before and behind the window a piece is looked at [m].
     margin: f64,
 }
@@ -56,13 +56,19 @@ impl WindowOnSheet {
         Self::beginning_on(window, sheet, [f64::NEG_INFINITY, f64::INFINITY])
     }
 
+    /// On a sheet that is closed to a ring in machine direction.
+    pub(super) fn on_ring(window: Window, sheet: &Sheet) -> Self {
+        let of_sheet = Self::new(window, sheet);
+        Self { turns: [of_sheet.turns[0], Some(sheet.length)], ..of_sheet }
+    }
+
     /// The window, if it begins on a stretch of the sheet.
     ///
     /// * `from`, `to` – in machine direction [m]
     pub(crate) fn beginning_on(window: Window, sheet: &Sheet, [from, to]: [f64; 2]) -> Self {
-        let turn = (sheet.edges == Edges::Periodic).then_some(sheet.width);
+        let turns = [(sheet.edges == Edges::Periodic).then_some(sheet.width), None];
         let window = (from..to).contains(&window.corner[1]).then_some(window);
-        Self { window, turn, margin: sheet.cell }
+        Self { window, turns, margin: sheet.cell }
     }
 
     /// From where to where a piece may be kept in machine direction [m]; None if the window is not there.
@@ -72,17 +78,26 @@ impl WindowOnSheet {
         self.window.map(|Window { corner, sides }| [corner[1] - beside, corner[1] + sides[1] + beside])
     }
 
+    /// Whether a place is in the window, or so far from it either way.
+    pub(super) fn nears(&self, place: [f64; 2], distance: f64) -> bool {
+        self.window.is_some_and(|window| window.nears(self.seen(window, place), distance))
+    }
+
     /// A place on the sheet as seen from the corner of a window.
-    fn seen(&self, Window { corner, sides }: Window, [cd, md]: [f64; 2]) -> [f64; 2] {
-        let (across, middle) = (cd - corner[0], 0.5 * sides[0]);
-        let turned = |turn: f64| turn * floor((across - middle) / turn + 0.5) as f64;
-        [across - self.turn.map_or(0.0, turned), md - corner[1]]
+    #[inline(always)]
+    fn seen(&self, Window { corner, sides }: Window, place: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|axis| {
+            let (from_corner, middle) = (place[axis] - corner[axis], 0.5 * sides[axis]);
+            let turned = |turn: f64| turn * floor((from_corner - middle) / turn + 0.5) as f64;
+            from_corner - self.turns[axis].map_or(0.0, turned)
+        })
     }
 
     /// Whether a place lies beside a window in cross direction, or a little before or behind that.
+    #[inline(always)]
     fn is_beside(&self, window: Window, [_, md]: [f64; 2]) -> bool {
         let from_corner = md - window.corner[1];
-        (-self.margin..=window.sides[1] + self.margin).contains(&from_corner)
+        self.turns[1].is_some() || (-self.margin..=window.sides[1] + self.margin).contains(&from_corner)
     }
 }
 
@@ -116,14 +131,24 @@ impl Strands {
             return;
         };
         let start = on.seen(window, from);
-        let end = [start[0] + to[0] - from[0], start[1] + to[1] - from[1]];
+        let by = [to[0] - from[0], to[1] - from[1]];
+        let end = [start[0] + by[0], start[1] + by[1]];
         let shown = window.holds(start) || window.holds(end);
-        match self.strands.last_mut().filter(|_| shown && self.enters) {
+        // Where the sheet goes on, a piece may begin at the other edge.
+        let is_there = |strand: &Strand| strand.points.last().is_some_and(|last| is_same(*last, start));
+        match self.strands.last_mut().filter(|strand| shown && self.enters && is_there(strand)) {
             Some(strand) => strand.points.push(end),
             None if shown => self.strands.push(Strand { layer: 0, filament, points: vec![start, end] }),
             None => {}
         }
         self.enters = shown;
+        let arrived = on.seen(window, to);
+        if !is_same(arrived, end) && window.holds(arrived) {
+            // It comes in at the other edge.
+            let start = [arrived[0] - by[0], arrived[1] - by[1]];
+            self.strands.push(Strand { layer: 0, filament, points: vec![start, arrived] });
+            self.enters = true;
+        }
     }
 
     /// The parts, in the order of the filament.
