@@ -1,40 +1,60 @@
-//! Beams in the same air, which fly side by side as far as they look at one field.
+//! The loop that flies the filaments of beams: of one beam in air of its own, or of several in the same air, which fly
+//! side by side as far as they look at one field.
 //!
 //! ```text
-//! beams → one room for all airs → beams whose airs have one pattern share a field
-//!       → all fly for the same time, counted in what passes of the pattern → curves of all filaments
+//! beams → airs: beams whose airs have one pattern share a field
+//!       → all fly for the same time, counted in what passes of the pattern → what they lay goes to their sinks
 //! ```
 
 use super::air::room_of;
 use super::filament::Reach;
 use super::flying::Flying;
-use super::{Beam, BeamControl, BeamFindings};
+use super::neighbours::Neighbours;
+use super::{BLOCK, Beam, BeamControl, BeamFindings};
 use crate::air::{EddyField, Room, StreamKey};
 use crate::error::{Error, Fault};
 use crate::threads::{each, lock, try_each};
-use crate::web::{Sheet, Window};
+use crate::web::{Brush, Sheet, TimeSpent, Window};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex};
+use std::time::Instant;
 
-/// Largest lateral wave number of the air, times its length scale. Smaller eddies change no CV from patches
-/// of 10 mm on, and hardly any change of it, but take as much time again.
+/// Largest lateral wave number of the air of beams that are compared, times its length scale. Smaller eddies change no CV
+/// from patches of 10 mm on, and hardly any change of it, but take as much time again.
 const HIGHEST: f64 = 8.0;
 
-/// A beam that has flown beside others.
-#[derive(Debug)]
-pub(crate) struct FlownAbreast {
-    /// The curves of all filaments, and the lost ones.
-    pub(crate) flown: BeamFindings,
-    /// How many times as fast the pattern of its air passes as that of the first beam.
-    pub(crate) pace: f64,
+/// What takes what the filaments of a beam lay.
+pub(super) struct Sink<'a> {
+    /// A window of the sheet, whose single fibres are kept.
+    pub(super) window: Window,
+    /// What draws an element of fibre; None to keep the curves of all filaments in place of it.
+    pub(super) on: Option<&'a Brush<'a>>,
+    pub(super) neighbours: Option<Neighbours>,
 }
 
-/// The field of the air of a beam.
-struct BeamField {
-    field: EddyField,
+/// The airs of beams that are flown.
+pub(super) struct SharedAir {
+    airs: Vec<BeamAir>,
+    /// Most memory that the airs which pass side by side take, unless a single one takes more [B].
+    memory: f64,
+}
+
+/// The air of a beam.
+struct BeamAir {
+    /// None if it is the same at every place.
+    field: Option<EddyField>,
     /// The beam whose field is made, and how many times as fast the pattern passes as there.
     maker: usize,
     pace: f64,
+    /// Most memory that it takes [B].
+    memory: f64,
+}
+
+impl BeamAir {
+    /// Time by which all flights advance before the next block [s].
+    fn block(&self) -> f64 {
+        self.field.as_ref().map_or(BLOCK, EddyField::block)
+    }
 }
 
 /// Flies beams on a sheet, or on the belt that passes for them in the same time. All are flown for as long as
@@ -48,24 +68,37 @@ pub(crate) fn fly_abreast(
     beams: &[Beam<'_>],
     (sheet, memory): (&Sheet, f64),
     by: BeamControl<'_>,
-) -> Result<Vec<Result<FlownAbreast, Error>>, Error> {
-    let room = room_of(beams, sheet);
-    let fields = fields(beams, &room)?;
-    let none = Window { corner: [0.0; 2], sides: [0.0; 2] };
-    let mut flying: Vec<_> = beams.iter().map(|beam| Flying::new(*beam, (sheet, none))).collect();
-    let all = All { beams, fields: &fields, sheet };
-    let makers = (0..beams.len()).filter(|beam| fields[*beam].maker == *beam);
+) -> Result<Vec<Result<BeamFindings, Error>>, Error> {
+    let window = Window { corner: [0.0; 2], sides: [0.0; 2] };
+    let sinks = beams.iter().map(|_| Sink { window, on: None, neighbours: None }).collect();
+    fly(beams, (SharedAir::of(beams, (sheet, memory))?, sheet), sinks, by)
+}
+
+/// Flies beams in their airs until they have laid the sheet, or the belt that passes in the same time.
+pub(super) fn fly(
+    beams: &[Beam<'_>],
+    (air, sheet): (SharedAir, &Sheet),
+    mut sinks: Vec<Sink<'_>>,
+    by: BeamControl<'_>,
+) -> Result<Vec<Result<BeamFindings, Error>>, Error> {
+    let (started, mut spent) = (Instant::now(), TimeSpent::default());
+    let beside = beams.iter().zip(&sinks);
+    let mut flying: Vec<_> = beside.map(|(beam, sink)| Flying::new(*beam, (sheet, sink.window))).collect();
+    let all = All { beams, airs: &air.airs, sheet };
+    let makers = (0..beams.len()).filter(|beam| air.airs[*beam].maker == *beam);
     let mut waiting: VecDeque<Group> = makers.map(|maker| all.group(maker)).collect();
+    let memory = |group: &Group| air.airs[group.members[0]].memory;
     let mut until = None;
     while let Some(first) = waiting.pop_front() {
-        let mut needed = memory_of_air(first.beam(beams), &room);
+        let mut needed = memory(&first);
         let mut groups = vec![first];
         while let Some(next) = waiting.front()
-            && needed + memory_of_air(next.beam(beams), &room) <= memory
+            && needed + memory(next) <= air.memory
         {
-            needed += memory_of_air(next.beam(beams), &room);
+            needed += memory(next);
             groups.extend(waiting.pop_front());
         }
+        let begun = Instant::now();
         loop {
             groups.retain(|group| group.members.iter().any(|beam| flies(&flying[*beam])));
             let has_ended = match (groups.first(), until) {
@@ -77,15 +110,18 @@ pub(crate) fn fly_abreast(
                 break;
             }
             make(&mut groups, by.threads);
-            all.advance(&groups, &mut flying, by)?;
+            all.advance(&groups, &mut flying, &mut sinks, by)?;
         }
+        spent.in_parallel += begun.elapsed();
         until.get_or_insert(groups.first().map_or(0.0, |group| group.time * group.pace));
     }
-    let paces = fields.iter().map(|field| all.pace(field.maker) * field.pace);
-    let finish = |(of_beam, pace): (Result<Flying<'_>, Error>, f64)| {
-        Ok(FlownAbreast { flown: of_beam?.finish(BeamFindings::default())?, pace })
+    spent.whole = started.elapsed();
+    let paces = air.airs.iter().map(|of_beam| all.pace(of_beam.maker) * of_beam.pace);
+    let finish = |((of_beam, sink), pace): ((Result<Flying<'_>, Error>, Sink<'_>), f64)| {
+        let neighbours = sink.neighbours.map_or_else(Vec::new, |together| together.correlations());
+        of_beam?.finish(BeamFindings { neighbours, spent, pace, ..BeamFindings::default() })
     };
-    Ok(flying.into_iter().zip(paces).map(finish).collect())
+    Ok(flying.into_iter().zip(sinks).zip(paces).map(finish).collect())
 }
 
 /// Whether a beam goes on.
@@ -101,8 +137,9 @@ fn make(groups: &mut [Group], threads: usize) {
         let mut group = lock(&groups[group]);
         let from = group.time;
         group.time += group.block;
+        // A flight that found its time outside would make a field for itself.
         let times = from - group.margin..group.time + group.margin;
-        group.making.make(times, of_each);
+        group.making.iter_mut().for_each(|field| field.make(times.clone(), of_each));
     });
 }
 
@@ -119,41 +156,49 @@ pub(crate) fn memory_abreast(beams: &[Beam<'_>], sheet: &Sheet) -> f64 {
     beams.iter().map(|beam| memory_of_air(beam, &room)).fold(0.0, f64::max)
 }
 
-/// The fields of the airs of beams, of which those with one pattern share one.
-fn fields(beams: &[Beam<'_>], room: &Room) -> Result<Vec<BeamField>, Error> {
-    let mut fields: Vec<BeamField> = Vec::new();
-    for (number, beam) in beams.iter().enumerate() {
-        let (air, seed) = (&beam.case.air, beam.case.run.seed);
-        let cutoff = air.lateral.cutoff();
-        let cutoff = cutoff.ok_or_else(|| Fault::plain("the air of a beam is the same everywhere across"))?;
-        let cutoff = cutoff.min(HIGHEST);
-        let mut makers = (0..number).filter(|maker| fields[*maker].maker == *maker);
-        let shared = makers.find_map(|maker| {
-            let other = beams[maker].case;
-            if other.run.seed != seed || other.air.lateral != air.lateral {
-                return None;
-            }
-            let (field, pace) = match other.air == *air {
-                true => (fields[maker].field.clone(), 1.0),
-                false => fields[maker].field.at_pace_of([&other.air, air], room)?,
-            };
-            Some(BeamField { field, maker, pace })
-        });
-        fields.push(match shared {
-            Some(shared) => shared,
-            None => {
-                let key = StreamKey { seed, replicate: 0 };
-                BeamField { field: EddyField::in_room(air, room, cutoff, key), maker: number, pace: 1.0 }
-            }
-        });
+impl SharedAir {
+    /// The air of one beam alone.
+    pub(super) fn of_one(beam: &Beam<'_>, sheet: &Sheet) -> Self {
+        let air = BeamAir { field: beam.field(sheet), maker: 0, pace: 1.0, memory: 0.0 };
+        Self { airs: vec![air], memory: f64::INFINITY }
     }
-    Ok(fields)
+
+    /// The airs of beams in one room, of which those with one pattern share one.
+    fn of(beams: &[Beam<'_>], (sheet, memory): (&Sheet, f64)) -> Result<Self, Error> {
+        let room = room_of(beams, sheet);
+        let mut airs: Vec<BeamAir> = Vec::new();
+        for (number, beam) in beams.iter().enumerate() {
+            let (air, seed) = (&beam.case.air, beam.case.run.seed);
+            let cutoff = air.lateral.cutoff();
+            let cutoff =
+                cutoff.ok_or_else(|| Fault::plain("the air of a beam is the same everywhere across"))?;
+            let mut makers = (0..number).filter(|maker| airs[*maker].maker == *maker);
+            let shared = makers.find_map(|maker| {
+                let other = beams[maker].case;
+                if other.run.seed != seed || other.air.lateral != air.lateral {
+                    return None;
+                }
+                let field = airs[maker].field.as_ref()?;
+                let (field, pace) = match other.air == *air {
+                    true => (field.clone(), 1.0),
+                    false => field.at_pace_of([&other.air, air], &room)?,
+                };
+                Some((field, maker, pace))
+            });
+            let (field, maker, pace) = shared.unwrap_or_else(|| {
+                let key = StreamKey { seed, replicate: 0 };
+                (EddyField::in_room(air, &room, cutoff.min(HIGHEST), key), number, 1.0)
+            });
+            airs.push(BeamAir { field: Some(field), maker, pace, memory: memory_of_air(beam, &room) });
+        }
+        Ok(Self { airs, memory })
+    }
 }
 
 /// Beams that look at one field.
 struct Group {
-    /// The field, as far as it has been made.
-    making: EddyField,
+    /// The field, as far as it has been made; None if the air is the same at every place.
+    making: Option<EddyField>,
     /// How many times as fast its pattern passes as that of the first beam.
     pace: f64,
     /// The beams, of which the first one has made the field, each with the time of the field in its step [s].
@@ -165,39 +210,34 @@ struct Group {
     margin: f64,
 }
 
-impl Group {
-    fn beam<'a, 'b>(&self, beams: &'b [Beam<'a>]) -> &'b Beam<'a> {
-        &beams[self.members[0]]
-    }
-}
-
 /// All beams, with the fields of their airs.
 struct All<'a> {
     beams: &'a [Beam<'a>],
-    fields: &'a [BeamField],
+    airs: &'a [BeamAir],
     sheet: &'a Sheet,
 }
 
 impl All<'_> {
     /// How many times as fast the pattern passes in the field of a beam as in that of the first one.
     fn pace(&self, maker: usize) -> f64 {
-        self.fields[0].field.block() / self.fields[maker].field.block()
+        self.airs[0].block() / self.airs[maker].block()
     }
 
     /// The beams of a field before they fly.
     fn group(&self, maker: usize) -> Group {
-        let Self { beams, fields, .. } = self;
-        let members: Vec<usize> = (0..beams.len()).filter(|beam| fields[*beam].maker == maker).collect();
-        let making = fields[maker].field.clone();
-        let of_field = |beam: usize, time: f64| time * fields[beam].pace;
+        let Self { beams, airs, .. } = self;
+        let members: Vec<usize> = (0..beams.len()).filter(|beam| airs[*beam].maker == maker).collect();
+        let making = airs[maker].field.clone();
+        let of_field = |beam: usize, time: f64| time * airs[beam].pace;
         let steps: Vec<f64> =
             members.iter().map(|beam| of_field(*beam, beams[*beam].case.run.time_step)).collect();
         // The same stretch of the pattern passes for all groups, so that they end together.
-        let longest =
-            |beam: usize| of_field(beam, beams[beam].longest_block()) * self.pace(fields[beam].maker);
-        let block = (0..beams.len()).map(longest).fold(fields[0].field.block(), f64::min);
+        let longest = |beam: usize| of_field(beam, beams[beam].longest_block()) * self.pace(airs[beam].maker);
+        let block = (0..beams.len()).map(longest).fold(airs[0].block(), f64::min);
         let (pace, margin) = (self.pace(maker), 2.0 * steps.iter().copied().fold(0.0, f64::max));
-        Group { making, pace, members, steps, block: block / pace, time: 0.0, margin }
+        let block =
+            if beams.len() == 1 { (block / steps[0]).ceil().max(1.0) * steps[0] } else { block / pace };
+        Group { making, pace, members, steps, block, time: 0.0, margin }
     }
 
     /// Whether all beams of a group have laid the sheet during the same time.
@@ -206,10 +246,10 @@ impl All<'_> {
         for beam in group.members.iter().filter(|beam| flies(&flying[**beam])) {
             // While some lay the fibre of their start, nothing is known.
             let Some(laid) = flying[*beam].as_ref().ok().and_then(Flying::laid_during) else { return false };
-            let pace = self.fields[*beam].pace;
+            let pace = self.airs[*beam].pace;
             all = all.start.max(laid.start * pace)..all.end.min(laid.end * pace);
         }
-        let belt = group.beam(self.beams).case.line.map_or(f64::NAN, |line| line.belt_speed);
+        let belt = self.beams[group.members[0]].case.line.map_or(f64::NAN, |line| line.belt_speed);
         all.end - all.start >= self.sheet.length / belt
     }
 
@@ -219,6 +259,7 @@ impl All<'_> {
         &self,
         groups: &[Group],
         flying: &mut [Result<Flying<'_>, Error>],
+        sinks: &mut [Sink<'_>],
         by: BeamControl<'_>,
     ) -> Result<(), Error> {
         let members = groups.iter().flat_map(|group| {
@@ -228,17 +269,21 @@ impl All<'_> {
         let mut advancing = Vec::new();
         for (group, beam, step) in members {
             let Some(of_beam) = flying[beam].as_ref().ok().filter(|_| flies(&flying[beam])) else { continue };
-            let BeamField { field, pace, .. } = &self.fields[beam];
-            let steps = ((group.time / step) as u64).saturating_sub(of_beam.done);
+            let BeamAir { field, pace, .. } = &self.airs[beam];
+            // A whole number of steps may be rounded to a little less.
+            let steps = ((group.time / step + 1e-6) as u64).saturating_sub(of_beam.done);
+            let made = field.as_ref().zip(group.making.as_ref());
+            let field = made.map(|(field, making)| Arc::new(field.made_as(making, *pace)));
             packs.extend((0..of_beam.packs()).map(|pack| (advancing.len(), of_beam, pack)));
-            advancing.push((beam, Arc::new(field.made_as(&group.making, *pace)), steps));
+            advancing.push((beam, field, steps));
         }
         // A beam that cannot fly does not end the others.
         let reaches = try_each(by.threads, packs.len(), |i| {
             let (number, of_beam, pack) = packs[i];
-            let (_, field, steps) = &advancing[number];
-            let start = if of_beam.done == 0 { of_beam.start(pack, true, Some(field), by) } else { Ok(()) };
-            match start.and_then(|()| of_beam.advance(pack, *steps, Some(field), None, by)) {
+            let (beam, field, steps) = &advancing[number];
+            let (field, on) = (field.as_ref(), sinks[*beam].on);
+            let start = if of_beam.done == 0 { of_beam.start(pack, on.is_none(), field, by) } else { Ok(()) };
+            match start.and_then(|()| of_beam.advance(pack, *steps, field, on, by)) {
                 Err(Error::Interrupted) => Err(Error::Interrupted),
                 reached => Ok(reached),
             }
@@ -248,7 +293,15 @@ impl All<'_> {
         for (number, (beam, _, steps)) in advancing.into_iter().enumerate() {
             let of_packs = std::iter::from_fn(|| Some(reaches.next_if(|(of, _)| *of == number)?.1));
             match (of_packs.collect::<Result<Vec<Reach>, Error>>(), &mut flying[beam]) {
-                (Ok(of_packs), Ok(of_beam)) => of_beam.reached(steps, of_packs),
+                (Ok(of_packs), Ok(of_beam)) => {
+                    of_beam.reached(steps, of_packs);
+                    if let Some(together) = &mut sinks[beam].neighbours
+                        && !of_beam.has_lost_too_many()
+                    {
+                        of_beam.compare(together);
+                        together.add();
+                    }
+                }
                 (Err(error), of_beam) => *of_beam = Err(error),
                 (Ok(_), Err(_)) => {}
             }

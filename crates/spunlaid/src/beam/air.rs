@@ -1,53 +1,24 @@
-//! The air that the filaments of a beam share: a field of eddies, made block by block as the time goes on.
+//! The air that the filaments of a beam share: a field of eddies, which is made block by block as the time goes on.
 
 use super::Beam;
 use crate::air::{Air, EddyField, Extent, Flow, Lateral, Room, StreamKey};
 use crate::field::Hint;
 use crate::vec3::Vec3;
 use crate::web::{Edges, Sheet};
-use std::ops::Range;
-use std::sync::Arc;
 
 /// Distance in which the filaments of a slot without depth come down, in ways from inlet to belt: eight
 /// standard deviations of a usual filament. One that goes farther meets the eddies of the other side again.
 const REACH: f64 = 0.36;
 /// As far as beams are compared, five of them: hardly two filaments that meet the same eddies again hang so.
 const REACH_OF_COMPARED: f64 = 0.22;
-/// Steps for which the field is made before and after those that are flown.
-const MARGIN: f64 = 1.0;
-
-/// The field of a beam. Its owner alone makes it; flights look at clones.
-pub(super) struct SharedField {
-    field: EddyField,
-    time_step: f64,
-    threads: usize,
-}
-
-impl SharedField {
-    /// None if the air is the same at every place.
-    pub(super) fn new(beam: &Beam<'_>, sheet: &Sheet, threads: usize) -> Option<Self> {
-        let cutoff = beam.case.air.lateral.cutoff()?;
-        let (case, key) = (beam.case, StreamKey { seed: beam.case.run.seed, replicate: 0 });
-        let field =
-            EddyField::new(&case.air, case.way_of_air(), beam.extent_of_air(sheet, REACH), cutoff, key);
-        Some(Self { field, time_step: case.run.time_step, threads })
-    }
-
-    /// A good length of the blocks of time [s].
-    pub(super) fn block(&self) -> f64 {
-        self.field.block()
-    }
-
-    /// The field for some steps, and for those next to them: a flight that found its time outside would make
-    /// a field for itself.
-    pub(super) fn during(&mut self, steps: Range<u64>) -> Arc<EddyField> {
-        let [start, end] = [steps.start as f64 - MARGIN, steps.end as f64 + MARGIN];
-        self.field.make(start * self.time_step..end * self.time_step, self.threads);
-        Arc::new(self.field.clone())
-    }
-}
-
 impl Beam<'_> {
+    /// The air that its filaments share, of which nothing has been made; None if it is the same at every place.
+    pub(super) fn field(&self, sheet: &Sheet) -> Option<EddyField> {
+        let (case, key) = (self.case, StreamKey { seed: self.case.run.seed, replicate: 0 });
+        let (way, extent) = (case.way_of_air(), self.extent_of_air(sheet, REACH));
+        Some(EddyField::new(&case.air, way, extent, case.air.lateral.cutoff()?, key))
+    }
+
     /// Most memory that the air of all filaments takes [B].
     pub(crate) fn memory_of_air(&self, sheet: &Sheet) -> f64 {
         let (case, extent) = (self.case, self.extent_of_air(sheet, REACH));

@@ -70,12 +70,6 @@ impl Stretch {
         self.back
     }
 
-    /// Whether nothing will come down on the sheet any more. A filament is never reckoned farther ahead than
-    /// any has been so far.
-    pub(super) fn is_laid(&self, reach: &Reach) -> bool {
-        self.back.is_some_and(|back| reach.ahead - self.belt_ratio * reach.fed < back)
-    }
-
     /// The place of a point on the sheet, in cross and in machine direction [m], if it is known where the sheet is.
     fn on_sheet(&self, place: Place, point: &LaidPoint) -> Option<[f64; 2]> {
         Some([place.z + point.cd, place.y + point.md - self.back?])

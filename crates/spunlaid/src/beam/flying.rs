@@ -110,11 +110,6 @@ impl<'a> Flying<'a> {
         self.packs.iter().for_each(|pack| lock(pack).iter_mut().for_each(|pack| pack.compare(neighbours)));
     }
 
-    /// Whether the whole sheet has been laid, or so many filaments are lost that there will be none.
-    pub(super) fn has_ended(&self) -> bool {
-        self.stretch.is_laid(&self.reach) || self.has_lost_too_many()
-    }
-
     pub(super) fn has_lost_too_many(&self) -> bool {
         self.reach.lost as f64 > MOST_LOST * self.beam.places.len() as f64
     }

@@ -22,7 +22,6 @@ mod flying;
 mod neighbours;
 mod pack;
 
-use crate::air::EddyField;
 use crate::case::Case;
 use crate::error::Error;
 use crate::fibre::Place;
@@ -30,21 +29,15 @@ use crate::flight::LaidPoint;
 use crate::lanes::Isa;
 use crate::load::WayPlace;
 use crate::sort::sort_by_key;
-use crate::threads::try_each;
 use crate::web::{
     Brush, Canvas, ChargedCurtain, LaidWeb, NeighbourCorrelation, SharedAirFindings, Sheet, Strand,
     TimeSpent, Titres, Window,
 };
-pub(crate) use abreast::{FlownAbreast, fly_abreast, memory_abreast};
-use air::SharedField;
+use abreast::{SharedAir, Sink, fly};
+pub(crate) use abreast::{fly_abreast, memory_abreast};
 pub use charge::BeamCharge;
-use filament::Reach;
-use flying::Flying;
 use neighbours::Neighbours;
-use std::ops::Range;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64};
-use std::time::{Duration, Instant};
 
 /// Filaments whose whole curves are kept, spread over the beam: some hundred kilobytes each.
 const KEPT: usize = 64;
@@ -100,6 +93,8 @@ pub struct BeamFindings {
     pub time: f64,
     /// What it took.
     pub spent: TimeSpent,
+    /// How many times as fast the pattern of its air passes as that of the first beam beside it.
+    pub(crate) pace: f64,
     /// What charge has made of them, if they are charged.
     pub charged: Option<ChargedCurtain>,
 }
@@ -170,38 +165,9 @@ impl Beam<'_> {
         on: Option<&Brush<'_>>,
         by: BeamControl<'_>,
     ) -> Result<BeamFindings, Error> {
-        let started = Instant::now();
-        let mut flying = Flying::new(*self, (sheet, window))?;
-        let (mut spent, mut making) = (TimeSpent::default(), Duration::ZERO);
-        let mut shared = SharedField::new(self, sheet, by.threads);
-        let block = shared.as_ref().map_or(BLOCK, SharedField::block).min(self.longest_block());
-        let steps = (block / self.case.run.time_step).ceil().max(1.0) as u64;
-        let mut in_parallel = |pieces: usize, work: &(dyn Fn(usize) -> Result<Reach, Error> + Sync)| {
-            let begun = Instant::now();
-            let done = try_each(by.threads, pieces, work);
-            spent.in_parallel += begun.elapsed();
-            done
-        };
-        let start = make_air(&mut shared, 0..steps, &mut making);
-        in_parallel(flying.packs(), &|i| {
-            flying.start(i, on.is_none(), start.as_ref(), by).map(|()| Reach::default())
-        })?;
-        drop(start);
-        let mut together = Neighbours::new(self, sheet);
-        while !flying.has_ended() {
-            let field = make_air(&mut shared, flying.done..flying.done + steps, &mut making);
-            let reaches = in_parallel(flying.packs(), &|i| flying.advance(i, steps, field.as_ref(), on, by))?;
-            flying.reached(steps, reaches);
-            if !flying.has_lost_too_many() {
-                flying.compare(&mut together);
-                together.add();
-            }
-        }
-        let flown = BeamFindings { neighbours: together.correlations(), ..BeamFindings::default() };
-        let flown = flying.finish(flown)?;
-        spent.in_parallel += making;
-        spent.whole = started.elapsed();
-        Ok(BeamFindings { spent, ..flown })
+        let sink = Sink { window, on, neighbours: Some(Neighbours::new(self, sheet)) };
+        let flown = fly(&[*self], (SharedAir::of_one(self, sheet), sheet), vec![sink], by)?;
+        flown.into_iter().next().ok_or_else(Error::no_fibre)?
     }
 
     /// Whether the curve of a filament is kept.
@@ -233,18 +199,4 @@ impl BeamFindings {
         // A filament comes through the window in the order of its strands.
         sort_by_key(&mut self.strands, |strand| strand.filament);
     }
-}
-
-/// The air that all filaments share during some steps, if they share one.
-///
-/// * `making` – becomes longer by the time that it takes to make it
-fn make_air(
-    shared: &mut Option<SharedField>,
-    steps: Range<u64>,
-    making: &mut Duration,
-) -> Option<Arc<EddyField>> {
-    let begun = Instant::now();
-    let field = shared.as_mut().map(|shared| shared.during(steps));
-    *making += begun.elapsed();
-    field
 }

@@ -9,7 +9,7 @@
 use super::few::Compared;
 use super::shared_air::{LayerBeam, beam_on};
 use super::{Flyer, WebSpec};
-use crate::beam::{Beam, BeamControl, BeamFindings, FlownAbreast, fly_abreast, memory_abreast};
+use crate::beam::{Beam, BeamControl, BeamFindings, fly_abreast, memory_abreast};
 use crate::error::{Error, Fault};
 use crate::flight::LaidPoint;
 use crate::lanes::Isa;
@@ -217,7 +217,7 @@ fn flies_as(of_beam: &LayerBeam<'_>, other: &LayerBeam<'_>) -> bool {
 
 /// What the filaments of a web have laid.
 struct Laid<'a> {
-    flight: &'a FlownAbreast,
+    flight: &'a BeamFindings,
     /// How much faster the belt is above which they have flown than that of the web [m/s].
     faster: f64,
     /// The times at which the belt has passed on which all filaments lie as after their start, counted in
@@ -230,13 +230,13 @@ struct Laid<'a> {
 impl<'a> Laid<'a> {
     /// * `beams` – the one that was flown, and the one of the web, which fly alike: every point comes down at
     ///   the same time and place above both belts
-    fn new(beams: [&Beam<'_>; 2], flight: &'a FlownAbreast) -> Result<Self, Error> {
+    fn new(beams: [&Beam<'_>; 2], flight: &'a BeamFindings) -> Result<Self, Error> {
         let [above, line] = beams.map(|beam| beam.case.line);
         let (above, line) = above.zip(line).ok_or_else(Error::no_fibre)?;
         let (start, faster) =
             (line.feed_speed * beams[1].case.run.spin_up(), above.belt_speed - line.belt_speed);
         let (mut front, mut ahead, mut fed) = (f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY);
-        for (filament, points) in &flight.flown.kept {
+        for (filament, points) in &flight.kept {
             let y = beams[1].places[*filament].y;
             for point in points {
                 let md = y + on_slower_belt(point, faster);
@@ -266,7 +266,7 @@ impl<'a> Laid<'a> {
             )
             .into());
         }
-        let mut kept = self.flight.flown.kept.clone();
+        let mut kept = self.flight.kept.clone();
         let points = kept.iter_mut().flat_map(|(_, points)| points);
         points.for_each(|point| point.md = on_slower_belt(point, self.faster));
         let flown = BeamFindings { kept, back: front - length, ..BeamFindings::default() };
