@@ -59,6 +59,7 @@ pub mod nodes;
 pub mod vec3;
 
 mod fft;
+mod random;
 mod sort;
 pub mod units;
 

@@ -12,7 +12,7 @@ use std::path::Path;
 /// The rooms from left to right; those of one group stand side by side and may not import one another.
 const ROOMS: &[&[&str]] = &[
     &["lanes"],
-    &["vec3", "fft", "nodes", "sort"],
+    &["vec3", "fft", "nodes", "sort", "random"],
     &["error"],
     &["units", "threads", "removed"],
     &["company"],

@@ -5,8 +5,7 @@ use super::filling::add;
 use super::library::Library;
 use crate::error::Fault;
 use crate::fibre::Place;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use crate::random::{stream, uniform};
 use std::f64::consts::FRAC_PI_2;
 
 /// Relative difference up to which two widths are the same.
@@ -99,13 +98,8 @@ impl Library {
 impl Tiles<'_> {
     /// A tile, from random numbers of its own.
     fn tile(&self, row: i64, column: usize) -> Tile {
-        let mut key = [0; 32];
-        let words = [self.key[0], self.key[1], row as u64, column as u64];
-        key.chunks_exact_mut(8)
-            .zip(words)
-            .for_each(|(bytes, word)| bytes.copy_from_slice(&word.to_le_bytes()));
-        let mut random = ChaCha8Rng::from_seed(key);
-        let mut uniform = || (random.next_u64() >> 11) as f64 / 9_007_199_254_740_992.0;
+        let mut random = stream([self.key[0], self.key[1], row as u64, column as u64]);
+        let mut uniform = || uniform(&mut random);
         let starts = self.source.points - self.source.piece + 1;
         Tile {
             start: (uniform() * starts as f64) as usize,

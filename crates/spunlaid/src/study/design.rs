@@ -1,6 +1,7 @@
 //! Designs: how the values of the factors are combined into points.
 
 use super::{Input, RandomUse, stream};
+use crate::random::uniform;
 use crate::units::Dimension;
 use rand_chacha::rand_core::Rng;
 
@@ -156,7 +157,7 @@ fn latin(points: u64, seed: u64, factor: u64) -> Vec<f64> {
         let other = random.next_u64() % (last as u64 + 1);
         order.swap(last, other as usize);
     }
-    let mut share = || (random.next_u64() >> 11) as f64 * (0.5 * f64::EPSILON);
+    let mut share = || uniform(&mut random);
     order.into_iter().map(|slice| (slice as f64 + share()) / points as f64).collect()
 }
 

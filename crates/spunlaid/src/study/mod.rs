@@ -42,7 +42,7 @@ use crate::case::Case;
 use crate::layers::WebSpec;
 use crate::units::{Dimension, Expression};
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use rand_chacha::rand_core::Rng;
 
 /// A study: the points, and the number of replicates of each.
 #[derive(Clone, Debug)]
@@ -215,12 +215,7 @@ enum RandomUse {
 }
 
 fn stream(seed: u64, purpose: RandomUse, index: u64) -> ChaCha8Rng {
-    let mut key = [0; 32];
-    // The turbulence counts velocity components in the last word, so its streams differ from these.
-    for (bytes, word) in key.chunks_exact_mut(8).zip([seed, index, purpose as u64, u64::MAX]) {
-        bytes.copy_from_slice(&word.to_le_bytes());
-    }
-    ChaCha8Rng::from_seed(key)
+    crate::random::stream([seed, index, purpose as u64, u64::MAX])
 }
 
 impl Study {

@@ -2,7 +2,7 @@
 
 use super::Surrogate;
 use crate::lanes::{Isa, Lanes, Register, Task, WIDTH, Wide, cos_sin_turn, log2};
-use rand_chacha::ChaCha8Rng;
+use crate::random::stream;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::array::from_fn;
@@ -23,11 +23,7 @@ impl PathKey {
     fn stream(self) -> Xoshiro256PlusPlus {
         // No wind has streams with this last word.
         const SURROGATE: u64 = 3;
-        let mut key = [0; 32];
-        for (bytes, word) in key.chunks_exact_mut(8).zip([self.seed, self.fibre, 0, SURROGATE]) {
-            bytes.copy_from_slice(&word.to_le_bytes());
-        }
-        Xoshiro256PlusPlus::from_rng(&mut ChaCha8Rng::from_seed(key))
+        Xoshiro256PlusPlus::from_rng(&mut stream([self.seed, self.fibre, 0, SURROGATE]))
     }
 }
 

@@ -1,8 +1,9 @@
 //! Defects of a line: holes that are blocked or feed more or less than the others, dead rows, filaments that broke.
 
 use super::canvas::Canvas;
-use super::nozzles::{random, sorted_nozzles, uniform};
+use super::nozzles::sorted_nozzles;
 use super::{Filaments, Sheet};
+use crate::random::{stream, uniform};
 use std::collections::BTreeMap;
 
 /// Last word of the keys of the choice of holes.
@@ -87,7 +88,7 @@ pub(crate) fn holes(
             holes.retain(|(_, place)| reach.contains(place));
         }
     }
-    let mut choice = random(seed, (layer as u64) << 48 | 1 << 47 | (number as u64) << 1, HOLES);
+    let mut choice = stream([seed, (layer as u64) << 48 | 1 << 47 | (number as u64) << 1, 0, HOLES]);
     holes.retain(|_| uniform(&mut choice) < defect.share);
     holes
 }

@@ -1,27 +1,12 @@
 //! Where the filaments of a layer come from.
 
 use super::{Filaments, Row, Sheet};
+use crate::random::{stream, uniform};
 use crate::sort::sort_by_key;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
 
 /// Last word of the keys of the places of filaments, and of the depths in a slot.
 pub(super) const PLACES: u64 = 4;
 const DEPTHS: u64 = 6;
-
-/// A stream of random numbers of its own.
-pub(super) fn random(seed: u64, number: u64, kind: u64) -> ChaCha8Rng {
-    let mut key = [0; 32];
-    for (bytes, word) in key.chunks_exact_mut(8).zip([seed, number, 0, kind]) {
-        bytes.copy_from_slice(&word.to_le_bytes());
-    }
-    ChaCha8Rng::from_seed(key)
-}
-
-/// A random number from 0 to below 1.
-pub(super) fn uniform(random: &mut ChaCha8Rng) -> f64 {
-    (random.next_u64() >> 11) as f64 / 9_007_199_254_740_992.0
-}
 
 /// Where the inlets of the filaments of a layer are in cross and in machine direction, in order across the web [m].
 ///
@@ -42,7 +27,7 @@ pub(super) struct Nozzle {
 
 /// The nozzles of a layer, in order across the web. See [`inlets`].
 pub(super) fn sorted_nozzles(sheet: &Sheet, seed: u64, number: usize, filaments: &Filaments) -> Vec<Nozzle> {
-    let random = |kind| random(seed, (number as u64) << 48 | 1 << 47, kind);
+    let random = |kind| stream([seed, (number as u64) << 48 | 1 << 47, 0, kind]);
     let count = filaments.count(sheet);
     let single = |at: [f64; 2]| Nozzle { at, row: 1 };
     let mut nozzles: Vec<Nozzle> = match filaments {

@@ -3,11 +3,12 @@
 use super::canvas::CanvasPart;
 use super::defects::Titres;
 use super::lay::LayControl;
-use super::nozzles::{PLACES, inlets, random, uniform};
+use super::nozzles::{PLACES, inlets};
 use super::raster::{Draw, OUTSIDE, Pens};
 use super::{Fibres, Layer, Sheet, Web};
 use crate::error::{Error, Fault};
 use crate::lanes::{Isa, Lanes, WIDTH};
+use crate::random::{stream, uniform};
 use crate::surrogate::{PATH_POINTS, PathKey, Paths, Surrogate};
 use std::ops::Range;
 use std::sync::atomic::Ordering;
@@ -203,7 +204,7 @@ impl<'a> Plan<'a> {
     /// Where the straight traces of some filaments begin, across the web and along it [m].
     pub(super) fn start(&self, web: &Web, first: usize, count: usize) -> [Lanes; 2] {
         // Filaments start anywhere on the ring, so that it has no seam.
-        let mut starts = random(web.seed, self.number << 48 | first as u64, PLACES);
+        let mut starts = stream([web.seed, self.number << 48 | first as u64, 0, PLACES]);
         [
             Lanes::from_fn(|i| self.places[first + i.min(count - 1)]),
             Lanes::from_fn(|_| uniform(&mut starts) * web.sheet.length),

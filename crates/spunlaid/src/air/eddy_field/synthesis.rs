@@ -12,9 +12,10 @@ use super::plan::{Harmonic, Plan, projection};
 use super::transform::{ABREAST, Numbers, Transform, Turned, root};
 use crate::air::StreamKey;
 use crate::lanes::Isa;
+use crate::random::stream;
 use crate::threads::each;
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use rand_chacha::rand_core::Rng;
 use std::f64::consts::TAU;
 
 /// Number of different random phases.
@@ -236,14 +237,10 @@ impl Random {
         // Independent eddies have phases of their own, carried ones a walk that goes on.
         let eddy = if plan.way.is_carried() { 0 } else { generation as u64 };
         let last = FIELD | eddy << 32 | harmonic as u64;
-        let mut bytes = [0; 32];
-        for (bytes, word) in bytes.chunks_exact_mut(8).zip([key.seed, key.replicate, pair as u64, last]) {
-            bytes.copy_from_slice(&word.to_le_bytes());
-        }
         let carried = plan.way.is_carried() && plan.turn > 0.0;
         let steps = if carried { plan.generations.len() - 1 } else { 0 };
         Self {
-            stream: ChaCha8Rng::from_seed(bytes),
+            stream: stream([key.seed, key.replicate, pair as u64, last]),
             generation: if carried { generation } else { 0 },
             words: steps.div_ceil(32),
             steps: plan.generations.len() - 1,

@@ -1,8 +1,8 @@
 //! The source of the turbulence of a fibre.
 
 use super::super::{Air, EddyTurbulence};
+use crate::random::stream;
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 
 /// The key of the random phases of a fibre. Equal keys give equal turbulence, bit for bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,12 +16,7 @@ pub struct StreamKey {
 impl StreamKey {
     /// Random numbers of one velocity component of one eddy in one window of time.
     pub(super) fn stream(self, window: u64, eddy: u64, component: usize) -> ChaCha8Rng {
-        let mut key = [0; 32];
-        let last = component as u64 | window << 2;
-        for (bytes, word) in key.chunks_exact_mut(8).zip([self.seed, self.replicate, eddy, last]) {
-            bytes.copy_from_slice(&word.to_le_bytes());
-        }
-        ChaCha8Rng::from_seed(key)
+        stream([self.seed, self.replicate, eddy, component as u64 | window << 2])
     }
 }
 

@@ -7,14 +7,10 @@ use super::taper::Taper;
 use crate::company::PerLane;
 use crate::fft::{Complex, InverseTransform, WideComplex, unit};
 use crate::lanes::{Lanes, Register, Task, WIDTH, Wide, cos_sin_turn};
+use crate::random::uniform;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
 use std::f64::consts::{PI, SQRT_2};
-
-/// A random number in [0, 1).
-fn uniform(stream: &mut ChaCha8Rng) -> f64 {
-    (stream.next_u64() >> 11) as f64 * (0.5 * f64::EPSILON)
-}
 
 /// The samples of one window of random phases.
 pub(super) struct Synthesis<'a> {

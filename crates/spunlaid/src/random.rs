@@ -1,0 +1,22 @@
+//! Random numbers by key: equal keys give equal streams, bit for bit, and ChaCha makes those of neighbouring keys
+//! independent.
+//!
+//! What a stream is for stands in the last word of its key. A number from 0 to 3 is one of the turbulence of a fibre or of
+//! a surrogate, whatever else it holds; webs count theirs from 4 on, and studies have all bits set.
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+
+/// The stream of a key.
+pub(crate) fn stream(words: [u64; 4]) -> ChaCha8Rng {
+    let mut key = [0; 32];
+    for (bytes, word) in key.chunks_exact_mut(8).zip(words) {
+        bytes.copy_from_slice(&word.to_le_bytes());
+    }
+    ChaCha8Rng::from_seed(key)
+}
+
+/// A random number from 0 to below 1.
+pub(crate) fn uniform(random: &mut impl Rng) -> f64 {
+    (random.next_u64() >> 11) as f64 * (0.5 * f64::EPSILON)
+}
