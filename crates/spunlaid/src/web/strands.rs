@@ -37,10 +37,11 @@ fn strands_of(
     first: usize,
     by: LayControl<'_>,
 ) -> Result<Vec<Strand>, Error> {
-    let [places, mut along] = plan.start(web, first, WIDTH);
+    let count = WIDTH.min(plan.places.len() - first);
+    let [places, mut along] = plan.start(web, first, count);
     let (on, advance) = (WindowOnSheet::on_ring(window, &web.sheet), plan.layer.belt_ratio() * plan.piece);
-    let mut kept: Vec<Strands> = (first..plan.places.len()).take(WIDTH).map(|_| Strands::default()).collect();
-    plan.walk(web, first, kept.len(), by, |points| {
+    let mut kept: Vec<Strands> = (0..count).map(|_| Strands::default()).collect();
+    plan.walk(web, first, count, by, |points| {
         let longest = (points.len() - 1) as f64 * (plan.piece + advance);
         for (lane, kept) in kept.iter_mut().enumerate() {
             let at = |(i, point): (usize, &[Lanes; 2])| {
