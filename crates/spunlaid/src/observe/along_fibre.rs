@@ -10,20 +10,20 @@ use crate::vec3::Vec3;
 
 pub(super) const DECLARATION: Declaration = Declaration {
     measures: &[
-        Measure {
-            name: "amplitude_y_along_fibre",
-            column: "amplitude_y_along_fibre_m",
-            label: "Amplitude in y along the fibre",
-            series: "*y*",
-            ..AMPLITUDE
-        },
-        Measure {
-            name: "amplitude_z_along_fibre",
-            column: "amplitude_z_along_fibre_m",
-            label: "Amplitude in z along the fibre",
-            series: "*z*",
-            ..AMPLITUDE
-        },
+        AMPLITUDE
+            .observed(
+                "amplitude_y_along_fibre",
+                "amplitude_y_along_fibre_m",
+                "Amplitude in y along the fibre",
+            )
+            .series("*y*"),
+        AMPLITUDE
+            .observed(
+                "amplitude_z_along_fibre",
+                "amplitude_z_along_fibre_m",
+                "Amplitude in z along the fibre",
+            )
+            .series("*z*"),
     ],
     applies: fixed,
     observer: |flight| Box::new(Spread::new(flight)),

@@ -7,24 +7,20 @@ use crate::statistics::{EvenSample, quantile};
 
 pub(super) const DECLARATION: Declaration = Declaration {
     measures: &[
-        Measure {
-            name: "deflection_99",
-            column: "deflection_99_m",
-            label: "Deflection, 99 % of the time",
-            meaning: "distance from the axis through the root that the free end does not exceed at 99 % of \
+        DEFLECTION
+            .observed("deflection_99", "deflection_99_m", "Deflection, 99 % of the time")
+            .meaning(
+                "distance from the axis through the root that the free end does not exceed at 99 % of \
                 the recorded instants",
-            series: "99 %",
-            ..DEFLECTION
-        },
-        Measure {
-            name: "largest_deflection",
-            column: "largest_deflection_m",
-            label: "Largest deflection",
-            meaning: "largest distance of the free end from the axis through the root at the recorded \
+            )
+            .series("99 %"),
+        DEFLECTION
+            .observed("largest_deflection", "largest_deflection_m", "Largest deflection")
+            .meaning(
+                "largest distance of the free end from the axis through the root at the recorded \
                 instants; it grows with the duration",
-            series: "largest",
-            ..DEFLECTION
-        },
+            )
+            .series("largest"),
     ],
     applies: fixed,
     observer: |_| Box::new(Deflection::default()),

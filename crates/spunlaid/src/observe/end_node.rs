@@ -5,34 +5,10 @@ use crate::flight::Flight;
 
 pub(super) const DECLARATION: Declaration = Declaration {
     measures: &[
-        Measure {
-            name: "amplitude_y",
-            column: "amplitude_y_m",
-            label: "Amplitude in y",
-            series: "*y*",
-            ..AMPLITUDE
-        },
-        Measure {
-            name: "amplitude_z",
-            column: "amplitude_z_m",
-            label: "Amplitude in z",
-            series: "*z*",
-            ..AMPLITUDE
-        },
-        Measure {
-            name: "frequency_y",
-            column: "frequency_y_hz",
-            label: "Frequency in y",
-            series: "*y*",
-            ..FREQUENCY
-        },
-        Measure {
-            name: "frequency_z",
-            column: "frequency_z_hz",
-            label: "Frequency in z",
-            series: "*z*",
-            ..FREQUENCY
-        },
+        AMPLITUDE.observed("amplitude_y", "amplitude_y_m", "Amplitude in y").series("*y*"),
+        AMPLITUDE.observed("amplitude_z", "amplitude_z_m", "Amplitude in z").series("*z*"),
+        FREQUENCY.observed("frequency_y", "frequency_y_hz", "Frequency in y").series("*y*"),
+        FREQUENCY.observed("frequency_z", "frequency_z_hz", "Frequency in z").series("*z*"),
         MEAN_X,
     ],
     applies: fixed,

@@ -13,31 +13,21 @@ use crate::statistics::{EvenSample, median};
 /// agree with those of the other schemes.
 pub(super) const WORK: Declaration = Declaration {
     measures: &[
-        Measure {
-            name: "work_error",
-            column: "work_error_percent",
-            label: "Work check, typical",
-            meaning: "the paper’s work check: difference between the work of all forces and the kinetic \
+        TYPICAL
+            .observed("work_error", "work_error_percent", "Work check, typical")
+            .meaning(
+                "the paper’s work check: difference between the work of all forces and the kinetic \
                 energy; median over time, the spin-up included. It shows only whether the steps are short \
                 against the motion",
-            series: "work check",
-            ..TYPICAL
-        },
-        Measure {
-            name: "work_error_at_end",
-            column: "work_error_at_end_percent",
-            label: "Work check, at the end",
-            meaning: "the work check at the end of the flight",
-            series: "work check",
-            ..AT_END
-        },
-        Measure {
-            name: "work_error_over_time",
-            column: "work_error_over_time_percent",
-            label: "Work check over time",
-            series: "work check",
-            ..OVER_TIME
-        },
+            )
+            .series("work check"),
+        AT_END
+            .observed("work_error_at_end", "work_error_at_end_percent", "Work check, at the end")
+            .meaning("the work check at the end of the flight")
+            .series("work check"),
+        OVER_TIME
+            .observed("work_error_over_time", "work_error_over_time_percent", "Work check over time")
+            .series("work check"),
     ],
     applies: |case| case.line.is_none() && case.run.scheme != Scheme::ImplicitTension,
     observer: |_| Errors::observer(Sample::work_error_percent, true),
@@ -46,31 +36,21 @@ pub(super) const WORK: Declaration = Declaration {
 /// The full energy balance.
 pub(super) const BALANCE: Declaration = Declaration {
     measures: &[
-        Measure {
-            name: "balance_error",
-            column: "balance_error_percent",
-            label: "Full balance, typical",
-            meaning: "error of the full energy balance, divided by the energy that flowed: by the work that came \
-                in from air, gravity and feed, or by the energy that is stored and that left; median over time, \
-                the spin-up included. It would reveal a wrong force",
-            series: "full balance",
-            ..TYPICAL
-        },
-        Measure {
-            name: "balance_error_at_end",
-            column: "balance_error_at_end_percent",
-            label: "Full balance, at the end",
-            meaning: "the full balance at the end of the flight",
-            series: "full balance",
-            ..AT_END
-        },
-        Measure {
-            name: "balance_error_over_time",
-            column: "balance_error_over_time_percent",
-            label: "Full balance over time",
-            series: "full balance",
-            ..OVER_TIME
-        },
+        TYPICAL
+            .observed("balance_error", "balance_error_percent", "Full balance, typical")
+            .meaning(
+                "error of the full energy balance, divided by the energy that flowed: by the work \
+                 that came in from air, gravity and feed, or by the energy that is stored and that \
+                 left; median over time, the spin-up included. It would reveal a wrong force",
+            )
+            .series("full balance"),
+        AT_END
+            .observed("balance_error_at_end", "balance_error_at_end_percent", "Full balance, at the end")
+            .meaning("the full balance at the end of the flight")
+            .series("full balance"),
+        OVER_TIME
+            .observed("balance_error_over_time", "balance_error_over_time_percent", "Full balance over time")
+            .series("full balance"),
     ],
     applies: always,
     observer: |_| Errors::observer(Sample::balance_error_percent, true),
@@ -79,25 +59,27 @@ pub(super) const BALANCE: Declaration = Declaration {
 /// Energy that the scheme takes out of the motion.
 pub(super) const DISSIPATION: Declaration = Declaration {
     measures: &[
-        Measure {
-            name: "tension_dissipation",
-            column: "tension_dissipation_percent",
-            label: "Axial waves damped by the scheme",
-            meaning: "energy that the scheme has taken out of the motion by damping axial waves, divided by the \
-                energy that flowed; median over time, the spin-up included. It is not an error: the full balance \
-                counts it",
-            aggregate: Aggregate::Median,
-            series: "typical",
-            ..TAKEN_OUT
-        },
-        Measure {
-            name: "tension_dissipation_at_end",
-            column: "tension_dissipation_at_end_percent",
-            label: "Axial waves damped, at the end",
-            meaning: "the same at the end of the flight",
-            series: "at the end",
-            ..TAKEN_OUT
-        },
+        TAKEN_OUT
+            .observed(
+                "tension_dissipation",
+                "tension_dissipation_percent",
+                "Axial waves damped by the scheme",
+            )
+            .meaning(
+                "energy that the scheme has taken out of the motion by damping axial waves, divided \
+                 by the energy that flowed; median over time, the spin-up included. It is not an \
+                 error: the full balance counts it",
+            )
+            .aggregate(Aggregate::Median)
+            .series("typical"),
+        TAKEN_OUT
+            .observed(
+                "tension_dissipation_at_end",
+                "tension_dissipation_at_end_percent",
+                "Axial waves damped, at the end",
+            )
+            .meaning("the same at the end of the flight")
+            .series("at the end"),
     ],
     applies: |case| case.run.scheme == Scheme::ImplicitTension,
     observer: |_| Errors::observer(Sample::tension_dissipation_percent, false),

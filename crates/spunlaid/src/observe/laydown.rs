@@ -19,102 +19,84 @@ const METRES: Unit = Unit { shown: "m", per_si: 1.0 };
 
 pub(super) const DECLARATION: Declaration = Declaration {
     measures: &[
-        Measure {
-            name: "sigma_md",
-            column: "sigma_md_m",
-            label: "Spread in machine direction",
-            meaning: "standard deviation of the laid fibre's place about its straight trace, in machine direction. \
-                A fibre that came down at one place would leave the straight trace",
-            series: "machine direction",
-            ..SPREAD
-        },
-        Measure {
-            name: "sigma_cd",
-            column: "sigma_cd_m",
-            label: "Spread in cross direction",
-            meaning: "the same in cross direction",
-            series: "cross direction",
-            ..SPREAD
-        },
-        Measure {
-            name: "half_correlation_length_md",
-            column: "half_correlation_length_md_m",
-            label: "Half correlation length in machine direction",
-            meaning: "length of fibre over which the autocorrelation of its place in machine direction falls \
-                to one half",
-            series: "machine direction",
-            ..HALF_LENGTH
-        },
-        Measure {
-            name: "half_correlation_length_cd",
-            column: "half_correlation_length_cd_m",
-            label: "Half correlation length in cross direction",
-            meaning: "the same in cross direction",
-            series: "cross direction",
-            ..HALF_LENGTH
-        },
-        Measure {
-            name: "belt_speed_ratio",
-            column: "belt_speed_ratio",
-            label: "Belt speed found from the laid fibre, over the true one",
-            meaning: "mean of −d md/ds along the laid fibre, divided by belt speed / feed speed. It is one within its \
-                      statistical error, whatever the fibre does",
-            figure: &figure("belt_speed_ratio", "Ratio of belt speeds", "ratio of belt speeds"),
-            ..RATIO_OF
-        },
-        Measure {
-            name: "orientation_md",
-            is_main: true,
-            column: "orientation_md",
-            label: "Orientation in machine direction",
-            meaning: "mean of cos² of the angle between chords of 10 mm of fibre and the machine direction: \
-                0.5 without orientation, 1 if all lie in machine direction",
-            figure: &figure("orientation", "Mean cos² to the machine direction", "orientation"),
-            ..RATIO_OF
-        },
-        Measure {
-            name: "chord_over_arc",
-            column: "chord_over_arc",
-            label: "Chord over arc at 10 mm",
-            meaning: "mean length on the belt of 10 mm of fibre, divided by 10 mm: the texture of the laid \
-                fibre, with straight elements. It gets smaller with a finer mesh, because a thin fibre folds \
-                more closely than elements can show; with elements longer than 10 mm it is not defined",
-            figure: &figure("chord_over_arc", "Chord over arc at 10 mm", "chord over arc"),
-            ..RATIO_OF
-        },
-        Measure {
-            name: "laid_length",
-            column: "laid_length_m",
-            label: "Length laid",
-            meaning: "length of fibre that was laid after the spin-up, from which the statistics are computed",
-            unit: METRES,
-            figure: &figure("laid_length", "Length laid", "length laid"),
-            ..RATIO_OF
-        },
-        Measure {
-            name: "nodes_in_air",
-            column: "nodes_in_air",
-            label: "Nodes in the air",
-            meaning: "mean number of nodes between the inlet and the newest touch-down",
-            figure: &figure("nodes_in_air", "Nodes in the air", "nodes in the air"),
-            ..RATIO_OF
-        },
-        Measure {
-            name: "sigma_1",
-            column: "sigma_1_m",
-            label: "σ₁ of the surrogate",
-            meaning: "spread in machine direction, as the surrogate has it",
-            series: "*σ*_{1}",
-            ..SURROGATE_SPREAD
-        },
-        Measure {
-            name: "sigma_2",
-            column: "sigma_2_m",
-            label: "σ₂ of the surrogate",
-            meaning: "spread in cross direction, as the surrogate has it",
-            series: "*σ*_{2}",
-            ..SURROGATE_SPREAD
-        },
+        SPREAD
+            .observed("sigma_md", "sigma_md_m", "Spread in machine direction")
+            .meaning(
+                "standard deviation of the laid fibre's place about its straight trace, in machine \
+                 direction. A fibre that came down at one place would leave the straight trace",
+            )
+            .series("machine direction"),
+        SPREAD
+            .observed("sigma_cd", "sigma_cd_m", "Spread in cross direction")
+            .meaning("the same in cross direction")
+            .series("cross direction"),
+        HALF_LENGTH
+            .observed(
+                "half_correlation_length_md",
+                "half_correlation_length_md_m",
+                "Half correlation length in machine direction",
+            )
+            .meaning(
+                "length of fibre over which the autocorrelation of its place in machine direction \
+                 falls to one half",
+            )
+            .series("machine direction"),
+        HALF_LENGTH
+            .observed(
+                "half_correlation_length_cd",
+                "half_correlation_length_cd_m",
+                "Half correlation length in cross direction",
+            )
+            .meaning("the same in cross direction")
+            .series("cross direction"),
+        RATIO_OF
+            .observed(
+                "belt_speed_ratio",
+                "belt_speed_ratio",
+                "Belt speed found from the laid fibre, over the true one",
+            )
+            .meaning(
+                "mean of −d md/ds along the laid fibre, divided by belt speed / feed speed. It is one \
+                 within its statistical error, whatever the fibre does",
+            )
+            .figure(&figure("belt_speed_ratio", "Ratio of belt speeds", "ratio of belt speeds")),
+        RATIO_OF
+            .observed("orientation_md", "orientation_md", "Orientation in machine direction")
+            .main()
+            .meaning(
+                "mean of cos² of the angle between chords of 10 mm of fibre and the machine \
+                 direction: 0.5 without orientation, 1 if all lie in machine direction",
+            )
+            .figure(&figure("orientation", "Mean cos² to the machine direction", "orientation")),
+        RATIO_OF
+            .observed("chord_over_arc", "chord_over_arc", "Chord over arc at 10 mm")
+            .meaning(
+                "mean length on the belt of 10 mm of fibre, divided by 10 mm: the texture of the laid \
+                 fibre, with straight elements. It gets smaller with a finer mesh, because a thin \
+                 fibre folds more closely than elements can show; with elements longer than 10 mm it \
+                 is not defined",
+            )
+            .figure(&figure("chord_over_arc", "Chord over arc at 10 mm", "chord over arc")),
+        RATIO_OF
+            .observed("laid_length", "laid_length_m", "Length laid")
+            .meaning(
+                "length of fibre that was laid after the spin-up, from which the statistics are \
+                 computed",
+            )
+            .unit(METRES)
+            .figure(&figure("laid_length", "Length laid", "length laid")),
+        RATIO_OF
+            .observed("nodes_in_air", "nodes_in_air", "Nodes in the air")
+            .meaning("mean number of nodes between the inlet and the newest touch-down")
+            .figure(&figure("nodes_in_air", "Nodes in the air", "nodes in the air")),
+        SURROGATE_SPREAD
+            .observed("sigma_1", "sigma_1_m", "σ₁ of the surrogate")
+            .meaning("spread in machine direction, as the surrogate has it")
+            .series("*σ*_{1}"),
+        SURROGATE_SPREAD
+            .observed("sigma_2", "sigma_2_m", "σ₂ of the surrogate")
+            .meaning("spread in cross direction, as the surrogate has it")
+            .series("*σ*_{2}"),
         Measure {
             name: "noise",
             is_main: true,
@@ -127,34 +109,26 @@ pub(super) const DECLARATION: Declaration = Declaration {
             figure: &figure("noise", "Noise A of the surrogate", "noise of the surrogate"),
             ..Measure::NUMBER
         },
-        Measure {
-            name: "correlation_md",
-            column: "correlation_md",
-            label: "Autocorrelation in machine direction",
-            series: "machine direction",
-            ..CORRELATION
-        },
-        Measure {
-            name: "correlation_cd",
-            column: "correlation_cd",
-            label: "Autocorrelation in cross direction",
-            series: "cross direction",
-            ..CORRELATION
-        },
-        Measure {
-            name: "surrogate_correlation_md",
-            column: "surrogate_correlation_md",
-            label: "Autocorrelation of the surrogate in machine direction",
-            series: "surrogate, machine direction",
-            ..CORRELATION
-        },
-        Measure {
-            name: "surrogate_correlation_cd",
-            column: "surrogate_correlation_cd",
-            label: "Autocorrelation of the surrogate in cross direction",
-            series: "surrogate, cross direction",
-            ..CORRELATION
-        },
+        CORRELATION
+            .observed("correlation_md", "correlation_md", "Autocorrelation in machine direction")
+            .series("machine direction"),
+        CORRELATION
+            .observed("correlation_cd", "correlation_cd", "Autocorrelation in cross direction")
+            .series("cross direction"),
+        CORRELATION
+            .observed(
+                "surrogate_correlation_md",
+                "surrogate_correlation_md",
+                "Autocorrelation of the surrogate in machine direction",
+            )
+            .series("surrogate, machine direction"),
+        CORRELATION
+            .observed(
+                "surrogate_correlation_cd",
+                "surrogate_correlation_cd",
+                "Autocorrelation of the surrogate in cross direction",
+            )
+            .series("surrogate, cross direction"),
         Measure {
             name: "direction",
             column: "direction",

@@ -200,6 +200,16 @@ impl<T> Measure<T> {
         Self { column, label, unit, formula, ..Self::NUMBER }
     }
 
+    /// Another one that an observer takes: its name in a study file, in tables, and its label.
+    pub(super) const fn observed(
+        self,
+        name: &'static str,
+        column: &'static str,
+        label: &'static str,
+    ) -> Self {
+        Self { name, column, label, ..self }
+    }
+
     /// Sets its definition in words.
     pub(super) const fn meaning(self, meaning: &'static str) -> Self {
         Self { meaning, ..self }
@@ -208,6 +218,11 @@ impl<T> Measure<T> {
     /// Sets its label on the terminal; empty leaves it out there.
     pub(super) const fn short(self, short: &'static str) -> Self {
         Self { short: Some(short), ..self }
+    }
+
+    /// Sets the unit in which it is shown.
+    pub(super) const fn unit(self, unit: Unit) -> Self {
+        Self { unit, ..self }
     }
 
     /// Sets the SI value that is shown as zero.

@@ -7,24 +7,18 @@ use crate::lanes::Lanes;
 
 pub(super) const DECLARATION: Declaration = Declaration {
     measures: &[
-        Measure {
-            name: "root_tension",
-            column: "root_tension_n",
-            label: "Tension at the root, mean",
-            meaning: "mean over time of the tension of the element at the root, at the recorded instants",
-            series: "mean",
-            ..TENSION
-        },
-        Measure {
-            name: "peak_root_tension",
-            column: "peak_root_tension_n",
-            label: "Tension at the root, peak",
-            meaning: "largest tension of the element at the root at the recorded instants. As with the largest strain, \
-                      implicit tension makes it lower",
-            aggregate: Aggregate::Largest,
-            series: "peak",
-            ..TENSION
-        },
+        TENSION
+            .observed("root_tension", "root_tension_n", "Tension at the root, mean")
+            .meaning("mean over time of the tension of the element at the root, at the recorded instants")
+            .series("mean"),
+        TENSION
+            .observed("peak_root_tension", "peak_root_tension_n", "Tension at the root, peak")
+            .meaning(
+                "largest tension of the element at the root at the recorded instants. As with the \
+                 largest strain, implicit tension makes it lower",
+            )
+            .aggregate(Aggregate::Largest)
+            .series("peak"),
     ],
     applies: |case| case.fibre.root != Root::Free,
     observer: |_| {

@@ -10,20 +10,8 @@ use crate::statistics::{Welch, Window};
 
 pub(super) const DECLARATION: Declaration = Declaration {
     measures: &[
-        Measure {
-            name: "spectrum_y",
-            column: "spectrum_y_m2_hz",
-            label: "Spectrum of y",
-            series: "*y*",
-            ..SPECTRUM
-        },
-        Measure {
-            name: "spectrum_z",
-            column: "spectrum_z_m2_hz",
-            label: "Spectrum of z",
-            series: "*z*",
-            ..SPECTRUM
-        },
+        SPECTRUM.observed("spectrum_y", "spectrum_y_m2_hz", "Spectrum of y").series("*y*"),
+        SPECTRUM.observed("spectrum_z", "spectrum_z_m2_hz", "Spectrum of z").series("*z*"),
     ],
     applies: fixed,
     observer: |flight| Box::new(EndPositions::new(flight)),
