@@ -8,17 +8,14 @@ mod boundary_layer;
 mod curve;
 mod friction;
 mod normal;
-mod source;
-
-pub use boundary_layer::BoundaryLayer;
-pub use curve::Curve;
-pub use friction::FrictionLaw;
-pub use normal::NormalLaw;
-pub use source::Source;
 
 use crate::fibre::Fibre;
 use crate::lanes::{Lanes, Register, Simd, WIDTH, Wide, exp2, log2, power};
 use crate::vec3::Vec3;
+pub use boundary_layer::BoundaryLayer;
+pub use curve::Curve;
+pub use friction::FrictionLaw;
+pub use normal::NormalLaw;
 use std::f64::consts::PI;
 
 /// The drag laws and their constants.
@@ -227,4 +224,13 @@ impl<S: Simd> Split<S> {
     pub(crate) fn none() -> Self {
         Self { along: Wide::zero(), across: Vec3::zero(), powers: Wide::zero() }
     }
+}
+
+/// The publication of a law.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Source {
+    /// How a text names it: `Matsui 1976`.
+    pub short: &'static str,
+    /// Its entry in a list of references.
+    pub full: &'static str,
 }

@@ -11,9 +11,9 @@
 //! do not fit into the first-level cache.
 
 use super::at_elements::InstantStations;
-use super::eddy_wind::{InstantEddies, LastEddy};
 use super::surroundings::InstantFlow;
-use super::{AirInSpace, Eddies, EddyWind, Stations, Surroundings, Wind};
+use super::wind::EddyVelocities;
+use super::{AirInSpace, Eddies, Stations, Surroundings, Wind};
 use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
 
@@ -203,5 +203,52 @@ impl Atmosphere {
             Self::Way(_, stations) => stations.outside(lane),
             Self::Space(air) => air.outside(lane),
         }
+    }
+}
+
+/// The wind of eddies, and which element lies in which of them.
+#[derive(Clone, Debug)]
+pub struct EddyWind {
+    /// Which element lies in which eddy.
+    pub eddies: Eddies,
+    /// The wind in each eddy.
+    pub wind: Wind,
+}
+
+impl EddyWind {
+    /// Looks at the wind at a time [s].
+    #[inline(always)]
+    pub(super) fn look<S: Register>(&mut self, time: f64) -> InstantEddies<'_, S> {
+        InstantEddies { now: self.wind.blow(time), of_element: self.eddies.index_of_element() }
+    }
+}
+
+/// The wind of eddies at one instant.
+pub(crate) struct InstantEddies<'a, S: Register> {
+    now: EddyVelocities<'a, S>,
+    /// The eddy of each element.
+    of_element: &'a [u32],
+}
+
+/// The last eddy that was asked for, and its velocity [m/s].
+pub(crate) struct LastEddy<S: Register>(u32, Vec3<Wide<S>>);
+
+impl<S: Register> LastEddy<S> {
+    #[inline(always)]
+    pub(crate) fn none() -> Self {
+        // No eddy has this number.
+        Self(u32::MAX, Vec3::zero())
+    }
+}
+
+impl<S: Register> InstantEddies<'_, S> {
+    /// The wind at element `j`.
+    #[inline(always)]
+    pub(super) fn at(&self, j: usize, last: &mut LastEddy<S>) -> Vec3<Wide<S>> {
+        let eddy = self.of_element[j];
+        if eddy != last.0 {
+            *last = LastEddy(eddy, self.now.velocity(eddy));
+        }
+        last.1
     }
 }

@@ -15,7 +15,6 @@ mod dry_air;
 mod eddies;
 mod eddy_field;
 mod eddy_turbulence;
-mod eddy_wind;
 mod flow;
 mod from_file;
 mod in_space;
@@ -24,7 +23,6 @@ mod measured;
 mod placed_field;
 mod profile;
 pub mod spectrum;
-mod station_grid;
 mod stations;
 mod surroundings;
 #[cfg(test)]
@@ -33,16 +31,14 @@ mod wind;
 
 pub use at_places::AirAtPlaces;
 pub use at_points::PlaceAxes;
-pub use atmosphere::Atmosphere;
-pub(crate) use atmosphere::{Instant, Velocities, VelocityAt, VelocityTask};
+pub use atmosphere::{Atmosphere, EddyWind};
+pub(crate) use atmosphere::{Instant, LastEddy, Velocities, VelocityAt, VelocityTask};
 pub(crate) use dry_air::{HEAT_CAPACITY_OF_AIR, temperature_of};
 pub use dry_air::{SUTHERLAND_RANGE, density_at, kinematic_viscosity_at};
 pub use eddies::{Eddies, EddyModel};
 pub(crate) use eddy_field::Room;
 pub use eddy_field::{EddyField, Extent};
 pub use eddy_turbulence::EddyTurbulence;
-pub use eddy_wind::EddyWind;
-pub(crate) use eddy_wind::LastEddy;
 pub use flow::{Flow, FlowNumbers, LocalAir};
 pub use from_file::FileContent;
 pub use in_space::AirInSpace;
@@ -51,14 +47,12 @@ pub use measured::{APART, Measured, RecordLayout, RecordNumbers};
 pub use placed_field::{Axis, LENGTH_CONSTANT, PlacedField, TIME_CONSTANT};
 pub use profile::Profile;
 pub use spectrum::{Spectrum, SpectrumShape, SpectrumTable};
-pub use station_grid::StationGrid;
-pub use stations::Stations;
+pub use stations::{StationGrid, Stations};
 pub(crate) use stations::{Way, time_between_looks};
+use std::path::{Path, PathBuf};
 pub use surroundings::Surroundings;
 pub(crate) use wind::Sampling;
 pub use wind::{Stream, StreamKey, Wind};
-
-use std::path::{Path, PathBuf};
 
 /// The air of a case, in SI units. If the flow varies from place to place, the numbers that come from it are those
 /// along the fibre, see [`Air::settle`].

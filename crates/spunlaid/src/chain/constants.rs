@@ -1,7 +1,6 @@
 //! The constants of eight fibres that a step needs. The elements of a fibre are all alike.
 
 use super::friction::Friction;
-use super::node::Node;
 use super::{Common, Strand};
 use crate::company::PerLane;
 use crate::drag::DragLanes;
@@ -126,4 +125,15 @@ impl Constants {
     pub(crate) fn distance(&self, i: usize) -> Lanes {
         self.element.rest_length * Lanes::splat(i as f64)
     }
+}
+
+/// The constants of a node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Node {
+    pub(crate) mass: Lanes,
+    /// 0 if the node is held.
+    pub(crate) inverse_mass: Lanes,
+    /// Likewise along x; 0 also if the node slides on the belt.
+    pub(crate) inverse_mass_x: Lanes,
+    pub(crate) weight: Lanes,
 }

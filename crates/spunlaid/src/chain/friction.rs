@@ -1,6 +1,6 @@
 //! Friction on the belt.
 
-use super::node::Node;
+use super::constants::Node;
 use crate::lanes::{Lanes, WIDTH};
 use crate::line::Contact;
 use crate::vec3::Vec3;

@@ -8,7 +8,6 @@ pub(crate) mod forces;
 pub(crate) mod friction;
 pub(crate) mod implicit;
 pub(crate) mod laying;
-pub(crate) mod node;
 pub mod schemes;
 pub mod work;
 

@@ -4,8 +4,7 @@
 //! same way. So filaments at one place make no field there, whatever the cells are, and what they do to each
 //! other is equal and opposite. The parts are whole numbers of quanta, whose sum does not depend on the order.
 
-use super::field::{CELLS, HEIGHTS, SheetField};
-use super::{Charge, PERMITTIVITY};
+use super::{CELLS, Charge, HEIGHTS, PERMITTIVITY, SheetField};
 
 const MIDDLE: usize = CELLS / 2;
 /// Width of a cell at first, in mean distances of neighbours: between these the charge is no sheet.

@@ -1,7 +1,7 @@
 //! How deviations of filaments vary together, over the distance of their inlets.
 
 use super::{Curtain, FlownCurves};
-use crate::statistics::linear::{dot, solve_positive};
+use crate::statistics::{dot, solve_positive};
 use crate::threads::each;
 use std::collections::BTreeMap;
 

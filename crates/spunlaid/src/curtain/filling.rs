@@ -4,7 +4,7 @@ use super::covariance::Covariance;
 use super::{Curtain, FlownCurves};
 use crate::fibre::Place;
 use crate::sort::sort_by_key;
-use crate::statistics::linear::solve_positive;
+use crate::statistics::solve_positive;
 use crate::threads::each;
 
 /// Flown filaments from which a curve follows.

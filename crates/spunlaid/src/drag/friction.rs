@@ -1,8 +1,8 @@
 //! Drag laws along the fibre.
 
+use super::Source;
 use super::boundary_layer::BoundaryLayer;
 use super::curve::Curve;
-use super::source::Source;
 
 /// Drag law along the fibre.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! Laws of the drag across the fibre: each is a file of this folder and a line in the list.
 
-use super::source::Source;
+use super::Source;
 use std::ops::RangeInclusive;
 
 mod ju_shambaugh;

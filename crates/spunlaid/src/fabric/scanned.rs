@@ -1,7 +1,7 @@
 //! The fabric of a scan, as far as a map alone tells it.
 
+use super::FabricKeys;
 use super::air_through::Filaments;
-use super::given::FabricKeys;
 use super::tell::{Fabric, Laid, tell};
 use crate::scan::{Findings, PatchFindings};
 use std::f64::consts::PI;

@@ -2,7 +2,7 @@
 //! lightest section.
 
 use super::Known;
-use super::marked::Marked;
+use super::marks::Marked;
 use crate::statistics::{Estimate, quantile};
 use crate::web::Map;
 

@@ -48,7 +48,6 @@ mod evenness;
 mod fault;
 mod holes;
 mod lattice;
-mod layout;
 mod mesh;
 mod node;
 mod overview;
@@ -57,26 +56,23 @@ mod read;
 mod tree;
 mod values;
 
-pub use bricks::AirAround;
-pub use cells_of_file::{BlockKind, FieldCells};
-pub use layout::FieldLayout;
-pub use mesh::cells::{Cells, Shape};
-pub use overview::{Overview, Spread};
-pub use values::Values;
-
-pub(crate) use evenness::is_even;
-pub(crate) use read::ReadField;
-
 use crate::error::{Fault, FileError};
 use crate::vec3::Vec3;
+pub use bricks::AirAround;
 use bricks::Bricks;
+pub use cells_of_file::{BlockKind, FieldCells};
+pub(crate) use evenness::is_even;
 use holes::Holes;
 use lattice::Lattice;
 use mesh::Mesh;
+pub use mesh::cells::{Cells, Shape};
+pub use overview::{Overview, Spread};
 use points::Points;
+pub(crate) use read::ReadField;
 use std::fmt;
 use std::sync::OnceLock;
 use values::Quantities;
+pub use values::{FieldLayout, Values};
 
 /// Coordinates are limited to this value, so that squares of distances stay finite [m].
 const FARTHEST: f64 = 1e3 * values::LARGEST;

@@ -8,8 +8,7 @@ use super::values::{Values, least_misfit};
 use super::webs::Webs;
 use super::weights::{Matrix, gain};
 use crate::error::Error;
-use crate::statistics::linear::dot;
-use crate::statistics::student_t_95;
+use crate::statistics::{dot, student_t_95};
 
 /// Most trials that seek an end.
 const MOST: usize = 4;

@@ -3,7 +3,7 @@
 use super::search::Place;
 use super::webs::Webs;
 use super::weights::Matrix;
-use crate::statistics::linear::{dot, inverse};
+use crate::statistics::{dot, inverse};
 
 /// The numbers around a place as polynomials of second order through the means of all trials there.
 pub(super) struct Polynomials {

@@ -3,7 +3,7 @@
 use super::webs::{Trial, Webs};
 use super::weights::{Matrix, gain, information, misfit, weights};
 use crate::error::{Error, Fault};
-use crate::statistics::linear::{dot, inverse};
+use crate::statistics::{dot, inverse};
 
 /// Step of a slope, as a coordinate: at the beginning, and then a standard error between these ends. The mean
 /// of the webs jumps a little between trials, because a key may change which random numbers a filament takes;

@@ -3,7 +3,7 @@
 use super::search::Place;
 use super::webs::Webs;
 use super::weights::{Matrix, gain, mean_of, weights};
-use crate::statistics::linear::dot;
+use crate::statistics::dot;
 
 /// The errors of the values: what each cause does to the coordinates.
 pub(super) struct Errors {

@@ -7,7 +7,7 @@ use super::surface::Surface;
 use super::webs::Webs;
 use super::weights::{Matrix, gain, information, misfit, unexplained};
 use crate::error::Error;
-use crate::statistics::linear::inverse;
+use crate::statistics::inverse;
 
 /// Other values of a key are tried at these distances from the place [standard errors].
 const PROFILE: [f64; 3] = [-1.0, 0.0, 1.0];

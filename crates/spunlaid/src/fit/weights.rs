@@ -1,7 +1,7 @@
 //! How much each number counts: the inverse of their covariance from web to web, and what follows from it for
 //! the sought values.
 
-use crate::statistics::linear::{dot, inverse};
+use crate::statistics::{dot, inverse};
 
 /// Share of a covariance that is taken away, so that few webs do not seem to know how numbers go together.
 const SHRUNK: f64 = 0.1;

@@ -8,30 +8,27 @@ mod charge;
 mod comparison;
 mod fabric;
 mod few;
-mod files;
 mod flown_curtain;
 mod flyer;
 pub(crate) mod full_names;
 pub(crate) mod keys;
-mod plan;
 mod shared_air;
-mod sources;
 
+use crate::case::Case;
+use crate::case::keys::{self as case_keys, Value};
+use crate::ensemble::Curtain;
+use crate::error::{Error, Fault, Finding, Place, Problem};
+use crate::fabric::FabricKeys;
+use crate::surrogate::Surrogate;
+use crate::units::Dimension;
+use crate::web::{Defect, Edges, Fibres, Filaments, Layer, Sheet, Titres, Web, Window, inlets};
 pub use comparison::FewOfWeb;
 pub(crate) use comparison::{fits_memory, steps_in_same_air};
 pub use few::Compared;
 pub use flyer::{Flights, FlownFibres, FlownWeb, Flyer, LayerFibres, ProgressDisplay};
 pub use full_names::{place_in_web, web_key};
 pub use keys::{WEB, WEB_KEYS, WEB_TABLES, WebKey};
-pub use plan::PlannedFlight;
-
-use crate::case::Case;
-use crate::case::keys::{self as case_keys, Value};
-use crate::error::{Error, Fault, Finding, Place, Problem};
-use crate::fabric::FabricKeys;
-use crate::surrogate::Surrogate;
-use crate::units::Dimension;
-use crate::web::{Defect, Edges, Fibres, Filaments, Layer, Sheet, Titres, Web, Window};
+pub use shared_air::PlannedFlight;
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -316,4 +313,38 @@ pub(crate) fn too_small(
         is_short.then(|| (key, side, fault()))
     };
     sides.into_iter().zip(spreads).zip(closed).filter_map(patch)
+}
+
+impl WebSpec {
+    /// The filaments of a layer per metre of width, and where they are fed; None if there is no such layer.
+    pub fn curtain(&self, layer: usize) -> Option<Curtain> {
+        let filaments = &self.layers.get(layer)?.filaments;
+        let places = inlets(&self.sheet, self.seed, layer, filaments);
+        let mut inlets: Vec<f64> = places.into_iter().map(|[_, md]| md).collect();
+        inlets.sort_unstable_by(f64::total_cmp);
+        Some(Curtain { filaments_per_metre: filaments.count(&self.sheet) as f64 / self.sheet.width, inlets })
+    }
+}
+
+impl WebSpec {
+    /// The files from which the cases that it flies were read, each with the parts that it names, relative to
+    /// its folder.
+    pub fn files(&self) -> Vec<(&Path, &[PathBuf])> {
+        let flown = self.layers.iter().filter_map(|layer| match &layer.source {
+            LaydownSource::Case { case, .. } => Some(case),
+            _ => None,
+        });
+        flown.flat_map(|case| case.files()).collect()
+    }
+
+    /// The same web with these files at other paths.
+    pub fn with_files_at(&self, place: impl Fn(&Path) -> PathBuf) -> Self {
+        let mut web = self.clone();
+        for layer in &mut web.layers {
+            if let LaydownSource::Case { case, .. } = &mut layer.source {
+                *case = Arc::new(case.with_files_at(&place));
+            }
+        }
+        web
+    }
 }

@@ -220,6 +220,11 @@ impl<T> Measure<T> {
         Self { short: Some(short), ..self }
     }
 
+    /// Sets the statistic over the replicates that is shown.
+    pub(super) const fn aggregate(self, aggregate: Aggregate) -> Self {
+        Self { aggregate, ..self }
+    }
+
     /// Sets the unit in which it is shown.
     pub(super) const fn unit(self, unit: Unit) -> Self {
         Self { unit, ..self }

@@ -2,7 +2,7 @@
 
 use super::analysis::BLOCKS;
 use super::artefacts::Artefacts;
-use super::words::{hertz, number, time};
+use super::limits::{hertz, number, time};
 use super::{Analysis, Component, Interval, Reading, Record, Trend};
 use crate::error::{Fault, WAS, by_count, counted, listed};
 use crate::units::Dimension;

@@ -52,23 +52,19 @@ mod moments;
 mod parquet;
 mod rows;
 mod text;
-mod trend;
-mod words;
 
+use crate::error::{Fault, FileError, FileKind};
+use crate::file;
 pub use analysis::{Analysis, Component, Settings, SpectrumSettings};
 pub use compute::analyse;
 pub(crate) use compute::analyse_fluctuation;
 pub use correlation::{Autocorrelation, IntegralRule};
 pub use flat::FlatPart;
-pub use interval::Interval;
+pub use interval::{Interval, Trend};
 pub use moments::Moments;
-pub use text::parse_csv;
-pub use trend::Trend;
-
-use crate::error::{Fault, FileError, FileKind};
-use crate::file;
 use std::io::Read;
 use std::path::Path;
+pub use text::parse_csv;
 
 /// Largest number of samples in a record, over all components.
 pub const MOST_NUMBERS: usize = 1 << 28;

@@ -1,12 +1,10 @@
 //! Turns a picture into a map of basis weight and finds out how uneven it is.
 
 use super::chance::scatter;
-use super::doubt::{Doubt, FEWEST};
-use super::findings::{Findings, PatchFindings, SHARP, Settings};
+use super::findings::{Doubt, FEWEST, Findings, PatchFindings, SHARP, Settings};
 use super::foreign_parts::ForeignParts;
 use super::frame::Frame;
-use super::grey::grey_levels;
-use super::lamp::lamp_doubt;
+use super::lamp::{grey_levels, lamp_doubt};
 use super::levels::{above_zero, same_size};
 use super::note::notes;
 use super::optics::{blurred, noise_at_most};

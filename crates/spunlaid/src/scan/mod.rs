@@ -59,11 +59,9 @@
 
 mod analyse;
 mod chance;
-mod doubt;
 mod findings;
 mod foreign_parts;
 mod frame;
-mod grey;
 mod lamp;
 mod levels;
 mod note;
@@ -76,8 +74,7 @@ mod spots;
 mod weigh;
 
 pub use analyse::analyse;
-pub use doubt::{Doubt, FEWEST};
-pub use findings::{Findings, PatchFindings, Settings};
+pub use findings::{Doubt, FEWEST, Findings, PatchFindings, Settings};
 pub use foreign_parts::{ForeignParts, Spot};
 pub use optics::shortest_sharp_wave;
 pub use picture::{Format, Picture};

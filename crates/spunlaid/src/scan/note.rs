@@ -1,7 +1,6 @@
 //! What a reader of the results must know about the picture.
 
-use super::doubt::Doubt;
-use super::findings::{PatchFindings, Settings};
+use super::findings::{Doubt, PatchFindings, Settings};
 use super::foreign_parts::ForeignParts;
 use super::levels::per_cent;
 use super::picture::Picture;

@@ -1,6 +1,6 @@
 //! Turns a picture into a map of basis weight.
 
-use super::doubt::Doubt;
+use super::findings::Doubt;
 use super::levels::{above_zero, believed_shading, logs, mean_of, unusable, white_level};
 use super::picture::Picture;
 use super::shading::Shading;

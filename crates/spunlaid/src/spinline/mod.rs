@@ -10,7 +10,6 @@
 //! ```
 
 mod cooling;
-mod curtain;
 mod equality;
 mod integration;
 mod material;
@@ -23,14 +22,13 @@ mod surroundings;
 mod tests;
 mod thread;
 
+use crate::air::{Air, FileContent, HEAT_CAPACITY_OF_AIR, density_at};
+use crate::drag::{Drag, FrictionLaw};
+use crate::error::Fault;
 pub(crate) use cooling::{Cooled, SolidFilament};
 pub use material::{Crystals, Material, Polymer, PolymerFile, ZERO_CELSIUS};
 pub use solution::{Freezing, FreezingCause, Solution, Station};
 pub use surroundings::{AirChange, AirState, AirTable, Surroundings};
-
-use crate::air::{Air, FileContent};
-use crate::drag::{Drag, FrictionLaw};
-use crate::error::Fault;
 
 /// What is known of a spinline.
 #[derive(Clone, Debug, PartialEq)]
@@ -241,7 +239,7 @@ impl Spinline {
     /// # Errors
     /// As [`Spinline::solve`].
     pub fn solve_rows(&self, friction: FrictionLaw) -> Result<Vec<Solution>, Failure> {
-        curtain::solve(self, friction)
+        solve(self, friction)
     }
 }
 
@@ -260,4 +258,43 @@ impl Failure {
     fn new(key: &'static str, value: Option<f64>, fault: Fault) -> Self {
         Self { key, value, fault }
     }
+}
+
+/// The steady state of each row, the quenched side first.
+fn solve(line: &Spinline, friction: FrictionLaw) -> Result<Vec<Solution>, Failure> {
+    let first = steady::solve(line, friction, &line.air)?;
+    let Some(curtain) = line.curtain else { return Ok(vec![first]) };
+    let mut rows = vec![first];
+    for _ in 1..curtain.rows {
+        let Some(before) = rows.last() else { break };
+        let air = Surroundings::Behind(behind(before, curtain));
+        rows.push(steady::solve_near(line, friction, &air, before)?);
+    }
+    Ok(rows)
+}
+
+/// The air behind a row of filaments.                                                               theory.md (99)
+///
+/// The air goes towards the temperature and the speed of the filaments, and it never goes beyond them,
+/// however slowly it crosses the row. Where no air crosses it stays as it is. Radiation does not warm the
+/// air.
+fn behind(row: &Solution, curtain: Curtain) -> AirTable {
+    let mut air = AirTable::default();
+    for station in &row.stations {
+        let crossing = density_at(station.air_temperature) * station.air_cross_velocity;
+        let share = if crossing > 0.0 { curtain.filaments_per_metre / crossing } else { 0.0 };
+        air.distance.push(station.distance);
+        let dragged = towards(-share * station.friction, station.speed - station.air_velocity);
+        air.velocity.push(station.air_velocity + dragged);
+        air.cross_velocity.push(station.air_cross_velocity);
+        let change = share * station.convection / HEAT_CAPACITY_OF_AIR;
+        let warmed = towards(change, station.temperature - station.air_temperature);
+        air.temperature.push(station.air_temperature + warmed);
+    }
+    air
+}
+
+/// A change that ends at a gap: `gap (1 − e^(−change/gap))`, the change itself where it is small.
+fn towards(change: f64, gap: f64) -> f64 {
+    if gap == 0.0 { 0.0 } else { -gap * libm::expm1(-change / gap) }
 }

@@ -1,12 +1,9 @@
 //! Statistics over replicates and over time.
 
 mod difference;
-mod even_sample;
-pub(crate) mod linear;
 mod spectrum;
 
 pub use difference::{Difference, difference_of_deviations, difference_of_logarithms, student_t_95_at};
-pub use even_sample::EvenSample;
 pub use spectrum::{Spectrum, Welch, Window};
 
 /// A result over the replicates of an ensemble.
@@ -102,4 +99,124 @@ pub fn quantile(values: &[f64], share: f64) -> f64 {
 /// The median of the finite values; NaN without any value.
 pub fn median(values: &[f64]) -> f64 {
     quantile(values, 0.5)
+}
+
+/// Adds a multiple of a row to the sums.
+pub(crate) fn add(sums: &mut [f64], factor: f64, row: &[f64]) {
+    sums.iter_mut().zip(row).for_each(|(sum, x)| *sum += factor * x);
+}
+
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// The inverse of a symmetric positive definite matrix, by Gauss and Jordan.
+///
+/// # Errors
+/// The column of a singular matrix that follows from the columns before it, up to rounding.
+pub(crate) fn inverse(mut matrix: Vec<Vec<f64>>) -> Result<Vec<Vec<f64>>, usize> {
+    let size = matrix.len();
+    let scale: Vec<f64> = (0..size).map(|i| matrix[i][i]).collect();
+    let mut inverse: Vec<Vec<f64>> =
+        (0..size).map(|i| (0..size).map(|j| f64::from(u8::from(i == j))).collect()).collect();
+    for pivot in 0..size {
+        // The remaining diagonal is the part of this column that no earlier one explains.
+        let value = matrix[pivot][pivot];
+        if value.is_nan() || value <= 1e-9 * scale[pivot] {
+            return Err(pivot);
+        }
+        for row in [&mut matrix[pivot], &mut inverse[pivot]] {
+            row.iter_mut().for_each(|x| *x /= value);
+        }
+        let (from_matrix, from_inverse) = (matrix[pivot].clone(), inverse[pivot].clone());
+        for other in (0..size).filter(|other| *other != pivot) {
+            let factor = matrix[other][pivot];
+            for (row, from) in [(&mut matrix[other], &from_matrix), (&mut inverse[other], &from_inverse)] {
+                row.iter_mut().zip(from).for_each(|(x, y)| *x -= factor * y);
+            }
+        }
+    }
+    Ok(inverse)
+}
+
+/// The solution of equations with a symmetric positive definite matrix, by Cholesky; None if it is not
+/// definite. Only the diagonal and what lies below it is looked at.
+pub(crate) fn solve_positive(mut matrix: Vec<Vec<f64>>, mut sides: Vec<f64>) -> Option<Vec<f64>> {
+    let size = sides.len();
+    for i in 0..size {
+        for j in 0..=i {
+            let rest = matrix[i][j] - dot(&matrix[i][..j], &matrix[j][..j]);
+            matrix[i][j] = if i == j { rest.sqrt() } else { rest / matrix[j][j] };
+        }
+        if matrix[i][i].is_nan() || matrix[i][i] <= 0.0 {
+            return None;
+        }
+        sides[i] = (sides[i] - dot(&matrix[i][..i], &sides[..i])) / matrix[i][i];
+    }
+    for i in (0..size).rev() {
+        let later: f64 = (i + 1..size).map(|j| matrix[j][i] * sides[j]).sum();
+        sides[i] = (sides[i] - later) / matrix[i][i];
+    }
+    Some(sides)
+}
+
+/// Evenly spaced values of a series that is not kept: every value, until they are too many; then every
+/// second, every fourth and so on. Quantiles of a long series are found in them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EvenSample<T> {
+    values: Vec<T>,
+    every: u64,
+    count: u64,
+}
+
+impl<T> Default for EvenSample<T> {
+    fn default() -> Self {
+        Self { values: Vec::new(), every: 1, count: 0 }
+    }
+}
+
+impl<T> EvenSample<T> {
+    /// Most values that are kept. A series that is not longer is kept whole; of a longer one, half as many at
+    /// least are kept.
+    pub const MOST: usize = 1 << 14;
+
+    /// Takes the next value of the series.
+    pub fn push(&mut self, value: T) {
+        if self.count.is_multiple_of(self.every) {
+            if self.values.len() == Self::MOST {
+                let mut index = 0_usize;
+                self.values.retain(|_| {
+                    index += 1;
+                    !index.is_multiple_of(2)
+                });
+                // The length was even, so this value is one of those that stay.
+                self.every *= 2;
+            }
+            self.values.push(value);
+        }
+        self.count += 1;
+    }
+
+    /// The values that are kept, in their order.
+    pub fn values(&self) -> &[T] {
+        &self.values
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_series_is_kept_evenly_and_a_short_one_whole() {
+        let most = EvenSample::<u64>::MOST as u64;
+        for (length, every) in
+            [(5, 1), (most, 1), (most + 1, 2), (2 * most, 2), (2 * most + 1, 4), (1_000_000, 64)]
+        {
+            let mut thinned = EvenSample::default();
+            (0..length).for_each(|value| thinned.push(value));
+            let wanted: Vec<u64> = (0..length).step_by(every).collect();
+            assert!(thinned.values() == wanted && wanted.len() as u64 <= most, "{length}");
+        }
+    }
 }

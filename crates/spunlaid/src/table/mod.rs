@@ -42,20 +42,18 @@ mod head;
 mod lines;
 mod logical;
 mod parquet;
-mod probes;
 mod stamp;
 mod start;
 mod thousands;
 
-pub use head::{Head, scale};
-pub(crate) use logical::Meaning;
-pub(crate) use parquet::ParquetTable;
-pub(crate) use stamp::{FORMS, Stamp};
-
 use crate::error::{Fault, FileError, FileKind, Position, counted};
 use crate::units::excerpt;
 use cells::{Looks, Parting, number};
+pub use head::{Head, scale};
 use lines::{Line, Lines};
+pub(crate) use logical::Meaning;
+pub(crate) use parquet::ParquetTable;
+pub(crate) use stamp::{FORMS, Stamp};
 use std::collections::VecDeque;
 use std::io::Read;
 use std::ops::Range;

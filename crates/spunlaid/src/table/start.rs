@@ -1,9 +1,8 @@
 //! Finds the first row of a table and the line that names its columns.
 
 use super::cells::{Looks, Parting, is_comment};
-use super::head::{Head, is_unit};
+use super::head::{Head, is_unit, names_of_probes};
 use super::lines::Line;
-use super::probes;
 
 /// What is known before the first row is read.
 pub(super) struct Start {
@@ -77,7 +76,7 @@ pub(super) fn find(lines: &[Line]) -> Option<Start> {
     let row = content[first];
     if parting == Parting::Vectors {
         let above = lines[..row].iter().map(|line| line.text.as_str());
-        return start(row, parting, probes::names(above, width), row.saturating_sub(1));
+        return start(row, parting, names_of_probes(above, width), row.saturating_sub(1));
     }
     let above = row.checked_sub(1).map(|i| lines[i].text.as_str());
     if let Some(comment) = above.filter(|text| is_comment(text)) {

@@ -1,12 +1,12 @@
 //! What has been laid.
 
-use super::charged::ChargedCurtain;
 use super::few_findings::{FewDoubt, LayerFew};
 use super::lay::TimeSpent;
 use super::map::Map;
-use super::neighbours::NeighbourCorrelation;
 use super::window::Strand;
+use crate::charge::SheetHeight;
 use crate::error::Fault;
+use crate::statistics::student_t_95_at;
 
 /// Highest number of a cell, by which the quantum is chosen, over the mean one and over that of a single trace.
 pub(super) const HIGHEST: f64 = 4.0;
@@ -68,4 +68,47 @@ pub(super) fn too_full(cell: f64) -> Fault {
         "a cell of {cell:e} m holds more fibre than can be counted, since the filaments lie in few places"
     );
     Fault::new(message, "choose smaller cells (web.cell)")
+}
+
+/// The charged filaments of a layer, as they hung at the end of their flight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChargedCurtain {
+    /// Index of the layer.
+    pub layer: usize,
+    /// The strongest field beside them, at any height [V/m].
+    pub edge_field: f64,
+    /// Where they hung, from the inlet to the belt.
+    pub heights: Vec<SheetHeight>,
+}
+
+/// The correlation of the places where two filaments of a layer come down, at equal fed length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NeighbourCorrelation {
+    /// Index of the layer.
+    pub layer: usize,
+    /// Distance of their inlets in cross direction [m].
+    pub distance: f64,
+    /// Of the places in machine direction.
+    pub md: Correlation,
+    /// Of the places in cross direction.
+    pub cd: Correlation,
+}
+
+/// A correlation coefficient.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Correlation {
+    /// Its value.
+    pub value: f64,
+    /// Its standard error; None if too little was laid to know it.
+    pub standard_error: Option<f64>,
+    /// Degrees of freedom of the error; NaN without one.
+    pub degrees: f64,
+}
+
+impl Correlation {
+    /// The 95 % confidence interval, by Student's t; None if too little was laid to know it.
+    pub fn interval(&self) -> Option<[f64; 2]> {
+        let half = student_t_95_at(self.degrees) * self.standard_error?;
+        Some([self.value - half, self.value + half])
+    }
 }

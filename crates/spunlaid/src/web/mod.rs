@@ -7,7 +7,6 @@
 //! md is the machine direction, in which the belt moves the web; cd is the cross direction.
 
 mod canvas;
-mod charged;
 mod clouds;
 mod curves;
 mod defects;
@@ -20,21 +19,18 @@ mod findings;
 mod laid_web;
 mod lay;
 mod map;
-mod neighbours;
 mod nozzles;
 mod one_fibre;
 mod orientation;
 mod plan;
 mod raster;
 mod shared_error;
-mod strands;
 pub mod uniformity;
 mod waves;
-mod whole_error;
 mod window;
 
+use crate::surrogate::Surrogate;
 pub(crate) use canvas::{Canvas, CanvasPart};
-pub use charged::ChargedCurtain;
 pub use clouds::{Clouds, autocorrelation};
 pub use curves::Curves;
 pub(crate) use curves::OneAir;
@@ -47,23 +43,18 @@ pub(crate) use few::{
 };
 pub use few_findings::{FewDoubt, FewFilamentsCv, LayerFew};
 pub(crate) use few_findings::{LEAST_SAVING, TRIED};
-pub use findings::{Findings, PatchFindings, find, find_laid};
-pub use laid_web::{LaidWeb, SharedAirFindings};
-pub use lay::{LayControl, TimeSpent, lay, pieces};
+pub use findings::{Findings, PatchFindings, WholeError, find, find_laid};
+pub use laid_web::{ChargedCurtain, Correlation, LaidWeb, NeighbourCorrelation, SharedAirFindings};
+pub use lay::{LayControl, TimeSpent, lay, pieces, strands};
 pub use map::Map;
-pub use neighbours::{Correlation, NeighbourCorrelation};
 pub(crate) use nozzles::inlets;
 pub use one_fibre::{OneFibre, SingleFibres, one_fibre, straight_fibres};
 pub use orientation::{Orientation, orientation};
-pub use strands::strands;
+use std::sync::Arc;
 pub use uniformity::nearest_to_seen;
 pub use waves::{Places, Streaks};
-pub use whole_error::WholeError;
 pub use window::{Strand, Window};
 pub(crate) use window::{Strands, WindowOnSheet};
-
-use crate::surrogate::Surrogate;
-use std::sync::Arc;
 
 /// A sheet and what is laid on it.
 #[derive(Clone, Debug)]

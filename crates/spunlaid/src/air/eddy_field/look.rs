@@ -5,7 +5,7 @@
 //! compiled for the instruction set of the kernel that calls it.
 
 use super::EddyField;
-use super::brick::{BEFORE, NEEDED, READ};
+use super::lattice::{BEFORE, NEEDED, READ};
 use super::plan::Plan;
 use super::tape::{Rows, Tape};
 use crate::lanes::{Lanes, Register, Singles, WIDTH, Wide, indices, integers, singles};

@@ -6,8 +6,7 @@
 //!
 //! ```text
 //! way        travel time and age along the way; where the generations are
-//! lattice    the points across
-//! brick      how samples lie in memory
+//! lattice    the points across, and how samples lie in memory
 //! plan       the shape of the turbulence in each generation
 //! synthesis  random modes → two windows of a generation
 //! transform  Fourier transforms of sixteen signals abreast
@@ -16,10 +15,8 @@
 //! look       the fluctuation at a time and eight places
 //! ```
 
-mod brick;
 mod lattice;
 mod look;
-mod memory;
 mod plan;
 mod synthesis;
 mod tape;
@@ -29,16 +26,16 @@ mod transform;
 mod way;
 mod windows;
 
-pub use lattice::Extent;
-pub(crate) use look::EddyFields;
-
-use self::brick::{BEFORE, NEEDED};
 use self::plan::Plan;
 use self::synthesis::Synthesis;
 use self::tape::Tape;
 use self::way::EddyPath;
 use super::{Air, SpectrumShape, StreamKey};
 use crate::lanes::Isa;
+pub use lattice::Extent;
+use lattice::{BEFORE, Lattice, NEEDED, samples};
+pub(crate) use look::EddyFields;
+use plan::{BLOCKS, sizes};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -171,12 +168,12 @@ impl EddyField {
     ///
     /// * as of [`EddyField::new`]
     pub fn memory(fields: u64, air: &Air, distance: f64, extent: Extent, cutoff: f64) -> f64 {
-        memory::memory(fields, &EddyPath::new(air, distance), extent, cutoff)
+        memory(fields, &EddyPath::new(air, distance), extent, cutoff)
     }
 
     /// [`EddyField::memory`] of one field in a room.
     pub(crate) fn memory_in_room(air: &Air, room: &Room, cutoff: f64) -> f64 {
-        memory::memory(1, &room.way(air), room.extent, cutoff)
+        memory(1, &room.way(air), room.extent, cutoff)
     }
 
     /// Longest time between two looks at the air around a fibre that is fed [s]: an eighth of the shortest
@@ -215,4 +212,27 @@ impl EddyField {
         }
         self.made = times;
     }
+}
+
+/// The most memory that so many fields take, of which one at a time is made in such blocks [bytes].
+fn memory(fields: u64, way: &EddyPath, extent: Extent, cutoff: f64) -> f64 {
+    let (lattice, harmonics) = sizes(way, extent, cutoff);
+    let highest = way.stages.iter().map(|stage| stage.cutoff_frequency).fold(0.0, f64::max);
+    let (mut kept, mut making) = (0.0, 0.0_f64);
+    for (j, stage) in way.stages.iter().enumerate() {
+        let of_stage = harmonics as f64 * stage.cutoff_frequency / highest;
+        let samples = samples(of_stage.ceil() as usize);
+        let [youngest, oldest] = way.travels(j);
+        let looked_at = samples as f64 * (1.0 / BLOCKS + (oldest - youngest) * highest / harmonics as f64);
+        kept += tape::memory(&lattice, samples, looked_at) + of_stage * amplitudes_memory(&lattice);
+        making =
+            making.max(synthesis::memory(&lattice, of_stage) + tape::memory_while_joining(&lattice, samples));
+    }
+    kept * fields as f64 + making
+}
+
+/// Memory of the amplitudes of a harmonic [bytes].
+fn amplitudes_memory(lattice: &Lattice) -> f64 {
+    let [y, z] = lattice.most_waves().map(|most| (most + 1) as f64);
+    y * z * size_of::<f32>() as f64
 }

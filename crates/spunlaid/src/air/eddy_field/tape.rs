@@ -1,8 +1,7 @@
 //! The samples of one generation, in the order of their labels.
 
 use super::Plan;
-use super::brick::{BRICK, NEEDED, READ, REPEATED, ROW};
-use super::lattice::Lattice;
+use super::lattice::{BRICK, Lattice, NEEDED, READ, REPEATED, ROW};
 use super::synthesis::Synthesis;
 use super::transform::{ABREAST, Numbers};
 use super::windows::{BLOCKS, Rest, Windows};

@@ -1,6 +1,6 @@
 //! How windows follow each other and are joined to endless samples.
 
-use super::brick::{BRICK, REPEATED, ROW, line_size};
+use super::lattice::{BRICK, REPEATED, ROW, line_size};
 use super::synthesis::LineMaker;
 use super::transform::{ABREAST, Numbers};
 use crate::lanes::{Isa, Register, Sixteen, Task};

@@ -1,7 +1,7 @@
 //! How samples are divided among the windows of random phases.
 
 use super::sampling::Sampling;
-use super::taper::SPREAD;
+use super::synthesis::SPREAD;
 use std::ops::Range;
 
 /// How the samples are divided among the windows.

@@ -10,23 +10,20 @@
 
 mod grid;
 mod sampling;
-mod stream;
 mod stretches;
 mod synthesis;
-mod taper;
 mod windows;
 
-pub(crate) use sampling::Sampling;
-pub use stream::{Stream, StreamKey};
-
 use self::stretches::Stretches;
-use self::taper::{SPREAD, Taper};
+use self::synthesis::{SPREAD, Taper};
 use self::windows::Windows;
 use super::Air;
 use crate::company::PerLane;
 use crate::error::Error;
 use crate::lanes::{Isa, Lanes, Register, Task, Wide};
 use crate::vec3::Vec3;
+pub(crate) use sampling::Sampling;
+pub use sampling::{Stream, StreamKey};
 
 /// Cubics per sample spacing of a synthesised signal. A record has one per spacing.
 const CELLS: u64 = 16;

@@ -1,8 +1,7 @@
 //! Assigns stretches of a record to the eddies.
 
 use super::super::{EddyTurbulence, Measured};
-use super::sampling::Sampling;
-use super::stream::Stream;
+use super::sampling::{Sampling, Stream};
 use crate::company::PerLane;
 use crate::lanes::{Lanes, Register, WIDTH, Wide};
 use rand_chacha::ChaCha8Rng;

@@ -16,10 +16,8 @@
 
 use super::super::Air;
 use super::grid::{Grid, Share};
-use super::sampling::Sampling;
-use super::stream::Stream;
-use super::synthesis::Synthesis;
-use super::taper::SPREAD;
+use super::sampling::{Sampling, Stream};
+use super::synthesis::{SPREAD, Synthesis};
 use crate::company::PerLane;
 use crate::lanes::{Isa, Lanes};
 use std::ops::Range;

@@ -2,10 +2,9 @@
 
 use super::Tensions;
 use crate::chain::charged::Charged;
-use crate::chain::constants::{Constants, ElementConstants};
+use crate::chain::constants::{Constants, ElementConstants, Node};
 use crate::chain::force_pass::Integrator;
 use crate::chain::forces::Element;
-use crate::chain::node::Node;
 use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
 

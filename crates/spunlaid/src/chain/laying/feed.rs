@@ -2,8 +2,8 @@
 
 use super::{Feed, LayingState};
 use crate::chain::Chain;
+use crate::chain::constants::Node;
 use crate::chain::friction::Friction;
-use crate::chain::node::Node;
 use crate::lanes::{Lanes, WIDTH};
 use crate::vec3::Vec3;
 

@@ -14,18 +14,15 @@
 mod carried;
 mod feed;
 mod landing;
-mod sliding;
-
-pub(crate) use carried::CarriedEnergy;
 
 use super::Chain;
-use super::constants::Constants;
-use super::node::Node;
+use super::constants::{Constants, Node};
 use crate::fibre::{Fibre, Root};
 use crate::lanes::{Lanes, WIDTH};
 use crate::line::Line;
 use crate::nodes::Nodes;
 use crate::vec3::Vec3;
+pub(crate) use carried::CarriedEnergy;
 
 /// A point of a fibre that has been laid.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

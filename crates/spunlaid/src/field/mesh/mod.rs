@@ -2,15 +2,13 @@
 
 pub(super) mod cells;
 mod cut;
-mod faces;
 mod plane;
 
 use super::cells_of_file::{BlockKind, Blocks};
-use super::fault;
 use super::node::{self, Node, bounding_box, merge};
 use super::tree::Tree;
 use super::values::Quantities;
-use super::{Hint, mean, vector};
+use super::{Hint, fault, mean, vector};
 use crate::error::{Fault, FileError, Position};
 use crate::vec3::Vec3;
 use cells::Cells;
@@ -293,7 +291,7 @@ fn surface(triangles: &[[u32; 3]], nodes: &[Node], plane: Option<Plane>) -> Tree
             corners.extend_from_slice(triangle);
         }
     };
-    faces::match_up(nodes.len(), triangles.iter().copied(), |_, _| {}, alone);
+    cells::match_up(nodes.len(), triangles.iter().copied(), |_, _| {}, alone);
     corners.sort_unstable();
     corners.dedup();
     let at = |i: u32| {
@@ -328,6 +326,6 @@ fn with_adjacent(tetrahedra: &[[u32; 4]], nodes: usize) -> Vec<Tetrahedron> {
         tetrahedra[one as usize / 4].beyond[one as usize % 4] = other / 4;
         tetrahedra[other as usize / 4].beyond[other as usize % 4] = one / 4;
     };
-    faces::match_up(nodes, faces, pair, |_| {});
+    cells::match_up(nodes, faces, pair, |_| {});
     tetrahedra
 }

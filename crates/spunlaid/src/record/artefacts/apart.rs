@@ -1,6 +1,6 @@
 //! Finds dropouts: samples of one value that lies apart from all others.
 
-use super::robust::Robust;
+use super::Robust;
 use crate::units::shortest;
 
 /// Distance from the median where the tail of a distribution begins, in standard deviations.

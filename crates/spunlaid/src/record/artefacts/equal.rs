@@ -1,6 +1,6 @@
 //! Finds samples that repeat the one before: stretches in which the value is frozen, and values that are held.
 
-use super::robust::Robust;
+use super::Robust;
 use crate::statistics::median;
 use std::ops::Range;
 

@@ -1,6 +1,6 @@
 //! Finds spikes: one or a few samples that leap away and back.
 
-use super::robust::{Robust, thinned};
+use super::{Robust, thinned};
 use crate::statistics::{median, quantile};
 
 /// Least leap that is a spike, in standard deviations of the record: smaller ones do not change its statistics much.

@@ -1,9 +1,8 @@
 //! What is told of the samples of a component that are no velocities.
 
-use super::super::words::{hertz, number, time};
-use super::Record;
+use super::super::limits::{hertz, number, time};
 use super::apart::Apart;
-use super::robust::Robust;
+use super::{Record, Robust};
 use crate::error::{Fault, counted, listed};
 use std::ops::Range;
 

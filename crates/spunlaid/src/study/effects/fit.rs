@@ -1,7 +1,7 @@
 //! The least-squares fits of a study: their terms and their points.
 
 use super::{Contrast, Refusal};
-use crate::statistics::linear::{add, dot, inverse};
+use crate::statistics::{add, dot, inverse};
 use crate::study::{Design, Study};
 
 /// Largest variance inflation of an effect by the correlation of factors; 10 is a correlation of 0.95 between two.

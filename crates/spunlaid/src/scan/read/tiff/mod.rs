@@ -1,25 +1,22 @@
 //! Tagged image file format.
 
-mod fault;
-mod page;
 mod scale;
 
 use super::channels::{Extra, Pixels, pixels};
-use super::{MOST_PIXELS, RawPicture, unsupported, within_limits};
+use super::{MOST_PIXELS, RawPicture, broken, unsupported, within_limits};
 use crate::error::Fault;
-use fault::{compression_name, failed};
-use std::io::Cursor;
+use std::io::{Cursor, ErrorKind, Read, Seek};
 use tiff::decoder::ifd::Value;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
-use tiff::tags::Tag;
-use tiff::{ColorType, TiffError};
+use tiff::tags::{PhotometricInterpretation, Tag};
+use tiff::{ColorType, TiffError, TiffFormatError, TiffUnsupportedError};
 
 pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, Fault> {
     let mut limits = Limits::default();
     limits.decoding_buffer_size = 8 * MOST_PIXELS;
     limits.intermediate_buffer_size = 8 * MOST_PIXELS;
     let mut decoder = Decoder::new(Cursor::new(bytes)).map_err(failed)?.with_limits(limits);
-    let more = page::seek_full(&mut decoder)?;
+    let more = seek_full(&mut decoder)?;
     let (columns, rows) = decoder.dimensions().map_err(failed)?;
     let [columns, rows] = within_limits(columns.into(), rows.into())?;
     let photometric = small_tag(&mut decoder, Tag::PhotometricInterpretation);
@@ -158,4 +155,117 @@ fn leave_out_missing(decoder: &mut Decoder<Cursor<&[u8]>>, values: &mut [f64]) {
     if let Ok(missing) = text.trim().parse::<f64>() {
         values.iter_mut().filter(|value| **value == missing).for_each(|value| *value = f64::NAN);
     }
+}
+
+/// The bits of NewSubfileType of a page that is a smaller copy of another one, or its mask.
+const COPY_OR_MASK: u32 = 1 | 4;
+/// The value of the older SubfileType of a smaller copy.
+const OLD_COPY: u16 = 2;
+
+/// Goes to the first of the largest pages, and says whether the file has further pictures. A thumbnail is none.
+fn seek_full<R: Read + Seek>(decoder: &mut Decoder<R>) -> Result<bool, Fault> {
+    let mut pages = vec![Page::new(decoder)];
+    while decoder.more_images() {
+        // A page that cannot be read is not the scan; the places of the others must stay right.
+        pages.push(if decoder.next_image().is_ok() { Page::new(decoder) } else { Page::default() });
+    }
+    let whole = |page: &Page| page.pixels > 0 && !page.is_copy;
+    let among = |page: &&Page| !pages.iter().any(whole) || whole(page);
+    let largest = pages.iter().filter(among).map(|page| page.pixels).max().unwrap_or(0);
+    let best = pages.iter().position(|page| among(&page) && page.pixels == largest).unwrap_or(0);
+    if pages.len() > 1 {
+        decoder.seek_to_image(best).map_err(failed)?;
+    }
+    // Raw files of cameras keep the scan behind the thumbnail.
+    if pages[best].is_copy && pages[best].has_parts {
+        return Err(unsupported("a thumbnail in front and the picture itself in a part behind it", GREY));
+    }
+    Ok(pages.iter().filter(|page| whole(page)).count() > 1)
+}
+
+/// What tells the pages of a file apart.
+#[derive(Clone, Copy, Debug, Default)]
+struct Page {
+    /// Their number; zero if the page cannot be read.
+    pixels: u64,
+    /// Whether it is a smaller copy of another page, or its mask.
+    is_copy: bool,
+    /// Whether it has pages of its own.
+    has_parts: bool,
+}
+
+impl Page {
+    fn new<R: Read + Seek>(decoder: &mut Decoder<R>) -> Self {
+        let (columns, rows) = decoder.dimensions().unwrap_or_default();
+        let kind = decoder.find_tag_unsigned::<u32>(Tag::NewSubfileType).ok().flatten();
+        let old = decoder.find_tag_unsigned::<u16>(Tag::SubfileType).ok().flatten();
+        Self {
+            pixels: u64::from(columns) * u64::from(rows),
+            is_copy: kind.map_or(old == Some(OLD_COPY), |kind| kind & COPY_OR_MASK != 0),
+            has_parts: decoder.image_ifd().directory().contains(Tag::SubIfd),
+        }
+    }
+}
+
+/// A file that is broken, or whole but of a kind that the decoder does not know.
+fn failed(error: TiffError) -> Fault {
+    match error {
+        TiffError::UnsupportedError(kind) => unsupported(other_kind(&kind), GREY),
+        TiffError::UsageError(_) => unsupported("a predictor that does not fit its numbers", GREY),
+        TiffError::FormatError(
+            TiffFormatError::InvalidTagValueType(tag)
+            | TiffFormatError::RequiredTagNotFound(tag)
+            | TiffFormatError::InvalidCountForTag(tag, _),
+        ) => broken(&format!("its tag {} is missing or of a wrong kind", tag.to_u16())),
+        TiffError::FormatError(TiffFormatError::UnknownPredictor(number)) => {
+            unsupported(&format!("the predictor of number {number}"), GREY)
+        }
+        TiffError::FormatError(TiffFormatError::CompressedDataCorrupt(_)) => {
+            broken(&"its compressed data are damaged")
+        }
+        TiffError::FormatError(error) => broken(&error),
+        TiffError::IoError(error) if error.kind() == ErrorKind::UnexpectedEof => broken(&"it ends too early"),
+        TiffError::LimitsExceeded | TiffError::IntSizeError => {
+            broken(&"its strips, its tiles or their places are too large")
+        }
+        error => broken(&error),
+    }
+}
+
+fn other_kind(kind: &TiffUnsupportedError) -> &'static str {
+    use TiffUnsupportedError as Kind;
+    match kind {
+        Kind::FloatingPointPredictor(_) | Kind::HorizontalPredictor(_) => {
+            "a predictor that does not fit its numbers"
+        }
+        Kind::InconsistentBitsPerSample(_) => "channels of different numbers of bits",
+        Kind::UnsupportedSampleFormat(_) => "channels of different kinds of numbers",
+        Kind::ChromaSubsampling => "colours at fewer places than the brightness",
+        Kind::MisalignedTileBoundaries => "tiles that do not end at whole bytes",
+        Kind::InterpretationWithBits(PhotometricInterpretation::CIELab, _) => {
+            "colours of the kind CIE L*a*b*"
+        }
+        Kind::UnknownInterpretation => "colours of a kind that is not known (PhotometricInterpretation)",
+        _ => "pixels of another kind than those that are known",
+    }
+}
+
+/// The name of a compression.
+///
+/// Source: the list of compression codes of libtiff, `tiff.h`.
+fn compression_name(number: u16) -> String {
+    let name = match number {
+        2..=4 => "CCITT fax",
+        6 | 7 => "JPEG",
+        34_892 => "lossy JPEG",
+        33_003 | 33_004 | 33_005 | 34_712 => "JPEG 2000",
+        34_661 => "JBIG",
+        34_887 => "LERC",
+        34_925 => "LZMA",
+        50_000 => "Zstandard",
+        50_001 => "WebP",
+        50_002 | 52_546 => "JPEG XL",
+        other => return format!("the compression of number {other}"),
+    };
+    format!("{name} compression")
 }
