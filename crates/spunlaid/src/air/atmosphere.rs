@@ -10,7 +10,7 @@
 //! that are all written into a buffer beforehand cost up to a seventh of a step: the signals of many eddies
 //! do not fit into the first-level cache.
 
-use super::at_elements::InstantStations;
+use super::in_space::InstantStations;
 use super::surroundings::InstantFlow;
 use super::wind::EddyVelocities;
 use super::{AirInSpace, Eddies, Stations, Surroundings, Wind};

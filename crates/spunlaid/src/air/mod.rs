@@ -7,18 +7,14 @@
 //! Atmosphere → the velocity at each element at a time, from all of these
 //! ```
 
-mod at_elements;
 mod at_places;
-mod at_points;
 mod atmosphere;
 mod dry_air;
 mod eddies;
 mod eddy_field;
-mod eddy_turbulence;
 mod flow;
 mod from_file;
 mod in_space;
-mod lateral;
 mod measured;
 mod placed_field;
 mod profile;
@@ -29,20 +25,17 @@ mod surroundings;
 mod tests;
 mod wind;
 
-pub use at_places::AirAtPlaces;
-pub use at_points::PlaceAxes;
+pub use at_places::{AirAtPlaces, PlaceAxes};
 pub use atmosphere::{Atmosphere, EddyWind};
 pub(crate) use atmosphere::{Instant, LastEddy, Velocities, VelocityAt, VelocityTask};
 pub(crate) use dry_air::{HEAT_CAPACITY_OF_AIR, temperature_of};
 pub use dry_air::{SUTHERLAND_RANGE, density_at, kinematic_viscosity_at};
-pub use eddies::{Eddies, EddyModel};
+pub use eddies::{Eddies, EddyModel, EddyTurbulence};
 pub(crate) use eddy_field::Room;
 pub use eddy_field::{EddyField, Extent};
-pub use eddy_turbulence::EddyTurbulence;
 pub use flow::{Flow, FlowNumbers, LocalAir};
 pub use from_file::FileContent;
 pub use in_space::AirInSpace;
-pub use lateral::{Lateral, Widening};
 pub use measured::{APART, Measured, RecordLayout, RecordNumbers};
 pub use placed_field::{Axis, LENGTH_CONSTANT, PlacedField, TIME_CONSTANT};
 pub use profile::Profile;
@@ -216,5 +209,76 @@ impl Air {
         let most = if lasting.is_finite() { lasting.max(most) } else { most };
         let wanted = (2.0 * self.cutoff_frequency * duration).min(most).ceil().max(128.0);
         if wanted < (1u64 << 62) as f64 { (wanted as usize).next_power_of_two() } else { usize::MAX }
+    }
+}
+
+/// How the turbulence differs across the flow.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Lateral {
+    /// The same at each distance from the axis. Each fibre has turbulence of its own.
+    #[default]
+    Uniform,
+    /// A field in space with the lateral structure of von Kármán's isotropic turbulence, which many fibres share.
+    VonKarman {
+        /// Largest lateral wave number times the length scale, `k_max L_T` [-].
+        cutoff: f64,
+    },
+}
+
+impl Lateral {
+    /// `k_max L_T` of a case that leaves it out [-].
+    pub const USUAL_CUTOFF: f64 = 10.0;
+    /// Every kind; the second one has the usual cut-off.
+    pub const ALL: [Self; 2] = [Self::Uniform, Self::VonKarman { cutoff: Self::USUAL_CUTOFF }];
+
+    /// Name in the case file.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Uniform => "uniform",
+            Self::VonKarman { .. } => "von-karman",
+        }
+    }
+
+    /// `k_max L_T` [-]; none if the turbulence is the same across the flow.
+    pub const fn cutoff(self) -> Option<f64> {
+        match self {
+            Self::Uniform => None,
+            Self::VonKarman { cutoff } => Some(cutoff),
+        }
+    }
+}
+
+/// Where the mean flow of a profile widens as it slows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Widening {
+    /// Nowhere: the velocity of the profile is all.
+    None,
+    /// Along y, the machine direction, as in a plane channel.
+    MachineDirection,
+}
+
+impl Widening {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::None, Self::MachineDirection];
+
+    /// Name in the case file.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::MachineDirection => "md",
+        }
+    }
+}
+
+impl Air {
+    /// Whether the mean flow of a profile widens as it slows.
+    pub(crate) fn widens(&self) -> bool {
+        self.widening == Some(Widening::MachineDirection)
+    }
+
+    /// `k_max L_T` of the field of eddies in space [-]. None if the turbulence is the same across the flow,
+    /// and in still air, which has no turbulence.
+    pub fn field_cutoff(&self) -> Option<f64> {
+        self.lateral.cutoff().filter(|_| self.velocity != 0.0)
     }
 }

@@ -7,7 +7,7 @@
 //! A fed element does not stay with an eddy: it feels the air of the place where it is. Between two stations the signal
 //! is interpolated with weights that keep its variance.                                           theory.md (64)
 
-use super::at_elements::{AirAtElements, InstantStations};
+use super::in_space::{AirAtElements, InstantStations};
 use super::{Air, Eddies, EddyModel, EddyTurbulence, Flow, Surroundings, Wind};
 use crate::company::{PerLane, shared};
 use crate::fibre::Place;

@@ -1,9 +1,8 @@
 //! The filaments of a beam while they fly.
 
 use super::charge::BeamField;
-use super::filament::{Reach, Stretch};
 use super::neighbours::Neighbours;
-use super::pack::{self, Pack};
+use super::pack::{self, Pack, Reach, Stretch};
 use super::{Beam, BeamControl, BeamFindings};
 use crate::air::EddyField;
 use crate::error::{Error, Fault};

@@ -15,9 +15,7 @@
 //! ```
 
 mod abreast;
-mod air;
 mod charge;
-mod filament;
 mod flying;
 mod neighbours;
 mod pack;

@@ -8,12 +8,11 @@
 //! drift    r ← r + h v
 //! ```
 
-use super::charged::Charged;
 use super::constants::{Constants, ElementConstants};
 use super::force_pass::{ElementBlock, Integrator, force_pass};
 use super::forces::Element;
 use super::laying::LayingState;
-use super::work::{Kick, Supports, WorkDone, WorkRegisters};
+use super::work::{Charged, Kick, Supports, WorkDone, WorkRegisters};
 use super::{Chain, Stride};
 use crate::air::Velocities;
 use crate::lanes::{Lanes, Register, Wide};

@@ -1,20 +1,18 @@
 //! The fibre as a chain of beads: state, forces, time integration.
 
-pub(crate) mod charged;
 pub(crate) mod constants;
 pub(crate) mod explicit;
 pub(crate) mod force_pass;
 pub(crate) mod forces;
-pub(crate) mod friction;
 pub(crate) mod implicit;
 pub(crate) mod laying;
 pub mod schemes;
 pub mod work;
 
-use self::charged::Charged;
 use self::constants::Constants;
 use self::laying::LayingState;
 use self::schemes::Scheme;
+use self::work::Charged;
 use crate::company::{PerLane, shared};
 use crate::drag::{Curve, ElementDrag};
 use crate::fibre::Fibre;

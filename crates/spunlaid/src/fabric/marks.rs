@@ -1,5 +1,6 @@
 //! Places of the sheet that are worth a look: the thinnest ones, strips with their weakest section.
 
+use super::Marked;
 use super::patches::{lightest, weights};
 use super::strips::{StripPlace, StripSize, places as strip_places};
 use crate::web::Map;
@@ -63,22 +64,4 @@ fn patches(map: &Map, corner: f64, side: usize) -> Vec<Marked> {
             Marked { corner: [corner + at[0], at[1]], sides: [size; 2], weight }
         })
         .collect()
-}
-
-/// A rectangle of the sheet with its weight.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Marked {
-    /// Its corner in cross and in machine direction [m].
-    pub corner: [f64; 2],
-    /// Its sides [m].
-    pub sides: [f64; 2],
-    /// Its weight over the mean.
-    pub weight: f64,
-}
-
-impl Marked {
-    /// Its middle in cross and in machine direction [m].
-    pub fn middle(&self) -> [f64; 2] {
-        [0, 1].map(|axis| self.corner[axis] + 0.5 * self.sides[axis])
-    }
 }

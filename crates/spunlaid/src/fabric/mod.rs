@@ -11,8 +11,6 @@
 //! ```
 
 mod air_through;
-mod bare;
-mod known;
 mod light;
 mod marks;
 mod patches;
@@ -23,22 +21,20 @@ mod tell;
 #[cfg(test)]
 mod tests;
 mod usable;
-mod words;
 
+use crate::statistics::Estimate;
 pub use air_through::{Filaments, air_permeability, air_speed, davies, jackson_james, solid_fraction};
-pub use bare::{bare_area, formation, local_weights};
-pub use known::Known;
-pub use light::{opacity, scattering};
-pub use marks::{Marked, Marks};
+pub use light::{bare_area, formation, local_weights, opacity, scattering};
+pub use marks::Marks;
 pub(crate) use patches::NONE_FOUND;
 pub use patches::{HEAVIER, LIGHTER, QUANTILES, ThinPlaces, thin_places};
 pub use scanned::of_scan;
+use serde::ser::{Serialize, SerializeMap, Serializer};
 pub use streaks::{Streak, StreakSource, streaks};
 pub use strips::{StripPlace, StripSize, Strips, WEAK, strips};
 pub(crate) use tell::{ABOUT, PATCHES};
 pub use tell::{AirThrough, Fabric, FabricPatch, Laid, Opacity, tell};
 pub use usable::{Usable, usable};
-pub use words::about;
 
 /// What is given of the fabric and of its tests.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,4 +67,133 @@ impl FabricKeys {
         measured_opacity: None,
         opacity_weight: None,
     };
+}
+
+/// A number of a fabric, with what is known of it. There is none that stands alone as if it were exact, but
+/// for counts and for what follows from given numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Known {
+    /// It is just this.
+    Exact(f64),
+    /// A value and its standard error; none if the sheet is too small to say.
+    Value(f64, Option<f64>),
+    /// It is at least this.
+    AtLeast(f64),
+    /// It is at most this.
+    AtMost(f64),
+    /// It lies between these.
+    Between([f64; 2]),
+}
+
+impl Known {
+    /// A mean with its standard error.
+    const fn of(estimate: &Estimate) -> Self {
+        Self::Value(estimate.mean, estimate.standard_error)
+    }
+
+    /// The value, the bound, or the middle of the range.
+    pub const fn value(self) -> f64 {
+        match self {
+            Self::Exact(value) | Self::Value(value, _) | Self::AtLeast(value) | Self::AtMost(value) => value,
+            Self::Between([low, high]) => 0.5 * (low + high),
+        }
+    }
+
+    /// The value alone.
+    #[must_use]
+    const fn without_error(self) -> Self {
+        match self {
+            Self::Value(value, _) => Self::Value(value, None),
+            other => other,
+        }
+    }
+
+    /// In another unit, or as a multiple of something.
+    #[must_use]
+    pub fn times(self, factor: f64) -> Self {
+        match self {
+            Self::Exact(value) => Self::Exact(value * factor),
+            Self::Value(value, error) => Self::Value(value * factor, error.map(|error| error * factor.abs())),
+            Self::AtLeast(value) => Self::AtLeast(value * factor),
+            Self::AtMost(value) => Self::AtMost(value * factor),
+            Self::Between(ends) => Self::Between(ends.map(|end| end * factor)),
+        }
+    }
+}
+
+impl Serialize for Known {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let entries = match self {
+            Self::Exact(value) => return serializer.serialize_f64(*value),
+            Self::Value(value, error) => [Some(("value", Some(*value))), Some(("standard_error", *error))],
+            Self::AtLeast(least) => [Some(("at_least", Some(*least))), None],
+            Self::AtMost(most) => [Some(("at_most", Some(*most))), None],
+            Self::Between([low, high]) => [Some(("low", Some(*low))), Some(("high", Some(*high)))],
+        };
+        let mut map = serializer.serialize_map(None)?;
+        for (name, value) in entries.into_iter().flatten() {
+            map.serialize_entry(name, &value)?;
+        }
+        map.end()
+    }
+}
+
+/// Words, and what there is for them.
+const WORDS: &[(&[&str], &str)] = &[
+    (
+        &["formation", "cloudiness", "evenness", "uniformity"],
+        "Formation and cloudiness are results, not keys: `spunlaid web` tells the CV over patches, the \
+        cloudiness and the formation number, 1 for straight fibres at random (docs/fabric.md).",
+    ),
+    (
+        &["pinhole", "pin hole", "hole", "pore", "bare", "hydrohead", "hydrostatic head"],
+        "Holes and hydrohead are not told, because bonds and the calender make them: `spunlaid web` tells the bare \
+        area and thin places (docs/fabric.md).",
+    ),
+    (
+        &["thin spot", "thin place", "thick place", "thick spot"],
+        "Thin and thick places are results, not keys: `spunlaid web` tells patches per square metre that are \
+        lighter than 50, 70 and 80 % or heavier than 130 % of the mean (docs/fabric.md).",
+    ),
+    (
+        &["strength", "tensile", "tenacity", "elongation", "tear"],
+        "The strength of the fabric is not known here: it is made by the bonds. `spunlaid web` tells the \
+        weakest section of strips and the MD/CD ratio of stiffness of the directions alone (docs/fabric.md).",
+    ),
+    (
+        &["permeability", "porosity", "breathability"],
+        "The air permeability is a range that needs the thickness of the fabric (fabric.thickness); trust \
+        the ratio of two webs, not the number (docs/fabric.md).",
+    ),
+    (
+        &["softness", "drape", "handle", "hand feel", "linting", "abrasion", "shrinkage"],
+        "There is nothing for this: in a fabric it depends on bonds, finish and polymer, of which the \
+        program knows nothing.",
+    ),
+];
+
+/// What there is for a word of those who buy fabric; None for any other word.
+pub fn about(word: &str) -> Option<&'static str> {
+    let word = word.trim().to_lowercase().replace('-', " ");
+    let singular = word.strip_suffix('s').unwrap_or(&word);
+    let is_named = |words: &&[&str]| words.iter().any(|one| *one == word || *one == singular);
+    WORDS.iter().find(|(words, _)| is_named(words)).map(|(_, sentence)| *sentence)
+}
+
+/// A rectangle of the sheet with its weight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Marked {
+    /// Its corner in cross and in machine direction [m].
+    pub corner: [f64; 2],
+    /// Its sides [m].
+    pub sides: [f64; 2],
+    /// Its weight over the mean.
+    pub weight: f64,
+}
+
+impl Marked {
+    /// Its middle in cross and in machine direction [m].
+    pub fn middle(&self) -> [f64; 2] {
+        [0, 1].map(|axis| self.corner[axis] + 0.5 * self.sides[axis])
+    }
 }

@@ -2,7 +2,7 @@
 //! lightest section.
 
 use super::Known;
-use super::marks::Marked;
+use super::Marked;
 use crate::statistics::{Estimate, quantile};
 use crate::web::Map;
 

@@ -1,14 +1,13 @@
 //! Everything that is told of a fabric.
 
 use super::air_through::{Filaments, air_permeability, sensitivity, solid_fraction};
-use super::bare::{LOCAL, bare_area, formation as formation_number, local_weights};
-use super::known::Known;
+use super::light::{LOCAL, bare_area, formation as formation_number, local_weights};
 use super::marks::Marks;
 use super::patches::{ThinPlaces, thin_places, weights};
 use super::streaks::{Streak, StreakSource, streaks};
 use super::strips::{Strips, strips};
 use super::usable::{Usable, usable};
-use super::{FabricKeys, light};
+use super::{FabricKeys, Known, light};
 use crate::statistics::Estimate;
 use crate::threads::each;
 use crate::units::Dimension;

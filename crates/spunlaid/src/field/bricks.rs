@@ -6,7 +6,7 @@
 //!
 //! The content of a brick does not depend on who fills it, or when, so results are reproducible.
 
-use super::values::Quantities;
+use super::node::Quantities;
 use super::{Hint, Support};
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};

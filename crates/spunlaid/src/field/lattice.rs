@@ -2,8 +2,7 @@
 
 use super::cells_of_file::{BlockKind, Blocks};
 use super::fault;
-use super::node::Node;
-use super::values::{Quantities, check_range};
+use super::node::{Node, Quantities, check_range};
 use crate::error::{Fault, FileError};
 
 /// Coordinates that differ by less than this share of the extent count as equal.

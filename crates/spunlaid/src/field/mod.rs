@@ -50,11 +50,9 @@ mod holes;
 mod lattice;
 mod mesh;
 mod node;
-mod overview;
 mod points;
 mod read;
 mod tree;
-mod values;
 
 use crate::error::{Fault, FileError};
 use crate::vec3::Vec3;
@@ -62,20 +60,20 @@ pub use bricks::AirAround;
 use bricks::Bricks;
 pub use cells_of_file::{BlockKind, FieldCells};
 pub(crate) use evenness::is_even;
+pub use evenness::{Overview, Spread};
 use holes::Holes;
 use lattice::Lattice;
 use mesh::Mesh;
 pub use mesh::cells::{Cells, Shape};
-pub use overview::{Overview, Spread};
+use node::Quantities;
+pub use node::{FieldLayout, Values};
 use points::Points;
 pub(crate) use read::ReadField;
 use std::fmt;
 use std::sync::OnceLock;
-use values::Quantities;
-pub use values::{FieldLayout, Values};
 
 /// Coordinates are limited to this value, so that squares of distances stay finite [m].
-const FARTHEST: f64 = 1e3 * values::LARGEST;
+const FARTHEST: f64 = 1e3 * node::LARGEST;
 
 /// A place that lies less than this share of the extent beyond a side of the field's box lies on that side [-].
 const ROUNDING: f64 = 1e-9;

@@ -1,7 +1,7 @@
 //! The charge of the fibres of a flight, and what all fibres of their curtain do to them.
 
 use super::Flight;
-use crate::chain::charged::Charged;
+use crate::chain::work::Charged;
 use crate::charge::{ChargedNode, SheetField};
 use crate::lanes::Lanes;
 use std::sync::Arc;

@@ -1,7 +1,6 @@
 //! Statistics of a laid curve, point by point.
 
-use super::correlation::{LaggedProducts, half_lag};
-use super::footprint::Footprint;
+use super::{Footprint, LaggedProducts, half_lag};
 use std::collections::VecDeque;
 use std::f64::consts::PI;
 

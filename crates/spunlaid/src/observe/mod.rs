@@ -1,10 +1,10 @@
 //! What is measured of the fibres: each measure is declared once, with its name, unit, meaning and figure.
 //!
 //! ```text
-//! Flight → recorded instants → observers (one file each) → values of each fibre → statistics over replicates
+//! Flight → recorded instants → observers → values of each fibre → statistics over replicates
 //! ```
 //!
-//! A new measure of fibres is a file of this folder with a [`Declaration`], and a line in [`DECLARED`]. The
+//! A new measure of fibres is a [`Declaration`] beside those of the same part of the fibre, and a line in [`DECLARED`]. The
 //! summary, the tables, the report with its figures and CSV files, and the studies loop over the
 //! declarations.
 //!
@@ -14,31 +14,26 @@
 
 mod along_fibre;
 mod along_way;
-mod curvature;
-mod deflection;
 mod end_node;
 mod energy;
 mod fabric;
-mod flow;
-mod force_on_air;
 mod laydown;
-mod load;
 mod measure;
 mod momentum;
 mod record;
-mod residence;
-mod root_tension;
 mod sample;
 mod scan;
-mod spectrum;
 mod spinline;
 mod strain;
 mod web;
 
+use crate::case::Case;
+use crate::flight::{Flight, LaidPoint, Snapshot};
+use crate::lanes::WIDTH;
+pub use along_way::{FIBRE_ON_WAY, FORCE_ON_AIR};
 pub use fabric::{OF_FABRIC_PATCHES, OF_FABRICS, OF_STREAKS, OF_STRIPS, OF_THINNEST};
-pub use force_on_air::{FIBRE_ON_WAY, FORCE_ON_AIR};
 pub use laydown::{LAYDOWN, SURROGATE};
-pub use load::{OF_LOAD_PLACES, OF_LOADS};
+use measure::figure;
 pub use measure::{
     Aggregate, END_NODE, ENERGY, ErrorRole, FIBRE, Figure, Formula, Group, HERTZ, KELVIN, Kind,
     METRES_PER_SECOND, MILLIMETRES, MILLINEWTONS, Measure, Measured, OF_PERCENT, PER_METRE, PER_SQUARE_METRE,
@@ -48,29 +43,24 @@ pub(crate) use momentum::{MomentumBalance, NodeStates, StretchedBalance};
 pub use record::{OF_COMPONENTS, OF_RECORDS};
 pub use sample::Sample;
 pub use scan::{OF_SCANNED_PATCHES, OF_SCANS};
-pub use spinline::OF_SPINLINES;
+pub use spinline::{OF_LOAD_PLACES, OF_LOADS, OF_SPINLINES};
 pub use web::{OF_PATCHES, OF_WEBS};
-
-use crate::case::Case;
-use crate::flight::{Flight, LaidPoint, Snapshot};
-use crate::lanes::WIDTH;
-use measure::figure;
 
 /// Everything that is measured, in the order of the tables.
 pub const DECLARED: &[&Declaration] = &[
-    &end_node::DECLARATION,
-    &deflection::DECLARATION,
-    &residence::DECLARATION,
+    &end_node::MOTION,
+    &end_node::DEFLECTIONS,
+    &end_node::RESIDENCE,
     &along_fibre::DECLARATION,
-    &curvature::DECLARATION,
-    &spectrum::DECLARATION,
+    &along_fibre::CURVATURE,
+    &end_node::SPECTRA,
     &laydown::DECLARATION,
     &along_way::DECLARATION,
-    &force_on_air::DECLARATION,
-    &root_tension::DECLARATION,
+    &along_way::FORCES,
+    &strain::ROOT_TENSION,
     &strain::USUAL,
     &strain::LARGEST,
-    &flow::DECLARATION,
+    &strain::OUTSIDE_FLOW,
     &energy::WORK,
     &energy::BALANCE,
     &energy::DISSIPATION,

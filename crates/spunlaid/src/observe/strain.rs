@@ -1,9 +1,10 @@
-//! Strain of the elements.
+//! Strain of the fibre, tension at its root, and its time outside the given flow.
 
 use super::{
-    Aggregate, Declaration, FIBRE, Figure, Measure, Observation, Observer, PERCENT, Value, figure, fixed,
-    number_of_each,
+    Aggregate, Declaration, FIBRE, Figure, MILLINEWTONS, Measure, Observation, Observer, PERCENT, Value,
+    figure, fixed, number_of_each,
 };
+use crate::air::Flow;
 use crate::fibre::Root;
 use crate::flight::Flight;
 use crate::lanes::{Lanes, WIDTH};
@@ -146,6 +147,90 @@ impl Observer for Largest {
 
     fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
         vec![Value::Number(self.0.0[lane])]
+    }
+}
+
+pub(super) const ROOT_TENSION: Declaration = Declaration {
+    measures: &[
+        TENSION
+            .observed("root_tension", "root_tension_n", "Tension at the root, mean")
+            .meaning("mean over time of the tension of the element at the root, at the recorded instants")
+            .series("mean"),
+        TENSION
+            .observed("peak_root_tension", "peak_root_tension_n", "Tension at the root, peak")
+            .meaning(
+                "largest tension of the element at the root at the recorded instants. As with the \
+                 largest strain, implicit tension makes it lower",
+            )
+            .aggregate(Aggregate::Largest)
+            .series("peak"),
+    ],
+    applies: |case| case.fibre.root != Root::Free,
+    observer: |_| {
+        Box::new(RootTension { count: 0.0, sum: Lanes::ZERO, peak: Lanes::splat(f64::NEG_INFINITY) })
+    },
+};
+
+const TENSION: Measure = Measure {
+    unit: MILLINEWTONS,
+    group: FIBRE,
+    figure: &figure("root_tension", "Tension at the root", "tension at the root"),
+    ..Measure::NUMBER
+};
+
+/// Tension of the elements at the root after the spin-up [N].
+#[derive(Debug)]
+struct RootTension {
+    count: f64,
+    sum: Lanes,
+    peak: Lanes,
+}
+
+impl Observer for RootTension {
+    fn see(&mut self, observation: &Observation<'_>) {
+        if let (true, Some(&tension)) = (observation.settled, observation.snapshot.tension.first()) {
+            self.count += 1.0;
+            self.sum = self.sum + tension;
+            self.peak = Lanes::from_fn(|lane| self.peak.0[lane].max(tension.0[lane]));
+        }
+    }
+
+    fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
+        vec![Value::Number(self.sum.0[lane] / self.count), Value::Number(self.peak.0[lane])]
+    }
+}
+
+pub(super) const OUTSIDE_FLOW: Declaration = Declaration {
+    measures: &[Measure {
+        name: "share_outside_flow",
+        column: "share_outside_flow",
+        label: "Time outside the flow",
+        meaning: "share of the time that the elements spend outside the profile or the field, the spin-up \
+            included; the simulation uses the air at the nearest point there",
+        unit: PERCENT,
+        group: FIBRE,
+        figure: &figure("share_outside_flow", "Time outside the flow", "time outside the flow"),
+        series: "share",
+        ..Measure::NUMBER
+    }],
+    // A profile reaches from the inlet to the belt as far as it was measured; a fed fibre does not leave it sideways.
+    applies: |case| match case.air.flow {
+        Flow::Uniform => false,
+        Flow::Profile(_) => case.line.is_none(),
+        Flow::Field(_) => true,
+    },
+    observer: |_| Box::new(Outside),
+};
+
+/// The flight itself counts how often it looks up the flow outside.
+#[derive(Debug)]
+struct Outside;
+
+impl Observer for Outside {
+    fn see(&mut self, _: &Observation<'_>) {}
+
+    fn finish(&self, lane: usize, flight: &Flight) -> Vec<Value> {
+        vec![Value::Number(flight.outside(lane).unwrap_or(f64::NAN))]
     }
 }
 

@@ -1,16 +1,16 @@
 //! Turns a picture into a map of basis weight and finds out how uneven it is.
 
 use super::chance::scatter;
-use super::findings::{Doubt, FEWEST, Findings, PatchFindings, SHARP, Settings};
-use super::foreign_parts::ForeignParts;
+use super::findings::{Findings, PatchFindings, SHARP, Settings};
 use super::frame::Frame;
 use super::lamp::{grey_levels, lamp_doubt};
 use super::levels::{above_zero, same_size};
 use super::note::notes;
 use super::optics::{blurred, noise_at_most};
 use super::picture::Picture;
-use super::spots::Spots;
+use super::spots::{ForeignParts, Spots};
 use super::weigh::{Correction, Light, WeighedPicture, beside, weigh};
+use super::{Doubt, FEWEST};
 use crate::error::{Fault, FileError};
 use crate::units::{Dimension, shortest};
 use crate::web::uniformity::Unevenness;

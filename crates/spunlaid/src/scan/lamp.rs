@@ -1,6 +1,6 @@
 //! Whether the picture of the lamp can be believed.
 
-use super::findings::Doubt;
+use super::Doubt;
 use super::levels::per_cent;
 use super::picture::Picture;
 use crate::error::Fault;

@@ -1,9 +1,10 @@
 //! What a reader of the results must know about the picture.
 
-use super::findings::{Doubt, PatchFindings, Settings};
-use super::foreign_parts::ForeignParts;
+use super::Doubt;
+use super::findings::{PatchFindings, Settings};
 use super::levels::per_cent;
 use super::picture::Picture;
+use super::spots::ForeignParts;
 use super::weigh::{Light, WeighedPicture};
 use crate::error::Fault;
 use crate::units::{Dimension, shortest};

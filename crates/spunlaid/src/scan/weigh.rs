@@ -1,9 +1,8 @@
 //! Turns a picture into a map of basis weight.
 
-use super::findings::Doubt;
-use super::levels::{above_zero, believed_shading, logs, mean_of, unusable, white_level};
+use super::Doubt;
+use super::levels::{Shading, above_zero, believed_shading, logs, mean_of, unusable, white_level};
 use super::picture::Picture;
-use super::shading::Shading;
 use super::spots::{Spots, spots};
 use crate::error::Fault;
 use crate::units::shortest;

@@ -1,7 +1,6 @@
 //! The steady state of one filament: the shot that meets the end, what it says, and why there may be none.
 
-use super::shooting::{Hit, Miss, find, follow};
-use super::shot::Shot;
+use super::shooting::{Hit, Miss, Shot, find, follow};
 use super::solution::{Freezing, Solution, Station};
 use super::thread::{HEAT, LN_SPEED, PULL, Phase, TEMPERATURE, TENSION, Thread, WORK};
 use super::{End, Failure, Spinline, Surroundings, ZERO_CELSIUS};

@@ -1,8 +1,7 @@
 //! Exact solutions of threads. The forces that an exact solution leaves out are made too small to be seen, by
 //! a small density.
 
-use super::shooting::find;
-use super::shot::{Outcome, Shot, shoot};
+use super::shooting::{Outcome, Shot, find, shoot};
 use super::thread::{GRAVITY, LN_SPEED, TEMPERATURE, TENSION, Thread};
 use super::*;
 use std::f64::consts::PI;

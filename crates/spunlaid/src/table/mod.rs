@@ -39,25 +39,22 @@
 
 mod cells;
 mod head;
-mod lines;
 mod logical;
 mod parquet;
 mod stamp;
 mod start;
-mod thousands;
 
 use crate::error::{Fault, FileError, FileKind, Position, counted};
 use crate::units::excerpt;
-use cells::{Looks, Parting, number};
+use cells::{Digits, Looks, Parting, number};
 pub use head::{Head, scale};
-use lines::{Line, Lines};
 pub(crate) use logical::Meaning;
 pub(crate) use parquet::ParquetTable;
 pub(crate) use stamp::{FORMS, Stamp};
+use start::{Line, Lines};
 use std::collections::VecDeque;
 use std::io::Read;
 use std::ops::Range;
-use thousands::Digits;
 
 /// Longest line read [bytes].
 pub const LONGEST_LINE: usize = 1 << 16;

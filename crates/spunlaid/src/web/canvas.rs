@@ -2,6 +2,7 @@
 
 use super::laid_web::{HIGHEST, LaidWeb, too_full};
 use super::map::Map;
+use super::window::floor;
 use super::{Edges, Sheet};
 use crate::error::Fault;
 use std::ops::Range;
@@ -17,13 +18,6 @@ const FEWEST: f64 = 16.0;
 
 /// Most cells of a part on which a thread draws alone: four megabytes.
 const MOST_NEAR: i64 = 1 << 20;
-
-/// The largest whole number that is not above, without a call.
-#[inline(always)]
-pub(super) fn floor(at: f64) -> i64 {
-    let whole = at as i64;
-    whole - i64::from(whole as f64 > at)
-}
 
 /// The cells of a sheet while straight pieces are drawn on it. The masses are whole numbers of a quantum, so
 /// the map does not depend on the order of the pieces. In machine direction the sheet is a stretch of the

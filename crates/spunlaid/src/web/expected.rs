@@ -1,6 +1,6 @@
 //! The unevenness that is expected of webs of independent filaments, from single fibres.
 
-use super::lay::LayControl;
+use super::laid_web::LayControl;
 use super::one_fibre::{OneFibre, SingleFibres, one_fibre, straight_fibres};
 use super::plan::places;
 use super::{Edges, Fibres, Filaments, Layer, Sheet, Web};

@@ -2,42 +2,18 @@
 
 use super::Web;
 use super::canvas::{Canvas, CanvasPart};
-use super::laid_web::LaidWeb;
+use super::laid_web::{LaidWeb, LayControl};
 use super::plan::{Plan, plans};
 use super::window::{Strand, Strands, Window, WindowOnSheet};
 use crate::error::Error;
-use crate::lanes::{Isa, Lanes, WIDTH};
+use crate::lanes::{Lanes, WIDTH};
 use crate::threads::{lock, try_each};
 use std::ops::Range;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicU64};
-use std::time::Duration;
 
 /// Most filaments that a thread lays before it adds them to the map, and times that a thread does so at least.
 const MOST_TOGETHER: usize = 64 * WIDTH;
 const TIMES: usize = 8;
-
-/// Threads and instruction set of the computation, its progress and its stop flag.
-#[derive(Clone, Copy, Debug)]
-pub struct LayControl<'a> {
-    /// Number of threads. The map does not depend on it.
-    pub threads: usize,
-    /// Instruction set. The map does not depend on it.
-    pub isa: Isa,
-    /// Ends the laying when it is set.
-    pub stop: &'a AtomicBool,
-    /// Grows by the pieces of filaments that have been laid; [`pieces`] says how many there are.
-    pub laid: &'a AtomicU64,
-}
-
-/// Time that a computation took.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct TimeSpent {
-    /// All of it.
-    pub whole: Duration,
-    /// The parts that are shared among threads.
-    pub in_parallel: Duration,
-}
 
 /// Number of pieces that [`lay`] lays.
 ///

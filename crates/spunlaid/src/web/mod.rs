@@ -8,10 +8,8 @@
 
 mod canvas;
 mod clouds;
-mod curves;
 mod defects;
 mod doubt;
-mod doubts;
 mod expected;
 mod few;
 mod few_findings;
@@ -19,7 +17,6 @@ mod findings;
 mod laid_web;
 mod lay;
 mod map;
-mod nozzles;
 mod one_fibre;
 mod orientation;
 mod plan;
@@ -32,10 +29,8 @@ mod window;
 use crate::surrogate::Surrogate;
 pub(crate) use canvas::{Canvas, CanvasPart};
 pub use clouds::{Clouds, autocorrelation};
-pub use curves::Curves;
-pub(crate) use curves::OneAir;
 pub use defects::Defect;
-pub(crate) use defects::{Brush, Titres, holes};
+pub(crate) use defects::{Brush, Titres, holes, inlets};
 pub use doubt::Doubt;
 pub use expected::{ExpectedCv, expected_cv, inner_columns};
 pub(crate) use few::{
@@ -44,10 +39,13 @@ pub(crate) use few::{
 pub use few_findings::{FewDoubt, FewFilamentsCv, LayerFew};
 pub(crate) use few_findings::{LEAST_SAVING, TRIED};
 pub use findings::{Findings, PatchFindings, WholeError, find, find_laid};
-pub use laid_web::{ChargedCurtain, Correlation, LaidWeb, NeighbourCorrelation, SharedAirFindings};
-pub use lay::{LayControl, TimeSpent, lay, pieces, strands};
+pub(crate) use laid_web::OneAir;
+pub use laid_web::{
+    ChargedCurtain, Correlation, Curves, LaidWeb, LayControl, NeighbourCorrelation, SharedAirFindings,
+    TimeSpent,
+};
+pub use lay::{lay, pieces, strands};
 pub use map::Map;
-pub(crate) use nozzles::inlets;
 pub use one_fibre::{OneFibre, SingleFibres, one_fibre, straight_fibres};
 pub use orientation::{Orientation, orientation};
 use std::sync::Arc;

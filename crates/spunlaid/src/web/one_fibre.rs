@@ -1,6 +1,6 @@
 //! What one fibre alone says about the unevenness of a web of many.
 
-use super::lay::LayControl;
+use super::laid_web::LayControl;
 use super::lay::lay;
 use super::uniformity::boxes;
 use super::{Fibres, Filaments, Layer, Row, Sheet, Web};

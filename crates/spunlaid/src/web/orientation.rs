@@ -1,6 +1,6 @@
 //! The directions of the fibres in a web.
 
-use super::lay::LayControl;
+use super::laid_web::LayControl;
 use super::plan::Plan;
 use super::shared_error::{Part, SharedError};
 use super::{Curves, Fibres, Web};

@@ -1,9 +1,8 @@
 //! How the filaments of a layer are drawn: where they come down, in which pieces, with which random numbers.
 
 use super::canvas::CanvasPart;
-use super::defects::Titres;
-use super::lay::LayControl;
-use super::nozzles::{PLACES, inlets};
+use super::defects::{PLACES, Titres, inlets};
+use super::laid_web::LayControl;
 use super::raster::{Draw, OUTSIDE, Pens};
 use super::{Fibres, Layer, Sheet, Web};
 use crate::error::{Error, Fault};

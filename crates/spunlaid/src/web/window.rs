@@ -1,7 +1,13 @@
 //! Windows of the sheet, and the parts of fibres in them.
 
-use super::canvas::floor;
 use super::{Edges, Sheet};
+
+/// The largest whole number that is not above, without a call.
+#[inline(always)]
+pub(super) fn floor(at: f64) -> i64 {
+    let whole = at as i64;
+    whole - i64::from(whole as f64 > at)
+}
 
 /// A rectangle of the sheet, in cross and in machine direction [m].
 #[derive(Clone, Copy, Debug, PartialEq)]

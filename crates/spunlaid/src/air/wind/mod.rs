@@ -8,7 +8,6 @@
 //! A wind makes its samples as the time goes on. It keeps one block of them, so its memory does not grow with
 //! the duration of the flight.
 
-mod grid;
 mod sampling;
 mod stretches;
 mod synthesis;

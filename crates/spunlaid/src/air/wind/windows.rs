@@ -15,9 +15,8 @@
 //! follows, so that each window is made only once.
 
 use super::super::Air;
-use super::grid::{Grid, Share};
 use super::sampling::{Sampling, Stream};
-use super::synthesis::{SPREAD, Synthesis};
+use super::synthesis::{Grid, SPREAD, Share, Synthesis};
 use crate::company::PerLane;
 use crate::lanes::{Isa, Lanes};
 use std::ops::Range;

@@ -1,10 +1,10 @@
 //! The forces with the tensions of the last step, and the system of the accelerations.
 
 use super::Tensions;
-use crate::chain::charged::Charged;
 use crate::chain::constants::{Constants, ElementConstants, Node};
 use crate::chain::force_pass::Integrator;
 use crate::chain::forces::Element;
+use crate::chain::work::Charged;
 use crate::lanes::{Lanes, Register, Wide};
 use crate::vec3::Vec3;
 

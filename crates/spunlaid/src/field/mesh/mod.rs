@@ -5,9 +5,8 @@ mod cut;
 mod plane;
 
 use super::cells_of_file::{BlockKind, Blocks};
-use super::node::{self, Node, bounding_box, merge};
+use super::node::{self, Node, Quantities, bounding_box, merge};
 use super::tree::Tree;
-use super::values::Quantities;
 use super::{Hint, fault, mean, vector};
 use crate::error::{Fault, FileError, Position};
 use crate::vec3::Vec3;

@@ -4,8 +4,7 @@
 use super::Mesh;
 use super::cells::{Cells, Shape};
 use crate::error::{Fault, FileError};
-use crate::field::node::{Node, bounding_box};
-use crate::field::values::Quantities;
+use crate::field::node::{Node, Quantities, bounding_box};
 use crate::vec3::Vec3;
 
 /// Coordinates that differ by less than this share of the extent count as equal.

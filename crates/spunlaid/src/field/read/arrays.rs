@@ -1,8 +1,7 @@
 //! The arrays of a file by their names: the usual ones, or those that a case gives.
 
 use super::array::Array;
-use super::measure::Measure;
-use super::names::{COMPONENTS, ENDINGS, EPSILON, K, Name, OMEGA, ScaledColumn, VECTORS, first};
+use super::names::{COMPONENTS, ENDINGS, EPSILON, K, Measure, Name, OMEGA, ScaledColumn, VECTORS, first};
 use crate::error::{FileError, listed};
 use crate::field::FieldLayout;
 use crate::units::excerpt;

@@ -1,12 +1,11 @@
 //! Makes a field of the pieces of a file.
 
 use super::array::Array;
-use super::blanks::Blanks;
+use super::blanks::{Blanks, Gaps};
 use super::encoding::Budget;
-use super::gaps::Gaps;
 use super::join::{Part, join};
-use super::measure::Measure;
 use super::missing;
+use super::names::Measure;
 use super::piece::{Piece, Range, Reader};
 use super::times::one_time;
 use crate::error::{Fault, FileError, IS, by_count, counted};

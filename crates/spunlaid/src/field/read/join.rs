@@ -1,14 +1,12 @@
 //! Joins the pieces of a file, or of several, to one field.
 
-use super::blanks::Blanks;
-use super::gaps::Gaps;
+use super::blanks::{Blanks, Gaps};
 use super::grid::{Grid, combinations};
 use crate::error::{Fault, FileError, by_count, counted};
-use crate::field::fault;
 use crate::field::holes::Holes;
 use crate::field::lattice::order;
 use crate::field::node::{bounding_box, compare};
-use crate::field::{Cells, Field, Shape, Values};
+use crate::field::{Cells, Field, Shape, Values, fault};
 use crate::vec3::Vec3;
 use std::borrow::Cow;
 

@@ -1,8 +1,7 @@
 //! What a file lacks, and which of its arrays may be meant.
 
 use super::arrays::Arrays;
-use super::measure::Measure;
-use super::names::{ENDINGS, EPSILON, K};
+use super::names::{ENDINGS, EPSILON, K, Measure};
 use crate::error::{Fault, nearest_word, one_of};
 use crate::units::excerpt;
 

@@ -2,14 +2,13 @@
 
 use super::array::Array;
 use super::arrays::{Arrays, Velocity};
-use super::blanks::Blanks;
+use super::blanks::{Blanks, Gaps};
 use super::encoding::Budget;
-use super::gaps::Gaps;
 use super::grid::{Grid, vectors};
-use super::measure::Measure;
 use super::missing;
+use super::names::Measure;
 use crate::error::{Fault, FileError};
-use crate::field::values::C_MU;
+use crate::field::node::C_MU;
 use crate::field::{FieldLayout, Values};
 use crate::vec3::Vec3;
 

@@ -7,16 +7,16 @@
 //!   └ StretchedBalance: of fibres in one air, in stretches of time that tell the error
 //! ```
 
-mod states;
-mod stretched;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use states::NodeStates;
-pub(crate) use stretched::StretchedBalance;
-
 use crate::case::Case;
-use crate::lanes::WIDTH;
+use crate::chain::schemes::Scheme;
+use crate::flight::{Flight, Snapshot};
+use crate::lanes::{Lanes, WIDTH};
+use crate::load::WayPlace;
+use crate::statistics::Estimate;
+use crate::vec3::Vec3;
 
 /// Classes of distance from the inlet.
 const CLASSES: usize = 50;
@@ -255,5 +255,125 @@ impl MomentumBalance {
         let [first, second, last] = [0, 1, 2].map(mean);
         let length = third as f64 * self.distance / forces.len() as f64;
         (3.0 * second - 2.0 * first - last) / length
+    }
+}
+
+/// What is known of the nodes of eight fibres at one instant.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct NodeStates<'a> {
+    /// Of the nodes [m, m/s].
+    pub(crate) position: &'a [Vec3<Lanes>],
+    pub(crate) velocity: &'a [Vec3<Lanes>],
+    /// Of the elements [N].
+    pub(crate) tension: &'a [Lanes],
+    /// Of the elements [N]; empty if it is not known.
+    pub(crate) drag: &'a [Vec3<Lanes>],
+    /// Number of nodes in each lane.
+    pub(crate) count: [usize; WIDTH],
+    /// By how much earlier than the positions the velocities are known, the tensions, and the drag [s].
+    pub(crate) velocity_lag: f64,
+    pub(crate) tension_lag: f64,
+    pub(crate) drag_lag: f64,
+}
+
+impl<'a> NodeStates<'a> {
+    /// Those of a flight between two steps, as its scheme keeps them.
+    ///
+    /// * `tension`, `drag` – of the elements
+    /// * `is_wanted` – whether to look at the fibre in a lane
+    pub(crate) fn between_steps(
+        flight: &'a Flight,
+        (tension, drag): (&'a [Lanes], &'a [Vec3<Lanes>]),
+        is_wanted: impl Fn(usize) -> bool,
+    ) -> Self {
+        let (chain, count) = (flight.chain(), flight.chain().nodes());
+        let lag = |lags: bool, steps: f64| if lags { steps * flight.time_step() } else { 0.0 };
+        Self {
+            position: &chain.position,
+            velocity: &chain.velocity,
+            tension,
+            drag,
+            count: std::array::from_fn(|lane| if is_wanted(lane) { count[lane] } else { 0 }),
+            velocity_lag: lag(flight.scheme().is_staggered(), 0.5),
+            tension_lag: lag(flight.scheme() == Scheme::ImplicitTension, 1.0),
+            drag_lag: flight.time_step(),
+        }
+    }
+
+    /// Those of a snapshot, which has its velocities at the time of its positions.
+    ///
+    /// * `fibres` – number of fibres; the lanes after the last one repeat the first
+    pub(crate) fn of(snapshot: &'a Snapshot, fibres: usize, tension_lag: f64) -> Self {
+        Self {
+            position: &snapshot.position,
+            velocity: &snapshot.velocity,
+            tension: &snapshot.tension,
+            drag: &snapshot.drag,
+            count: std::array::from_fn(|lane| if lane < fibres { snapshot.nodes[lane] } else { 0 }),
+            velocity_lag: 0.0,
+            tension_lag,
+            drag_lag: 0.0,
+        }
+    }
+}
+
+/// Length of a stretch of time that is independent of the next, in times from the inlet to the belt.
+const WAYS_OF_STRETCH: f64 = 2.0;
+
+/// Balances of one or more fibres of a case in stretches of time, one after the other.
+///
+/// Fibres that fly in one air are not independent of each other, but their stretches are, if these are long enough.
+#[derive(Clone, Debug)]
+pub(crate) struct StretchedBalance {
+    stretch: f64,
+    empty: MomentumBalance,
+    stretches: Vec<MomentumBalance>,
+}
+
+impl StretchedBalance {
+    pub(crate) fn new(case: &Case) -> Self {
+        let way = case.line.map_or(f64::NAN, |line| line.distance / line.feed_speed);
+        let empty = MomentumBalance::of(case);
+        Self { stretch: WAYS_OF_STRETCH * way, empty, stretches: Vec::new() }
+    }
+
+    /// Adds an instant of all lanes.
+    ///
+    /// * `time` – since the end of the spin-up [s]; nothing is added before
+    pub(crate) fn see(&mut self, nodes: &NodeStates<'_>, time: f64) {
+        if time < 0.0 {
+            return;
+        }
+        let stretch = (time / self.stretch) as usize;
+        self.reach(stretch + 1);
+        MomentumBalance::see(&mut self.stretches[stretch..=stretch], nodes);
+    }
+
+    /// Adds what other fibres have done during the same time.
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.reach(other.stretches.len());
+        self.stretches.iter_mut().zip(&other.stretches).for_each(|(all, other)| all.add(other));
+    }
+
+    fn reach(&mut self, stretches: usize) {
+        if self.stretches.len() < stretches {
+            self.stretches.resize(stretches, self.empty.clone());
+        }
+    }
+
+    /// Means and standard errors over the stretches; empty without one. The last one is left out if it is not
+    /// whole.
+    pub(crate) fn way(&self) -> Vec<WayPlace> {
+        let fullest = self.stretches.iter().map(|balance| balance.instants).fold(0.0, f64::max);
+        let whole = || self.stretches.iter().filter(|balance| balance.instants > 0.9 * fullest);
+        let all: Vec<[Vec<f64>; 2]> = whole().map(|balance| [balance.forces(), balance.lengths()]).collect();
+        let at = |(class, distance): (usize, f64)| {
+            let values =
+                |which: usize| all.iter().filter_map(move |of| of[which].get(class).copied()).collect();
+            let [force, fibre] = [0, 1].map(|which| Estimate::new(values(which)));
+            WayPlace { distance, force: force.mean, standard_error: force.standard_error, fibre: fibre.mean }
+        };
+        let places = whole().next().map(MomentumBalance::places).unwrap_or_default();
+        places.into_iter().enumerate().map(at).collect()
     }
 }
