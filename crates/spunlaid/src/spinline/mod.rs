@@ -313,8 +313,8 @@ impl PartialEq for Crystals {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::Polymer;
+mod equality_tests {
+    use super::Polymer;
     use super::*;
 
     #[test]
