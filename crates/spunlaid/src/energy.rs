@@ -84,8 +84,8 @@ impl Energy {
     }
 
     /// Potential and kinetic energy plus the dissipation of the implicit tension, minus the work of gravity,
-    /// drag, damping, electric field, feed and belt and the energy carried in with the fibre [J]. It differs from zero by the
-    /// error of the time integration only. theory.md (36)
+    /// drag, damping, electric field, feed and belt and the energy carried in with the fibre [J]. It differs from
+    /// zero by the error of the time integration only. theory.md (36)
     pub fn imbalance(&self) -> Lanes {
         let stored = self.kinetic + self.axial + self.bending + self.tension_dissipation;
         let supplied = self.initial + self.carried + self.feed_work + self.belt_work;

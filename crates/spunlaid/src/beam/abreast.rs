@@ -20,8 +20,8 @@ use std::collections::VecDeque;
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
-/// Largest lateral wave number of the air of beams that are compared, times its length scale. Smaller eddies change no CV
-/// from patches of 10 mm on, and hardly any change of it, but take as much time again.
+/// Largest lateral wave number of the air of beams that are compared, times its length scale. Smaller eddies change
+/// no CV from patches of 10 mm on, and hardly any change of it, but take as much time again.
 const HIGHEST: f64 = 8.0;
 
 /// What takes what the filaments of a beam lay.

@@ -21,8 +21,8 @@ const SIDE: usize = CELLS + 1;
 const DEEPEST: u32 = 6;
 /// Largest error of a brick, as a share of the largest value in the undivided brick.
 const ERROR: f64 = 1e-3;
-/// A brick that was divided more often than this may be wrong by twice as much for each division more: the layer about a
-/// kink where it is wrong is half as thick each time, and the fibre is in it half as long.
+/// A brick that was divided more often than this may be wrong by twice as much for each division more: the layer
+/// about a kink where it is wrong is half as thick each time, and the fibre is in it half as long.
 const FINE: u32 = 3;
 /// Points between those of the lattice where the error is measured.
 const PROBES: usize = 24;

@@ -4,8 +4,8 @@
 //! Flight → recorded instants → observers → values of each fibre → statistics over replicates
 //! ```
 //!
-//! A new measure of fibres is a [`Declaration`] beside those of the same part of the fibre, and a line in [`DECLARED`]. The
-//! summary, the tables, the report with its figures and CSV files, and the studies loop over the
+//! A new measure of fibres is a [`Declaration`] beside those of the same part of the fibre, and a line in
+//! [`DECLARED`]. The summary, the tables, the report with its figures and CSV files, and the studies loop over the
 //! declarations.
 //!
 //! A measure of anything else is a [`Measure`] with its [`Formula`] in a list: [`OF_WEBS`] and

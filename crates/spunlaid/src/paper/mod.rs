@@ -15,8 +15,8 @@ use crate::error::Error;
 use crate::input::{Unread, parse_case, parse_study};
 use crate::study::{PointResults, Study};
 
-/// Name and text of a file in the repository. A published crate holds no file from outside of its folder, so `cases` beside
-/// this file has a copy of each.
+/// Name and text of a file in the repository. A published crate holds no file from outside of its folder, so `cases`
+/// beside this file has a copy of each.
 macro_rules! file {
     ($name:literal) => {
         ($name, include_str!($name))

@@ -66,7 +66,8 @@ pub struct Findings {
     pub titre: Option<f64>,
     /// Pixels that needed care.
     pub pixels: Pixels,
-    /// What is only a guess about the lamp or the numbers, if anything: then nothing that depends on it has an interval.
+    /// What is only a guess about the lamp or the numbers, if anything: then nothing that depends on it has an
+    /// interval.
     pub guess: Option<Doubt>,
     /// The parts of the picture that are not web and were left out.
     pub aside: ForeignParts,

@@ -14,8 +14,9 @@
 //! | CSV | a line for each row of the map, as [`crate::table`] describes; an empty cell is a missing pixel; numbers of the rows and columns beside the map are left out |
 //!
 //! PNG and TIFF are turned as their orientation tells (Exif, TIFF tag 274). They tell the side of a pixel by
-//! their resolution, in the unit that ImageJ or OME-XML writes into the description, unless it is given. A PNG that tells the basis weight of black in a text,
-//! [`WEIGHT_OF_BLACK`], is a map of basis weight; `spunlaid web` writes such maps.
+//! their resolution, in the unit that ImageJ or OME-XML writes into the description, unless it is given. A PNG that
+//! tells the basis weight of black in a text, [`WEIGHT_OF_BLACK`], is a map of basis weight; `spunlaid web` writes
+//! such maps.
 //!
 //! **From light to basis weight**, by the law of Beer and Lambert: the optical density `ln(white/level)` is
 //! proportional to the mass that the light has passed. Only ratios of densities count, so the absorption of

@@ -3,8 +3,8 @@
 use super::canvas::CanvasPart;
 use crate::lanes::{Lanes, Register, Task, WIDTH, Wide};
 
-/// Columns and rows of a part beyond what is drawn on, on each side. A wrapped coordinate may be off by a rounding error,
-/// and its piece a cell further.
+/// Columns and rows of a part beyond what is drawn on, on each side. A wrapped coordinate may be off by a rounding
+/// error, and its piece a cell further.
 pub(super) const OUTSIDE: [i64; 2] = [1, 2];
 
 /// 2⁵²; the low bits of `2⁵² + integer` are the integer.

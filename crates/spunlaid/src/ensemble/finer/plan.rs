@@ -26,8 +26,8 @@ const COMPARED: f64 = 2.0;
 const PART_OF_LIMIT: f64 = 0.75;
 /// Time over which the motion of a fibre of fixed length is compared at least, in the time in which the air passes it.
 const PASSES: f64 = 5.0;
-/// Part of an eddy that an element is long at most where the error of a mesh has an order. Longer ones cannot follow the
-/// eddies: of Table 1 the frequency goes up with the first halvings and down with the next ones.
+/// Part of an eddy that an element is long at most where the error of a mesh has an order. Longer ones cannot follow
+/// the eddies: of Table 1 the frequency goes up with the first halvings and down with the next ones.
 const OF_AN_EDDY: f64 = 0.25;
 /// Most recorded instants at which paths are compared, so that they take little memory.
 const MOST_COMPARED: u64 = 1 << 14;

@@ -28,7 +28,8 @@ use watch::{CellSums, fly_each};
 const FAR: f64 = 0.05;
 /// Standard errors beyond which a difference is none by chance, of many replicates.
 const ERRORS: f64 = 3.0;
-/// Replicates below which the errors themselves are too uncertain, and the part by which the two forces may then differ.
+/// Replicates below which the errors themselves are too uncertain, and the part by which the two forces may then
+/// differ.
 const FEW: u64 = 3;
 const FAR_OF_FEW: f64 = 0.25;
 
@@ -37,8 +38,8 @@ const FAR_OF_FEW: f64 = 0.25;
 pub struct Curtain {
     /// Filaments per metre of width [1/m].
     pub filaments_per_metre: f64,
-    /// Where they are fed, from the middle of the slot in machine direction [m], in increasing order. The flown ones are
-    /// spread evenly over this list. Empty if all are fed in the middle.
+    /// Where they are fed, from the middle of the slot in machine direction [m], in increasing order. The flown ones
+    /// are spread evenly over this list. Empty if all are fed in the middle.
     pub inlets: Vec<f64>,
 }
 
@@ -62,8 +63,8 @@ pub struct Sources {
     pub along: Estimate,
     /// Along x of the case, outside of the cells [N/m].
     pub outside: Estimate,
-    /// Force along x of the case between the inlet and 95 % of the way to the belt [N/m]: of the drag on the elements, and
-    /// by the balance of the momentum of the same flights, which the belt disturbs below.
+    /// Force along x of the case between the inlet and 95 % of the way to the belt [N/m]: of the drag on the
+    /// elements, and by the balance of the momentum of the same flights, which the belt disturbs below.
     pub above_belt: [Estimate; 2],
     /// Heat of the filaments between the inlet and the belt, or why it is not known. It is not in the cells then.
     pub heat: Result<HeatSums, Fault>,
@@ -126,8 +127,8 @@ impl Sources {
     /// Flies the replicates of a case and finds what they do to the cells of its field.
     ///
     /// # Errors
-    /// If the case has no such cells ([`Sources::fault`]), or another thread stops the flights; and with the reason of the
-    /// first lost fibre, if so many are lost that fewer than two are left, or none of a single one.
+    /// If the case has no such cells ([`Sources::fault`]), or another thread stops the flights; and with the reason
+    /// of the first lost fibre, if so many are lost that fewer than two are left, or none of a single one.
     pub fn fly(case: &Case, curtain: &Curtain, by: RunControl<'_>) -> Result<Self, Error> {
         let fitting = fitting(case).map_err(Error::Flight)?;
         let mut merged = Merged::new(case, &fitting);
@@ -164,9 +165,9 @@ impl Sources {
         Ok(merged.finish(curtain.filaments_per_metre))
     }
 
-    /// Whether the force by the drag is that by the balance of momentum, as far as the flights tell. It is not while the
-    /// filaments still come down or swing themselves in: their momentum then changes, and the sources are those of no
-    /// steady air.
+    /// Whether the force by the drag is that by the balance of momentum, as far as the flights tell. It is not while
+    /// the filaments still come down or swing themselves in: their momentum then changes, and the sources are those
+    /// of no steady air.
     pub fn are_steady(&self) -> bool {
         let [drag, balance] = &self.above_belt;
         let apart = (balance.mean - drag.mean).abs() / drag.mean.abs().max(balance.mean.abs());

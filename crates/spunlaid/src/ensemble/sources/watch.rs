@@ -95,7 +95,8 @@ fn fly_until_lost(
     Ok(watches.into_iter().zip(balances).map(finish).collect())
 }
 
-/// Looks at a flight, which advances by one step: what it is, and the velocity of the air relative to each element [m/s].
+/// Looks at a flight, which advances by one step: what it is, and the velocity of the air relative to each element
+/// [m/s].
 ///
 /// * `step` – number of that step, from 0
 pub(super) fn see(flight: &mut Flight, step: u64) -> (Snapshot, Vec<Vec3<Lanes>>) {
