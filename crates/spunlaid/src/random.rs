@@ -1,8 +1,8 @@
 //! Random numbers by key: equal keys give equal streams, bit for bit, and ChaCha makes those of neighbouring keys
 //! independent.
 //!
-//! What a stream is for stands in the last word of its key. A number from 0 to 3 is one of the turbulence of a fibre
-//! or of a surrogate, whatever else it holds; webs count theirs from 4 on, and studies have all bits set.
+//! Whoever asks keeps its keys apart from those of the others: a wind has a component, 0 to 2, in the low bits of the
+//! last word, a path of a surrogate 3 in all of it, a field of eddies its highest bit, a study all of them.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
