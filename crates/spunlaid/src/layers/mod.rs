@@ -142,24 +142,19 @@ impl LayerSpec {
     /// A layer whose keys are set one after another.
     pub(crate) fn unknown(source: LaydownSource) -> Self {
         let nan = f64::NAN;
-        let (diameter, density, feed_speed, belt_speed) = (nan, nan, nan, nan);
-        let filaments = Filaments::AtRandom { per_metre: nan };
-        let (name, titre, throughput) = (None, None, None);
-        let defects = Vec::new();
-        let (charge, walls) = (None, None);
         Self {
-            name,
-            diameter,
-            titre,
-            density,
+            name: None,
+            diameter: nan,
+            titre: None,
+            density: nan,
             source,
-            feed_speed,
-            throughput,
-            belt_speed,
-            filaments,
-            defects,
-            charge,
-            walls,
+            feed_speed: nan,
+            throughput: None,
+            belt_speed: nan,
+            filaments: Filaments::AtRandom { per_metre: nan },
+            defects: Vec::new(),
+            charge: None,
+            walls: None,
         }
     }
 

@@ -95,13 +95,9 @@ pub(super) const CURVATURE: Declaration = Declaration {
         kind: Kind::Profile,
         group: FIBRE,
         figure: &Figure {
-            name: "curvature_along_fibre",
-            title: "Curvature along the fibre",
-            words: "curvature along the fibre",
-            logarithmic: false,
-            from_zero: true,
             caption: "Curvature at each node: the root mean square over time of one over the bending radius. \
                 Bends that are shorter than an element are not resolved.",
+            ..figure("curvature_along_fibre", "Curvature along the fibre", "curvature along the fibre")
         },
         series: "rms",
         ..Measure::NUMBER

@@ -23,13 +23,10 @@ pub(super) const DECLARATION: Declaration = Declaration {
             kind: Kind::Way,
             group: FIBRE,
             figure: &Figure {
-                name: "speed_along_way",
-                title: "Velocity towards the belt",
-                words: "velocity towards the belt",
-                logarithmic: false,
                 from_zero: false,
                 caption: "Mean velocity of the fibre towards the belt. It is below the feed speed where the \
                     fibre swings and folds.",
+                ..figure("speed_along_way", "Velocity towards the belt", "velocity towards the belt")
             },
             ..Measure::NUMBER
         },

@@ -194,13 +194,11 @@ const SPECTRUM: Measure = Measure {
     unit: SQUARE_MILLIMETRES_PER_HERTZ,
     kind: Kind::Spectrum,
     figure: &Figure {
-        name: "motion_spectrum",
-        title: "Spectrum of the motion",
-        words: "spectrum of the motion",
         logarithmic: true,
         from_zero: false,
         caption: "Power spectral density of the free end’s position, averaged over all replicates \
                   (Welch’s method). The area under a curve is the square of the amplitude.",
+        ..figure("motion_spectrum", "Spectrum of the motion", "spectrum of the motion")
     },
     ..Measure::NUMBER
 };

@@ -138,13 +138,9 @@ pub(super) const DECLARATION: Declaration = Declaration {
             kind: Kind::Direction,
             group: LAYDOWN,
             figure: &Figure {
-                name: "directions",
-                title: "Share of chords, times the number of classes",
-                words: "directions",
-                logarithmic: false,
-                from_zero: true,
                 caption: "Directions of chords of 10 mm on the belt, in the sense of feed. 0° is the direction in \
                     which the belt runs; the laid fibre grows in the opposite direction.",
+                ..figure("directions", "Share of chords, times the number of classes", "directions")
             },
             ..Measure::NUMBER
         },
