@@ -6,7 +6,6 @@ use serde::Serialize;
 use spunlaid::case::Case;
 use spunlaid::lanes::WIDTH;
 use spunlaid::laydown::{self, Footprint, Trace, TraceSettings};
-use spunlaid::statistics::Estimate;
 use spunlaid::surrogate::identify;
 use std::array::from_fn;
 
@@ -73,13 +72,7 @@ impl LaidStatistics {
             ("half_correlation_length_cd", values_of(|curve| curve.half_correlation_length_cd)),
             ("orientation_md", values_of(|curve| curve.orientation_md)),
         ];
-        all.into_iter()
-            .filter_map(|(name, values)| {
-                let finite: Vec<f64> = values.into_iter().filter(|value| value.is_finite()).collect();
-                let estimate = Estimate::new(finite);
-                ShownNumber::new(name, estimate.mean, estimate.standard_error)
-            })
-            .collect()
+        all.into_iter().filter_map(|(name, values)| ShownNumber::of_fibres(name, values)).collect()
     }
 
     /// Where the fibres came down; `None` before they have.

@@ -9,14 +9,13 @@
 //! message                     what pages ask and are answered
 //! document, settings, save    the case as text; what can be changed; files
 //! fibres, clock               eight fibres in one flight; how much time goes by
-//! batches, laid, measured     statistics since the last change
+//! laid, measured              statistics since the last change
 //! frame                       the moving picture
 //! session                     the thread
 //! board                       what pages see
 //! guard, http, page, server   the server, with threads for each connection
 //! ```
 
-mod batches;
 mod board;
 mod clock;
 mod document;

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 use spunlaid::observe::{DECLARED, Measure};
+use spunlaid::statistics::Estimate;
 
 /// A number with its standard error, in the unit in which it is shown.
 #[derive(Debug, Serialize)]
@@ -15,8 +16,12 @@ pub(super) struct ShownNumber {
 }
 
 impl ShownNumber {
-    /// * `value`, `error` – in SI units
-    pub(super) fn new(name: &str, value: f64, error: Option<f64>) -> Option<Self> {
+    /// The mean of a measure over the fibres, with the error that its scatter tells.
+    ///
+    /// * `values` – of each fibre, in SI units; NaN where there is none
+    pub(super) fn of_fibres(name: &str, mut values: Vec<f64>) -> Option<Self> {
+        values.retain(|value| value.is_finite());
+        let Estimate { mean, standard_error, .. } = Estimate::new(values);
         let Measure { name, label, meaning, unit, .. } = *measure(name)?;
         let finite = |x: f64| x.is_finite().then_some(x * unit.per_si);
         Some(Self {
@@ -24,8 +29,8 @@ impl ShownNumber {
             label,
             meaning,
             unit: unit.shown,
-            value: finite(value),
-            error: error.and_then(finite),
+            value: finite(mean),
+            error: standard_error.and_then(finite),
         })
     }
 }
