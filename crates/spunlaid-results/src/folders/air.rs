@@ -4,7 +4,7 @@ use super::contents::{Contents, Maker, Page};
 use crate::Failure;
 use crate::figures::field_figure;
 use crate::numbers::{THIN, significant};
-use crate::output::air::{Slices, Summary, pictures, write_vtk};
+use crate::output::air::{PlaneFindings, Slices, pictures, summary, write_vtk};
 use crate::output::folder::{CASE_FILES, Staging};
 use crate::output::kept_input::Input;
 use crate::output::origin::ORIGIN;
@@ -28,20 +28,13 @@ pub struct AirFolder<'a> {
 }
 
 impl AirFolder<'_> {
-    /// The numbers.
-    fn numbers(&self) -> Summary {
-        Summary::new(self.case, self.slices, self.replicate, self.notes)
-    }
-
     /// How strong the gusts are, in a sentence.
     fn headline(&self) -> String {
-        let summary = self.numbers();
-        let rms = summary.planes.0.first().map_or([0.0; 3], |(_, plane)| plane.rms_m_s);
-        let expected = summary.planes.0.first().map_or(0.0, |(_, plane)| plane.expected_rms_m_s);
+        let PlaneFindings { rms, expected_rms, .. } = PlaneFindings::new(self.case, self.slices, 0);
         let [x, y, z] = rms.map(|rms| significant(rms, 3));
         format!(
             "Gusts of {x}, {y} and {z}{THIN}m/s (rms along x, y and z, over the pictures); {}{THIN}m/s are expected.",
-            significant(expected, 3)
+            significant(expected_rms, 3)
         )
     }
 }
@@ -60,7 +53,7 @@ impl Contents for AirFolder<'_> {
     ];
 
     fn summary(&self) -> String {
-        self.numbers().to_json()
+        summary(self.case, self.slices, self.replicate, self.notes)
     }
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {

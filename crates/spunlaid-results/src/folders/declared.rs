@@ -7,7 +7,7 @@ use crate::figures::{record_figures, record_sample};
 use crate::output::analysis::analysis_json;
 use crate::output::folder::Staging;
 use crate::output::spinline::SpinResults;
-use crate::output::web::{Performance, Summary};
+use crate::output::web::{Performance, summary_of_scan};
 use crate::report::{analysis_report, scan_report, spinline_text};
 use serde_json::Value as Json;
 use spunlaid::fabric::of_scan;
@@ -182,7 +182,7 @@ fn every_declared_measure_of_a_scan_is_in_summary_and_report() {
     let settings = scan::Settings { noise: Some(50.0), ..scan::Settings::new(light) };
     let findings = scan::analyse(&picture, &settings).unwrap();
     let (performance, fabric) = (Performance::default(), of_scan(&findings));
-    let summary = Summary::from_scan(&picture.file, (&findings, &fabric), performance, &[]).to_json();
+    let summary = summary_of_scan(&picture.file, (&findings, &fabric), performance, &[]);
     let summary: Json = serde_json::from_str(&summary).unwrap();
     let report = scan_report(&picture.file, (&findings, &fabric), &[], performance).unwrap().html();
     for declared in OF_SCANS {

@@ -30,7 +30,7 @@ impl Contents for PaperFolder<'_> {
     const ENTRIES: &'static [&'static str] = ENTRIES;
 
     fn summary(&self) -> String {
-        versioned_json(1, &json!({"claims": self.claims}))
+        versioned_json(1, json!({"claims": self.claims}))
     }
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {

@@ -8,7 +8,7 @@ use crate::numbers::{lost_fibres_text, significant};
 use crate::output::folder::{ENTRIES, Staging};
 use crate::output::kept_input::Input;
 use crate::output::spinline::{SpinResults, write_stations};
-use crate::output::summary::{Performance, Summary};
+use crate::output::summary::{Performance, summary};
 use crate::output::tables::{TableRecorder, Tables};
 use crate::output::{doubt, paraview};
 use crate::report::run_report;
@@ -167,7 +167,7 @@ impl Contents for Run<'_> {
     const OF_ONE_FORMAT: &'static [&'static str] = &["end_node.parquet", "energy.parquet", "laid.parquet"];
 
     fn summary(&self) -> String {
-        Summary::new(self.case, self.results, self.checks, self.performance, self.all_notes()).to_json()
+        summary(self.case, self.results, self.checks, self.performance, &self.all_notes())
     }
 
     /// A page of less than 6 MB.

@@ -4,7 +4,7 @@ use super::contents::{Contents, Maker, Page};
 use super::web::WebFolder;
 use crate::Failure;
 use crate::figures::scan_figures;
-use crate::output::web::{Performance, Summary, write_scan};
+use crate::output::web::{Performance, summary_of_scan, write_scan};
 use crate::report::scan_report;
 use spunlaid::fabric::Fabric;
 use spunlaid::scan::Findings;
@@ -35,7 +35,7 @@ impl Contents for ScanFolder<'_> {
     const ENTRIES: &'static [&'static str] = WebFolder::ENTRIES;
 
     fn summary(&self) -> String {
-        Summary::from_scan(self.file, (self.findings, self.fabric), self.performance, self.notes).to_json()
+        summary_of_scan(self.file, (self.findings, self.fabric), self.performance, self.notes)
     }
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {

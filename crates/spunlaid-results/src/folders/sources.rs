@@ -5,7 +5,7 @@ use crate::Failure;
 use crate::output::folder::{CASE_FILES, Staging};
 use crate::output::kept_input::Input;
 use crate::output::origin::ORIGIN;
-use crate::output::sources::{OPENFOAM, SourcesSummary, VTK, write_openfoam, write_vtk};
+use crate::output::sources::{OPENFOAM, VTK, summary, write_openfoam, write_vtk};
 use crate::report::sources_report;
 use spunlaid::case::Case;
 use spunlaid::ensemble::Sources;
@@ -31,7 +31,7 @@ impl Contents for SourcesFolder<'_> {
         &[ORIGIN, CASE_FILES, "case.toml", "web.toml", VTK, OPENFOAM, "report.html", "summary.json"];
 
     fn summary(&self) -> String {
-        SourcesSummary::new(self.case, self.sources, self.notes).to_json()
+        summary(self.case, self.sources, self.notes)
     }
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {

@@ -6,7 +6,7 @@ use crate::figures::{SPINLINE, spinline_figures};
 use crate::output::folder::CASE_FILES;
 use crate::output::kept_input::Input;
 use crate::output::origin::ORIGIN;
-use crate::output::spinline::{STATIONS, SpinResults, Summary, write_stations};
+use crate::output::spinline::{STATIONS, SpinResults, summary, write_stations};
 use crate::output::table::TABLES;
 use crate::report::spinline_report;
 use spunlaid::input::SpinFile;
@@ -29,7 +29,7 @@ impl Contents for SpinFolder<'_> {
         &[ORIGIN, "spinline.toml", CASE_FILES, STATIONS, TABLES, "figures", "report.html", "summary.json"];
 
     fn summary(&self) -> String {
-        Summary::new(&self.results.rows, &self.results.influences, self.notes).to_json()
+        summary(self.results, self.notes)
     }
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {

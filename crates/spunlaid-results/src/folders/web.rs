@@ -5,11 +5,11 @@ use crate::Failure;
 use crate::figures::{SPINLINE, effects_figure, spinline_figures, web_figures};
 use crate::output::folder::{CASE_FILES, Staging};
 use crate::output::kept_input::Input;
-use crate::output::load::LoadSummary;
+use crate::output::load::load_of;
 use crate::output::origin::ORIGIN;
-use crate::output::spinline::{STATIONS, SpinResults, SpinSummary, write_stations};
+use crate::output::spinline::{STATIONS, SpinResults, part_of_case, write_stations};
 use crate::output::table::TABLES;
-use crate::output::web::{self, Layer, Performance, Summary};
+use crate::output::web::{self, Layer, Performance};
 use crate::report::{Advised, LayerSpinline, web_report};
 use spunlaid::advice::Advice;
 use spunlaid::case::Case;
@@ -17,6 +17,7 @@ use spunlaid::fabric::Fabric;
 use spunlaid::input::{LayerSpec, WebFile, WebSpec};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{FlownWeb, LayerFibres};
+use spunlaid::load::Load;
 use spunlaid::spinline::Solution;
 use spunlaid::web::{Findings, LayControl, Web, strands};
 use spunlaid_charts::Figure;
@@ -73,7 +74,7 @@ impl Contents for WebFolder<'_> {
     fn summary(&self) -> String {
         let rows = rows(&self.file.spec, self.web, self.layers);
         let (found, tried) = ((self.findings, self.fabric), (self.advice, self.guesses, self.beside));
-        Summary::new(self.web, found, tried, &rows, self.performance, self.notes).to_json()
+        web::summary_of_web(self.web, found, tried, &rows, self.performance, self.notes)
     }
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
@@ -140,17 +141,17 @@ fn rows(spec: &WebSpec, web: &Web, layers: &[LayerFibres]) -> Vec<Layer> {
             fit_residual_by_chance: fit.and_then(|fit| fit.by_chance),
             lateral_cutoff: spec.lateral_cutoff(i),
             curtain: curtain(layer, drawn.count(&web.sheet) as f64 / web.sheet.width, layers.get(i)),
-            spinline: layer.source.case().and_then(SpinSummary::from_case),
+            spinline: layer.source.case().and_then(part_of_case),
         }
     };
     spec.layers.iter().zip(&web.layers).enumerate().map(row).collect()
 }
 
 /// What the filaments of a layer do to their air.
-fn curtain(layer: &LayerSpec, filaments_per_metre: f64, fibres: Option<&LayerFibres>) -> Option<LoadSummary> {
+fn curtain(layer: &LayerSpec, filaments_per_metre: f64, fibres: Option<&LayerFibres>) -> Option<Load> {
     let flown = fibres.and_then(|fibres| fibres.flown.as_ref());
     let way = flown.map_or(&[][..], |flown| &flown.way);
-    LoadSummary::new(layer.source.case()?, filaments_per_metre, layer.filaments.slot(), way)
+    load_of(layer.source.case()?, filaments_per_metre, layer.filaments.slot(), way)
 }
 
 /// The spinlines from which the filaments of the layers come, each with all of its layers.

@@ -1,9 +1,9 @@
 //! `comparison.json` and its table: what differs between two runs, and whether it is beyond chance.
 
-use super::in_order::OrderedObject;
+use super::measured::{known, mean};
 use crate::effects::difference_text;
 use crate::numbers::plus_minus;
-use serde::Serialize;
+use serde_json::{Value as Json, json};
 use spunlaid::statistics::{Difference, Estimate};
 
 /// Two runs, measure by measure.
@@ -44,85 +44,48 @@ pub struct ComparedMeasure {
     pub doubt: Option<String>,
 }
 
-#[derive(Serialize)]
-struct Document<'a> {
-    comparisons: Vec<PairSummary<'a>>,
-    /// What is missing, and why.
-    #[serde(skip_serializing_if = "<[_]>::is_empty")]
-    notes: &'a [String],
-}
-
-#[derive(Serialize)]
-struct PairSummary<'a> {
-    run: &'a str,
-    against: &'a str,
-    paired: bool,
-    pairs: Option<usize>,
-    reason: &'a str,
-    measures: OrderedObject<Numbers>,
-}
-
-#[derive(Serialize)]
-struct Numbers {
-    against: Mean,
-    run: Mean,
-    difference: Option<f64>,
-    standard_error: Option<f64>,
-    /// Half the width of the 95 % interval.
-    half_width: Option<f64>,
-    beyond_chance: Option<bool>,
-    /// Why it is within chance, where the standard errors alone do not show it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    remark: Option<String>,
-    /// Why there is no verdict.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    no_verdict: Option<String>,
-}
-
-#[derive(Serialize)]
-struct Mean {
-    /// Null of patches that a web does not have.
-    mean: f64,
-    standard_error: Option<f64>,
-    /// Number of replicates; none for a web.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    n: Option<usize>,
-}
-
 /// The comparisons as JSON, in SI units.
 ///
 /// * `notes` – what is missing, and why
-pub fn json(comparisons: &[Comparison], notes: &[String]) -> String {
-    let mean = |estimate: &Estimate| {
+pub fn summary(comparisons: &[Comparison], notes: &[String]) -> String {
+    // Of patches that a web does not have, the mean is null; a web has no number of replicates.
+    let of_one = |estimate: &Estimate| {
         let finite = estimate.values.iter().filter(|value| value.is_finite()).count();
-        let n = (!estimate.values.is_empty()).then_some(finite);
-        Mean { mean: estimate.mean, standard_error: estimate.standard_error, n }
+        let mut told = mean(estimate);
+        if !estimate.values.is_empty() {
+            told["n"] = finite.into();
+        }
+        told
     };
-    let numbers = |compared: &ComparedMeasure| {
-        let [against, run] = &compared.means;
-        let numbers = Numbers {
-            against: mean(against),
-            run: mean(run),
-            difference: compared.difference.map(|d| d.value),
-            standard_error: compared.difference.map(|d| d.standard_error),
-            half_width: compared.difference.map(|d| d.half_width()),
-            beyond_chance: compared.difference.map(|d| d.is_beyond_chance()),
-            remark: compared.remark.clone(),
-            no_verdict: compared.doubt.clone(),
-        };
-        (compared.column.clone(), numbers)
+    let measure = |compared: &ComparedMeasure| {
+        let ([against, run], difference) = (&compared.means, compared.difference);
+        let mut told = json!({
+            "against": of_one(against),
+            "run": of_one(run),
+            "difference": difference.map(|d| d.value),
+            "standard_error": difference.map(|d| d.standard_error),
+            // Half the width of the 95 % interval.
+            "half_width": difference.map(|d| d.half_width()),
+            "beyond_chance": difference.map(|d| d.is_beyond_chance()),
+        });
+        for (name, why) in [("remark", &compared.remark), ("no_verdict", &compared.doubt)] {
+            why.iter().for_each(|why| told[name] = why.as_str().into());
+        }
+        (compared.column.clone(), told)
     };
-    let one = |comparison: &'_ Comparison| OrderedObject(comparison.measures.iter().map(numbers).collect());
-    let comparisons = comparisons.iter().map(|comparison| PairSummary {
-        run: &comparison.run,
-        against: &comparison.against,
-        paired: comparison.pairs.is_some(),
-        pairs: comparison.pairs,
-        reason: &comparison.reason,
-        measures: one(comparison),
-    });
-    let document = Document { comparisons: comparisons.collect(), notes };
-    super::versioned_json(1, &document)
+    let comparison = |comparison: &Comparison| {
+        json!({
+            "run": comparison.run,
+            "against": comparison.against,
+            "paired": comparison.pairs.is_some(),
+            "pairs": comparison.pairs,
+            "reason": comparison.reason,
+            "measures": comparison.measures.iter().map(measure).collect::<Json>(),
+        })
+    };
+    let comparisons: Json = comparisons.iter().map(comparison).collect();
+    let notes = (!notes.is_empty()).then_some(notes);
+    super::versioned_json(1, known(json!({"comparisons": comparisons, "notes": notes})))
 }
 
 impl Comparison {

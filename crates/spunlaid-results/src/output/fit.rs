@@ -55,7 +55,7 @@ pub fn fit_json(fit: &Fit, target: &Target, [web, scan]: [&str; 2], notes: &[Str
     let [width, length] = target.sides();
     versioned_json(
         1,
-        &json!({
+        json!({
             "web": web,
             "scan": scan,
             "compared_width_m": width,

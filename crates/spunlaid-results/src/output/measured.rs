@@ -1,19 +1,45 @@
-//! Measures with their values, as texts and in JSON.
+//! Measures with their values, as texts and in JSON. Objects keep the order of their entries.
 
-use super::in_order::OrderedObject;
 use crate::numbers::{number_to, plus_minus};
 use serde::Serialize;
-use serde_json::Value as Json;
-use spunlaid::observe::{ErrorRole, Measure, Measured, Value, measured};
+use serde_json::{Value as Json, json};
+use spunlaid::observe::{ErrorRole, Measure, Measured, measured};
+use spunlaid::statistics::Estimate;
 
-/// The values of some measures by their names, in their order; null where there is none.
-pub fn values<T>(measures: &'static [Measure<T>], found: &T) -> OrderedObject<Option<Value>> {
-    OrderedObject(measured(measures, found).map(|row| (row.measure.entry().to_owned(), row.value)).collect())
+/// The values of some measures by their names, in their order, those of a group together; null where there is none.
+pub fn values<T>(measures: &'static [Measure<T>], found: &T) -> Json {
+    let mut all = json!({});
+    for row in measured(measures, found) {
+        match row.measure.entry().split_once('.') {
+            Some((group, name)) => all[group][name] = json(row.value),
+            None => all[row.measure.entry()] = json(row.value),
+        }
+    }
+    all
 }
 
 /// A value in JSON.
 pub fn json(value: impl Serialize) -> Json {
     serde_json::to_value(value).unwrap_or_default()
+}
+
+/// A mean and its standard error, which is null where it is not known.
+pub fn mean(estimate: &Estimate) -> Json {
+    json!({"mean": estimate.mean, "standard_error": estimate.standard_error})
+}
+
+/// An object without the entries that have no value.
+pub fn known(mut object: Json) -> Json {
+    if let Json::Object(entries) = &mut object {
+        entries.retain(|_, value| !value.is_null());
+    }
+    object
+}
+
+/// The entries of some objects in one.
+pub fn joined<const N: usize>(objects: [Json; N]) -> Json {
+    let entries = |object| if let Json::Object(entries) = object { Some(entries) } else { None };
+    Json::Object(objects.into_iter().filter_map(entries).flatten().collect())
 }
 
 /// The value of a measure and its errors, by their names, as far as they are known; a standard error that is

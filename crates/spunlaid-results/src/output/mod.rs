@@ -9,7 +9,6 @@ pub mod doubt;
 pub mod finer;
 pub mod fit;
 pub mod folder;
-pub mod in_order;
 pub mod kept_input;
 pub mod leftovers;
 pub mod load;
@@ -26,20 +25,12 @@ pub mod table;
 pub mod tables;
 pub mod web;
 
-use serde::Serialize;
+use serde_json::{Value as Json, json};
 
 /// The text of a JSON file that says which version of the program wrote it.
 ///
 /// * `layout` – version of the layout; it increases when a field is renamed or removed or changes its meaning
-pub fn versioned_json(layout: u32, content: &impl Serialize) -> String {
-    #[derive(Serialize)]
-    struct Versioned<'a, T> {
-        schema_version: u32,
-        spunlaid_version: &'static str,
-        #[serde(flatten)]
-        content: &'a T,
-    }
-    let text = Versioned { schema_version: layout, spunlaid_version: env!("CARGO_PKG_VERSION"), content };
-    // Serialising plain numbers and strings into memory cannot fail.
-    serde_json::to_string_pretty(&text).unwrap_or_default() + "\n"
+pub fn versioned_json(layout: u32, content: Json) -> String {
+    let version = json!({"schema_version": layout, "spunlaid_version": env!("CARGO_PKG_VERSION")});
+    format!("{:#}\n", measured::joined([version, content]))
 }

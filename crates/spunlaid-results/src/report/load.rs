@@ -3,7 +3,6 @@
 use super::document::Section;
 use super::table::{Content, Layout, Row, Table};
 use crate::numbers::{THIN, plus_minus, significant};
-use crate::output::load::LoadSummary;
 use crate::output::measured::text;
 use spunlaid::load::{Load, LoadPlace};
 use spunlaid::observe::{Measured, OF_LOAD_PLACES, OF_LOADS, measured};
@@ -16,12 +15,12 @@ const LARGE: f64 = 0.2;
 /// The section for a page; none where nothing is known.
 ///
 /// * `loads` – of each layer, with its name where there are several
-pub(super) fn section_of_loads(loads: &[(Option<&str>, &LoadSummary)]) -> Option<Section<'static>> {
+pub(super) fn section_of_loads(loads: &[(Option<&str>, &Load)]) -> Option<Section<'static>> {
     if loads.is_empty() {
         return None;
     }
     let mut section = Section::new("curtain", TITLE);
-    for (name, LoadSummary(load)) in loads {
+    for (name, load) in loads {
         if let Some(name) = name {
             section = section.heading(format!("Layer {name}"));
         }
@@ -30,7 +29,7 @@ pub(super) fn section_of_loads(loads: &[(Option<&str>, &LoadSummary)]) -> Option
             section = section.table(along_way(load));
         }
     }
-    let heat = match loads.iter().all(|(_, LoadSummary(load))| load.heat.is_none()) {
+    let heat = match loads.iter().all(|(_, load)| load.heat.is_none()) {
         true => " What heat they bring is not known, because they come from no spinline.",
         false => "",
     };
@@ -42,8 +41,8 @@ pub(super) fn section_of_loads(loads: &[(Option<&str>, &LoadSummary)]) -> Option
 }
 
 /// The same in sentences, for a terminal.
-pub(super) fn loads_in_short(loads: &[(Option<&str>, &LoadSummary)]) -> Section<'static> {
-    let words = |(name, LoadSummary(load)): &(Option<&str>, &LoadSummary)| match name {
+pub(super) fn loads_in_short(loads: &[(Option<&str>, &Load)]) -> Section<'static> {
+    let words = |(name, load): &(Option<&str>, &Load)| match name {
         Some(name) => format!("Layer {name}: {}", load_words(load)),
         None => load_words(load),
     };

@@ -12,7 +12,7 @@ use crate::Failure;
 use crate::numbers::{THIN, number};
 use crate::output::doubt;
 use crate::output::finer::{self, FinerWords};
-use crate::output::load::LoadSummary;
+use crate::output::load::load_of_spinline;
 use crate::output::spinline::SpinResults;
 use crate::output::summary::Performance;
 use spunlaid::case::Case;
@@ -48,7 +48,7 @@ pub fn run_report<'a>(
         performance.instruction_set,
         words::quantity(performance.ns_per_element_step, "ns"),
     );
-    let load = LoadSummary::of_spinline(case, &results.way());
+    let load = load_of_spinline(case, &results.way());
     let loads: Vec<_> = load.iter().map(|load| (None, load)).collect();
     let file = Section::new("case", "The case")
         .paragraph(

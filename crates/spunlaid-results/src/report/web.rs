@@ -18,11 +18,11 @@ use super::words::{count, metres, millimetres};
 use crate::Failure;
 use crate::effects::PER_CENT;
 use crate::numbers::{THIN, number, significant};
-use crate::output::load::LoadSummary;
 use crate::output::web::{Layer, PatchTable, Performance, Reader};
 use spunlaid::charge::BREAKDOWN;
 use spunlaid::fabric::Fabric;
 use spunlaid::layers::WebSpec;
+use spunlaid::load::Load;
 use spunlaid::units::Dimension;
 use spunlaid::web::uniformity::Unevenness;
 use spunlaid::web::{ChargedCurtain, Findings, PatchFindings, Strand, Web};
@@ -148,7 +148,7 @@ fn about_errors(findings: &Findings) -> &'static str {
 }
 
 /// The loads of the layers on their air, with the names of these where there are several.
-fn named_loads(layers: &[Layer]) -> Vec<(Option<&str>, &LoadSummary)> {
+fn named_loads(layers: &[Layer]) -> Vec<(Option<&str>, &Load)> {
     layers
         .iter()
         .filter_map(|layer| {

@@ -9,10 +9,11 @@ use spunlaid::air::Lateral;
 use spunlaid::charge::{BREAKDOWN, ChargeEstimate};
 use spunlaid::input::{LaydownSource, LayerSpec, WebSpec, read_web};
 use spunlaid::layers::PlannedFlight;
+use spunlaid::load::Load;
 use spunlaid::units::Dimension;
 use spunlaid::web::Filaments;
 use spunlaid_results::numbers::{THIN, significant};
-use spunlaid_results::output::load::LoadSummary;
+use spunlaid_results::output::load::load_of;
 use spunlaid_results::report::load_words;
 
 /// Checks the file of a web.
@@ -165,14 +166,14 @@ fn in_one_air(spec: &WebSpec) -> Vec<String> {
 }
 
 /// What is known of the load of the filaments of a layer on their air before a flight.
-fn curtain(spec: &WebSpec, layer: &LayerSpec) -> Option<LoadSummary> {
+fn curtain(spec: &WebSpec, layer: &LayerSpec) -> Option<Load> {
     let filaments_per_metre = layer.filaments.count(&spec.sheet) as f64 / spec.sheet.width;
-    LoadSummary::new(layer.source.case()?, filaments_per_metre, layer.filaments.slot(), &[])
+    load_of(layer.source.case()?, filaments_per_metre, layer.filaments.slot(), &[])
 }
 
 /// The load of the filaments on their air, as far as no flight is needed.
 fn load(spec: &WebSpec) -> Vec<String> {
-    let words = |layer: &LayerSpec| Some(load_words(&curtain(spec, layer)?.0).replace(THIN, " "));
+    let words = |layer: &LayerSpec| Some(load_words(&curtain(spec, layer)?).replace(THIN, " "));
     let mut lines = vec!["load on the air".to_owned()];
     for (number, words) in
         spec.layers.iter().enumerate().filter_map(|(i, layer)| Some((i + 1, words(layer)?)))

@@ -91,7 +91,7 @@ impl Contents for ComparedFolders {
     const SUMMARY: &'static str = "comparison.json";
 
     fn summary(&self) -> String {
-        comparison::json(&self.found.comparisons, &self.found.notes)
+        comparison::summary(&self.found.comparisons, &self.found.notes)
     }
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {

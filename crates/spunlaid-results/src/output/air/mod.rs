@@ -15,7 +15,7 @@ mod vtk;
 
 pub use pictures::{PLANES, pictures};
 pub use points::{POINT_COLUMNS, point_row, points_csv};
-pub use summary::Summary;
+pub use summary::{PlaneFindings, summary};
 pub use vtk::write_vtk;
 
 use crate::Failure;

@@ -11,7 +11,7 @@ mod summary;
 mod vtk;
 
 pub use openfoam::{OPENFOAM, has_order_of_openfoam, write_openfoam};
-pub use summary::SourcesSummary;
+pub use summary::summary;
 pub use vtk::{VTK, write_vtk};
 
 use crate::numbers::plus_minus;

@@ -5,7 +5,7 @@ mod summary;
 mod words;
 
 pub use stations::{COLUMNS, STATIONS, write as write_stations};
-pub use summary::{SpinSummary, Summary};
+pub use summary::{part_of_case, summary};
 pub use words::{filament, freezing, influence, model_error, numerical_error, remarks};
 
 use spunlaid::case::Case;

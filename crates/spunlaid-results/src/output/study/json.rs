@@ -1,10 +1,8 @@
 //! `results.json`: the points with their results, and the ranking.
 
-use super::super::in_order::OrderedObject;
 use super::super::table::Value;
 use super::columns::values;
-use serde::Serialize;
-use serde_json::Value as Json;
+use serde_json::{Value as Json, json};
 use spunlaid::claim::Claim;
 use spunlaid::effects::Effect;
 use spunlaid::study::{Contrast, PointResults, Ranking, Rankings, Study};
@@ -12,43 +10,6 @@ use std::io::Write;
 
 /// Version of the layout. It increases when a field is renamed or removed or changes its meaning.
 const SCHEMA_VERSION: u32 = 1;
-
-#[derive(Serialize)]
-struct Point {
-    point: usize,
-    seed: u64,
-    inputs: OrderedObject<Json>,
-    n: u64,
-    lost: u64,
-    results: OrderedObject<Mean>,
-}
-
-#[derive(Serialize)]
-struct Mean {
-    mean: f64,
-    standard_error: Option<f64>,
-    /// By all causes, if there are others than the scatter of the replicates.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    whole_error: Option<f64>,
-}
-
-#[derive(Serialize)]
-struct RankingEntry<'a> {
-    /// Share of the variation between points that straight lines explain.
-    explained: Option<f64>,
-    effects: Vec<EffectEntry<'a>>,
-}
-
-#[derive(Serialize)]
-struct EffectEntry<'a> {
-    factor: &'a str,
-    from: Json,
-    to: Json,
-    change: f64,
-    standard_error: Option<f64>,
-    /// Half the width of the 95 % interval.
-    half_width: Option<f64>,
-}
 
 /// Writes `results.json`, numbers in SI units, a line per point. It is written as it is made, so that memory does not
 /// grow with the number of points.
@@ -60,11 +21,13 @@ pub fn write_json(
 ) -> std::io::Result<()> {
     let ranking = |ranking: &Ranking| {
         let explained = Some(ranking.explained).filter(|share| share.is_finite());
-        let effects = ranking.effects.iter().map(|effect| effect_of(study, effect)).collect();
-        (study.quantities[ranking.measure].column.clone(), RankingEntry { explained, effects })
+        let effects: Json = ranking.effects.iter().map(|effect| effect_of(study, effect)).collect();
+        // `explained`: share of the variation between points that straight lines explain.
+        let told = json!({"explained": explained, "effects": effects});
+        (study.quantities[ranking.measure].column.clone(), told)
     };
     // By the columns of the results; empty if the factors cannot be ranked.
-    let ranking = OrderedObject(rankings.of_measures.iter().map(ranking).collect());
+    let ranking: Json = rankings.of_measures.iter().map(ranking).collect();
     let refusal = rankings.refusal.as_ref().map(ToString::to_string);
     let (version, design, common) = (env!("CARGO_PKG_VERSION"), study.design.name(), study.common_phases);
     writeln!(out, "{{\n\"schema_version\": {SCHEMA_VERSION},\n\"spunlaid_version\": \"{version}\",")?;
@@ -84,37 +47,42 @@ pub fn write_json(
     out.write_all(b"\n}\n")
 }
 
-fn point(study: &Study, index: usize, measured: &PointResults) -> Point {
+fn point(study: &Study, index: usize, measured: &PointResults) -> Json {
     let inputs = study.inputs().zip(values(study, index));
-    let inputs = inputs.map(|(input, value)| (input.column(), plain(value))).collect();
+    let inputs: Json = inputs.map(|(input, value)| (input.column(), plain(value))).collect();
     let result = |i: usize| {
-        let whole_error = measured.whole_error(&study.quantities, i);
-        let mean = Mean { mean: measured.mean[i], standard_error: measured.standard_error(i), whole_error };
-        (study.quantities[i].column.clone(), mean)
+        let mut told = json!({"mean": measured.mean[i], "standard_error": measured.standard_error(i)});
+        // By all causes, if there are others than the scatter of the replicates.
+        if let Some(error) = measured.whole_error(&study.quantities, i) {
+            told["whole_error"] = error.into();
+        }
+        (study.quantities[i].column.clone(), told)
     };
-    let results = (0..study.quantities.len()).filter(|&i| measured.mean[i].is_finite()).map(result).collect();
-    Point {
-        point: index + 1,
-        seed: study.points[index].experiment.seed(),
-        inputs: OrderedObject(inputs),
-        n: measured.n,
-        lost: measured.lost,
-        results: OrderedObject(results),
-    }
+    let results = (0..study.quantities.len()).filter(|&i| measured.mean[i].is_finite()).map(result);
+    json!({
+        "point": index + 1,
+        "seed": study.points[index].experiment.seed(),
+        "inputs": inputs,
+        "n": measured.n,
+        "lost": measured.lost,
+        "results": results.collect::<Json>(),
+    })
 }
 
-fn effect_of<'a>(study: &'a Study, effect: &Effect<Contrast>) -> EffectEntry<'a> {
+fn effect_of(study: &Study, effect: &Effect<Contrast>) -> Json {
     let Contrast { factor, from, to } = effect.of;
     let factor = &study.factors[factor];
     let end = |value: f64| factor.input().word(value).map_or_else(|| value.into(), Json::from);
-    EffectEntry {
-        factor: &factor.key,
-        from: end(from),
-        to: end(to),
-        change: effect.difference.value,
-        standard_error: effect.difference.known_half_width().map(|_| effect.difference.standard_error),
-        half_width: effect.difference.known_half_width(),
-    }
+    let half_width = effect.difference.known_half_width();
+    json!({
+        "factor": factor.key,
+        "from": end(from),
+        "to": end(to),
+        "change": effect.difference.value,
+        "standard_error": half_width.map(|_| effect.difference.standard_error),
+        // Of the 95 % interval.
+        "half_width": half_width,
+    })
 }
 
 fn plain(value: Value) -> Json {

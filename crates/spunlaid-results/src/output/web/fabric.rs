@@ -1,51 +1,39 @@
 //! What is told of a fabric, for `summary.json`, the terminal and the report.
 
 use crate::numbers::{HARD, THIN, in_sentence, number, number_to, plus_minus, range};
-use crate::output::in_order::OrderedObject;
-use serde::Serialize;
+use crate::output::measured::{joined, json, known};
+use serde_json::{Value as Json, json};
 use spunlaid::fabric::{Fabric, Known};
 use spunlaid::observe::{
     Measure, Measured, OF_FABRIC_PATCHES, OF_FABRICS, OF_STREAKS, OF_STRIPS, OF_THINNEST, Value, measured,
 };
 
-/// The fabric in `summary.json`.
-#[derive(Debug, Serialize)]
-pub(super) struct FabricSummary<'a> {
-    #[serde(flatten)]
-    numbers: OrderedObject<Value>,
-    patches: Vec<OrderedObject<Value>>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    thinnest: Vec<OrderedObject<Value>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    strips_md: Option<OrderedObject<Value>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    strips_cd: Option<OrderedObject<Value>>,
-    /// Of the defects of the line, in the order of the file.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    streaks: Vec<OrderedObject<Value>>,
-    #[serde(skip_serializing_if = "<[_]>::is_empty")]
-    notes: &'a [String],
+/// The fabric in `summary.json`: all numbers that are known.
+pub(super) fn summary(fabric: &Fabric) -> Json {
+    let [strips_md, strips_cd] = fabric.strips.each_ref().map(Option::as_ref);
+    let parts = json!({
+        "patches": all(OF_FABRIC_PATCHES, &fabric.patches),
+        "thinnest": some(OF_THINNEST, &fabric.marks.thinnest),
+        "strips_md": strips_md.map(|strips| entries(OF_STRIPS, strips)),
+        "strips_cd": strips_cd.map(|strips| entries(OF_STRIPS, strips)),
+        // Of the defects of the line, in the order of the file.
+        "streaks": some(OF_STREAKS, &fabric.streaks),
+        "notes": (!fabric.notes.is_empty()).then_some(&fabric.notes),
+    });
+    joined([entries(OF_FABRICS, fabric), known(parts)])
 }
 
-impl<'a> FabricSummary<'a> {
-    pub(super) fn new(fabric: &'a Fabric) -> Self {
-        let [strips_md, strips_cd] = fabric.strips.each_ref().map(|strips| strips.as_ref());
-        Self {
-            numbers: entries(OF_FABRICS, fabric),
-            patches: fabric.patches.iter().map(|patch| entries(OF_FABRIC_PATCHES, patch)).collect(),
-            thinnest: fabric.marks.thinnest.iter().map(|place| entries(OF_THINNEST, place)).collect(),
-            strips_md: strips_md.map(|strips| entries(OF_STRIPS, strips)),
-            strips_cd: strips_cd.map(|strips| entries(OF_STRIPS, strips)),
-            streaks: fabric.streaks.iter().map(|streak| entries(OF_STREAKS, streak)).collect(),
-            notes: &fabric.notes,
-        }
-    }
+fn entries<T>(measures: &'static [Measure<T>], of: &T) -> Json {
+    let known = measured(measures, of).filter_map(|row| Some((row.measure.entry(), json(row.value?))));
+    known.collect()
 }
 
-/// All numbers that are known.
-fn entries<T>(measures: &'static [Measure<T>], of: &T) -> OrderedObject<Value> {
-    let known = measured(measures, of).filter_map(|row| Some((row.measure.entry().to_owned(), row.value?)));
-    OrderedObject(known.collect())
+fn all<T>(measures: &'static [Measure<T>], of: &[T]) -> Json {
+    of.iter().map(|part| entries(measures, part)).collect()
+}
+
+fn some<T>(measures: &'static [Measure<T>], of: &[T]) -> Option<Json> {
+    (!of.is_empty()).then(|| all(measures, of))
 }
 
 /// Side of the patches of which the terminal tells [m].

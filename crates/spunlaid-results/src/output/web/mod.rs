@@ -19,7 +19,7 @@ pub use patches::{PatchTable, Reader};
 pub use pieces::{MapFile, Pictures};
 pub use sheet::specification_sheet;
 pub use strands::write as write_strands;
-pub use summary::{Layer, Performance, Summary};
+pub use summary::{Layer, Performance, summary_of_scan, summary_of_web};
 
 /// Most cells that are written as a table and as a picture; the array holds all.
 pub const MOST_CELLS: usize = 20_000_000;

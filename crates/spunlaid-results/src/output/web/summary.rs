@@ -1,45 +1,20 @@
 //! `summary.json`: all results of a web.
 
-use super::charge::ChargeSummary;
-use super::effects::EffectsSummary;
-use super::fabric::FabricSummary;
+use super::{charge, effects, fabric};
 use crate::figures::SEEN;
-use crate::output::in_order::OrderedObject;
-use crate::output::load::LoadSummary;
-use crate::output::measured::{json, values, with_errors};
-use crate::output::spinline::SpinSummary;
-use serde::Serialize;
-use serde_json::Value as Json;
+use crate::output::measured::{joined, json, known, mean, values, with_errors};
+use crate::output::{load, versioned_json};
+use serde::{Serialize, Serializer};
+use serde_json::{Value as Json, json};
 use spunlaid::advice::Advice;
 use spunlaid::fabric::Fabric;
 use spunlaid::lanes::Isa;
+use spunlaid::load::Load;
 use spunlaid::observe::{Measure, OF_PATCHES, OF_SCANNED_PATCHES, OF_SCANS, OF_WEBS};
 use spunlaid::scan::{self, Doubt};
 use spunlaid::statistics::{Estimate, interval_of_deviation};
 use spunlaid::web::{Clouds, Edges, Findings, LayerFew, Map, NeighbourCorrelation, Web};
 use std::time::Instant;
-
-/// The content of `summary.json` of a web.
-#[derive(Debug, Serialize)]
-pub struct Summary<'a> {
-    #[serde(skip_serializing_if = "<[_]>::is_empty")]
-    layers: &'a [Layer],
-    web: WebSummary,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    fabric: Option<FabricSummary<'a>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    advice: Option<EffectsSummary<'a>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    guesses: Option<EffectsSummary<'a>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    neighbours: Option<NeighboursSummary<'a>>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    charge: Vec<ChargeSummary<'a>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    scan: Option<OrderedObject<Json>>,
-    performance: Performance,
-    notes: &'a [String],
-}
 
 /// What a layer was laid from.
 #[derive(Clone, Debug, Serialize)]
@@ -71,11 +46,11 @@ pub struct Layer {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lateral_cutoff: Option<f64>,
     /// What its filaments do to their air, where a case says how they fly.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub curtain: Option<LoadSummary>,
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "curtain")]
+    pub curtain: Option<Load>,
     /// The spinline from which its filaments come, if its case has one.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub spinline: Option<SpinSummary>,
+    pub spinline: Option<Json>,
 }
 
 /// The speed of the work. This is the only part that differs when it is repeated.
@@ -114,177 +89,160 @@ impl Performance {
     }
 }
 
-#[derive(Debug, Serialize)]
-struct WebSummary {
-    /// None if it is not known.
-    basis_weight_kg_m2: Option<f64>,
-    /// Cells in machine and in cross direction.
-    cells: [usize; 2],
-    cell_m: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    fibre_length_m: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cut_off_kg: Option<f64>,
-    /// Filaments in one air that were lost in flight.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    lost_filaments: Option<u64>,
-    /// What was flown of a web in one air, of each layer of which only a few filaments were.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    flown: Vec<FlownSummary>,
-    /// Where edges cut fibre off: the strips that all but the map leaves out.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    edges: Option<Margins>,
-    patches: Vec<OrderedObject<Json>>,
-    /// The declared measures of a laid web, but for those that stand elsewhere.
-    #[serde(flatten)]
-    declared: OrderedObject<Json>,
-    /// Share of the texture along the machine direction, ½ without orientation.
-    texture_md: Option<NumberWithError>,
-    cloudiness: Option<Cloudiness>,
-    clouds: Vec<Octave>,
+fn curtain<S: Serializer>(curtain: &Option<Load>, serializer: S) -> Result<S::Ok, S::Error> {
+    curtain.as_ref().map(load::summary).serialize(serializer)
 }
 
-/// The few filaments of a layer from which all others follow.
-#[derive(Debug, Serialize)]
-struct FlownSummary {
-    filaments: u64,
-    /// Distance of neighbours in a row, and the correlation of the places where two filaments at this
-    /// distance and equal depth come down.
-    pitch_m: f64,
-    neighbour_correlation: f64,
-    /// The sheet that they laid.
-    width_m: f64,
-    length_m: f64,
-    /// Part of the variance of a filament between them that they do not tell.
-    missing_variance_md: f64,
-    missing_variance_cd: f64,
+/// The text of the file of a web.
+///
+/// * `beside` – the folder of the web, beside which those of changed ones lie
+pub fn summary_of_web(
+    web: &Web,
+    (findings, fabric): (&Findings, &Fabric),
+    (advice, guesses, beside): (Option<&Advice>, Option<&Advice>, &str),
+    layers: &[Layer],
+    performance: Performance,
+    notes: &[String],
+) -> String {
+    let name = |layer: usize| layers.get(layer).map_or("", |layer| layer.name.as_str());
+    let patches = findings.patches.iter().map(|patch| {
+        let why = match patch.doubt {
+            None => "the map is too small",
+            Some(_) => "too few filaments were flown",
+        };
+        let interval = patch.interval().ok_or_else(|| why.to_owned());
+        numbers_of_patch(patch.map.patch, OF_PATCHES, patch, interval)
+    });
+    let together = findings.laid.shared_air.as_ref();
+    let flown: Vec<Json> = together.iter().flat_map(|together| together.few.iter().map(few_flown)).collect();
+    // Where edges cut fibre off: the strips that all but the map leaves out, and the mean basis weight between them.
+    let edges = (web.sheet.edges == Edges::Cut).then(|| {
+        json!({
+            "margins_m": findings.margins,
+            "basis_weight_between_kg_m2": findings.within().basis_weight(),
+            "basis_weight_sheet_kg_m2": findings.laid.map.basis_weight(),
+        })
+    });
+    let laid = known(json!({
+        "fibre_length_m": findings.fibre_length,
+        "cut_off_kg": findings.laid.cut,
+        "lost_filaments": together.map(|together| together.lost),
+        "flown": (!flown.is_empty()).then_some(flown),
+        "edges": edges,
+    }));
+    // The declared measures of a whole web that do not stand elsewhere in the file: with the map, or with each layer.
+    let here = OF_WEBS.iter().filter(|measure| !measure.entry().is_empty());
+    let declared = here.flat_map(|measure| with_errors(measure, findings)).collect();
+    let map = of_map(&findings.laid.map, findings.clouds.as_ref(), patches.collect());
+    let charged = charge::summary(findings, name);
+    let parts = json!({
+        "layers": (!layers.is_empty()).then_some(layers),
+        "web": joined([map, laid, declared]),
+        "fabric": fabric::summary(fabric),
+        "advice": advice.map(|advice| effects::of_line(advice, findings, beside)),
+        "guesses": guesses.map(|guesses| effects::of_guesses(guesses, findings, beside)),
+        "neighbours": neighbours(findings, name),
+        "charge": charged.as_array().is_some_and(|charged| !charged.is_empty()).then_some(charged),
+        "performance": performance,
+        "notes": notes,
+    });
+    versioned_json(3, known(parts))
 }
 
-impl FlownSummary {
-    fn from_few(few: &LayerFew) -> Self {
-        let ([width_m, length_m], [missing_variance_md, missing_variance_cd]) = (few.sheet, few.missing);
-        let (filaments, pitch_m, neighbour_correlation) = (few.filaments, few.pitch, few.correlation);
-        Self {
-            filaments,
-            pitch_m,
-            neighbour_correlation,
-            width_m,
-            length_m,
-            missing_variance_md,
-            missing_variance_cd,
+/// The text of the file of a scanned web, which was read from a file.
+pub fn summary_of_scan(
+    file: &str,
+    (findings, fabric): (&scan::Findings, &Fabric),
+    performance: Performance,
+    notes: &[String],
+) -> String {
+    let patches = findings.patches.iter().map(|patch| {
+        let interval = patch.interval.map_err(|doubt| doubt.to_string());
+        numbers_of_patch(patch.unevenness.patch, OF_SCANNED_PATCHES, patch, interval)
+    });
+    let mut web = of_map(&findings.map, findings.clouds.as_ref(), patches.collect());
+    if let Some(guess) = findings.guess {
+        // Chance is not all that the error of a variance is made of.
+        let octaves = web["clouds"].as_array_mut().into_iter().flatten();
+        octaves.for_each(|octave| octave["standard_error"] = Json::Null);
+        if !web["cloudiness"].is_null() {
+            web["cloudiness"]["standard_error"] = Json::Null;
+            web["cloudiness"]["no_interval"] = guess.to_string().into();
         }
     }
-}
-
-/// What the edges of a web take.
-#[derive(Debug, Serialize)]
-struct Margins {
-    /// Widths of the strips at the first column and at the last one.
-    margins_m: [f64; 2],
-    /// Mean basis weight between them, and of the whole sheet.
-    basis_weight_between_kg_m2: f64,
-    basis_weight_sheet_kg_m2: f64,
-}
-
-#[derive(Debug, Serialize)]
-struct NumberWithError {
-    mean: f64,
-    standard_error: Option<f64>,
-}
-
-#[derive(Debug, Serialize)]
-struct Cloudiness {
-    from_m: f64,
-    to_m: f64,
-    index: f64,
-    standard_error: Option<f64>,
-    /// 95 % confidence interval for all such webs; null if the map is too small to say, or if too few
-    /// filaments were flown.
-    interval: Option<[f64; 2]>,
-    /// Why the true index cannot be known.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    no_interval: Option<String>,
-}
-
-/// The relative variance in waves of some lengths.
-#[derive(Debug, Serialize)]
-struct Octave {
-    from_m: f64,
-    to_m: f64,
-    variance: f64,
-    standard_error: Option<f64>,
-}
-
-/// How filaments that hang side by side in one air come down together.
-#[derive(Debug, Serialize)]
-struct NeighboursSummary<'a> {
-    cd: Vec<NeighbourSummary<'a>>,
-}
-
-/// The correlations of the places where two filaments at a distance come down, under the names that they have
-/// for the companions of a case.
-#[derive(Debug, Serialize)]
-struct NeighbourSummary<'a> {
-    /// Name of the layer.
-    layer: &'a str,
-    distance_m: f64,
-    correlation_md: f64,
-    correlation_md_se: Option<f64>,
-    correlation_cd: f64,
-    correlation_cd_se: Option<f64>,
-    /// 95 % confidence intervals, by Student's t; null if too little was laid.
-    correlation_md_interval: Option<[f64; 2]>,
-    correlation_cd_interval: Option<[f64; 2]>,
-}
-
-impl<'a> NeighboursSummary<'a> {
-    /// None of a web of independent filaments.
-    fn from_findings(findings: &Findings, layers: &'a [Layer]) -> Option<Self> {
-        let entry = |neighbour: &NeighbourCorrelation| NeighbourSummary {
-            layer: layers.get(neighbour.layer).map_or("", |layer| layer.name.as_str()),
-            distance_m: neighbour.distance,
-            correlation_md: neighbour.md.value,
-            correlation_md_se: neighbour.md.standard_error,
-            correlation_cd: neighbour.cd.value,
-            correlation_cd_se: neighbour.cd.standard_error,
-            correlation_md_interval: neighbour.md.interval(),
-            correlation_cd_interval: neighbour.cd.interval(),
-        };
-        let neighbours = &findings.laid.shared_air.as_ref()?.neighbours;
-        (!neighbours.is_empty()).then(|| Self { cd: neighbours.iter().map(entry).collect() })
+    if !findings.mean_known {
+        web["basis_weight_kg_m2"] = Json::Null;
     }
+    let guess = Doubt::GUESSES.into_iter().find(|(_, doubt)| Some(*doubt) == findings.guess);
+    let about = json!({"file": file, "guess": guess.map(|(name, _)| name)});
+    let parts = json!({
+        "web": web,
+        "fabric": fabric::summary(fabric),
+        "scan": joined([about, values(OF_SCANS, findings)]),
+        "performance": performance,
+        "notes": notes,
+    });
+    versioned_json(3, parts)
 }
 
-impl WebSummary {
-    /// What any map says.
-    fn from_map(map: &Map, clouds: Option<&Clouds>, patches: Vec<OrderedObject<Json>>) -> Self {
-        let cloudiness = clouds.map(|clouds| {
-            let (index, standard_error) = clouds.cloudiness(SEEN[0], SEEN[1]);
-            let interval = standard_error.map(|error| interval_of_deviation(index, error));
-            Cloudiness { from_m: SEEN[0], to_m: SEEN[1], index, standard_error, interval, no_interval: None }
-        });
-        let octave = |([from_m, to_m], estimate): ([f64; 2], Estimate)| Octave {
-            from_m,
-            to_m,
-            variance: estimate.mean,
-            standard_error: estimate.standard_error,
-        };
-        Self {
-            basis_weight_kg_m2: Some(map.basis_weight()),
-            cells: [map.rows, map.columns],
-            cell_m: map.cell,
-            fibre_length_m: None,
-            cut_off_kg: None,
-            lost_filaments: None,
-            flown: Vec::new(),
-            edges: None,
-            patches,
-            declared: OrderedObject(Vec::new()),
-            texture_md: clouds.map(|clouds| NumberWithError::new(&clouds.texture_md())),
-            cloudiness,
-            clouds: clouds.into_iter().flat_map(Clouds::octaves).map(octave).collect(),
-        }
-    }
+/// What any map says.
+fn of_map(map: &Map, clouds: Option<&Clouds>, patches: Json) -> Json {
+    let cloudiness = clouds.map(|clouds| {
+        let (index, standard_error) = clouds.cloudiness(SEEN[0], SEEN[1]);
+        // For all such webs; null if the map is too small to say, or if too few filaments were flown.
+        let interval = standard_error.map(|error| interval_of_deviation(index, error));
+        let [from_m, to_m] = SEEN;
+        json!({
+            "from_m": from_m, "to_m": to_m, "index": index, "standard_error": standard_error, "interval": interval,
+        })
+    });
+    let octave = |([from_m, to_m], Estimate { mean, standard_error, .. }): ([f64; 2], Estimate)| json!({"from_m": from_m, "to_m": to_m, "variance": mean, "standard_error": standard_error});
+    json!({
+        "basis_weight_kg_m2": map.basis_weight(),
+        // In machine and in cross direction.
+        "cells": [map.rows, map.columns],
+        "cell_m": map.cell,
+        "patches": patches,
+        // Share of the texture along the machine direction, ½ without orientation.
+        "texture_md": clouds.map(|clouds| mean(&clouds.texture_md())),
+        "cloudiness": cloudiness,
+        "clouds": clouds.into_iter().flat_map(Clouds::octaves).map(octave).collect::<Json>(),
+    })
+}
+
+/// The few filaments of a layer from which all others follow: their distance in a row, the correlation of the places
+/// where two at this distance and equal depth come down, the sheet that they laid, and the part of the variance of a
+/// filament between them that they do not tell.
+fn few_flown(few: &LayerFew) -> Json {
+    json!({
+        "filaments": few.filaments,
+        "pitch_m": few.pitch,
+        "neighbour_correlation": few.correlation,
+        "width_m": few.sheet[0],
+        "length_m": few.sheet[1],
+        "missing_variance_md": few.missing[0],
+        "missing_variance_cd": few.missing[1],
+    })
+}
+
+/// How filaments that hang side by side in one air come down together; none of a web of independent filaments.
+fn neighbours<'a>(findings: &Findings, name: impl Fn(usize) -> &'a str) -> Option<Json> {
+    let entry = |neighbour: &NeighbourCorrelation| {
+        let NeighbourCorrelation { layer, distance, md, cd } = neighbour;
+        json!({
+            "layer": name(*layer),
+            "distance_m": distance,
+            "correlation_md": md.value,
+            "correlation_md_se": md.standard_error,
+            "correlation_cd": cd.value,
+            "correlation_cd_se": cd.standard_error,
+            // By Student's t; null if too little was laid.
+            "correlation_md_interval": md.interval(),
+            "correlation_cd_interval": cd.interval(),
+        })
+    };
+    let neighbours = &findings.laid.shared_air.as_ref()?.neighbours;
+    (!neighbours.is_empty()).then(|| json!({"cd": neighbours.iter().map(entry).collect::<Json>()}))
 }
 
 /// The numbers of the patches of one size. Those that are not known are left out; the CV, which is the first,
@@ -296,130 +254,20 @@ fn numbers_of_patch<T>(
     measures: &'static [Measure<T>],
     found: &T,
     interval: Result<[f64; 2], String>,
-) -> OrderedObject<Json> {
-    let (name, interval): (_, Json) = match interval {
-        Ok(ends) => ("cv_interval", ends.to_vec().into()),
-        Err(why) => ("no_interval", why.into()),
-    };
-    let mut all = vec![("patch_m".to_owned(), side.into())];
+) -> Json {
+    let mut all = json!({"patch_m": side});
     for (place, measure) in measures.iter().enumerate() {
         let known = with_errors(measure, found);
-        let is_missing = place == 0 && known.is_empty();
-        all.extend(is_missing.then(|| (measure.entry().to_owned(), Json::Null)));
-        all.extend(known);
-        // It follows the CV, which is the first.
-        all.extend((place == 0).then(|| (name.to_owned(), interval.clone())));
-    }
-    OrderedObject(all)
-}
-
-/// The declared measures of a whole web that do not stand elsewhere in the file: with the map, or with each
-/// layer. Those that it does not have are left out.
-fn declared_of_web(findings: &Findings) -> OrderedObject<Json> {
-    let here = OF_WEBS.iter().filter(|measure| !measure.entry().is_empty());
-    OrderedObject(here.flat_map(|measure| with_errors(measure, findings)).collect())
-}
-
-impl NumberWithError {
-    fn new(estimate: &Estimate) -> Self {
-        Self { mean: estimate.mean, standard_error: estimate.standard_error }
-    }
-}
-
-impl<'a> Summary<'a> {
-    /// Gathers everything.
-    ///
-    /// * `beside` – the folder of the web, beside which those of changed ones lie
-    pub fn new(
-        web: &Web,
-        (findings, fabric): (&Findings, &'a Fabric),
-        (advice, guesses, beside): (Option<&'a Advice>, Option<&'a Advice>, &str),
-        layers: &'a [Layer],
-        performance: Performance,
-        notes: &'a [String],
-    ) -> Self {
-        let patches = findings.patches.iter().map(|patch| {
-            let why = match patch.doubt {
-                None => "the map is too small",
-                Some(_) => "too few filaments were flown",
-            };
-            let interval = patch.interval().ok_or_else(|| why.to_owned());
-            numbers_of_patch(patch.map.patch, OF_PATCHES, patch, interval)
-        });
-        Self {
-            layers,
-            web: WebSummary {
-                fibre_length_m: Some(findings.fibre_length),
-                cut_off_kg: Some(findings.laid.cut),
-                flown: findings
-                    .laid
-                    .shared_air
-                    .iter()
-                    .flat_map(|together| together.few.iter().map(FlownSummary::from_few))
-                    .collect(),
-                lost_filaments: findings.laid.shared_air.as_ref().map(|together| together.lost),
-                edges: (web.sheet.edges == Edges::Cut).then(|| Margins {
-                    margins_m: findings.margins,
-                    basis_weight_between_kg_m2: findings.within().basis_weight(),
-                    basis_weight_sheet_kg_m2: findings.laid.map.basis_weight(),
-                }),
-                declared: declared_of_web(findings),
-                ..WebSummary::from_map(&findings.laid.map, findings.clouds.as_ref(), patches.collect())
-            },
-            fabric: Some(FabricSummary::new(fabric)),
-            advice: advice.map(|advice| EffectsSummary::of_line(advice, findings, beside)),
-            guesses: guesses.map(|guesses| EffectsSummary::of_guesses(guesses, findings, beside)),
-            neighbours: NeighboursSummary::from_findings(findings, layers),
-            charge: ChargeSummary::from_findings(findings, |layer| {
-                layers.get(layer).map_or("", |layer| layer.name.as_str())
-            }),
-            scan: None,
-            performance,
-            notes,
+        if place == 0 {
+            all[measure.entry()] = Json::Null;
+        }
+        known.into_iter().for_each(|(name, value)| all[name] = value);
+        // It follows the CV.
+        match &interval {
+            _ if place > 0 => {}
+            Ok(ends) => all["cv_interval"] = json(ends),
+            Err(why) => all["no_interval"] = why.as_str().into(),
         }
     }
-
-    /// Of a scanned web, which was read from a file.
-    pub fn from_scan(
-        file: &'a str,
-        (findings, fabric): (&scan::Findings, &'a Fabric),
-        performance: Performance,
-        notes: &'a [String],
-    ) -> Self {
-        let patches = findings.patches.iter().map(|patch| {
-            let interval = patch.interval.map_err(|doubt| doubt.to_string());
-            numbers_of_patch(patch.unevenness.patch, OF_SCANNED_PATCHES, patch, interval)
-        });
-        let mut web = WebSummary::from_map(&findings.map, findings.clouds.as_ref(), patches.collect());
-        if let Some(guess) = findings.guess {
-            // Chance is not all that the error of a variance is made of.
-            web.clouds.iter_mut().for_each(|octave| octave.standard_error = None);
-            if let Some(cloudiness) = &mut web.cloudiness {
-                (cloudiness.standard_error, cloudiness.no_interval) = (None, Some(guess.to_string()));
-            }
-        }
-        let basis_weight_kg_m2 = web.basis_weight_kg_m2.filter(|_| findings.mean_known);
-        let guess = Doubt::GUESSES.into_iter().find(|(_, doubt)| Some(*doubt) == findings.guess);
-        let guess = guess.map(|(name, _)| name).into();
-        let words = [("file".to_owned(), file.into()), ("guess".to_owned(), guess)];
-        let numbers = values(OF_SCANS, findings).0.into_iter();
-        let scan = words.into_iter().chain(numbers.map(|(name, value)| (name, json(value))));
-        Self {
-            layers: &[],
-            web: WebSummary { basis_weight_kg_m2, ..web },
-            fabric: Some(FabricSummary::new(fabric)),
-            advice: None,
-            guesses: None,
-            neighbours: None,
-            charge: Vec::new(),
-            scan: Some(OrderedObject(scan.collect())),
-            performance,
-            notes,
-        }
-    }
-
-    /// The text of the file.
-    pub fn to_json(&self) -> String {
-        crate::output::versioned_json(3, self)
-    }
+    all
 }
