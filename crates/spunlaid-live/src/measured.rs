@@ -189,17 +189,17 @@ impl FixedFibreMeasures {
 /// Amplitude and frequency of the free ends over a time, as a run of these eight fibres has them.
 fn numbers(flight: &Flight, duration: f64) -> Vec<ShownNumber> {
     let motions: [_; WIDTH] = from_fn(|lane| flight.end_node().motion(lane, duration));
-    let told: [(_, fn(&EndNodeMotion) -> f64); 4] = [
-        ("amplitude_y", |motion| motion.amplitude_y),
-        ("amplitude_z", |motion| motion.amplitude_z),
-        ("frequency_y", |motion| motion.frequency_y),
-        ("frequency_z", |motion| motion.frequency_z),
-    ];
-    let of_all = |(name, of): (&str, fn(&EndNodeMotion) -> f64)| {
+    let of_all = |name, of: fn(&EndNodeMotion) -> f64| {
         let known = if duration > 0.0 { motions.iter().map(of).collect() } else { Vec::new() };
         ShownNumber::of_fibres(name, known)
     };
-    told.into_iter().filter_map(of_all).collect()
+    let all = [
+        of_all("amplitude_y", |motion| motion.amplitude_y),
+        of_all("amplitude_z", |motion| motion.amplitude_z),
+        of_all("frequency_y", |motion| motion.frequency_y),
+        of_all("frequency_z", |motion| motion.frequency_z),
+    ];
+    all.into_iter().flatten().collect()
 }
 
 #[cfg(test)]

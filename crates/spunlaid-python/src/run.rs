@@ -26,7 +26,8 @@ use spunlaid_results::figures::Scale;
 use spunlaid_results::folders::Contents;
 use spunlaid_results::folders::run::{self as folder, POSITIONS};
 use spunlaid_results::output::doubt;
-use spunlaid_results::output::tables::{TableRecorder, Tables, unit_of_column};
+use spunlaid_results::output::flown::{Flights, Tables};
+use spunlaid_results::output::tables::unit_of_column;
 use std::path::PathBuf;
 use std::sync::OnceLock;
 use std::sync::{Arc, Mutex};
@@ -248,17 +249,15 @@ impl RunResults {
         };
         let samples = samples.borrowed(py).all();
         save(py, (&path, force, figures), &self.folder(), |staging| {
-            let recorder = TableRecorder::new(staging, self.case.line.is_some());
-            let mut tables = Tables::create(staging, &recorder)?;
+            let flights = Flights::open(staging, &self.case, None)?;
+            let mut tables = Tables::create(staging, &flights)?;
             for (replicate, samples) in (0..).zip(samples) {
                 if self.results.lost.iter().any(|fibre| fibre.replicate == replicate) {
                     continue;
                 }
                 let points = self.laid.get(replicate as usize).map_or(&[][..], Vec::as_slice);
-                recorder
-                    .samples(replicate, &samples)
-                    .and_then(|()| recorder.lay(replicate, points))
-                    .map_err(|ended| recorder.failure(ended))?;
+                flights.samples(replicate, &samples)?;
+                flights.lay(replicate, points)?;
                 tables.add(replicate)?;
             }
             tables.finish()

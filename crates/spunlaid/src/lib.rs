@@ -69,6 +69,7 @@ pub mod removed;
 pub mod threads;
 
 mod company;
+pub mod log;
 
 mod file;
 pub mod table;

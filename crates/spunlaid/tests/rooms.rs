@@ -15,7 +15,7 @@ const ROOMS: &[&[&str]] = &[
     &["vec3", "fft", "nodes", "sort", "random"],
     &["error"],
     &["units", "threads", "removed"],
-    &["company"],
+    &["company", "log"],
     &["file", "table"],
     &["fibre", "line"],
     &["field"],

@@ -11,7 +11,6 @@
 //! sources    the force of filaments on the cells of their field, for CFD programs: VTK, OpenFOAM, report, summary
 //! spinline   a solved spinline: the thread, figures, report, summary
 //! fit        the journal of a fit, and what is made from it
-//! kept       flights of a run that outlive the process that flies them
 //! journalled a folder with a journal, which fit and study share: begun, continued, replaced
 //! run        flies a case: tables while it flies, then figures, shapes, report, summary
 //! study      the folder of a study: its journal, and what is made from it
@@ -28,7 +27,6 @@ mod declared;
 mod finished;
 pub mod fit;
 mod journalled;
-mod kept;
 mod measured_web;
 pub mod paper;
 pub mod record;

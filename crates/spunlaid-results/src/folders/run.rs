@@ -1,15 +1,14 @@
 //! The folder of a run: tables that grow while the fibres fly, and everything that is made of the results.
 
 use super::contents::{Contents, Maker, Making, Page};
-use super::kept::{Earlier, KeptFlights};
 use crate::Failure;
 use crate::figures::{SPINLINE, run_figures, spinline_figures};
 use crate::numbers::{lost_fibres_text, significant};
+use crate::output::flown::{Flights, Tables};
 use crate::output::folder::{ENTRIES, Staging};
 use crate::output::kept_input::Input;
 use crate::output::spinline::{SpinResults, write_stations};
 use crate::output::summary::{Performance, summary};
-use crate::output::tables::{TableRecorder, Tables};
 use crate::output::{doubt, paraview};
 use crate::report::run_report;
 use spunlaid::case::Case;
@@ -42,13 +41,13 @@ pub struct Flown {
     /// Number of replicates, from the first on, that have landed or are lost.
     pub replicates: u64,
     /// Flights that are kept until the results are complete.
-    kept: Option<KeptFlights>,
+    kept: Option<Flights>,
 }
 
 impl Flown {
     /// Forgets the flights that were kept, when complete results are in their folder.
     pub fn forget_kept(&mut self) {
-        self.kept.take().into_iter().for_each(KeptFlights::finish);
+        self.kept.take().iter().for_each(Flights::finish);
     }
 }
 
@@ -71,38 +70,31 @@ pub fn fly(
 ) -> Result<Flown, Failure> {
     let shapes = if staging.is_some() { KeepShapes::within(case, POSITIONS) } else { KeepShapes::NONE };
     let keep = Keep { shapes, ..Keep::CURVES };
-    let recorder = staging.map(|staging| TableRecorder::new(staging, case.line.is_some()));
-    let mut kept = staging.map(|staging| KeptFlights::open(staging, case, keep));
-    let (earlier, mut keeping) = kept.as_mut().map(|kept| (&kept.earlier, &mut kept.keeping)).unzip();
-    if let Some(left) = earlier.map(Earlier::fibres).filter(|left| *left > 0) {
-        found(left as u64);
+    let flights = staging.map(|staging| Flights::open(staging, case, Some(keep))).transpose()?;
+    if let Some(left) = flights.as_ref().map(Flights::earlier).filter(|left| *left > 0) {
+        found(left);
     }
-    let mut tables = staging
-        .zip(recorder.as_ref())
-        .map(|(staging, recorder)| Tables::create(staging, recorder))
-        .transpose()?;
-    let computing =
-        RunControl { recorder: recorder.as_ref().map(|recorder| recorder as &dyn Recorder), ..computing };
+    let tables = staging.zip(flights.as_ref()).map(|(staging, flights)| Tables::create(staging, flights));
+    let mut tables = tables.transpose()?;
+    let recorder = flights.as_ref().map(|flights| flights as &dyn Recorder);
+    let computing = RunControl { recorder, ..computing };
     let (mut collector, mut replicates, mut landed_well) = (Results::collector(KEPT), 0, 0);
     let flown = fly_for_checks(
         case,
         plans,
         keep,
         computing,
-        |some, paths| earlier.map_or(Ok(None), |earlier| earlier.recall(some, paths)),
+        |some, paths| flights.as_ref().map_or(Ok(None), |flights| flights.recall(some, paths)),
         |landed| {
             match landed {
                 Ok(trajectory) => {
-                    if let Some((tables, keeping)) = tables.as_mut().zip(keeping.as_mut()) {
-                        let before = tables.rows();
-                        tables.add(trajectory.replicate)?;
-                        keeping.land(&trajectory, &before, tables);
-                    }
+                    tables.iter_mut().try_for_each(|tables| tables.add(trajectory.replicate))?;
+                    flights.iter().for_each(|flights| flights.land(&trajectory));
                     collector.take(trajectory);
                     landed_well += 1;
                 }
                 Err(lost) => {
-                    tables.iter().for_each(|tables| tables.leave_out(lost.replicate));
+                    flights.iter().for_each(|flights| flights.leave_out(lost.replicate));
                     collector.lose(lost);
                 }
             }
@@ -118,19 +110,11 @@ pub fn fly(
         {
             None
         }
-        Err(ended) => {
-            return Err(match &recorder {
-                Some(recorder) => recorder.failure(ended),
-                None => ended,
-            });
-        }
+        Err(ended) => return Err(ended),
     };
-    if let Some((tables, keeping)) = tables.as_ref().zip(keeping) {
-        keeping.settle(tables);
-    }
-    kept.iter_mut().for_each(|kept| kept.interrupted = paths.is_none());
+    flights.iter().for_each(|flights| flights.interrupted.store(paths.is_none(), Ordering::Relaxed));
     tables.map_or(Ok(()), Tables::finish)?;
-    Ok(Flown { results: collector.finish(), paths, replicates, kept })
+    Ok(Flown { results: collector.finish(), paths, replicates, kept: flights })
 }
 
 /// Everything of a run that goes into the files.

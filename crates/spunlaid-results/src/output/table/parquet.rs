@@ -4,15 +4,12 @@ use super::{Column, ColumnValues, Rows, TableFormat, Value};
 use crate::{Failure, failure};
 use bytes::Bytes;
 use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as PhysicalType};
-use parquet::column::reader::{ColumnReader, get_column_reader};
 use parquet::column::writer::{ColumnCloseResult, get_column_writer, get_typed_column_writer_mut as typed};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
-use parquet::file::metadata::ColumnChunkMetaData;
 use parquet::file::properties::{WriterProperties, WriterPropertiesPtr};
-use parquet::file::serialized_reader::SerializedPageReader;
 use parquet::file::writer::{SerializedFileWriter, SerializedPageWriter, TrackedWrite};
-use parquet::schema::types::{ColumnDescPtr, ColumnDescriptor, ColumnPath, Type};
+use parquet::schema::types::{ColumnDescPtr, Type};
 use spunlaid::threads::each;
 use std::fs::File;
 use std::io::BufWriter;
@@ -60,26 +57,8 @@ pub(crate) struct Parquet {
     writer: SerializedFileWriter<BufWriter<File>>,
     columns: Vec<PendingValues>,
     group: usize,
-    /// Number of rows since the last group, and in the groups before.
+    /// Number of rows since the last group.
     rows: usize,
-    grouped: usize,
-    /// Where the groups are that have been written.
-    groups: Vec<RowGroup>,
-}
-
-/// A group of rows in the file of a table.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct RowGroup {
-    pub(crate) rows: usize,
-    pub(crate) columns: Vec<PackedColumn>,
-}
-
-/// A column of a group of rows: where its bytes begin in the file, how many there are, and their checksum.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct PackedColumn {
-    pub(crate) start: u64,
-    pub(crate) length: u64,
-    pub(crate) sum: u32,
 }
 
 /// The values of a column since the last group of rows.
@@ -132,40 +111,12 @@ impl Parquet {
             ColumnValues::Optional => PendingValues::Optional(Vec::new(), Vec::new()),
         };
         let columns = columns.iter().map(empty).collect();
-        Ok(Self { path, writer, columns, group, rows: 0, grouped: 0, groups: Vec::new() })
+        Ok(Self { path, writer, columns, group, rows: 0 })
     }
 
     /// Number of rows that the group takes which is gathered now.
     pub(crate) const fn room(&self) -> usize {
         self.group.saturating_sub(self.rows)
-    }
-
-    /// Number of rows.
-    pub(crate) const fn rows(&self) -> usize {
-        self.grouped + self.rows
-    }
-
-    /// Number of columns.
-    pub(crate) const fn width(&self) -> usize {
-        self.columns.len()
-    }
-
-    /// Number of rows in the groups that have been written, which are in the file.
-    pub(crate) const fn grouped(&self) -> usize {
-        self.grouped
-    }
-
-    /// The groups that have been written.
-    pub(crate) fn groups(&self) -> &[RowGroup] {
-        &self.groups
-    }
-
-    /// The numbers of a column since the last group.
-    pub(crate) fn pending(&self, column: usize) -> &[f64] {
-        match self.columns.get(column) {
-            Some(PendingValues::Number(values)) => values,
-            _ => &[],
-        }
     }
 
     /// Adds values to a column of whole numbers.
@@ -229,7 +180,7 @@ impl Parquet {
                 }
             }
         }
-        self.grouped += std::mem::take(&mut self.rows);
+        self.rows = 0;
         Ok(())
     }
 
@@ -240,20 +191,11 @@ impl Parquet {
         let columns = &self.columns;
         let packed = each(threads, columns.len(), |i| columns[i].pack(schema.column(i), properties.clone()));
         let mut group = self.writer.next_row_group()?;
-        let mut sums = Vec::new();
         for column in packed {
             let (bytes, closed) = column?;
-            sums.push(crc32fast::hash(&bytes));
             group.append_column(&bytes, closed)?;
         }
-        let about = group.close()?;
-        let columns = about.columns().iter().zip(sums).map(|(column, sum)| {
-            let (start, length) = column.byte_range();
-            PackedColumn { start, length, sum }
-        });
-        self.groups.push(RowGroup { rows: self.rows, columns: columns.collect() });
-        // A process that is killed leaves whole groups.
-        self.writer.flush().map_err(ParquetError::from)
+        group.close().map(drop)
     }
 }
 
@@ -278,32 +220,4 @@ impl PendingValues {
         let closed = writer.close()?;
         Ok((packed.into_inner()?.into(), closed))
     }
-}
-
-/// The numbers of a column of a group of rows; `None` if the bytes are not those that were written.
-pub(crate) fn unpacked(bytes: Vec<u8>, column: PackedColumn, rows: usize) -> Option<Vec<f64>> {
-    if crc32fast::hash(&bytes) != column.sum {
-        return None;
-    }
-    let field = Type::primitive_type_builder("number", PhysicalType::DOUBLE);
-    let field = field.with_repetition(Repetition::REQUIRED).build().ok()?;
-    let about = ColumnDescriptor::new(Arc::new(field), 0, 0, ColumnPath::from("number"));
-    let about = Arc::new(about);
-    let chunk = ColumnChunkMetaData::builder(Arc::clone(&about))
-        .set_compression(Compression::SNAPPY)
-        .set_num_values(rows as i64)
-        .set_total_compressed_size(bytes.len() as i64)
-        .build()
-        .ok()?;
-    let pages = SerializedPageReader::new(Arc::new(Bytes::from(bytes)), &chunk, rows, None).ok()?;
-    let ColumnReader::DoubleColumnReader(mut reader) = get_column_reader(about, Box::new(pages)) else {
-        return None;
-    };
-    let mut numbers = Vec::with_capacity(rows);
-    while numbers.len() < rows {
-        if reader.read_records(rows - numbers.len(), None, None, &mut numbers).ok()?.0 == 0 {
-            return None;
-        }
-    }
-    Some(numbers)
 }
