@@ -58,7 +58,7 @@ impl LaidStatistics {
             let noises = curves.iter().filter_map(|curve| {
                 let sigmas = [curve.sigma_md, curve.sigma_cd];
                 let found = identify(sigmas, curve.lag_step, [&curve.correlation_md, &curve.correlation_cd]);
-                Some(found.ok()?.surrogate.noise)
+                Some(found?.surrogate.noise)
             });
             self.fitted = (points, noises.collect());
         }

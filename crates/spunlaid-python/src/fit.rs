@@ -67,7 +67,7 @@ pub(crate) fn find_fit(
             out.as_ref().map(|out| folder::open(out, &input, false, None, &watch.stop)).transpose()?;
         let (place, mut journal) = match opened {
             Some((place, journal, _)) => (Some(place), journal),
-            None => (None, Journal::in_memory(MOST_TRIALS)),
+            None => (None, Journal::in_memory()),
         };
         let flights = AtomicU64::new(0);
         let flying = RunControl { fibre_steps: &flights, ..watch.run_control(threads) };

@@ -100,10 +100,9 @@ impl Study {
                 (stem(&path), file)
             }
         };
-        let number = file.study.points.len();
         let journal = guarded(py, || match &out {
             Some(out) => Ok(folder::open(out, &file, force, None, &NEVER)?.1),
-            None => Ok(Journal::in_memory(number)),
+            None => Ok(Journal::in_memory()),
         })?;
         let round = Mutex::new((Rounds::new(&file.study), None));
         Ok(Self { name, file, out, journal: Mutex::new(Some(journal)), round })
@@ -126,7 +125,7 @@ impl Study {
         watched(py, &shown, progress.as_ref(), || {
             look_while(LOOK, look, || {
                 self.with_journal(|journal| {
-                    let lent = Mutex::new(std::mem::replace(journal, Journal::in_memory(0)));
+                    let lent = Mutex::new(std::mem::replace(journal, Journal::in_memory()));
                     let outcome = run(&self.file.study, &lent, computing, &counters);
                     *journal = unlock(lent);
                     outcome
@@ -400,7 +399,7 @@ impl Study {
         match (kept_open.as_mut(), &self.out) {
             (Some(journal), _) => work(journal),
             (None, Some(out)) => work(&mut folder::open(out, &self.file, false, None, &NEVER)?.1),
-            (None, None) => work(&mut Journal::in_memory(self.file.study.points.len())),
+            (None, None) => work(&mut Journal::in_memory()),
         }
     }
 

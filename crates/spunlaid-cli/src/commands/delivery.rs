@@ -6,8 +6,8 @@ use crate::failure::Failure;
 use crate::say;
 use spunlaid::error::{Error, Fault};
 use spunlaid::study::JournalState;
-use spunlaid_results::folders::{Contents, Making, Written};
-use spunlaid_results::output::folder::{Published, Staging};
+use spunlaid_results::folders::{Contents, Making};
+use spunlaid_results::output::folder::Staging;
 use spunlaid_results::output::origin::Origin;
 use spunlaid_results::output::pictures::FigureFiles;
 use std::path::{Path, PathBuf};
@@ -17,17 +17,10 @@ use std::path::{Path, PathBuf};
 pub(super) struct Delivery<'a> {
     folder: Option<PathBuf>,
     staging: Option<Staging<'static>>,
-    output: &'a Output,
-}
-
-/// Results that are in their folder, and what of them has been said.
-#[derive(Debug)]
-pub(super) struct Delivered<'a> {
-    folder: Option<PathBuf>,
-    written: Option<(Published<'static>, Written)>,
     making: Making<'static>,
     output: &'a Output,
-    /// What the terminal has shown of the results.
+    /// What a terminal shows of the results, and what it has shown.
+    text: String,
     said: Option<String>,
 }
 
@@ -81,7 +74,8 @@ impl<'a> Delivery<'a> {
             Ok(staging)
         };
         let staging = folder.as_ref().map(open).transpose()?;
-        Ok(Self { folder, staging, output })
+        let (making, text) = (making(Threads::default()), String::new());
+        Ok(Self { folder, staging, making, output, text, said: None })
     }
 
     /// The folder that collects the files.
@@ -101,47 +95,33 @@ impl<'a> Delivery<'a> {
         threads: Threads,
         asides: Asides<'_>,
     ) -> Result<(), Failure> {
-        let mut delivered = self.publish(contents, threads)?;
-        delivered.say(asides);
-        delivered.finish(contents);
+        self.publish(contents, threads)?;
+        self.say(asides);
+        self.finish(contents);
         Ok(())
     }
 
     /// Writes results into the folder, where files can be replaced later.
-    pub(super) fn publish<C: Contents>(
-        &mut self,
-        contents: &C,
-        threads: Threads,
-    ) -> Result<Delivered<'a>, Failure> {
-        let making = making(threads);
-        let write = |staging| contents.write(staging, making);
-        let written = self.staging.as_ref().map(write).transpose()?;
-        let lacking = self.staging.as_ref().and_then(|staging| staging.lacking_tables(C::OF_ONE_FORMAT));
-        lacking.iter().filter(|_| !self.output.quiet).for_each(|lacking| say::remark(false, lacking));
-        let published = self.staging.take().map(Staging::publish_first).transpose()?;
-        let (folder, output) = (self.folder.clone(), self.output);
-        Ok(Delivered { folder, written: published.zip(written), making, output, said: None })
-    }
-}
-
-impl Delivered<'_> {
-    /// The folder, if there are files.
-    pub(super) fn folder(&self) -> Option<&Path> {
-        self.folder.as_deref().filter(|_| self.written.is_some())
+    pub(super) fn publish<C: Contents>(&mut self, contents: &C, threads: Threads) -> Result<(), Failure> {
+        self.making = making(threads);
+        let Some(staging) = &mut self.staging else { return Ok(()) };
+        self.text = contents.write(staging, self.making)?;
+        let lacking = staging.lacking_tables(C::OF_ONE_FORMAT).filter(|_| !self.output.quiet);
+        lacking.iter().for_each(|lacking| say::remark(false, lacking));
+        Ok(staging.publish()?)
     }
 
     /// Writes report, summary and new figures again, when more is known.
     pub(super) fn rewrite(&mut self, contents: &impl Contents) -> Result<(), Failure> {
-        if let Some((folder, written)) = &mut self.written {
-            *written = contents.rewrite(folder, written, self.making)?;
+        if let Some(staging) = &self.staging {
+            self.text = contents.write(staging, self.making)?;
         }
         Ok(())
     }
 
     /// Says only the result, because the rest is told again when more is known.
     pub(super) fn say_headline(&self) {
-        let text = self.written.as_ref().and_then(|(_, written)| written.text.lines().next());
-        text.into_iter().for_each(|headline| self.line(headline));
+        self.text.lines().take(1).for_each(|headline| self.line(headline));
     }
 
     /// Says as lines what was found and has not been said; the first time also which page to open.
@@ -149,10 +129,9 @@ impl Delivered<'_> {
         if self.output.json || self.output.quiet {
             return;
         }
-        let text = self.written.as_ref().map_or("", |(_, written)| &written.text);
         let page = self.folder.as_deref().filter(|_| self.said.is_none());
-        say_lines(&new_text(self.said.as_deref().unwrap_or_default(), text), page, asides);
-        self.said = Some(text.to_owned());
+        say_lines(&new_text(self.said.as_deref().unwrap_or_default(), &self.text), page, asides);
+        self.said = Some(self.text.clone());
     }
 
     /// Says a line beside the results.

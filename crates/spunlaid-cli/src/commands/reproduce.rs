@@ -168,7 +168,7 @@ impl PaperFlights {
     }
 
     fn fly(self, computing: RunControl<'_>) -> Result<PaperResults, Failure> {
-        let journal = Mutex::new(Journal::in_memory(self.study.points.len()));
+        let journal = Mutex::new(Journal::in_memory());
         run(&self.study, &journal, computing, &Progress::default())?;
         let mut journal = unlock(journal);
         let points = (0..self.study.points.len())

@@ -50,27 +50,24 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
         performance,
         drawn: OnceLock::new(),
     };
-    let mut delivered = match delivery.publish(&first, run.threads) {
-        Ok(delivered) => delivered,
-        Err(failure) => {
-            // What is kept goes first, since the folder above it is removed only if it is empty.
-            drop(flown);
-            return Err(failure);
-        }
-    };
+    if let Err(failure) = delivery.publish(&first, run.threads) {
+        // What is kept goes first, since the folder above it is removed only if it is empty.
+        drop(flown);
+        return Err(failure);
+    }
     // The results are safe now, whatever becomes of the checks.
     let is_checked = plans.fibre_steps() > 0 && flown.paths.is_some();
     if is_checked {
-        delivered.say_headline();
+        delivery.say_headline();
     }
-    coarse.iter().filter(|_| delivered.folder().is_some()).for_each(|coarse| say::remark(false, coarse));
+    coarse.iter().filter(|_| delivery.folder().is_some()).for_each(|coarse| say::remark(false, coarse));
     let checked = flown.paths.as_ref().map(|paths| check(&plans, paths, computing, output.quiet));
     let written = files::Run { checks: checked.as_ref().unwrap_or(&before), ..first };
     if is_checked {
-        delivered.rewrite(&written)?;
+        delivery.rewrite(&written)?;
     }
-    delivered.say(Asides::default());
-    delivered.finish(&written);
+    delivery.say(Asides::default());
+    delivery.finish(&written);
     if checked.is_none() {
         return Err(paused());
     }

@@ -1,6 +1,6 @@
 //! `spunlaid web`: lays a web of many filaments and says how even it is.
 
-use super::delivery::{Asides, Delivered, Delivery, check_file};
+use super::delivery::{Asides, Delivery, check_file};
 use super::flown::flown;
 use super::{lay_control, plural, stem};
 use crate::args::{self, Invocation, Output, overrides};
@@ -65,10 +65,10 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
         let page = specification_sheet(&name, (&findings, &fabric), notes)?;
         fs::write(sheet, page).map_err(|error| Error::unwritable(sheet)(error))?;
     }
-    let mut delivered = delivery.publish(&first, threads)?;
+    delivery.publish(&first, threads)?;
     // The web is safe now, whatever becomes of what is tried with it.
-    delivered.say(Asides { lines: &[laying], found });
-    trials.run(output, first, by, &mut delivered)
+    delivery.say(Asides { lines: &[laying], found });
+    trials.run(output, first, by, &mut delivery)
 }
 
 /// Changes that are tried once a web has been laid.
@@ -113,38 +113,38 @@ impl Trials {
         output: &Output,
         first: WebFolder<'_>,
         by: LayControl<'_>,
-        delivered: &mut Delivered<'_>,
+        delivery: &mut Delivery<'_>,
     ) -> Result<(), Failure> {
-        let kept = delivered.folder().map(KeptTrials::open);
+        let kept = delivery.folder().map(KeptTrials::open);
         if let Some(kept) = kept.as_ref().filter(|kept| kept.flights() + kept.damaged > 0) {
             let torn = if kept.damaged == 0 { "" } else { "; a torn or damaged record is flown again" };
             let flights = plural(kept.flights(), "flight");
-            delivered.line(&format!("continuing: {flights} of an earlier command are kept{torn}"));
+            delivery.line(&format!("continuing: {flights} of an earlier command are kept{torn}"));
         }
         let (judged_by, quiet) = (self.judged_by, output.quiet);
         let by = (kept.as_ref().map(|kept| kept as &dyn Shelf), by);
         let of_guesses = ["other value", "guesses", "--set web.guessed=none"];
         let guesses = match self.guesses {
-            Some(all) => try_changes(all, of_guesses, (first, judged_by), by, (quiet, delivered))?,
+            Some(all) => try_changes(all, of_guesses, (first, judged_by), by, (quiet, delivery))?,
             None => None,
         };
         let guessed = WebFolder { guesses: guesses.as_ref(), awaited: self.changes.is_some(), ..first };
         if guesses.is_some() {
-            delivered.rewrite(&guessed)?;
-            delivered.say(Asides::default());
+            delivery.rewrite(&guessed)?;
+            delivery.say(Asides::default());
         }
         let of_line = ["change", "the line", "--no-advice"];
         let advice = match self.changes {
-            Some(all) => try_changes(all, of_line, (guessed, judged_by), by, (quiet, delivered))?,
+            Some(all) => try_changes(all, of_line, (guessed, judged_by), by, (quiet, delivery))?,
             None => None,
         };
         let advised = WebFolder { advice: advice.as_ref(), awaited: false, ..guessed };
         if guessed.awaited {
-            delivered.rewrite(&advised)?;
-            delivered.say(Asides::default());
+            delivery.rewrite(&advised)?;
+            delivery.say(Asides::default());
         }
         kept.iter().for_each(KeptTrials::clear);
-        delivered.finish(&advised);
+        delivery.finish(&advised);
         Ok(())
     }
 }
@@ -162,7 +162,7 @@ fn try_changes(
     [noun, of, without]: [&str; 3],
     (folder, judged_by): (WebFolder<'_>, Option<f64>),
     (shelf, by): (Option<&dyn Shelf>, LayControl<'_>),
-    (quiet, delivered): (bool, &mut Delivered<'_>),
+    (quiet, delivery): (bool, &mut Delivery<'_>),
 ) -> Result<Option<Advice>, Failure> {
     let label = format!("trying {} of {of}", plural(changes.len() as u64, noun));
     let (begun, done, spec) = (Instant::now(), AtomicU64::new(0), &folder.file.spec);
@@ -171,8 +171,8 @@ fn try_changes(
     match progress::follow(&done, all, &label, quiet, work) {
         Err(Error::Interrupted) => {
             by.stop.store(false, Ordering::Relaxed);
-            delivered.rewrite(&WebFolder { awaited: false, ..folder })?;
-            Err(Failure::Kept { folder: delivered.folder().map(Path::to_owned) })
+            delivery.rewrite(&WebFolder { awaited: false, ..folder })?;
+            Err(Failure::Kept { folder: delivery.folder().map(Path::to_owned) })
         }
         Err(error) => {
             say::warning(&format!("{label} of {} failed: {error}", folder.name));
@@ -180,7 +180,7 @@ fn try_changes(
         }
         Ok(advice) => {
             let seconds = begun.elapsed().as_secs_f64();
-            delivered.line(&format!("{label} took {seconds:.2} s; {without} leaves it out"));
+            delivery.line(&format!("{label} took {seconds:.2} s; {without} leaves it out"));
             Ok(Some(advice))
         }
     }

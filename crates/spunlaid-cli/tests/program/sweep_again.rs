@@ -142,7 +142,7 @@ fn rejects_the_journals_of_others() {
     let version = format!("version={}", env!("CARGO_PKG_VERSION"));
     for (header, told) in [
         (header.replace(&version, "version=0.0.1"), "spunlaid 0.0.1"),
-        (header.replace("format=4", "format=77"), "format 77"),
+        (header.replace("format=5", "format=77"), "format 77"),
         (header.replace("spunlaid-journal", "something-else"), "is not the journal of a study"),
     ] {
         let mut other = header.into_bytes();

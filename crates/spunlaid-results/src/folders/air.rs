@@ -62,7 +62,8 @@ impl Contents for AirFolder<'_> {
         let pictures = pictures(self.case, self.slices);
         let figures: Vec<&Figure> = field.iter().chain(&pictures).collect();
         let files = |staging: &Staging<'_>| write_vtk(staging, self.slices);
-        let report = || Ok(air_report((self.case, input), self.slices, [&field, &pictures], self.headline()));
+        let report =
+            || Ok(air_report((self.case, &input), self.slices, [&field, &pictures], self.headline()));
         maker.finish((self.name, self.notes), &figures, files, report)
     }
 }

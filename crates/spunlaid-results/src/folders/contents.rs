@@ -1,12 +1,11 @@
 //! What goes into a folder of results, and the one way in which it is written.
 
 use crate::Failure;
-use crate::output::folder::{Published, Staging};
+use crate::output::folder::Staging;
 use crate::output::kept_input::Input;
 use crate::report::Report;
 use spunlaid_charts::Figure;
 use std::borrow::Borrow;
-use std::cell::OnceCell;
 use std::io::{self, Write};
 use std::panic::resume_unwind;
 use std::sync::atomic::AtomicBool;
@@ -54,36 +53,19 @@ pub trait Contents: Sync {
     /// # Errors
     /// The errors of [`Contents::make`].
     fn html(&self, making: Making<'_>) -> Result<String, Failure> {
-        Ok(self.make(&Maker { making, place: Place::Nowhere, input: OnceCell::new() })?.html)
+        Ok(self.make(&Maker { making, staging: None })?.html)
     }
 
-    /// Writes all files.
+    /// Writes all files; of results that are in their folder, report, summary and new figures again, when more is known.
+    /// Returns what a terminal shows.
     ///
     /// # Errors
     /// The errors of [`Contents::make`].
-    fn write(&self, staging: &Staging<'_>, making: Making<'_>) -> Result<Written, Failure> {
-        let maker = Maker { making, place: Place::Staging(staging), input: OnceCell::new() };
-        let page = self.make(&maker)?;
+    fn write(&self, staging: &Staging<'_>, making: Making<'_>) -> Result<String, Failure> {
+        let page = self.make(&Maker { making, staging: Some(staging) })?;
         staging.write(REPORT, page.html)?;
         staging.write_with(Self::SUMMARY, |to| self.write_summary(to))?;
-        Ok(Written { input: maker.input, text: page.text })
-    }
-
-    /// Writes report, summary and new figures again, when more is known of the same results.
-    ///
-    /// # Errors
-    /// The errors of [`Contents::make`].
-    fn rewrite(
-        &self,
-        folder: &Published<'_>,
-        before: &Written,
-        making: Making<'_>,
-    ) -> Result<Written, Failure> {
-        let maker = Maker { making, place: Place::Published(folder), input: before.input.clone() };
-        let page = self.make(&maker)?;
-        folder.replace(REPORT, page.html)?;
-        folder.replace(Self::SUMMARY, self.summary())?;
-        Ok(Written { input: maker.input, text: page.text })
+        Ok(page.text)
     }
 }
 
@@ -95,18 +77,8 @@ const REPORT: &str = "report.html";
 pub struct Maker<'a> {
     /// How it is made.
     pub making: Making<'a>,
-    place: Place<'a>,
-    input: OnceCell<String>,
-}
-
-/// Where the files of results are made.
-#[derive(Debug)]
-enum Place<'a> {
-    /// Only the page is asked for.
-    Nowhere,
-    Staging(&'a Staging<'a>),
-    /// All are there, but for what is new.
-    Published(&'a Published<'a>),
+    /// Where files are written; none if only the page is asked for.
+    staging: Option<&'a Staging<'a>>,
 }
 
 impl Maker<'_> {
@@ -114,12 +86,11 @@ impl Maker<'_> {
     ///
     /// # Errors
     /// If a file cannot be written.
-    pub fn keep(&self, input: Input<'_>) -> Result<&str, Failure> {
-        let kept = match self.place {
-            Place::Staging(staging) if self.input.get().is_none() => Some(input.keep(staging)?),
-            _ => None,
-        };
-        Ok(self.input.get_or_init(|| kept.unwrap_or_else(|| input.text())))
+    pub fn keep(&self, input: Input<'_>) -> Result<String, Failure> {
+        match self.staging {
+            Some(staging) => staging.input(|| input.keep(staging)),
+            None => Ok(input.text()),
+        }
     }
 
     /// Writes figures and the files that only such results have, while the report is made.
@@ -139,11 +110,10 @@ impl Maker<'_> {
             let report = report()?.named(name).noting(notes);
             Ok(Page { html: report.html(), text: report.text(self.making.room) })
         };
-        let staging = match self.place {
-            Place::Nowhere => return page(),
-            Place::Published(folder) => return folder.write_new_figures(figures).and_then(|()| page()),
-            Place::Staging(staging) => staging,
-        };
+        let Some(staging) = self.staging else { return page() };
+        if staging.is_published() {
+            return staging.write_figures(figures).and_then(|()| page());
+        }
         // Writing many small files waits for the disk, and pictures take time.
         std::thread::scope(|scope| {
             let files = scope.spawn(|| files(staging));
@@ -161,12 +131,4 @@ pub struct Page {
     html: String,
     /// What a terminal shows.
     text: String,
-}
-
-/// What has been written.
-#[derive(Debug)]
-pub struct Written {
-    input: OnceCell<String>,
-    /// What a terminal shows.
-    pub text: String,
 }

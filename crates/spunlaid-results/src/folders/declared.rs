@@ -96,7 +96,7 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
     for findings in &kinds(&found) {
         let desk = tempfile::tempdir().unwrap();
         let folder = desk.path().join("w");
-        let staging = Staging::new(&folder, WebFolder::ENTRIES, false, &STOP).unwrap();
+        let mut staging = Staging::new(&folder, WebFolder::ENTRIES, false, &STOP).unwrap();
         let written = WebFolder {
             name: "web",
             file: &file,
@@ -111,7 +111,7 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
             notes: &[],
             performance: Performance::default(),
         };
-        let text = written.write(&staging, MAKING).unwrap().text;
+        let text = written.write(&staging, MAKING).unwrap();
         staging.publish().unwrap();
         let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
         let (summary, report): (Json, _) =

@@ -11,7 +11,7 @@ use crate::output::origin::Origin;
 use crate::output::table::TABLES;
 use crate::report::fit_report;
 use spunlaid::error::Fault;
-use spunlaid::fit::{Fit, MOST_TRIALS, Target, identity, numbers_of_record};
+use spunlaid::fit::{Fit, MOST_TRIALS, Target, identity};
 use spunlaid::input::{FitFile, WebSpec};
 use spunlaid::study::{Header, Journal, JournalState};
 use std::path::Path;
@@ -62,7 +62,7 @@ pub fn open<'a>(
     stop: &'a AtomicBool,
 ) -> Result<(JournalFolder<'a>, Journal, Option<JournalState>), Failure> {
     let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: input.identity() };
-    let size = (MOST_TRIALS, input.webs, numbers_of_record(input.target));
+    let size = (MOST_TRIALS, input.webs);
     let work = Work { header: &wanted, entries: &[FILES], description: &[], force, origin, size };
     let other = |path: &Path| {
         let fault = Fault::new(
@@ -97,7 +97,7 @@ impl Contents for FoundFit<'_> {
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
         let FitInput { name, paths, target, notes, .. } = self.input;
         let (input, figures) = (maker.keep(Input::Web(self.spec))?, fit_figures(self.fit));
-        let report = || Ok(fit_report(self.fit, (paths[1], target), (self.spec, input), &figures));
+        let report = || Ok(fit_report(self.fit, (paths[1], target), (self.spec, &input), &figures));
         maker.finish((name, notes), &figures, |staging| write_trials(staging, self.fit), report)
     }
 }

@@ -58,8 +58,8 @@ pub(super) struct Work<'a> {
     pub(super) force: bool,
     /// The command that does it, if it may replace what it made before.
     pub(super) origin: Option<&'a Origin>,
-    /// Most points, most replicates of a point, and numbers of a replicate.
-    pub(super) size: (usize, u64, usize),
+    /// Most points, and most replicates of a point.
+    pub(super) size: (usize, u64),
 }
 
 impl<'a> JournalFolder<'a> {
@@ -76,12 +76,12 @@ impl<'a> JournalFolder<'a> {
         other: impl FnOnce(&Path) -> Failure,
     ) -> Result<(Self, Journal, Option<JournalState>), Failure> {
         let (at, mut journal, header) = Self::find(path, work, stop)?;
-        let (points, replicates, numbers) = work.size;
+        let (points, replicates) = work.size;
         let state = match header {
             None => {
                 begin(&at.place)?;
                 at.sign(work.origin)?;
-                journal.begin(work.header, points, numbers)?;
+                journal.begin(work.header)?;
                 // The new file must survive a power cut. Some systems cannot sync folders, so an error is ignored.
                 let _ = fs::File::open(&at.place).and_then(|folder| folder.sync_all());
                 None
@@ -90,7 +90,7 @@ impl<'a> JournalFolder<'a> {
                 return Err(other_version(&at.place, &found.version));
             }
             Some(found) if found != *work.header => return Err(other(&at.place)),
-            Some(_) => Some(journal.go_on(points, replicates, numbers)?),
+            Some(_) => Some(journal.go_on(points, replicates)?),
         };
         Ok((at, journal, state))
     }
@@ -177,14 +177,14 @@ impl<'a> JournalFolder<'a> {
     /// Writes results beside what has been written of them.
     pub(super) fn finish(
         &mut self,
-        staging: Staging<'_>,
+        mut staging: Staging<'_>,
         contents: &impl Contents,
         making: Making<'_>,
     ) -> Result<String, Failure> {
-        let written = contents.write(&staging, making)?;
+        let text = contents.write(&staging, making)?;
         staging.publish()?;
         self.replace()?;
-        Ok(written.text)
+        Ok(text)
     }
 
     /// Puts complete results in the place of the earlier ones. A process that is killed meanwhile leaves no

@@ -39,7 +39,7 @@ pub mod tensions;
 mod trials;
 pub mod web;
 
-pub use contents::{Contents, Maker, Making, Page, Written};
+pub use contents::{Contents, Maker, Making, Page};
 pub use finished::{read_summary, read_summary_of_run};
 pub use journalled::JournalFolder;
 pub use measured_web::read_measured_web;

@@ -34,8 +34,9 @@ impl Contents for PaperFolder<'_> {
     }
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
-        let case = (self.case, maker.keep(Input::Case(self.case))?);
-        let report = || Ok(paper_report(self.claims, self.figures, self.choices, self.how, case));
+        let input = maker.keep(Input::Case(self.case))?;
+        let report =
+            || Ok(paper_report(self.claims, self.figures, self.choices, self.how, (self.case, &input)));
         maker.finish(("Battocchio, Sutcliffe & Teschner 2015", &[]), self.figures, |_| Ok(()), report)
     }
 }

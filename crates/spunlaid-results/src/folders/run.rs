@@ -177,7 +177,8 @@ impl Contents for Run<'_> {
         };
         let report = || {
             let drawn = drawn.as_ref().map(|(solved, figures)| (*solved, &figures[..]));
-            let report = run_report((case, input), (results, self.checks), figures, drawn, self.performance)?;
+            let report =
+                run_report((case, &input), (results, self.checks), figures, drawn, self.performance)?;
             Ok(report.named(self.name).noting(&self.all_notes()))
         };
         maker.finish((self.name, &self.all_notes()), &all, files, report)

@@ -43,7 +43,7 @@ impl Contents for SourcesFolder<'_> {
             write_vtk(staging, self.case, self.sources)?;
             write_openfoam(staging, self.case, self.sources)
         };
-        let report = || Ok(sources_report((self.case, input), self.sources));
+        let report = || Ok(sources_report((self.case, &input), self.sources));
         maker.finish((self.name, self.notes), &[] as &[Figure], files, report)
     }
 }

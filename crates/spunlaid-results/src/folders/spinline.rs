@@ -36,7 +36,7 @@ impl Contents for SpinFolder<'_> {
         let SpinResults { rows, influences } = self.results;
         let input = maker.keep(Input::Spinline(&self.file.spec))?;
         let figures = spinline_figures(SPINLINE, rows, influences);
-        let report = || Ok(spinline_report(&self.file.spec, self.results, &figures, input));
+        let report = || Ok(spinline_report(&self.file.spec, self.results, &figures, &input));
         maker.finish(
             (self.name, self.notes),
             &figures,

@@ -61,7 +61,7 @@ pub fn open<'a>(
     stop: &'a AtomicBool,
 ) -> Result<(JournalFolder<'a>, Journal, Option<JournalState>), Failure> {
     let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: file.study.identity() };
-    let size = (file.study.points.len(), MOST_REPLICATES, file.study.quantities.len());
+    let size = (file.study.points.len(), MOST_REPLICATES);
     let entries = &[DESCRIPTION, MADE];
     let work = Work { header: &wanted, entries, description: REMAINS, force, origin, size };
     let begin = |place: &Path| begin(place, file, stop);
@@ -115,7 +115,7 @@ fn begin(place: &Path, file: &StudyFile, stop: &AtomicBool) -> Result<(), Failur
 }
 
 fn describe(place: &Path, file: &StudyFile, stop: &AtomicBool) -> Result<(), Failure> {
-    let staging = Staging::new(place, DESCRIPTION, true, stop)?;
+    let mut staging = Staging::new(place, DESCRIPTION, true, stop)?;
     staging.write(file.base_name(), keep_files(file, &staging)?)?;
     staging.write(STUDY, &file.text)?;
     staging.publish()

@@ -104,7 +104,7 @@ impl Contents for WebFolder<'_> {
         };
         let report = || {
             web_report(
-                (spec, input, web),
+                (spec, &input, web),
                 (findings, self.fabric),
                 Advised {
                     advice: self.advice,

@@ -383,12 +383,15 @@ impl<'a> Tables<'a> {
     }
 }
 
+/// A column of rows: its name, and its value in a row.
+type NamedColumn<T> = (&'static str, fn(&T) -> f64);
+
 /// Adds rows in groups of the same size, however they come: their bytes are then those of any other run.
 fn add_rows<T>(
     table: &mut Parquet,
     replicate: u64,
     mut rows: &[T],
-    columns: &[(&'static str, fn(&T) -> f64)],
+    columns: &[NamedColumn<T>],
 ) -> Result<(), Failure> {
     while !rows.is_empty() {
         let (some, others) = rows.split_at(rows.len().min(table.room()));

@@ -11,6 +11,7 @@ use std::borrow::Borrow;
 use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The contents of a results folder of `run`, `analyse` or `reproduce`. The last entry marks it as complete.
@@ -74,6 +75,10 @@ pub struct Staging<'a> {
     made: Vec<PathBuf>,
     stop: &'a AtomicBool,
     figures: FigureFiles,
+    /// What the results are computed from, once it is kept.
+    input: OnceLock<String>,
+    /// Whether the results are in their folder: a file that is written now takes the place of an earlier one.
+    is_published: bool,
 }
 
 impl<'a> Staging<'a> {
@@ -137,7 +142,20 @@ impl<'a> Staging<'a> {
             .map_err(&unwritable)?;
         let claim = Claim::on(&staging);
         let (folder, figures) = (folder.to_owned(), FigureFiles::default());
-        let staging = Self { folder, staging, entries, replace, origin, claim, made, stop, figures };
+        let (input, is_published) = (OnceLock::new(), false);
+        let staging = Self {
+            folder,
+            staging,
+            entries,
+            replace,
+            origin,
+            claim,
+            made,
+            stop,
+            figures,
+            input,
+            is_published,
+        };
         fs::create_dir(staging.staging.join(NEW)).map_err(&unwritable)?;
         Ok(staging)
     }
@@ -169,6 +187,9 @@ impl<'a> Staging<'a> {
 
     /// The present and the final path of a file, whose parent folders are there.
     pub(super) fn begin(&self, name: &str) -> Result<(PathBuf, PathBuf), Failure> {
+        if self.is_published {
+            return Ok((self.staging.join(NEXT), self.folder.join(name)));
+        }
         self.go_on()?;
         let (now, later) = self.place(name);
         now.parent().map_or(Ok(()), fs::create_dir_all).map_err(Failure::unwritable(&later))?;
@@ -209,7 +230,7 @@ impl<'a> Staging<'a> {
         self.write_with(name, |file| file.write_all(content.as_ref()))
     }
 
-    /// The same, part by part.
+    /// The same, part by part. Who reads a file that is replaced finds the earlier one or this one, and each is whole.
     pub fn write_with(
         &self,
         name: &str,
@@ -219,27 +240,34 @@ impl<'a> Staging<'a> {
         fs::File::create(&now)
             .map(BufWriter::new)
             .and_then(|mut file| write(&mut file).and_then(|()| file.flush()))
+            .and_then(|()| if self.is_published { fs::rename(&now, &later) } else { Ok(()) })
             .map_err(Failure::unwritable(&later))
     }
 
-    /// Writes the files of figures.
+    /// Writes the files of figures; of results that are in their folder, those that they do not have yet.
     pub fn write_figures<F: Borrow<Figure> + Sync>(&self, figures: &[F]) -> Result<(), Failure> {
-        self.figures.write(figures, |name, content| self.write(&format!("figures/{name}"), content))
+        let name = |figure: &Figure| format!("figures/{}.csv", figure.name);
+        let is_new = |figure: &&Figure| !self.is_published || !self.folder.join(name(figure)).exists();
+        let new: Vec<&Figure> = figures.iter().map(F::borrow).filter(is_new).collect();
+        self.figures.write(&new, |name, content| self.write(&format!("figures/{name}"), content))
+    }
+
+    /// What the results are computed from, as it is kept by the first who asks.
+    pub(crate) fn input(&self, keep: impl FnOnce() -> Result<String, Failure>) -> Result<String, Failure> {
+        match self.input.get() {
+            Some(kept) => Ok(kept.clone()),
+            None => keep().map(|kept| self.input.get_or_init(|| kept).clone()),
+        }
+    }
+
+    /// Whether the results are in their folder.
+    pub const fn is_published(&self) -> bool {
+        self.is_published
     }
 
     /// Moves the results to their folder. If there was no folder, this is one renaming; otherwise the entries are
-    /// moved one by one, and the one that marks the results as complete comes last.
-    pub fn publish(mut self) -> Result<(), Failure> {
-        self.move_to_folder()
-    }
-
-    /// [`Staging::publish`], and files of the results may be replaced later.
-    pub fn publish_first(mut self) -> Result<Published<'a>, Failure> {
-        self.move_to_folder()?;
-        Ok(Published(self))
-    }
-
-    fn move_to_folder(&mut self) -> Result<(), Failure> {
+    /// moved one by one, and the one that marks the results as complete comes last. Files may be replaced later.
+    pub fn publish(&mut self) -> Result<(), Failure> {
         self.go_on()?;
         // Another run may have written results in the meantime.
         refuse_results(&self.folder, self.entries, self.replace, self.origin.as_ref())?;
@@ -247,6 +275,7 @@ impl<'a> Staging<'a> {
         let moved = if folder.exists() { self.swap(&new, &folder) } else { fs::rename(&new, &folder) };
         moved.map_err(Failure::unwritable(&folder))?;
         self.made.clear();
+        self.is_published = true;
         Ok(())
     }
 
@@ -282,32 +311,6 @@ impl<'a> Staging<'a> {
             return Err(Failure::Interrupted);
         }
         Ok(())
-    }
-}
-
-/// Results that are in their folder. What is needed only while results are made is kept until this is dropped.
-#[derive(Debug)]
-pub struct Published<'a>(Staging<'a>);
-
-impl Published<'_> {
-    /// Replaces a file of the results. Who reads it meanwhile finds the earlier one or this one, and each is whole.
-    ///
-    /// # Errors
-    /// If it cannot be written; the earlier one then stays.
-    pub fn replace(&self, name: &str, content: impl AsRef<[u8]>) -> Result<(), Failure> {
-        let (new, place) = (self.0.staging.join(NEXT), self.0.folder.join(name));
-        fs::write(&new, content).and_then(|()| fs::rename(&new, &place)).map_err(Failure::unwritable(&place))
-    }
-
-    /// Writes the files of those figures that the results do not have yet.
-    ///
-    /// # Errors
-    /// If a figure cannot be drawn or written.
-    pub(crate) fn write_new_figures<F: Borrow<Figure> + Sync>(&self, figures: &[F]) -> Result<(), Failure> {
-        let name = |figure: &Figure| format!("figures/{}.csv", figure.name);
-        let is_new = |figure: &&Figure| !self.0.folder.join(name(figure)).exists();
-        let new: Vec<&Figure> = figures.iter().map(F::borrow).filter(is_new).collect();
-        self.0.figures.write(&new, |name, content| self.replace(&format!("figures/{name}"), content))
     }
 }
 

@@ -4,7 +4,7 @@
 use super::parameter::Parameter;
 use super::simulator::Simulator;
 use super::target::Target;
-use super::webs::{MOST_TRIALS, Webs};
+use super::webs::Webs;
 use super::weights::Matrix;
 use super::{Fit, IntervalEnd, KeyDoubt, find};
 use crate::error::Error;
@@ -95,7 +95,7 @@ fn coverage(parameters: &[Parameter], truth: &[f64], (loops, webs): (u64, u64)) 
         let scan = Drawn { values: truth.to_vec(), seed: seed + loops }.web(0).unwrap();
         let target = Target::from_patches(&SIDES.map(|side| 1e-3 * side), scan);
         let mut simulator = Drawn { values: truth.to_vec(), seed };
-        let mut journal = Journal::in_memory(MOST_TRIALS);
+        let mut journal = Journal::in_memory();
         let found =
             find(&mut Webs::new((parameters, &target), (&mut simulator, webs), &mut journal, &|_| {}))
                 .unwrap();
@@ -123,7 +123,7 @@ fn stat_intervals_of_normal_numbers_hold_the_truth_as_often_as_they_say() {
 fn fitted(parameters: &[Parameter], truth: &[f64], simulator: &mut dyn Simulator) -> Result<Fit, Error> {
     let scan = Drawn { values: truth.to_vec(), seed: 77 }.web(0).unwrap();
     let target = Target::from_patches(&SIDES.map(|side| 1e-3 * side), scan);
-    let mut journal = Journal::in_memory(MOST_TRIALS);
+    let mut journal = Journal::in_memory();
     find(&mut Webs::new((parameters, &target), (simulator, 20), &mut journal, &|_| {}))
 }
 
@@ -248,7 +248,7 @@ fn identical_after_trials_that_were_refused() {
     let parameters = [parameter("filaments", 250.0, [50.0, 1250.0])];
     let scan = Drawn { values: vec![16.0, 350.0], seed: 77 }.web(0).unwrap();
     let target = Target::from_patches(&SIDES.map(|side| 1e-3 * side), scan);
-    let mut journal = Journal::in_memory(MOST_TRIALS);
+    let mut journal = Journal::in_memory();
     let mut fit = || {
         let mut simulator = Fragile(OneKey(drawn()), 380.0, 4);
         find(&mut Webs::new((&parameters, &target), (&mut simulator, 20), &mut journal, &|_| {})).unwrap()
@@ -258,7 +258,7 @@ fn identical_after_trials_that_were_refused() {
     assert_eq!(format!("{:?}", first.keys), format!("{:?}", fit().keys));
     // The same if such trials are refused before any of their webs is laid.
     let mut simulator = Fragile(OneKey(drawn()), 380.0, 0);
-    let mut journal = Journal::in_memory(MOST_TRIALS);
+    let mut journal = Journal::in_memory();
     let at_once =
         find(&mut Webs::new((&parameters, &target), (&mut simulator, 20), &mut journal, &|_| {})).unwrap();
     assert_eq!(format!("{:?}", first.keys), format!("{:?}", at_once.keys));

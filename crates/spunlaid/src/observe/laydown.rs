@@ -235,7 +235,7 @@ impl Observer for LaidFibres {
     fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
         let laid = self.traces[lane].finish();
         let sigmas = [laid.sigma_md, laid.sigma_cd];
-        let found = identify(sigmas, laid.lag_step, [&laid.correlation_md, &laid.correlation_cd]).ok();
+        let found = identify(sigmas, laid.lag_step, [&laid.correlation_md, &laid.correlation_cd]);
         let surrogate =
             found.and_then(|found| found.surrogate.autocorrelation(laid.lag_step, laid.correlation_md.len()));
         let noise = found.map_or(f64::NAN, |found| found.surrogate.noise);

@@ -103,48 +103,6 @@ pub struct Residual {
     pub by_chance: Option<f64>,
 }
 
-/// Why no surrogate was found.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum IdentificationFailure {
-    /// A standard deviation or the step of the lag is not positive and finite.
-    #[error("the laid fibre has no spread, so no surrogate can be fitted to it; lay a longer fibre")]
-    NoSpread,
-    /// The standard deviations differ too much.
-    #[error(
-        "the fibre lies {ratio:.1} times as wide in one direction as in the other; the surrogate's autocorrelation is \
-         computed up to a ratio of {LARGEST_RATIO}"
-    )]
-    Ratio {
-        /// The larger over the smaller standard deviation.
-        ratio: f64,
-    },
-    /// The autocorrelation does not reach far enough, or is not finite there.
-    #[error(
-        "the autocorrelation of the position is not known at lags from 0.5 to 3 standard deviations at \
-        least; lay a longer fibre, with points closer together"
-    )]
-    TooShort,
-    /// The autocorrelation stays high, or swings without end.
-    #[error(
-        "the autocorrelation of the position does not decay: it is still beyond ±{NOT_DECAYED} near the largest \
-         lag of the fit; the surrogate cannot describe a regular pattern or a drift"
-    )]
-    NotDecaying,
-    /// The fit wants less noise than there can be.
-    #[error("the fibre lies more regularly than the surrogate with its least noise, A = {noise:.3} m^-0.5")]
-    Regular {
-        /// Least noise [m^-½].
-        noise: f64,
-    },
-    /// The fit wants more noise than there can be.
-    #[error("the fibre wanders more slowly than the surrogate with its largest noise, A = {noise:.3} m^-0.5")]
-    Slow {
-        /// Largest noise [m^-½].
-        noise: f64,
-    },
-}
-
 /// Range of lags of the fit [σ]. Shorter lags hold the texture of the curve, which the surrogate does not describe.
 const LAGS: [f64; 2] = [0.5, 12.0];
 /// The fit needs lags up to here at least [σ].
@@ -161,26 +119,20 @@ const NOT_DECAYED: f64 = 0.9;
 /// * `step` – step of the lag [m]
 /// * `correlations` – autocorrelation coefficients of ξ₁ and ξ₂ from lag zero
 ///
-/// # Errors
-/// [`IdentificationFailure`] if the curves cannot be those of a surrogate, or do not say which.
-pub fn identify(
-    sigmas: [f64; 2],
-    step: f64,
-    correlations: [&[f64]; 2],
-) -> Result<Identification, IdentificationFailure> {
-    if !sigmas.iter().chain([&step]).all(|x| *x > 0.0 && x.is_finite()) {
-        return Err(IdentificationFailure::NoSpread);
-    }
-    let ratio = ratio(sigmas);
-    if ratio > LARGEST_RATIO {
-        return Err(IdentificationFailure::Ratio { ratio });
+/// None if the curves cannot be those of a surrogate, or do not say which: without a spread, with standard deviations
+/// that differ too much, if an autocorrelation does not reach far enough or does not decay, and where the best noise
+/// would be at an end of the range of noises.
+pub fn identify(sigmas: [f64; 2], step: f64, correlations: [&[f64]; 2]) -> Option<Identification> {
+    let is_known = sigmas.iter().chain([&step]).all(|x| *x > 0.0 && x.is_finite());
+    if !is_known || ratio(sigmas) > LARGEST_RATIO {
+        return None;
     }
     let wanted = [
         FitTarget::new(sigmas[0], sigmas[1], step, correlations[0])?,
         FitTarget::new(sigmas[1], sigmas[0], step, correlations[1])?,
     ];
     if wanted.iter().any(FitTarget::goes_on) {
-        return Err(IdentificationFailure::NotDecaying);
+        return None;
     }
     let middle = (sigmas[0] * sigmas[1]).sqrt();
     let noise = |x: f64| (libm::exp(x) / middle).sqrt();
@@ -193,14 +145,11 @@ pub fn identify(
     let fit = Fit::between(low, high, &wanted, middle);
     let (found, mean_square) = fit.least();
     let near = |end: f64| (found - end).abs() < 1e-6;
-    if near(ends[0]) {
-        return Err(IdentificationFailure::Regular { noise: noise(ends[0]) });
-    }
-    if near(ends[1]) {
-        return Err(IdentificationFailure::Slow { noise: noise(ends[1]) });
+    if ends.into_iter().any(near) {
+        return None;
     }
     let surrogate = Surrogate { sigma_md: sigmas[0], sigma_cd: sigmas[1], noise: noise(found) };
-    Ok(Identification { surrogate, residual: mean_square.max(0.0).sqrt() })
+    Some(Identification { surrogate, residual: mean_square.max(0.0).sqrt() })
 }
 
 impl Surrogate {
@@ -259,18 +208,14 @@ struct FitTarget {
 }
 
 impl FitTarget {
-    fn new(own: f64, other: f64, step: f64, correlation: &[f64]) -> Result<Self, IdentificationFailure> {
+    fn new(own: f64, other: f64, step: f64, correlation: &[f64]) -> Option<Self> {
         let lags = correlation.iter().enumerate().map(|(lag, c)| (lag as f64 * step / own, *c));
         let coefficients: Vec<(f64, f64)> =
             lags.filter(|(lag, _)| (LAGS[0]..=LAGS[1]).contains(lag)).collect();
         let known = coefficients.len() >= LEAST_LAGS
             && coefficients.last().is_some_and(|(lag, _)| *lag >= LEAST_REACH)
             && coefficients.iter().all(|(_, c)| c.is_finite());
-        if known {
-            Ok(Self { own, other: other / own, coefficients })
-        } else {
-            Err(IdentificationFailure::TooShort)
-        }
+        known.then(|| Self { own, other: other / own, coefficients })
     }
 
     fn goes_on(&self) -> bool {

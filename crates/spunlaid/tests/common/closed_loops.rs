@@ -113,7 +113,7 @@ pub fn closed_loops(vary: &[&str], truth: &[f64], spectrum: bool, (loops, webs):
     let file = read(SMALL, vary);
     let one = |seed: u64| {
         let scan = scanned(&laid(&file, truth, seed));
-        fitted(&file, &scan, spectrum, webs, &mut Journal::in_memory(200)).unwrap()
+        fitted(&file, &scan, spectrum, webs, &mut Journal::in_memory()).unwrap()
     };
     (1000..1000 + loops).map(one).collect()
 }

@@ -53,7 +53,7 @@ struct Noise {
 fn flown(study: &Study, replicates: u64, model: Model, noise: Noise, seed: u64) -> Journal {
     let mut normal = Normal(ChaCha8Rng::seed_from_u64(seed));
     let common: Vec<[f64; 4]> = (0..replicates).map(|_| std::array::from_fn(|_| normal.next())).collect();
-    let mut journal = Journal::in_memory(study.points.len());
+    let mut journal = Journal::in_memory();
     for (index, point) in study.points.iter().enumerate() {
         let x: Vec<f64> = study.factors.iter().zip(&point.values).map(|(f, v)| f.place(*v)).collect();
         for (replicate, [all, slopes @ ..]) in (0..).zip(&common) {
@@ -249,7 +249,7 @@ fn effects_of_words(
         .map(|word| study.factors[0].words.iter().position(|one| *one == word).unwrap() as f64);
     let mut normal = Normal(ChaCha8Rng::seed_from_u64(seed));
     let common: Vec<f64> = (0..replicates).map(|_| normal.next()).collect();
-    let mut journal = Journal::in_memory(study.points.len());
+    let mut journal = Journal::in_memory();
     for (index, point) in study.points.iter().enumerate() {
         let word = [matsui, sakiadis, glauert].iter().position(|word| *word == point.values[0]).unwrap();
         let y = WORDS.0[word] + WORDS.1 * study.factors[1].place(point.values[1]);

@@ -25,7 +25,7 @@ fn computing<'a>(threads: usize, stop: &'a AtomicBool, steps: &'a AtomicU64) -> 
 }
 
 fn flown(study: &Study, threads: usize) -> Journal {
-    let journal = Mutex::new(Journal::in_memory(study.points.len()));
+    let journal = Mutex::new(Journal::in_memory());
     let (stop, steps, progress) = (AtomicBool::new(false), AtomicU64::new(0), Progress::default());
     run(study, &journal, computing(threads, &stop, &steps), &progress).unwrap();
     let mut journal = journal.into_inner().unwrap();
@@ -121,7 +121,7 @@ fn identical_for_any_threads_and_any_packing() {
     assert_eq!(all(&mut flown(&study, 3)), expected);
     // Some fibres exist already, so the others are packed differently.
     for (offset, stride) in [(0, 2), (1, 3), (4, 7), (0, 60)] {
-        let mut journal = Journal::in_memory(study.points.len());
+        let mut journal = Journal::in_memory();
         let there: Vec<Record> = expected.iter().skip(offset).step_by(stride).cloned().collect();
         journal.add(&there).unwrap();
         let journal = Mutex::new(journal);
@@ -170,7 +170,7 @@ until = { amplitude_y = '10 %', frequency_y = 0.5 }
         assert!(*count > 3);
     }
     // The study is stopped again and again, after about one flight each time.
-    let mut kept = Mutex::new(Journal::in_memory(2));
+    let mut kept = Mutex::new(Journal::in_memory());
     for _ in 0..100 {
         let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
         let progress = Progress::default();

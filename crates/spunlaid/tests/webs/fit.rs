@@ -40,7 +40,7 @@ fn stat_the_number_of_filaments_of_a_scanned_web_lies_in_the_intervals() {
 fn identical_from_the_journal_with_values_within_their_intervals() {
     let file = read(SMALL, &["laydown.noise=4 m^-0.5..48 m^-0.5", "line.filaments_per_metre"]);
     let scan = MeasuredWeb { flat: false, ..scanned(&laid(&file, &[16.0, 350.0], 1000)) };
-    let mut journal = Journal::in_memory(200);
+    let mut journal = Journal::in_memory();
     let found = fitted(&file, &scan, false, 12, &mut journal).unwrap();
     // What was found says of itself how far it may be off, and the two keys make up for each other in part.
     for (key, truth) in found.keys.iter().zip([16.0, 350.0]) {
@@ -63,7 +63,7 @@ fn a_key_without_effect_is_named() {
     let text = SMALL.replace("filaments_per_metre = 250", "filaments_per_metre = 250\ndepth = \"10 mm\"");
     let file = read(&text, &["line.depth", "line.filaments_per_metre"]);
     let scan = scanned(&laid(&file, &[0.01, 350.0], 1000));
-    let found = fitted(&file, &scan, false, 8, &mut Journal::in_memory(200)).unwrap();
+    let found = fitted(&file, &scan, false, 8, &mut Journal::in_memory()).unwrap();
     assert_eq!(found.keys[0].doubt, Some(KeyDoubt::NoEffect), "{found:?}");
     assert!(found.keys[0].interval.is_err());
     let [low, high] = found.keys[1].interval.clone().unwrap();
@@ -84,11 +84,11 @@ fn what_cannot_be_compared_is_refused() {
     let mut even = scan.clone();
     even.map.cells.iter_mut().for_each(|cell| *cell = 1000);
     assert!(target(&even).contains("does not vary"), "{}", target(&even));
-    let few = fitted(&file, &scan, false, 3, &mut Journal::in_memory(200)).unwrap_err().to_string();
+    let few = fitted(&file, &scan, false, 3, &mut Journal::in_memory()).unwrap_err().to_string();
     assert!(few.contains("too few to tell chance from difference"), "{few}");
     // The lamp is a guess: values, but no intervals.
     let guessed = MeasuredWeb { doubt: Some("the level of the lamp is a guess".to_owned()), ..scan };
-    let found = fitted(&file, &guessed, false, 8, &mut Journal::in_memory(200)).unwrap();
+    let found = fitted(&file, &guessed, false, 8, &mut Journal::in_memory()).unwrap();
     assert_eq!(found.keys[0].interval, Err("the level of the lamp is a guess".to_owned()));
 }
 

@@ -3,7 +3,7 @@
 
 use spunlaid::lanes::{Isa, Lanes};
 use spunlaid::laydown::{LaidCurve, Trace, TraceSettings};
-use spunlaid::surrogate::{IdentificationFailure, PathKey, Paths, Surrogate, identify};
+use spunlaid::surrogate::{PathKey, Paths, Surrogate, identify};
 
 const SIGMA: f64 = 0.018;
 
@@ -334,35 +334,27 @@ fn rejects_curves_of_no_surrogate() {
     let of = surrogate(1.0, 12.0);
     let step = 0.2 * SIGMA;
     let [md, cd] = of.autocorrelation(step, 61).unwrap();
-    let fit = |sigmas: [f64; 2], md: &[f64], cd: &[f64]| identify(sigmas, step, [md, cd]).unwrap_err();
+    let is_one = |sigmas: [f64; 2], md: &[f64], cd: &[f64]| identify(sigmas, step, [md, cd]).is_some();
     let sigmas = [SIGMA; 2];
-    assert_eq!(fit([0.0, SIGMA], &md, &cd), IdentificationFailure::NoSpread);
-    assert_eq!(fit([f64::NAN, SIGMA], &md, &cd), IdentificationFailure::NoSpread);
-    assert_eq!(fit([SIGMA, 6.0 * SIGMA], &md, &cd), IdentificationFailure::Ratio { ratio: 6.0 });
-    assert_eq!(fit(sigmas, &[], &cd), IdentificationFailure::TooShort);
-    assert_eq!(fit(sigmas, &md, &cd[..12]), IdentificationFailure::TooShort);
+    assert!(is_one(sigmas, &md, &cd));
+    for wrong in [[0.0, SIGMA], [f64::NAN, SIGMA], [SIGMA, 6.0 * SIGMA]] {
+        assert!(!is_one(wrong, &md, &cd), "{wrong:?}");
+    }
     let mut hole = md.clone();
     hole[20] = f64::NAN;
-    assert_eq!(fit(sigmas, &hole, &cd), IdentificationFailure::TooShort);
-    assert_eq!(fit(sigmas, &md, &[1.0; 61]), IdentificationFailure::NotDecaying);
     let slow: Vec<f64> = (0..61).map(|lag| (-0.0026 * f64::from(lag)).exp()).collect();
-    assert!(
-        matches!(fit(sigmas, &slow, &slow), IdentificationFailure::Slow { noise } if (noise - 57.735).abs() < 0.01)
-    );
     let coil: Vec<f64> = (0..61).map(|lag| (0.25 * f64::from(lag)).cos()).collect();
-    assert_eq!(fit(sigmas, &coil, &coil), IdentificationFailure::NotDecaying);
+    for (md, cd) in
+        [(&md[..0], &cd[..]), (&md[..], &cd[..12]), (&hole[..], &cd[..]), (&md[..], &[1.0; 61][..])]
+    {
+        assert!(!is_one(sigmas, md, cd));
+    }
+    assert!(!is_one(sigmas, &slow, &slow) && !is_one(sigmas, &coil, &coil));
     // Beyond the least noise, as far from it as a curve with more noise on the other side.
     let [least, more] = [0.25_f64, 0.5].map(|a| surrogate(1.0, (a / SIGMA).sqrt() * (1.0 + 1e-12)));
     let [least, more] = [least, more].map(|of| of.autocorrelation(step, 61).unwrap()[0].clone());
     let beyond: Vec<f64> = least.iter().zip(&more).map(|(least, more)| 2.0 * least - more).collect();
-    let regular = fit(sigmas, &beyond, &beyond);
-    assert!(
-        matches!(regular, IdentificationFailure::Regular { noise } if (noise - 3.727).abs() < 0.001),
-        "{regular:?}"
-    );
-    for fault in [IdentificationFailure::Ratio { ratio: 6.0 }, regular, IdentificationFailure::NotDecaying] {
-        assert!(fault.to_string().len() > 60, "{fault}");
-    }
+    assert!(!is_one(sigmas, &beyond, &beyond));
     assert!(of.autocorrelation(1.0, 61).is_none() && surrogate(6.0, 12.0).autocorrelation(step, 9).is_none());
     assert!(surrogate(1.0, 60.0).autocorrelation(step, 9).is_none());
     assert!(surrogate(1.0, f64::NAN).autocorrelation(step, 9).is_none());

@@ -1,8 +1,8 @@
 use super::*;
 
-/// Numbers of each record, and its length [bytes].
+/// Numbers of each record, and its length in the log [bytes].
 const NUMBERS: usize = 5;
-const RECORD: usize = HEAD + 8 * NUMBERS;
+const RECORD: usize = 8 * (5 + 1 + NUMBERS);
 
 fn record(point: u64, replicate: u64) -> Record {
     let number = |i: usize| (point * 100 + replicate * 10) as f64 + i as f64 / 8.0;
@@ -20,7 +20,7 @@ fn written() -> (tempfile::TempDir, PathBuf) {
     let path = folder.path().join("journal");
     let (mut journal, found) = Journal::open(&path, false).unwrap();
     assert_eq!(found, None);
-    journal.begin(&header(), 3, NUMBERS).unwrap();
+    journal.begin(&header()).unwrap();
     journal.add(&[record(0, 0), record(2, 1)]).unwrap();
     journal.add(&[record(1, 0), record(0, 1), record(2, 0), record(1, 1)]).unwrap();
     (folder, path)
@@ -29,7 +29,7 @@ fn written() -> (tempfile::TempDir, PathBuf) {
 fn reopened(path: &Path) -> (Journal, JournalState) {
     let (mut journal, found) = Journal::open(path, false).unwrap();
     assert_eq!(found, Some(header()));
-    let found = journal.go_on(3, 2, NUMBERS).unwrap();
+    let found = journal.go_on(3, 2).unwrap();
     (journal, found)
 }
 
@@ -45,7 +45,7 @@ fn records_come_back_in_order_of_replicates() {
         assert!(journal.holds(point, 1) && !journal.holds(point, 2));
     }
     let lost = Record { point: 0, replicate: 0, outcome: ReplicateOutcome::Lost { node: 7, time: 0.25 } };
-    journal.begin(&header(), 3, NUMBERS).unwrap();
+    journal.begin(&header()).unwrap();
     journal.add(std::slice::from_ref(&lost)).unwrap();
     assert_eq!(journal.records(0, 1).unwrap(), [lost]);
 }
@@ -88,7 +88,8 @@ fn a_flipped_bit_anywhere_costs_one_record() {
         damaged[byte] ^= 1 << (byte % 8);
         std::fs::write(&path, &damaged).unwrap();
         let (mut journal, found) = reopened(&path);
-        assert_eq!(found, JournalState { fibres: 5, damaged: 1, torn: false }, "byte {byte}");
+        // A count that is damaged may make the last record look torn.
+        assert_eq!((found.fibres, found.damaged + u64::from(found.torn)), (5, 1), "byte {byte}");
         // The lost record can be added again.
         let lost = [record(0, 0), record(2, 1), record(1, 0), record(0, 1), record(2, 0), record(1, 1)]
             [(byte - start) / RECORD]
@@ -110,7 +111,7 @@ fn zeros_at_the_end_are_no_records() {
     longer.resize(whole.len() + 3 * RECORD, 0);
     std::fs::write(&path, longer).unwrap();
     let (_journal, found) = reopened(&path);
-    assert_eq!(found, JournalState { fibres: 6, damaged: 3, torn: false });
+    assert_eq!(found, JournalState { fibres: 6, damaged: 1, torn: false });
     assert!(std::fs::read(&path).unwrap() == whole);
 }
 
@@ -118,7 +119,7 @@ fn zeros_at_the_end_are_no_records() {
 fn records_of_points_that_are_not_there_do_not_count() {
     let (_folder, path) = written();
     let (mut journal, _) = Journal::open(&path, false).unwrap();
-    assert_eq!(journal.go_on(2, 2, NUMBERS).unwrap(), JournalState { fibres: 4, damaged: 2, torn: false });
+    assert_eq!(journal.go_on(2, 2).unwrap(), JournalState { fibres: 4, damaged: 2, torn: false });
 }
 
 #[test]
@@ -143,18 +144,18 @@ fn rejects_other_files_and_other_formats() {
         &b"shopping list\n"[..],
         b"shopping list",
         &[0xff; 500],
-        b"spunlaid-journal format=4 study=zz version=1\n",
+        b"spunlaid-journal format=5 study=zz version=1\n",
     ] {
         let refusal = refusal_of(text);
         assert!(matches!(refusal, Error::Folder(_)));
         assert!(refusal.to_string().contains("is not the journal of a study"), "{refusal}");
     }
     let format = refusal_of(b"spunlaid-journal format=9 version=9.9.9 study=00000000\n");
-    assert!(format.to_string().contains("format 9, but this spunlaid reads format 4"), "{format}");
+    assert!(format.to_string().contains("format 9, but this spunlaid reads format 5"), "{format}");
     // Of a build whose identities nobody else can compute.
     let former = refusal_of(b"spunlaid-journal format=3 version=0.1.0 study=00000000\n").to_string();
     assert!(
-        former.contains("format 3, but this spunlaid reads format 4; continue with the version"),
+        former.contains("format 3, but this spunlaid reads format 5; continue with the version"),
         "{former}"
     );
 }
