@@ -15,7 +15,7 @@ use spunlaid::observe::OF_SCANNED_PATCHES;
 use spunlaid::scan::{Findings, LightKind, PatchFindings, ScanRequest, is_picture_file, parse};
 use spunlaid::units::Dimension;
 use spunlaid_results::folders::Contents;
-use spunlaid_results::folders::scan::{ScanFolder, notes};
+use spunlaid_results::folders::products::{ScanFolder, notes};
 use spunlaid_results::output::web::Performance;
 use std::path::PathBuf;
 use std::time::Instant;

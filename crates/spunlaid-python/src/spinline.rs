@@ -11,7 +11,7 @@ use spunlaid::case::Note;
 use spunlaid::error::FileKind;
 use spunlaid::input::{Overrides, SpinFile, parse_spinline, write_spinline};
 use spunlaid_results::folders::Contents;
-use spunlaid_results::folders::spinline::SpinFolder;
+use spunlaid_results::folders::products::SpinFolder;
 use spunlaid_results::output::spinline::{COLUMNS, SpinResults, remarks};
 use std::path::PathBuf;
 

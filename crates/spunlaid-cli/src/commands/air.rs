@@ -11,7 +11,7 @@ use crate::{progress, say};
 use spunlaid::air::Lateral;
 use spunlaid::case::Note;
 use spunlaid::input::{CaseWithNotes, Unread};
-use spunlaid_results::folders::air::AirFolder;
+use spunlaid_results::folders::products::AirFolder;
 use spunlaid_results::output::air::{AirViews, Slices};
 use std::sync::atomic::AtomicU64;
 

@@ -9,7 +9,7 @@ use crate::say;
 use spunlaid::error::{Fault, FileError, Problem};
 use spunlaid::record::{Layout, Settings, SpectrumSettings, read_record};
 use spunlaid::scan::{columns_of_map, is_picture_file};
-use spunlaid_results::folders::record::RecordFolder;
+use spunlaid_results::folders::products::RecordFolder;
 
 pub(crate) fn analyse(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     let is_scan = analyse.scan.pixel.is_some() || is_picture_file(&analyse.record);

@@ -21,7 +21,7 @@ use spunlaid::study::{Journal, PointResults, Progress, Replicates, Study, result
 use spunlaid::threads::unlock;
 use spunlaid_charts::Figure;
 use spunlaid_results::figures::paper as draw;
-use spunlaid_results::folders::paper::PaperFolder;
+use spunlaid_results::folders::products::PaperFolder;
 use spunlaid_results::output::pictures::Format;
 use spunlaid_results::output::study::shown;
 use std::sync::Mutex;

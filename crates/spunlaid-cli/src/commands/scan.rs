@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use spunlaid::fabric;
 use spunlaid::lanes::Isa;
 use spunlaid::scan::{LightKind, ScanRequest};
-use spunlaid_results::folders::scan::{ScanFolder, notes};
+use spunlaid_results::folders::products::{ScanFolder, notes};
 use spunlaid_results::output::web::Performance;
 use std::time::Instant;
 

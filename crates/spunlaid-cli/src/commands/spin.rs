@@ -9,7 +9,7 @@ use crate::say;
 use spunlaid::case::Note;
 use spunlaid::error::FileKind;
 use spunlaid::input::read_spinline;
-use spunlaid_results::folders::spinline::SpinFolder;
+use spunlaid_results::folders::products::SpinFolder;
 use spunlaid_results::output::spinline::{SpinResults, remarks};
 
 pub(crate) fn spin(spin: &Spin, invocation: &Invocation) -> Result<(), Failure> {

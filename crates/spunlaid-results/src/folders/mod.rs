@@ -1,15 +1,10 @@
 //! Whole folders of results, each written completely or not at all.
 //!
 //! ```text
-//! air        slices of the turbulent air as VTK and moving pictures, report, summary
 //! contents   what every folder holds, and the one way in which it is written
 //! comparison the results of runs or webs side by side: figures, report, numbers
 //! finished   what the folder of a run or a web says
-//! scan       what is found of a scan: map, figures, report, summary
-//! record     what is found in a velocity record: curves, figures, report
-//! paper      the paper's claims and figures
-//! sources    the force of filaments on the cells of their field, for CFD programs: VTK, OpenFOAM, report, summary
-//! spinline   a solved spinline: the thread, figures, report, summary
+//! products   those that are written at once: air, paper, record, scan, sources, spinline
 //! fit        the journal of a fit, and what is made from it
 //! journalled a folder with a journal, which fit and study share: begun, continued, replaced
 //! run        flies a case: tables while it flies, then figures, shapes, report, summary
@@ -19,7 +14,6 @@
 //! web        map, single fibres, figures, report, summary
 //! ```
 
-pub mod air;
 pub mod comparison;
 mod contents;
 #[cfg(test)]
@@ -28,12 +22,8 @@ mod finished;
 pub mod fit;
 mod journalled;
 mod measured_web;
-pub mod paper;
-pub mod record;
+pub mod products;
 pub mod run;
-pub mod scan;
-pub mod sources;
-pub mod spinline;
 pub mod study;
 pub mod tensions;
 mod trials;

@@ -7,6 +7,7 @@ use crate::output::folder::{CASE_FILES, Staging};
 use crate::output::kept_input::Input;
 use crate::output::load::load_of;
 use crate::output::origin::ORIGIN;
+use crate::output::paraview;
 use crate::output::spinline::{STATIONS, SpinResults, part_of_case, write_stations};
 use crate::output::table::TABLES;
 use crate::output::web::{self, Layer, Performance};
@@ -99,7 +100,7 @@ impl Contents for WebFolder<'_> {
             if !threads.is_empty() {
                 write_stations(staging, &threads)?;
             }
-            web::write_strands(staging, &strands)?;
+            paraview::write_strands(staging, &strands)?;
             web::write_map(staging, &findings.laid.map)
         };
         let report = || {

@@ -1,7 +1,7 @@
 //! What the checks of a run say against its numbers: in its notes, in its headline, and in the errors that
 //! the headline states.
 
-use super::compared::{compared_with, percent};
+use crate::numbers::plus_minus;
 use spunlaid::case::{Case, Checks};
 use spunlaid::ensemble::{Change, FinerCheck, FinerChecks, Refinement, Unchecked};
 use spunlaid::statistics::Estimate;
@@ -67,6 +67,32 @@ pub(super) fn told(check: &FinerCheck, change: &Change, case: &Case) -> String {
             let with = compared_with(check, case);
             format!("{label} differs by {} from {}", at(0), with.trim_end_matches(','))
         }
+    }
+}
+
+/// With what a run is compared: `half of it`.
+pub(super) fn compared_with(check: &FinerCheck, case: &Case) -> String {
+    match check.refined {
+        Refinement::TimeStep => shorter(check, case),
+        Refinement::Elements => {
+            let length = Dimension::Length.pretty_to(check.element_length, 3);
+            format!("elements of {length}, half the length,")
+        }
+    }
+}
+
+/// A share in per cent.
+pub(super) fn percent(estimate: &Estimate) -> String {
+    format!("{} %", plus_minus(100.0 * estimate.mean, estimate.standard_error.map(|error| 100.0 * error)))
+}
+
+/// With what a step is compared.
+fn shorter(check: &FinerCheck, case: &Case) -> String {
+    let step = Dimension::Time.pretty_to(check.time_step, 3);
+    match check.is_resolved {
+        true if check.scheme == case.run.scheme => format!("steps of {step}, which resolve axial waves,"),
+        true => format!("{} at {step}, which resolves axial waves,", check.scheme.name()),
+        false => "half of it".to_owned(),
     }
 }
 

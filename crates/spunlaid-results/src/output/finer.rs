@@ -1,7 +1,6 @@
 //! What a finer time step and finer elements change, in words. Terminal and report say the same.
 
-use super::compared::{compared_with, percent};
-use super::doubt::{FINE_ENOUGH, SURE, counted, errors, unchecked};
+use super::doubt::{FINE_ENOUGH, SURE, compared_with, counted, errors, percent, unchecked};
 use crate::numbers::significant;
 use spunlaid::air::EddyModel;
 use spunlaid::case::Case;
@@ -9,83 +8,62 @@ use spunlaid::ensemble::{Change, FinerCheck, FinerChecks, Refinement, Results};
 use spunlaid::statistics::Estimate;
 use spunlaid::units::Dimension;
 
-/// A check in words.
-#[derive(Debug)]
-pub struct FinerWords {
-    /// What is checked: `time step`.
-    pub what: &'static str,
-    /// With what it is compared: `half of it`.
-    pub with: String,
-    /// What differs, as sentences without a full stop.
-    pub differences: Vec<String>,
-    /// How the error follows from the difference.
-    pub meaning: String,
-    /// How much was compared, and what that cost.
-    pub extent: String,
-    /// What to do.
-    pub advice: String,
-}
-
-impl FinerWords {
-    /// What the finer discretisation changes, in a sentence for each difference.
-    pub fn sentences(&self) -> impl Iterator<Item = String> {
-        let compared = format!("{} (compared with {})", self.what, self.with.trim_end_matches(','));
-        self.differences.iter().map(move |difference| format!("Check of the {compared}: {difference}."))
-    }
-}
+/// A check: what is compared, and what it says, in sentences.
+pub type CheckWords = (String, Vec<String>);
 
 /// Both checks in words; an error says what was not compared, and why.
-pub fn words(checks: &FinerChecks, case: &Case, results: &Results) -> [Result<FinerWords, String>; 2] {
+pub fn words(checks: &FinerChecks, case: &Case, results: &Results) -> [Result<CheckWords, String>; 2] {
     [(&checks.step, Refinement::TimeStep), (&checks.mesh, Refinement::Elements)].map(|(check, refined)| {
         check
             .as_ref()
-            .map(|check| FinerWords::new(check, case, results))
+            .map(|check| words_of_check(check, case, results))
             .map_err(|why| unchecked(refined, why))
     })
 }
 
-impl FinerWords {
-    fn new(check: &FinerCheck, case: &Case, results: &Results) -> Self {
-        let FinerCheck { replicates, .. } = check;
-        let extent = format!(
-            "{replicates} replicate{} over the first {} s; it took {} % of the run's computing time",
-            if *replicates == 1 { "" } else { "s" },
+fn words_of_check(check: &FinerCheck, case: &Case, results: &Results) -> CheckWords {
+    let FinerCheck { replicates, .. } = check;
+    let extent = format!(
+        "{replicates} replicate{} over the first {} s; it took {} % of the run's computing time",
+        if *replicates == 1 { "" } else { "s" },
+        significant(check.duration, 2),
+        significant(100.0 * check.share_of_run, 2)
+    );
+    let path = check.path.iter();
+    let mut differences: Vec<String> = path
+        .map(|path| format!("Path of the free end differs by {} of its amplitude", percent(path)))
+        .collect();
+    differences.extend(check.changes.iter().map(|change| {
+        let Change { statistic, estimate, from_quarter, .. } = change;
+        let label = statistic.label;
+        let quarter = from_quarter.as_ref().map_or(String::new(), |(length, estimate)| {
+            let length = Dimension::Length.pretty_to(*length, 3);
+            format!(", and by {} from elements of {length}", percent(estimate))
+        });
+        let is_mesh = check.refined == Refinement::Elements;
+        let error = check.error_over(change).filter(|_| is_mesh).map_or(String::new(), |_| {
+            let error = errors(check, change).first().map(percent).unwrap_or_default();
+            format!("; the error of the mesh is about {error}")
+        });
+        format!("{label} differs by {}{quarter}{error}", percent(estimate))
+    }));
+    if check.is_of_a_part(&case.run) {
+        differences.push(format!(
+            "This is so in the first {} of {} s; the whole run may differ by more or less",
             significant(check.duration, 2),
-            significant(100.0 * check.share_of_run, 2)
-        );
-        let path = check.path.iter();
-        let mut differences: Vec<String> = path
-            .map(|path| format!("Path of the free end differs by {} of its amplitude", percent(path)))
-            .collect();
-        differences.extend(check.changes.iter().map(|change| {
-            let Change { statistic, estimate, from_quarter, .. } = change;
-            let label = statistic.label;
-            let quarter = from_quarter.as_ref().map_or(String::new(), |(length, estimate)| {
-                let length = Dimension::Length.pretty_to(*length, 3);
-                format!(", and by {} from elements of {length}", percent(estimate))
-            });
-            let is_mesh = check.refined == Refinement::Elements;
-            let error = check.error_over(change).filter(|_| is_mesh).map_or(String::new(), |_| {
-                let error = errors(check, change).first().map(percent).unwrap_or_default();
-                format!("; the error of the mesh is about {error}")
-            });
-            format!("{label} differs by {}{quarter}{error}", percent(estimate))
-        }));
-        if check.is_of_a_part(&case.run) {
-            differences.push(format!(
-                "This is so in the first {} of {} s; the whole run may differ by more or less",
-                significant(check.duration, 2),
-                significant(case.run.duration(), 3)
-            ));
-        }
-        let with = compared_with(check, case);
-        let (what, advice) = match check.refined {
-            Refinement::TimeStep => ("time step", step_advice(check, results)),
-            Refinement::Elements => ("mesh", mesh_advice(check) + papers_mesh(case)),
-        };
-        let meaning = meaning(check).to_owned();
-        Self { what, with, differences, meaning, extent, advice }
+            significant(case.run.duration(), 3)
+        ));
     }
+    let with = compared_with(check, case);
+    let (what, advice) = match check.refined {
+        Refinement::TimeStep => ("Time step", step_advice(check, results)),
+        Refinement::Elements => ("Mesh", mesh_advice(check) + papers_mesh(case)),
+    };
+    let meaning = meaning(check);
+    let end = [meaning.to_owned(), format!("Compared: {extent}."), format!("{advice}.")];
+    let differences = differences.into_iter().map(|difference| format!("{difference}."));
+    let name = format!("{what}, compared with {with} in the same turbulence");
+    (name, differences.chain(end).collect())
 }
 
 /// How the error follows from what differs.

@@ -2,8 +2,6 @@
 
 pub mod air;
 pub mod analysis;
-mod appended;
-mod compared;
 pub mod comparison;
 pub mod doubt;
 pub mod finer;

@@ -1,10 +1,11 @@
-//! The shapes of the fibres over time for ParaView, and what fed fibres have laid. `shape.pvd` opens the whole series.
+//! The shapes of the fibres over time for ParaView, what fed fibres have laid, and the fibres of the window of a web. `shape.pvd` opens the whole series.
 
-use super::folder::Staging;
 use crate::Failure;
+use crate::output::folder::Staging;
 use spunlaid::case::Case;
 use spunlaid::ensemble::{Shape, Trajectory};
 use spunlaid::vec3::Vec3;
+use spunlaid::web::Strand;
 use std::fmt::Write;
 
 /// Largest number of instants in a series if the case does not say how many. Each instant is a file.
@@ -57,6 +58,18 @@ pub fn write_laid(staging: &Staging<'_>, trajectories: &[Trajectory]) -> Result<
     }
 }
 
+/// Writes `fibres.vtp`: a line for each piece of fibre, in machine direction (x) and cross direction (y) from
+/// the window's corner [m].
+pub fn write_strands(staging: &Staging<'_>, strands: &[Strand]) -> Result<(), Failure> {
+    let line = |strand: &Strand| Line {
+        number: strand.layer as u64 + 1,
+        points: strand.points.iter().map(|[cd, md]| Vec3::new(*md, *cd, 0.0)).collect(),
+        data: vec![vec![strand.filament as f64 + 1.0; strand.points.len()]],
+    };
+    let lines: Vec<Line> = strands.iter().map(line).collect();
+    staging.write("fibres.vtp", poly_data("layer", &["filament"], &lines))
+}
+
 fn laid_line(trajectory: &Trajectory) -> Line {
     let points = trajectory.laid.iter();
     Line {
@@ -73,17 +86,17 @@ fn shape_line(replicate: u64, shape: Shape, rest_length: f64) -> Line {
 }
 
 /// A line of a VTK file.
-pub(super) struct Line {
+struct Line {
     /// Of the replicate, counted from 1, or of the layer.
-    pub(super) number: u64,
+    number: u64,
     /// [m]
-    pub(super) points: Vec<Vec3<f64>>,
+    points: Vec<Vec3<f64>>,
     /// Numbers at the points, a list for each name.
-    pub(super) data: Vec<Vec<f64>>,
+    data: Vec<Vec<f64>>,
 }
 
 /// VTK XML PolyData of lines: points [m], what is numbered, and the data with these names.
-pub(super) fn poly_data(numbered: &str, names: &[&str], lines: &[Line]) -> String {
+fn poly_data(numbered: &str, names: &[&str], lines: &[Line]) -> String {
     let count: usize = lines.iter().map(|line| line.points.len()).sum();
     let mut points = String::with_capacity(count * 48);
     let mut data = vec![String::new(); names.len()];
@@ -119,4 +132,46 @@ pub(super) fn poly_data(numbered: &str, names: &[&str], lines: &[Line]) -> Strin
         </Piece>\n</PolyData>\n</VTKFile>\n",
         lines.len()
     )
+}
+
+/// The arrays of a file, in the order in which they are declared.
+#[derive(Debug, Default)]
+pub(super) struct AppendedArrays {
+    blocks: Vec<Vec<u8>>,
+    offset: usize,
+}
+
+impl AppendedArrays {
+    /// Adds an array, and returns its declaration.
+    ///
+    /// * `kind` – of its numbers, `Float64`
+    /// * `components` – numbers of each point or cell
+    /// * `bytes` – the numbers, little-endian
+    pub(super) fn declare(&mut self, name: &str, kind: &str, components: usize, bytes: Vec<u8>) -> String {
+        let offset = self.offset;
+        self.offset += size_of::<u64>() + bytes.len();
+        self.blocks.push(bytes);
+        format!(
+            "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"appended\" \
+            offset=\"{offset}\"/>\n"
+        )
+    }
+
+    /// The file.
+    ///
+    /// * `kind` – of the grid, `StructuredGrid`
+    /// * `text` – its contents, with the declarations of the arrays
+    pub(super) fn file(self, kind: &str, text: &str) -> Vec<u8> {
+        let mut file = format!(
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" \
+            header_type=\"UInt64\">\n{text}<AppendedData encoding=\"raw\">\n_"
+        )
+        .into_bytes();
+        for block in self.blocks {
+            file.extend((block.len() as u64).to_le_bytes());
+            file.extend(block);
+        }
+        file.extend(b"\n</AppendedData>\n</VTKFile>\n");
+        file
+    }
 }

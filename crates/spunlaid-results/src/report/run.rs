@@ -11,7 +11,7 @@ use super::words::{self, count};
 use crate::Failure;
 use crate::numbers::{THIN, number};
 use crate::output::doubt;
-use crate::output::finer::{self, FinerWords};
+use crate::output::finer::{self, CheckWords};
 use crate::output::load::load_of_spinline;
 use crate::output::spinline::SpinResults;
 use crate::output::summary::Performance;
@@ -124,17 +124,10 @@ fn numbers(results: &Results, whole: &Whole<'_>, beyond: &[&str]) -> Section<'st
 }
 
 /// How far the computation can be trusted: what finer steps and elements change.
-fn trust(checks: [Result<FinerWords, String>; 2]) -> Section<'static> {
+fn trust(checks: [Result<CheckWords, String>; 2]) -> Section<'static> {
     checks.into_iter().fold(Section::new("trust", "Can the computation be trusted?"), |section, check| {
         match check {
-            Ok(FinerWords { what, with, differences, meaning, extent, advice }) => {
-                let name = format!("{}, compared with {with} in the same turbulence", capitalised(what));
-                let meaning = Some(meaning).filter(|meaning| !meaning.is_empty());
-                let end = [format!("Compared: {extent}."), format!("{advice}.")];
-                let differences = differences.into_iter().map(|difference| format!("{difference}."));
-                let all = differences.chain(meaning).chain(end).collect();
-                section.heading(name).with(Part::List(all))
-            }
+            Ok((name, all)) => section.heading(name).with(Part::List(all)),
             Err(why) => section.paragraph(format!("{}. The error is not known, then.", capitalised(&why))),
         }
     })

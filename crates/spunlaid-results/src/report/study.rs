@@ -18,7 +18,7 @@ use spunlaid_charts::Figure;
 /// Largest number of points that are listed.
 const LISTED: usize = 500;
 /// Figures whose quantities a terminal shows of webs.
-const IN_SHORT: [&str; 5] = ["cv", "cv_flown", "basis_weight", "md_cd_ratio", "thin_places"];
+const IN_SHORT: [&str; 4] = ["cv", "basis_weight", "md_cd_ratio", "thin_places"];
 
 /// A study.
 ///
@@ -108,19 +108,14 @@ fn points_in_short(study: &Study, results: &[PointResults]) -> Section<'static> 
     let title = if study.noun() == "web" {
         let is_of_web = |i: &usize| IN_SHORT.contains(&study.quantities[*i].figure.name);
         shown.retain(is_of_web);
-        "Unevenness, CV in % ± its error by all causes that are known, over patches of this side; flown: \
-        expected from the flown curves"
+        "Unevenness, CV in % ± its error by all causes that are known, over patches of this side"
     } else {
         shown.truncate(MEASURES);
         "Points"
     };
     let heads = shown.iter().map(|quantity| {
         let quantity = &study.quantities[*quantity];
-        match quantity.figure.name {
-            "cv" => quantity.series.clone(),
-            "cv_flown" => format!("flown {}", quantity.series),
-            _ => shown::head(quantity),
-        }
+        if quantity.figure.name == "cv" { quantity.series.clone() } else { shown::head(quantity) }
     });
     let inputs = study.inputs().map(|input| input.key.rsplit('.').next().unwrap_or(input.key).to_owned());
     let heads = ["Point".to_owned()].into_iter().chain(inputs).chain(heads).chain(["n".to_owned()]);
@@ -296,22 +291,14 @@ fn summary(study: &Study, results: &[PointResults]) -> String {
     text
 }
 
-/// The most even and the least even web, over patches of one size; by the flown curves, where all points have
-/// them. None for fibres, and where all points are alike.
+/// The most even and the least even web, over patches of one size. None for fibres, and where all points are alike.
 fn most_even(study: &Study, results: &[PointResults]) -> Option<String> {
-    let of_figure = |figure: &str| -> Vec<usize> {
-        let all = study.quantities.iter().enumerate();
-        all.filter(|(_, quantity)| quantity.figure.name == figure).map(|(index, _)| index).collect()
-    };
-    let known = |quantity: &usize| results.iter().all(|point| point.mean[*quantity].is_finite());
-    let middle = |figure| {
-        let all = of_figure(figure);
-        all.get(all.len() / 2).copied().filter(known)
-    };
-    let (how, quantity) = match (middle("cv_flown"), middle("cv")) {
-        (Some(flown), _) => ("By the flown curves, over", flown),
-        (None, cv) => ("Over", cv?),
-    };
+    let all: Vec<usize> =
+        (0..study.quantities.len()).filter(|i| study.quantities[*i].figure.name == "cv").collect();
+    let quantity = *all.get(all.len() / 2)?;
+    if !results.iter().all(|point| point.mean[quantity].is_finite()) {
+        return None;
+    }
     let order = |a: &usize, b: &usize| results[*a].mean[quantity].total_cmp(&results[*b].mean[quantity]);
     let (best, worst) = ((0..results.len()).min_by(order)?, (0..results.len()).max_by(order)?);
     let words = |point: usize| {
@@ -324,7 +311,7 @@ fn most_even(study: &Study, results: &[PointResults]) -> Option<String> {
     let side = &study.quantities[quantity].series;
     (best != worst).then(|| {
         format!(
-            " {how} patches of {side} the web is most even at {} and least even at {}.",
+            " Over patches of {side} the web is most even at {} and least even at {}.",
             words(best),
             words(worst)
         )
@@ -349,8 +336,7 @@ fn phases(study: &Study) -> &'static str {
     } else if study.noun() == "web" {
         "Replicate 1 of every point has the same random numbers, and likewise replicate 2 and so on, as far as the \
          keys allow. Errors are those of the scatter of the webs of a point, or of the parts of a single web; \
-         where fibres were flown, with the errors by these few fibres and by the surrogate. The flown CV is the \
-         one expected from the flown curves."
+         where a few filaments were flown for all, with the error by these."
     } else if study.common_phases {
         "Common phases: replicate 1 of every point has the same random phases of the turbulence, and \
         likewise replicate 2 and so on. Differences between points are therefore more certain than their \

@@ -18,7 +18,7 @@ use super::words::{count, metres, millimetres};
 use crate::Failure;
 use crate::effects::PER_CENT;
 use crate::numbers::{THIN, number, significant};
-use crate::output::web::{Layer, PatchTable, Performance, Reader};
+use crate::output::web::{Layer, PatchTable, Performance};
 use spunlaid::charge::BREAKDOWN;
 use spunlaid::fabric::Fabric;
 use spunlaid::layers::WebSpec;
@@ -111,7 +111,7 @@ fn effects(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> Section<'
 
 /// How uneven it is over patches of each size, and what makes it so.
 fn uneven(web: &Web, findings: &Findings) -> Section<'static> {
-    let PatchTable { heads, rows } = PatchTable::new(findings, Reader::Report);
+    let PatchTable { heads, rows } = PatchTable::new(findings);
     Section::new("verdict", "How uneven over which size")
         .paragraphs(verdict(findings))
         .table(Table::new(heads).rows(rows.into_iter().map(Row::from)))
@@ -121,14 +121,14 @@ fn uneven(web: &Web, findings: &Findings) -> Section<'static> {
 
 /// The unevenness for a terminal.
 fn uneven_in_short(findings: &Findings) -> Section<'static> {
-    let PatchTable { heads, rows } = PatchTable::new(findings, Reader::Terminal);
+    let PatchTable { heads, rows } = PatchTable::new(findings);
     let whole = if findings.patches.iter().any(|patch| patch.few.is_some()) {
         "of the web of all filaments, from the flown ones, ± its standard error by all causes (chance, few \
         filaments flown)"
     } else {
         "of this map ± its standard error by chance alone"
     };
-    Section::new("", format!("Unevenness, CV in %: {whole}, and as expected"))
+    Section::new("", format!("Unevenness, CV: {whole}, and as expected"))
         .table(Table::of_numbers(heads).rows(rows.into_iter().map(Row::from)))
         .on_terminal()
 }

@@ -87,11 +87,6 @@ impl std::fmt::Debug for Question<'_> {
     }
 }
 
-/// Numbers of a record in the journal of a fit.
-pub fn numbers_of_record(target: &Target) -> usize {
-    target.textures().len()
-}
-
 /// A checksum over everything on which the records of a fit depend.
 ///
 /// * `start` – the web before anything is sought

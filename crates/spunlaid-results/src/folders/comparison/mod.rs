@@ -1,7 +1,6 @@
 //! The results of several runs, or of several webs, side by side.
 
 mod fabric;
-mod found;
 mod maps;
 mod run;
 mod runs;
@@ -11,12 +10,12 @@ mod webs;
 use super::contents::{Contents, Maker, Page};
 use crate::Failure;
 use crate::figures::MOST_COMPARED;
-use crate::output::comparison;
+use crate::output::comparison::{self, Comparison};
 use crate::output::folder::Staging;
 use crate::output::origin::ORIGIN;
-use crate::report::comparison_report;
-use found::Found;
+use crate::report::{ComparedPictures, comparison_report};
 use spunlaid::error::Fault;
+use spunlaid_charts::Figure;
 use std::path::{Path, PathBuf};
 
 /// Folders that are to be compared.
@@ -71,6 +70,17 @@ impl<'a> Folders<'a> {
         };
         Ok(ComparedFolders { found })
     }
+}
+
+/// Comparisons with their figures.
+#[derive(Debug)]
+struct Found {
+    comparisons: Vec<Comparison>,
+    figures: Vec<Figure>,
+    /// Of webs.
+    pictures: Option<ComparedPictures>,
+    /// What is missing, and why.
+    notes: Vec<String>,
 }
 
 /// What a comparison of folders has found.

@@ -1,6 +1,6 @@
 //! Runs side by side: the means of their measures, and their curves.
 
-use super::found::Found;
+use super::Found;
 use super::run::Run;
 use crate::Failure;
 use crate::figures::overlaid_figures;

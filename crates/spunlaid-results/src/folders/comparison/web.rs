@@ -69,12 +69,9 @@ impl Web {
             })
         };
         let all = web["patches"].as_array()?;
-        let patches = |names: [&str; 3]| -> Vec<Patch> {
-            let patch = |json: &Json| {
-                let cv = number(json, names)?.with_all_causes(&json["cv_whole_error"], names[0] == "cv");
-                Some(Patch { side: json["patch_m"].as_f64()?, cv })
-            };
-            all.iter().filter_map(patch).collect()
+        let patch = |json: &Json| {
+            let cv = number(json, ["cv", "cv_standard_error", "cv_interval"])?;
+            Some(Patch { side: json["patch_m"].as_f64()?, cv: cv.with_all_causes(&json["cv_whole_error"]) })
         };
         let is_null = |json: &&Json| json.get("cv").is_some_and(Json::is_null);
         let untold = all.iter().filter(is_null).filter_map(|json| {
@@ -87,7 +84,7 @@ impl Web {
             name: name.to_owned(),
             weight: web["basis_weight_kg_m2"].as_f64(),
             // Older folders have no error but that by chance.
-            patches: patches(["cv", "cv_standard_error", "cv_interval"]),
+            patches: all.iter().filter_map(patch).collect(),
             untold: untold.collect(),
             clouds,
             // A map of basis weight has no blur of a camera.
@@ -154,12 +151,8 @@ impl WebNumber {
 
     /// With the error by all causes in place of that by chance alone, if it is known: what is not chance
     /// makes the interval wider on both sides, by the same share of the number.
-    ///
-    /// * `is_of_map` – whether the number is that of the map, which has this error
-    fn with_all_causes(self, whole: &Json, is_of_map: bool) -> Self {
-        let (Some(whole), Some(chance)) = (whole.as_f64().filter(|_| is_of_map), self.standard_error) else {
-            return self;
-        };
+    fn with_all_causes(self, whole: &Json) -> Self {
+        let Some((whole, chance)) = whole.as_f64().zip(self.standard_error) else { return self };
         let value = self.value;
         let others = NORMAL_95 * (whole * whole - chance * chance).max(0.0).sqrt() / value;
         let end = |end: f64| {

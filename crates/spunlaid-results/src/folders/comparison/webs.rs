@@ -1,8 +1,8 @@
 //! Webs side by side, laid or scanned: their CV over patches, their clouds, their pictures and spectra.
 
 use super::super::finished::read_summary;
+use super::Found;
 use super::fabric::{InCommon, in_common};
-use super::found::Found;
 use super::maps::maps;
 use super::web::{Patch, Web, WebNumber, are_alike};
 use crate::Failure;
@@ -119,8 +119,7 @@ fn compare_webs(first: &Web, other: &Web) -> Result<Comparison, Failure> {
             weight(first)
         ),
         errors: "CV of the basis weight over square patches, ± one standard error: from the waves of each piece of \
-            web, and, where fibres were flown, from their small number and from the difference of the surrogate \
-            from them. The CV of the flown curves is the one expected from them.",
+            web, and, where a few filaments were flown for all, from their small number.",
         measures,
     })
 }

@@ -1,28 +1,26 @@
 //! The turbulent air of a case, looked at in two planes while it passes.
 //!
 //! ```text
-//! Slices   the velocities on the points of both planes, instant by instant
-//! points   the air at given places as CSV
+//! Slices   the velocities on the points of both planes, instant by instant; summary and points as CSV
 //! vtk      each instant as VTK images
 //! pictures the first instant as figures
-//! summary  what was looked at, and how strong the gusts are
 //! ```
 
 mod pictures;
-mod points;
-mod summary;
 mod vtk;
 
-pub use pictures::{PLANES, pictures};
-pub use points::{POINT_COLUMNS, point_row, points_csv};
-pub use summary::{PlaneFindings, summary};
-pub use vtk::write_vtk;
-
 use crate::Failure;
-use spunlaid::air::AirAtPlaces;
+use crate::output::summary::resolved;
+use crate::output::versioned_json;
+pub use pictures::{PLANES, pictures};
+
+use serde_json::{Value as Json, json};
+use spunlaid::air::{AirAtPlaces, LocalAir};
 use spunlaid::case::Case;
 use spunlaid::vec3::Vec3;
+use spunlaid_charts::shortest;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+pub use vtk::write_vtk;
 
 /// Points along the longer side of a plane.
 const POINTS: usize = 120;
@@ -119,4 +117,96 @@ fn planes(case: &Case, air: &AirAtPlaces) -> [Plane; 2] {
         plane([way, y], [along_x, along_y], Vec3::new(0.0, -0.5 * y, 0.0)),
         plane([z, y], [along_z, along_y], Vec3::new(way, -0.5 * y, -0.5 * z)),
     ]
+}
+
+/// What was found in a plane [m/s].
+#[derive(Clone, Copy, Debug)]
+pub struct PlaneFindings {
+    /// Mean velocity, x, y, z.
+    pub mean: [f64; 3],
+    /// Rms of the velocity about the mean flow at each place, x, y, z.
+    pub rms: [f64; 3],
+    /// The rms of each component that the case asks for, over the plane.
+    pub expected_rms: f64,
+}
+
+/// The text of the file.
+///
+/// * `replicate` – from 0
+pub fn summary(case: &Case, slices: &Slices, replicate: u64, notes: &[String]) -> String {
+    let extent = case.extent_of_air();
+    let plane = |i: usize| {
+        let PlaneFindings { mean, rms, expected_rms } = PlaneFindings::new(case, slices, i);
+        let points = slices.planes[i].points;
+        let told =
+            json!({"points": points, "mean_m_s": mean, "rms_m_s": rms, "expected_rms_m_s": expected_rms});
+        (PLANES[i], told)
+    };
+    let content = json!({
+        "replicate": replicate + 1,
+        // After these distances the turbulence repeats itself.
+        "repeats_md_m": extent.y,
+        "repeats_cd_m": extent.z,
+        "times_s": slices.times,
+        "planes": (0..PLANES.len()).map(plane).collect::<Json>(),
+        "notes": notes,
+        "case": resolved(case),
+    });
+    versioned_json(1, content)
+}
+
+impl PlaneFindings {
+    /// Of a plane, counted from 0.
+    pub fn new(case: &Case, slices: &Slices, plane: usize) -> Self {
+        let (plane, velocities): (&Plane, &[Vec<Vec3<f64>>]) =
+            (&slices.planes[plane], &slices.velocities[plane]);
+        let places = plane.places();
+        let mut hint = spunlaid::field::Hint::default();
+        let flow: Vec<_> = places.iter().map(|place| case.air.local(*place, &mut hint)).collect();
+        let count = (velocities.len() * places.len()).max(1) as f64;
+        let axes: [fn(&Vec3<f64>) -> f64; 3] = [|v| v.x, |v| v.y, |v| v.z];
+        let mean = |term: &dyn Fn(&Vec3<f64>, usize) -> f64| {
+            let sum = |all: &Vec<Vec3<f64>>| all.iter().enumerate().map(|(n, v)| term(v, n)).sum::<f64>();
+            velocities.iter().map(sum).sum::<f64>() / count
+        };
+        Self {
+            mean: axes.map(|axis| mean(&|v, _| axis(v))),
+            rms: axes.map(|axis| mean(&|v, n| (axis(v) - axis(&flow[n].velocity)).powi(2)).sqrt()),
+            expected_rms: mean(&|_, n| flow[n].rms.powi(2)).sqrt(),
+        }
+    }
+}
+
+/// The columns: place, velocity, its magnitude, turbulence.
+pub const POINT_COLUMNS: [&str; 10] = [
+    "x_m",
+    "y_m",
+    "z_m",
+    "u_m_s",
+    "v_m_s",
+    "w_m_s",
+    "speed_m_s",
+    "k_m2_s2",
+    "length_scale_m",
+    "cutoff_frequency_hz",
+];
+
+/// The numbers of a place in these columns. They are NaN where the air is not known, and those of eddies where it is not
+/// turbulent.
+pub fn point_row(at: Vec3<f64>, air: Option<LocalAir>) -> [f64; POINT_COLUMNS.len()] {
+    let Some(air) = air else {
+        let mut row = [f64::NAN; POINT_COLUMNS.len()];
+        (row[0], row[1], row[2]) = (at.x, at.y, at.z);
+        return row;
+    };
+    let (v, k) = (air.velocity, air.k());
+    let [length, cutoff] = if k > 0.0 { [air.length_scale, air.cutoff_frequency] } else { [f64::NAN; 2] };
+    [at.x, at.y, at.z, v.x, v.y, v.z, v.norm(), k, length, cutoff]
+}
+
+/// A row for each place, whose numbers read back to the same bits; what is not known is an empty cell.
+pub fn points_csv(places: &[Vec3<f64>], found: &[Option<LocalAir>]) -> String {
+    let rows = places.iter().zip(found).map(|(at, air)| point_row(*at, *air).map(shortest).join(","));
+    let lines = std::iter::once(POINT_COLUMNS.join(",")).chain(rows);
+    lines.map(|line| line + "\n").collect()
 }

@@ -2,8 +2,8 @@
 
 use super::{Plane, Slices};
 use crate::Failure;
-use crate::output::appended::AppendedArrays;
 use crate::output::folder::Staging;
+use crate::output::paraview::AppendedArrays;
 use spunlaid::vec3::Vec3;
 use std::fmt::Write;
 

@@ -1,18 +1,112 @@
-//! Writes the files of an analysis.
+//! What leaves the analysis of a record: `analysis.json`, the rows of its tables, its curves and the air of a case.
 
 mod air;
 mod curves;
-mod json;
-mod table;
 
+use crate::numbers::{decimals, rounded, to_decimals};
+use crate::output::measured::{joined, values};
+use crate::output::versioned_json;
 pub use air::air_block;
 pub use curves::write_curves;
-pub use json::analysis_json;
-pub use table::{ResultRow, results};
 
-use spunlaid::record::Interval;
+use serde_json::{Value as Json, json};
+use spunlaid::observe::{Measure, Measured, OF_COMPONENTS, OF_RECORDS, Unit, Value, measured};
+use spunlaid::record::{Analysis, Component, Interval, Record};
 
 /// Half the width of an interval: the error of the value.
 pub fn half_width(interval: &Interval) -> f64 {
     0.5 * (interval.high - interval.low)
+}
+
+/// The file.
+pub fn analysis_json(record: &Record, analysis: &Analysis) -> String {
+    let spectrum = analysis.components.first().map(|c| &c.spectrum);
+    let reading = &record.reading;
+    let about = json!({
+        "record": {
+            "file": record.file,
+            "samples": analysis.samples,
+            "rate_hz": 1.0 / analysis.interval,
+            "duration_s": analysis.duration,
+            "components": analysis.components.iter().map(|c| c.name.as_str()).collect::<Vec<_>>(),
+            "filled_samples": reading.filled,
+            "skipped_rows": reading.skipped,
+            "cut_off_rows": reading.cut_off,
+            "largest_jitter": reading.jitter,
+            "timed": reading.timed,
+            "unused_columns": reading.unused,
+        },
+        "method": {
+            "confidence": 0.95,
+            "blocks": analysis.blocks,
+            "integral": analysis.integral.words(),
+            "autocorrelation": "unbiased",
+            "window": spectrum.map_or("", |s| s.window.name()),
+            "overlap": spectrum.map_or(0.0, |s| s.overlap),
+            "segment_samples": spectrum.map_or(0, |s| s.segment),
+            "segments": spectrum.map_or(0, |s| s.segments),
+        },
+    });
+    let rest = json!({
+        "components": analysis.components.iter().map(component).collect::<Json>(),
+        // For intervals of ± 5 %.
+        "duration_for_5_percent_s": {
+            "turbulence_intensity": analysis.duration_for(&analysis.turbulence_intensity, 0.05),
+            "integral_time": analysis.duration_for(&analysis.integral_time, 0.05),
+            "cutoff_frequency": analysis.duration_for(&analysis.cutoff_frequency, 0.05),
+        },
+        "warnings": analysis.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+    });
+    versioned_json(1, joined([about, values(OF_RECORDS, analysis), rest]))
+}
+
+fn component(component: &Component) -> Json {
+    joined([json!({"name": component.name}), values(OF_COMPONENTS, component)])
+}
+
+/// A result with its interval and how it was computed.
+pub struct ResultRow {
+    /// Name of the quantity.
+    pub name: &'static str,
+    /// Its value, as shown.
+    pub value: String,
+    /// Lower end of the 95 % interval, as shown.
+    pub low: String,
+    /// Upper end of the 95 % interval, as shown.
+    pub high: String,
+    /// Unit.
+    pub unit: &'static str,
+    /// What it means.
+    pub meaning: String,
+}
+
+/// The measures that have a label, as rows of a table.
+fn rows<T>(measures: &'static [Measure<T>], found: &T) -> Vec<ResultRow> {
+    let row = |row: Measured<T>| {
+        let interval = match row.value {
+            Some(Value::Interval(interval)) => interval,
+            _ => Interval::exactly(row.measure.number(found)),
+        };
+        let Unit { shown, per_si } = row.measure.unit;
+        let half = half_width(&interval) * per_si;
+        // A value that was given has no interval.
+        let end = |end: f64| {
+            decimals(half).map_or_else(|| "–".to_owned(), |decimals| to_decimals(end * per_si, decimals))
+        };
+        ResultRow {
+            name: row.measure.label,
+            value: rounded(interval.value * per_si, Some(half)).0,
+            low: end(interval.low),
+            high: end(interval.high),
+            unit: shown,
+            meaning: row.meaning().to_owned(),
+        }
+    };
+    measured(measures, found).filter(|row| !row.measure.label.is_empty()).map(row).collect()
+}
+
+/// The results for the [air] of a case, then those of each component.
+pub fn results(analysis: &Analysis) -> (Vec<ResultRow>, Vec<(String, Vec<ResultRow>)>) {
+    let component = |component: &Component| (component.name.clone(), rows(OF_COMPONENTS, component));
+    (rows(OF_RECORDS, analysis), analysis.components.iter().map(component).collect())
 }

@@ -3,21 +3,24 @@
 //! ```text
 //! vtk       all cells as tetrahedra or boxes, with their sources
 //! openfoam  the same as fields of OpenFOAM, in the order of its cells
-//! summary   the sums, and how sure they are
 //! ```
 
 mod openfoam;
-mod summary;
 mod vtk;
 
-pub use openfoam::{OPENFOAM, has_order_of_openfoam, write_openfoam};
-pub use summary::summary;
-pub use vtk::{VTK, write_vtk};
-
 use crate::numbers::plus_minus;
+use crate::output::measured::{known, mean};
+use crate::output::summary::{lost_fibres, resolved};
+use crate::output::versioned_json;
+pub use openfoam::{OPENFOAM, has_order_of_openfoam, write_openfoam};
+
+use serde_json::json;
 use spunlaid::case::Case;
 use spunlaid::ensemble::Sources;
+use spunlaid::spinline::ZERO_CELSIUS;
+use spunlaid::statistics::Estimate;
 use spunlaid::units::Dimension;
+pub use vtk::{VTK, write_vtk};
 
 /// What is said of flights that are not steady: no field is written for a CFD program, which would read it without a
 /// word of doubt. None if they are.
@@ -42,3 +45,34 @@ pub fn unsteady(case: &Case, sources: &Sources) -> Option<String> {
 
 /// Spin-up that is proposed, in ways down or in spin-ups that were too short.
 const WAYS: f64 = 3.0;
+
+/// The text of the file.
+pub fn summary(case: &Case, sources: &Sources, notes: &[String]) -> String {
+    let [above, by_momentum] = &sources.above_belt;
+    // None where it is not known, which a note says.
+    let heat = sources.heat.as_ref().ok();
+    let at_belt = |at_belt: &Estimate| Estimate { mean: at_belt.mean - ZERO_CELSIUS, ..at_belt.clone() };
+    let content = json!({
+        "filaments_per_m": sources.filaments_per_metre,
+        "replicates": sources.replicates,
+        "lost": sources.lost.len(),
+        "lost_fibres": lost_fibres(&sources.lost),
+        "cells": sources.cells.len(),
+        "cells_met": sources.cells.iter().filter(|cell| cell.hits > 0).count(),
+        "force_n_per_m": sources.force.each_ref().map(mean),
+        "force_along_n_per_m": mean(&sources.along),
+        "outside_n_per_m": mean(&sources.outside),
+        "above_belt_n_per_m": mean(above),
+        "by_momentum_n_per_m": mean(by_momentum),
+        "steady": sources.are_steady(),
+        "heat_w_per_m": heat.map(|heat| mean(&heat.in_cells)),
+        "heat_outside_w_per_m": heat.map(|heat| mean(&heat.outside)),
+        "inlet_temperature_c": heat.map(|heat| heat.at_inlet - ZERO_CELSIUS),
+        "belt_temperature_c": heat.map(|heat| mean(&at_belt(&heat.at_belt))),
+        "air_temperature_c": heat.map(|heat| heat.of_air - ZERO_CELSIUS),
+        "openfoam": sources.are_steady() && has_order_of_openfoam(case),
+        "notes": notes,
+        "case": resolved(case),
+    });
+    versioned_json(1, known(content))
+}

@@ -1,8 +1,8 @@
 //! `sources.vtu`: the cells with their sources.
 
 use crate::Failure;
-use crate::output::appended::AppendedArrays;
 use crate::output::folder::Staging;
+use crate::output::paraview::AppendedArrays;
 use spunlaid::case::Case;
 use spunlaid::ensemble::{CellSource, Sources};
 use spunlaid::field::BlockKind;

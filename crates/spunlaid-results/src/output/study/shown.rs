@@ -11,11 +11,7 @@ pub fn quantities(study: &Study) -> Vec<usize> {
     let has = |quantity: &Quantity| {
         experiments().any(|experiment| match experiment {
             Experiment::Case(case) => applies(quantity, case),
-            Experiment::Web(web) => {
-                let flies = web.layers.iter().any(|layer| layer.source.case().is_some());
-                flies || quantity.figure.name != "cv_flown"
-            }
-            Experiment::Spinline(_) => true,
+            Experiment::Web(_) | Experiment::Spinline(_) => true,
         })
     };
     let all = &study.quantities;

@@ -10,13 +10,17 @@ use std::path::PathBuf;
 pub(super) const FORMAT: TableFormat =
     TableFormat { name: "csv", create: |place, columns| separated(b',', place, columns) };
 
+/// Values with tabs between them, which a spreadsheet takes in any country.
+pub(super) const WITH_TABS: TableFormat =
+    TableFormat { name: "tsv", create: |place, columns| separated(b'\t', place, columns) };
+
 struct Lines {
     path: PathBuf,
     writer: Writer<File>,
 }
 
 /// Begins a table with a sign between its cells.
-pub(super) fn separated(sign: u8, (now, path): (PathBuf, PathBuf), columns: &[Column]) -> Begun {
+fn separated(sign: u8, (now, path): (PathBuf, PathBuf), columns: &[Column]) -> Begun {
     let file = File::create(now).map_err(Failure::unwritable(&path))?;
     let writer = WriterBuilder::new().delimiter(sign).from_writer(file);
     let mut lines = Lines { path, writer };

@@ -2,7 +2,6 @@
 
 mod csv;
 pub(super) mod parquet;
-mod tsv;
 
 use crate::Failure;
 use std::path::PathBuf;
@@ -20,7 +19,7 @@ pub struct TableFormat {
 type Begun = Result<Box<dyn Rows>, Failure>;
 
 /// All formats.
-static FORMATS: [TableFormat; 3] = [csv::FORMAT, parquet::FORMAT, tsv::FORMAT];
+static FORMATS: [TableFormat; 3] = [csv::FORMAT, parquet::FORMAT, csv::WITH_TABS];
 
 /// The folder of tables in formats that are asked for besides the usual ones.
 pub const TABLES: &str = "tables";

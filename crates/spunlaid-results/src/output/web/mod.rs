@@ -1,6 +1,5 @@
 //! The files of a web's results folder.
 
-mod charge;
 mod clouds;
 mod effects;
 mod fabric;
@@ -8,17 +7,15 @@ mod map;
 mod patches;
 mod pieces;
 mod sheet;
-mod strands;
 mod summary;
 
 pub use clouds::with_clouds;
 pub(crate) use effects::HOUR;
 pub use fabric::{fabric_rows, known_text};
 pub use map::{light_table, write as write_map, write_array as write_scan};
-pub use patches::{PatchTable, Reader};
+pub use patches::PatchTable;
 pub use pieces::{MapFile, Pictures};
 pub use sheet::specification_sheet;
-pub use strands::write as write_strands;
 pub use summary::{Layer, Performance, summary_of_scan, summary_of_web};
 
 /// Most cells that are written as a table and as a picture; the array holds all.

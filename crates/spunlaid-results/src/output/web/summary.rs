@@ -1,6 +1,6 @@
 //! `summary.json`: all results of a web.
 
-use super::{charge, effects, fabric};
+use super::{effects, fabric};
 use crate::figures::SEEN;
 use crate::output::measured::{joined, json, known, mean, values, with_errors};
 use crate::output::{load, versioned_json};
@@ -13,7 +13,7 @@ use spunlaid::load::Load;
 use spunlaid::observe::{Measure, OF_PATCHES, OF_SCANNED_PATCHES, OF_SCANS, OF_WEBS};
 use spunlaid::scan::{self, Doubt};
 use spunlaid::statistics::{Estimate, interval_of_deviation};
-use spunlaid::web::{Clouds, Edges, Findings, LayerFew, Map, NeighbourCorrelation, Web};
+use spunlaid::web::{ChargedCurtain, Clouds, Edges, Findings, LayerFew, Map, NeighbourCorrelation, Web};
 use std::time::Instant;
 
 /// What a layer was laid from.
@@ -134,7 +134,7 @@ pub fn summary_of_web(
     let here = OF_WEBS.iter().filter(|measure| !measure.entry().is_empty());
     let declared = here.flat_map(|measure| with_errors(measure, findings)).collect();
     let map = of_map(&findings.laid.map, findings.clouds.as_ref(), patches.collect());
-    let charged = charge::summary(findings, name);
+    let charged = charged(findings, name);
     let parts = json!({
         "layers": (!layers.is_empty()).then_some(layers),
         "web": joined([map, laid, declared]),
@@ -223,6 +223,26 @@ fn few_flown(few: &LayerFew) -> Json {
         "missing_variance_md": few.missing[0],
         "missing_variance_cd": few.missing[1],
     })
+}
+
+/// The charged filaments of each layer, as they hung at the end of their flight.
+///
+/// * `name` – of a layer
+fn charged<'a>(findings: &Findings, name: impl Fn(usize) -> &'a str) -> Json {
+    let together = findings.laid.shared_air.iter().flat_map(|together| &together.charged);
+    let entry = |charged: &ChargedCurtain| {
+        // From the inlet to the belt: length of filament for each length of height, and places in machine direction
+        // behind which 2.5, 25, 50, 75 and 97.5 % of the filament hangs.
+        let heights = charged.heights.iter().map(
+            |height| json!({"x_m": height.x, "length_per_height": height.length, "md_m": height.places}),
+        );
+        json!({
+            "layer": name(charged.layer),
+            "edge_field_v_m": charged.edge_field,
+            "heights": heights.collect::<Json>(),
+        })
+    };
+    together.map(entry).collect()
 }
 
 /// How filaments that hang side by side in one air come down together; none of a web of independent filaments.

@@ -1,10 +1,41 @@
-//! What a paper cites beside its numbers: the program, and the sources of the models that the numbers rest on.
+//! The paragraph about methods in every report: by what the numbers were made, where the case stands, and what is cited.
+
+use crate::report::document::{Part, Section};
+use spunlaid::case::Case;
+use spunlaid::layers::WebSpec;
+
+/// A paragraph to copy, and below it the works that it cites, each once, the program first.
+///
+/// * `command` – that made the results
+/// * `cited` – the works on whose models they rest
+/// * `input` – where everything stands with which the command gives them again; empty if it made nothing of a case
+pub(super) fn methods(command: &str, cited: Vec<Reference>, input: &str) -> Section<'static> {
+    let mut works: Vec<Reference> = Vec::new();
+    for work in cited {
+        if !works.iter().any(|known| known.full == work.full) {
+            works.push(work);
+        }
+    }
+    let models = match &works[..] {
+        [] => String::new(),
+        works => {
+            let names: Vec<&str> = works.iter().map(|work| work.short).collect();
+            format!(", by the models of {}", names.join("; "))
+        }
+    };
+    let case = match input {
+        "" => String::new(),
+        input => format!(" The input with all its numbers is {input}."),
+    };
+    let text = format!("The numbers come from {} (spunlaid {command}){models}.{case}", PROGRAM.short);
+    let full = works.iter().map(|work| work.full.to_owned());
+    let paragraphs = [text, PROGRAM.full.to_owned()].into_iter().chain(full).collect();
+    Section::new("methods-paragraph", "Methods, for a paper")
+        .with(Part::Prose { id: "methods-text", paragraphs })
+}
 
 /// A work that is cited. A law of the drag names its own.
 pub(in crate::report) use spunlaid::drag::Source as Reference;
-
-use spunlaid::case::Case;
-use spunlaid::layers::WebSpec;
 
 /// The program itself.
 pub(in crate::report) const PROGRAM: Reference = Reference {
