@@ -22,7 +22,9 @@ fn table(desk: &Desk, name: &str) -> (Vec<String>, Vec<Vec<f64>>) {
 }
 
 fn keys(value: &Value) -> Vec<&str> {
-    value.as_object().unwrap().keys().map(String::as_str).collect()
+    let mut keys: Vec<&str> = value.as_object().unwrap().keys().map(String::as_str).collect();
+    keys.sort_unstable();
+    keys
 }
 
 #[test]

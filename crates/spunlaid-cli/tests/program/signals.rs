@@ -90,7 +90,7 @@ fn identical_bytes_from_a_run_that_was_interrupted_or_killed() {
                     std::thread::sleep(Duration::from_millis(1));
                 }
             };
-            // Fibres have 251 rows of 16 numbers; those of 130 each time.
+            // Fibres have 251 rows of 16 numbers; so much as 130 of them have, with what was measured of some.
             wait_until(&|| size() > process * 130 * 251 * 16 * 8);
             let output = end(child, signal);
             if *signal == "INT" {
@@ -112,7 +112,7 @@ fn identical_bytes_from_a_run_that_was_interrupted_or_killed() {
         let said = String::from_utf8(again.stderr).unwrap();
         let left = said.split_once("going on: ").and_then(|(_, said)| said.split_once(" of "));
         let left: u64 = left.and_then(|(left, _)| left.parse().ok()).unwrap_or_else(|| panic!("{said}"));
-        assert!(again.status.success() && (120..ALL).contains(&left), "{said}");
+        assert!(again.status.success() && (64..ALL).contains(&left), "{said}");
         assert!(!kept.exists());
         for file in ["case.toml", "end_node.parquet", "energy.parquet", "shape.pvd"] {
             let [one, other] = [folder, "whole"].map(|folder| desk.read(&format!("{folder}/{file}")));
@@ -249,7 +249,7 @@ fn a_fed_fibre_that_is_killed_or_cannot_be_written_leaves_nothing() {
     let output = Command::new("sh").args(["-c", &shell]).current_dir(desk.folder.path()).output().unwrap();
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(2), "{said}");
-    assert!(said.contains("error: a/b/laid.parquet: cannot be written: "), "{said}");
+    assert!(said.contains("error: a/b/") && said.contains(".parquet: cannot be written: "), "{said}");
     assert_eq!(desk.entries(""), names(&["brief.toml", "r"]));
 }
 

@@ -183,6 +183,8 @@ impl<'a> JournalFolder<'a> {
     ) -> Result<String, Failure> {
         let text = contents.write(&staging, making)?;
         staging.publish()?;
+        // What it needed lies in the folder that is cleared.
+        drop(staging);
         self.replace()?;
         Ok(text)
     }
