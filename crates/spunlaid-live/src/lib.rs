@@ -26,7 +26,6 @@ mod http;
 mod laid;
 mod measured;
 mod message;
-mod number;
 mod page;
 mod save;
 mod server;

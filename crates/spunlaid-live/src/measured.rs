@@ -1,8 +1,7 @@
 //! Statistics of the fibres while they fly, since the last change.
 
 use super::fibres::Instant;
-use super::laid::LaidStatistics;
-use super::number::ShownNumber;
+use super::laid::{LaidStatistics, ShownNumber};
 use serde::Serialize;
 use spunlaid::case::Case;
 use spunlaid::flight::{EndNodeMotion, Flight};
@@ -205,7 +204,7 @@ fn numbers(flight: &Flight, duration: f64) -> Vec<ShownNumber> {
 #[cfg(test)]
 mod tests {
     use super::super::fibres::Fibres;
-    use super::super::number::measure;
+    use super::super::laid::measure;
     use super::*;
     use spunlaid::input::{parse_case, starter_case};
 

@@ -1,6 +1,5 @@
 //! The paper's claims. Each gets its evidence and a verdict from the data.
 
-use super::fits::{Spot, line, significance, slopes, worst_step_back};
 use super::{LateralEstimates, Parameter, TrendPoint};
 use crate::claim::{CHANCE, Claim, REAL, Verdict};
 use std::borrow::Cow;
@@ -196,6 +195,56 @@ fn sigmoid(spots: &[Spot]) -> (String, Verdict) {
     (evidence, verdict)
 }
 
+/// A point: x, y and the standard error of y.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Spot {
+    x: f64,
+    y: f64,
+    error: f64,
+}
+
+/// A straight line fitted to points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Line {
+    slope: f64,
+    /// Standard error of the slope, from the errors of the points.
+    slope_error: f64,
+    /// Share of the variance that the line explains.
+    r_squared: f64,
+}
+
+/// The least-squares line.
+fn line(spots: &[Spot]) -> Line {
+    let n = spots.len() as f64;
+    let (mx, my) = (spots.iter().map(|s| s.x).sum::<f64>() / n, spots.iter().map(|s| s.y).sum::<f64>() / n);
+    let sxx: f64 = spots.iter().map(|s| (s.x - mx).powi(2)).sum();
+    let sxy: f64 = spots.iter().map(|s| (s.x - mx) * (s.y - my)).sum();
+    let syy: f64 = spots.iter().map(|s| (s.y - my).powi(2)).sum();
+    let variance: f64 = spots.iter().map(|s| ((s.x - mx) * s.error).powi(2)).sum();
+    Line { slope: sxy / sxx, slope_error: variance.sqrt() / sxx, r_squared: sxy * sxy / (sxx * syy) }
+}
+
+/// The difference of two points, divided by its standard error.
+fn significance(from: &Spot, to: &Spot) -> f64 {
+    let error = from.error.hypot(to.error);
+    let difference = to.y - from.y;
+    if error > 0.0 { difference / error } else { difference.signum() * f64::INFINITY }
+}
+
+/// The largest step against the general direction (`+1` up, `−1` down), in standard errors. Zero if there is none.
+fn worst_step_back(spots: &[Spot], direction: f64) -> f64 {
+    spots.windows(2).map(|w| -direction * significance(&w[0], &w[1])).fold(0.0, f64::max)
+}
+
+/// Slopes between neighbouring points, each with its standard error.
+fn slopes(spots: &[Spot]) -> Vec<(f64, f64)> {
+    let slope = |w: &[Spot]| {
+        let dx = w[1].x - w[0].x;
+        ((w[1].y - w[0].y) / dx, w[0].error.hypot(w[1].error) / dx.abs())
+    };
+    spots.windows(2).map(slope).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -235,5 +284,25 @@ mod tests {
         assert!(claims_of_step_errors(&good).iter().all(|c| c.verdict == Verdict::Holds));
         let quadratic = [(1e-6, 2.0, 1.5), (4e-6, 32.0, 24.0)];
         assert!(claims_of_step_errors(&quadratic).iter().all(|c| c.verdict == Verdict::Fails));
+    }
+
+    fn spots_of(pairs: &[(f64, f64)], error: f64) -> Vec<Spot> {
+        pairs.iter().map(|&(x, y)| Spot { x, y, error }).collect()
+    }
+
+    #[test]
+    fn analytic_line_through_points_on_it() {
+        let l = line(&spots_of(&[(0.0, 1.0), (1.0, 3.0), (3.0, 7.0)], 0.1));
+        assert!((l.slope - 2.0).abs() < 1e-12 && (l.r_squared - 1.0).abs() < 1e-12);
+        // Σ(x−x̄)² = 14/3; the slope's error is 0.1/√(14/3).
+        assert!((l.slope_error - 0.1 / (14.0f64 / 3.0).sqrt()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn analytic_steps_back_and_slopes() {
+        let s = spots_of(&[(0.0, 0.0), (1.0, 2.0), (2.0, 1.0)], 0.5);
+        assert!((worst_step_back(&s, 1.0) - 1.0 / 0.5f64.hypot(0.5)).abs() < 1e-12);
+        assert!((worst_step_back(&s, -1.0) - 2.0 / 0.5f64.hypot(0.5)).abs() < 1e-12);
+        assert_eq!(slopes(&s).iter().map(|s| s.0).collect::<Vec<_>>(), [2.0, -1.0]);
     }
 }

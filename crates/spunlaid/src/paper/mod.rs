@@ -5,7 +5,6 @@
 //! program can fly it from anywhere. The claims and their judgement are code.
 
 mod claims;
-mod fits;
 
 pub use claims::{claims_of_step_errors, claims_of_trend};
 

@@ -1,14 +1,14 @@
 //! What leaves the analysis of a record: `analysis.json`, the rows of its tables, its curves and the air of a case.
 
 mod air;
-mod curves;
 
+use crate::Failure;
 use crate::numbers::{decimals, rounded, to_decimals};
+use crate::output::folder::Staging;
 use crate::output::measured::{joined, values};
+use crate::output::table::{self, number};
 use crate::output::versioned_json;
 pub use air::air_block;
-pub use curves::write_curves;
-
 use serde_json::{Value as Json, json};
 use spunlaid::observe::{Measure, Measured, OF_COMPONENTS, OF_RECORDS, Unit, Value, measured};
 use spunlaid::record::{Analysis, Component, Interval, Record};
@@ -109,4 +109,36 @@ fn rows<T>(measures: &'static [Measure<T>], found: &T) -> Vec<ResultRow> {
 pub fn results(analysis: &Analysis) -> (Vec<ResultRow>, Vec<(String, Vec<ResultRow>)>) {
     let component = |component: &Component| (component.name.clone(), rows(OF_COMPONENTS, component));
     (rows(OF_RECORDS, analysis), analysis.components.iter().map(component).collect())
+}
+
+/// Writes the spectral density of each component over frequency, and its autocorrelation coefficient over the lag.
+pub fn write_curves(staging: &Staging<'_>, analysis: &Analysis) -> Result<(), Failure> {
+    let frequency = |i: usize| analysis.components.first().map_or(0.0, |c| c.spectrum.frequency(i));
+    let lag = |i: usize| i as f64 * analysis.interval;
+    write_curve(staging, analysis, ["spectrum", "frequency_hz", "_m2_s2_per_hz"], frequency, |c| {
+        &c.spectrum.density
+    })?;
+    write_curve(staging, analysis, ["autocorrelation", "lag_s", "_coefficient"], lag, |c| {
+        &c.autocorrelation.coefficients
+    })
+}
+
+/// A column of x and one for each component, down to the end of the shortest curve.
+fn write_curve(
+    staging: &Staging<'_>,
+    analysis: &Analysis,
+    [name, head, unit]: [&str; 3],
+    x: impl Fn(usize) -> f64,
+    curve: for<'c> fn(&'c Component) -> &'c Vec<f64>,
+) -> Result<(), Failure> {
+    let plain = |component: &Component| component.name.replace([',', ';', '"', '\n', ' '], "_");
+    let columns = analysis.components.iter().map(|component| number(plain(component) + unit));
+    let columns: Vec<_> = std::iter::once(number(head)).chain(columns).collect();
+    let mut curves = staging.table(name, &["csv"], &columns)?;
+    for i in 0..analysis.components.iter().map(|c| curve(c).len()).min().unwrap_or(0) {
+        let values = analysis.components.iter().map(|component| curve(component)[i]);
+        let row: Vec<_> = std::iter::once(x(i)).chain(values).map(table::Value::Number).collect();
+        curves.add(&row)?;
+    }
+    curves.finish()
 }

@@ -1,7 +1,7 @@
 //! `results.json`: the points with their results, and the ranking.
 
 use super::super::table::Value;
-use super::columns::values;
+use super::inputs_of;
 use serde_json::{Value as Json, json};
 use spunlaid::claim::Claim;
 use spunlaid::effects::Effect;
@@ -48,7 +48,7 @@ pub fn write_json(
 }
 
 fn point(study: &Study, index: usize, measured: &PointResults) -> Json {
-    let inputs = study.inputs().zip(values(study, index));
+    let inputs = study.inputs().zip(inputs_of(study, index));
     let inputs: Json = inputs.map(|(input, value)| (input.column(), plain(value))).collect();
     let result = |i: usize| {
         let mut told = json!({"mean": measured.mean[i], "standard_error": measured.standard_error(i)});

@@ -1,15 +1,13 @@
 //! Tables of a study: one with a row per point, one with a row per replicate.
 
-mod columns;
 mod json;
 pub mod shown;
 
-pub use json::write_json;
-
-use super::folder::Staging;
-use super::table::Value;
 use crate::Failure;
-use spunlaid::study::{Journal, PointResults, Record, ReplicateOutcome, Study, results_of_point};
+use crate::output::folder::Staging;
+use crate::output::table::{Column, ColumnValues, Value, whole};
+pub use json::write_json;
+use spunlaid::study::{Journal, PointResults, Quantity, Record, ReplicateOutcome, Study, results_of_point};
 
 /// Writes `results.csv`, `results.parquet` and `replicates.parquet`, and returns the statistics of the points.
 ///
@@ -19,9 +17,9 @@ pub fn write(
     study: &Study,
     journal: &mut Journal,
 ) -> Result<Vec<PointResults>, Failure> {
-    let points = columns::columns_of_points(study);
+    let points = columns_of_points(study);
     let mut results = staging.table("results", &["csv", "parquet"], &points)?;
-    let columns = columns::columns_of_replicates(study);
+    let columns = columns_of_replicates(study);
     let mut replicates = staging.table("replicates", &["parquet"], &columns)?;
     let mut all = Vec::with_capacity(study.points.len());
     for index in 0..study.points.len() {
@@ -40,7 +38,7 @@ pub fn write(
 fn point_row(study: &Study, index: usize, results: &PointResults) -> Vec<Value> {
     let point = &study.points[index];
     let mut row = vec![Value::Whole(index as i64 + 1), Value::Whole(point.experiment.seed() as i64)];
-    row.extend(columns::values(study, index));
+    row.extend(inputs_of(study, index));
     row.extend([Value::Whole(results.n as i64), Value::Whole(results.lost as i64)]);
     for (index, quantity) in study.quantities.iter().enumerate() {
         row.extend([results.mean[index], results.errors[index]].map(Value::Number));
@@ -59,7 +57,7 @@ fn replicate_row(study: &Study, index: usize, record: &Record) -> Vec<Value> {
         Value::Whole(record.replicate as i64 + 1),
         Value::Whole(point.experiment.seed() as i64),
     ];
-    row.extend(columns::values(study, index));
+    row.extend(inputs_of(study, index));
     match &record.outcome {
         ReplicateOutcome::Measured(measured) => {
             row.extend(measured.iter().map(|value| Value::Number(*value)))
@@ -69,4 +67,47 @@ fn replicate_row(study: &Study, index: usize, record: &Record) -> Vec<Value> {
         }
     }
     row
+}
+
+/// The input columns: the key and its SI unit, `air.velocity_m_s`.
+fn inputs(study: &Study) -> impl Iterator<Item = Column> {
+    study.inputs().map(|input| Column {
+        holds: if input.words.is_empty() { ColumnValues::Optional } else { ColumnValues::Text },
+        name: input.column(),
+    })
+}
+
+/// The inputs of a point.
+fn inputs_of(study: &Study, point: usize) -> impl Iterator<Item = Value> {
+    let values = study.inputs().zip(&study.points[point].values);
+    values.map(|(input, value)| input.word(*value).map_or(Value::Number(*value), Value::Word))
+}
+
+fn columns_of_points(study: &Study) -> Vec<Column> {
+    let mut columns = vec![whole("point"), whole("seed")];
+    columns.extend(inputs(study));
+    columns.extend([whole("n"), whole("lost")]);
+    for quantity in &study.quantities {
+        columns.extend(quantity_columns(quantity).map(optional));
+    }
+    columns
+}
+
+fn columns_of_replicates(study: &Study) -> Vec<Column> {
+    let mut columns = vec![whole("point"), whole("replicate"), whole("seed")];
+    columns.extend(inputs(study));
+    columns.extend(study.quantities.iter().map(|quantity| optional(&quantity.column)));
+    columns
+}
+
+/// The columns of a quantity: its mean, its standard error, and its error by all causes if it has others.
+fn quantity_columns(quantity: &Quantity) -> impl Iterator<Item = String> {
+    let ends = ["", "_se", "_whole_error"];
+    ends.into_iter()
+        .take(if quantity.further_errors().next().is_none() { 2 } else { 3 })
+        .map(|end| format!("{}{end}", quantity.column))
+}
+
+fn optional(name: impl Into<String>) -> Column {
+    Column { name: name.into(), holds: ColumnValues::Optional }
 }
