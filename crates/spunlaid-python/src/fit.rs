@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use spunlaid::case::Note;
 use spunlaid::ensemble::RunControl;
 use spunlaid::error::Error;
-use spunlaid::fit::{MOST_TRIALS, Question, Target, WebInProgress, fit};
+use spunlaid::fit::{Question, Target, WebInProgress, fit};
 use spunlaid::input::{Overrides, read_fit};
 use spunlaid::layers::{Flights, Flyer};
 use spunlaid::study::Journal;
