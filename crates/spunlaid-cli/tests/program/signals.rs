@@ -175,10 +175,16 @@ fn results_that_appear_during_a_run_are_not_overwritten() {
 #[test]
 fn a_disk_that_takes_no_more_leaves_nothing() {
     let desk = Desk::new();
+    let record = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/records/probe.csv");
+    let analyse = format!("analyse {record} --out");
     // Files may grow to so many blocks of 512 or 1024 bytes.
-    for blocks in [1, 16, 100] {
-        let shell =
-            format!("ulimit -f {blocks}; exec {} run brief.toml --out a/b", env!("CARGO_BIN_EXE_spunlaid"));
+    for (blocks, command) in [
+        (1, "run brief.toml --out"),
+        (16, "run brief.toml --out"),
+        (100, "run brief.toml --out"),
+        (20, &analyse),
+    ] {
+        let shell = format!("ulimit -f {blocks}; exec {} {command} a/b", env!("CARGO_BIN_EXE_spunlaid"));
         let output =
             Command::new("sh").args(["-c", &shell]).current_dir(desk.folder.path()).output().unwrap();
         let said = String::from_utf8(output.stderr).unwrap();

@@ -30,7 +30,13 @@ fn separated(sign: u8, (now, path): (PathBuf, PathBuf), columns: &[Column]) -> B
 
 impl Lines {
     fn line(&mut self, cells: impl Iterator<Item = String>) -> Result<(), Failure> {
-        self.writer.write_record(cells).map_err(|error| Failure::unwritable(&self.path)(error.into()))
+        self.writer.write_record(cells).map_err(|error| {
+            let error = match error.into_kind() {
+                csv::ErrorKind::Io(error) => error,
+                other => std::io::Error::other(format!("{other:?}")),
+            };
+            Failure::unwritable(&self.path)(error)
+        })
     }
 }
 
