@@ -65,8 +65,8 @@ impl Log {
         Self::of(Box::new(Cursor::new(Vec::new())), None)
     }
 
-    /// Opens a file, creates it if it does not exist, and locks it until this is dropped. What belongs to another identity
-    /// is removed.
+    /// Opens a file, creates it if it does not exist, and locks it until this is dropped. What belongs to another
+    /// identity is removed.
     ///
     /// # Errors
     /// If another process uses it ([`ErrorKind::WouldBlock`]), or it cannot be read or written.
@@ -245,8 +245,8 @@ fn checked(bytes: &[u8]) -> Option<Vec<u64>> {
     is_whole.then(|| words().skip(HEAD).collect())
 }
 
-/// Finds the records behind a place: where they are, where the last one ends, how many damaged pieces there are, and whether
-/// the last one is torn off.
+/// Finds the records behind a place: where they are, where the last one ends, how many damaged pieces there are, and
+/// whether the last one is torn off.
 fn scan(file: &File, start: u64) -> io::Result<(Places, u64, u64, bool)> {
     let length = file.metadata()?.len();
     let mut reader = BufReader::with_capacity(1 << 16, file);

@@ -25,8 +25,8 @@ struct Plane {
     across: (f64, f64),
 }
 
-/// The speed of the air of a CFD field in the planes of x and y and of x and z, with the directions of the line, the belt
-/// and where the fibres of a run have ended.
+/// The speed of the air of a CFD field in the planes of x and y and of x and z, with the directions of the line, the
+/// belt and where the fibres of a run have ended.
 pub fn field_figure(case: &Case, results: Option<&Results>) -> Option<Figure> {
     let placed = case.air.flow.field()?;
     let ((low, high), length) = (placed.extent(), case.fibre.length);

@@ -56,8 +56,8 @@ pub trait Contents: Sync {
         Ok(self.make(&Maker { making, staging: None })?.html)
     }
 
-    /// Writes all files; of results that are in their folder, report, summary and new figures again, when more is known.
-    /// Returns what a terminal shows.
+    /// Writes all files; of results that are in their folder, report, summary and new figures again, when more is
+    /// known. Returns what a terminal shows.
     ///
     /// # Errors
     /// The errors of [`Contents::make`].

@@ -21,7 +21,6 @@ mod declared;
 mod finished;
 pub mod fit;
 mod journalled;
-mod measured_web;
 pub mod products;
 pub mod run;
 pub mod study;
@@ -30,7 +29,6 @@ mod trials;
 pub mod web;
 
 pub use contents::{Contents, Maker, Making, Page};
-pub use finished::{read_summary, read_summary_of_run};
+pub use finished::{read_measured_web, read_summary, read_summary_of_run};
 pub use journalled::JournalFolder;
-pub use measured_web::read_measured_web;
 pub use trials::KeptTrials;

@@ -1,5 +1,5 @@
-//! The folders of products that are written at once: the air of a case, the claims of the paper, a velocity record, a scan, the
-//! sources of filaments, and a spinline.
+//! The folders of products that are written at once: the air of a case, the claims of the paper, a velocity record, a
+//! scan, the sources of filaments, and a spinline.
 
 use crate::Failure;
 use crate::figures::{SPINLINE, field_figure, record_figures, scan_figures, spinline_figures};

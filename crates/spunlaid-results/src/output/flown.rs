@@ -43,8 +43,8 @@ const POINTS: u64 = 1;
 /// When it has landed, its shapes and the points that are kept with them.
 const SHAPES: u64 = 2;
 const KEPT_POINTS: u64 = 3;
-/// And last, how many numbers these four have, and its measures: of each its index, the number of places of a curve, these
-/// and the values there; or 0 and a number.
+/// And last, how many numbers these four have, and its measures: of each its index, the number of places of a curve,
+/// these and the values there; or 0 and a number.
 const LANDED: u64 = 4;
 
 /// What is recorded of the fibres in flight, for [`Tables`]. Their shapes are in files of their own.
@@ -118,7 +118,8 @@ impl Flights {
         self.earlier.len() as u64
     }
 
-    /// Keeps a replicate that has landed, so that a later process need not fly it again. What cannot be kept is flown again.
+    /// Keeps a replicate that has landed, so that a later process need not fly it again. What cannot be kept is flown
+    /// again.
     pub fn land(&self, trajectory: &Trajectory) {
         let replicate = trajectory.replicate;
         if self.earlier.contains(&replicate) || self.try_to_land(trajectory).is_none() {

@@ -1,4 +1,5 @@
-//! The shapes of the fibres over time for ParaView, what fed fibres have laid, and the fibres of the window of a web. `shape.pvd` opens the whole series.
+//! The shapes of the fibres over time for ParaView, what fed fibres have laid, and the fibres of the window of a web.
+//! `shape.pvd` opens the whole series.
 
 use crate::Failure;
 use crate::output::folder::Staging;

@@ -88,8 +88,8 @@ fn check(check: &FinerCheck) -> Json {
     told
 }
 
-/// A result over the replicates. Some have a median or a largest value, which then represents all replicates; a mean has
-/// also its error by chance and by what the checks found beyond their limit, as headline and tables have it.
+/// A result over the replicates. Some have a median or a largest value, which then represents all replicates; a mean
+/// has also its error by chance and by what the checks found beyond their limit, as headline and tables have it.
 fn summary_of(number: &Number, checks: &FinerChecks, case: &Case) -> Json {
     let estimate = with_values(&number.estimate);
     match number.measure.aggregate {

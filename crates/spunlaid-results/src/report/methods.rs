@@ -1,4 +1,5 @@
-//! The paragraph about methods in every report: by what the numbers were made, where the case stands, and what is cited.
+//! The paragraph about methods in every report: by what the numbers were made, where the case stands, and what is
+//! cited.
 
 use crate::report::document::{Part, Section};
 use spunlaid::case::Case;

@@ -1,14 +1,11 @@
 //! The figures of a spinline.
 
-mod curtain;
-mod influences;
-#[cfg(test)]
-mod tests;
-mod thread;
-
-use spunlaid::input::Influence;
-use spunlaid::spinline::Solution;
-use spunlaid_charts::Figure;
+use crate::figures::effects::{EffectsFigure, Panel, Row, in_unit};
+use spunlaid::input::{Influence, OfFilament};
+use spunlaid::spinline::{Solution, Station, ZERO_CELSIUS};
+use spunlaid_charts::label::plain;
+use spunlaid_charts::palette::{BLUE, Colour, GREEN, VERMILION};
+use spunlaid_charts::{Axis, Chart, Figure, Series, Table};
 
 /// Beginning of the names of the figures where there is one spinline.
 pub const SPINLINE: &str = "spinline";
@@ -23,12 +20,271 @@ const MICROMETRES: f64 = 1e6;
 /// * `prefix` – the beginning of their names
 /// * `rows` – the solution of each row of the curtain, the quenched side first
 pub fn spinline_figures(prefix: &str, rows: &[Solution], influences: &[Influence]) -> Vec<Figure> {
-    let mut figures = thread::figures(prefix, rows);
+    let mut figures = thread_figures(prefix, rows);
     if rows.len() > 1 {
-        figures.push(curtain::figure(prefix, rows));
+        figures.push(curtain_figure(prefix, rows));
     }
     if !influences.is_empty() {
-        figures.push(influences::figure(prefix, influences));
+        figures.push(influences_figure(prefix, influences));
     }
     figures
 }
+
+/// The strain rate is shown to this multiple of the distance at which the thread freezes, because it is zero
+/// from there on.
+const BEYOND_FREEZING: f64 = 1.25;
+
+/// A quantity of the thread, in the unit of its axis.
+type Quantity = fn(&Station) -> f64;
+
+/// A row of filaments to draw: its name, nothing if there is only one, and its colour.
+struct ThreadRow<'a> {
+    name: &'static str,
+    colour: Colour,
+    solution: &'a Solution,
+}
+
+impl ThreadRow<'_> {
+    fn points(&self, quantity: Quantity) -> Vec<(f64, f64)> {
+        let stations = self.solution.stations.iter();
+        stations.map(|station| (station.distance * MM, quantity(station))).collect()
+    }
+
+    /// `thread`, or `thread, last row`.
+    fn label(&self, what: &str) -> String {
+        if self.name.is_empty() { what.to_owned() } else { format!("{what}, {}", self.name) }
+    }
+}
+
+/// The figures of a thread; of a curtain those of its first and of its last row.
+fn thread_figures(prefix: &str, solutions: &[Solution]) -> Vec<Figure> {
+    let rows: Vec<ThreadRow<'_>> = match solutions {
+        [] => return Vec::new(),
+        [solution] => vec![ThreadRow { name: "", colour: BLUE, solution }],
+        [first, .., last] => vec![
+            ThreadRow { name: "first row", colour: BLUE, solution: first },
+            ThreadRow { name: "last row", colour: VERMILION, solution: last },
+        ],
+    };
+    let frozen = rows.iter().map(|row| row.solution.freezing.distance).fold(0.0, f64::max);
+    let crystallises = solutions.iter().any(|solution| solution.end().transformed > 0.0);
+    let mut figures = vec![
+        drawing(prefix, &rows),
+        temperature(prefix, &rows),
+        tension(prefix, &rows),
+        strain_rate(prefix, &rows, BEYOND_FREEZING * frozen),
+    ];
+    if crystallises {
+        figures.push(transformed(prefix, &rows));
+    }
+    figures
+}
+
+/// An empty chart over the distance from the die.
+fn chart(prefix: &str, name: &str, title: &str, up: Axis) -> Chart {
+    let along = Axis::linear("Distance from the die (mm)").tight().including(0.0);
+    Chart::new(&format!("{prefix}_{name}"), title, along, up)
+}
+
+/// A chart with a quantity of each row, and where the row freezes.
+///
+/// * `is_keyed` – whether the chart has a legend
+fn with_rows(chart: Chart, rows: &[ThreadRow<'_>], quantity: Quantity, is_keyed: bool) -> Chart {
+    let points: Vec<_> = rows.iter().map(|row| row.points(quantity)).collect();
+    with_points(chart, rows, &points, is_keyed)
+}
+
+/// The same with points for each row.
+fn with_points(chart: Chart, rows: &[ThreadRow<'_>], points: &[Vec<(f64, f64)>], is_keyed: bool) -> Chart {
+    rows.iter().zip(points).enumerate().fold(chart, |chart, (i, (row, points))| {
+        let keyed = |series: Series, is_keyed: bool| if is_keyed { series } else { series.unlabelled() };
+        let line = Series::new(&row.label("thread"), row.colour).width(2.0);
+        let freezing = Series::new("freezing point", row.colour).named(&row.label("freezing point"));
+        let frozen = row.solution.freezing.distance * MM;
+        chart
+            .line(keyed(line, is_keyed), points)
+            .vertical(keyed(freezing.dashed(&[5.0, 4.0]).width(1.2), is_keyed && i == 0), frozen)
+    })
+}
+
+/// The words of a caption that say what frozen means.
+fn about_freezing(rows: &[ThreadRow<'_>]) -> String {
+    let [first, ..] = rows else { return String::new() };
+    let rows = if first.name.is_empty() { "" } else { " of each row" };
+    format!(
+        "The dashed line marks the freezing point{rows}: from there on the filament is solid and keeps its speed."
+    )
+}
+
+fn drawing(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
+    let title = "Speed and diameter of the thread";
+    let speed = chart(prefix, "speed", title, Axis::logarithmic("Speed *v* (m/s)").decades(4));
+    let speed = with_rows(speed, rows, |station| station.speed, true);
+    let speed = with_air(speed, rows, |station| station.air_velocity);
+    let diameter = chart(prefix, "diameter", title, Axis::logarithmic("Diameter *d* (µm)"));
+    let diameter = with_rows(diameter, rows, |station| station.diameter * MICROMETRES, false);
+    let caption = format!(
+        "Speed and diameter of the thread, averaged over its cross-section, and the velocity of the air along it. {}",
+        about_freezing(rows)
+    );
+    Figure::stacked(
+        &format!("{prefix}_speed_and_diameter"),
+        title,
+        &[&speed.sized(640.0, 340.0), &diameter.sized(640.0, 320.0)],
+        caption,
+    )
+}
+
+/// The air that the rows meet.
+fn with_air(chart: Chart, rows: &[ThreadRow<'_>], quantity: Quantity) -> Chart {
+    let dashes = [&[][..], &[2.0, 3.0]];
+    rows.iter().zip(dashes).fold(chart, |chart, (row, dash)| {
+        let series = Series { dash, ..Series::new(&row.label("air"), GREEN) };
+        chart.line(series, &row.points(quantity))
+    })
+}
+
+fn temperature(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
+    let title = "Temperature of the thread and of the air";
+    let chart = chart(prefix, "temperature", title, Axis::linear("Temperature *T* (°C)"));
+    let chart = with_rows(chart, rows, |station| station.temperature - ZERO_CELSIUS, true);
+    let chart = with_air(chart, rows, |station| station.air_temperature - ZERO_CELSIUS);
+    let caption = format!(
+        "Temperature of the thread, averaged over its cross-section, and of the air around it. {}",
+        about_freezing(rows)
+    );
+    Figure::new(&chart, caption)
+}
+
+fn tension(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
+    let title = "Tension and stress of the thread";
+    let tension = chart(prefix, "tension", title, Axis::linear("Tension *F* (mN)").zero_based());
+    let tension = with_rows(tension, rows, |station| station.tension * 1e3, true);
+    let stress = chart(prefix, "stress", title, Axis::linear("Stress *N*_{1} (MPa)").zero_based());
+    let stress = with_rows(stress, rows, |station| station.stress * 1e-6, false);
+    let caption = format!(
+        "Above, the force in the thread; below, the stress in its cross-section. The stress at the freezing \
+        point orients the polymer, and so decides birefringence and modulus. {}",
+        about_freezing(rows)
+    );
+    Figure::stacked(
+        &format!("{prefix}_tension_and_stress"),
+        title,
+        &[&tension.sized(640.0, 320.0), &stress.sized(640.0, 320.0)],
+        caption,
+    )
+}
+
+/// From the freezing point on it is zero, at once.
+fn strain_rate(prefix: &str, rows: &[ThreadRow<'_>], until: f64) -> Figure {
+    let title = "Strain rate of the thread";
+    let up = Axis::linear("Strain rate d*v*/d*z* (1/s)").zero_based().in_column("strain_rate_per_s");
+    let chart = chart(prefix, "strain_rate", title, up);
+    let rates = |row: &ThreadRow<'_>| {
+        let frozen = row.solution.freezing.distance * MM;
+        let points = row.points(|station| station.strain_rate).into_iter();
+        points.filter(|(distance, _)| *distance <= frozen).chain([(frozen, 0.0), (until * MM, 0.0)]).collect()
+    };
+    let points: Vec<_> = rows.iter().map(rates).collect();
+    let chart = with_points(chart, rows, &points, true);
+    let caption = format!(
+        "How fast the thread is stretched, up to a little below the freezing point. {}",
+        about_freezing(rows)
+    );
+    Figure::new(&chart, caption)
+}
+
+fn transformed(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
+    let title = "Transformed share of the polymer";
+    let up = Axis::linear("Transformed share *θ* (–)").zero_based().in_column("transformed");
+    let chart = chart(prefix, "transformed", title, up);
+    let chart = with_rows(chart, rows, |station| station.transformed, true);
+    let caption = format!(
+        "The share of the crystals that could form which has formed; 1 is the crystallinity that the polymer \
+        reaches. {}",
+        about_freezing(rows)
+    );
+    Figure::new(&chart, caption)
+}
+
+/// Diameter and freezing point of each row.
+fn curtain_figure(prefix: &str, rows: &[Solution]) -> Figure {
+    let title = "Rows of the curtain";
+    let along = || Axis::linear("Row, from the side of the quench").in_column("row");
+    let points = |value: fn(&Solution) -> f64| -> Vec<_> {
+        rows.iter().enumerate().map(|(i, row)| ((i + 1) as f64, value(row), None)).collect()
+    };
+    let diameter = Chart::new(
+        &format!("{prefix}_rows_diameter"),
+        title,
+        along(),
+        Axis::linear("Diameter *d*, cold (µm)"),
+    )
+    .scatter(Series::circles("filament").unlabelled(), &points(|row| row.final_diameter * MICROMETRES));
+    let freezing = Chart::new(
+        &format!("{prefix}_rows_freezing"),
+        title,
+        along(),
+        Axis::linear("Freezing point, below the die (mm)"),
+    )
+    .scatter(Series::circles("filament").unlabelled(), &points(|row| row.freezing.distance * MM));
+    Figure::stacked(
+        &format!("{prefix}_rows"),
+        title,
+        &[&diameter.sized(640.0, 300.0), &freezing.sized(640.0, 300.0)],
+        "Each row meets the air that the rows before it have warmed and dragged along. The air does not mix \
+        between the rows in this model.",
+    )
+}
+
+/// Most bars of a panel; the table has all.
+const MOST: usize = 16;
+
+/// The influences on the diameter, relative changes and those of 10 K apart.
+fn influences_figure(prefix: &str, influences: &[Influence]) -> Figure {
+    let panel = |by_kelvin: bool, heading: &'static str, factor: f64, decimals: usize| {
+        let row = |influence: &Influence| {
+            let effect = influence.on(OfFilament::Diameter).map(|effect| in_unit(&effect.difference, factor));
+            let (name, detail) = (influence.change.setting.words.to_owned(), String::new());
+            Row { name, detail, effects: vec![effect] }
+        };
+        let changed =
+            influences.iter().filter(|influence| influence.change.keys[0].by_kelvin == by_kelvin).take(MOST);
+        let label = "Change of the diameter (%)".to_owned();
+        Panel { heading, keys: Vec::new(), label, rows: changed.map(row).collect(), decimals }
+    };
+    let mut panels = vec![panel(false, "1 % more of", 1.0, 2), panel(true, "10 K more of", 100.0, 1)];
+    panels.retain(|panel| !panel.rows.is_empty());
+    let left_out = influences.len() - panels.iter().map(|panel| panel.rows.len()).sum::<usize>();
+    let others = if left_out > 0 { " Weaker ones are in the numbers of the figure." } else { "" };
+    let caption = format!(
+        "Relative change of the diameter of the cold filament when one number changes and all others stay, \
+        by small changes of the model: d ln d / d ln x, and the change for 10 K. Blue is finer, orange is \
+        thicker.{others} These are slopes: they hold for small changes."
+    );
+    let (name, title) = (format!("{prefix}_influences"), "What decides the diameter".to_owned());
+    EffectsFigure { name, title, panels }.figure(table(influences), caption)
+}
+
+/// All influences, on the diameter and on the speed.
+fn table(influences: &[Influence]) -> Table {
+    let mut table = Table::new([
+        "diameter_dlnd_dlnx",
+        "speed_dlnv_dlnx",
+        "diameter_percent_per_10_k",
+        "speed_percent_per_10_k",
+    ]);
+    for influence in influences {
+        let [diameter, speed] = [OfFilament::Diameter, OfFilament::Speed]
+            .map(|of| influence.on(of).map_or(f64::NAN, |effect| effect.difference.value));
+        let numbers = match influence.change.keys[0].by_kelvin {
+            false => [diameter, speed, f64::NAN, f64::NAN],
+            true => [f64::NAN, f64::NAN, 100.0 * diameter, 100.0 * speed],
+        };
+        table.add(&plain(influence.change.setting.words), [numbers]);
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests;

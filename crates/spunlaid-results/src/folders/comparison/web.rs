@@ -178,8 +178,8 @@ impl WebNumber {
         }
     }
 
-    /// Whether its errors are shares of it: with an interval, which is that of a deviation, or with an error that is small
-    /// beside it.
+    /// Whether its errors are shares of it: with an interval, which is that of a deviation, or with an error that is
+    /// small beside it.
     pub(super) fn is_of_shares(&self) -> bool {
         let is_small = |error: f64| error < SMALL * self.value;
         self.value > 0.0

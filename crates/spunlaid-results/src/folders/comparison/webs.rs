@@ -222,8 +222,8 @@ mod tests {
         assert_eq!((found.difference, found.cells()[3].as_str()), (None, "below the blur"));
     }
 
-    /// A CV of few waves, whose interval reaches up to the other one. Its square, its root and its inverse are judged as
-    /// it is, and the interval stands beside the verdict, because the standard errors alone would say the contrary.
+    /// A CV of few waves, whose interval reaches up to the other one. Its square, its root and its inverse are judged
+    /// as it is, and the interval stands beside the verdict, because the standard errors alone would say the contrary.
     #[test]
     fn invariant_a_number_and_its_powers_have_one_verdict() {
         let cv = |value: f64, error: f64, ends: Option<[f64; 2]>| WebNumber {

@@ -191,8 +191,8 @@ pub const POINT_COLUMNS: [&str; 10] = [
     "cutoff_frequency_hz",
 ];
 
-/// The numbers of a place in these columns. They are NaN where the air is not known, and those of eddies where it is not
-/// turbulent.
+/// The numbers of a place in these columns. They are NaN where the air is not known, and those of eddies where it is
+/// not turbulent.
 pub fn point_row(at: Vec3<f64>, air: Option<LocalAir>) -> [f64; POINT_COLUMNS.len()] {
     let Some(air) = air else {
         let mut row = [f64::NAN; POINT_COLUMNS.len()];

@@ -10,15 +10,15 @@ use std::fmt::Write;
 /// Folder of the fields.
 pub const OPENFOAM: &str = "openfoam";
 
-/// Dimensions of a force per volume, of one per velocity, of heat per volume and of heat per kelvin: mass, length, time,
-/// temperature.
+/// Dimensions of a force per volume, of one per velocity, of heat per volume and of heat per kelvin: mass, length,
+/// time, temperature.
 const OF_FORCE: [i32; 4] = [1, -2, -2, 0];
 const PER_VELOCITY: [i32; 4] = [1, -3, -1, 0];
 const OF_HEAT: [i32; 4] = [1, -1, -3, 0];
 const PER_KELVIN: [i32; 4] = [1, -1, -3, -1];
 
-/// Whether the cells of a case's field are those of OpenFOAM in their order, if OpenFOAM has written it: those of a mesh
-/// from one file.
+/// Whether the cells of a case's field are those of OpenFOAM in their order, if OpenFOAM has written it: those of a
+/// mesh from one file.
 pub fn has_order_of_openfoam(case: &Case) -> bool {
     case.air.flow.field().is_some_and(|placed| {
         matches!(placed.field.describe(), Description::Mesh { .. }) && placed.field.parts().len() < 2

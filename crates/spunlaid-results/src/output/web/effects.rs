@@ -55,7 +55,10 @@ fn cv_over(findings: &Findings, patch: f64) -> f64 {
 
 /// Adds the changes that could not be flown or laid, if there are any.
 fn with_failed(mut told: Json, advice: &Advice) -> Json {
-    let failed = |(change, why): &(Change, String)| json!({"setting": change.setting.name, "layer": alone(change), "keys": keys(change), "why": why});
+    let failed = |(change, why): &(Change, String)| {
+        let (setting, layer) = (change.setting.name, alone(change));
+        json!({"setting": setting, "layer": layer, "keys": keys(change), "why": why})
+    };
     if !advice.failed.is_empty() {
         told["failed"] = advice.failed.iter().map(failed).collect();
     }

@@ -193,10 +193,13 @@ fn of_map(map: &Map, clouds: Option<&Clouds>, patches: Json) -> Json {
         let interval = standard_error.map(|error| interval_of_deviation(index, error));
         let [from_m, to_m] = SEEN;
         json!({
-            "from_m": from_m, "to_m": to_m, "index": index, "standard_error": standard_error, "interval": interval,
+            "from_m": from_m, "to_m": to_m, "index": index, "standard_error": standard_error, "interval": interval
         })
     });
-    let octave = |([from_m, to_m], Estimate { mean, standard_error, .. }): ([f64; 2], Estimate)| json!({"from_m": from_m, "to_m": to_m, "variance": mean, "standard_error": standard_error});
+    let octave = |(waves, estimate): ([f64; 2], Estimate)| {
+        let ([from_m, to_m], Estimate { mean, standard_error, .. }) = (waves, estimate);
+        json!({"from_m": from_m, "to_m": to_m, "variance": mean, "standard_error": standard_error})
+    };
     json!({
         "basis_weight_kg_m2": map.basis_weight(),
         // In machine and in cross direction.
