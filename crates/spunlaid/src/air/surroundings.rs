@@ -3,7 +3,7 @@
 use super::Air;
 use crate::company::PerLane;
 use crate::error::Error;
-use crate::fibre::Place as RootPlace;
+use crate::fibre::Place;
 use crate::field::{AirAround, Hint};
 use crate::lanes::{Lanes, Register, Task, WIDTH, Wide};
 use crate::nodes::Nodes;
@@ -14,7 +14,7 @@ use crate::vec3::Vec3;
 /// Looked up every few steps and extrapolated linearly from the last two looks in between: the error is of second
 /// order in the time between them.
 #[derive(Clone, Copy, Debug, Default)]
-struct Place {
+struct FlowAtElement {
     /// Velocity x, y, z and rms at the last look [m/s].
     value: [Lanes; 4],
     /// Their rise in a step [m/s].
@@ -48,8 +48,8 @@ const UNKNOWN: LinearAir = LinearAir {
 /// The air around the elements of eight fibres.
 #[derive(Clone, Debug)]
 pub struct Surroundings {
-    airs: PerLane<(Air, RootPlace)>,
-    places: Nodes<Place>,
+    airs: PerLane<(Air, Place)>,
+    places: Nodes<FlowAtElement>,
     nearby: Nodes<LinearAir>,
     /// Where each fibre's element was found last.
     hints: Nodes<[Hint; WIDTH]>,
@@ -68,13 +68,13 @@ impl Surroundings {
     /// # Errors
     /// No air or more than eight.
     pub fn new(airs: Vec<Air>, elements: usize, every: u64) -> Result<Self, Error> {
-        let middle = |air| (air, RootPlace::default());
+        let middle = |air| (air, Place::default());
         Ok(Self::around_elements(PerLane::new(airs.into_iter().map(middle).collect())?, elements, every))
     }
 
-    pub(crate) fn around_elements(airs: PerLane<(Air, RootPlace)>, elements: usize, every: u64) -> Self {
+    pub(crate) fn around_elements(airs: PerLane<(Air, Place)>, elements: usize, every: u64) -> Self {
         let every = every.max(1);
-        let places = vec![Place::default(); elements].into();
+        let places = vec![FlowAtElement::default(); elements].into();
         let nearby = vec![UNKNOWN; elements].into();
         let hints = vec![[Hint::default(); WIDTH]; elements].into();
         Self { airs, places, nearby, hints, every, looked: false, outside: Lanes::ZERO, looks: 0 }
@@ -194,7 +194,7 @@ impl Task for Look<'_> {
 
 /// The flow at the elements at one instant.
 pub(crate) struct InstantFlow<'a, S: Register> {
-    places: &'a [Place],
+    places: &'a [FlowAtElement],
     /// Steps since the last look.
     steps: Wide<S>,
 }
@@ -204,7 +204,7 @@ impl<S: Register> InstantFlow<'_, S> {
     /// and rms one.
     #[inline(always)]
     pub(super) fn carried(&self, j: usize, signal: Vec3<Wide<S>>) -> Vec3<Wide<S>> {
-        let Place { value, rise } = &self.places[j];
+        let FlowAtElement { value, rise } = &self.places[j];
         // No closures here, because the compiler does not inline them.
         let rms = Wide::load(&rise[3]).mul_add(self.steps, Wide::load(&value[3]));
         let x = Wide::load(&rise[0]).mul_add(self.steps, Wide::load(&value[0]));

@@ -2,7 +2,7 @@
 
 use super::charge::BeamField;
 use super::neighbours::Neighbours;
-use super::pack::{self, Pack, Reach, Stretch};
+use super::pack::{self, BeltStretch, Pack, Reach};
 use super::{Beam, BeamControl, BeamFindings};
 use crate::air::EddyField;
 use crate::error::{Error, Fault};
@@ -23,7 +23,7 @@ pub(super) struct Flying<'a> {
     line: Line,
     numbers: Vec<Vec<usize>>,
     packs: Vec<Mutex<Option<Pack>>>,
-    stretch: Stretch,
+    stretch: BeltStretch,
     reach: Reach,
     /// The electric field around them, if they are charged.
     field: Option<BeamField>,
@@ -41,7 +41,7 @@ impl<'a> Flying<'a> {
         let line = line.ok_or_else(|| Fault::plain("the fibre of the case is not laid on a moving belt"))?;
         let numbers = pack::side_by_side(beam.places);
         let packs = numbers.iter().map(|_| Mutex::new(None)).collect();
-        let stretch = Stretch::before(&line, line.feed_speed * beam.case.run.spin_up(), window, sheet);
+        let stretch = BeltStretch::before(&line, line.feed_speed * beam.case.run.spin_up(), window, sheet);
         let field = BeamField::new(&beam);
         Ok(Self { beam, line, numbers, packs, stretch, reach: Reach::default(), field, done: 0 })
     }

@@ -31,7 +31,7 @@ pub(super) struct Neighbours {
     /// Deviations of each filament that the others have not reached yet, in machine and in cross direction [m].
     waiting: Vec<Vec<[f64; 2]>>,
     lost: Vec<bool>,
-    stretches: Vec<Sums>,
+    stretches: Vec<StretchSums>,
     /// Points of each filament in a stretch.
     points: u64,
 }
@@ -46,7 +46,7 @@ struct Distance {
 
 /// Sums over the points of a stretch of fed length, for both directions.
 #[derive(Debug)]
-struct Sums {
+struct StretchSums {
     points: u64,
     /// Of the deviations and their squares, for each filament.
     filaments: Vec<[[f64; 2]; 2]>,
@@ -59,7 +59,7 @@ type Means = Vec<[f64; 2]>;
 
 /// Sums of a pair over some points.
 #[derive(Clone, Copy, Debug, Default)]
-struct Products {
+struct PairSums {
     points: f64,
     /// Of the products of both.
     product: f64,
@@ -67,7 +67,7 @@ struct Products {
     sums: [[f64; 2]; 2],
 }
 
-impl Products {
+impl PairSums {
     fn with(self, other: Self, sign: f64) -> Self {
         let sums = [0, 1].map(|i| [0, 1].map(|power| self.sums[i][power] + sign * other.sums[i][power]));
         let [points, product] = [(self.points, other.points), (self.product, other.product)]
@@ -129,7 +129,7 @@ impl Neighbours {
             return;
         }
         if self.stretches.last().is_none_or(|sums| sums.points >= self.points) {
-            self.stretches.push(Sums::new(self.waiting.len(), &self.distances));
+            self.stretches.push(StretchSums::new(self.waiting.len(), &self.distances));
         }
         let Some(sums) = self.stretches.last_mut() else { return };
         sums.points += common as u64;
@@ -196,16 +196,16 @@ impl Neighbours {
             .filter(|(_, pair)| pair.iter().all(|i| !self.lost[*i]))
             .map(|(number, pair)| (number, *pair))
             .collect();
-        let of_stretch = |sums: &Sums, (number, pair): &(usize, [usize; 2])| Products {
+        let of_stretch = |sums: &StretchSums, (number, pair): &(usize, [usize; 2])| PairSums {
             points: sums.points as f64,
             product: sums.products[distance][*number][direction],
             sums: pair.map(|i| sums.filaments[i][direction]),
         };
         let of_all = |pair: &(usize, [usize; 2])| {
             let all = self.stretches.iter().map(|sums| of_stretch(sums, pair));
-            all.fold(Products::default(), |all, one| all.with(one, 1.0))
+            all.fold(PairSums::default(), |all, one| all.with(one, 1.0))
         };
-        let whole: Vec<Products> = pairs.iter().map(of_all).collect();
+        let whole: Vec<PairSums> = pairs.iter().map(of_all).collect();
         let about = |means: &Means, pair: &(usize, [usize; 2])| pair.1.map(|i| means[i][direction]);
         let sum = |moments: &mut dyn Iterator<Item = Moments>| {
             moments.fold(Moments::default(), |all, one| all.with(one))
@@ -215,8 +215,8 @@ impl Neighbours {
         if self.stretches.len() < FEWEST {
             return Correlation { value, standard_error: None, degrees: f64::NAN };
         }
-        let correlation_without = |(stretch, means): (&Sums, &Means)| {
-            let left = |(pair, of): (&(usize, [usize; 2]), &Products)| {
+        let correlation_without = |(stretch, means): (&StretchSums, &Means)| {
+            let left = |(pair, of): (&(usize, [usize; 2]), &PairSums)| {
                 of.with(of_stretch(stretch, pair), -1.0).about(about(means, pair))
             };
             sum(&mut pairs.iter().zip(&whole).map(left)).correlation()
@@ -261,7 +261,7 @@ impl Neighbours {
     }
 }
 
-impl Sums {
+impl StretchSums {
     fn new(filaments: usize, distances: &[Distance]) -> Self {
         let products = distances.iter().map(|distance| vec![[0.0; 2]; distance.pairs.len()]).collect();
         Self { points: 0, filaments: vec![[[0.0; 2]; 2]; filaments], products }

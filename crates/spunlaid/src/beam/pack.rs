@@ -77,7 +77,7 @@ impl Pack {
         &mut self,
         steps: u64,
         field: Option<&Arc<EddyField>>,
-        stretch: &Stretch,
+        stretch: &BeltStretch,
         on: Option<&Brush<'_>>,
     ) -> Reach {
         field.iter().for_each(|field| self.flight.give_field(field));
@@ -197,7 +197,7 @@ impl Reach {
 /// The stretch of belt that becomes the sheet. Places on the belt are `y − v_b t`: what is laid later lies
 /// farther back.
 #[derive(Clone, Debug)]
-pub(super) struct Stretch {
+pub(super) struct BeltStretch {
     belt_ratio: f64,
     /// Length of fibre that is fed in the start [m].
     start: f64,
@@ -207,7 +207,7 @@ pub(super) struct Stretch {
     back: Option<f64>,
 }
 
-impl Stretch {
+impl BeltStretch {
     /// While nothing has been laid.
     ///
     /// * `start` – length of fibre that is fed in the start [m]
@@ -264,7 +264,7 @@ impl Filament {
     pub(super) fn lay(
         &mut self,
         points: Vec<LaidPoint>,
-        stretch: &Stretch,
+        stretch: &BeltStretch,
         on: Option<&Brush<'_>>,
         reach: &mut Reach,
     ) {

@@ -88,7 +88,7 @@ struct Values {
 }
 
 /// A place in a brick.
-struct Place {
+struct PlaceInBrick {
     /// Corner of the brick.
     corner: [f64; 3],
     /// Side of the brick.
@@ -144,7 +144,7 @@ impl Bricks {
         AirAround { value: air_numbers(values), gradients: [[0.0; 4]; 3], reach: 0.0, inside }
     }
 
-    fn place(&self, at: [f64; 3]) -> Place {
+    fn place(&self, at: [f64; 3]) -> PlaceInBrick {
         let (mut corner, mut share) = (self.low, [0.0; 3]);
         for axis in (0..3).filter(|axis| self.low[*axis] < self.high[*axis]) {
             let along = (at[axis] - self.low[axis]) / self.size;
@@ -152,13 +152,13 @@ impl Bricks {
             corner[axis] = self.low[axis] + before * self.size;
             share[axis] = (along - before).clamp(0.0, 1.0);
         }
-        Place { corner, size: self.size, share, divisions: 0 }
+        PlaceInBrick { corner, size: self.size, share, divisions: 0 }
     }
 
     fn look(
         &self,
         brick: &OnceLock<Brick>,
-        place: &mut Place,
+        place: &mut PlaceInBrick,
         allowed: Option<f64>,
         field: &Support,
     ) -> Option<AirAround> {
@@ -200,7 +200,7 @@ impl Bricks {
 
     /// The air at a place of a brick. It reaches little beyond its faces.
     #[inline]
-    fn within(&self, values: &Values, place: &Place) -> AirAround {
+    fn within(&self, values: &Values, place: &PlaceInBrick) -> AirAround {
         let around = values.around(place);
         let mut reach = around.reach;
         for axis in (0..3).filter(|axis| self.low[*axis] < self.high[*axis]) {
@@ -211,7 +211,7 @@ impl Bricks {
     }
 
     #[inline(never)]
-    fn make(&self, place: &Place, allowed: Option<f64>, field: &Support) -> Brick {
+    fn make(&self, place: &PlaceInBrick, allowed: Option<f64>, field: &Support) -> Brick {
         let flat = [0, 1, 2].map(|axis| self.low[axis] == self.high[axis]);
         let to_point = |share: [f64; 3]| {
             [0, 1, 2].map(|axis| {
@@ -307,7 +307,7 @@ fn difference(a: &AirNumbers, b: &AirNumbers) -> f64 {
 }
 
 impl Values {
-    fn around(&self, place: &Place) -> AirAround {
+    fn around(&self, place: &PlaceInBrick) -> AirAround {
         let (value, gradients) = self.between(place.share);
         let spacing = place.size / CELLS as f64;
         AirAround {

@@ -208,7 +208,7 @@ fn levels(mut coordinates: Vec<f64>) -> Vec<f64> {
 }
 
 /// Where a coordinate lies on an axis.
-struct Place {
+struct PlaceOnAxis {
     /// The point before it.
     before: usize,
     /// Number of points from there to the next one: 1, or 0 on an axis with a single point.
@@ -241,10 +241,10 @@ impl Axis {
     }
 
     #[inline]
-    fn locate(&self, x: f64) -> Place {
+    fn locate(&self, x: f64) -> PlaceOnAxis {
         let last = self.at.len() - 1;
         if last == 0 {
-            return Place { before: 0, step: 0, share: 0.0, inside: true };
+            return PlaceOnAxis { before: 0, step: 0, share: 0.0, inside: true };
         }
         // First try the place it has if the points are evenly spaced, because they often are.
         let mut before = (((x - self.at[0]) * self.density) as usize).min(last - 1);
@@ -253,6 +253,6 @@ impl Axis {
         }
         let (low, high) = (self.at[before], self.at[before + 1]);
         let share = ((x - low) / (high - low)).clamp(0.0, 1.0);
-        Place { before, step: 1, share, inside: x >= low && x <= high }
+        PlaceOnAxis { before, step: 1, share, inside: x >= low && x <= high }
     }
 }

@@ -1,6 +1,6 @@
 //! Finds the rate of a clock, and the rows that are missing, from the times of the rows.
 
-use super::grid::{Grid, JITTER, Known};
+use super::grid::{JITTER, Known, TimeGrid};
 use crate::error::Fault;
 use crate::units::{Dimension, shortest};
 
@@ -39,7 +39,7 @@ pub(super) fn place(times: &[f64], unit: f64) -> Result<Spacing, Trouble> {
         }
     }
     let Some(usual) = usual_step(known) else { return Ok(Spacing::default()) };
-    let grid = Grid::of(known(), unit, usual);
+    let grid = TimeGrid::of(known(), unit, usual);
     let step_by_step = |slack: f64| by_steps(known(), usual, slack);
     match grid {
         Some(grid) if grid.size >= COARSE * usual => {

@@ -23,14 +23,14 @@ const PLAIN: f64 = 0.75;
 
 /// The grid to which times are rounded.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Grid {
+pub(super) struct TimeGrid {
     /// Distance between its points [s].
     pub(super) size: f64,
     /// Whether times are written with more digits than it needs, so that writing did not round them to it.
     is_exact: bool,
 }
 
-impl Grid {
+impl TimeGrid {
     /// The coarsest grid that all times lie on, if it is not fine; by Euclid's algorithm with a tolerance.
     ///
     /// * `unit` – unit of the last digit as the times are written [s]

@@ -68,7 +68,7 @@ pub fn one_fibre(
     // The first patch that meets a fibre begins in the fibre's own columns.
     let trace = reach + largest;
     let least = (SHORTEST * reach).max(4 * largest);
-    let mut found = vec![Sums::default(); sides.len()];
+    let mut found = vec![FibreSums::default(); sides.len()];
     let rows = (CELLS / (ABREAST * apart)).max(least);
     let abreast = (4 * CELLS / (rows * apart)).clamp(1, ABREAST) as u64;
     let fibres = sample.fibres.max(1);
@@ -87,7 +87,7 @@ fn add(
     sample: OneFibre,
     [apart, trace, rows]: [usize; 3],
     by: LayControl<'_>,
-    found: &mut [Sums],
+    found: &mut [FibreSums],
 ) -> Result<(), Error> {
     let pitch = apart as f64 * sample.cell;
     let row = Row::new((trace as f64 + 0.5) * sample.cell, pitch, sample.fibres);
@@ -165,7 +165,7 @@ impl SingleFibres {
 
 /// What single fibres have been found to do, fibre by fibre.
 #[derive(Clone, Debug, Default)]
-struct Sums {
+struct FibreSums {
     fibres: Vec<Alone>,
     /// By how much a squared mean of a column counts.
     rows: Vec<f64>,
@@ -180,7 +180,7 @@ struct Alone {
     profile: Vec<f64>,
 }
 
-impl Sums {
+impl FibreSums {
     /// * `area` – of a patch [m²]
     fn finish(self, area: f64, trace: usize) -> SingleFibres {
         let fibres = self.fibres.len() as f64;

@@ -33,13 +33,13 @@ const SAMPLE: usize = 8 * WIDTH;
 
 /// Sums over pieces in a stretch of a filament.
 #[derive(Clone, Copy, Debug, Default)]
-struct Sums {
+struct DirectionSums {
     pieces: f64,
     squares: f64,
     fourths: f64,
 }
 
-impl Sums {
+impl DirectionSums {
     fn add(&mut self, cos_squared: f64) {
         self.pieces += 1.0;
         self.squares += cos_squared;
@@ -57,7 +57,7 @@ struct Sample {
     /// Share of the mass of the web.
     weight: f64,
     /// Of each filament, by stretches of it: one unless filaments hang in one air.
-    filaments: Vec<Vec<Sums>>,
+    filaments: Vec<Vec<DirectionSums>>,
     /// The groups of neighbours of filaments in one air.
     groups: Option<Vec<usize>>,
     directions: [u64; Orientation::DIRECTIONS],
@@ -85,7 +85,7 @@ impl Sample {
         let mut sample = Self::new(weight);
         sample.groups = one_air.map(|air| air.groups.clone());
         for (number, curve) in curves.curves().iter().enumerate() {
-            sample.filaments.push(vec![Sums::default(); stretches]);
+            sample.filaments.push(vec![DirectionSums::default(); stretches]);
             let pieces = curve.len() - 1;
             for (i, pair) in curve.windows(2).enumerate() {
                 let step = [pair[1][0] - pair[0][0] - advance, pair[1][1] - pair[0][1]];
@@ -103,7 +103,7 @@ impl Sample {
         for group in (0..groups).step_by(groups.div_ceil(SAMPLE / WIDTH).max(1)) {
             let (first, count) = (group * WIDTH, WIDTH.min(plan.places.len() - group * WIDTH));
             let before = sample.filaments.len();
-            sample.filaments.resize(before + count, vec![Sums::default()]);
+            sample.filaments.resize(before + count, vec![DirectionSums::default()]);
             plan.walk(web, first, count, by, |points| {
                 for pair in points.windows(2) {
                     for lane in 0..count {
@@ -117,8 +117,8 @@ impl Sample {
     }
 
     /// The means of `cos²`, `cos⁴` and `sin⁴` of a filament.
-    fn of_filament(stretches: &[Sums]) -> Option<[f64; 3]> {
-        let whole = stretches.iter().fold(Sums::default(), |sum, of| Sums {
+    fn of_filament(stretches: &[DirectionSums]) -> Option<[f64; 3]> {
+        let whole = stretches.iter().fold(DirectionSums::default(), |sum, of| DirectionSums {
             pieces: sum.pieces + of.pieces,
             squares: sum.squares + of.squares,
             fourths: sum.fourths + of.fourths,
@@ -138,9 +138,10 @@ impl Sample {
             let values = self.filaments().into_iter().map(sum).collect();
             return Estimate::new(values).standard_error.unwrap_or(f64::NAN);
         };
-        let of_filament = |stretches: &Vec<Sums>| {
+        let of_filament = |stretches: &Vec<DirectionSums>| {
             let whole: f64 = stretches.iter().map(|of| of.pieces).sum();
-            let part = |of: &Sums| Part { value: sum(of.moments()) / whole, length: of.pieces / whole };
+            let part =
+                |of: &DirectionSums| Part { value: sum(of.moments()) / whole, length: of.pieces / whole };
             stretches.iter().map(part).collect()
         };
         let parts: Vec<Vec<Part>> = self.filaments.iter().map(of_filament).collect();
@@ -245,7 +246,7 @@ mod tests {
         let (mut found, mut told) = (Vec::new(), [0.0; 3]);
         for _ in 0..SEEDS {
             let mut sample = Sample::new(1.0);
-            sample.filaments = vec![vec![Sums::default(); STRETCHES]; FILAMENTS];
+            sample.filaments = vec![vec![DirectionSums::default(); STRETCHES]; FILAMENTS];
             sample.groups = Some((0..FILAMENTS).map(|filament| filament / (2 * GUST)).collect());
             for stretch in 0..STRETCHES {
                 let gusts: Vec<f64> = (0..FILAMENTS / GUST).map(|_| uniform()).collect();
@@ -284,7 +285,7 @@ mod tests {
             // Angles of equal mass: the inverse of the distribution by bisection.
             let below = |angle: f64| (angle + 0.5 * share * libm::sin(2.0 * angle)) / (2.0 * PI);
             let mut sample = Sample::new(1.0);
-            sample.filaments = vec![vec![Sums::default()]; 2];
+            sample.filaments = vec![vec![DirectionSums::default()]; 2];
             for i in 0..PIECES {
                 let wanted = (i as f64 + 0.5) / PIECES as f64;
                 let (mut low, mut high) = (0.0, 2.0 * PI);

@@ -180,22 +180,22 @@ pub(super) struct Parts {
     /// Waves across the web that are the same along all of it: their sum as it has been found.
     streak_power: f64,
     /// These waves where nothing else is known of them.
-    streaks: Sums,
+    streaks: WaveSums,
     /// Where it is known, their mean over webs and the variance of what is found.
     expected: f64,
     expected_variance: f64,
     /// All other waves.
-    other_waves: Sums,
+    other_waves: WaveSums,
 }
 
 /// Sums over waves and those that run the other way, which are the same.
 #[derive(Clone, Copy, Debug, Default)]
-struct Sums {
+struct WaveSums {
     powers: f64,
     squares: f64,
 }
 
-impl Sums {
+impl WaveSums {
     fn add(&mut self, power: f64) {
         self.powers += power;
         self.squares += power * power;

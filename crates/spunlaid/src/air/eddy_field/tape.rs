@@ -4,7 +4,7 @@ use super::Plan;
 use super::lattice::{BRICK, Lattice, NEEDED, READ, REPEATED, ROW};
 use super::synthesis::Synthesis;
 use super::transform::{ABREAST, Numbers};
-use super::windows::{BLOCKS, Rest, Windows};
+use super::windows::{BLOCKS, FieldWindows, Rest};
 use crate::air::StreamKey;
 use half::f16;
 use std::ops::Range;
@@ -70,7 +70,7 @@ pub(super) struct Tape {
 ///
 /// * `looked_at` – samples that are looked at in a block of time
 pub(super) fn memory(lattice: &Lattice, period: usize, looked_at: f64) -> f64 {
-    let windows = Windows::new(period);
+    let windows = FieldWindows::new(period);
     let block = windows.block(0).len() as f64;
     // A pair of windows is made when less than what is looked at is left of the one before: that and the rest
     // of its block.
@@ -84,7 +84,7 @@ pub(super) fn memory(lattice: &Lattice, period: usize, looked_at: f64) -> f64 {
 
 /// What more a tape takes while a thread joins a pair of windows to it, line by line [bytes].
 pub(super) fn memory_while_joining(lattice: &Lattice, period: usize) -> f64 {
-    let windows = Windows::new(period);
+    let windows = FieldWindows::new(period);
     let joined = (REPEATED + windows.total() + windows.fade) * size_of::<[[f16; ABREAST]; 3]>();
     memory_of_rest(lattice, period) + (joined + 4 * period * size_of::<Numbers>()) as f64
 }
@@ -93,7 +93,7 @@ pub(super) fn memory_while_joining(lattice: &Lattice, period: usize) -> f64 {
 fn memory_of_rest(lattice: &Lattice, period: usize) -> f64 {
     let [lines, points] = lattice.points;
     let sample = lines * points.div_ceil(ABREAST) * size_of::<[[f16; ABREAST]; 3]>();
-    ((Windows::new(period).fade + REPEATED) * sample) as f64
+    ((FieldWindows::new(period).fade + REPEATED) * sample) as f64
 }
 
 impl Tape {
@@ -105,7 +105,7 @@ impl Tape {
         samples: Range<i64>,
         threads: usize,
     ) {
-        let windows = Windows::new(plan.generations[generation].samples);
+        let windows = FieldWindows::new(plan.generations[generation].samples);
         self.blocks.retain(|(end, _)| *end > samples.start);
         let first = windows.first_pair(samples.start - REPEATED as i64);
         let goes_on = match self.blocks.first() {

@@ -17,7 +17,7 @@ type Triples = [f16; 3 * ABREAST];
 
 /// How windows follow each other, in samples.
 #[derive(Clone, Debug)]
-pub(super) struct Windows {
+pub(super) struct FieldWindows {
     /// Time in which one fades out and the next one in.
     pub(super) fade: usize,
     /// From the start of one to that of the next.
@@ -42,7 +42,7 @@ pub(super) struct Rest {
     last: Vec<Triples>,
 }
 
-impl Windows {
+impl FieldWindows {
     /// Both windows come from one transform, as its real and its imaginary part. At equal times these have
     /// nothing in common, but at unequal ones they do. So the second window begins where the fade of the
     /// first one does, and the two are joined at equal times: the variance is one in the joint too. Where it
@@ -158,7 +158,7 @@ fn repeat(line: &mut [f16], samples: usize, points: usize) {
     }
 }
 
-/// Some points of [`Windows::join`].
+/// Some points of [`FieldWindows::join`].
 struct Join<'a> {
     sums: &'a [Sum],
     /// Of each component, the samples of one window as real parts and those of the other as imaginary parts.

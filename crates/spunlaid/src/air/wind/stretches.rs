@@ -24,8 +24,8 @@ pub(super) struct Stretches {
     fade: u64,
     chosen: u64,
     /// `[eddy][component]`, the current stretches and the previous ones.
-    now: Vec<Stretch>,
-    before: Vec<Stretch>,
+    now: Vec<RecordStretch>,
+    before: Vec<RecordStretch>,
 }
 
 /// How many integral times it takes to pass from one stretch to the next.
@@ -78,13 +78,13 @@ impl Stretches {
 
     /// Memory of the stretches [bytes]; the records themselves are shared by all fibres.
     pub(super) fn memory(eddies: usize) -> f64 {
-        2.0 * eddies as f64 * 3.0 * size_of::<Stretch>() as f64
+        2.0 * eddies as f64 * 3.0 * size_of::<RecordStretch>() as f64
     }
 }
 
 /// A component of an eddy's velocity fluctuation as a stretch of a record, for eight fibres.
 #[derive(Clone, Debug)]
-struct Stretch {
+struct RecordStretch {
     values: Arc<[f64]>,
     /// The sample at time zero of each fibre.
     start: [usize; WIDTH],
@@ -92,7 +92,7 @@ struct Stretch {
     rms: Lanes,
 }
 
-impl Stretch {
+impl RecordStretch {
     /// The fluctuation a number of samples after its start, and its rise over a sample interval there, for
     /// Catmull-Rom cubics between samples. At the end of a record it is read backwards.
     #[inline(always)]
@@ -113,14 +113,19 @@ impl Stretch {
 ///
 /// The starts of the stretches of one record lie evenly spaced and in random order; where they begin is
 /// random too, drawn from the fibre's key.
-fn stretches(sampling: &Sampling, streams: &PerLane<Stream>, choice: u64, horizon: f64) -> Vec<Stretch> {
+fn stretches(
+    sampling: &Sampling,
+    streams: &PerLane<Stream>,
+    choice: u64,
+    horizon: f64,
+) -> Vec<RecordStretch> {
     let starts = streams.map(|stream| starts(sampling, stream, choice, horizon));
     let mut stretches = Vec::new();
     for eddy in 0..sampling.eddies {
         let record = record_of(sampling, eddy);
         let (_, directions) = record.directions();
         for (direction, (_, component)) in directions.into_iter().enumerate() {
-            stretches.push(Stretch {
+            stretches.push(RecordStretch {
                 values: Arc::clone(&record.components[component]),
                 start: starts.each(|phases| phases[eddy][direction]),
                 rms: streams.lanes(|stream| stream.eddies[eddy].rms),

@@ -15,7 +15,7 @@ pub(super) struct Synthesis<'a> {
     pub(super) sampling: &'a Sampling,
     pub(super) streams: &'a PerLane<Stream>,
     pub(super) window: u64,
-    pub(super) grid: Grid,
+    pub(super) grid: SampleGrid,
     /// For each sample, which sample of the window it takes and with which factor.
     pub(super) shares: Vec<(usize, Share)>,
     /// The samples that they are added to, `[sample][eddy][component]`.
@@ -234,7 +234,7 @@ fn bessel_i0_and_slope(z: f64) -> (f64, f64) {
 
 /// How the samples are divided among the windows.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Grid {
+pub(super) struct SampleGrid {
     /// Samples in a repeat time, four or more for each harmonic.
     pub(super) period: usize,
     /// Time between samples [s].
@@ -243,7 +243,7 @@ pub(super) struct Grid {
     pub(super) repeats: bool,
 }
 
-impl Grid {
+impl SampleGrid {
     pub(super) fn new(sampling: &Sampling, repeats: bool) -> Self {
         let period = 4 * sampling.harmonics.next_power_of_two();
         Self { period, spacing: sampling.repeat_time() / period as f64, repeats }

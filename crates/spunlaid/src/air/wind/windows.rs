@@ -16,7 +16,7 @@
 
 use super::super::Air;
 use super::sampling::{Sampling, Stream};
-use super::synthesis::{Grid, SPREAD, Share, Synthesis};
+use super::synthesis::{SPREAD, SampleGrid, Share, Synthesis};
 use crate::company::PerLane;
 use crate::lanes::{Isa, Lanes};
 use std::ops::Range;
@@ -39,7 +39,7 @@ pub(super) struct Windows {
     sampling: Sampling,
     /// Clones share it and the samples, so that a step on trial copies neither.
     streams: Arc<PerLane<Stream>>,
-    grid: Grid,
+    grid: SampleGrid,
     /// `[sample][eddy][component]`
     block: Arc<Vec<Lanes>>,
     /// The samples of the block that are complete; sample `m` is at the time `m` spacings.
@@ -52,15 +52,15 @@ pub(super) struct Windows {
 
 impl Windows {
     pub(super) fn new(isa: Isa, sampling: Sampling, streams: PerLane<Stream>, horizon: f64) -> Self {
-        Self::on(isa, Grid::new(&sampling, false), sampling, streams, horizon)
+        Self::on(isa, SampleGrid::new(&sampling, false), sampling, streams, horizon)
     }
 
     /// Only one window, which repeats after its repeat time with the opposite sign.
     pub(super) fn repeating(isa: Isa, sampling: Sampling, streams: PerLane<Stream>, horizon: f64) -> Self {
-        Self::on(isa, Grid::new(&sampling, true), sampling, streams, horizon)
+        Self::on(isa, SampleGrid::new(&sampling, true), sampling, streams, horizon)
     }
 
-    fn on(isa: Isa, grid: Grid, sampling: Sampling, streams: PerLane<Stream>, horizon: f64) -> Self {
+    fn on(isa: Isa, grid: SampleGrid, sampling: Sampling, streams: PerLane<Stream>, horizon: f64) -> Self {
         let last = sample_count(horizon, grid.spacing) - BEFORE;
         let (block, streams) = (Arc::default(), Arc::new(streams));
         Self { isa, sampling, streams, grid, block, samples: 0..0, next: None, last }
@@ -132,7 +132,7 @@ impl Windows {
     /// Computing time to make the samples of an eddy until a time [s], in steps of elements of the explicit
     /// schemes: of the transforms of three components, for each window.
     pub(super) fn cost(air: &Air, time: f64) -> f64 {
-        let grid = Grid::new(&Sampling::new(air, 1), false);
+        let grid = SampleGrid::new(&Sampling::new(air, 1), false);
         let windows = 1.0 + (time / (grid.hop() as f64 * grid.spacing)).floor();
         let each = if air.harmonics > FITTING { BEYOND_CACHE } else { IN_CACHE };
         3.0 * windows * air.harmonics as f64 * f64::from(grid.period.ilog2()) * each
@@ -140,7 +140,7 @@ impl Windows {
 
     /// Memory of the samples [bytes].
     pub(super) fn memory(air: &Air, eddies: usize, horizon: f64) -> f64 {
-        let grid = Grid::new(&Sampling::new(air, eddies), false);
+        let grid = SampleGrid::new(&Sampling::new(air, eddies), false);
         let wanted = (horizon / grid.spacing).ceil() + SPREAD as f64 + 1.0;
         let samples = if wanted > grid.hop() as f64 { (grid.period + SPREAD) as f64 } else { wanted };
         samples * eddies as f64 * 3.0 * size_of::<Lanes>() as f64
@@ -161,7 +161,7 @@ mod tests {
 
     #[test]
     fn shares_of_the_windows_keep_the_variance_at_every_sample() {
-        let grid = Grid { period: 64, spacing: 1.0, repeats: false };
+        let grid = SampleGrid { period: 64, spacing: 1.0, repeats: false };
         for sample in -3..400 {
             let parts = grid.windows(&(sample..sample + 1));
             let sum: f64 = parts
@@ -177,7 +177,7 @@ mod tests {
 
     #[test]
     fn blocks_follow_one_another_and_hold_what_is_asked_for() {
-        let grid = Grid { period: 64, spacing: 1.0, repeats: false };
+        let grid = SampleGrid { period: 64, spacing: 1.0, repeats: false };
         let mut first = -BEFORE;
         for _ in 0..10 {
             let block = grid.block(first, i64::MAX);

@@ -24,7 +24,7 @@ use crate::error::Error;
 use crate::threads::{each, try_each};
 use products::{Known, Products};
 use std::ops::Range;
-use sums::Sums;
+use sums::CornerSums;
 
 /// How all filaments hang of which a few are flown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -323,17 +323,17 @@ impl FewFilaments<'_> {
             let quanta = canvas.quanta(self.piece);
             let place = |[cd, md]: [f64; 2]| [cd + further - first * cell, md];
             curve.windows(2).for_each(|ends| canvas.draw_alone(place(ends[0]), place(ends[1]), quanta));
-            Ok::<_, Error>(Some(Sums::over(&canvas.finish()?.map)))
+            Ok::<_, Error>(Some(CornerSums::over(&canvas.finish()?.map)))
         };
         let mut all = Vec::new();
         for curve in curves {
             all.push(sums(curve)?);
         }
         let Some(own) = &all[0] else { return Ok(none()) };
-        let [even, odd] = [1, 2].map(|half| Sums::around(&maps[half], first as i64, own.columns));
-        let alike = Sums::even(own.columns, maps[0].rows);
+        let [even, odd] = [1, 2].map(|half| CornerSums::around(&maps[half], first as i64, own.columns));
+        let alike = CornerSums::even(own.columns, maps[0].rows);
         let of_side = |side: &usize| {
-            let with = |other: &Sums| own.product(other, *side);
+            let with = |other: &CornerSums| own.product(other, *side);
             let [itself, next, second, fourth] =
                 std::array::from_fn(|neighbour| all[neighbour].as_ref().map(with));
             [itself, next, second, fourth, Some(with(&even)), Some(with(&odd)), Some(with(&alike))]

@@ -3,13 +3,13 @@
 use crate::web::Map;
 
 /// Sums of a map over all cells before a corner.
-pub(super) struct Sums {
+pub(super) struct CornerSums {
     pub(super) columns: usize,
     rows: usize,
     sums: Vec<u64>,
 }
 
-impl Sums {
+impl CornerSums {
     pub(super) fn over(map: &Map) -> Self {
         Self::around(map, 0, map.columns)
     }
