@@ -14,7 +14,6 @@ mod air_through;
 mod light;
 mod marks;
 mod patches;
-mod scanned;
 mod streaks;
 mod strips;
 mod tell;
@@ -28,12 +27,11 @@ pub use light::{bare_area, formation, local_weights, opacity, scattering};
 pub use marks::Marks;
 pub(crate) use patches::NONE_FOUND;
 pub use patches::{HEAVIER, LIGHTER, QUANTILES, ThinPlaces, thin_places};
-pub use scanned::of_scan;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 pub use streaks::{Streak, StreakSource, streaks};
 pub use strips::{StripPlace, StripSize, Strips, WEAK, strips};
 pub(crate) use tell::{ABOUT, PATCHES};
-pub use tell::{AirThrough, Fabric, FabricPatch, Laid, Opacity, tell};
+pub use tell::{AirThrough, Fabric, FabricPatch, Laid, Opacity, of_scan, tell};
 pub use usable::{Usable, usable};
 
 /// What is given of the fabric and of its tests.

@@ -1,8 +1,7 @@
 //! The sums of all replicates, and the sources that follow from them.
 
-use super::fitting::Fitting;
 use super::watch::CellSums;
-use super::{CellSource, HeatSums, Sources};
+use super::{CellSource, Fitting, HeatSums, Sources};
 use crate::case::Case;
 use crate::ensemble::LostFibre;
 use crate::field::Hint;

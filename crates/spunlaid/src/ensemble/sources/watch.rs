@@ -1,6 +1,6 @@
 //! Flies replicates and enters the drag on each of their elements, and its heat, into the cell around it.
 
-use super::fitting::Fitting;
+use super::Fitting;
 use crate::ensemble::trajectory::{FlightEnd, each_or_lost};
 use crate::ensemble::{Job, RunControl};
 use crate::error::Error;

@@ -11,7 +11,6 @@
 //! the map with these tells the CV of a slot, unless the patches are smaller than the distance of the flown ones.
 
 mod products;
-mod sums;
 #[cfg(test)]
 mod tests;
 
@@ -22,9 +21,8 @@ use super::uniformity::{boxes, unevenness};
 use super::{Edges, Sheet};
 use crate::error::Error;
 use crate::threads::{each, try_each};
-use products::{Known, Products};
+use products::{CornerSums, Known, Products};
 use std::ops::Range;
-use sums::CornerSums;
 
 /// How all filaments hang of which a few are flown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
