@@ -5,7 +5,9 @@ use super::map::Map;
 use super::window::floor;
 use super::{Edges, Sheet};
 use crate::error::Fault;
+use crate::threads::lock;
 use std::ops::Range;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 
 /// Basis weight of the thickest ropes that are reckoned with, over the mean: filaments that hang in the same
@@ -34,6 +36,8 @@ pub(crate) struct Canvas {
     cells: Vec<AtomicU32>,
     cut: AtomicU64,
     is_full: AtomicBool,
+    /// Held by the thread that hands whole rows over.
+    turn: Mutex<()>,
 }
 
 impl Canvas {
@@ -62,6 +66,7 @@ impl Canvas {
             cells: (0..columns * rows).map(|_| AtomicU32::new(0)).collect(),
             cut: AtomicU64::new(0),
             is_full: AtomicBool::new(false),
+            turn: Mutex::new(()),
         })
     }
 
@@ -96,7 +101,7 @@ impl Canvas {
                 *sum = whole;
                 *self.is_full.get_mut() |= is_full;
             }
-            None => self.cut_off(cell, part),
+            None => self.cut_off(cell, u64::from(part)),
         });
     }
 
@@ -107,7 +112,31 @@ impl Canvas {
                     self.is_full.store(true, Ordering::Relaxed);
                 }
             }
-            None => self.cut_off(cell, quanta),
+            None => self.cut_off(cell, u64::from(quanta)),
+        }
+    }
+
+    /// Adds a row of cells and empties them, while no other thread adds anything.
+    fn add_row(&self, [mut column, row]: [i64; 2], mut cells: &mut [u32]) {
+        while !cells.is_empty() {
+            // As far as the next edge of the sheet.
+            let to_edge = (self.columns - column.rem_euclid(self.columns)) as usize;
+            let (now, later) = cells.split_at_mut(cells.len().min(to_edge));
+            let count = now.len();
+            if let Some(at) = self.at([column, row]) {
+                let mut is_full = false;
+                for (sum, cell) in self.cells[at..][..count].iter().zip(now) {
+                    let (whole, beyond) = sum.load(Ordering::Relaxed).overflowing_add(std::mem::take(cell));
+                    sum.store(whole, Ordering::Relaxed);
+                    is_full |= beyond;
+                }
+                if is_full {
+                    self.is_full.store(true, Ordering::Relaxed);
+                }
+            } else {
+                self.cut_off([column, row], now.iter_mut().map(|cell| u64::from(std::mem::take(cell))).sum());
+            }
+            (column, cells) = (column + count as i64, later);
         }
     }
 
@@ -122,9 +151,9 @@ impl Canvas {
     }
 
     /// Counts what lies beyond an edge. What lies before and behind the rows is not counted.
-    fn cut_off(&self, [_, row]: [i64; 2], quanta: u32) {
+    fn cut_off(&self, [_, row]: [i64; 2], quanta: u64) {
         if self.closed[1] || self.rows.contains(&row) {
-            self.cut.fetch_add(u64::from(quanta), Ordering::Relaxed);
+            self.cut.fetch_add(quanta, Ordering::Relaxed);
         }
     }
 
@@ -195,12 +224,19 @@ pub(crate) struct CanvasPart<'a> {
     pub(super) first: [i64; 2],
     pub(super) size: [i64; 2],
     pub(super) cells: Vec<u32>,
+    /// What was drawn elsewhere, if it waits for its turn too.
+    far: Option<Vec<([i64; 2], u32)>>,
 }
 
 impl<'a> CanvasPart<'a> {
     /// On which nothing can be drawn near yet.
     pub(crate) fn new(canvas: &'a Canvas) -> Self {
-        Self { canvas, first: [0; 2], size: [0; 2], cells: Vec::new() }
+        Self { canvas, first: [0; 2], size: [0; 2], cells: Vec::new(), far: None }
+    }
+
+    /// One of a canvas on which all threads draw on such parts: they hand over whole rows, one after the other.
+    pub(super) fn in_turn(canvas: &'a Canvas) -> Self {
+        Self { far: Some(Vec::new()), ..Self::new(canvas) }
     }
 
     /// Moves to a rectangle; pieces that leave it are drawn too.
@@ -240,7 +276,10 @@ impl<'a> CanvasPart<'a> {
                     self.fill();
                 }
             }
-            None => self.canvas.add(cell, quanta),
+            None => match &mut self.far {
+                Some(far) => far.push((cell, quanta)),
+                None => self.canvas.add(cell, quanta),
+            },
         }
     }
 
@@ -252,10 +291,17 @@ impl<'a> CanvasPart<'a> {
 
     /// Hands what has been drawn over to the canvas.
     pub(crate) fn pass_on(&mut self) {
-        let columns = self.size[0].max(1) as usize;
-        for (row, cells) in (self.first[1]..).zip(self.cells.chunks_exact_mut(columns)) {
-            for (column, sum) in (self.first[0]..).zip(cells).filter(|(_, sum)| **sum > 0) {
-                self.canvas.add([column, row], std::mem::take(sum));
+        let Self { canvas, first, size, cells, far } = self;
+        let rows = (first[1]..).zip(cells.chunks_exact_mut(size[0].max(1) as usize));
+        if let Some(far) = far {
+            let _turn = lock(&canvas.turn);
+            rows.for_each(|(row, cells)| canvas.add_row([first[0], row], cells));
+            far.drain(..).for_each(|(cell, quanta)| canvas.add(cell, quanta));
+        } else {
+            for (row, cells) in rows {
+                for (column, sum) in (first[0]..).zip(cells).filter(|(_, sum)| **sum > 0) {
+                    canvas.add([column, row], std::mem::take(sum));
+                }
             }
         }
     }

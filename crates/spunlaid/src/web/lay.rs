@@ -13,7 +13,7 @@ use std::sync::Mutex;
 
 /// Most filaments that a thread lays before it adds them to the map, and times that a thread does so at least.
 const MOST_TOGETHER: usize = 64 * WIDTH;
-const TIMES: usize = 8;
+const TIMES: usize = 4;
 
 /// Number of pieces that [`lay`] lays.
 ///
@@ -51,7 +51,7 @@ pub fn lay(web: &Web, by: LayControl<'_>) -> Result<LaidWeb, Error> {
     let parts = Mutex::new(Vec::new());
     try_each(by.threads, units.len(), |unit| {
         let (plan, which) = &units[unit];
-        let mut part = lock(&parts).pop().unwrap_or_else(|| CanvasPart::new(&canvas));
+        let mut part = lock(&parts).pop().unwrap_or_else(|| CanvasPart::in_turn(&canvas));
         plan.draw(web, which.clone(), &mut part, by)?;
         lock(&parts).push(part);
         Ok(())
