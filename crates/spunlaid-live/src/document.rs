@@ -4,7 +4,7 @@ use super::message::Complaint;
 use spunlaid::case::Case;
 use spunlaid::case::keys::{self, Key, Kind};
 use spunlaid::error::{Error, Place};
-use spunlaid::input::{CaseWithNotes, LARGEST_FILE, Unflown, Unread, parse_case};
+use spunlaid::input::{CaseWithNotes, LARGEST_FILE, Overrides, Resources, parse_case};
 use spunlaid::units::Dimension;
 use spunlaid_results::command::{beside_of, quoted};
 use std::collections::BTreeSet;
@@ -30,8 +30,6 @@ pub(super) struct Document {
 pub(super) struct LoadedCase {
     pub(super) case: Case,
     pub(super) warnings: Vec<String>,
-    /// What has to be flown for the tension at the end of its spinline; it is zero until then.
-    pub(super) unflown: Option<Box<Unflown<CaseWithNotes>>>,
 }
 
 impl Document {
@@ -68,13 +66,7 @@ impl Document {
             );
             return Err(complaint(text));
         }
-        let ((case, notes), unflown) = match parse_case(&self.text, &self.name.to_string_lossy(), &[]) {
-            Ok(read) => (read, None),
-            Err(Unread::Faulty(error)) => return Err(complaints(&error)),
-            Err(Unread::Unflown(unflown)) => {
-                (unflown.without_flights().map_err(complaints)?.clone(), Some(unflown))
-            }
-        };
+        let (case, notes) = self.case(&Resources::default()).map_err(|error| complaints(&error))?;
         let memory = case.flight_memory();
         let memory = memory.chain + memory.turbulence + memory.synthesis;
         if memory > MOST_MEMORY {
@@ -89,7 +81,12 @@ impl Document {
             note.place = Place::Code;
             note.to_string()
         });
-        Ok(LoadedCase { case, warnings: warnings.collect(), unflown })
+        Ok(LoadedCase { case, warnings: warnings.collect() })
+    }
+
+    /// The case, and what is said of it.
+    pub(super) fn case(&self, resources: &Resources) -> Result<CaseWithNotes, Error> {
+        parse_case(&self.text, &self.name.to_string_lossy(), Overrides::from(&[]).with(resources))
     }
 
     /// Whether the text gives a value for a key of a table.

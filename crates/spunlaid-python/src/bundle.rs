@@ -7,7 +7,7 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use spunlaid::error::Error;
-use spunlaid::input::{Unread, parse_case, parse_spinline, parse_web, write_experiment};
+use spunlaid::input::{parse_case, parse_spinline, parse_web, write_experiment};
 use spunlaid::layers::LaydownSource;
 use spunlaid::observe::MEASURES;
 use spunlaid::study::{Batch, Experiment, Point, Record, ReplicateOutcome, fly_bundle as fly};
@@ -81,12 +81,12 @@ const WEB: &str = "web.toml";
 /// What was sent, read again. Tensions of flights were found before it was sent, and are numbers.
 fn read(noun: &str, text: &str) -> Result<Experiment, Error> {
     Ok(match noun {
-        "web" => Experiment::Web(parse_web(text, WEB, &[]).map_err(Unread::refuse)?.spec),
+        "web" => Experiment::Web(parse_web(text, WEB, &[])?.spec),
         "spinline" => {
-            let read = parse_spinline(text, "spinline.toml", &[]).map_err(Unread::refuse)?;
+            let read = parse_spinline(text, "spinline.toml", &[])?;
             Experiment::Spinline(Box::new(read.spec))
         }
-        _ => Experiment::Case(parse_case(text, "case.toml", &[]).map_err(Unread::refuse)?.0),
+        _ => Experiment::Case(parse_case(text, "case.toml", &[])?.0),
     })
 }
 

@@ -4,7 +4,7 @@ use crate::merged::{merged, replaced};
 use crate::source::{Source, stem};
 use crate::state::full_path;
 use crate::value::{overrides, to_python};
-use crate::watched::{guarded, read_file};
+use crate::watched::{guarded, settled};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
@@ -13,7 +13,7 @@ use spunlaid::air::PlaceAxes;
 use spunlaid::case::keys::{self, Key, Value};
 use spunlaid::case::{self, Note};
 use spunlaid::error::FileKind;
-use spunlaid::input::{Overrides, parse_case, starter_case, starter_case_of_fed, write_case};
+use spunlaid::input::{Overrides, Resources, parse_case, starter_case, starter_case_of_fed, write_case};
 use spunlaid::vec3::Vec3;
 use spunlaid_results::output::air::{POINT_COLUMNS, point_row};
 use std::path::{Path, PathBuf};
@@ -57,19 +57,28 @@ impl Case {
         file: String,
         changes: Vec<(String, String)>,
     ) -> PyResult<Self> {
-        let (case, notes) =
-            read_file(py, None, || parse_case(&text, &file, Overrides { values: &changes, word: WORD }))?;
+        let (case, notes) = guarded(py, || parse_case(&text, &file, Overrides::new(&changes, WORD)))?;
         Ok(Self { case: Arc::new(case), notes, text, file, changes })
+    }
+
+    /// The case and its notes for a flight: with the tension that flights have found, if it asks for one.
+    pub(crate) fn settled(
+        &self,
+        py: Python<'_>,
+        threads: Option<usize>,
+    ) -> PyResult<(Arc<case::Case>, Vec<Note>)> {
+        if !self.case.waits_for_flights() {
+            return Ok((Arc::clone(&self.case), self.notes.clone()));
+        }
+        let set = Overrides::new(&self.changes, WORD);
+        let read = |resources: &Resources| parse_case(&self.text, &self.file, set.with(resources));
+        let (case, notes) = settled(py, threads, read)?;
+        Ok((Arc::new(case), notes))
     }
 
     /// What results of it are called.
     pub(crate) fn stem(&self) -> String {
         stem(Path::new(&self.file))
-    }
-
-    /// Whether values differ from those of its text.
-    pub(crate) fn is_changed(&self) -> bool {
-        !self.changes.is_empty()
     }
 
     /// The keys that have a meaning for it and that no file of it gives, in the order of a case file.
@@ -83,11 +92,11 @@ impl Case {
         this.py().import("collections.abc")?.getattr(kind)?.call1((this,))
     }
 
-    /// Text and name of a case file with all changes, for a study of this case.
-    pub(crate) fn source(&self) -> (String, &str) {
-        let text =
-            if self.changes.is_empty() { self.text.to_string() } else { merged(&self.text, &self.changes) };
-        (text, &self.file)
+    /// Text and name of a case file with all changes, for a study of this case, and whether there are some.
+    pub(crate) fn source(&self) -> (String, &str, bool) {
+        let is_changed = !self.changes.is_empty();
+        let text = if is_changed { merged(&self.text, &self.changes) } else { self.text.to_string() };
+        (text, &self.file, is_changed)
     }
 }
 

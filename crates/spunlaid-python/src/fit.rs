@@ -3,13 +3,13 @@
 use crate::save::{Figures, figure_files};
 use crate::source::stem;
 use crate::value::overrides;
-use crate::watched::{Watch, guarded, read_file, watched};
+use crate::watched::{Watch, guarded, settled, watched};
 use pyo3::prelude::*;
 use spunlaid::case::Note;
 use spunlaid::ensemble::RunControl;
 use spunlaid::error::Error;
 use spunlaid::fit::{Question, Target, WebInProgress, fit};
-use spunlaid::input::{Overrides, read_fit};
+use spunlaid::input::{Overrides, Resources, read_fit};
 use spunlaid::layers::{Flights, Flyer};
 use spunlaid::study::Journal;
 use spunlaid::web::LayControl;
@@ -49,8 +49,8 @@ pub(crate) fn find_fit(
         .iter()
         .map(|name| ranges.get(name).map_or_else(|| name.clone(), |range| format!("{name}={range}")));
     let vary: Vec<String> = vary.collect();
-    let set = Overrides { values: &changes, word: "set:" };
-    let file = read_file(py, threads, || read_fit(&path, set, &vary, "vary:"))?;
+    let set = Overrides::new(&changes, "set:");
+    let file = settled(py, threads, |resources| read_fit(&path, set.with(resources), &vary, "vary:"))?;
     let target = guarded(py, || {
         let sheet = &file.start.spec.sheet;
         let target = Target::new(&read_measured_web(&to)?, sheet, spectrum);
@@ -71,7 +71,10 @@ pub(crate) fn find_fit(
         };
         let flights = AtomicU64::new(0);
         let flying = RunControl { fibre_steps: &flights, ..watch.run_control(threads) };
-        let web = |values: &[f64]| file.web(values).or_else(|unread| unread.fly(flying));
+        let web = |values: &[f64]| {
+            let read = |resources: &Resources| file.web(values, resources);
+            Resources::default().settle(read, |resources| resources.fly(flying))
+        };
         let make = |values: &[f64]| Ok(web(values)?.spec);
         let question = Question { parameters: &file.parameters, target: &target, make: &make, webs };
         let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();

@@ -42,7 +42,7 @@ impl Flight {
     #[pyo3(signature = (case, replicates = None))]
     fn new(py: Python<'_>, case: &Bound<'_, PyAny>, replicates: Option<u64>) -> PyResult<Self> {
         let case = Case::meant(case)?;
-        let description = &*case.get().case;
+        let (description, _) = case.get().settled(py, None)?;
         let fibres = replicates.unwrap_or_else(|| description.run.replicates.min(WIDTH as u64));
         if !(1..=MOST).contains(&fibres) {
             return Err(PyValueError::new_err(format!("replicates must be 1 to {MOST}, not {fibres}")));
@@ -52,7 +52,7 @@ impl Flight {
             let pack = |first: u64| {
                 let last = fibres.min(first + WIDTH as u64);
                 let jobs: Vec<Job<'_>> =
-                    (first..last).map(|replicate| Job::new(description, replicate)).collect();
+                    (first..last).map(|replicate| Job::new(&description, replicate)).collect();
                 flight::Flight::new(&jobs, Isa::detect())
             };
             starts.map(pack).collect::<Result<Vec<_>, Failure>>()

@@ -29,8 +29,8 @@ use spunlaid_results::output::doubt;
 use spunlaid_results::output::flown::{Flights, Tables};
 use spunlaid_results::output::tables::unit_of_column;
 use std::path::PathBuf;
+use std::sync::Mutex;
 use std::sync::OnceLock;
-use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
 /// Number of trajectories that are kept whole, for the report.
@@ -48,7 +48,8 @@ pub(crate) fn fly(
     samples: bool,
     shapes: bool,
 ) -> PyResult<RunResults> {
-    let (description, run) = (Arc::clone(&case.case), case.case.run);
+    let (description, notes) = case.settled(py, threads)?;
+    let run = description.run;
     let plans =
         if check_step { FinerPlans::for_case(&description) } else { FinerPlans::none(Unchecked::NotAsked) };
     let watch = Watch::new(run.steps.saturating_mul(run.replicates));
@@ -90,7 +91,7 @@ pub(crate) fn fly(
     flown
         .or_else(|ended| if ended.is_instance_of::<PyKeyboardInterrupt>(py) { Ok(()) } else { Err(ended) })?;
     let checks = unlock(checks);
-    let mut notes = Note::notes_of_results(&case.notes);
+    let mut notes = Note::notes_of_results(&notes);
     notes.extend(folder::lost(&results.lost, description.run.replicates));
     notes.extend(folder::outside(&results));
     notes.extend(folder::coarse_shapes(&description, &results));

@@ -3,7 +3,7 @@
 use crate::save::{Figures, page, save};
 use crate::source::Source;
 use crate::value::overrides;
-use crate::watched::{guarded, read_file};
+use crate::watched::{guarded, settled};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -36,9 +36,9 @@ pub(crate) fn solve_spinline(
     changes: &Bound<'_, PyAny>,
 ) -> PyResult<SolvedSpinline> {
     let changes = overrides(changes)?;
-    let set = Overrides { values: &changes, word: "spin:" };
+    let set = Overrides::new(&changes, "spin:");
     let Source { name, text, file } = Source::read(py, path, FileKind::Case, "spinline")?;
-    let file = read_file(py, None, || parse_spinline(&text, &file, set))?;
+    let file = settled(py, None, |resources| parse_spinline(&text, &file, set.with(resources)))?;
     let results = guarded(py, || SpinResults::new(&file))?;
     let notes = [Note::notes_of_results(&file.notes), remarks(&results.rows)].concat();
     Ok(SolvedSpinline { name, file, results, notes })

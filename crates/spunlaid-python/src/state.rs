@@ -79,7 +79,7 @@ pub(crate) fn flown_from(py: Python<'_>, state: &Bound<'_, PyDict>) -> PyResult<
             .ok_or_else(|| PyValueError::new_err(format!("these are not the results of a run: no {key}")))
     };
     let text: String = need("case")?.extract()?;
-    let (case, _) = crate::watched::read_file(py, None, || parse_case(&text, "case.toml", &[]))?;
+    let (case, _) = crate::watched::guarded(py, || parse_case(&text, "case.toml", &[]))?;
     let (wall_s, threads, element_steps, ns_per_element_step) = need("performance")?.extract()?;
     let instruction_set = Isa::detect().name();
     let performance = Performance { wall_s, threads, element_steps, ns_per_element_step, instruction_set };

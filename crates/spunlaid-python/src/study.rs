@@ -8,13 +8,14 @@ use crate::scale::{AxisScale, scale};
 use crate::source::stem;
 use crate::state::full_path;
 use crate::value::overrides;
-use crate::watched::{LOOK, Watch, guarded, read_and_tell, watched};
+use crate::watched::{LOOK, Watch, guarded, settled, watched};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use spunlaid::input::{
-    Overrides, StudyChanges, StudyFile, parse_changed_study, read_changed_study, read_text, write_experiment,
+    Overrides, Resources, StudyChanges, StudyFile, parse_changed_study, read_changed_study, read_text,
+    write_experiment,
 };
 use spunlaid::layers::WebSpec;
 use spunlaid::study::{
@@ -25,7 +26,6 @@ use spunlaid::units::udunits;
 use spunlaid_results::Failure;
 use spunlaid_results::figures::Scale;
 use spunlaid_results::folders::study as folder;
-use spunlaid_results::folders::tensions::StudyTensions;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard};
@@ -72,32 +72,35 @@ impl Study {
         threads: Option<usize>,
     ) -> PyResult<Self> {
         let changed = set.map_or_else(|| Ok(Vec::new()), overrides)?;
-        let set = Overrides { values: &changed, word: "sweep:" };
-        let changes = StudyChanges { points, replicates, set };
-        let kept = || out.as_ref().map(|out| StudyTensions::open(out, force)).transpose();
+        let set = Overrides::new(&changed, "sweep:");
         let (name, file) = match (case, path) {
-            (None, Some(path)) => {
-                let text: String = study.extract()?;
-                let base = |_: &str, kind| Ok((read_text(&path, kind)?, path.display().to_string()));
-                let read = || parse_changed_study(&text, STUDY, &changes, base);
-                let file = read_and_tell(py, threads, kept, read, |read| without_lines(read, &[STUDY]))?;
-                (STUDY.to_owned(), file)
-            }
-            (Some(case), _) => {
-                let text: String = study.extract()?;
-                let (case_text, case_name) = case.source();
-                let made = [STUDY, case_name];
-                let made = if case.is_changed() { &made[..] } else { &made[..1] };
-                let named = (case_text, case_name.to_owned());
-                let read = || parse_changed_study(&text, STUDY, &changes, |_, _| Ok(named));
-                let file = read_and_tell(py, threads, kept, read, |read| without_lines(read, made))?;
-                (STUDY.to_owned(), file)
-            }
             (None, None) => {
                 let path: PathBuf = study.extract()?;
-                let read = || read_changed_study(&path, &changes);
-                let file = read_and_tell(py, threads, kept, read, |read| read)?;
-                (stem(&path), file)
+                let read = |resources: &Resources| {
+                    read_changed_study(&path, &StudyChanges { points, replicates, set: set.with(resources) })
+                };
+                (stem(&path), settled(py, threads, read)?)
+            }
+            (case, path) => {
+                let text: String = study.extract()?;
+                let (case, path) = (case.map(Case::source), path.unwrap_or_default());
+                // What was made has no lines that a user knows.
+                let made = case.as_ref().filter(|(.., is_changed)| *is_changed).map(|(_, name, _)| *name);
+                let made = [Some(STUDY), made].into_iter().flatten().collect::<Vec<_>>();
+                let base = |_: &str, kind| match &case {
+                    Some((text, name, _)) => Ok((text.clone(), (*name).to_owned())),
+                    None => Ok((read_text(&path, kind)?, path.display().to_string())),
+                };
+                let read = |resources: &Resources| {
+                    let read = parse_changed_study(
+                        &text,
+                        STUDY,
+                        &StudyChanges { points, replicates, set: set.with(resources) },
+                        base,
+                    );
+                    without_lines(read, &made)
+                };
+                (STUDY.to_owned(), settled(py, threads, read)?)
             }
         };
         let journal = guarded(py, || match &out {

@@ -3,13 +3,12 @@
 use crate::failure::{raised, raised_of_panic};
 use pyo3::prelude::*;
 use spunlaid::ensemble::RunControl;
-use spunlaid::input::Unread;
+use spunlaid::input::Resources;
 use spunlaid::lanes::Isa;
 use spunlaid::threads::lock;
 use spunlaid::web::LayControl;
 use spunlaid_results::Failure;
 use spunlaid_results::folders::Making;
-use spunlaid_results::folders::tensions::StudyTensions;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Condvar, Mutex, PoisonError};
@@ -130,50 +129,17 @@ pub(crate) fn guarded<T: Send>(
     }
 }
 
-/// What is read of a file. If flights have to find tensions at ends of spinlines first, they fly on so many
-/// threads; Ctrl-C stops them.
-pub(crate) fn read_file<T: Send>(
+/// What is read of a file. Tensions at ends of spinlines that it wants are flown for, on so many threads;
+/// Ctrl-C stops them.
+pub(crate) fn settled<T: Send>(
     py: Python<'_>,
     threads: Option<usize>,
-    read: impl FnOnce() -> Result<T, Unread<T>> + Send,
+    read: impl Fn(&Resources) -> Result<T, Failure> + Send,
 ) -> PyResult<T> {
-    read_and_tell(py, threads, || Ok(None), read, |read| read)
-}
-
-/// [`read_file`], with tensions that outlive this process.
-///
-/// * `kept` – opens them, if flights have to find some
-/// * `tell` – what is told of what was read, or of why it was not
-pub(crate) fn read_and_tell<T: Send>(
-    py: Python<'_>,
-    threads: Option<usize>,
-    kept: impl FnOnce() -> Result<Option<StudyTensions>, Failure> + Send,
-    read: impl FnOnce() -> Result<T, Unread<T>> + Send,
-    tell: impl Fn(Result<T, Failure>) -> Result<T, Failure> + Sync,
-) -> PyResult<T> {
-    let first = guarded(py, || match read() {
-        Ok(read) => tell(Ok(read)).map(Ok),
-        Err(Unread::Faulty(error)) => tell(Err(error)).map(Ok),
-        Err(Unread::Unflown(unflown)) => Ok(Err(unflown)),
-    })?;
-    let mut unflown = match first {
-        Ok(read) => return Ok(read),
-        Err(unflown) => unflown,
-    };
     let watch = Watch::default();
     watched(py, &watch, None, || {
-        let (kept, by) = (kept()?, watch.run_control(threads));
-        loop {
-            let read = match &kept {
-                Some(kept) => unflown.fly_and_keep(by, kept),
-                None => unflown.fly(by),
-            };
-            unflown = match read {
-                Ok(read) => return tell(Ok(read)),
-                Err(Unread::Faulty(error)) => return tell(Err(error)),
-                Err(Unread::Unflown(unflown)) => unflown,
-            };
-        }
+        let by = watch.run_control(threads);
+        Resources::default().settle(read, |resources| resources.fly(by))
     })
 }
 

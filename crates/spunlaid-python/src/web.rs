@@ -4,7 +4,7 @@ use crate::samples::locked;
 use crate::save::{Figures, save};
 use crate::source::Source;
 use crate::value::overrides;
-use crate::watched::{LOOK, Watch, read_file, watched};
+use crate::watched::{LOOK, Watch, settled, watched};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -61,12 +61,14 @@ impl Asked {
         threads: Option<usize>,
     ) -> PyResult<Self> {
         let changes = overrides(changes)?;
-        let set = Overrides { values: &changes, word: "web:" };
+        let set = Overrides::new(&changes, "web:");
         let Source { name, text, file } = Source::read(py, path, FileKind::Web, "web")?;
-        let read = |of| read_file(py, threads, || parse_changes(text.clone(), &file, set, of));
+        let read = |of| {
+            settled(py, threads, |resources| parse_changes(text.clone(), &file, set.with(resources), of))
+        };
         let advice = advice.then(|| read(Changes::OfLine)).transpose()?;
         let guesses = guesses.then(|| read(Changes::OfGuesses)).transpose()?;
-        let file = read_file(py, threads, || parse_web(&text, &file, set))?;
+        let file = settled(py, threads, |resources| parse_web(&text, &file, set.with(resources)))?;
         Ok(Self { name, file, advice, guesses })
     }
 

@@ -2,8 +2,9 @@
 
 use clap::{Args, ValueHint};
 use spunlaid::error::{Error, Fault, Problem};
-use spunlaid::input::{CaseWithNotes, LARGEST_FILE, Overrides, Unread, parse_case, read_case, text_of};
+use spunlaid::input::{CaseWithNotes, LARGEST_FILE, Overrides, Resources, parse_case, read_case, text_of};
 use spunlaid_results::command::{beside_of, quoted};
+use std::cell::OnceCell;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -16,23 +17,31 @@ pub(crate) struct CaseSource {
     /// Set a key of the case for this run, as air.velocity="20 m/s"; can be repeated
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
     pub(crate) set: Vec<(String, String)>,
+    /// What standard input gave, which can be read once
+    #[arg(skip)]
+    read: OnceCell<String>,
 }
 
 /// The values of `--set`, as messages name them.
 pub(crate) fn overrides(values: &[(String, String)]) -> Overrides<'_> {
-    Overrides { values, word: "--set" }
+    Overrides::new(values, "--set")
 }
 
 impl CaseSource {
     /// Reads the case with the values of `--set` and these.
-    pub(crate) fn read(&self, more: &[(&str, String)]) -> Result<CaseWithNotes, Unread<CaseWithNotes>> {
+    pub(crate) fn read(
+        &self,
+        more: &[(&str, String)],
+        resources: &Resources,
+    ) -> Result<CaseWithNotes, Error> {
         let more = more.iter().map(|(key, value)| ((*key).to_owned(), value.clone()));
         let values: Vec<_> = self.set.iter().cloned().chain(more).collect();
-        let overrides = overrides(&values);
-        if is_standard(&self.case) {
-            return parse_case(&standard_input().map_err(Unread::Faulty)?, STANDARD_INPUT, overrides);
+        let overrides = overrides(&values).with(resources);
+        if !is_standard(&self.case) {
+            return read_case(&self.case, overrides);
         }
-        read_case(&self.case, overrides)
+        let text = self.read.get().map_or_else(standard_input, |text| Ok(text.clone()))?;
+        parse_case(self.read.get_or_init(|| text), STANDARD_INPUT, overrides)
     }
 
     /// The same as arguments of a command line; what is set has a folder of its own.

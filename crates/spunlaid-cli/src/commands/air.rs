@@ -1,7 +1,7 @@
 //! `spunlaid air`: the turbulent air of a case, looked at while it passes.
 
 use super::delivery::{Asides, Delivery};
-use super::flown::flown;
+use super::flown::settled_with;
 use super::points::points;
 use super::sources::sources;
 use super::{stem, stop_on_ctrl_c};
@@ -10,7 +10,7 @@ use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::air::Lateral;
 use spunlaid::case::Note;
-use spunlaid::input::{CaseWithNotes, Unread};
+use spunlaid::input::Resources;
 use spunlaid_results::folders::products::AirFolder;
 use spunlaid_results::output::air::{AirViews, Slices};
 use std::sync::atomic::AtomicU64;
@@ -27,17 +27,11 @@ pub(crate) fn air(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
     if let Some(file) = &air.at {
         return points(air, file);
     }
-    let mut read = air.source.read(&[]);
-    let has_uniform = |(case, _): &CaseWithNotes| case.air.lateral == Lateral::Uniform;
-    let is_uniform = match &read {
-        Ok(read) => has_uniform(read),
-        Err(Unread::Unflown(unflown)) => unflown.without_flights().is_ok_and(has_uniform),
-        Err(Unread::Faulty(_)) => false,
-    };
-    if is_uniform {
-        read = air.source.read(&[("air.lateral", "von-karman".to_owned())]);
-    }
-    let (case, notes) = flown(read, air.threads, air.output.quiet)?;
+    let mut resources = Resources::default();
+    let is_uniform = air.source.read(&[], &resources)?.0.air.lateral == Lateral::Uniform;
+    let more = is_uniform.then(|| ("air.lateral", "von-karman".to_owned()));
+    let read = |resources: &Resources| air.source.read(more.as_slice(), resources);
+    let (case, notes) = settled_with(&mut resources, air.threads, air.output.quiet, read)?;
     notes.iter().for_each(say::note);
     let mut remarks = Note::notes_of_results(&notes);
     if is_uniform {

@@ -1,7 +1,7 @@
 //! `spunlaid fit`: which values of some keys make a web like a scan?
 
 use super::delivery::{Asides, making, say_continued, say_replaced, tell};
-use super::flown::flown;
+use super::flown::settled;
 use super::{lay_control, plural, stem, stop_on_ctrl_c};
 use crate::args::{self, Invocation, overrides};
 use crate::failure::Failure;
@@ -9,7 +9,7 @@ use crate::{progress, say};
 use spunlaid::case::Note;
 use spunlaid::error::Error;
 use spunlaid::fit::{Fit, Question, Target, WebInProgress, fit as find};
-use spunlaid::input::{FitFile, read_fit};
+use spunlaid::input::{FitFile, Resources, read_fit};
 use spunlaid::layers::{Flights, Flyer};
 use spunlaid::study::Journal;
 use spunlaid_results::folders::fit::{self, FitInput, FoundFit};
@@ -19,8 +19,10 @@ use std::sync::atomic::AtomicU64;
 
 pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), Failure> {
     let set = overrides(&arguments.set);
-    let read = read_fit(&arguments.web, set, &arguments.vary, "--vary");
-    let file = flown(read, arguments.threads, arguments.output.quiet)?;
+    let read =
+        |resources: &Resources| read_fit(&arguments.web, set.with(resources), &arguments.vary, "--vary");
+    let (threads, quiet) = (arguments.threads, arguments.output.quiet);
+    let file = settled(threads, quiet, read)?;
     file.start.notes.iter().for_each(say::note);
     let scan = read_measured_web(&arguments.to)?;
     let target = Target::new(&scan, &file.start.spec.sheet, arguments.spectrum)
@@ -53,7 +55,7 @@ pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), 
     })?;
     folder.figures = arguments.figures.files();
     let values: Vec<f64> = found.keys.iter().map(|key| key.value).collect();
-    let web = flown(file.web(&values), arguments.threads, arguments.output.quiet)?;
+    let web = settled(threads, quiet, |resources| file.web(&values, resources))?;
     let trials = plural(found.trials.len() as u64, "trial");
     let lines = &[format!("{trials} of {} each", plural(found.webs, "web"))];
     let contents = FoundFit { input, fit: &found, spec: &web.spec };
@@ -73,7 +75,8 @@ fn search(
     target: &Target,
     journal: &mut Journal,
 ) -> Result<Fit, Error> {
-    let make = |values: &[f64]| Ok(flown(file.web(values), arguments.threads, true)?.spec);
+    let make =
+        |values: &[f64]| Ok(settled(arguments.threads, true, |resources| file.web(values, resources))?.spec);
     let question = Question { parameters: &file.parameters, target, make: &make, webs: arguments.webs };
     let laid = AtomicU64::new(0);
     let by = lay_control(arguments.threads, &laid);

@@ -8,13 +8,13 @@ use crate::failure::Failure;
 pub(crate) fn live(live: &Live) -> Result<(), Failure> {
     use crate::say;
     use spunlaid::error::FileKind;
-    use spunlaid::input::{Unread, read_case, read_text};
+    use spunlaid::input::{read_case, read_text};
     use spunlaid::paper;
 
     let text = match &live.case {
         Some(path) => {
             // Its mistakes are reported as by all commands.
-            read_case(path, &[]).or_else(Unread::without_flights)?;
+            read_case(path, &[])?;
             read_text(path, FileKind::Case)?
         }
         None => paper::TABLE1.to_owned(),

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::say;
 use spunlaid::air::LocalAir;
 use spunlaid::error::{Error, Problem};
-use spunlaid::input::read_points;
+use spunlaid::input::{Resources, read_points};
 use spunlaid::vec3::Vec3;
 use spunlaid_results::output::air::points_csv;
 use std::fs;
@@ -16,7 +16,7 @@ use std::path::Path;
 pub(super) fn points(air: &Air, file: &Path) -> Result<(), Failure> {
     let out = air.output.out.as_deref();
     out.map_or(Ok(()), |out| check_file(out, "--out", air.output.force))?;
-    let (case, notes) = air.source.read(&[]).or_else(|unread| unread.without_flights())?;
+    let (case, notes) = air.source.read(&[], &Resources::default())?;
     let places = read_points(file)?;
     let axes = air.axes.map_or(case.air.usual_axes(), Into::into);
     let found = case.air.at_points(&places, axes).map_err(|error| at(file, error))?;

@@ -1,7 +1,7 @@
 //! `spunlaid run`: flies a case and writes the results.
 
 use super::delivery::{Asides, Delivery};
-use super::flown::flown;
+use super::flown::settled;
 use super::{name_of, plural, run_control};
 use crate::args::{Invocation, Run};
 use crate::failure::Failure;
@@ -77,7 +77,8 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
 
 /// The case, and the notes about it, which are told.
 fn read(run: &Run) -> Result<(Case, Vec<String>), Failure> {
-    let (case, notes) = flown(run.source.read(&overrides(run)), run.threads, run.output.quiet)?;
+    let set = overrides(run);
+    let (case, notes) = settled(run.threads, run.output.quiet, |resources| run.source.read(&set, resources))?;
     notes.iter().for_each(say::note);
     Ok((case, Note::notes_of_results(&notes)))
 }

@@ -1,7 +1,7 @@
 //! `spunlaid air --sources`: what the filaments of a line do to the cells of their CFD field.
 
 use super::delivery::{Asides, Delivery};
-use super::flown::flown;
+use super::flown::settled;
 use super::{plural, run_control, stem};
 use crate::args::{Air, Invocation, is_standard, overrides};
 use crate::failure::Failure;
@@ -71,10 +71,11 @@ pub(crate) fn sources(air: &Air, invocation: &Invocation) -> Result<(), Failure>
 fn read(air: &Air) -> Result<Line, Failure> {
     let (path, quiet) = (&air.source.case, air.output.quiet);
     if !is_standard(path) && kind_of(path) == FileKind::Web {
-        let file = flown(read_web(path, overrides(&air.source.set)), air.threads, quiet)?;
+        let set = overrides(&air.source.set);
+        let file = settled(air.threads, quiet, |resources| read_web(path, set.with(resources)))?;
         return Ok(Line::Web(Box::new(file)));
     }
-    let (case, notes) = flown(air.source.read(&[]), air.threads, quiet)?;
+    let (case, notes) = settled(air.threads, quiet, |resources| air.source.read(&[], resources))?;
     Ok(Line::Case(Box::new(case), notes))
 }
 

@@ -1,20 +1,21 @@
 //! `spunlaid spin`: solves a spinline, from the hole of the spinneret to the solid filament.
 
 use super::delivery::{Asides, Delivery};
-use super::flown::flown;
+use super::flown::settled;
 use super::name_of;
 use crate::args::{Invocation, Spin, Threads, overrides};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::case::Note;
 use spunlaid::error::FileKind;
-use spunlaid::input::read_spinline;
+use spunlaid::input::{Resources, read_spinline};
 use spunlaid_results::folders::products::SpinFolder;
 use spunlaid_results::output::spinline::{SpinResults, remarks};
 
 pub(crate) fn spin(spin: &Spin, invocation: &Invocation) -> Result<(), Failure> {
-    let read = read_spinline(&spin.file, overrides(&spin.set));
-    let file = flown(read, Threads::default(), spin.output.quiet)?;
+    let set = overrides(&spin.set);
+    let read = |resources: &Resources| read_spinline(&spin.file, set.with(resources));
+    let file = settled(Threads::default(), spin.output.quiet, read)?;
     file.notes.iter().for_each(say::note);
     let (name, origin) =
         (name_of(&spin.file, FileKind::Spinline, ["spinline"; 2]), invocation.origin_of([&spin.file]));

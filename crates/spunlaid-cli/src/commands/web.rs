@@ -1,7 +1,7 @@
 //! `spunlaid web`: lays a web of many filaments and says how even it is.
 
 use super::delivery::{Asides, Delivery, check_file};
-use super::flown::flown;
+use super::flown::{settled, settled_with};
 use super::{lay_control, plural, stem};
 use crate::args::{self, Invocation, Output, overrides};
 use crate::failure::Failure;
@@ -9,7 +9,7 @@ use crate::{progress, say};
 use spunlaid::advice::{Advice, Change, MOST_STEPS, Shelf, advise, are_tried, judged_by, steps};
 use spunlaid::case::Note;
 use spunlaid::error::Error;
-use spunlaid::input::{Changes, Unflown, Unread, WebSpec, read_changes, read_web};
+use spunlaid::input::{Changes, Resources, WebSpec, read_changes, read_web};
 use spunlaid::layers::{Flights, FlownWeb, Flyer};
 use spunlaid::web::{Findings, LayControl};
 use spunlaid_results::folders::web::WebFolder;
@@ -23,7 +23,8 @@ use std::time::Instant;
 
 pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), Failure> {
     let (threads, output) = (arguments.threads, &arguments.output);
-    let file = flown(read_web(&arguments.file, overrides(&arguments.set)), threads, output.quiet)?;
+    let read = |resources: &Resources| read_web(&arguments.file, overrides(&arguments.set).with(resources));
+    let file = settled(threads, output.quiet, read)?;
     file.notes.iter().for_each(say::note);
     let judged_by = arguments.judged_by.as_deref().map(|text| judged_by(&file.spec, text)).transpose()?;
     let (name, origin) = (stem(&arguments.file, "web"), invocation.origin_of([&arguments.file]));
@@ -84,15 +85,21 @@ struct Trials {
 impl Trials {
     fn read(arguments: &args::Web, spec: &WebSpec) -> Result<Self, Failure> {
         let (file, set) = (&arguments.file, overrides(&arguments.set));
-        let read = |read| match read {
-            // What is too long to be tried is not flown for either.
-            Err(Unread::Unflown(unflown)) if !arguments.advice && is_long(spec, &unflown) => Ok(None),
-            read => flown(read, arguments.threads, arguments.output.quiet).map(Some),
+        let read = |changes| {
+            let mut resources = Resources::default();
+            let read = |resources: &Resources| read_changes(file, set.with(resources), changes);
+            let all = read(&resources)?;
+            match resources.wanted() {
+                0 => Ok(Some(all)),
+                // What is too long to be tried is not flown for either.
+                _ if !arguments.advice && steps(spec, &all) + resources.most_steps() > MOST_STEPS => Ok(None),
+                _ => settled_with(&mut resources, arguments.threads, arguments.output.quiet, read).map(Some),
+            }
         };
-        let guesses = read(read_changes(file, set, Changes::OfGuesses))?.filter(|all| !all.is_empty());
+        let guesses = read(Changes::OfGuesses)?.filter(|all: &Vec<Change>| !all.is_empty());
         let changes = match arguments.no_advice {
             true => None,
-            false => read(read_changes(file, set, Changes::OfLine))?,
+            false => read(Changes::OfLine)?,
         };
         Ok(Self { guesses, changes, judged_by: None })
     }
@@ -147,12 +154,6 @@ impl Trials {
         delivery.finish(&advised);
         Ok(())
     }
-}
-
-/// Whether changes take longer with the flights for their tensions.
-fn is_long(spec: &WebSpec, unflown: &Unflown<Vec<Change>>) -> bool {
-    let flights = unflown.without_flights().map_or(0, |changes| steps(spec, changes));
-    flights + unflown.most_steps() > MOST_STEPS
 }
 
 /// What changes do to a web; nothing if that cannot be found, which is told. If it is interrupted, the web

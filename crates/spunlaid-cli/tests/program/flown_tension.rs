@@ -1,5 +1,4 @@
-//! The tension at the end of a spinline that flights find: with the threads that are asked for, until Ctrl-C,
-//! and kept for a study.
+//! The tension at the end of a spinline that flights find: with the threads that are asked for, until Ctrl-C.
 #![cfg(target_os = "linux")]
 
 use crate::desk::{Desk, success};
@@ -33,11 +32,6 @@ fn slow() -> Desk {
     desk("1 mm", "duration = '1 s'\ntime_step = '0.2 µs'\nreplicates = 8\n")
 }
 
-/// One whose flights take an instant.
-fn quick() -> Desk {
-    desk("20 mm", "duration = '30 ms'\nspin_up = '12 ms'\nchecks = 'none'\n")
-}
-
 /// Starts a command and waits until it hears Ctrl-C: its flights begin then.
 fn flying(mut command: Command) -> Child {
     let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
@@ -67,7 +61,9 @@ fn said(output: &Output) -> String {
 #[test]
 fn interrupted_while_it_flies_for_the_tension_nothing_is_left() {
     let desk = slow();
-    for arguments in ["run line.toml --threads 1 --out r", "spin line.toml --out r"] {
+    for arguments in
+        ["run line.toml --threads 1 --out r", "spin line.toml --out r", "sweep study.toml --out r"]
+    {
         let output = interrupt(flying(desk.spunlaid(arguments)));
         assert_eq!(output.status.code(), Some(130), "{}", said(&output));
         assert!(said(&output).contains("error: interrupted; nothing was written"), "{}", said(&output));
@@ -91,35 +87,6 @@ fn tensions_fly_in_as_many_threads_as_are_asked_for() {
         }
         assert_eq!(interrupt(child).status.code(), Some(130));
     }
-}
-
-#[test]
-fn identical_study_that_was_interrupted_between_two_tensions() {
-    let desk = quick();
-    success(&mut desk.spunlaid("sweep study.toml --out whole"));
-    let kept = || fs::read_to_string(desk.path("r/tensions")).unwrap_or_default();
-    let tensions = |text: &str| text.lines().filter(|line| !line.is_empty()).count();
-    let child = flying(desk.spunlaid("sweep study.toml --threads 1 --out r"));
-    while tensions(&kept()) < 1 {
-        sleep(Duration::from_millis(1));
-    }
-    let output = interrupt(child);
-    let first = kept();
-    assert_eq!(output.status.code(), Some(130), "{}", said(&output));
-    // It may just have found the second one.
-    if tensions(&first) == 1 {
-        let how = "1 of 2 tensions at ends of spinlines are done and kept. Repeat the command to continue";
-        assert!(said(&output).contains(how), "{}", said(&output));
-    }
-    success(&mut desk.spunlaid("sweep study.toml --threads 2 --out r"));
-    // What was kept was not flown again.
-    assert!(kept().starts_with(&first) && tensions(&kept()) == 2, "{}", kept());
-    for file in ["results.csv", "replicates.parquet", "case.toml", "study.toml"] {
-        assert!(desk.read(&format!("r/{file}")) == desk.read(&format!("whole/{file}")), "{file}");
-    }
-    // A complete study knows its tensions too.
-    success(&mut desk.spunlaid("sweep study.toml --out r"));
-    assert_eq!(tensions(&kept()), 2);
 }
 
 #[test]

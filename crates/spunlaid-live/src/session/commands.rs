@@ -74,11 +74,11 @@ impl Session {
     pub(super) fn become_of(&mut self, document: Document) -> Result<(), Answer> {
         let refused = Answer::rejected;
         let read = document.read().map_err(refused)?;
-        let since = self.now();
+        let (since, waits) = (self.now(), read.case.waits_for_flights());
         let anew = self.fibres.become_of(read.case).map_err(|error| refused(complaints(&error)))?;
         (self.document, self.notes, self.trouble) = (document, read.warnings, None);
         // A search for the tension of the case before is of no use any more.
-        self.search = read.unflown.map(TensionSearch::begin);
+        self.search = waits.then(|| TensionSearch::begin(&self.document));
         if anew {
             self.since = since;
             self.restart_statistics();

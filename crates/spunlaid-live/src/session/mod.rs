@@ -76,6 +76,7 @@ impl Session {
         folder: PathBuf,
     ) -> Result<Self, Vec<Complaint>> {
         let read = document.read()?;
+        let search = read.case.waits_for_flights().then(|| TensionSearch::begin(&document));
         let fibres = Fibres::new(read.case).map_err(|error| complaints(&error))?;
         let recent_motion = RecentMotion::new();
         let board = Arc::new(Board::new(Frame::new(fibres.snapshot(), &recent_motion)));
@@ -97,7 +98,7 @@ impl Session {
             generation: 0,
             since: 0.0,
             trouble: None,
-            search: read.unflown.map(TensionSearch::begin),
+            search,
             pages: BTreeSet::new(),
             folder,
             board,

@@ -2,10 +2,10 @@
 //! the page fly on.
 
 use super::Session;
-use crate::document::complaints;
+use crate::document::{Document, complaints};
 use spunlaid::ensemble::RunControl;
 use spunlaid::error::Error;
-use spunlaid::input::{CaseWithNotes, Unflown, Unread};
+use spunlaid::input::{CaseWithNotes, Resources};
 use spunlaid::lanes::Isa;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -20,13 +20,13 @@ pub(super) struct TensionSearch {
 
 impl TensionSearch {
     /// Begins to fly.
-    pub(super) fn begin(unflown: Box<Unflown<CaseWithNotes>>) -> Self {
-        let (sender, found) = mpsc::channel();
+    pub(super) fn begin(document: &Document) -> Self {
+        let (document, (sender, found)) = (document.clone(), mpsc::channel());
         let stop = Arc::new(AtomicBool::new(false));
         let stopped = Arc::clone(&stop);
         thread::spawn(move || {
             // Who does not wait for it any more does not hear it.
-            let _ = sender.send(fly(unflown, &stopped));
+            let _ = sender.send(fly(&document, &stopped));
         });
         Self { found, stop }
     }
@@ -48,10 +48,10 @@ impl Drop for TensionSearch {
     }
 }
 
-fn fly(unflown: Box<Unflown<CaseWithNotes>>, stop: &AtomicBool) -> Result<CaseWithNotes, Error> {
+fn fly(document: &Document, stop: &AtomicBool) -> Result<CaseWithNotes, Error> {
     let by =
         RunControl { threads: 1, isa: Isa::detect(), stop, fibre_steps: &AtomicU64::new(0), recorder: None };
-    Unread::Unflown(unflown).fly(by)
+    Resources::default().settle(|resources| document.case(resources), |resources| resources.fly(by))
 }
 
 impl Session {

@@ -9,7 +9,6 @@
 //! journalled a folder with a journal, which fit and study share: begun, continued, replaced
 //! run        flies a case: tables while it flies, then figures, shapes, report, summary
 //! study      the folder of a study: its journal, and what is made from it
-//! tensions   the tensions of a study that flights have found, from before there is its journal
 //! trials     what flights have said of changes of a web, kept until all is told
 //! web        map, single fibres, figures, report, summary
 //! ```
@@ -24,7 +23,6 @@ mod journalled;
 pub mod products;
 pub mod run;
 pub mod study;
-pub mod tensions;
 mod trials;
 pub mod web;
 

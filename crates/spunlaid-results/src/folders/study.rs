@@ -1,11 +1,11 @@
 //! The results folder of a study: checks its content, and writes the files.
 
 use super::contents::{Contents, Maker, Making, Page};
-use super::journalled::{JOURNAL, JournalFolder, Work, remove};
+use super::journalled::{JournalFolder, Work, remove};
 use crate::Failure;
 use crate::failure::other_study;
 use crate::figures::study_figures;
-use crate::output::folder::{self, CASE_FILES, MARKS, Staging};
+use crate::output::folder::{CASE_FILES, Staging};
 use crate::output::kept_input::copy;
 use crate::output::origin::Origin;
 use crate::output::study::write_json;
@@ -25,10 +25,8 @@ use std::sync::atomic::AtomicBool;
 const STUDY: &str = "study.toml";
 /// Files that describe the study.
 const DESCRIPTION: &[&str] = &[CASE_FILES, "case.toml", "web.toml", "spinline.toml", STUDY];
-/// The tensions that flights have found for a study.
-pub(super) const TENSIONS: &str = "tensions";
 /// What a study may have left that was killed before its journal existed.
-const REMAINS: &[&str] = &[CASE_FILES, "case.toml", "web.toml", "spinline.toml", STUDY, TENSIONS];
+const REMAINS: &[&str] = &[CASE_FILES, "case.toml", "web.toml", "spinline.toml", STUDY];
 /// Files that are made from the journal; the last one marks them as complete.
 const MADE: &[&str] = &[
     "results.csv",
@@ -189,15 +187,4 @@ fn keep_files(file: &StudyFile, staging: &Staging<'_>) -> Result<String, Failure
         let written = [from, from.strip_prefix(folder).unwrap_or(from)];
         written.into_iter().fold(text, |text, from| text.replace(&quoted(from), &quoted(to)))
     }))
-}
-
-/// Refuses a folder that holds something else than a study.
-///
-/// * `force` – whether what it holds is replaced
-pub(super) fn refuse_others(path: &Path, force: bool) -> Result<(), Failure> {
-    if force || path.join(JOURNAL).exists() {
-        Ok(())
-    } else {
-        folder::refuse_others(path, &[MARKS, MADE].concat(), REMAINS)
-    }
 }

@@ -143,7 +143,7 @@ fn told(text: &str, threads: usize) -> (WebSpec, Vec<Told>) {
     println!("  the web {of_web:.1} s");
     let mut told = Vec::new();
     for (which, name) in [(Changes::OfGuesses, "guesses"), (Changes::OfLine, "changes")] {
-        let word = Overrides { values: &[], word: "--set" };
+        let word = Overrides::new(&[], "--set");
         let changes =
             parse_changes(text.to_owned(), CASES, word, which).unwrap_or_else(|why| panic!("{why}"));
         let begun = Instant::now();

@@ -7,13 +7,12 @@ mod count;
 mod data;
 mod document;
 mod entry;
-mod fed_back_tension;
 mod file;
 mod influence;
 mod kind;
-mod lookup;
 mod open;
 mod overrides;
+mod settle;
 mod slip;
 mod source;
 mod spinline;
@@ -21,7 +20,6 @@ mod step;
 mod study;
 mod unclosed;
 mod unknown;
-mod unread;
 mod values;
 mod web;
 mod write;
@@ -29,16 +27,15 @@ mod written_values;
 
 pub use crate::layers::{LaydownSource, LayerSpec, WEB_KEYS, WEB_TABLES, WebKey, WebSpec};
 pub use data::read_points;
-pub use fed_back_tension::FlownTension;
 pub use influence::{Influence, OfFilament};
 pub use kind::kind_of;
+pub use settle::Resources;
 pub use spinline::{SpinFile, parse_spinline, read_spinline, write_spinline};
 pub use study::{
     Changes, FitFile, MOST_POINTS_UNASKED, StudyChanges, StudyFile, StudyNote, differences,
     parse_changed_study, parse_changes, parse_fit, parse_study, read_changed_study, read_changes, read_fit,
     read_study, starter_study,
 };
-pub use unread::{KeptTensions, Unflown, Unread};
 pub use web::{WebFile, parse_web, read_web, write_web};
 pub use write::write_case;
 
@@ -46,7 +43,6 @@ use crate::case::{Case, Note, keys};
 use crate::error::{Error, Fault, FileError, FileKind};
 use crate::study::Experiment;
 use data::DataFiles;
-use lookup::Lookup;
 use open::OpenCase;
 use std::path::Path;
 use written_values::WrittenValues;
@@ -67,11 +63,26 @@ pub struct Overrides<'a> {
     pub values: &'a [(String, String)],
     /// What messages write before the key. A program with an option for overrides gives its name.
     pub word: &'a str,
+    /// What else is known, if the file is read several times.
+    pub resources: Option<&'a Resources>,
+}
+
+impl<'a> Overrides<'a> {
+    /// Keys and values, and what messages write before the key.
+    pub const fn new(values: &'a [(String, String)], word: &'a str) -> Self {
+        Self { values, word, resources: None }
+    }
+
+    /// The same for a reading with what is known from readings before: [`Resources::settle`] reads so.
+    #[must_use]
+    pub const fn with(self, resources: &'a Resources) -> Self {
+        Self { resources: Some(resources), ..self }
+    }
 }
 
 impl<'a> From<&'a [(String, String)]> for Overrides<'a> {
     fn from(values: &'a [(String, String)]) -> Self {
-        Self { values, word: "override" }
+        Self::new(values, "override")
     }
 }
 
@@ -92,17 +103,13 @@ impl<'a> From<&'a Vec<(String, String)>> for Overrides<'a> {
 /// * `overrides` – keys and values that replace values of the file or add to them: `&[]`, `&[(key, value)]` or
 ///   [`Overrides`]
 ///
-/// Returns the case, with notes and warnings about it.
+/// Returns the case, with notes and warnings about it. A tension of flights at the end of its spinline is 0 N
+/// until [`Resources::settle`] has found it, which a note says.
 ///
 /// # Errors
-/// If the file cannot be read, or if the case cannot be run; then with every problem found. And what has to
-/// be flown first, if the tension at the end of its spinline is that of flights.
-pub fn read_case<'a>(
-    path: &Path,
-    overrides: impl Into<Overrides<'a>>,
-) -> Result<CaseWithNotes, Unread<CaseWithNotes>> {
-    let text = file::read(path, FileKind::Case).map_err(Unread::Faulty)?;
-    parse_case(&text, &path.display().to_string(), overrides)
+/// If the file cannot be read, or if the case cannot be run; then with every problem found.
+pub fn read_case<'a>(path: &Path, overrides: impl Into<Overrides<'a>>) -> Result<CaseWithNotes, Error> {
+    parse_case(&file::read(path, FileKind::Case)?, &path.display().to_string(), overrides)
 }
 
 /// Reads the text of a file of this library, which is no larger than [`LARGEST_FILE`].
@@ -129,30 +136,21 @@ pub fn parse_case<'a>(
     text: &str,
     name: &str,
     overrides: impl Into<Overrides<'a>>,
-) -> Result<CaseWithNotes, Unread<CaseWithNotes>> {
-    let open = open_case(&Lookup::default(), text, name, &[overrides.into()]).map_err(Unread::Faulty)?;
-    unread::read(move |lookup| lookup.resolve(open.clone()))
-}
-
-/// A case before it is checked.
-fn open_case(
-    lookup: &Lookup,
-    text: &str,
-    name: &str,
-    overrides: &[Overrides<'_>],
-) -> Result<OpenCase, Error> {
-    open_values(values_of_case(lookup, text, name, overrides)?, &lookup.files)
+) -> Result<CaseWithNotes, Error> {
+    let (overrides, own) = (overrides.into(), Resources::default());
+    let resources = overrides.resources.unwrap_or(&own);
+    resources.resolve(open_values(values_of_case(resources, text, name, &[overrides])?, &resources.files)?)
 }
 
 /// What is written of a case: in a file of its own, or in that of a web as its filament.
 fn values_of_case(
-    lookup: &Lookup,
+    resources: &Resources,
     text: &str,
     name: &str,
     overrides: &[Overrides<'_>],
 ) -> Result<WrittenValues, Error> {
     match document::is_of_web(text) {
-        true => web::filament(text, name, overrides, lookup),
+        true => web::filament(text, name, overrides, resources),
         false => document::read(&keys::CASE, text, name, overrides),
     }
 }

@@ -14,7 +14,7 @@ use std::path::PathBuf;
 
 /// A case in which every independent key is set. Keys that are counted in whole elements, steps and harmonics are
 /// still open.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub(super) struct OpenCase {
     /// The values that the case was made from.
     pub(super) key_values: WrittenValues,

@@ -16,7 +16,7 @@ type Target<'k> = (String, &'static str, &'k str);
 impl<'a, T> Document<'a, T> {
     /// Takes what is set from one place. It replaces what stands in the file or was set before, also in other
     /// words. The value `auto` removes a key.
-    pub(super) fn take_overrides(&mut self, Overrides { values, word }: &Overrides<'a>) {
+    pub(super) fn take_overrides(&mut self, Overrides { values, word, .. }: &Overrides<'a>) {
         let mut set = Vec::new();
         for (key, text) in *values {
             let (key, entry) = (key.trim(), Entry::from_override(word, text));

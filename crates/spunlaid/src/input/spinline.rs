@@ -2,11 +2,9 @@
 //! may be a whole case. A spinline that a case has gives it diameter, density and feed speed.
 
 use super::data::DataFiles;
-use super::lookup::Lookup;
 use super::open::{OpenCase, open_part};
-use super::unread::{self, Unread};
 use super::written_values::{WrittenValues, sorted};
-use super::{FORMAT_VERSION, Overrides, file, open_case, values_of_case, write};
+use super::{FORMAT_VERSION, Overrides, Resources, file, open_values, values_of_case, write};
 use crate::air::Flow;
 use crate::case::keys::{self, Key};
 use crate::case::{Case, Note, Remark};
@@ -35,14 +33,9 @@ pub struct SpinFile {
 /// Reads a spinline.
 ///
 /// # Errors
-/// If the file cannot be read, or with every problem found in these tables. And what has to be flown first,
-/// if the tension at the end is that of flights.
-pub fn read_spinline<'a>(
-    path: &Path,
-    overrides: impl Into<Overrides<'a>>,
-) -> Result<SpinFile, Unread<SpinFile>> {
-    let text = file::read(path, FileKind::Case).map_err(Unread::Faulty)?;
-    parse_spinline(&text, &path.display().to_string(), overrides)
+/// If the file cannot be read, or with every problem found in these tables.
+pub fn read_spinline<'a>(path: &Path, overrides: impl Into<Overrides<'a>>) -> Result<SpinFile, Error> {
+    parse_spinline(&file::read(path, FileKind::Case)?, &path.display().to_string(), overrides)
 }
 
 /// Reads the text of a spinline. Messages call the file `name`.
@@ -53,29 +46,16 @@ pub fn parse_spinline<'a>(
     text: &str,
     name: &str,
     overrides: impl Into<Overrides<'a>>,
-) -> Result<SpinFile, Unread<SpinFile>> {
-    let (open, whole) = open_spinline_of(text, name, overrides.into()).map_err(Unread::Faulty)?;
-    unread::read(move |lookup| {
-        let mut open = open.clone();
-        if let Some(whole) = &whole {
-            (open.case, open.notes) = lookup.resolve(whole.clone())?;
-        }
-        Ok(SpinFile::from_open(open))
-    })
-}
-
-/// A spinline, and the whole case if its fibre has to fly.
-fn open_spinline_of(
-    text: &str,
-    name: &str,
-    overrides: Overrides<'_>,
-) -> Result<(OpenCase, Option<OpenCase>), Error> {
-    let (lookup, overrides) = (Lookup::default(), [overrides]);
-    let key_values = values_of_case(&lookup, text, name, &overrides)?;
-    let open = open_spinline(key_values, &lookup.files)?;
+) -> Result<SpinFile, Error> {
+    let (overrides, own) = (overrides.into(), Resources::default());
+    let resources = overrides.resources.unwrap_or(&own);
+    let key_values = values_of_case(resources, text, name, &[overrides])?;
+    let mut open = open_spinline(key_values.clone(), &resources.files)?;
     // Only a whole case has a fibre that can fly.
-    let whole = open.waits_for_flights().then(|| open_case(&lookup, text, name, &overrides)).transpose()?;
-    Ok((open, whole))
+    if open.waits_for_flights() {
+        (open.case, open.notes) = resources.resolve(open_values(key_values, &resources.files)?)?;
+    }
+    Ok(SpinFile::from_open(open))
 }
 
 /// Sets the values of a spinline alone, which is then complete.

@@ -11,7 +11,7 @@ pub use claims::{claims_of_step_errors, claims_of_trend};
 use crate::case::{Case, ERROR_TOLERANCE};
 use crate::chain::schemes::Scheme;
 use crate::error::Error;
-use crate::input::{Unread, parse_case, parse_study};
+use crate::input::{parse_case, parse_study};
 use crate::study::{PointResults, Study};
 
 /// Name and text of a file in the repository. A published crate holds no file from outside of its folder, so `cases`
@@ -100,11 +100,11 @@ impl Parameter {
 fn study((name, text): (&str, &str)) -> Result<Study, Error> {
     let (case_name, case) = TABLE_1;
     let read = parse_study(text, name, None, |_, _| Ok((case.to_owned(), case_name.to_owned())));
-    Ok(read.map_err(Unread::refuse)?.study)
+    Ok(read?.study)
 }
 
 fn case((name, text): (&str, &str)) -> Result<Case, Error> {
-    Ok(parse_case(text, name, &[]).map_err(Unread::refuse)?.0)
+    Ok(parse_case(text, name, &[])?.0)
 }
 
 /// Table 1 with a scheme. The paper's scheme has the paper's time step of 1 µs; others have a suitable step.

@@ -3,7 +3,7 @@
 
 use spunlaid::error::Error;
 use spunlaid::fit::{Fit, MeasuredWeb, Question, Target, errors_of_model, fit};
-use spunlaid::input::{FitFile, Overrides, Unread, parse_fit};
+use spunlaid::input::{FitFile, Overrides, Resources, parse_fit};
 use spunlaid::lanes::Isa;
 use spunlaid::layers::{Flights, Flyer};
 use spunlaid::scan::{Format, Light, Picture, Settings, analyse};
@@ -31,7 +31,7 @@ cell = \"0.5 mm\"
 ";
 
 pub fn read(text: &str, vary: &[&str]) -> FitFile {
-    let none = Overrides { values: &[], word: "--set" };
+    let none = Overrides::new(&[], "--set");
     let vary: Vec<String> = vary.iter().map(|key| (*key).to_owned()).collect();
     parse_fit(text.to_owned(), "web.toml", none, &vary, "--vary").unwrap()
 }
@@ -40,7 +40,7 @@ static STOP: AtomicBool = AtomicBool::new(false);
 
 /// The map of a web of these values.
 pub fn laid(file: &FitFile, values: &[f64], seed: u64) -> Map {
-    let mut spec = file.web(values).unwrap().spec;
+    let mut spec = file.web(values, &Resources::default()).unwrap().spec;
     spec.seed = seed;
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
     let laid = AtomicU64::new(0);
@@ -98,7 +98,7 @@ fn asked<T>(
     ask: impl FnOnce(Question<'_>, Flyer<'_>, LayControl<'_>) -> Result<T, Error>,
 ) -> Result<T, Error> {
     let target = Target::new(scan, &file.start.spec.sheet, spectrum)?;
-    let make = |values: &[f64]| Ok(file.web(values).map_err(Unread::refuse)?.spec);
+    let make = |values: &[f64]| Ok(file.web(values, &Resources::default())?.spec);
     let question = Question { parameters: &file.parameters, target: &target, make: &make, webs };
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
     let laid = AtomicU64::new(0);

@@ -3,11 +3,9 @@
 //! the test writes the messages, to be reviewed.
 
 use crate::messages;
-use spunlaid::input::{Unread, read_spinline};
+use spunlaid::input::read_spinline;
 
 #[test]
 fn rejects_every_bad_spinline_with_its_message() {
-    messages::are_as_meant("bad_spinlines", 50, |path| {
-        read_spinline(path, &[]).map_err(Unread::refuse)?.solve()
-    });
+    messages::are_as_meant("bad_spinlines", 50, |path| read_spinline(path, &[])?.solve());
 }

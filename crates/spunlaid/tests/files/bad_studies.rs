@@ -3,19 +3,19 @@
 
 use crate::messages;
 use spunlaid::error::Error;
-use spunlaid::input::{Unread, read_study};
+use spunlaid::input::read_study;
 use std::fs;
 use std::path::Path;
 
 #[test]
 fn rejects_every_bad_study_with_its_message() {
-    messages::are_as_meant("bad_studies", 25, |path| read_study(path, None).map_err(Unread::refuse));
+    messages::are_as_meant("bad_studies", 25, |path| read_study(path, None));
 }
 
 #[test]
 fn rejects_unreadable_files() {
     let refusal = |path: &str| match read_study(Path::new(path), None) {
-        Err(Unread::Faulty(Error::File(problem))) => problem.what.to_string(),
+        Err(Error::File(problem)) => problem.what.to_string(),
         other => panic!("{other:?}"),
     };
     assert_eq!(refusal("no/such/study.toml"), "there is no such file; name a study file");

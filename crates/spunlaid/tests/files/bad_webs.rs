@@ -3,13 +3,13 @@
 
 use crate::messages;
 use spunlaid::error::Error;
-use spunlaid::input::{Unread, parse_case, parse_web, read_web};
+use spunlaid::input::{parse_case, parse_web, read_web};
 use std::fs;
 use std::path::Path;
 
 #[test]
 fn rejects_every_bad_web_with_its_message() {
-    messages::are_as_meant("bad_webs", 50, |path| read_web(path, &[]).map_err(Unread::refuse));
+    messages::are_as_meant("bad_webs", 50, |path| read_web(path, &[]));
 }
 
 #[test]
@@ -25,7 +25,7 @@ fn rejects_a_web_without_a_filament_that_is_read_as_a_case() {
 #[test]
 fn rejects_what_is_no_readable_file() {
     let fault = |path: &Path| match read_web(path, &[]).unwrap_err() {
-        Unread::Faulty(Error::File(problem)) => problem.what.to_string(),
+        Error::File(problem) => problem.what.to_string(),
         other => panic!("{other}"),
     };
     assert_eq!(fault(Path::new("no/such/web.toml")), "there is no such file; name the file of a web");

@@ -3,13 +3,13 @@
 
 use crate::messages;
 use spunlaid::error::Error;
-use spunlaid::input::{LARGEST_FILE, Unread, parse_case, read_case, starter_case};
+use spunlaid::input::{LARGEST_FILE, parse_case, read_case, starter_case};
 use std::fs;
 use std::path::Path;
 
 fn refusal(path: &Path, overrides: &[(&str, &str)]) -> Error {
     let overrides: Vec<_> = (overrides.iter()).map(|(k, v)| (k.to_string(), v.to_string())).collect();
-    read_case(path, &overrides).unwrap_err().refuse()
+    read_case(path, &overrides).unwrap_err()
 }
 
 fn fault(path: &Path) -> String {
@@ -32,7 +32,7 @@ fn no_control_character_of_a_name_reaches_the_terminal() {
 
 #[test]
 fn rejects_every_bad_case_with_its_message() {
-    messages::are_as_meant("bad_cases", 40, |path| read_case(path, &[]).map_err(Unread::refuse));
+    messages::are_as_meant("bad_cases", 40, |path| read_case(path, &[]));
 }
 
 #[test]

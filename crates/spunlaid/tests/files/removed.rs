@@ -28,7 +28,7 @@ fn rejects_removed_keys_with_the_way_out() {
     for (kind, name, since, way_out) in REMOVED.iter().filter(|(kind, ..)| *kind == Removed::Key) {
         let key = if name.contains('.') { (*name).to_owned() } else { format!("{name}.any") };
         let set = [(key.clone(), "1".to_owned())];
-        let set = Overrides { values: &set, word: "--set" };
+        let set = Overrides::new(&set, "--set");
         let wanted = format!("--set {key} = 1 is gone since {since}; {way_out}");
         let case = parse_case(starter_case(), "starter.toml", set).unwrap_err().to_string();
         let web = parse_web(WEB, "web.toml", set).unwrap_err().to_string();

@@ -3,9 +3,7 @@
 use spunlaid::case::keys::{self, Kind};
 use spunlaid::error::Error;
 use spunlaid::field::Field;
-use spunlaid::input::{
-    Unread, WEB_KEYS, parse_case, parse_web, read_case, starter_case, starter_case_of_fed,
-};
+use spunlaid::input::{WEB_KEYS, parse_case, parse_web, read_case, starter_case, starter_case_of_fed};
 use std::fmt::Display;
 use std::fs;
 use std::path::Path;
@@ -22,8 +20,7 @@ fn said(path: &str, set: Set<'_>) -> Result<Vec<String>, Error> {
         "starter" => parse_case(starter_case(), "starter.toml", &owned(set)),
         "fed" => parse_case(starter_case_of_fed(), "fed.toml", &owned(set)),
         path => read_case(Path::new(&format!("../../cases/{path}.toml")), &owned(set)),
-    }
-    .map_err(Unread::refuse)?;
+    }?;
     Ok(notes.iter().filter(|note| note.what.is_warning()).map(ToString::to_string).collect())
 }
 

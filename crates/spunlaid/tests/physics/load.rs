@@ -1,14 +1,14 @@
 //! The load of filaments on their air, against numbers by hand.
 
 use spunlaid::case::Case;
-use spunlaid::input::{Unread, read_case};
+use spunlaid::input::read_case;
 use spunlaid::load::{Load, WayPlace};
 use spunlaid::spinline::{Station, ZERO_CELSIUS};
 use std::path::Path;
 
 fn case(name: &str) -> Case {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases").join(name);
-    read_case(&path, &[]).map_err(Unread::refuse).unwrap().0
+    read_case(&path, &[]).unwrap().0
 }
 
 /// Places in the middles of classes at which the force is given.

@@ -2,7 +2,7 @@
 
 use spunlaid::error::Error;
 use spunlaid::input::{
-    LaydownSource, Overrides, StudyChanges, StudyFile, Unread, WebFile, parse_changed_study, parse_web,
+    LaydownSource, Overrides, StudyChanges, StudyFile, WebFile, parse_changed_study, parse_web,
     write_experiment,
 };
 use spunlaid::study::Point;
@@ -28,7 +28,7 @@ seed = 3
 "#;
 
 fn changes<'a>(set: &'a [(String, String)]) -> StudyChanges<'a> {
-    StudyChanges { set: Overrides { values: set, word: "--set" }, ..StudyChanges::points(None) }
+    StudyChanges { set: Overrides::new(set, "--set"), ..StudyChanges::points(None) }
 }
 
 fn study_of(web: &str, study: &str, set: &[(String, String)]) -> Result<StudyFile, Error> {
@@ -36,7 +36,6 @@ fn study_of(web: &str, study: &str, set: &[(String, String)]) -> Result<StudyFil
     parse_changed_study(study, "study.toml", &changes(set), |_, _| {
         Ok((web.to_owned(), cases.display().to_string()))
     })
-    .map_err(Unread::refuse)
 }
 
 /// A study of a web whose cases are beside those of the bad webs.
@@ -44,12 +43,11 @@ pub fn study_beside_cases(web: &str, study: &str, set: &[(String, String)]) -> R
     parse_changed_study(study, "study.toml", &changes(set), |_, _| {
         Ok((web.to_owned(), BESIDE_CASES.to_owned()))
     })
-    .map_err(Unread::refuse)
 }
 
 /// A web beside these cases.
 pub fn web_beside_cases(web: &str, set: &[(String, String)]) -> Result<WebFile, Error> {
-    parse_web(web, BESIDE_CASES, set).map_err(Unread::refuse)
+    parse_web(web, BESIDE_CASES, set)
 }
 
 const BESIDE_CASES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/bad_webs/web.toml");

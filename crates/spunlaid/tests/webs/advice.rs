@@ -57,7 +57,7 @@ pub fn cases() -> String {
 fn read(text: &str, set: &[(&str, &str)]) -> (WebFile, Vec<Change>) {
     let set: Vec<(String, String)> =
         set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
-    let set = Overrides { values: &set, word: "--set" };
+    let set = Overrides::new(&set, "--set");
     (
         parse_web(text, &cases(), set).unwrap(),
         parse_changes(text.to_owned(), &cases(), set, Changes::OfLine).unwrap(),
@@ -223,7 +223,7 @@ fn invariant_what_advice_says_to_set_makes_the_changed_web() {
                 let digits = digits.skip_while(|digit| *digit == '0').count();
                 assert!(digits <= 5, "{key} = {value} is no number that a person would write");
             }
-            let set = Overrides { values: &change.experiment.set, word: "--set" };
+            let set = Overrides::new(&change.experiment.set, "--set");
             let name = format!("{:?}: {:?}", change.setting, change.experiment.set);
             let pasted =
                 parse_web(text, &cases(), set).unwrap_or_else(|error| panic!("{name}: {error}")).spec;

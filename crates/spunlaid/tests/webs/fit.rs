@@ -118,7 +118,7 @@ flown = 1000
 ";
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/web_shared.toml");
     let read = |set: &[(String, String)]| {
-        let set = Overrides { values: set, word: "--set" };
+        let set = Overrides::new(set, "--set");
         parse_fit(LINE.to_owned(), path, set, &["line.depth".to_owned()], "--vary").unwrap()
     };
     let few = read(&[]);

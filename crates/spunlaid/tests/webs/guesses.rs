@@ -11,8 +11,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 fn read(text: &str, set: &[(&str, &str)]) -> Vec<Change> {
     let set: Vec<(String, String)> =
         set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
-    parse_changes(text.to_owned(), &cases(), Overrides { values: &set, word: "--set" }, Changes::OfGuesses)
-        .unwrap()
+    parse_changes(text.to_owned(), &cases(), Overrides::new(&set, "--set"), Changes::OfGuesses).unwrap()
 }
 
 /// What each web changes: the keys, and their factors.
@@ -49,7 +48,7 @@ fn identical_what_a_guess_says_to_set_is_the_web_that_is_tried() {
     let wanted: Vec<(&str, f64)> = keys.iter().flat_map(|key| [(*key, 0.5), (*key, 2.0)]).collect();
     assert_eq!(factors(&changes), wanted);
     for change in &changes {
-        let set = Overrides { values: &change.experiment.set, word: "--set" };
+        let set = Overrides::new(&change.experiment.set, "--set");
         let pasted = parse_web(BEAMS, &cases(), set).unwrap().spec;
         assert_eq!(
             format!("{pasted:?}"),
@@ -88,7 +87,7 @@ fn identical_a_guess_takes_the_place_of_what_was_set_before() {
             .map(|(_, value)| &**value)
             .collect();
         assert_eq!(depths, [depth], "{:?}", change.experiment.set);
-        let set = Overrides { values: &change.experiment.set, word: "--set" };
+        let set = Overrides::new(&change.experiment.set, "--set");
         let pasted = parse_web(&text, &cases(), set).unwrap().spec;
         assert_eq!(format!("{pasted:?}"), format!("{:?}", change.experiment.spec));
     }

@@ -24,7 +24,7 @@ use std::time::Instant;
 /// Checks a case.
 pub(super) fn case(check: &Check) -> Result<(), Failure> {
     let started = Instant::now();
-    let (case, notes) = looked_at(check.source.read(&[]))?;
+    let (case, notes) = looked_at(|resources| check.source.read(&[], resources))?;
     notes.iter().for_each(say::note);
     let expected = Needs::new(&case, started.elapsed().as_secs_f64())?;
     let field = match &case.air.flow {
@@ -46,7 +46,8 @@ pub(super) fn case(check: &Check) -> Result<(), Failure> {
 
 /// Checks a file that describes a spinline and no fibre that flies.
 pub(super) fn spinline_alone(check: &Check) -> Result<(), Failure> {
-    let file = looked_at(read_spinline(&check.source.case, overrides(&check.source.set)))?;
+    let set = overrides(&check.source.set);
+    let file = looked_at(|resources| read_spinline(&check.source.case, set.with(resources)))?;
     file.notes.iter().for_each(say::note);
     let results = SpinResults::new(&file)?;
     let comments: Vec<String> = spinline_text(&results).lines().map(str::to_owned).collect();

@@ -6,13 +6,13 @@ mod study;
 mod web;
 
 use crate::args::{CaseSource, Check, Threads};
-use crate::commands::flown::flown;
+use crate::commands::flown::settled_with;
 use crate::commands::stem;
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::case::{Note, Remark};
-use spunlaid::error::FileKind;
-use spunlaid::input::{Unread, kind_of};
+use spunlaid::error::{Error, FileKind};
+use spunlaid::input::{Resources, kind_of};
 
 pub(crate) fn check(check: &Check) -> Result<(), Failure> {
     match kind_of(&check.source.case) {
@@ -26,12 +26,11 @@ pub(crate) fn check(check: &Check) -> Result<(), Failure> {
 /// What is read of a file, without flights: a check is quick, and a tension at the end of a spinline changes
 /// little of what it says. A note names each tension that a flight will find. Fibres fly only where there are
 /// problems that may go away with it.
-fn looked_at<T>(read: Result<T, Unread<T>>) -> Result<T, Failure> {
-    match read {
-        Err(Unread::Unflown(unflown)) if unflown.without_flights().is_err() => {
-            Ok(flown(Err(Unread::Unflown(unflown)), Threads::default(), false)?)
-        }
-        read => Ok(read.or_else(Unread::without_flights)?),
+fn looked_at<T>(read: impl Fn(&Resources) -> Result<T, Error>) -> Result<T, Error> {
+    let mut resources = Resources::default();
+    match read(&resources) {
+        Err(_) if resources.is_in_doubt() => settled_with(&mut resources, Threads::default(), false, read),
+        outcome => outcome,
     }
 }
 

@@ -11,9 +11,10 @@ use spunlaid::study::{Point, Study};
 
 /// Checks the file of a study.
 pub(super) fn study(check: &Check) -> Result<(), Failure> {
-    let set = overrides(&check.source.set);
-    let changes = StudyChanges { set, ..StudyChanges::points(None) };
-    let file = looked_at(read_changed_study(&check.source.case, &changes))?;
+    let file = looked_at(|resources| {
+        let set = overrides(&check.source.set).with(resources);
+        read_changed_study(&check.source.case, &StudyChanges { set, ..StudyChanges::points(None) })
+    })?;
     file.notes.iter().for_each(say::study_note);
     let study = &file.study;
     let replicates = &study.replicates;

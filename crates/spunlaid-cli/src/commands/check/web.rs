@@ -18,7 +18,8 @@ use spunlaid_results::report::load_words;
 
 /// Checks the file of a web.
 pub(super) fn web(check: &Check) -> Result<(), Failure> {
-    let file = looked_at(read_web(&check.source.case, overrides(&check.source.set)))?;
+    let set = overrides(&check.source.set);
+    let file = looked_at(|resources| read_web(&check.source.case, set.with(resources)))?;
     file.notes.iter().for_each(say::note);
     let spec = &file.spec;
     let comments = [line(spec), sheet(spec).to_vec(), air(spec), load(spec), guesses(spec)].concat();

@@ -10,7 +10,7 @@ use crate::say;
 use ask::complete;
 use line::Line;
 use spunlaid::error::{Error, Fault};
-use spunlaid::input::{Unread, read_web, starter_case, starter_case_of_fed};
+use spunlaid::input::{read_web, starter_case, starter_case_of_fed};
 use std::fs::{OpenOptions, remove_file};
 use std::io::{ErrorKind, Write, stdin};
 use std::path::{Path, PathBuf};
@@ -50,8 +50,7 @@ fn web(new: &New) -> Result<(), Failure> {
         Ok(())
     });
     // What is written can be laid, or nothing is written.
-    let read =
-        done.and_then(|()| read_web(path, &[]).or_else(Unread::without_flights).map_err(Failure::from));
+    let read = done.and_then(|()| read_web(path, &[]).map_err(Failure::from));
     if let Err(failure) = read {
         for path in written {
             let _ = remove_file(path);

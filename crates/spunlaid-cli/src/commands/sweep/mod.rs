@@ -3,18 +3,17 @@
 mod progress;
 
 use super::delivery::{Asides, making, say_continued, say_replaced, tell};
-use super::flown::flown_and_kept;
+use super::flown::settled;
 use super::{plural, run_control, stem, stop_on_ctrl_c};
 use crate::args::{Invocation, Sweep, overrides};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::case::keys;
 use spunlaid::error::{Error, Fault};
-use spunlaid::input::{StudyChanges, StudyFile, Unread, read_changed_study, write_experiment};
+use spunlaid::input::{Resources, StudyChanges, StudyFile, read_changed_study, write_experiment};
 use spunlaid::spinline::{self, SpinSpec};
 use spunlaid::study::{Journal, JournalState, Progress, ReplicateOutcome, Study, run};
 use spunlaid::threads::{lock, unlock};
-use spunlaid_results::folders::tensions::StudyTensions;
 use spunlaid_results::folders::{JournalFolder, study};
 use spunlaid_results::numbers::lost_fibres_text;
 use std::sync::Mutex;
@@ -25,14 +24,15 @@ const LOST_LISTED: u64 = 10;
 
 pub(crate) fn sweep(sweep: &Sweep, invocation: &Invocation) -> Result<(), Failure> {
     let (points, replicates) = (sweep.points, sweep.replicates);
-    let set = overrides(&sweep.set);
-    let read = read_changed_study(&sweep.study, &StudyChanges { points, replicates, set });
+    let read = |resources: &Resources| {
+        let set = overrides(&sweep.set).with(resources);
+        read_changed_study(&sweep.study, &StudyChanges { points, replicates, set })
+    };
     if let Some(number) = sweep.print_point {
-        return print_point(&read.or_else(Unread::without_flights)?.study, number);
+        return print_point(&read(&Resources::default())?.study, number);
     }
     let path = sweep.output.folder(stem(&sweep.study, "study"));
-    let kept = || StudyTensions::open(&path, sweep.output.force);
-    let file = flown_and_kept(read, sweep.threads, sweep.output.quiet, kept)?;
+    let file = settled(sweep.threads, sweep.output.quiet, read)?;
     file.notes.iter().for_each(say::study_note);
     let origin = invocation.origin_of([&sweep.study])(&path);
     let (mut folder, journal, found) =

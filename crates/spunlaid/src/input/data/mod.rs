@@ -11,11 +11,11 @@ use crate::field::{FieldLayout, ReadField};
 use crate::file;
 use crate::input::file::text as text_of;
 use crate::record::{Interval, LONGEST_GAP, Layout, Record, Settings, analyse_fluctuation, read_record};
+use crate::threads::lock;
 use crate::vec3::Vec3;
-use std::cell::RefCell;
 use std::fmt::Debug;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 /// Largest profile or spectrum read [bytes].
 const LARGEST_TABLE: u64 = 1 << 24;
@@ -30,8 +30,8 @@ pub(super) type Layouts = (RecordLayout, FieldLayout);
 type FileKey = (PathBuf, Kind, String);
 
 /// The files read so far, of which a study names few.
-#[derive(Default)]
-pub(super) struct DataFiles(RefCell<Vec<(FileKey, Found)>>);
+#[derive(Debug, Default)]
+pub(super) struct DataFiles(Mutex<Vec<(FileKey, Found)>>);
 
 impl DataFiles {
     /// The content of a file that is kept from an earlier reading, or is read now.
@@ -42,12 +42,12 @@ impl DataFiles {
             _ => String::new(),
         };
         let key = (path.to_owned(), kind, way);
-        if let Some((_, known)) = self.0.borrow().iter().find(|(other, _)| *other == key) {
+        if let Some((_, known)) = lock(&self.0).iter().find(|(other, _)| *other == key) {
             return known.clone();
         }
         // The error may be about a file that this one names.
         let found = read(kind, path, layouts, &key.2).map_err(|error| error.path(path));
-        self.0.borrow_mut().push((key, found.clone()));
+        lock(&self.0).push((key, found.clone()));
         found
     }
 }

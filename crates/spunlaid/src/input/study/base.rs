@@ -1,6 +1,6 @@
 //! The case that a study varies.
 
-use super::super::lookup::Lookup;
+use super::super::Resources;
 use super::super::open::{self, OpenCase};
 use super::super::spinline::{self, SpinFile};
 use super::super::written_values::{WrittenValue, WrittenValues};
@@ -31,20 +31,20 @@ impl CaseBase {
         name: &str,
         set: &[Overrides<'_>],
         kind: FileKind,
-        lookup: &Lookup,
+        resources: &Resources,
     ) -> Result<Self, Error> {
-        let key_values = values_of_case(lookup, &text, name, set)?;
+        let key_values = values_of_case(resources, &text, name, set)?;
         let open = match kind {
-            FileKind::Spinline => spinline::open_spinline(key_values, &lookup.files)?,
-            _ => open::open(key_values, &lookup.files)?,
+            FileKind::Spinline => spinline::open_spinline(key_values, &resources.files)?,
+            _ => open::open(key_values, &resources.files)?,
         };
         Ok(Self { text, open, kind })
     }
 
-    fn open_again(&self, key_values: WrittenValues, lookup: &Lookup) -> Result<OpenCase, Error> {
+    fn open_again(&self, key_values: WrittenValues, resources: &Resources) -> Result<OpenCase, Error> {
         match self.kind {
-            FileKind::Spinline => spinline::open_spinline(key_values, &lookup.files),
-            _ => open::open(key_values, &lookup.files),
+            FileKind::Spinline => spinline::open_spinline(key_values, &resources.files),
+            _ => open::open(key_values, &resources.files),
         }
     }
 }
@@ -98,7 +98,7 @@ impl Base for CaseBase {
         at: &Place,
         plan: &Plan,
         seed: Option<u64>,
-        lookup: &Lookup,
+        resources: &Resources,
     ) -> ExperimentWithNotes {
         let (mut key_values, mut faults) = (self.open.key_values.clone(), Vec::new());
         let varied: Vec<&str> = values.iter().map(|(key, _)| &*key.name).collect();
@@ -120,7 +120,7 @@ impl Base for CaseBase {
         }
         let seed = seed.unwrap_or(plan.seed);
         if self.kind == FileKind::Spinline {
-            let (opened, unneeded) = self.open(key_values, values, lookup);
+            let (opened, unneeded) = self.open(key_values, values, resources);
             let opened = opened?;
             if opened.waits_for_flights() {
                 return Err(no_flights(at).into());
@@ -135,8 +135,8 @@ impl Base for CaseBase {
                 key_values.set(key.name, WrittenValue { place: at.clone(), shown, value });
             }
         }
-        let (opened, unneeded) = self.open(key_values, values, lookup);
-        let (case, mut notes) = lookup.resolve(opened?)?;
+        let (opened, unneeded) = self.open(key_values, values, resources);
+        let (case, mut notes) = resources.resolve(opened?)?;
         notes.extend(unneeded.into_iter().map(|note| Note { place: at.clone(), ..note }));
         Ok((Experiment::Case(case), notes))
     }
@@ -157,9 +157,9 @@ impl CaseBase {
         &self,
         key_values: WrittenValues,
         set: &[(VariedKey, f64)],
-        lookup: &Lookup,
+        resources: &Resources,
     ) -> (Result<OpenCase, Error>, Vec<Note>) {
-        let opened = self.open_again(key_values.clone(), lookup);
+        let opened = self.open_again(key_values.clone(), resources);
         let is_unneeded = |problem: &&Problem| {
             problem.what.needs.is_some() && set.iter().all(|(key, _)| key.name != problem.key)
         };
@@ -179,7 +179,7 @@ impl CaseBase {
         }
         let mut fewer = key_values;
         unneeded.iter().for_each(|note| drop(fewer.remove(&note.key)));
-        (self.open_again(fewer, lookup), unneeded)
+        (self.open_again(fewer, resources), unneeded)
     }
 }
 

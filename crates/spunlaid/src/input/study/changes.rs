@@ -1,12 +1,11 @@
 //! The changed webs of a file.
 
-use super::super::unread::{self, Unread};
-use super::super::{Overrides, file};
+use super::super::{Overrides, Resources, file};
 use super::open_web::OpenWeb;
 use super::web::WebBase;
 use super::{guesses, line};
 use crate::advice::Change;
-use crate::error::FileKind;
+use crate::error::{Error, FileKind};
 use std::path::Path;
 
 /// Which changes of a web are made.
@@ -21,15 +20,9 @@ pub enum Changes {
 /// Reads the file of a web and makes changed webs of it.
 ///
 /// # Errors
-/// If the web cannot be read. And what has to be flown first, if a case has a spinline whose tension is that
-/// of flights.
-pub fn read_changes(
-    path: &Path,
-    set: Overrides<'_>,
-    changes: Changes,
-) -> Result<Vec<Change>, Unread<Vec<Change>>> {
-    let text = file::read(path, FileKind::Web).map_err(Unread::Faulty)?;
-    parse_changes(text, &path.display().to_string(), set, changes)
+/// If the web cannot be read.
+pub fn read_changes(path: &Path, set: Overrides<'_>, changes: Changes) -> Result<Vec<Change>, Error> {
+    parse_changes(file::read(path, FileKind::Web)?, &path.display().to_string(), set, changes)
 }
 
 /// [`read_changes`] of a text.
@@ -41,15 +34,13 @@ pub fn parse_changes(
     name: &str,
     set: Overrides<'_>,
     changes: Changes,
-) -> Result<Vec<Change>, Unread<Vec<Change>>> {
-    let (name, word, values) = (name.to_owned(), set.word.to_owned(), set.values.to_vec());
-    unread::read(move |lookup| {
-        let [none, set] = [&[][..], &values].map(|values| Overrides { values, word: &word });
-        let base = WebBase::new(text.clone(), name.clone(), [none, set], lookup)?;
-        let web = OpenWeb { base: &base, set: &values, lookup };
-        Ok(match changes {
-            Changes::OfLine => line::changes(web),
-            Changes::OfGuesses => guesses::changes(&web),
-        })
+) -> Result<Vec<Change>, Error> {
+    let own = Resources::default();
+    let resources = set.resources.unwrap_or(&own);
+    let base = WebBase::new(text, name.to_owned(), [Overrides::new(&[], set.word), set], resources)?;
+    let web = OpenWeb { base: &base, set: set.values, resources };
+    Ok(match changes {
+        Changes::OfLine => line::changes(web),
+        Changes::OfGuesses => guesses::changes(&web),
     })
 }

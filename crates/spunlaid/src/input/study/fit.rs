@@ -1,20 +1,17 @@
 //! The web of a fit: which keys can be sought in it, and the web of some values of theirs.
 
-use super::super::lookup::Lookup;
-use super::super::unread::{self, Unread};
 use super::super::web::WebFile;
-use super::super::{Overrides, file};
+use super::super::{Overrides, Resources, file};
 use super::web::WebBase;
 use super::{Base, VariedKey};
 use crate::case::keys::{Kind, Sign};
 use crate::error::{Error, Fault, FileKind, Finding, Place, Problem};
 use crate::fit::{Parameter, USUAL_FACTOR};
 use std::path::Path;
-use std::sync::Arc;
 
 /// The web of a fit, with the keys that are sought in it.
 pub struct FitFile {
-    base: Arc<WebBase>,
+    base: WebBase,
     keys: Vec<VariedKey>,
     /// The web before anything is sought.
     pub start: WebFile,
@@ -34,16 +31,9 @@ impl std::fmt::Debug for FitFile {
 /// * `word` – what messages call them, `--vary`
 ///
 /// # Errors
-/// If the web cannot be laid, or if a key cannot be sought. And what has to be flown first, if a case has a
-/// spinline whose tension is that of flights.
-pub fn read_fit(
-    path: &Path,
-    set: Overrides<'_>,
-    vary: &[String],
-    word: &str,
-) -> Result<FitFile, Unread<FitFile>> {
-    let text = file::read(path, FileKind::Web).map_err(Unread::Faulty)?;
-    parse_fit(text, &path.display().to_string(), set, vary, word)
+/// If the web cannot be laid, or if a key cannot be sought.
+pub fn read_fit(path: &Path, set: Overrides<'_>, vary: &[String], word: &str) -> Result<FitFile, Error> {
+    parse_fit(file::read(path, FileKind::Web)?, &path.display().to_string(), set, vary, word)
 }
 
 /// [`read_fit`] of a text.
@@ -56,24 +46,10 @@ pub fn parse_fit(
     set: Overrides<'_>,
     vary: &[String],
     word: &str,
-) -> Result<FitFile, Unread<FitFile>> {
-    let (name, values, of_set) = (name.to_owned(), set.values.to_vec(), set.word.to_owned());
-    let (vary, word) = (vary.to_vec(), word.to_owned());
-    unread::read(move |lookup| {
-        let set = Overrides { values: &values, word: &of_set };
-        fit_file(text.clone(), &name, set, (&vary, &word), lookup)
-    })
-}
-
-fn fit_file(
-    text: String,
-    name: &str,
-    set: Overrides<'_>,
-    (vary, word): (&[String], &str),
-    lookup: &Lookup,
 ) -> Result<FitFile, Error> {
-    let none = Overrides { values: &[], word: set.word };
-    let base = WebBase::new(text, name.to_owned(), [none, set], lookup)?;
+    let own = Resources::default();
+    let resources = set.resources.unwrap_or(&own);
+    let base = WebBase::new(text, name.to_owned(), [Overrides::new(&[], set.word), set], resources)?;
     let (mut keys, mut parameters, mut problems) =
         (Vec::<VariedKey>::new(), Vec::new(), Vec::<Problem>::new());
     for item in vary {
@@ -102,19 +78,18 @@ fn fit_file(
     if !problems.is_empty() {
         return Err(problems.into());
     }
-    let start = base.file(&[], None, lookup)?;
-    Ok(FitFile { base: Arc::new(base), keys, start, parameters })
+    let start = base.file(&[], None, resources)?;
+    Ok(FitFile { base, keys, start, parameters })
 }
 
 impl FitFile {
     /// The web with these values of the keys [SI].
     ///
     /// # Errors
-    /// Every problem with it, and what has to be flown first.
-    pub fn web(&self, values: &[f64]) -> Result<WebFile, Unread<WebFile>> {
+    /// Every problem with it.
+    pub fn web(&self, values: &[f64], resources: &Resources) -> Result<WebFile, Error> {
         let values: Vec<(VariedKey, f64)> = self.keys.iter().cloned().zip(values.iter().copied()).collect();
-        let base = Arc::clone(&self.base);
-        unread::read(move |lookup| base.file(&values, None, lookup))
+        self.base.file(&values, None, resources)
     }
 }
 

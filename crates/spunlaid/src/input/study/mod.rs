@@ -25,8 +25,7 @@ pub use fit::{FitFile, parse_fit, read_fit};
 pub use points::StudyNote;
 pub use starter::starter_study;
 
-use super::lookup::Lookup;
-use super::unread::{self, Unread};
+use super::Resources;
 use super::{Overrides, file};
 use crate::case::keys::{Kind, Value};
 use crate::case::{Note, Remark};
@@ -85,7 +84,7 @@ impl StudyChanges<'_> {
 
     /// No changes, with this number of points requested.
     pub const fn points(points: Option<u64>) -> Self {
-        Self { points, replicates: None, set: Overrides { values: &[], word: "override" } }
+        Self { points, replicates: None, set: Overrides::new(&[], "override") }
     }
 }
 
@@ -95,8 +94,8 @@ impl StudyChanges<'_> {
 ///
 /// # Errors
 /// When a file cannot be read, and when the study or any of its points is wrong; the error lists all
-/// problems. And what has to be flown first, if points have spinlines whose tension is that of flights.
-pub fn read_study(path: &Path, points: Option<u64>) -> Result<StudyFile, Unread<StudyFile>> {
+/// problems.
+pub fn read_study(path: &Path, points: Option<u64>) -> Result<StudyFile, Error> {
     read_changed_study(path, &StudyChanges::points(points))
 }
 
@@ -104,8 +103,8 @@ pub fn read_study(path: &Path, points: Option<u64>) -> Result<StudyFile, Unread<
 ///
 /// # Errors
 /// As [`read_study`].
-pub fn read_changed_study(path: &Path, changes: &StudyChanges<'_>) -> Result<StudyFile, Unread<StudyFile>> {
-    let text = file::read(path, FileKind::Study).map_err(Unread::Faulty)?;
+pub fn read_changed_study(path: &Path, changes: &StudyChanges<'_>) -> Result<StudyFile, Error> {
+    let text = file::read(path, FileKind::Study)?;
     parse_changed_study(&text, &path.display().to_string(), changes, |named, kind| {
         let base = path.parent().map_or_else(|| PathBuf::from(named), |folder| folder.join(named));
         Ok((file::read(&base, kind)?, base.display().to_string()))
@@ -123,7 +122,7 @@ pub fn parse_study(
     name: &str,
     points: Option<u64>,
     base: impl FnOnce(&str, FileKind) -> Result<(String, String), Error>,
-) -> Result<StudyFile, Unread<StudyFile>> {
+) -> Result<StudyFile, Error> {
     parse_changed_study(text, name, &StudyChanges::points(points), base)
 }
 
@@ -136,33 +135,12 @@ pub fn parse_changed_study(
     name: &str,
     changes: &StudyChanges<'_>,
     base: impl FnOnce(&str, FileKind) -> Result<(String, String), Error>,
-) -> Result<StudyFile, Unread<StudyFile>> {
-    let base = || -> Result<(String, String), Error> {
-        let reader = reader::open(text, name)?;
-        let Some((named, kind)) = reader.base() else { return Err(reader.rejected()) };
-        base(&named, kind)
-    };
-    let base = base().map_err(Unread::Faulty)?;
-    let (text, name, set) = (text.to_owned(), name.to_owned(), changes.set.values.to_vec());
-    let (word, StudyChanges { points, replicates, .. }) = (changes.set.word.to_owned(), *changes);
-    unread::read(move |lookup| {
-        let set = Overrides { values: &set, word: &word };
-        study_file((&text, &name), &StudyChanges { points, replicates, set }, base.clone(), lookup)
-    })
-}
-
-/// The study of a text.
-///
-/// * `text` – with what messages call it
-/// * `base` – text and path of what the points vary
-fn study_file(
-    (text, name): (&str, &str),
-    changes: &StudyChanges<'_>,
-    (base_text, base_name): (String, String),
-    lookup: &Lookup,
 ) -> Result<StudyFile, Error> {
+    let own = Resources::default();
+    let resources = changes.set.resources.unwrap_or(&own);
     let mut reader = reader::open(text, name)?;
-    let Some((_, kind)) = reader.base() else { return Err(reader.rejected()) };
+    let Some((named, kind)) = reader.base() else { return Err(reader.rejected()) };
+    let (base_text, base_name) = base(&named, kind)?;
     let before = reader.problems();
     let set = reader.set(changes.set, kind);
     if reader.problems() > before {
@@ -170,8 +148,8 @@ fn study_file(
     }
     let word = format!("{name}: [set]");
     let of_file: Vec<_> = set.iter().filter(|(key, _)| !changes.sets(key)).cloned().collect();
-    let set_by = [Overrides { values: &of_file, word: &word }, changes.set];
-    let base = match open_base(kind, base_text, &base_name, set_by, lookup) {
+    let set_by = [Overrides::new(&of_file, &word), changes.set];
+    let base = match open_base(kind, base_text, &base_name, set_by, resources) {
         Err(_) if reader.problems() > 0 => return Err(reader.rejected()),
         base => base?,
     };
@@ -179,7 +157,7 @@ fn study_file(
     let Some(plan) = plan else {
         return Err(reader.rejected());
     };
-    let resolver = points::Resolver { study: name, base: &*base, plan: &plan, lookup };
+    let resolver = points::Resolver { study: name, base: &*base, plan: &plan, resources };
     let (resolved, mut notes) = resolver.points()?;
     let Replicates { at_least, until, .. } = &plan.replicates;
     if !until.is_empty() && *at_least < FEWEST_REPLICATES {
@@ -202,11 +180,11 @@ fn open_base(
     text: String,
     name: &str,
     set: [Overrides<'_>; 2],
-    lookup: &Lookup,
+    resources: &Resources,
 ) -> Result<Box<dyn Base>, Error> {
     Ok(match kind {
-        FileKind::Web => Box::new(web::WebBase::new(text, name.to_owned(), set, lookup)?),
-        _ => Box::new(base::CaseBase::new(text, name, &set, kind, lookup)?),
+        FileKind::Web => Box::new(web::WebBase::new(text, name.to_owned(), set, resources)?),
+        _ => Box::new(base::CaseBase::new(text, name, &set, kind, resources)?),
     })
 }
 
@@ -236,7 +214,7 @@ trait Base {
     /// * `values` – of the keys that vary or follow from others
     /// * `at` – the place of these values
     /// * `seed` – if the point has one of its own
-    /// * `lookup` – the files of the point, and the tension if it is that of flights
+    /// * `resources` – the files of the point, and the tension if it is that of flights
     ///
     /// # Errors
     /// Every problem with it.
@@ -246,7 +224,7 @@ trait Base {
         at: &Place,
         plan: &Plan,
         seed: Option<u64>,
-        lookup: &Lookup,
+        resources: &Resources,
     ) -> ExperimentWithNotes;
 
     /// What of the keys that are the same at all points has to stand in the study, because [`Base::text`]

@@ -1,7 +1,7 @@
 //! The file of a web with what is set beside it, of which changed webs are made.
 
+use super::super::Resources;
 use super::super::entry::Entry;
-use super::super::lookup::Lookup;
 use super::super::step::changed_key;
 use super::super::web::{WebFile, replaces};
 use super::VariedKey;
@@ -16,13 +16,13 @@ pub(super) struct OpenWeb<'a> {
     pub(super) base: &'a WebBase,
     /// What is set beside the file.
     pub(super) set: &'a [(String, String)],
-    pub(super) lookup: &'a Lookup,
+    pub(super) resources: &'a Resources,
 }
 
 impl OpenWeb<'_> {
     /// The web with these values of keys.
     pub(super) fn with(&self, values: &[(VariedKey, f64)]) -> Result<WebFile, Error> {
-        self.base.changed(values, self.lookup)
+        self.base.changed(values, self.resources)
     }
 
     /// What has changed of a key, with the name that it has in the file.

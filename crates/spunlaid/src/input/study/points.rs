@@ -1,6 +1,6 @@
 //! Makes a checked experiment of every point of a study.
 
-use super::super::lookup::Lookup;
+use super::super::Resources;
 use super::plan::{Plan, base_value};
 use super::{Base, VariedKey, links};
 use crate::case::{Note, Remark};
@@ -44,7 +44,7 @@ pub(super) struct Resolver<'a> {
     pub(super) study: &'a str,
     pub(super) base: &'a dyn Base,
     pub(super) plan: &'a Plan,
-    pub(super) lookup: &'a Lookup,
+    pub(super) resources: &'a Resources,
 }
 
 impl Resolver<'_> {
@@ -84,7 +84,7 @@ impl Resolver<'_> {
         let (study, number) = (self.study.to_owned(), index + 1);
         let at = Place::Point { study, number, values: set.iter().map(shown).collect::<Vec<_>>().join(", ") };
         let seed = (!*common_phases).then(|| seed_of_point(*seed, index));
-        match self.base.point(&set, &at, self.plan, seed, self.lookup) {
+        match self.base.point(&set, &at, self.plan, seed, self.resources) {
             Ok((experiment, notes)) => Ok((Point { values, experiment }, notes)),
             Err(Error::Rejected(mut problems)) => {
                 problems.iter_mut().for_each(|problem| problem.place = at.clone());

@@ -1,7 +1,6 @@
 //! A study to start from, beside the file that it varies.
 
-use super::super::lookup::Lookup;
-use super::super::unread::Unread;
+use super::super::Resources;
 use super::super::write::quoted;
 use super::super::{file, kind_of, read_case, read_spinline, read_web};
 use super::{Base, VariedKey, open_base, parse_study};
@@ -54,12 +53,12 @@ pub fn starter_study(path: &Path) -> Result<String, Error> {
             let fault = Fault::new("is a study already", "name the case, the web or the spinline to vary");
             return Err(Error::folder(path, fault));
         }
-        FileKind::Web => drop(read_web(path, &[]).or_else(Unread::without_flights)?),
-        FileKind::Spinline => drop(read_spinline(path, &[]).or_else(Unread::without_flights)?),
-        _ => drop(read_case(path, &[]).or_else(Unread::without_flights)?),
+        FileKind::Web => drop(read_web(path, &[])?),
+        FileKind::Spinline => drop(read_spinline(path, &[])?),
+        _ => drop(read_case(path, &[])?),
     }
     let (text, name) = (file::read(path, kind)?, path.display().to_string());
-    let base = open_base(kind, text.clone(), &name, [(&[]).into(), (&[]).into()], &Lookup::default())?;
+    let base = open_base(kind, text.clone(), &name, [(&[]).into(), (&[]).into()], &Resources::default())?;
     let (word, noun, keys) = match kind {
         FileKind::Web => ("web", "webs", OF_WEBS),
         FileKind::Spinline => ("spinline", "", OF_SPINLINES),
@@ -75,7 +74,7 @@ pub fn starter_study(path: &Path) -> Result<String, Error> {
         vary.extend(line(&key, &*base));
         // A value may not fit the others, as a finer fibre does not fit a given time step.
         let read = parse_study(&study(&vary), "study", None, |_, _| Ok((text.clone(), name.clone())));
-        if read.or_else(Unread::without_flights).is_err() {
+        if read.is_err() {
             vary.pop();
         }
         if vary.len() == FACTORS {

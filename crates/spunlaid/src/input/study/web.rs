@@ -1,8 +1,8 @@
 //! The web that a study varies, with the cases that it flies.
 
 use super::super::Overrides;
+use super::super::Resources;
 use super::super::document;
-use super::super::lookup::Lookup;
 use super::super::web::{WebFile, flies_none, is_of_case, parse_set, replaces, write_web_to_vary};
 use super::super::written_values::WrittenValues;
 use super::plan::Plan;
@@ -38,12 +38,12 @@ impl WebBase {
         text: String,
         path: String,
         set: [Overrides<'_>; 2],
-        lookup: &Lookup,
+        resources: &Resources,
     ) -> Result<Self, Error> {
-        let (WebFile { spec, .. }, filaments) = parse_set(&text, &path, &set, lookup)?;
+        let (WebFile { spec, .. }, filaments) = parse_set(&text, &path, &set, resources)?;
         let flies = spec.layers.iter().any(|layer| matches!(layer.source, LaydownSource::Case { .. }));
         let is_layered = document::has_layers(&text);
-        let set = set.map(|Overrides { values, word }| (values.to_vec(), word.to_owned())).to_vec();
+        let set = set.map(|Overrides { values, word, .. }| (values.to_vec(), word.to_owned())).to_vec();
         Ok(Self { text, path, set, flies, is_layered, spec, filaments })
     }
 
@@ -52,24 +52,28 @@ impl WebBase {
         &self,
         values: &[(VariedKey, f64)],
         seed: Option<u64>,
-        lookup: &Lookup,
+        resources: &Resources,
     ) -> Result<WebFile, Error> {
         let value = |(key, value): &(VariedKey, f64)| (key.name.clone(), key.exact(*value));
         let seed = seed.map(|seed| ("web.seed".to_owned(), seed.to_string()));
         let point: Vec<(String, String)> = values.iter().map(value).chain(seed).collect();
-        let set = self.set.iter().map(|(values, word)| Overrides { values, word });
-        let set: Vec<Overrides<'_>> = set.chain([Overrides { values: &point, word: "point" }]).collect();
-        Ok(parse_set(&self.text, &self.path, &set, lookup)?.0)
+        let set = self.set.iter().map(|(values, word)| Overrides::new(values, word));
+        let set: Vec<Overrides<'_>> = set.chain([Overrides::new(&point, "point")]).collect();
+        Ok(parse_set(&self.text, &self.path, &set, resources)?.0)
     }
 
     /// [`WebBase::file`] with values that take the place of what is set in other words.
-    pub(super) fn changed(&self, values: &[(VariedKey, f64)], lookup: &Lookup) -> Result<WebFile, Error> {
+    pub(super) fn changed(
+        &self,
+        values: &[(VariedKey, f64)],
+        resources: &Resources,
+    ) -> Result<WebFile, Error> {
         let point = |key: &str| values.iter().any(|(value, _)| replaces(&value.name, key.trim()));
         let without = |set: &[(String, String)]| set.iter().filter(|(key, _)| !point(key)).cloned().collect();
         let set = self.set.iter().map(|(values, word)| (without(values), word.clone())).collect();
         let (text, path) = (self.text.clone(), self.path.clone());
         let (spec, filaments) = (self.spec.clone(), Vec::new());
-        Self { text, path, set, spec, filaments, ..*self }.file(values, None, lookup)
+        Self { text, path, set, spec, filaments, ..*self }.file(values, None, resources)
     }
 
     /// The web before its keys vary.
@@ -158,9 +162,9 @@ impl Base for WebBase {
         _: &Place,
         _: &Plan,
         seed: Option<u64>,
-        lookup: &Lookup,
+        resources: &Resources,
     ) -> ExperimentWithNotes {
-        let WebFile { spec, notes, .. } = self.file(values, seed, lookup)?;
+        let WebFile { spec, notes, .. } = self.file(values, seed, resources)?;
         Ok((Experiment::Web(spec), notes))
     }
 

@@ -2,7 +2,6 @@
 //! that of a case which the layer names, or in both; what the file of the web says takes the place of what
 //! the other one says.
 
-use super::super::open::OpenCase;
 use super::super::written_values::{WrittenValue, WrittenValues};
 use super::super::{Overrides, document, file, open_values};
 use super::read::{CASE, Reading, THROUGHPUT};
@@ -102,10 +101,7 @@ impl Filament {
 
     /// Whether another filament has the same values.
     pub(super) fn is_same(&self, other: &Self) -> bool {
-        let values = |filament: &Self| -> Vec<(String, Option<Value>)> {
-            filament.values.all().map(|(name, written)| (name.to_owned(), written.value.clone())).collect()
-        };
-        values(self) == values(other)
+        self.values.has_values_of(&other.values)
     }
 }
 
@@ -187,9 +183,8 @@ impl Reading<'_> {
     fn named_case(&mut self, prefix: &str, path: &Path) -> Result<WrittenValues, Error> {
         let text = file::read(path, FileKind::Case)?;
         let set: Vec<Vec<(String, String)>> = self.set.iter().map(|set| self.set_for(prefix, set)).collect();
-        let set: Vec<Overrides<'_>> = (set.iter().zip(self.set))
-            .map(|(values, Overrides { word, .. })| Overrides { values, word })
-            .collect();
+        let set: Vec<Overrides<'_>> =
+            (set.iter().zip(self.set)).map(|(values, set)| Overrides::new(values, set.word)).collect();
         let mut values = document::read(&OF_CASE, &text, &path.display().to_string(), &set)?;
         self.key_values.problems.append(&mut values.problems);
         Ok(values)
@@ -216,13 +211,10 @@ impl Reading<'_> {
         if values.all().any(|(_, written_value)| written_value.value.is_none()) {
             return Ok(None);
         }
-        let unflown = self.lookup.unflown_cases();
-        let opened = open_values(values, &self.lookup.files);
-        let read = opened.and_then(|open: OpenCase| self.lookup.resolve(open));
-        if self.lookup.unflown_cases() > unflown {
-            // What the web has from a case, it has from one with another tension.
-            self.lookup.doubt();
-        }
+        let opened = open_values(values, &self.resources.files);
+        let read = opened.and_then(|open| self.resources.resolve(open));
+        // What the web has from a case, it has from one with another tension.
+        read.iter().for_each(|(case, _)| self.resources.doubt(case));
         let read = read.map_err(|error| self.by_full_names(prefix, error));
         let (named, throughput) = (format!("{prefix}{CASE}"), format!("{prefix}{THROUGHPUT}"));
         if matches!(read, Err(Error::Rejected(_))) && self.is_written(&named) && self.is_written(&throughput)

@@ -23,8 +23,7 @@ pub(super) use of_case::{flies_none, is_of_case, replaces};
 pub use write::write_web;
 pub(super) use write::write_web_to_vary;
 
-use super::lookup::Lookup;
-use super::unread::{self, Unread};
+use super::Resources;
 use super::written_values::WrittenValues;
 use super::{Overrides, document, file};
 use crate::case::{Note, keys};
@@ -51,11 +50,9 @@ pub struct WebFile {
 ///   filament without a layer, `("belt.distance", "0.4 m")`, are those of all layers
 ///
 /// # Errors
-/// If the file cannot be read, or if the web cannot be laid; then with every problem found. And what has to
-/// be flown first, if a case has a spinline whose tension is that of flights.
-pub fn read_web<'a>(path: &Path, overrides: impl Into<Overrides<'a>>) -> Result<WebFile, Unread<WebFile>> {
-    let text = file::read(path, FileKind::Web).map_err(Unread::Faulty)?;
-    parse_web(&text, &path.display().to_string(), overrides)
+/// If the file cannot be read, or if the web cannot be laid; then with every problem found.
+pub fn read_web<'a>(path: &Path, overrides: impl Into<Overrides<'a>>) -> Result<WebFile, Error> {
+    parse_web(&file::read(path, FileKind::Web)?, &path.display().to_string(), overrides)
 }
 
 /// Reads and checks the text of the file of a web. Messages call the file `name`; files that it names are
@@ -63,16 +60,10 @@ pub fn read_web<'a>(path: &Path, overrides: impl Into<Overrides<'a>>) -> Result<
 ///
 /// # Errors
 /// As [`read_web`].
-pub fn parse_web<'a>(
-    text: &str,
-    name: &str,
-    overrides: impl Into<Overrides<'a>>,
-) -> Result<WebFile, Unread<WebFile>> {
-    let Overrides { values, word } = overrides.into();
-    let (text, name, values, word) = (text.to_owned(), name.to_owned(), values.to_vec(), word.to_owned());
-    unread::read(move |lookup| {
-        parse_set(&text, &name, &[Overrides { values: &values, word: &word }], lookup).map(|(file, _)| file)
-    })
+pub fn parse_web<'a>(text: &str, name: &str, overrides: impl Into<Overrides<'a>>) -> Result<WebFile, Error> {
+    let (overrides, own) = (overrides.into(), Resources::default());
+    let resources = overrides.resources.unwrap_or(&own);
+    parse_set(text, name, &[overrides], resources).map(|(file, _)| file)
 }
 
 /// [`parse_web`] with what is set from several places, each of which replaces those before it; and what is
@@ -81,9 +72,9 @@ pub(super) fn parse_set(
     text: &str,
     name: &str,
     set: &[Overrides<'_>],
-    lookup: &Lookup,
+    resources: &Resources,
 ) -> Result<(WebFile, Vec<Option<WrittenValues>>), Error> {
-    let open = open::open(values(text, name, set)?, name, set, lookup)?;
+    let open = open::open(values(text, name, set)?, name, set, resources)?;
     let filaments = open.filaments();
     let (spec, notes) = open.spec()?;
     let text = write_web(&spec);
@@ -98,11 +89,11 @@ pub(super) fn filament(
     text: &str,
     name: &str,
     set: &[Overrides<'_>],
-    lookup: &Lookup,
+    resources: &Resources,
 ) -> Result<WrittenValues, Error> {
     let values = values(text, name, set)?;
     let place = values.whole();
-    open::open(values, name, set, lookup)?.filament()?.ok_or_else(|| {
+    open::open(values, name, set, resources)?.filament()?.ok_or_else(|| {
         let fault = Fault::new(
             "flies no filament: how its fibres lie is known",
             "to lay the web, read the file as that of a web",

@@ -2,7 +2,7 @@
 //! checked together.
 
 use super::super::Overrides;
-use super::super::lookup::Lookup;
+use super::super::Resources;
 use super::super::written_values::{WrittenValues, sorted};
 use super::filament::Filament;
 use super::laydown::{Layer, Way};
@@ -29,7 +29,7 @@ pub(super) fn open<'a>(
     key_values: WrittenValues,
     name: &str,
     set: &'a [Overrides<'a>],
-    lookup: &'a Lookup,
+    resources: &'a Resources,
 ) -> Result<OpenWeb<'a>, Error> {
     let (notes, basis_weight_key) = (Vec::new(), String::new());
     let prefixes = prefixes(&key_values);
@@ -37,7 +37,7 @@ pub(super) fn open<'a>(
         key_values,
         file: PathBuf::from(name),
         set,
-        lookup,
+        resources,
         notes,
         prefixes: prefixes.clone(),
         basis_weight_key,

@@ -1,7 +1,7 @@
 //! Makes the web from the written values, from what the flown cases give, and from the defaults.
 
 use super::super::Overrides;
-use super::super::lookup::Lookup;
+use super::super::Resources;
 use super::super::written_values::{WrittenValue, WrittenValues};
 use crate::case::keys::Value;
 use crate::case::{Note, unusual};
@@ -26,7 +26,7 @@ pub(super) struct Reading<'a> {
     /// What is set from outside, which the named cases take too.
     pub(super) set: &'a [Overrides<'a>],
     /// Files and tensions of the cases.
-    pub(super) lookup: &'a Lookup,
+    pub(super) resources: &'a Resources,
     pub(super) notes: Vec<Note>,
     /// What comes before the names of each layer's keys: `layer.2.`, or nothing in a file without `[[layer]]`.
     pub(super) prefixes: Vec<String>,
