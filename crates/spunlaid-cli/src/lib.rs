@@ -83,7 +83,7 @@ fn perform(command: &Command, invocation: &Invocation) -> Result<(), Failure> {
         Command::Keys(keys) => commands::keys::keys(keys),
         Command::New(new) => commands::new::new(new),
         Command::Completions(completions) => commands::completions::completions(completions),
-        Command::Man(man) => commands::man::man(man),
+        Command::Man(man) => commands::completions::man(man),
     }
 }
 

@@ -19,26 +19,41 @@ pub(crate) fn follow<T>(
     quiet: bool,
     work: impl FnOnce() -> T,
 ) -> T {
+    follow_state(|| (done.load(Ordering::Relaxed), total, label.to_owned()), quiet, work)
+}
+
+/// [`follow`] of work whose total may change.
+///
+/// * `state` – what is done, the total, and the words for both
+pub(crate) fn follow_state<T>(
+    mut state: impl FnMut() -> (u64, u64, String) + Send,
+    quiet: bool,
+    work: impl FnOnce() -> T,
+) -> T {
     if quiet {
         return work();
     }
-    let (bar, begun) = (bar(total, "[{bar:20}] {percent:>3} %  {msg}", quiet), Instant::now());
-    let share = || (done.load(Ordering::Relaxed) as f64 / total.max(1) as f64).min(1.0);
-    if bar.is_hidden() {
-        let mut next = BETWEEN_LINES;
-        let show = || {
-            if begun.elapsed() >= next {
-                next = begun.elapsed() + BETWEEN_LINES;
-                say::aside(&format!("{label}: {:.0} %{}", 100.0 * share(), left(share(), begun.elapsed())));
-            }
-        };
-        return look_while(Duration::from_millis(500), show, work);
-    }
+    let (bar, begun) = (bar(1, "[{bar:20}] {percent:>3} %  {msg}", quiet), Instant::now());
+    let (is_hidden, mut next) = (bar.is_hidden(), BETWEEN_LINES);
     let show = || {
-        bar.set_message(fitting(&format!("{label}{}", left(share(), begun.elapsed())), BEFORE));
-        bar.set_position(done.load(Ordering::Relaxed));
+        if is_hidden && begun.elapsed() < next {
+            return;
+        }
+        let (done, total, words) = state();
+        let share = (done as f64 / total.max(1) as f64).min(1.0);
+        let left = left(share, begun.elapsed());
+        if is_hidden {
+            next = begun.elapsed() + BETWEEN_LINES;
+            say::aside(&format!("{words}: {:.0} %{left}", 100.0 * share));
+        } else {
+            bar.set_length(total.max(1));
+            bar.set_message(fitting(&format!("{words}{left}"), BEFORE));
+            bar.set_position(done.min(total));
+        }
     };
-    show_while(&bar, Duration::from_millis(50), show, work)
+    // The bar is cleared, also if the work panics.
+    let _clear = OnDrop(|| bar.finish_and_clear());
+    look_while(Duration::from_millis(if is_hidden { 500 } else { 50 }), show, work)
 }
 
 /// How long work will take that has taken some time for a share of it; nothing before a hundredth is done.
@@ -75,16 +90,4 @@ pub(crate) fn bar(total: u64, template: &str, quiet: bool) -> ProgressBar {
         bar.set_style(style.progress_chars("=> "));
     }
     bar
-}
-
-/// Runs `work` while another thread shows how far it is, again and again. Then the bar is cleared, also if
-/// the work panics.
-pub(crate) fn show_while<T>(
-    bar: &ProgressBar,
-    interval: Duration,
-    show: impl FnMut() + Send,
-    work: impl FnOnce() -> T,
-) -> T {
-    let _clear = OnDrop(|| bar.finish_and_clear());
-    look_while(interval, show, work)
 }

@@ -1,7 +1,7 @@
 //! Bundles of a study: what a machine needs to make some of its replicates, and what it gives back.
 
 use crate::failure::raised_as;
-use crate::state::full_path;
+use crate::source::full_path;
 use crate::watched::{Watch, watched};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;

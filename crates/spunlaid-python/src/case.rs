@@ -1,8 +1,6 @@
 //! `Case`: a case file with changes, read and checked.
 
-use crate::merged::{merged, replaced};
-use crate::source::{Source, stem};
-use crate::state::full_path;
+use crate::source::{Source, full_path, stem};
 use crate::value::{overrides, to_python};
 use crate::watched::{guarded, settled};
 use numpy::PyArray1;
@@ -13,7 +11,9 @@ use spunlaid::air::PlaceAxes;
 use spunlaid::case::keys::{self, Key, Value};
 use spunlaid::case::{self, Note};
 use spunlaid::error::FileKind;
-use spunlaid::input::{Overrides, Resources, parse_case, starter_case, starter_case_of_fed, write_case};
+use spunlaid::input::{
+    Overrides, Resources, parse_case, starter_case, starter_case_of_fed, write_case, write_changed_case,
+};
 use spunlaid::vec3::Vec3;
 use spunlaid_results::output::air::{POINT_COLUMNS, point_row};
 use std::path::{Path, PathBuf};
@@ -95,7 +95,10 @@ impl Case {
     /// Text and name of a case file with all changes, for a study of this case, and whether there are some.
     pub(crate) fn source(&self) -> (String, &str, bool) {
         let is_changed = !self.changes.is_empty();
-        let text = if is_changed { merged(&self.text, &self.changes) } else { self.text.to_string() };
+        let changed = || write_changed_case(&self.text, &self.file, Overrides::new(&self.changes, WORD));
+        // It has been read before.
+        let text = if is_changed { changed().ok() } else { None };
+        let text = text.unwrap_or_else(|| self.text.to_string());
         (text, &self.file, is_changed)
     }
 }
@@ -140,9 +143,10 @@ impl Case {
     /// from the changed keys follows anew.
     fn with_(&self, py: Python<'_>, values: &Bound<'_, PyAny>) -> PyResult<Self> {
         let (mut changes, new) = (self.changes.clone(), overrides(values)?);
-        changes.retain(|(other, _)| {
-            new.iter().all(|(key, _)| key != other) && !replaced(&new).contains(&&**other)
-        });
+        let is_set = |value: &str| value.trim().trim_matches('"') != "auto";
+        let set = new.iter().filter(|(_, value)| is_set(value)).map(|(key, _)| key.trim());
+        let replaced = keys::CASE.replaced_by(&set.collect::<Vec<_>>());
+        changes.retain(|(other, _)| new.iter().all(|(key, _)| key != other) && !replaced.contains(&&**other));
         changes.extend(new);
         Self::parsed(py, Arc::clone(&self.text), self.file.clone(), changes)
     }

@@ -1,10 +1,11 @@
-//! The tables of keys.
+//! The tables of keys, and the program, which comes with the package.
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use spunlaid::case::keys::{CASE, Key, KeyTable, Omission};
 use spunlaid::layers::WEB;
 use spunlaid::removed::Removed;
+use std::ffi::OsString;
 
 /// Every key of a case or of a web: a dict for each. See spunlaid.keys, which calls it.
 #[pyfunction]
@@ -45,4 +46,11 @@ fn about<'py, T>(py: Python<'py>, table: &KeyTable<T>, key: &Key<T>) -> PyResult
     dict.set_item("in_flight", key.in_flight)?;
     dict.set_item("usual", key.slider)?;
     Ok(dict)
+}
+
+/// Does what a command line asks for, as the program `spunlaid` does, and returns its exit code.
+#[pyfunction]
+#[pyo3(signature = (words))]
+pub(crate) fn program(py: Python<'_>, words: Vec<OsString>) -> u8 {
+    py.detach(|| spunlaid_cli::main(words))
 }

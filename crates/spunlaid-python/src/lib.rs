@@ -5,7 +5,6 @@
 //! failure   errors as exceptions        value     values of Python as those of keys
 //! watched   work without the lock of the interpreter, with Ctrl-C and progress
 //! save      results in a folder         source    the file that a user names
-//! program   the program `spunlaid`, which comes with the package
 //! case, run, flight, air, spinline, study, web, scan, record, compare, keys     the classes and functions
 //! ```
 
@@ -21,17 +20,12 @@ mod watched;
 
 mod case;
 mod keys;
-mod merged;
-mod program;
 mod record;
 
 mod fit;
 mod flight;
-mod results;
 mod run;
 mod samples;
-mod scale;
-mod state;
 
 mod bundle;
 mod compare;
@@ -55,15 +49,12 @@ mod _spunlaid {
         compare::{Compared, compare_folders},
         fit::find_fit,
         flight::Flight,
-        keys::{keys, removed},
-        program::program,
+        keys::{keys, program, removed},
         record::analyse,
-        results::RunResults,
-        run::{column_unit, fly, measures},
+        run::{RunResults, column_unit, fly, measures},
         save::check_figures,
         scan::{AnalysedScan, analyse_scan, is_scan},
         spinline::{SolvedSpinline, solve_spinline},
-        state::flown_from,
         study::Study,
         table::read_table,
         web::{LaidWeb, lay_web},

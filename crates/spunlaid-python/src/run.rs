@@ -3,10 +3,9 @@
 use crate::case::Case;
 use crate::failure::raised;
 use crate::flight::laid_columns;
-use crate::results::RunResults;
-use crate::samples::{SampleCollector, locked};
+use crate::samples::{SampleCollector, Samples, locked};
 use crate::save::{Figures, page, save};
-use crate::scale::scale;
+use crate::value::scale;
 use crate::watched::{Watch, watched};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyKeyboardInterrupt;
@@ -14,10 +13,11 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use spunlaid::case::Note;
 use spunlaid::ensemble::{
-    FinerCheck, FinerPlans, Keep, KeepShapes, LaidCurves, LostFibre, Recorder, Results, RunControl,
-    Trajectory, Unchecked, fly_for_checks, nothing_kept,
+    FinerCheck, FinerChecks, FinerPlans, Keep, KeepShapes, LaidCurves, LostFibre, Recorder, Results,
+    RunControl, Trajectory, Unchecked, fly_for_checks, nothing_kept,
 };
 use spunlaid::error::Error;
+use spunlaid::flight::LaidPoint;
 use spunlaid::lanes::WIDTH;
 use spunlaid::observe::{MEASURES, Measure};
 use spunlaid::threads::{lock, unlock};
@@ -27,14 +27,30 @@ use spunlaid_results::folders::Contents;
 use spunlaid_results::folders::run::{self as folder, POSITIONS};
 use spunlaid_results::output::doubt;
 use spunlaid_results::output::flown::{Flights, Tables};
+use spunlaid_results::output::summary::Performance;
 use spunlaid_results::output::tables::unit_of_column;
 use std::path::PathBuf;
-use std::sync::Mutex;
 use std::sync::OnceLock;
+use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
 /// Number of trajectories that are kept whole, for the report.
 const KEPT: usize = WIDTH;
+
+/// Results of a run. `spunlaid.Run` shows them.
+#[pyclass(frozen, module = "spunlaid._spunlaid")]
+#[derive(Debug)]
+pub(crate) struct RunResults {
+    name: String,
+    case: Arc<spunlaid::case::Case>,
+    results: Results,
+    checks: FinerChecks,
+    #[pyo3(get)]
+    notes: Vec<String>,
+    performance: Performance,
+    samples: Option<Samples>,
+    laid: Vec<Vec<LaidPoint>>,
+}
 
 /// Flies a case. See spunlaid.run, which calls it.
 #[pyfunction]
@@ -95,7 +111,6 @@ pub(crate) fn fly(
     notes.extend(folder::lost(&results.lost, description.run.replicates));
     notes.extend(folder::outside(&results));
     notes.extend(folder::coarse_shapes(&description, &results));
-    // A pickled run knows its checks, but not why one was not made.
     notes.extend(doubt::notes(&checks, &description));
     let is_lost = |replicate| results.lost.iter().any(|fibre| fibre.replicate == replicate);
     let curves = (0..if description.line.is_some() { run.replicates } else { 0 })
@@ -148,7 +163,7 @@ impl RunResults {
 
     /// The fibres that were lost: replicate, counted from 1, time and reason of each.
     #[getter]
-    pub(crate) fn lost(&self) -> Vec<(u64, f64, String)> {
+    fn lost(&self) -> Vec<(u64, f64, String)> {
         let lost = self.results.lost.iter();
         lost.map(|fibre| (fibre.replicate + 1, fibre.time, fibre.reason.clone())).collect()
     }
@@ -243,13 +258,24 @@ impl RunResults {
     }
 
     /// Writes the folder that `spunlaid run` writes.
-    fn save(&self, py: Python<'_>, path: PathBuf, force: bool, figures: Figures<'_>) -> PyResult<()> {
-        let Some(samples) = &self.samples else {
+    ///
+    /// * whole: whether a run without samples, which has no tables, is refused
+    #[pyo3(signature = (path, force, figures, whole = true))]
+    fn save(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        force: bool,
+        figures: Figures<'_>,
+        whole: bool,
+    ) -> PyResult<()> {
+        if whole && self.samples.is_none() {
             let text = "the run was flown with samples=False, so its tables cannot be written";
             return Err(crate::failure::raised_as(py, "FolderError", text.to_owned()));
-        };
-        let samples = samples.borrowed(py).all();
+        }
+        let samples = self.samples.as_ref().map(|samples| samples.borrowed(py).all());
         save(py, (&path, force, figures), &self.folder(), |staging| {
+            let Some(samples) = samples else { return Ok(()) };
             let flights = Flights::open(staging, &self.case, None)?;
             let mut tables = Tables::create(staging, &flights)?;
             for (replicate, samples) in (0..).zip(samples) {
@@ -275,10 +301,6 @@ impl RunResults {
     #[getter]
     fn mesh_check<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
         self.checks.mesh.as_ref().ok().map(|check| differences(py, check)).transpose()
-    }
-
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        crate::state::reduced(py, self)
     }
 }
 

@@ -32,6 +32,11 @@ impl Source {
     }
 }
 
+/// The full path of a file, so that it is found from any folder.
+pub(crate) fn full_path(file: &Path) -> PathBuf {
+    std::path::absolute(file).unwrap_or_else(|_| file.to_owned())
+}
+
 /// The name of a file without its extension.
 pub(crate) fn stem(path: &Path) -> String {
     path.file_stem().unwrap_or_default().to_string_lossy().into_owned()

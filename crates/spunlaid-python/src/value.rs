@@ -10,6 +10,7 @@ use spunlaid::error::{Error, Fault};
 use spunlaid::layers::web_key;
 use spunlaid::units::Dimension;
 use spunlaid::vec3::Vec3;
+use spunlaid_results::figures::Scale;
 use std::path::PathBuf;
 
 /// Keys and values as overrides of the file of a case or of a web, in their order: `{"air.velocity": "20 m/s"}`, or
@@ -275,4 +276,12 @@ pub(crate) fn to_python(py: Python<'_>, value: Option<Value>) -> PyResult<Py<PyA
         }
         _ => py.None(),
     })
+}
+
+/// Label with unit, zero and factor from SI units, whether logarithmic. `_plot.Axis` of Python has the same.
+pub(crate) type AxisScale = (String, f64, f64, bool);
+
+/// A scale for Python.
+pub(crate) fn scale(scale: Scale) -> AxisScale {
+    (scale.label, scale.zero, scale.per_si, scale.logarithmic)
 }

@@ -2,15 +2,15 @@
 
 mod fault;
 mod file;
-mod nearest;
 mod problem;
 mod words;
 
 pub use fault::Fault;
 pub use file::FileKind;
-pub(crate) use nearest::{by_similarity, nearest_word};
 pub use problem::{FileError, Finding, Place, Position, Problem};
-pub(crate) use words::{IS, WAS, by_count, counted, excerpt, listed, memory, one_of, shortest};
+pub(crate) use words::{
+    IS, WAS, by_count, by_similarity, counted, excerpt, listed, memory, nearest_word, one_of, shortest,
+};
 
 use std::borrow::Cow;
 use std::io;

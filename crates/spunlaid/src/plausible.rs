@@ -111,7 +111,9 @@ impl Implausible {
             [0.0, most] => format!("{} at most", shown(*most)),
             ends => format!("{} {unit}", ends.map(shown).join(" to ")),
         };
-        let what = Remark::Implausible { words, told, range, advice };
+        let what = Remark::doubt(format!(
+            "is doubtful: a {words} of {told}, where spunbond lines have {range}; {advice}"
+        ));
         Note { place: Place::Code, key: (*key).to_owned(), value: None, what }
     }
 }

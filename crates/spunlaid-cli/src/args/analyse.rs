@@ -1,9 +1,10 @@
 //! `spunlaid analyse`: how a velocity record, or a scan of a web, is read.
 
 use super::output::Output;
-use super::{Figures, quantity};
+use super::{Figures, one_of, quantity};
 use clap::{Args, ValueHint};
 use spunlaid::record::IntegralRule;
+use spunlaid::scan::LightKind;
 use spunlaid::statistics::Window;
 use spunlaid::units::Dimension;
 use std::path::PathBuf;
@@ -78,8 +79,8 @@ pub(crate) struct Scan {
     #[arg(long, value_name = "WEIGHT", value_parser = quantity(Dimension::BasisWeight))]
     pub(crate) weight: Option<f64>,
     /// What the values are [default: transmitted for PNG and TIFF, weight for .npy and CSV]
-    #[arg(long, value_enum)]
-    pub(crate) light: Option<LightName>,
+    #[arg(long, value_parser = one_of(LIGHTS, LightKind::name))]
+    pub(crate) light: Option<LightKind>,
     /// Picture of the lamp without web, at the same exposure; it takes out any shading
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) lamp: Option<PathBuf>,
@@ -100,33 +101,23 @@ pub(crate) struct Scan {
     #[arg(long, value_name = "TITRE", value_parser = quantity(Dimension::LinearDensity))]
     pub(crate) titre: Option<f64>,
     /// Where the machine direction runs in the picture
-    #[arg(long, value_enum, default_value = "columns", hide_possible_values = false)]
-    pub(crate) md: Direction,
+    #[arg(long, value_name = "MD", default_value = "columns", hide_possible_values = false,
+          value_parser = one_of(DIRECTIONS, |along_rows| if along_rows { "rows" } else { "columns" }))]
+    pub(crate) md: bool,
     /// Sides of the patches, as "1 mm,5 mm,10 mm" [default: from 0.5 mm to a fifth of the picture]
     #[arg(long, value_name = "LENGTHS", value_delimiter = ',',
           value_parser = quantity(Dimension::Length))]
     pub(crate) patches: Vec<f64>,
 }
 
-/// What the values of a picture are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum LightName {
-    /// Light that has come through the web
-    Transmitted,
-    /// Light that a web on a black ground throws back
-    Reflected,
-    /// Basis weights, in kg/m² or, with --weight, in any unit
-    Weight,
-}
-
-/// Where the machine direction runs in a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum Direction {
-    /// Along the columns, downwards
-    Columns,
-    /// Along the rows, to the right
-    Rows,
-}
+const LIGHTS: &[(LightKind, &str)] = &[
+    (LightKind::Transmitted, "Light that has come through the web"),
+    (LightKind::Reflected, "Light that a web on a black ground throws back"),
+    (LightKind::Weight, "Basis weights, in kg/m² or, with --weight, in any unit"),
+];
+/// Whether the machine direction runs along the rows of a picture.
+const DIRECTIONS: &[(bool, &str)] =
+    &[(false, "Along the columns, downwards"), (true, "Along the rows, to the right")];
 
 fn above_zero(text: &str) -> Result<f64, String> {
     let value = text.trim().parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0);

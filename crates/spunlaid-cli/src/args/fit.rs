@@ -1,6 +1,6 @@
 //! The arguments of `spunlaid fit`.
 
-use super::figures::Figures;
+use super::output::Figures;
 use super::output::{Output, Threads};
 use super::source::key_and_value;
 use clap::{Args, ValueHint};

@@ -1,7 +1,6 @@
 //! The command line.
 
 mod analyse;
-mod figures;
 mod fit;
 mod help;
 mod invocation;
@@ -9,27 +8,29 @@ mod new;
 mod output;
 mod source;
 
-pub(crate) use analyse::{Analyse, Direction, LightName, RecordOptions, Scan};
-pub(crate) use figures::Figures;
+pub(crate) use analyse::{Analyse, RecordOptions, Scan};
 pub(crate) use fit::Fit;
 pub(crate) use invocation::Invocation;
 pub(crate) use new::{
     Given, LineNumbers, New, basis_weight, beams, belt_speed, depth, holes, length, polymer, speed,
     throughput, titre, turbulence,
 };
+pub(crate) use output::Figures;
 pub(crate) use output::{Output, Threads};
 pub(crate) use source::{CaseSource, is_standard, overrides};
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
-use figures::FigureWidth;
 use help::{
     AIR_HELP, ANALYSE_HELP, CHECK_HELP, COMPARE_HELP, EXAMPLES, FIT_HELP, FORCE_HELP, KEYS_HELP, LIVE_HELP,
     NEW_HELP, REPRODUCE_HELP, RUN_HELP, SPIN_HELP, SWEEP_HELP, WEB_HELP,
 };
+use output::FigureWidth;
 use source::key_and_value;
 use spunlaid::air::PlaceAxes;
 use spunlaid::case::Checks;
+use spunlaid::chain::schemes::Scheme;
 use spunlaid::error::Fault;
 use spunlaid::removed::Removed;
 use spunlaid::units::Dimension;
@@ -116,8 +117,8 @@ pub(crate) struct Run {
     #[arg(long, value_name = "S", value_parser = whole(0))]
     pub(crate) seed: Option<u64>,
     /// What the checks of step and mesh may cost; replaces run.checks
-    #[arg(long, value_enum)]
-    pub(crate) checks: Option<ChecksName>,
+    #[arg(long, value_parser = one_of(CHECKS, Checks::name))]
+    pub(crate) checks: Option<Checks>,
     #[command(flatten)]
     pub(crate) threads: Threads,
     #[command(flatten)]
@@ -179,8 +180,8 @@ pub(crate) struct Air {
     pub(crate) at: Option<PathBuf>,
     /// Axes of the places and velocities of --at: of the line, from the inlet or the root, or of the file of a CFD field
     /// [default: field, if the air is one]
-    #[arg(long, value_enum, requires = "at")]
-    pub(crate) axes: Option<AxesName>,
+    #[arg(long, value_parser = one_of(AXES, PlaceAxes::name), requires = "at")]
+    pub(crate) axes: Option<PlaceAxes>,
     /// The replicate whose air it is, as they are numbered in a run
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=u64::from(u32::MAX)))]
     pub(crate) replicate: u64,
@@ -194,24 +195,6 @@ pub(crate) struct Air {
     pub(crate) threads: Threads,
     #[command(flatten)]
     pub(crate) figures: Figures,
-}
-
-/// The axes of places.
-#[derive(Clone, Copy, Debug, clap::ValueEnum)]
-pub(crate) enum AxesName {
-    /// x along gravity, y in machine direction, z in cross direction
-    Line,
-    /// x, y and z of the file
-    Field,
-}
-
-impl From<AxesName> for PlaceAxes {
-    fn from(axes: AxesName) -> Self {
-        match axes {
-            AxesName::Line => Self::Line,
-            AxesName::Field => Self::Field,
-        }
-    }
 }
 
 #[derive(Debug, Args)]
@@ -269,45 +252,41 @@ pub(crate) struct Reproduce {
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = whole(1))]
     pub(crate) replicates: u64,
     /// Time integration: the paper's with 1 µs, or another with a suitable step
-    #[arg(long, value_enum, default_value = "semi-implicit-euler")]
-    pub(crate) scheme: SchemeName,
+    #[arg(long, value_parser = one_of(SCHEMES, Scheme::name), default_value = "semi-implicit-euler")]
+    pub(crate) scheme: Scheme,
     #[command(flatten)]
     pub(crate) threads: Threads,
     #[command(flatten)]
     pub(crate) width: FigureWidth,
 }
 
-/// A scheme by its name in a case file.
-#[derive(Clone, Copy, Debug, clap::ValueEnum)]
-pub(crate) enum SchemeName {
-    /// First order, the paper's
-    SemiImplicitEuler,
-    /// Second order
-    Leapfrog,
-    /// Long steps, hundreds of times faster
-    ImplicitTension,
+/// Takes one of some values by its name.
+///
+/// * `all` – the values, each with what it means
+pub(super) fn one_of<T: Copy + Send + Sync + 'static>(
+    all: &'static [(T, &'static str)],
+    name: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    let names = all.iter().map(|(value, help)| PossibleValue::new(name(*value)).help(*help));
+    let value =
+        move |text: String| all.iter().find(|(value, _)| name(*value) == text).map(|(value, _)| *value);
+    PossibleValuesParser::new(names).try_map(move |text| value(text).ok_or("is no such name"))
 }
 
-/// What checks may cost, by its name in a case file.
-#[derive(Clone, Copy, Debug, clap::ValueEnum)]
-pub(crate) enum ChecksName {
-    /// Together a fifth of the flight
-    Auto,
-    /// Nothing: no check
-    None,
-    /// As much as the whole run takes with a finer step and finer elements
-    Full,
-}
-
-impl ChecksName {
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Self::Auto => Checks::Auto.name(),
-            Self::None => Checks::None.name(),
-            Self::Full => Checks::Full.name(),
-        }
-    }
-}
+const CHECKS: &[(Checks, &str)] = &[
+    (Checks::Auto, "Together a fifth of the flight"),
+    (Checks::None, "Nothing: no check"),
+    (Checks::Full, "As much as the whole run takes with a finer step and finer elements"),
+];
+const AXES: &[(PlaceAxes, &str)] = &[
+    (PlaceAxes::Line, "x along gravity, y in machine direction, z in cross direction"),
+    (PlaceAxes::Field, "x, y and z of the file"),
+];
+const SCHEMES: &[(Scheme, &str)] = &[
+    (Scheme::SemiImplicitEuler, "First order, the paper's"),
+    (Scheme::Leapfrog, "Second order"),
+    (Scheme::ImplicitTension, "Long steps, hundreds of times faster"),
+];
 
 /// What is wrong with a command line that names a command or an option which the program had once.
 pub(crate) fn removed(words: &[OsString], error: &clap::Error) -> Option<Fault> {

@@ -1,15 +1,18 @@
 //! `spunlaid analyse` makes the air of a case from a velocity record; a scan of a web goes to `scan`.
 
 use super::delivery::{Asides, Delivery};
-use super::scan::scan;
 use super::stem;
 use crate::args::{Analyse, Invocation, RecordOptions, Scan, Threads};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::error::{Fault, FileError, Problem};
+use spunlaid::fabric;
+use spunlaid::lanes::Isa;
 use spunlaid::record::{Layout, Settings, SpectrumSettings, read_record};
-use spunlaid::scan::{columns_of_map, is_picture_file};
-use spunlaid_results::folders::products::RecordFolder;
+use spunlaid::scan::{ScanRequest, columns_of_map, is_picture_file};
+use spunlaid_results::folders::products::{RecordFolder, ScanFolder, notes};
+use spunlaid_results::output::web::Performance;
+use std::time::Instant;
 
 pub(crate) fn analyse(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     let is_scan = analyse.scan.pixel.is_some() || is_picture_file(&analyse.record);
@@ -83,5 +86,37 @@ fn settings(options: &RecordOptions) -> Settings {
         },
         flat_until: options.flat_until,
         mean_velocity: options.mean_velocity,
+    }
+}
+
+pub(super) fn scan(arguments: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
+    let (name, origin) = (stem(&arguments.record, "scan"), invocation.origin_of([&arguments.record]));
+    let folder = Some(arguments.output.folder(&name));
+    let (output, figures) = (&arguments.output, arguments.figures.files());
+    let delivery = Delivery::open::<ScanFolder<'_>>(folder, origin, output, &figures)?;
+    let started = Instant::now();
+    let (picture, findings) = request(arguments).analyse_file(&arguments.record)?;
+    let fabric = fabric::of_scan(&findings);
+    let performance = Performance::measure(started, 1, Isa::detect());
+    let (file, found) = (&picture.file, &notes(&findings));
+    let contents =
+        ScanFolder { name: &name, file, findings: &findings, fabric: &fabric, notes: found, performance };
+    delivery.deliver(&contents, Threads::default(), Asides { found, ..Asides::default() })
+}
+
+fn request(arguments: &Analyse) -> ScanRequest {
+    let options = &arguments.scan;
+    ScanRequest {
+        pixel: options.pixel,
+        light: options.light,
+        weight: options.weight,
+        white: options.white,
+        lamp: options.lamp.clone(),
+        md_along_rows: options.md,
+        keep_shading: options.keep_shading,
+        keep_spots: options.keep_spots,
+        noise: options.noise,
+        titre: options.titre,
+        patches: options.patches.clone(),
     }
 }

@@ -1,13 +1,15 @@
-//! `spunlaid completions`.
+//! `spunlaid completions` and `spunlaid man`.
 
-use crate::args::{Arguments, Completions};
+use crate::args::{Arguments, Completions, Man};
 use crate::failure::Failure;
 use crate::say;
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, CommandFactory};
 use clap_complete::Shell;
 use spunlaid::case::keys;
+use spunlaid::error::Error;
 use spunlaid::input::WEB_KEYS;
+use std::fs;
 
 /// Prints a completion script. Only in the script, options that take keys take the known ones and nothing else.
 pub(crate) fn completions(completions: &Completions) -> Result<(), Failure> {
@@ -52,4 +54,14 @@ fn with_keys(command: &str, arg: Arg) -> Arg {
         ("keys", "pattern") => arg.value_parser(PossibleValuesParser::new(known)),
         _ => arg,
     }
+}
+
+/// Writes a manual page for each command.
+pub(crate) fn man(man: &Man) -> Result<(), Failure> {
+    let folder = &man.folder;
+    let written =
+        fs::create_dir_all(folder).and_then(|()| clap_mangen::generate_to(Arguments::command(), folder));
+    written.map_err(Error::unwritable(folder))?;
+    say::line(&format!("wrote the manual pages to {}; man spunlaid shows the first", folder.display()));
+    Ok(())
 }

@@ -2,11 +2,10 @@
 
 use super::delivery::{Asides, Delivery};
 use super::{plural, run_control};
-use crate::args::{Invocation, Reproduce, SchemeName};
+use crate::args::{Invocation, Reproduce};
 use crate::failure::Failure;
 use crate::progress;
 use spunlaid::case::Case;
-use spunlaid::chain::schemes::Scheme;
 use spunlaid::claim::Claim;
 use spunlaid::ensemble::{
     Keep, KeepShapes, Number, Place, Results, RunControl, SpectrumPoint, fly, turbulence_spectrum,
@@ -34,11 +33,7 @@ pub(crate) fn reproduce(arguments: &Reproduce, invocation: &Invocation) -> Resul
     let formats: Vec<&Format> =
         arguments.figures.iter().filter_map(|name| Format::named(name).ok()).collect();
     let wanted = chosen(arguments.figures.iter().filter(|name| Format::named(name).is_err()).collect())?;
-    let scheme = match arguments.scheme {
-        SchemeName::SemiImplicitEuler => Scheme::SemiImplicitEuler,
-        SchemeName::Leapfrog => Scheme::Leapfrog,
-        SchemeName::ImplicitTension => Scheme::ImplicitTension,
-    };
+    let scheme = arguments.scheme;
     let mut base = table1(scheme)?;
     base.run.replicates = arguments.replicates;
     let (folder, output) = (arguments.output.optional_folder("paper"), &arguments.output);

@@ -6,19 +6,29 @@ import json
 import os
 import shutil
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
 
 from ._errors import FolderError
+from ._results import unpack
 from ._spunlaid import Case, measures, read_table
 
 
 class Folder:
-    """The files of a run, in place of what was flown."""
+    """The files of a run, in place of what was flown.
 
-    def __init__(self, path: str | os.PathLike[str]) -> None:
+    files: of a run that was pickled; they stand in a folder of their own, as long as it is used
+    """
+
+    def __init__(self, path: str | os.PathLike[str], files: dict[str, bytes] | None = None) -> None:
+        self._files = files
+        if files is not None:
+            self._place = TemporaryDirectory()
+            path = self._place.name
+            unpack(files, Path(path))
         self.path = Path(path)
         try:
             self.summary = (self.path / "summary.json").read_text("utf-8")
@@ -157,7 +167,7 @@ class Folder:
         return read_table(self.path / name)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Folder, (self.path.absolute(),)
+        return Folder, (self.path.absolute() if self._files is None else "", self._files)
 
 
 def _lines(path: Path) -> list[Any]:

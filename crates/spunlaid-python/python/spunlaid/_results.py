@@ -4,9 +4,26 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from html import escape
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
+
+
+def packed(save: Callable[[str], None]) -> dict[str, bytes]:
+    """The files of the folder that `save` writes, by their names in it: what results are pickled as."""
+    with TemporaryDirectory() as place:
+        folder = Path(place) / "results"
+        save(str(folder))
+        return {path.relative_to(folder).as_posix(): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
+
+
+def unpack(files: dict[str, bytes], folder: Path) -> None:
+    """Writes them into a folder."""
+    for name, content in files.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_bytes(content)
 
 
 class Results:

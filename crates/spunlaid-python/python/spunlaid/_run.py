@@ -11,11 +11,12 @@ import numpy as np
 from . import _spunlaid
 from ._arguments import check_threads
 from ._case import CaseLike, case_of
+from ._folder import Folder
 from ._measures import Curve, Measure, MeasureMapping, Measures, Shapes, unknown_measure
 from ._optional import needed
 from ._plot import plot_curve, plot_free_ends, plot_laid_fibre, plot_number
 from ._progress import Progress, shown
-from ._results import Results
+from ._results import Results, packed
 
 if TYPE_CHECKING:
     import pandas
@@ -45,7 +46,7 @@ class Run(Results):
 
     @property
     def curves(self) -> Mapping[str, Curve]:
-        """The measures that are curves, by column. A loaded run has none."""
+        """The measures that are curves, by column. A run that was loaded or pickled has none."""
         return self._keep("curves", lambda: MeasureMapping(Curve, self._computed.curves))  # type: ignore[no-any-return]
 
     @property
@@ -132,7 +133,10 @@ class Run(Results):
         return next(list(measure["scales"]) for measure in described if measure["column"] == column)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Run, (self._case, self._computed)
+        if isinstance(self._computed, Folder):
+            return Run, (self._case, self._computed)
+        files = packed(lambda path: self._computed.save(path, False, (None, None), False))
+        return Run, (self._case, Folder("", files))
 
     def __repr__(self) -> str:
         lines = [f"<Run of {self.case!r}"]
@@ -187,7 +191,5 @@ def load(path: str | os.PathLike[str]) -> Run:
     It has what the files hold: summary, measures, end_node, energy, shapes, laid and the report; no curves. It needs
     pyarrow for the tables, when they are first used.
     """
-    from ._folder import Folder
-
     folder = Folder(path)
     return Run(folder.case, folder)

@@ -12,7 +12,7 @@ import numpy as np
 
 from ._errors import FolderError
 from ._plot import plot_map, plot_unevenness
-from ._results import Results
+from ._results import Results, packed, unpack
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -52,9 +52,7 @@ class Kept:
                     rmtree(place / name)
                 else:
                     (place / name).unlink(missing_ok=True)
-        for name, content in self.files.items():
-            (place / name).parent.mkdir(parents=True, exist_ok=True)
-            (place / name).write_bytes(content)
+        unpack(self.files, place)
 
 
 class Sheet(Results):
@@ -90,11 +88,7 @@ class Sheet(Results):
             return (Path(folder) / "web" / "report.html").read_text("utf-8")
 
     def __reduce__(self) -> tuple[Any, ...]:
-        with TemporaryDirectory() as place:
-            self.save(Path(place) / "web")
-            found = sorted(path for path in (Path(place) / "web").rglob("*") if path.is_file())
-            files = {path.relative_to(Path(place) / "web").as_posix(): path.read_bytes() for path in found}
-        computed = self._computed
+        computed, files = self._computed, packed(self.save)
         kept = Kept(computed.name, computed.summary, computed.cell, computed.map, computed.patches, self.notes, files)
         return type(self), (kept,)
 

@@ -24,7 +24,6 @@ __all__ = [
     "column_unit",
     "compare_folders",
     "find_fit",
-    "flown_from",
     "fly",
     "fly_bundle",
     "is_scan",
@@ -185,6 +184,7 @@ class RunResults(_Results):
     step_check: Final[dict[str, float | None] | None]
     mesh_check: Final[dict[str, float | None] | None]
     def report(self) -> str: ...
+    def save(self, path: str, force: bool, figures: _Figures, whole: bool = True) -> None: ...
 
 @final
 class Study:
@@ -269,7 +269,6 @@ def fly(
     samples: bool = True,
     shapes: bool = True,
 ) -> RunResults: ...
-def flown_from(state: dict[str, Any]) -> RunResults: ...
 def fly_bundle(parts: list[_Part], sides: list[float], threads: int = 1) -> _Floats: ...
 def analyse(
     record: ArrayLike | str,

@@ -2,8 +2,8 @@
 
 use super::Case;
 use super::keys::{self, FLOWN, finding};
+use super::limits::FLIGHT_MEMORY_LIMIT;
 use super::limits::{MOST_INSTANTS, MOST_STEPS};
-use super::memory::FLIGHT_MEMORY_LIMIT;
 use super::note::Note;
 use super::step::{FEEDING, StepLimit};
 use crate::air::{FileContent, Flow, Lateral, Measured};

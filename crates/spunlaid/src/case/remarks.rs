@@ -29,17 +29,26 @@ impl Case {
             && there_is_air
             && !fitted.contains(&fibre.diameter)
         {
-            let (law, from, to) = (across.name(), *fitted.start(), *fitted.end());
-            let instead = NormalLaw::MarheinekeWegener.name();
-            note("fibre.diameter", fibre.diameter, Remark::OutsideFit { law, from, to, instead });
+            let [from, to] = [fitted.start(), fitted.end()].map(|end| Dimension::Length.pretty(*end));
+            let (law, instead) = (across.name(), NormalLaw::MarheinekeWegener.name());
+            let text = format!(
+                "is outside {from} to {to}, the range of diameters that drag.across = \"{law}\" was fitted to; the \
+                 drag across the fibre is extrapolated. \"{instead}\" is valid for any diameter"
+            );
+            note("fibre.diameter", fibre.diameter, Remark::warning(text));
         }
         if let Some(fitted) = across.fitted_reynolds()
             && there_is_air
             && !fitted.contains(&self.reynolds_across())
         {
-            let (law, to) = (across.name(), *fitted.end());
-            let remark = Remark::ReynoldsOutsideFit { law, reynolds: self.reynolds_across(), to };
-            note("fibre.diameter", fibre.diameter, remark);
+            let text = format!(
+                "gives Reynolds numbers across the fibre up to {}, and drag.across = \"{}\" is valid up to {}; the \
+                 drag across the fibre is extrapolated. No other law covers so thick a fibre in so fast air",
+                Dimension::Ratio.pretty_to(self.reynolds_across(), 3),
+                across.name(),
+                Dimension::Ratio.pretty(*fitted.end())
+            );
+            note("fibre.diameter", fibre.diameter, Remark::warning(text));
         }
         let reynolds = self.usual_reynolds_across();
         // Outside of the diameters that it was fitted to, the case is warned of the law anyway.
@@ -50,12 +59,19 @@ impl Case {
             let share = drag(across) / drag(measured);
             if share < LOW_DRAG {
                 let (law, instead) = (across.name(), measured.name());
-                let remark = Remark::DragTooLow { law, reynolds, share, instead };
-                note("fibre.diameter", fibre.diameter, remark);
+                let [reynolds, share] = [reynolds, share].map(|number| Dimension::Ratio.pretty_to(number, 2));
+                let text = format!(
+                    "has Reynolds numbers of about {reynolds} across the fibre. There drag.across = \"{law}\" gives \
+                     only {share} times the drag that was measured on fine fibres and cylinders; \"{instead}\" agrees \
+                     with these measurements"
+                );
+                note("fibre.diameter", fibre.diameter, Remark::warning(text));
             }
         }
+        let element_length = Dimension::Length.pretty(l);
         if fibre.diameter > l {
-            note("fibre.diameter", fibre.diameter, Remark::ElementsStubby { element_length: l });
+            let text = format!("is larger than the element length, {element_length}; use longer elements");
+            note("fibre.diameter", fibre.diameter, Remark::warning(text));
         }
         // At the centres of the first and the last element.
         let centres = [0.5 * l, fibre.length - 0.5 * l].map(|s| fibre.direction * s);
@@ -66,24 +82,39 @@ impl Case {
                 Some(line) => ("belt.distance", line.distance),
                 None => ("fibre.length", fibre.length),
             };
-            note(key, length, Remark::LeavesFlow);
+            let text = "reaches out of the region where the flow is known; outside it, the air at the nearest \
+                known point is used";
+            note(key, length, Remark::warning(text));
         }
         let felt = there_is_air && self.air.rms() > 0.0;
         if felt && self.air.length_scale < l * (1.0 - 1e-9) {
-            note("air.length_scale", self.air.length_scale, Remark::EddiesSkipped { element_length: l });
+            let text = format!(
+                "is shorter than the elements ({element_length}): each element only feels the eddy at its centre. \
+                 Shorten fibre.element_length so that every eddy acts on the fibre"
+            );
+            note("air.length_scale", self.air.length_scale, Remark::warning(text));
         }
         let (air, from_flow) = (&self.air, self.air.from_flow);
         let times = air.length_scale / fibre.length;
         if felt && air.records.is_empty() {
             if !from_flow.length_scale && times > 2.0 {
-                note("air.length_scale", air.length_scale, Remark::EddiesLong { times });
+                let text = format!(
+                    "is {} times fibre.length, so that the same fluctuation acts on the whole fibre; check the unit",
+                    Dimension::Ratio.pretty_to(times, 2)
+                );
+                note("air.length_scale", air.length_scale, Remark::warning(text));
             }
             let passing = air.velocity.abs() / air.length_scale;
             if !from_flow.cutoff_frequency
                 && air.spectrum == SpectrumShape::VonKarman
                 && air.cutoff_frequency < passing
             {
-                note("air.cutoff_frequency", air.cutoff_frequency, Remark::CutoffLow { passing });
+                let text = format!(
+                    "is below velocity / length scale = {}, so that most of the energy of von Kármán's spectrum would \
+                     lie above it and is moved below; choose a cut-off several times higher",
+                    Dimension::Frequency.pretty(passing)
+                );
+                note("air.cutoff_frequency", air.cutoff_frequency, Remark::warning(text));
             }
         }
         notes.extend(self.slips());
@@ -108,7 +139,14 @@ impl Case {
         }
         let velocity = |at| self.air.local(at, &mut Hint::default()).velocity.x;
         let (from, to) = (velocity(Vec3::new(0.0, 0.0, 0.0)), velocity(self.along()));
-        (to < LEAST_SLOWING * from).then_some(Remark::SlowsOnly { from, to })
+        (to < LEAST_SLOWING * from).then(|| {
+            let [from, to] = [from, to].map(|speed| Dimension::Velocity.pretty_to(speed, 3));
+            Remark::warning(format!(
+                "lays filaments that have flown in air that slows from {from} to {to} and does not widen. A channel \
+                 in which air slows widens, and carries the filaments apart along the machine direction, so that the \
+                 web is more even; write widening = \"md\" in [air] of the case, or \"none\" if it is meant"
+            ))
+        })
     }
 
     /// The machine direction of a field as the case has it, with what is said of it where nobody has written it.
@@ -116,7 +154,14 @@ impl Case {
         let Flow::Field(placed) = &self.air.flow else { return None };
         let [_, machine, cross] = placed.axes();
         let plane = placed.field.even_axis() == Some(cross.index);
-        Some((machine.name(), Remark::MachineDirectionChosen { cross: cross.name(), plane }))
+        let why = if plane {
+            "along which its air is the same"
+        } else {
+            "a choice of the program, because its air is the same along none of its axes, or along two; write the \
+            key if the belt runs otherwise"
+        };
+        let text = format!("is used: the cross direction (CD) is {} of the field, {why}", cross.name());
+        Some((machine.name(), Remark::choice(text)))
     }
 
     /// What is said of a web of this width [m], if the air of a field changes over it.
@@ -140,7 +185,16 @@ impl Case {
         };
         let share = (-PLACES..=PLACES).map(change).fold(0.0, f64::max) / speed;
         let cross = placed.axes()[2].name();
-        (share > MOST_ACROSS).then_some(Remark::ChangesAcross { cross, width, share })
+        (share > MOST_ACROSS).then(|| {
+            Remark::warning(format!(
+                "lets the air change by {} % of its mean speed along the cross direction ({cross} of the field), over \
+                 the {} of the web around the root; a web is laid as if its air were the same across. If {cross} is \
+                 the machine direction, write it here; otherwise choose root and width where the air is even, or make \
+                 a plane flow of the middle",
+                Dimension::Ratio.pretty_to(100.0 * share, 2),
+                Dimension::Length.pretty_to(width, 3)
+            ))
+        })
     }
 
     /// Whether the root is farther outside of a field's box than rounding.
@@ -161,7 +215,12 @@ impl Case {
             let shown = |x: f64| Dimension::Length.pretty_to(x * placed.unit, 4);
             format!("[{}, {}, {}]", shown(v.x), shown(v.y), shown(v.z))
         };
-        let what = Remark::RootOutside { low: shown(low), high: shown(high) };
+        let what = Remark::warning(format!(
+            "is outside of the box around the field, {} to {}; the air at the nearest point of the field is used \
+             there",
+            shown(low),
+            shown(high)
+        ));
         let value = Some(shown(root));
         Some(Note { place: Place::Code, key: "air.field_root".to_owned(), value, what })
     }
@@ -177,11 +236,22 @@ impl Case {
         };
         let (along, speed) = self.air.along_and_speed(self.along());
         if along < 0.25 * speed {
-            note("air.field_axis", format!("\"{}\"", placed.axis.name()), Remark::NotAlong { along, speed });
+            let how = if along < 0.0 { "it blows from the end to the root" } else { "it blows across" };
+            let [along, speed] = [along, speed].map(|speed| Dimension::Velocity.pretty_to(speed, 3));
+            let what = Remark::warning(format!(
+                "lets the air flow along the fibre with {along} on average, although its speed is {speed}: {how}; \
+                 choose the direction in which the air leaves the spinneret"
+            ));
+            note("air.field_axis", format!("\"{}\"", placed.axis.name()), what);
         }
         let ([_, machine, cross], changes) = (placed.axes(), placed.field.changes());
         if is_even(changes, machine.index) && !is_even(changes, cross.index) {
-            let what = Remark::EvenAlongBelt { cross: cross.name() };
+            let cross = cross.name();
+            let what = Remark::warning(format!(
+                "makes the air the same along the machine direction, and lets it change along the cross direction \
+                 ({cross} of the field), as if the two were swapped: the air of a slot is the same across. Write \
+                 \"{cross}\", or leave the key out"
+            ));
             note("air.field_machine_direction", format!("\"{}\"", machine.name()), what);
         }
         let (low, high) = placed.extent();
@@ -189,7 +259,12 @@ impl Case {
         let (field, fibre) = (size.x.max(size.y).max(size.z), self.fibre.length);
         if field > 30.0 * fibre || field < fibre / 30.0 {
             let unit = Dimension::Length.pretty(placed.unit);
-            note("air.field_unit", unit, Remark::FieldSize { field, fibre });
+            let what = Remark::warning(format!(
+                "makes the field {} long, while the fibre is {} long; check that this is the unit of the mesh",
+                Dimension::Length.pretty_to(field, 3),
+                Dimension::Length.pretty(fibre)
+            ));
+            note("air.field_unit", unit, what);
         }
         notes
     }

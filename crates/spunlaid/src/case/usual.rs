@@ -2,7 +2,7 @@
 
 use super::Case;
 use super::keys::{self, Key, Value, finding};
-use super::note::{Note, Remark, SLOW};
+use super::note::{Note, Remark};
 use crate::air::Flow;
 use crate::error::{Place, Problem};
 use crate::field::Hint;
@@ -13,17 +13,30 @@ const ATMOSPHERE: f64 = 101_325.0;
 const SPECIFIC_HEATS: f64 = 1.4;
 /// Densities of air between which the temperature follows from them, at the pressure of the atmosphere [kg/m³].
 const OF_AIR: std::ops::RangeInclusive<f64> = 0.18..=2.1;
+/// Mach number up to which the density of air changes by less than 5 % [-].
+const SLOW: f64 = 0.3;
 /// Places along the fibre at which a flow is looked at.
 const PLACES: usize = 64;
 
 /// What is said of a value whose magnitude is outside the usual range; nothing of zero.
-pub(crate) fn unusual(dimension: Dimension, (least, greatest): (f64, f64), value: f64) -> Option<Remark> {
+pub(crate) fn unusual(dimension: Dimension, usual: (f64, f64), value: f64) -> Option<Remark> {
+    is_unusual(usual, value).then(|| {
+        let advice = match &dimension.in_other_units(value, usual.0, usual.1)[..] {
+            [] => "check the value and its unit".to_owned(),
+            [one] => format!("did you mean {one}?"),
+            [more @ .., last] => format!("did you mean {} or {last}?", more.join(", ")),
+        };
+        Remark::warning(format!("is outside the usual range, {}; {advice}", range(dimension, usual)))
+    })
+}
+
+fn is_unusual((least, greatest): (f64, f64), value: f64) -> bool {
     // Rounding to whole elements and steps must not matter.
-    if value == 0.0 || (0.999 * least..=1.001 * greatest).contains(&value.abs()) {
-        return None;
-    }
-    let instead = dimension.in_other_units(value, least, greatest);
-    Some(Remark::Unusual { least: dimension.pretty(least), greatest: dimension.pretty(greatest), instead })
+    value != 0.0 && !(0.999 * least..=1.001 * greatest).contains(&value.abs())
+}
+
+fn range(dimension: Dimension, (least, greatest): (f64, f64)) -> String {
+    format!("{} to {}", dimension.pretty(least), dimension.pretty(greatest))
 }
 
 impl Case {
@@ -42,7 +55,14 @@ impl Case {
                 continue;
             }
             match self.intensity_above_one().filter(|_| key.name == "air.turbulence_intensity") {
-                Some(value) => notes.push(finding(key.name, value, Remark::IntensityAboveOne { value })),
+                Some(value) => {
+                    let shown = Dimension::Ratio.pretty(value);
+                    let text = format!(
+                        "means that the rms of the fluctuation is {shown} times the mean velocity; if {shown} % was \
+                         meant, write \"{shown} %\""
+                    );
+                    notes.push(finding(key.name, value, Remark::warning(text)));
+                }
                 None => notes.extend(self.unusual(key)),
             }
         }
@@ -68,13 +88,17 @@ impl Case {
 
     fn unusual(&self, key: &Key) -> Option<Note> {
         let Value::Number(value) = key.get(self)? else { return None };
-        let remark = unusual(key.dimension()?, key.usual?, value)?;
+        let (dimension, usual) = (key.dimension()?, key.usual?);
         if key.is_derived(self) {
-            let Remark::Unusual { least, greatest, .. } = remark else { return None };
-            let value = key.kind.pretty(&Value::Number(value));
-            return self.note_of_file(Remark::UnusualInFile { key: key.name, value, least, greatest });
+            let text = format!(
+                "gives {} = {} along the fibre, which is outside the usual range, {}; check the units in the file",
+                key.name,
+                key.kind.pretty(&Value::Number(value)),
+                range(dimension, usual)
+            );
+            return is_unusual(usual, value).then(|| self.note_of_file(Remark::warning(text)))?;
         }
-        Some(finding(key.name, value, remark))
+        Some(finding(key.name, value, unusual(dimension, usual, value)?))
     }
 
     /// A note about the file that the air comes from; none if it comes from no file.
@@ -115,7 +139,13 @@ impl Case {
         // A thousandth of it is the speed of a flow: 1 to 100 m/s.
         let of_millimetres = mach > 3.0 && (1.0..=100.0).contains(&(speed / 1000.0));
         let advice = |text| if of_millimetres { text } else { "" };
-        let remark = |advice| Remark::Fast { speed, mach, advice };
+        let [shown, mach] = [Dimension::Velocity.pretty_to(speed, 3), Dimension::Ratio.pretty_to(mach, 2)];
+        let remark = |advice| {
+            Remark::warning(format!(
+                "makes the air as fast as {shown}, which is Mach {mach}: the model's air has a constant density, as \
+                 air has up to about Mach {SLOW}{advice}"
+            ))
+        };
         let note = match (&air.flow, air.records.is_empty()) {
             (Flow::Uniform, true) => {
                 return Some(finding("air.velocity", air.velocity, remark(advice(". Did you mean mm/s?"))));
@@ -150,7 +180,10 @@ impl Case {
             Flow::Profile(_) => "if it is in per cent, call the column turbulence_intensity_percent",
             Flow::Uniform => "check the mean velocity",
         };
-        self.note_of_file(Remark::IntensityOfFile { intensity, advice })
+        let intensity = Dimension::Ratio.pretty_to(intensity, 2);
+        self.note_of_file(Remark::warning(format!(
+            "makes the rms of the fluctuation {intensity} times the mean velocity along the fibre; {advice}"
+        )))
     }
 
     /// A profile whose distances seem to have another unit.
@@ -158,7 +191,14 @@ impl Case {
         let Flow::Profile(table) = &self.air.flow else { return None };
         let ((first, last), fibre) = (table.range(), self.fibre.length);
         let profile = last - first;
-        if profile > 100.0 * fibre { self.note_of_file(Remark::ProfileSize { profile, fibre }) } else { None }
+        if profile <= 100.0 * fibre {
+            return None;
+        }
+        let [profile, fibre] = [profile, fibre].map(|length| Dimension::Length.pretty_to(length, 3));
+        self.note_of_file(Remark::warning(format!(
+            "is {profile} long, while the fibre is {fibre} long, so that it feels the first rows only; check the unit \
+             of the distances"
+        )))
     }
 
     /// Turbulence of a field without a length of its own, and a field without any.
@@ -171,9 +211,18 @@ impl Case {
         let places = (0..PLACES).map(|i| along * ((i as f64 + 0.5) / PLACES as f64));
         let turbulence = places.map(|at| placed.turbulence(at, &mut hint)).collect::<Vec<_>>();
         if turbulence.iter().all(|(k, _)| *k == 0.0) {
-            return self.note_of_file(Remark::NoTurbulence);
+            return self.note_of_file(Remark::warning(
+                "has k = 0 everywhere along the fibre, so the air there is not turbulent; check that the file has the \
+                 k of the solution",
+            ));
         }
         let places = turbulence.iter().filter(|(k, epsilon)| *k > 0.0 && *epsilon == 0.0).count();
-        if places == 0 { None } else { self.note_of_file(Remark::NoDissipation { places, sampled: PLACES }) }
+        if places == 0 {
+            return None;
+        }
+        self.note_of_file(Remark::warning(format!(
+            "has k above zero and ε = 0 at {places} of {PLACES} places along the fibre; the eddies there are taken to \
+             be as large as the field. Write ε or ω for every point"
+        )))
     }
 }

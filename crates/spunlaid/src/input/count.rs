@@ -5,9 +5,10 @@ use super::open::OpenCase;
 use super::written_values::{WrittenValues, sorted};
 use crate::air::EddyModel;
 use crate::case::keys::{self, Value};
-use crate::case::{Case, MOST_STEPS, Note, Remark, too_many_steps, unusual, whole_parts};
+use crate::case::{Case, MOST_STEPS, Note, Remark, StepChoice, too_many_steps, unusual, whole_parts};
 use crate::error::{Error, Finding};
 use crate::fibre::Fibre;
+use crate::units::Dimension;
 
 /// How many times longer a suitable step must be than the written one to be mentioned.
 const MUCH_LONGER: f64 = 50.0;
@@ -94,8 +95,11 @@ impl OpenCase {
         let (fibre, length_scale) = (&mut case.fibre, case.air.length_scale);
         if let Some(element_length) = divide(fibre, written_length, length_scale) {
             let (elements, rest_length) = (fibre.elements, fibre.rest_length());
-            let remark = Remark::ElementsRounded { elements, element_length: rest_length };
-            self.note("fibre.element_length", element_length, remark);
+            let (rest_length, are_used) = (Dimension::Length.pretty(rest_length), are_used(elements as u64));
+            let text = format!(
+                "does not divide fibre.length into whole elements: {elements} of {rest_length} {are_used}"
+            );
+            self.note("fibre.element_length", element_length, Remark::note(text));
         }
     }
 
@@ -109,14 +113,29 @@ impl OpenCase {
             let limits = self.case.stable_step_limits();
             let limit = limits.iter().map(|limit| limit.limit).fold(f64::INFINITY, f64::min);
             self.case.run.time_step = suggested;
-            return Some((suggested, Remark::StepChosen { choice, limit }));
+            let stable = match choice {
+                StepChoice::Feed => "the longest possible is",
+                _ => "the flight is stable up to",
+            };
+            let limit = Dimension::Time.pretty(limit);
+            return Some((
+                suggested,
+                Remark::choice(format!("is used ({}); {stable} {limit}", choice.reason())),
+            ));
         };
         if suggested >= MUCH_LONGER * step {
-            let (times, scheme) = (suggested / step, self.case.run.scheme.name());
-            self.note("run.time_step", step, Remark::StepShort { suggested, times, scheme });
+            let text = format!(
+                "is {} times shorter than the step that run.scheme = \"{}\" needs ({}), so the run takes that much \
+                 longer; leave the key out, or override it with the value auto",
+                Dimension::Ratio.pretty_to(suggested / step, 2),
+                self.case.run.scheme.name(),
+                Dimension::Time.pretty(suggested)
+            );
+            self.note("run.time_step", step, Remark::note(text));
         }
         if self.is_written("run.error_tolerance") {
-            self.note("run.error_tolerance", tolerance, Remark::ToleranceUnused);
+            let text = "has no effect because run.time_step is given; remove one of the two";
+            self.note("run.error_tolerance", tolerance, Remark::note(text));
         }
         None
     }
@@ -144,9 +163,11 @@ impl OpenCase {
             let run = &mut self.case.run;
             // Round up: a shorter step keeps every limit that the written step keeps.
             (run.steps, run.time_step) = (steps as u64, duration / steps);
-            let remark = Remark::StepShortened { steps: run.steps, time_step: run.time_step };
+            let (used, are_used) = (Dimension::Time.pretty_to(run.time_step, 8), are_used(run.steps));
+            let text =
+                format!("does not divide run.duration into whole steps: {} of {used} {are_used}", run.steps);
             if self.is_written("run.time_step") {
-                self.note("run.time_step", time_step, remark);
+                self.note("run.time_step", time_step, Remark::note(text));
             }
         }
         Ok(())
@@ -170,12 +191,17 @@ impl OpenCase {
         if !interval_written {
             run.output_steps = run.output_steps.min(run.steps);
         }
-        let used = [run.spin_up(), run.output_interval()];
-        if !spin_up_whole && spin_up_written {
-            self.note("run.spin_up", spin_up, Remark::TimeRounded { time: used[0] });
-        }
-        if !interval_whole && interval_written {
-            self.note("run.output_interval", interval, Remark::TimeRounded { time: used[1] });
+        let rounded = [
+            ("run.spin_up", spin_up, run.spin_up(), !spin_up_whole && spin_up_written),
+            ("run.output_interval", interval, run.output_interval(), !interval_whole && interval_written),
+        ];
+        for (key, time, used, _) in rounded.into_iter().filter(|(.., is_rounded)| *is_rounded) {
+            let used = Dimension::Time.pretty(used);
+            self.note(
+                key,
+                time,
+                Remark::note(format!("is not a whole number of time steps: {used} is used")),
+            );
         }
     }
 }
@@ -222,6 +248,14 @@ fn feed_in_whole_steps(case: &mut Case, duration: f64) -> Option<Remark> {
     let keeps = (whole / step - 1.0).abs() < 1e-9 || step > 0.5 * lifetime;
     case.run.time_step = if keeps { step } else { whole };
     case.run.steps = whole_parts(duration, case.run.time_step).0.max(1);
-    let (steps, time_step) = (line.steps_per_element, case.run.time_step);
-    (!keeps).then_some(Remark::StepShortenedToFeed { steps, time_step })
+    let (steps, used) = (line.steps_per_element, Dimension::Time.pretty_to(case.run.time_step, 8));
+    (!keeps).then(|| {
+        Remark::note(format!(
+            "does not divide the time in which an element is fed into whole steps: {steps} of {used} are used for each"
+        ))
+    })
+}
+
+fn are_used(count: u64) -> &'static str {
+    if count == 1 { "is used" } else { "are used" }
 }

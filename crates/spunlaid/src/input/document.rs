@@ -4,10 +4,10 @@
 //! A value has the full name of its key, `line.belt_speed`. In a list of tables the number of the entry stands in it,
 //! `layer.2.line.rows.1.pitch`, and the list itself, `layer.2.line.rows`, has its length as value.
 
-use super::entry::{Entry, VERSION, check_version, in_order, kind, root};
+use super::Overrides;
+use super::entry::{Entry, VERSION, check_version, in_order, kind, read as read_value, root};
 use super::source::Source;
 use super::written_values::{WrittenValue, WrittenValues};
-use super::{Overrides, values};
 use crate::case::keys::{CASE, Key, KeyTable, Kind, Omission, TableList, Value};
 use crate::error::{Error, Fault, Finding, Place, Problem};
 use crate::layers::full_names::without_numbers;
@@ -294,7 +294,7 @@ impl<'a, T> Document<'a, T> {
 
     /// An entry as a value of this kind.
     pub(super) fn as_kind(&self, kind: &Kind, entry: &Entry<'_>) -> Result<Value, Fault> {
-        values::read(kind, &entry.value, |named| self.beside(&entry.place, named))
+        read_value(kind, &entry.value, |named| self.beside(&entry.place, named))
     }
 
     /// The value of a key: what is written, or else its default.
@@ -316,7 +316,7 @@ impl<'a, T> Document<'a, T> {
         };
         let read = match value.as_str() {
             Some(word) if key.words.contains(&word) => Ok(word.into()),
-            _ => values::read(&key.kind, &value, |named| self.beside(&place, named)),
+            _ => read_value(&key.kind, &value, |named| self.beside(&place, named)),
         };
         let (value, fault) = match read {
             Ok(value) => (Some(value), None),

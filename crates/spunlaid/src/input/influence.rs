@@ -1,13 +1,13 @@
 //! What decides the diameter of a filament: every number of a spinline is changed a little.
 
 use super::spinline::SpinFile;
-use super::step::{Step, changed_key, is_by_kelvin};
 use crate::case::Case;
-use crate::case::keys::{self, Key, Value};
-use crate::effects::{Change, Effect, Setting, Tried};
+use crate::case::keys::{self, Key, Kind, Sign, Value};
+use crate::effects::{Change, ChangedKey, Effect, Setting, Tried};
 use crate::sort::sort_by_key;
 use crate::spinline::Solution;
 use crate::statistics::Difference;
+use crate::units::Dimension;
 use std::cmp::Reverse;
 
 /// The change of a number, either way, and that of a temperature [K].
@@ -88,4 +88,41 @@ fn influence(key: &'static Key, carrier: &Case, near: &Solution) -> Option<Influ
         refusal: None,
     };
     (effects[0].difference.value.abs() >= LEAST).then_some(Tried { change, effects, at_first: Vec::new() })
+}
+
+/// A change of a number.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Step {
+    /// Its value is multiplied by this.
+    pub(super) factor: f64,
+    /// What is added in place of that to a temperature, and to a difference of temperatures that may be zero,
+    /// which have no share of their value [K].
+    pub(super) kelvin: f64,
+}
+
+impl Step {
+    /// The number after the change. A whole number stays one, and above zero.
+    pub(super) fn apply(self, kind: &Kind, number: f64) -> f64 {
+        match kind {
+            _ if is_by_kelvin(kind) => number + self.kelvin,
+            Kind::Whole(..) => (number * self.factor).round().max(1.0),
+            _ => number * self.factor,
+        }
+    }
+}
+
+/// Whether a number is changed by kelvins.
+pub(super) const fn is_by_kelvin(kind: &Kind) -> bool {
+    matches!(
+        kind,
+        Kind::Quantity(Dimension::Temperature, _)
+            | Kind::Quantity(Dimension::TemperatureDifference, Sign::Any)
+    )
+}
+
+/// A key that has been changed.
+pub(super) fn changed_key(key: String, kind: &Kind, [from, to]: [f64; 2]) -> ChangedKey {
+    let dimension = kind.dimension().unwrap_or(Dimension::Ratio);
+    let (whole, by_kelvin) = (matches!(kind, Kind::Whole(..)), is_by_kelvin(kind));
+    ChangedKey { key, dimension, whole, by_kelvin, from, to }
 }

@@ -16,11 +16,8 @@ mod settle;
 mod slip;
 mod source;
 mod spinline;
-mod step;
 mod study;
-mod unclosed;
 mod unknown;
-mod values;
 mod web;
 mod write;
 mod written_values;
@@ -39,6 +36,7 @@ pub use study::{
 pub use web::{WebFile, parse_web, read_web, write_web};
 pub use write::write_case;
 
+use crate::case::keys::{Key, Value};
 use crate::case::{Case, Note, keys};
 use crate::error::{Error, Fault, FileError, FileKind};
 use crate::study::Experiment;
@@ -166,6 +164,26 @@ fn open_values(mut key_values: WrittenValues, files: &DataFiles) -> Result<OpenC
         return Err(key_values.problems.into());
     }
     open::open(key_values, files)
+}
+
+/// A case file with what is written of a case, and of what is set beside it, and nothing that follows from it. The
+/// files that it names have full paths.
+///
+/// # Errors
+/// If the text is no such file.
+pub fn write_changed_case(text: &str, name: &str, set: Overrides<'_>) -> Result<String, Error> {
+    let values = values_of_case(&Resources::default(), text, name, &[set])?;
+    let full = |path: &std::path::PathBuf| std::path::absolute(path).unwrap_or_else(|_| path.clone());
+    let line = |key: &Key| {
+        let value = match values.get(key.name)?.value.clone()? {
+            Value::Paths(paths) => Value::Paths(paths.iter().map(full).collect()),
+            value => value,
+        };
+        Some(format!("{} = {}", key.short(), write::toml_value(&key.kind, value)))
+    };
+    let table = |table| (table, keys::keys_of_table(table).filter_map(line).collect::<Vec<_>>());
+    let tables = keys::TABLES.into_iter().map(table).filter(|(_, lines)| !lines.is_empty());
+    Ok(tables.map(|(table, lines)| format!("[{table}]\n{}\n", write::in_lines(&lines))).collect())
 }
 
 /// Writes what a point of a study repeats, a case or a web, as a file.

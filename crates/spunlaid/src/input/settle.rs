@@ -11,6 +11,7 @@ use crate::ensemble::{Keep, RunControl, fly};
 use crate::error::{Error, Fault, Finding};
 use crate::spinline::End;
 use crate::threads::{lock, try_each};
+use crate::units::Dimension;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -112,7 +113,9 @@ impl Resources {
             return open.resolve_with(*found);
         }
         let (case, mut notes) = open.clone().resolve_at_once()?;
-        notes.push(open.note_of_end(Remark::TensionUnflown));
+        let text = "is found by flights when the case flies; until then, all that follows from it is that of a \
+            tension of 0 N";
+        notes.push(open.note_of_end(Remark::note(text)));
         let mut wanted = lock(&self.wanted);
         if !wanted.iter().any(|(other, _)| is_it(other)) {
             wanted.push((open, most_steps(&case)));
@@ -184,7 +187,14 @@ impl OpenCase {
         let open = self.clone();
         let (case, mut notes) = self.resolve_at_once()?;
         let speed = case.line.map_or(f64::NAN, |line| line.feed_speed);
-        notes.push(open.note_of_end(Remark::TensionFlown { tension, speed, change }));
+        let text = format!(
+            "was found by flights: the mean tension at the root, {}, with a feed speed of {} that changed by {} \
+            in the last round",
+            Dimension::Force.pretty(tension),
+            Dimension::Velocity.pretty(speed),
+            Dimension::Ratio.pretty_to(change, 2)
+        );
+        notes.push(open.note_of_end(Remark::choice(text)));
         Ok((case, notes))
     }
 

@@ -1,7 +1,7 @@
 //! The text of a TOML file, with line and column of each position.
 
+use super::slip::Unclosed;
 use super::slip::slip;
-use super::unclosed::Unclosed;
 use crate::error::{Fault, Finding, Place, Position, Problem};
 use crate::units::excerpt;
 use std::ops::Range;

@@ -199,7 +199,11 @@ impl OpenCase {
         if let Surroundings::Field { temperature, .. } = spinline.air {
             match field_along(case, spinline.length, temperature) {
                 Ok(table) => {
-                    let what = Remark::AirOfField { temperature };
+                    let what = Remark::note(format!(
+                        "takes the velocity of the air along the spinline from the field, and its temperature, {} \
+                        everywhere, from spinline.temperature",
+                        Dimension::Temperature.pretty(temperature)
+                    ));
                     let finding = keys::finding("spinline.field", f64::NAN, what);
                     notes.push(key_values.placed(Note { value: None, ..finding }));
                     if let Some(line) = &mut case.spinline {

@@ -5,7 +5,7 @@
 //! product = power { (*|/) power }              factor = number [unit] | unit | name | ( sum )
 //! ```
 
-use super::{ALL, Dimension, excerpt};
+use super::{Dimension, excerpt};
 use crate::error::Fault;
 use std::collections::BTreeSet;
 use std::fmt;
@@ -17,94 +17,33 @@ const DEEPEST: usize = 50;
 
 /// The unit of a quantity as powers of metre, kilogram, second, kelvin and ampere.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Powers {
-    /// Power of the metre.
-    pub metre: f64,
-    /// Power of the kilogram.
-    pub kilogram: f64,
-    /// Power of the second.
-    pub second: f64,
-    /// Power of the kelvin.
-    pub kelvin: f64,
-    /// Power of the ampere.
-    pub ampere: f64,
-}
+pub struct Powers([f64; 5]);
 
 impl Powers {
-    const fn new(metre: f64, kilogram: f64, second: f64) -> Self {
-        Self { metre, kilogram, second, kelvin: 0.0, ampere: 0.0 }
-    }
-
     /// The powers of a dimension.
     pub const fn from_dimension(dimension: Dimension) -> Self {
-        match dimension {
-            Dimension::Length => Self::new(1.0, 0.0, 0.0),
-            Dimension::Velocity => Self::new(1.0, 0.0, -1.0),
-            Dimension::Time => Self::new(0.0, 0.0, 1.0),
-            Dimension::Frequency | Dimension::Rate => Self::new(0.0, 0.0, -1.0),
-            Dimension::Density => Self::new(-3.0, 1.0, 0.0),
-            Dimension::LinearDensity => Self::new(-1.0, 1.0, 0.0),
-            Dimension::BasisWeight => Self::new(-2.0, 1.0, 0.0),
-            Dimension::Pressure => Self::new(-1.0, 1.0, -2.0),
-            Dimension::KinematicViscosity => Self::new(2.0, 0.0, -1.0),
-            Dimension::Acceleration => Self::new(1.0, 0.0, -2.0),
-            Dimension::Temperature => Self { kelvin: 1.0, ..Self::new(0.0, 0.0, 0.0) },
-            Dimension::DynamicViscosity => Self::new(-1.0, 1.0, -1.0),
-            Dimension::MassFlow => Self::new(0.0, 1.0, -1.0),
-            Dimension::Force => Self::new(1.0, 1.0, -2.0),
-            Dimension::SurfaceTension => Self::new(0.0, 1.0, -2.0),
-            Dimension::InversePressure => Self::new(1.0, -1.0, 2.0),
-            Dimension::SpecificVolume => Self::new(3.0, -1.0, 0.0),
-            Dimension::SpecificVolumeSlope => Self { kelvin: -1.0, ..Self::new(3.0, -1.0, 0.0) },
-            Dimension::SpecificEnergy => Self::new(2.0, 0.0, -2.0),
-            Dimension::HeatCapacity => Self { kelvin: -1.0, ..Self::new(2.0, 0.0, -2.0) },
-            Dimension::HeatCapacitySlope => Self { kelvin: -2.0, ..Self::new(2.0, 0.0, -2.0) },
-            Dimension::MolarEnergy => Self::new(2.0, 1.0, -2.0),
-            Dimension::TemperatureDifference => Self { kelvin: 1.0, ..Self::new(0.0, 0.0, 0.0) },
-            Dimension::Noise => Self::new(-0.5, 0.0, 0.0),
-            Dimension::SpecificCharge => Self { ampere: 1.0, ..Self::new(0.0, -1.0, 1.0) },
-            Dimension::ElectricField => Self { ampere: -1.0, ..Self::new(1.0, 1.0, -3.0) },
-            Dimension::Memory | Dimension::Angle | Dimension::Ratio => Self::new(0.0, 0.0, 0.0),
-        }
+        Self(dimension.row().powers)
     }
 
     /// Whether the two are equal apart from rounding.
     pub fn agree(self, other: Self) -> bool {
-        let off = self.plus(other, -1.0);
-        [off.metre, off.kilogram, off.second, off.kelvin, off.ampere].iter().all(|power| power.abs() < 1e-9)
+        self.plus(other, -1.0).0.iter().all(|power| power.abs() < 1e-9)
     }
 
     fn plus(self, other: Self, sign: f64) -> Self {
-        Self {
-            metre: self.metre + sign * other.metre,
-            kilogram: self.kilogram + sign * other.kilogram,
-            second: self.second + sign * other.second,
-            kelvin: self.kelvin + sign * other.kelvin,
-            ampere: self.ampere + sign * other.ampere,
-        }
+        Self(std::array::from_fn(|i| self.0[i] + sign * other.0[i]))
     }
 
     fn times(self, factor: f64) -> Self {
-        Self {
-            metre: self.metre * factor,
-            kilogram: self.kilogram * factor,
-            second: self.second * factor,
-            kelvin: self.kelvin * factor,
-            ampere: self.ampere * factor,
-        }
+        Self(self.0.map(|power| power * factor))
     }
 }
 
 impl fmt::Display for Powers {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut parts = Vec::new();
-        for (unit, power) in [
-            ("kg", self.kilogram),
-            ("m", self.metre),
-            ("s", self.second),
-            ("K", self.kelvin),
-            ("A", self.ampere),
-        ] {
+        let [metre, kilogram, second, kelvin, ampere] = self.0;
+        for (unit, power) in [("kg", kilogram), ("m", metre), ("s", second), ("K", kelvin), ("A", ampere)] {
             if power == 1.0 {
                 parts.push(unit.to_owned());
             } else if power != 0.0 {
@@ -350,7 +289,7 @@ impl<'a> Reader<'a> {
 /// Size and powers of a unit, found by its symbol.
 fn unit(symbol: &str) -> Option<(f64, Powers)> {
     if symbol == "kg" {
-        return Some((1.0, Powers::new(0.0, 1.0, 0.0)));
+        return Some((1.0, Powers([0.0, 1.0, 0.0, 0.0, 0.0])));
     }
     match exact("1", symbol)? {
         Node::Quantity(value, powers) => Some((value, powers)),
@@ -364,7 +303,7 @@ fn exact(number: &str, symbol: &str) -> Option<Node> {
         return None;
     }
     let text = format!("{number} {symbol}");
-    ALL.into_iter().find_map(|dimension| {
+    Dimension::all().find_map(|dimension| {
         let value = dimension.parse(&text).ok()?;
         Some(Node::Quantity(value, Powers::from_dimension(dimension)))
     })

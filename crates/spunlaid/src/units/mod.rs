@@ -1,18 +1,18 @@
 //! Quantities with units. They are converted to SI units when they are read, and from SI units when they are shown.
 
-mod comma;
 mod expression;
 mod si;
 mod spelling;
 mod table;
 
 pub(crate) use crate::error::{excerpt, shortest};
-pub(crate) use comma::readings;
-pub use comma::with_decimal_point;
 pub(crate) use expression::unknown_name;
 pub use expression::{Expression, Powers};
 pub use si::{si_unit_of, udunits};
 pub(crate) use spelling::plain_spelling;
+pub(crate) use spelling::readings;
+pub use spelling::with_decimal_point;
+pub use table::Dimension;
 
 use crate::error::Fault;
 use crate::sort::sort_by_key;
@@ -21,105 +21,6 @@ use std::borrow::Cow;
 use std::cmp::Reverse;
 use std::fmt;
 use table::Scale::{Above, Over, Ten, Times};
-
-/// The dimension of a quantity, which decides the units that it takes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Dimension {
-    /// [m]
-    Length,
-    /// [m/s]
-    Velocity,
-    /// [s]
-    Time,
-    /// [Hz]
-    Frequency,
-    /// [1/s]
-    Rate,
-    /// [kg/m³]
-    Density,
-    /// [kg/m]
-    LinearDensity,
-    /// [kg/m²]
-    BasisWeight,
-    /// [Pa]
-    Pressure,
-    /// [m²/s]
-    KinematicViscosity,
-    /// [m/s²]
-    Acceleration,
-    /// [K]
-    Temperature,
-    /// [Pa s]
-    DynamicViscosity,
-    /// [kg/s]
-    MassFlow,
-    /// [N]
-    Force,
-    /// [N/m]
-    SurfaceTension,
-    /// [1/Pa]
-    InversePressure,
-    /// [m³/kg]
-    SpecificVolume,
-    /// [m³/(kg K)]
-    SpecificVolumeSlope,
-    /// [J/kg]
-    SpecificEnergy,
-    /// [J/(kg K)]
-    HeatCapacity,
-    /// [J/(kg K²)]
-    HeatCapacitySlope,
-    /// [J/mol]
-    MolarEnergy,
-    /// [K]
-    TemperatureDifference,
-    /// [m^-½]
-    Noise,
-    /// [C/kg]
-    SpecificCharge,
-    /// [V/m]
-    ElectricField,
-    /// [B]
-    Memory,
-    /// [rad]
-    Angle,
-    /// A plain number, or a percentage.
-    Ratio,
-}
-
-/// Every dimension.
-const ALL: [Dimension; 30] = [
-    Dimension::Length,
-    Dimension::Velocity,
-    Dimension::Time,
-    Dimension::Frequency,
-    Dimension::Rate,
-    Dimension::Density,
-    Dimension::LinearDensity,
-    Dimension::BasisWeight,
-    Dimension::Pressure,
-    Dimension::KinematicViscosity,
-    Dimension::Acceleration,
-    Dimension::Temperature,
-    Dimension::DynamicViscosity,
-    Dimension::MassFlow,
-    Dimension::Force,
-    Dimension::SurfaceTension,
-    Dimension::InversePressure,
-    Dimension::SpecificVolume,
-    Dimension::SpecificVolumeSlope,
-    Dimension::SpecificEnergy,
-    Dimension::HeatCapacity,
-    Dimension::HeatCapacitySlope,
-    Dimension::MolarEnergy,
-    Dimension::TemperatureDifference,
-    Dimension::Noise,
-    Dimension::SpecificCharge,
-    Dimension::ElectricField,
-    Dimension::Memory,
-    Dimension::Angle,
-    Dimension::Ratio,
-];
 
 /// Shows what to write for a dimension: `a length with its unit: m, cm, mm, µm or nm`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -147,38 +48,7 @@ impl fmt::Display for UnitAdvice {
 impl Dimension {
     /// Its name with an article: `a length`.
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Length => "a length",
-            Self::Velocity => "a velocity",
-            Self::Time => "a time",
-            Self::Frequency => "a frequency",
-            Self::Rate => "a rate",
-            Self::Density => "a density",
-            Self::LinearDensity => "a linear density",
-            Self::BasisWeight => "a basis weight",
-            Self::Pressure => "a pressure",
-            Self::KinematicViscosity => "a kinematic viscosity",
-            Self::Acceleration => "an acceleration",
-            Self::Temperature => "a temperature",
-            Self::DynamicViscosity => "a viscosity",
-            Self::MassFlow => "a mass flow",
-            Self::Force => "a force",
-            Self::SurfaceTension => "a surface tension",
-            Self::InversePressure => "an inverse pressure",
-            Self::SpecificVolume => "a specific volume",
-            Self::SpecificVolumeSlope => "a specific volume per kelvin",
-            Self::SpecificEnergy => "an energy per mass",
-            Self::HeatCapacity => "a heat capacity",
-            Self::HeatCapacitySlope => "a heat capacity per kelvin",
-            Self::MolarEnergy => "an energy per mole",
-            Self::TemperatureDifference => "a temperature difference",
-            Self::Noise => "a noise",
-            Self::SpecificCharge => "a charge per mass",
-            Self::ElectricField => "an electric field",
-            Self::Memory => "a size of memory",
-            Self::Angle => "an angle",
-            Self::Ratio => "a ratio",
-        }
+        self.row().name
     }
 
     /// The SI unit, `m/s²`. Empty for a ratio.
@@ -229,7 +99,7 @@ impl Dimension {
         }
         let digit_follows = rest.chars().nth(1).is_some_and(|c| c.is_ascii_digit());
         if digit_follows && rest.starts_with(',') {
-            return Err(comma::comma(text));
+            return Err(spelling::comma(text));
         }
         if digit_follows && rest.starts_with('_') {
             let mended = excerpt(&text.replace('_', ""), 40);
@@ -243,7 +113,7 @@ impl Dimension {
         let Some(unit) = self.units().iter().find(|unit| fits(unit)) else {
             return Err(if written.is_empty() {
                 self.no_unit()
-            } else if let Some(other) = ALL.iter().find(|d| d.units().iter().any(fits)) {
+            } else if let Some(other) = Self::all().find(|d| d.units().iter().any(fits)) {
                 wrong(format!("is {}", other.name()).into())
             } else {
                 wrong(format!("has the unknown unit \"{}\"", excerpt(written, 20)).into())

@@ -1,12 +1,12 @@
 //! The units of values as they are kept, in words that other programs read.
 
-use super::ALL;
+use super::Dimension;
 use super::spelling::plain_spelling;
 
 /// The SI unit of a multiple of it, or of a quotient of such multiples: `m²/Hz` of `mm²/Hz`, `kg/m` of `dtex`.
 pub fn si_unit_of(multiple: &str) -> String {
     const POWERS: &[char] = &['²', '³'];
-    let known = |symbol: &str| ALL.iter().find(|d| d.units().iter().any(|unit| unit.shown == symbol));
+    let known = |symbol: &str| Dimension::all().find(|d| d.units().iter().any(|unit| unit.shown == symbol));
     // Kilometres are shown, though no key takes them.
     let of_thousands = |symbol: &str| symbol.strip_prefix('k').and_then(known);
     let si = |symbol: &str| {

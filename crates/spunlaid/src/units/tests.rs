@@ -172,7 +172,7 @@ proptest! {
     #[test]
     fn identical_after_writing_and_reading(
         value in any::<f64>().prop_filter("finite", |v| v.is_finite()),
-        dimension in prop::sample::select(ALL.to_vec()),
+        dimension in prop::sample::select(Dimension::all().collect::<Vec<_>>()),
     ) {
         let text = dimension.exact(value);
         prop_assert_eq!(dimension.parse(&text).map(f64::to_bits), Ok(value.to_bits()), "{}", text);
@@ -189,7 +189,7 @@ proptest! {
 
     #[test]
     fn any_text_is_read_or_refused(text in "\\PC{0,20}|[-+0-9.eE_,]{0,12} ?[a-zA-Zµμ%/^²³⁻¹]{0,5}") {
-        for dimension in ALL {
+        for dimension in Dimension::all() {
             if let Ok(value) = dimension.parse(&text) {
                 prop_assert!(value.is_finite());
             }

@@ -3,7 +3,7 @@
 use crate::cases;
 use crate::cases::{bits, changed, read_again};
 use spunlaid::air::{Air, Flow};
-use spunlaid::case::{Case, Remark, Run};
+use spunlaid::case::{Case, Run};
 use spunlaid::chain::schemes::Scheme;
 use spunlaid::drag::{Drag, FrictionLaw, NormalLaw};
 use spunlaid::fibre::{Fibre, Root};
@@ -37,7 +37,7 @@ fn identical_every_case_of_the_repository() {
 #[test]
 fn identical_starter_table_1_and_the_starter_with_its_defaults_spelt_out() {
     let (starter, notes) = parse_case(starter_case(), "starter.toml", &[]).unwrap();
-    assert!(notes.iter().all(|note| matches!(note.what, Remark::StepChosen { .. })), "{notes:?}");
+    assert!(notes.iter().all(|note| note.what.is_choice()), "{notes:?}");
     let (table1, _) = read_case(Path::new("../../cases/table1.toml"), &[]).unwrap();
     // The starter has the law across that measurements support, and elements and a scheme that resolve the
     // motion; Table 1 those of the paper.

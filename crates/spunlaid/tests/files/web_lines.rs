@@ -1,7 +1,6 @@
 //! Webs in the words of a line: throughput, titre, holes and basis weight, and the speeds that follow.
 
 use crate::web_files::{KNOWN, assert_reads_back, bits, set};
-use spunlaid::case::{Note, Remark};
 use spunlaid::input::{LaydownSource, WebFile, parse_web, read_case, read_web};
 use spunlaid::web::{Fibres, Filaments};
 use std::path::Path;
@@ -194,11 +193,12 @@ fn assert_reads_back_beside_cases(file: &WebFile) {
 
 /// What is doubted of the numbers of a line.
 fn doubted(file: &WebFile) -> Vec<&'static str> {
-    let words = |note: &Note| match note.what {
-        Remark::Implausible { words, .. } => Some(words),
-        _ => None,
-    };
-    file.notes.iter().filter_map(words).collect()
+    let words =
+        ["basis weight", "spinning speed", "speed of the belt", "throughput of a hole", "titre", "filament"];
+    let all = file.notes.iter().filter(|note| note.what.is_doubt()).map(|note| note.what.to_string());
+    let word =
+        |text: String| words.into_iter().find(|word| text.starts_with(&format!("is doubtful: a {word} of ")));
+    all.map(|text| word(text).unwrap()).collect()
 }
 
 #[test]
@@ -219,9 +219,7 @@ fn numbers_that_no_spunbond_line_has_are_doubted() {
         doubts.sort_unstable();
         assert_eq!(found, doubts, "{key} = {value}");
     }
-    let note = |file: &WebFile| {
-        file.notes.iter().find(|note| matches!(note.what, Remark::Implausible { .. })).unwrap().to_string()
-    };
+    let note = |file: &WebFile| file.notes.iter().find(|note| note.what.is_doubt()).unwrap().to_string();
     let said = note(&read_line(&[("line.throughput", "2 g/min")]));
     assert!(
         said.ends_with(

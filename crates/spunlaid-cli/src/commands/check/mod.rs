@@ -10,7 +10,7 @@ use crate::commands::flown::settled_with;
 use crate::commands::stem;
 use crate::failure::Failure;
 use crate::say;
-use spunlaid::case::{Note, Remark};
+use spunlaid::case::Note;
 use spunlaid::error::{Error, FileKind};
 use spunlaid::input::{Resources, kind_of};
 
@@ -39,7 +39,7 @@ fn looked_at<T>(read: impl Fn(&Resources) -> Result<T, Error>) -> Result<T, Erro
 ///
 /// * `notes` – of the file; one may doubt that it is meant
 fn show(kind: &str, (text, notes): (&str, &[Note]), comments: &[String], command: &str, source: &CaseSource) {
-    let is_doubtful = notes.iter().any(|note| matches!(note.what, Remark::Implausible { .. }));
+    let is_doubtful = notes.iter().any(|note| note.what.is_doubt());
     say::line(&format!("# the {kind} with every default"));
     say::text(text);
     say::line("");

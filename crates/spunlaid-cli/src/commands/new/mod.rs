@@ -2,7 +2,6 @@
 
 mod ask;
 mod line;
-mod study;
 
 use crate::args::{New, is_standard};
 use crate::failure::Failure;
@@ -10,7 +9,7 @@ use crate::say;
 use ask::complete;
 use line::Line;
 use spunlaid::error::{Error, Fault};
-use spunlaid::input::{read_web, starter_case, starter_case_of_fed};
+use spunlaid::input::{read_web, starter_case, starter_case_of_fed, starter_study};
 use std::fs::{OpenOptions, remove_file};
 use std::io::{ErrorKind, Write, stdin};
 use std::path::{Path, PathBuf};
@@ -22,7 +21,7 @@ pub(crate) fn new(new: &New) -> Result<(), Failure> {
     }
     let case = if new.fed { starter_case_of_fed() } else { starter_case() };
     if new.study {
-        return study::study(path, case);
+        return study(path, case);
     }
     if is_standard(path) {
         say::text(case);
@@ -62,6 +61,23 @@ fn web(new: &New) -> Result<(), Failure> {
     say::line(&format!(
         "wrote {path} and {air}; change them, then: spunlaid check {path}, spunlaid web {path}"
     ));
+    Ok(())
+}
+
+/// Writes a study beside the file that it varies.
+fn study(path: &Path, case: &str) -> Result<(), Failure> {
+    need_file(path, "a study stands beside the file that it varies")?;
+    let study = path.with_file_name(format!("{}_study.toml", super::stem(path, "case")));
+    let (base, shown) = (path.display(), study.display());
+    let is_new = !path.exists();
+    if is_new {
+        write(path, case)?;
+    }
+    write(&study, &starter_study(path)?)?;
+    if is_new {
+        say::line(&format!("wrote {base}"));
+    }
+    say::line(&format!("wrote {shown}, which varies {base}; change it, then: spunlaid sweep {shown}"));
     Ok(())
 }
 

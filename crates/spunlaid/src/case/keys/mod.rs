@@ -7,8 +7,7 @@
 //!
 //! To add a key, add a row to its file in `table`; then write the code that uses its value.
 
-pub(crate) mod joined;
-mod key_table;
+pub(crate) mod key_table;
 mod relations;
 #[macro_use]
 pub(crate) mod row;

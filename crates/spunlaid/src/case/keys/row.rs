@@ -52,7 +52,9 @@ fields! {
     u64: |number| Value::Whole(*number), whole;
     bool: |switch| Value::from_switch(*switch), switch;
     String: |text| Value::Text(text.clone()), text;
+    usize: |number| Value::Whole(*number as u64), count;
     Vec3<f64>: |vector| Value::Vector(*vector), vector;
+    Vec<f64>: |list| Value::Numbers(list.clone()), numbers;
 }
 
 impl<F: KeyField + Default> KeyField for Option<F> {
@@ -97,7 +99,30 @@ macro_rules! at {
     };
 }
 
-pub(crate) use at;
+/// Access to a field of a part that an input may lack: where the part is, to read and to change it, its pattern with
+/// the field, and what is wrong without it.
+macro_rules! within {
+    (|$input:ident| $get:expr, $set:expr, $pattern:pat => $part:ident $(.$field:ident)*, $fault:expr) => {
+        Access {
+            get: |$input| {
+                use $crate::case::keys::row::KeyField as _;
+                match $get {
+                    $pattern => $part $(.$field)* .tell(),
+                    _ => None,
+                }
+            },
+            set: |$input, value| {
+                use $crate::case::keys::row::KeyField as _;
+                match $set {
+                    $pattern => $part $(.$field)* .take(value),
+                    _ => Err($fault),
+                }
+            },
+        }
+    };
+}
+
+pub(crate) use {at, within};
 
 /// Access to a number of the air that the flow may give instead.
 macro_rules! of_air {
@@ -159,28 +184,6 @@ macro_rules! of_record {
                     // The records have been read with it.
                     Some(record) if record.layout.$field == Some(setting) => Ok(()),
                     Some(_) => Err(read_with_case()),
-                }
-            },
-        }
-    };
-}
-
-/// Access to a number of the friction on the belt.
-macro_rules! of_friction {
-    ($field:ident) => {
-        Access {
-            get: |case| match case.line?.contact {
-                Contact::Friction { $field, .. } => Some(Value::Number($field)),
-                Contact::Stick => None,
-            },
-            set: |case, value| match &mut line(case)?.contact {
-                Contact::Friction { $field, .. } => {
-                    *$field = number(value)?;
-                    Ok(())
-                }
-                Contact::Stick => {
-                    let remedy = "leave it out, or write this line, with which the fibre slides on the belt";
-                    Err(Fault::needs("belt.contact = \"friction\"", remedy))
                 }
             },
         }
@@ -335,6 +338,18 @@ pub(crate) fn whole(value: &Value) -> Result<u64, Fault> {
     match value {
         Value::Whole(number) => Ok(*number),
         _ => Err(wrong_type(value, "a whole number")),
+    }
+}
+
+fn count(value: &Value) -> Result<usize, Fault> {
+    Ok(usize::try_from(whole(value)?).unwrap_or(usize::MAX))
+}
+
+/// A list of numbers; one alone makes a list.
+fn numbers(value: &Value) -> Result<Vec<f64>, Fault> {
+    match value {
+        Value::Numbers(numbers) => Ok(numbers.clone()),
+        _ => Ok(vec![number(value)?]),
     }
 }
 

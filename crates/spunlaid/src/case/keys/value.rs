@@ -76,17 +76,18 @@ impl Content {
     }
 }
 
-impl From<f64> for Value {
-    fn from(value: f64) -> Self {
-        Self::Number(value)
-    }
+/// Values of types that are one as they stand.
+macro_rules! values {
+    ($($type:ty: $variant:ident),+) => {
+        $(impl From<$type> for Value {
+            fn from(value: $type) -> Self {
+                Self::$variant(value)
+            }
+        })+
+    };
 }
 
-impl From<u64> for Value {
-    fn from(value: u64) -> Self {
-        Self::Whole(value)
-    }
-}
+values!(f64: Number, u64: Whole, String: Text, Vec3<f64>: Vector, Content: Content);
 
 impl From<&str> for Value {
     fn from(text: &str) -> Self {
@@ -94,27 +95,9 @@ impl From<&str> for Value {
     }
 }
 
-impl From<String> for Value {
-    fn from(text: String) -> Self {
-        Self::Text(text)
-    }
-}
-
-impl From<Vec3<f64>> for Value {
-    fn from(vector: Vec3<f64>) -> Self {
-        Self::Vector(vector)
-    }
-}
-
 impl From<[f64; 3]> for Value {
     fn from([x, y, z]: [f64; 3]) -> Self {
         Self::Vector(Vec3::new(x, y, z))
-    }
-}
-
-impl From<Content> for Value {
-    fn from(content: Content) -> Self {
-        Self::Content(content)
     }
 }
 

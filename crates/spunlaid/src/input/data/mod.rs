@@ -63,7 +63,7 @@ fn read(kind: Kind, path: &Path, (record, field): &Layouts, way: &str) -> Found 
         Kind::Field => {
             let ReadField { field, warnings, checksum, parts } = ReadField::read(path, field)?;
             let content = Content::Field(from_file(path, checksum, field).with_parts(parts).read_as(way));
-            return Ok((content, warnings.into_iter().map(Remark::File).collect()));
+            return Ok((content, warnings.iter().map(|fault| Remark::warning(fault.to_string())).collect()));
         }
         // All that `spunlaid analyse` says is said of a record.
         Kind::Records => {
@@ -99,7 +99,7 @@ fn table<T>(
 
 /// The fluctuation of a record with the numbers of the air that it gives, and what is said of it.
 fn measured(record: Record) -> Result<(Measured, Vec<Remark>), FileError> {
-    let repairs = record.repairs().into_iter().map(Remark::Repaired);
+    let repairs = record.repairs().into_iter().map(|fault| Remark::note(fault.to_string()));
     let analysis = analyse_fluctuation(&record, &Settings::default())?;
     let with_mean = analysis.has_mean();
     let known_value = |interval: &Interval| with_mean.then_some(interval.value);
@@ -111,7 +111,8 @@ fn measured(record: Record) -> Result<(Measured, Vec<Remark>), FileError> {
     };
     let components: Vec<&[f64]> = record.components.iter().map(|c| c.values.as_slice()).collect();
     let measured = Measured::new(record.interval, &components, analysis.integral_time.value, says);
-    Ok((measured, repairs.chain(analysis.warnings.into_iter().map(Remark::File)).collect()))
+    let warnings = analysis.warnings.iter().map(|fault| Remark::warning(fault.to_string()));
+    Ok((measured, repairs.chain(warnings).collect()))
 }
 
 /// Reads places from a table with the columns x, y and z, each with its unit [m].

@@ -5,8 +5,8 @@ use super::super::open::{self, OpenCase};
 use super::super::spinline::{self, SpinFile};
 use super::super::written_values::{WrittenValue, WrittenValues};
 use super::super::{Overrides, values_of_case};
+use super::advice;
 use super::plan::Plan;
-use super::reader::advice;
 use super::{Base, ExperimentWithNotes, VariedKey, level};
 use crate::case::keys::{self, Value};
 use crate::case::{Note, Remark};
@@ -166,7 +166,8 @@ impl CaseBase {
         let unneeded: Vec<Note> = match &opened {
             Err(Error::Rejected(problems)) if set.iter().any(|(key, _)| !key.words().is_empty()) => {
                 let note = |problem: &Problem| {
-                    let what = Remark::Unneeded { needed: problem.what.needs? };
+                    let needed = problem.what.needs?;
+                    let what = Remark::note(format!("is left out, because it needs {needed}"));
                     let Problem { place, key, value, .. } = problem.clone();
                     Some(Note { place, key, value, what })
                 };

@@ -2,8 +2,8 @@
 
 use super::super::document::Named;
 use super::super::entry::Entry;
-use super::reader::{Reader, not_written};
 use super::{Base, VariedKey};
+use super::{Reader, not_written};
 use crate::error::{Fault, Finding};
 use crate::study::{Factor, Link};
 use crate::units::{Expression, Powers, unknown_name};

@@ -2,37 +2,32 @@
 
 mod base;
 mod changes;
-mod claims;
 mod design;
-mod differences;
 mod fit;
-mod guesses;
-mod levels;
 mod line;
 mod links;
-mod open_web;
 mod plan;
 mod points;
-mod reader;
-mod replicates;
-mod starter;
 mod web;
 mod write;
 
 pub use changes::{Changes, parse_changes, read_changes};
-pub use differences::differences;
 pub use fit::{FitFile, parse_fit, read_fit};
 pub use points::StudyNote;
-pub use starter::starter_study;
+pub use write::differences;
+pub use write::starter_study;
 
-use super::Resources;
-use super::{Overrides, file};
-use crate::case::keys::{Kind, Value};
+use super::document::{self, Document};
+use super::written_values::sorted;
+use super::{Overrides, Resources, file};
+use crate::case::keys::{self, Kind, Value};
 use crate::case::{Note, Remark};
-use crate::error::{Error, FileKind, Finding, Place, Position};
-use crate::study::{Experiment, Factor, Levels, Quantity, Replicates, Study};
+use crate::error::{Error, Fault, FileKind, Finding, Place, Position};
+use crate::removed::Removed;
+use crate::study::{Experiment, Factor, Levels, Quantity, Replicates, STUDY, Study};
 use crate::units::Dimension;
 use plan::Plan;
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 /// Largest number of points that is flown without an explicit request.
@@ -138,7 +133,7 @@ pub fn parse_changed_study(
 ) -> Result<StudyFile, Error> {
     let own = Resources::default();
     let resources = changes.set.resources.unwrap_or(&own);
-    let mut reader = reader::open(text, name)?;
+    let mut reader = open(text, name)?;
     let Some((named, kind)) = reader.base() else { return Err(reader.rejected()) };
     let (base_text, base_name) = base(&named, kind)?;
     let before = reader.problems();
@@ -163,7 +158,11 @@ pub fn parse_changed_study(
     if !until.is_empty() && *at_least < FEWEST_REPLICATES {
         let place = Place::in_file(name, Position::Whole);
         let (key, value) = ("replicates.at_least".to_owned(), Some(at_least.to_string()));
-        let note = Finding { place, key, value, what: Remark::FewReplicates };
+        let what = Remark::warning(
+            "is too few to trust a standard error, so the study often stops before its results are as exact as \
+            asked; write 6 or more",
+        );
+        let note = Finding { place, key, value, what };
         notes.push(StudyNote { note, points: resolved.len() as u64, all: true });
     }
     let study = plan.study(resolved);
@@ -300,4 +299,66 @@ fn level(kind: &Kind, value: &Value) -> Option<f64> {
         Value::Text(word) => kind.words().iter().position(|one| one == word).map(|i| i as f64),
         value => value.number(),
     }
+}
+
+/// A study file, and the problems found in it so far.
+type Reader<'a> = Document<'a, Study>;
+
+/// Reads what the file says without that which varies.
+///
+/// # Errors
+/// If the text is not TOML, is a file of another kind, or has a format that is newer than this library.
+fn open<'a>(text: &'a str, name: &str) -> Result<Reader<'a>, Error> {
+    let mut reader = document::open(&STUDY, text, name, &[])?;
+    reader.check_relations();
+    Ok(reader)
+}
+
+impl Reader<'_> {
+    /// Number of problems so far.
+    pub(super) const fn problems(&self) -> usize {
+        self.key_values.problems.len()
+    }
+
+    /// All problems, in the order of the file.
+    pub(super) fn rejected(self) -> Error {
+        sorted(self.key_values.problems).into()
+    }
+}
+
+/// Advice for a key whose values a study cannot vary.
+const TAKE_A_NUMBER: &str = "take a key whose value is a number or one of a few words";
+
+/// Advice for a name that a study cannot vary.
+pub(super) fn advice(name: &str) -> String {
+    if let Some(key) = keys::find(name) {
+        let in_study = |line| format!("write {line} in the study file, above its tables");
+        return key.relations.in_study.map_or_else(|| TAKE_A_NUMBER.to_owned(), in_study);
+    }
+    if let Some(removed) = Removed::Key.fault(name) {
+        return format!("it {removed}");
+    }
+    match keys::nearest(name) {
+        Some(key) if key.varies => format!("did you mean {}?", key.name),
+        _ => "write the full name of a key of the case, like air.velocity".to_owned(),
+    }
+}
+
+/// A study cannot vary, link or set this key.
+pub(super) fn not_varied(remedy: impl Into<Cow<'static, str>>) -> Fault {
+    Fault::new("cannot be set by a study", remedy)
+}
+
+/// A key that is both set and varied or linked.
+///
+/// * `by` – the key that sets it, which may be another one that gives it in other words
+pub(super) fn set_twice(key: &str, by: &str) -> Fault {
+    let by = if by == key { String::new() } else { format!(" by {by}") };
+    Fault::new(format!("is set to one value for all points{by}, and varied or linked as well"), "keep one")
+}
+
+/// The case does not give the key a value of its own.
+pub(super) fn not_written(purpose: &str) -> Fault {
+    let message = "has no value in the case, where it follows from other keys";
+    Fault::new(message, format!("write it there to {purpose}"))
 }

@@ -3,11 +3,10 @@
 use super::super::Resources;
 use super::plan::{Plan, base_value};
 use super::{Base, VariedKey, links};
-use crate::case::{Note, Remark};
+use crate::case::Note;
 use crate::error::{Error, Place};
 use crate::study::{Point, seed_of_point};
 use std::fmt;
-use std::mem::{Discriminant, discriminant};
 
 /// A remark that applies to one or more points of a study.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,9 +20,9 @@ pub struct StudyNote {
 }
 
 impl StudyNote {
-    /// The remarks that go with results, see [`Note::of_results`].
+    /// The remarks that go with results, see [`Note::notes_of_results`].
     pub fn notes_of_results(notes: &[Self]) -> Vec<String> {
-        notes.iter().filter(|remark| remark.note.is_of_results()).map(Self::to_string).collect()
+        notes.iter().filter(|remark| !remark.note.what.is_choice()).map(Self::to_string).collect()
     }
 }
 
@@ -97,22 +96,18 @@ impl Resolver<'_> {
 
 /// The remarks on all points; remarks of the same kind on the same key are merged.
 #[derive(Default)]
-pub(super) struct Notes(Vec<(Discriminant<Remark>, StudyNote)>);
+pub(super) struct Notes(Vec<StudyNote>);
 
 impl Notes {
     pub(super) fn add(&mut self, note: Note) {
-        let kind = discriminant(&note.what);
-        let same = |(remark, other): &&mut (Discriminant<Remark>, StudyNote)| {
-            *remark == kind && other.note.key == note.key
-        };
+        let same = |other: &&mut StudyNote| other.note.what.is_like(&note.what) && other.note.key == note.key;
         match self.0.iter_mut().find(same) {
-            Some((_, other)) => other.points += 1,
-            None => self.0.push((kind, StudyNote { note, points: 1, all: false })),
+            Some(other) => other.points += 1,
+            None => self.0.push(StudyNote { note, points: 1, all: false }),
         }
     }
 
     pub(super) fn finish(self, points: u64) -> Vec<StudyNote> {
-        let note = |(_, note): (_, StudyNote)| StudyNote { all: note.points == points, ..note };
-        self.0.into_iter().map(note).collect()
+        self.0.into_iter().map(|note| StudyNote { all: note.points == points, ..note }).collect()
     }
 }

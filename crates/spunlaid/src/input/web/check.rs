@@ -1,10 +1,11 @@
 //! Checks layers together: with each other, and with the sheet on which they lie.
 
 use super::read::{BELT_SPEED, Reading};
-use crate::case::Note;
-use crate::error::Fault;
+use crate::case::{Note, Remark};
+use crate::charge::{BREAKDOWN, STRONG};
+use crate::error::{Fault, Place};
 use crate::layers::keys::{NUMBERS, WEB};
-use crate::layers::{LaydownSource, SAME, WebKey, WebSpec, too_small};
+use crate::layers::{LaydownSource, LayerSpec, SAME, WebKey, WebSpec, too_small};
 use crate::plausible::implausible;
 use crate::units::Dimension;
 use crate::web::{Defect, Edges, Filaments, Row, Sheet, holes};
@@ -212,6 +213,61 @@ impl Reading<'_> {
                 "move the row, or widen the web",
             );
             self.refuse(&format!("{before}offset"), offset, fault);
+        }
+    }
+}
+
+impl Reading<'_> {
+    /// Checks the charge of each layer.
+    pub(super) fn check_charge(&mut self, prefixes: &[String], web: &WebSpec) {
+        for (prefix, layer) in prefixes.iter().zip(&web.layers) {
+            self.check_charge_of(prefix, web, layer);
+        }
+    }
+
+    fn check_charge_of(&mut self, prefix: &str, web: &WebSpec, layer: &LayerSpec) {
+        let [charge, walls] = ["charge", "walls"].map(|name| format!("{prefix}line.{name}"));
+        if layer.charged().is_some() && !web.flies() {
+            let fault = Fault::new(
+                "is that of filaments of known numbers, which do not fly",
+                "leave it out, or name a case in [laydown] in place of the numbers",
+            );
+            self.key_values.reject(&charge, fault);
+            return;
+        }
+        let farthest = layer.farthest_inlet();
+        if let Some(distance) = layer.walls.filter(|distance| *distance <= farthest) {
+            let shown = |length| Dimension::Length.pretty(length);
+            let fault = Fault::new(
+                format!("is no more than {}, where filaments are fed", shown(farthest)),
+                "write a larger distance from the middle of the slot",
+            );
+            self.refuse(&walls, shown(distance), fault);
+        }
+        let Some(estimate) = layer.charge_estimate(&web.sheet) else { return };
+        let field = Dimension::ElectricField.pretty_to(estimate.edge_field, 2);
+        if estimate.edge_field > BREAKDOWN {
+            let most = layer.charge.unwrap_or(0.0).abs() * BREAKDOWN / estimate.edge_field;
+            let fault = Fault::new(
+                format!(
+                    "gives a field of {field} at the edge of the curtain, and air breaks down at {}",
+                    Dimension::ElectricField.pretty(BREAKDOWN)
+                ),
+                format!("write {} or less", Dimension::SpecificCharge.pretty_to(0.99 * most, 2)),
+            );
+            self.key_values.reject(&charge, fault);
+        } else if estimate.edge_field > STRONG {
+            let note = Note {
+                place: Place::Code,
+                key: charge,
+                value: layer.charge.map(|charge| Dimension::SpecificCharge.pretty(charge)),
+                what: Remark::note(format!(
+                    "gives a field of some {field} at the edge of the curtain: air breaks down at {}, and at edges \
+                    of metal long before, which takes the charge away",
+                    Dimension::ElectricField.pretty(BREAKDOWN)
+                )),
+            };
+            self.note(vec![note]);
         }
     }
 }

@@ -259,7 +259,9 @@ impl Reading<'_> {
             && !(by.ends_with(name) && self.key_values.get(by).is_some_and(is_set))
         {
             let [used, own] = [used, *own].map(|value| dimension.pretty(value));
-            let what = Remark::CaseChanged { of_case: key.name, used, own, case: path.display().to_string() };
+            let (case, of_case) = (path.display(), key.name);
+            let what =
+                Remark::note(format!("is laid with {of_case} = {used} in place of the {own} of {case}"));
             let note = Note { place: self.key_values.whole(), key: by.clone(), value: None, what };
             self.note(vec![self.key_values.placed(note)]);
         }

@@ -6,16 +6,13 @@
 //!                                                                                                 └ a case: `spunlaid run`, `spin`, `air`
 //! ```
 
-mod charge;
 mod check;
 mod filament;
 mod guessed;
-mod laydown;
 mod of_case;
 mod open;
 mod read;
 mod sheet;
-mod speeds;
 mod write;
 
 pub(super) use guessed::Guess;

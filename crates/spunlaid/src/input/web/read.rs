@@ -1,8 +1,7 @@
 //! Makes the web from the written values, from what the flown cases give, and from the defaults.
 
-use super::super::Overrides;
-use super::super::Resources;
 use super::super::written_values::{WrittenValue, WrittenValues};
+use super::super::{Overrides, Resources};
 use crate::case::keys::Value;
 use crate::case::{Note, unusual};
 use crate::error::{Fault, Finding};

@@ -14,40 +14,16 @@ pub(super) type Access = AccessTo<WebSpec>;
 /// Access to a known number of the surrogate.
 macro_rules! of_surrogate {
     ($field:ident) => {
-        $crate::case::keys::row::AccessTo {
-            get: |web| match &layer(web)?.source {
-                LaydownSource::Surrogate(Surrogate { $field, .. }) => Some((*$field).into()),
-                _ => None,
-            },
-            set: |web, value| match &mut layer_mut(web)?.source {
-                LaydownSource::Surrogate(surrogate) => {
-                    surrogate.$field = number(value)?;
-                    Ok(())
-                }
-                _ => Err(flown()),
-            },
-        }
+        $crate::case::keys::row::within!(
+            |web| &layer(web)?.source,
+            &mut layer_mut(web)?.source,
+            LaydownSource::Surrogate(surrogate) => surrogate.$field,
+            flown()
+        )
     };
 }
 
-/// Access to a length of the first row of nozzles.
-macro_rules! of_row {
-    ($field:ident) => {
-        $crate::case::keys::row::AccessTo {
-            get: |web| match &layer(web)?.filaments {
-                Filaments::Rows(rows) => Some(rows.first()?.$field.into()),
-                Filaments::AtRandom { .. } | Filaments::Slot { .. } => None,
-            },
-            set: |web, value| {
-                let length = number(value)?;
-                first_row(web)?.iter_mut().for_each(|row| row.$field = length);
-                Ok(())
-            },
-        }
-    };
-}
-
-pub(super) use {of_row, of_surrogate};
+pub(super) use of_surrogate;
 
 /// A number of a surrogate that follows from flights.
 pub(super) fn flown() -> Fault {
@@ -81,11 +57,19 @@ pub(super) fn layer_mut(web: &mut WebSpec) -> Result<&mut LayerSpec, Fault> {
 }
 
 /// The first row of nozzles.
-pub(super) fn first_row(web: &mut WebSpec) -> Result<&mut [Row], Fault> {
-    match &mut layer_mut(web)?.filaments {
-        Filaments::Rows(rows) => Ok(rows.get_mut(..1).unwrap_or_default()),
-        Filaments::AtRandom { .. } | Filaments::Slot { .. } => Err(Fault::needs("line.rows", "leave it out")),
+pub(super) fn row(web: &WebSpec) -> Option<&Row> {
+    match &layer(web)?.filaments {
+        Filaments::Rows(rows) => rows.first(),
+        Filaments::AtRandom { .. } | Filaments::Slot { .. } => None,
     }
+}
+
+pub(super) fn row_mut(web: &mut WebSpec) -> Result<&mut Row, Fault> {
+    let row = match &mut layer_mut(web)?.filaments {
+        Filaments::Rows(rows) => rows.first_mut(),
+        Filaments::AtRandom { .. } | Filaments::Slot { .. } => None,
+    };
+    row.ok_or_else(|| Fault::needs("line.rows", "leave it out"))
 }
 
 /// The first defect of the first layer.

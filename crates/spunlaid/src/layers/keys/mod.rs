@@ -16,7 +16,7 @@ pub(crate) use table::{EITHER, NUMBERS, ONE_SOURCE};
 pub use table::{WEB_KEYS, WEB_TABLES};
 
 use super::WebSpec;
-use crate::case::keys::joined::described;
+use crate::case::keys::key_table::described;
 use crate::case::keys::{self, CASE, Key, KeyTable, TableList};
 use std::sync::LazyLock;
 

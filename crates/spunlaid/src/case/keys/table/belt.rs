@@ -1,7 +1,7 @@
-//! The belt.
+//! Feed and belt.
 
 use super::super::Key;
-use super::super::row::{Access, FED, choose, fed, line, number, quantity};
+use super::super::row::{Access, FED, choose, fed, line, number, quantity, without_spinline};
 use super::super::value::Sign::{NotNegative, Positive};
 use super::super::value::Value;
 use crate::error::Fault;
@@ -9,6 +9,21 @@ use crate::line::Contact;
 use crate::units::Dimension;
 
 named_fields!(Contact);
+
+/// Access to a number of the friction on the belt.
+macro_rules! of_friction {
+    ($field:ident) => {
+        within!(
+            |case| &case.line.as_ref()?.contact,
+            &mut line(case)?.contact,
+            Contact::Friction { $field, .. } => $field,
+            Fault::needs(
+                "belt.contact = \"friction\"",
+                "leave it out, or write this line, with which the fibre slides on the belt"
+            )
+        )
+    };
+}
 
 pub(super) const KEYS: &[Key] = &[
     quantity("belt.distance", Dimension::Length, Positive)
@@ -79,3 +94,25 @@ pub(super) const KEYS: &[Key] = &[
         .label("Length that still moves on the belt")
         .slider(5e-3, 0.2),
 ];
+
+pub(super) const FEED: &[Key] = &[quantity("feed.speed", Dimension::Velocity, Positive)
+    .access(Access {
+        get: |case| Some(Value::Number(case.line?.feed_speed)),
+        set: |case, value| {
+            without_spinline(case)?;
+            line(case)?.feed_speed = number(value)?;
+            Ok(())
+        },
+    })
+    .derived(|case| case.spinline.is_some())
+    .needed_if(FED, "50 m/s")
+    .follows("a fibre of fixed length")
+    // From coiling threads to the fastest spinning.
+    .usual(1e-3, 200.0)
+    .meaning(
+        "Speed at which the fibre is fed at the inlet, along its direction: the spinning speed. The fibre \
+         is then laid down on a belt.",
+    )
+    .synonyms(&["filament speed", "draw-off speed"])
+    .label("Feed speed *v*_{f}")
+    .slider(1.0, 100.0)];

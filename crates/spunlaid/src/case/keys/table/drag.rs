@@ -1,9 +1,8 @@
 //! The drag laws.
 
 use super::super::Key;
-use super::super::row::{Access, choose, number, quantity};
+use super::super::row::{Access, choose, quantity};
 use super::super::value::Sign::NotNegative;
-use super::super::value::Value;
 use crate::drag::{FrictionLaw, NormalLaw};
 use crate::error::Fault;
 use crate::units::Dimension;
@@ -28,19 +27,12 @@ pub(super) const KEYS: &[Key] = &[
         .label("Law of the drag across the fibre")
         .in_flight(),
     quantity("drag.friction_coefficient", Dimension::Ratio, NotNegative)
-        .access(Access {
-            get: |case| case.drag.along.factor().map(Value::Number),
-            set: |case, value| match &mut case.drag.along {
-                FrictionLaw::Matsui { factor } => {
-                    *factor = number(value)?;
-                    Ok(())
-                }
-                _ => {
-                    let (needed, remedy) = ("drag.along = \"matsui\"", "remove it, this law has its own");
-                    Err(Fault::needs(needed, remedy))
-                }
-            },
-        })
+        .access(within!(
+            |case| &case.drag.along,
+            &mut case.drag.along,
+            FrictionLaw::Matsui { factor } => factor,
+            Fault::needs("drag.along = \"matsui\"", "remove it, this law has its own")
+        ))
         .value("0.9")
         .usual(0.01, 10.0)
         .meaning(

@@ -3,13 +3,12 @@
 mod air;
 mod belt;
 mod drag;
-mod feed;
 mod fibre;
 mod run;
 mod spinline;
 
 use super::Key;
-use super::joined::{self, Table};
+use super::key_table::{Table, count, joined, names};
 use crate::case::Case;
 
 /// The tables of a case file and their keys, in one or several parts.
@@ -17,7 +16,7 @@ const TABLES: [Table<Case>; 8] = [
     ("spinline", spinline::KEYS),
     ("spinline.material", spinline::MATERIAL),
     ("fibre", &[fibre::KEYS]),
-    ("feed", &[feed::KEYS]),
+    ("feed", &[belt::FEED]),
     ("belt", &[belt::KEYS]),
     ("air", air::KEYS),
     ("drag", &[drag::KEYS]),
@@ -25,6 +24,6 @@ const TABLES: [Table<Case>; 8] = [
 ];
 
 /// The names of the tables.
-pub(super) const NAMES: [&str; TABLES.len()] = joined::names(&TABLES);
+pub(super) const NAMES: [&str; TABLES.len()] = names(&TABLES);
 
-pub(super) static KEYS: [Key; joined::count(&TABLES)] = joined::keys(&TABLES);
+pub(super) static KEYS: [Key; count(&TABLES)] = joined(&TABLES);

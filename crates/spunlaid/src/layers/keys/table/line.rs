@@ -1,10 +1,10 @@
-//! The keys of the table `[line]`.
+//! The keys of the table `[line]`, with the defects of a line, `line.defects`.
 
 use super::super::access::{
-    Access, WebKey, first_row, in_rows, is_flown, layer, layer_mut, of_row, uncharged,
+    Access, WebKey, defect, defect_mut, in_rows, is_flown, layer, layer_mut, row, row_mut, uncharged,
 };
 use super::{EITHER, MOST_FILAMENTS, positive};
-use crate::case::keys::row::{key, number, quantity, whole};
+use crate::case::keys::row::{at, key, number, quantity, whole};
 use crate::case::keys::{EVEN, Kind, Sign, Value};
 use crate::units::Dimension;
 use crate::web::Filaments;
@@ -155,13 +155,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .label("Depth of the slot")
         .usual(1e-4, 1.0),
     quantity("line.charge", Dimension::SpecificCharge, Sign::Any)
-        .access(Access {
-            get: |web| layer(web)?.charge.map(Value::Number),
-            set: |web, value| {
-                layer_mut(web)?.charge = Some(number(value)?);
-                Ok(())
-            },
-        })
+        .access(at!(layer, layer_mut, charge))
         .follows("none")
         .usual(1e-5, 1e-2)
         .meaning(
@@ -194,7 +188,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .synonyms(&["plates", "images"])
         .label("Distance of earthed plates"),
     quantity("line.rows.offset", Dimension::Length, Sign::Any)
-        .access(of_row!(offset))
+        .access(at!(row, row_mut, offset))
         .value("0 mm")
         .meaning(
             "In place of `filaments_per_metre`: `rows = [{ offset = \"0 mm\", pitch = \"0.2 mm\", \
@@ -205,18 +199,11 @@ pub(super) const KEYS: &[WebKey] = &[
         .usual(1e-6, 30.0),
     positive("line.rows.pitch", Dimension::Length)
         .access(Access {
-            get: |web| match &layer(web)?.filaments {
-                Filaments::Rows(rows) => {
-                    rows.first().map(|row| if row.is_even { EVEN.into() } else { row.pitch.into() })
-                }
-                Filaments::AtRandom { .. } | Filaments::Slot { .. } => None,
-            },
+            get: |web| row(web).map(|row| if row.is_even { EVEN.into() } else { row.pitch.into() }),
             set: |web, value| {
-                let (is_even, width) = (matches!(value, Value::Text(word) if word == EVEN), web.sheet.width);
-                for row in first_row(web)? {
-                    row.is_even = is_even;
-                    row.pitch = if is_even { width / row.filaments as f64 } else { number(value)? };
-                }
+                let (width, row) = (web.sheet.width, row_mut(web)?);
+                row.is_even = matches!(value, Value::Text(word) if word == EVEN);
+                row.pitch = if row.is_even { width / row.filaments as f64 } else { number(value)? };
                 Ok(())
             },
         })
@@ -230,17 +217,12 @@ pub(super) const KEYS: &[WebKey] = &[
         .usual(1e-6, 1.0),
     key("line.rows.filaments", Kind::Whole(1, MOST_FILAMENTS))
         .access(Access {
-            get: |web| match &layer(web)?.filaments {
-                Filaments::Rows(rows) => Some(rows.first()?.filaments.into()),
-                Filaments::AtRandom { .. } | Filaments::Slot { .. } => None,
-            },
+            get: |web| Some(row(web)?.filaments.into()),
             set: |web, value| {
-                let (filaments, width) = (whole(value)?, web.sheet.width);
-                for row in first_row(web)? {
-                    row.filaments = filaments;
-                    if row.is_even {
-                        row.pitch = width / filaments as f64;
-                    }
+                let (width, row) = (web.sheet.width, row_mut(web)?);
+                row.filaments = whole(value)?;
+                if row.is_even {
+                    row.pitch = width / row.filaments as f64;
                 }
                 Ok(())
             },
@@ -251,7 +233,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .synonyms(&["holes", "nozzles", "capillaries"])
         .label("Nozzles of a row"),
     quantity("line.rows.md", Dimension::Length, Sign::Any)
-        .access(of_row!(md))
+        .access(at!(row, row_mut, md))
         .value("0 mm")
         .meaning(
             "Place of the row in machine direction at the inlet, from the middle of the slot. It changes a \
@@ -259,4 +241,54 @@ pub(super) const KEYS: &[WebKey] = &[
         )
         .label("Place of the row in machine direction")
         .usual(1e-5, 1.0),
+];
+
+/// The keys of a defect.
+pub(super) const DEFECTS: &[WebKey] = &[
+    quantity("line.defects.from", Dimension::Length, Sign::NotNegative)
+        .access(at!(defect, defect_mut, from))
+        .follows("from the edge of the web on")
+        .meaning(
+            "Holes that feed more or less than the others: `defects = [{ from = \"0.5 m\" }, …]`, with where \
+             they begin, from the edge of the web. `from` alone is the one hole that is nearest to it, by default a \
+             blocked one; with `to`, all holes between.",
+        )
+        .synonyms(&["blocked hole", "blocked holes", "plugged hole", "defect", "streak"])
+        .label("Place where a defect begins")
+        .usual(1e-6, 30.0),
+    quantity("line.defects.to", Dimension::Length, Sign::NotNegative)
+        .access(at!(defect, defect_mut, to))
+        .follows("the one hole that is nearest to `from`; without `from`, all across the web")
+        .meaning("Where the holes with the defect end, from the edge of the web.")
+        .label("Place where a defect ends")
+        .usual(1e-6, 30.0),
+    key("line.defects.row", Kind::Whole(1, MOST_FILAMENTS))
+        .access(at!(defect, defect_mut, row))
+        .follows("all rows")
+        .meaning("Number of the row of nozzles of `rows` that has the defect, from 1.")
+        .label("Row with a defect"),
+    quantity("line.defects.share", Dimension::Ratio, Sign::Share)
+        .access(at!(defect, defect_mut, share))
+        .value("1")
+        .meaning("Each of these holes has the defect with this probability, chosen by the seed of the web.")
+        .label("Share of the holes with a defect")
+        .usual(1e-4, 1.0),
+    quantity("line.defects.titre", Dimension::Ratio, Sign::NotNegative)
+        .access(at!(defect, defect_mut, titre))
+        .value("0")
+        .meaning(
+            "Mass per length of the filaments from these holes over that of the others, up to 2; 0 of \
+            blocked holes. The filaments are taken to lie as the others do.",
+        )
+        .label("Titre of filaments with a defect")
+        .usual(0.05, 2.0),
+    quantity("line.defects.after", Dimension::Time, Sign::NotNegative)
+        .access(at!(defect, defect_mut, after))
+        .value("0 s")
+        .meaning(
+            "Time from which on it is so, after the sheet began to be laid: a filament that broke, a hole that was \
+             blocked then.",
+        )
+        .label("Time of a defect")
+        .usual(1e-6, 1e4),
 ];

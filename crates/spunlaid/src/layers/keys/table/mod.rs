@@ -1,19 +1,15 @@
 //! The rows of the keys of a web, in the order of its file. A row says what its values are, where a web has it and what
 //! it has to do with other keys.
 
-mod defects;
-mod fabric;
 mod fibre;
-mod laydown;
-mod layer;
 mod line;
 mod web;
 
-pub(crate) use laydown::{NUMBERS, ONE_SOURCE};
+pub(crate) use fibre::{NUMBERS, ONE_SOURCE};
 
 use super::access::WebKey;
 use crate::case::keys::Sign;
-use crate::case::keys::joined::{self, Table};
+use crate::case::keys::key_table::{Table, count, joined, names};
 use crate::case::keys::row::{NewKey, quantity};
 use crate::layers::WebSpec;
 use crate::units::Dimension;
@@ -30,19 +26,19 @@ pub(super) const fn positive(name: &'static str, dimension: Dimension) -> NewKey
 
 /// The tables of the file of a web and their keys.
 const TABLES: [Table<WebSpec>; 6] = [
-    ("layer", &[layer::KEYS]),
+    ("layer", &[fibre::LAYER]),
     ("fibre", &[fibre::KEYS]),
-    ("laydown", &[laydown::KEYS]),
-    ("line", &[line::KEYS, defects::KEYS]),
+    ("laydown", &[fibre::LAYDOWN]),
+    ("line", &[line::KEYS, line::DEFECTS]),
     ("web", &[web::KEYS]),
-    ("fabric", &[fabric::KEYS]),
+    ("fabric", &[web::FABRIC]),
 ];
 
 /// The tables of the file of a web, in order. A file with several layers has the first ones, up to `line`, in
 /// each `[[layer]]`.
-pub const WEB_TABLES: [&str; TABLES.len()] = joined::names(&TABLES);
+pub const WEB_TABLES: [&str; TABLES.len()] = names(&TABLES);
 
 /// Every key of the file of a web, in its order.
 pub const WEB_KEYS: &[WebKey] = &KEYS;
 
-static KEYS: [WebKey; joined::count(&TABLES)] = joined::keys(&TABLES);
+static KEYS: [WebKey; count(&TABLES)] = joined(&TABLES);

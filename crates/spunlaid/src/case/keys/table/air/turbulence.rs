@@ -150,19 +150,15 @@ pub(super) const KEYS: &[Key] = &[
         )
         .label("Turbulence across the flow"),
     quantity("air.lateral_cutoff", Dimension::Ratio, Positive)
-        .access(Access {
-            get: |case| case.air.lateral.cutoff().map(Value::Number),
-            set: |case, value| match &mut case.air.lateral {
-                Lateral::VonKarman { cutoff } => {
-                    *cutoff = number(value)?;
-                    Ok(())
-                }
-                Lateral::Uniform => {
-                    let remedy = "leave it out, or let the turbulence differ across the flow";
-                    Err(Fault::needs("air.lateral = \"von-karman\"", remedy))
-                }
-            },
-        })
+        .access(within!(
+            |case| &case.air.lateral,
+            &mut case.air.lateral,
+            Lateral::VonKarman { cutoff } => cutoff,
+            Fault::needs(
+                "air.lateral = \"von-karman\"",
+                "leave it out, or let the turbulence differ across the flow"
+            )
+        ))
         .value("10")
         .usual(5.0, 60.0)
         .meaning(
@@ -174,13 +170,7 @@ pub(super) const KEYS: &[Key] = &[
         .with_in_one_air("air.lateral", "von-karman")
         .slider(8.0, 25.0),
     key("air.harmonics", Kind::Whole(1, usize::MAX as u64))
-        .access(Access {
-            get: |case| Some(Value::Whole(case.air.harmonics as u64)),
-            set: |case, value| {
-                case.air.harmonics = usize::try_from(whole(value)?).unwrap_or(usize::MAX);
-                Ok(())
-            },
-        })
+        .access(at!(air.harmonics))
         .follows(
             "the smallest power of two, at least 128, that lasts for twice the run; for long runs 1024, or \
              what lasts for 256 integral times",

@@ -1,6 +1,6 @@
 //! The air along the spinline: a table, a field, or numbers.
 
-use super::access::spinline;
+use super::spinline;
 use crate::case::keys::Key;
 use crate::case::keys::row::{Access, file, key, number, quantity, read_with_case, switch};
 use crate::case::keys::value::Sign::{Any, NotNegative, Positive};
@@ -12,22 +12,12 @@ use crate::units::Dimension;
 /// Access to a number of the air that is the same along the whole line.
 macro_rules! of_air {
     ($field:ident) => {
-        Access {
-            get: |case| match &case.spinline.as_ref()?.air {
-                Surroundings::Uniform(air) => Some(Value::Number(air.$field)),
-                _ => None,
-            },
-            set: |case, value| match &mut spinline(case)?.air {
-                Surroundings::Uniform(air) => {
-                    air.$field = number(value)?;
-                    Ok(())
-                }
-                _ => Err(Fault::excludes(
-                    "spinline.profile or spinline.field",
-                    "these give the air; leave it out",
-                )),
-            },
-        }
+        within!(
+            |case| &case.spinline.as_ref()?.air,
+            &mut spinline(case)?.air,
+            Surroundings::Uniform(air) => air.$field,
+            Fault::excludes("spinline.profile or spinline.field", "these give the air; leave it out")
+        )
     };
 }
 

@@ -1,6 +1,6 @@
 //! The constants of the polymer.
 
-use super::access::{known, of_spinline, spinline, spun};
+use super::{known, of_spinline, spinline, spun};
 use crate::case::keys::Key;
 use crate::case::keys::row::{Access, key, number, quantity};
 use crate::case::keys::value::Kind;

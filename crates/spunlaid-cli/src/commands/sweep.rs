@@ -1,13 +1,11 @@
 //! `spunlaid sweep`: flies a study and writes its results.
 
-mod progress;
-
 use super::delivery::{Asides, making, say_continued, say_replaced, tell};
 use super::flown::settled;
 use super::{plural, run_control, stem, stop_on_ctrl_c};
 use crate::args::{Invocation, Sweep, overrides};
 use crate::failure::Failure;
-use crate::say;
+use crate::{progress, say};
 use spunlaid::case::keys;
 use spunlaid::error::{Error, Fault};
 use spunlaid::input::{Resources, StudyChanges, StudyFile, read_changed_study, write_experiment};
@@ -17,7 +15,8 @@ use spunlaid::threads::{lock, unlock};
 use spunlaid_results::folders::{JournalFolder, study};
 use spunlaid_results::numbers::lost_fibres_text;
 use std::sync::Mutex;
-use std::sync::atomic::AtomicU64;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Instant;
 
 /// Largest number of lost fibres that are listed.
 const LOST_LISTED: u64 = 10;
@@ -109,9 +108,21 @@ fn times(study: &Study) -> String {
 fn fly(sweep: &Sweep, study: &Study, journal: &Mutex<Journal>) -> Result<(), Error> {
     let (fibre_steps, progress) = (AtomicU64::new(0), Progress::default());
     let computing = run_control(sweep.threads, &fibre_steps);
-    progress::follow(study, &progress, &fibre_steps, sweep.output.quiet, || {
-        run(study, journal, computing, &progress)
-    })
+    let (begun, mut before) = (Instant::now(), None);
+    let state = || {
+        let load = |counter: &AtomicU64| counter.load(Ordering::Relaxed);
+        let (points, of_points) = (load(&progress.points_done), study.points.len());
+        let (done, fibres, noun) = (load(&progress.fibres_done), load(&progress.fibres), study.noun());
+        let mut words = format!("points {points}/{of_points}, {noun}s {done}/{fibres}");
+        // Fibres that were finished before the program began are not of its work.
+        let finished = done - if fibres > 0 { *before.get_or_insert(done) } else { done };
+        if finished > 0 {
+            let rate = finished as f64 / begun.elapsed().as_secs_f64();
+            words += &format!(", {rate:.prec$} {noun}s/s", prec = usize::from(rate < 10.0));
+        }
+        (load(&fibre_steps), load(&progress.steps), words)
+    };
+    progress::follow_state(state, sweep.output.quiet, || run(study, journal, computing, &progress))
 }
 
 fn write(
