@@ -331,6 +331,9 @@ impl FewFilaments<'_> {
         let [even, odd] = [1, 2].map(|half| CornerSums::around(&maps[half], first as i64, own.columns));
         let alike = CornerSums::even(own.columns, maps[0].rows);
         let of_side = |side: &usize| {
+            if *side > own.columns.min(maps[0].rows) {
+                return Known::default();
+            }
             let with = |other: &CornerSums| own.product(other, *side);
             let [itself, next, second, fourth] =
                 std::array::from_fn(|neighbour| all[neighbour].as_ref().map(with));
