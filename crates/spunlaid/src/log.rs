@@ -46,7 +46,9 @@ struct Rows {
     places: Places,
 }
 
-type Places = BTreeMap<Key, Vec<Place>>;
+/// Of each key the first record and those behind it. A key with one record takes no memory of its own: thousands of small
+/// pieces between the large ones of flights would keep these from being used again.
+type Places = BTreeMap<Key, (Place, Vec<Place>)>;
 
 /// What holds the bytes.
 trait Store: Read + Write + Seek + std::fmt::Debug + Send {}
@@ -196,7 +198,7 @@ impl Log {
 
     /// How many numbers there are under a key.
     pub fn count(&self, key: Key) -> usize {
-        lock(&self.rows).places.get(&key).map_or(0, |places| places.iter().map(|place| place.count).sum())
+        lock(&self.rows).places.get(&key).map_or(0, |found| all_of(found).map(|place| place.count).sum())
     }
 
     /// The keys under which there is something, in their order.
@@ -212,7 +214,7 @@ impl Log {
 
     /// The numbers under a key, as they were added, piece by piece.
     pub fn pieces(&self, key: Key) -> impl Iterator<Item = io::Result<Vec<f64>>> {
-        let places = lock(&self.rows).places.get(&key).cloned().unwrap_or_default();
+        let places: Vec<Place> = lock(&self.rows).places.get(&key).into_iter().flat_map(all_of).collect();
         places.into_iter().map(|Place { at, count }| {
             let mut bytes = vec![0; (FRAME + count) * BYTES];
             let mut rows = lock(&self.rows);
@@ -229,11 +231,15 @@ fn unlocked(rows: &mut Mutex<Rows>) -> &mut Rows {
     rows.get_mut().unwrap_or_else(PoisonError::into_inner)
 }
 
+fn all_of((first, more): &(Place, Vec<Place>)) -> impl Iterator<Item = Place> {
+    std::iter::once(*first).chain(more.iter().copied())
+}
+
 fn enter(places: &mut Places, mark: u64, key: Key, place: Place) {
     if mark == MARKS[1] {
         places.remove(&key);
     } else {
-        places.entry(key).or_default().push(place);
+        places.entry(key).and_modify(|(_, more)| more.push(place)).or_insert((place, Vec::new()));
     }
 }
 
