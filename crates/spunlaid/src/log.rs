@@ -46,9 +46,25 @@ struct Rows {
     places: Places,
 }
 
-/// Of each key the first record and those behind it. A key with one record takes no memory of its own: thousands of small
-/// pieces between the large ones of flights would keep these from being used again.
-type Places = BTreeMap<Key, (Place, Vec<Place>)>;
+type Places = BTreeMap<Key, Records>;
+
+/// The records of a key: the first one and those behind it. A key with one record, as most of a study are, has no list: a
+/// small piece of memory for each would lie between the large ones of flights, which could not be used again.
+#[derive(Debug)]
+struct Records {
+    first: Place,
+    more: Option<Box<More>>,
+}
+
+#[derive(Debug, Default)]
+struct More(Vec<Place>);
+
+impl Records {
+    fn all(&self) -> impl Iterator<Item = Place> {
+        let more = self.more.iter().flat_map(|more| &more.0);
+        std::iter::once(self.first).chain(more.copied())
+    }
+}
 
 /// What holds the bytes.
 trait Store: Read + Write + Seek + std::fmt::Debug + Send {}
@@ -198,7 +214,7 @@ impl Log {
 
     /// How many numbers there are under a key.
     pub fn count(&self, key: Key) -> usize {
-        lock(&self.rows).places.get(&key).map_or(0, |found| all_of(found).map(|place| place.count).sum())
+        lock(&self.rows).places.get(&key).map_or(0, |records| records.all().map(|place| place.count).sum())
     }
 
     /// The keys under which there is something, in their order.
@@ -214,7 +230,8 @@ impl Log {
 
     /// The numbers under a key, as they were added, piece by piece.
     pub fn pieces(&self, key: Key) -> impl Iterator<Item = io::Result<Vec<f64>>> {
-        let places: Vec<Place> = lock(&self.rows).places.get(&key).into_iter().flat_map(all_of).collect();
+        let places: Vec<Place> =
+            lock(&self.rows).places.get(&key).into_iter().flat_map(Records::all).collect();
         places.into_iter().map(|Place { at, count }| {
             let mut bytes = vec![0; (FRAME + count) * BYTES];
             let mut rows = lock(&self.rows);
@@ -231,15 +248,12 @@ fn unlocked(rows: &mut Mutex<Rows>) -> &mut Rows {
     rows.get_mut().unwrap_or_else(PoisonError::into_inner)
 }
 
-fn all_of((first, more): &(Place, Vec<Place>)) -> impl Iterator<Item = Place> {
-    std::iter::once(*first).chain(more.iter().copied())
-}
-
 fn enter(places: &mut Places, mark: u64, key: Key, place: Place) {
     if mark == MARKS[1] {
         places.remove(&key);
     } else {
-        places.entry(key).and_modify(|(_, more)| more.push(place)).or_insert((place, Vec::new()));
+        let more = |records: &mut Records| records.more.get_or_insert_default().0.push(place);
+        places.entry(key).and_modify(more).or_insert(Records { first: place, more: None });
     }
 }
 

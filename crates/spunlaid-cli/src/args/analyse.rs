@@ -2,7 +2,7 @@
 
 use super::output::Output;
 use super::{Figures, one_of, quantity};
-use clap::{Args, ValueHint};
+use clap::{ArgAction, Args, ValueHint};
 use spunlaid::record::IntegralRule;
 use spunlaid::scan::LightKind;
 use spunlaid::statistics::Window;
@@ -101,7 +101,7 @@ pub(crate) struct Scan {
     #[arg(long, value_name = "TITRE", value_parser = quantity(Dimension::LinearDensity))]
     pub(crate) titre: Option<f64>,
     /// Where the machine direction runs in the picture
-    #[arg(long, value_name = "MD", default_value = "columns", hide_possible_values = false,
+    #[arg(long, value_name = "MD", default_value = "columns", hide_possible_values = false, action = ArgAction::Set,
           value_parser = one_of(DIRECTIONS, |along_rows| if along_rows { "rows" } else { "columns" }))]
     pub(crate) md: bool,
     /// Sides of the patches, as "1 mm,5 mm,10 mm" [default: from 0.5 mm to a fifth of the picture]

@@ -62,8 +62,8 @@ fn analytic_the_sentence_of_guesses_has_the_cv_of_each_and_why_one_cannot_be_lai
         for part in [
             "Guesses, of which the error knows nothing",
             &format!("the CV over patches of 10 mm lies between {from} and {to} %"),
-            "line.filaments_per_metre = 1000",
-            "Half of line.throughput, 0.3 g/min, cannot be laid: ",
+            "Filaments per metre: 1000",
+            "Half of the throughput of a hole, 0.3 g/min, cannot be laid: ",
             "would tear the fibre",
         ] {
             assert!(text.contains(part), "{part}: {text}");
