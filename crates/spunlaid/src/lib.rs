@@ -20,9 +20,8 @@
 //! let changes = changes.map(|(key, value)| (key.to_owned(), value.to_owned()));
 //! let (stop, progress) = (AtomicBool::new(false), AtomicU64::new(0));
 //! let computing = RunControl { threads: 2, isa: Isa::detect(), stop: &stop, fibre_steps: &progress, recorder: None };
-//! // No reader flies fibres. A case whose spinline ends at the tension of flights is handed back to be flown.
-//! let read = parse_case(starter_case(), "starter.toml", &changes);
-//! let (case, _notes) = read.or_else(|unread| unread.fly(computing))?;
+//! // No reader flies fibres. `Resources::settle` flies for a spinline that ends at the tension of its fibre.
+//! let (case, _notes) = parse_case(starter_case(), "starter.toml", &changes)?;
 //!
 //! let mut results = Results::collector(0);
 //! fly::<Error>(&case, Keep::NUMBERS, computing, |flight| {
